@@ -29,7 +29,7 @@ from labkit.judge.ask import replies
 from labkit.lesson.day import Day, all_days, find_day
 from labkit.lesson.script import load_lab as load_script  # noqa: F401 (days' tests)
 from labkit.lesson.week import weeks
-from labkit.sandbox.sandbox import Sandbox
+from labkit.sandbox.sandbox import USUAL, Sandbox
 from robo47 import panda
 from robo47.errors import Robo47Error
 from robo47.panda import files
@@ -280,7 +280,7 @@ def student(tmp_path):
 def ask(student):
     """Ask a student's file for `f()`, or for what is given."""
 
-    def run(code, *questions, library=None, needs=None, limits=None):
+    def run(code, *questions, library=None, needs=None, limits=USUAL):
         asked = [Exchange(one) for one in questions or [Question("1.1", "f", ())]]
         with Sandbox() as sandbox:
             sandbox.run(student(code), asked, library, needs, limits=limits)

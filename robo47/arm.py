@@ -22,7 +22,7 @@ from robo47 import checks
 from robo47.checks import Array
 from robo47.fast.arm_state import ArmState, Constants, as_one
 
-GRAVITY = (0.0, 0.0, -9.81)  # m/s^2
+GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s^2
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +49,7 @@ class Arm:
     inertias: Array
     armature: Array
     damping: Array
-    gravity: Array = dataclasses.field(default_factory=lambda: np.array(GRAVITY))
+    gravity: Array = dataclasses.field(default_factory=GRAVITY.copy)
 
     def __post_init__(self) -> None:
         """Check the shapes, and work out what does not depend on q."""
@@ -104,13 +104,11 @@ class Arm:
             com: centre of mass in the last link's frame, metres, (3,).
             inertia: about that centre in the last link's axes, kg m^2, (3, 3).
         """
-        names = ("masses", "coms", "inertias")
-        own = [getattr(self, name) for name in names]
-        load = (mass, "mass"), (com, "com"), (inertia, "inertia")
-        last = [
-            np.stack([of_links[-1], checks.array(value, name, of_links.shape[1:])])
-            for of_links, (value, name) in zip(own, load, strict=True)
-        ]
-        both = zip(own, as_one(*last), strict=True)
-        heavier = [np.concatenate([of_links[:-1], [one]]) for of_links, one in both]
-        return dataclasses.replace(self, **dict(zip(names, heavier, strict=True)))
+        own = self.masses, self.coms, self.inertias
+        masses, coms, inertias = (of_links.copy() for of_links in own)
+        masses[-1], coms[-1], inertias[-1] = as_one(
+            np.stack([masses[-1], checks.array(mass, "mass", ())]),
+            np.stack([coms[-1], checks.array(com, "com", (3,))]),
+            np.stack([inertias[-1], checks.array(inertia, "inertia", (3, 3))]),
+        )
+        return dataclasses.replace(self, masses=masses, coms=coms, inertias=inertias)

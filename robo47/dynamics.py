@@ -219,10 +219,8 @@ def energy(
     """
     qd, masses = checks.same_size(qd=qd, masses=masses)
     n = qd.shape[-1]
-    M, coms = (
-        checks.array(M, "M", (n, n)),
-        checks.array(coms_world, "coms_world", (n, 3)),
-    )
+    M = checks.array(M, "M", (n, n))
+    coms = checks.array(coms_world, "coms_world", (n, 3))
     kinetic = 0.5 * (qd * times(M, qd)).sum(axis=-1)
     potential = -(masses * (coms @ _gravity(g))).sum(axis=-1)
     return np.stack(np.broadcast_arrays(kinetic, potential), axis=-1)

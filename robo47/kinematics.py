@@ -20,7 +20,6 @@ A frame is named "body:link4"; the bare name serves where only one object has it
 Units: metres, radians, quaternions (w, x, y, z).
 """
 
-from collections.abc import Iterator
 from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -203,21 +202,22 @@ def _add_link(end: Cursor, link: Link) -> None:
 
 def _link(model: mujoco.MjModel, body: int) -> Link:
     T = _offset(model.body_pos[body], model.body_quat[body])
-    return Link(f"body:{model.body(body).name}", T, tuple(_joints(model, body)))
-
-
-def _joints(model: mujoco.MjModel, body: int) -> Iterator[Joint]:
     first = int(model.body_jntadr[body])
-    for j in range(first, first + int(model.body_jntnum[body])):
-        adr = int(model.jnt_qposadr[j])
-        yield Joint(
-            name=model.joint(j).name or f"joint {j}",
-            type=_TYPES[int(model.jnt_type[j])],
-            axis=model.jnt_axis[j].copy(),
-            anchor=model.jnt_pos[j].copy(),
-            ref=float(model.qpos0[adr]),
-            qpos_adr=adr,
-        )
+    joints = range(first, first + int(model.body_jntnum[body]))
+    name = f"body:{model.body(body).name}"
+    return Link(name, T, tuple(_joint(model, j) for j in joints))
+
+
+def _joint(model: mujoco.MjModel, j: int) -> Joint:
+    adr = int(model.jnt_qposadr[j])
+    return Joint(
+        name=model.joint(j).name or f"joint {j}",
+        type=_TYPES[int(model.jnt_type[j])],
+        axis=model.jnt_axis[j].copy(),
+        anchor=model.jnt_pos[j].copy(),
+        ref=float(model.qpos0[adr]),
+        qpos_adr=adr,
+    )
 
 
 def _offset(pos: ArrayLike, quat: ArrayLike) -> Array:

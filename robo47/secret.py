@@ -19,6 +19,7 @@ from robo47.fast.arm_state import ArmState
 from robo47.panda import READY_Q
 from robo47.panda.loading import Edit
 from robo47.panda.reading import joint_ids
+from robo47.references import raised_cosine
 
 MASS, CENTRE = 0.2, 0.01  # up to a fifth of a mass, and 10 mm, are different
 DAMPING, DRY = (0.4, 1.6), (0.2, 0.8)  # N m s/rad; N m, half for the small joints
@@ -101,9 +102,8 @@ def excitation(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
 
 def swing(n: int = 200) -> Motion:
     """Return n samples, over ten seconds, of Day 5's swing of all joints together."""
-    t, half = np.pi * np.arange(n)[:, None] * SECONDS / n, REACH / 2.0
-    c, s = np.cos(t), np.sin(t)
-    return Motion(READY_Q + half * (1.0 - c), half * np.pi * s, half * np.pi**2 * c)
+    reference = raised_cosine(READY_Q, REACH)
+    return Motion(*np.stack([reference(t) for t in np.arange(n) * SECONDS / n], axis=1))
 
 
 def anywhere(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
@@ -185,13 +185,12 @@ def rises(
     Returns:
         Metres; less than 0 where it sinks.
     """
-    m, *h = checks.array(load, "load", (4,))
-    free, g = without_friction(model), known.gravity
+    load, free = checks.array(load, "load", (4,)), without_friction(model)
 
     def law(t: float, q: Array, qd: Array) -> Array:
         now = known.at(q)
-        moment = np.cross(now.T_world_ee[:3, :3] @ h, g)
-        return still(now) - now.J_site.T @ np.append(moment, m * g)
+        hand = now.J_site, now.T_world_ee[:3, :3]
+        return still(now) + identification.load_regressor(*hand, known.gravity) @ load
 
     run = simulate.run(free, simulate.start(free, READY_Q), law, REST, rate=SLOW_RATE)
     before, *_, end = (known.at(q).T_world_ee[2, 3] for q in run.q)

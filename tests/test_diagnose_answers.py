@@ -5,7 +5,7 @@ import pytest
 from judged import answered, judged, judged_replies, replies_of, right, round_of
 
 from labkit.base.exchange import Reply
-from labkit.judge import Ask, HeldOut, Matrix, Pose, Robot, Scalar, Vector, draw
+from labkit.judge import Ask, Draw, HeldOut, Matrix, Pose, Robot, Scalar, Vector
 from labkit.judge.answers import number
 from labkit.judge.judge import judge
 from labkit.judge.row import row_of
@@ -195,7 +195,7 @@ def test_a_robot_is_compiled_once_and_may_be_changed():
 
 
 def test_drawn_configurations_are_within_the_limits_and_typable():
-    q = draw.configurations(np.random.default_rng(1), 20)
+    q = Draw(1).configurations(20)
     np.testing.assert_array_equal(q, np.round(q, 3))
     low, high = Robot().model.jnt_range.T
     assert ((q >= low - 1e-3) & (q <= high + 1e-3)).all()

@@ -10,7 +10,6 @@ from robo47 import panda, se3, verify
 from robo47.arm import Arm
 from robo47.fast import chains, dynamics
 from robo47.fast.jacobians import jacobians
-from robo47.fast.links import links_of
 
 pytestmark = pytest.mark.kit
 
@@ -38,7 +37,7 @@ def test_mass_matrices_jacobians_and_torques_are_mujocos(motions):
 
 def test_the_pandas_links_need_no_fixed_rotation(either_panda):
     """Every axis of it is one of the world's at q = 0: that is where the speed is."""
-    links = links_of(panda.arm(either_panda))
+    links = dynamics.links_of(panda.arm(either_panda))
     assert all(link.R is None for link in links)
     assert [link.k for link in links] == [2, 1, 2, 1, 2, 1, 2]
     assert [link.sign for link in links] == [1, 1, 1, -1, 1, -1, -1]

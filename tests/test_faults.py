@@ -25,7 +25,7 @@ from labkit.grade.package import Package, fingerprint
 from labkit.grade.roster import Student
 from labkit.handin import handin
 from labkit.handin.deliverables import check_deliverables
-from labkit.sandbox import process, sandbox, wall
+from labkit.sandbox import process, sandbox
 from labkit.sandbox.process import Process
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import FaultError, Robo47Error
@@ -377,11 +377,11 @@ class TestAGrader:
 
     def test_grades_nothing_behind_another_one(self, monkeypatch):
         monkeypatch.setenv("ROBO47_WALL", "landlock")
-        monkeypatch.setattr(wall, "_landlock_works", lambda: False)
-        wall.wall.cache_clear()
+        monkeypatch.setattr(process, "_landlock_works", lambda: False)
+        process.wall.cache_clear()
         with pytest.raises(FaultError, match="landlock, which does not work here"):
             child.grade(solved(), DAY)
-        wall.wall.cache_clear()
+        process.wall.cache_clear()
 
 
 class TestGit:

@@ -20,6 +20,8 @@ if not os.environ.get("ROBO47_CI"):
     pytest.importorskip("PIL", reason="needs Pillow: make figures")
     pytest.importorskip("matplotlib", reason="needs matplotlib: make figures")
 
+from PIL import Image
+
 from labkit.figures import client, overlay, portrait, studio
 
 pytestmark = pytest.mark.kit
@@ -224,6 +226,12 @@ def test_labels_move_apart_and_no_further_than_they_must():
     for _ in range(100):
         wanted = np.sort(rng.uniform(0, 100, 8))
         assert (np.diff(overlay.spread(wanted, 15.0)) > 15 - 1e-9).all()
+
+
+def test_a_frame_alone_can_be_drawn():
+    picture = Image.new("RGB", (1200, 800), "white")
+    framed = overlay.draw_frames(picture, Camera(), {"alone": np.eye(4)})
+    assert all(count(framed, colour) > 20 for colour in AXIS_COLOURS)
 
 
 def test_a_frame_on_top_of_another_is_drawn_shorter():

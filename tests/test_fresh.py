@@ -17,7 +17,8 @@ from labkit.commands import fresh as command
 from labkit.fresh import clone as cloning
 from labkit.fresh.compare import faults, same
 from labkit.fresh.missing import findings
-from labkit.lesson.day import Metric, find_day
+from labkit.lesson.day import find_day
+from labkit.lesson.marks import Metric
 from labkit.report.series import Series, series_of
 from labkit.report.week_labs import Ran
 from robo47.errors import Robo47Error

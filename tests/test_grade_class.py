@@ -26,8 +26,7 @@ from labkit.base import cli
 from labkit.commands import grade as command
 from labkit.grade import engine
 from labkit.grade.journal import Journal
-from labkit.sandbox import wall as walls
-from labkit.sandbox.wall import Wall
+from labkit.sandbox.process import Wall
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
@@ -419,8 +418,8 @@ def test_strangers_code_runs_behind_a_wall_or_because_one_says_so(
 ):
     stands = Wall(wall, f"it is {wall}")
     monkeypatch.setattr(command, "wall", lambda: stands)
-    monkeypatch.setattr(walls, "wall", lambda: stands)
-    monkeypatch.setattr(walls, "in_container", lambda: container)
+    monkeypatch.setattr(engine, "wall", lambda: stands)
+    monkeypatch.setattr(engine, "in_container", lambda: container)
     monkeypatch.setattr(os, "geteuid", lambda: 0 if root else 1000, raising=False)
     monkeypatch.setattr(sys, "argv", ["grade_class.py", "class"])
     refused = pytest.raises(Robo47Error, match=rf"{why}.*--i-know-them")

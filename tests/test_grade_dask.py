@@ -157,6 +157,15 @@ def test_who_has_no_certificate_reaches_nobody(tmp_path, scheduler, monkeypatch)
         assert "certificates" in done.stderr or "no Dask scheduler" in done.stderr
 
 
+def test_an_address_without_a_port_leaves_no_half_a_client(tmp_path):
+    pytest.importorskip("distributed", reason="the extra grade")
+    (tmp_path / "clones" / "ada").mkdir(parents=True)
+    done = grade(tmp_path / "clones", tmp_path, "--dask", "nonsense")
+    assert done.returncode == 2
+    (says,) = done.stderr.splitlines()
+    assert says.startswith("error: no Dask scheduler at nonsense: missing port")
+
+
 def test_without_a_scheduler_or_without_dask_it_is_said_in_a_line(
     tmp_path, monkeypatch
 ):

@@ -298,3 +298,13 @@ def test_a_lab_that_has_another_name_now_is_graded_under_its_old_one(clone):
     package = collect(Student("Mia", "mia", clone), renamed)
     assert package.handin.files[SCRIPT] == b"x = 1"
     assert "day1_poses" not in package.commit_item.message
+
+
+@pytest.mark.parametrize("asked", [["--kit", "v1"], ["--kit=v1"], ["--ki", "v1"]])
+def test_the_other_kit_gets_the_rest_of_the_command(monkeypatch, tmp_path, asked):
+    called = []
+    monkeypatch.setattr(command, "kit_at", lambda tag: tmp_path)
+    monkeypatch.setattr(command.subprocess, "call", lambda it, **_: called.extend(it))
+    monkeypatch.setattr("sys.argv", ["grade_class.py", "class", *asked, "--day", "2"])
+    command.with_kit("v1")
+    assert called[2:] == ["class", "--day", "2", "--frozen"]

@@ -76,8 +76,8 @@ def test_every_arrow_points_down():
 @pytest.mark.parametrize(
     ("task", "right", "wrong", "files", "switches"),
     [
-        ("1.4", "w, x, y, z = quat", "x, y, z, w = quat", 24, 220),
-        ("5.1", "return kp * e + kd * ed", "return kp * e - kd * ed", 26, 220),
+        ("1.4", "w, x, y, z = quat", "x, y, z, w = quat", 22, 220),
+        ("5.1", "return kp * e + kd * ed", "return kp * e - kd * ed", 24, 220),
     ],
 )
 def test_a_check_that_names_a_mistake_is_short_to_follow(

@@ -275,8 +275,8 @@ def test_the_students_code_reaches_neither_the_server_nor_its_files(served, tmp_
     from labkit.inspector import student
     from labkit.inspector.arm import Arm
     from labkit.lesson.day import find_day
+    from labkit.sandbox.process import wall
     from labkit.sandbox.sandbox import Sandbox
-    from labkit.sandbox.wall import wall
     from robo47 import panda
 
     need(wall().name != "none", "bubblewrap or Landlock")

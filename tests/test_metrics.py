@@ -19,9 +19,9 @@ from hypothesis import strategies as st
 from labkit.base.git import short_sha
 from labkit.base.lock import warn_once
 from labkit.log import COLUMNS, append_row, append_rows, logfile, read_rows
+from labkit.log.logfile import restore
 from labkit.log.rows import HEADER as LINE
 from labkit.log.scan import scan
-from labkit.log.upkeep import restore
 from robo47.errors import Robo47Error
 
 ROW = {"date": "2026-09-01", "day": 1, "check": "fk", "metric": "err", "value": 1e-16}

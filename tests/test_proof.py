@@ -4,21 +4,19 @@ import functools
 import subprocess
 from dataclasses import replace
 from html.parser import HTMLParser
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
 pytest.importorskip("viser", reason="the extra view")
 
-from labkit.base.git import History
+from labkit.commands import grade
 from labkit.commands import proof as command
 from labkit.grade.roster import Student
 from labkit.lesson.day import find_day
 from labkit.lesson.marks import Writers, file_mark
 from labkit.lesson.week import find_week
 from labkit.proof import facts, page
-from labkit.proof.class_pages import write_pages
 from labkit.proof.pick import Picked, pick
 from labkit.report.series import Series
 from labkit.sandbox.sandbox import Sandbox
@@ -41,7 +39,7 @@ def git(folder, *words):
     subprocess.run(done, cwd=folder, check=True, capture_output=True)
 
 
-def a_clone(folder, day=1, before="", after=""):
+def a_clone(folder, day=1, before="", after="", own="\n# mine\n"):
     """Write a lab of the kit's into a new folder as somebody's own, and commit it."""
     day = find_day(day)
     script = folder / day.files["script"]
@@ -49,11 +47,11 @@ def a_clone(folder, day=1, before="", after=""):
     text = day.source.read_text("utf-8")
     assert before in text
     text = text.replace(before, after) if before else text
-    script.write_text(text + "\n# mine\n", "utf-8")
+    script.write_text(text + own, "utf-8")
     git(folder, "init", "--quiet")
     git(folder, "add", "-A")
     git(folder, "commit", "--quiet", "-m", EVIL)
-    return facts.open_clone(folder)
+    return folder
 
 
 class Seen(HTMLParser):
@@ -99,11 +97,24 @@ def test_a_transposed_jacobian_is_not_theirs_and_its_numbers_are_not_run(
     mark = '\n\nif __name__ == "__main__":'
     it = a_clone(tmp_path / "of", 3, mark, wrong + mark)
     (tmp_path / "files").mkdir()
-    found = facts.facts_of(find_day(3), it, tmp_path / "files", sandbox)
+    someone = Student("Ada", "of", it)
+    found = facts.facts_of(find_day(3), someone, tmp_path / "files", sandbox)
     (task,) = (t for t in find_day(3).tasks if "space_jacobian" in t.functions)
     assert found.states[task.id] == "wrong"
     assert "space_jacobian" not in found.own
     assert found.again == {}
+
+
+def test_a_whole_copy_of_the_kits_file_is_the_kits_and_not_theirs(tmp_path, sandbox):
+    day = find_day(1)
+    someone = Student("Ada", "of", a_clone(tmp_path / "of", own=""))
+    file = someone.path / day.files["script"]
+    for content in (file.read_bytes(), file.read_bytes().replace(b"\n", b"\r\n")):
+        file.write_bytes(content)
+        (tmp_path / "files").mkdir(exist_ok=True)
+        found = facts.facts_of(day, someone, tmp_path / "files", sandbox)
+        assert set(found.states.values()) == {"the kit's own file"}
+        assert (found.own, found.again) == ([], {})
 
 
 def hostile():
@@ -115,10 +126,8 @@ def hostile():
         number.add({"value": 1e-15, "n_failures": 0, "notes": f"{EVIL}; {mark}"})
     states = {task.id: EVIL for task in day.tasks}
     one = facts.RunDay(day, states, numbers, {}, EVIL, EVIL)
-    history = History(True, EVIL, 0, EVIL)
-    clone = facts.Clone(Student(EVIL, EVIL, Path(EVIL)), history=history)
     fresh = {"commit": EVIL, "wrong": 0, "missing": 2, "date": EVIL}
-    return page.Proof(clone, [one], Picked(None, EVIL, 3, 35), fresh)
+    return page.Proof(EVIL, False, EVIL, [one], Picked(None, EVIL, 3, 35), fresh)
 
 
 def test_nothing_from_outside_becomes_a_tag():
@@ -186,16 +195,18 @@ def test_an_arm_that_stops_is_told_and_not_filmed():
     assert found == Picked(None, "make_T hangs", 1, found.total)
 
 
-def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path):
+def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path, capsys):
     # Nothing of hers moves the arm, which need not pick anything up then.
     broken = "".join(f"\n{name} = None" for name in capstone.USES[1])
     mark = '\n\nif __name__ == "__main__":'
     a_clone(tmp_path / "ada", 1, mark, broken + mark)
-    class_ = [Student("Ada -x", "ada", tmp_path / "ada")]
-    class_.append(Student("Bob", "bob", tmp_path / "bob"))
-    written = list(write_pages(class_, 1, tmp_path / "proof", 1))
-    assert written[0][1] == ""
-    assert "nothing is begun" in written[1][1]
+    class_ = [Student("Ada -x", "ada", tmp_path / "ada", file="ada")]
+    class_.append(Student("Bob", "bob", tmp_path / "bob", file="bob"))
+    grade.prove(class_, 1, tmp_path / "proof", 1)
+    says, *without = capsys.readouterr().out.splitlines()
+    assert says.startswith("pages to show: 1 in ")
+    assert without[0].startswith("Bob: ")
+    assert "nothing is begun" in " ".join(without)
     text = (tmp_path / "proof" / "ada.html").read_text("utf-8")
     assert "Ada -x: week 1" in text
     words = Seen(text).words

@@ -9,18 +9,17 @@ from xml.etree import ElementTree
 
 import pytest
 
-from conftest import write_week
-from labkit.lesson.day import Metric, all_days
+from labkit.lesson.day import find_day
+from labkit.lesson.marks import Metric
 from labkit.log.rows import HEADER as LINE
 from labkit.log.rows import encode, typed
 from labkit.log.scan import scan
 from labkit.report import page, plot
-from labkit.report.series import Report, Series, collect, thresholds
-from robo47.errors import Robo47Error
+from labkit.report.series import Report, Series, collect, series_of
 
 pytestmark = pytest.mark.kit
 
-LIMITS = {(1, "fk", "err"): Metric("fk", "err", max=1e-8)}
+LIMIT = Metric("fk", "err", max=1e-8)
 EVIL = "<script>document.title='owned'</script><img src=x onerror=alert(1)>"
 
 
@@ -36,7 +35,7 @@ def log(tmp_path: Path) -> Path:
 
 def report_on(log: Path, *lines: str, **filters) -> Report:
     log.write_text("\n".join([LINE, *lines]) + "\n", encoding="utf-8")
-    return collect(scan(log), LIMITS, **filters)
+    return collect(scan(log), [Series(1, LIMIT)], **filters)
 
 
 @pytest.fixture
@@ -45,7 +44,7 @@ def run(run):
     return partial(run, "scripts/report_metrics.py", COLUMNS="80")
 
 
-def series_of(metric: str, *values: float, limit: Metric | None = None) -> Series:
+def of_values(metric: str, *values: float, limit: Metric | None = None) -> Series:
     """Return a series of these values."""
     series = Series(1, limit or Metric("c", metric))
     series.rows = [typed({"value": v, "git_sha": "abc1234"}, False)[0] for v in values]
@@ -73,8 +72,9 @@ def test_a_value_passes_under_its_threshold(log, value, status):
 
 
 def test_a_minimum_is_a_threshold_too():
-    series = series_of("rate", 0.95, 0.5, limit=Metric("c", "rate", min=0.9))
-    assert (series.best, series.status, series.limits) == (0.95, "fail", "> 0.9")
+    series = of_values("rate", 0.95, 0.5, limit=Metric("c", "rate", min=0.9))
+    assert (series.best, series.status) == (0.95, "fail")
+    assert series.bounds == [(">", 0.9)]
 
 
 def test_a_run_that_is_no_number_is_drawn_as_the_failure_it_is(log):
@@ -166,7 +166,7 @@ def test_the_page_asks_for_nothing_from_outside(log):
     ],
 )
 def test_errors_get_a_log_axis_and_rates_a_linear_one(metric, values, is_log):
-    assert series_of(metric, *values).is_log == is_log
+    assert of_values(metric, *values).is_log == is_log
 
 
 @pytest.mark.parametrize(
@@ -184,7 +184,7 @@ def test_errors_get_a_log_axis_and_rates_a_linear_one(metric, values, is_log):
 )
 @pytest.mark.parametrize("metric", ["err", "rate"])
 def test_every_series_of_numbers_can_be_drawn_inside_the_plot(values, metric):
-    series = series_of(metric, *values, limit=Metric("c", metric, max=1e-8))
+    series = of_values(metric, *values, limit=Metric("c", metric, max=1e-8))
     lines, dots = drawn(series, "polyline"), drawn(series, "circle")
     points = [p.split(",") for line in lines for p in line.get("points").split()]
     points += [(dot.get("cx"), dot.get("cy")) for dot in dots]
@@ -198,7 +198,7 @@ def test_every_series_of_numbers_can_be_drawn_inside_the_plot(values, metric):
 def test_a_long_series_keeps_its_extremes_and_its_latest_run():
     values = [1e-15] * 5000
     values[1234], values[4321], values[-1] = 0.5, 1e-30, 2e-15
-    tips = [d.findtext("title") for d in drawn(series_of("err", *values), "circle")]
+    tips = [d.findtext("title") for d in drawn(of_values("err", *values), "circle")]
     for value in (0.5, 1e-30):
         assert any(tip.startswith(repr(value)) for tip in tips)
     assert tips[-1].startswith("2e-15")
@@ -210,18 +210,15 @@ def test_each_point_names_its_commit(log):
     assert all(f"commit {sha}" in text for sha in ("1111111", "222"))
 
 
-def test_thresholds_are_the_manifests_and_a_broken_one_is_named(tmp_path):
-    limits = thresholds(all_days())
-    assert limits[1, "fk_identity_check", "inv_err"].max == 1e-10
-    assert limits[1, "fk_by_hand", "max_abs_err"].max == 1e-8
-    assert thresholds(all_days(tmp_path)) == {}
-    manifest = tmp_path / "w1-x" / "day1" / "day.toml"
-    manifest.parent.mkdir(parents=True)
-    write_week(tmp_path / "w1-x", 1)
-    for text in ("[[tasks", "number = 1\n[[metrics]]\nmetric='m'"):
-        manifest.write_text(text)
-        with pytest.raises(Robo47Error, match=r"day\.toml"):
-            thresholds(all_days(tmp_path))
+def test_thresholds_are_the_manifests():
+    limits = {one.key: one.bounds for one in series_of(find_day(1), [])}
+    assert limits[1, "fk_identity_check", "inv_err"] == [("<", 1e-10)]
+    assert limits[1, "fk_by_hand", "max_abs_err"] == [("<", 1e-8)]
+
+
+def test_a_row_without_its_day_is_of_the_only_day_that_asks_for_it(log):
+    lines = [line(value=1, day=None), line(value=1, day=None, check="x")]
+    assert [one.day for one in report_on(log, *lines).series] == [1, None]
 
 
 def test_the_command_writes_a_small_page_of_a_hundred_thousand_rows(log, run):

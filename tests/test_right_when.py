@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from labkit.judge.right_when import doubled, neutral, neutrals
+from labkit.judge.right_when import Experiments, neutrals
 from robo47 import se3
 
 pytestmark = pytest.mark.kit
 
 
-def told(mine, right, calls, names, says=neutral):
+def told(mine, right, calls, names, says=Experiments.neutral):
     def answers_of(function):
         def answer(call):
             try:
@@ -19,7 +19,8 @@ def told(mine, right, calls, names, says=neutral):
 
         return lambda some: map(answer, some)
 
-    return says(calls, names, answers_of(mine), answers_of(right), 1e-5)
+    both = answers_of(mine), answers_of(right)
+    return says(Experiments(calls, names, *both, 1e-5))
 
 
 def computed_torque(M, acc, e, ed, kp, kd):
@@ -82,7 +83,7 @@ def test_a_pose_is_neutral_in_two_ways():
 
 
 def told_of_doubling(mine, right, calls, names):
-    return told(mine, right, calls, names, doubled)
+    return told(mine, right, calls, names, Experiments.doubled)
 
 
 PUSHES = [(m, a) for m, a in [(1.5, 0.3), (0.4, -2.0), (3.0, 1.1), (2.2, 0.7)]]

@@ -86,7 +86,7 @@ def test_a_table_is_made_once_per_question_and_nobody_spoils_it_for_the_others()
     ids=lambda x: getattr(x, "slug", ""),
 )
 def test_a_mistake_of_an_argument_is_made_before_it_is_used(change, used):
-    assert np.allclose(change.change(np.arange(1.0, 7.0)), used)
+    assert np.allclose(change.redo(np.arange(1.0, 7.0)), used)
 
 
 def test_one_mistake_can_be_made_in_two_ways():

@@ -159,9 +159,9 @@ def ghosts_at(q):
     return {
         way.slug: {
             frame: np.asarray(way.code(*asked))[:3]
-            for frame, asked in formulas.questions(number, q).items()
+            for frame, asked in formulas.questions(day, q).items()
         }
-        for number, _, way in formulas.chosen()
+        for day, _, way in formulas.chosen()
     }
 
 

@@ -14,7 +14,7 @@ import pytest
 from conftest import need
 from labkit.base import processes
 from labkit.base.exchange import Exchange, Question
-from labkit.sandbox import wall
+from labkit.sandbox import process
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
@@ -50,13 +50,13 @@ def standing(name):
     """Put up a wall by name."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROBO47_WALL", name)
-        wall.wall.cache_clear()
+        process.wall.cache_clear()
         try:
-            found = wall.wall()
+            found = process.wall()
         except Robo47Error:
             need(False, f"the wall {name}")
         yield found
-    wall.wall.cache_clear()
+    process.wall.cache_clear()
 
 
 ATTACKS = {
@@ -348,9 +348,9 @@ def are_gone(pids, seconds):
 class TestTheNameOfTheWall:
     @pytest.fixture(autouse=True)
     def looked_for_anew(self):
-        wall.wall.cache_clear()
+        process.wall.cache_clear()
         yield
-        wall.wall.cache_clear()
+        process.wall.cache_clear()
 
     def test_is_the_first_that_works(self, monkeypatch):
         monkeypatch.delenv("ROBO47_WALL", raising=False)
@@ -359,11 +359,11 @@ class TestTheNameOfTheWall:
             ((False, True), "landlock"),
             ((False, False), "none"),
         ):
-            monkeypatch.setattr(wall, "_bubblewrap_works", lambda w=works: w[0])
-            monkeypatch.setattr(wall, "_landlock_works", lambda w=works: w[1])
-            wall.wall.cache_clear()
-            assert wall.wall().name == found
-        assert "with your rights" in wall.wall().says
+            monkeypatch.setattr(process, "_bubblewrap_works", lambda w=works: w[0])
+            monkeypatch.setattr(process, "_landlock_works", lambda w=works: w[1])
+            process.wall.cache_clear()
+            assert process.wall().name == found
+        assert "with your rights" in process.wall().says
 
     def test_says_when_it_was_asked_for(self):
         with standing("none") as found:
@@ -372,15 +372,15 @@ class TestTheNameOfTheWall:
     @pytest.mark.parametrize("name", ["granite", "landlock"])
     def test_is_an_error_where_there_is_no_such_wall(self, name, monkeypatch):
         monkeypatch.setenv("ROBO47_WALL", name)
-        monkeypatch.setattr(wall, "_landlock_works", lambda: False)
+        monkeypatch.setattr(process, "_landlock_works", lambda: False)
         with pytest.raises(Robo47Error, match=name):
-            wall.wall()
+            process.wall()
 
     def test_does_not_pass_for_one_that_did_not_close(self, monkeypatch, student):
         need(LINUX, "Linux")
         with standing("none"), Sandbox() as box:
-            process = box._warm
-            monkeypatch.setattr(process, "wall", wall.Wall("landlock", ""))
+            warm = box._warm
+            monkeypatch.setattr(warm, "wall", process.Wall("landlock", ""))
             with pytest.raises(Robo47Error, match="did not close"):
                 box.run(student("def f(): 0"), [Exchange(Question("", "f", ()))])
-            process.close()
+            warm.close()

@@ -16,8 +16,8 @@ from conftest import copy_kit, keep_first_day, run_copy
 from labkit.base import store
 from labkit.check.memory import Met
 from labkit.commands.week import lines_of
-from labkit.lesson.day import Metric, days_of, find_day
-from labkit.lesson.marks import Writers, file_mark, marks_of
+from labkit.lesson.day import days_of, find_day
+from labkit.lesson.marks import Metric, Writers, file_mark, marks_of
 from labkit.lesson.week import find_week
 from labkit.report import week_page, week_retro
 from labkit.report.series import Series

@@ -23,8 +23,9 @@ from labkit.base.exchange import Question
 from labkit.handin.handin import Item
 from labkit.judge.ask import Robot
 from labkit.judge.problems import stops_with
-from labkit.lesson.day import Day, Metric
+from labkit.lesson.day import Day
 from labkit.lesson.lab import Lab, number_of
+from labkit.lesson.marks import Metric
 from labkit.lesson.script import load_lab, old_names
 from labkit.sandbox.messages import PANDA, library_of
 from labkit.sandbox.sandbox import Sandbox, Session
@@ -105,25 +106,20 @@ def rehearse(
     counts = [k for k in ("TRIALS", "LIBRARY_TRIALS") if hasattr(lab, k)]
     vars(lab).update(dict.fromkeys(counts, TRIALS))
     vars(lab)["Lab"] = partial(Rehearsal, day, numbers)
-    return _why_it_stops(lab), numbers
-
-
-def _why_it_stops(lab: ModuleType) -> str:
-    """Run a lab; return what its first failure says, or ""."""
+    fault = ""
     try:
         with (
             contextlib.redirect_stdout(io.StringIO()),
+            contextlib.suppress(EnoughAsked),
             warnings.catch_warnings(action="ignore"),
             np.errstate(all="ignore"),
         ):
             lab.main()
     except FirstFailure as failure:
-        return str(failure)
-    except EnoughAsked:
-        return ""
+        fault = str(failure)
     except Exception as error:  # what a wrong number leads to, in the kit's own code
-        return f"it stops with {type(error).__name__}: {error}"
-    return ""
+        fault = f"it stops with {type(error).__name__}: {error}"
+    return fault, numbers
 
 
 def behind_wall(

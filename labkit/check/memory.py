@@ -92,9 +92,9 @@ def key_of(day: Day) -> str:
     content = day.work.read_bytes() if day.work.is_file() else b""
     helpers = helpers_of(day.folder.parent, script, content)
     own = [f"{name}\0".encode() + helpers[name] for name in sorted(helpers)]
-    given = hashlib.sha256(b"\0".join([content, *own, _kit()])).digest()
-    digest = _digest(sorted(day.own.rglob("*.py")), given)
-    return f"{day.number} {digest.hex()[:16]}"
+    kits = [_kit(), _digest(day.own)]
+    digest = hashlib.sha256(b"\0".join([content, *own, *kits]))
+    return f"{day.number} {digest.hexdigest()[:16]}"
 
 
 def in_words(verdict: "Verdict") -> str:
@@ -163,15 +163,12 @@ def mistakes_met(entries: Iterable[Entry], known: Mapping[str, str]) -> list[Met
 
 @functools.cache
 def _kit() -> bytes:
-    folders = (ROOT / "robo47", ROOT / "labkit")
-    return _digest(path for folder in folders for path in sorted(folder.rglob("*.py")))
+    return _digest(ROOT / "robo47") + _digest(ROOT / "labkit")
 
 
-def _digest(files: Iterable[Path], before: bytes = b"") -> bytes:
-    digest = hashlib.sha256(before)
-    for path in files:
-        digest.update(path.read_bytes() if path.is_file() else b"")
-    return digest.digest()
+def _digest(folder: Path) -> bytes:
+    files = (path for path in sorted(folder.rglob("*.py")) if path.is_file())
+    return hashlib.sha256(b"\0".join(path.read_bytes() for path in files)).digest()
 
 
 def _of(memory: dict[str, Any], key: str) -> dict[str, str]:

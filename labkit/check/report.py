@@ -3,7 +3,6 @@
 import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from labkit.check.tasks import TaskResult
@@ -42,7 +41,7 @@ class Report:
         required = [r for r in self.tasks if not r.task.optional]
         return required or list(self.tasks)
 
-    @cached_property
+    @property
     def left(self) -> list[TaskResult]:
         """The tasks that do not pass yet."""
         return [result for result in self.tasks if not result.passed]
@@ -50,8 +49,8 @@ class Report:
     @property
     def done(self) -> int:
         """How many tasks and deliverables passed."""
-        left = [result for result in self.counted if result in self.left]
-        return self.total - len(left) - sum(not item.passed for item in self.items)
+        passed = sum(result.passed for result in self.counted)
+        return passed + sum(item.passed for item in self.items)
 
     @property
     def total(self) -> int:
@@ -73,11 +72,9 @@ class Report:
         """Return the next thing to do, in one sentence."""
         if self.problem:
             return "fix that line, then check again."
-        for result in self.left:
-            if result in self.counted:
-                task = result.task
-                named = f"task {task.id}, {' and '.join(task.functions)}"
-                return f"{named}. Stuck? make hint TASK={task.id}"
+        for task in [result.task for result in self.counted if not result.passed]:
+            named = f"task {task.id}, {' and '.join(task.functions)}"
+            return f"{named}. Stuck? make hint TASK={task.id}"
         for item in self.items:
             if not item.passed:
                 return f"the {item.name}."
@@ -132,43 +129,46 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
     lines = [f"Day {day.number}: {day.title}", ""]
     if report.problem:
         lines += [*_wrapped(report.problem, 2), ""]
-    names = [_name(result.task) for result in report.tasks]
-    width = max([24, *map(len, names)])
-    for result, name in zip(report.tasks, names, strict=True):
-        verdict = result.verdict
-        status = "unjudged" if report.problem else state_of(verdict)
-        lines.append(_line(name, status, colour, width))
-        begun = verdict.function not in ("", result.task.functions[0])
-        if not report.problem and (begun or verdict.mistake != "unwritten"):
-            says = _said(report, result, explain)
-            lines += _wrapped(says, _INDENT)
-            if verdict.call and verdict.message in says:
-                lines += _wrapped(verdict.call, _INDENT)
-        if explain:
-            for line in verdict.measured:
-                lines += _wrapped(f"- {line}", _INDENT, hanging=2)
-            lines += [f"{'':{_INDENT}}| {ln}" for ln in result.printed.splitlines()]
+    width = max([24, *(len(_name(result.task)) for result in report.tasks)])
+    for result in report.tasks:
+        status = "unjudged" if report.problem else _state(result.verdict)
+        lines.append(_line(_name(result.task), status, colour, width))
+        lines += _below(report, result, explain)
     if report.items:
         lines.append("")
     for item in report.items:
         lines.append(_line(item.name, item.status, colour, width))
         if not report.left or explain or item.status == "wrong":
             lines += _wrapped(item.message, _INDENT)
-    share = 100 * report.done // report.total
-    lines += ["", f"{report.done} of {report.total} done, {share} % of the day."]
-    if len(report.tasks) < len(day.tasks):
-        lines[-1] = f"{report.done} of {report.total} done."
+    share = f", {100 * report.done // report.total} % of the day"
+    whole = len(report.tasks) == len(day.tasks)
+    lines += ["", f"{report.done} of {report.total} done{share if whole else ''}."]
     lines += _wrapped(f"Next: {report.next_step()}", 0)
     return "\n".join(lines)
+
+
+def _below(report: Report, result: TaskResult, explain: bool) -> list[str]:
+    """Return the lines below a task's: what is said, measured and printed."""
+    verdict, lines = result.verdict, []
+    begun = verdict.function not in ("", result.task.functions[0])
+    if not report.problem and (begun or verdict.mistake != "unwritten"):
+        says = _said(report, result, explain)
+        lines += _wrapped(says, _INDENT)
+        if verdict.call and verdict.message in says:
+            lines += _wrapped(verdict.call, _INDENT)
+    if explain:
+        for line in verdict.measured:
+            lines += _wrapped(f"- {line}", _INDENT, hanging=2)
+        lines += [f"{'':{_INDENT}}| {ln}" for ln in result.printed.splitlines()]
+    return lines
 
 
 def _said(report: Report, result: TaskResult, explain: bool) -> str:
     """Return what to say of a task: a mistake once, what follows from it in short."""
     verdict = result.verdict
-    left = {other.task.id for other in report.left}
     if verdict.mistake == "inherited":
         return verdict.message
-    if verdict.follows in left and not explain:
+    if not explain and verdict.follows in {other.task.id for other in report.left}:
         word = "Follows from" if verdict.status == "close" else "Builds on"
         return f"{word} {verdict.follows}: first that one."
     if verdict.follows and verdict.status != "todo":
@@ -177,7 +177,7 @@ def _said(report: Report, result: TaskResult, explain: bool) -> str:
     return verdict.message
 
 
-def state_of(verdict: Verdict) -> str:
+def _state(verdict: Verdict) -> str:
     """Return what a task's line says of it: its status, or why that is "todo"."""
     return verdict.mistake if verdict.mistake in _LABEL else verdict.status
 

@@ -238,7 +238,11 @@ def _of_function(task: Task, asked: Asked, source: str) -> Verdict:
     verdict = judge(asked, source, arguments(source, function))
     came = replies(asked.exchanges)
     if verdict.mistake == "nothing-returned":
-        verdict = _nothing_returned(function, came, source, verdict)
+        says = unfinished(source, function)
+        if not says and any(reply.printed for reply in came):
+            ask = "Does it print the result instead of returning it?"
+            says = f"{verdict.message} {ask}"
+        verdict = replace(verdict, message=says or verdict.message)
     if verdict.status != "passed":
         refused = [what for reply in came for what in reply.refused]
         if refused:
@@ -254,17 +258,6 @@ def _not_utf8(script: Path) -> str:
     except (SyntaxError, LookupError, UnicodeError):  # of "coding: rot13"
         return f"{script.name} is not in UTF-8. Save it as UTF-8 in your editor."
     return ""
-
-
-def _nothing_returned(
-    function: str, came: Sequence[Reply], source: str, verdict: Verdict
-) -> Verdict:
-    if slip := unfinished(source, function):
-        return replace(verdict, message=slip)
-    if any(reply.printed for reply in came):
-        says = f"{verdict.message} Does it print the result instead of returning it?"
-        return replace(verdict, message=says)
-    return verdict
 
 
 def _changed_arguments(

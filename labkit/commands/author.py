@@ -15,15 +15,13 @@ import time
 from collections.abc import Iterator
 from importlib.util import find_spec
 
-import numpy as np
-
 from labkit.author.skeleton import worksheet_of
 from labkit.base import cli, processes
 from labkit.base.exchange import Exchange, Question
 from labkit.commands import docs, notebook
 from labkit.handin.worksheet import split_sections
 from labkit.judge.answers import InTurn
-from labkit.judge.ask import stacked
+from labkit.judge.ask import Draw, stacked
 from labkit.judge.row import rows_of
 from labkit.lesson.day import Day, day_numbers, find_day
 from labkit.lesson.script import find_regions, read_script
@@ -65,7 +63,7 @@ def _functions(day: Day) -> Iterator[str]:
             yield f"{shown(day.source)}: no function {name}"
             continue
         calls, file = row.ask.inputs, f"{shown(day.own)}/{name}.py"
-        first = next(iter(calls(np.random.default_rng(0))))
+        first = next(iter(calls(Draw(0))))
         if len(first) != len(row.arguments):
             yield (
                 f"{file}: @row.inputs yields {len(first)} arguments; "

@@ -15,6 +15,7 @@ import argparse
 import sys
 import traceback
 from collections import Counter
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -130,9 +131,7 @@ def main() -> int:
         return ablations(capstone, fns)
     result = pick(capstone, fns)
     print()
-    for (name, begins), ends in zip(
-        result.phases, [b for _, b in result.phases[1:]] + [result.seconds], strict=True
-    ):
+    for (name, begins), (_, ends) in pairwise([*result.phases, ("", result.seconds)]):
         print(f"  {begins:5.2f} s  {name:9} {ends - begins:5.2f} s")
     print(f"\n{HEAD}\n{UNITS}\n{row('one cube', result)}")
     print(f"lifted {1000 * result.lift:.0f} mm; this grip can lift, as predicted,")

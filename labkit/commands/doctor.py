@@ -76,7 +76,7 @@ print(json.dumps({"days": len(days), "others": others}))
 """
 WALL_PROBE = """
 import json
-from labkit.sandbox.wall import wall
+from labkit.sandbox.process import wall
 print(json.dumps(wall().name))
 """
 GL_PROBE = """

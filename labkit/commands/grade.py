@@ -28,10 +28,13 @@ import os
 import re
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from labkit.base import cli, git, store
+from labkit.base import cli, git, processes, store
+from labkit.base.text import visible
 from labkit.grade import engine, week_page
 from labkit.grade.classroom import Classroom, pull, write_all
 from labkit.grade.course import Course, percent
@@ -42,11 +45,12 @@ from labkit.grade.sheet import PLATFORMS, for_platform, known, of_days, write
 from labkit.grade.week_page import ROLES
 from labkit.lesson.day import Day, all_days, days_of, find_day
 from labkit.lesson.week import find_week
-from labkit.proof.class_pages import write_pages
-from labkit.sandbox.wall import refusal, wall
+from labkit.sandbox.process import wall
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, menagerie_root, shown
 
+KIT = ("--kit", "--ki")  # as argparse understands it
+PROOF_SECONDS = 900.0  # for one; a whole week takes a minute on a quiet machine
 OF_KIT: dict[str, Any] = {"folder": ROOT, "seconds": 60}  # git's answers on this kit
 
 
@@ -68,6 +72,13 @@ def parse() -> argparse.Namespace:
         help="2026-09-04T18:00, or a day, which means its end; minutes since the last "
         "commit count to it; default: when grading began",
     )
+    add_how(parser)
+    return parser.parse_args()
+
+
+def add_how(parser: argparse.ArgumentParser) -> None:
+    """Add how to grade, and what to write besides."""
+    add = parser.add_argument
     cores, at_once = os.cpu_count() or 1, "submissions at a time; default: one per core"
     add("--processes", type=positive, default=cores, metavar="N", help=at_once)
     drawn = "of the fresh inputs, the same for everybody; default: drawn once"
@@ -87,7 +98,6 @@ def parse() -> argparse.Namespace:
     add("--anonymous", action="store_true", help="write a table without names, too")
     trusted = "grade with your own rights where no wall stands, or as root"
     add("--i-know-them", action="store_true", help=trusted)
-    return parser.parse_args()
 
 
 def file(text: str) -> Path:
@@ -119,7 +129,7 @@ def admit(options: argparse.Namespace) -> None:
     """Say which wall stands, or refuse to run strangers' code without one."""
     says = "each worker's own; without one it refuses" if options.dask else wall().says
     print(f"wall: {says}", flush=True)
-    why = "" if options.dask or options.i_know_them else refusal()
+    why = "" if options.dask or options.i_know_them else engine.refusal()
     if why:
         raise Robo47Error(
             f"{why}, use a container (docs/teaching.md), or add --i-know-them"
@@ -165,8 +175,7 @@ def main() -> int:
     if platform:
         known(platform, students)
     admit(options)
-    notes: dict[str, str] = {}
-    courses = grade_days(days, students, out, options, notes)
+    courses, notes = grade_days(days, students, out, options)
     if several:
         write(out, of_days(courses))
         write(out.parent / "class.html", week_page.render(courses).encode("utf-8"))
@@ -185,7 +194,7 @@ def with_kit(tag: str) -> int:
     """Run the same command with the kit as it was at a tag; return its exit code."""
     folder = kit_at(tag)
     words = sys.argv[1:]
-    at = next(i for i, word in enumerate(words) if word.partition("=")[0] == "--kit")
+    at = next(i for i, word in enumerate(words) if word.partition("=")[0] in KIT)
     del words[at : at + (1 if "=" in words[at] else 2)]
     command = [sys.executable, str(folder / "scripts" / "grade_class.py"), *words]
     places = {"PYTHONPATH": str(folder), "MENAGERIE_ROOT": str(menagerie_root())}
@@ -215,12 +224,8 @@ def kit_at(tag: str) -> Path:
 
 
 def grade_days(
-    days: list[Day],
-    students: list[Student],
-    out: Path,
-    options: argparse.Namespace,
-    notes: dict[str, str],
-) -> list[Course]:
+    days: list[Day], students: list[Student], out: Path, options: argparse.Namespace
+) -> tuple[list[Course], dict[str, str]]:
     """Grade each day: its table, its page, the students' files; say how it went.
 
     Args:
@@ -228,9 +233,11 @@ def grade_days(
         students: from the roster.
         out: the table; of several days that of all, with a folder for each beside it.
         options: the command line.
-        notes: filled with who could not be pulled, and why, by folder.
+
+    Returns:
+        The days, and who could not be pulled, and why, by folder.
     """
-    courses: list[Course] = []
+    courses, notes = list[Course](), dict[str, str]()
     where = engine.dask(options.dask, options.i_know_them) if options.dask else None
     with where or engine.local(options.processes) as it:
         for day in days:
@@ -246,7 +253,7 @@ def grade_days(
                     options.seed = journal.seed  # one for all days
                     drawn = f"fresh inputs for everybody: --seed {journal.seed}"
                     print(f"kit: {version()}; {drawn}")
-                    notes |= pull(students) if options.pull else {}
+                    notes = pull(students) if options.pull else {}
                 again = options.again and options.again.split(",")
                 again = () if again is None else (again or None)
                 how = (again, options.frozen, options.keep, notes)
@@ -258,17 +265,34 @@ def grade_days(
                 f"{count[state]} {state}" for state in ROLES if count[state]
             )
             print(f"Day {day.number}, {len(students):,} students: {words}", flush=True)
-            courses.append(course.lean())
-    return courses
+            courses.append(course)
+    return courses, notes
 
 
 def prove(students: list[Student], week: int, folder: Path, at_once: int) -> None:
     """Write each student's page to show; say who has none, and why."""
-    pages = write_pages(students, week, folder, at_once)
-    without = [(student, why) for student, why in pages if why]
+    folder.mkdir(parents=True, exist_ok=True)
+    with ThreadPoolExecutor(at_once) as pool:
+        whys = list(pool.map(partial(write_proof, week, folder), students))
+    without = [both for both in zip(students, whys, strict=True) if both[1]]
     print(f"pages to show: {len(students) - len(without):,} in {shown(folder)}")
     for student, why in without:
         print(cli.wrapped(f"{student.name}: {why}", "  "))
+
+
+def write_proof(week: int, folder: Path, student: Student) -> str:
+    """Write a student's page in a process of its own; return why there is none."""
+    if student.problem:
+        return student.problem
+    command = [sys.executable, str(ROOT / "scripts" / "proof.py"), "--week", str(week)]
+    command += ["--of", str(student.path), f"--name={student.name}"]
+    command += ["--out", str(folder / f"{student.file}.html")]
+    promised = {**os.environ, "ROBO47_WALL": wall().name}
+    try:
+        done = processes.run(command, env=promised, timeout=PROOF_SECONDS)
+    except subprocess.TimeoutExpired:
+        return f"it took more than {PROOF_SECONDS:.0f} s"
+    return visible(done.stderr.strip().rpartition("\n")[2]) if done.returncode else ""
 
 
 def tell(courses: list[Course], notes: dict[str, str], out: Path) -> bool:

@@ -15,10 +15,9 @@ from pathlib import Path
 from labkit.base import cli
 from labkit.base.text import count
 from labkit.log import append_row
-from labkit.log.logfile import command
+from labkit.log.logfile import command, restore, unsaved_rows
 from labkit.log.rows import typed
-from labkit.log.scan import Line, watched
-from labkit.log.upkeep import came_back, restore, unsaved_rows
+from labkit.log.scan import Line, came_back, watched
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 

@@ -19,15 +19,13 @@ from pathlib import Path
 
 from labkit.base import cli
 from labkit.lesson.day import Day, chosen_day
-from labkit.lesson.script import lab_of, make_starter, read_script
+from labkit.lesson.script import find_regions, lab_of, make_starter, read_script
 from labkit.lesson.sealed import is_sealed
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 MARKER = re.compile(r"^ *# (?:end)?region (\S+)\n", re.MULTILINE)
-# The function's own: the end marker of the one before it comes first.
-TASK = re.compile(r"^ *# region (\S+)$", re.MULTILINE)
 LAST = "Record the number"
 
 SETUP = """
@@ -93,8 +91,10 @@ def extras(day: Day) -> dict[str, list[str]]:
     found: dict[str, list[str]] = {}
     try:
         for cell in tomllib.loads(path.read_text("utf-8"))["cells"]:
-            words, lines = cell["text"], cell.get("code", "")
-            found.setdefault(str(cell["after"]), []).extend(drawing(words, lines))
+            after = found.setdefault(str(cell["after"]), [])
+            after.append(text(cell["text"]))
+            if lines := cell.get("code"):  # which may not draw: "run all" goes on
+                after.append(code(lines, ' tags=["raises-exception"]'))
     except (ValueError, KeyError, TypeError) as error:
         raise Robo47Error(
             f"{shown(path)}: {type(error).__name__}: {error}; expected [[cells]] with "
@@ -111,12 +111,6 @@ def text(words: str) -> str:
 def code(lines: str, tags: str = "") -> str:
     """Return a cell of code, without the markers of a task's gap."""
     return f"# %%{tags}\n{textwrap.dedent(MARKER.sub('', lines)).strip()}"
-
-
-def drawing(words: str, lines: str) -> list[str]:
-    """Return two cells; where nothing draws, "run all" goes on with the next."""
-    cells = [text(words)]
-    return [*cells, code(lines, ' tags=["raises-exception"]')] if lines else cells
 
 
 def head(day: Day, tree: ast.Module, starter: bool = False) -> list[str]:
@@ -147,13 +141,11 @@ def segments(body: list[ast.stmt], lines: list[str]) -> Iterator[tuple[ast.stmt,
 def library(body: list[ast.stmt], lines: list[str]) -> list[str]:
     """Return what stands before main(): the constants, then a function per cell."""
     constants, functions = "", []
+    regions = find_regions("".join(lines), "the lab")
+    tasks = {region.function: region.task for region in regions}
     for node, segment in segments(body, lines):
-        if isinstance(node, ast.Try):  # whose message is for a shell
-            wanted = lines[node.body[0].lineno - 1 : node.body[-1].end_lineno]
-            segment = "\n" + textwrap.dedent("".join(wanted))
         if isinstance(node, ast.FunctionDef):
-            task = "".join(TASK.findall(segment)[:1])
-            name = f"{task} `{node.name}`".strip()
+            name = f"{tasks.get(node.name, '')} `{node.name}`".strip()
             functions += [text(f"### {name}"), code(segment)]
         elif ast.unparse(node) != "import kit":  # a notebook has its kernel already
             constants += segment

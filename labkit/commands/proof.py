@@ -10,17 +10,19 @@ arm picks the cube up with the functions that pass. One file, opened from disk.
 """
 
 import importlib.util
-import tempfile
 import time
-from contextlib import ExitStack
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from labkit.base import cli, store
-from labkit.base.git import GitError
+from labkit.base.git import GitError, read_history
+from labkit.base.text import visible
 from labkit.fresh import FRESH
+from labkit.grade.roster import Student
 from labkit.lesson.day import chosen_week, days_of
 from labkit.lesson.week import Week
-from labkit.proof import facts, page
+from labkit.proof import page
+from labkit.proof.facts import RunDay, facts_of
 from labkit.proof.pick import pick
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
@@ -45,8 +47,7 @@ def main() -> int:
         raise Robo47Error(f"{folder} is no folder; choose another place with --out")
     begun, week = time.monotonic(), chosen_week(options.week)
     try:
-        clone = facts.open_clone(options.of or ROOT, options.name, own=not options.of)
-        proof = found(week, clone)
+        proof = found(week, options.of or ROOT, options.name, own=not options.of)
     except (OSError, GitError) as error:
         raise Robo47Error(f"{error}") from None
     write(options.out, page.render(proof))
@@ -56,25 +57,33 @@ def main() -> int:
     return cli.EXIT_OK
 
 
-def found(week: Week, clone: facts.Clone) -> page.Proof:
-    """Check a week's days, run its labs and the capstone."""
-    days = days_of(week)
-    with ExitStack() as stack:
-        sandbox = stack.enter_context(Sandbox())
-        folders, known = [], []
-        for day in days:
-            kept = tempfile.TemporaryDirectory(prefix="robo47-grade-")
-            folders.append(Path(stack.enter_context(kept)).resolve())
+def found(week: Week, clone: Path, name: str = "", *, own: bool = False) -> page.Proof:
+    """Check a week's days in somebody's clone, run its labs and the capstone.
+
+    Args:
+        week: from its manifest.
+        clone: the folder.
+        name: the student's; by default the last commit's author.
+        own: it is the reader's, which may be a linked worktree.
+    """
+    days, history = days_of(week), read_history(clone, (), own=own)
+    name = visible(name or history.author, 80) or "somebody whom git does not know"
+    student = Student(name, clone.name, clone)
+    with Sandbox() as sandbox, TemporaryDirectory(prefix="robo47-grade-") as top:
+        folders = [Path(top).resolve() / str(day.number) for day in days]
+        known: list[RunDay] = []
+        for day, folder in zip(days, folders, strict=True):
+            folder.mkdir()
             with cli.busy(f"day {day.number}"):
-                known.append(facts.facts_of(day, clone, folders[-1], sandbox))
-            own, total = len(known[-1].own), known[-1].functions
-            print(f"  day {day.number}: {own} of {total} functions theirs", flush=True)
+                known.append(facts_of(day, student, folder, sandbox, own=own))
+            theirs = f"{len(known[-1].own)} of {known[-1].functions} functions theirs"
+            print(f"  day {day.number}: {theirs}", flush=True)
         if all("not begun" in one.states.values() for one in known):
             raise Robo47Error("nothing is begun that could be shown: make start DAY=1")
         with cli.busy("the pick"):
             picked = pick(known, folders, sandbox)
-    fresh = store.read(FRESH) if clone.own else {}
-    return page.Proof(clone, known, picked, fresh)
+    fresh = store.read(FRESH) if own else {}
+    return page.Proof(name, own, history.commit, known, picked, fresh)
 
 
 def write(path: Path, text: str) -> None:

@@ -20,12 +20,13 @@ from labkit.base import cli
 from labkit.base.text import count
 from labkit.check import memory
 from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
-from labkit.lesson.marks import Writers, writers_of
+from labkit.lesson.marks import Writers
+from labkit.lesson.script import writers_of
 from labkit.lesson.week import Week
 from labkit.log.logfile import command
 from labkit.log.scan import watched
 from labkit.report import page
-from labkit.report.series import Report, collect, thresholds
+from labkit.report.series import Report, Series, collect, series_of
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, shown
 
@@ -34,22 +35,23 @@ def main() -> int:
     """Write the report and say where it is."""
     args = parser().parse_args()
     lines = watched(args.file)
-    since = args.since.isoformat() if args.since else ""
+    since = str(args.since or "")
     days = all_days() if args.day is None else [find_day(args.day)]
     mine = args.file.resolve() == METRICS_CSV.resolve()
-    writers = {day.number: writers_of(day) for day in days}
-    if not mine:  # nobody knows the files of another log
-        writers = {n: Writers(known.kits) for n, known in writers.items()}
-    report = collect(lines, thresholds(days), since, args.day, args.check, writers)
+    asked = list[Series]()
+    for day in days:
+        writers = writers_of(day)  # nobody knows the files of another log
+        asked += series_of(day, [], writers if mine else Writers(writers.kits))
+    report = collect(lines, asked, since, args.day, args.check)
     heading = describe(args, report)
     out = args.out or args.file.parent
     whole = not (since or args.check or args.day is not None)
     week = chosen_week(None) if whole else None
-    number = week.number if week else None
     checked = {day.number: last_check(day) for day in days} if mine else {}
-    write(out / "report.html", page.render(report, heading, number, checked).encode())
+    text = page.render(report, heading, week.number if week else None, checked)
+    write(out / "report.html", text)
     if week is not None:
-        write_week(report, heading, out, week, args.file)
+        write_week(report, heading, out, week, mine)
     print(
         f"{count(report.rows, 'row')}; checks: {report.count('pass')} passing,"
         f" {report.count('fail')} failing,"
@@ -63,15 +65,15 @@ def main() -> int:
     return cli.EXIT_OK
 
 
-def write_week(report: Report, heading: str, out: Path, week: Week, log: Path) -> None:
+def write_week(report: Report, heading: str, out: Path, week: Week, mine: bool) -> None:
     """Write the page on a week, and from the student's own log its retrospective."""
     from labkit.report import week_page, week_retro
     from labkit.report.week_facts import facts_of
 
     facts = [facts_of(day, report.series) for day in days_of(week)]
-    page = week_page.render(facts, heading)
-    write(out / f"report-week{week.number}.html", page.encode())
-    if log.resolve() == METRICS_CSV.resolve():  # another log's numbers are not mine
+    text = week_page.render(facts, heading)
+    write(out / f"report-week{week.number}.html", text)
+    if mine:  # another log's numbers are not mine
         for path in week_retro.fill(facts):
             print(f"its numbers are in {shown(path)}: commit it")
 
@@ -80,11 +82,12 @@ def last_check(day: Day) -> str:
     """Return a line on what the last check found in the student's file as it is."""
     if not day.work.is_file():
         return f"Not begun: make start DAY={day.number}"
-    known = {task.id: memory.known(day).get(task.id, "") for task in day.tasks}
-    if not all(known.values()):
+    known = memory.known(day)
+    if any(task.id not in known for task in day.tasks):
         return f"Not checked as it is now: make check DAY={day.number}."
-    left = [f"{id} {state}" for id, state in known.items() if state != "passed"]
-    passed = f"The last check: {len(known) - len(left)} of {len(known)} tasks pass"
+    left = [f"{t.id} {known[t.id]}" for t in day.tasks if known[t.id] != "passed"]
+    of = len(day.tasks)
+    passed = f"The last check: {of - len(left)} of {of} tasks pass"
     return f"{passed}; {', '.join(left)}." if left else f"{passed}."
 
 
@@ -131,10 +134,10 @@ def describe(args: argparse.Namespace, report: Report) -> str:
     return ", ".join(parts) + f"; made on {datetime.date.today()}"
 
 
-def write(path: Path, content: bytes) -> None:
+def write(path: Path, text: str) -> None:
     """Write a file and name it."""
     try:
-        path.write_bytes(content)
+        path.write_bytes(text.encode())
     except OSError as error:
         raise Robo47Error(
             f"cannot write {shown(path)}: {error.strerror or error}. Choose another"

@@ -8,14 +8,12 @@ are the rows that the labs record, judged by the limits of the manifest; they ar
 added to your log.
 """
 
-from collections.abc import Sequence
-
 from tqdm import tqdm
 
 from labkit.base import cli
 from labkit.base.text import count, number_of
 from labkit.lesson.day import chosen_week, days_of
-from labkit.lesson.marks import writers_of
+from labkit.lesson.script import writers_of
 from labkit.report.week_labs import Ran, run_labs
 
 Line = tuple[str, ...]  # day, whose, check, number, limit, verdict
@@ -48,23 +46,6 @@ def as_table(lines: list[Line]) -> str:
     return "\n".join(row.rstrip() for row in rows)
 
 
-def tell_failure(ran: Ran) -> str:
-    """Return which lab did not pass, why, and how to see it."""
-    number = ran.day.number
-    again = f"make run DAY={number}" if ran.mine else f"make day{number}"
-    why = ran.why or "a number is missing or beyond its limit"
-    return cli.wrapped(f"day {number} did not pass: {why}. See: {again}", "  ")
-
-
-def verdict(labs: Sequence[Ran], failed: int) -> int:
-    """Print one line on all of it; return the exit code."""
-    counted = count(len(labs), "lab")
-    if failed:
-        return cli.conclude(False, f"{failed} of {counted} did not pass")
-    numbers = count(sum(len(ran.day.metrics) for ran in labs), "number")
-    return cli.conclude(True, f"{counted}, {numbers} within their limits")
-
-
 def main() -> int:
     """Run a week."""
     parser = cli.parser(__doc__)
@@ -80,5 +61,13 @@ def main() -> int:
     print(as_table([line for ran in labs for line in lines_of(ran)]))
     failed = [ran for ran in labs if not ran.passed]
     for ran in failed:
-        print(tell_failure(ran))
-    return verdict(labs, len(failed))
+        number = ran.day.number
+        again = f"make run DAY={number}" if ran.mine else f"make day{number}"
+        why = ran.why or "a number is missing or beyond its limit"
+        says = f"day {number} did not pass: {why}. See: {again}"
+        print(cli.wrapped(says, "  "))
+    counted = count(len(labs), "lab")
+    if failed:
+        return cli.conclude(False, f"{len(failed)} of {counted} did not pass")
+    numbers = count(sum(len(day.metrics) for day in days), "number")
+    return cli.conclude(True, f"{counted}, {numbers} within their limits")

@@ -11,31 +11,7 @@ from robo47.checks import Array
 from robo47.errors import Robo47Error
 
 _lock = threading.Lock()  # one picture at a time, whichever thread asks
-_studio: "Studio | None" = None
-
-
-class StudioEndedError(Robo47Error):
-    """The process that draws ended instead of answering."""
-
-
-class Studio(processes.Child):
-    """A running process that draws."""
-
-    def draw(self, scene: Scene) -> Array:
-        """Return the picture of a scene, (height, width, 3), bytes.
-
-        Raises:
-            StudioEndedError: the process is gone; the line is the last that it said.
-            Robo47Error: the robot cannot be loaded.
-        """
-        self.send(pickle.dumps(scene))
-        try:
-            reply = pickle.load(self.process.stdout)
-        except (EOFError, OSError, pickle.UnpicklingError):
-            raise StudioEndedError(f"cannot draw: {self.last_words()}") from None
-        if isinstance(reply, Robo47Error):
-            raise reply
-        return reply
+_studio: processes.Child | None = None
 
 
 def draw(scene: Scene) -> Array:
@@ -44,19 +20,26 @@ def draw(scene: Scene) -> Array:
     The process that draws is started at the first picture and kept for the next.
 
     Raises:
-        Robo47Error: nothing draws here, or the robot cannot be loaded.
+        Robo47Error: nothing draws here, or the robot cannot be loaded; where the
+            process ended instead of answering, its last words.
     """
     with _lock:
-        try:
-            return _open(forget=False).draw(scene)
-        except (
-            StudioEndedError
-        ):  # perhaps the remembered backend is gone: look once more
-            close()
-            return _open(forget=True).draw(scene)
-        except KeyboardInterrupt:  # the late answer would pass for the next picture
-            close()
-            raise
+        for forget in (False, True):
+            studio = _open(forget)
+            try:
+                studio.send(pickle.dumps(scene))
+                reply = pickle.load(studio.process.stdout)
+            except (EOFError, OSError, pickle.UnpicklingError):
+                words = studio.last_words()
+                close()  # perhaps the remembered backend is gone: look once more
+                continue
+            except KeyboardInterrupt:  # the late answer would pass for the next picture
+                close()
+                raise
+            if isinstance(reply, Robo47Error):
+                raise reply
+            return reply
+        raise Robo47Error(f"cannot draw: {words}")
 
 
 def close() -> None:
@@ -67,11 +50,11 @@ def close() -> None:
         _studio = None
 
 
-def _open(*, forget: bool) -> Studio:
+def _open(forget: bool) -> processes.Child:
     global _studio
     if _studio is None:
         environment = backends.rendering_environment(forget=forget)  # it draws there
-        _studio = Studio("labkit.figures.studio", env=environment)
+        _studio = processes.Child("labkit.figures.studio", env=environment)
     return _studio
 
 

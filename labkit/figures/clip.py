@@ -18,7 +18,7 @@ from tqdm import tqdm
 from labkit.figures import client
 from labkit.figures.portrait import LINKS, link_frames, with_fingers
 from labkit.figures.scene import Box, Camera, Ghost, Scene
-from labkit.figures.sheet import with_line
+from labkit.figures.sheet import INK, with_line
 from robo47 import scenes, se3
 from robo47.capstone.phases import Result
 from robo47.checks import Array
@@ -29,7 +29,7 @@ SIZE, SECONDS = (480, 420), 5.0  # of a clip
 CAMERA = Camera(distance=2.3, lookat=(0.2, 0.0, 0.36))
 LARGEST = 1_000_000  # bytes: what a page shows at once
 PIXELS = 0.75  # each try that is too large is followed by one this much smaller
-GOOD, BAD, INK = (0, 102, 75), (179, 38, 30), (33, 37, 41)
+GOOD, BAD = (0, 102, 75), (179, 38, 30)
 PICK_SIZE, PICTURE_SIZE, FRAMES = (420, 340), (1200, 800), 60
 AT_THE_TABLE = Camera(
     lookat=(0.33, 0.0, 0.36),
@@ -39,14 +39,13 @@ AT_THE_TABLE = Camera(
 )
 ARM = 9  # numbers of qpos: seven joints and two fingers; the cube's seven follow
 TABLE, CUBE = (0.80, 0.74, 0.66, 1.0), (0.85, 0.35, 0.10, 1.0)
-MOMENTS = ("descend", "lift", "put down")  # whose ends a picture shows
+MOMENTS = ("close", "carry", "open")  # whose beginnings a picture shows
 Caption = tuple[str, bool | None]  # words; whether they are good news, None for neither
 Shot = tuple[Scene, Caption]
 
 
-def there_and_back(q_from: ArrayLike, q_to: ArrayLike, count: int) -> Array:
+def there_and_back(start: Array, end: Array, count: int) -> Array:
     """Return a soft move from (nq,) to (nq,) and back without a jump, (count, nq)."""
-    start, end = np.asarray(q_from, dtype=float), np.asarray(q_to, dtype=float)
     s = (1 - np.cos(2 * np.pi * np.arange(count) / count)) / 2
     return start + s[:, None] * (end - start)
 
@@ -106,8 +105,9 @@ def save_clip(
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(made)
             return len(made)
-        size = tuple(max(round(PIXELS**0.5 * n), 16) for n in some[0].size)
-        some = [frame.resize(size, Image.Resampling.LANCZOS) for frame in some]  # type: ignore[arg-type]
+        width, height = (max(round(PIXELS**0.5 * n), 16) for n in some[0].size)
+        lanczos = Image.Resampling.LANCZOS
+        some = [frame.resize((width, height), lanczos) for frame in some]
 
 
 def kind_of(path: Path) -> str:
@@ -148,7 +148,9 @@ def pick_clip(result: Result, path: Path) -> str:
 
 def pick_picture(result: Result, path: Path) -> str:
     """Write a PNG: the arm where it grasps, lifts and puts down; say so in a line."""
-    whole = [client.draw(_scene(qpos, PICTURE_SIZE)) for qpos in moments(result)]
+    begins = dict(result.phases)
+    rows = np.searchsorted(result.t, [begins[name] for name in MOMENTS])
+    whole = [client.draw(_scene(q, PICTURE_SIZE)) for q in result.qpos[rows]]
     quarter = PICTURE_SIZE[0] // 4
     middles = [part[:, quarter:-quarter] for part in whole]
     sheet = Image.fromarray(np.hstack(middles))
@@ -164,15 +166,6 @@ def phase(result: Result, row: int) -> Caption:
     t = float(result.t[row])
     name = [name for name, begins in result.phases if begins <= t][-1]
     return f"{name}, {t:.1f} s", None
-
-
-def moments(result: Result) -> list[Array]:
-    """Return everything's configuration at the ends of three phases, (16,) each."""
-    names = [name for name, _ in result.phases]
-    ends = [begins for _, begins in result.phases[1:]] + [result.seconds]
-    times = [ends[names.index(name)] for name in MOMENTS]
-    return [result.qpos[min(int(np.searchsorted(result.t, t)), len(result.t) - 1)]
-            for t in times]  # fmt: skip
 
 
 def _scene(qpos: Array, size: tuple[int, int], fast: bool = False) -> Scene:

@@ -28,12 +28,14 @@ def ridges(figure: Figure, errors: Mapping[str, Array], limit: float) -> None:
     for row, error in enumerate(errors.values()):
         _hill(axes, row, error)
     worst = max(float(error.max()) for error in errors.values())
+    times = int(limit / worst)
+    times -= times % 10 ** (len(str(times)) - 1)  # all but its first digit are 0
     _dress(axes, list(errors), len(next(iter(errors.values()))))
     _guide(axes, ROUNDING, "one rounding", ":")
     _guide(axes, limit, f"limit {limit:.0e}", "--")
     axes.text(
         3 * np.sqrt(20 * worst * limit), len(errors) / 2,
-        f"the worst is\n{_leading(limit / worst):,} times\nsmaller than\nthe limit",
+        f"the worst is\n{times:,} times\nsmaller than\nthe limit",
         ha="center", va="center", linespacing=1.5,
         bbox={"facecolor": "white", "edgecolor": "none"},
     )  # fmt: skip
@@ -65,9 +67,3 @@ def _dress(axes: Axes, names: list[str], n: int) -> None:
     axes.set_xlabel("largest entry of |T − T_mujoco|  (m, or no unit)")
     axes.tick_params(axis="y", length=0)
     axes.spines["left"].set_visible(False)
-
-
-def _leading(number: float) -> int:
-    """Return a number with all but its first digit 0."""
-    unit = 10 ** int(np.log10(number))
-    return int(number // unit) * unit

@@ -26,16 +26,12 @@ def draw_frames(
     """Return a camera's picture with frames, {name: (4, 4)}, named at its sides."""
     size = picture.width * SMOOTH, picture.height * SMOOTH
     layer = Layer(size)
-    seen = {
-        name: camera.project(axis_ends(T, length), size)
-        for (name, T), length in zip(frames.items(), axis_lengths(frames), strict=True)
-    }
-    for ends in seen.values():
-        layer.triad(ends)
-    widths = {name: layer.font.getlength(name) for name in seen}
-    places = place_labels(seen, widths, layer.text_height, size)
-    for name, at in places.items():  # over the triads: a leader ends at its origin
-        layer.label(name, at, (float(seen[name][0, 0]), float(seen[name][0, 1])))
+    seen = {}
+    for (name, T), length in zip(frames.items(), axis_lengths(frames), strict=True):
+        origin, tips = T[:3, 3], T[:3, 3] + length * T[:3, :3].T
+        seen[name] = camera.project(np.vstack([origin, tips]), size)
+        layer.triad(seen[name])
+    layer.labels(seen)  # over the triads: a leader ends at its origin
     first, *_, last = [*seen.values()] * 2
     for ends in (first, last):
         layer.letters(ends)
@@ -52,59 +48,17 @@ def axis_lengths(frames: Mapping[str, Array]) -> list[float]:
     ]
 
 
-def axis_ends(T_world_frame: Array, length: float = AXIS) -> Array:
-    """Return a frame's origin and the tips of its axes in the world, (4, 3), metres."""
-    origin, R = T_world_frame[:3, 3], T_world_frame[:3, :3]
-    return np.vstack([origin, origin + length * R.T])
-
-
-def place_labels(
-    seen: Mapping[str, Array],
-    widths: Mapping[str, float],
-    height: float,
-    size: tuple[int, int],
-) -> dict[str, Pixel]:
-    """Return where each name goes: at the nearer side, level with its frame.
-
-    Names that would overlap move apart, in the order of their frames.
-
-    Args:
-        seen: {name: pixels of the origin and the tips, (4, 3)}.
-        widths: {name: of the written name, pixels}.
-        height: of a line of text, pixels.
-        size: of the picture.
-
-    Returns:
-        {name: the end of its leader (x, y)}.
-    """
-    x = {name: float(ends[0, 0]) for name, ends in seen.items()}
-    low, high, margin = min(x.values()), max(x.values()), 0.14 * size[0]
-    left = [name for name in seen if x[name] < (low + high) / 2]
-    right = [name for name in seen if name not in left]
-    places = {}
-    for names in (left, right):
-        names.sort(key=lambda name: seen[name][0, 1])
-        wanted = np.array([seen[name][0, 1] for name in names])
-        for name, y in zip(names, spread(wanted, 1.5 * height), strict=True):
-            room = widths[name] + height  # the name, and its distance to both sides
-            if names is left:
-                places[name] = (max(low - margin, room), float(y))
-            else:
-                places[name] = (min(high + margin, size[0] - room), float(y))
-    return places
-
-
 def spread(wanted: Array, gap: float) -> Array:
     """Return increasing numbers at least `gap` apart, near increasing ones, (n,)."""
-    # Without their gaps the numbers only have to increase: average where they do not.
-    slack = wanted - gap * np.arange(len(wanted))
-    blocks: list[list[float]] = []
-    for value in slack:
-        blocks.append([value])
-        while len(blocks) > 1 and np.mean(blocks[-2]) > np.mean(blocks[-1]):
-            blocks[-2:] = [blocks[-2] + blocks[-1]]
-    level = np.concatenate([np.full(len(block), np.mean(block)) for block in blocks])
-    return level + gap * np.arange(len(wanted))
+    # Without their gaps the numbers only have to increase: average where they do not,
+    # by the max-min formula of isotonic regression.
+    n = len(wanted)
+    slack = wanted - gap * np.arange(n)
+    level = [
+        max(min(slack[j:k].mean() for k in range(i + 1, n + 1)) for j in range(i + 1))
+        for i in range(n)
+    ]
+    return np.array(level) + gap * np.arange(n)
 
 
 class Layer:
@@ -166,6 +120,30 @@ class Layer:
         back, front = neck - rim * along, b + rim * along
         corners = [front, back + half * across, back - half * across]
         self.pen.polygon([(x, y) for x, y in corners], colour)
+
+    def labels(self, seen: Mapping[str, Array]) -> None:
+        """Name frames, each at the nearer side of all of them, level with its origin.
+
+        Names that would overlap move apart, in the order of their frames.
+
+        Args:
+            seen: {name: pixels of the origin and the tips, and their depth, (4, 3)}.
+        """
+        x = {name: float(ends[0, 0]) for name, ends in seen.items()}
+        low, high, margin = min(x.values()), max(x.values()), 0.14 * self.size[0]
+        left = [name for name in seen if x[name] < (low + high) / 2]
+        right = [name for name in seen if name not in left]
+        for names in (left, right):
+            names.sort(key=lambda name: seen[name][0, 1])
+            wanted = np.array([float(seen[name][0, 1]) for name in names])
+            apart = spread(wanted, 1.5 * self.text_height)
+            for name, origin, y in zip(names, wanted, apart, strict=True):
+                # The name, and its distance to both sides.
+                room = self.font.getlength(name) + self.text_height
+                beside = max(low - margin, room)
+                if names is right:
+                    beside = min(high + margin, self.size[0] - room)
+                self.label(name, (beside, float(y)), (x[name], origin))
 
     def label(self, name: str, at: Pixel, origin: Pixel) -> None:
         """Draw a name at a pixel, the end of the leader line to its frame's origin."""

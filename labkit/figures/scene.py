@@ -58,11 +58,9 @@ class Camera:
         """Return this camera, or one further away that has points (n, 3) in view."""
         camera = self
         while camera.distance < FARTHEST:
-            right, below, depth = camera.project(p_world, size).T
-            inside = (np.abs(right / size[0] - 0.5) < 0.5 - MARGIN) & (
-                np.abs(below / size[1] - 0.5) < 0.5 - MARGIN
-            )
-            if inside.all() and (depth > 0).all():
+            seen = camera.project(p_world, size)
+            off = np.abs(seen[:, :2] / size - 0.5)
+            if (off < 0.5 - MARGIN).all() and (seen[:, 2] > 0).all():
                 break
             camera = replace(camera, distance=1.1 * camera.distance)
         return camera

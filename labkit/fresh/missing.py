@@ -47,7 +47,8 @@ def _only_here(
     for week in weeks:  # `make report` fills numbers in at any time
         for diary in _diaries(clone / week):
             name = diary.relative_to(clone).as_posix()
-            if name in lacks and _own_words(diary) == _own_words(root / name):
+            words = without_numbers(_text(diary))
+            if name in lacks and words == without_numbers(_text(root / name)):
                 del lacks[name]
     for name in sorted({n for day in days for n in day.files.values()}):
         here, there = (root / name).is_file(), (clone / name).is_file()
@@ -93,13 +94,8 @@ def _diaries(week: Path) -> list[Path]:
     return sorted((week / "docs").glob("RETRO_*.md"))
 
 
-def _own_words(diary: Path) -> str:
-    """Return a retrospective without the numbers that `make report` fills in."""
-    return without_numbers(_text(diary)) if diary.is_file() else ""
-
-
 def _text(sheet: Path) -> str:
-    return sheet.read_text("utf-8", errors="replace")
+    return sheet.read_text("utf-8", errors="replace") if sheet.is_file() else ""
 
 
 def _blanks(sheet: Path, name: str) -> Iterator[tuple[str, str]]:
@@ -113,23 +109,23 @@ def _blanks(sheet: Path, name: str) -> Iterator[tuple[str, str]]:
 
 def _absolute(week: Path, clone: Path) -> Iterator[str]:
     """Yield the lines that name a place which other machines do not have."""
-    for script in sorted((week / "work").glob("*.py")):
-        nodes: list[ast.AST] = []
-        with contextlib.suppress(SyntaxError, ValueError):  # its lab says so itself
-            nodes = list(ast.walk(ast.parse(script.read_bytes())))
-        for node in nodes:
-            if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
-                continue
-            text = node.value
+    scripts = ((path, _texts(path)) for path in sorted((week / "work").glob("*.py")))
+    sheets = ((path, _links(path)) for path in sorted((week / "docs").glob("*.md")))
+    for path, named in [*scripts, *sheets]:
+        name = path.relative_to(clone).as_posix()
+        for number, text in named:
             if _ABSOLUTE.match(text) and "\n" not in text:
-                yield _line(script, clone, node.lineno, text)
-    for sheet in sorted((week / "docs").glob("*.md")):
-        for number, line in enumerate(_text(sheet).splitlines(), 1):
-            for link in _LINKED.finditer(line):
-                if _ABSOLUTE.match(target := link[1] or link[2]):
-                    yield _line(sheet, clone, number, target)
+                what = f"{text[:60]!r} is a path of this machine alone"
+                yield f"{name}, line {number}: {what}"
 
 
-def _line(path: Path, clone: Path, number: int, text: str) -> str:
-    name = path.relative_to(clone).as_posix()
-    return f"{name}, line {number}: {text[:60]!r} is a path of this machine alone"
+def _texts(script: Path) -> Iterator[tuple[int, str]]:
+    with contextlib.suppress(SyntaxError, ValueError):  # its lab says so itself
+        for node in ast.walk(ast.parse(script.read_bytes())):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                yield node.lineno, node.value
+
+
+def _links(sheet: Path) -> Iterator[tuple[int, str]]:
+    for number, line in enumerate(_text(sheet).splitlines(), 1):
+        yield from ((number, found[1] or found[2]) for found in _LINKED.finditer(line))

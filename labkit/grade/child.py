@@ -94,12 +94,10 @@ def _run(
     """Return the tasks' results, and the lab's where they all pass."""
     handin, name = package.handin, day.files["script"]
     if name not in handin.files:
-        if name in handin.unread:
-            says = f"{name} {handin.unread[name]}."
-            verdict = Verdict("todo", "does-not-load", says)
-        else:
-            start = f"{name} is not there. Begin with: make start DAY={day.number}"
-            verdict = Verdict("todo", "not-started", start)
+        start = f"{name} is not there. Begin with: make start DAY={day.number}"
+        verdict = Verdict("todo", "not-started", start)
+        if why := handin.unread.get(name):
+            verdict = Verdict("todo", "does-not-load", f"{name} {why}.")
         return [TaskResult(task, verdict) for task in day.tasks], []
     unpack(package, folder)
     with Sandbox() as sandbox:
@@ -123,13 +121,10 @@ def _result(day: Day, results: list[TaskResult], items: list[Item]) -> Result:
     ]
     refused = [_tidy(what) for one in results for what in one.refused]
     first = results[0].verdict
-    # What was measured is told of a wrong answer alone.
-    told = [
-        replace(one, printed="", verdict=replace(one.verdict, measured=()))
-        if one.passed
-        else replace(one, printed="")
-        for one in results
-    ]
+    told = []
+    for one in results:  # what was measured is told of a wrong answer alone
+        verdict = replace(one.verdict, measured=()) if one.passed else one.verdict
+        told.append(replace(one, printed="", verdict=verdict))
     text = report.as_text(report.Report(day, told, items), explain=True)
     return Result(
         tuple(marks),

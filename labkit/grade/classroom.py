@@ -1,8 +1,7 @@
 """Grade a class from start to end: who, what they hand in, grades, what to write."""
 
-from array import array
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +18,7 @@ from labkit.grade.pull import pull_all
 from labkit.grade.result import Result, ungraded
 from labkit.grade.roster import Student
 from labkit.grade.sheet import as_csv, nameless, printable, write
+from labkit.grade.similar import Runs
 from labkit.lesson.day import Day
 from labkit.lesson.script import read_script, starter_of
 from labkit.sandbox.messages import file_of
@@ -56,26 +56,22 @@ class Classroom:
             Robo47Error: no worker is left, or a file cannot be written.
         """
         graded: dict[str, Graded] = {}
-        runs: dict[str, list[array[int]]] = {}
+        runs: dict[str, list[Runs]] = {}
         starter, now = starter_of(self.day), 0
-        due = self.journal.reference if self.journal.deadline else None
 
         def note(one: Student, package: Package, result: Result | FaultError) -> None:
-            graded[one.folder] = self._graded(one, package, result)
-            text = f"{one.name}\n\n{graded[one.folder].result.text}"
+            found = self._graded(one, package, result)
+            text = f"{one.name}\n\n{found.result.text}"
             write(feedback / f"{one.file}.txt", printable(text).encode("utf-8"))
+            # without the text, so that a week takes the memory of a day
+            graded[one.folder] = replace(found, result=replace(found.result, text=""))
             bar.update()
 
         def changed() -> Iterator[tuple[Student, Package]]:
             for student in self.students:
-                try:
-                    package = collect(student, self.day, self.journal.seed, due)
-                except (OSError, GitError, MemoryError) as error:
-                    why = visible(error) or type(error).__name__
-                    note(student, Package(self.day.number, ""), FaultError(why))
-                    continue
+                package, known = self._known(student)
                 runs[student.folder] = _runs(package, self.day, starter)
-                if known := self._known(student.folder, package):
+                if known:
                     note(student, package, known)
                 else:
                     yield student, package
@@ -88,11 +84,18 @@ class Classroom:
                 note(student, package, result)
         return self._course([graded[one.folder] for one in self.students], runs, now)
 
-    def _known(self, folder: str, package: Package) -> Result | None:
-        """Return the result that stays, or None for who is to be graded."""
+    def _known(self, student: Student) -> tuple[Package, Result | FaultError | None]:
+        """Return what is handed in, and its result; None for who is to be graded."""
+        due = self.journal.reference if self.journal.deadline else None
+        try:
+            package = collect(student, self.day, self.journal.seed, due)
+        except (OSError, GitError, MemoryError) as error:
+            fault = FaultError(visible(error) or type(error).__name__)
+            return Package(self.day.number, ""), fault
         kept = self.frozen or bool(self.again)
-        known = self.journal.find(folder, package, frozen=kept)
-        return None if self.again is None or folder in self.again else known
+        known = self.journal.find(student.folder, package, frozen=kept)
+        anew = self.again is None or student.folder in self.again
+        return package, None if anew else known
 
     def _graded(
         self, student: Student, package: Package, result: Result | FaultError
@@ -112,10 +115,7 @@ class Classroom:
         return Graded(student, result, *facts, late if self.journal.deadline else None)
 
     def _course(
-        self,
-        everybody: Sequence[Graded],
-        runs: Mapping[str, list["array[int]"]],
-        now: int,
+        self, everybody: Sequence[Graded], runs: Mapping[str, list[Runs]], now: int
     ) -> Course:
         alike = similar.like_the_kit(runs, _runs_of_kit(self.day))
         alike += similar.similar_groups({f: r[0] for f, r in runs.items() if r})
@@ -154,14 +154,14 @@ def write_all(course: Course, out: Path, *, anonymous: bool = False) -> None:
     write(out.parent / "class.html", page.render(course).encode("utf-8"))
 
 
-def _runs_of_kit(day: Day) -> "array[int]":
+def _runs_of_kit(day: Day) -> Runs:
     """Return the runs of a day's solution and of the library's modules that hold it."""
     files = [day.source, *(file_of(f"robo47.{name}") for name in day.library)]
     texts = "\n".join(map(read_script, files))
     return similar.runs_of(texts.encode(), starter_of(day))
 
 
-def _runs(package: Package, day: Day, starter: str) -> list["array[int]"]:
+def _runs(package: Package, day: Day, starter: str) -> list[Runs]:
     """Return what `similar` compares of each file, the script's first."""
     files = package.modules()
     names = sorted(files, key=lambda name: name != day.script)

@@ -1,9 +1,8 @@
 """A class's grades: a student's day, everybody's, and what share of tasks passes."""
 
-import dataclasses
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from labkit.grade.result import UNGRADED, Mark, Result
 from labkit.grade.roster import Student
@@ -16,7 +15,7 @@ class Graded:
     """One student with all that the table and the page show."""
 
     student: Student  # from the roster
-    result: Result  # the grade
+    result: Result  # the grade; without its text, where a class is held
     commit: str = ""  # the hash of the last commit, or ""
     # From there to the deadline, by the student's own clock, negative past it; None
     # without a commit.
@@ -84,14 +83,6 @@ class Course:
         """How many students are in each state."""
         return Counter(graded.state for graded in self.class_)
 
-    def lean(self) -> "Course":
-        """Return it without the texts, so that a week takes the memory of a day."""
-        bare = [
-            dataclasses.replace(one, result=dataclasses.replace(one.result, text=""))
-            for one in self.class_
-        ]
-        return dataclasses.replace(self, class_=bare)
-
     def mistakes(self) -> list[tuple[Mark, list[str]]]:
         """Return the mistakes of the class, the most common first.
 
@@ -109,9 +100,7 @@ class Course:
         found = []
         for some in made.values():
             ((most, _),) = Counter(mark.id for mark, _ in some).most_common(1)
-            found.append(
-                (dataclasses.replace(some[0][0], id=most), [w for _, w in some])
-            )
+            found.append((replace(some[0][0], id=most), [who for _, who in some]))
         return sorted(found, key=lambda it: (-len(it[1]), it[0].id, it[0].mistake))
 
     def _roots(self, result: Result) -> dict[str, Mark]:

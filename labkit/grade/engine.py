@@ -25,6 +25,7 @@ from concurrent.futures import (
     wait,
 )
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from labkit.base.processes import Child, sweep
@@ -34,7 +35,7 @@ from labkit.grade.package import Package, fingerprint
 from labkit.grade.result import Result, from_json
 from labkit.grade.roster import Student
 from labkit.lesson.day import find_day
-from labkit.sandbox.wall import refusal, wall
+from labkit.sandbox.process import wall
 from robo47.errors import FaultError, Robo47Error
 from robo47.paths import ROOT
 
@@ -42,14 +43,6 @@ PER_WORKER = 2  # packages under way for each worker: one graded, one waiting
 REACHING = 10.0  # seconds for a Dask scheduler to answer
 PATIENCE = 60.0  # seconds without any worker before giving up
 SILENCE = 900.0  # seconds without any result before giving up on what is under way
-NO_DASK = (
-    "--dask needs the package distributed: python3 scripts/setup_env.py grade "
-    "(make grade does it)"
-)
-NO_CERTIFICATES = (
-    "tls:// needs Dask to know your certificates (ca-file, client cert and key); "
-    "docs/cluster.md says how"
-)
 # For one package. The sandbox stops a file after 100 s of its own, so only a machine
 # under load gets here.
 SECONDS = 240.0
@@ -103,6 +96,22 @@ class Grader(Child):
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
+def in_container() -> bool:
+    """Return whether this is a container, where root is not root outside."""
+    marks = ("/.dockerenv", "/run/.containerenv")
+    told = ("container", "KUBERNETES_SERVICE_HOST")  # systemd's and podman's; a pod's
+    return any(map(os.environ.get, told)) or any(Path(mark).exists() for mark in marks)
+
+
+def refusal() -> str:
+    """Return why other people's code should not run here; "" where it may."""
+    if wall().name == "none":  # a container may share the home, as Toolbox's does
+        return "these submissions would run with your rights"
+    if hasattr(os, "geteuid") and os.geteuid() == 0 and not in_container():
+        return "you are root, and this is no container: be an ordinary user"
+    return ""
+
+
 _idle: queue.SimpleQueue[Grader] = queue.SimpleQueue()
 
 
@@ -130,10 +139,9 @@ def grade_package(package: Package, needs_wall: bool = False) -> dict[str, Any]:
         )
     grader = None
     try:
-        try:
+        with contextlib.suppress(queue.Empty):
             grader = _idle.get_nowait()
-        except queue.Empty:
-            grader = Grader()
+        grader = grader or Grader()
         return grader.grade(package)
     except (OSError, RuntimeError, MemoryError) as error:  # RuntimeError: no thread
         raise FaultError(f"no process for it: {error}") from None
@@ -145,11 +153,9 @@ def grade_package(package: Package, needs_wall: bool = False) -> dict[str, Any]:
 @atexit.register
 def close_graders() -> None:
     """End the idle grading processes."""
-    while True:
-        try:
+    with contextlib.suppress(queue.Empty):
+        while True:
             _idle.get_nowait().close()
-        except queue.Empty:
-            return
 
 
 @dataclass(frozen=True)
@@ -193,14 +199,23 @@ def dask(address: str, trusted: bool = False) -> Iterator[Engine]:
     """
     try:
         from distributed import Client
+        from distributed.comm import parse_address, parse_host_port
         from distributed.scheduler import KilledWorker
         from distributed.security import Security
     except ImportError:
-        raise Robo47Error(NO_DASK) from None
+        raise Robo47Error(
+            "--dask needs the package distributed: python3 scripts/setup_env.py grade "
+            "(make grade does it)"
+        ) from None
     known = Security().get_connection_args("client")
     if address.startswith("tls:") and not known.get("ssl_context"):
-        raise Robo47Error(NO_CERTIFICATES)
+        raise Robo47Error(
+            "tls:// needs Dask to know your certificates (ca-file, client cert and "
+            "key); docs/cluster.md says how"
+        )
     try:
+        # first, since half a client takes 20 s to end, with a traceback
+        parse_host_port(parse_address(address)[1])
         client = Client(address, timeout=REACHING, set_as_default=False)
     except (OSError, ValueError, TypeError, RuntimeError) as error:
         why = str(error).splitlines()[0] if str(error) else type(error).__name__
@@ -243,7 +258,6 @@ def grade_all(
 def _finished(
     under_way: dict[Future[Any], tuple[Student, Package]], engine: Engine
 ) -> Iterator[tuple[Student, Package, Result | FaultError]]:
-    """Wait for results and yield them."""
     silent = time.monotonic() + SILENCE
     while not (done := wait(under_way, PATIENCE, FIRST_COMPLETED).done):
         if time.monotonic() >= silent:

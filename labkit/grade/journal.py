@@ -68,6 +68,7 @@ class Journal:
         self.odd = self.outdated = 0
         self._last: dict[str, Kept] = {}  # by folder
         self._best: dict[str, Kept] = {}
+        self._written: dict[str, Any] = {}  # the last header
         try:
             self._file = path.open("a+b")
         except OSError as error:
@@ -75,15 +76,15 @@ class Journal:
         try:
             self._lock()
             self._file.seek(0)
-            known = sum(map(self._takes, self._file)) > 0
+            for line in filter(bytes.strip, self._file):
+                self._take(line)
         except BaseException:
             self._file.close()
             raise
-        kept = self._head() if known else {}
         if deadline is not None:
             self.reference, self.deadline = deadline, True
         self.seed = self.seed if seed is None else seed
-        if kept != self._head():
+        if self._written != self._head():
             self._append(self._head())
 
     def _head(self) -> dict[str, Any]:
@@ -161,37 +162,36 @@ class Journal:
             f"{shown(self.path)} cannot be written: {error.strerror}{more}"
         )
 
-    def _takes(self, line: bytes) -> bool:
-        """Take over a line; return whether it is a header."""
-        if not line.strip():
-            return False
+    def _take(self, line: bytes) -> None:
+        """Take a line over, or count it as odd."""
         try:
-            return self._take(json.loads(line))
+            record = json.loads(line)
+            if record.get("kind") == KIND:
+                self._begin(record)
+            else:
+                self._note(record["folder"], self._kept(record))
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
             self.odd += 1
-            return False
 
-    def _take(self, record: dict[str, Any]) -> bool:
-        if record.get("kind") == KIND:
-            reference, days = record["reference"], record["days"]
-            if days != [self._day.number]:
-                of = ", ".join(str(int(day)) for day in days)
-                raise Robo47Error(
-                    f"{shown(self.path)} holds day {of}: give each day a folder of its "
-                    "own, such as --out grades-dayN/grades.csv"
-                )
-            if type(reference) is not int or not 0 <= reference < _LATEST:
-                raise ValueError(reference)
-            seed, self.deadline = int(record["seed"]), record["deadline"] is True
-            self.reference, self.seed = reference, seed
-            return True
-        if record["day"] != self._day.number:
-            raise ValueError(record["day"])
-        folder, at = record["folder"], record["committed"]
+    def _begin(self, head: dict[str, Any]) -> None:
+        reference, days = head["reference"], head["days"]
+        if days != [self._day.number]:
+            of = ", ".join(str(int(day)) for day in days)
+            raise Robo47Error(
+                f"{shown(self.path)} holds day {of}: give each day a folder of its "
+                "own, such as --out grades-dayN/grades.csv"
+            )
+        if type(reference) is not int or not 0 <= reference < _LATEST:
+            raise ValueError(reference)
+        seed, self.deadline = int(head["seed"]), head["deadline"] is True
+        self.reference, self.seed = reference, seed
+        self._written = self._head()
+
+    def _kept(self, record: dict[str, Any]) -> Kept:
         facts = (record["package"], record["kit"], record["commit"])
-        if not all(isinstance(fact, str) for fact in (folder, *facts)):
+        if not all(isinstance(fact, str) for fact in (record["folder"], *facts)):
             raise TypeError(facts)
-        if at is not None and type(at) is not int:
-            raise TypeError(at)
-        self._note(folder, Kept(*facts, at, from_json(record["result"], self._day)))
-        return False
+        at = record["committed"]
+        if record["day"] != self._day.number or type(at) not in (int, type(None)):
+            raise ValueError(record["day"], at)
+        return Kept(*facts, at, from_json(record["result"], self._day))

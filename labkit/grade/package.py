@@ -12,14 +12,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path, PurePosixPath
 
-from labkit.base.git import (
-    History,
-    before,
-    blob,
-    files_of,
-    read_history,
-    short_sha,
-)
+from labkit.base.git import History, before, blob, files_of, read_history, short_sha
 from labkit.grade.roster import Student
 from labkit.handin.deliverables import check_commit, wanted_names
 from labkit.handin.handin import (
@@ -110,10 +103,8 @@ def collect(
     """
     kit = fingerprint(day.number)
     package = Package(day.number, kit, seed=seed, version=version())
-    problem = student.problem
-    if not problem and not student.path.is_dir():
-        problem = "there is no such folder"
-    if problem:
+    gone = "" if student.path.is_dir() else "there is no such folder"
+    if problem := student.problem or gone:
         return replace(package, problem=problem)
     handin, history, late = read_in_time(day, student.path, deadline)
     day = day.named_as(lambda name: name in handin.files)

@@ -34,7 +34,7 @@ _REFUSED = "A task needs nothing but its arguments. Most of these are accidents:
 
 def render(course: Course) -> str:
     """Return the whole page."""
-    page = html.page(
+    return html.page(
         f"Day {course.day.number}: {escape(course.day.title)}",
         _about(course),
         _tiles(course),
@@ -46,7 +46,6 @@ def render(course: Course) -> str:
         _everyone(course),
         style=STYLE,
     )
-    return printable(page)
 
 
 def _about(course: Course) -> str:
@@ -79,31 +78,20 @@ def _mistakes(course: Course) -> str:
     found = course.mistakes()
     if not found:
         return ""
-    most = len(found[0][1])
-    rows = [
-        Row(
-            f"{mark.id}  {mark.mistake}",
-            count(len(who), "student"),
-            [("line", len(who))],
-            most,
-        )
-        for mark, who in found[:CHARTED]
-    ]
-    words = [
-        html.folded(
-            f"{escape(mark.id)} <b>{escape(mark.mistake)}</b>, "
-            f"{count(len(who), 'student')}",
-            f'<p class="says">{escape(mark.message)}</p>'
-            f'<p class="muted">{", ".join(map(escape, who))}</p>',
-        )
-        for mark, who in found
-    ]
+    most, rows, words = len(found[0][1]), [], []
+    for mark, who in found:
+        students, parts = count(len(who), "student"), [("line", len(who))]
+        rows.append(Row(f"{mark.id}  {mark.mistake}", students, parts, most))
+        head = f"{escape(mark.id)} <b>{escape(mark.mistake)}</b>, {students}"
+        says = f'<p class="says">{escape(mark.message)}</p>'
+        names = f'<p class="muted">{", ".join(map(escape, who))}</p>'
+        words.append(html.folded(head, says, names))
     if others := words[CHARTED:]:
         words[CHARTED:] = [html.folded("the others", *others)]
     kinds = "1 mistake" if len(found) == 1 else f"{len(found)} different mistakes"
     rest = f", the {CHARTED} most common" if others else ""
     counted = '<p class="muted">Counted where they were made, once per student</p>'
-    bars = chart(rows, "students by mistake, the most common first")
+    bars = chart(rows[:CHARTED], "students by mistake, the most common first")
     return html.section(
         "What to explain again tomorrow",
         '<div class="two">',
@@ -157,11 +145,10 @@ def _people(course: Course, state: str) -> str:
         return (*what, -(10**9 if graded.minutes is None else graded.minutes))
 
     some = sorted((g for g in course.class_ if g.state == state), key=place)
-    rows = [_person(graded, course.deadline) for graded in some]
-    return _listed(STATES[state], len(some), rows)
+    return _listed(STATES[state], len(some), list(map(_person, some)))
 
 
-def _person(graded: Graded, deadline: bool) -> str:
+def _person(graded: Graded) -> str:
     mistake = graded.result.first_mistake
     badge, says = "", graded.error
     if mistake:
@@ -171,7 +158,7 @@ def _person(graded: Graded, deadline: bool) -> str:
         says = mistake.message
     elif stop := graded.result.stopped_at:
         badge = f'<span class="badge none">{escape(stop.id)}</span>'
-    commit = f'<span class="muted">{_ago(graded.minutes, deadline)}</span>'
+    commit = f'<span class="muted">{_ago(graded)}</span>'
     return _entry(f"<b>{_name(graded)}</b>{badge}{commit}", says)
 
 
@@ -196,31 +183,26 @@ def _entry(head: str, says: str = "") -> str:
 def _name(graded: Graded) -> str:
     """Return a student's name, which leads to their feedback."""
     student = graded.student
-    name = escape(student.name)
-    if student.file:
-        address = quote(f"feedback/{student.file}.txt".encode())
-        name = f'<a href="{address}">{name}</a>'
+    address = quote(f"feedback/{student.file}.txt".encode())
+    name = f'<a href="{address}">{escape(student.name)}</a>'
     folder = visible(printable(student.folder), 120)
     if student.name == folder:
         return name
     return f'{name} <span class="muted">{escape(folder)}</span>'
 
 
-def _ago(minutes: int | None, deadline: bool) -> str:
-    if minutes is None:
+def _ago(graded: Graded) -> str:
+    if graded.minutes is None:
         return "no commit"
-    size = abs(minutes)
-    for unit, length in (("d", 1440), ("h", 60), ("min", 1)):
-        if size >= 2 * length or length == 1:
-            when = f"{size // length} {unit}"
-            break
-    side = "after" if minutes < 0 else "before"
-    moment = "the deadline" if deadline else "grading"
-    return f"last commit {when} {side} {moment}, they say"
+    size = abs(graded.minutes)
+    units = (("d", 1440), ("h", 60), ("min", 1))
+    unit, length = next((u for u in units if size >= 2 * u[1]), units[-1])
+    side = "after" if graded.minutes < 0 else "before"
+    moment = "grading" if graded.late is None else "the deadline"
+    return f"last commit {size // length} {unit} {side} {moment}, they say"
 
 
 def _alike(course: Course) -> str:
-    """Return the similar submissions, as a hint."""
     by_folder = {g.student.folder: g for g in course.class_}
     rows = []
     for group in course.alike[:MOST]:
@@ -244,11 +226,10 @@ def _refused(course: Course) -> str:
 
 
 def _everyone(course: Course) -> str:
-    """Return everyone's tasks and deliverables, a mark each."""
     first = course.class_[0].result
     names = ["tasks", *(mark.id for mark in (*first.tasks, *first.items)), "commit is"]
     head = "".join(f'<th class="mark">{escape(name)}</th>' for name in names)
-    body = (_line(graded, course.deadline) for graded in course.class_)
+    body = map(_line, course.class_)
     return html.section(
         "Everyone",
         '<p class="muted wider">The table is wider than the '
@@ -257,15 +238,15 @@ def _everyone(course: Course) -> str:
     )
 
 
-def _line(graded: Graded, deadline: bool) -> str:
-    result = graded.result
+def _line(graded: Graded) -> str:
+    result, (late, _) = graded.result, graded.late_by
     cells = [f'<td class="mark">{result.score[0]}/{len(result.tasks)}</td>']
     for mark in (*result.tasks, *result.items):
         role, sign, word = STATUS[mark.shown]
         tip = escape(f"{mark.id}: {mark.mistake or word}")
         cells.append(f'<td class="mark {role}" title="{tip}">{sign}</td>')
-    when = "–" if graded.minutes is None or not deadline else "in time"
-    if deadline and graded.minutes is not None and graded.minutes < 0:
+    when = "–" if late is None else "in time"
+    if late:
         when = '<span class="fail">late</span>'
     cells.append(f'<td class="mark">{when}</td>')
     return f"<tr><td>{_name(graded)}</td>{''.join(cells)}</tr>"

@@ -16,14 +16,8 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
-from labkit.base.git import (
-    LARGEST_GIT,
-    LARGEST_OBJECT,
-    SEEN,
-    GitError,
-    run,
-    too_much,
-)
+from labkit.base import git
+from labkit.base.git import GitError
 from labkit.base.store import replace
 from labkit.base.text import visible
 from labkit.grade.roster import Student
@@ -31,13 +25,13 @@ from labkit.grade.roster import Student
 AT_ONCE = 8
 SECONDS = 300
 OURS = ".robo47-clones.json"  # beside the clones
-_SAFE = {
-    "core.fsmonitor": "false",
-    "core.hooksPath": os.devnull,
-    "submodule.recurse": "false",
-    "http.lowSpeedLimit": "1000",
-    "http.lowSpeedTime": "30",
-}
+_SAFE = (
+    "core.fsmonitor=false",
+    f"core.hooksPath={os.devnull}",
+    "submodule.recurse=false",
+    "http.lowSpeedLimit=1000",
+    "http.lowSpeedTime=30",
+)
 # Git may write a file many times as large as it is where the commit asks for it.
 _AS_IT_IS = b"* -text -ident !filter !working-tree-encoding\n"
 _NOT_OURS = (
@@ -64,7 +58,7 @@ def pull_all(students: Sequence[Student]) -> Iterator[tuple[Student, str]]:
             mark, problem = future.result()
             if mark != ours.get(student.folder):
                 ours[student.folder] = mark
-                _write(marks, ours)
+                replace(marks, json.dumps(ours, indent=1).encode())
             yield student, problem or _move_in(student.path)
 
 
@@ -116,18 +110,14 @@ def _update(clone: Path) -> str:
     """
     problem = _git(clone, "fetch", "-q", "--force", "--no-recurse-submodules")
     (clone / ".git" / "index.lock").unlink(missing_ok=True)  # of a run that was killed
-    had, has = (_commit(clone, name) for name in ("HEAD", "FETCH_HEAD"))
+    asked = ("rev-parse", "-q", "--verify")
+    had, has = (not _git(clone, *asked, name) for name in ("HEAD", "FETCH_HEAD"))
     if not problem and not had and not has:
         return ""  # nothing was pushed yet
     kept = ("merge-base", "--is-ancestor", "HEAD", "FETCH_HEAD")
     if not problem and had and _git(clone, *kept):
-        problem = _git(clone, "update-ref", f"{SEEN}{time.time_ns()}", "HEAD")
+        problem = _git(clone, "update-ref", f"{git.SEEN}{time.time_ns()}", "HEAD")
     return problem or _take(clone, "FETCH_HEAD", "reset", "-q", "--hard", "FETCH_HEAD")
-
-
-def _commit(clone: Path, name: str) -> bool:
-    """Return whether a name stands for a commit."""
-    return not _git(clone, "rev-parse", "-q", "--verify", name)
 
 
 def _take(clone: Path, commit: str, *how: str) -> str:
@@ -136,18 +126,18 @@ def _take(clone: Path, commit: str, *how: str) -> str:
     try:
         info.mkdir(exist_ok=True)
         replace(info / "attributes", _AS_IT_IS)
-        return too_much(clone, commit) or _git(clone, *how)
+        return git.too_much(clone, commit) or _git(clone, *how)
     except (GitError, OSError) as error:
         return str(error)
 
 
 def _mark(clone: Path) -> str | None:
     """Return what tells our clone from any other: a hash of its configuration."""
-    git, config = clone / ".git", clone / ".git" / "config"
+    folder, config = clone / ".git", clone / ".git" / "config"
     try:
-        if any(path.is_symlink() for path in (git, config)) or not config.is_file():
+        if any(path.is_symlink() for path in (folder, config)) or not config.is_file():
             return None
-        if os.path.lexists(git / "commondir"):
+        if os.path.lexists(folder / "commondir"):
             return None
         return hashlib.sha256(config.read_bytes()).hexdigest()
     except OSError:
@@ -162,21 +152,17 @@ def _read(marks: Path) -> dict[str, str | None]:
         return {}
 
 
-def _write(marks: Path, ours: dict[str, str | None]) -> None:
-    replace(marks, json.dumps(ours, indent=1).encode())
-
-
 def _git(folder: Path, *arguments: str) -> str:
     """Run git; return the first line of what it complains of, or ""."""
-    settings = [word for pair in _SAFE.items() for word in ("-c", "=".join(pair))]
+    settings = [word for setting in _SAFE for word in ("-c", setting)]
     try:
-        done = run(
+        done = git.run(
             *settings,
             *arguments,
             folder=folder,
             seconds=SECONDS,
-            largest=LARGEST_GIT,
-            GIT_ALLOC_LIMIT=LARGEST_OBJECT,
+            largest=git.LARGEST_GIT,
+            GIT_ALLOC_LIMIT=git.LARGEST_OBJECT,
             GIT_LFS_SKIP_SMUDGE="1",
         )
     except GitError as error:

@@ -86,16 +86,10 @@ def from_json(data: Mapping[str, Any], day: Day) -> Result:
     Raises:
         ValueError, KeyError, TypeError: it is no result of that day.
     """
-    result = Result(
-        tuple(Mark(**mark) for mark in data["tasks"]),
-        tuple(Mark(**mark) for mark in data["items"]),
-        data["text"],
-        data["error"],
-        tuple(data["refused"]),
-        data["kit"],
-        data["seed"],
-    )
-    marks = (*result.tasks, *result.items)
+    tasks = [Mark(**mark) for mark in data["tasks"]]
+    items = [Mark(**mark) for mark in data["items"]]
+    result = Result(**{**data, "refused": tuple(data["refused"])})
+    marks = (*tasks, *items)
     if [mark.id for mark in marks] != [*counted(day), *item_names(day)]:
         raise ValueError("other tasks than the day's")
     texts = [result.text, result.error, result.kit, *result.refused]
@@ -108,8 +102,7 @@ def from_json(data: Mapping[str, Any], day: Day) -> Result:
         raise TypeError("no seed")
     if not all(mark.status in STATUSES for mark in marks):
         raise ValueError("no status")
-    tasks, items = (tuple(map(_one, some)) for some in (result.tasks, result.items))
-    return replace(result, tasks=tasks, items=items)
+    return replace(result, tasks=tuple(map(_one, tasks)), items=tuple(map(_one, items)))
 
 
 def counted(day: Day) -> Sequence[str]:

@@ -9,7 +9,7 @@ import os
 import re
 import unicodedata
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -111,15 +111,14 @@ def _student(cells: Mapping[str, str], root: Path) -> Student:
     )
     path, problem = root / folder, ""
     try:
-        is_link = path.is_symlink()
-    except (OSError, ValueError) as error:  # too long for a name, or a NUL
-        path, problem, is_link = root, f"no name of a folder here: {error}", False
-    if folder[:1] in ("", ".") or "\0" in folder or Path(folder).name != folder:
-        path, problem = root, f"{folder!r} is no name of a folder"
-    elif is_link:
-        problem = "the folder is a link, which is not followed"
-    elif url.startswith("-") or "\0" in url:
-        problem = f"{url!r} is no git URL"
+        if folder[:1] in ("", ".") or "\0" in folder or Path(folder).name != folder:
+            path, problem = root, f"{folder!r} is no name of a folder"
+        elif path.is_symlink():
+            problem = "the folder is a link, which is not followed"
+        elif url.startswith("-") or "\0" in url:
+            problem = f"{url!r} is no git URL"
+    except OSError as error:  # too long for a name
+        path, problem = root, f"no name of a folder here: {error}"
     name = cells.get("name") or cells.get("student", "")
     name = name or os.fsencode(folder).decode("utf-8", "backslashreplace")
     shows = (visible(problem), visible(id, 120), cells)
@@ -127,6 +126,20 @@ def _student(cells: Mapping[str, str], root: Path) -> Student:
 
 
 def _read_roster(path: Path, root: Path) -> list[Student]:
+    students: dict[str, Student] = {}
+    for number, cells in _rows(path):
+        folder = cells.get("folder", "")
+        if folder in students:
+            raise Robo47Error(
+                f"{shown(path)}, line {number}: folder {folder!r} is listed "
+                "twice; expected one folder per student"
+            )
+        students[folder] = _student(cells, root)
+    return list(students.values())
+
+
+def _rows(path: Path) -> Iterator[tuple[int, dict[str, str]]]:
+    """Yield the line and the cells, by column, of each row that has some."""
     try:
         text = path.read_text("utf-8-sig")
     except OSError as error:
@@ -141,23 +154,13 @@ def _read_roster(path: Path, root: Path) -> list[Student]:
     delimiter = max(",;\t", key=head.count)  # a spreadsheet writes its country's own
     rows = csv.reader(text.splitlines(), delimiter=delimiter)
     try:
-        table = [(rows.line_num, row) for row in rows]
+        columns = [name.strip().lower() for name in next(rows, [])]
+        if "folder" not in columns:
+            raise Robo47Error(f"{shown(path)} has no column folder; {_ASKED}")
+        for row in rows:
+            cells = dict(zip(columns, map(str.strip, row), strict=False))
+            if any(cells.values()):
+                yield rows.line_num, cells
     except csv.Error as error:
         says = f"{shown(path)}, line {rows.line_num}: {error}; save it as CSV anew"
         raise Robo47Error(says) from None
-    columns = [name.strip().lower() for name in table[0][1]] if table else []
-    if "folder" not in columns:
-        raise Robo47Error(f"{shown(path)} has no column folder; {_ASKED}")
-    students: dict[str, Student] = {}
-    for number, row in table[1:]:
-        cells = dict(zip(columns, map(str.strip, row), strict=False))
-        if not any(cells.values()):
-            continue
-        folder = cells.get("folder", "")
-        if folder in students:
-            raise Robo47Error(
-                f"{shown(path)}, line {number}: folder {folder!r} is listed "
-                "twice; expected one folder per student"
-            )
-        students[folder] = _student(cells, root)
-    return list(students.values())

@@ -14,6 +14,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from labkit.base import store
 from labkit.base.text import visible
 from labkit.grade.course import Course, Graded, by_student, percent
 from labkit.grade.result import Mark
@@ -118,9 +119,8 @@ def _row_of_days(numbers: Sequence[int], class_: Sequence[Graded]) -> dict[str, 
 
 
 def _who(student: Student) -> dict[str, Cell]:
-    """Return the first cells of a student's row: who it is."""
-    folder = plain(printable(student.folder))
-    return {"id": plain(student.id), "name": plain(student.name), "folder": folder}
+    who = {"id": student.id, "name": student.name, "folder": student.folder}
+    return {column: plain(text) for column, text in who.items()}
 
 
 @dataclass(frozen=True)
@@ -216,12 +216,7 @@ def write(path: Path, content: bytes) -> None:
         if path.is_file() and path.read_bytes() == content:
             return
         path.parent.mkdir(parents=True, exist_ok=True)
-        partial = path.with_name(path.name + ".new")
-        with partial.open("wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        partial.replace(path)
+        store.replace(path, content)
     except OSError as error:
         raise Robo47Error(
             f"{shown(path)} cannot be written: {error.strerror or error}. Close it "

@@ -15,6 +15,7 @@ from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from typing import TypeAlias
 
 LENGTH = 8  # tokens in a run
 FEWEST = 24  # runs of one's own: less is too little to compare
@@ -23,6 +24,7 @@ FEW = 4  # but one that so few have is kept, in a class of any size
 ALIKE = 0.6  # share of the smaller submission's runs
 KITS = 0.8  # share of one's own runs that are in the kit's; right answers have a third
 
+Runs: TypeAlias = "array[int]"  # hashes, as `runs_of` gives them
 _TOKEN = re.compile(
     r"(?P<comment>#[^\n]*)"
     r"|(?P<text>\"\"\".*?\"\"\"|'''.*?'''|\"[^\"\n]*\"|'[^'\n]*')"
@@ -43,7 +45,7 @@ class Group:
     with_kit: bool = False  # one of them is the kit's own solution, which has no key
 
 
-def runs_of(source: bytes, starter: str) -> "array[int]":
+def runs_of(source: bytes, starter: str) -> Runs:
     """Return the hashes of a script's runs of tokens, without the starter's.
 
     Args:
@@ -73,15 +75,13 @@ def tokens(text: str) -> list[str]:
     return found
 
 
-def like_the_kit(
-    runs: Mapping[str, Sequence["array[int]"]], kit: "array[int]"
-) -> list[Group]:
+def like_the_kit(runs: Mapping[str, Sequence[Runs]], kit: Runs) -> list[Group]:
     """Return whose files have what the kit's own solution has, the most alike first.
 
     However many copy it, so not by what much of the class writes.
 
     Args:
-        runs: of each of a submission's files, as `runs_of` gives them.
+        runs: of each of a submission's files.
         kit: of the solution.
     """
     solution, groups = set(kit), []
@@ -96,11 +96,11 @@ def like_the_kit(
     return sorted(groups, key=lambda g: (-g.share, g.keys))
 
 
-def similar_groups(runs: Mapping[str, "array[int]"]) -> list[Group]:
+def similar_groups(runs: Mapping[str, Runs]) -> list[Group]:
     """Return the submissions worth a look, the most similar first.
 
     Args:
-        runs: of each submission, as `runs_of` gives them.
+        runs: of each submission.
     """
     count = Counter(run for own in runs.values() for run in own)
     most = max(FEW, int(COMMON * len(runs)))

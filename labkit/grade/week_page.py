@@ -8,7 +8,6 @@ from labkit.base.text import count
 from labkit.grade.charts import STYLE as PAGE_STYLE
 from labkit.grade.charts import Row, chart, legend
 from labkit.grade.course import Course, Graded, by_student, percent
-from labkit.grade.sheet import printable
 
 ROLES = {  # colours of the states, in the order to list them
     "done": "pass",
@@ -28,56 +27,48 @@ def render(courses: Sequence[Course]) -> str:
     class_ = by_student(courses)
     done = sum(all(one.state == "done" for one in days) for days in class_)
     about = f"{count(len(class_), 'student')}; {done:,} passed every task"
+    head = "".join(f"<th class=n>{_link(course)}</th>" for course in courses)
+    rows = [
+        f"<tr><td>{escape(days[0].student.name)}</td>"
+        f"<td class=n>{percent(*days) or '?'}</td>{''.join(map(_cell, days))}</tr>"
+        for days in class_
+    ]
     everybody = html.section(
         "Everybody <small>tasks that pass, by day</small>",
         html.table(
-            "<th>name</th><th class=n>per cent</th>"
-            + "".join(f"<th class=n>{_link(course)}</th>" for course in courses),
-            map(_row, class_),
-            "card scroll all",
+            f"<th>name</th><th class=n>per cent</th>{head}", rows, "card scroll all"
         ),
     )
-    return printable(html.page(title, about, _days(courses), everybody, style=STYLE))
+    return html.page(title, about, _days(courses), everybody, style=STYLE)
 
 
 def _days(courses: Sequence[Course]) -> str:
+    bars, mistakes = [], ""
+    for course in courses:
+        counts, size = course.counts, len(course.class_)
+        parts = [(role, counts[where]) for where, role in ROLES.items()]
+        words = f"{counts['done']:,} of {size:,} done"
+        bars.append(Row(f"{course.day.number}  {course.day.title}", words, parts, size))
+        common = ", ".join(
+            f"{escape(mark.id)} <b>{escape(mark.mistake)}</b> ({len(who)})"
+            for mark, who in course.mistakes()[:MISTAKES]
+        )
+        head = f'<div class="head">{_link(course, "Day ")}</div>'
+        mistakes += f"<li>{head}<p>{common or 'none'}</p></li>"
     marks = legend((role, escape(where)) for where, role in ROLES.items())
-    bars = chart(list(map(_bar, courses)), "students by how they stand, day by day")
-    mistakes = "".join(map(_mistakes, courses))
+    about = "students by how they stand, day by day"
     return html.section(
         "The days",
         '<div class="two">',
-        html.card("How far the class is", marks, bars),
+        html.card("How far the class is", marks, chart(bars, about)),
         html.card("Which mistakes were common", f"<ul>{mistakes}</ul>"),
         "</div>",
     )
 
 
-def _bar(course: Course) -> Row:
-    counts, size = course.counts, len(course.class_)
-    parts = [(role, counts[where]) for where, role in ROLES.items()]
-    words = f"{counts['done']:,} of {size:,} done"
-    return Row(f"{course.day.number}  {course.day.title}", words, parts, size)
-
-
-def _mistakes(course: Course) -> str:
-    words = ", ".join(
-        f"{escape(mark.id)} <b>{escape(mark.mistake)}</b> ({len(who)})"
-        for mark, who in course.mistakes()[:MISTAKES]
-    )
-    head = f'<div class="head">{_link(course, "Day ")}</div>'
-    return f"<li>{head}<p>{words or 'none'}</p></li>"
-
-
 def _link(course: Course, what: str = "") -> str:
     number = course.day.number
     return f'<a href="day{number}/class.html">{what}{number}</a>'
-
-
-def _row(days: Sequence[Graded]) -> str:
-    cells = "".join(map(_cell, days))
-    name, share = escape(days[0].student.name), percent(*days) or "?"
-    return f"<tr><td>{name}</td><td class=n>{share}</td>{cells}</tr>"
 
 
 def _cell(one: Graded) -> str:

@@ -21,10 +21,8 @@ _ITEMS = {  # in the order of the checks, by what is handed in
 def item_names(day: Day) -> list[str]:
     """Return the names of a day's deliverables, in the order of the checks."""
     asked = {"definitions": day.terms or day.questions, "drawings": day.drawings}
-    there = [names for what, names in _ITEMS.items() if what in day.files]
-    return [name for names in there for name in names if asked.get(name, True)] + [
-        "commit"
-    ]
+    there = [name for what in _ITEMS if what in day.files for name in _ITEMS[what]]
+    return [*(name for name in there if asked.get(name, True)), "commit"]
 
 
 def check_deliverables(

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labkit.handin.handin import Handin, Item
-from labkit.lesson.day import Day, all_days
+from labkit.lesson.day import Day, days_of
 
 SMALLEST, LARGEST = (320, 240), 20_000_000  # pixels: width and height; in all
 DARK, FLAT = 16, 3.0  # of 255: brightest entry of a black picture; spread of a flat one
@@ -43,8 +43,8 @@ def check_figure(day: Day, handin: Handin) -> Item:
         if day.draw and PORTRAIT.encode() in data:
             says = "it shows the arm alone, and nothing that your functions do"
             raise FlawError(f"{says}. {_command(day)}")
-        week = [d for d in all_days(day.folder.parent) if d.folder == day.folder]
-        for kit in sorted({name for one in (day, *week) for name in one.kit_figures}):
+        week = (day, *days_of(day.week))
+        for kit in sorted({name for one in week for name in one.kit_figures}):
             if _is_copy(picture, day.folder / kit):
                 raise FlawError(f"it is {kit} of the kit; make one of your own")
     except FlawError as error:

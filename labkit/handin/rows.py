@@ -4,8 +4,8 @@ import io
 
 from labkit.base.text import visible
 from labkit.handin.handin import Handin, Item
-from labkit.lesson.day import Day, Metric
-from labkit.lesson.marks import mark_of, marks_of
+from labkit.lesson.day import Day
+from labkit.lesson.marks import Metric, mark_of, marks_of
 from labkit.lesson.script import borrowed_tasks
 from labkit.log.rows import Row
 from labkit.log.scan import scan_file

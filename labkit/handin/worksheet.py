@@ -13,6 +13,21 @@ DRAWN_LINES = 3  # of a drawing made of text
 FEWEST_ANSWER_WORDS = 4  # "Its own: multiply right." answers a question
 LONGEST = 2000  # characters of a line that are looked at
 
+# What to do about a definition or a drawing, by how it stands.
+_DEFINE = {
+    "empty": "Still empty: {}.",
+    "short": f"Say it in a sentence ({FEWEST_WORDS} words): {{}}.",
+    "taken": "The guide's words, not yours: {}.",
+}
+_DRAW = {
+    "missing": "Drawing {}: add ![](photo.jpg), or draw it as text, of "
+    f"{DRAWN_LINES} lines or more, between two lines of ```.",
+    "broken": "Drawing {}: its image file is not there. A picture is a file of your "
+    "own, such as ../figures/photo.jpg, and no web address.",
+    "kits": "Drawing {}: the kit's picture; draw your own.",
+}
+
+_COMMENT = re.compile(r"<!(?=--).*?-->", re.DOTALL)
 # Searched in one line, without the spaces around it: no search takes long.
 _FENCE = re.compile(r"```|~~~")
 _QUESTION = re.compile(r"\d+[.)]\s+\S")
@@ -56,14 +71,8 @@ def check_worksheet(day: Day, handin: Handin) -> list[Item]:
 
 def _without_comments(text: str) -> str:
     """Return Markdown without its comments; one that is never closed stays."""
-    kept, at = [], 0
-    while (start := text.find("<!--", at)) >= 0:
-        end = text.find("-->", start)
-        if end < 0:
-            break
-        kept.append(text[at:start])
-        at = end + 3
-    return "".join([*kept, text[at:]])
+    closed, end, rest = text.rpartition("-->")  # so no search for an end is in vain
+    return _COMMENT.sub("", closed + end) + rest
 
 
 def split_sections(text: str) -> dict[str, str]:
@@ -93,7 +102,10 @@ def split_sections(text: str) -> dict[str, str]:
 
 def _in_words(sections: dict[str, str], day: Day, guide: str, where: str) -> Item:
     """Check what is written: the definitions, the answers, and then the predictions."""
-    item = _definitions(sections, day.terms, guide, where)
+    given = _shingles(_words(guide))
+    texts = {term: sections.get(term.lower(), "") for term in day.terms}
+    states = {term: _definition(text, given) for term, text in texts.items()}
+    item = _item("definitions", states, _DEFINE, where)
     open_ones = _unanswered(sections.get("can you explain?", ""), day.questions)
     blank = _blank_cells(sections.get("predictions", ""))
     if not item.passed or not (open_ones or blank):
@@ -135,63 +147,44 @@ def _unanswered(section: str, number: int) -> list[int]:
     return [i for i, done in enumerate(answered[:number], start=1) if not done]
 
 
-def _definitions(
-    sections: dict[str, str], terms: tuple[str, ...], guide: str, where: str
-) -> Item:
-    """Check that each term is defined, in a sentence, and not in the guide's words."""
-    given = _shingles(_words(guide))
-    empty, short, taken = [], [], []
-    for term in terms:
-        lines = sections.get(term.lower(), "").splitlines()
-        written = (ln for ln in lines if not _PROMPT.fullmatch(ln.strip()))
-        words = _words(" ".join(written))
-        own = _shingles(words)
-        if not words:
-            empty.append(term)
-        elif len(words) < FEWEST_WORDS or len(set(words)) < FEWEST_DIFFERENT:
-            short.append(term)
-        elif own and len(own & given) > TAKEN_OVER * len(own):
-            taken.append(term)
-    if not (empty or short or taken):
-        return Item("definitions")
-    done = len(terms) - len(empty) - len(short) - len(taken)
-    says = [f"{done} of {len(terms)} in {where}."]
-    if empty:
-        says.append(f"Still empty: {', '.join(empty)}.")
-    if short:
-        says.append(f"Say it in a sentence ({FEWEST_WORDS} words): {', '.join(short)}.")
-    if taken:
-        says.append(f"The guide's words, not yours: {', '.join(taken)}.")
-    status = "todo" if len(empty) == len(terms) else "wrong"
-    return Item("definitions", status, " ".join(says))
+def _definition(text: str, given: set[tuple[str, ...]]) -> str:
+    """Return how a definition stands: in a sentence, and not in the guide's words."""
+    written = (ln for ln in text.splitlines() if not _PROMPT.fullmatch(ln.strip()))
+    words = _words(" ".join(written))
+    own = _shingles(words)
+    if not words:
+        return "empty"
+    if len(words) < FEWEST_WORDS or len(set(words)) < FEWEST_DIFFERENT:
+        return "short"
+    return "taken" if own and len(own & given) > TAKEN_OVER * len(own) else "done"
 
 
 def _drawings(sections: dict[str, str], day: Day, handin: Handin, where: str) -> Item:
     """Check that each drawing is an image of the student's, or drawn as text."""
-    number = day.drawings
-    states: dict[str, list[str]] = {"missing": [], "broken": [], "kits": [], "done": []}
-    for index in map(str, range(1, number + 1)):
+    states = {}
+    for index in map(str, range(1, day.drawings + 1)):
         start = rf"drawing {index}\b"  # "Drawing 1: the hand's frame"
         named = (body for name, body in sections.items() if re.match(start, name))
-        states[_drawing(next(named, ""), handin, where)].append(index)
-    missing, broken, kits, done = states.values()
-    if len(done) == number:
-        return Item("drawings")
-    says = [f"{len(done)} of {number} in {where}."]
-    if missing:
-        says.append(
-            f"Drawing {', '.join(missing)}: add ![](photo.jpg), or draw it as text, "
-            f"of {DRAWN_LINES} lines or more, between two lines of ```."
-        )
-    if broken:
-        says.append(
-            f"Drawing {', '.join(broken)}: its image file is not there. A picture is "
-            "a file of your own, such as ../figures/photo.jpg, and no web address."
-        )
-    if kits:
-        says.append(f"Drawing {', '.join(kits)}: the kit's picture; draw your own.")
-    status = "todo" if len(missing) == number else "wrong"
-    return Item("drawings", status, " ".join(says))
+        states[index] = _drawing(next(named, ""), handin, where)
+    return _item("drawings", states, _DRAW, where)
+
+
+def _item(name: str, states: dict[str, str], says: dict[str, str], where: str) -> Item:
+    """Return how a deliverable stands by the states of its parts: "done", or in `says`.
+
+    The first state there is that of a part nobody has begun.
+    """
+    found = list(states.values())
+    done = found.count("done")
+    if done == len(found):
+        return Item(name)
+    told = [f"{done} of {len(found)} in {where}."]
+    for state, to_do in says.items():
+        if state in found:
+            parts = ", ".join(part for part, its in states.items() if its == state)
+            told.append(to_do.format(parts))
+    begun = set(found) != {next(iter(says))}
+    return Item(name, "wrong" if begun else "todo", " ".join(told))
 
 
 def _drawing(text: str, handin: Handin, where: str) -> str:

@@ -1,11 +1,11 @@
 """The judge: from a student's answers to the mistake that was made.
 
     row         a day's file on one function: inputs, right answer, mistakes
-    ask         a function's row: inputs, truth, kind of answer, mistakes; its questions
+    ask         a row: inputs, truth, kind of answer, mistakes; its questions,
+                and what their inputs are drawn from
     kinds       what kind of thing an answer is, which decides the words
                 (matrix_kinds: Jacobians, covariances; other_kinds: twists, points,
                 counts, yes or no, paths, pixels, images)
-    draw        inputs for questions
     problems    did an answer come back, of the right shape and type? If not, the words;
                 the call that failed
     answers     made by a function; how far two sets of them are apart; in words
@@ -21,7 +21,7 @@ The student's code is never run here, and nothing it computed is used as the tru
 What is special about a day stands in the day's own folder.
 """
 
-from labkit.judge.ask import Ask, Case, HeldOut, Robot, Slip
+from labkit.judge.ask import Ask, Case, Draw, HeldOut, Robot, Slip, rounded
 from labkit.judge.kinds import Pose, Rotation, Scalar, Vector
 from labkit.judge.matrix_kinds import Covariance, Jacobian, Matrix, Symmetric
 from labkit.judge.mistake import Finding, Mistake, Verdict

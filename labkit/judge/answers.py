@@ -74,14 +74,6 @@ def as_one(some: Sequence[ArrayLike]) -> Array:
     return whole
 
 
-def as_one_size(a: Array, b: Array) -> tuple[Array, Array]:
-    """Return two arrays (n, ...) with the smaller one filled up with zeros."""
-    if a.shape == b.shape:
-        return a, b
-    both = as_one([a, b])
-    return both[0], both[1]
-
-
 def parts(answers: Any) -> Parts:
     """Return answers as a tuple of parts, also where there is one."""
     some = answers if isinstance(answers, tuple) else (answers,)
@@ -95,8 +87,8 @@ def plain(some: Parts) -> Any:
 
 def gaps(kinds: Sequence[Any], S: Parts, T: Parts) -> Array:
     """Return per call the largest difference of an entry, in units of its scale."""
-    trios = zip(S, T, kinds, strict=True)
-    each = [difference(*as_one_size(s, t), kind.scale) for s, t, kind in trios]
+    pairs = zip(map(as_one, zip(S, T, strict=True)), kinds, strict=True)
+    each = [difference(s, t, kind.scale) for (s, t), kind in pairs]
     return np.max(each, axis=0)
 
 
@@ -240,35 +232,21 @@ def degrees(R_a: Array, R_b: Array) -> Array:
     return np.rad2deg(np.arctan2(sine, cosine))
 
 
-def say_mm(mm: float) -> str:
-    """Return a length in words; "0" for what rounding leaves."""
+def say_mm(mm: Array) -> str:
+    """Return the largest of lengths in words; "0" for what rounding leaves."""
     return _say(mm, "mm", 1e-2)
 
 
-def say_degrees(deg: float) -> str:
-    """Return an angle in words; "0" for what rounding leaves."""
+def say_degrees(deg: Array) -> str:
+    """Return the largest of angles in words; "0" for what rounding leaves."""
     return _say(deg, "deg", 1e-3)
 
 
-def _say(value: float, unit: str, least: float) -> str:
-    if value < least:
+def _say(values: Array, unit: str, least: float) -> str:
+    if (value := np.max(values)) < least:
         return "0"
     digits = 0 if value >= 200 else 1 if value >= 10 else 2
     return f"{value:.{digits}f} {unit}"
-
-
-def say_value(value: float, unit: str, scale: float, entry: str) -> str:
-    """Return a number with its unit; "0" for what rounding leaves.
-
-    Args:
-        value: not negative.
-        unit: "" for none.
-        scale: what such a number is like.
-        entry: what to add where it is one entry of many.
-    """
-    if value < MATCHES * scale:
-        return "0"
-    return f"{value:.3g}{f' {unit}' if unit else ''}{entry}"
 
 
 def say_factor(factor: float) -> str:
@@ -280,9 +258,9 @@ def say_factor(factor: float) -> str:
     return f"{factor:.4g}"
 
 
-def say_range(values: Array, say: Callable[[float], str]) -> str:
+def say_range(values: Array, say: Callable[[Array], str]) -> str:
     """Return the least and the largest of values in words, once if they are alike."""
-    least, most = say(float(values.min())), say(float(values.max()))
+    least, most = say(values.min()), say(values)
     return most if least == most else f"{least} to {most}"
 
 
@@ -297,11 +275,9 @@ def capitalised(clause: str) -> str:
 
 def typed(question: Question, names: Sequence[str] = ()) -> str:
     """Return a call as a student can type it; what is too long goes by its name."""
-    named = len(names) == len(question.args)
-    words = [
-        _value(arg) or (names[i] if named else "...")
-        for i, arg in enumerate(question.args)
-    ]
+    args = question.args
+    others = names if len(names) == len(args) else ["..."] * len(args)
+    words = [_value(arg) or name for arg, name in zip(args, others, strict=True)]
     return f"{question.function}({', '.join(words)})"
 
 

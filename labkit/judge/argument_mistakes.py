@@ -5,22 +5,20 @@ A day's file picks those that make a difference, or gives them a name of its own
     row.of_argument("q", DEGREES, REVERSED.called("joints-in-reverse"))
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
 import numpy as np
 
+from labkit.judge.mistake import Mistake
+
 
 @dataclass(frozen=True)
-class Change:
-    """A mistake with one argument; in its texts {name} is the argument's."""
+class Change(Mistake):
+    """A mistake with one argument, which `redo` takes; {name} in its texts is its."""
 
-    slug: str
-    says: str  # as in a `Mistake`
-    change: Callable[[Any], Any]  # from the argument to what is used in its place
-    redone: str = "the right one with that {name}"  # as in a `Mistake`
+    redone: str = "the right one with that {name}"
     hidden: str = ""  # why the lab cannot show it, "" where it can
 
     def called(self, slug: str) -> "Change":
@@ -28,19 +26,11 @@ class Change:
         return replace(self, slug=slug)
 
 
-def _only(some: slice) -> Callable[[Any], Any]:
-    """Return what keeps some entries and makes the others 0."""
-
-    def change(x: Any) -> Any:
-        kept = np.zeros_like(x)
-        kept[some] = x[some]
-        return kept
-
-    return change
-
-
-def _if_over(small: float, x: Any) -> Any:
-    return x * (abs(x) >= small)
+def _only(some: slice, x: Any) -> Any:
+    """Return x with some entries kept and 0 for the others."""
+    kept = np.zeros_like(x)
+    kept[some] = x[some]
+    return kept
 
 
 # Angles.
@@ -80,7 +70,7 @@ SMALL_LEFT_OUT = tuple(  # any bound between two angles that are asked does it
         "small-angle-ignored",
         "a small {name} is taken for 0; the formula is exact for small ones too, and "
         "needs no case of its own",
-        partial(_if_over, small),
+        lambda x, small=small: x * (abs(x) >= small),
         hidden="the lab draws hardly any angle so small",
     )
     for small in (1e-3, 1e-2)
@@ -137,22 +127,22 @@ OF_ALL_JOINTS = (
     Change(
         "last-joint-missing",
         "the last joint does not count: the loop ends one too early",
-        _only(slice(-1)),
+        partial(_only, slice(-1)),
     ),
     Change(
         "first-joint-missing",
         "the first joint does not count: the loop starts one too late",
-        _only(slice(1, None)),
+        partial(_only, slice(1, None)),
     ),
     Change(
         "first-joint-only",
         "only the first joint counts (does return stand inside the loop?)",
-        _only(slice(1)),
+        partial(_only, slice(1)),
     ),
     Change(
         "last-joint-only",
         "only the last joint counts: what the others do is overwritten",
-        _only(slice(-1, None)),
+        partial(_only, slice(-1, None)),
     ),
     *ONE_OFF,
 )

@@ -1,12 +1,12 @@
 """A function's row (inputs, truth, kind, mistakes) and the questions made of it.
 
 A day's function files make them (`labkit.judge.row`), one row per
-function of the manifest.
+function of the manifest. Inputs are drawn from a `Draw`, or from `Edges`.
 """
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import chain
 from pathlib import Path as File
 from typing import Any
@@ -16,18 +16,78 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Path, Question, Reply
 from labkit.judge.answers import Parts, parts
-from labkit.judge.draw import Edges
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
-from robo47 import panda
+from robo47 import panda, se3, verify
+from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
-Inputs = Callable[[np.random.Generator], Iterable[tuple[Any, ...]]]
+Inputs = Callable[["Draw"], Iterable[tuple[Any, ...]]]
+DECIMALS = 3
 SEED = 47  # of the questions that are the same at every check
 # How many inputs are drawn anew, and as many edge values: a rare bug is found sooner.
 FRESH, CHEAP_FRESH, CHEAP = 8, 32, 16  # few numbers cost little
 KNOWN = 20  # right answers of a function's that are kept: a class is asked the same
+
+
+def rounded(values: Array) -> Array:
+    """Return numbers with as many decimals as a person would type."""
+    return np.round(values, DECIMALS) + 0.0
+
+
+@cache
+def _arm() -> mujoco.MjModel:
+    return panda.load("panda_nohand")
+
+
+class Draw(np.random.Generator):
+    """A seeded generator of inputs, rounded: a student can read and type them."""
+
+    def __init__(self, seed: int | Sequence[int]) -> None:
+        """Take the seed; the numbers are those of `np.random.default_rng(seed)`."""
+        super().__init__(np.random.PCG64(seed))
+
+    def numbers(self, low: float, high: float, *shape: int) -> Array:
+        """Return uniform numbers, (*shape,)."""
+        return rounded(self.uniform(low, high, shape))
+
+    def units(self, n: int) -> Array:
+        """Return unit vectors, (n, 3), not rounded: they would not be unit then."""
+        v = self.normal(size=(n, 3))
+        return v / np.linalg.norm(v, axis=1, keepdims=True)
+
+    def rotations(self, n: int) -> Array:
+        """Return random rotations, (n, 3, 3), not rounded."""
+        return se3.quat_to_R(self.normal(size=(n, 4)))
+
+    def poses(self, n: int, reach: float = 1.0) -> Array:
+        """Return random poses, (n, 4, 4), each axis up to `reach` metres away."""
+        return se3.make_T(self.rotations(n), self.numbers(-reach, reach, n, 3))
+
+    def configurations(self, n: int) -> Array:
+        """Return joint angles of the Panda within its limits, (n, 7)."""
+        return rounded(verify.random_q(_arm(), n, int(self.integers(2**31))))
+
+
+class Edges(Draw):
+    """Values at which a function's branches part: ends, middles, whole axes."""
+
+    def uniform(self, low=0.0, high=1.0, size=None):
+        """Return for each number one of the ends or the middle of its range."""
+        part = self.choice([0.0, 0.5, 1.0], size)
+        return low + (np.asarray(high) - low) * part
+
+    def normal(self, loc=0.0, scale=1.0, size=None):
+        """Return rows of 0, 1 and -1, none of zeros alone."""
+        found = np.atleast_1d(self.choice([0.0, 1.0, -1.0], size))
+        found[..., 0] += ~found.any(axis=-1)
+        return loc + scale * found
+
+    def configurations(self, n: int) -> Array:
+        """Return joint angles at the ends and middles of their ranges, (n, 7)."""
+        low, high = _arm().jnt_range[:7].T
+        return rounded(self.uniform(low, high, (n, 7)))
 
 
 @dataclass(frozen=True)
@@ -108,7 +168,7 @@ class Ask:
 
     # From a seeded generator to the arguments of every call: the case of the docstring
     # first, drawn ones last. What is random is an argument: noise is drawn here. Round
-    # what is drawn (`draw.rounded`), so that a student can type it. Arrays of bools and
+    # what is drawn (`rounded`), so that a student can type it. Arrays of bools and
     # of whole numbers stay what they are.
     inputs: Inputs
     # Of the answer; a tuple of kinds where the function returns a tuple.
@@ -161,12 +221,12 @@ class Ask:
     @cached_property
     def main(self) -> list[tuple[Any, ...]]:
         """The calls that are the same at every check."""
-        return [tuple(call) for call in self.inputs(np.random.default_rng(SEED))]
+        return [tuple(call) for call in self.inputs(Draw(SEED))]
 
     @cached_property
     def drawn(self) -> int:
         """How many inputs are drawn: from the first on that two draws do not share."""
-        others = self.inputs(np.random.default_rng(SEED + 1))
+        others = self.inputs(Draw(SEED + 1))
         pairs = zip(self.main, others, strict=False)
         alike = [all(map(np.array_equal, *pair)) for pair in pairs]
         return len(alike) - [*alike, False].index(False)
@@ -178,14 +238,12 @@ class Ask:
         found = {repr(call): call for call in calls}
         return [c for c in found.values() if not self.at_edge or self.at_edge(*c)]
 
-    def anew(
-        self, seed: int, kind: type[np.random.Generator] = np.random.Generator
-    ) -> list[tuple[Any, ...]]:
+    def anew(self, seed: int, kind: type[Draw] = Draw) -> list[tuple[Any, ...]]:
         """Return calls drawn anew, by as many generators as that takes."""
         cheap = sum(map(np.size, self.main[-1])) <= CHEAP
         most = 2 if not self.truth else CHEAP_FRESH if cheap else FRESH
         draws = range(-(-most // self.drawn) if self.drawn else 0)
-        generators = [kind(np.random.PCG64([seed, i])) for i in draws]
+        generators = [kind([seed, i]) for i in draws]
         calls = [[*self.inputs(rng)][-self.drawn :] for rng in generators]
         return list(map(tuple, chain(*calls)))[-most:]
 
@@ -230,7 +288,7 @@ def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
     if (key := (task, function, seed)) not in ask.known:
         ask.known.clear()
         more = [ask.probe or (lambda rng: []), *(held.inputs for held in ask.held_out)]
-        further = [draw(np.random.default_rng(SEED)) for draw in more]
+        further = [draw(Draw(SEED)) for draw in more]
         ask.known[key] = [
             [Question(task, function, tuple(args)) for args in calls]
             for calls in (ask.main, [*ask.edges, *ask.anew(seed)], *further)

@@ -8,6 +8,7 @@ that multiplies along an arm can use it: link and joint factors, or exponentials
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import reduce
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -108,13 +109,8 @@ def first_wrong(
 
 def _in_place_of(S: Array, factors: Sequence[Factor]) -> Iterable[tuple[Factor, Array]]:
     """Yield per factor what the student has in its place, (n, 4, 4)."""
-    n = len(S)
-    before = [np.broadcast_to(np.eye(4), (n, 4, 4))]
-    for factor in factors:
-        before.append(before[-1] @ factor.T)
-    after = [np.broadcast_to(np.eye(4), (n, 4, 4))]
-    for factor in reversed(factors):
-        after.append(factor.T @ after[-1])
-    for i, factor in enumerate(factors):
-        rest = after[len(factors) - 1 - i]
-        yield factor, rigid_inverse(before[i]) @ S @ rigid_inverse(rest)
+    Ts, none = [factor.T for factor in factors], np.broadcast_to(np.eye(4), S.shape)
+    before = accumulate(Ts, initial=none, func=np.matmul)
+    after = accumulate(Ts[:0:-1], initial=none, func=lambda rest, T: T @ rest)
+    for factor, A, B in zip(factors, before, [*after][::-1], strict=False):
+        yield factor, rigid_inverse(A) @ S @ rigid_inverse(B)

@@ -5,6 +5,7 @@ Each `redo` takes the right answer: any, R, (n, 3, 3), or T, (n, 4, 4).
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,11 +17,7 @@ from robo47.checks import Array
 Change = Callable[[Array], Any]
 
 
-def _same(part: Array) -> Array:
-    return part
-
-
-def _parts(R: Change = _same, t: Change = _same) -> Change:
+def _parts(R: Change = np.asarray, t: Change = np.asarray) -> Change:
     """Return the change that a pose undergoes when its parts do."""
     return lambda T: pose(R(split(T)[0]), t(split(T)[1]))
 
@@ -29,25 +26,15 @@ def _mirrored(R: Array) -> Array:
     return R * [1.0, 1.0, -1.0]
 
 
-def _unturned(R: Array) -> Array:
-    return np.broadcast_to(np.eye(3), R.shape)
-
-
 def _in_last_row(T: Array) -> Array:
     out = _parts(t=np.zeros_like)(T)
     out[..., 3, :3] = T[..., :3, 3]
     return out
 
 
-def _corner_zero(T: Array) -> Array:
+def _below(T: Array, row: float) -> Array:
     out = T.copy()
-    out[..., 3, 3] = 0.0
-    return out
-
-
-def _ones_below(T: Array) -> Array:
-    out = T.copy()
-    out[..., 3, :] = 1.0
+    out[..., 3, :] = row
     return out
 
 
@@ -120,7 +107,8 @@ OF_A_ROTATION = [
     ),
     *general("whole-numbers"),
 ]
-_OF_A_POSE = """
+_OF_A_POSE = _mistakes(
+    """
     R-transposed: all is right except that R is transposed: T[:3, :3] {wrong_way} => the
       right one with R transposed
     inverse-returned: this is the inverse of what was asked for: it {wrong_way} => its
@@ -142,7 +130,21 @@ _OF_A_POSE = """
       the right one with that axis reversed
     millimetres: the rotation is right, but the translation is in millimetres => the
       right one in millimetres
-    """
+    """,
+    {
+        "R-transposed": _parts(R=np.matrix_transpose),
+        "inverse-returned": rigid_inverse,
+        "T-transposed": np.matrix_transpose,
+        "t-in-last-row": _in_last_row,
+        "corner-zero": partial(_below, row=0.0),
+        "ones-below": partial(_below, row=1.0),
+        "t-lost": _parts(t=np.zeros_like),
+        "R-lost": _parts(R=lambda R: np.broadcast_to(np.eye(3), R.shape)),
+        "t-negated": _parts(t=np.negative),
+        "left-handed": _parts(R=_mirrored),
+        "millimetres": _parts(t=lambda t: 1000.0 * t),
+    },
+)
 
 
 def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
@@ -151,18 +153,5 @@ def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
     Args:
         wrong_way: what its R does when transposed: "maps the world to the hand".
     """
-    redo: dict[str, Change] = {
-        "R-transposed": _parts(R=np.matrix_transpose),
-        "inverse-returned": rigid_inverse,
-        "T-transposed": np.matrix_transpose,
-        "t-in-last-row": _in_last_row,
-        "corner-zero": _corner_zero,
-        "ones-below": _ones_below,
-        "t-lost": _parts(t=np.zeros_like),
-        "R-lost": _parts(R=_unturned),
-        "t-negated": _parts(t=np.negative),
-        "left-handed": _parts(R=_mirrored),
-        "millimetres": _parts(t=lambda t: 1000.0 * t),
-    }
-    mistakes = _mistakes(_OF_A_POSE.format(wrong_way=wrong_way), redo)
-    return [*mistakes, *general("whole-numbers")]
+    said = [replace(m, says=m.says.format(wrong_way=wrong_way)) for m in _OF_A_POSE]
+    return [*said, *general("whole-numbers")]

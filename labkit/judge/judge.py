@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import compress
 from typing import Any
 
 import numpy as np
@@ -44,26 +45,22 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
     Raises:
         ValueError: a question has no reply.
     """
-    verdict = _judge(asked, source, names)
-    if verdict.status == "passed" or verdict.mistake in NO_CALL:
-        return verdict
-    found = failing_call(asked, names)
-    measured = verdict.measured + found.whole
-    return replace(verdict, call=found.says, measured=measured)
+    with np.errstate(all="ignore"):  # whatever the student's numbers lead to
+        verdict = _judge(asked, source, names)
+        if verdict.status == "passed" or verdict.mistake in NO_CALL:
+            return verdict
+        call, whole = failing_call(asked, names)
+        return replace(verdict, call=call, measured=verdict.measured + whole)
 
 
 def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
     S = problems.read(replies(asked.main), asked.ask, source)
     if isinstance(S, Finding):
         return Verdict("wrong", *_beside(S, asked, names))
-    if size := problems.of_another_size(asked):
-        return Verdict("wrong", *size)
-    if state := problems.kept_state(asked, source):
-        return Verdict("wrong", *state)
-    with np.errstate(all="ignore"):  # whatever the student's numbers lead to
-        if asked.ask.accept:
-            return _judge_accepted(asked, S, names)
-        return _judge_values(asked, S, names)
+    if found := problems.of_another_size(asked) or problems.kept_state(asked, source):
+        return Verdict("wrong", *found)
+    judge_these = _judge_accepted if asked.ask.accept else _judge_values
+    return judge_these(asked, S, names)
 
 
 def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
@@ -86,13 +83,12 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
 def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     """Return why some answers cannot be judged, and what is wrong with the others."""
     good = [e for e in asked.main if e.reply and e.reply.value is not None]
-    rest = replace(asked, main=good, probes=[])
     S = problems.read(replies(good), asked.ask, "") if good else found
-    if isinstance(S, Finding) or asked.ask.accept or len(good) == len(asked.main):
+    if isinstance(S, Finding) or asked.ask.accept:
         return found
-    with np.errstate(all="ignore"):
-        T = right_answers(asked.ask, good)
-        return _both(found, _case(rest, S, T, names), S, T)
+    T = right_answers(asked.ask, good)
+    rest = replace(asked, main=good, probes=[])
+    return _both(found, _case(rest, S, T, names), S, T)
 
 
 def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
@@ -202,10 +198,9 @@ def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
 def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return the first of: a named mistake, an answer that is none, one place."""
     ask = case.ask
-    if found := redone(ask, case.arguments, S, T) or _nothing_there(ask, S):
+    found = redone(ask, case.arguments, S, T) or _nothing_there(ask, S)
+    if found := found or _not_finite(case, S, T):
         return found
-    if found := _not_finite(S, case.given):
-        return _and_the_finite(found, case, S, T)
     i = worst_part(ask.kinds, S, T, ask.near)
     kind = ask.kinds[i]
     if found := _all_the_same(kind, S[i], T[i]) or near_miss.rounded(S[i], T[i]):
@@ -216,16 +211,20 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
         return None
 
 
-def _and_the_finite(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
+def _not_finite(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return that some answers are NaN, and what is wrong with the others."""
     good = np.all([np.isfinite(s).reshape(len(s), -1).all(axis=1) for s in S], axis=0)
-    S, T = tuple(s[good] for s in S), tuple(t[good] for t in T)
+    if good.all():
+        return None
+    says = f"NaN or infinity comes out for {np.sum(~good)} of {len(good)} inputs"
+    found = Finding("not-finite", f"{says}{_first(~good, case.given, 'first for')}.")
     if not good.any():
         return found
+    S, T = tuple(s[good] for s in S), tuple(t[good] for t in T)
     arguments = tuple(
         a[good] if isinstance(a, np.ndarray) else a for a in case.arguments
     )
-    given = [one for one, is_good in zip(case.given, good, strict=True) if is_good]
+    given = list(compress(case.given, good))
     rest = replace(case, arguments=arguments, S=plain(S), T=plain(T), given=given)
     return _both(found, rest, S, T)
 
@@ -302,13 +301,10 @@ def redone(
     if T is None:
         return None
     for i, kind in enumerate(ask.kinds):
-        right = [part for j, part in enumerate(T) if j != i]
-        others = [part for j, part in enumerate(S) if j != i]
-        if not all(matches(s, t) for s, t in zip(others, right, strict=True)):
+        if not all(matches(S[j], T[j]) for j in range(len(T)) if j != i):
             continue
         mine, its = (S[i],), (T[i],)
-        found = _named(kind.general(), its, [kind], mine, its, ask.near)
-        if found:
+        if found := _named(kind.general(), its, [kind], mine, its, ask.near):
             called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
             return Finding(found.slug, called + found.message)
     return None
@@ -324,28 +320,17 @@ def _nothing_there(ask: Ask, S: Parts) -> Finding | None:
     )
 
 
-def _not_finite(S: Parts, given: Sequence[str]) -> Finding | None:
-    finite = [np.isfinite(part).reshape(len(part), -1).all(axis=1) for part in S]
-    bad = ~np.all(finite, axis=0)
-    if not bad.any():
-        return None
-    says = f"NaN or infinity comes out for {bad.sum()} of {len(bad)} inputs"
-    return Finding("not-finite", f"{says}{_first(bad, given, 'first for')}.")
-
-
 def _all_the_same(kind: Any, S: Array, T: Array) -> Finding | None:
     """Return that the answer does not depend on the input, though it should."""
-    if len(S) < 2 or difference(S, np.broadcast_to(S[0], S.shape)).max() > 1e-8:
+    if len(S) < 2 or difference(S, S[0]).max() > 1e-8:
         return None
     off = f"(Off by up to {kind.apart(S, T)}.)"
     square = S.ndim == 3 and S.shape[1] == S.shape[2]
     if square and np.array_equal(S[0], np.eye(S.shape[1])):
         says = f"It returns the identity, whatever it is given. {off}"
         return Finding("always-the-identity", says)
-    says = (
-        f"The answer is the same, whatever the input: it does not depend on it. {off}"
-    )
-    return Finding("ignores-its-input", says)
+    says = "The answer is the same, whatever the input: it does not depend on it."
+    return Finding("ignores-its-input", f"{says} {off}")
 
 
 def _where(kind: Any, S: Array, T: Array, given: Sequence[str], near: float) -> str:

@@ -5,13 +5,14 @@ module has numbers, vectors, rotations and poses; the others have all else. Arra
 answers are stacked, (n, *shape); S is the student's, T the right one.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from labkit.judge.answers import (
+    MATCHES,
     RIGID,
     degrees,
     difference,
@@ -23,7 +24,6 @@ from labkit.judge.answers import (
     say_factor,
     say_mm,
     say_range,
-    say_value,
 )
 from labkit.judge.finished import OF_A_ROTATION, general, of_a_pose
 from labkit.judge.matrices import split
@@ -46,6 +46,10 @@ class Kind:
     # What it is in a sentence, "the torque"; used where a tuple has several.
     called: str = ""
     empty = True  # whether an answer that is all 0 looks like one that was never filled
+    # Mistakes made with a finished answer, by their names in `finished`.
+    usual: ClassVar[tuple[str, ...]] = ("all-signs", "whole-numbers")
+    # What wrong shapes come from; where none is known, an axis too many is told.
+    misfits: ClassVar[Mapping[tuple[int, ...], str]] = {}
 
     @property
     def expected(self) -> str:
@@ -77,11 +81,12 @@ class Kind:
         return found
 
     def _misfit(self, got: tuple[int, ...]) -> Finding:
-        text = f"It returns shape {got}; expected is {self.expected}"
-        if None not in self.shape and str(self.shape) not in text.partition(";")[2]:
-            text += f", shape {self.shape}"
-        reason = self.why_shape(got)
-        return Finding("shape", f"{text}{f': {reason}' if reason else ''}.")
+        expected = self.expected
+        if None not in self.shape and str(self.shape) not in expected:
+            expected += f", shape {self.shape}"
+        if reason := self.why_shape(got):
+            expected += f": {reason}"
+        return Finding("shape", f"It returns shape {got}; expected is {expected}.")
 
     def plain(self, answer: Array) -> Array:
         """Return an answer without differences that make none."""
@@ -89,20 +94,23 @@ class Kind:
 
     def why_shape(self, got: tuple[int, ...]) -> str:
         """Return what a wrong shape is likely to come from, or ""."""
-        thicker = got in ((*self.shape, 1), (1, *self.shape))
-        return "it has one axis too many" if thicker else ""
+        thicker = got in ((*self.shape, 1), (1, *self.shape)) and not self.misfits
+        return "it has one axis too many" if thicker else self.misfits.get(got, "")
 
     def general(self) -> Sequence[Mistake]:
         """Return mistakes made with a finished answer of this kind."""
-        return general("all-signs", "whole-numbers")
+        return general(*self.usual)
 
     def apart(self, S: Array, T: Array) -> str:
         """Return how far S is from T at worst, in words; "0" for rounding."""
         off = gap(S, T)
         scale = np.broadcast_to(self.scale, off.shape)
         at = np.unravel_index(np.argmax(off / scale), off.shape)
+        if off[at] < MATCHES * scale[at]:
+            return "0"
+        unit = f" {self.unit}" if self.unit else ""
         entry = " in one entry" if self.shape else ""
-        return say_value(float(off[at]), self.unit, float(scale[at]), entry)
+        return f"{off[at]:.3g}{unit}{entry}"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
         """Return the most useful true thing about answers that no mistake gives."""
@@ -144,15 +152,13 @@ class Vector(Kind):
         off = np.abs(S - T).max(axis=0) > NEAR * self.scale
         if not 0 < off.sum() <= max(1, len(off) // 3):
             return None
-        where = " and ".join(self.name(int(i)) for i in np.flatnonzero(off))
+        counted = [f"[{i}], counted from 0" for i in range(len(off))]
+        names = [f"{name}'s" for name in self.names] or counted
+        where = " and ".join(names[i] for i in np.flatnonzero(off))
         return Finding(
             "few-entries-off",
             f"All entries are right but {where}: up to {self.apart(S, T)} off.",
         )
-
-    def name(self, i: int) -> str:
-        """Return what entry i is called."""
-        return f"{self.names[i]}'s" if self.names else f"[{i}], counted from 0"
 
 
 def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:
@@ -186,19 +192,17 @@ def few_entries(
     rows, columns = np.nonzero(apart.max(axis=0) > NEAR * kind.scale)
     if not len(rows):
         return None
-    one_row, one_column = len(set(rows)) == 1, len(set(columns)) == 1
-    last = (one_column and columns[0] == ignored) or (one_row and rows[0] == ignored)
-    if last and len(rows) > 1:
+    sides = {"row": rows, "column": columns}
+    one = {side: at[0] for side, at in sides.items() if len(set(at)) == 1}
+    if ignored in one.values() and len(rows) > 1:
         return None
-    names = (getattr(kind, "rows", ()), getattr(kind, "columns", ()))
     if len(rows) <= 2:
         where = " and ".join(f"[{i}, {j}]" for i, j in zip(rows, columns, strict=True))
         where += ", counted from 0"
-    elif one_row:
-        where = names[0][rows[0]] if names[0] else f"row {rows[0]}, counted from 0"
-    elif one_column:
-        name = names[1][columns[0]] if names[1] else ""
-        where = name or f"column {columns[0]}, counted from 0"
+    elif one:
+        side, k = next(iter(one.items()))
+        names = getattr(kind, f"{side}s", ())
+        where = names[k] if names else f"{side} {k}, counted from 0"
     else:
         return None
     return Finding(
@@ -214,20 +218,17 @@ class Rotation(Kind):
 
     shape: tuple[int, ...] = (3, 3)
     expected = "a 3x3 matrix"
-
-    def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
-        known: dict[tuple[int, ...], str] = {
-            (2, 2): "it is a rotation in space, so z is there too",
-            (4, 4): "only the rotation is asked for",
-        }
-        return known.get(got, "")
+    misfits: ClassVar = {
+        (2, 2): "it is a rotation in space, so z is there too",
+        (4, 4): "only the rotation is asked for",
+    }
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         return OF_A_ROTATION
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
         if rigid(S) and rigid(T):
-            return say_degrees(float(degrees(S, T).max()))
+            return say_degrees(degrees(S, T))
         return super().apart(S, T)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
@@ -251,13 +252,10 @@ class Pose(Kind):
     # What its rotation does when it is transposed.
     wrong_way: str = "turns the other way"
     expected = "a 4x4 matrix"
-
-    def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
-        known: dict[tuple[int, ...], str] = {
-            (3, 4): "the bottom row (0, 0, 0, 1) is missing",
-            (3, 3): "this is the rotation alone",
-        }
-        return known.get(got, "")
+    misfits: ClassVar = {
+        (3, 4): "the bottom row (0, 0, 0, 1) is missing",
+        (3, 3): "this is the rotation alone",
+    }
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         return of_a_pose(self.wrong_way)
@@ -266,10 +264,7 @@ class Pose(Kind):
         if not (rigid(S) and rigid(T)):
             return super().apart(S, T)
         (R_S, t_S), (R_T, t_T) = split(S), split(T)
-        parts = (
-            say_mm(float(millimetres(t_S, t_T).max())),
-            say_degrees(float(degrees(R_S, R_T).max())),
-        )
+        parts = say_mm(millimetres(t_S, t_T)), say_degrees(degrees(R_S, R_T))
         return " and ".join(p for p in parts if p != "0") or "0"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
@@ -313,7 +308,7 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
     return Finding(
         "rotation-off",
         "R is a rotation, but not the right one: "
-        f"{'' if often else 'up to '}{say_degrees(float(off_by.max()))} off{often}.",
+        f"{'' if often else 'up to '}{say_degrees(off_by)} off{often}.",
     )
 
 
@@ -326,7 +321,7 @@ def _pose_wrong(S: Array, T: Array) -> Finding:
             "bottom-row",
             f"The bottom row is ({numbers}), not (0, 0, 0, 1), so this is no pose.",
         )
-    t_off = say_mm(float(millimetres(t, t_true).max()))
+    t_off = say_mm(millimetres(t, t_true))
     if difference(R, R_true).max() <= NEAR and t_off != "0":
         return Finding(
             "translation-off",

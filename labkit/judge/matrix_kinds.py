@@ -27,7 +27,7 @@ class Matrix(Kind):
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         square = self.shape[0] == self.shape[1] is not None
-        return general(*["transposed"] * square, "all-signs", "whole-numbers")
+        return general(*["transposed"] * square, *self.usual)
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
         if got == self.shape[::-1] != self.shape:
@@ -49,16 +49,15 @@ class Jacobian(Matrix):
     shape: tuple[int, ...] = (6, 7)
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return general("rows-swapped", "all-signs", "whole-numbers")
+        return general("rows-swapped", *self.usual)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        wrong = np.abs(S - T).max(axis=0) > NEAR * self.scale
-        bad = np.flatnonzero(wrong.any(axis=0))
-        rows = wrong.any(axis=1)
-        halves = [i for i, half in enumerate((rows[:3], rows[3:])) if half.any()]
-        where = f" in its {('omega', 'v')[halves[0]]} rows" if len(halves) == 1 else ""
         if found := one_factor(self, S, T):
             return found
+        wrong = np.abs(S - T).max(axis=0) > NEAR * self.scale
+        bad = np.flatnonzero(wrong.any(axis=0))
+        halves = np.flatnonzero(wrong.reshape(2, -1).any(axis=1))
+        where = f" in its {('omega', 'v')[halves[0]]} rows" if len(halves) == 1 else ""
         if len(bad) == 1:
             says = f"Every column is right except joint {bad[0] + 1}'s"
         elif bad[0] > 0 and len(bad) == self.shape[1] - bad[0]:
@@ -109,8 +108,7 @@ class Covariance(Symmetric):
         return 0.5 * (answer + answer.T) if (skew <= NEAR).all() else answer
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        slugs = ("inverse", "sigma-for-variance", "all-signs", "whole-numbers")
-        return general(*slugs)
+        return general("inverse", "sigma-for-variance", *self.usual)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         least = np.linalg.eigvalsh(S).min() if np.isfinite(S).all() else 0.0

@@ -26,8 +26,7 @@ class _Halves(Kind):
         return f"six numbers ({'; '.join(self.halves)})"
 
     def general(self) -> Sequence[Mistake]:
-        slugs = ("halves-swapped", "all-signs", "whole-numbers")
-        return general(*slugs, halves=self.halves)
+        return general("halves-swapped", *self.usual, halves=self.halves)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
         off = (np.abs(S - T) / self.scale).reshape(-1, 2, 3).max(axis=(0, 2))
@@ -79,25 +78,26 @@ class Points(Kind):
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
         if not np.isfinite(S).all():
             return Kind.apart(self, S, T)
-        return say_mm(float(millimetres(S, T).max()))
+        return say_mm(millimetres(S, T))
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        off = millimetres(S, T).max(axis=0)
-        words = [say_mm(float(mm)) for mm in off]
-        if len(off) == 2 and "0" in words:
+        words = self._off(S, T)
+        if len(words) == 2 and "0" in words:
             right, wrong = (1, 0) if words[1] == "0" else (0, 1)
             says = f"The {self.names[right]} is right; the {self.names[wrong]} is up to"
             return Finding(f"{self.names[wrong]}-off", f"{says} {words[wrong]} off.")
         each = ", ".join(
             f"{mm} the {name}" for mm, name in zip(words, self.names, strict=False)
         )
-        every = "Both" if len(off) == 2 else "All"
+        every = "Both" if len(words) == 2 else "All"
         return Finding("both-off", f"{every} are wrong: off by up to {each}.")
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
-        off = [say_mm(float(mm)) for mm in millimetres(S, T).max(axis=0)]
-        pairs = zip(self.names, off, strict=False)
+        pairs = zip(self.names, self._off(S, T), strict=False)
         return (", ".join(f"{name} off by {mm}" for name, mm in pairs),)
+
+    def _off(self, S: Array, T: Array) -> list[str]:
+        return [say_mm(mm) for mm in millimetres(S, T).T]
 
 
 @dataclass(frozen=True)
@@ -106,9 +106,7 @@ class Count(Scalar):
 
     empty = False
     expected = "a whole number"
-
-    def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return ()
+    usual = ()
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         i = int(np.argmax(S != T))
@@ -122,14 +120,12 @@ class Mask(Kind):
     """True or False, one or many. `Mask((8,))`."""
 
     empty = False
+    usual = ("inverted",)
 
     @property
     def expected(self) -> str:  # noqa: D102
         where = f", in shape {self.shape},".replace("None", "any")
         return f"True or False{where if self.shape else ''}"
-
-    def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return general("inverted")
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
         return f"{np.mean(S != T):.0%} of them"
@@ -171,17 +167,12 @@ class Pixels(Kind):
     unit: str = "px"
     scale: float | Array = 100.0
     expected = "a pixel (x, y) per point"
-
-    def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return general("row-first", "whole-numbers")
+    usual = ("row-first", "whole-numbers")
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         there = (S != 0).any(axis=-1) | (T != 0).any(axis=-1)  # no filling up
         off = (S - T)[there]
-        if (
-            difference(off[:, None], np.broadcast_to(off[:1], (len(off), 1, 2))).max()
-            < NEAR
-        ):
+        if difference(off, off[:1]).max() < NEAR:
             says = f"Every pixel is off by the same ({off[0, 0]:.3g}, {off[0, 1]:.3g})."
             return Finding("shifted", says)
         return one_factor(self, S, T) or super().what_is_wrong(S, T)
@@ -208,12 +199,9 @@ class Image(Kind):
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if found := one_factor(self, S, T):
             return found
-        wrong = (
-            (np.abs(S - T) / self.scale > NEAR).reshape(*S.shape[:3], -1).any(axis=3)
-        )
-        rows, columns = (
-            np.flatnonzero(wrong.any(axis=axis)) for axis in ((0, 2), (0, 1))
-        )
+        off = np.abs(S - T) / self.scale > NEAR
+        wrong = off.reshape(*S.shape[:3], -1).any(axis=3)
+        rows, columns = (np.flatnonzero(wrong.any(axis=(0, i))) for i in (2, 1))
         where = f"rows {rows[0]} to {rows[-1]}, columns {columns[0]} to {columns[-1]}"
         says = f"{wrong.mean():.2g} of the pixels are wrong ({where})"
         return Finding("pixels-off", f"{says}: off by up to {self.apart(S, T)}.")

@@ -3,7 +3,6 @@
 import linecache
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,6 @@ from labkit.judge.answers import (
     InTurn,
     Parts,
     as_one,
-    as_one_size,
     difference,
     gaps,
     own,
@@ -31,6 +29,9 @@ from robo47.paths import ROOT
 
 ONLY_NUMPY = " The checker has NumPy, the kit and Python's own modules alone."
 IN_MAIN = 'Keep it below `if __name__ == "__main__":`, or in main().'
+# A call whose answer is not right: in a line, "Rz(2.9)[0, 0] is -1, and -0.971 is
+# right.", and in lines with every argument and entry; "" and none without one.
+Failing = tuple[str, tuple[str, ...]]
 SAME = 1e-9  # how far two answers to one question may differ: a last digit
 
 
@@ -83,10 +84,9 @@ def stops_with(reply: Reply, often: str = "") -> str:
         reply: whose kind is the exception's name.
         often: in how many calls, as words; "" for one call.
     """
-    where = f" (line {reply.line}" if reply.line else ""
-    if callers := [f"line {line}" for line in reply.callers]:
-        where += f", called from {', from '.join(callers)}"
-    where += ")" if where else ""
+    callers = ", from ".join(f"line {line}" for line in reply.callers)
+    called = f", called from {callers}" if callers else ""
+    where = f" (line {reply.line}{called})" if reply.line else ""
     text = f"{reply.kind}: {reply.error}".rstrip().removesuffix(":")
     why = ONLY_NUMPY if reply.kind == "ModuleNotFoundError" else ""
     return f"It stops with {text}{where}{often}.{why}"
@@ -147,9 +147,8 @@ def read(replies: Sequence[Reply], ask: Ask, source: str) -> Parts | Finding:
         often = f", in {len(broken)} of {len(replies)} calls"
         return Finding("raises", stops_with(broken[0], often))
     if nothing := sum(reply.value is None for reply in replies):
-        says = (
-            "It returns nothing (None): the result is worked out, but not handed back."
-        )
+        says = "It returns nothing (None): the result is worked out, but not handed "
+        says += "back."
         if nothing < len(replies):
             says = f"It returns None for {nothing} of {len(replies)} inputs."
         return Finding("nothing-returned", says)
@@ -276,25 +275,15 @@ def _parts(value: Any, kinds: tuple[Kind, ...]) -> tuple[Any, ...] | Finding:
     return Finding("parts", f"It returns {got}; expected are {expected}.")
 
 
-@dataclass(frozen=True)
-class Failing:
-    """One call whose answer is not right."""
-
-    # In a line, "Rz(2.9)[0, 0] is -1, and -0.971 is right."; "" without one.
-    says: str = ""
-    whole: tuple[str, ...] = ()  # the same with every argument and entry, in lines
-
-
 def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
     """Return the call that is furthest off, of those always asked if one of them is."""
-    with np.errstate(all="ignore"):
-        rounds = zip(asked.held_out, asked.ask.held_out, strict=True)
-        for some, held in [(asked.main, None), (asked.fresh, None), *rounds]:
-            if held and held.mistaken:
-                continue
-            if found := _broken(some, names) or _wrong(asked, some, held, names):
-                return found
-    return _refused(asked, names)
+    rounds = zip(asked.held_out, asked.ask.held_out, strict=True)
+    for some, held in [(asked.main, None), (asked.fresh, None), *rounds]:
+        if held and held.mistaken:
+            continue
+        if found := _broken(some, names) or _wrong(asked, some, held, names):
+            return found
+    return _refused(asked, names) or ("", ())
 
 
 def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | None:
@@ -302,7 +291,7 @@ def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | No
         if one.reply and (one.reply.kind or one.reply.value is None):
             what = "stops" if one.reply.kind else "returns nothing"
             says = f"{typed(one.question, names)} {what}."
-            return Failing(says, _given(one.question, names))
+            return says, _given(one.question, names)
     return None
 
 
@@ -323,7 +312,7 @@ def _wrong(
     i, part = int(np.argmax(gap)), worst_part(ask.kinds, S, T, ask.near)
     if gap[i] <= ask.tolerance:
         return None
-    mine, its = (some[i] for some in as_one_size(S[part], T[part]))
+    mine, its = as_one([S[part][i], T[part][i]])
     question = exchanges[i].question
     apart = np.nan_to_num(np.abs(mine - its), nan=np.inf)
     at = np.unravel_index(int(np.argmax(apart)), mine.shape)
@@ -333,10 +322,10 @@ def _wrong(
     whole = [*_given(question, names)]
     for word, one in (("yours", S), ("right", T)):
         whole += [f"{word}: {_matrix(values[i])}" for values in one]
-    return Failing(says, tuple(whole))
+    return says, tuple(whole)
 
 
-def _refused(asked: Asked, names: Sequence[str]) -> Failing:
+def _refused(asked: Asked, names: Sequence[str]) -> Failing | None:
     """Return the first call that a function with many right answers got wrong."""
     ask = asked.ask
     for one in [*asked.main, *asked.fresh] if ask.accept else []:
@@ -345,8 +334,8 @@ def _refused(asked: Asked, names: Sequence[str]) -> Failing:
         if ask.accept and ask.accept(*map(own, one.question.args), one.reply.value):
             yours = (f"yours: {_matrix(np.asarray(one.reply.value))}",)
             says = f"{typed(one.question, names)} is such a call."
-            return Failing(says, _given(one.question, names) + yours)
-    return Failing()
+            return says, _given(one.question, names) + yours
+    return None
 
 
 def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
@@ -371,10 +360,8 @@ def _only_known(main: Parts, S: Parts) -> bool:
     """Return whether each answer is the same as one to another input."""
     rows, known = (np.hstack([p.reshape(len(p), -1) for p in x]) for x in (S, main))
     others = [np.vstack([known, np.delete(rows, i, 0)]) for i in range(len(rows))]
-    return all(
-        bool((difference(rest, np.broadcast_to(row, rest.shape)) < 1e-9).any())
-        for row, rest in zip(rows, others, strict=True)
-    )
+    pairs = zip(others, rows, strict=True)
+    return all(difference(rest, row).min() < 1e-9 for rest, row in pairs)
 
 
 def _given(question: Question, names: Sequence[str]) -> tuple[str, ...]:

@@ -5,6 +5,7 @@ where no named mistake fits. It is true by construction: it was asked.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -49,51 +50,103 @@ def right_when(
         return [None if r.kind else r.value for r in reply_to(questions)]
 
     assert isinstance(ask.truth, InTurn)
-    truth = _answers_of(ask.truth)
     others = [_answers_of(m.redo) for m in ask.named if isinstance(m.redo, InTurn)]
-    says = neutral(calls, names, mine, truth, ask.near, others)
-    return f"{says} {doubled(calls, names, mine, truth, ask.near)}".strip()
+    seen = Experiments(calls, names, mine, _answers_of(ask.truth), ask.near)
+    return f"{seen.neutral(others)} {seen.doubled()}".strip()
 
 
-def neutral(
-    calls: Sequence[Call],
-    names: Sequence[str],
-    mine: Answers,
-    truth: Answers,
-    near: float,
-    others: Sequence[Answers] = (),
-) -> str:
-    """Return which arguments, neutral, make the answers right, in a sentence, or "".
+@dataclass(frozen=True)
+class Experiments:
+    """A wrong function beside the right one."""
 
-    Args:
-        calls: that the function answered wrongly, their arguments of the same shapes.
-        names: of the arguments.
-        mine: the function.
-        truth: the right answers.
-        near: how far off a right answer may be, relative to its largest entry.
-        others: other wrong functions. What is true of most of them says nothing.
-    """
-    telling = []
-    for i, (words, k, changed, some) in enumerate(_experiments(calls)):
-        if _right(mine(some), truth(some), near):
-            right = [_right(o(some), truth(some), near) for o in others[:OTHERS]]
-            if (share := sum(right) / max(1, len(right))) <= COMMON:
-                telling.append((share, changed, i, k, words))
-    says: dict[int, str] = {}  # of each argument the most telling
-    for *_, k, words in sorted(telling):
-        says.setdefault(k, f"whenever {words.format(names[k])}")
-    return f"It is right {', and '.join([*says.values()][:2])}." if says else ""
+    calls: Sequence[Call]  # answered wrongly; their arguments have the same shapes
+    names: Sequence[str]  # of the arguments
+    mine: Answers  # the function
+    truth: Answers  # the right answers
+    near: float  # how far off a right answer may be, relative to its largest entry
+
+    def neutral(self, others: Sequence[Answers] = ()) -> str:
+        """Return which arguments, neutral, make the answers right, in words, or "".
+
+        Args:
+            others: other wrong functions. What is true of most of them says nothing.
+        """
+        telling = []
+        for i, (words, k, changed, some) in enumerate(_neutral_calls(self.calls)):
+            if self._right(self.mine, some):
+                right = [self._right(other, some) for other in others[:OTHERS]]
+                if (share := sum(right) / max(1, len(right))) <= COMMON:
+                    telling.append((share, changed, i, k, words))
+        says: dict[int, str] = {}  # of each argument the most telling
+        for *_, k, words in sorted(telling):
+            says.setdefault(k, f"whenever {words.format(self.names[k])}")
+        return f"It is right {', and '.join([*says.values()][:2])}." if says else ""
+
+    def doubled(self) -> str:
+        """Return that answers do not grow with an argument as the right ones, or ""."""
+        before, base = list(self.mine(self.calls)), list(self.truth(self.calls))
+        for k, name in enumerate(self.names):
+            if not all(_may_be_doubled(call[k]) for call in self.calls):
+                continue
+            some = _with(self.calls, k, [2.0 * call[k] for call in self.calls])
+            given, right = self.mine(some), list(self.truth(some))
+            if any(answer is None for answer in right):
+                continue
+            grew, its = self._growth(before, given), self._growth(base, right)
+            if grew is None or (its is not None and np.isclose(grew, its, rtol=1e-3)):
+                continue
+            if np.isclose(grew, 1.0, rtol=self.near):
+                return f"With {name} doubled, your answer stays the same; it must not."
+            if its is not None:
+                says = f"With {name} doubled, your answer becomes {say_factor(grew)}"
+                return (
+                    f"{says} times what it was; the right one {say_factor(its)} times."
+                )
+        return ""
+
+    def _right(self, function: Answers, calls: Sequence[Call]) -> bool:
+        """Return whether all answers are right and enough of them say something.
+
+        Zeros say nothing, and neither do right answers that are all the same.
+        """
+        agree, different = 0, False
+        first: Array | None = None
+        for answer, its in zip(function(calls), self.truth(calls), strict=True):
+            right = flat(its)
+            if right is None or not np.isfinite(right).all():
+                continue  # the question has no answer: it says nothing
+            mine = flat(answer)
+            if mine is None or mine.shape != right.shape:
+                return False
+            size = float(np.abs(right).max(initial=0.0))
+            if not np.abs(mine - right).max(initial=0.0) <= self.near * max(1.0, size):
+                return False
+            agree += size > NOTHING
+            first = right if first is None else first
+            different = different or not np.allclose(right, first)
+        return agree >= AGREE and different
+
+    def _growth(self, before: Iterable[Any], after: Iterable[Any]) -> float | None:
+        """Return by which one factor all answers grew, None where there is none.
+
+        Args:
+            before: answers; None where there was none, which says nothing.
+            after: the same calls' with an argument doubled.
+        """
+        pairs = [(flat(b), flat(a)) for b, a in zip(before, after, strict=True)]
+        kept = [(b, a) for b, a in pairs if b is not None and a is not None and b.any()]
+        if len(kept) < AGREE or any(b.shape != a.shape for b, a in kept):
+            return None
+        one, two = (np.concatenate(some) for some in zip(*kept, strict=True))
+        factor = float(one @ two / (one @ one))
+        off = np.abs(two - factor * one).max()
+        return factor if off <= self.near * max(1.0, float(np.abs(two).max())) else None
 
 
-def _experiments(
+def _neutral_calls(
     calls: Sequence[Call],
 ) -> Iterator[tuple[str, int, float, list[Call]]]:
-    """Yield calls in which one argument is neutral.
-
-    Yields:
-        "{} is 0", the argument's place, how many of its numbers that changed, and the
-        arguments of each call.
-    """
+    """Yield "{} is 0", which argument, how many numbers that changed, and the calls."""
     for k, column in enumerate(zip(*calls, strict=True)):
         for choices in zip(*map(neutrals, column), strict=False):
             says, values = zip(*choices, strict=True)
@@ -148,78 +201,6 @@ def _may_be_doubled(x: Any) -> bool:
         turned = x.shape in ((3, 3), (4, 4)) and rigid(x[None])
         return bool(x.any()) and not turned
     return isinstance(x, float) and x != 0.0
-
-
-def doubled(
-    calls: Sequence[Call],
-    names: Sequence[str],
-    mine: Answers,
-    truth: Answers,
-    near: float,
-) -> str:
-    """Return that answers do not grow with an argument as the right ones do, or "".
-
-    Args:
-        calls, names, mine, truth, near: as in `neutral`.
-    """
-    before, base = list(mine(calls)), list(truth(calls))
-    for k, name in enumerate(names):
-        if not all(_may_be_doubled(call[k]) for call in calls):
-            continue
-        some = _with(calls, k, [2.0 * call[k] for call in calls])
-        given, right = mine(some), list(truth(some))
-        if any(answer is None for answer in right):
-            continue
-        grew, its = growth(before, given, near), growth(base, right, near)
-        if grew is None or (its is not None and np.isclose(grew, its, rtol=1e-3)):
-            continue
-        if np.isclose(grew, 1.0, rtol=near):
-            return f"With {name} doubled, your answer stays the same; it must not."
-        if its is not None:
-            says = f"With {name} doubled, your answer becomes {say_factor(grew)}"
-            return f"{says} times what it was; the right one {say_factor(its)} times."
-    return ""
-
-
-def growth(before: Iterable[Any], after: Iterable[Any], near: float) -> float | None:
-    """Return by which one factor all answers grew, None where there is none.
-
-    Args:
-        before: answers; None where there was none, which says nothing.
-        after: the same calls' with an argument doubled.
-        near: how far off a right answer may be, relative to its largest entry.
-    """
-    pairs = [(flat(b), flat(a)) for b, a in zip(before, after, strict=True)]
-    whole = [(b, a) for b, a in pairs if b is not None and a is not None and b.any()]
-    if len(whole) < AGREE or any(b.shape != a.shape for b, a in whole):
-        return None
-    one, two = (np.concatenate(some) for some in zip(*whole, strict=True))
-    factor = float(one @ two / (one @ one))
-    off = np.abs(two - factor * one).max()
-    return factor if off <= near * max(1.0, float(np.abs(two).max())) else None
-
-
-def _right(given: Iterable[Any], wanted: Iterable[Any], near: float) -> bool:
-    """Return whether all answers are right and enough of them say something.
-
-    Zeros say nothing, and neither do right answers that are all the same.
-    """
-    agree, different = 0, False
-    first: Array | None = None
-    for answer, its in zip(given, wanted, strict=True):
-        right = flat(its)
-        if right is None or not np.isfinite(right).all():
-            continue  # the question has no answer: it says nothing
-        mine = flat(answer)
-        if mine is None or mine.shape != right.shape:
-            return False
-        scale = max(1.0, float(np.abs(right).max(initial=0.0)))
-        if not np.abs(mine - right).max(initial=0.0) <= near * scale:
-            return False
-        agree += bool(np.abs(right).max(initial=0.0) > NOTHING)
-        first = right if first is None else first
-        different = different or not np.allclose(right, first)
-    return agree >= AGREE and different
 
 
 def _answers_of(function: InTurn) -> Answers:

@@ -87,16 +87,15 @@ class Row:
         """
         if unknown := set(more) - {one.name for one in fields(Ask)}:
             raise TypeError(f"a Row has no {min(unknown)}")
-        self.kind, self.near, self.alike, self.more = kind, near, list(alike), more
-        self._truth = truth
-        self._draw: Inputs | None = None
+        self.more = {"kind": kind, "near": near, **more}
+        self.alike, self._truth = list(alike), truth
         self._entries: list[Callable[[], Iterable[Way]]] = []
 
     # What a day's file says.
 
     def inputs(self, draw: Inputs) -> Any:
         """Take the generator of argument tuples, the docstring's case first."""
-        self._draw = draw
+        self.more["inputs"] = draw
         return draw
 
     def wrong(
@@ -171,7 +170,7 @@ class Row:
             at = self.arguments.index(name)
             for one in changes:
 
-                def code(*args: Any, change: Code = one.change) -> Any:
+                def code(*args: Any, change: Code = one.redo) -> Any:
                     return self.truth(*args[:at], change(args[at]), *args[at + 1 :])
 
                 text = (one.slug, one.says, one.redone)
@@ -188,16 +187,13 @@ class Row:
             but: slugs that make no difference here.
         """
 
-        def ways() -> Iterator[Way]:
-            for one in mistakes:
-                if one.slug not in but:
+        for one in mistakes:
+            if one.slug not in but:
 
-                    def code(*args: Any, redo: Code = one.redo) -> Any:
-                        return redo(self.truth(*args))
+                def code(*args: Any, redo: Code = one.redo) -> Any:
+                    return redo(self.truth(*args))
 
-                    yield Way("wrong", one.slug, one.says, code, one.redone)
-
-        self._entries.append(ways)
+                self._keep(Way("wrong", one.slug, one.says, code, one.redone))
 
     def reached_by(
         self,
@@ -277,7 +273,7 @@ class Row:
     @cached_property
     def ask(self) -> Ask:
         """What the judge asks."""
-        if self._draw is None:
+        if "inputs" not in self.more:
             raise Robo47Error(f"{self.function}.py has no @row.inputs")
         more = dict(self.more)
         more["held_out"] = [
@@ -291,35 +287,23 @@ class Row:
         if "accept" in more:
             more["accept"] = self._accept
         else:
-            kinds = self.kind if isinstance(self.kind, tuple) else (self.kind,)
             asked = (InTurn if self._truth else AtOnce)(self.truth)
-            more["truth"] = _Answered(self.truth, asked, kinds, self._fault)
+            more["truth"] = _Answered(self.truth, asked, self)
+        return Ask(mistakes=self._mistakes, **more)
 
-        def named() -> list[Mistake]:  # made when an answer is wrong
-            ways = self.named
-            return [Mistake(w.slug, w.says, InTurn(w.code), w.redone) for w in ways]
-
-        return Ask(self._draw, self.kind, mistakes=named, near=self.near, **more)
+    def _mistakes(self) -> list[Mistake]:
+        return [Mistake(w.slug, w.says, InTurn(w.code), w.redone) for w in self.named]
 
     def _accept(self, *args: Any) -> Any:
         try:
             return self.more["accept"](*args)
         except Exception as error:
-            raise self._fault("accept", error) from None
+            says = f"accept {_stops_with(error)}, and any answer"
+            raise self._fault(says) from None
 
-    def _fault(
-        self, what: str, error: BaseException | None, says: str = ""
-    ) -> Robo47Error:
-        """Return an author's error: file, line and what to do."""
-        if error is not None:
-            last = traceback.extract_tb(error.__traceback__)[-1]
-            where = f"{shown(Path(last.filename))}, line {last.lineno}"
-            says = f"stops with {type(error).__name__}: {error} ({where}). It has to "
-            says += "take all that @row.inputs yields" + ", and any answer" * (
-                what == "accept"
-            )
+    def _fault(self, says: str) -> Robo47Error:
         file = shown(self._day.own / f"{self.function}.py")
-        return Robo47Error(f"{file}: its {what} {says}")
+        return Robo47Error(f"{file}: its {says}")
 
     def _keep(self, way: Way) -> Code:
         self._entries.append(lambda: [way])
@@ -339,6 +323,14 @@ class Row:
                 setattr(lab, small, right)
 
         return code
+
+
+def _stops_with(error: BaseException) -> str:
+    """Return what an author's function stops with, where, and what it has to do."""
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    where = f"{shown(Path(last.filename))}, line {last.lineno}"
+    says = f"stops with {type(error).__name__}: {error} ({where}). It has to take all "
+    return f"{says}that @row.inputs yields"
 
 
 def row_of(day: Day, function: str) -> Row:
@@ -365,18 +357,19 @@ class _Answered(InTurn):
     """The truth: where it has no answer to a question, its author is told."""
 
     asked: InTurn  # the same function
-    kinds: Sequence[Any]
-    fault: Code
+    row: Row
 
     def each(self, columns: Sequence[Any]) -> list[Any]:
+        row, kinds = self.row, self.row.ask.kinds
         try:
             answers = self.asked.each(columns)
         except ValueError as error:
-            raise self.fault("truth", error.__cause__ or error) from None
+            says = f"truth {_stops_with(error.__cause__ or error)}"
+            raise row._fault(says) from None
         parts = [a if isinstance(a, tuple) else (a,) for a in answers]
         for shapes in {tuple(map(np.shape, some)) for some in parts}:
-            for got, kind in zip(shapes, self.kinds, strict=False):
-                if len(shapes) != len(self.kinds) or not kind.fits(got):
-                    says = f"returns shape {got}, and its kind is {kind.expected}"
-                    raise self.fault("truth", None, says)
+            for got, kind in zip(shapes, kinds, strict=False):
+                if len(shapes) != len(kinds) or not kind.fits(got):
+                    says = f"truth returns shape {got}, and its kind is {kind.expected}"
+                    raise row._fault(says)
         return answers

@@ -4,7 +4,7 @@
                manifest is read
     day        its manifest, day.toml: tasks, hints, deliverables, limits; the Python
                files of its folder, imported by path
-    marks      which file wrote a row of the log
+    marks      what a row of the log is worth: its number's range, which file wrote it
     script     its lab script: the starter, with the tasks taken out, and what shows in
                a student's file
     borrowed   the kit's own functions in a student's file, so that they can go on

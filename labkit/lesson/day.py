@@ -7,7 +7,6 @@ is an entry of the file, and is read by its type (`week.py`).
 """
 
 import importlib
-import math
 import re
 import sys
 import traceback
@@ -17,7 +16,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from labkit.lesson.week import Week, entry, find_week, load, load_week, weeks
+from labkit.lesson.marks import Metric
+from labkit.lesson.week import Week, entry, find_week, load, load_week, manifests
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
@@ -58,48 +58,6 @@ class Task:
         """Functions that had another name: that, and the one they have."""
         names = [name for name in self.was if name.isidentifier()]
         return list(zip(names, self.functions, strict=False))
-
-
-@dataclass(frozen=True)
-class Metric:
-    """A row that the log must hold, and the range of its value; None is no bound."""
-
-    check: str
-    metric: str
-    max: float | None = None
-    min: float | None = None
-
-    @property
-    def limit(self) -> str:
-        """The range as people write it: "under 1e-08"."""
-        parts = [] if self.min is None else [f"over {self.min:g}"]
-        parts += [] if self.max is None else [f"under {self.max:g}"]
-        return " and ".join(parts)
-
-    def passes(self, value: float) -> bool:
-        """Return whether a value is within the range; NaN never is."""
-        high = self.max is None or value < self.max
-        return value == value and high and (self.min is None or value > self.min)
-
-    def judge(self, row: Mapping[str, Any] | None) -> str:
-        """Return how a row of the log stands: "pass", "fail", or "none" without one.
-
-        Nothing else in the kit decides this.
-        """
-        return "none" if row is None else "fail" if self.fault(row) else "pass"
-
-    def fault(self, row: Mapping[str, Any]) -> str:
-        """Return what is wrong with a row's number; "" where it is as it must be."""
-        value = row["value"]
-        if not isinstance(value, int | float) or not math.isfinite(value):
-            return f"is {value}, not a number"
-        if value < 0 and self.min is None:
-            return f"is {value:.3g}, and an error is never negative"
-        if not self.passes(value):
-            return f"is {value:.3g}; it must be {self.limit}"
-        if failures := row["n_failures"]:
-            return f"failed in {failures} of {row['n_trials'] or '?'} trials"
-        return ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -275,17 +233,17 @@ class Day:
 
 def day_numbers(root: Path = ROOT) -> list[int]:
     """Return the numbers of all days that have a manifest, in order."""
-    return list(_manifests(root))
+    return list(manifests(root))
 
 
 def all_days(root: Path = ROOT) -> list[Day]:
     """Return every day of the course, in order."""
-    return [load_day(path) for path in _manifests(root).values()]
+    return [load_day(path) for path in manifests(root).values()]
 
 
 def days_before(day: Day) -> list[Day]:
     """Return the earlier days of the course, in order."""
-    some = _manifests(ROOT).items()
+    some = manifests(ROOT).items()
     return [load_day(path) for number, path in some if number < day.number]
 
 
@@ -300,22 +258,19 @@ def find_day(number: int, root: Path = ROOT) -> Day:
     Raises:
         Robo47Error: no week has that day, or its manifest is not right.
     """
-    manifests = _manifests(root)
-    if number not in manifests:
-        known = ", ".join(map(str, manifests)) or "none"
+    there = manifests(root)
+    if number not in there:
+        known = ", ".join(map(str, there)) or "none"
         raise Robo47Error(f"there is no day {number} yet; the kit has: {known}")
-    return load_day(manifests[number])
+    return load_day(there[number])
 
 
 def started_day(root: Path = ROOT) -> int:
     """Return the latest day that the student has a script of, else the first."""
-    manifests = _manifests(root)
-    started = [
-        number
-        for number, manifest in manifests.items()
-        if any((manifest.parent.parent / "work").glob(f"day{number}_*.py"))
-    ]
-    return max(started, default=min(manifests, default=1))
+    there = manifests(root)
+    labs = {n: path.parents[1].glob(f"work/day{n}_*.py") for n, path in there.items()}
+    begun = (number for number, found in labs.items() if any(found))
+    return max(begun, default=min(there, default=1))
 
 
 def chosen_day(number: int | None, task_id: str | None = None) -> Day:
@@ -401,14 +356,3 @@ def _faults(day: Day, folder: str) -> Iterator[str]:
             yield f": {id}: another task has {min(twice)} already"
         earlier.add(id)
         functions |= set(task.functions)
-
-
-def _manifests(root: Path) -> dict[int, Path]:
-    """Return the manifests of a clone's days, in order."""
-    found: dict[int, Path] = {}
-    for week in weeks(root):
-        for number, path in week.manifests.items():
-            other = found.setdefault(number, path)
-            if other != path:
-                raise Robo47Error(f"two days {number}: {shown(other)}, {shown(path)}")
-    return dict(sorted(found.items()))

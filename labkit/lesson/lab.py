@@ -21,9 +21,8 @@ from numpy.typing import ArrayLike
 from labkit import log
 from labkit.base import cli
 from labkit.base.text import count, number_of
-from labkit.lesson.day import Metric, day_of
-from labkit.lesson.marks import file_mark
-from robo47.errors import Robo47Error
+from labkit.lesson.day import day_of
+from labkit.lesson.marks import Metric, file_mark
 from robo47.paths import METRICS_CSV, shown
 
 _OPEN = re.compile(r"\*\([^*]*\)\*|[._\s…-]*")  # the template's own words, or none
@@ -156,26 +155,21 @@ class Lab:
 
     def finish(self) -> int:
         """Write the rows, say how it went and return the exit code."""
-        if self.log:
-            try:
+        try:
+            if self.log:
                 # A failed check is recorded too: NaN is its value.
                 log.append_rows(self.rows, sync=True, allow_nonfinite=True)
-            except Robo47Error:  # how the lab went is worth saying all the same
-                self._say_failures()
-                raise
-            rows = count(len(self.rows), "row")
-            print(f"\nlogged {rows} to {shown(METRICS_CSV)}")
-        else:
-            print("\nnothing logged (--no-log)")
-        self._say_failures()
+                rows = count(len(self.rows), "row")
+                print(f"\nlogged {rows} to {shown(METRICS_CSV)}")
+            else:
+                print("\nnothing logged (--no-log)")
+        finally:  # worth saying also where the log takes nothing
+            for failure in self.failed:
+                print(cli.wrapped(f"FAILED: {failure}", "  "))
         if self.failed:
             return cli.EXIT_FAILED
         print(cli.paint("All checks PASSED.", "good"))
         return cli.EXIT_OK
-
-    def _say_failures(self) -> None:
-        for failure in self.failed:
-            print(cli.wrapped(f"FAILED: {failure}", "  "))
 
     def _judge(self, name: str, wanted: Metric, value: float) -> None:
         good = wanted.passes(value)

@@ -1,20 +1,64 @@
-"""The mark in a row's notes: which file wrote it, as the file was then."""
+"""What a row of the log is worth: its number's range, and which file wrote it.
 
-import hashlib
+The file's mark, as it was then, stands at the end of the row's notes.
+"""
+
+import math
 import re
-from collections.abc import Sequence, Set
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
-from pathlib import Path
+from typing import Any
 
-from labkit.lesson.day import Day, Metric
-from labkit.lesson.script import borrowed_tasks
-from labkit.log.rows import Row
-
+Row = Mapping[str, Any]  # of the log, by column
 _FILE = re.compile(r"\bfile ([0-9a-f]{8})$")
+
+
+@dataclass(frozen=True)
+class Metric:
+    """A row that the log must hold, and the range of its value; None is no bound."""
+
+    check: str
+    metric: str
+    max: float | None = None
+    min: float | None = None
+
+    @property
+    def limit(self) -> str:
+        """The range as people write it: "under 1e-08"."""
+        parts = [] if self.min is None else [f"over {self.min:g}"]
+        parts += [] if self.max is None else [f"under {self.max:g}"]
+        return " and ".join(parts)
+
+    def passes(self, value: float) -> bool:
+        """Return whether a value is within the range; NaN never is."""
+        high = self.max is None or value < self.max
+        return value == value and high and (self.min is None or value > self.min)
+
+    def judge(self, row: Row | None) -> str:
+        """Return how a row of the log stands: "pass", "fail", or "none" without one.
+
+        Nothing else in the kit decides this.
+        """
+        return "none" if row is None else "fail" if self.fault(row) else "pass"
+
+    def fault(self, row: Row) -> str:
+        """Return what is wrong with a row's number; "" where it is as it must be."""
+        value = row["value"]
+        if not isinstance(value, int | float) or not math.isfinite(value):
+            return f"is {value}, not a number"
+        if value < 0 and self.min is None:
+            return f"is {value:.3g}, and an error is never negative"
+        if not self.passes(value):
+            return f"is {value:.3g}; it must be {self.limit}"
+        if failures := row["n_failures"]:
+            return f"failed in {failures} of {row['n_trials'] or '?'} trials"
+        return ""
 
 
 def file_mark(script: bytes) -> str:
     """Return what the notes of a script's rows end with: "file 1234abcd"."""
+    import hashlib  # it loads OpenSSL: 2 ms that `make start` has no use for
+
     return f"file {hashlib.sha256(script).hexdigest()[:8]}"
 
 
@@ -54,19 +98,3 @@ class Writers:
             return "stale" if mark_of(row) else "unsigned"
         verdict = metric.judge(row)
         return "borrowed" if self.borrowed and verdict == "pass" else verdict
-
-
-def writers_of(day: Day) -> Writers:
-    """Return the files that may have written a day's rows in the student's log."""
-    return writers_with(day, _content(day.work))
-
-
-def writers_with(day: Day, script: bytes | None) -> Writers:
-    """Return the same where a student's file is that script."""
-    text = (script or b"").decode("utf-8", "replace")
-    borrowed = [task.id for task in borrowed_tasks(day, text)]
-    return Writers(marks_of(_content(day.source)), marks_of(script), borrowed)
-
-
-def _content(path: Path) -> bytes | None:
-    return path.read_bytes() if path.is_file() else None

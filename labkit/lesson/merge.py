@@ -15,7 +15,7 @@ from labkit.lesson.script import function_lines, make_starter, put_back
 from robo47.errors import Robo47Error
 
 Lines = Sequence[str]
-Settle = Callable[[Lines, Lines, Lines], list[str]]
+Settle = Callable[[Lines, Lines, Lines], Lines]
 MARKER = 39  # letters of a conflict's marks: nobody's text has such lines
 _CONFLICT = re.compile(
     rf"^<{{{MARKER}}} .*\n(?P<ours>(?:.*\n)*?)^\|{{{MARKER}}} .*\n(?P<base>(?:.*\n)*?)"
@@ -37,26 +37,20 @@ def merged(base: str, ours: str, theirs: str, settle: Settle) -> str:
     Raises:
         GitError: git is not there.
     """
-    text = _merge_file(base, ours, theirs)
 
     def settled(found: re.Match[str]) -> str:
         lines = (found[name].splitlines() for name in ("base", "ours", "theirs"))
         return "".join(f"{line}\n" for line in settle(*lines))
 
-    return _CONFLICT.sub(settled, text)
+    return _CONFLICT.sub(settled, _merge_file(base, ours, theirs))
 
 
-def conflicts(base: str, ours: str, theirs: str) -> bool:
-    """Return whether both changed the same lines."""
-    return bool(_CONFLICT.search(_merge_file(base, ours, theirs)))
-
-
-def keep_ours(base: Lines, ours: Lines, theirs: Lines) -> list[str]:
+def keep_ours(base: Lines, ours: Lines, theirs: Lines) -> Lines:
     """Return the student's lines."""
-    return list(ours)
+    return ours
 
 
-def keep_both(base: Lines, ours: Lines, theirs: Lines) -> list[str]:
+def keep_both(base: Lines, ours: Lines, theirs: Lines) -> Lines:
     """Return the student's lines with headings as now, and the kit's new ones below."""
     heads = [[ln for ln in lines if ln.startswith("#")] for lines in (base, theirs)]
     now = dict(zip(*heads, strict=True)) if len(heads[0]) == len(heads[1]) else {}
@@ -94,7 +88,8 @@ def renewed(day: Day, text: str, before: Iterable[str], now: str) -> str:
     if not starters:
         return text
     base = min(starters, key=lambda one: _apart(one, text))
-    if conflicts(base, text, starter) and function_lines(base, "main")[0] >= 0:
+    both_changed = _CONFLICT.search(_merge_file(base, text, starter))
+    if both_changed and function_lines(base, "main")[0] >= 0:
         text = put_back(text, base, ("main",))
     return merged(base, text, starter, keep_ours)
 

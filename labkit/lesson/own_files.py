@@ -90,8 +90,8 @@ def helpers_of(root: Path, script: str, source: bytes) -> dict[str, bytes]:
             names = [entry.name for entry in itertools.islice(entries, LISTED)]
     except (FileNotFoundError, NotADirectoryError, PermissionError):
         return {}
-    modules = sorted(n[:-3] for n in names if n.endswith(".py"))
-    there = {name for name in modules if name.isidentifier()}
+    modules = (name[:-3] for name in names if name.endswith(".py"))
+    there = set(filter(str.isidentifier, modules))
     found: dict[str, bytes] = {}
     waiting = [source]
     while waiting:

@@ -10,13 +10,14 @@ import ast
 import difflib
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from itertools import chain
 from pathlib import Path
 from types import CodeType, ModuleType
 
 from labkit.lesson.day import Day, Task
+from labkit.lesson.marks import Writers, marks_of
 from labkit.lesson.sealed import opened
 from robo47.errors import Robo47Error
 from robo47.paths import shown
@@ -47,37 +48,40 @@ def find_regions(text: str, name: str) -> list[Region]:
     regions: list[Region] = []
     function, opened = "", None
     for number, line in enumerate(text.splitlines()):
-
-        def refuse(why: str, number: int = number) -> Robo47Error:
-            return Robo47Error(f"{name}, line {number + 1}: {why}")
-
-        if definition := _DEF.match(line):
-            if opened:
-                raise refuse(f"region {opened[0]} is still open at the next function")
-            function = definition["name"]
-        if not (marker := _MARKER.match(line)):
-            continue
-        task = marker["task"]
-        if not task:
-            raise refuse("a region marker without the id of its task")
-        if not marker["end"]:
-            if opened:
-                raise refuse(f"region {task} opens inside region {opened[0]}")
-            if not marker["indent"] or not function:
-                raise refuse(f"region {task} is not inside a function")
-            opened = (task, number, marker["indent"])
-        elif not opened:
-            raise refuse(f"endregion {task}, but no region is open")
-        elif opened[0] != task:
-            raise refuse(f"endregion {task} closes region {opened[0]}")
+        definition, marker = _DEF.match(line), _MARKER.match(line)
+        if definition and opened:
+            why = f"region {opened.task} is still open at the next function"
         else:
-            regions.append(Region(task, function, opened[1], number, opened[2]))
+            why = _misplaced(marker, function, opened) if marker else ""
+        if why:
+            raise Robo47Error(f"{name}, line {number + 1}: {why}")
+        if definition:
+            function = definition["name"]
+        elif marker and opened:
+            regions.append(replace(opened, end=number))
             opened = None
+        elif marker:
+            opened = Region(marker["task"], function, number, -1, marker["indent"])
     if opened:
-        raise Robo47Error(
-            f"{name}, line {opened[1] + 1}: region {opened[0]} is never closed"
-        )
+        why = f"region {opened.task} is never closed"
+        raise Robo47Error(f"{name}, line {opened.start + 1}: {why}")
     return regions
+
+
+def _misplaced(marker: re.Match[str], function: str, opened: Region | None) -> str:
+    """Return why a marker may not stand in a function or region that is open, or ""."""
+    task = marker["task"]
+    if not task:
+        return "a region marker without the id of its task"
+    if not marker["end"]:
+        if opened:
+            return f"region {task} opens inside region {opened.task}"
+        inside = marker["indent"] and function
+        return "" if inside else f"region {task} is not inside a function"
+    if not opened:
+        return f"endregion {task}, but no region is open"
+    closes = f"endregion {task} closes region {opened.task}"
+    return "" if opened.task == task else closes
 
 
 def make_starter(text: str, name: str, day: int) -> str:
@@ -167,6 +171,20 @@ def borrowed_tasks(day: Day, text: str) -> list[Task]:
     return [task for task in day.tasks if any(map(borrows, task.functions))]
 
 
+def writers_of(day: Day, script: bytes | None = None) -> Writers:
+    """Return the files that may have written a day's rows in a student's log.
+
+    Args:
+        day: from its manifest.
+        script: the student's; by default as it is now, b"" where there is none.
+    """
+    kits = day.source.read_bytes() if day.source.is_file() else b""
+    if script is None:
+        script = day.work.read_bytes() if day.work.is_file() else b""
+    borrowed = borrowed_tasks(day, script.decode("utf-8", "replace"))
+    return Writers(marks_of(kits), marks_of(script), [task.id for task in borrowed])
+
+
 def read_script(path: Path) -> str:
     """Return a script's text in UTF-8, of a sealed one the complete lab's."""
     try:
@@ -213,11 +231,8 @@ def unfinished(source: str, function: str) -> str:
     """Return what keeps a function from doing anything yet, in a sentence, or ""."""
     found = _functions(source).get(function)
     body = found.body if found else []
-    if (
-        body
-        and isinstance(body[0], ast.Expr)
-        and isinstance(body[0].value, ast.Constant)
-    ):
+    first = body[0] if body else None
+    if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant):
         body = body[1:]  # the docstring
     gaps = [node for node in body if _is_gap(node)]
     if gaps and len(gaps) < len(body):
@@ -307,38 +322,35 @@ def _is_gap(node: ast.stmt) -> bool:
 
 
 def is_kits(day: Day) -> bool:
-    """Return whether a day's script in `src/` holds every task of the manifest.
+    """Return whether `require_kits` lets a day's script in `src/` pass."""
+    try:
+        require_kits(day)
+    except Robo47Error:
+        return False
+    return True
+
+
+def require_kits(day: Day) -> None:
+    """Refuse a script in `src/` that lacks the marks of a task of the manifest.
 
     The public course's own script has the same name and is saved over ours; what then
     runs is neither.
     """
-    return _fault(day) is None
-
-
-def require_kits(day: Day) -> None:
-    """Refuse a script in `src/` that lacks the marks of the kit's own."""
-    if fault := _fault(day):
-        author = f"Do you write this day? make author DAY={day.number}"
-        raise Robo47Error(f"{fault}. {author}. Else: make doctor")
-    if fault is not None:
-        raise Robo47Error(
-            f"{shown(day.source)} is not the kit's: the marks of its tasks are gone. "
-            f"Yours belongs in {shown(day.work.parent)}/; to get the kit's back: "
-            f"git checkout -- {shown(day.source)}"
-        )
-
-
-def _fault(day: Day) -> str | None:
-    """Return what is wrong with the marks of the kit's script, "" where it has none."""
     wanted = {(task.id, f) for task in day.tasks for f in task.functions}
-    text = ""
+    source, text, fault = shown(day.source), "", ""
     try:
         text = read_script(day.source)
-        wanted -= {(r.task, r.function) for r in find_regions(text, shown(day.source))}
+        wanted -= {(r.task, r.function) for r in find_regions(text, source)}
+        if wanted:
+            fault = "{} has no region {} in {}".format(source, *min(wanted))
     except Robo47Error as error:  # gone, in another encoding, or with broken markers
-        return str(error) if "# region" in text else ""
-    if not wanted:
-        return None
-    task, function = min(wanted)
-    says = f"{shown(day.source)} has no region {task} in {function}"
-    return says if "# region" in text else ""
+        fault = str(error)
+    if fault and "# region" in text:
+        author = f"Do you write this day? make author DAY={day.number}"
+        raise Robo47Error(f"{fault}. {author}. Else: make doctor")
+    if fault:
+        raise Robo47Error(
+            f"{source} is not the kit's: the marks of its tasks are gone. "
+            f"Yours belongs in {shown(day.work.parent)}/; to get the kit's back: "
+            f"git checkout -- {source}"
+        )

@@ -97,6 +97,17 @@ def find_week(number: int, root: Path = ROOT) -> Week:
     return found[number]
 
 
+def manifests(root: Path = ROOT) -> dict[int, Path]:
+    """Return the manifests of a clone's days by number, in order."""
+    found: dict[int, Path] = {}
+    for week in weeks(root):
+        for number, path in week.manifests.items():
+            other = found.setdefault(number, path)
+            if other != path:
+                raise Robo47Error(f"two days {number}: {shown(other)}, {shown(path)}")
+    return dict(sorted(found.items()))
+
+
 def load_week(folder: Path) -> Week:
     """Return the week of a folder.
 
@@ -122,16 +133,12 @@ def _faults(week: Week) -> Iterator[str]:
             yield f": {name} are {numbers}; expected each once, in order"
     if both := set(week.days) & set(soon):
         yield f": day {min(both)} is in days, so it is not soon"
-    there = {int(path.parent.name[3:]) for path in _day_folders(week.folder)}
+    folders = (path.parent.name for path in week.folder.glob("day*/day.toml"))
+    there = {int(name[3:]) for name in folders if re.fullmatch(r"day\d+", name)}
     if missing := set(week.days) - there:
         yield f": day{min(missing)}/day.toml is not there"
     if unlisted := there - set(week.days):
         yield f": day{min(unlisted)}/ is there, and is not in days"
-
-
-def _day_folders(folder: Path) -> list[Path]:
-    found = folder.glob("day*/day.toml")
-    return [path for path in found if re.fullmatch(r"day\d+", path.parent.name)]
 
 
 def entry(default: Any = dataclasses.MISSING, **how: Any) -> Any:
@@ -175,27 +182,25 @@ def fill(kind: Any, table: dict[str, Any], where: str = "", **given: Any) -> Any
         Robo47Error: an entry is missing, empty, of a wrong type or unknown: a typo
             would be a rule that is off.
     """
-    wanted = {f.metadata.get("at", f.name): f for f in dataclasses.fields(kind)}
-    wanted = {name: f for name, f in wanted.items() if f.name not in given}
-    known: dict[str, list[str]] = {"": []}
-    for name in wanted:
-        known.setdefault(name.rpartition(".")[0], []).append(name.rpartition(".")[2])
-    known[""] += filter(None, known)
-    tables = {"": (table, where)}
-    for name in set(known) & set(table):
-        tables[name] = _right(table[name], name, dict, where), f"{where}, {name}"
-    for path, wish in wanted.items():
-        inner, _, name = path.rpartition(".")
-        entries, place = tables.get(inner, ({}, where))
-        optional = wish.default is not dataclasses.MISSING
-        if wish.metadata.get("needed") and inner in tables:
-            optional = False
-        if name in entries or not optional:
-            least = wish.metadata.get("least", 0 if optional else 1)
-            given[wish.name] = _read(entries.get(name), name, wish.type, least, place)
-    for inner, (entries, place) in tables.items():
-        if unknown := sorted(set(entries) - set(known[inner])):
-            there = ", ".join(sorted(known[inner]))
+    tables: dict[str, dict[str, dataclasses.Field[Any]]] = {"": {}}
+    for wish in dataclasses.fields(kind):
+        if wish.name not in given:
+            inner, _, name = wish.metadata.get("at", wish.name).rpartition(".")
+            tables.setdefault(inner, {})[name] = wish
+    for inner, wanted in tables.items():
+        if inner and inner not in table:
+            continue
+        entries = _right(table[inner], inner, dict, where) if inner else table
+        place = f"{where}, {inner}" if inner else where
+        for name, wish in wanted.items():
+            needed = wish.default is dataclasses.MISSING or "needed" in wish.metadata
+            if name in entries or needed:
+                least = wish.metadata.get("least", int(needed))
+                value = _read(entries.get(name), name, wish.type, least, place)
+                given[wish.name] = value
+        known = wanted.keys() if inner else {*wanted, *tables} - {""}
+        if unknown := sorted(set(entries) - known):
+            there = ", ".join(sorted(known))
             why = f"no entry is called {unknown[0]}; there are {there}"
             raise Robo47Error(f"{place}: {why}")
     return kind(**given)

@@ -35,10 +35,6 @@ _FLAGS = (
 )
 
 
-class CannotAppendError(Exception):
-    """The log cannot take the lines: which file, why, and what to do."""
-
-
 def command(option: str, log: Path) -> str:
     """Return what to type, in the kit's folder, to look after a log: `--check`, say."""
     start = f"python3 scripts/log_metric.py {option}"
@@ -63,7 +59,7 @@ def append_or_keep(path: Path, text: str, sync: bool) -> None:
     """
     try:
         append(path, text, sync)
-    except CannotAppendError as error:
+    except Robo47Error as error:
         raise Robo47Error(f"{error}\n{_keep(path, text)}") from None
 
 
@@ -71,7 +67,7 @@ def append(path: Path, text: str, sync: bool) -> None:
     """Add lines to the log in a single write; arguments as in `append_or_keep`.
 
     Raises:
-        CannotAppendError: nothing was added.
+        Robo47Error: nothing was added.
     """
     try:
         for _ in range(TRIES):
@@ -80,11 +76,41 @@ def append(path: Path, text: str, sync: bool) -> None:
                 return
     except OSError as error:
         why = _in_words(error, str(path))
-        raise CannotAppendError(f"{shown(path)}: {why}") from None
-    raise CannotAppendError(
+        raise Robo47Error(f"{shown(path)}: {why}") from None
+    raise Robo47Error(
         f"{shown(path)} keeps being replaced by another program."
         " Close that and try again."
     )
+
+
+def unsaved_rows(path: Path) -> int:
+    """Return how many refused rows wait beside the log."""
+    try:
+        return Path(f"{path}{UNSAVED}").read_bytes().count(b"\n")
+    except OSError:
+        return 0
+
+
+def restore(path: Path) -> int:
+    """Append the rows kept in `<log>.unsaved` and empty it; return how many.
+
+    Raises:
+        Robo47Error: the log still cannot take them; they stay where they are.
+    """
+    count = unsaved_rows(path)
+    if not count:
+        return 0
+    kept = Path(f"{path}{UNSAVED}")
+    try:
+        with locked(kept) as fd:
+            text = read_at(fd, 0, os.fstat(fd).st_size).decode()
+            append(path, text.removesuffix("\n"), sync=True)
+            os.ftruncate(fd, 0)
+            if os.name != "nt":  # there an open file cannot be removed
+                kept.unlink()
+    except (Robo47Error, OSError) as error:
+        raise Robo47Error(f"{error}\n  the rows are still in {shown(kept)}") from None
+    return text.count("\n")
 
 
 @contextlib.contextmanager
@@ -143,7 +169,7 @@ def _continuation(fd: int, path: Path) -> tuple[bytes, bytes, str | None]:
         return HEADER.encode() + b"\n", b"\n", None
     end = line_end(head)
     if end is None:
-        raise CannotAppendError(wrong_header(path))
+        raise Robo47Error(wrong_header(path))
     size, last = _last_byte(fd)
     if last != b"\n":
         time.sleep(MID_WRITE_S)
@@ -225,17 +251,13 @@ def _keep(path: Path, text: str) -> str:
     kept = Path(f"{path}{UNSAVED}")
     rows = "".join(f"  row: {line}\n" for line in text.split("\n"))
     them = "them" if "\n" in text else "it"
-    try:
+    later = f"to add {them} later:\n  {command('--restore', path)}"
+    with contextlib.suppress(OSError):
         for _ in range(TRIES):
             with locked(kept) as fd:
                 if _is_at(fd, kept):  # not just emptied and removed by a restore
                     _write(fd, text.encode() + b"\n", sync=True)
-                    return (
-                        f"{rows}  kept in {shown(kept)}; to add {them} later:"
-                        f"\n  {command('--restore', path)}"
-                    )
-    except OSError:
-        pass
+                    return f"{rows}  kept in {shown(kept)}; {later}"
     return f"{rows}  kept nowhere but here: copy {them}"
 
 

@@ -6,10 +6,12 @@ One line is one row, so a quote that is never closed costs its own line only.
 import contextlib
 import csv
 import os
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
+from labkit.base import git
 from labkit.base.text import count
 from labkit.log.logfile import CUT
 from labkit.log.rows import BOM, COLUMNS, HEAD, Row, decode, line_end, wrong_header
@@ -39,20 +41,19 @@ def scan(path: str | os.PathLike[str]) -> Iterator[Line]:
         Robo47Error: no file, or a first line that is not the header.
     """
     name = Path(path)
-    with contextlib.ExitStack() as stack:
-        try:
-            if name.exists() and not name.is_file():
-                raise OSError("it is no regular file")  # a pipe would wait for ever
-            file = stack.enter_context(name.open("rb"))
-        except FileNotFoundError:
-            raise Robo47Error(
-                f"{shown(name)} does not exist. `make day1` writes the first row, or"
-                " bring it back: git checkout metrics/metrics.csv"
-            ) from None
-        except OSError as error:
-            raise Robo47Error(
-                f"{shown(name)} cannot be read: {error.strerror or error}. Fix that."
-            ) from None
+    try:
+        if name.exists() and not name.is_file():
+            raise OSError("it is no regular file")  # a pipe would wait for ever
+        file = name.open("rb")
+    except FileNotFoundError:
+        raise Robo47Error(
+            f"{shown(name)} does not exist. `make day1` writes the first row, or"
+            " bring it back: git checkout metrics/metrics.csv"
+        ) from None
+    except OSError as error:
+        why = error.strerror or error
+        raise Robo47Error(f"{shown(name)} cannot be read: {why}. Fix that.") from None
+    with file:
         yield from scan_file(file, path)
 
 
@@ -96,6 +97,29 @@ def scan_file(file: BinaryIO, path: str | os.PathLike[str]) -> Iterator[Line]:
     for number, raw in enumerate(file, 2):
         if raw.strip(b"\0 \t\r\n"):
             yield _line(number, raw, cut)
+
+
+def came_back(path: Path) -> set[str]:
+    """Return lines that a commit took out and a merge brought back.
+
+    A union merge keeps both sides' lines: a row that one branch deleted or edited
+    returns as it was. Only git's history shows that.
+
+    Returns:
+        Those lines. None outside git, or where git is not installed.
+    """
+    how = ("--no-merges", "--format=", "--patch", "--unified=0", "--no-color")
+    asked, where = ("log", *how, "--", path.name), path.resolve().parent
+    try:
+        history = git.run(*asked, folder=where, seconds=git.SECONDS).stdout
+        now = set(path.read_bytes().decode("utf-8", "replace").split("\n"))
+    except (OSError, git.GitError):
+        return set()
+    balance: Counter[str] = Counter()
+    for line in history.split("\n"):
+        if line.startswith(("+", "-")) and not line.startswith(("+++ ", "--- ")):
+            balance[line[1:]] += 1 if line[0] == "+" else -1
+    return {line for line, n in balance.items() if n <= 0 and line.strip()} & now
 
 
 def _line(number: int, raw: bytes, cut: set[str]) -> Line:

@@ -4,19 +4,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from labkit.base.git import History, read_history
+from labkit.base.git import read_history
 from labkit.base.text import visible
 from labkit.check.lab_run import rehearse
 from labkit.check.memory import in_words
-from labkit.check.tasks import check_tasks
+from labkit.check.tasks import check_tasks, required_pass
 from labkit.grade.package import collect, unpack
 from labkit.grade.roster import Student
 from labkit.handin.deliverables import check_commit, wanted_names
-from labkit.handin.handin import Handin
 from labkit.handin.rows import rows_of
 from labkit.lesson.day import Day
-from labkit.lesson.marks import writers_with
-from labkit.report.series import Series, series_of
+from labkit.lesson.marks import marks_of
+from labkit.lesson.script import writers_of
+from labkit.report.series import series_of
 from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
@@ -35,73 +35,41 @@ class RunDay(DayFacts):
     left: str = ""
 
 
-@dataclass(frozen=True)
-class Clone:
-    """Somebody's clone."""
-
-    student: Student  # name and folder
-    own: bool = False  # it is the reader's own, which may be a linked worktree
-    # Its last commit.
-    history: History = field(default_factory=lambda: History(readable=False))
-
-    @property
-    def name(self) -> str:
-        """The student's, as one harmless line."""
-        name = self.student.name or self.history.author
-        return visible(name, 80) or "somebody whom git does not know"
-
-
-def open_clone(path: Path, name: str = "", *, own: bool = False) -> Clone:
-    """Return a clone with its last commit.
+def facts_of(
+    day: Day, student: Student, folder: Path, sandbox: Sandbox, *, own: bool = False
+) -> RunDay:
+    """Return how a day stands; its files are left in an empty folder for the capstone.
 
     Args:
-        path: its folder.
-        name: the student's; by default the last commit's author.
-        own: it is the reader's.
-
-    Raises:
-        GitError: git is not there, or takes too long.
-    """
-    student = Student(name, path.name, path)
-    return Clone(student, own, read_history(path, (), own=own))
-
-
-def facts_of(day: Day, clone: Clone, folder: Path, sandbox: Sandbox) -> RunDay:
-    """Return how a day stands; its files are left in an empty folder for the capstone.
+        day: from the kit's manifest.
+        student: whose, and where the clone is.
+        folder: the empty one.
+        sandbox: where the functions run.
+        own: it is the reader's own clone, of which git may be asked for more.
 
     Raises:
         OSError, GitError, FaultError: this machine failed.
     """
-    package = collect(clone.student, day)
+    package = collect(student, day)
     unpack(package, folder)
-    script = package.handin.files.get(day.files["script"])
-    if script is None:
-        states = {task.id: "not begun" for task in day.tasks}
-        return RunDay(day, states, _numbers(day, package.handin))
-    results = check_tasks(day, folder / day.script, sandbox)
-    done = all(r.passed for r in results if not r.task.optional)
-    fault, again = "", dict[tuple[str, str], float]()
-    if done:
-        fault, again = rehearse(day, folder / day.script, sandbox, CALLS)
-    item = package.commit_item
-    if clone.own:  # git may be asked for more of one's own
-        wanted = wanted_names(day, package.handin)
-        history = read_history(clone.student.path, wanted, own=True)
-        item = check_commit(day, package.handin, history)
-    return RunDay(
-        day,
-        {result.task.id: in_words(result.verdict) for result in results},
-        _numbers(day, package.handin),
-        again,
-        visible(fault, 300),
-        "" if item.passed else visible(item.message.partition("\n")[0], 300),
-    )
-
-
-def _numbers(day: Day, handin: Handin) -> list[Series]:
-    """Return the runs of a day's numbers that are in the log."""
-    writers = writers_with(day, handin.files.get(day.files["script"]))
+    handin, item = package.handin, package.commit_item
+    script = handin.files.get(day.files["script"])
+    writers = writers_of(day, script or b"")
     try:
-        return series_of(day, rows_of(day, handin), writers)
+        numbers = series_of(day, rows_of(day, handin), writers)
     except Robo47Error:  # no log that can be read
-        return series_of(day, [], writers)
+        numbers = series_of(day, [], writers)
+    if script is None:
+        return RunDay(day, {task.id: "not begun" for task in day.tasks}, numbers)
+    states = {task.id: "the kit's own file" for task in day.tasks}
+    fault, again = "", dict[tuple[str, str], float]()
+    if writers.kits.isdisjoint(marks_of(script)):
+        results = check_tasks(day, folder / day.script, sandbox)
+        states = {result.task.id: in_words(result.verdict) for result in results}
+        if required_pass(results):
+            fault, again = rehearse(day, folder / day.script, sandbox, CALLS)
+    if own:
+        history = read_history(student.path, wanted_names(day, handin), own=True)
+        item = check_commit(day, handin, history)
+    left = "" if item.passed else visible(item.message.partition("\n")[0], 300)
+    return RunDay(day, states, numbers, again, visible(fault, 300), left)

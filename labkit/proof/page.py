@@ -13,7 +13,7 @@ import robo47
 from labkit.base import html
 from labkit.base.text import count, number_of
 from labkit.check.lab_run import TRIALS
-from labkit.proof.facts import Clone, RunDay
+from labkit.proof.facts import RunDay
 from labkit.proof.pick import Picked, film
 from labkit.report.series import Series
 
@@ -51,7 +51,9 @@ NOT_PROVED = (
 class Proof:
     """All that the page says."""
 
-    clone: Clone  # whose
+    name: str  # whose, as one harmless line
+    own: bool  # the reader's own, and not a student's
+    commit: str  # the hash of the last one, "" without one
     days: Sequence[RunDay]  # of a week, in order
     picked: Picked  # the capstone
     # What `make fresh` found last: commit, date, how many numbers are wrong and how
@@ -68,8 +70,8 @@ def render(proof: Proof) -> str:
     nonce = secrets.token_urlsafe(16)
     place = f"film {nonce}"
     week = proof.days[0].day.week.heading
-    title = escape(f"{proof.clone.name}: {week[0].lower()}{week[1:]}")
-    who = "the student's own kit" if proof.clone.own else "a teacher's kit"
+    title = escape(f"{proof.name}: {week[0].lower()}{week[1:]}")
+    who = "the student's own kit" if proof.own else "a teacher's kit"
     not_proved = "".join(f"<li>{escape(line)}</li>" for line in NOT_PROVED)
     page = html.page(
         title,
@@ -123,7 +125,7 @@ def _again(one: RunDay, number: Series) -> tuple[str, str]:
 
 def _fresh(proof: Proof) -> tuple[str, str]:
     """Return what a fresh clone of the last commit gave, and its colour's class."""
-    if not proof.fresh or proof.fresh.get("commit") != proof.clone.history.commit:
+    if not proof.fresh or proof.fresh.get("commit") != proof.commit:
         return "not tried", "none"
     wrong = proof.fresh.get("wrong")
     return ("same numbers", "pass") if wrong == 0 else ("not the same", "fail")
@@ -203,10 +205,9 @@ def _code(names: Sequence[str]) -> str:
 
 
 def _commit(proof: Proof) -> str:
-    history, said = proof.clone.history, proof.fresh
-    if not history.commit:
+    if not proof.commit:
         return html.section("The commit", "<p>Nothing is committed.</p>")
-    words = [f"<p>The last commit: <code>{escape(history.commit)}</code>.</p>"]
+    words = [f"<p>The last commit: <code>{escape(proof.commit)}</code>.</p>"]
     left = [one for one in proof.days if one.left]
     words += [f"<p>Day {one.day.number}: {escape(one.left)}</p>" for one in left] or [
         "<p>It holds all files of the days that were begun, as they ran here.</p>"
@@ -215,10 +216,10 @@ def _commit(proof: Proof) -> str:
     if mood == "none":
         words.append("<p>No fresh clone of it was run: <code>make fresh</code>.</p>")
     else:
-        lacks = said.get("missing")
+        lacks = proof.fresh.get("missing")
         things = f"; {count(lacks, 'thing')} of the hand-in missing" if lacks else ""
         words.append(
             f'<p class="{mood}">A fresh clone of it was run on'
-            f" {escape(str(said.get('date')))}: {found}{things}.</p>"
+            f" {escape(str(proof.fresh.get('date')))}: {found}{things}.</p>"
         )
     return html.section("The commit", *words)

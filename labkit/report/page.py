@@ -1,6 +1,6 @@
 """The report as one HTML file that needs nothing else: no script, no font, no net."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from html import escape
 from itertools import groupby
 
@@ -9,7 +9,7 @@ from labkit.base.text import count
 from labkit.log.rows import Row
 from labkit.log.scan import Line
 from labkit.report import plot
-from labkit.report.series import Report, Series, value_of
+from labkit.report.series import Report, Series, failures_of, value_of
 
 RECENT = 20  # runs listed under a plot
 LISTED = 200  # lines listed that need a look
@@ -23,8 +23,7 @@ STATUS = {
     "unsigned": ("•", "no file named"),
     "borrowed": ("•", "partly borrowed"),
 }
-COLUMNS = ("date", "value", "git_sha", "n_failures", "config", "method", "notes")
-HEADS = {"git_sha": "commit", "n_failures": "failures"}  # where another word says more
+COLUMNS = ("date", "value", "commit", "failures", "config", "method", "notes")
 AGAIN = ("stale", "unsigned", "borrowed")  # worth nothing until a run of one's own
 NOTHING = (
     '<h2>Nothing recorded yet</h2><p class="muted">Run a lab of yours: '
@@ -103,12 +102,13 @@ def _day(day: int | None, series: Iterable[Series], checked: str) -> str:
 
 def _card(series: Series) -> str:
     mark, words = STATUS[series.status]
-    best = "best" if series.wanted.limit else "lowest"
+    best = "best" if series.bounds else "lowest"
+    limits = ", ".join(f"{sign} {bound:g}" for sign, bound in series.bounds)
     facts = [
         ("latest", plot.number(series.latest)),
         (best, plot.number(series.best)),
         ("runs", f"{len(series.rows):,}"),
-        ("threshold", escape(series.limits)),
+        ("threshold", escape(limits or "–")),
     ]
     if series.kits:
         facts.append(("the kit's", plot.number(series.kit)))
@@ -117,23 +117,16 @@ def _card(series: Series) -> str:
     terms = "".join(
         f"<dt>{name}</dt><dd{role.get(name, '')}>{value}</dd>" for name, value in facts
     )
+    failed = failures_of(series.rows[-1]) if series.rows else ""
+    failed = failed and f'<p class="fail">{failed}</p>'
     check, metric = map(_text, (series.wanted.check, series.wanted.metric))
     return (
         f'<article class="card"><div class="top"><div><h3>{check}</h3>'
         f'<span class="muted">{metric}</span></div>'
         f'<span class="badge {series.status}">{mark} {words}</span></div>'
-        f"<dl>{terms}</dl>{_failures(series)}{plot.draw(series)}"
+        f"<dl>{terms}</dl>{failed}{plot.draw(series)}"
         f"{_recent(series.rows)}{_recent(series.kits, ' of the kit')}</article>"
     )
-
-
-def _failures(series: Series) -> str:
-    """Return in how many trials the latest run failed, or nothing."""
-    latest = series.rows[-1] if series.rows else None
-    if latest is None or not latest["n_failures"]:
-        return ""
-    trials = latest["n_trials"] or "?"
-    return f'<p class="fail">failed in {latest["n_failures"]} of {trials} trials</p>'
 
 
 def _text(cell: object) -> str:
@@ -143,25 +136,22 @@ def _text(cell: object) -> str:
 def _recent(rows: list[Row], whose: str = "") -> str:
     if not rows:
         return ""
-    shown = list(reversed(rows[-RECENT:]))
-    body = ("<tr>" + "".join(_run_cells(row)) + "</tr>" for row in shown)
+    shown = reversed(rows[-RECENT:])
     title = count(len(rows), "run") + whose
     if len(rows) > RECENT:
         title = f"The latest {RECENT} of {title}"
-    head = "".join(f"<th>{HEADS.get(name, name)}</th>" for name in COLUMNS)
-    return html.folded(title, html.table(head, body, "scroll"))
+    head = "".join(f"<th>{name}</th>" for name in COLUMNS)
+    return html.folded(title, html.table(head, map(_run, shown), "scroll"))
 
 
-def _run_cells(row: Row) -> Iterator[str]:
-    for name in COLUMNS:
-        value = row[name]
-        text = "" if value is None else _clipped(str(value))
-        if name == "n_failures" and value is not None:
-            text = f"{value} of {'?' if row['n_trials'] is None else row['n_trials']}"
-        if name == "value":
-            text = plot.number(value_of(row))
-        kind = ' class="note"' if name == "notes" else ""
-        yield f"<td{kind}>{escape(text)}</td>"
+def _run(row: Row) -> str:
+    of = "?" if row["n_trials"] is None else row["n_trials"]
+    failures = "" if row["n_failures"] is None else f"{row['n_failures']} of {of}"
+    value = plot.number(value_of(row))
+    cells = (row["date"], value, row["git_sha"], failures, row["config"], row["method"])
+    inner = "".join(f"<td>{escape(_clipped(str(cell)))}</td>" for cell in cells)
+    notes = escape(_clipped(str(row["notes"])))
+    return f'<tr>{inner}<td class="note">{notes}</td></tr>'
 
 
 def _look(lines: list[Line]) -> str:

@@ -8,7 +8,7 @@ import math
 from html import escape
 
 from labkit.log.rows import Row
-from labkit.report.series import Series, float_of, value_of
+from labkit.report.series import Series, failures_of, float_of, value_of
 
 WIDTH, HEIGHT = 360, 170
 LEFT, RIGHT, TOP, BOTTOM = 46, 348, 14, 126
@@ -41,7 +41,7 @@ def draw(series: Series) -> str:
     parts += [_dot(series, axis, x, row, radius) for x, row in places[:-1]]
     x, last = places[-1]
     halo = 'fill="var(--line)" fill-opacity=".2"'
-    parts.append(_circle(x, _y(axis, last), 8, halo, ""))
+    parts.append(_circle(x, axis.y(float_of(last)), 8, halo, ""))
     parts.append(_dot(series, axis, x, last, 4))
     label = escape(f"{series.wanted.check} {series.wanted.metric}, run by run")
     return (
@@ -77,9 +77,9 @@ class _Axis:
     def __init__(self, series: Series) -> None:
         self.log = series.is_log
         self.has_zero = False
-        shown = [_drawable(v) for v in series.values if v > 0 or not self.log]
-        bounds = (series.wanted.min, series.wanted.max)
-        shown += [b for b in bounds if b is not None and (b > 0 or not self.log)]
+        shown = [_drawable(v) for v in series.values]
+        shown += [bound for _, bound in series.bounds]
+        shown = [v for v in shown if v > 0 or not self.log]
         low, high = min(shown), max(shown)
         if self.log:
             low, high = math.floor(math.log10(low)), math.ceil(math.log10(high))
@@ -92,7 +92,9 @@ class _Axis:
         self.low, self.high = low, high
 
     def y(self, value: float) -> float:
-        """Return a value's height; on a log axis zero and below sit on the floor."""
+        """Return a value's height: NaN on top, what has no logarithm on the floor."""
+        if not math.isfinite(value):
+            return TOP
         if self.log:
             value = math.log10(value) if value > 0 else self.low
         share = (_drawable(value) - self.low) / (self.high - self.low)
@@ -128,34 +130,29 @@ def _drawable(value: float) -> float:
 
 def _threshold(series: Series, axis: _Axis) -> list[str]:
     parts = []
-    for sign, bound in (("<", series.wanted.max), (">", series.wanted.min)):
-        if bound is None or (axis.log and bound <= 0):
+    for sign, bound in series.bounds:
+        if axis.log and bound <= 0:
             continue
         y = axis.y(bound)
         dashes = ' stroke-dasharray="5 4"'
         parts.append(_line([(LEFT, y), (RIGHT, y)], "limit", dashes))
         label_y = y + 12 if y < TOP + 12 else y - 4
-        first, last = (abs(_y(axis, series.rows[i]) - y) for i in (0, -1))
+        first, last = (abs(axis.y(float_of(series.rows[i])) - y) for i in (0, -1))
         x, anchor = (LEFT, "start") if first > last else (RIGHT, "end")
         parts.append(_label(x, label_y, f"pass {sign} {bound:g}", anchor, "limit"))
     return parts
-
-
-def _y(axis: _Axis, row: Row) -> float:
-    """Return a run's height: at the top where its value is no number."""
-    return axis.y(float_of(row)) if _finite(row) else TOP
 
 
 def _dot(series: Series, axis: _Axis, x: float, row: Row, radius: int) -> str:
     """Return a run's dot; hollow where the axis cannot show its value."""
     role = series.wanted.judge(row) if series.wanted.limit else "line"
     tip = f"{value_of(row)!r} on {row['date']}, commit {row['git_sha'] or 'unknown'}"
-    if row["n_failures"]:
-        tip += f", failed in {row['n_failures']} of {row['n_trials'] or '?'} trials"
+    if failed := failures_of(row):
+        tip += f", {failed}"
     paint = f'fill="var(--{role})"'
     if not _finite(row) or (axis.log and float_of(row) <= 0):
         paint = f'fill="var(--card)" stroke="var(--{role})" stroke-width="1.5"'
-    return _circle(x, _y(axis, row), radius, paint, tip)
+    return _circle(x, axis.y(float_of(row)), radius, paint, tip)
 
 
 def _under_axis(places: list[tuple[float, Row]]) -> list[str]:

@@ -1,29 +1,27 @@
 """The log's rows as one series per day, check and metric."""
 
 import math
-from collections.abc import Iterable, Mapping
-from copy import copy
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
 
-from labkit.lesson.day import Day, Metric
-from labkit.lesson.marks import Writers, mark_of
+from labkit.lesson.day import Day
+from labkit.lesson.marks import Metric, Writers, mark_of
 from labkit.log.rows import Row
 from labkit.log.scan import Line
 
 Key = tuple[int | None, str, str]  # day, check, metric
+SOMEBODY = Writers()  # whose files nobody knows
 
 
+@dataclass
 class Series:
     """The runs of one number, oldest first, and what they must reach."""
 
-    def __init__(
-        self, day: int | None, wanted: Metric, writers: Writers | None = None
-    ) -> None:
-        """Begin without runs; a number that nobody asks for has no limit."""
-        self.day, self.wanted = day, wanted
-        self.writers = writers or Writers()
-        self.rows: list[Row] = []  # all but
-        self.kits: list[Row] = []  # the kit's own
+    day: int | None
+    wanted: Metric  # without a limit where nobody asks for the number
+    writers: Writers = SOMEBODY
+    rows: list[Row] = field(default_factory=list)  # all but
+    kits: list[Row] = field(default_factory=list)  # the kit's own
 
     def add(self, row: Row) -> None:
         """Add a run, under the name of who made it."""
@@ -32,9 +30,12 @@ class Series:
 
     def signed(self) -> "Series":
         """Return the series of the runs that say which file made them."""
-        some = copy(self)
-        some.rows = [row for row in self.rows if mark_of(row)]
-        return some
+        return replace(self, rows=[row for row in self.rows if mark_of(row)])
+
+    @property
+    def key(self) -> Key:
+        """Its day, check and metric."""
+        return (self.day, self.wanted.check, self.wanted.metric)
 
     @property
     def values(self) -> list[float]:
@@ -64,11 +65,10 @@ class Series:
         return self.writers.judge(self.wanted, self.rows[-1])
 
     @property
-    def limits(self) -> str:
-        """The limits in signs, "< 1e-08"; "–" where there are none."""
-        bounds = ((">", self.wanted.min), ("<", self.wanted.max))
-        parts = [f"{sign} {bound:g}" for sign, bound in bounds if bound is not None]
-        return ", ".join(parts) or "–"
+    def bounds(self) -> list[tuple[str, float]]:
+        """The limits, each with the sign of what passes: [("<", 1e-08)]."""
+        both = ((">", self.wanted.min), ("<", self.wanted.max))
+        return [(sign, bound) for sign, bound in both if bound is not None]
 
     @property
     def best(self) -> float | None:
@@ -111,13 +111,8 @@ class Report:
         return sum(one.status == status for one in self.series)
 
 
-def thresholds(days: Iterable[Day]) -> dict[Key, Metric]:
-    """Return what days' manifests ask for, by day, check and metric."""
-    return {(day.number, m.check, m.metric): m for day in days for m in day.metrics}
-
-
 def series_of(
-    day: Day, rows: Iterable[Row], writers: Writers | None = None
+    day: Day, rows: Iterable[Row], writers: Writers = SOMEBODY
 ) -> list[Series]:
     """Return the runs of all numbers that a day asks for, in the manifest's order.
 
@@ -145,42 +140,44 @@ def float_of(row: Row) -> float:
     return math.nan if value is None else float(value)
 
 
+def failures_of(row: Row) -> str:
+    """Return in how many trials a run failed, in words; "" where it did in none."""
+    if not row["n_failures"]:
+        return ""
+    return f"failed in {row['n_failures']} of {row['n_trials'] or '?'} trials"
+
+
 def collect(
     lines: Iterable[Line],
-    thresholds: Mapping[Key, Metric],
+    asked: Sequence[Series],
     since: str = "",
     day: int | None = None,
     check: str = "",
-    writers: Mapping[int, Writers] | None = None,
 ) -> Report:
     """Return the report on the lines that the filters let through.
 
     Args:
         lines: what `scan` yields.
-        thresholds: by day, check and metric.
+        asked: the numbers that the chosen days ask for, without runs.
         since: the first date, YYYY-MM-DD; "" is all.
         day: the course's day; None is all.
         check: a check's name; "" is all.
-        writers: of the days' rows; rows of other days are taken as they are.
     """
-    found: dict[Key, Series] = {}
-    for key, threshold in thresholds.items():
-        if day in (None, key[0]) and check in ("", key[1]):
-            found[key] = Series(key[0], threshold, (writers or {}).get(key[0] or 0))
+    found = {one.key: one for one in asked if check in ("", one.wanted.check)}
     report = Report([])
     for line in lines:
-        row = line.row
-        if row is None:
-            report.look.append(line)
-            continue
-        if str(row["date"]) < since or day not in (None, row["day"]):
-            continue
-        if check not in ("", row["check"]):
-            continue
-        report.rows += 1
+        if row := line.row:
+            if str(row["date"]) < since or day not in (None, row["day"]):
+                continue
+            if check not in ("", row["check"]):
+                continue
+            report.rows += 1
+            key = _key(row, asked)
+            if key not in found:
+                found[key] = Series(key[0], Metric(*key[1:]))
+            found[key].add(row)
         if line.problem:
             report.look.append(line)
-        _add(found, thresholds, row)
     report.series = sorted(found.values(), key=_place)
     for series in report.series:  # a merge may leave the dates out of order
         for rows in (series.rows, series.kits):
@@ -188,21 +185,16 @@ def collect(
     return report
 
 
-def _add(found: dict[Key, Series], thresholds: Mapping[Key, Metric], row: Row) -> None:
+def _key(row: Row, asked: Sequence[Series]) -> Key:
     name, metric = str(row["check"]), str(row["metric"])
-    day = row["day"] if isinstance(row["day"], int) else None
-    if day is None:  # a row without its day belongs to the only day that asks for it
-        days = [key[0] for key in thresholds if key[1:] == (name, metric)]
-        day = days[0] if len(days) == 1 else None
-    key = (day, name, metric)
-    if key not in found:
-        wanted = thresholds.get(key) or Metric(name, metric)
-        found[key] = Series(day, wanted)
-    found[key].add(row)
+    if isinstance(row["day"], int):
+        return row["day"], name, metric
+    # A row without its day belongs to the only day that asks for it.
+    days = [one.day for one in asked if one.key[1:] == (name, metric)]
+    return days[0] if len(days) == 1 else None, name, metric
 
 
 def _place(series: Series) -> tuple[float, bool, str, str]:
     """Return what orders the series: by day, and what fails first."""
-    day = math.inf if series.day is None else series.day
-    wanted = series.wanted
-    return (day, series.status != "fail", wanted.check, wanted.metric)
+    day, check, metric = series.key
+    return math.inf if day is None else day, series.status != "fail", check, metric

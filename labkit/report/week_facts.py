@@ -14,7 +14,7 @@ from labkit.base.git import GitError, run
 from labkit.check import memory
 from labkit.check.memory import Met
 from labkit.lesson.day import Day
-from labkit.lesson.marks import writers_of
+from labkit.lesson.script import writers_of
 from labkit.report.series import Series
 from robo47.paths import ROOT
 
@@ -63,13 +63,12 @@ class OwnDay(DayFacts):
         return [self.states.get(task.id) == "passed" for task in tasks]
 
 
-def facts_of(day: Day, series: Sequence[Series], root: Path = ROOT) -> OwnDay:
+def facts_of(day: Day, series: Sequence[Series]) -> OwnDay:
     """Return how a day went.
 
     Args:
         day: from its manifest.
         series: the log's rows of all that the day asks for.
-        root: the clone.
     """
     known = memory.known(day)
     ids = {task.id for task in day.tasks}
@@ -78,9 +77,9 @@ def facts_of(day: Day, series: Sequence[Series], root: Path = ROOT) -> OwnDay:
         day,
         known,
         [by[metric].signed() for metric in day.metrics],
-        minutes_of(day, root),
-        sum(n for task, n in store.hints_given(root).items() if task in ids),
-        [m for m in memory.mistakes_met(memory.journal(root), known) if m.task in ids],
+        minutes_of(day),
+        sum(n for task, n in store.hints_given().items() if task in ids),
+        [m for m in memory.mistakes_met(memory.journal(), known) if m.task in ids],
         writers_of(day).borrowed,
     )
 
@@ -96,22 +95,18 @@ def minutes_of(day: Day, root: Path = ROOT) -> int | None:
         None where there are no two commits, or no git.
     """
     files = day.files
-    own = [files[name] for name in ("script", "figure") if name in files]
-    begun = _times(root, own)
-    if not begun:
-        return None
-    times = list(begun)
-    if "worksheet" in files:  # its first commits are the kit's own
-        times += [t for t in _times(root, [files["worksheet"]]) if t > min(begun)]
+    times = _times(root, *[files[it] for it in ("script", "figure") if it in files])
+    if times and "worksheet" in files:
+        begun = min(times)  # the worksheet's first commits are the kit's own
+        times += [t for t in _times(root, files["worksheet"]) if t > begun]
     return round((max(times) - min(times)) / 60) if len(times) > 1 else None
 
 
-def _times(root: Path, paths: Sequence[str]) -> list[int]:
+def _times(root: Path, *paths: str) -> list[int]:
     """Return when files were committed, seconds since 1970."""
+    log = ("log", "--format=%ct", "--", *paths)
     try:
-        done = run(
-            "log", "--format=%ct", "--", *paths, folder=root, seconds=GIT_SECONDS
-        )
+        done = run(*log, folder=root, seconds=GIT_SECONDS)
     except GitError:
         return []
     return [int(word) for word in done.stdout.split() if word.isdecimal()]

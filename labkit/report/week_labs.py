@@ -48,24 +48,20 @@ def run_labs(
     Returns:
         What became of each, in the order of the days.
     """
-    variables = dict(os.environ if environment is None else environment)
+    given = os.environ if environment is None else environment
+
+    def run(day: Day) -> Ran:
+        mine = day.work.is_file() and not kits
+        command = [str(python), str(day.work if mine else day.source)]
+        with tempfile.TemporaryDirectory(prefix="robo47-week-") as folder:
+            log = Path(folder) / "metrics.csv"
+            variables = {**given, "ROBO47_METRICS": str(log), "COLUMNS": "80"}
+            done = processes.run(command, env=variables)
+            rows = read_rows(log) if log.exists() else []
+        return Ran(day, mine, series_of(day, rows), _why(done))
+
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        yield from pool.map(
-            lambda day: _run(
-                day, str(python), variables, mine=day.work.is_file() and not kits
-            ),
-            days,
-        )
-
-
-def _run(day: Day, python: str, environment: dict[str, str], *, mine: bool) -> Ran:
-    script = day.work if mine else day.source
-    with tempfile.TemporaryDirectory(prefix="robo47-week-") as folder:
-        log = Path(folder) / "metrics.csv"
-        variables = {**environment, "ROBO47_METRICS": str(log), "COLUMNS": "80"}
-        done = processes.run([python, str(script)], env=variables)
-        rows = read_rows(log) if log.exists() else []
-    return Ran(day, mine, series_of(day, rows), _why(done))
+        yield from pool.map(run, days)
 
 
 def _why(done: subprocess.CompletedProcess[str]) -> str:

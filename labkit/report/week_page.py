@@ -147,7 +147,6 @@ def _mistakes(facts: Sequence[OwnDay]) -> str:
 
 
 def _mistake(day: Day, met: Met) -> str:
-    """Return a row on a mistake: its name, and what the checker said of it."""
     role, mark = _MOODS.get(met.now, ("none", "•"))
     name = escape(_GENERAL.get(met.mistake, met.mistake.replace("-", " ")))
     says = met.says and f"<br><span class=muted>{escape(met.says)}</span>"

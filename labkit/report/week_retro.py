@@ -34,9 +34,21 @@ def fill(facts: Sequence[OwnDay]) -> list[Path]:
     """
     if not any(one.day.work.is_file() for one in facts):
         return []  # nobody's numbers
-    text = as_markdown(facts)
-    files = sorted((facts[0].day.folder / "docs").glob("RETRO_*.md"))
-    return [path for path in files if _fill(path, text)]
+    text, changed = as_markdown(facts), []
+    for path in sorted((facts[0].day.folder / "docs").glob("RETRO_*.md")):
+        try:
+            before = path.read_bytes().decode("utf-8", "surrogateescape")
+            if len(blocks(before, "numbers")) != 1:
+                continue  # no marks, or somebody wrote about them: not ours
+            after = refill(before, {"numbers": lambda *_: text})
+            if after != before:
+                store.replace(path, after.encode("utf-8", "surrogateescape"))
+                changed.append(path)
+        except OSError as error:
+            raise Robo47Error(
+                f"{shown(path)} cannot be written: {error.strerror or error}"
+            ) from None
+    return changed
 
 
 def as_markdown(facts: Sequence[OwnDay]) -> str:
@@ -80,19 +92,3 @@ def no_numbers(text: str) -> bool:
 def without_numbers(text: str) -> str:
     """Return a retrospective as the student wrote it, without what is filled in."""
     return refill(text, {"numbers": lambda *_: ""})
-
-
-def _fill(path: Path, text: str) -> bool:
-    """Replace what is between the marks; return whether that changed the file."""
-    try:
-        before = path.read_bytes().decode("utf-8", "surrogateescape")
-        if len(blocks(before, "numbers")) != 1:
-            return False  # no marks, or somebody wrote about them: not ours
-        after = refill(before, {"numbers": lambda *_: text})
-        if after != before:
-            store.replace(path, after.encode("utf-8", "surrogateescape"))
-        return after != before
-    except OSError as error:
-        raise Robo47Error(
-            f"{shown(path)} cannot be written: {error.strerror or error}"
-        ) from None

@@ -27,6 +27,7 @@ from robo47 import panda
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
+USUAL = Limits()  # of a task that asks for no more
 PANDA = Robot()  # what a file that may load the robot is given
 MOST_BESIDE = 50  # files beside the script
 HUGE = 1e30  # no number of a task comes near; squares and determinants stay finite
@@ -43,7 +44,7 @@ def request(
     robots: Robots,
     library: Mapping[str, str] | None,
     added: str = "",
-    limits: Limits | None = None,
+    limits: Limits = USUAL,
     **others: Any,
 ) -> dict[str, Any]:
     """Return what a process is told before the first question, as JSON.
@@ -59,7 +60,6 @@ def request(
     Raises:
         Robo47Error: there is no such file, or it is no script.
     """
-    limits = limits or Limits()
     others |= {"memory": limits.memory, "numbers": limits.numbers}
     told = {**_code_of(script, added), "library": dict(library or {}), **others}
     copies = [_copy_of(robot) for robot in robots]

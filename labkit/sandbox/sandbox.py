@@ -1,10 +1,10 @@
 """Run a student's functions in a process of their own and bring back plain arrays.
 
-The process stands behind the wall that this machine has (`labkit.sandbox.wall`), with
-no file of the kit or the student in sight, within limits of time and memory. Replies
-come on a private channel, each behind a secret made for that run. A function that hangs
-or ends the interpreter costs its own task, and those that build on it; the rest is
-asked again in a fresh process.
+The process stands behind the wall that this machine has (`labkit.sandbox.process`),
+with no file of the kit or the student in sight, within limits of time and memory.
+Replies come on a private channel, each behind a secret made for that run. A function
+that hangs or ends the interpreter costs its own task, and those that build on it; the
+rest is asked again in a fresh process.
 
 What this machine does is nobody's mistake. A process that a signal ended is tried once
 more, and only the same again is the student's doing; where Linux says that it killed
@@ -33,7 +33,7 @@ from labkit.base.exchange import (
 )
 from labkit.lesson.day import Limits
 from labkit.sandbox import messages
-from labkit.sandbox.messages import Robots
+from labkit.sandbox.messages import USUAL, Robots
 from labkit.sandbox.process import Process
 from robo47.errors import FaultError
 
@@ -73,7 +73,7 @@ class Sandbox:
         library: Mapping[str, str] | None = None,
         needs: Mapping[str, Iterable[str]] | None = None,
         added: str = "",
-        limits: Limits | None = None,
+        limits: Limits = USUAL,
     ) -> None:
         """Ask a student's file, each question twice: in order, then in reverse order.
 
@@ -95,7 +95,6 @@ class Sandbox:
             Robo47Error: there is no such file, or it is no script.
         """
         robots = messages.robots_of([exchange.question for exchange in exchanges])
-        limits = limits or Limits()
         more = sum(max(0.0, s - TASK_SECONDS) for s in limits.seconds.values())
         request = messages.request(
             script, robots, library, added, limits, keep=True, cpu_seconds=CPU + more
@@ -133,7 +132,7 @@ class Sandbox:
         robots: Robots = (),
         library: Mapping[str, str] | None = None,
         added: str = "",
-        limits: Limits | None = None,
+        limits: Limits = USUAL,
         *,
         brief: bool = False,
     ) -> "Session":
@@ -148,7 +147,6 @@ class Sandbox:
         Raises:
             LoadError: the file does not load.
         """
-        limits = limits or Limits()
         request = messages.request(
             script, robots, library, added, limits, keep=False, cpu_seconds=SESSION_CPU
         )

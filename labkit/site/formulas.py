@@ -16,7 +16,7 @@ import numpy as np
 
 from labkit.base.exchange import Path
 from labkit.judge.row import Row, Way, row_of
-from labkit.lesson.day import find_day
+from labkit.lesson.day import Day, find_day
 from labkit.lesson.script import lab_of
 from robo47 import checks
 from robo47.errors import Robo47Error
@@ -36,7 +36,7 @@ class Symbol:
     """
 
     def __init__(self, tape: Tape, *operation: Any) -> None:
-        self.tape, self.line = tape, line_of(tape, *operation)
+        self.tape, self.line = tape, tape.setdefault(operation, len(tape))
 
     def _with(self, name: str, a: Any, b: Any) -> Any:
         if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
@@ -84,15 +84,11 @@ class Symbol:
     __truediv__ = __rtruediv__ = _unknown
 
 
-def line_of(tape: Tape, *operation: Any) -> int:
-    """Return the line of an operation, written down where it is new."""
-    return tape.setdefault(operation, len(tape))
-
-
 def number(tape: Tape, value: Any) -> int:
-    """Return the line of a symbol, or of a plain number."""
-    known = isinstance(value, Symbol)
-    return value.line if known else line_of(tape, "=", float(value))
+    """Return the line of a symbol, or of a plain number: a new one is written down."""
+    if isinstance(value, Symbol):
+        return value.line
+    return tape.setdefault(("=", float(value)), len(tape))
 
 
 def _is(value: Any, number: int) -> bool:
@@ -111,22 +107,22 @@ def symbols_allowed() -> Iterator[None]:
         yield
 
 
-def chosen() -> list[tuple[int, Row, Way]]:
+def chosen() -> list[tuple[Day, Row, Way]]:
     """Return the day, the row and the mistake of each ghost."""
     found = []
     for one in tomllib.loads(LISTED.read_text("utf-8"))["ghosts"]:
-        number, function, slug = one["day"], one["function"], one["slug"]
-        row = row_of(find_day(number), function)
+        day, name, slug = find_day(one["day"]), one["function"], one["slug"]
+        row = row_of(day, name)
         ways = [way for way in row.named if way.slug == slug]
         if not ways:
-            raise Robo47Error(f"day {number}: {function} has no mistake {slug!r} now")
-        found.append((number, row, ways[0]))
+            raise Robo47Error(f"day {day.number}: {name} has no mistake {slug!r} now")
+        found.append((day, row, ways[0]))
     return found
 
 
-def questions(number: int, q: Any) -> dict[str, tuple]:
+def questions(day: Day, q: Any) -> dict[str, tuple]:
     """Return {frame: what a day's inspector asks the arm's function} at q, (7,)."""
-    ghost = find_day(number).module("inspector").GHOST
+    ghost = day.module("inspector").GHOST
     twin = mujoco.MjModel.from_xml_path(str(TWIN_XML))  # the page's robot
     asked = zip(ghost.frames, ghost.questions(twin, q), strict=True)
     return {
@@ -144,12 +140,12 @@ def tables() -> dict[str, Any]:
     for day, row, way in chosen():
         asked = questions(day, q)
         # A mistake of an argument is made with the lab's own: MuJoCo takes no symbols.
-        own = getattr(lab_of(find_day(day)), row.function)
+        own = getattr(lab_of(day), row.function)
         with symbols_allowed(), patch.object(row, "truth", own):
             drawn = {frame: way.code(*of) for frame, of in asked.items()}
         mistakes.append(
             {
-                "day": day,
+                "day": day.number,
                 "function": row.function,
                 "slug": way.slug,
                 "says": f"{way.says[0].upper()}{way.says[1:]}.",

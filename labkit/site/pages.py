@@ -27,7 +27,7 @@ LINK = re.compile(r"(?<=\]\()(?!https?:|#|mailto:)([^)#\s]+)(?=[)#])")
 PICTURE = re.compile(r"^!\[[^\]]*\]\([^)\s]*?(\w+)\.\w+\)$", re.MULTILINE)
 FILMS = "films"  # their folder among the site's static files
 LANGUAGE = {".py": "python", ".toml": "toml"}
-HOME = "README.md"
+HOME = Path("README.md")
 REFERENCE = """\
 # robo47.{0}
 
@@ -58,7 +58,7 @@ def lay_out(folder: Path, filmed: Collection[str]) -> None:
     pages = {p.relative_to(ROOT) for each in DOCUMENTS for p in ROOT.glob(each)}
     for page in pages:
         text = _with_films((ROOT / page).read_text("utf-8"), page, filmed)
-        name = Path("index.md") if page.as_posix() == HOME else page
+        name = Path("index.md") if page == HOME else page
         _write(folder / name, _linked(text, page, pages, folder))
     with (folder / "index.md").open("a", encoding="utf-8") as home:
         for caption, names in _contents(pages):
@@ -125,23 +125,21 @@ def _modules() -> Iterator[tuple[str, Sequence[str]]]:
 def _contents(pages: set[Path]) -> Iterator[tuple[str, Sequence[str]]]:
     """Yield the captions of the site's margin, and what stands below each."""
     yield "", ["arm"]
-    found = {week.folder.name: week for week in weeks()}
-    for name, week in found.items():
-        named = [page for day in days_of(week) for page in (day.guide, day.worksheet)]
-        own = [f"{name}/{page.removesuffix('.md')}" for page in filter(None, named)]
-        own = [page for page in own if Path(f"{page}.md") in pages]  # not written yet
-        rest = [p for p in pages if p.parts[0] == name and _bare(p) not in own]
-        readme = f"{name}/README"
-        more = sorted({_bare(p) for p in rest} - {readme})
-        yield f"Week {week.number}", [readme, *own, *more]
+    rest = {page.with_suffix("").as_posix() for page in pages - {HOME}}
+    for week in weeks():
+        top = f"{week.folder.name}/"
+        named = ["README.md"]
+        for day in days_of(week):
+            named += [day.guide, day.worksheet]
+        own = [top + name.removesuffix(".md") for name in named]
+        own = [page for page in own if page in rest]  # others are not written yet
+        rest -= {*own}
+        more = sorted(page for page in rest if page.startswith(top))
+        rest -= {*more}
+        yield f"Week {week.number}", [*own, *more]
     for title, modules in _modules():
         yield title, [f"library/{module}" for module in modules]
-    apart = [p for p in pages if p.parts[0] not in found and p.as_posix() != HOME]
-    yield "Teaching and making", sorted(map(_bare, apart))
-
-
-def _bare(page: Path) -> str:
-    return page.with_suffix("").as_posix()
+    yield "Teaching and making", sorted(rest)
 
 
 def _write(path: Path, text: str) -> None:

@@ -158,25 +158,20 @@ def ablations(fns: Any) -> dict[str, tuple[SimpleNamespace, float]]:
         {name: (functions, speed)}; the first is right.
     """
 
-    def but(**changed: Any) -> SimpleNamespace:
-        return SimpleNamespace(**{**vars(fns), **changed})
+    def but(speed: float = SPEED, **changed: Any) -> tuple[SimpleNamespace, float]:
+        return SimpleNamespace(**{**vars(fns), **changed}), speed
 
     return {
-        "right": (but(), SPEED),
-        "gravity forgotten": (
-            but(bias_torque=lambda J, G, qd, g: fns.bias_torque(J, G, qd, 0.0 * g)),
-            SPEED,
+        "right": but(),
+        "gravity forgotten": but(
+            bias_torque=lambda J, G, qd, g: fns.bias_torque(J, G, qd, 0.0 * g)
         ),
-        "armature forgotten": (
-            but(
-                mass_matrix=lambda J, G, armature: fns.mass_matrix(J, G, 0.0 * armature)
-            ),
-            SPEED,
+        "armature forgotten": but(
+            mass_matrix=lambda J, G, armature: fns.mass_matrix(J, G, 0.0 * armature)
         ),
-        "the hand forgotten": (
-            but(carry=lambda m1, c1, I1, *_: fns.carry(m1, c1, I1, 0.0, c1, 0.0 * I1)),
-            SPEED,
+        "the hand forgotten": but(
+            carry=lambda m1, c1, I1, *_: fns.carry(m1, c1, I1, 0.0, c1, 0.0 * I1)
         ),
-        "at the speed limits": (but(), 1.0),
-        "at 1.5 of the speed limits": (but(), 1.5),
+        "at the speed limits": but(1.0),
+        "at 1.5 of the speed limits": but(1.5),
     }

@@ -14,13 +14,14 @@ import mujoco
 import numpy as np
 
 from robo47 import panda, simulate
+from robo47.arm import GRAVITY
 from robo47.checks import Array
 from robo47.errors import Robo47Error
+from robo47.fast.vectors import times
 from robo47.panda.reading import joint_ids
 
 Law = Callable[[float, Array, Array], Array]  # (t, q, qd) to torques, (7,)
 
-GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s2
 OMEGA = 20.0  # rad/s, of computed torque; 100 Hz allows no more than about 60
 STIFFNESS = np.array([30.0, 30.0, 30.0, 600.0, 600.0, 600.0])  # N m/rad, N/m
 POSTURE = (10.0, 4.0)  # N m/rad, N m s/rad: how firmly the elbow is held in lines
@@ -52,9 +53,9 @@ class Arm:
         body = model.body("hand")
         T_link7_hand = fns.link_T(body.pos.copy(), body.quat.copy())
         T_hand_tcp = fns.make_T(np.eye(3), model.site("tcp").pos.copy())
-        self.T_link7_tcp = T_link7_hand @ T_hand_tcp
         T_zero = self.links(np.zeros(7))
-        self.screws, self.M_tcp = fns.joint_screws(T_zero), T_zero[6] @ self.T_link7_tcp
+        self.screws = fns.joint_screws(T_zero)
+        self.M_tcp = T_zero[6] @ (T_link7_hand @ T_hand_tcp)
         self.limits, self.tau_max = simulate.limits(model)
         dofs = simulate.addresses(model)[1]
         self.armature = model.dof_armature[dofs].copy()
@@ -88,7 +89,7 @@ class Arm:
     def gravity(self, q: Array) -> Array:
         """Return the torque that holds the arm at q, (7,)."""
         T_links, (masses, coms, _) = self.links(q), self.inertias
-        coms_world = (T_links[:, :3, :3] @ coms[..., None])[..., 0] + T_links[:, :3, 3]
+        coms_world = times(T_links[:, :3, :3], coms) + T_links[:, :3, 3]
         J_space = self.fns.space_jacobian(self.screws, q)
         return self.fns.gravity_torque(J_space, masses, coms_world, GRAVITY)
 

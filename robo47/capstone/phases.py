@@ -102,9 +102,8 @@ class Task:
 
         self.phases.append((phase.name, self.now))
         world, self.arm.worst = (self.model, self.data), self.worst[phase.kind]
-        self.runs.append(
-            simulate.run(*world, controller, seconds, rate=rate, watch=self._look)
-        )
+        run = simulate.run(*world, controller, seconds, rate=rate, watch=self._look)
+        self.runs.append(run)
         self.worst[phase.kind] = self.arm.worst
         self.now += seconds
         if phase.name == "close":
@@ -150,10 +149,8 @@ class Task:
         # A tendon over both fingers pulls with 100 N/m; each gets a half.
         opening = float(self.data.qpos[model.joint("finger_joint1").qposadr[0]])
         lift = trajectory.PEAK_ACCELERATION * HOVER / LINE_SECONDS**2
-        mu = float(model.geom("cube").friction[0])
-        self.heaviest = float(
-            self.fns.heaviest_cube(50.0 * max(opening, 0.0), mu, lift)
-        )
+        grip, mu = 50.0 * max(opening, 0.0), float(model.geom("cube").friction[0])
+        self.heaviest = float(self.fns.heaviest_cube(grip, mu, lift))
 
     def _cube(self) -> Array:
         """Return T_world_cube, (4, 4), from what a camera would see."""

@@ -4,9 +4,8 @@
     chains        products of frames or exponentials, for many q or for one, in floats
     jacobians     Jacobian columns for many q
     ik            damped least squares for many targets at once;  ik_one: for one
-    links         links in frames that suit their joints
     vectors       vectors as three arrays
-    dynamics      mass matrix, bias and torque for many q
+    dynamics      mass matrix and torque for many q
     arm_state     all that a control loop asks for at one q
 
 Read the formulas in `robo47.kinematics`, `jacobian` and `dynamics` first; nothing here

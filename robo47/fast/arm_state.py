@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 
 from robo47 import screws
 from robo47.checks import Array
+from robo47.fast.vectors import times
 
 # Linear maps, for rows of numbers: p @ SKEW is [p], V @ HAT is [V], row by row.
 SKEW = screws.skew(np.eye(3)).reshape(3, 9)
@@ -138,7 +139,7 @@ class ArmState:
     def coms_world(self) -> Array:
         """Centres of mass in the world, metres, (n, 3)."""
         T = self.T_links
-        return (T[:, :3, :3] @ self._c.coms[:, :, None])[:, :, 0] + T[:, :3, 3]
+        return times(T[:, :3, :3], self._c.coms) + T[:, :3, 3]
 
     @cached_property
     def _S(self) -> Array:

@@ -193,6 +193,7 @@ def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:
         if not np.isfinite(q).all():
             bad = start + int(np.argmin(np.isfinite(q).all(axis=0)))
             raise ValueError(f"configuration {bad} holds NaN or infinity: {flat[bad]}")
+        # A call, so that its frames are let go before the next chunk fills the cache.
         _write(plan, q, [T[part] for T in poses.values()])
     return {name: T.reshape(*qpos.shape[:-1], 4, 4) for name, T in poses.items()}
 
@@ -220,8 +221,8 @@ def in_chunks(
     out = np.empty((len(flat[0]), math.prod(shape)))
     for start in range(0, len(out), CHUNK):
         part = slice(start, start + CHUNK)
-        found = work(*(np.ascontiguousarray(rows[part].T) for rows in flat))
-        out[part] = found.reshape(out.shape[1], -1).T
+        columns = (np.ascontiguousarray(rows[part].T) for rows in flat)
+        out[part] = work(*columns).reshape(out.shape[1], -1).T
     return out.reshape(*given[0].shape[:-1], *shape)
 
 

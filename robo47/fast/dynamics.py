@@ -2,9 +2,14 @@
 
 `robo47.dynamics` multiplies 6x6 matrices that are mostly zeros. Here the same
 quantities go from link to link as single components, each an array over a chunk of
-configurations that fits the processor's cache; `robo47.fast.links` chooses the links'
-frames such that a hinge turns two components and leaves the third alone.
+configurations that fits the processor's cache; the links' frames are chosen such that
+a hinge turns two components and leaves the third alone.
 
+- `links_of`: at q = 0 every frame has the world's axes, as long as each joint's axis is
+  one of them, as in most robots: then no fixed rotation stands between two links. Where
+  an axis is none of the frame's own, the frames are turned once for all to make it z. A
+  frame's origin is the point of its joint's axis that is nearest to the frame before,
+  so that most offsets lie along one axis.
 - `mass_matrix`: from the tip inwards, all links that a joint carries become one body.
   What a unit acceleration of the joint makes of it is a wrench, and what each joint
   further in feels of that wrench is an entry of M (Featherstone, *Rigid Body Dynamics
@@ -17,17 +22,21 @@ a link's mass, which a turn and a move change in few operations. Units: radians,
 kilograms, N m.
 """
 
+import functools
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import checks
+from robo47 import checks, se3
 from robo47.arm import Arm
 from robo47.checks import Array
-from robo47.fast.chains import chunk_of, in_chunks
-from robo47.fast.links import Link, links_of
+from robo47.fast.chains import chunk_of, in_chunks, plan_of
+from robo47.fast.moves import Rotate, Shift, Turn
 from robo47.fast.vectors import Vector, combined, cross, dot, plus, turned
+
+TINY = 1e-14  # metres, kg m and kg m^2: what rounding leaves of a zero
 
 
 def mass_matrix(arm: Arm, q: ArrayLike) -> Array:
@@ -61,11 +70,7 @@ def inverse_dynamics(arm: Arm, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> A
     Raises:
         ValueError: as `mass_matrix`.
     """
-    down = arm.gravity.tolist()
-
-    def torques(links: Sequence[Link], *motion: Array) -> Array:
-        return _torques(links, down, *motion)
-
+    torques = functools.partial(_torques, arm.gravity.tolist())
     return _for_all(torques, arm, (len(arm.masses),), q, qd, qdd)
 
 
@@ -82,6 +87,74 @@ def _for_all(
         return work(links, chunk.cos, chunk.sin * signs, *(x * signs for x in more))
 
     return in_chunks(signed, shape, *np.broadcast_arrays(*rows))
+
+
+@dataclass(frozen=True)
+class Link:
+    """One moving link and the hinge that carries it."""
+
+    k: int  # which of the frame's axes the hinge turns about: 0, 1 or 2
+    sign: float  # 1.0, or -1.0 for a turn about minus that axis
+    R: Array | None  # fixed rotation from the link before, (3, 3); None for none
+    t: Array  # the hinge's place, seen from the link before, metres, (3,)
+    m: float  # mass, kg
+    h: Array  # first moment: mass times centre of mass, kg m, (3,)
+    Q: Array  # second moments: integral of r r^T over the mass, kg m^2, (3, 3)
+    armature: float  # of the hinge, kg m^2
+
+    @property
+    def axes(self) -> tuple[int, int, int]:
+        """The hinge's axis, and the two that it turns: x to y, y to z or z to x."""
+        return self.k, (self.k + 1) % 3, (self.k + 2) % 3
+
+    def to_parent(
+        self, c: Array, s: Array, n: Vector, f: Vector
+    ) -> tuple[Vector, Vector]:
+        """Return a moment and force on this link as the link before sees them."""
+        _, i, j = self.axes
+        for v in (n, f):
+            v[i], v[j] = turned(v[i], v[j], c, s)
+            if self.R is not None:
+                v[:] = combined(self.R, v)
+        return plus(n, cross(self.t, f)), f
+
+
+@functools.lru_cache(maxsize=32)
+def links_of(arm: Arm) -> tuple[Link, ...]:
+    """Return an arm's links, from the base outwards, worked out once for each arm.
+
+    Args:
+        arm: of hinges.
+
+    Raises:
+        ValueError: a joint is no hinge.
+    """
+    omega, v = arm.screws[:, :3], arm.screws[:, 3:]
+    hinges = (np.vecdot(omega, omega) > 0.5) & (np.abs(np.vecdot(omega, v)) < 1e-9)
+    if not hinges.all():
+        i = int(hinges.argmin()) + 1
+        raise ValueError(f"joint {i} is no hinge; the batch is for arms of hinges")
+    links: list[Link] = []
+    T, R, t = np.eye(4), None, np.zeros(3)  # T_link_world; from one link to the next
+    for _, step in plan_of(arm.screws, arm.M_home).steps:
+        if isinstance(step, Rotate):
+            R = step.R
+        elif isinstance(step, Shift):
+            t = _cleaned(step.vector if R is None else R @ step.vector)
+        elif isinstance(step, Turn):
+            own = arm.constants.pseudo[step.adr]  # about the world's origin, at q = 0
+            T = se3.inverse(se3.make_T(np.eye(3) if R is None else R, t)) @ T
+            P = T @ own @ T.T
+            m, h, Q = float(P[3, 3]), _cleaned(P[:3, 3]), _cleaned(P[:3, :3])
+            armature = float(arm.armature[step.adr])
+            links.append(Link(step.k, step.sign, R, t, m, h, Q, armature))
+            R, t = None, np.zeros(3)
+    return tuple(links)
+
+
+def _cleaned(x: Array) -> Array:
+    """Return x with what rounding leaves of zeros put right."""
+    return np.where(np.abs(x) < TINY, 0.0, x)
 
 
 def _mass_matrices(links: Sequence[Link], cos: Array, sin: Array) -> Array:
@@ -156,10 +229,10 @@ def _both_sides(R: Array, Q: list[Vector]) -> list[Vector]:
 
 
 def _torques(
-    links: Sequence[Link], down: Vector, cos: Array, sin: Array, qd: Array, qdd: Array
+    down: Vector, links: Sequence[Link], cos: Array, sin: Array, qd: Array, qdd: Array
 ) -> Array:
     """Return the torques, (n, count): the links' wrenches added up from the tip."""
-    wrenches = _wrenches(links, down, cos, sin, qd, qdd)
+    wrenches = _wrenches(down, links, cos, sin, qd, qdd)
     tau = np.empty_like(qd)
     f: Vector = [0.0] * 3
     n: Vector = [0.0] * 3
@@ -172,7 +245,7 @@ def _torques(
 
 
 def _wrenches(
-    links: Sequence[Link], down: Vector, cos: Array, sin: Array, qd: Array, qdd: Array
+    down: Vector, links: Sequence[Link], cos: Array, sin: Array, qd: Array, qdd: Array
 ) -> list[tuple[Vector, Vector]]:
     """Return what each link's motion takes: velocities added up from the base."""
     wrenches = []

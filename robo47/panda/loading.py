@@ -29,8 +29,6 @@ END_FRAME = {
 Edit = Callable[[mujoco.MjSpec], None]
 _SHAPES = {"geom", "mesh", "material", "texture"}
 DRIVES = ("servo", "torque")
-# The twin has both ends; each entry keeps its own.
-_TWIN_WITHOUT = {"panda": "attachment", "panda_nohand": "hand", "scene": "attachment"}
 
 
 def load(
@@ -183,31 +181,27 @@ def _read(folder: Path, entry: str, meshes: bool) -> dict[str, bytes]:
 def _without_shapes(root: ET.Element) -> bytes:
     """Return a model file without its looks; the masses stay, all being explicit."""
     for section in ("worldbody", "asset"):
-        for parent in [p for top in root.iter(section) for p in top.iter()]:
-            for child in [c for c in parent if c.tag in _SHAPES]:
-                parent.remove(child)
+        for top in root.iter(section):
+            _remove(top, lambda part: part.tag in _SHAPES)
     return ET.tostring(root)
 
 
 def _twin_xml(entry: str) -> str:
-    """Return the embedded twin with the end that the entry has."""
+    """Return the embedded twin, which has both ends, with the end of the entry."""
     root = ET.fromstring(TWIN_XML.read_bytes())
-    for parent in root.iter():
-        for child in parent.findall(f"body[@name='{_TWIN_WITHOUT[entry]}']"):
-            parent.remove(child)
-    if entry == "panda_nohand":
-        _without_fingers(root)
+    if entry == "panda_nohand":  # nor what drives, couples or counts the fingers
+        names, tags = {"hand", "actuator8"}, {"tendon", "equality"}
+        _remove(root, lambda part: part.get("name") in names or part.tag in tags)
+        for key in root.iter("key"):
+            for name in ("qpos", "ctrl"):
+                key.set(name, " ".join(key.get(name, "").split()[: len(READY_Q)]))
     else:
+        _remove(root, lambda part: part.get("name") == "attachment")
         root.find("option").set("impratio", "1")  # type: ignore[union-attr]
     return ET.tostring(root, encoding="unicode")
 
 
-def _without_fingers(root: ET.Element) -> None:
-    """Remove from the twin what drives, couples or counts the fingers."""
-    for tag in ("tendon", "equality"):
-        root.remove(root.find(tag))  # type: ignore[arg-type]
-    for actuators in root.iter("actuator"):
-        actuators.remove(actuators[len(READY_Q)])
-    for key in root.iter("key"):
-        for name in ("qpos", "ctrl"):
-            key.set(name, " ".join(key.get(name, "").split()[: len(READY_Q)]))
+def _remove(root: ET.Element, unwanted: Callable[[ET.Element], bool]) -> None:
+    for parent in list(root.iter()):
+        for child in filter(unwanted, list(parent)):
+            parent.remove(child)

@@ -29,9 +29,7 @@ class Inertias(NamedTuple):
 
     masses: Array  # kilograms, (n,)
     coms: Array  # centres of mass in the links' own frames, metres, (n, 3)
-    inertias: (
-        Array  # about the centres of mass, in the links' own axes, kg m^2, (n, 3, 3)
-    )
+    inertias: Array  # about these centres, in the links' axes, kg m^2, (n, 3, 3)
 
     def carrying(self, carry: Callable[..., Array], *load: Any) -> "Inertias":
         """Return the same bodies, the last one with a load that carry makes part of it.

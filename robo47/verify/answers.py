@@ -23,7 +23,6 @@ from robo47.verify.oracle import (
 Function = Callable[..., Array]  # one of the lab's own
 Check = Callable[[str, Array], None]  # is given a name and differences
 SEED = 47  # the same random numbers at every run
-SITE = "site:attachment_site"
 
 
 def each(function: Callable[..., Any], *columns: Array) -> Array:
@@ -183,4 +182,5 @@ def off_library(model: mujoco.MjModel, n: int) -> tuple[Array, Array]:
     q, S = random_q(model, n, SEED), panda.screws(model)
     T, J = screws.fk_space(S, panda.home_pose(model), q), jacobian.space_jacobian(S, q)
     J_site = jacobian.site_jacobian(J, T[:, :3, 3])
-    return T - mujoco_poses(model, q)[SITE], J_site - mujoco_site_jacobian(model, q)
+    truth = mujoco_poses(model, q)[panda.END_FRAME["panda_nohand"]]
+    return T - truth, J_site - mujoco_site_jacobian(model, q)

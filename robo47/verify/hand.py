@@ -45,12 +45,12 @@ def mass_felt(
     model: mujoco.MjModel, found: Sequence[State], task_inertia: Function
 ) -> Array:
     """Return Lambda a - F of MuJoCo's hand at rest, as a part of its push F, (n, 6)."""
-    return np.array([
-        (task_inertia(s.now.J_site, s.now.M) @ acc - s.wrench)
-        / np.linalg.norm(s.wrench)
-        for s in found
-        for acc in [_hand(model, s, 0, s.now.gravity_torque, s.wrench)]
-    ])  # fmt: skip
+    off = []
+    for s in found:
+        acc = _hand(model, s, 0, s.now.gravity_torque, s.wrench)
+        felt = task_inertia(s.now.J_site, s.now.M) @ acc
+        off.append((felt - s.wrench) / np.linalg.norm(s.wrench))
+    return np.array(off)
 
 
 def drift(model: mujoco.MjModel, found: Sequence[State], site_bias: Function) -> Array:

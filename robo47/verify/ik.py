@@ -10,10 +10,10 @@ import numpy as np
 
 from robo47 import jacobian
 from robo47.checks import Array
+from robo47.fast.ik import REACHED
 from robo47.screws import fk_space
 from robo47.verify.answers import Function, each
 
-REACHED = 1e-8  # the length of the pose error of a solution, radians and metres
 NEAR, FAR = 0.3, 2.0  # radians from the start; metres from the base, out of reach
 ENOUGH = 3  # failures, after which the rest is spared
 

@@ -119,10 +119,8 @@ def wrong_masses(
     Returns:
         {what is wrong: (off by, asymmetric by, least eigenvalue)}.
     """
-    found = {}
-    bad = [
-        wrong_on_purpose(link_inertias, *x) for x in zip(at.T, *at.links, strict=True)
-    ]
+    found, bodies = {}, zip(at.T, *at.links, strict=True)
+    bad = [wrong_on_purpose(link_inertias, *x) for x in bodies]
     for what in bad[0]:
         own = each(mass_matrix, at.J, np.array([one[what] for one in bad]), at.armature)
         skewed = np.abs(own - np.swapaxes(own, 1, 2)).max()

@@ -57,10 +57,8 @@ def random_q(model: mujoco.MjModel, n: int, seed: int) -> Array:
     limited = model.jnt_limited.astype(bool)
     low = np.where(limited, model.jnt_range[:, 0], -reach)
     high = np.where(limited, model.jnt_range[:, 1], reach)
-    q = np.empty((n, model.nq))
-    q[:, model.jnt_qposadr] = np.random.default_rng(seed).uniform(
-        low, high, (n, model.njnt)
-    )
+    q, rng = np.empty((n, model.nq)), np.random.default_rng(seed)
+    q[:, model.jnt_qposadr] = rng.uniform(low, high, (n, model.njnt))
     return q
 
 
@@ -132,14 +130,10 @@ def worst_difference(
     """
     if ours.keys() != truth.keys():
         raise ValueError(f"not the same frames: {sorted(ours.keys() ^ truth.keys())}")
-    worst = Worst(-1.0, "", qpos[:0])
-    for frame, T in ours.items():
-        error = np.abs(T - truth[frame]).max(axis=(1, 2))
-        error = np.where(np.isnan(error), np.inf, error)  # nothing is worse than NaN
-        i = int(np.argmax(error))
-        if error[i] > worst.error:
-            worst = Worst(float(error[i]), frame, qpos[i].copy())
-    return worst
+    off = [np.abs(T - truth[frame]).max(axis=(1, 2)) for frame, T in ours.items()]
+    error = np.nan_to_num(off, nan=np.inf, posinf=np.inf)  # nothing is worse than NaN
+    frame, i = np.unravel_index(np.argmax(error), error.shape)
+    return Worst(float(error[frame, i]), list(ours)[frame], qpos[i].copy())
 
 
 def verify_fk(model: mujoco.MjModel, n: int, seed: int) -> Worst:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Rotation, Row, draw
+from labkit.judge import Rotation, Row
 from labkit.judge.argument_mistakes import OF_AN_ANGLE, ROUNDED
 from labkit.judge.finished import OF_A_ROTATION
 from robo47 import se3
@@ -15,7 +15,7 @@ row = Row(Rotation(), near=NEAR, alike=[BACKWARDS])
 @row.inputs
 def angles(rng):
     """Return no turn, a right angle, some as in the lab and three drawn ones."""
-    drawn = draw.numbers(rng, -np.pi, np.pi, 3)
+    drawn = rng.numbers(-np.pi, np.pi, 3)
     return [(x,) for x in (0.0, np.pi / 2, -0.785, 2.356, -7.1, *map(float, drawn))]
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import HeldOut, Pose, Row, draw
+from labkit.judge import HeldOut, Pose, Row
 from labkit.judge.finished import of_a_pose
 from labkit.judge.matrices import pose, split
 
@@ -11,7 +11,7 @@ from .panda_chain import NEAR
 
 def _scaled(rng):
     """Return poses whose R is twice a rotation: R^T and an inverse then differ."""
-    T = draw.poses(rng, 2)
+    T = rng.poses(2)
     T[:, :3, :3] *= 2.0
     return [(one,) for one in T]
 
@@ -41,7 +41,7 @@ row = Row(
 def _(rng):
     move = np.eye(4)
     move[0, 3] = 1.0
-    return [(move,), *((T,) for T in draw.poses(rng, 5))]
+    return [(move,), *((T,) for T in rng.poses(5))]
 
 
 @row.wrongs

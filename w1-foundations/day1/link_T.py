@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Pose, Row, draw
+from labkit.judge import Pose, Row
 from labkit.judge.matrices import pose
 from robo47 import se3
 
@@ -19,7 +19,7 @@ row = Row(
 @row.inputs
 def _(rng):
     quats = quaternions(rng)
-    return list(zip(draw.numbers(rng, -1, 1, len(quats), 3), quats, strict=True))
+    return list(zip(rng.numbers(-1, 1, len(quats), 3), quats, strict=True))
 
 
 @row.wrong

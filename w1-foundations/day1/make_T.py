@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Pose, Row, draw
+from labkit.judge import Pose, Row
 from labkit.judge.finished import of_a_pose
 from labkit.judge.matrices import pose
 
@@ -13,9 +13,9 @@ row = Row(Pose(), near=NEAR)
 
 @row.inputs
 def _(rng):
-    moves = draw.numbers(rng, -2, 2, 5, 3)
+    moves = rng.numbers(-2, 2, 5, 3)
     yield np.eye(3), np.array([1.0, 2.0, 3.0])
-    yield from zip(draw.rotations(rng, 5), moves, strict=True)
+    yield from zip(rng.rotations(5), moves, strict=True)
 
 
 @row.wrongs

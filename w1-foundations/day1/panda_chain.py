@@ -11,9 +11,9 @@ from functools import cache, lru_cache, reduce
 import numpy as np
 
 from labkit.base.exchange import Path
-from labkit.judge import Robot, draw
+from labkit.judge import Robot
 from labkit.judge.matrices import pose
-from robo47 import se3, verify
+from robo47 import panda, se3, verify
 from robo47.checks import Array
 
 NEAR = 1e-4
@@ -42,8 +42,8 @@ def on(robot, path=None, count=10):
     """Return inputs on a robot: zero, ready, then random configurations."""
 
     def inputs(rng):
-        drawn = draw.configurations(rng, count)
-        some = [draw.ZERO, draw.READY, *drawn] if path is None else drawn
+        drawn = rng.configurations(count)
+        some = [np.zeros(7), panda.READY_Q, *drawn] if path is None else drawn
         rest = () if path is None else (Path(path),)
         return [(robot, q, *rest) for q in some]
 

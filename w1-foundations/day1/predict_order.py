@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from labkit.judge import HeldOut, Points, Row, draw
+from labkit.judge import HeldOut, Points, Row
 from labkit.judge.matrices import split
 
 from .panda_chain import NEAR
 
 
 def _two_poses(rng):
-    return list(zip(draw.poses(rng, 6), draw.poses(rng, 6), strict=True))
+    return list(zip(rng.poses(6), rng.poses(6), strict=True))
 
 
 def _odd_bottom_rows(rng):

@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Rotation, Row, draw
+from labkit.judge import Rotation, Row, rounded
 from labkit.judge.finished import OF_A_ROTATION
 from robo47 import se3
 
@@ -20,7 +20,7 @@ def quaternions(rng):
     q[:3] /= np.linalg.norm(q[:3], axis=1, keepdims=True)
     q[[1, 4], 0] = -np.abs(q[[1, 4], 0])
     short = [0.0001, 0.0002, 0.0, -0.0002], [0.2, -0.1, 0.1, 0.2]
-    return np.vstack([np.array([*written, *short]), draw.rounded(q)])
+    return np.vstack([np.array([*written, *short]), rounded(q)])
 
 
 @row.inputs

@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Matrix, Row, draw
+from labkit.judge import Matrix, Row
 from robo47 import se3
 from robo47.screws import adjoint, skew
 
@@ -16,7 +16,7 @@ O = np.zeros((3, 3))  # noqa: E741
 @row.inputs
 def _(rng):
     yield (se3.make_T(np.eye(3), [1.0, 0.0, 0.0]),)
-    yield from ((T,) for T in draw.poses(rng, 8))
+    yield from ((T,) for T in rng.poses(8))
 
 
 @row.wrongs

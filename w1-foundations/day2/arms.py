@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from labkit.judge import Matrix, draw
+from labkit.judge import Matrix
 from robo47 import kinematics, panda, screws
 
 JOINTS = tuple(f"the screw of joint{i}" for i in range(1, 8))
@@ -37,14 +37,14 @@ def the_panda():
 def others(rng, n):
     """Return n arms of seven hinges: their screws and M."""
     return [
-        (screws.screw_axis(draw.units(rng, 7), draw.numbers(rng, -1, 1, 7, 3)), T)
-        for T in draw.poses(rng, n)
+        (screws.screw_axis(rng.units(7), rng.numbers(-1, 1, 7, 3)), T)
+        for T in rng.poses(n)
     ]
 
 
 def arms(rng):
     """Return screws, M and q: the Panda at q = 0 and elsewhere, then other arms."""
     S, M, _ = the_panda()
-    own = [(S, M, q) for q in (draw.ZERO, FAR, *draw.configurations(rng, 4))]
-    q = draw.numbers(rng, -2, 2, 5, 7)
+    own = [(S, M, q) for q in (np.zeros(7), FAR, *rng.configurations(4))]
+    q = rng.numbers(-2, 2, 5, 7)
     return own + [(*arm, x) for arm, x in zip(others(rng, 5), q, strict=True)]

@@ -4,7 +4,7 @@ from functools import reduce
 
 import numpy as np
 
-from labkit.judge import Pose, Row, draw
+from labkit.judge import Pose, Row
 from labkit.judge.argument_mistakes import LEFT_OUT
 from robo47.screws import dh_fk, dh_link
 
@@ -21,9 +21,9 @@ row = Row(
 @row.inputs
 def _(rng):
     """Return Franka's table at q = 0 and elsewhere, then other robots' tables."""
-    own = [(FRANKA, q) for q in (draw.ZERO, FAR, *draw.configurations(rng, 5))]
-    others = draw.numbers(rng, -1.5, 1.5, 4, 8, 3)
-    return own + list(zip(others, draw.numbers(rng, -2, 2, 4, 7), strict=True))
+    own = [(FRANKA, q) for q in (np.zeros(7), FAR, *rng.configurations(5))]
+    others = rng.numbers(-1.5, 1.5, 4, 8, 3)
+    return own + list(zip(others, rng.numbers(-2, 2, 4, 7), strict=True))
 
 
 def links(table, theta):

@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Pose, Row, draw
+from labkit.judge import Pose, Row
 from labkit.judge.argument_mistakes import NEGATED, RADIANS_TWICE
 from labkit.judge.finished import of_a_pose
 from robo47 import se3
@@ -20,7 +20,7 @@ def _(rng):
     yield np.pi / 2, 0.0, 0.316, 0.0
     yield (*map(float, FRANKA[3]), 0.4)
     yield (*map(float, FRANKA[4]), -1.3)
-    yield from (tuple(map(float, one)) for one in draw.numbers(rng, -1.5, 1.5, 7, 4))
+    yield from (tuple(map(float, one)) for one in rng.numbers(-1.5, 1.5, 7, 4))
 
 
 def in_order(order, alpha, a, d, theta):

@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Rotation, Row, draw
+from labkit.judge import Rotation, Row
 from labkit.judge.argument_mistakes import OF_AN_ANGLE, SIGN_LOST, SMALL_LEFT_OUT
 from robo47 import se3
 from robo47.screws import exp_rotation, skew
@@ -23,9 +23,9 @@ def _(rng):
     Some angles are small and one is beyond pi: the formula needs no case of its own.
     One angle comes with two axes, so that no cache can take it for the whole question.
     """
-    axes = [Z, *np.eye(3), Z, *[OBLIQUE] * 3, *draw.units(rng, 6)]
+    axes = [Z, *np.eye(3), Z, *[OBLIQUE] * 3, *rng.units(6)]
     angles = [np.pi / 2, 0.5, -1.2, 2.5, 3.3, 1e-4, -5e-3, 0.5, 0.0]
-    angles += map(float, draw.numbers(rng, -3, 3, 5))
+    angles += map(float, rng.numbers(-3, 3, 5))
     return zip(axes, angles, strict=True)
 
 

@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Pose, Row, draw
+from labkit.judge import Pose, Row
 from labkit.judge.argument_mistakes import INTO_COS, RADIANS_TWICE, SMALL_LEFT_OUT
 from labkit.judge.finished import of_a_pose
 from robo47.screws import skew
@@ -44,9 +44,9 @@ def _(rng):
 
     Hinges through the origin and about x, y and z; angles beyond pi, and small ones.
     """
-    drawn = np.hstack([draw.units(rng, 8), draw.numbers(rng, -1, 1, 8, 3)])
+    drawn = np.hstack([rng.units(8), rng.numbers(-1, 1, 8, 3)])
     drawn[[0, 3], :3] = 0.0
-    angles = draw.numbers(rng, -3, 3, 8)
+    angles = rng.numbers(-3, 3, 8)
     yield from ((np.array(S, dtype=float), theta) for S, theta in MOTIONS)
     yield from ((S, float(theta)) for S, theta in zip(drawn, angles, strict=True))
 

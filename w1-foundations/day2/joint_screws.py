@@ -5,7 +5,7 @@ from itertools import accumulate
 
 import numpy as np
 
-from labkit.judge import Row, draw
+from labkit.judge import Row
 from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 from robo47 import se3
 from robo47.screws import screw_axis
@@ -20,7 +20,7 @@ row = Row(SCREWS, unnamed=which_half)
 def _(rng):
     yield (the_panda()[2],)
     for _ in range(7):
-        yield (draw.poses(rng, 7),)
+        yield (rng.poses(7),)
 
 
 @row.wrongs

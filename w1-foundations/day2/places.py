@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
-from labkit.judge import Case, Finding, Pose
+from labkit.judge import Case, Draw, Finding, Pose
 from labkit.judge.answers import InTurn, difference, matches, rigid
 from labkit.judge.chain import Factor, one_place, product
 from labkit.judge.row import row_of
@@ -68,7 +68,7 @@ def mistake_of(
 def alone(first: Callable, n: int = 7) -> Callable:
     """Return inputs of a probe: each joint alone, of the first question, both ways."""
 
-    def inputs(rng: np.random.Generator) -> list[tuple]:
+    def inputs(rng: Draw) -> list[tuple]:
         *arm, _ = first(rng)[0]
         return [(*arm, q) for q in ALONE * np.vstack([np.eye(n), -np.eye(n)])]
 

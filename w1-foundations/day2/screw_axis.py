@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, Twist, draw
+from labkit.judge import Row, Twist
 from robo47.screws import screw_axis
 
 from . import halves
@@ -12,8 +12,8 @@ row = Row(Twist(), unnamed=halves.turned_round)
 
 @row.inputs
 def _(rng):
-    axes = [np.array([0.0, 0.0, 1.0]), *np.eye(3), *draw.units(rng, 5)]
-    points = [np.array([1.0, 0.0, 0.0]), *draw.numbers(rng, -1, 1, 8, 3)]
+    axes = [np.array([0.0, 0.0, 1.0]), *np.eye(3), *rng.units(5)]
+    points = [np.array([1.0, 0.0, 0.0]), *rng.numbers(-1, 1, 8, 3)]
     return zip(axes, points, strict=True)
 
 

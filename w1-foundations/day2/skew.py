@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Matrix, Row, draw
+from labkit.judge import Matrix, Row
 from robo47.screws import skew
 
 row = Row(Matrix((3, 3)))
@@ -15,7 +15,7 @@ SWAPPED = {"x and z": [2, 1, 0], "x and y": [1, 0, 2], "y and z": [0, 2, 1]}
 @row.inputs
 def _(rng):
     yield (np.array([0.0, 0.0, 1.0]),)
-    yield from ((w,) for w in draw.numbers(rng, -2, 2, 8, 3))
+    yield from ((w,) for w in rng.numbers(-2, 2, 8, 3))
 
 
 @row.wrongs

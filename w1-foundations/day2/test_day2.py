@@ -11,6 +11,7 @@ import pytest
 from compare import assert_same
 
 from conftest import ROOT, load_script, need
+from labkit.judge import Draw
 from labkit.judge.answers import degrees, matches
 from labkit.judge.row import row_of
 from labkit.lesson.day import find_day
@@ -176,7 +177,7 @@ def test_how_many_named_mistakes_are_exact_at_zero(arm):
     S, M, q = arm
     truth = screws.fk_space(S, M, q)
     row = row_of(DAY, "fk_space")
-    asked = row.ask.inputs(np.random.default_rng(lab.SEED))
+    asked = row.ask.inputs(Draw(lab.SEED))
     exact = wrong = 0
     with np.errstate(all="ignore"):
         # Some have two names: one joint's wrong angle is the product at a wrong q.

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Jacobian, Row, draw
+from labkit.judge import Jacobian, Row
 from robo47 import jacobian
 from robo47.jacobian import site_jacobian
 from robo47.screws import adjoint, fk_space
@@ -15,7 +15,7 @@ row = Row(Jacobian())
 @row.inputs
 def _(rng):
     S, M, _ = arm()
-    q = draw.configurations(rng, 8)
+    q = rng.configurations(8)
     J = jacobian.space_jacobian(S, q)
     return [(J[0], np.eye(4)), *zip(J, fk_space(S, M, q), strict=True)]
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import HeldOut, Row, Vector, draw
+from labkit.judge import HeldOut, Row, Vector
 from robo47.jacobian import dls_step
 
 from .jacobians import JOINTS, UNIT, near_singular, site_jacobians
@@ -12,8 +12,8 @@ pinv, solve = np.linalg.pinv, np.linalg.solve
 
 
 def _without_damping(rng):
-    J = site_jacobians(draw.configurations(rng, 3))
-    e = draw.numbers(rng, -1, 1, 3, 6)
+    J = site_jacobians(rng.configurations(3))
+    e = rng.numbers(-1, 1, 3, 6)
     return [(J[i], e[i], 0.0) for i in range(3)]
 
 
@@ -29,7 +29,7 @@ row = Row(Vector((7,), "rad", names=JOINTS), held_out=[AT_NO_DAMPING])
 
 @row.inputs
 def _(rng):
-    e = draw.numbers(rng, -0.5, 0.5, 9, 6)
+    e = rng.numbers(-0.5, 0.5, 9, 6)
     damping = [0.05, 0.02, 0.1, 0.3, 0.5, 2.0, 0.01, 0.0002, 0.7]
     first = (UNIT, np.arange(1.0, 7.0) / 10, 1.0)
     return [first, *zip(near_singular(rng), e, damping, strict=True)]

@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from labkit.judge import draw
+from labkit.judge import rounded
 from labkit.judge.kinds import Kind
 from robo47 import jacobian, panda, screws
 from robo47.checks import Array
@@ -34,11 +34,11 @@ def site_jacobians(q: Array) -> Array:
     """Return J_site of the Panda's hand, rounded so that it can be typed."""
     S, M, _ = arm()
     p = screws.fk_space(S, M, q)[:, :3, 3]
-    return draw.rounded(jacobian.site_jacobian(jacobian.space_jacobian(S, q), p))
+    return rounded(jacobian.site_jacobian(jacobian.space_jacobian(S, q), p))
 
 
 def near_singular(rng) -> Array:
     """Return Jacobians of all sorts, (9, 6, 7): two are singular, nearly."""
-    q = draw.configurations(rng, 9)
-    q[1], q[2] = draw.ZERO, [0.0, 0.3, 0.0, -0.08, 0.0, 0.4, 0.2]
+    q = rng.configurations(9)
+    q[1], q[2] = np.zeros(7), [0.0, 0.3, 0.0, -0.08, 0.0, 0.4, 0.2]
     return site_jacobians(q)

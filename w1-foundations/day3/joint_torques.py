@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, Vector, draw
+from labkit.judge import Row, Vector
 from labkit.judge.argument_mistakes import HALVES_SWAPPED
 from robo47.jacobian import site_jacobian
 
@@ -18,8 +18,8 @@ def _(rng):
     spin = np.zeros((6, 7))
     spin[2, 0] = 1.0
     first = (spin, np.array([0.0, 1.0, 0.0]), np.array([0.0, 0, 0, -10, 0, 0]))
-    drawn = draw.numbers(rng, -1, 1, 9, 6, 7)
-    points, wrenches = (draw.numbers(rng, -1, 1, 9, n) for n in (3, 6))
+    drawn = rng.numbers(-1, 1, 9, 6, 7)
+    points, wrenches = (rng.numbers(-1, 1, 9, n) for n in (3, 6))
     return [first, *zip(drawn, points, wrenches, strict=True)]
 
 

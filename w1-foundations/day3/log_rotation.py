@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import HeldOut, Row, Vector, draw
+from labkit.judge import HeldOut, Row, Vector
 from robo47 import se3
 from robo47.jacobian import log_rotation
 from robo47.screws import exp_rotation
@@ -45,7 +45,7 @@ def _(rng):
     by_pi = np.pi - np.array([1e-2, 1e-4, 1e-6, 1e-8])
     drawn, first = rng.uniform(0.2, 3.0, 5), [0.01, 0.05, 0.1]
     turns = np.array([*small, *by_pi, 2.0, *drawn, *first])
-    R = exp_rotation(draw.units(rng, len(turns)), turns)
+    R = exp_rotation(rng.units(len(turns)), turns)
     R = [*R[-3:], *R[:-3]]
     rounded = np.diag([1.0, 1.0, 1.0 + 2.0**-51])  # a trace of 3 and a last digit
     c = -1.0 + 2.0**-40

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Case, Finding, Row, Slip, Vector, draw
+from labkit.judge import Case, Finding, Row, Slip, Vector
 from labkit.judge.answers import difference
 from labkit.judge.kinds import one_factor
 from labkit.judge.matrices import times
@@ -49,9 +49,9 @@ row = Row(
 
 @row.inputs
 def _(rng):
-    J = site_jacobians(draw.configurations(rng, 9))
+    J = site_jacobians(rng.configurations(9))
     J[0, 0] = 0.0  # rank 5: two motions are not felt
-    return [(UNIT, np.ones(7)), *zip(J, draw.numbers(rng, -1, 1, 9, 7), strict=True)]
+    return [(UNIT, np.ones(7)), *zip(J, rng.numbers(-1, 1, 9, 7), strict=True)]
 
 
 @row.wrongs(hidden={"one-direction-only": "its J have rank 6"})

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from labkit.judge import Row, Twist, draw
+from labkit.judge import Row, Twist
 from robo47 import se3
 from robo47.jacobian import log_rotation, pose_error
 from robo47.screws import exp_rotation, skew
@@ -26,9 +26,9 @@ row = Row(Gap())
 def _(rng):
     higher = np.eye(4)
     higher[2, 3] = 0.1
-    T = draw.poses(rng, 8)
-    turn = exp_rotation(draw.units(rng, 8), rng.uniform(0.05, 3.0, 8))
-    goal = se3.make_T(turn @ T[:, :3, :3], draw.numbers(rng, -1, 1, 8, 3))
+    T = rng.poses(8)
+    turn = exp_rotation(rng.units(8), rng.uniform(0.05, 3.0, 8))
+    goal = se3.make_T(turn @ T[:, :3, :3], rng.numbers(-1, 1, 8, 3))
     return [(np.eye(4), higher), *zip(T, goal, strict=True)]
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Jacobian, Row, draw
+from labkit.judge import Jacobian, Row
 
 # On these questions one thing with two names: the numbers are the same.
 row = Row(Jacobian(), alike=[{"omega-changed", "halves-read-as-v-omega"}])
@@ -12,8 +12,8 @@ row = Row(Jacobian(), alike=[{"omega-changed", "halves-read-as-v-omega"}])
 def _(rng):
     spin = np.zeros((6, 7))
     spin[2] = 1.0
-    drawn = draw.numbers(rng, -1, 1, 8, 6, 7)
-    points = draw.numbers(rng, -1, 1, 8, 3)
+    drawn = rng.numbers(-1, 1, 8, 6, 7)
+    points = rng.numbers(-1, 1, 8, 3)
     return [(spin, np.array([1.0, 0.0, 0.0])), *zip(drawn, points, strict=True)]
 
 

@@ -4,8 +4,9 @@ from itertools import accumulate
 
 import numpy as np
 
-from labkit.judge import Jacobian, Row, draw
+from labkit.judge import Jacobian, Row
 from labkit.judge.argument_mistakes import BACKWARDS, DEGREES, RADIANS_TWICE
+from robo47 import panda
 from robo47 import screws as day2
 from robo47.jacobian import space_jacobian
 from robo47.screws import adjoint, exp_screw, fk_space, skew
@@ -18,16 +19,16 @@ row = Row(Jacobian())
 @row.inputs
 def _(rng):
     S, _, _ = arm()
-    some = [draw.ZERO, draw.READY, *draw.configurations(rng, 4)]
-    nobody_has = [(_other_arm(rng), q) for q in draw.configurations(rng, 2)]
-    last = draw.configurations(rng, 3)
+    some = [np.zeros(7), panda.READY_Q, *rng.configurations(4)]
+    nobody_has = [(_other_arm(rng), q) for q in rng.configurations(2)]
+    last = rng.configurations(3)
     return [*((S, q) for q in some), *nobody_has, *((S, q) for q in last)]
 
 
 def _other_arm(rng):
     """Return screws of an arm that nobody has: unit axes, points anywhere."""
-    points = draw.numbers(rng, -1, 1, 7, 3)
-    return day2.screw_axis(draw.units(rng, 7), points)
+    points = rng.numbers(-1, 1, 7, 3)
+    return day2.screw_axis(rng.units(7), points)
 
 
 def products(screws, q):

@@ -7,9 +7,9 @@ Where the docstring's loop has one way only to go, an answer has to end as near.
 
 import numpy as np
 
-from labkit.judge import Finding, draw
+from labkit.judge import Finding, rounded
 from labkit.judge.answers import once
-from robo47 import jacobian, screws
+from robo47 import jacobian, panda, screws
 from robo47.checks import Array
 
 from .jacobians import arm
@@ -38,7 +38,7 @@ def targets(rng):
     start, goal = _near_targets(rng, 30, 0.7)
     some = np.flatnonzero(_reached(goal, start, limits))[:15]
     start, goal = start[some], goal[some]
-    goal[0], start[0] = screws.fk_space(S, M, draw.READY), draw.READY
+    goal[0], start[0] = screws.fk_space(S, M, panda.READY_Q), panda.READY_Q
     start[1:3], goal[1:3] = _by_the_limits(rng)
     out = goal[9:11, :3, 3]
     out *= 2.0 / np.linalg.norm(out, axis=1)[:, None]
@@ -49,12 +49,12 @@ def targets(rng):
 def _chosen() -> list[tuple[Array, ...]]:
     """Return a pure turn and a pure move, three targets at limits, and one far turn."""
     S, M, limits = arm()
-    at, turned = screws.fk_space(S, M, np.array([draw.READY, FAR_START]))
+    at, turned = screws.fk_space(S, M, np.array([panda.READY_Q, FAR_START]))
     limited = screws.fk_space(S, M, np.array([BEYOND_4, AT_6, AT_2]))
     moved = at.copy()
     moved[2, 3] -= 0.1
     goals = [_turned(at, 2, 0.5), moved, *limited, _turned(turned, 1, 2.5)]
-    starts = [draw.READY, draw.READY, START_4, START_6, START_2, FAR_START]
+    starts = [panda.READY_Q, panda.READY_Q, START_4, START_6, START_2, FAR_START]
     return [(S, M, T, q, limits) for T, q in zip(goals, starts, strict=True)]
 
 
@@ -69,8 +69,8 @@ def _near_targets(rng, n: int, part: float) -> tuple[Array, Array]:
     """Return starts in a part of the joints' ranges, and targets near them."""
     S, M, limits = arm()
     middle = limits.mean(axis=1)
-    start = draw.rounded(middle + part * (draw.configurations(rng, n) - middle))
-    near = np.clip(start + draw.numbers(rng, -0.3, 0.3, n, 7), *limits.T)
+    start = rounded(middle + part * (rng.configurations(n) - middle))
+    near = np.clip(start + rng.numbers(-0.3, 0.3, n, 7), *limits.T)
     return start, screws.fk_space(S, M, near)
 
 

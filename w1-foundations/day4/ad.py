@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, draw
+from labkit.judge import Row
 from labkit.judge.argument_mistakes import HALVES_SWAPPED
 from robo47 import screws
 from robo47.screws import adjoint, exp_screw, skew
@@ -17,7 +17,7 @@ NONE = np.zeros((3, 3))
 @row.inputs
 def _(rng):
     case, shift = np.eye(6)[2] + np.eye(6)[3], np.array([0, 0, 0, 0.3, -0.2, 0.5])
-    return [(V,) for V in (case, shift, *draw.numbers(rng, -2, 2, 9, 6))]
+    return [(V,) for V in (case, shift, *rng.numbers(-2, 2, 9, 6))]
 
 
 @row.wrongs

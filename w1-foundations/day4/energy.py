@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from labkit.judge import Row, Vector, draw
+from labkit.judge import Row, Vector
+from robo47 import panda
 from robo47.dynamics import energy
 
 from .gravity import OTHER_GRAVITY
@@ -15,9 +16,9 @@ row = Row(Vector((2,), "J", names=("the kinetic", "the potential")))
 def _(rng):
     M, qd = np.diag([2.0, 0, 0, 0, 0, 0, 0]), 3.0 * np.eye(7)[0]
     yield M, qd, np.zeros(7), np.zeros((7, 3)), DOWN
-    ready = arm().at(draw.READY)
+    ready = arm().at(panda.READY_Q)
     yield ready.M, np.zeros(7), arm().masses, ready.coms_world, DOWN
-    moving = zip(states(rng), draw.numbers(rng, -2, 2, 10, 7), pulls(rng), strict=True)
+    moving = zip(states(rng), rng.numbers(-2, 2, 10, 7), pulls(rng), strict=True)
     for now, v, g in moving:
         yield now.M, v, arm().masses, now.coms_world, g
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.linalg import solve
 
-from labkit.judge import Row, Vector, draw
+from labkit.judge import Row, Vector, rounded
 from robo47.dynamics import forward_dynamics
 
 from .states import JOINTS, states
@@ -22,11 +22,11 @@ def _(rng):
     case, *moving = states(rng, 11)
     zero = np.zeros(7)
     still = (case.M, case.gravity_torque, np.ones(7), zero)
-    qd = draw.numbers(rng, -2, 2, 10, 7)
-    tau = draw.numbers(rng, -10, 10, 10, 7)
-    load = draw.rounded(1.5 * LIMITS * rng.uniform(-1, 1, (10, 7)))
+    qd = rng.numbers(-2, 2, 10, 7)
+    tau = rng.numbers(-10, 10, 10, 7)
+    load = rounded(1.5 * LIMITS * rng.uniform(-1, 1, (10, 7)))
     load[:5] = 0.0
-    damping = [np.ones(7)] * 5 + list(draw.numbers(rng, 0.1, 3, 5, 7))
+    damping = [np.ones(7)] * 5 + list(rng.numbers(0.1, 3, 5, 7))
     yield *still, case.gravity_torque
     yield *still, zero
     for now, D, v, t, w in zip(moving, damping, qd, tau, load):

@@ -6,7 +6,7 @@ from itertools import accumulate
 
 import numpy as np
 
-from labkit.judge import Row, draw
+from labkit.judge import Row
 from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 from labkit.judge.kinds import Kind
 from robo47.dynamics import link_inertias, spatial_inertia
@@ -24,8 +24,8 @@ def _(rng):
     yield np.tile(np.eye(4), (7, 1, 1)), *body
     yield from ((now.T_links, *body) for now in states(rng, 5))
     for _ in range(4):
-        poses, masses = draw.poses(rng, 7), draw.numbers(rng, 0.2, 5, 7)
-        yield poses, masses, draw.numbers(rng, -0.5, 0.5, 7, 3), solids(rng, 7)
+        poses, masses = rng.poses(7), rng.numbers(0.2, 5, 7)
+        yield poses, masses, rng.numbers(-0.5, 0.5, 7, 3), solids(rng, 7)
 
 
 def carried(

@@ -4,7 +4,7 @@ from functools import update_wrapper
 
 import numpy as np
 
-from labkit.judge import Row, Symmetric, draw
+from labkit.judge import Row, Symmetric
 from labkit.judge.argument_mistakes import HALVES_SWAPPED
 from robo47.dynamics import mass_matrix
 
@@ -17,7 +17,7 @@ row.of_argument("J", HALVES_SWAPPED)
 @row.inputs
 def _(rng):
     J, G, _, _ = hinge([0.0, 0.0, 1.0], 2.0)
-    rotors = [np.full(7, 0.1)] * 5 + list(draw.numbers(rng, 0.02, 0.3, 5, 7))
+    rotors = [np.full(7, 0.1)] * 5 + list(rng.numbers(0.02, 0.3, 5, 7))
     now = zip(states(rng), rotors)
     return [(J, G, rotors[0]), *((at.J_space, at.G, a) for at, a in now)]
 

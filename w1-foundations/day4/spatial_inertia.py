@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, draw
+from labkit.judge import Row
 from robo47.screws import skew
 
 from .states import SIX, solids
@@ -15,7 +15,7 @@ ONE, NONE = np.eye(3), np.zeros((3, 3))
 @row.inputs
 def _(rng):
     point = (2.0, np.array([0.0, 0.0, 1.0]), np.zeros((3, 3)))
-    masses, coms = draw.numbers(rng, 0.2, 5, 9), draw.numbers(rng, -1, 1, 9, 3)
+    masses, coms = rng.numbers(0.2, 5, 9), rng.numbers(-1, 1, 9, 3)
     return [point, *zip(map(float, masses), coms, solids(rng, 9))]
 
 

@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 
-from labkit.judge import Matrix, Vector, draw
+from labkit.judge import Matrix, Vector, rounded
 from robo47 import dynamics, panda
 
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
@@ -36,12 +36,12 @@ def hinge(axis, mass):
 
 def states(rng, n=10):
     """Return the Panda at random configurations."""
-    return [arm().at(q) for q in draw.configurations(rng, n)]
+    return [arm().at(q) for q in rng.configurations(n)]
 
 
 def pulls(rng, n=10):
     """Return gravity as it is, then as on a table that was tipped over."""
-    return [DOWN] * (n // 2) + list(draw.numbers(rng, -10, 10, n - n // 2, 3))
+    return [DOWN] * (n // 2) + list(rng.numbers(-10, 10, n - n // 2, 3))
 
 
 def solids(rng, *shape):
@@ -49,13 +49,13 @@ def solids(rng, *shape):
     A = rng.uniform(-0.4, 0.4, (*shape, 3, 3))
     P = A @ np.swapaxes(A, -1, -2)  # of points: the integral of r r^T
     trace = np.trace(P, axis1=-2, axis2=-1)[..., None, None]
-    return draw.rounded(trace * np.eye(3) - P)
+    return rounded(trace * np.eye(3) - P)
 
 
 def motions(rng):
     """Return J, G, qd, qdd and g: the pendulum of task 4.4, then the Panda."""
     J, G, _, _ = hinge([0.0, 1.0, 0.0], 1.0)
-    qd, qdd = draw.numbers(rng, -2, 2, 10, 7), draw.numbers(rng, -10, 10, 10, 7)
+    qd, qdd = rng.numbers(-2, 2, 10, 7), rng.numbers(-10, 10, 10, 7)
     parts = zip(states(rng), qd, qdd, pulls(rng), strict=True)
     pendulum = (J, G, np.zeros(7), np.eye(7)[0], DOWN)
     return [pendulum, *((now.J_space, now.G, v, a, g) for now, v, a, g in parts)]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, draw
+from labkit.judge import Row, rounded
 from robo47 import panda, verify
 
 from .joints import ONE, TORQUE, WRAPPED, errors, far, seven
@@ -20,17 +20,17 @@ def _(rng):
     In the next three e is 0, qdd_ref is 0, and e is beyond half a turn.
     """
     model = panda.load("panda_nohand")
-    q = draw.configurations(rng, N)
-    qd = draw.numbers(rng, -2, 2, N, 7)
+    q = rng.configurations(N)
+    qd = rng.numbers(-2, 2, N, 7)
     qd[0] = 0.0
-    M = draw.rounded(verify.mujoco_mass_matrix(model, q))  # rounded, to be typed
-    bias = draw.rounded(verify.mujoco_bias(model, q, qd))
+    M = rounded(verify.mujoco_mass_matrix(model, q))  # rounded, to be typed
+    bias = rounded(verify.mujoco_bias(model, q, qd))
     for i in range(N):
         e, ed = far(rng) if i == 3 else errors(rng)
         wanted = [e, ed, seven(rng, -5, 5)]
         for part in {0: (0, 1, 2), 1: (0,), 2: (2,)}.get(i, ()):
             wanted[part] = 0.0 * ONE
-        omega = float(draw.numbers(rng, 5, 40))
+        omega = float(rng.numbers(5, 40))
         friction = seven(rng, 0.5, 1.5)
         yield M[i], bias[i], friction, qd[i], *wanted, omega**2, 1.8 * omega
 

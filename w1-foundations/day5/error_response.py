@@ -5,7 +5,7 @@ Where a mistake is in one of the three cases alone, the library answers the othe
 
 import numpy as np
 
-from labkit.judge import Row, Vector, draw
+from labkit.judge import Row, Vector
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
 from robo47.control import error_response
@@ -53,8 +53,8 @@ row = Row(Vector((len(TIMES),)), unnamed=which_case)
 
 @row.inputs
 def _(rng):
-    zetas = [1.0, *draw.numbers(rng, 0.1, 0.9, 4), 1.0, *draw.numbers(rng, 1.1, 3, 4)]
-    omegas = [10.0, *draw.numbers(rng, 4, 30, 9)]
+    zetas = [1.0, *rng.numbers(0.1, 0.9, 4), 1.0, *rng.numbers(1.1, 3, 4)]
+    omegas = [10.0, *rng.numbers(4, 30, 9)]
     drawn = [(TIMES, float(w), float(z)) for w, z in zip(omegas, zetas, strict=True)]
     near = [(TIMES, 10.0, zeta) for zeta in (0.9995, 1.0005, 0.0)]
     mixed = [(MIXED, 4.0, zeta) for zeta in (0.5, 1.0, 1.5)]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, Vector, draw
+from labkit.judge import Row, Vector
 
 row = Row(Vector((2,), scale=100.0, names=("kp", "kd")))
 
@@ -11,7 +11,7 @@ row = Row(Vector((2,), scale=100.0, names=("kp", "kd")))
 def _(rng):
     yield 20.0, 1.0
     yield 20.0, 0.0  # undamped
-    omega, zeta = draw.numbers(rng, 3, 60, 9), draw.numbers(rng, 0.2, 2, 9)
+    omega, zeta = rng.numbers(3, 60, 9), rng.numbers(0.2, 2, 9)
     yield from zip(omega.tolist(), zeta.tolist(), strict=True)
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import HeldOut, Vector, draw
+from labkit.judge import HeldOut, Vector
 from labkit.judge.argument_mistakes import Change
 
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
@@ -37,7 +37,7 @@ WRAPPED = Change(
 
 def seven(rng, low, high):
     """Return seven numbers, rounded."""
-    return draw.numbers(rng, low, high, 7)
+    return rng.numbers(low, high, 7)
 
 
 def errors(rng):
@@ -59,7 +59,7 @@ def stiff(rng):
 def springs(rng):
     """Return errors and gains; the second errors are beyond half a turn."""
     ranges = (-0.3, 0.3), (-2, 2), (50, 600), (5, 50)
-    e, ed, kp, kd = [draw.numbers(rng, *ends, 10, 7) for ends in ranges]
+    e, ed, kp, kd = [rng.numbers(*ends, 10, 7) for ends in ranges]
     e[0] += BEYOND
     return [
         (0.1 * ONE, 0.0 * ONE, np.full(7, 100.0), np.full(7, 20.0)),

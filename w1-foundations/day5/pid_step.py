@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, Vector, draw
+from labkit.judge import Row, Vector, rounded
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
 
@@ -44,8 +44,8 @@ def _(rng):
     yield ONE, 0.0 * ONE, 0.0 * ONE, 400.0, 40.0, 4000.0, 0.1, 1.0
     yield from at_the_clamp(rng)
     for clamp in (0.05, 10.0, 0.2, 0.1, 10.0, 0.15, 0.02, 10.0, 0.1):
-        kp, kd, ki = (float(x) for x in draw.numbers(rng, 1, 9, 3))
-        dt = float(draw.numbers(rng, 0.002, 0.02))
+        kp, kd, ki = (float(x) for x in rng.numbers(1, 9, 3))
+        dt = float(rng.numbers(0.002, 0.02))
         before = np.clip(seven(rng, -0.2, 0.2), -clamp, clamp)
         yield *errors(rng), before, 50 * kp, 5 * kd, 500 * ki, dt, clamp
 
@@ -59,7 +59,7 @@ def at_the_clamp(rng):
     gains = 400.0, 40.0, 4000.0
     steps = (
         (some, near, 0.15),
-        (draw.rounded(-20.0 * out), near, 0.15),
+        (rounded(-20.0 * out), near, 0.15),
         (out, over, 0.1),
     )
     for e, old, dt in steps:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, draw
+from labkit.judge import Row
 from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 
 from .joints import ANGLE, ONE, one_gain, seven, wrapped
@@ -10,7 +10,7 @@ from .joints import ANGLE, ONE, one_gain, seven, wrapped
 
 def sags_of_one_gain(rng):
     """Return goals and gravity's torques where kp is one number."""
-    goals = draw.configurations(rng, 2)
+    goals = rng.configurations(2)
     gains = zip(goals, (100.0, 87.5), strict=True)
     return [(q, seven(rng, -40, 40), kp) for q, kp in gains]
 
@@ -22,7 +22,7 @@ row.of_argument("kp", FIRST_FOR_ALL.called("one-gain-for-all"))
 @row.inputs
 def _(rng):
     yield np.zeros(7), 10.0 * ONE, np.full(7, 100.0)
-    goals = draw.configurations(rng, 9)
+    goals = rng.configurations(9)
     far = goals[0] + 0.0
     far[5] = 3.5  # joint6 can go to 3.75
     soft = np.array([-9.0, 36.0, 4.0, -30.0, 2.0, -3.0, 1.0])  # one sags by over 0.5

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, draw
+from labkit.judge import Row, rounded
 from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 
 from .joints import ONE, TORQUE, seven
@@ -16,7 +16,7 @@ row.of_argument("limits", FIRST_FOR_ALL.called("one-limit-for-all"))
 @row.inputs
 def _(rng):
     yield 100.0 * ONE, PANDA
-    yield draw.rounded(PANDA * rng.uniform(-0.9, 0.9, 7)), PANDA  # within the limits
+    yield rounded(PANDA * rng.uniform(-0.9, 0.9, 7)), PANDA  # within the limits
     yield 0.0 * ONE, PANDA
     for _ in range(5):
         yield seven(rng, -120, 120), PANDA

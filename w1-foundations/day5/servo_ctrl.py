@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from labkit.judge import Row, draw
+from labkit.judge import Row
 from labkit.judge.argument_mistakes import FIRST_FOR_ALL
+from robo47 import panda
 
 from .joints import ANGLE, ONE, seven
 
@@ -14,8 +15,8 @@ row.of_argument("kp", FIRST_FOR_ALL.called("one-gain-for-all"))
 @row.inputs
 def _(rng):
     kp = np.array([4500.0, 4500.0, 3500.0, 3500.0, 2000.0, 2000.0, 2000.0])
-    yield 0.0 * ONE, draw.READY, 0.0 * ONE, kp, kp / 10
-    for q in draw.configurations(rng, 9):
+    yield 0.0 * ONE, panda.READY_Q, 0.0 * ONE, kp, kp / 10
+    for q in rng.configurations(9):
         tau, qd = seven(rng, -40, 40), seven(rng, -2, 2)
         yield tau, q, qd, seven(rng, 500, 4500), seven(rng, 50, 450)
 

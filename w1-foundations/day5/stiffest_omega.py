@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from labkit.judge import Row, Scalar, draw
+from labkit.judge import Row, Scalar
 
 row = Row(Scalar(unit="rad/s", scale=100.0))
 
 
 @row.inputs
 def _(rng):
-    for h in (0.002, 0.001, 0.004, *draw.numbers(rng, 0.002, 0.05, 5)):
+    for h in (0.002, 0.001, 0.004, *rng.numbers(0.002, 0.05, 5)):
         yield (float(h),)
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, Symmetric, draw
+from labkit.judge import Row, Symmetric
 
 from .states import model, states
 
@@ -17,7 +17,7 @@ def root(A):
 
 @row.inputs
 def _(rng):
-    drawn = [(draw.numbers(rng, 10, 500, 6), model(now)[2]) for now in states(rng)]
+    drawn = [(rng.numbers(10, 500, 6), model(now)[2]) for now in states(rng)]
     K, Lambda = drawn[0]
     light, stiff = (K, 0.004 * Lambda), (np.round(20.0 * K, 2), Lambda)
     slack = np.array([0.0, 0.2, 30.0, 0.5, 400.0, 0.0]), Lambda  # hardly any spring

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, draw
+from labkit.judge import Row
 
 from .states import COUNT, WRENCH, springs
 
@@ -16,7 +16,7 @@ Z, MOMENT_Z = 5, 2  # of (moment; force)
 def _(rng):
     _, _, K, D = springs(rng)[0]
     case = (np.zeros(6), np.zeros(6), K, D, 10.0)
-    forces = draw.numbers(rng, 5, 40, COUNT)
+    forces = rng.numbers(5, 40, COUNT)
     drawn = springs(rng)[-COUNT:]
     asked = [(*drawn[0], 0.0), (*drawn[1], -12.0)]
     drawn = zip(drawn, forces, strict=True)

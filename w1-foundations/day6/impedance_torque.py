@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, draw
+from labkit.judge import Row
 from labkit.judge.argument_mistakes import HALVES_SWAPPED
 
 from .states import J_CASE, TORQUE, model, some, states
@@ -17,7 +17,7 @@ def _(rng):
     case = (J_CASE, np.zeros(6), np.arange(7.0), np.ones(7), rest, rest)
     drawn = [
         (model(now)[0], some(rng, 20, 6), some(rng, 20, 7),
-         draw.numbers(rng, 0.5, 2, 7), some(rng, 2, 7), some(rng, 5, 7))
+         rng.numbers(0.5, 2, 7), some(rng, 2, 7), some(rng, 5, 7))
         for now in states(rng)
     ]  # fmt: skip
     J, F, bias, damping, qd, idle = drawn[0]

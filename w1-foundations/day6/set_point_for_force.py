@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, Scalar, draw
+from labkit.judge import Row, Scalar
 
 from .states import COUNT
 
@@ -12,9 +12,9 @@ row = Row(Scalar(unit="m"))
 @row.inputs
 def _(rng):
     drawn = zip(
-        draw.numbers(rng, 5, 60, COUNT),
-        draw.numbers(rng, 200, 2000, COUNT),
-        draw.numbers(rng, 0.1, 0.8, COUNT),
+        rng.numbers(5, 60, COUNT),
+        rng.numbers(200, 2000, COUNT),
+        rng.numbers(0.1, 0.8, COUNT),
         strict=True,
     )
     # A deep one, and a hand that hangs from a ceiling and pulls it down.

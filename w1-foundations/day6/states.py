@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from labkit.judge import Twist, Vector, Wrench, draw
+from labkit.judge import Twist, Vector, Wrench, rounded
 from robo47 import panda, task_space
 
 SIGMA = 0.1  # least singular value of J: nearer to a singularity digits are lost
@@ -31,7 +31,7 @@ def states(rng):
     """Return COUNT configurations of the Panda, each worked out by `robo47.arm`."""
     found = []
     while len(found) < COUNT:
-        now = _arm().at(draw.configurations(rng, 1)[0])
+        now = _arm().at(rng.configurations(1)[0])
         if np.linalg.svd(now.J_site, compute_uv=False)[-1] > SIGMA:
             found.append(now)
     return found
@@ -39,13 +39,13 @@ def states(rng):
 
 def model(now):
     """Return J and M, rounded, and their Lambda: all three must fit together."""
-    J, M = draw.rounded(now.J_site), draw.rounded(now.M)
+    J, M = rounded(now.J_site), rounded(now.M)
     return J, M, task_space.task_inertia(J, M)
 
 
 def some(rng, reach, *shape):
     """Return numbers between -reach and reach, rounded."""
-    return draw.numbers(rng, -reach, reach, *shape)
+    return rng.numbers(-reach, reach, *shape)
 
 
 def springs(rng):
@@ -54,9 +54,9 @@ def springs(rng):
     case = (np.array([0, 0, 0, 0, 0, 0.025]), np.zeros(6), K, np.eye(6))
     drawn = []
     for now in states(rng):
-        D = draw.rounded(task_space.critical_damping(np.diag(K), model(now)[2]))
+        D = rounded(task_space.critical_damping(np.diag(K), model(now)[2]))
         e = np.append(some(rng, 0.5, 3), some(rng, 0.05, 3))
-        stiffness = np.diag(draw.numbers(rng, 10, 500, 6))
+        stiffness = np.diag(rng.numbers(10, 500, 6))
         V_err, coupled = some(rng, 0.5, 6), np.triu(some(rng, 50, 6, 6), 1)
         # D need not be symmetric: from which side it is taken then shows.
         drawn.append((e, V_err, stiffness + coupled + coupled.T, D + coupled))

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, Vector, draw
+from labkit.judge import Row, Vector, rounded
 from robo47.trajectory import carry
 
 TEN = ("the mass", "x", "y", "z", "xx", "yy", "zz", "xy", "xz", "yz")
@@ -14,10 +14,10 @@ row = Row(Vector((10,), names=TEN))
 def _(rng):
     none, two = np.zeros((3, 3)), np.array([2.0, 0.0, 0.0])
     yield 1.0, np.zeros(3), none, 1.0, two, none
-    m1, m2 = draw.numbers(rng, 0.2, 3.0, 2, 8)
-    c1, c2 = draw.numbers(rng, -0.5, 0.5, 2, 8, 3)
-    half = draw.numbers(rng, -0.5, 0.5, 2, 8, 3, 3)
-    I1, I2 = draw.rounded(half @ np.swapaxes(half, -1, -2) + np.eye(3))
+    m1, m2 = rng.numbers(0.2, 3.0, 2, 8)
+    c1, c2 = rng.numbers(-0.5, 0.5, 2, 8, 3)
+    half = rng.numbers(-0.5, 0.5, 2, 8, 3, 3)
+    I1, I2 = rounded(half @ np.swapaxes(half, -1, -2) + np.eye(3))
     yield from zip(m1.tolist(), c1, I1, m2.tolist(), c2, I2, strict=True)
 
 

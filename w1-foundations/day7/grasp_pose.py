@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Pose, Row, draw
+from labkit.judge import Pose, Row, rounded
 from robo47 import se3
 from robo47.trajectory import grasp_pose
 
@@ -22,9 +22,9 @@ def _(rng):
     """
     quarters = np.arange(-2, 3)[rng.permutation(5)]
     yaw = quarters * np.pi / 2 + rng.uniform(-0.7, 0.7, 5)
-    yaw = [np.radians(80.0), 0.3, -0.5, np.radians(-130.0), *draw.rounded(yaw)]
-    place = draw.numbers(rng, 0.1, 0.7, len(yaw), 3)
-    above = map(float, draw.numbers(rng, 0.02, 0.3, len(yaw)))
+    yaw = [np.radians(80.0), 0.3, -0.5, np.radians(-130.0), *rounded(yaw)]
+    place = rng.numbers(0.1, 0.7, len(yaw), 3)
+    above = map(float, rng.numbers(0.02, 0.3, len(yaw)))
     rows = list(zip(se3.make_T(se3.Rz(np.array(yaw)), place), above, strict=True))
     p = np.array([0.55, -0.15, 0.22])
     low = [(np.radians(0.5), 0.0), (np.radians(-91.0), 0.005)]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, Scalar, draw
+from labkit.judge import Row, Scalar, rounded
 
 G = 9.81
 
@@ -11,9 +11,9 @@ row = Row(Scalar(unit="kg", scale=0.1))
 
 @row.inputs
 def _(rng):
-    drawn = draw.numbers(rng, 0.1, 1.0, 9, 3) * [8.0, 1.5, 4.0]
+    drawn = rng.numbers(0.1, 1.0, 9, 3) * [8.0, 1.5, 4.0]
     down = [(6.0, 1.4, -2.5), (3.0, 0.5, -6.0)]
-    return [(0.9247, 1.0, 0.0), *down, *map(tuple, draw.rounded(drawn).tolist())]
+    return [(0.9247, 1.0, 0.0), *down, *map(tuple, rounded(drawn).tolist())]
 
 
 @row.wrongs

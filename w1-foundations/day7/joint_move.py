@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Matrix, Row, draw
+from labkit.judge import Matrix, Row
 from robo47.trajectory import quintic_scaling
 
 from .quintic_scaling import times
@@ -15,7 +15,7 @@ row = Row(Matrix((3, 7), rows=("q", "qd", "qdd"), columns=JOINTS))
 @row.inputs
 def _(rng):
     moments = times(rng, 6)
-    q0, q1 = (draw.configurations(rng, len(moments)) for _ in range(2))
+    q0, q1 = (rng.configurations(len(moments)) for _ in range(2))
     rows = [(a, b, *moment) for a, b, moment in zip(q0, q1, moments, strict=True)]
     # Past pi, where only joint6 goes: a joint's angle is no direction.
     far = np.array([0.1, -0.4, 0.2, -1.8, 0.3, 3.7, 0.7])

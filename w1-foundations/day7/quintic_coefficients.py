@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, Slip, Vector, draw
+from labkit.judge import Row, Slip, Vector
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
 from robo47.trajectory import quintic_coefficients
@@ -61,8 +61,8 @@ def _(rng):
     yield zero, one, 1.0
     yield zero, one, 2.0
     yield np.array([0.02, -0.1, 0.3]), np.array([0.05, 0.1, -0.4]), 0.25
-    start, end = draw.numbers(rng, -1, 1, 2, 8, 3)
-    T = draw.numbers(rng, 0.5, 2.5, 8)
+    start, end = rng.numbers(-1, 1, 2, 8, 3)
+    T = rng.numbers(0.5, 2.5, 8)
     yield from zip(start, end, T.tolist(), strict=True)
 
 

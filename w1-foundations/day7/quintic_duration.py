@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import HeldOut, Row, Scalar, draw
+from labkit.judge import HeldOut, Row, Scalar
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
 from robo47.simulate import ACC_LIMITS, SPEED_LIMITS
@@ -35,13 +35,13 @@ row = Row(Scalar(unit="s"), unnamed=never_less, held_out=[NO_WAY])
 def _(rng):
     one = np.array([1.0, 0, 0, 0, 0, 0, 0])
     yield one, np.full(7, 1.875), np.full(7, NO_LIMIT)
-    ways = draw.numbers(rng, -2, 2, 3, 7)
+    ways = rng.numbers(-2, 2, 3, 7)
     for way in (*ways, 0.1 * ways[0], 1e-5 * ways[0]):
         yield way, SPEED_LIMITS, ACC_LIMITS
     yield from zip(
-        draw.numbers(rng, -2, 2, 6, 7),
-        draw.numbers(rng, 0.5, 3, 6, 7),
-        draw.numbers(rng, 2, 20, 6, 7),
+        rng.numbers(-2, 2, 6, 7),
+        rng.numbers(0.5, 3, 6, 7),
+        rng.numbers(2, 20, 6, 7),
         strict=True,
     )
 

@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Row, Vector, draw
+from labkit.judge import Row, Vector, rounded
 from labkit.judge.answers import difference
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
@@ -28,8 +28,8 @@ def by_quotients(case: Case) -> Finding | None:
 def times(rng, n):
     """Return times and durations: before, on the way, after, then n drawn ones."""
     fixed = [(0.6, 2.0), (1.0, 2.0), (2.5, 2.0), (-0.4, 2.0), (0.5, 0.5), (0.9, 3.0)]
-    T = draw.numbers(rng, 0.3, 4.0, n)
-    t = draw.rounded(T * rng.uniform(0.02, 0.98, n))
+    T = rng.numbers(0.3, 4.0, n)
+    t = rounded(T * rng.uniform(0.02, 0.98, n))
     return [*fixed, *zip(t.tolist(), T.tolist(), strict=True)]
 
 

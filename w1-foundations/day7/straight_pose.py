@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from labkit.judge import Pose, Row, draw
+from labkit.judge import Pose, Row
 from robo47 import se3
 from robo47.jacobian import log_rotation
 from robo47.screws import exp_rotation, exp_screw, skew
@@ -26,8 +26,8 @@ row = Row(Pose(), held_out=TURNS, alike=ALIKE, at_edge=one_way)
 @row.inputs
 def _(rng):
     yield np.eye(4), se3.make_T(np.eye(3), np.array([0.4, 0.0, 0.2])), 0.5
-    T0, T1 = draw.poses(rng, 9), draw.poses(rng, 9)
-    s = [0.0, 1.0, *draw.numbers(rng, 0.05, 0.95, 7).tolist()]
+    T0, T1 = rng.poses(9), rng.poses(9)
+    s = [0.0, 1.0, *rng.numbers(0.05, 0.95, 7).tolist()]
     yield from zip(T0, T1, s, strict=True)
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, Vector, draw
+from labkit.judge import Row, Vector
 from robo47.trajectory import trapezoid
 
 
@@ -27,8 +27,8 @@ def _(rng):
     fixed = [(t, *long) for t in (1.0, 0.3, 2.2, 3.0, -0.2)]
     fixed += [(t, *short) for t in (0.1, 0.3, 0.6)]
     fixed += [(0.6, L, 1.0, 2.0) for L in (0.48, 0.51, 0.7)]  # v^2 / a is 0.5
-    sizes = draw.numbers(rng, 0.3, 2.0, 6, 3)
-    drawn = np.column_stack([draw.numbers(rng, 0.1, 2.0, 6), sizes])
+    sizes = rng.numbers(0.3, 2.0, 6, 3)
+    drawn = np.column_stack([rng.numbers(0.1, 2.0, 6), sizes])
     return [*fixed, *map(tuple, drawn.tolist())]
 
 

@@ -6,7 +6,7 @@ another mistake too hears of that one first.
 
 import numpy as np
 
-from labkit.judge import HeldOut, draw
+from labkit.judge import Draw, HeldOut
 from robo47 import se3
 from robo47.checks import Array
 
@@ -16,30 +16,30 @@ NEARLY_HALF = np.pi - 1e-3
 TINY, SMALL = 5e-7, (5e-5, 2e-4, 3e-3, 0.03)  # radians
 
 
-def _ends(R0: Array, turns: Array, s: float, rng: np.random.Generator) -> list:
+def _ends(R0: Array, turns: Array, s: float, rng: Draw) -> list:
     """Return two poses and s for each turn, which is made from R0."""
-    p0, p1 = draw.numbers(rng, -1, 1, 2, len(turns), 3)
+    p0, p1 = rng.numbers(-1, 1, 2, len(turns), 3)
     T0, T1 = se3.make_T(R0, p0), se3.make_T(R0 @ turns, p1)
     return [(a, b, s) for a, b in zip(T0, T1, strict=True)]
 
 
-def _half(rng: np.random.Generator) -> list:
+def _half(rng: Draw) -> list:
     n = np.array(HALF)
     unit = n / np.linalg.norm(n, axis=1, keepdims=True)
     turns = 2 * unit[:, :, None] * unit[:, None, :] - np.eye(3)  # exactly symmetric
     own = np.tile(np.eye(3), (len(n), 1, 1))
-    drawn = draw.rotations(rng, len(n))
+    drawn = rng.rotations(len(n))
     return [*_ends(own, turns, 1.0, rng), *_ends(drawn, turns, 1.0, rng)]
 
 
-def _half_or_nearly(rng: np.random.Generator) -> list:
-    turns = se3.axis_angle(draw.units(rng, 4), NEARLY_HALF)
-    return [*_half(rng), *_ends(draw.rotations(rng, 4), turns, 0.5, rng)]
+def _half_or_nearly(rng: Draw) -> list:
+    turns = se3.axis_angle(rng.units(4), NEARLY_HALF)
+    return [*_half(rng), *_ends(rng.rotations(4), turns, 0.5, rng)]
 
 
-def _small(rng: np.random.Generator, angles: tuple[float, ...] = SMALL) -> list:
-    turns = se3.axis_angle(draw.units(rng, len(angles)), np.array(angles))
-    return _ends(draw.rotations(rng, len(angles)), turns, 0.7, rng)
+def _small(rng: Draw, angles: tuple[float, ...] = SMALL) -> list:
+    turns = se3.axis_angle(rng.units(len(angles)), np.array(angles))
+    return _ends(rng.rotations(len(angles)), turns, 0.7, rng)
 
 
 def _not_turned(T0: Array, T1: Array, s: float) -> Array:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, Vector, draw
+from labkit.judge import Row, Vector
 from robo47.identification import fit
 
 from .states import CUT, regressors
@@ -19,7 +19,7 @@ def _(rng):
 def scaled(rng, Y):
     """Return torques of the size that parameters of about 1 make, and some noise."""
     size = np.linalg.norm(Y, 2)
-    return Y @ draw.numbers(rng, -2, 2, 6) + size * draw.numbers(rng, -0.1, 0.1, len(Y))
+    return Y @ rng.numbers(-2, 2, 6) + size * rng.numbers(-0.1, 0.1, len(Y))
 
 
 def parts(Y, rtol):

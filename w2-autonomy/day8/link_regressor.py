@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Matrix, Row, draw
+from labkit.judge import Matrix, Row
 from robo47.identification import inertia_of, link_regressor
 from robo47.screws import ad
 
@@ -16,7 +16,7 @@ row.reached_by("inertia_of", "in inertia_of, ", but=["inertia-about-the-centre"]
 
 @row.inputs
 def _(rng):
-    drawn = draw.numbers(rng, -3, 3, 8, 2, 6)
+    drawn = rng.numbers(-3, 3, 8, 2, 6)
     return [(REST, UP), (SPIN, REST), *((V, A) for V, A in drawn)]
 
 

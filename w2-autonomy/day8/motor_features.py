@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Matrix, Row, draw
+from labkit.judge import Matrix, Row
 
 row = Row(Matrix((7, 21)), at_edge=lambda qd, qdd: bool(qd.all()))  # 0: a sign jumps
 FIRST = np.eye(7)[0]
@@ -11,7 +11,7 @@ FIRST = np.eye(7)[0]
 @row.inputs
 def _(rng):
     # The middle of a range is asked, too, and 0 is where a sign jumps.
-    qd, qdd = draw.numbers(rng, -2, 3, 6, 7), draw.numbers(rng, -9, 9, 6, 7)
+    qd, qdd = rng.numbers(-2, 3, 6, 7), rng.numbers(-9, 9, 6, 7)
     qd[[0, 1, 2], [2, 5, 3]] = 0.0, 0.01, 1e-4  # a joint at rest; two that hardly move
     return [(0.5 * FIRST, 2.0 * FIRST), *zip(qd, qdd, strict=True)]
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, Vector, draw
+from labkit.judge import Row, Vector
 from robo47.identification import predict_with_sigma
 
 from .fit import parts, scaled
@@ -17,7 +17,7 @@ row.reached_by("fit", "in fit, ")
 def _(rng):
     drawn = []
     for Y in regressors(rng):
-        new = draw.numbers(rng, -1, 1, 5, 6) * np.linalg.norm(Y, 2)
+        new = rng.numbers(-1, 1, 5, 6) * np.linalg.norm(Y, 2)
         drawn.append((Y, scaled(rng, Y), new, CUT))
     return [CASE, *drawn]
 

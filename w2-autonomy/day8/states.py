@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from labkit.judge import draw
 from robo47 import panda, se3
 
 WRENCH = ("moment x", "moment y", "moment z", "force x", "force y", "force z")
@@ -14,8 +13,8 @@ CUT = 0.004  # rtol of the questions: what is cut is small, yet has digits
 
 def bodies(rng, n=8):
     """Return ten numbers each, m and m c both never 0; most belong to no body."""
-    phi = draw.numbers(rng, -2, 2, n, 10)
-    phi[:, 0] = draw.numbers(rng, 1, 4, n)
+    phi = rng.numbers(-2, 2, n, 10)
+    phi[:, 0] = rng.numbers(1, 4, n)
     return phi
 
 
@@ -23,8 +22,8 @@ def moving(rng, n=6):
     """Return J, T_links, qd, qdd and g of the Panda in motion."""
     arm = panda.arm(panda.load("panda_nohand"))
     found = []
-    for q in draw.configurations(rng, n):
-        now, (qd, qdd) = arm.at(q), draw.numbers(rng, -2, 2, 2, 7)
+    for q in rng.configurations(n):
+        now, (qd, qdd) = arm.at(q), rng.numbers(-2, 2, 2, 7)
         found.append((now.J_space, now.T_links, qd, 5.0 * qdd, DOWN))
     return found
 
@@ -47,7 +46,7 @@ def hands(rng, n=6, k=5):
     """Return J_site, R_site, extra and g of k holds; gravity points anywhere."""
     found = []
     for i in range(n):
-        J, R = draw.numbers(rng, -1, 1, k, 6, 7), se3.quat_to_R(rng.normal(size=(k, 4)))
-        extra = draw.numbers(rng, -20, 20, k, 7)
-        found.append((J, R, extra, draw.numbers(rng, -10, 10, 3) if i % 2 else DOWN))
+        J, R = rng.numbers(-1, 1, k, 6, 7), se3.quat_to_R(rng.normal(size=(k, 4)))
+        extra = rng.numbers(-20, 20, k, 7)
+        found.append((J, R, extra, rng.numbers(-10, 10, 3) if i % 2 else DOWN))
     return found

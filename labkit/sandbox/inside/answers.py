@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import wire
+from fake_model import MjModel
 
 KEPT_OUTPUT, MOST_OUTPUT = 2_000, 2_000_000  # characters of what a call printed
 KEPT_TEXT = 2_000  # characters of an exception's text
@@ -22,26 +23,40 @@ _exactly: Any = np.shares_memory
 _roughly: Any = np.may_share_memory
 
 
+class Copies:
+    """A model that came with a request; each call makes a fresh copy."""
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        """Take the model as `labkit.sandbox.messages` packed it."""
+        self.entry, self._data = data["entry"], data
+        packed = data["arrays"]
+        self._arrays = {name: wire.unpack_array(packed[name]) for name in packed}
+
+    def __call__(self) -> MjModel:  # noqa: D102
+        return MjModel(self._data, self._arrays)
+
+
 class Answers:
     """The student's module and the answers that it gave so far."""
 
     def __init__(
-        self, module: ModuleType, models: list[Any], keep: bool, most: int
+        self, module: ModuleType, robots: list[Copies], request: dict[str, Any]
     ) -> None:
         """Begin.
 
         Args:
             module: loaded from the student's file.
-            models: what makes a fresh copy of each model.
-            keep: hold on to every answer, to tell which share their memory.
-            most: numbers in one answer.
+            robots: those that questions name by place.
+            request: "keep": hold on to every answer, to tell which share their memory;
+                "numbers": how many one answer may have.
         """
-        self.module, self.models, self.most = module, models, most
-        self.begin(keep)
+        self.module, self.robots, self.most = module, robots, request["numbers"]
+        self.begin({**request, "models": ()})
 
-    def begin(self, keep: bool) -> None:
-        """Forget the answers so far; `keep` is as in `__init__`."""
-        self.keep, self.kept = keep, list[Any]()
+    def begin(self, told: dict[str, Any]) -> None:
+        """Forget the answers so far; take "keep", and the "models" that are new."""
+        self.robots += map(Copies, told["models"])
+        self.keep, self.kept = told["keep"], list[Any]()
         self.arrays: defaultdict[int, list[np.ndarray]] = defaultdict(list)  # by owner
         self.flooding: dict[str, dict[str, Any]] = {}  # functions that are not called
 
@@ -74,7 +89,7 @@ class Answers:
 
     def _argument(self, packed: Any) -> Any:
         if "model" in packed:
-            return self.models[packed["model"]]()
+            return self.robots[packed["model"]]()
         if "path" in packed:
             return [tuple(pair) for pair in packed["path"]]
         return packed["number"] if "number" in packed else wire.unpack_value(packed)

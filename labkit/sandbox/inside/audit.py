@@ -1,7 +1,7 @@
 """A signpost: says in words what a task has no use for, before it happens.
 
 An audit hook of Python, which student code runs beside and can switch off. So it keeps
-nobody out: that is the wall's part (`labkit.sandbox.wall`). It is there for the honest:
+nobody out: that is the wall's part (`labkit.sandbox.process`). It is for the honest:
 "It wants to write to notes.txt. A task needs nothing but its arguments."
 """
 

@@ -14,7 +14,7 @@ import enum
 import importlib
 import sys
 import types
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Sequence
 from importlib.machinery import ModuleSpec, PathFinder
 from typing import Any
 
@@ -108,7 +108,7 @@ class FakeLab:
 
 
 def _fakes(
-    refuse: Refuse, models: Mapping[str, Callable[[], Any]], facts: Any
+    refuse: Refuse, robots: Sequence[Any], facts: Any
 ) -> dict[str, dict[str, Any]]:
     """Return what each fake module has, by its dotted name."""
 
@@ -116,9 +116,10 @@ def _fakes(
         """Return a copy of the Panda, as `robo47.panda.load` would."""
         if options.get("edit"):
             raise refuse("call robo47.panda.load with edit")
-        if entry not in models:
-            raise refuse(f"load {entry!r}, which the checker has no copy of")
-        return models[entry]()
+        for robot in robots:
+            if robot.entry == entry:
+                return robot()
+        raise refuse(f"load {entry!r}, which the checker has no copy of")
 
     panda = {
         name: np.array(value) if isinstance(value, list) else value
@@ -170,7 +171,7 @@ class Finder:
     def __init__(
         self,
         request: dict[str, Any],
-        models: Mapping[str, Callable[[], Any]],
+        robots: Sequence[Any],
         refuse: Refuse,
         libraries: str,
         extras: list[str],
@@ -181,14 +182,14 @@ class Finder:
             request: with the "library", source by dotted name, {"robo47.se3": "..."},
                 "beside", the student's other files in base64, and the "facts" of
                 `labkit.sandbox.messages`.
-            models: by entry of the Panda, what makes a fresh copy of it.
+            robots: whose call makes a fresh copy of a model, with its "entry".
             refuse: takes what was tried, returns the exception to raise.
             libraries: the folder where NumPy is.
             extras: packages in it that may be imported too.
         """
         library, beside = request["library"], request["beside"]
         self._libraries, self._extras = libraries, extras
-        self._fakes = fakes = _fakes(refuse, models, request["facts"])
+        self._fakes = fakes = _fakes(refuse, robots, request["facts"])
         self._refuse = refuse
         own = {name: code for name, code in beside.items() if name not in fakes}
         self._sources = {

@@ -2,18 +2,16 @@
 
 import numpy as np
 
-from labkit.judge import draw
-
 
 def pairs(rng):
     """Yield two vectors."""
     yield np.array([1.0, 0.0, 0.0]), np.array([0.0, 2.0, 0.0])
-    yield from zip(*draw.numbers(rng, -1, 1, 2, 5, 3), strict=True)
+    yield from zip(*rng.numbers(-1, 1, 2, 5, 3), strict=True)
 
 
 def vectors(rng, n=3):
     """Yield one vector."""
-    yield from ((v,) for v in draw.numbers(rng, -1, 1, 6, n))
+    yield from ((v,) for v in rng.numbers(-1, 1, 6, n))
 
 
 def skew(w):

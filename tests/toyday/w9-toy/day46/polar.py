@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, Scalar, draw
+from labkit.judge import Row, Scalar
 
 row = Row(
     (Scalar(unit="m", called="the distance"), Scalar(unit="rad", called="the angle")),
@@ -13,7 +13,7 @@ row = Row(
 
 @row.inputs
 def _(rng):
-    yield from (tuple(map(float, v)) for v in draw.numbers(rng, -1, 1, 6, 2))
+    yield from (tuple(map(float, v)) for v in rng.numbers(-1, 1, 6, 2))
 
 
 @row.wrong

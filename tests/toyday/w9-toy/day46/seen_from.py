@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Row, Vector, draw
+from labkit.judge import Row, Vector
 from robo47 import se3
 
 row = Row(
@@ -14,7 +14,7 @@ row = Row(
 
 @row.inputs
 def _(rng):
-    yield from ((T, draw.numbers(rng, -1, 1, 3)) for T in draw.poses(rng, 6))
+    yield from ((T, rng.numbers(-1, 1, 3)) for T in rng.poses(6))
 
 
 @row.wrong
