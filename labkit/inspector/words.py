@@ -99,11 +99,9 @@ def proof(arm: Arm, name: str, seen: Seen) -> str:
 
 def limits(arm: Arm) -> str:
     """Return a warning where the configuration is out of limits, else nothing."""
-    broken = arm.out_of_limits()
-    if not broken:
-        return ""
-    text = "OUT OF LIMITS: " + "; ".join(broken) + ". The real arm cannot go there."
-    return line(text, "limits", "bad")
+    broken = "; ".join(arm.out_of_limits())
+    text = f"OUT OF LIMITS: {broken}. The real arm cannot go there."
+    return line(text if broken else "", "limits", "bad")
 
 
 def tab_row(names: Iterable[str], chosen: str) -> str:
