@@ -49,4 +49,5 @@ if __name__ == "__main__":
         sys.setprofile(None)
         for (one, other), count in Counter(pairwise(route)).most_common(40):
             print(f"{count:4} {one} -> {other}", file=sys.stderr)
+        print(*sorted(set(route)), sep="\n", file=sys.stderr)
         print(f"{len(set(route))} files, {len(route)} switches", file=sys.stderr)

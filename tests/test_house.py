@@ -1,6 +1,7 @@
 """The house: who may import whom, and how far a reader follows a check through it."""
 
 import ast
+import graphlib
 import re
 
 import pytest
@@ -41,8 +42,10 @@ def room(name):
     return parts[0] if parts[0] != "labkit" else ".".join(parts[:2])
 
 
-def imported(path):
-    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+def imported(path, whole=True):
+    """Yield what a module imports, `whole` also in its functions and for hints."""
+    tree = ast.parse(path.read_text("utf-8"))
+    for node in ast.walk(tree) if whole else tree.body:
         if isinstance(node, ast.ImportFrom) and node.module and not node.level:
             yield from (f"{node.module}.{alias.name}" for alias in node.names)
         elif isinstance(node, ast.Import):
@@ -72,6 +75,24 @@ def test_every_arrow_points_down():
     assert up == []
 
 
+def test_no_files_import_each_other_in_a_circle():
+    names = {}
+    for path in MODULES:
+        parts = path.relative_to(ROOT).with_suffix("").parts
+        names[".".join(parts).removesuffix(".__init__")] = path
+    needs = {
+        name: {
+            other if other in names else other.rpartition(".")[0]
+            for other in imported(path, whole=False)
+        }
+        for name, path in names.items()
+    }
+    graphlib.TopologicalSorter(needs).prepare()  # a CycleError says which
+    needs["robo47.se3"].add("labkit.check.tasks")
+    with pytest.raises(graphlib.CycleError):
+        graphlib.TopologicalSorter(needs).prepare()
+
+
 @pytest.mark.kit
 @pytest.mark.parametrize(
     ("task", "right", "wrong", "files", "switches"),
@@ -91,6 +112,11 @@ def test_a_check_that_names_a_mistake_is_short_to_follow(
     found = re.search(r"(\d+) files, (\d+) switches", done.stderr)
     assert int(found[1]) <= files
     assert int(found[2]) <= switches
+    if task == "1.4":
+        guide = (ROOT / "docs" / "architecture.md").read_text("utf-8")
+        steps = guide.partition("## How `make check")[2].partition("\n## ")[0]
+        told = set(re.findall(r"`(\S+\.py)`", steps))
+        assert told == set(re.findall(r"^(\S+\.py)$", done.stderr, re.M))
 
 
 @pytest.mark.kit

@@ -77,6 +77,14 @@ def test_a_minimum_is_a_threshold_too():
     assert series.bounds == [(">", 0.9)]
 
 
+def test_the_best_run_is_one_that_passes(log):
+    lines = line(value=1e-12), line(value=1e-15, n_failures=7)
+    (series,) = report_on(log, *lines).series
+    assert (series.best, series.status) == (1e-12, "fail")
+    (series,) = report_on(log, lines[1]).series
+    assert series.best == 1e-15  # where none does
+
+
 def test_a_run_that_is_no_number_is_drawn_as_the_failure_it_is(log):
     (series,) = report_on(log, line(value=1e-9), line(value=float("nan"))).series
     *_, halo, last = drawn(series, "circle")

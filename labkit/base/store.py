@@ -6,6 +6,7 @@ and not the answer. The standard library alone: set-up runs it on a bare Python.
 
 import contextlib
 import json
+import os
 import time
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -65,10 +66,17 @@ def hints_given(root: Path = ROOT) -> dict[str, int]:
     return {task: count for task, count in found if isinstance(count, int)}
 
 
-def replace(path: Path, content: bytes) -> None:
-    """Write a file beside and rename it: whole, or as it was after an OSError."""
+def replace(path: Path, content: bytes, sync: bool = False) -> None:
+    """Write a file beside and rename it: whole, or as it was after an OSError.
+
+    With `sync` after a power cut, too, which takes the disk its time.
+    """
     new = path.with_name(path.name + ".new")
-    new.write_bytes(content)
+    with new.open("wb") as file:
+        file.write(content)
+        if sync:
+            file.flush()
+            os.fsync(file.fileno())
     new.replace(path)
 
 

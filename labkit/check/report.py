@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from labkit.check.tasks import TaskResult
-from labkit.judge.mistake import Verdict
 from labkit.lesson.day import Day, Task, day_numbers
 
 if TYPE_CHECKING:
@@ -131,7 +130,9 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
         lines += [*_wrapped(report.problem, 2), ""]
     width = max([24, *(len(_name(result.task)) for result in report.tasks)])
     for result in report.tasks:
-        status = "unjudged" if report.problem else _state(result.verdict)
+        verdict = result.verdict  # of what is to do, its mistake may say why
+        status = verdict.mistake if verdict.mistake in _LABEL else verdict.status
+        status = "unjudged" if report.problem else status
         lines.append(_line(_name(result.task), status, colour, width))
         lines += _below(report, result, explain)
     if report.items:
@@ -175,11 +176,6 @@ def _said(report: Report, result: TaskResult, explain: bool) -> str:
         also = f"It builds on task {verdict.follows}, which is not right yet either."
         return f"{verdict.message} {also}"
     return verdict.message
-
-
-def _state(verdict: Verdict) -> str:
-    """Return what a task's line says of it: its status, or why that is "todo"."""
-    return verdict.mistake if verdict.mistake in _LABEL else verdict.status
 
 
 def _name(task: Task) -> str:

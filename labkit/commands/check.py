@@ -12,6 +12,7 @@ Exit code: 0 all passed, 1 something to fix, 2 the checker could not run.
 
 import argparse
 import atexit
+import contextlib
 import gc
 import json
 import os
@@ -100,10 +101,8 @@ def watch(day: Day, options: argparse.Namespace) -> int:
     script = options.file or day.work
     seen: object = None
     while True:
-        state = stamps(day, script)
-        if state == seen:
+        while (state := stamps(day, script)) == seen:
             time.sleep(POLL_SECONDS)
-            continue
         seen = state
         if sys.stdout.isatty():
             print("\x1b[2J\x1b[H", end="")
@@ -122,11 +121,9 @@ def stamps(day: Day, script: Path) -> dict[str, tuple[int, int]]:
     files |= {*script.parent.glob("*.py"), ROOT / ".git" / "index"}
     found = {}
     for path in files:
-        try:
+        with contextlib.suppress(OSError):
             status = path.stat()
-        except OSError:
-            continue
-        found[str(path)] = (status.st_mtime_ns, status.st_size)
+            found[str(path)] = (status.st_mtime_ns, status.st_size)
     return found
 
 

@@ -35,14 +35,13 @@ from typing import Any
 
 from labkit.base import cli, git, processes, store
 from labkit.base.text import visible
-from labkit.grade import engine, week_page
+from labkit.grade import engine, page
 from labkit.grade.classroom import Classroom, pull, write_all
 from labkit.grade.course import Course, percent
 from labkit.grade.journal import Journal
 from labkit.grade.package import version
 from labkit.grade.roster import Student, find_students
 from labkit.grade.sheet import PLATFORMS, for_platform, known, of_days, write
-from labkit.grade.week_page import ROLES
 from labkit.lesson.day import Day, all_days, days_of, find_day
 from labkit.lesson.week import find_week
 from labkit.sandbox.process import wall
@@ -178,7 +177,7 @@ def main() -> int:
     courses, notes = grade_days(days, students, out, options)
     if several:
         write(out, of_days(courses))
-        write(out.parent / "class.html", week_page.render(courses).encode("utf-8"))
+        write(out.parent / "class.html", page.render_days(courses).encode("utf-8"))
     if platform:
         own = out.with_name(f"{options.format}.csv")
         write(own, for_platform(platform, courses, options.assignment))
@@ -262,7 +261,7 @@ def grade_days(
                 write_all(course, own, anonymous=options.anonymous)
             count = course.counts
             words = ", ".join(
-                f"{count[state]} {state}" for state in ROLES if count[state]
+                f"{count[state]} {state}" for state in page.ROLES if count[state]
             )
             print(f"Day {day.number}, {len(students):,} students: {words}", flush=True)
             courses.append(course)
@@ -302,7 +301,7 @@ def tell(courses: list[Course], notes: dict[str, str], out: Path) -> bool:
     now = sum(course.graded_now for course in courses)
     print(f"graded now: {now:,}; unchanged since: {len(graded) - now - faults:,}")
     several = len(courses) > 1  # then the page has them, day by day
-    for mark, who in [] if several else courses[0].mistakes()[: week_page.MISTAKES]:
+    for mark, who in [] if several else courses[0].mistakes()[: page.COMMON]:
         print(f"  {len(who):4}  {mark.id}  {mark.mistake}")
     if notes:
         print(f"not pulled: {len(notes):,}; the column error says why")
@@ -315,7 +314,7 @@ def tell(courses: list[Course], notes: dict[str, str], out: Path) -> bool:
     for course in courses:
         if course.odd:
             print(course.odd)
-    page = shown((out.parent / "class.html").absolute())
+    class_page = shown((out.parent / "class.html").absolute())
     beside = "a folder for each day" if several else "feedback/"
-    print(f"wrote {shown(out.absolute())}, and {beside} beside it; open {page}")
+    print(f"wrote {shown(out.absolute())}, and {beside} beside it; open {class_page}")
     return bool(notes or faults)

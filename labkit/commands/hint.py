@@ -39,10 +39,8 @@ def show_deliverable(day: Day, name: str) -> int:
     """
     from labkit.handin.deliverables import check_deliverables
 
-    left, _ = check(day, None)
-    required = [task for task in left if not task.optional]
-    found = check_deliverables(day, tasks_pass=not required)
-    items = {item.name: item for item in found}
+    done = all(task.optional for task in check(day, None)[0])
+    items = {item.name: item for item in check_deliverables(day, tasks_pass=done)}
     if name not in items:
         raise Robo47Error(
             f"{name!r} is no task; expected an id such as 1.4, or one of "

@@ -19,7 +19,7 @@ What comes out:
 
     course      everybody's grades for a day, and the mistakes that they share
     sheet       the tables, one row per student, as Canvas and Moodle import them, too
-    page        a day as one HTML page; week_page of several days; both draw charts
+    page        a day, or several, as one HTML page, with charts
 
 Student code only ever runs in the checker's sandbox, and nothing of a student's clone
 (its robo47/, manifests, conftest.py, Makefile or git configuration) takes part. What a

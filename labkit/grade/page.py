@@ -1,4 +1,4 @@
-"""The class as one HTML file that needs nothing else: no script, no font, no net."""
+"""A class as one HTML file, a day or several: no script, no font, no net is needed."""
 
 import time
 from collections import Counter
@@ -9,11 +9,12 @@ from urllib.parse import quote
 from labkit.base import html
 from labkit.base.text import count, visible
 from labkit.grade.charts import STATUS, STYLE, Row, chart, legend
-from labkit.grade.course import Course, Graded
+from labkit.grade.course import Course, Graded, by_student, percent
 from labkit.grade.result import Mark
 from labkit.grade.sheet import printable
 
 CHARTED = 15  # mistakes in the chart
+COMMON = 3  # of each of several days, the most common
 MOST = 100  # groups that are listed
 STATES = {  # heading of a list of people
     "stuck": "Who is stuck",
@@ -22,6 +23,15 @@ STATES = {  # heading of a list of people
     "not started": "Not started",
     "under way": "Under way, without a mistake so far",
 }
+ROLES = {  # colours of the states, in the order to list them
+    "done": "pass",
+    "under way": "line",
+    "stuck": "fail",
+    "does not load": "broken",
+    "not started": "none",
+    "ungraded": "dark",
+}
+NUMBERS = "td.n, th.n { text-align: right; }\n"
 _ALIKE = (
     "A hint of where to look, not a "
     "verdict: friends who learn together and a good book also write alike. The "
@@ -33,7 +43,7 @@ _REFUSED = "A task needs nothing but its arguments. Most of these are accidents:
 
 
 def render(course: Course) -> str:
-    """Return the whole page."""
+    """Return the page of a day."""
     return html.page(
         f"Day {course.day.number}: {escape(course.day.title)}",
         _about(course),
@@ -250,3 +260,60 @@ def _line(graded: Graded) -> str:
         when = '<span class="fail">late</span>'
     cells.append(f'<td class="mark">{when}</td>')
     return f"<tr><td>{_name(graded)}</td>{''.join(cells)}</tr>"
+
+
+def render_days(courses: Sequence[Course]) -> str:
+    """Return the page of several days, with links to the pages of each."""
+    title = f"Days {courses[0].day.number} to {courses[-1].day.number}"
+    class_ = by_student(courses)
+    done = sum(all(one.state == "done" for one in days) for days in class_)
+    about = f"{count(len(class_), 'student')}; {done:,} passed every task"
+    head = "".join(f"<th class=n>{_link(course)}</th>" for course in courses)
+    rows = [
+        f"<tr><td>{escape(days[0].student.name)}</td>"
+        f"<td class=n>{percent(*days) or '?'}</td>{''.join(map(_cell, days))}</tr>"
+        for days in class_
+    ]
+    everybody = html.section(
+        "Everybody <small>tasks that pass, by day</small>",
+        html.table(
+            f"<th>name</th><th class=n>per cent</th>{head}", rows, "card scroll all"
+        ),
+    )
+    return html.page(title, about, _days(courses), everybody, style=STYLE + NUMBERS)
+
+
+def _days(courses: Sequence[Course]) -> str:
+    bars, mistakes = [], ""
+    for course in courses:
+        counts, size = course.counts, len(course.class_)
+        parts = [(role, counts[where]) for where, role in ROLES.items()]
+        words = f"{counts['done']:,} of {size:,} done"
+        bars.append(Row(f"{course.day.number}  {course.day.title}", words, parts, size))
+        common = ", ".join(
+            f"{escape(mark.id)} <b>{escape(mark.mistake)}</b> ({len(who)})"
+            for mark, who in course.mistakes()[:COMMON]
+        )
+        head = f'<div class="head">{_link(course, "Day ")}</div>'
+        mistakes += f"<li>{head}<p>{common or 'none'}</p></li>"
+    marks = legend((role, escape(where)) for where, role in ROLES.items())
+    about = "students by how they stand, day by day"
+    return html.section(
+        "The days",
+        '<div class="two">',
+        html.card("How far the class is", marks, chart(bars, about)),
+        html.card("Which mistakes were common", f"<ul>{mistakes}</ul>"),
+        "</div>",
+    )
+
+
+def _link(course: Course, what: str = "") -> str:
+    number = course.day.number
+    return f'<a href="day{number}/class.html">{what}{number}</a>'
+
+
+def _cell(one: Graded) -> str:
+    passed, all_ = one.result.score[0], len(one.result.tasks)
+    words = f"{passed} of {all_}" if percent(one) else "?"
+    role = ROLES[one.state] if one.state != "under way" else ""
+    return f'<td class="n {role}" title="{escape(one.state)}">{words}</td>'

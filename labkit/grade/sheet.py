@@ -216,7 +216,7 @@ def write(path: Path, content: bytes) -> None:
         if path.is_file() and path.read_bytes() == content:
             return
         path.parent.mkdir(parents=True, exist_ok=True)
-        store.replace(path, content)
+        store.replace(path, content, sync=True)
     except OSError as error:
         raise Robo47Error(
             f"{shown(path)} cannot be written: {error.strerror or error}. Close it "

@@ -33,9 +33,16 @@ def _only(some: slice, x: Any) -> Any:
     return kept
 
 
+def _rounded(x: Any, decimals: int) -> Any:
+    """Round as Python does: it and NumPy differ at a tie, such as 0.785."""
+    return np.vectorize(lambda one: round(float(one), decimals), [float])(x)
+
+
 # Angles.
 DEGREES = Change(
-    "degrees", "{name} comes in radians, and is used as degrees", np.rad2deg
+    "degrees",
+    "{name} is converted to degrees; sine and cosine take radians, as it comes",
+    np.rad2deg,
 )
 RADIANS_TWICE = Change(
     "radians-taken-for-degrees",
@@ -61,9 +68,10 @@ ROUNDED = tuple(
     Change(
         "angle-rounded",
         f"{{name}} is rounded to {decimals} decimals before it is used",
-        partial(np.round, decimals=decimals),
+        partial(how, decimals=decimals),
     )
     for decimals in range(4)
+    for how in (np.round, _rounded)
 )
 SMALL_LEFT_OUT = tuple(  # any bound between two angles that are asked does it
     Change(
@@ -96,7 +104,7 @@ LEFT_OUT = Change(
 )
 FIRST_FOR_ALL = Change(
     "first-angle-for-all",
-    "every joint is given the first, {name}[0]: the index never moves on",
+    "every joint is given the first, {name}[0]; each has its own",
     lambda x: np.repeat(x[:1], len(x), axis=0),
     "the right one with {name}[0] everywhere",
 )

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from labkit.lesson.day import day_of
-from labkit.lesson.script import BORROWED, function_lines, lab_of
+from labkit.lesson.script import BORROWED, function_lines, lab_of, put_back
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -43,19 +43,16 @@ def with_borrowed(text: str, complete: str, functions: Iterable[str]) -> str:
     """
     tree = ast.parse(complete)
     nodes = {n.name: n for n in tree.body if isinstance(n, ast.FunctionDef)}
-    for name in functions:
+    there = tuple(name for name in functions if function_lines(text, name)[0] >= 0)
+    calls: list[str] = []
+    for name in there:
         node = nodes[name]
-        head = complete.splitlines()[node.lineno - 1 : node.body[0].end_lineno]
         given = ", ".join(arg.arg for arg in node.args.args)
-        body = [
+        calls += complete.splitlines()[node.lineno - 1 : node.body[0].end_lineno]
+        calls += [
             f"    {BORROWED}; your own function gives it back",
             "    from labkit.lesson.borrowed import kits",
             "",
             f'    return kits(__file__, "{name}")({given})',
         ]
-        start, end, _ = function_lines(text, name)
-        if start >= 0:
-            lines = text.splitlines()
-            lines[start:end] = head + body
-            text = "\n".join(lines) + "\n"
-    return text
+    return put_back(text, "\n".join(calls), there)

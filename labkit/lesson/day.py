@@ -243,8 +243,7 @@ def all_days(root: Path = ROOT) -> list[Day]:
 
 def days_before(day: Day) -> list[Day]:
     """Return the earlier days of the course, in order."""
-    some = manifests(ROOT).items()
-    return [load_day(path) for number, path in some if number < day.number]
+    return [load_day(path) for n, path in manifests().items() if n < day.number]
 
 
 def days_of(week: Week) -> list[Day]:

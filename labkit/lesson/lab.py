@@ -109,7 +109,8 @@ class Lab:
             limit: it must be under this; by default the day's own limit.
         """
         limit = self.day.limit if limit is None else limit
-        self._judge(name, Metric("", name, max=limit), _largest(error))
+        largest = np.max(np.abs(np.asarray(error, dtype=np.float64)))
+        self._judge(name, Metric("", name, max=limit), float(largest))
 
     def record(
         self,
@@ -205,7 +206,3 @@ def _worst(trials: np.ndarray, wanted: Metric) -> float:
     if wanted.min is None or (wanted.max is not None and wanted.passes(low)):
         return high
     return low
-
-
-def _largest(error: ArrayLike) -> float:
-    return float(np.max(np.abs(np.asarray(error, dtype=np.float64))))

@@ -72,8 +72,13 @@ class Series:
 
     @property
     def best(self) -> float | None:
-        """The largest value where a minimum is asked for, else the smallest."""
-        values = self.values
+        """The largest value where a minimum is asked for, else the smallest.
+
+        Of runs that pass, where a limit is asked for and one does.
+        """
+        judge = self.wanted.judge
+        good = [r for r in self.rows if self.wanted.limit and judge(r) == "pass"]
+        values = [float_of(row) for row in good] or self.values
         return (max if self._wants_high else min)(values) if values else None
 
     @property

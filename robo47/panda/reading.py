@@ -17,7 +17,7 @@ from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.fast.arm_state import as_one
 from robo47.fast.vectors import times
-from robo47.panda import ARM_JOINTS
+from robo47.panda.loading import ARM_JOINTS
 from robo47.screws import screw_axis
 
 # Where the arm ends, by entry: the same point, turned by 180 degrees about z.

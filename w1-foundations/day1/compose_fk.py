@@ -115,7 +115,7 @@ row.of_argument(
     FIRST_FOR_ALL,
     REVERSED.called("joints-in-reverse"),
     *ONE_OFF,
-    *ROUNDED[:3],  # more make no difference: the angles asked have three decimals
+    *ROUNDED[:6],  # more make no difference: the angles asked have three decimals
 )
 
 

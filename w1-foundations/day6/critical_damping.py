@@ -20,7 +20,7 @@ def _(rng):
     drawn = [(rng.numbers(10, 500, 6), model(now)[2]) for now in states(rng)]
     K, Lambda = drawn[0]
     light, stiff = (K, 0.004 * Lambda), (np.round(20.0 * K, 2), Lambda)
-    slack = np.array([0.0, 0.2, 30.0, 0.5, 400.0, 0.0]), Lambda  # hardly any spring
+    slack = np.array([0.01, 0.2, 30.0, 0.5, 400.0, 0.02]), Lambda  # hardly any spring
     return [(np.full(6, 4.0), np.eye(6)), light, stiff, slack, *drawn]
 
 

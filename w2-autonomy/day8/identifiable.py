@@ -13,6 +13,8 @@ def of_dust(case: Case) -> Finding | None:
     """Say that a condition ends at a value that does not count: those are rounding."""
     if (case.S[1] <= 1.0 / case.arguments[1]).all():
         return None
+    if all(n == Y.shape[1] for n, Y in zip(case.S[0], case.arguments[0], strict=True)):
+        return Finding("nothing-cut", "Every value counts, so rtol is not used.")
     says = "The condition is over 1 / rtol: it is that of all values, and those that do"
     return Finding("condition-of-all", f"{says} not count are only rounding.")
 
