@@ -373,7 +373,7 @@ def watched(page):
         page.student.there = check is not None
         loop = page.server.get_event_loop()
         watching.append(asyncio.run_coroutine_threadsafe(page.watch(check), loop))
-        until(lambda: page.seen is not None)
+        until(lambda: page.seen.sentence)
         settle(page)
         return page.student
 

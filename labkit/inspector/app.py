@@ -64,14 +64,14 @@ class Inspector:
         self.scheduled = False
         self.student = student
         self.version, self.unchecked = 0, False  # of the file that is asked
-        self.seen: Seen | None = None
+        self.seen = Seen("", "")  # nothing yet
         self.asks, self.checks = Jobs(), Jobs()
         self.lay_out(server.gui, about)
         self.scene, self.pointed = ArmScene(server, arm), Pointed(server, arm)
         tabs: list[type[Tab]] = [Joints, Chain, *day.tabs, Tasks]
         self.kinds = {kind.title: kind for kind in tabs}
         self.kind: type[Tab] = Joints  # of the open tab
-        self.tab: Tab | None = None  # the open one; None where it failed to open
+        self.tab: Tab  # the open one; a bare one where it failed to open
         self.page: Page | None = None  # what it made its widgets with
         self.open_tab(Joints.title)
         self.listen(self.frame, lambda _: self.light_frame())
@@ -148,8 +148,7 @@ class Inspector:
     def show(self) -> None:
         """Show the numbers, and where the page is."""
         seen, task = self.seen, self.standing
-        if seen is not None:
-            self.yours.content = words.judged(seen.sentence, "yours", seen.kind)
+        self.yours.content = words.judged(seen.sentence, "yours", seen.kind)
         self.tasks.content = words.line(task.headline, "standing", task.kind)
         proof = "" if self.kind.wide else words.proof(self.arm, self.frame.value, seen)
         self.proof.content = proof
@@ -158,8 +157,7 @@ class Inspector:
 
     def look(self) -> None:
         """Make the arm solid, or see-through and green where the student's agrees."""
-        agrees = self.seen is not None and self.seen.kind == "good"
-        self.scene.look(self.solid.value, agrees)
+        self.scene.look(self.solid.value, self.seen.kind == "good")
 
     def first(self) -> str:
         """Return what to show before viser does, as HTML."""
@@ -225,25 +223,24 @@ class Inspector:
             self.kind = kind
             self.page = page = Page(self, Sketch(self.server, self.scene.coarse))
             page.legend(COLOURS if self.day.ghost else {})
+            self.tab = Tab(page)
             self.guarded(lambda: setattr(self, "tab", kind(page)))
             self.tell(self.q)
         self.schedule()
 
     def leave(self) -> None:
         """Close the open tab, and remove all that it made."""
-        if self.tab is not None:
-            self.guarded(self.tab.close)
         if self.page is not None:
+            self.guarded(self.tab.close)
             self.page.close()
-        self.tab = self.page = None
+            self.page = None
         for uuid, widget in list(self.widgets().items()):
             if uuid not in self.fixed:
                 widget.remove()
 
     def tell(self, q: Array) -> None:
         """Tell the open tab where the arm is."""
-        if self.tab is not None:
-            self.guarded(partial(self.tab.on_move, q.copy()))
+        self.guarded(partial(self.tab.on_move, q.copy()))
 
     def guarded(self, call: Callable[[], None]) -> None:
         """Call a tab's code; where it fails the page says so and goes on."""

@@ -79,7 +79,7 @@ class Arm:
         return np.round(random_q(self.model, 1, seed)[0], 4)
 
     def difference(self, name: str, T: Array) -> float:
-        """Return the largest difference of any entry between MuJoCo's pose and T."""
+        """Return the largest difference of any entry of T, (4, 4), to MuJoCo's pose."""
         return float(np.abs(self.pose(name) - T).max())
 
     def out_of_limits(self) -> list[str]:

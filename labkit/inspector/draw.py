@@ -22,6 +22,7 @@ ROOT = "/tab"
 FARTHEST = 10.0  # metres; nobody drags a target further away
 APART = 0.07  # metres between two labels
 PLAIN, CHOSEN = 0.10, 0.17  # metres of an axis
+# A frame's axes from end to end, a metre long.
 AXES = np.stack([np.zeros((3, 3)), np.eye(3)], axis=1).astype(np.float32)
 # Told apart by lightness as well as by hue (Okabe and Ito, 2008).
 COLOURS = {

@@ -60,26 +60,22 @@ def compare(
 
     Args:
         ghost: whose function it is.
-        poses: what it said, {short name: (4, 4)}.
+        poses: what it said, {short name: (4, 4)}, from the base on.
         problem: why there are none, or fewer than asked for; else "".
         truth: MuJoCo's poses, {short name: (4, 4)}.
     """
-    whose = f"YOUR {ghost.function}"
-    apart = {
-        name: float(np.abs(poses[name] - truth[name]).max())
-        for name in ghost.frames
-        if name in poses
-    }
+    whose, last = f"YOUR {ghost.function}", ghost.frames[-1]
+    apart = {name: float(np.abs(T - truth[name]).max()) for name, T in poses.items()}
     wrong = [name for name, difference in apart.items() if not difference < AGREES]
     if wrong:
-        end = ghost.frames[-1] if ghost.frames[-1] in wrong else wrong[-1]
+        end = last if last in wrong else wrong[-1]
         how = _how_far(poses[end], truth[end])
         says = f"{whose} is off by {how} at {end}; first frame that differs: {wrong[0]}"
         if bent := [name for name in wrong if not se3.is_pose(poses[name])]:
             says += f". {bent[0]} has no rotation in it; drawn is the nearest one"
         drawn = {name: nearest_pose(poses[name]) for name in wrong}
         return Seen(f"{says}. {problem}".strip(), "bad", poses, truth, drawn)
-    if ghost.frames[-1] not in apart:
+    if last not in apart:
         return nothing(problem or f"{whose} gave no pose")
     worst = max(apart.values())
     where = "at every frame" if len(apart) == len(ghost.frames) else "here"

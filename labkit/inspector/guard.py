@@ -27,7 +27,7 @@ import secrets
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from functools import cache, partial, wraps
+from functools import partial, wraps
 from pathlib import Path
 from typing import Any
 
@@ -46,7 +46,10 @@ OWN_HOST = re.compile(r"(127\.0\.0\.1|localhost|\[::1\])(:\d+)?")
 LONGEST = 2_000  # characters of a request's path
 Receive = Callable[[str], int]  # where a page wants to go; the number of this word
 Answers = Callable[[ServerConnection, Request], Response | None]
-HERE, TITLE = Path(__file__).parent, "robo47 inspector"
+TITLE = "robo47 inspector"
+HEAD = b"<head><style>%s</style><script>%s</script>" % tuple(
+    Path(__file__).with_name(name).read_bytes() for name in ("client.css", "client.js")
+)
 PROTECTION = {
     "Referrer-Policy": "no-referrer",  # the address is the secret
     "X-Frame-Options": "DENY",
@@ -147,16 +150,10 @@ def _protected(response: Response, first: str | None) -> Response:
         there = f'<body><div id="r47-first">{first}</div>'.encode()
         title = f"<title>{TITLE}</title>".encode()
         body = body.replace(b"<title>Viser</title>", title)
-        body = body.replace(b"<head>", _head()).replace(b"<body>", there)
+        body = body.replace(b"<head>", HEAD).replace(b"<body>", there)
     length = {"Content-Length": str(len(body))}
     headers = {**dict(response.headers.raw_items()), **PROTECTION, **length}
     return replace(response, headers=Headers(headers), body=body)
-
-
-@cache
-def _head() -> bytes:
-    style, script = ((HERE / f"client.{kind}").read_bytes() for kind in ("css", "js"))
-    return b"<head><style>%s</style><script>%s</script>" % (style, script)
 
 
 @contextlib.contextmanager

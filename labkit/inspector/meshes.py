@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 Load = Callable[[], mujoco.MjModel]
 Rgb = tuple[float, float, float]
-PLAIN: Rgb = (1, 1, 1)
+AS_IS: Rgb = (1, 1, 1)
 # The browser remembers the pose of a node that is gone: a name is never given again.
 NUMBERS = count()
 
@@ -80,7 +80,7 @@ class Skin:
             for name, body in found.items()
         }
 
-    def look(self, opacity: float | None, shade: Rgb = PLAIN) -> None:
+    def look(self, opacity: float | None, shade: Rgb = AS_IS) -> None:
         """Make it see-through, or solid, and darker: the shade multiplies (r, g, b)."""
         for mesh, shape in self.meshes:
             mesh.color, mesh.opacity = _rgb(shape, shade), opacity
@@ -123,6 +123,6 @@ def _looks(dressed: Load, simple: bool) -> list[Shape]:
     return coarse + [shape for shape in shapes(model) if shape.body not in links]
 
 
-def _rgb(shape: Shape, shade: Rgb = PLAIN) -> tuple[int, int, int]:
+def _rgb(shape: Shape, shade: Rgb = AS_IS) -> tuple[int, int, int]:
     r, g, b = (int(255 * c * s) for c, s in zip(shape.rgba[:3], shade, strict=True))
     return r, g, b

@@ -138,8 +138,7 @@ class Page:
         """Say what stopped a job or a loop, and how the student's functions compare."""
         if isinstance(error, NoAnswerError):
             self._show_whose(str(error), "bad")
-            if self.host.tab is not None:
-                self.host.guarded(self.host.tab.lost)
+            self.host.guarded(self.host.tab.lost)
         elif error is not None:
             self.say(f"stopped: {type(error).__name__}: {error}", "bad")
         elif self._own is not None:

@@ -17,7 +17,7 @@ from robo47.checks import Array
 
 VISIBLE_GROUPS, COLLISION_GROUPS = (0, 1, 2), (3,)
 WHITE = (0.92, 0.92, 0.92, 1.0)  # collision shapes have no colour
-Rgba = tuple[float, ...]
+Rgba = tuple[float, ...]  # four
 
 
 class Shape(NamedTuple):

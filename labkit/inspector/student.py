@@ -29,13 +29,13 @@ AGAIN = " Save the file to have it asked again."
 
 @dataclass
 class Student:
-    """The student's file of a day, for many questions; opened by `look`, and anew."""
+    """The student's file of a day, for many questions; opened anew after a save."""
 
     day: Day  # whose functions they are
     arm: Arm  # the robot of the questions
     ghost: Ghost | None  # what to ask for the arm's poses; None where only tabs ask
     sandbox: Sandbox  # where the file runs
-    script: Path  # the file, there or not
+    script: Path  # the file, there or not; `look` opens it
     seconds: float = 2.0  # for one call; who takes longer is asked again after a save
     version: int = 0  # of the file: another one after each save
     problem: str = ""  # why the file is not asked, in a sentence

@@ -81,13 +81,13 @@ def verdict(difference: float, whose: str = "the library") -> str:
     return line(text, "difference", "good" if agrees else "bad")
 
 
-def proof(arm: Arm, name: str, seen: Seen | None) -> str:
+def proof(arm: Arm, name: str, seen: Seen) -> str:
     """Return a frame's pose from MuJoCo, and from what the student's function said.
 
     Where that has none the library's stands there, by its name.
     """
     truth = matrix(f"T_world_{name}, MuJoCo", arm.pose(name), "mujoco")
-    if seen is None or name not in seen.poses:
+    if name not in seen.poses:
         library = arm.by_library[name]
         pose = matrix(f"T_world_{name}, robo47.kinematics", library, "library")
         return truth + pose + verdict(arm.difference(name, library))
@@ -99,11 +99,9 @@ def proof(arm: Arm, name: str, seen: Seen | None) -> str:
 
 def limits(arm: Arm) -> str:
     """Return a warning where the configuration is out of limits, else nothing."""
-    broken = arm.out_of_limits()
-    if not broken:
-        return ""
-    text = "OUT OF LIMITS: " + "; ".join(broken) + ". The real arm cannot go there."
-    return line(text, "limits", "bad")
+    broken = "; ".join(arm.out_of_limits())
+    text = f"OUT OF LIMITS: {broken}. The real arm cannot go there."
+    return line(text if broken else "", "limits", "bad")
 
 
 def tab_row(names: Iterable[str], chosen: str) -> str:
