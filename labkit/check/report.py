@@ -3,6 +3,7 @@
 import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from labkit.check.tasks import TaskResult
@@ -40,7 +41,7 @@ class Report:
         required = [r for r in self.tasks if not r.task.optional]
         return required or list(self.tasks)
 
-    @property
+    @cached_property
     def left(self) -> list[TaskResult]:
         """The tasks that do not pass yet."""
         return [result for result in self.tasks if not result.passed]
@@ -48,7 +49,7 @@ class Report:
     @property
     def done(self) -> int:
         """How many tasks and deliverables passed."""
-        passed = sum(result.passed for result in self.counted)
+        passed = sum(result not in self.left for result in self.counted)
         return passed + sum(item.passed for item in self.items)
 
     @property
@@ -71,7 +72,7 @@ class Report:
         """Return the next thing to do, in one sentence."""
         if self.problem:
             return "fix that line, then check again."
-        for task in [result.task for result in self.counted if not result.passed]:
+        for task in [one.task for one in self.counted if one in self.left]:
             named = f"task {task.id}, {' and '.join(task.functions)}"
             return f"{named}. Stuck? make hint TASK={task.id}"
         for item in self.items:
