@@ -163,42 +163,42 @@ def test_the_page_serves_no_other_file(served, path):
     assert get(served, path=served.path + path) in (403, 404)
 
 
-def test_a_client_sets_the_value_of_a_widget_and_nothing_else(viser):
+@pytest.fixture
+def server(viser):
+    from labkit.inspector.guard import LocalServer
+
+    made = LocalServer(0)
+    yield made
+    made.stop()
+
+
+def test_a_client_sets_the_value_of_a_widget_and_nothing_else(server):
     """viser sets any attribute that a message names, and believes any option."""
     import asyncio
 
     from viser import _messages
 
-    from labkit.inspector.guard import LocalServer
+    slider = server.gui.add_slider("s", 0.0, 1.0, 0.1, 0.5)
+    pick = server.gui.add_dropdown("d", ("one", "two"))
+    kind = _messages.GuiUpdateMessage
+    (checked,) = server.gui._websock_interface._incoming_handlers[kind]
 
-    server = LocalServer(0)
-    try:
-        slider = server.gui.add_slider("s", 0.0, 1.0, 0.1, 0.5)
-        pick = server.gui.add_dropdown("d", ("one", "two"))
-        gui = server.gui
-        (checked,) = gui._websock_interface._incoming_handlers[
-            _messages.GuiUpdateMessage
-        ]
+    def send(widget, **updates):
+        message, loop = kind(widget._impl.uuid, updates), server.get_event_loop()
+        asyncio.run_coroutine_threadsafe(checked(0, message), loop).result(30)
 
-        def send(widget, **updates):
-            message = _messages.GuiUpdateMessage(widget._impl.uuid, updates)
-            loop = server.get_event_loop()
-            asyncio.run_coroutine_threadsafe(checked(0, message), loop).result(30)
-
-        callbacks = slider._impl.update_cb
-        send(slider, update_cb=5)
-        send(slider, value=0.9, removed=True)
-        send(slider, nonsense=1)
-        send(slider, value="not a number")
-        send(slider, value=None)
-        send(pick, value="nope")
-        assert slider._impl.update_cb is callbacks
-        assert (slider.value, pick.value) == (0.5, "one")
-        send(slider, value=0.9)
-        send(pick, value="two")
-        assert (slider.value, pick.value) == (0.9, "two")
-    finally:
-        server.stop()
+    callbacks = slider._impl.update_cb
+    send(slider, update_cb=5)
+    send(slider, value=0.9, removed=True)
+    send(slider, nonsense=1)
+    send(slider, value="not a number")
+    send(slider, value=None)
+    send(pick, value="nope")
+    assert slider._impl.update_cb is callbacks
+    assert (slider.value, pick.value) == (0.5, "one")
+    send(slider, value=0.9)
+    send(pick, value="two")
+    assert (slider.value, pick.value) == (0.9, "two")
 
 
 RUBBISH = [
@@ -329,20 +329,15 @@ def ask_to_share(port: int, path: str = "/") -> None:
         page.send(msgspec.msgpack.encode({"type": "ShareUrlRequest"}))
 
 
-def test_no_client_can_have_it_open_a_public_tunnel(viser, tunnels, monkeypatch):
-    from labkit.inspector.guard import LocalServer
-
+def test_no_client_can_have_it_open_a_public_tunnel(server, tunnels, monkeypatch):
     answers: Queue = Queue()
-    refuse = LocalServer.request_share_url
+    kind = type(server)
+    refuse = kind.request_share_url
     monkeypatch.setattr(
-        LocalServer, "request_share_url", lambda self: answers.put(refuse(self))
+        kind, "request_share_url", lambda self: answers.put(refuse(self))
     )
-    server = LocalServer(0)
-    try:
-        ask_to_share(server.get_port(), f"/{server.secret}")
-        assert answers.get(timeout=SECONDS) is None
-    finally:
-        server.stop()
+    ask_to_share(server.get_port(), f"/{server.secret}")
+    assert answers.get(timeout=SECONDS) is None
     assert tunnels.empty()
 
 
