@@ -230,7 +230,10 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     where = ""
     if found.slug != "one-factor-off":  # every entry, so where does not matter
         where = near_miss.in_common(S[i], T[i])
-        where += _where(kind, S[i], T[i], case.given, ask.tolerance)
+        wrong = difference(S[i], T[i], kind.scale) > ask.tolerance
+        if not wrong.all():
+            where += f" It is right for {np.sum(~wrong)} of {len(wrong)} inputs"
+            where += f"{_first(wrong, case.given, 'but not for')}."
     return Finding(found.slug, f"{called}{found.message}{where}")
 
 
@@ -323,14 +326,6 @@ def _all_the_same(kind: Any, S: Array, T: Array) -> Finding | None:
         return Finding("always-the-identity", says)
     says = "The answer is the same, whatever the input: it does not depend on it."
     return Finding("ignores-its-input", f"{says} {off}")
-
-
-def _where(kind: Any, S: Array, T: Array, given: Sequence[str], near: float) -> str:
-    wrong = difference(S, T, kind.scale) > near
-    if wrong.all():
-        return ""
-    right = f" It is right for {np.sum(~wrong)} of {len(S)} inputs"
-    return f"{right}{_first(wrong, given, 'but not for')}."
 
 
 def _first(which: Any, given: Sequence[str], word: str) -> str:
