@@ -11,7 +11,7 @@ from judged import judged, right, round_of
 
 from conftest import days
 from labkit.base.exchange import Exchange, Question
-from labkit.judge.answers import InTurn, difference, matches, off_by, parts
+from labkit.judge.answers import InTurn, difference, gaps, matches, parts
 from labkit.judge.ask import stacked
 from labkit.judge.row import rows_of
 from labkit.lesson.day import find_day
@@ -49,7 +49,7 @@ def test_the_library_gives_all_questions_at_once_what_it_gives_each(number, name
     for exchanges in (round_of(ask).main, round_of(ask).fresh, *rounds):
         columns = stacked(exchanges)
         each = parts(InTurn(ask.truth.function)(*columns))
-        assert off_by(ask.kinds, parts(ask.truth(*columns)), each) < 1e-14
+        assert gaps(ask.kinds, parts(ask.truth(*columns)), each).max() < 1e-14
 
 
 def one_thing(number, name, slug, other):
@@ -67,7 +67,7 @@ def redone(ask):
                 S = parts(mistake.redo(*arguments))
             except (ValueError, np.linalg.LinAlgError):
                 continue  # it has no answer of its own to these; the judge goes on too
-            if off_by(ask.kinds, S, T) > ask.near:
+            if gaps(ask.kinds, S, T).max() > ask.near:
                 found.append((mistake, S))
     return found
 
@@ -146,9 +146,8 @@ def test_an_edge_value_has_one_right_answer(number, name, ask):
             near = [c + off if isinstance(c, np.ndarray) else c for c in columns]
             with contextlib.suppress(Robo47Error):  # there it has no answer at all
                 # Where this fails, the row says at_edge.
-                assert off_by(ask.kinds, parts(ask.truth(*near)), first) <= ask.near, (
-                    call
-                )
+                off = gaps(ask.kinds, parts(ask.truth(*near)), first)
+                assert off.max() <= ask.near, call
 
 
 @every

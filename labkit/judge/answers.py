@@ -98,15 +98,10 @@ def all_match(kinds: Sequence[Any], S: Parts, T: Parts) -> bool:
     return len(S) == len(T) and all(matches(s, t, kind.scale) for s, t, kind in trios)
 
 
-def off_by(kinds: Sequence[Any], S: Parts, T: Parts) -> float:
-    """Return the largest difference of any entry, in units of its scale."""
-    return float(gaps(kinds, S, T).max())
-
-
 def worst_part(kinds: Sequence[Any], S: Parts, T: Parts, near: float) -> int:
     """Return the first part of an answer that is wrong, or the one furthest off."""
     trios = zip(S, T, kinds, strict=True)
-    off = [off_by([kind], (s,), (t,)) for s, t, kind in trios]
+    off = [gaps([kind], (s,), (t,)).max() for s, t, kind in trios]
     return next((i for i, x in enumerate(off) if x > near), int(np.argmax(off)))
 
 

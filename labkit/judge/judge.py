@@ -20,7 +20,6 @@ from labkit.judge.answers import (
     in_words,
     largest,
     matches,
-    off_by,
     parts,
     plain,
     worst_part,
@@ -66,12 +65,12 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     ask = asked.ask
     T = right_answers(ask, asked.main)
     case = _case(asked, S, T, names)
-    measured = _measured(case, S, T)
-    off = off_by(ask.kinds, S, T)
-    if off > ask.near:
+    gap = gaps(ask.kinds, S, T)
+    measured = _measured(case, S, T, gap)
+    if (off := gap.max()) > ask.near:
         if found := diagnose(case, S, T):
             return Verdict("wrong", *found, measured)
-        wrong = tuple(np.flatnonzero(gaps(ask.kinds, S, T) > ask.near).tolist())
+        wrong = tuple(np.flatnonzero(gap > ask.near).tolist())
         found = what_is_wrong(case, S, T)
         return Verdict("wrong", *found, measured, wrong_calls=wrong)
     if off > ask.tolerance:
@@ -91,7 +90,7 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
 
 
 def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
-    if off_by(case.ask.kinds, S, T) <= case.ask.near:
+    if gaps(case.ask.kinds, S, T).max() <= case.ask.near:
         return found
     named = diagnose(case, S, T)
     other = named or what_is_wrong(case, S, T)
@@ -137,7 +136,7 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     S = problems.read(exchanges, ask)
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
-    off = off_by(ask.kinds, S, right_answers(ask, exchanges, held))
+    off = gaps(ask.kinds, S, right_answers(ask, exchanges, held)).max()
     near = ask.near if held.near is None else held.near
     return off <= near if held.mistaken else off > near
 
@@ -171,9 +170,8 @@ def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
     return Case(asked.ask, stacked(asked.main), plain(S), plain(T), given, probes)
 
 
-def _measured(case: Case, S: Parts, T: Parts) -> tuple[str, ...]:
+def _measured(case: Case, S: Parts, T: Parts, gap: Array) -> tuple[str, ...]:
     ask = case.ask
-    gap = gaps(ask.kinds, S, T)
     lines = list(_counted(ask, gap, "that are always asked"))
     for kind, s, t in zip(ask.kinds, S, T, strict=True):
         lines += kind.measured(s, t)
@@ -232,7 +230,10 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     where = ""
     if found.slug != "one-factor-off":  # every entry, so where does not matter
         where = near_miss.in_common(S[i], T[i])
-        where += _where(kind, S[i], T[i], case.given, ask.tolerance)
+        wrong = difference(S[i], T[i], kind.scale) > ask.tolerance
+        if not wrong.all():
+            where += f" It is right for {np.sum(~wrong)} of {len(wrong)} inputs"
+            where += f"{_first(wrong, case.given, 'but not for')}."
     return Finding(found.slug, f"{called}{found.message}{where}")
 
 
@@ -325,14 +326,6 @@ def _all_the_same(kind: Any, S: Array, T: Array) -> Finding | None:
         return Finding("always-the-identity", says)
     says = "The answer is the same, whatever the input: it does not depend on it."
     return Finding("ignores-its-input", f"{says} {off}")
-
-
-def _where(kind: Any, S: Array, T: Array, given: Sequence[str], near: float) -> str:
-    wrong = difference(S, T, kind.scale) > near
-    if wrong.all():
-        return ""
-    right = f" It is right for {np.sum(~wrong)} of {len(S)} inputs"
-    return f"{right}{_first(wrong, given, 'but not for')}."
 
 
 def _first(which: Any, given: Sequence[str], word: str) -> str:

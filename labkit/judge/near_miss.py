@@ -39,8 +39,7 @@ def single_precision(replies: Sequence[Reply], S: Sequence[Array]) -> bool:
     """Return whether all numbers came as float32, or are ones that float32 can hold."""
     if all(getattr(r.value, "dtype", None) == np.float32 for r in replies):
         return True
-    with np.errstate(over="ignore"):
-        return all(np.array_equal(part.astype(np.float32), part) for part in S)
+    return all(np.array_equal(part.astype(np.float32), part) for part in S)
 
 
 def rounded(S: Array, T: Array) -> Finding | None:
