@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 
 from labkit.base.exchange import Exchange, Path, Question, Reply
-from labkit.judge.answers import Parts, parts
+from labkit.judge.answers import InTurn, Parts, parts
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
 from robo47 import panda, se3, verify
@@ -130,11 +130,10 @@ class HeldOut:
     slug: str  # what is found where an answer is not right
     says: str  # what to say then, a sentence or two
     inputs: Inputs  # as those of `Ask`
-    # The right answers; None is the function's own truth.
-    truth: Callable[..., Any] | None = None
-    # Instead of `truth`: what is found are these very answers.
+    # What is found are the answers of this function of one question; None: whatever is
+    # not right.
     mistaken: Callable[..., Any] | None = None
-    status: str = "wrong"  # "wrong", "close", or "passed" for a remark only
+    status: str = "wrong"  # or "close"
     near: float | None = None  # how well `mistaken` has to fit; None is the row's
 
 
@@ -340,7 +339,8 @@ def right_answers(
         exchanges: the questions.
         held: whose these are; what its mistake gives, where it looks for one.
     """
-    function = (held and (held.mistaken or held.truth)) or ask.truth
+    mistaken = held and held.mistaken
+    function = InTurn(mistaken) if mistaken else ask.truth
     assert function is not None
     asked = [exchange.question for exchange in exchanges]  # as long as its key is kept
     key = (held and held.slug, *map(id, asked))

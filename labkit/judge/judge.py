@@ -109,7 +109,7 @@ def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Find
 
 def _second_look(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdict:
     """Return the verdict on right answers: how did they come about?"""
-    ask, note = asked.ask, ""
+    ask = asked.ask
     if shared := problems.shared_memory(replies([*asked.main, *asked.fresh])):
         return Verdict("wrong", *shared, measured)
     if asked.fresh and ask.truth:
@@ -125,10 +125,8 @@ def _second_look(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdic
             return Verdict("wrong", *for_fresh(asked, main, S), measured)
     for held, exchanges in zip(ask.held_out, asked.held_out, strict=True):
         if _found(held, ask, exchanges):
-            if held.status != "passed":
-                return Verdict(held.status, held.slug, held.says, measured)
-            note = f"{note} {held.says}".strip()
-    return Verdict("passed", "", note, measured)
+            return Verdict(held.status, held.slug, held.says, measured)
+    return Verdict("passed", measured=measured)
 
 
 def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:

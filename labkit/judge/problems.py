@@ -313,7 +313,7 @@ def _wrong(
     names: Sequence[str],
 ) -> Failing | None:
     ask = asked.ask
-    if not exchanges or not (ask.truth or held):
+    if not exchanges or not ask.truth:
         return None
     S = read(exchanges, ask)
     if isinstance(S, Finding):

@@ -82,8 +82,7 @@ class Row:
                 default the function of this name in the day's library.
             near: as in `Ask`.
             alike: slugs that are one thing with several names here, in sets.
-            more: further fields of `Ask`: accept, held_out, unnamed and so on; what a
-                `HeldOut` calls truth or mistaken takes one question, too.
+            more: further fields of `Ask`: accept, held_out, unnamed and so on.
         """
         if unknown := set(more) - {one.name for one in fields(Ask)}:
             raise TypeError(f"a Row has no {min(unknown)}")
@@ -275,14 +274,6 @@ class Row:
         if "inputs" not in self.more:
             raise Robo47Error(f"{self.function}.py has no @row.inputs")
         more = dict(self.more)
-        more["held_out"] = [
-            replace(
-                held,
-                truth=held.truth and InTurn(held.truth),
-                mistaken=held.mistaken and InTurn(held.mistaken),
-            )
-            for held in more.get("held_out", ())
-        ]
         if "accept" in more:
             more["accept"] = self._accept
         else:
