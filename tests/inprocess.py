@@ -202,13 +202,13 @@ def verdicts(day, script: File, only=None, seed=1, instead=None, fresh=1):
 
     Of the questions that are drawn anew every `fresh`-th is asked.
     """
-    make_round = tasks.make_round
+    asked_of = tasks.asked_of
 
     def fewer(*row):
-        asked = make_round(*row)
+        asked = asked_of(*row)
         return replace(asked, fresh=asked.fresh[::fresh])
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(tasks, "make_round", fewer)
+        patch.setattr(tasks, "asked_of", fewer)
         results = tasks.check_tasks(day, script, InProcess(instead), only, seed)
     return {result.task.id: result.verdict for result in results}

@@ -5,7 +5,7 @@ import numpy as np
 from labkit.base.exchange import Reply
 from labkit.judge.answers import InTurn, parts
 from labkit.judge.ask import (
-    make_round,
+    asked_of,
     right_answers,
     stacked,
 )
@@ -17,7 +17,7 @@ NONE = Reply(kind="TypeError", error="no such argument")
 
 def round_of(ask, function="f"):
     """Return the questions of one row, as a check asks them."""
-    return make_round("1.1", function, ask, FRESH_SEED)
+    return asked_of("1.1", function, ask, FRESH_SEED)
 
 
 def right(ask):

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from labkit.base.exchange import Exchange, LoadError, Reply
-from labkit.judge.ask import Asked, make_round, replies
+from labkit.judge.ask import Asked, asked_of, replies
 from labkit.judge.judge import judge
 from labkit.judge.mistake import Verdict
 from labkit.judge.problems import no_answer, not_loaded, refusal
@@ -118,8 +118,7 @@ class _Check:
         """
         for task in tasks:
             rows = [(name, row_of(self.day, name).ask) for name in task.functions]
-            rounds = [make_round(task.id, *row, self.seed) for row in rows]
-            self.asked[task.id] = rounds
+            self.asked[task.id] = [asked_of(task.id, *r, self.seed) for r in rows]
         if tasks:
             self.sandbox.run(
                 self.script,
@@ -173,8 +172,8 @@ class _Check:
 
     def _with_experiments(self, task: Task, verdict: Verdict, added: str) -> Verdict:
         """Return a verdict with the arguments that, neutral, make the answer right."""
-        rounds = self.asked[task.id]
-        asked = next(one for one in rounds if one.function == verdict.function)
+        all_asked = self.asked[task.id]
+        asked = next(one for one in all_asked if one.function == verdict.function)
         robots = robots_of([exchange.question for exchange in asked.main])
         session = self.sandbox.session(
             self.script,

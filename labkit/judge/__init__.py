@@ -1,8 +1,9 @@
 """The judge: from a student's answers to the mistake that was made.
 
-    row         a day's file on one function: inputs, right answer, mistakes
-    ask         a row: inputs, truth, kind of answer, mistakes; its questions,
-                and what their inputs are drawn from
+    row         a function as a day's author writes it down: a file of decorated
+                functions, each a mistake or another way that is right
+    ask         the same for the judge; the questions made of it, and what inputs are
+                drawn from
     kinds       what kind of thing an answer is, which decides the words
                 (matrix_kinds: Jacobians, covariances; other_kinds: twists, points,
                 counts, yes or no, paths, pixels, images)
@@ -16,6 +17,7 @@
     judge       from questions with their replies to a verdict and its name
     right_when  with which argument neutral a wrong function is right
     chain       where along a serial chain a product goes wrong
+    matrices    moves of matrices that need not be poses
 
 The student's code is never run here, and nothing it computed is used as the truth.
 What is special about a day stands in the day's own folder.

@@ -204,7 +204,7 @@ class Ask:
 
     @cached_property
     def known(self) -> dict[Any, Any]:
-        """The last round's questions, and right answers by whose questions they are."""
+        """The last questions made, and right answers by whose questions they are."""
         return {}
 
     @cached_property
@@ -274,7 +274,7 @@ def replies(exchanges: Iterable[Exchange]) -> list[Reply]:
     return found
 
 
-def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
+def asked_of(task: str, function: str, ask: Ask, seed: int) -> Asked:
     """Return the questions to a function, which the sandbox is to answer.
 
     Args:
@@ -292,8 +292,8 @@ def make_round(task: str, function: str, ask: Ask, seed: int) -> Asked:
             [Question(task, function, tuple(args)) for args in calls]
             for calls in (ask.main, [*ask.edges, *ask.anew(seed)], *further)
         ]
-    rounds = ([Exchange(one) for one in some] for some in ask.known[key])
-    main, fresh, probes, *held_out = rounds
+    roles = ([Exchange(one) for one in some] for some in ask.known[key])
+    main, fresh, probes, *held_out = roles
     return Asked(function, ask, main, fresh, held_out, probes)
 
 

@@ -75,7 +75,7 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
         return Verdict("wrong", *found, measured, wrong_calls=wrong)
     if off > ask.tolerance:
         return Verdict("close", *_near_miss(asked, case, S, T, off), measured)
-    return _second_look(asked, S, measured)
+    return _judge_right(asked, S, measured)
 
 
 def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
@@ -107,7 +107,7 @@ def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Find
     return found or near_miss.explain(S[i], T[i])
 
 
-def _second_look(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdict:
+def _judge_right(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdict:
     """Return the verdict on right answers: how did they come about?"""
     ask = asked.ask
     if shared := problems.shared_memory(replies([*asked.main, *asked.fresh])):
@@ -147,7 +147,7 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
         return Verdict("wrong", *fresh)
     wrong = list(problems.refused(asked))
     if not wrong:
-        return _second_look(asked, S, ())
+        return _judge_right(asked, S, ())
     if named := redone(ask, stacked(asked.main), S, None):
         return Verdict("wrong", *named)
     first, found = wrong[0]

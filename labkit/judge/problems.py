@@ -283,8 +283,8 @@ def _parts(value: Any, kinds: tuple[Kind, ...]) -> tuple[Any, ...] | Finding:
 
 def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
     """Return the call that is furthest off, of those always asked if one of them is."""
-    rounds = zip(asked.held_out, asked.ask.held_out, strict=True)
-    for some, held in [(asked.main, None), (asked.fresh, None), *rounds]:
+    held_out = zip(asked.held_out, asked.ask.held_out, strict=True)
+    for some, held in [(asked.main, None), (asked.fresh, None), *held_out]:
         if held and held.mistaken:
             continue
         if found := _broken(some, names) or _wrong(asked, some, held, names):
