@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import shutil
 import socket
 import subprocess
 import sys
@@ -303,6 +304,17 @@ class TestAWall:
             family = processes._family(pid)
             checker.kill()
         assert are_gone(family, 20)
+
+    def test_filters_calls_where_the_kernel_has_no_landlock(self, monkeypatch, student):
+        code = f"{DISARM}def f(): {ATTACKS['hand descriptors on']}"
+        script = student(code)
+        inside = shutil.copytree(process.INSIDE, script.parent / "inside")
+        with (inside / "landlock.py").open("a") as landlock:
+            landlock.write("def fence(readable): return False\n")
+        monkeypatch.setattr(process, "INSIDE", inside)
+        with standing("bubblewrap"), Sandbox() as box:
+            (reply,) = box.session(script).ask([Question("", "f", ())])
+        assert reply.kind == "PermissionError"
 
     @each
     def test_hides_no_memory_from_the_watch(self, name, tmp_path):
