@@ -467,6 +467,16 @@ class TestASession:
             assert once.reply.kind == "missing"
             assert len(started) == 2
 
+    def test_that_is_brief_lets_the_file_load_the_robots_that_it_brings(self, student):
+        code = "from robo47 import panda\ndef f(): return panda.load('panda').nq"
+        script, asked = student(code), Question("", "f", ())
+        with sandbox.Sandbox() as box:
+            box.run(script, [before := Exchange(asked)])
+            session = box.session(script, [Robot("panda")], brief=True)
+            (reply,) = session.ask([asked])
+        assert "no copy of" in before.reply.error
+        assert reply.value == 9
+
     def test_of_a_file_that_hangs_when_loaded_once_more_costs_its_time_once(
         self, student, monkeypatch
     ):
