@@ -289,9 +289,11 @@ class TestAWall:
             "import sys, pathlib\n"
             "from labkit.sandbox.sandbox import *\n"
             "box = Sandbox()\n"
-            "session = box.session(pathlib.Path(sys.argv[1]))\n"
-            "print(session._process.process.pid, flush=True)\n"
-            "session.ask([Question('', 'f', ())], seconds=600)\n"
+            "process = box.session(pathlib.Path(sys.argv[1]))._process\n"
+            "process.ask([{'function': name, 'args': []} for name in ('none', 'f')])\n"
+            "process.next(60)  # so it sleeps by now, and reads no more\n"
+            "print(process.process.pid, flush=True)\n"
+            "process.next(600)\n"
         )
         with standing(name):
             checker = subprocess.Popen(
