@@ -77,6 +77,10 @@ class TestWhatComesBack:
         assert reply.printed == "PASSED"
         assert reply.value == 1
 
+    def test_leaves_aside_what_the_file_prints_as_it_loads(self, ask):
+        (reply,) = ask("print('PASSED', flush=True)\ndef f(): return 1.0")
+        assert (reply.value, reply.again) == (1, 1)
+
     def test_gets_fresh_arguments_at_every_call(self, ask):
         code = "def f(model, q):\n    model.body_pos[:] = 7\n    q += 1\n    return q"
         question = Question("1.6", "f", (Robot(), np.zeros(2)))
@@ -278,6 +282,12 @@ class TestWhatATaskMayTake:
 
 
 class TestWhatItMayImport:
+    @pytest.mark.parametrize("name", ["answers", "limits", "wire"])
+    def test_is_a_file_beside_it_with_a_name_of_the_checkers(self, ask, student, name):
+        student("def own(): return 47.0", f"{name}.py")
+        (reply,) = ask(f"from {name} import own\ndef f(): return own()")
+        assert reply.value == 47
+
     @pytest.mark.parametrize(
         "line",
         [
