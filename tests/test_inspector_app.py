@@ -456,6 +456,20 @@ def test_a_target_is_dragged_to_no_other_planet(page, say):
     assert Noisy.last.heard[0][0, 3] == 0.3
 
 
+def test_a_tab_that_was_closed_hears_of_no_move(page, say):
+    say(tab("Noisy"))
+    heard = Noisy.last.q
+
+    def move_and_close():
+        page.move(panda.READY_Q + 0.1)
+        page.close()
+
+    on_loop(page.server, move_and_close)
+    settle(page)
+    assert page.arm.q[0] == 0.1  # the arm itself has moved
+    np.testing.assert_array_equal(Noisy.last.q, heard)
+
+
 @pytest.mark.parametrize("number", day_numbers())
 def test_every_tab_of_every_day_opens_moves_and_closes(show, number):
     page = show(day_tabs(find_day(number)))

@@ -135,7 +135,7 @@ def clip(path: Path, day: Day, file: Path | None) -> int:
 def seen_at(qs: Array, day: Day, script: Path) -> list[Seen]:
     """Return what a student's file gives at configurations, (n, 7), beside MuJoCo's.
 
-    Where the day has no such function, or there is no file, all that is said is so.
+    Where there is no file, or the day has no such function, the sentences say that.
     """
     ghost = day_tabs(day).ghost
     if ghost is None or not script.is_file():

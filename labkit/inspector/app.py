@@ -239,8 +239,9 @@ class Inspector:
                 widget.remove()
 
     def tell(self, q: Array) -> None:
-        """Tell the open tab where the arm is."""
-        self.guarded(partial(self.tab.on_move, q.copy()))
+        """Tell the open tab where the arm is; a closed one hears of no move."""
+        if self.page is not None:
+            self.guarded(partial(self.tab.on_move, q.copy()))
 
     def guarded(self, call: Callable[[], None]) -> None:
         """Call a tab's code; where it fails the page says so and goes on."""

@@ -42,7 +42,8 @@ class Seen:
     """What the student's function said of a configuration."""
 
     sentence: str  # in the student's name: how it compares, or why there is nothing
-    kind: str  # "good", "bad", "quiet" where nothing is written yet, "" without a file
+    # "good", "bad", "quiet" where nothing is written or begun, "" where nobody asked.
+    kind: str
     poses: Mapping[str, Array] = field(default_factory=dict)  # {short name: (4, 4)}
     truth: Mapping[str, Array] = field(default_factory=dict)  # MuJoCo's of all frames
     drawn: Mapping[str, Array] = field(default_factory=dict)  # rigid, where they differ

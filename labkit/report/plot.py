@@ -92,7 +92,7 @@ class _Axis:
         self.low, self.high = low, high
 
     def y(self, value: float) -> float:
-        """Return a value's height: NaN on top, what has no logarithm on the floor."""
+        """Return a value's height: no number on top, no logarithm on the floor."""
         if not math.isfinite(value):
             return TOP
         if self.log:
