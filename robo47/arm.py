@@ -23,6 +23,7 @@ from robo47.checks import Array
 from robo47.fast.arm_state import ArmState, Constants, as_one
 
 GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s^2
+GRAVITY.flags.writeable = False  # shared by every importer
 
 
 @dataclass(frozen=True, eq=False)
