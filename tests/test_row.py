@@ -89,6 +89,12 @@ def test_a_mistake_of_an_argument_is_made_before_it_is_used(change, used):
     assert np.allclose(change.redo(np.arange(1.0, 7.0)), used)
 
 
+def test_an_angle_is_rounded_as_numpy_and_as_python_rounds_and_stays_a_number():
+    ways = [change.redo(0.785) for change in kinds.ROUNDED[4:6]]
+    assert ways == [0.78, 0.79]
+    assert all(isinstance(way, float) for way in ways)
+
+
 def test_one_mistake_can_be_made_in_two_ways():
     row = Row(Scalar())
 
