@@ -98,7 +98,11 @@ def find_week(number: int, root: Path = ROOT) -> Week:
 
 
 def manifests(root: Path = ROOT) -> dict[int, Path]:
-    """Return the manifests of a clone's days by number, in order."""
+    """Return the manifests of a clone's days by number, in order.
+
+    Raises:
+        Robo47Error: a week is not right, or two have a day of the same number.
+    """
     found: dict[int, Path] = {}
     for week in weeks(root):
         for number, path in week.manifests.items():
