@@ -1,6 +1,6 @@
 """A week's manifest: what is wrong with one is named; the course is `weeks()`."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 
 import pytest
@@ -8,7 +8,7 @@ import pytest
 from conftest import write_week
 from labkit.check import own_functions
 from labkit.lesson.day import chosen_week, day_numbers, find_day
-from labkit.lesson.week import find_week, weeks
+from labkit.lesson.week import entry, fill, find_week, weeks
 from robo47.errors import Robo47Error
 
 
@@ -68,6 +68,16 @@ def test_what_is_wrong_in_a_weeks_manifest_is_named(course, old, new, says):
     with pytest.raises(Robo47Error, match=r"w2-b/week\.toml") as caught:
         weeks(course)
     assert says in str(caught.value)
+
+
+def test_an_entry_that_has_to_be_there_is_missed_where_its_whole_table_is():
+    @dataclass
+    class Rules:
+        most: int = entry(at="limits.most")
+
+    assert fill(Rules, {"limits": {"most": 3}}).most == 3
+    with pytest.raises(Robo47Error, match="most is None; expected a whole number"):
+        fill(Rules, {})
 
 
 def test_two_weeks_of_one_number_are_refused(course):

@@ -407,6 +407,19 @@ def test_a_full_disk_tears_no_row_and_keeps_the_text_in_the_error(tmp_path):
         assert [n.split()[0] for n in notes(log)] == [str(i) for i in range(written)]
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="a folder in use stays there")
+def test_a_folder_that_is_gone_is_named_and_the_row_is_in_the_error(
+    tmp_path, monkeypatch
+):
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    with pytest.raises(Robo47Error, match="its folder does not exist") as refused:
+        append_row("metrics.csv", **ROW, notes="mine")
+    assert "mine\n  kept nowhere but here: copy it" in str(refused.value)
+
+
 def test_a_read_only_disk_is_named(tmp_path):
     folder = tmp_path / "frozen"
     with mounted(folder, "size=64k"):

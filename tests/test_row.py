@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from labkit.judge import Scalar
+from labkit.judge import HeldOut, Scalar
 from labkit.judge import argument_mistakes as kinds
 from labkit.judge.mistake import REDONE
 from labkit.judge.row import Row
+from robo47.errors import Robo47Error
 
 
 def row_of_two(answers):
@@ -87,6 +88,17 @@ def test_a_table_is_made_once_per_question_and_nobody_spoils_it_for_the_others()
 )
 def test_a_mistake_of_an_argument_is_made_before_it_is_used(change, used):
     assert np.allclose(change.redo(np.arange(1.0, 7.0)), used)
+
+
+def test_an_angle_is_rounded_as_numpy_and_as_python_rounds_and_stays_a_number():
+    ways = [change.redo(0.785) for change in kinds.ROUNDED[4:6]]
+    assert ways == [0.78, 0.79]
+    assert all(isinstance(way, float) for way in ways)
+
+
+def test_what_is_found_by_a_held_out_question_cannot_pass():
+    with pytest.raises(Robo47Error, match="status is 'passed'; expected"):
+        HeldOut("remark", "A remark.", lambda rng: [(9.0,)], status="passed")
 
 
 def test_one_mistake_can_be_made_in_two_ways():

@@ -18,6 +18,7 @@ from labkit.check.memory import Met
 from labkit.commands.week import lines_of
 from labkit.lesson.day import days_of, find_day
 from labkit.lesson.marks import Metric, Writers, file_mark, marks_of
+from labkit.lesson.script import writers_of
 from labkit.lesson.week import find_week
 from labkit.report import week_page, week_retro
 from labkit.report.series import Series
@@ -194,6 +195,11 @@ def test_the_students_numbers_and_the_kits_are_told_apart(day):
     found = numbers(day, SMALL, *rows, own=own)
     assert (found.latest, found.worst, found.kit) == (1e-15, 0.3, 2e-15)
     assert found.status == "pass"
+
+
+def test_a_file_that_is_not_there_wrote_no_row_whatever_the_row_says(day):
+    forged = row(1e-15, b"")
+    assert writers_of(day, b"").judge(SMALL, forged) == "stale"
 
 
 def test_a_number_of_a_file_that_changed_since_is_no_pass(day):

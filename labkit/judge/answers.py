@@ -37,7 +37,7 @@ def difference(a: Array, b: Array, scale: float | Array = 1.0) -> Array:
 
     Args:
         a: (n, ...).
-        b: the same.
+        b: the same, or one case for all.
         scale: what it is measured in: a number, or an array with one for each entry.
     """
     return (gap(a, b) / scale).reshape(len(a), -1).max(axis=1, initial=0.0)

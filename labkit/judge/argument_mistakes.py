@@ -35,7 +35,7 @@ def _only(some: slice, x: Any) -> Any:
 
 def _rounded(x: Any, decimals: int) -> Any:
     """Round as Python does: it and NumPy differ at a tie, such as 0.785."""
-    return np.vectorize(lambda one: round(float(one), decimals), [float])(x)
+    return np.vectorize(lambda one: round(float(one), decimals), [float])(x)[()]
 
 
 # Angles.

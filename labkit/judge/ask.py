@@ -136,6 +136,11 @@ class HeldOut:
     status: str = "wrong"  # or "close"
     near: float | None = None  # how well `mistaken` has to fit; None is the row's
 
+    def __post_init__(self) -> None:
+        """Refuse another status: one that passes would hide what is found next."""
+        if self.status not in ("wrong", "close"):
+            raise Robo47Error(f'status is {self.status!r}; expected "wrong" or "close"')
+
 
 @dataclass(frozen=True)
 class Slip:

@@ -145,7 +145,7 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     fresh = problems.read(asked.fresh, ask)
     if isinstance(fresh, Finding):
         return Verdict("wrong", *fresh)
-    wrong = list(problems.refused(asked))
+    wrong = list(problems.not_accepted(asked))
     if not wrong:
         return _judge_right(asked, S, ())
     if named := redone(ask, stacked(asked.main), S, None):

@@ -157,7 +157,7 @@ def read(exchanges: Iterable[Exchange], ask: Ask, source: str = "") -> Parts | F
     return columns if isinstance(columns, Finding) else tuple(map(as_one, columns))
 
 
-def refused(asked: Asked) -> Iterator[tuple[Exchange, Finding]]:
+def not_accepted(asked: Asked) -> Iterator[tuple[Exchange, Finding]]:
     """Yield the calls that a function with many right answers got wrong, and why."""
     if not (accept := asked.ask.accept):
         return
@@ -289,7 +289,7 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
             continue
         if found := _broken(some, names) or _wrong(asked, some, held, names):
             return found
-    for one, _ in refused(asked):
+    for one, _ in not_accepted(asked):
         assert one.reply
         yours = (f"yours: {_matrix(one.reply.value)}",)
         says = f"{typed(one.question, names)} is such a call."

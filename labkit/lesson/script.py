@@ -178,11 +178,12 @@ def writers_of(day: Day, script: bytes | None = None) -> Writers:
         day: from its manifest.
         script: the student's; by default as it is now, b"" where there is none.
     """
-    kits = day.source.read_bytes() if day.source.is_file() else b""
+    kits = day.source.read_bytes() if day.source.is_file() else None
     if script is None:
         script = day.work.read_bytes() if day.work.is_file() else b""
     borrowed = borrowed_tasks(day, script.decode("utf-8", "replace"))
-    return Writers(marks_of(kits), marks_of(script), [task.id for task in borrowed])
+    own = marks_of(script or None)  # what is not there wrote no row
+    return Writers(marks_of(kits), own, [task.id for task in borrowed])
 
 
 def read_script(path: Path) -> str:

@@ -98,7 +98,11 @@ def find_week(number: int, root: Path = ROOT) -> Week:
 
 
 def manifests(root: Path = ROOT) -> dict[int, Path]:
-    """Return the manifests of a clone's days by number, in order."""
+    """Return the manifests of a clone's days by number, in order.
+
+    Raises:
+        Robo47Error: a week is not right, or two have a day of the same number.
+    """
     found: dict[int, Path] = {}
     for week in weeks(root):
         for number, path in week.manifests.items():
@@ -188,12 +192,13 @@ def fill(kind: Any, table: dict[str, Any], where: str = "", **given: Any) -> Any
             inner, _, name = wish.metadata.get("at", wish.name).rpartition(".")
             tables.setdefault(inner, {})[name] = wish
     for inner, wanted in tables.items():
-        if inner and inner not in table:
-            continue
-        entries = _right(table[inner], inner, dict, where) if inner else table
+        entries = {} if inner else table
+        if inner and inner in table:
+            entries = _right(table[inner], inner, dict, where)
         place = f"{where}, {inner}" if inner else where
         for name, wish in wanted.items():
-            needed = wish.default is dataclasses.MISSING or "needed" in wish.metadata
+            needed = "needed" in wish.metadata and inner in ("", *table)
+            needed = needed or wish.default is dataclasses.MISSING
             if name in entries or needed:
                 least = wish.metadata.get("least", int(needed))
                 value = _read(entries.get(name), name, wish.type, least, place)

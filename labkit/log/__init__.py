@@ -3,7 +3,7 @@
 `append_row` adds a row with one write under a lock, `append_rows` several;
 `read_rows` gives the rows back. `metrics/README.md` is the schema. Inside, one job
 each: `rows` (a row and its line, the header), `logfile` (the append, and rows that
-wait), `scan` (reading, line by line).
+wait), `scan` (reading, line by line; lines that a merge brought back).
 """
 
 import os

@@ -251,8 +251,8 @@ def _keep(path: Path, text: str) -> str:
     kept = Path(f"{path}{UNSAVED}")
     rows = "".join(f"  row: {line}\n" for line in text.split("\n"))
     them = "them" if "\n" in text else "it"
-    later = f"to add {them} later:\n  {command('--restore', path)}"
-    with contextlib.suppress(OSError):
+    with contextlib.suppress(OSError):  # also where this folder itself is gone
+        later = f"to add {them} later:\n  {command('--restore', path)}"
         for _ in range(TRIES):
             with locked(kept) as fd:
                 if _is_at(fd, kept):  # not just emptied and removed by a restore
