@@ -1,5 +1,6 @@
 """What this machine does wrong is nobody's grade; what a student does is their own."""
 
+import contextlib
 import errno
 import itertools
 import os
@@ -21,7 +22,7 @@ from labkit.base.exchange import Question
 from labkit.grade import child, classroom, engine
 from labkit.grade.engine import Grader, grade_package
 from labkit.grade.journal import Journal
-from labkit.grade.package import Package, fingerprint
+from labkit.grade.package import Package, collect, fingerprint
 from labkit.grade.roster import Student
 from labkit.handin import handin
 from labkit.handin.deliverables import check_deliverables
@@ -474,6 +475,20 @@ def test_a_name_that_no_file_can_have_is_no_fault(tmp_path):
     (tmp_path / "loop").symlink_to(tmp_path / "loop")
     with pytest.raises(handin.UnreadError, match="behind a link"):
         handin.read(tmp_path, "loop/x", 9)
+
+
+def test_a_link_is_said_to_be_one_wherever_it_leads(tmp_path):
+    need(hasattr(os, "symlink"), "links")
+    (tmp_path / "a").symlink_to("x" * 300)  # to ask what is there is an error
+    student = Student("A", "a", tmp_path / "a", problem="the folder is a link")
+    assert collect(student, DAY).problem == student.problem
+
+
+def test_a_number_that_no_seed_can_be_is_an_odd_line(tmp_path):
+    odd = '{"kind": "robo47 grading", "days": [%d], "reference": 1, "seed": Infinity}'
+    (tmp_path / "j").write_text(odd % DAY.number)
+    with contextlib.closing(Journal(tmp_path / "j", DAY)) as journal:
+        assert journal.odd == 1
 
 
 def test_a_fault_is_an_error_that_a_person_reads():

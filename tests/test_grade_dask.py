@@ -157,13 +157,17 @@ def test_who_has_no_certificate_reaches_nobody(tmp_path, scheduler, monkeypatch)
         assert "certificates" in done.stderr or "no Dask scheduler" in done.stderr
 
 
-def test_an_address_without_a_port_leaves_no_half_a_client(tmp_path):
+@pytest.mark.parametrize(
+    ("address", "why"),
+    [("nonsense", "missing port"), ("http://127.0.0.1:1", "unknown address scheme")],
+)
+def test_an_address_that_is_none_leaves_no_half_a_client(tmp_path, address, why):
     pytest.importorskip("distributed", reason="the extra grade")
     (tmp_path / "clones" / "ada").mkdir(parents=True)
-    done = grade(tmp_path / "clones", tmp_path, "--dask", "nonsense")
+    done = grade(tmp_path / "clones", tmp_path, "--dask", address)
     assert done.returncode == 2
     (says,) = done.stderr.splitlines()
-    assert says.startswith("error: no Dask scheduler at nonsense: missing port")
+    assert says.startswith(f"error: no Dask scheduler at {address}: {why}")
 
 
 def test_without_a_scheduler_or_without_dask_it_is_said_in_a_line(

@@ -141,6 +141,14 @@ def test_links_of_a_commit_are_not_followed(clone):
     assert read_in_time(DAY, clone, DEADLINE)[0].files == {}
 
 
+def test_a_file_that_the_repository_has_lost_is_not_there(clone):
+    save(clone, "x = 1", DEADLINE - HOUR)
+    blob = git(clone, "rev-parse", f"HEAD:{SCRIPT}")
+    save(clone, "x = 2", DEADLINE + HOUR)
+    (clone / ".git" / "objects" / blob[:2] / blob[2:]).unlink()
+    assert read_in_time(DAY, clone, DEADLINE)[0].files == {}
+
+
 @pytest.fixture
 def pulled(tmp_path, monkeypatch):
     """Return the student's own folder, and what pulls their repository into ours."""

@@ -138,7 +138,8 @@ def files_of(clone: Path, commit: str, *names: str) -> dict[str, tuple[str, int]
     for entry in (listed or "").split("\0")[:-1]:
         facts, _, name = entry.partition("\t")
         mode, kind, blob, size = facts.split()
-        if kind == "blob" and mode.startswith("100"):
+        # of a blob that the repository has lost git says "BAD" for its size
+        if kind == "blob" and mode.startswith("100") and size.isdecimal():
             found[name] = (blob, int(size))
     return found
 

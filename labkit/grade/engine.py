@@ -199,7 +199,7 @@ def dask(address: str, trusted: bool = False) -> Iterator[Engine]:
     """
     try:
         from distributed import Client
-        from distributed.comm import parse_address, parse_host_port
+        from distributed.comm import resolve_address
         from distributed.scheduler import KilledWorker
         from distributed.security import Security
     except ImportError:
@@ -215,7 +215,7 @@ def dask(address: str, trusted: bool = False) -> Iterator[Engine]:
         )
     try:
         # first, since half a client takes 20 s to end, with a traceback
-        parse_host_port(parse_address(address)[1])
+        resolve_address(address)
         client = Client(address, timeout=REACHING, set_as_default=False)
     except (OSError, ValueError, TypeError, RuntimeError) as error:
         why = str(error).splitlines()[0] if str(error) else type(error).__name__

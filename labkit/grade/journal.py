@@ -23,6 +23,7 @@ from robo47.paths import shown
 
 KIND = "robo47 grading"
 _LATEST = 4_102_444_800  # the year 2100, in seconds since 1970
+_ODD = (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError)
 
 
 class Kept(NamedTuple):
@@ -170,7 +171,7 @@ class Journal:
                 self._begin(record)
             else:
                 self._note(record["folder"], self._kept(record))
-        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        except _ODD:
             self.odd += 1
 
     def _begin(self, head: dict[str, Any]) -> None:

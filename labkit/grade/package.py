@@ -103,8 +103,10 @@ def collect(
     """
     kit = fingerprint(day.number)
     package = Package(day.number, kit, seed=seed, version=version())
-    gone = "" if student.path.is_dir() else "there is no such folder"
-    if problem := student.problem or gone:
+    problem = student.problem  # first: a link is not followed, not even to look
+    if not problem and not student.path.is_dir():
+        problem = "there is no such folder"
+    if problem:
         return replace(package, problem=problem)
     handin, history, late = read_in_time(day, student.path, deadline)
     day = day.named_as(lambda name: name in handin.files)
