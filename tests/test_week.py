@@ -18,6 +18,7 @@ from labkit.check.memory import Met
 from labkit.commands.week import lines_of
 from labkit.lesson.day import days_of, find_day
 from labkit.lesson.marks import Metric, Writers, file_mark, marks_of
+from labkit.lesson.script import writers_of
 from labkit.lesson.week import find_week
 from labkit.report import week_page, week_retro
 from labkit.report.series import Series
@@ -194,6 +195,13 @@ def test_the_students_numbers_and_the_kits_are_told_apart(day):
     found = numbers(day, SMALL, *rows, own=own)
     assert (found.latest, found.worst, found.kit) == (1e-15, 0.3, 2e-15)
     assert found.status == "pass"
+
+
+def test_a_number_of_an_empty_file_is_nobodys(day, tmp_path):
+    nobodys = writers_of(replace(day, folder=tmp_path))  # neither has a script there
+    found = Series(day.number, SMALL, nobodys)
+    found.add(row(1e-15, b""))
+    assert (found.status, found.kits) == ("stale", [])
 
 
 def test_a_number_of_a_file_that_changed_since_is_no_pass(day):
