@@ -197,9 +197,11 @@ def test_the_students_numbers_and_the_kits_are_told_apart(day):
     assert found.status == "pass"
 
 
-def test_a_file_that_is_not_there_wrote_no_row_whatever_the_row_says(day):
-    forged = row(1e-15, b"")
-    assert writers_of(day, b"").judge(SMALL, forged) == "stale"
+def test_a_number_of_an_empty_file_is_nobodys(day, tmp_path):
+    nobodys = writers_of(replace(day, folder=tmp_path))  # neither has a script there
+    found = Series(day.number, SMALL, nobodys)
+    found.add(row(1e-15, b""))
+    assert (found.status, found.kits) == ("stale", [])
 
 
 def test_a_number_of_a_file_that_changed_since_is_no_pass(day):

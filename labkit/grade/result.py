@@ -2,7 +2,7 @@
 
 import functools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from labkit.handin.deliverables import item_names
@@ -86,10 +86,16 @@ def from_json(data: Mapping[str, Any], day: Day) -> Result:
     Raises:
         ValueError, KeyError, TypeError: it is no result of that day.
     """
-    tasks = [Mark(**mark) for mark in data["tasks"]]
-    items = [Mark(**mark) for mark in data["items"]]
-    result = Result(**{**data, "refused": tuple(data["refused"])})
-    marks = (*tasks, *items)
+    result = Result(
+        tuple(_one(Mark(**mark)) for mark in data["tasks"]),
+        tuple(_one(Mark(**mark)) for mark in data["items"]),
+        data["text"],
+        data["error"],
+        tuple(data["refused"]),
+        data["kit"],
+        data["seed"],
+    )
+    marks = (*result.tasks, *result.items)
     if [mark.id for mark in marks] != [*counted(day), *item_names(day)]:
         raise ValueError("other tasks than the day's")
     texts = [result.text, result.error, result.kit, *result.refused]
@@ -102,7 +108,7 @@ def from_json(data: Mapping[str, Any], day: Day) -> Result:
         raise TypeError("no seed")
     if not all(mark.status in STATUSES for mark in marks):
         raise ValueError("no status")
-    return replace(result, tasks=tuple(map(_one, tasks)), items=tuple(map(_one, items)))
+    return result
 
 
 def counted(day: Day) -> Sequence[str]:

@@ -182,8 +182,9 @@ def writers_of(day: Day, script: bytes | None = None) -> Writers:
     if script is None:
         script = day.work.read_bytes() if day.work.is_file() else b""
     borrowed = borrowed_tasks(day, script.decode("utf-8", "replace"))
-    own = marks_of(script or None)  # what is not there wrote no row
-    return Writers(marks_of(kits), own, [task.id for task in borrowed])
+    # No script has no mark: that of an empty one would make a row somebody's.
+    marks = marks_of(kits or None), marks_of(script or None)
+    return Writers(*marks, [task.id for task in borrowed])
 
 
 def read_script(path: Path) -> str:
