@@ -2,7 +2,7 @@
 
 import functools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from labkit.handin.deliverables import item_names
@@ -87,8 +87,8 @@ def from_json(data: Mapping[str, Any], day: Day) -> Result:
         ValueError, KeyError, TypeError: it is no result of that day.
     """
     result = Result(
-        tuple(_one(Mark(**mark)) for mark in data["tasks"]),
-        tuple(_one(Mark(**mark)) for mark in data["items"]),
+        tuple(Mark(**mark) for mark in data["tasks"]),
+        tuple(Mark(**mark) for mark in data["items"]),
         data["text"],
         data["error"],
         tuple(data["refused"]),
@@ -108,7 +108,8 @@ def from_json(data: Mapping[str, Any], day: Day) -> Result:
         raise TypeError("no seed")
     if not all(mark.status in STATUSES for mark in marks):
         raise ValueError("no status")
-    return result
+    tasks, items = (tuple(map(_one, some)) for some in (result.tasks, result.items))
+    return replace(result, tasks=tasks, items=items)
 
 
 def counted(day: Day) -> Sequence[str]:
