@@ -191,9 +191,9 @@ class Page:
         return np.array(typed.configuration(words, 7)) if words else np.full(7, np.nan)
 
     def drag(self, joint: int, pixels: int) -> None:
+        self.slider(joint).hover()  # which waits until it stands still
         thumb = self.slider(joint).bounding_box()
         x, y = thumb["x"] + thumb["width"] / 2, thumb["y"] + thumb["height"] / 2
-        self.tab.mouse.move(x, y)
         self.tab.mouse.down()
         self.tab.mouse.move(x + pixels / 2, y, steps=3)
         self.tab.mouse.move(x + pixels, y, steps=3)
