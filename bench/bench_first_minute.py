@@ -25,7 +25,8 @@ def run() -> dict:
             "UV_CACHE_DIR": str(cache), "XDG_CACHE_HOME": folder + "/xdg",
         }  # fmt: skip
         environment.pop("MENAGERIE_ROOT", None)
-        before, start = _received(), time.perf_counter()
+        before = _received()
+        start = time.perf_counter()
         subprocess.run(
             ["git", "clone", "--quiet", str(ROOT), str(clone)],
             check=True,

@@ -39,13 +39,16 @@ def circle(
     Returns:
         Its pose, (4, 4), twist, (6,), and acceleration, (6,).
     """
-    w, u = 2.0 * np.pi / turn, min(t / SPEED_UP, 1.0)
+    w = 2.0 * np.pi / turn
+    u = min(t / SPEED_UP, 1.0)
     ease = u / 2.0 - np.sin(np.pi * u) / (2.0 * np.pi)
     angle = w * (SPEED_UP * ease + max(t - SPEED_UP, 0.0))
     speed = w * (1.0 - np.cos(np.pi * u)) / 2.0
     gain = w * np.pi * np.sin(np.pi * u) / (2.0 * SPEED_UP)
     c, s = radius * np.cos(angle), radius * np.sin(angle)
-    T, V, A = np.array(T_start, dtype=np.float64), np.zeros(6), np.zeros(6)
+    T = np.array(T_start, dtype=np.float64)
+    V = np.zeros(6)
+    A = np.zeros(6)
     T[1:3, 3] += s, radius - c
     V[4:] = speed * c, speed * s
     A[4:] = gain * c - speed**2 * s, gain * s + speed**2 * c
@@ -116,7 +119,8 @@ def press(
     q = above_table(model, 0.01)
     law = controller(panda.arm(model), q)
 
-    data, felt = simulate.start(model, q), []
+    data = simulate.start(model, q)
+    felt = []
 
     def look(model: mujoco.MjModel, data: mujoco.MjData) -> None:
         felt.append(scenes.contact_force(model, data, "tip", "table_top"))

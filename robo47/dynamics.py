@@ -41,12 +41,14 @@ def spatial_inertia(m: ArrayLike, c: ArrayLike, inertia: ArrayLike) -> Array:
         G, (..., 6, 6): takes twists (omega; v) to momenta (angular; linear).
     """
     m = checks.array(m, "m", ())[..., None, None]
-    C, own = skew(c), checks.array(inertia, "inertia", (3, 3))
+    C = skew(c)
+    own = checks.array(inertia, "inertia", (3, 3))
     corner = m * C
     around = own + corner @ np.swapaxes(C, -1, -2)
     G = np.empty((*around.shape[:-2], 6, 6))
     G[..., :3, :3], G[..., :3, 3:] = around, corner
-    G[..., 3:, :3], G[..., 3:, 3:] = np.swapaxes(corner, -1, -2), m * np.eye(3)
+    G[..., 3:, :3] = np.swapaxes(corner, -1, -2)
+    G[..., 3:, 3:] = m * np.eye(3)
     return G
 
 
@@ -69,7 +71,8 @@ def link_inertias(
     T = checks.pose(T_links, "T_links")
     coms = checks.array(coms, "coms", (3,))
     inertias = checks.array(inertias, "inertias", (3, 3))
-    R, p = T[..., :3, :3], T[..., :3, 3]
+    R = T[..., :3, :3]
+    p = T[..., :3, 3]
     turned = R @ inertias @ np.swapaxes(R, -1, -2)
     return spatial_inertia(masses, times(R, coms) + p, turned)
 

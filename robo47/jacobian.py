@@ -66,7 +66,8 @@ def site_jacobian(J_space: ArrayLike, p: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape or a non-finite number.
     """
-    J, p = checks.array(J_space, "J_space", (6, "n")), checks.array(p, "p", (3,))
+    J = checks.array(J_space, "J_space", (6, "n"))
+    p = checks.array(p, "p", (3,))
     v = J[..., 3:, :] - skew(p) @ J[..., :3, :]  # omega x p = -[p] omega
     return np.concatenate([np.broadcast_to(J[..., :3, :], v.shape), v], axis=-2)
 
@@ -104,7 +105,8 @@ def joint_torques(J_space: ArrayLike, p: ArrayLike, F: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape or a non-finite number.
     """
-    J, F = site_jacobian(J_space, p), checks.array(F, "F", (6,))
+    J = site_jacobian(J_space, p)
+    F = checks.array(F, "F", (6,))
     return (F[..., None, :] @ J)[..., 0, :]
 
 
@@ -181,7 +183,8 @@ def null_step(J: ArrayLike, dq: ArrayLike) -> Array:
 
 def _one_by_one(S: Array, q: Array) -> Array:
     """Return J_space of arms with different screws, as the formula reads."""
-    T, columns = np.eye(4), []
+    T = np.eye(4)
+    columns = []
     for i in range(S.shape[-2]):
         columns.append((adjoint(T) @ S[..., i, :, None])[..., 0])
         T = T @ exp_screw(S[..., i, :], q[..., i])

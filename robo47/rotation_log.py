@@ -29,7 +29,8 @@ def log_rotation(R: ArrayLike) -> Array:
         ValueError: wrong shape, a non-finite number, or R is not a rotation.
     """
     q = se3.R_to_quat(R)
-    w, u = q[..., :1], q[..., 1:]
+    w = q[..., :1]
+    u = q[..., 1:]
     sine = np.linalg.norm(u, axis=-1, keepdims=True)
     angle = 2.0 * np.arctan2(sine, w)
     # Below 1e-154 the square of a length is 0; there the angle is twice the sine.

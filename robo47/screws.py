@@ -118,10 +118,14 @@ def exp_screw(S: ArrayLike, theta: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape, a non-finite number, or omega of another length.
     """
-    S, theta = checks.screws(S, "S"), checks.array(theta, "theta", ())
-    K, v = skew(S[..., :3]), S[..., 3:, None]
-    KK, angle = K @ K, theta[..., None, None]
-    s, c = np.sin(angle), 1.0 - np.cos(angle)
+    S = checks.screws(S, "S")
+    theta = checks.array(theta, "theta", ())
+    K = skew(S[..., :3])
+    v = S[..., 3:, None]
+    KK = K @ K
+    angle = theta[..., None, None]
+    s = np.sin(angle)
+    c = 1.0 - np.cos(angle)
     R = np.eye(3) + s * K + c * KK
     out = np.zeros((*R.shape[:-2], 4, 4))
     out[..., :3, :3] = R

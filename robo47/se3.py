@@ -33,7 +33,8 @@ def make_T(R: ArrayLike, t: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape, a non-finite number, or R is not a rotation.
     """
-    R, t = checks.rotation(R, "R"), checks.array(t, "t", (3,))
+    R = checks.rotation(R, "R")
+    t = checks.array(t, "t", (3,))
     T = np.zeros((*np.broadcast_shapes(R.shape[:-2], t.shape[:-1]), 4, 4))
     T[..., :3, :3] = R
     T[..., :3, 3] = t
@@ -114,7 +115,8 @@ def axis_angle(axis: ArrayLike, theta: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape, a non-finite number, or an axis of length 0.
     """
-    axis, theta = checks.array(axis, "axis", (3,)), checks.array(theta, "theta", ())
+    axis = checks.array(axis, "axis", (3,))
+    theta = checks.array(theta, "theta", ())
     x, y, z = np.moveaxis(checks.unit(axis, "axis"), -1, 0)
     zero = np.zeros_like(x)
     K = np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=-1)

@@ -58,10 +58,14 @@ def site_bias(J_space: ArrayLike, qd: ArrayLike, p: ArrayLike) -> Array:
         (angular; linear) acceleration in rad/s2 and m/s2, (..., 6).
     """
     J_space = checks.array(J_space, "J_space", (6, "n"))
-    qd, p = checks.array(qd, "qd", J_space.shape[-1:]), checks.array(p, "p", (3,))
+    qd = checks.array(qd, "qd", J_space.shape[-1:])
+    p = checks.array(p, "p", (3,))
     Sqd = _T(J_space) * qd[..., None]  # (..., n, 6)
     V = np.cumsum(Sqd, axis=-2)  # its own part adds nothing: ad(S) S = 0
-    w, v, sw, sv = V[..., :3], V[..., 3:], Sqd[..., :3], Sqd[..., 3:]
+    w = V[..., :3]
+    v = V[..., 3:]
+    sw = Sqd[..., :3]
+    sv = Sqd[..., 3:]
     alpha = cross_of(w, sw).sum(axis=-2)
     a = (cross_of(v, sw) + cross_of(w, sv)).sum(axis=-2)
     omega = w[..., -1, :]
@@ -220,7 +224,8 @@ def hybrid_wrench(
     Returns:
         Wrench (moment; force) in N m and N, (..., 6).
     """
-    V_err, D = checks.array(V_err, "V_err", (6,)), checks.array(D, "D", (6, 6))
+    V_err = checks.array(V_err, "V_err", (6,))
+    D = checks.array(D, "D", (6, 6))
     wrench = spring_wrench(checks.array(e, "e", (6,)), V_err, K, D)
     down = times(D, V_err)[..., 5] - checks.array(force, "force", ())
     sideways = np.broadcast_to(wrench[..., :5], (*down.shape, 5))

@@ -37,7 +37,8 @@ def quintic_scaling(t: ArrayLike, T: ArrayLike) -> Array:
     Returns:
         s, sd in 1/s and sdd in 1/s2, (..., 3).
     """
-    t, T = checks.array(t, "t", ()), checks.positive(T, "T")
+    t = checks.array(t, "t", ())
+    T = checks.positive(T, "T")
     x = np.clip(t / T, 0.0, 1.0)
     s = x**3 * (10.0 - 15.0 * x + 6.0 * x**2)
     sd = 30.0 * x**2 * (1.0 - x) ** 2 / T
@@ -100,12 +101,14 @@ def trapezoid(t: ArrayLike, L: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
     Returns:
         Position, speed and acceleration in units of L, per s and per s2, (..., 3).
     """
-    t, L = checks.array(t, "t", ()), checks.not_negative(L, "L")
+    t = checks.array(t, "t", ())
+    L = checks.not_negative(L, "L")
     v, a = checks.positive(v, "v"), checks.positive(a, "a")
     top = np.minimum(v, np.sqrt(L * a))
     ramp = top / a
     T = L / np.where(top > 0.0, top, 1.0) + ramp  # top is 0 where there is no way to go
-    up, left = np.clip(t, 0.0, ramp), np.clip(T - t, 0.0, ramp)
+    up = np.clip(t, 0.0, ramp)
+    left = np.clip(T - t, 0.0, ramp)
     cruise = np.clip(t - ramp, 0.0, T - 2.0 * ramp)
     ended = t >= T
     done = a * up**2 / 2.0 + top * cruise + a * (ramp**2 - left**2) / 2.0
@@ -136,7 +139,9 @@ def quintic_coefficients(start: ArrayLike, end: ArrayLike, T: ArrayLike) -> Arra
     A = np.zeros((*T.shape, 6, 6))
     A[..., 0, 0] = A[..., 1, 1] = 1.0
     A[..., 2, 2] = 2.0
-    A[..., 3, :], A[..., 4, :], A[..., 5, :] = T[..., None] ** powers, first, second
+    A[..., 3, :] = T[..., None] ** powers
+    A[..., 4, :] = first
+    A[..., 5, :] = second
     wanted = np.concatenate(np.broadcast_arrays(start, end), axis=-1)
     return np.linalg.solve(A, wanted[..., None])[..., 0]
 
@@ -156,7 +161,8 @@ def straight_pose(T0: ArrayLike, T1: ArrayLike, s: ArrayLike) -> Array:
     """
     T0, T1 = checks.pose(T0, "T0"), checks.pose(T1, "T1")
     s = checks.array(s, "s", ())
-    R0, p0 = T0[..., :3, :3], T0[..., :3, 3]
+    R0 = T0[..., :3, :3]
+    p0 = T0[..., :3, 3]
     turn = log_rotation(np.swapaxes(R0, -1, -2) @ T1[..., :3, :3])
     angle = np.linalg.norm(turn, axis=-1)
     axis = np.where(angle[..., None] > 0.0, turn, [0.0, 0.0, 1.0])

@@ -266,7 +266,9 @@ def _is_plain(git: Path) -> bool:
 
     At a pipe git would wait for ever, whatever it is the name of.
     """
-    waiting, entries, size = [str(git)], 0, 0
+    waiting = [str(git)]
+    entries = 0
+    size = 0
     while waiting:
         with os.scandir(waiting.pop()) as found:
             for entry in found:
@@ -328,7 +330,8 @@ def _signed(commit: str, role: str) -> tuple[str, int | None]:
     """
     lines = commit.partition("\n\n")[0].splitlines()
     line = next((line for line in lines if line.startswith(f"{role} ")), f"{role} ")
-    name, seconds = line.removeprefix(f"{role} "), line.rsplit(" ", 2)[-2]
+    name = line.removeprefix(f"{role} ")
+    seconds = line.rsplit(" ", 2)[-2]
     plain = seconds.isdecimal() and len(seconds) < 12
     when = int(seconds) if plain and int(seconds) < YEAR_2100 else None
     return name.rpartition("<")[0].strip(), when

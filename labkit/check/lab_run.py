@@ -51,9 +51,14 @@ class Rehearsal(Lab):
         self, day: Day, numbers: dict[tuple[str, str], float], file: str, _: str | None
     ) -> None:
         """Take the day, what takes its numbers, and what a `Lab` takes."""
-        self.log, self.script = False, Path(file)
-        self.day, self.numbers, self.title = day, numbers, ""
-        self.failed, self.rows, self.predicted = [], [], {}
+        self.log = False
+        self.script = Path(file)
+        self.day = day
+        self.numbers = numbers
+        self.title = ""
+        self.failed = []
+        self.rows = []
+        self.predicted = {}
 
     def step(self, title: str) -> None:
         """Remember the heading."""
@@ -147,7 +152,8 @@ class Budget:
 
     def __init__(self, calls: int = CALLS, seconds: float = SECONDS) -> None:
         """Start the clock."""
-        self.calls, self.deadline = calls, time.monotonic() + seconds
+        self.calls = calls
+        self.deadline = time.monotonic() + seconds
 
     def spend(self) -> None:
         """Take one call.

@@ -151,7 +151,8 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
 
 def _below(report: Report, result: TaskResult, explain: bool) -> list[str]:
     """Return the lines below a task's: what is said, measured and printed."""
-    verdict, lines = result.verdict, []
+    verdict = result.verdict
+    lines = []
     begun = verdict.function not in ("", result.task.functions[0])
     if not report.problem and (begun or verdict.mistake != "unwritten"):
         says = _said(report, result, explain)

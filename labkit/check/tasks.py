@@ -99,7 +99,10 @@ class _Check:
 
     def __init__(self, day: Day, script: Path, sandbox: Sandbox, seed: int) -> None:
         """Take what `check_tasks` takes."""
-        self.day, self.script, self.sandbox, self.seed = day, script, sandbox, seed
+        self.day = day
+        self.script = script
+        self.sandbox = sandbox
+        self.seed = seed
         there = script.is_file()  # the sandbox refuses what is none
         self.source = script.read_text("utf-8", errors="replace") if there else ""
         self.borrowed = borrowed_tasks(day, self.source)
@@ -148,7 +151,8 @@ class _Check:
         What builds on tasks that are not right is asked again with the kit's functions
         in their place: its fault is inherited, or its own.
         """
-        result, added = results[task.id], self.added
+        result = results[task.id]
+        added = self.added
         if result.verdict.follows:
             needed = [self.day.task(id) for id in self.day.needs(task.id)]
             broken = [one for one in needed if not results[one.id].passed]

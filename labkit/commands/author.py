@@ -41,7 +41,8 @@ def faults(day: Day) -> Iterator[str]:
 
 
 def _regions(day: Day) -> Iterator[str]:
-    manifest, source = shown(day.own / "day.toml"), shown(day.source)
+    manifest = shown(day.own / "day.toml")
+    source = shown(day.source)
     wanted = {(task.id, name) for task in day.tasks for name in task.functions}
     regions = find_regions(read_script(day.source), source)
     found = {(region.task, region.function): region.start + 1 for region in regions}
@@ -62,7 +63,8 @@ def _functions(day: Day) -> Iterator[str]:
         if not callable(getattr(row.lab, name, None)):
             yield f"{shown(day.source)}: no function {name}"
             continue
-        calls, file = row.ask.inputs, f"{shown(day.own)}/{name}.py"
+        calls = row.ask.inputs
+        file = f"{shown(day.own)}/{name}.py"
         first = next(iter(calls(Draw(0))))
         if len(first) != len(row.arguments):
             yield (

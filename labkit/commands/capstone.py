@@ -133,7 +133,8 @@ def main() -> int:
         week = own_functions.capstone_week()
     else:
         week = chosen_week(options.week, options.day)
-    capstone, fns = own_functions.capstone_of(week), chosen(week, options.kit)
+    capstone = own_functions.capstone_of(week)
+    fns = chosen(week, options.kit)
     if options.all:
         return all_cubes(capstone, fns)
     if options.ablations:

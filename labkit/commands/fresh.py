@@ -74,7 +74,8 @@ def main() -> int:
     parser.add_argument("--quick", action="store_true", help=quick)
     options = parser.parse_args()
     week = chosen_week(options.week, options.day)
-    sha, say = head_of(), partial(progress, time.monotonic())
+    sha = head_of()
+    say = partial(progress, time.monotonic())
     sweep(FOLDER, LEFT_BEHIND)
     with tempfile.TemporaryDirectory(
         prefix=FOLDER, ignore_cleanup_errors=True

@@ -78,7 +78,8 @@ def parse() -> argparse.Namespace:
 def add_how(parser: argparse.ArgumentParser) -> None:
     """Add how to grade, and what to write besides."""
     add = parser.add_argument
-    cores, at_once = os.cpu_count() or 1, "submissions at a time; default: one per core"
+    cores = os.cpu_count() or 1
+    at_once = "submissions at a time; default: one per core"
     add("--processes", type=positive, default=cores, metavar="N", help=at_once)
     drawn = "of the fresh inputs, the same for everybody; default: drawn once"
     add("--seed", type=int, metavar="N", help=drawn)
@@ -236,7 +237,8 @@ def grade_days(
     Returns:
         The days, and who could not be pulled, and why, by folder.
     """
-    courses, notes = list[Course](), dict[str, str]()
+    courses = list[Course]()
+    notes = dict[str, str]()
     where = engine.dask(options.dask, options.i_know_them) if options.dask else None
     with where or engine.local(options.processes) as it:
         for day in days:

@@ -45,7 +45,8 @@ def main() -> int:
     if not options.out.parent.is_dir():
         folder = shown(options.out.parent.absolute())
         raise Robo47Error(f"{folder} is no folder; choose another place with --out")
-    begun, week = time.monotonic(), chosen_week(options.week)
+    begun = time.monotonic()
+    week = chosen_week(options.week)
     try:
         proof = found(week, options.of or ROOT, options.name, own=not options.of)
     except (OSError, GitError) as error:
@@ -66,7 +67,8 @@ def found(week: Week, clone: Path, name: str = "", *, own: bool = False) -> page
         name: the student's; by default the last commit's author.
         own: it is the reader's, which may be a linked worktree.
     """
-    days, history = days_of(week), read_history(clone, (), own=own)
+    days = days_of(week)
+    history = read_history(clone, (), own=own)
     name = visible(name or history.author, 80) or "somebody whom git does not know"
     student = Student(name, clone.name, clone)
     with Sandbox() as sandbox, TemporaryDirectory(prefix="robo47-grade-") as top:

@@ -19,7 +19,8 @@ from robo47.paths import shown
 
 def start(day: Day) -> int:
     """Write the starter, unless the student's file is there."""
-    work, first = day.work, day.tasks[0]
+    work = day.work
+    first = day.tasks[0]
     require_kits(day)
     starter = starter_of(day)
     work.parent.mkdir(parents=True, exist_ok=True)
@@ -80,7 +81,8 @@ def reset(task_id: str) -> int:
 
 def rewrite(work: Path, text: str, why: str) -> Path:
     """Write a lab anew with its own line ends; return where it is as it was."""
-    before, kept = work.read_bytes(), free_name(work, why)
+    before = work.read_bytes()
+    kept = free_name(work, why)
     kept.write_bytes(before)
     work.write_text(text, "utf-8", newline="\r\n" if b"\r\n" in before else "\n")
     return kept

@@ -30,7 +30,8 @@ def lines_of(ran: Ran) -> list[Line]:
     for one in ran.numbers:
         number = "none" if one.latest is None else number_of(one.latest)
         verdict = "PASS" if one.status == "pass" else "FAIL"
-        name, limit = ran.day.name_of(one.wanted)[:NAMED], one.wanted.limit
+        name = ran.day.name_of(one.wanted)[:NAMED]
+        limit = one.wanted.limit
         lines.append((str(ran.day.number), whose, name, number, limit, verdict))
     return lines
 

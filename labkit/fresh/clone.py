@@ -77,7 +77,8 @@ def uncommitted(root: Path = ROOT) -> dict[str, str]:
     listed = _git("status", "--porcelain", "--no-renames", "-z", "-uall", folder=root)
     found = {}
     for entry in filter(None, listed.split("\0")):
-        code, path = entry[:2], entry[3:]
+        code = entry[:2]
+        path = entry[3:]
         new = code == "??" or "A" in code
         found[path] = "not committed" if new else "changed since the commit"
     return found

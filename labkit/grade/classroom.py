@@ -57,7 +57,8 @@ class Classroom:
         """
         graded: dict[str, Graded] = {}
         runs: dict[str, list[Runs]] = {}
-        starter, now = starter_of(self.day), 0
+        starter = starter_of(self.day)
+        now = 0
 
         def note(one: Student, package: Package, result: Result | FaultError) -> None:
             found = self._graded(one, package, result)
@@ -101,7 +102,8 @@ class Classroom:
         self, student: Student, package: Package, result: Result | FaultError
     ) -> Graded:
         given: Package | Kept = package
-        fault, late = isinstance(result, FaultError), package.late
+        fault = isinstance(result, FaultError)
+        late = package.late
         if isinstance(result, FaultError):  # not kept, so that it is tried again
             result = ungraded(self.day, FAULT.format(visible(result, 200)))
         elif self.keep == "best":
@@ -119,7 +121,8 @@ class Classroom:
     ) -> Course:
         alike = similar.like_the_kit(runs, _runs_of_kit(self.day))
         alike += similar.similar_groups({f: r[0] for f, r in runs.items() if r})
-        journal, odd = self.journal, ""
+        journal = self.journal
+        odd = ""
         if journal.odd:
             path = shown(journal.path.absolute())
             odd = f"{path}: lines that are no result, left out: {journal.odd:,}"

@@ -117,7 +117,8 @@ def _judge_right(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdic
         off = np.inf
         if not isinstance(S, Finding):
             gap = gaps(ask.kinds, S, right_answers(ask, asked.fresh))
-            off, lines = float(gap.max()), _counted(ask, gap, "with fresh inputs")
+            off = float(gap.max())
+            lines = _counted(ask, gap, "with fresh inputs")
             measured += lines[1:]
         if off > ask.near:
             if np.isfinite(off):  # of the others only that they are right
@@ -221,7 +222,8 @@ def _not_finite(case: Case, S: Parts, T: Parts) -> Finding | None:
 
 def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     """Return which part of the answers is wrong, and by how much."""
-    ask, i = case.ask, worst_part(case.ask.kinds, S, T, case.ask.near)
+    ask = case.ask
+    i = worst_part(case.ask.kinds, S, T, case.ask.near)
     kind = ask.kinds[i]
     found = kind.what_is_wrong(S[i], T[i])
     called = f"{kind.called}: " if len(S) > 1 and kind.called else ""

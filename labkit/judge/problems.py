@@ -47,17 +47,22 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
     """
     match reply.kind:
         case "stopped":
-            slug, says = "stopped", f"{function} did not return: {reply.error}."
+            slug = "stopped"
+            says = f"{function} did not return: {reply.error}."
         case "unsendable":
-            slug, says = "not-an-array", f"{function}: {reply.error}."
+            slug = "not-an-array"
+            says = f"{function}: {reply.error}."
         case "huge":
-            slug, says = "huge-numbers", f"I{reply.error[1:]}; nothing here comes near "
+            slug = "huge-numbers"
+            says = f"I{reply.error[1:]}; nothing here comes near "
             says += "that. Is something divided by almost zero?"
         case "missing":
-            slug, says = "missing", f"The file has no function {function}."
+            slug = "missing"
+            says = f"The file has no function {function}."
             says += f" To put its gap back: make start RESET={task}." if task else ""
         case "BdbQuit":
-            slug, says = "breakpoint", f"It stops in the debugger (line {reply.line}): "
+            slug = "breakpoint"
+            says = f"It stops in the debugger (line {reply.line}): "
             says += "take breakpoint() out."
         case "RefusedError":
             return refusal(reply.refused[0] if reply.refused else "", reply.line)
@@ -320,7 +325,8 @@ def _wrong(
         return None
     T = right_answers(ask, exchanges, held)
     gap = gaps(ask.kinds, S, T)
-    i, part = int(np.argmax(gap)), worst_part(ask.kinds, S, T, ask.near)
+    i = int(np.argmax(gap))
+    part = worst_part(ask.kinds, S, T, ask.near)
     if gap[i] <= ask.tolerance:
         return None
     mine, its = as_one([S[part][i], T[part][i]])

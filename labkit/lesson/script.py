@@ -339,7 +339,9 @@ def require_kits(day: Day) -> None:
     runs is neither.
     """
     wanted = {(task.id, f) for task in day.tasks for f in task.functions}
-    source, text, fault = shown(day.source), "", ""
+    source = shown(day.source)
+    text = ""
+    fault = ""
     try:
         text = read_script(day.source)
         wanted -= {(r.task, r.function) for r in find_regions(text, source)}

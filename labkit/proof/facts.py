@@ -62,7 +62,8 @@ def facts_of(
     if script is None:
         return RunDay(day, {task.id: "not begun" for task in day.tasks}, numbers)
     states = {task.id: "the kit's own file" for task in day.tasks}
-    fault, again = "", dict[tuple[str, str], float]()
+    fault = ""
+    again = dict[tuple[str, str], float]()
     if writers.kits.isdisjoint(marks_of(script)):
         results = check_tasks(day, folder / day.script, sandbox)
         states = {result.task.id: in_words(result.verdict) for result in results}

@@ -31,12 +31,15 @@ class Picked(NamedTuple):
 
 def pick(days: Sequence[DayFacts], folders: Sequence[Path], sandbox: Sandbox) -> Picked:
     """Pick the cube up with the functions that pass, the library's for the rest."""
-    fns, budget, yours = capstone.library(), Budget(CALLS, SECONDS), 0
+    fns = capstone.library()
+    budget = Budget(CALLS, SECONDS)
+    yours = 0
     names = {name for some in capstone.USES.values() for name in some}
     for facts, place in zip(days, folders, strict=True):
         wanted = set(capstone.USES.get(facts.day.number, ())) & set(facts.own)
         if wanted:
-            script, lab = place / facts.day.script, lab_of(facts.day)
+            script = place / facts.day.script
+            lab = lab_of(facts.day)
             own = behind_wall(facts.day, script, sandbox, lab, budget)
             for name in wanted:
                 setattr(fns, name, own[name])

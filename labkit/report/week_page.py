@@ -162,7 +162,9 @@ def _counts(one: OwnDay) -> str:
     if not one.checked:
         command = f"<code>make check DAY={one.day.number}</code>"
         return f"<td colspan=2 class=wide>not checked as it is now: run {command}</td>"
-    passed, of, borrowed = sum(one.graded), len(one.graded), ""
+    passed = sum(one.graded)
+    of = len(one.graded)
+    borrowed = ""
     if one.borrowed:
         borrowed = f"<br>borrowed: {', '.join(one.borrowed)}"
     share = f"{100 * passed / max(1, of):.0f}%"

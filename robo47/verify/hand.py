@@ -32,8 +32,10 @@ class State(NamedTuple):
 
 def states(model: mujoco.MjModel, n: int, seed: int, sigma: float) -> list[State]:
     """Return up to n states where J's least singular value is over sigma."""
-    arm, rng = panda.arm(model), np.random.default_rng(seed)
-    q, found = random_q(model, 2 * n, seed), []
+    arm = panda.arm(model)
+    rng = np.random.default_rng(seed)
+    q = random_q(model, 2 * n, seed)
+    found = []
     least = np.linalg.svd(mujoco_site_jacobian(model, q), compute_uv=False)[:, -1]
     for one in q[least > sigma][:n]:
         qd, torque = rng.uniform(-1, 1, (2, 7)) * [[1], [10]]
@@ -70,9 +72,11 @@ def asked_for(
     osc_torque: Function,
 ) -> Array:
     """Return the acceleration of MuJoCo's hand minus the one asked for, (n, 6)."""
-    off, damping = [], panda.arm(model).damping
+    off = []
+    damping = panda.arm(model).damping
     for s in found:
-        J, p = s.now.J_site, s.now.T_world_ee[:3, 3]
+        J = s.now.J_site
+        p = s.now.T_world_ee[:3, 3]
         given = task_inertia(J, s.now.M), s.now.bias(s.qd)
         tau = osc_torque(J, *given, site_bias(s.now.J_space, s.qd, p), s.acc)
         acc = _hand(model, s, s.qd, tau + damping * s.qd, np.zeros(6))
@@ -99,7 +103,8 @@ def held(
     model: mujoco.MjModel, found: Sequence[State], impedance_torque: Function
 ) -> Array:
     """Return how the joints accelerate when the hand is pushed back as it pushes."""
-    off, damping = [], panda.arm(model).damping
+    off = []
+    damping = panda.arm(model).damping
     for s in found:
         given = s.now.bias(s.qd), damping, s.qd
         tau = impedance_torque(s.now.J_site, s.wrench, *given, s.torque) - s.torque
@@ -111,7 +116,8 @@ def rest_after(
     model: mujoco.MjModel, law: simulate.Controller, wrench: Array, rate: float
 ) -> Array:
     """Return where a push of three seconds takes the hand from ready, (6,)."""
-    push, start = simulate.push_at(contact.SITE, wrench), simulate.start(model, READY_Q)
+    push = simulate.push_at(contact.SITE, wrench)
+    start = simulate.start(model, READY_Q)
     run = simulate.run(model, start, law, 3.0, rate=rate, push=push)
     T, T_end = (panda.arm(model).at(q).T_world_ee for q in (READY_Q, run.q[-1]))
     return jacobian.pose_error(T, T_end)
@@ -135,10 +141,12 @@ def kinematic(J: Array, M: Array, Lambda: Array, tau: Array) -> Array:
 
 def compare(check: Check, found: Sequence[State], **own: Function) -> None:
     """Check functions against those of `robo47.task_space` of the same names."""
-    rng, n = np.random.default_rng(len(found)), len(found)
+    rng = np.random.default_rng(len(found))
+    n = len(found)
     J, M = np.array([s.now.J_site for s in found]), np.array([s.now.M for s in found])
     torque, V_err, e = (np.array([s[i] for s in found]) for i in (2, 3, 5))
-    Lambda, (K, D) = task_space.task_inertia(J, M), rng.normal(size=(2, n, 6, 6))
+    Lambda = task_space.task_inertia(J, M)
+    K, D = rng.normal(size=(2, n, 6, 6))
     force, k, height = rng.uniform([-10, 290, -10], [10, 310, 10], (n, 3)).T
     columns = {
         "null_torque": (J, M, Lambda, torque),

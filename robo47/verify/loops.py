@@ -31,7 +31,8 @@ def compare(check: Check, own: Mapping[str, Any], n: int, seed: int) -> None:
     """
     rng = np.random.default_rng(seed)
     model = panda.load("panda_nohand", drive="torque")
-    q, arm = random_q(model, n, seed), panda.arm(model)
+    q = random_q(model, n, seed)
+    arm = panda.arm(model)
     qd, e, ed, qdd = rng.uniform(-1, 1, (4, n, 7))
     kp, kd = 400.0, 28.0  # omega 20, zeta 0.7
     tau = []
@@ -96,11 +97,14 @@ def breaking(
         rate: of the controller in Hz.
         start: a hair's breadth from ready: no motor is at its limit before 60 torques.
     """
-    low, high, arm = 0.75 * rate, 1.05 * rate, panda.arm(model)
+    low = 0.75 * rate
+    high = 1.05 * rate
+    arm = panda.arm(model)
     goal = READY_Q, np.zeros(7), np.zeros(7)
     while high - low > 0.1:
         omega = (low + high) / 2
-        law, data = law_of(omega), simulate.start(model, start)
+        law = law_of(omega)
+        data = simulate.start(model, start)
         loop = lambda t, q, qd, law=law: law(arm, q, qd, goal)  # noqa: E731
         e = np.abs(simulate.run(model, data, loop, 60 / rate, rate=rate).q - READY_Q)
         grows = e[-10:].max() > e[20:30].max()
@@ -124,7 +128,8 @@ def compare_breaking(
         stiffest_omega: predicts it for a torque every step; the library's for the rate.
         rate: in Hz.
     """
-    h, n = model.opt.timestep, simulate.steps_per_period(model, rate)
+    h = model.opt.timestep
+    n = simulate.steps_per_period(model, rate)
     for every, limit, whose in (
         (1, stiffest_omega(h), "largest omega"),
         (n, control.stiffest_omega(h, n), f"the library's, at the day's {rate:g} Hz"),
@@ -137,7 +142,8 @@ def compare_breaking(
 
 def servo_torque(servo_ctrl: Function) -> Array:
     """Return the torque of MuJoCo's servos minus the one asked for, N m, (7,)."""
-    model, tau = panda.load("panda_nohand"), np.array([5.0, -20, 3, 15, 1, 2, -1])
+    model = panda.load("panda_nohand")
+    tau = np.array([5.0, -20, 3, 15, 1, 2, -1])
     data = simulate.start(model, READY_Q, [0.1, -0.1] * 3 + [0.1])
     data.ctrl[:] = servo_ctrl(tau, data.qpos, data.qvel, *_gains(model))
     mujoco.mj_forward(model, data)  # the force now; mj_step would move on
@@ -147,7 +153,8 @@ def servo_torque(servo_ctrl: Function) -> Array:
 def through_servos(law: Law, servo_ctrl: Function, reference: Reference) -> float:
     """Return how far off servos are that are commanded torques, at 500 Hz, in mrad."""
     model = panda.load("panda_nohand")
-    arm, data = panda.arm(model), simulate.start(model, READY_Q)
+    arm = panda.arm(model)
+    data = simulate.start(model, READY_Q)
 
     def inverted(t: float, q: Array, qd: Array) -> Array:
         return servo_ctrl(law(arm, q, qd, reference(t)), q, qd, *_gains(model))
@@ -167,8 +174,10 @@ def _columns(
     """Return random arguments of each function, (n, ...) each."""
     n = len(q)
     K, D = rng.uniform(10, 100, (2, n, 7))
-    times, omega = np.tile(np.linspace(0, 0.5, 26), (n, 1)), rng.uniform(2, 30, n)
-    zeta, clamp = np.resize([0.3, 0.7, 1.0, 1.5], n), np.resize([0.005, 0.2, 10], n)
+    times = np.tile(np.linspace(0, 0.5, 26), (n, 1))
+    omega = rng.uniform(2, 30, n)
+    zeta = np.resize([0.3, 0.7, 1.0, 1.5], n)
+    clamp = np.resize([0.005, 0.2, 10], n)
     pid = np.tile([400.0, 40.0, 3000.0, 0.01], (n, 1)).T
     return {
         "pd_torque": (e, ed, K, D),

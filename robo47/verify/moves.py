@@ -37,7 +37,8 @@ def moves(model: mujoco.MjModel, n: int, seed: int) -> Moves:
 
 def compare(check: Check, at: Moves, seed: int, **own: Function) -> None:
     """Check functions against those of `robo47.trajectory` of the same names."""
-    rng, n = np.random.default_rng(seed), len(at.T)
+    rng = np.random.default_rng(seed)
+    n = len(at.T)
     L, v, a = _ramps(n, seed)
     R = se3.quat_to_R(rng.normal(size=(2, n, 4)))
     T0, T1 = se3.make_T(R, rng.uniform(-1, 1, (2, n, 3)))
@@ -133,13 +134,17 @@ def follow(
         Worst error in mrad, largest jerk in rad/s3, largest share of a torque limit.
     """
     model = panda.load("panda_nohand", drive="torque")
-    arm, gains, errors = panda.arm(model), control.gains(omega, 1.0), []
+    arm = panda.arm(model)
+    gains = control.gains(omega, 1.0)
+    errors = []
 
     def controller(t: float, q: Array, qd: Array) -> Array:
         moving = REST <= t < REST + seconds
         s, sd, sdd = scaling(t - REST) if moving else (float(t > REST), 0.0, 0.0)
         errors.append(q0 + (q1 - q0) * s - q)
-        now, ed, acc = arm.at(q), (q1 - q0) * sd - qd, (q1 - q0) * sdd
+        now = arm.at(q)
+        ed = (q1 - q0) * sd - qd
+        acc = (q1 - q0) * sdd
         known = now.M, now.bias(qd), arm.damping, qd
         return control.computed_torque(*known, errors[-1], ed, acc, *gains)
 

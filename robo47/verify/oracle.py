@@ -57,7 +57,8 @@ def random_q(model: mujoco.MjModel, n: int, seed: int) -> Array:
     limited = model.jnt_limited.astype(bool)
     low = np.where(limited, model.jnt_range[:, 0], -reach)
     high = np.where(limited, model.jnt_range[:, 1], reach)
-    q, rng = np.empty((n, model.nq)), np.random.default_rng(seed)
+    q = np.empty((n, model.nq))
+    rng = np.random.default_rng(seed)
     q[:, model.jnt_qposadr] = rng.uniform(low, high, (n, model.njnt))
     return q
 
@@ -82,7 +83,8 @@ def mujoco_poses(model: mujoco.MjModel, qpos: Array) -> dict[str, Array]:
         mujoco.mj_kinematics(model, data)
         for kept, array in zip(ours, theirs, strict=True):
             kept[i] = array
-    found, poses = {"body": _poses(*ours[:2]), "site": _poses(*ours[2:])}, {}
+    found = {"body": _poses(*ours[:2]), "site": _poses(*ours[2:])}
+    poses = {}
     for full in frame_names(model):
         kind, _, name = full.partition(":")
         poses[full] = found[kind][:, getattr(model, kind)(name).id]
@@ -99,7 +101,8 @@ def mujoco_screws(model: mujoco.MjModel, qpos: Array) -> Array:
     Returns:
         Screws (omega; v) in world axes, (n, njnt, 6).
     """
-    data, screws = mujoco.MjData(model), np.empty((len(qpos), model.njnt, 6))
+    data = mujoco.MjData(model)
+    screws = np.empty((len(qpos), model.njnt, 6))
     for S, q in zip(screws, qpos, strict=True):
         data.qpos[:] = q
         mujoco.mj_kinematics(model, data)  # fills xaxis, and xanchor: a point of it
@@ -278,9 +281,11 @@ def mujoco_push(model: mujoco.MjModel, qpos: ArrayLike, wrench: ArrayLike) -> Ar
         Robo47Error: the model has no such site.
     """
     _site(model, SITE)
-    data, answers = mujoco.MjData(model), []
+    data = mujoco.MjData(model)
+    answers = []
     for q, F in zip(np.asarray(qpos), np.asarray(wrench), strict=True):
-        data.qpos[:], data.qfrc_applied[:] = q, 0.0
+        data.qpos[:] = q
+        data.qfrc_applied[:] = 0.0
         simulate.push_at(SITE, F)(model, data)
         answers.append(data.qfrc_applied.copy())
     return np.array(answers)

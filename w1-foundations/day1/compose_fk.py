@@ -262,7 +262,8 @@ def _(model, q, path=PATH):
 def _(model, q, path=PATH):
     site = mujoco.MjData(model).site("attachment_site")
     T = np.zeros((4, 4))
-    T[:3, :3], T[:3, 3] = site.xmat.reshape(3, 3), site.xpos
+    T[:3, :3] = site.xmat.reshape(3, 3)
+    T[:3, 3] = site.xpos
     return T
 
 

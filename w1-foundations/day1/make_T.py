@@ -34,5 +34,7 @@ row.of_answer(of_a_pose())
 @row.right  # In Fortran's order in memory, and through the transpose.
 def _(R, t):
     T = np.zeros((4, 4), order="F")
-    T.T[:3, :3], T.T[3, :3], T.T[3, 3] = np.transpose(R), t, 1
+    T.T[:3, :3] = np.transpose(R)
+    T.T[3, :3] = t
+    T.T[3, 3] = 1
     return T

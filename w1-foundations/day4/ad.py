@@ -16,7 +16,8 @@ NONE = np.zeros((3, 3))
 
 @row.inputs
 def _(rng):
-    case, shift = np.eye(6)[2] + np.eye(6)[3], np.array([0, 0, 0, 0.3, -0.2, 0.5])
+    case = np.eye(6)[2] + np.eye(6)[3]
+    shift = np.array([0, 0, 0, 0.3, -0.2, 0.5])
     return [(V,) for V in (case, shift, *rng.numbers(-2, 2, 9, 6))]
 
 
@@ -39,7 +40,9 @@ def _(V):
     omega-everywhere: [omega] stands where [v] belongs => the matrix with [omega] three
       times
     """
-    W, U, ONE = skew(V[:3]), skew(V[3:]), np.eye(3)
+    W = skew(V[:3])
+    U = skew(V[3:])
+    ONE = np.eye(3)
     blocks = {
         "v-on-top": [[W, U], [NONE, W]],
         "v-forgotten": [[W, NONE], [NONE, W]],

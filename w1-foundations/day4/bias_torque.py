@@ -79,6 +79,7 @@ def rate_of_the_mass_matrix(J, G, qd, g):
     X = ad(np.cumsum(J * qd, axis=1).T)  # of each link
     J_rate = np.array([X_i @ S for X_i, S in zip(X, J.T)]).T
     G_rate = np.array([-X_i.T @ G_i - G_i @ X_i for X_i, G_i in zip(X, G)])
-    up, down = mass_matrix(J + J_rate, G, 0.0), mass_matrix(J - J_rate, G, 0.0)
+    up = mass_matrix(J + J_rate, G, 0.0)
+    down = mass_matrix(J - J_rate, G, 0.0)
     M_rate = 0.5 * (up - down) + mass_matrix(J, G_rate, 0.0)
     return inverse_dynamics(J, G, STILL, STILL, g) + M_rate @ qd

@@ -56,7 +56,8 @@ def _(J, masses, coms_world, g):
     mass-forgotten: the masses are missing: every link counts as 1 kg
     """
     given = masses, coms_world, g
-    tau, own = gravity_torque(J, *given), partial(torque, J, *given)
+    tau = gravity_torque(J, *given)
+    own = partial(torque, J, *given)
     last = coms_world[[6] * 7]
     return {
         "gravity-sign": -tau,
@@ -79,7 +80,8 @@ def _(J, masses, coms_world, g):
     links-on-the-wrong-side: each joint holds the links between it and the base; they do
       not move with it
     """
-    joint, link = np.arange(7), np.arange(7)[:, None]
+    joint = np.arange(7)
+    link = np.arange(7)[:, None]
     held = {
         "links-not-cut": joint <= 6,
         "own-link-only": joint == link,
@@ -109,7 +111,8 @@ row.of_argument("g", *OTHER_GRAVITY)
 
 @row.close("rounded-somewhere")  # The slope of the potential energy, by differences.
 def _(J, masses, coms_world, g):
-    h, tau = 3e-4, np.zeros(7)
+    h = 3e-4
+    tau = np.zeros(7)
     for i in range(7):
         if J[:3, i].any():
             change = exp_screw(J[:, i], h) - exp_screw(J[:, i], -h)

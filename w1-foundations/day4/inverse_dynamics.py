@@ -42,7 +42,9 @@ def passes(
         swing: what the force has for -ad(V)^T G V; own is S qd.
         felt: the wrench that motor i feels, from F of all links.
     """
-    V, A, F = np.zeros(6), np.zeros(6), []
+    V = np.zeros(6)
+    A = np.zeros(6)
+    F = []
     for i in range(7):
         own = J[:, i] * qd[i]
         V = V_before * V + own

@@ -40,7 +40,8 @@ def _(J, G, armature):
       twice => M with twice its diagonal
     inverse-returned: this is the inverse of M: small where the arm is heavy
     """
-    M, links_alone = mass_matrix(J, G, armature), mass_matrix(J, G, 0.0)
+    M = mass_matrix(J, G, armature)
+    links_alone = mass_matrix(J, G, 0.0)
     return {
         "armature-forgotten": links_alone,
         "armature-everywhere": links_alone + armature,
@@ -66,7 +67,8 @@ def cut(J, G, armature):
     last-link-left-out: the last link is left out: range(n - 1) ends one too early
     last-link-only: only the last link has a mass here
     """
-    joint, link = np.arange(7), np.arange(7)[:, None]
+    joint = np.arange(7)
+    link = np.arange(7)[:, None]
     counts = {
         "columns-not-cut": joint <= 6,
         "own-joint-left-out": joint < link,

@@ -19,8 +19,11 @@ LOOKS = ((GREY, "-"), (PURPLE, "-"), (ORANGE, "-"), (GREEN, "-."), (BLUE, "-"))
 
 def curves() -> dict[str, Array]:
     """Return the largest |e| / e0 of any joint at every instant, per controller."""
-    ready, model = lab.READY_Q, loops.motors()
-    start, goal, arm = ready - lab.E0, references.hold(ready), panda.arm(model)
+    ready = lab.READY_Q
+    model = loops.motors()
+    start = ready - lab.E0
+    goal = references.hold(ready)
+    arm = panda.arm(model)
     servos = panda.load("panda_nohand")
     logs = {
         "servos": simulate.run(
@@ -46,7 +49,8 @@ def curves() -> dict[str, Array]:
 @chart.picture(height=7.2)
 def error_curves(figure: Figure) -> None:
     """Draw the five errors on one log axis, and the predicted curve dashed."""
-    t, axes = np.arange(round(SECONDS * RATE) + 1) / RATE, figure.subplots()
+    t = np.arange(round(SECONDS * RATE) + 1) / RATE
+    axes = figure.subplots()
     for (name, e), (colour, style) in zip(curves().items(), LOOKS, strict=True):
         axes.plot(t, e, style, color=colour)
         axes.text(1.01 * SECONDS, e[-1], name, color=colour, va="center",

@@ -41,7 +41,8 @@ def swing(bench, law, rate=500.0):
 
 def decay(bench, law, seconds, rate=500.0):
     """Return the times, and e / e0 of all joints, from 0.1 rad off."""
-    start, goal = lab.READY_Q - lab.E0, references.hold(lab.READY_Q)
+    start = lab.READY_Q - lab.E0
+    goal = references.hold(lab.READY_Q)
     log = lab.run(*bench, law, goal, seconds, start, rate)
     return log.t, (lab.READY_Q - log.q) / lab.E0
 
@@ -51,7 +52,8 @@ def decay(bench, law, seconds, rate=500.0):
 
 @pytest.mark.parametrize("zeta", [0.1, 0.5, 1.0, 2.0, 5.0])
 def test_the_error_response_solves_its_equation(zeta):
-    t, (kp, kd) = np.linspace(0, 0.5, 21), lab.gains(12.0, zeta)
+    t = np.linspace(0, 0.5, 21)
+    kp, kd = lab.gains(12.0, zeta)
     truth = solve_ivp(
         lambda _, x: [x[1], -kp * x[0] - kd * x[1]], (0, 0.5), [1.0, 0.0],
         "DOP853", t, rtol=1e-11, atol=1e-13,
@@ -102,7 +104,8 @@ def test_gains_outside_m_track_and_do_not_decay_as_designed(bench):
 def test_gains_outside_m_overdamp_the_light_joints(armature, creeps):
     model = loops.motors()
     model.dof_armature[4:] = armature
-    arm, wrist = panda.arm(model), slice(4, 7)
+    arm = panda.arm(model)
+    wrist = slice(4, 7)
     kp, kd = lab.gains(lab.OMEGA, 1.0)
     M = np.diag(arm.at(lab.READY_Q).M)[wrist]
     assert (kd / (2.0 * np.sqrt(kp * M)) > 2.5).all() == creeps
@@ -169,8 +172,12 @@ def without(part):
     """Return computed torque of omega 20 that lacks a part of the model."""
 
     def law(arm, q, qd, ref, omega=20.0):
-        now, (kp, kd) = arm.at(q), lab.gains(omega, 1.0)
-        M, bias, damping, acc = now.M, now.bias(qd), arm.damping, ref[2]
+        now = arm.at(q)
+        kp, kd = lab.gains(omega, 1.0)
+        M = now.M
+        bias = now.bias(qd)
+        damping = arm.damping
+        acc = ref[2]
         M = M - 0.1 * np.eye(7) if part == "armature" else M
         bias = now.gravity_torque if part == "Coriolis" else bias
         damping = 0.0 * damping if part == "damping" else damping
@@ -284,7 +291,8 @@ def test_the_rate_says_where_the_loop_breaks_and_hardly_the_step(bench, rate, st
 
 def test_the_limit_of_a_held_torque_is_where_an_eigenvalue_is_minus_1():
     for n in (1, 2, 5, 50):
-        omega, h = control.stiffest_omega(0.002, n), 0.002
+        omega = control.stiffest_omega(0.002, n)
+        h = 0.002
         e, ed = np.eye(2)  # the error and its rate, as rows on (e, ed) at the start
         acc = -(omega**2) * e - 2.0 * omega * ed
         for _ in range(n):
@@ -299,7 +307,8 @@ def test_the_limit_of_a_held_torque_is_where_an_eigenvalue_is_minus_1():
 
 def test_an_omega_between_the_two_limits_breaks_the_days_own_loop(bench):
     def left(omega):
-        start, law = lab.READY_Q - 1e-8 * lab.E0, lab.equal_springs(omega)
+        start = lab.READY_Q - 1e-8 * lab.E0
+        law = lab.equal_springs(omega)
         log = lab.run(*bench, law, references.hold(lab.READY_Q), 0.24, start)
         return np.abs(lab.READY_Q - log.q)[-10:].max() / 1e-9
 
@@ -334,7 +343,8 @@ def test_the_integral_has_rouths_limit_and_winds_up(bench):
     heavy = loops.motors(edit=scenes.hang_kilogram)
 
     def left(ki, model=bench[0], rate=lab.RATE):
-        start, second = lab.READY_Q - 0.01 * lab.E0, round(rate)
+        start = lab.READY_Q - 0.01 * lab.E0
+        second = round(rate)
         law = lab.with_integral(ki, 1e9, 1.0 / rate)
         log = lab.run(
             model, bench[1], law, references.hold(lab.READY_Q), 6.0, start, rate
@@ -348,7 +358,8 @@ def test_the_integral_has_rouths_limit_and_winds_up(bench):
     third = np.roots([1.0, kd, kp, kp * kd])  # at the limit it swings for ever
     assert_same(np.sort(np.abs(third.imag)), [0.0, 20.0, 20.0], 1e-9)
     assert np.abs(third.real).min() < 1e-9
-    M, M_true = bench[1].at(lab.READY_Q).M, panda.arm(heavy).at(lab.READY_Q).M
+    M = bench[1].at(lab.READY_Q).M
+    M_true = panda.arm(heavy).at(lab.READY_Q).M
     least = np.linalg.eigvals(np.linalg.solve(M_true, M)).real.min()
     assert f"eigenvalue is {least:.3f} at ready" in GUIDE
     assert f"falls to {round(least * 16_000, -2):,.0f}" in GUIDE
@@ -374,7 +385,8 @@ def test_a_servo_as_a_motor_is_let_down_by_the_integrator_alone(bench):
     for integrator, mrad in (("IMPLICITFAST", 30.0), ("EULER", 0.23)):
         servos = panda.load("panda_nohand")
         servos.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator}")
-        kp, kd = servos.actuator_gainprm[:, 0], -servos.actuator_biasprm[:, 2]
+        kp = servos.actuator_gainprm[:, 0]
+        kd = -servos.actuator_biasprm[:, 2]
 
         def inverted(t, q, qd, kp=kp, kd=kd):
             tau = law(bench[1], q, qd, raised_cosine(t))

@@ -27,7 +27,8 @@ MU = 0.6  # sliding friction of the drawn cone
 def moved(force: float, k: float) -> float:
     """Return how far the hand moves along x under a force along x, in metres."""
     model = panda.load("panda_nohand", drive="torque")
-    arm, start = panda.arm(model), simulate.start(model, lab.READY_Q)
+    arm = panda.arm(model)
+    start = simulate.start(model, lab.READY_Q)
     stiffness = np.append(lab.K[:3], np.full(3, k))
     push = simulate.push_at(contact.SITE, [0.0, 0.0, 0.0, force, 0.0, 0.0])
     law = lab.soft_hand(arm, lab.READY_Q, stiffness=stiffness)
@@ -63,7 +64,8 @@ def push(figure: Figure) -> None:
         off = [1000 * moved(force, k) for force in FORCES]
         axes.plot(FORCES, off, mark, color=colour)
         x = 13.0 if k > STIFFNESSES[0] else 4.0
-        y, right = 1000 * x / k, "left" if x > 5.0 else "right"
+        y = 1000 * x / k
+        right = "left" if x > 5.0 else "right"
         axes.text(x, y + (5 if x < 5 else -8), f"{k:.0f} N/m", color=colour, ha=right)
     axes.text(-19, 36, "lines: F / k, predicted\nmarks: where the hand\ncame to rest",
               fontsize=chart.SMALL, va="center")  # fmt: skip
@@ -145,7 +147,8 @@ def _box(axes: Axes, x: float, y: float, words: str, colour: str) -> None:
 @chart.picture(height=5.0)
 def cone(figure: Figure) -> None:
     """Draw a tip on a table, its friction cone, a force inside and one outside."""
-    axes, up = figure.subplots(), 3.0
+    axes = figure.subplots()
+    up = 3.0
     side = MU * up
     axes.fill([-3.4, 5.0, 5.0, -3.4], [0, 0, -0.5, -0.5], color=RULE)
     axes.fill([0, -side, side], [0, up, up], color=BLUE, alpha=0.15)

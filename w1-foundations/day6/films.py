@@ -17,10 +17,12 @@ def press() -> Recording:
     arrow = film.draw.arrows([[np.zeros(3), np.full(3, 1e-3)]], "red", 0.012)
     for drive, rate in (("torque", lab.RATE), ("servo", simulate.RATE)):
         model = scenes.press_table(drive=drive)
-        q, arm = contact.above_table(model, 0.01), panda.arm(model)
+        q = contact.above_table(model, 0.01)
+        arm = panda.arm(model)
         soft = drive == "torque"
         law = lab.soft_hand(arm, q, height) if soft else lab.stiff_arm(arm, q)
-        data, felt = simulate.start(model, q), []
+        data = simulate.start(model, q)
+        felt = []
         log = simulate.run(
             model, data, law, SECONDS, rate=rate,
             watch=lambda m, d, to=felt: to.append(

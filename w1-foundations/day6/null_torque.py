@@ -72,7 +72,8 @@ def _(J, M, Lambda, tau):
       pinv(J^T) tau
     """
     acc = solve(M, tau)
-    a, elbow = J @ acc, np.linalg.svd(J)[2][-1]  # joint speeds that leave the hand
+    a = J @ acc
+    elbow = np.linalg.svd(J)[2][-1]  # joint speeds that leave the hand at rest
     felt = J.T @ Lambda @ a
     return {
         "another-projector": M @ elbow * (elbow @ acc),

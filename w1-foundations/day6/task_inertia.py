@@ -71,7 +71,8 @@ def _(J, M):
     blocks-alone: the two 3x3 blocks are inverted alone; a push turns the hand, too, so
       the directions are coupled => the inverse of each block
     """
-    A, back = J @ np.linalg.solve(M, J.T), np.linalg.pinv(J)
+    A = J @ np.linalg.solve(M, J.T)
+    back = np.linalg.pinv(J)
     block = np.kron(np.eye(2), np.ones((3, 3)))
     return {
         "inverse-forgotten": A,

@@ -42,7 +42,9 @@ def test_a_push_at_rest_is_lambda_times_the_hands_acceleration(motors):
 
 def test_the_inertias_of_mistakes_at_ready(motors):
     now = motors[1].at(lab.READY_Q)
-    J, M, right = now.J_site, now.M, lab.task_inertia(now.J_site, now.M)
+    J = now.J_site
+    M = now.M
+    right = lab.task_inertia(now.J_site, now.M)
     off = lambda L: np.linalg.norm(L - right) / np.linalg.norm(right)  # noqa: E731
     assert off(inv(right)) == pytest.approx(1.50, abs=0.005)
     assert off(J @ M @ J.T) == pytest.approx(1.04, abs=0.005)
@@ -51,7 +53,8 @@ def test_the_inertias_of_mistakes_at_ready(motors):
     )
     assert off(lab.task_inertia(now.J_space, M)) == pytest.approx(0.81, abs=0.005)
     assert off(pinv(J).T @ M @ pinv(J)) == pytest.approx(0.0067, abs=1e-4)
-    mass, moving = panda.load("panda_nohand").body_mass.sum(), motors[1].masses.sum()
+    mass = panda.load("panda_nohand").body_mass.sum()
+    moving = motors[1].masses.sum()
     assert f"{mass:.1f} kg, of which {moving:.1f} move" in SENTENCES
     light = np.diag(lab.task_inertia(J, M - 0.1 * np.eye(7)))[3:]
     said = "without armature it would be {:.1f}, {:.1f} and {:.1f} kg".format(*light)
@@ -68,7 +71,8 @@ def test_the_inertias_of_mistakes_at_ready(motors):
 
 def test_the_damping_is_critical_in_every_direction_and_a_diagonal_one_is_not(motors):
     now = motors[1].at(lab.READY_Q)
-    Lambda, none = lab.task_inertia(now.J_site, now.M), np.zeros((6, 6))
+    Lambda = lab.task_inertia(now.J_site, now.M)
+    none = np.zeros((6, 6))
 
     def least_ratio(D):
         below = -np.linalg.solve(Lambda, np.hstack([np.diag(lab.K), D]))
@@ -83,7 +87,8 @@ def test_the_damping_is_critical_in_every_direction_and_a_diagonal_one_is_not(mo
 def test_near_a_singularity_lambda_and_d_grow_and_the_springs_torque_does_not(motors):
     def terms(share):
         now = motors[1].at(share * lab.READY_Q)
-        J, Lambda = now.J_site, lab.task_inertia(now.J_site, now.M)
+        J = now.J_site
+        Lambda = lab.task_inertia(now.J_site, now.M)
         D = lab.critical_damping(lab.K, Lambda)
         idle = lab.null_torque(J, now.M, Lambda, np.ones(7))
         spring = J.T @ lab.spring_wrench(
@@ -161,9 +166,11 @@ def test_a_kinematic_projector_draws_the_circle_but_its_torque_is_felt(motors):
     mm, _ = circled(motors, null_torque=hand.kinematic)
     assert mm == pytest.approx(0.152, abs=0.002)
     assert "within 0.152 mm, where the right one has 0.130" in " ".join(GUIDE.split())
-    rng, felt = np.random.default_rng(6), []
+    rng = np.random.default_rng(6)
+    felt = []
     for q in verify.random_q(model, 100, seed=6):
-        now, torque = arm.at(q), rng.uniform(-10, 10, 7)
+        now = arm.at(q)
+        torque = rng.uniform(-10, 10, 7)
         if np.linalg.svd(now.J_site, compute_uv=False)[-1] > 0.05:
             odd = hand.kinematic(now.J_site, now.M, None, torque)
             felt.append(np.abs(now.J_site @ np.linalg.solve(now.M, odd)).max())
@@ -173,7 +180,8 @@ def test_a_kinematic_projector_draws_the_circle_but_its_torque_is_felt(motors):
 def test_the_public_pages_null_space_term_reaches_the_hand(motors):
     now = motors[1].at(lab.READY_Q)
     J, M = now.J_site, now.M
-    Lambda, tau = lab.task_inertia(J, M), np.arange(7.0)
+    Lambda = lab.task_inertia(J, M)
+    tau = np.arange(7.0)
     public = mistaken("null_torque", "M-for-identity")
     ours = J @ np.linalg.solve(M, lab.null_torque(J, M, Lambda, tau))
     theirs = J @ np.linalg.solve(M, public(J, M, Lambda, tau))
@@ -237,7 +245,8 @@ def test_a_sign_makes_the_soft_hand_fly_away_and_a_pseudo_inverse_does_not(
 
 def test_a_position_read_after_a_step_is_one_step_old(motors):
     model, arm = motors
-    data, T = simulate.start(model, lab.READY_Q), arm.at(lab.READY_Q).T_world_ee
+    data = simulate.start(model, lab.READY_Q)
+    T = arm.at(lab.READY_Q).T_world_ee
     look = lambda model, data: data.site("attachment_site").xpos.copy()  # noqa: E731
     law = lab.circling(arm, lab.null_torque)
     run = simulate.run(model, data, law, 2.5, watch=look)
@@ -263,7 +272,8 @@ def on_body(name, force, where):
         mujoco.mj_comPos(model, data)
         body = model.body(name).id
         point = getattr(data, where)[body]
-        F, none = np.array(force), np.zeros(3)
+        F = np.array(force)
+        none = np.zeros(3)
         mujoco.mj_applyFT(model, data, F, none, point, body, data.qfrc_applied)
 
     return push

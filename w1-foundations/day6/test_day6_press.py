@@ -109,7 +109,8 @@ def test_it_creeps_on_its_friction_and_rests_at_once_without():
 
 def test_two_motors_at_their_limits_predict_217_n():
     model = scenes.press_table(drive="servo")
-    arm, q = panda.arm(model), contact.above_table(model, 0.01)
+    arm = panda.arm(model)
+    q = contact.above_table(model, 0.01)
     data = simulate.start(model, q)
     simulate.run(model, data, lab.stiff_arm(arm, q), 3.0)
     force = scenes.contact_force(model, data, "tip", "table_top")
@@ -135,7 +136,8 @@ def test_two_motors_at_their_limits_predict_217_n():
 def test_a_peak_is_seen_only_by_who_looks_at_every_step():
     seen = []
     for rate in (250.0, 50.0):
-        felt, steps = press_soft(rate), round(500.0 / rate)
+        felt = press_soft(rate)
+        steps = round(500.0 / rate)
         seen += [felt[steps - 1 :: steps].max(), felt.max()]
     assert seen == told("at 250 Hz, you see # N of the #, at 50 Hz # N of the #")
 
@@ -159,11 +161,13 @@ def test_the_peak_grows_with_the_speed_and_with_a_harder_contact():
 
 def test_what_is_missing_of_20_n_is_the_sinking_times_the_stiffness():
     model = scenes.press_table()
-    arm, q = panda.arm(model), contact.above_table(model, 0.01)
+    arm = panda.arm(model)
+    q = contact.above_table(model, 0.01)
     law = lab.soft_hand(arm, q, lambda t: max(0.37, 0.43 - lab.SINK * t))
     data = simulate.start(model, q)
     simulate.run(model, data, law, 2.0, rate=lab.RATE)
-    sinks, missing = -data.contact[0].dist, 20.0 - press_soft()[-1]
+    sinks = -data.contact[0].dist
+    missing = 20.0 - press_soft()[-1]
     assert missing == pytest.approx(400 * sinks, rel=0.1)
     less = 20.0 - press_soft(change=time_constant(0.005))[-1]
     assert less < 0.1 * missing
@@ -182,7 +186,8 @@ def test_a_wiping_tip_stays_behind_by_what_friction_takes_of_the_spring(mu):
     model.geom_friction[:, 0] = mu
     if not mu:
         model.geom_condim[:] = 1
-    arm, q = panda.arm(model), contact.above_table(model, 0.0)
+    arm = panda.arm(model)
+    q = contact.above_table(model, 0.0)
     goal = arm.at(q).T_world_ee[0, 3] + 0.1
 
     def spring(e, V_err, K, D):
@@ -206,7 +211,8 @@ def test_every_mass_sinks_in_by_the_same_amount():
             f'<freejoint/><geom type="sphere" size="0.1" mass="{mass}"/>'
             "</body></worldbody></mujoco>"
         )
-        data, wrench = mujoco.MjData(model), np.zeros(6)
+        data = mujoco.MjData(model)
+        wrench = np.zeros(6)
         mujoco.mj_step(model, data, 2500)
         mujoco.mj_contactForce(model, data, 0, wrench)
         assert round(wrench[0]) == force

@@ -100,7 +100,8 @@ def _(T_world_cube, above):
 
 @row.right  # Quarter turns taken off one by one.
 def _(T_world_cube, above):
-    x, z = T_world_cube[:3, 0], np.array([0.0, 0.0, -1.0])
+    x = T_world_cube[:3, 0]
+    z = np.array([0.0, 0.0, -1.0])
     for _ in range(3):
         if x[0] < abs(x[1]):
             x = np.array([x[1], -x[0], 0.0])

@@ -50,9 +50,13 @@ def _(q0, q1, t, T):
     way-wrapped: the way is wrapped into +-pi, the shorter way round; a joint cannot go
       through its ends => the answer with the way wrapped
     """
-    way, scaling = q1 - q0, quintic_scaling(t, T)
-    (s, sd, sdd), alike = scaling, np.ones(7)
-    q, qd, qdd = q0 + way * s, way * sd, way * sdd
+    way = q1 - q0
+    scaling = quintic_scaling(t, T)
+    s, sd, sdd = scaling
+    alike = np.ones(7)
+    q = q0 + way * s
+    qd = way * sd
+    qdd = way * sdd
     at_rest = q0 * [[1.0], [0.0], [0.0]]
     return {
         "start-everywhere": q0 + np.outer(scaling, way),

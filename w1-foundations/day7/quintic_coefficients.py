@@ -57,7 +57,8 @@ row = Row(
 
 @row.inputs
 def _(rng):
-    zero, one = np.zeros(3), np.array([1.0, 0.0, 0.0])
+    zero = np.zeros(3)
+    one = np.array([1.0, 0.0, 0.0])
     yield zero, one, 1.0
     yield zero, one, 2.0
     yield np.array([0.02, -0.1, 0.3]), np.array([0.05, 0.1, -0.4]), 0.25

@@ -110,10 +110,12 @@ def _(dq, v_max, a_max):
     forwards-only: a joint that moves backwards counts as one that is ready before it
       starts: the way's sign is still in it => the duration with signed ways
     """
-    each, i = seconds(dq, v_max, a_max), np.argmax(np.abs(dq))
+    each = seconds(dq, v_max, a_max)
+    i = np.argmax(np.abs(dq))
     by_speed, by_acceleration = each
     longest = np.sqrt(PEAK_ACCELERATION * np.abs(dq[i]) / a_max.min())
-    lowest, signed = (v_max.min(), a_max.min()), 10 / np.sqrt(3) * dq / a_max
+    lowest = (v_max.min(), a_max.min())
+    signed = 10 / np.sqrt(3) * dq / a_max
     return {
         "peak-of-the-cubic": seconds(dq, v_max, a_max, 1.5, 6.0).max(),
         "limits-of-different-joints": max(by_speed.max(), longest),

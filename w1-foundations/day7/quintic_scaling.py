@@ -51,7 +51,8 @@ def jumps(t, T):
       cosine
     """
     x = np.clip(t / T, 0.0, 1.0)
-    a, k = np.pi * x, np.pi / T
+    a = np.pi * x
+    k = np.pi / T
     cosine = [1 - np.cos(a), k * np.sin(a), k**2 * np.cos(a)]
     return {
         "cubic": polynomial((0, 0, 3, -2), x, T),
@@ -155,13 +156,15 @@ def _(t, T):
 def _(t, T):
     x = np.float32(np.clip(t / T, 0, 1))
     s = 10 * x**3 - 15 * x**4 + 6 * x**5
-    sd, sdd = 30 * x**2 * (1 - x) ** 2 / T, (60 * x - 180 * x**2 + 120 * x**3) / T**2
+    sd = 30 * x**2 * (1 - x) ** 2 / T
+    sdd = (60 * x - 180 * x**2 + 120 * x**3) / T**2
     return np.array([s, sd, sdd], dtype=np.float32)
 
 
 @row.close("difference-quotient")  # Central differences for the derivatives.
 def _(t, T):
-    s, h = np.polynomial.Polynomial(QUINTIC), 1e-4
+    s = np.polynomial.Polynomial(QUINTIC)
+    h = 1e-4
     x = np.clip(t / T, 0, 1)
     sd = (s(x + h) - s(x - h)) / (2 * h * T)
     return np.array([s(x), sd, (s(x + h) - 2 * s(x) + s(x - h)) / (h * T) ** 2])

@@ -56,7 +56,8 @@ def test_the_labs_functions_agree_with_scipy(seed):
     for t in rng.uniform(0, T, 5):
         assert_same(six @ t ** np.arange(6), truth(t), 1e-9)
     R = Rotation.random(2, random_state=seed % 1000)
-    p, s = rng.uniform(-1, 1, (2, 3)), rng.uniform()
+    p = rng.uniform(-1, 1, (2, 3))
+    s = rng.uniform()
     T0, T1 = se3.make_T(R.as_matrix(), p)
     ours = lab.straight_pose(T0, T1, s)
     assert_same(ours[:3, :3], Slerp([0, 1], R)(s).as_matrix(), 1e-9)
@@ -67,7 +68,8 @@ def test_the_labs_functions_agree_with_scipy(seed):
 @given(seeds)
 def test_speed_and_acceleration_are_the_derivatives(seed):
     rng = np.random.default_rng(seed)
-    T, h = rng.uniform(0.5, 3.0), 1e-5
+    T = rng.uniform(0.5, 3.0)
+    h = 1e-5
     t = rng.uniform(0.05, 0.95) * T
     before, now, after = (lab.quintic_scaling(t + k * h, T) for k in (-1, 0, 1))
     assert_same((after[:2] - before[:2]) / (2 * h), now[1:], 1e-6)
@@ -130,7 +132,8 @@ def test_half_way_through_120_degrees_entry_by_entry_is_no_rotation():
 
 
 def test_a_limit_of_speed_is_a_division_and_one_of_acceleration_a_root():
-    dq, free = np.eye(7)[0], np.full(7, np.inf)
+    dq = np.eye(7)[0]
+    free = np.full(7, np.inf)
     one, four = (lab.quintic_duration(dq, np.full(7, v), free) for v in (4.0, 1.0))
     assert four / one == pytest.approx(4.0)
     one, four = (lab.quintic_duration(dq, free, np.full(7, a)) for a in (4.0, 1.0))
@@ -152,7 +155,8 @@ def test_a_limit_of_speed_is_a_division_and_one_of_acceleration_a_root():
 
 def test_an_unfolded_yaw_fails_where_joint7_is_at_its_end():
     model = scenes.table_top(capstone.CUBE_XY, 0.0)
-    arm, limits = panda.arm(model), model.jnt_range[:7].copy()
+    arm = panda.arm(model)
+    limits = model.jnt_range[:7].copy()
     yaw = np.radians(np.arange(-180, 180, 5))
     cubes = np.tile(np.eye(4), (len(yaw), 1, 1))
     cubes[:, :3, :3] = se3.Rz(yaw)
@@ -186,7 +190,8 @@ def test_the_hand_weighs_what_the_guide_says():
 
 
 def test_gravity_shows_a_wrong_centre_and_speed_alone_a_wrong_inertia():
-    model, named = panda.load("panda"), row_of(DAY, "carry").named
+    model = panda.load("panda")
+    named = row_of(DAY, "carry").named
     q = verify.random_q(panda.load("panda_nohand"), 50, lab.SEED)
     ways = {way.slug: way.code for way in named}
 
@@ -227,7 +232,8 @@ def test_step_7s_sentences():
 
 
 def test_half_as_stiff_the_arm_is_twice_as_far_off():
-    quintic, move = lab.profiles(0.995)["quintic"], (lab.READY_Q, lab.GOAL_Q)
+    quintic = lab.profiles(0.995)["quintic"]
+    move = (lab.READY_Q, lab.GOAL_Q)
     off = [moves.follow(*quintic, *move, omega, lab.RATE)[0]
            for omega in (lab.OMEGA, lab.OMEGA / 2)]  # fmt: skip
     assert off[1] / off[0] == pytest.approx(2.0, abs=0.15)
@@ -251,7 +257,8 @@ def test_a_short_move_overshoots_without_the_triangle():
 
 
 def test_the_origin_of_a_screw_motion_leaves_the_straight_line():
-    T0, T1 = np.eye(4), se3.make_T(se3.Rz(np.radians(120)), [1.0, 0.0, 0.0])
+    T0 = np.eye(4)
+    T1 = se3.make_T(se3.Rz(np.radians(120)), [1.0, 0.0, 0.0])
     S = np.array([0.0, 0.0, 1.0, 0.5 / np.sqrt(3.0), -0.5, 0.0])  # about the middle
     assert_same(screws.exp_screw(S, np.radians(120)), T1, 1e-12)
     half = screws.exp_screw(S, np.radians(60))

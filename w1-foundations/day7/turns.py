@@ -13,13 +13,15 @@ from robo47.checks import Array
 # At exactly pi the sign of the axis is free, so s is 1 there: both ways end at R1.
 HALF = ([1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [-1.0, 2.0, -2.0])
 NEARLY_HALF = np.pi - 1e-3
-TINY, SMALL = 5e-7, (5e-5, 2e-4, 3e-3, 0.03)  # radians
+TINY = 5e-7  # radians
+SMALL = (5e-5, 2e-4, 3e-3, 0.03)  # radians
 
 
 def _ends(R0: Array, turns: Array, s: float, rng: Draw) -> list:
     """Return two poses and s for each turn, which is made from R0."""
     p0, p1 = rng.numbers(-1, 1, 2, len(turns), 3)
-    T0, T1 = se3.make_T(R0, p0), se3.make_T(R0 @ turns, p1)
+    T0 = se3.make_T(R0, p0)
+    T1 = se3.make_T(R0 @ turns, p1)
     return [(a, b, s) for a, b in zip(T0, T1, strict=True)]
 
 
