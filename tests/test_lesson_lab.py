@@ -9,7 +9,7 @@ import pytest
 
 from labkit.lesson.day import find_day
 from labkit.lesson.lab import Lab
-from labkit.lesson.marks import Metric
+from labkit.lesson.metric import Metric
 from labkit.log import read_rows
 from labkit.log.rows import HEADER as LINE
 from robo47.errors import Robo47Error

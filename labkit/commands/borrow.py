@@ -11,7 +11,8 @@ from labkit.base import cli
 from labkit.commands.start import rewrite
 from labkit.lesson.borrowed import with_borrowed
 from labkit.lesson.day import chosen_day, find_task
-from labkit.lesson.script import function_lines, read_script, require_kits
+from labkit.lesson.lab_module import read_script
+from labkit.lesson.starter import function_lines, require_kits
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 

@@ -21,7 +21,7 @@ from labkit.commands.start import require_begun
 from labkit.figures import backends
 from labkit.figures.lessons import lesson_figures
 from labkit.lesson.day import Day, chosen_day
-from labkit.lesson.marks import file_mark
+from labkit.lesson.writers import file_mark
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 

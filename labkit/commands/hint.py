@@ -11,8 +11,9 @@ remembered in .robo47/, which git ignores.
 
 from labkit.base import cli, store
 from labkit.lesson.day import Day, Task, chosen_day
-from labkit.lesson.script import read_script, solution
+from labkit.lesson.lab_module import read_script
 from labkit.lesson.sealed import is_sealed
+from labkit.lesson.starter import solution
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import shown

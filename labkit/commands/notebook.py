@@ -19,8 +19,9 @@ from pathlib import Path
 
 from labkit.base import cli
 from labkit.lesson.day import Day, chosen_day
-from labkit.lesson.script import find_regions, lab_of, make_starter, read_script
+from labkit.lesson.lab_module import lab_of, read_script
 from labkit.lesson.sealed import is_sealed
+from labkit.lesson.starter import find_regions, make_starter
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 

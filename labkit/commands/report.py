@@ -20,9 +20,8 @@ from labkit.base import cli
 from labkit.base.text import count
 from labkit.check import memory
 from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
-from labkit.lesson.marks import Writers
-from labkit.lesson.script import writers_of
 from labkit.lesson.week import Week
+from labkit.lesson.writers import Writers, writers_of
 from labkit.log.logfile import command
 from labkit.log.scan import watched
 from labkit.report import page

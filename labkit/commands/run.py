@@ -14,7 +14,7 @@ import sys
 from labkit.base import cli
 from labkit.commands.start import require_begun
 from labkit.lesson.day import chosen_day
-from labkit.lesson.script import require_kits
+from labkit.lesson.starter import require_kits
 
 
 def main() -> int:

@@ -12,7 +12,8 @@ from pathlib import Path
 
 from labkit.base import cli
 from labkit.lesson.day import Day, chosen_day, find_task
-from labkit.lesson.script import put_back, read_script, require_kits, starter_of
+from labkit.lesson.lab_module import read_script
+from labkit.lesson.starter import put_back, require_kits, starter_of
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from labkit.lesson.marks import Metric
+from labkit.lesson.metric import Metric
 from labkit.lesson.week import Week, entry, find_week, load, load_week, manifests
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown

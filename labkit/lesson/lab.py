@@ -22,7 +22,8 @@ from labkit import log
 from labkit.base import cli
 from labkit.base.text import count, number_of
 from labkit.lesson.day import day_of
-from labkit.lesson.marks import Metric, file_mark
+from labkit.lesson.metric import Metric
+from labkit.lesson.writers import file_mark
 from robo47.paths import METRICS_CSV, shown
 
 _OPEN = re.compile(r"\*\([^*]*\)\*|[._\s…-]*")  # the template's own words, or none

@@ -8,7 +8,7 @@ import numpy as np
 
 from labkit.base.text import visible
 from labkit.check.lab_run import Budget, EnoughAsked, FirstFailure, behind_wall
-from labkit.lesson.script import lab_of
+from labkit.lesson.lab_module import lab_of
 from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import capstone, scenes
