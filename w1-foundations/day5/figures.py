@@ -11,7 +11,7 @@ from labkit.figures import chart
 from labkit.figures.chart import BLUE, GREEN, GREY, ORANGE, PURPLE
 from robo47 import panda, references, simulate
 from robo47.checks import Array
-from robo47.verify import loops
+import day5_mujoco as loops
 
 SECONDS, RATE = 1.0, 500.0  # at 500 Hz the curve is predicted to 1.2 % of e0
 LOOKS = ((GREY, "-"), (PURPLE, "-"), (ORANGE, "-"), (GREEN, "-."), (BLUE, "-"))

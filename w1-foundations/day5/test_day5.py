@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from conftest import ROOT, load_script
 from robo47 import control, panda, references, scenes, simulate
-from robo47.verify import loops
+import day5_mujoco as loops
 
 SCRIPT = "w1-foundations/src/day5_control.py"
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day5-lab.md").read_text("utf-8").split())

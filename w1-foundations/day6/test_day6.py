@@ -11,7 +11,7 @@ from conftest import ROOT, load_script
 from labkit.judge.row import row_of
 from labkit.lesson.day import find_day
 from robo47 import contact, jacobian, panda, simulate, verify
-from robo47.verify import hand
+import day6_mujoco as hand
 
 DAY = find_day(6)
 GUIDE = (ROOT / "w1-foundations/docs/day6-lab.md").read_text("utf-8")

@@ -26,7 +26,7 @@ from robo47 import (
     trajectory,
     verify,
 )
-from robo47.verify import moves
+import day7_mujoco as moves
 
 SCRIPT = "w1-foundations/src/day7_trajectory.py"
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day7-lab.md").read_text("utf-8").split())
