@@ -1,22 +1,25 @@
-"""MuJoCo's hand under what a lab's own functions say, at random states of the arm.
+"""What Day 6 asks of MuJoCo: random states, a table to press on, a circle to draw.
 
-Each comparison is given the states and the functions that it compares, and returns one
-row of differences a state. Twists, accelerations and wrenches have the rotation first,
-in world axes at the hand's site; J is the site Jacobian. SI units.
+Twists, accelerations and errors are (angular; linear), wrenches (moment; force), in
+world axes at the hand's site. Metres, radians, newtons, seconds.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import mujoco
 import numpy as np
+from numpy.typing import ArrayLike
 
-from robo47 import contact, jacobian, panda, simulate, task_space
+from robo47 import jacobian, panda, scenes, simulate, task_space
+from robo47.arm import Arm
 from robo47.checks import Array
 from robo47.fast.arm_state import ArmState
 from robo47.panda import READY_Q
-from robo47.verify.answers import Check, Function, each
-from robo47.verify.oracle import mujoco_site_jacobian, random_q
+from robo47.verify import mujoco_site_jacobian, random_q
+
+SITE = "attachment_site"  # where the arm without a hand ends
+SPEED_UP = 1.0  # s, in which the hand gathers speed on its circle
 
 
 class State(NamedTuple):
@@ -28,6 +31,14 @@ class State(NamedTuple):
     wrench: Array  # at the hand, (6,), to push with
     acc: Array  # at the hand, (6,), to ask for
     e: Array  # at the hand, (6,), to be off by
+
+
+class Motion(NamedTuple):
+    """Where a hand should be at an instant."""
+
+    T: Array  # its pose, (4, 4)
+    V: Array  # its twist, (6,)
+    A: Array  # its acceleration, (6,)
 
 
 def states(model: mujoco.MjModel, n: int, seed: int, sigma: float) -> list[State]:
@@ -43,122 +54,129 @@ def states(model: mujoco.MjModel, n: int, seed: int, sigma: float) -> list[State
     return found
 
 
-def mass_felt(
-    model: mujoco.MjModel, found: Sequence[State], task_inertia: Function
-) -> Array:
-    """Return Lambda a - F of MuJoCo's hand at rest, as a part of its push F, (n, 6)."""
-    off = []
-    for s in found:
-        acc = _hand(model, s, 0, s.now.gravity_torque, s.wrench)
-        felt = task_inertia(s.now.J_site, s.now.M) @ acc
-        off.append((felt - s.wrench) / np.linalg.norm(s.wrench))
-    return np.array(off)
-
-
-def drift(model: mujoco.MjModel, found: Sequence[State], site_bias: Function) -> Array:
-    """Return site_bias minus the rate of MuJoCo's J times qd, (n, 6)."""
-    return np.array([
-        site_bias(s.now.J_space, s.qd, s.now.T_world_ee[:3, 3])
-        - contact.mujoco_site_bias(model, s.now.q, s.qd)
-        for s in found
-    ])  # fmt: skip
-
-
-def asked_for(
-    model: mujoco.MjModel,
-    found: Sequence[State],
-    task_inertia: Function,
-    site_bias: Function,
-    osc_torque: Function,
-) -> Array:
-    """Return the acceleration of MuJoCo's hand minus the one asked for, (n, 6)."""
-    off = []
-    damping = panda.arm(model).damping
-    for s in found:
-        J = s.now.J_site
-        p = s.now.T_world_ee[:3, 3]
-        given = task_inertia(J, s.now.M), s.now.bias(s.qd)
-        tau = osc_torque(J, *given, site_bias(s.now.J_space, s.qd, p), s.acc)
-        acc = _hand(model, s, s.qd, tau + damping * s.qd, np.zeros(6))
-        off.append(acc - s.acc)
-    return np.array(off)
-
-
-def unfelt(
-    model: mujoco.MjModel,
-    found: Sequence[State],
-    task_inertia: Function,
-    project: Function,
-) -> Array:
-    """Return how MuJoCo's resting hand accelerates under projected torques, (n, 6)."""
-    off = []
-    for s in found:
-        J, M = s.now.J_site, s.now.M
-        tau = project(J, M, task_inertia(J, M), s.torque)
-        off.append(_hand(model, s, 0, s.now.gravity_torque + tau, np.zeros(6)))
-    return np.array(off)
-
-
-def held(
-    model: mujoco.MjModel, found: Sequence[State], impedance_torque: Function
-) -> Array:
-    """Return how the joints accelerate when the hand is pushed back as it pushes."""
-    off = []
-    damping = panda.arm(model).damping
-    for s in found:
-        given = s.now.bias(s.qd), damping, s.qd
-        tau = impedance_torque(s.now.J_site, s.wrench, *given, s.torque) - s.torque
-        off.append(contact.mujoco_push(model, s.now.q, s.qd, tau, -s.wrench)[0])
-    return np.array(off)
-
-
-def rest_after(
-    model: mujoco.MjModel, law: simulate.Controller, wrench: Array, rate: float
-) -> Array:
-    """Return where a push of three seconds takes the hand from ready, (6,)."""
-    push = simulate.push_at(contact.SITE, wrench)
-    start = simulate.start(model, READY_Q)
-    run = simulate.run(model, start, law, 3.0, rate=rate, push=push)
-    T, T_end = (panda.arm(model).at(q).T_world_ee for q in (READY_Q, run.q[-1]))
-    return jacobian.pose_error(T, T_end)
-
-
-def off_circle(
-    model: mujoco.MjModel, law: simulate.Controller, radius: float, turn: float
-) -> Array:
-    """Return how far a hand is from `contact.circle` all along one turn, metres."""
-    run = simulate.run(model, simulate.start(model, READY_Q), law, turn + 0.5)
-    arm = panda.arm(model)
-    T = [arm.at(q).T_world_ee for q in run.q]
-    goal = [contact.circle(t, T[0], radius, turn)[0] for t in run.t]
-    return np.linalg.norm(np.subtract(goal, T)[:, :3, 3], axis=1)
-
-
-def kinematic(J: Array, M: Array, Lambda: Array, tau: Array) -> Array:
-    """Return tau through Day 3's projector, which is for speeds: tau - J^+ J tau."""
-    return jacobian.null_step(J, tau)
-
-
-def compare(check: Check, found: Sequence[State], **own: Function) -> None:
-    """Check functions against those of `robo47.task_space` of the same names."""
-    rng = np.random.default_rng(len(found))
-    n = len(found)
-    J, M = np.array([s.now.J_site for s in found]), np.array([s.now.M for s in found])
-    torque, V_err, e = (np.array([s[i] for s in found]) for i in (2, 3, 5))
+def arguments(at: Sequence[State]) -> dict[str, tuple[Array, ...]]:
+    """Return what to ask the functions that MuJoCo has no call for, (n, ...) each."""
+    rng = np.random.default_rng(len(at))
+    n = len(at)
+    J = np.array([s.now.J_site for s in at])
+    M = np.array([s.now.M for s in at])
+    torque = np.array([s.torque for s in at])
+    V_err = np.array([s.wrench for s in at])
+    e = np.array([s.e for s in at])
     Lambda = task_space.task_inertia(J, M)
     K, D = rng.normal(size=(2, n, 6, 6))
     force, k, height = rng.uniform([-10, 290, -10], [10, 310, 10], (n, 3)).T
-    columns = {
+    return {
         "null_torque": (J, M, Lambda, torque),
         "spring_wrench": (e, V_err, K + np.swapaxes(K, 1, 2), D),
         "critical_damping": (rng.uniform(30, 400, (n, 6)), Lambda),
         "set_point_for_force": (force, k, height),
         "hybrid_wrench": (e, V_err, K + np.swapaxes(K, 1, 2), D, force),
     }
-    for name, function in own.items():
-        truth = getattr(task_space, name)(*columns[name])
-        check(f"{name} - the library's", each(function, *columns[name]) - truth)
 
 
-def _hand(model, s: State, qd, tau: Array, wrench: Array) -> Array:
-    return contact.mujoco_push(model, s.now.q, qd, tau, wrench)[1]
+def rest_after(
+    model: mujoco.MjModel, law: simulate.Controller, wrench: Array, rate: float
+) -> Array:
+    """Return where a push of three seconds takes the hand from ready, (6,)."""
+    push = simulate.push_at(SITE, wrench)
+    start = simulate.start(model, READY_Q)
+    run = simulate.run(model, start, law, 3.0, rate=rate, push=push)
+    T, T_end = (panda.arm(model).at(q).T_world_ee for q in (READY_Q, run.q[-1]))
+    return jacobian.pose_error(T, T_end)
+
+
+def circle(t: float, T_start: ArrayLike, radius: float, turn: float) -> Motion:
+    """Return where a hand should be that sets off from rest on an upright circle.
+
+    The circle is in the plane of y and z, above the start. The speed grows as a raised
+    cosine for one second, then it stays.
+
+    Args:
+        t: seconds since the start.
+        T_start: pose of the hand at t = 0, (4, 4).
+        radius: metres.
+        turn: seconds for one turn at full speed.
+    """
+    w = 2.0 * np.pi / turn
+    u = min(t / SPEED_UP, 1.0)
+    ease = u / 2.0 - np.sin(np.pi * u) / (2.0 * np.pi)
+    angle = w * (SPEED_UP * ease + max(t - SPEED_UP, 0.0))
+    speed = w * (1.0 - np.cos(np.pi * u)) / 2.0
+    gain = w * np.pi * np.sin(np.pi * u) / (2.0 * SPEED_UP)
+    c = radius * np.cos(angle)
+    s = radius * np.sin(angle)
+    T = np.array(T_start, dtype=np.float64)
+    V = np.zeros(6)
+    A = np.zeros(6)
+    T[1:3, 3] += s, radius - c
+    V[4:] = speed * c, speed * s
+    A[4:] = gain * c - speed**2 * s, gain * s + speed**2 * c
+    return Motion(T, V, A)
+
+
+def off_circle(
+    model: mujoco.MjModel, law: simulate.Controller, radius: float, turn: float
+) -> Array:
+    """Return how far a hand is from its circle all along one turn, metres."""
+    run = simulate.run(model, simulate.start(model, READY_Q), law, turn + 0.5)
+    arm = panda.arm(model)
+    T = [arm.at(q).T_world_ee for q in run.q]
+    goal = [circle(t, T[0], radius, turn).T for t in run.t]
+    return np.linalg.norm(np.subtract(goal, T)[:, :3, 3], axis=1)
+
+
+def above_table(model: mujoco.MjModel, gap: float) -> Array:
+    """Return a configuration with the tip over `scenes.PRESS_XY`, pointing down.
+
+    Args:
+        model: of `scenes.press_table`.
+        gap: between tip and table in metres; negative is deeper than the table.
+
+    Returns:
+        q, radians, (7,).
+    """
+    arm = panda.arm(model)
+    T = arm.at(READY_Q).T_world_ee.copy()
+    T[:3, 3] = *scenes.PRESS_XY, scenes.TOUCH + gap
+    ranges, _ = simulate.limits(model)
+    return jacobian.solve_ik(arm.screws, arm.M_home, T, READY_Q, ranges)
+
+
+def press(
+    controller: Callable[[Arm, Array], simulate.Controller],
+    *,
+    drive: str = "torque",
+    change: Callable[[mujoco.MjModel], None] | None = None,
+    seconds: float = 2.0,
+    rate: float = simulate.RATE,
+) -> Array:
+    """Return how hard the tip presses on the table, from 10 mm above it on.
+
+    Args:
+        controller: from the arm and the configuration it starts at to a controller.
+        drive: "torque", or "servo" for the stiff position drives.
+        change: is given the model first, to write other gains or limits into it.
+        seconds: how long.
+        rate: of the controller in Hz.
+
+    Returns:
+        Newtons after each time step, (N,): a peak may be over before a control
+        period is.
+    """
+    model = scenes.press_table(drive=drive)
+    if change is not None:
+        change(model)
+    q = above_table(model, 0.01)
+    law = controller(panda.arm(model), q)
+
+    data = simulate.start(model, q)
+    felt = []
+
+    def look(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        felt.append(scenes.contact_force(model, data, "tip", "table_top"))
+
+    # A push is called before every step: it sees the force of the step before.
+    simulate.run(model, data, law, seconds, rate=rate, push=look)
+    look(model, data)
+    return np.array(felt[1:])
