@@ -12,7 +12,7 @@ Sources: Lynch and Park, Modern Robotics (2017), chapter 9 (sections 9.2 and 9.3
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import checks, se3
+from robo47 import checks, screws, se3
 from robo47.checks import Array
 from robo47.lifting import carry as carry  # where labs have typed these three
 from robo47.lifting import grasp_pose as grasp_pose
@@ -171,7 +171,7 @@ def straight_pose(T0: ArrayLike, T1: ArrayLike, s: ArrayLike) -> Array:
     turn = log_rotation(np.swapaxes(R0, -1, -2) @ T1[..., :3, :3])
     angle = np.linalg.norm(turn, axis=-1)
     axis = np.where(angle[..., None] > 0.0, turn, [0.0, 0.0, 1.0])
-    R = R0 @ se3.axis_angle(axis, s * angle)
+    R = R0 @ screws.axis_angle(axis, s * angle)
     return se3.make_T(R, p0 + s[..., None] * (T1[..., :3, 3] - p0))
 
 
