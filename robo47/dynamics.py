@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 from robo47 import checks
 from robo47.checks import Array
 from robo47.fast.vectors import times
-from robo47.screws import ad, skew
+from robo47.screws import skew
 
 
 def spatial_inertia(m: ArrayLike, c: ArrayLike, inertia: ArrayLike) -> Array:
@@ -128,6 +128,28 @@ def gravity_torque(
     moments = times(skew(coms), weights)
     forces = np.broadcast_to(weights, moments.shape)
     return -_felt(J, np.concatenate([moments, forces], axis=-1))
+
+
+def ad(V: ArrayLike) -> Array:
+    """Return ad(V): at what rate a twist changes that is carried along by V.
+
+    [[[omega], 0], [[v], [omega]]] (Modern Robotics, definition 8.1 of the Lie
+    bracket). ad(V) @ V = 0.
+
+    Args:
+        V: twist (omega; v), rad/s and m/s, (..., 6).
+
+    Returns:
+        Matrix for twists (omega; v), (..., 6, 6).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
+    """
+    V = checks.array(V, "V", (6,))
+    out = np.zeros((*V.shape, 6))
+    out[..., :3, :3] = out[..., 3:, 3:] = skew(V[..., :3])
+    out[..., 3:, :3] = skew(V[..., 3:])
+    return out
 
 
 def inverse_dynamics(

@@ -18,6 +18,7 @@ from labkit.lesson.day import find_day
 from robo47 import (
     capstone,
     jacobian,
+    lifting,
     panda,
     scenes,
     screws,
@@ -160,7 +161,7 @@ def test_an_unfolded_yaw_fails_where_joint7_is_at_its_end():
     cubes = np.tile(np.eye(4), (len(yaw), 1, 1))
     cubes[:, :3, :3] = se3.Rz(yaw)
     cubes[:, :3, 3] = [*capstone.CUBE_XY, scenes.TABLE_HEIGHT + scenes.CUBE_HALF]
-    folded = trajectory.grasp_pose(cubes, np.full(len(yaw), 0.12))
+    folded = lifting.grasp_pose(cubes, np.full(len(yaw), 0.12))
     plain = folded.copy()
     plain[:, :3, :3] = cubes[:, :3, :3] @ np.diag([1.0, -1.0, -1.0])
     start = np.tile(panda.READY_Q, (len(yaw), 1))
