@@ -124,8 +124,8 @@ new: .venv/.ready-core $(ROBOT) ## a day's skeleton: make new DAY=8 WEEK=w2-auto
 	@$(PY) scripts/new_day.py "$(or $(DAY),$(error which day? make new DAY=8 \
 	WEEK=w2-autonomy NAME=my_day))" "$(WEEK)" "$(NAME)" $(ARGS)
 
-author: .venv/.ready-test .venv/.ready-notebook $(ROBOT) ## is a day that you write as it must be?
-	@$(PY) scripts/author_day.py $(DAY) $(ARGS) $(NOT_YET)
+author: .venv/.ready-test .venv/.ready-notebook .venv/.ready-view $(ROBOT) ## is a day that you write as it must be? TASK=9.3
+	@$(PY) scripts/author_day.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS) $(NOT_YET)
 
 oracle: .venv/.ready-core ## regenerate tests/data from Pinocchio (own environment)
 	@$(PY) scripts/make_oracle.py $(ARGS)
