@@ -79,8 +79,10 @@ def one_by_one(
 def mujoco_loop() -> Rival:
     """Only what each question needs: no collisions, no constraints."""
     model = _model()
-    data, site = mujoco.MjData(model), model.site(SITE).id
-    J, tau = np.zeros((6, 7)), np.zeros(7)
+    data = mujoco.MjData(model)
+    site = model.site(SITE).id
+    J = np.zeros((6, 7))
+    tau = np.zeros(7)
 
     def places(q: Array) -> None:
         data.qpos[:] = q
@@ -148,7 +150,8 @@ RIVALS: dict[str, Callable[[], Rival]] = {
 
 def truths(motion: Motion) -> dict[str, Array]:
     """Return MuJoCo's answers, each by the kit's oracle."""
-    model, (q, qd, qdd) = _model(), motion
+    model = _model()
+    q, qd, qdd = motion
     tau = verify.mujoco_inverse_dynamics(model, q, qd, qdd)
     return {
         "mass matrix": verify.mujoco_mass_matrix(model, q),

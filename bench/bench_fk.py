@@ -51,7 +51,10 @@ def plain_products() -> Rival:
             for joint in link.joints:
                 turn = np.zeros((len(q), 4, 4))
                 c, s = np.cos(q[:, joint.qpos_adr]), np.sin(q[:, joint.qpos_adr])
-                turn[:, 0, 0], turn[:, 0, 1], turn[:, 1, 0], turn[:, 1, 1] = c, -s, s, c
+                turn[:, 0, 0] = c
+                turn[:, 0, 1] = -s
+                turn[:, 1, 0] = s
+                turn[:, 1, 1] = c
                 turn[:, 2, 2] = turn[:, 3, 3] = 1.0
                 T = T @ turn
         return T @ chain.T_link_frame
@@ -104,7 +107,8 @@ def textbook_loop() -> Rival:
     """FKinSpace of Modern Robotics: the product of exponentials, in a Python loop."""
     mr = importlib.import_module("modern_robotics")
     model = panda.load("panda_nohand")
-    M, S = panda.home_pose(model), panda.screws(model).T
+    M = panda.home_pose(model)
+    S = panda.screws(model).T
     solve = lambda q: np.array([mr.FKinSpace(M, S, row) for row in q])  # noqa: E731
     return Rival(solve, solve, SLOW_N)
 

@@ -39,7 +39,8 @@ def ours() -> Rival:
     model = panda.load("panda_nohand")
     S, M = panda.screws(model), panda.home_pose(model)
     steps = [0]
-    many, one = ik._downhill, ik_one.Walker._downhill
+    many = ik._downhill
+    one = ik_one.Walker._downhill
 
     def count_many(problem: Any, q: Array, target: Array) -> Any:
         steps[0] += q.shape[1]
@@ -75,7 +76,8 @@ def one_at_a_time() -> Rival:
 def toolbox() -> Rival:
     """Robotics Toolbox's C code, its own restarts; models.DH.Panda has the limits."""
     rtb = importlib.import_module("roboticstoolbox")
-    ets, start = rtb.models.DH.Panda().ets(), panda.READY_Q.copy()
+    ets = rtb.models.DH.Panda().ets()
+    start = panda.READY_Q.copy()
     # Its Panda ends elsewhere: the same fixed pose at every q (0.103 m, 180 degrees).
     here = verify.mujoco_poses(panda.load("panda_nohand"), start[None])[FRAME][0]
     T_site_tip = se3.inverse(here) @ ets.eval(start)
@@ -93,7 +95,8 @@ def pinocchio_loop() -> Rival:
     """The lesson's damped least squares in a Python loop over Pinocchio's C++."""
     pin, model, data, index = pinocchio()
     low, high = model.lowerPositionLimit, model.upperPositionLimit
-    axes, none = pin.LOCAL_WORLD_ALIGNED, np.eye(6)
+    axes = pin.LOCAL_WORLD_ALIGNED
+    none = np.eye(6)
 
     def one_try(goal: Any, q: Array) -> tuple[Array, float, int]:
         for step in range(1, STEPS + 1):  # noqa: B007 (returned below)
@@ -148,7 +151,9 @@ def _with_restarts(
     high: Array,
 ) -> tuple[Array, int]:
     """Return the best q for every goal, and the steps of all tries together."""
-    rng, found, steps = np.random.default_rng(SEED), [], 0
+    rng = np.random.default_rng(SEED)
+    found = []
+    steps = 0
     for goal in goals:
         best, least = panda.READY_Q, np.inf
         for k in range(1 + RESTARTS):

@@ -35,7 +35,8 @@ def _rivals(axes: Axes, rows: dict[str, Any]) -> None:
     """Draw dots with their range: on a log axis, a bar's length would mean nothing."""
     ordered = sorted(rows.items(), key=lambda item: -item[1]["us"])
     for i, (name, row) in enumerate(ordered):
-        ours, us = name.startswith("robo47"), row["us"]
+        ours = name.startswith("robo47")
+        us = row["us"]
         colour = OURS if ours else OTHERS
         axes.plot([row["low"], row["high"]], [i, i], color=colour, alpha=0.5)
         axes.plot(us, i, "o" if ours else "D", color=colour)

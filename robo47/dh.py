@@ -36,12 +36,23 @@ def dh_link(alpha: ArrayLike, a: ArrayLike, d: ArrayLike, theta: ArrayLike) -> A
         checks.array(value, name, ())
         for value, name in ((alpha, "alpha"), (a, "a"), (d, "d"), (theta, "theta"))
     )
-    ca, sa, c, s = np.cos(alpha), np.sin(alpha), np.cos(theta), np.sin(theta)
+    ca = np.cos(alpha)
+    sa = np.sin(alpha)
+    c = np.cos(theta)
+    s = np.sin(theta)
     out = np.zeros((*np.broadcast_shapes(ca.shape, a.shape, d.shape, c.shape), 4, 4))
-    out[..., 0, 0], out[..., 0, 1], out[..., 0, 3] = c, -s, a
-    out[..., 1, 0], out[..., 1, 1], out[..., 1, 2] = s * ca, c * ca, -sa
-    out[..., 2, 0], out[..., 2, 1], out[..., 2, 2] = s * sa, c * sa, ca
-    out[..., 1, 3], out[..., 2, 3], out[..., 3, 3] = -d * sa, d * ca, 1.0
+    out[..., 0, 0] = c
+    out[..., 0, 1] = -s
+    out[..., 0, 3] = a
+    out[..., 1, 0] = s * ca
+    out[..., 1, 1] = c * ca
+    out[..., 1, 2] = -sa
+    out[..., 2, 0] = s * sa
+    out[..., 2, 1] = c * sa
+    out[..., 2, 2] = ca
+    out[..., 1, 3] = -d * sa
+    out[..., 2, 3] = d * ca
+    out[..., 3, 3] = 1.0
     return out
 
 

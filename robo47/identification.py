@@ -22,8 +22,9 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks, se3
 from robo47.checks import Array
+from robo47.dynamics import ad
 from robo47.fast.vectors import times
-from robo47.screws import ad, adjoint, skew
+from robo47.screws import adjoint, skew
 
 _UPPER = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # of Ixx ... Iyz
 
@@ -44,7 +45,8 @@ def inertia_of(phi: ArrayLike) -> Array:
     for k, (i, j) in enumerate(_UPPER):
         G[..., i, j] = G[..., j, i] = phi[..., 4 + k]
     H = skew(phi[..., 1:4])
-    G[..., :3, 3:], G[..., 3:, :3] = H, np.swapaxes(H, -1, -2)
+    G[..., :3, 3:] = H
+    G[..., 3:, :3] = np.swapaxes(H, -1, -2)
     G[..., 3:, 3:] = phi[..., 0, None, None] * np.eye(3)
     return G
 
@@ -59,7 +61,8 @@ def parameters(masses: ArrayLike, coms: ArrayLike, inertias: ArrayLike) -> Array
     """
     m = checks.array(masses, "masses", ())[..., None]
     c = checks.array(coms, "coms", (3,))
-    C, about = skew(c), checks.array(inertias, "inertias", (3, 3))
+    C = skew(c)
+    about = checks.array(inertias, "inertias", (3, 3))
     about = about + m[..., None] * C @ np.swapaxes(C, -1, -2)
     i, j = np.transpose(_UPPER)
     return np.concatenate([m, m * c, about[..., i, j]], axis=-1)
@@ -176,7 +179,8 @@ def predict_with_sigma(
         noise of a new measurement. What a motion never showed has no sigma.
     """
     _, s, Vt = _kept(Y, rtol)
-    Y_new, phi = checks.array(Y_new, "Y_new", Vt.shape[1:]), fit(Y, tau, rtol)
+    Y_new = checks.array(Y_new, "Y_new", Vt.shape[1:])
+    phi = fit(Y, tau, rtol)
     residual = np.asarray(tau) - np.asarray(Y) @ phi
     if len(residual) <= len(s):
         raise ValueError(f"{len(residual)} rows leave no residual at rank {len(s)}")
@@ -198,9 +202,11 @@ def load_regressor(J_site: ArrayLike, R_site: ArrayLike, g: ArrayLike) -> Array:
         (..., n, 4): times (m, m c) it is the torque that holds the load, N m.
     """
     J = checks.array(J_site, "J_site", (6, "n"))
-    R, g = checks.array(R_site, "R_site", (3, 3)), checks.array(g, "g", (3,))
+    R = checks.array(R_site, "R_site", (3, 3))
+    g = checks.array(g, "g", (3,))
     W = np.zeros((*R.shape[:-2], 6, 4))
-    W[..., 3:, 0], W[..., :3, 1:] = g, -skew(g) @ R
+    W[..., 3:, 0] = g
+    W[..., :3, 1:] = -skew(g) @ R
     return -np.swapaxes(J, -1, -2) @ W
 
 
@@ -231,10 +237,12 @@ def least_pseudo(phi: ArrayLike) -> Array:
     Args:
         phi: as above, (..., 10).
     """
-    about, phi = inertia_of(phi)[..., :3, :3], np.asarray(phi, dtype=np.float64)
+    about = inertia_of(phi)[..., :3, :3]
+    phi = np.asarray(phi, dtype=np.float64)
     half = np.trace(about, axis1=-2, axis2=-1)[..., None, None] / 2.0
     P = np.empty((*phi.shape[:-1], 4, 4))
-    P[..., :3, :3], P[..., 3, 3] = half * np.eye(3) - about, phi[..., 0]
+    P[..., :3, :3] = half * np.eye(3) - about
+    P[..., 3, 3] = phi[..., 0]
     P[..., 3, :3] = P[..., :3, 3] = phi[..., 1:4]
     return np.linalg.eigvalsh(P)[..., 0]
 

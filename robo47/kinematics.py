@@ -112,9 +112,11 @@ def chain_to(model: mujoco.MjModel, frame: str) -> Chain:
     kind, name = _resolve(model, frame)
     if kind == "site":
         site = model.site(name)
-        body, T_link_frame = int(site.bodyid[0]), _offset(site.pos, site.quat)
+        body = int(site.bodyid[0])
+        T_link_frame = _offset(site.pos, site.quat)
     else:
-        body, T_link_frame = model.body(name).id, np.eye(4)
+        body = model.body(name).id
+        T_link_frame = np.eye(4)
     path = []
     while body != 0:  # 0 is the world, the root of every model
         path.append(_link(model, body))

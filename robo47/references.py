@@ -24,7 +24,8 @@ def raised_cosine(q: Array, reach: Array) -> Reference:
 
     def reference(t: float) -> tuple[Array, Array, Array]:
         c, s = np.cos(np.pi * t), np.sin(np.pi * t)
-        qd, qdd = reach * np.pi * s / 2, reach * np.pi**2 * c / 2
+        qd = reach * np.pi * s / 2
+        qdd = reach * np.pi**2 * c / 2
         return q + reach * (1 - c) / 2, qd, qdd
 
     return reference

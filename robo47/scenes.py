@@ -152,7 +152,8 @@ def contact_force(
         Newtons, the sum over their contacts; 0 where they do not touch.
     """
     pair = {model.geom(geom).id, model.geom(other).id}
-    total, wrench = 0.0, np.zeros(6)
+    total = 0.0
+    wrench = np.zeros(6)
     for i in range(data.ncon):
         if {int(data.contact[i].geom1), int(data.contact[i].geom2)} == pair:
             mujoco.mj_contactForce(model, data, i, wrench)

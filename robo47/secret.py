@@ -42,7 +42,8 @@ class Motion(NamedTuple):
 
 def changed(model: mujoco.MjModel, seed: int) -> mujoco.MjModel:
     """Return a copy whose links weigh otherwise, and whose joints rub otherwise."""
-    rng, secret = np.random.default_rng(seed), copy.copy(model)
+    rng = np.random.default_rng(seed)
+    secret = copy.copy(model)
     joints = joint_ids(secret)
     links, dofs = secret.jnt_bodyid[joints], secret.jnt_dofadr[joints]
     secret.body_mass[links] *= rng.uniform(1.0 - MASS, 1.0 + MASS, 7)
@@ -68,7 +69,9 @@ def load(mass: float, com: ArrayLike) -> Edit:
     def edit(spec: mujoco.MjSpec) -> None:
         site = spec.site("attachment_site")
         ball = site.parent.add_body(name="load", pos=site.pos, quat=site.quat)
-        ball.mass, ball.ipos, ball.explicitinertial = mass, com, True
+        ball.mass = mass
+        ball.ipos = com
+        ball.explicitinertial = True
         ball.inertia = [0.4 * mass * RADIUS**2] * 3
 
     return edit
@@ -152,7 +155,8 @@ def holds(model: mujoco.MjModel, known: Arm, poses: ArrayLike) -> tuple[Array, A
 
 def _hold(model: mujoco.MjModel, known: Arm, q: Array, side: float) -> list[Array]:
     def law(t: float, q_now: Array, qd: Array) -> Array:
-        now, pull = known.at(q_now), OMEGA**2 * (q - q_now) - 2.0 * OMEGA * qd
+        now = known.at(q_now)
+        pull = OMEGA**2 * (q - q_now) - 2.0 * OMEGA * qd
         return now.M @ pull + now.bias(qd) + known.damping * qd
 
     lifts = np.where(known.at(q).J_site[5] < -1e-9, -1.0, 1.0)
@@ -185,7 +189,8 @@ def rises(
     Returns:
         Metres; less than 0 where it sinks.
     """
-    load, free = checks.array(load, "load", (4,)), without_friction(model)
+    load = checks.array(load, "load", (4,))
+    free = without_friction(model)
 
     def law(t: float, q: Array, qd: Array) -> Array:
         now = known.at(q)

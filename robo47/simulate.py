@@ -73,7 +73,9 @@ def start(model: mujoco.MjModel, q: ArrayLike, qd: ArrayLike = 0.0) -> mujoco.Mj
     if model.nkey:
         mujoco.mj_resetDataKeyframe(model, data, 0)
     adr, dof, motors = addresses(model)
-    data.qpos[adr], data.qvel[dof], data.ctrl[motors] = q, qd, 0.0
+    data.qpos[adr] = q
+    data.qvel[dof] = qd
+    data.ctrl[motors] = 0.0
     mujoco.mj_forward(model, data)
     return data
 
@@ -146,7 +148,9 @@ def run(
     steps = steps_per_period(model, rate)
     adr, dof, _ = addresses(model)
     n = round(seconds * rate)
-    q, qd, tau = np.empty((n + 1, 7)), np.empty((n + 1, 7)), np.empty((n, 7))
+    q = np.empty((n + 1, 7))
+    qd = np.empty((n + 1, 7))
+    tau = np.empty((n, 7))
     seen: list[Any] = []
     for k in range(n + 1):
         q[k], qd[k] = data.qpos[adr], data.qvel[dof]
@@ -155,7 +159,8 @@ def run(
         ctrl = np.asarray(controller(k / rate, q[k].copy(), qd[k].copy()), float)
         if ctrl.ndim != 1 or not 7 <= len(ctrl) <= model.nu or np.isnan(ctrl).any():
             raise ValueError(f"the controller returned {ctrl}; expected 7 torques")
-        data.ctrl[: len(ctrl)], tau[k] = ctrl, ctrl[:7]
+        data.ctrl[: len(ctrl)] = ctrl
+        tau[k] = ctrl[:7]
         _advance(model, data, steps, push)
         if watch is not None:
             seen.append(watch(model, data))
@@ -177,8 +182,10 @@ def push_at(site: str, wrench: ArrayLike) -> Push:
     def push(model: mujoco.MjModel, data: mujoco.MjData) -> None:
         mujoco.mj_kinematics(model, data)  # site_xpos is one step old
         mujoco.mj_comPos(model, data)  # mj_applyFT takes the Jacobian from it
-        point, body = data.site(site).xpos, int(model.site(site).bodyid[0])
-        moment, force = wrench[:3], wrench[3:]
+        point = data.site(site).xpos
+        body = int(model.site(site).bodyid[0])
+        moment = wrench[:3]
+        force = wrench[3:]
         mujoco.mj_applyFT(model, data, force, moment, point, body, data.qfrc_applied)
 
     return push

@@ -200,7 +200,8 @@ def provide(venv, anew, uv):
     """Make the environment if it is not whole; return the version of its Python."""
     python, version = find_python()
     has = made_with(venv)
-    wanted, folder = "{}.{}".format(*version), venv.name
+    wanted = "{}.{}".format(*version)
+    folder = venv.name
     if has is not None and has >= OLDEST and not anew:
         if has != version:
             say("{} keeps its Python {}.{}; to change that:".format(folder, *has))

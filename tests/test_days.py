@@ -1,6 +1,5 @@
 """Every day of the course: manifest, starter, questions and documents."""
 
-import ast
 import re
 
 import inprocess
@@ -11,7 +10,7 @@ from conftest import ROOT, days, kits_worksheet
 from labkit.handin.worksheet import split_sections
 from labkit.judge.row import rows_of
 from labkit.lesson.lab import predictions
-from labkit.lesson.script import find_regions, make_starter
+from labkit.lesson.starter import find_regions, make_starter
 from labkit.sandbox.messages import library_of
 
 DAYS = days()
@@ -97,13 +96,6 @@ class TestScript:
         (tmp_path / "kit.py").write_text("")
         verdicts = inprocess.verdicts(day, path)
         assert {verdict.status for verdict in verdicts.values()} == {"todo"}
-
-    def test_the_first_weeks_labs_read_like_a_recipe(self, day):
-        tree = ast.parse(day.source.read_text("utf-8"))
-        (main,) = (x for x in tree.body if getattr(x, "name", "") == "main")
-        if day.number <= 7:
-            assert len(day.source.read_text("utf-8").splitlines()) <= 270
-            assert main.end_lineno - main.lineno < 60
 
     def test_the_complete_lab_passes(self, day):
         assert run_as_lab(day) == 0

@@ -22,11 +22,12 @@ from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
 from labkit.handin.handin import Item
 from labkit.judge.ask import Robot
-from labkit.judge.problems import stops_with
+from labkit.judge.replies_read import stops_with
+from labkit.lesson.added_code import old_names
 from labkit.lesson.day import Day
 from labkit.lesson.lab import Lab, number_of
-from labkit.lesson.marks import Metric
-from labkit.lesson.script import load_lab, old_names
+from labkit.lesson.lab_module import load_lab
+from labkit.lesson.metric import Metric
 from labkit.sandbox.messages import PANDA, library_of
 from labkit.sandbox.sandbox import Sandbox, Session
 
@@ -51,9 +52,14 @@ class Rehearsal(Lab):
         self, day: Day, numbers: dict[tuple[str, str], float], file: str, _: str | None
     ) -> None:
         """Take the day, what takes its numbers, and what a `Lab` takes."""
-        self.log, self.script = False, Path(file)
-        self.day, self.numbers, self.title = day, numbers, ""
-        self.failed, self.rows, self.predicted = [], [], {}
+        self.log = False
+        self.script = Path(file)
+        self.day = day
+        self.numbers = numbers
+        self.title = ""
+        self.failed = []
+        self.rows = []
+        self.predicted = {}
 
     def step(self, title: str) -> None:
         """Remember the heading."""
@@ -147,7 +153,8 @@ class Budget:
 
     def __init__(self, calls: int = CALLS, seconds: float = SECONDS) -> None:
         """Start the clock."""
-        self.calls, self.deadline = calls, time.monotonic() + seconds
+        self.calls = calls
+        self.deadline = time.monotonic() + seconds
 
     def spend(self) -> None:
         """Take one call.

@@ -11,19 +11,13 @@ from labkit.base.exchange import Exchange, LoadError, Reply
 from labkit.judge.ask import Asked, asked_of, replies
 from labkit.judge.judge import judge
 from labkit.judge.mistake import Verdict
-from labkit.judge.problems import no_answer, not_loaded, refusal
+from labkit.judge.replies_read import no_answer, not_loaded, refusal
 from labkit.judge.right_when import right_when
 from labkit.judge.row import row_of
+from labkit.lesson.added_code import kits_functions, kits_own, old_names
+from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
-from labkit.lesson.script import (
-    arguments,
-    borrowed_tasks,
-    kits_functions,
-    kits_own,
-    old_names,
-    renamed,
-    unfinished,
-)
+from labkit.lesson.slips import arguments, renamed, unfinished
 from labkit.sandbox.messages import library_of, robots_of
 from labkit.sandbox.sandbox import Sandbox
 
@@ -99,7 +93,10 @@ class _Check:
 
     def __init__(self, day: Day, script: Path, sandbox: Sandbox, seed: int) -> None:
         """Take what `check_tasks` takes."""
-        self.day, self.script, self.sandbox, self.seed = day, script, sandbox, seed
+        self.day = day
+        self.script = script
+        self.sandbox = sandbox
+        self.seed = seed
         there = script.is_file()  # the sandbox refuses what is none
         self.source = script.read_text("utf-8", errors="replace") if there else ""
         self.borrowed = borrowed_tasks(day, self.source)
@@ -148,7 +145,8 @@ class _Check:
         What builds on tasks that are not right is asked again with the kit's functions
         in their place: its fault is inherited, or its own.
         """
-        result, added = results[task.id], self.added
+        result = results[task.id]
+        added = self.added
         if result.verdict.follows:
             needed = [self.day.task(id) for id in self.day.needs(task.id)]
             broken = [one for one in needed if not results[one.id].passed]

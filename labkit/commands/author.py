@@ -24,7 +24,8 @@ from labkit.judge.answers import InTurn
 from labkit.judge.ask import Draw, stacked
 from labkit.judge.row import rows_of
 from labkit.lesson.day import Day, day_numbers, find_day
-from labkit.lesson.script import find_regions, read_script
+from labkit.lesson.lab_module import read_script
+from labkit.lesson.starter import find_regions
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
@@ -41,7 +42,8 @@ def faults(day: Day) -> Iterator[str]:
 
 
 def _regions(day: Day) -> Iterator[str]:
-    manifest, source = shown(day.own / "day.toml"), shown(day.source)
+    manifest = shown(day.own / "day.toml")
+    source = shown(day.source)
     wanted = {(task.id, name) for task in day.tasks for name in task.functions}
     regions = find_regions(read_script(day.source), source)
     found = {(region.task, region.function): region.start + 1 for region in regions}
@@ -62,7 +64,8 @@ def _functions(day: Day) -> Iterator[str]:
         if not callable(getattr(row.lab, name, None)):
             yield f"{shown(day.source)}: no function {name}"
             continue
-        calls, file = row.ask.inputs, f"{shown(day.own)}/{name}.py"
+        calls = row.ask.inputs
+        file = f"{shown(day.own)}/{name}.py"
         first = next(iter(calls(Draw(0))))
         if len(first) != len(row.arguments):
             yield (

@@ -63,7 +63,7 @@ if folder:
     found["missing"] = menagerie.missing_files(folder)[:3]
 """
 LESSONS_PROBE = """
-from labkit.lesson.script import is_kits
+from labkit.lesson.starter import is_kits
 from labkit.lesson.day import all_days
 from robo47.paths import shown
 days = all_days()
@@ -203,7 +203,8 @@ def check_gl(python: str) -> Line:
     if chosen:  # the one that was tried
         says = "MUJOCO_GL=" + chosen + " does not draw here: " + found[chosen.strip()]
         return Line("todo", "pictures", says, "Unset it: unset MUJOCO_GL")
-    says, remedy = "nothing draws: " + why, "Update the GPU's driver."
+    says = "nothing draws: " + why
+    remedy = "Update the GPU's driver."
     if sys.platform.startswith("linux"):
         says = "nothing draws (" + why + ")"
         remedy = "Debian, Ubuntu: sudo apt install libegl1 libgl1 libosmesa6"

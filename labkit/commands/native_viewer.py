@@ -79,8 +79,10 @@ def show() -> int:
     """
     import mujoco.viewer
 
-    model, camera = panda.load("scene", meshes=True), Camera(distance=2.6)
-    data, steps = at_ready(model), round(FRAME_SECONDS / model.opt.timestep)
+    model = panda.load("scene", meshes=True)
+    camera = Camera(distance=2.6)
+    data = at_ready(model)
+    steps = round(FRAME_SECONDS / model.opt.timestep)
     model.vis.scale.framelength *= 0.6  # the default triads hide the arm
     model.vis.scale.framewidth *= 0.4
     print("window: the arm at ready; Shift+Tab shows its sliders, under Control")

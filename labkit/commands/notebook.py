@@ -19,8 +19,9 @@ from pathlib import Path
 
 from labkit.base import cli
 from labkit.lesson.day import Day, chosen_day
-from labkit.lesson.script import find_regions, lab_of, make_starter, read_script
+from labkit.lesson.lab_module import lab_of, read_script
 from labkit.lesson.sealed import is_sealed
+from labkit.lesson.starter import find_regions, make_starter
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -65,7 +66,8 @@ def build(day: Day, starter: bool = False) -> str:
     source = read_script(day.source)
     if starter or is_sealed(day.source.read_text("utf-8")):  # an edition has no answers
         source = make_starter(source, day.script, day.number)
-    tree, lines = ast.parse(source), source.splitlines(keepends=True)
+    tree = ast.parse(source)
+    lines = source.splitlines(keepends=True)
     functions = (node for node in tree.body if isinstance(node, ast.FunctionDef))
     main = next(node for node in functions if node.name == "main")
     cells = head(day, tree, starter)
@@ -140,7 +142,8 @@ def segments(body: list[ast.stmt], lines: list[str]) -> Iterator[tuple[ast.stmt,
 
 def library(body: list[ast.stmt], lines: list[str]) -> list[str]:
     """Return what stands before main(): the constants, then a function per cell."""
-    constants, functions = "", []
+    constants = ""
+    functions = []
     regions = find_regions("".join(lines), "the lab")
     tasks = {region.function: region.task for region in regions}
     for node, segment in segments(body, lines):
@@ -154,7 +157,8 @@ def library(body: list[ast.stmt], lines: list[str]) -> list[str]:
 
 def lab(day: Day, body: list[ast.stmt], lines: list[str]) -> list[str]:
     """Return main(): a heading and a cell per step, and what the day adds."""
-    cells, more = [text("## The lab")], extras(day)
+    cells = [text("## The lab")]
+    more = extras(day)
     for title, own in sections(day, body, lines):
         cells += [text(f"### {title}")] if title else []
         cells.append(code(own))
@@ -183,12 +187,13 @@ def sections(day: Day, body: list[ast.stmt], lines: list[str]) -> list[list[str]
 def main() -> int:
     """Write a notebook, or check it."""
     parser = cli.parser(__doc__)
-    parser.add_argument("--day", type=cli.day, help="default: the last begun")
+    parser.add_argument("--day", type=cli.day, help="default: the one worked on last")
     how = parser.add_mutually_exclusive_group()
     how.add_argument("--check", action="store_true", help="write nothing")
     how.add_argument("--starter", action="store_true", help="without answers, in work/")
     options = parser.parse_args()
-    day, starter = chosen_day(options.day), options.starter
+    day = chosen_day(options.day)
+    starter = options.starter
     path = day.work.with_suffix(".ipynb") if starter else notebook_of(day)
     if starter and path.exists():
         raise Robo47Error(f"{shown(path)} is there already and stays as it is")

@@ -108,9 +108,11 @@ def ask_for_jacobians() -> dict:
     ours = panda.load("panda_nohand")
     q = verify.random_q(ours, JACOBIANS, SEED).round(6)
     frame = model.getFrameId(panda.END_FRAME["panda_nohand"].partition(":")[2])
-    S, M = panda.screws(ours).T, panda.home_pose(ours)
+    S = panda.screws(ours).T
+    M = panda.home_pose(ours)
     B = mr.Adjoint(mr.TransInv(M)) @ S
-    jacobian, turned = pin.computeFrameJacobian, [3, 4, 5, 0, 1, 2]  # to (omega; v)
+    jacobian = pin.computeFrameJacobian
+    turned = [3, 4, 5, 0, 1, 2]  # to (omega; v)
     ask: dict[str, Any] = {
         kind: lambda row, r=r: jacobian(model, data, row, frame, r)[turned]
         for kind, r in pin.ReferenceFrame.names.items()
@@ -152,7 +154,8 @@ def main() -> int:
     bring_pinocchio()
     all_same = True
     for name, ask_anew in ORACLES.items():
-        path, fresh = DATA / name, ask_anew()
+        path = DATA / name
+        fresh = ask_anew()
         if options.check:
             worst = largest_difference(fresh, json.loads(path.read_text("utf-8")))
             same = worst < SAME

@@ -44,7 +44,8 @@ def from_official(staging: Path) -> dict[str, Any]:
     """Download the Panda with the mujoco-menagerie package into staging."""
     import mujoco_menagerie as mm
 
-    robot, cache = mm.get(files.PANDA), mm.Cache(dir=staging / "cache", root="")
+    robot = mm.get(files.PANDA)
+    cache = mm.Cache(dir=staging / "cache", root="")
     cache.root = None  # MENAGERIE_ROOT is our own source 1
     url = f"{cache.base_url}/{robot.asset}"
     probe = [sys.executable, "-c", f"import urllib.request as u; u.urlopen({url!r})"]
@@ -154,12 +155,14 @@ def write_record(root: Path, found: dict[str, Any]) -> None:
 
 def verify(root: Path) -> int:
     """Hash every recorded file again and list what changed."""
-    record, folder = files.read_provenance(), root / files.PANDA
+    record = files.read_provenance()
+    folder = root / files.PANDA
     check_complete(folder)
     if "files" not in record:
         print(f"robot: {shown(folder)} is complete; no hashes were recorded for it")
         return cli.EXIT_OK
-    changed, total = files.changed_files(folder, record["files"]), len(record["files"])
+    changed = files.changed_files(folder, record["files"])
+    total = len(record["files"])
     for line in changed:
         print(line)
     print(f"robot: {total - len(changed)} of {total} files match their sha256")

@@ -11,15 +11,18 @@ from itertools import count
 from pathlib import Path
 
 from labkit.base import cli
+from labkit.lesson import last_day
 from labkit.lesson.day import Day, chosen_day, find_task
-from labkit.lesson.script import put_back, read_script, require_kits, starter_of
+from labkit.lesson.lab_module import read_script
+from labkit.lesson.starter import put_back, require_kits, starter_of
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 
 def start(day: Day) -> int:
     """Write the starter, unless the student's file is there."""
-    work, first = day.work, day.tasks[0]
+    work = day.work
+    first = day.tasks[0]
     require_kits(day)
     starter = starter_of(day)
     work.parent.mkdir(parents=True, exist_ok=True)
@@ -80,7 +83,8 @@ def reset(task_id: str) -> int:
 
 def rewrite(work: Path, text: str, why: str) -> Path:
     """Write a lab anew with its own line ends; return where it is as it was."""
-    before, kept = work.read_bytes(), free_name(work, why)
+    before = work.read_bytes()
+    kept = free_name(work, why)
     kept.write_bytes(before)
     work.write_text(text, "utf-8", newline="\r\n" if b"\r\n" in before else "\n")
     return kept
@@ -95,10 +99,15 @@ def free_name(work: Path, task_id: str) -> Path:
 def main() -> int:
     """Start a day or reset a task."""
     parser = cli.parser(__doc__)
-    parser.add_argument("day", type=cli.day, nargs="?", help="default: the last begun")
+    parser.add_argument(
+        "day", type=cli.day, nargs="?", help="default: the one worked on last"
+    )
     parser.add_argument("--reset", metavar="TASK", help="such as 1.4")
     options = parser.parse_args()
     if options.reset:
         chosen_day(options.day, options.reset)
         return reset(options.reset)
-    return start(chosen_day(options.day))
+    day = chosen_day(options.day)
+    code = start(day)
+    last_day.remember(day.number)
+    return code

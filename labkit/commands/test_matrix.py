@@ -67,7 +67,8 @@ def main() -> int:
     parser.add_argument("--mujoco", nargs="+", default=MUJOCOS, metavar="X.Y.Z")
     parser.add_argument("--pytest", default="", help="options for pytest, in quotes")
     options = parser.parse_args()
-    failed, lines = False, []
+    failed = False
+    lines = []
     for version in options.python:
         path = find_python(version)
         for mujoco in options.mujoco:

@@ -79,7 +79,8 @@ def keep_copies(days: list[dict[str, Any]]) -> list[Path]:
 
 def tell(found: dict[str, Any], copies: list[Path], taken: list[str], own: str) -> None:
     """Say what is new and what to run again."""
-    now, files = ask("describe", "--tags", "--always"), ask("diff", "--name-only", own)
+    now = ask("describe", "--tags", "--always")
+    files = ask("diff", "--name-only", own)
     if not files:
         print("This is the kit's newest version; nothing has changed.")
         return

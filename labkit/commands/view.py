@@ -164,7 +164,8 @@ def port(text: str) -> int:
 def parse() -> argparse.Namespace:
     """Read the command line."""
     parser = cli.parser(__doc__)
-    add, how = parser.add_argument, parser.add_mutually_exclusive_group()
+    add = parser.add_argument
+    how = parser.add_mutually_exclusive_group()
     add(
         "day", type=cli.day, nargs="?", help="whose tabs and file; the last you started"
     )

@@ -13,7 +13,7 @@ from tqdm import tqdm
 from labkit.base import cli
 from labkit.base.text import count, number_of
 from labkit.lesson.day import chosen_week, days_of
-from labkit.lesson.script import writers_of
+from labkit.lesson.writers import writers_of
 from labkit.report.week_labs import Ran, run_labs
 
 Line = tuple[str, ...]  # day, whose, check, number, limit, verdict
@@ -30,7 +30,8 @@ def lines_of(ran: Ran) -> list[Line]:
     for one in ran.numbers:
         number = "none" if one.latest is None else number_of(one.latest)
         verdict = "PASS" if one.status == "pass" else "FAIL"
-        name, limit = ran.day.name_of(one.wanted)[:NAMED], one.wanted.limit
+        name = ran.day.name_of(one.wanted)[:NAMED]
+        limit = one.wanted.limit
         lines.append((str(ran.day.number), whose, name, number, limit, verdict))
     return lines
 

@@ -21,7 +21,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure  # not pyplot, which may look for a display
 from PIL import Image
 
-BLUE, ORANGE, GREEN, RED = "#0072B2", "#E69F00", "#009E73", "#D55E00"
+BLUE = "#0072B2"
+ORANGE = "#E69F00"
+GREEN = "#009E73"
+RED = "#D55E00"
 PURPLE, SKY = "#CC79A7", "#56B4E9"
 INK, GREY, RULE = "#212529", "#868e96", "#dee2e6"
 WIDTH, DPI = 8.0, 150  # inches; 1200 pixels

@@ -25,12 +25,15 @@ from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
-SIZE, SECONDS = (480, 420), 5.0  # of a clip
+SIZE = (480, 420)  # pixels, of a clip
+SECONDS = 5.0  # of a clip
 CAMERA = Camera(distance=2.3, lookat=(0.2, 0.0, 0.36))
 LARGEST = 1_000_000  # bytes: what a page shows at once
 PIXELS = 0.75  # each try that is too large is followed by one this much smaller
 GOOD, BAD = (0, 102, 75), (179, 38, 30)
-PICK_SIZE, PICTURE_SIZE, FRAMES = (420, 340), (1200, 800), 60
+PICK_SIZE = (420, 340)
+PICTURE_SIZE = (1200, 800)
+FRAMES = 60
 AT_THE_TABLE = Camera(
     lookat=(0.33, 0.0, 0.36),
     distance=2.3,

@@ -28,7 +28,8 @@ def draw_frames(
     layer = Layer(size)
     seen = {}
     for (name, T), length in zip(frames.items(), axis_lengths(frames), strict=True):
-        origin, tips = T[:3, 3], T[:3, 3] + length * T[:3, :3].T
+        origin = T[:3, 3]
+        tips = T[:3, 3] + length * T[:3, :3].T
         seen[name] = camera.project(np.vstack([origin, tips]), size)
         layer.triad(seen[name])
     layer.labels(seen)  # over the triads: a leader ends at its origin
@@ -117,7 +118,8 @@ class Layer:
         self.line([start, (neck[0], neck[1])], colour, 5 + more)
         rim = more / 2 * self.unit
         half = 0.45 * head + rim
-        back, front = neck - rim * along, b + rim * along
+        back = neck - rim * along
+        front = b + rim * along
         corners = [front, back + half * across, back - half * across]
         self.pen.polygon([(x, y) for x, y in corners], colour)
 
@@ -130,7 +132,9 @@ class Layer:
             seen: {name: pixels of the origin and the tips, and their depth, (4, 3)}.
         """
         x = {name: float(ends[0, 0]) for name, ends in seen.items()}
-        low, high, margin = min(x.values()), max(x.values()), 0.14 * self.size[0]
+        low = min(x.values())
+        high = max(x.values())
+        margin = 0.14 * self.size[0]
         left = [name for name in seen if x[name] < (low + high) / 2]
         right = [name for name in seen if name not in left]
         for names in (left, right):
@@ -163,7 +167,8 @@ class Layer:
 
     def legend(self) -> None:
         """Say which colour is which axis, in the lower left corner."""
-        x, y = 0.03 * self.size[0], self.size[1] - 1.3 * self.text_height
+        x = 0.03 * self.size[0]
+        y = self.size[1] - 1.3 * self.text_height
         for name, colour in zip("xyz", (X, Y, Z), strict=True):
             self.line([(x, y), (x + self.text_height, y)], colour, 5)
             x += 1.4 * self.text_height

@@ -40,14 +40,17 @@ def joint_sliders(by_hand: ForwardKinematics | None = None) -> ipywidgets.HBox:
         )
         for joint, value in zip(joints, panda.READY_Q, strict=True)
     ]  # fmt: skip
-    picture, numbers = ipywidgets.Image(format="jpeg"), ipywidgets.HTML()
+    picture = ipywidgets.Image(format="jpeg")
+    numbers = ipywidgets.HTML()
 
     def follow(_change: object = None) -> None:
         q = np.array([slider.value for slider in sliders])
         scene = Scene(portrait.with_fingers(q), SIZE, CAMERA, fast=True)
-        frames, who = portrait.link_frames(scene.qpos), "robo47.kinematics"
+        frames = portrait.link_frames(scene.qpos)
+        who = "robo47.kinematics"
         if by_hand is not None:
-            frames["ee"], who = np.asarray(by_hand(model, q)), by_hand.__name__
+            frames["ee"] = np.asarray(by_hand(model, q))
+            who = by_hand.__name__
         file = io.BytesIO()
         portrait.draw(scene, frames).save(file, "JPEG", quality=90)
         picture.value = file.getvalue()

@@ -40,12 +40,14 @@ def light_up(spec: mujoco.MjSpec) -> None:
     look.headlight.ambient, look.headlight.diffuse = [0.42] * 3, [0.25] * 3
     look.headlight.specular = [0.0] * 3
     # Above 1 the haze would reach the robot and cover its ghosts.
-    look.rgba.haze, look.map.haze = [*WHITE, 1.0], 0.92
+    look.rgba.haze = [*WHITE, 1.0]
+    look.map.haze = 0.92
     look.map.shadowscale = 0.3  # spend the shadow map on the robot, not the room
 
 
 def _add_sky_and_floor(spec: mujoco.MjSpec) -> None:
-    texture, flat = mujoco.mjtTexture, mujoco.mjtBuiltin.mjBUILTIN_FLAT
+    texture = mujoco.mjtTexture
+    flat = mujoco.mjtBuiltin.mjBUILTIN_FLAT
     spec.add_texture(
         name="sky", type=texture.mjTEXTURE_SKYBOX, builtin=flat,
         rgb1=WHITE, rgb2=WHITE, width=8, height=48,
@@ -112,14 +114,17 @@ def free_camera(camera: Camera) -> mujoco.MjvCamera:
 
 def add_ghost(scene: mujoco.MjvScene, model: mujoco.MjModel, ghost: Ghost) -> None:
     """Add translucent copies of the shapes that a body carries to what is drawn."""
-    R, t = ghost.T_world_moved[:3, :3], ghost.T_world_moved[:3, 3]
+    R = ghost.T_world_moved[:3, :3]
+    t = ghost.T_world_moved[:3, 3]
     carrier = model.body(ghost.body).id
     for original in list(scene.geoms[: scene.ngeom]):
         body = model.geom_bodyid[original.objid]
         if body != carrier and (ghost.alone or not hangs_on(model, body, carrier)):
             continue
         colour = WRONG_COLOUR if ghost.wrong else GHOST_COLOUR
-        size, pos, mat = original.size, R @ original.pos + t, R @ original.mat
+        size = original.size
+        pos = R @ original.pos + t
+        mat = R @ original.mat
         copy = _added(scene, original.type, size, pos, mat, colour)
         copy.objtype, copy.objid = original.objtype, original.objid
         copy.dataid, copy.camdist = original.dataid, original.camdist
@@ -128,10 +133,13 @@ def add_ghost(scene: mujoco.MjvScene, model: mujoco.MjModel, ghost: Ghost) -> No
 
 def add_box(scene: mujoco.MjvScene, box: Box) -> None:
     """Add a box to what is drawn."""
-    R, t = box.T_world_box[:3, :3], box.T_world_box[:3, 3]
-    colour, kind = np.array(box.colour, dtype=np.float32), mujoco.mjtGeom.mjGEOM_BOX
+    R = box.T_world_box[:3, :3]
+    t = box.T_world_box[:3, 3]
+    colour = np.array(box.colour, dtype=np.float32)
+    kind = mujoco.mjtGeom.mjGEOM_BOX
     shape = _added(scene, kind, np.array(box.half), t, R, colour)
-    shape.objtype, shape.objid = mujoco.mjtObj.mjOBJ_UNKNOWN, -1
+    shape.objtype = mujoco.mjtObj.mjOBJ_UNKNOWN
+    shape.objid = -1
     shape.dataid, shape.transparent = -1, 0
 
 
@@ -144,7 +152,8 @@ def _added(
     """
     geom = scene.geoms[scene.ngeom]
     mujoco.mjv_initGeom(geom, kind, size, pos, R.ravel(), colour)
-    geom.segid, geom.category = -1, mujoco.mjtCatBit.mjCAT_DECOR
+    geom.segid = -1
+    geom.category = mujoco.mjtCatBit.mjCAT_DECOR
     scene.ngeom += 1
     return geom
 

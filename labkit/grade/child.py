@@ -92,7 +92,8 @@ def _run(
     package: Package, day: Day, folder: Path
 ) -> tuple[list[TaskResult], list[Item]]:
     """Return the tasks' results, and the lab's where they all pass."""
-    handin, name = package.handin, day.files["script"]
+    handin = package.handin
+    name = day.files["script"]
     if name not in handin.files:
         start = f"{name} is not there. Begin with: make start DAY={day.number}"
         verdict = Verdict("todo", "not-started", start)

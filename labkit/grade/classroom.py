@@ -20,7 +20,8 @@ from labkit.grade.roster import Student
 from labkit.grade.sheet import as_csv, nameless, printable, write
 from labkit.grade.similar import Runs
 from labkit.lesson.day import Day
-from labkit.lesson.script import read_script, starter_of
+from labkit.lesson.lab_module import read_script
+from labkit.lesson.starter import starter_of
 from labkit.sandbox.messages import file_of
 from robo47.errors import FaultError
 from robo47.paths import shown
@@ -57,7 +58,8 @@ class Classroom:
         """
         graded: dict[str, Graded] = {}
         runs: dict[str, list[Runs]] = {}
-        starter, now = starter_of(self.day), 0
+        starter = starter_of(self.day)
+        now = 0
 
         def note(one: Student, package: Package, result: Result | FaultError) -> None:
             found = self._graded(one, package, result)
@@ -101,7 +103,8 @@ class Classroom:
         self, student: Student, package: Package, result: Result | FaultError
     ) -> Graded:
         given: Package | Kept = package
-        fault, late = isinstance(result, FaultError), package.late
+        fault = isinstance(result, FaultError)
+        late = package.late
         if isinstance(result, FaultError):  # not kept, so that it is tried again
             result = ungraded(self.day, FAULT.format(visible(result, 200)))
         elif self.keep == "best":
@@ -119,7 +122,8 @@ class Classroom:
     ) -> Course:
         alike = similar.like_the_kit(runs, _runs_of_kit(self.day))
         alike += similar.similar_groups({f: r[0] for f, r in runs.items() if r})
-        journal, odd = self.journal, ""
+        journal = self.journal
+        odd = ""
         if journal.odd:
             path = shown(journal.path.absolute())
             odd = f"{path}: lines that are no result, left out: {journal.odd:,}"

@@ -64,7 +64,8 @@ class Journal:
                 is grading into it.
         """
         self.path, self._day = path, day
-        self.reference, self.deadline = int(time.time()), False
+        self.reference = int(time.time())
+        self.deadline = False
         self.seed = secrets.randbits(32)
         self.odd = self.outdated = 0
         self._last: dict[str, Kept] = {}  # by folder
@@ -83,7 +84,8 @@ class Journal:
             self._file.close()
             raise
         if deadline is not None:
-            self.reference, self.deadline = deadline, True
+            self.reference = deadline
+            self.deadline = True
         self.seed = self.seed if seed is None else seed
         if self._written != self._head():
             self._append(self._head())
@@ -124,7 +126,8 @@ class Journal:
 
     def _note(self, folder: str, kept: Kept) -> None:
         self._last[folder] = kept
-        rival, at = self._best.get(folder), kept.committed
+        rival = self._best.get(folder)
+        at = kept.committed
         late = self.deadline and at is not None and at > self.reference
         if (
             rival is None
@@ -184,7 +187,8 @@ class Journal:
             )
         if type(reference) is not int or not 0 <= reference < _LATEST:
             raise ValueError(reference)
-        seed, self.deadline = int(head["seed"]), head["deadline"] is True
+        seed = int(head["seed"])
+        self.deadline = head["deadline"] is True
         self.reference, self.seed = reference, seed
         self._written = self._head()
 

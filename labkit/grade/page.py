@@ -88,9 +88,12 @@ def _mistakes(course: Course) -> str:
     found = course.mistakes()
     if not found:
         return ""
-    most, rows, words = len(found[0][1]), [], []
+    most = len(found[0][1])
+    rows = []
+    words = []
     for mark, who in found:
-        students, parts = count(len(who), "student"), [("line", len(who))]
+        students = count(len(who), "student")
+        parts = [("line", len(who))]
         rows.append(Row(f"{mark.id}  {mark.mistake}", students, parts, most))
         head = f"{escape(mark.id)} <b>{escape(mark.mistake)}</b>, {students}"
         says = f'<p class="says">{escape(mark.message)}</p>'
@@ -127,7 +130,8 @@ def _standings(course: Course) -> str:
     marks = legend((role, word) for role, _, word in STATUS.values())
 
     def row(column: Sequence[Mark]) -> Row:
-        id, number = column[0].id, Counter(mark.shown for mark in column)
+        id = column[0].id
+        number = Counter(mark.shown for mark in column)
         words = f"{number['passed']} pass"
         words += f", {stops[id]} stopped here" if stops[id] else ""
         parts = [(role, number[status]) for status, (role, *_) in STATUS.items()]
@@ -160,7 +164,8 @@ def _people(course: Course, state: str) -> str:
 
 def _person(graded: Graded) -> str:
     mistake = graded.result.first_mistake
-    badge, says = "", graded.error
+    badge = ""
+    says = graded.error
     if mistake:
         role = "limit" if mistake.status == "close" else "fail"
         name = escape(f"{mistake.id} {mistake.mistake}")
@@ -284,9 +289,11 @@ def render_days(courses: Sequence[Course]) -> str:
 
 
 def _days(courses: Sequence[Course]) -> str:
-    bars, mistakes = [], ""
+    bars = []
+    mistakes = ""
     for course in courses:
-        counts, size = course.counts, len(course.class_)
+        counts = course.counts
+        size = len(course.class_)
         parts = [(role, counts[where]) for where, role in ROLES.items()]
         words = f"{counts['done']:,} of {size:,} done"
         bars.append(Row(f"{course.day.number}  {course.day.title}", words, parts, size))
@@ -313,7 +320,8 @@ def _link(course: Course, what: str = "") -> str:
 
 
 def _cell(one: Graded) -> str:
-    passed, all_ = one.result.score[0], len(one.result.tasks)
+    passed = one.result.score[0]
+    all_ = len(one.result.tasks)
     words = f"{passed} of {all_}" if percent(one) else "?"
     role = ROLES[one.state] if one.state != "under way" else ""
     return f'<td class="n {role}" title="{escape(one.state)}">{words}</td>'

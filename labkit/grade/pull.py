@@ -133,7 +133,8 @@ def _take(clone: Path, commit: str, *how: str) -> str:
 
 def _mark(clone: Path) -> str | None:
     """Return what tells our clone from any other: a hash of its configuration."""
-    folder, config = clone / ".git", clone / ".git" / "config"
+    folder = clone / ".git"
+    config = clone / ".git" / "config"
     try:
         if any(path.is_symlink() for path in (folder, config)) or not config.is_file():
             return None

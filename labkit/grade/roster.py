@@ -109,16 +109,19 @@ def _student(cells: Mapping[str, str], root: Path) -> Student:
         next((cells[name] for name in names if cells.get(name)), "")
         for names in (_URL, _ID)
     )
-    path, problem = root / folder, ""
+    path = root / folder
+    problem = ""
     try:
         if folder[:1] in ("", ".") or "\0" in folder or Path(folder).name != folder:
-            path, problem = root, f"{folder!r} is no name of a folder"
+            path = root
+            problem = f"{folder!r} is no name of a folder"
         elif path.is_symlink():
             problem = "the folder is a link, which is not followed"
         elif url.startswith("-") or "\0" in url:
             problem = f"{url!r} is no git URL"
     except OSError as error:  # too long for a name
-        path, problem = root, f"no name of a folder here: {error}"
+        path = root
+        problem = f"no name of a folder here: {error}"
     name = cells.get("name") or cells.get("student", "")
     name = name or os.fsencode(folder).decode("utf-8", "backslashreplace")
     shows = (visible(problem), visible(id, 120), cells)

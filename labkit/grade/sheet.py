@@ -75,7 +75,8 @@ def nameless(class_: Sequence[Graded], seed: int) -> list[Graded]:
 
 
 def _row(graded: Graded) -> dict[str, Cell]:
-    result, mistake = graded.result, graded.result.first_mistake or Mark("", "")
+    result = graded.result
+    mistake = graded.result.first_mistake or Mark("", "")
     minutes, days = graded.late_by
     return {
         **_who(graded.student),

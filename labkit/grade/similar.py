@@ -84,7 +84,8 @@ def like_the_kit(runs: Mapping[str, Sequence[Runs]], kit: Runs) -> list[Group]:
         runs: of each of a submission's files.
         kit: of the solution.
     """
-    solution, groups = set(kit), []
+    solution = set(kit)
+    groups = []
     for key, files in runs.items():
         shares = [
             len(solution.intersection(own)) / len(own)

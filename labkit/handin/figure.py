@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 from labkit.handin.handin import Handin, Item
 from labkit.lesson.day import Day, days_of
 
-SMALLEST, LARGEST = (320, 240), 20_000_000  # pixels: width and height; in all
-DARK, FLAT = 16, 3.0  # of 255: brightest entry of a black picture; spread of a flat one
+SMALLEST = (320, 240)  # pixels: width and height
+LARGEST = 20_000_000  # pixels in all
+DARK = 16  # of 255: the brightest entry of a black picture
+FLAT = 3.0  # of 255: the spread of a flat picture
 SAME = 0.5  # of 255: mean difference to a picture that was only saved again
 PORTRAIT = "robo47 portrait"  # a text in the file of a picture of the arm alone
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -106,7 +108,8 @@ def _inflates(data: bytes, width: int, height: int) -> bool:
     Counted piece by piece: a megabyte may claim to be a gigabyte.
     """
     most = 8 * (width + 8) * (height + 8) + 16 * height  # 64 bits a pixel, interlaced
-    unpack, at = zlib.decompressobj(), 8
+    unpack = zlib.decompressobj()
+    at = 8
     try:
         while at + 8 <= len(data):
             size, kind = struct.unpack(">I4s", data[at : at + 8])

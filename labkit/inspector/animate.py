@@ -47,8 +47,11 @@ class Animation:
         (self.stop if self.running else self.start)()
 
     async def _run(self) -> None:
-        start, calls, stopped = time.perf_counter(), 0, None
-        began, period = start, 1.0 / self.hz
+        start = time.perf_counter()
+        calls = 0
+        stopped = None
+        began = start
+        period = 1.0 / self.hz
         try:
             while True:
                 if self.work is not None:
@@ -91,7 +94,8 @@ class Jobs:
 
     async def _run(self) -> None:
         while self.next is not None:
-            (work, done), self.next = self.next, None
+            work, done = self.next
+            self.next = None
             try:
                 done(await asyncio.to_thread(work))
             except Exception as error:

@@ -30,8 +30,10 @@ from labkit.inspector.student import Student
 from labkit.inspector.tab import DayTabs, Tab
 from robo47.checks import Array, array
 
-PERIOD, LOOKS = 1 / 60, 0.05  # seconds; between looks at the student's file
-DRAG, STEPS = 0.7, 100  # seconds between moves that are one; how many can be undone
+PERIOD = 1 / 60  # seconds between frames
+LOOKS = 0.05  # seconds between looks at the student's file
+DRAG = 0.7  # seconds between moves that count as one
+STEPS = 100  # how many moves can be undone
 LAST = 1e15  # below whatever a tab adds
 COLOURS = {
     "MuJoCo": (122, 125, 135), "YOURS agrees": (87, 158, 133),
@@ -57,13 +59,19 @@ class Inspector:
         What `about` says of the robot stands below all, what the day brings in between;
         simple are the meshes of a tab's own robots, too.
         """
-        self.server, self.arm, self.day, self.simple = server, arm, day, simple
-        self.standing, self.heard_words = Standing(""), 0
-        self.q, self.moved = arm.q.copy(), 0.0  # what is wanted; when that was said
+        self.server = server
+        self.arm = arm
+        self.day = day
+        self.simple = simple
+        self.standing = Standing("")
+        self.heard_words = 0
+        self.q = arm.q.copy()  # what is wanted
+        self.moved = 0.0  # when that was said
         self.past: list[Array] = []
         self.scheduled = False
         self.student = student
-        self.version, self.unchecked = 0, False  # of the file that is asked
+        self.version = 0  # of the file that is asked
+        self.unchecked = False
         self.seen = Seen("", "")  # nothing yet
         self.asks, self.checks = Jobs(), Jobs()
         self.lay_out(server.gui, about)
@@ -101,7 +109,8 @@ class Inspector:
         Raises:
             ValueError: wrong shape, or a number that is not finite.
         """
-        before, self.q = self.q, array(q, "q", (self.arm.model.nq,)).copy()
+        before = self.q
+        self.q = array(q, "q", (self.arm.model.nq,)).copy()
         now = time.monotonic()
         if now - self.moved > DRAG:
             self.past = [*self.past[-STEPS:], before]
@@ -111,7 +120,8 @@ class Inspector:
     def undo(self) -> None:
         """Take the last move back."""
         if self.past:
-            self.q, self.moved = self.past.pop(), 0.0
+            self.q = self.past.pop()
+            self.moved = 0.0
         self.schedule()
 
     def schedule(self) -> None:
@@ -214,7 +224,8 @@ class Inspector:
             return
         with self.server.atomic():
             self.leave()
-            self.frame.visible, self.solid.visible = not kind.wide, True
+            self.frame.visible = not kind.wide
+            self.solid.visible = True
             self.row.content = words.tab_row(self.kinds, title)
             self.scene.hide(False)
             self.scene.light(self.frame.value, None)
@@ -261,7 +272,8 @@ class Inspector:
         while True:
             await asyncio.to_thread(self.student.look)
             if self.version != self.student.version:
-                self.version, self.unchecked = self.student.version, True
+                self.version = self.student.version
+                self.unchecked = True
                 self.ask()  # the checks, which are slower, come after that
             await asyncio.sleep(LOOKS)
 

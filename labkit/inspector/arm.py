@@ -46,7 +46,8 @@ class Arm:
         self.names = _short_names(model, self.chain)
         self.joints = [model.joint(j).name for j in range(model.njnt)]
         home = (model.key_qpos if model.nkey else [model.qpos0])[0].copy()
-        self.named_q, count = {"home": home}, len(panda.READY_Q)
+        self.named_q = {"home": home}
+        count = len(panda.READY_Q)
         if self.joints[:count] == list(panda.ARM_JOINTS):
             self.named_q["ready"] = np.concatenate([panda.READY_Q, home[count:]])
         self.named_q["zero"] = np.zeros(model.nq)
@@ -97,19 +98,25 @@ class Arm:
         As the lab has it: one factor per link (what the file says of it) and one per
         joint (what q adds).
         """
-        steps, before, previous = [], np.eye(4), "world"
+        steps = []
+        before = np.eye(4)
+        previous = "world"
         for link in self.chain.links:
-            name, T = link.name.partition(":")[2], link.T_parent_link
+            name = link.name.partition(":")[2]
+            T = link.T_parent_link
             if link is self.chain.links[-1]:  # the last body leads on to the frame
-                name, T = END, T @ self.chain.T_link_frame
+                name = END
+                T = T @ self.chain.T_link_frame
             factors = [("", f"T_{previous}_{name}", 0.0, T, T)]
             for joint in link.joints:
                 one = Link(link.name, np.eye(4), (joint,))
                 alone = Chain(self.chain.frame, (one,), nq=self.chain.nq)
-                says, at = f"T(q of {joint.name})", float(self.q[joint.qpos_adr])
+                says = f"T(q of {joint.name})"
+                at = float(self.q[joint.qpos_adr])
                 q = self.q.copy()
                 q[joint.qpos_adr] += 0.3
-                T, elsewhere = fk(alone, self.q), fk(alone, q)
+                T = fk(alone, self.q)
+                elsewhere = fk(alone, q)
                 factors.append((joint.name, says, at, T, elsewhere))
             for joint_name, says, at, T, elsewhere in factors:
                 after = before @ T

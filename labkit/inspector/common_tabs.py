@@ -139,7 +139,8 @@ class Chain(Tab):
     def on_move(self, q: Array) -> None:
         """Show the factor in the arm's present configuration."""
         steps = self.page.arm.steps()
-        this, done = steps[self.at], steps[: self.at + 1]
+        this = steps[self.at]
+        done = steps[: self.at + 1]
         whole = len(done) == len(steps) or steps[self.at + 1].link != this.link
         says = says_of(this, self.at + 1, len(steps), whole)
         if whole:  # every factor of this link is in: MuJoCo has that pose, too

@@ -169,7 +169,8 @@ class Labels:
             first[key] = f"{first[key]} {text}" if key in first else text
         for i, handle in enumerate(self.handles):
             handle.visible = i in first
-            handle.text, handle.position = first.get(i, ""), at[i]
+            handle.text = first.get(i, "")
+            handle.position = at[i]
 
 
 @dataclass
@@ -228,7 +229,8 @@ class Triad:
         The label is a text or "", with its anchor at the frame; letters name the axes
         even while it does not stand out.
         """
-        scene, self.always = server.scene, letters
+        scene = server.scene
+        self.always = letters
         self.frame = scene.add_frame(path, show_axes=False)
         colours = np.array([COLOURS[axis] for axis in "xyz"], dtype=np.uint8)
         self.arrows = scene.add_arrows(f"{path}/axes", PLAIN * AXES, colours)

@@ -65,7 +65,8 @@ def compare(
         problem: why there are none, or fewer than asked for; else "".
         truth: MuJoCo's poses, {short name: (4, 4)}.
     """
-    whose, last = f"YOUR {ghost.function}", ghost.frames[-1]
+    whose = f"YOUR {ghost.function}"
+    last = ghost.frames[-1]
     apart = {name: float(np.abs(T - truth[name]).max()) for name, T in poses.items()}
     wrong = [name for name, difference in apart.items() if not difference < AGREES]
     if wrong:
@@ -102,7 +103,8 @@ def nearest_pose(T: Array) -> Array:
     U, _, Vt = np.linalg.svd(T[:3, :3])
     U[:, 2] *= np.sign(np.linalg.det(U @ Vt)) or 1.0
     nearest = np.eye(4)
-    nearest[:3, :3], nearest[:3, 3] = U @ Vt, T[:3, 3]
+    nearest[:3, :3] = U @ Vt
+    nearest[:3, 3] = T[:3, 3]
     return nearest
 
 

@@ -159,7 +159,8 @@ def _protected(response: Response, first: str | None) -> Response:
 @contextlib.contextmanager
 def _watched_doors(server: LocalServer) -> Iterator[list[bool]]:
     """Have any web server that is started meanwhile ask this one first."""
-    serve, watched = websockets.asyncio.server.serve, []
+    serve = websockets.asyncio.server.serve
+    watched = []
 
     @wraps(serve)
     def guarded(*args: Any, process_request: Answers, **options: Any) -> Any:

@@ -80,7 +80,8 @@ class Plot:
         least: float,
     ) -> None:
         """Start empty; see `Page.plot`."""
-        self.count, self.least = len(curves), least
+        self.count = len(curves)
+        self.least = least
         self.points: list[list[float]] = []
         series = [uplot.Series(label=x)] + [
             uplot.Series(label=name, stroke=STROKES[i % len(STROKES)], width=2)

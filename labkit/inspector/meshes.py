@@ -27,7 +27,8 @@ NUMBERS = count()
 
 def place(node: viser.SceneNodeHandle, T: Array) -> None:
     """Put a node of the scene at a pose, (4, 4)."""
-    node.wxyz, node.position = se3.R_to_quat(T[:3, :3]), T[:3, 3]
+    node.wxyz = se3.R_to_quat(T[:3, :3])
+    node.position = T[:3, 3]
 
 
 @dataclass
@@ -44,7 +45,9 @@ class Skin:
 
     def put_on(self, made: Sequence[Shape]) -> None:
         """Replace its meshes."""
-        scene, old, self.meshes = self.server.scene, self.meshes, []
+        scene = self.server.scene
+        old = self.meshes
+        self.meshes = []
         for shape in made:
             path = f"{self.path}/{shape.body}"
             if shape.body not in self.bodies:
@@ -83,7 +86,8 @@ class Skin:
     def look(self, opacity: float | None, shade: Rgb = AS_IS) -> None:
         """Make it see-through, or solid, and darker: the shade multiplies (r, g, b)."""
         for mesh, shape in self.meshes:
-            mesh.color, mesh.opacity = _rgb(shape, shade), opacity
+            mesh.color = _rgb(shape, shade)
+            mesh.opacity = opacity
 
 
 class Robot:
@@ -97,7 +101,9 @@ class Robot:
 
         `dressed` loads the same with its looks; a function of a module, asked once.
         """
-        self.page, self.model, self.data = page, model, mujoco.MjData(model)
+        self.page = page
+        self.model = model
+        self.data = mujoco.MjData(model)
         self.skin = Skin(page.host.server, page.draw.path())
         self.skin.put_on(shapes(model))
         page.hide_arm()

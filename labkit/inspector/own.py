@@ -59,7 +59,9 @@ class Own:
         student = self._student
         version = student.version if student.there else -1
         if version != self.version:
-            self.version, self._apart, self._lent = version, {}, {}
+            self.version = version
+            self._apart = {}
+            self._lent = {}
         if version < 0:
             looked = student.version
             why = "there is no file yet" if looked else "yours is being opened"
@@ -81,7 +83,8 @@ class Own:
             return right
         if problem := describe(self._student.day, name, reply):
             raise NoAnswerError(f"YOUR {problem}")
-        ours, theirs = _parts(right), _parts(reply.value)
+        ours = _parts(right)
+        theirs = _parts(reply.value)
         if [np.shape(x) for x in ours] != [np.shape(x) for x in theirs]:
             got = " and ".join(f"shape {np.shape(x)}" for x in theirs) or "nothing"
             raise NoAnswerError(f"YOUR {name} returned {got}")
@@ -127,7 +130,8 @@ def week(library: Mapping[str, Callable[..., Any]]) -> Iterator[SimpleNamespace]
     asks: here each day's file is in a sandbox of its own.
     """
     fns = SimpleNamespace(**library)
-    fns.yours, fns.total = 0, len(library)
+    fns.yours = 0
+    fns.total = len(library)
     with Sandbox() as sandbox:
         for day in all_days():
             if not (own := set(library).intersection(passing(day, statuses(day)))):

@@ -31,8 +31,11 @@ class Page:
     """One opened tab's view of the page."""
 
     def __init__(self, host: "Inspector", sketch: Sketch) -> None:
-        self.host, self.gui, self.draw = host, host.server.gui, sketch
-        self.scene, self.arm = host.server.scene, host.arm
+        self.host = host
+        self.gui = host.server.gui
+        self.draw = sketch
+        self.scene = host.server.scene
+        self.arm = host.arm
         self.model: mujoco.MjModel = host.arm.model
         # At the end whatever comes later. One that came with the first word would have
         # viser draw all others anew: a slider in hand would be lost to the mouse.

@@ -38,7 +38,8 @@ class Recording:
 
         The camera stands back by 1, which suits an arm at ready, or more.
         """
-        self.model, self.data = model, mujoco.MjData(model)
+        self.model = model
+        self.data = mujoco.MjData(model)
         self.server = LocalServer(0)
         set_stage(self.server)
         camera = self.server.initial_camera

@@ -42,7 +42,9 @@ class ArmScene:
 
     def __init__(self, server: viser.ViserServer, arm: Arm) -> None:
         """Draw everything but the meshes; `update` only moves it."""
-        self.arm, self.server, self.hidden = arm, server, False
+        self.arm = arm
+        self.server = server
+        self.hidden = False
         self.view: View = PHONE
         set_stage(server)
 
@@ -60,7 +62,8 @@ class ArmScene:
         self.ghost = Skin(server, "/yours", GHOST_COLOUR, 0.6)
         self.yours = Triad(server, "/yours_end", "yours", letters=True)
         self.yours.show(visible=False, chosen=True)
-        draw, nowhere = Sketch(server, root="/lines"), np.zeros((1, 2, 3))
+        draw = Sketch(server, root="/lines")
+        nowhere = np.zeros((1, 2, 3))
         self.way = draw.lines(nowhere, HIGHLIGHT)
         self.gap = draw.lines(nowhere, GHOST_COLOUR)
         self.way.visible = self.gap.visible = False
@@ -138,7 +141,8 @@ class Pointed:
     """The link that was clicked: its name, and the axis that its joint turns about."""
 
     def __init__(self, server: viser.ViserServer, arm: Arm) -> None:
-        self.arm, self.body = arm, 0
+        self.arm = arm
+        self.body = 0
         self.watch(arm.model)
         draw = Sketch(server, root="/pointed")
         self.line = draw.lines(np.zeros((1, 2, 3)), "purple", 3.0)
@@ -154,12 +158,14 @@ class Pointed:
 
     def watch(self, model: mujoco.MjModel) -> None:
         """Look for links from now on, in the arm's model with its shapes."""
-        self.model, self.data = model, mujoco.MjData(model)
+        self.model = model
+        self.data = mujoco.MjData(model)
 
     def show(self) -> None:
         """Name what was clicked, where it is now; or nothing."""
         joint = int(self.model.body_jntadr[self.body])
-        self.label.visible, self.line.visible = bool(self.body), joint >= 0
+        self.label.visible = bool(self.body)
+        self.line.visible = joint >= 0
         if not self.body:
             return
         self._pose()
@@ -184,7 +190,8 @@ class Pointed:
         simple = np.isin(self.model.geom_group, COLLISION_GROUPS).any()
         groups = COLLISION_GROUPS if simple else VISIBLE_GROUPS
         wanted = np.array([g in groups for g in range(6)], dtype=np.uint8)
-        geom, ray = np.array([-1], dtype=np.int32), ray / np.linalg.norm(ray)
+        geom = np.array([-1], dtype=np.int32)
+        ray = ray / np.linalg.norm(ray)
         mujoco.mj_ray(self.model, self.data, start, ray, wanted, True, -1, geom)
         return int(self.model.geom_bodyid[geom[0]]) if geom[0] >= 0 else 0
 

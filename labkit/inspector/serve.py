@@ -104,7 +104,8 @@ def check(day: Day) -> Standing:
 
 def remember(day: Day, address: str) -> None:
     """Keep where a day's page is, for the next start."""
-    memory, key = store.read(MEMORY), str(day.number)
+    memory = store.read(MEMORY)
+    key = str(day.number)
     if memory.get(key) != address:
         store.write(MEMORY, {**memory, key: address})
 

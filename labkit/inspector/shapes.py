@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from robo47 import se3
 from robo47.checks import Array
 
-VISIBLE_GROUPS, COLLISION_GROUPS = (0, 1, 2), (3,)
+VISIBLE_GROUPS = (0, 1, 2)
+COLLISION_GROUPS = (3,)
 WHITE = (0.92, 0.92, 0.92, 1.0)  # collision shapes have no colour
 Rgba = tuple[float, ...]  # four
 

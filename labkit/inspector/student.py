@@ -16,7 +16,7 @@ import numpy as np
 from labkit.base.exchange import LoadError, Question, Reply
 from labkit.inspector.arm import Arm
 from labkit.inspector.ghost import Ghost, Seen, compare, no_pose, nothing
-from labkit.judge.problems import no_answer, not_loaded, stops_with
+from labkit.judge.replies_read import no_answer, not_loaded, stops_with
 from labkit.lesson.day import Day
 from labkit.sandbox.messages import library_of
 from labkit.sandbox.sandbox import Sandbox, Session
@@ -66,7 +66,8 @@ class Student:
 
     def _open(self) -> str:
         """Open the file with the model of the questions; return why it does not."""
-        robots, library = [self.arm.model], library_of(self.day)
+        robots = [self.arm.model]
+        library = library_of(self.day)
         try:
             self._asker = self.sandbox.session(
                 self.script, robots, library, limits=self.day.limits
@@ -112,7 +113,8 @@ class Student:
         try:
             poses, why = self._poses(ghost.frames, ghost.questions(self.arm.model, q))
             if not poses and ghost.whole is not None:
-                end, alone = ghost.frames[-1:], ghost.whole(self.arm.model, q)
+                end = ghost.frames[-1:]
+                alone = ghost.whole(self.arm.model, q)
                 several = f"Only {end[0]} is drawn: {why}"
                 poses, why = self._poses(end, [alone])
                 why = why or several
@@ -125,7 +127,9 @@ class Student:
     ) -> tuple[dict[str, Array], str]:
         """Return the poses that the ghost's function gives, and "" or why not all."""
         assert self.ghost is not None
-        name, poses, problem = self.ghost.function, {}, ""
+        name = self.ghost.function
+        poses = {}
+        problem = ""
         replies = self.ask([Question("ghost", name, tuple(args)) for args in some])
         for frame, reply in zip(frames, replies, strict=True):
             said = describe(self.day, name, reply) or no_pose(name, reply.value)

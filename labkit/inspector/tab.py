@@ -69,7 +69,8 @@ def day_tabs(day: Day) -> DayTabs:
     except ModuleNotFoundError as error:
         why = f"ModuleNotFoundError: {error}"
         raise Robo47Error(f"{where} does not load: {why}") from error
-    ghost, tabs = getattr(module, "GHOST", None), getattr(module, "TABS", [])
+    ghost = getattr(module, "GHOST", None)
+    tabs = getattr(module, "TABS", [])
     if not isinstance(tabs, list | tuple):
         raise Robo47Error(f"{where}: TABS is no list; write TABS = [YourTab]")
     if ghost is not None and not isinstance(ghost, Ghost):

@@ -255,7 +255,8 @@ def say_factor(factor: float) -> str:
 
 def say_range(values: Array, say: Callable[[Array], str]) -> str:
     """Return the least and the largest of values in words, once if they are alike."""
-    least, most = say(values.min()), say(values)
+    least = say(values.min())
+    most = say(values)
     return most if least == most else f"{least} to {most}"
 
 

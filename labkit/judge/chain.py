@@ -109,7 +109,8 @@ def first_wrong(
 
 def _in_place_of(S: Array, factors: Sequence[Factor]) -> Iterable[tuple[Factor, Array]]:
     """Yield per factor what the student has in its place, (n, 4, 4)."""
-    Ts, none = [factor.T for factor in factors], np.broadcast_to(np.eye(4), S.shape)
+    Ts = [factor.T for factor in factors]
+    none = np.broadcast_to(np.eye(4), S.shape)
     before = accumulate(Ts, initial=none, func=np.matmul)
     after = accumulate(Ts[:0:-1], initial=none, func=lambda rest, T: T @ rest)
     for factor, A, B in zip(factors, before, [*after][::-1], strict=False):

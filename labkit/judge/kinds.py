@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from labkit.judge.answer_mistakes import OF_A_ROTATION, general, of_a_pose
 from labkit.judge.answers import (
     MATCHES,
     RIGID,
@@ -25,7 +26,6 @@ from labkit.judge.answers import (
     say_mm,
     say_range,
 )
-from labkit.judge.finished import OF_A_ROTATION, general, of_a_pose
 from labkit.judge.matrices import split
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
@@ -47,7 +47,7 @@ class Kind:
     # What it is in a sentence, "the torque"; used where a tuple has several.
     called: str = ""
     empty = True  # whether an answer that is all 0 looks like one that was never filled
-    # Mistakes made with a finished answer, by their names in `finished`.
+    # Mistakes made with a finished answer, by their names in `answer_mistakes`.
     usual: ClassVar[tuple[str, ...]] = ("all-signs", "whole-numbers")
     # What wrong shapes come from; where none is known, an axis too many is told.
     misfits: ClassVar[Mapping[tuple[int, ...], str]] = {}

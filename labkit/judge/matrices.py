@@ -12,7 +12,9 @@ from robo47.checks import Array
 def pose(R: Array, t: Array) -> Array:
     """Return [[R, t], [0, 1]], (..., 4, 4), of any R, (..., 3, 3), and t, (..., 3)."""
     T = np.zeros((*np.broadcast_shapes(R.shape[:-2], t.shape[:-1]), 4, 4))
-    T[..., :3, :3], T[..., :3, 3], T[..., 3, 3] = R, t, 1.0
+    T[..., :3, :3] = R
+    T[..., :3, 3] = t
+    T[..., 3, 3] = 1.0
     return T
 
 

@@ -67,7 +67,8 @@ def in_common(S: Array, T: Array) -> str:
     S, T = (some.reshape(len(some), -1) for some in (S, T))
     if np.abs(np.abs(S) - np.abs(T)).max() < tiny:
         return " Every number is right but for its sign."
-    off, size = difference(S, T), np.abs(T).max(axis=1)
+    off = difference(S, T)
+    size = np.abs(T).max(axis=1)
     if (off <= ABOUT * size).all():
         return (
             " Everywhere that is less than one part in 100: is a constant rounded, or "

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from labkit.base.text import count
+from labkit.judge.answer_mistakes import general
 from labkit.judge.answers import capitalised, difference, millimetres, say_mm
-from labkit.judge.finished import general
 from labkit.judge.kinds import NEAR, Kind, Scalar, one_factor
 from labkit.judge.matrix_kinds import Matrix
 from labkit.judge.mistake import Finding, Mistake

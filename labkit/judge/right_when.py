@@ -13,7 +13,7 @@ import numpy as np
 from labkit.base.exchange import Question, Reply
 from labkit.judge.answers import InTurn, own, rigid, say_factor
 from labkit.judge.ask import Asked, as_plain
-from labkit.judge.problems import flat
+from labkit.judge.replies_read import flat
 from robo47.checks import Array
 
 QUESTIONS = 4  # per experiment; three of them at least must agree
@@ -40,7 +40,8 @@ def right_when(
         names: of its arguments.
         reply_to: asks it further questions.
     """
-    ask, mains = asked.ask, [asked.main[i].question for i in wrong][-QUESTIONS:]
+    ask = asked.ask
+    mains = [asked.main[i].question for i in wrong][-QUESTIONS:]
     calls = [question.args for question in mains]
     if any(len(names) != len(call) for call in calls):
         return ""
@@ -89,7 +90,8 @@ class Experiments:
             if not all(_may_be_doubled(call[k]) for call in self.calls):
                 continue
             some = _with(self.calls, k, [2.0 * call[k] for call in self.calls])
-            given, right = self.mine(some), list(self.truth(some))
+            given = self.mine(some)
+            right = list(self.truth(some))
             if any(answer is None for answer in right):
                 continue
             grew, its = self._growth(before, given), self._growth(base, right)
@@ -183,7 +185,8 @@ def neutrals(x: Any) -> Iterator[tuple[str, Any]]:
 def _of_a_matrix(x: Array) -> Iterator[tuple[str, Array]]:
     if x.shape == (4, 4) and rigid(x[None]):
         turned, moved = x.copy(), x.copy()
-        turned[:3, 3], moved[:3, :3] = 0.0, np.eye(3)
+        turned[:3, 3] = 0.0
+        moved[:3, :3] = np.eye(3)
         yield "{} does not translate", turned
         yield "{} does not rotate", moved
     elif x.shape == (3, 3) and rigid(x[None]):

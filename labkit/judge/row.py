@@ -34,7 +34,7 @@ from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, Inputs
 from labkit.judge.mistake import REDONE, Mistake, told
 from labkit.lesson.day import Day
-from labkit.lesson.script import lab_of
+from labkit.lesson.lab_module import lab_of
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -87,7 +87,8 @@ class Row:
         if unknown := set(more) - {one.name for one in fields(Ask)}:
             raise TypeError(f"a Row has no {min(unknown)}")
         self.more = {"kind": kind, "near": near, **more}
-        self.alike, self._truth = list(alike), truth
+        self.alike = list(alike)
+        self._truth = truth
         self._entries: list[Callable[[], Iterable[Way]]] = []
 
     # What a day's file says.
@@ -350,7 +351,8 @@ class _Answered(InTurn):
     row: Row
 
     def each(self, columns: Sequence[Any]) -> list[Any]:
-        row, kinds = self.row, self.row.ask.kinds
+        row = self.row
+        kinds = self.row.ask.kinds
         try:
             answers = self.asked.each(columns)
         except ValueError as error:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from labkit.base import git
 from labkit.lesson.day import Day
-from labkit.lesson.script import function_lines, make_starter, put_back
+from labkit.lesson.starter import function_lines, make_starter, put_back
 from robo47.errors import Robo47Error
 
 Lines = Sequence[str]
@@ -84,7 +84,8 @@ def renewed(day: Day, text: str, before: Iterable[str], now: str) -> str:
         now: the kit's complete lab of the newer version.
     """
     starters = [_called_as_now(day, one) for one in _starters(day, before)]
-    text, starter = _called_as_now(day, text), make_starter(now, day.script, day.number)
+    text = _called_as_now(day, text)
+    starter = make_starter(now, day.script, day.number)
     if not starters:
         return text
     base = min(starters, key=lambda one: _apart(one, text))

@@ -109,7 +109,8 @@ def came_back(path: Path) -> set[str]:
         Those lines. None outside git, or where git is not installed.
     """
     how = ("--no-merges", "--format=", "--patch", "--unified=0", "--no-color")
-    asked, where = ("log", *how, "--", path.name), path.resolve().parent
+    asked = ("log", *how, "--", path.name)
+    where = path.resolve().parent
     try:
         history = git.run(*asked, folder=where, seconds=git.SECONDS).stdout
         now = set(path.read_bytes().decode("utf-8", "replace").split("\n"))
@@ -124,7 +125,8 @@ def came_back(path: Path) -> set[str]:
 
 def _line(number: int, raw: bytes, cut: set[str]) -> Line:
     problem = "" if raw.endswith(b"\n") else "it has no line end, so it may be cut"
-    row, bare = None, raw.rstrip(b"\r\n")
+    row = None
+    bare = raw.rstrip(b"\r\n")
     text = bare.decode("utf-8", "replace").replace("\r", " ")
     try:
         row = decode(_cells(bare))

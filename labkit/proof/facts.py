@@ -14,8 +14,7 @@ from labkit.grade.roster import Student
 from labkit.handin.deliverables import check_commit, wanted_names
 from labkit.handin.rows import rows_of
 from labkit.lesson.day import Day
-from labkit.lesson.marks import marks_of
-from labkit.lesson.script import writers_of
+from labkit.lesson.writers import marks_of, writers_of
 from labkit.report.series import series_of
 from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox
@@ -62,7 +61,8 @@ def facts_of(
     if script is None:
         return RunDay(day, {task.id: "not begun" for task in day.tasks}, numbers)
     states = {task.id: "the kit's own file" for task in day.tasks}
-    fault, again = "", dict[tuple[str, str], float]()
+    fault = ""
+    again = dict[tuple[str, str], float]()
     if writers.kits.isdisjoint(marks_of(script)):
         results = check_tasks(day, folder / day.script, sandbox)
         states = {result.task.id: in_words(result.verdict) for result in results}

@@ -8,7 +8,7 @@ import numpy as np
 
 from labkit.base.text import visible
 from labkit.check.lab_run import Budget, EnoughAsked, FirstFailure, behind_wall
-from labkit.lesson.script import lab_of
+from labkit.lesson.lab_module import lab_of
 from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import capstone, scenes
@@ -29,14 +29,20 @@ class Picked(NamedTuple):
     total: int  # of how many
 
 
+NO_PICK = Picked(None, "", 0, 0)  # of a week without a capstone
+
+
 def pick(days: Sequence[DayFacts], folders: Sequence[Path], sandbox: Sandbox) -> Picked:
     """Pick the cube up with the functions that pass, the library's for the rest."""
-    fns, budget, yours = capstone.library(), Budget(CALLS, SECONDS), 0
+    fns = capstone.library()
+    budget = Budget(CALLS, SECONDS)
+    yours = 0
     names = {name for some in capstone.USES.values() for name in some}
     for facts, place in zip(days, folders, strict=True):
         wanted = set(capstone.USES.get(facts.day.number, ())) & set(facts.own)
         if wanted:
-            script, lab = place / facts.day.script, lab_of(facts.day)
+            script = place / facts.day.script
+            lab = lab_of(facts.day)
             own = behind_wall(facts.day, script, sandbox, lab, budget)
             for name in wanted:
                 setattr(fns, name, own[name])

@@ -11,7 +11,10 @@ from labkit.log.rows import Row
 from labkit.report.series import Series, failures_of, float_of, value_of
 
 WIDTH, HEIGHT = 360, 170
-LEFT, RIGHT, TOP, BOTTOM = 46, 348, 14, 126
+LEFT = 46
+RIGHT = 348
+TOP = 14
+BOTTOM = 126
 MOST = 240  # points: more cannot be told apart, and would only make the page heavy
 LABEL_GAP = 58  # between two commits under the axis
 HALF_LABEL = 26  # of a commit's seven figures
@@ -88,7 +91,8 @@ class _Axis:
             self.has_zero = 0 in series.values
             low -= self.has_zero or low == high
         elif low == high:
-            low, high = low - (abs(low) or 1) / 2, high + (abs(high) or 1) / 2
+            low = low - (abs(low) or 1) / 2
+            high = high + (abs(high) or 1) / 2
         self.low, self.high = low, high
 
     def y(self, value: float) -> float:
@@ -158,7 +162,8 @@ def _dot(series: Series, axis: _Axis, x: float, row: Row, radius: int) -> str:
 def _under_axis(places: list[tuple[float, Row]]) -> list[str]:
     """Label the runs with commits, where they change and fit, and with dates."""
     parts = []
-    last_x, before = -math.inf, None
+    last_x = -math.inf
+    before = None
     for x, row in places:
         sha = str(row["git_sha"])[:7]
         if sha != before and x - last_x >= LABEL_GAP:

@@ -7,7 +7,7 @@ from labkit.base import html
 from labkit.base.text import number_of
 from labkit.check.memory import Met
 from labkit.lesson.day import Day
-from labkit.report.page import STATUS
+from labkit.report.page import STATUS, links
 from labkit.report.series import Series
 from labkit.report.week_facts import OwnDay
 
@@ -39,16 +39,17 @@ _GENERAL = {
 _MOODS = {"left behind": ("pass", "✓"), "still there": ("fail", "✗")}
 
 
-def render(facts: Sequence[OwnDay], heading: str) -> str:
+def render(facts: Sequence[OwnDay], heading: str, others: Sequence[int] = ()) -> str:
     """Return the whole page.
 
     Args:
         facts: of the week's days, in order.
         heading: one line of plain text on where this comes from.
+        others: numbers of the weeks whose pages stand beside this one.
     """
     return html.page(
         escape(facts[0].day.week.heading),
-        escape(heading),
+        escape(heading) + links(others),
         _tiles(facts),
         _numbers(facts),
         _days(facts),
@@ -162,7 +163,9 @@ def _counts(one: OwnDay) -> str:
     if not one.checked:
         command = f"<code>make check DAY={one.day.number}</code>"
         return f"<td colspan=2 class=wide>not checked as it is now: run {command}</td>"
-    passed, of, borrowed = sum(one.graded), len(one.graded), ""
+    passed = sum(one.graded)
+    of = len(one.graded)
+    borrowed = ""
     if one.borrowed:
         borrowed = f"<br>borrowed: {', '.join(one.borrowed)}"
     share = f"{100 * passed / max(1, of):.0f}%"

@@ -34,7 +34,8 @@ def fill(facts: Sequence[OwnDay]) -> list[Path]:
     """
     if not any(one.day.work.is_file() for one in facts):
         return []  # nobody's numbers
-    text, changed = as_markdown(facts), []
+    text = as_markdown(facts)
+    changed = []
     for path in sorted((facts[0].day.folder / "docs").glob("RETRO_*.md")):
         try:
             before = path.read_bytes().decode("utf-8", "surrogateescape")
@@ -59,7 +60,8 @@ def as_markdown(facts: Sequence[OwnDay]) -> str:
     ]
     for one in facts:
         for number in one.numbers:
-            name, limit = one.day.name_of(number.wanted), number.wanted.limit
+            name = one.day.name_of(number.wanted)
+            limit = number.wanted.limit
             latest, worst = (
                 "no row yet" if value is None else number_of(value)
                 for value in (number.latest, number.worst)
@@ -69,7 +71,8 @@ def as_markdown(facts: Sequence[OwnDay]) -> str:
     met = [m for one in facts for m in one.met]
     left = sum(m.now == "left behind" for m in met)
     graded = [passed for one in facts for passed in one.graded]
-    own, of = sum(len(one.own) for one in facts), sum(one.functions for one in facts)
+    own = sum(len(one.own) for one in facts)
+    of = sum(one.functions for one in facts)
     says = [
         f"Tasks passed: {sum(graded)} of {len(graded)}."
         f" Functions of my own: {own} of {of}."

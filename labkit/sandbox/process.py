@@ -82,11 +82,13 @@ class Process:
         Raises:
             FaultError: this machine starts no process now.
         """
-        self.extras, self.secret = tuple(extras), b""
+        self.extras = tuple(extras)
+        self.secret = b""
         self.told: dict[str, Any] = {}  # the request of what it has loaded
         self.answers = 0
         self._room = MOST_BYTES
-        self.memory, self.longest = 1.0, LONGEST_LINE  # GB, bytes
+        self.memory = 1.0  # GB
+        self.longest = LONGEST_LINE  # bytes
         self.killed = False  # ended by a signal of somebody's
         self._oom_kills = processes.oom_kills()
         self._most = 0  # bytes of memory it was seen with
@@ -205,7 +207,8 @@ class Process:
 
     def _others(self, most: float) -> float:
         """Return for how much of the last seconds others had the processor."""
-        before, self._waits = self._waits, processes.scheduled(self.process)[1]
+        before = self._waits
+        self._waits = processes.scheduled(self.process)[1]
         waited = min(self._waits - before, most)  # what is long past is over
         self.waited += waited
         return waited

@@ -99,7 +99,8 @@ class Sandbox:
         request = messages.request(
             script, robots, library, added, limits, keep=True, cpu_seconds=CPU + more
         )
-        deadline, killed = time.monotonic() + RUN_SECONDS + more, False
+        deadline = time.monotonic() + RUN_SECONDS + more
+        killed = False
         while left := [exchange for exchange in exchanges if exchange.reply is None]:
             rounds = _Rounds(left, deadline, limits)
             if time.monotonic() > deadline:
@@ -175,7 +176,8 @@ class Sandbox:
 
     def _again(self, request: dict[str, Any]) -> Process | None:
         """Return the process that was kept with its file loaded anew, if it is that."""
-        process, self._kept = self._kept, None
+        process = self._kept
+        self._kept = None
         if process is None:
             return None
         had = process.told
@@ -194,7 +196,8 @@ class Sandbox:
 
     def _take(self, extras: tuple[str, ...]) -> Process:
         """Return the warm process, or a new one where that lacks what is asked for."""
-        process, self._warm = self._warm, None
+        process = self._warm
+        self._warm = None
         if process and extras and process.extras != extras:
             process.close()
             process = None
@@ -260,7 +263,9 @@ class _Rounds:
     """Questions asked in order, then in reverse order of the file loaded anew."""
 
     def __init__(self, left: list[Exchange], deadline: float, limits: Limits) -> None:
-        self.left, self.deadline, self.numbers = left, deadline, limits.numbers
+        self.left = left
+        self.deadline = deadline
+        self.numbers = limits.numbers
         self.first: dict[Exchange, Reply] = {}
         self.second: dict[Exchange, Reply] = {}
         self.ended: tuple[Exchange, Reply] | None = None  # where, and why
@@ -268,7 +273,8 @@ class _Rounds:
         self.spare: defaultdict[str, float] = defaultdict(lambda: TASK_SECONDS)
         for task, seconds in limits.seconds.items():
             if seconds > TASK_SECONDS:
-                self.call[task], self.spare[task] = seconds / 3.0, seconds
+                self.call[task] = seconds / 3.0
+                self.spare[task] = seconds
 
     def ask(self, process: Process) -> None:
         """Ask all of them in both rounds, or until the process ends."""
@@ -288,7 +294,8 @@ class _Rounds:
         came: list[dict[str, Any]] = []
         for exchange in asked:
             task = exchange.question.task
-            started, waited = time.monotonic(), process.waited
+            started = time.monotonic()
+            waited = process.waited
             left = self.deadline + waited - started
             try:
                 came.append(process.next(min(self.call[task], self.spare[task], left)))
@@ -309,7 +316,8 @@ class _Rounds:
         if not self.ended:
             return
         at, why = self.ended
-        culprit, at.reply = at.question.task, why
+        culprit = at.question.task
+        at.reply = why
         waiting = {task for task in needs if culprit in needs[task]}
         for exchange in self.left:
             if exchange.reply is not None:

@@ -17,7 +17,7 @@ import numpy as np
 from labkit.base.exchange import Path
 from labkit.judge.row import Row, Way, row_of
 from labkit.lesson.day import Day, find_day
-from labkit.lesson.script import lab_of
+from labkit.lesson.lab_module import lab_of
 from robo47 import checks
 from robo47.errors import Robo47Error
 from robo47.panda import READY_Q
@@ -36,7 +36,8 @@ class Symbol:
     """
 
     def __init__(self, tape: Tape, *operation: Any) -> None:
-        self.tape, self.line = tape, tape.setdefault(operation, len(tape))
+        self.tape = tape
+        self.line = tape.setdefault(operation, len(tape))
 
     def _with(self, name: str, a: Any, b: Any) -> Any:
         if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
@@ -111,7 +112,9 @@ def chosen() -> list[tuple[Day, Row, Way]]:
     """Return the day, the row and the mistake of each ghost."""
     found = []
     for one in tomllib.loads(LISTED.read_text("utf-8"))["ghosts"]:
-        day, name, slug = find_day(one["day"]), one["function"], one["slug"]
+        day = find_day(one["day"])
+        name = one["function"]
+        slug = one["slug"]
         row = row_of(day, name)
         ways = [way for way in row.named if way.slug == slug]
         if not ways:

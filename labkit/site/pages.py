@@ -47,7 +47,7 @@ CONTENTS = """
 MODULES = (
     ("Poses and chains", ("se3", "kinematics", "screws", "dh", "rotation_log")),
     ("Velocities and forces", ("jacobian", "fast.jacobians", "fast.ik", "dynamics")),
-    ("Control and motion", ("control", "task_space", "trajectory", "contact")),
+    ("Control and motion", ("control", "task_space", "trajectory")),
     ("The robot and its world", ("panda", "scenes", "simulate", "verify", "arm")),
     ("The week's end", ("capstone",)),
 )
@@ -106,7 +106,8 @@ def _with_films(text: str, page: Path, filmed: Collection[str]) -> str:
 
 def _shown(file: Path, name: Path) -> str:
     """Return a page that shows a file of the repository."""
-    fence, language = "`" * 8, LANGUAGE.get(file.suffix, "text")
+    fence = "`" * 8
+    language = LANGUAGE.get(file.suffix, "text")
     body = file.read_text("utf-8")
     head = f"---\norphan: true\n---\n# `{name.as_posix()}`\n"
     return f"{head}{fence}{language}\n{body}{fence}\n"

@@ -23,6 +23,7 @@ from robo47 import (
     control,
     dynamics,
     jacobian,
+    lifting,
     scenes,
     screws,
     se3,
@@ -36,7 +37,10 @@ from robo47.errors import Robo47Error
 
 RATE = 100.0  # Hz, of the controller; 50 is coarse, 500 the most
 SPEED = 0.6  # of the joints' speed and acceleration limits, in joint moves
-CUBE_XY, GOAL_XY, YAW = (0.5, 0.2), (0.5, -0.2), 0.5  # where `make capstone` has them
+# Where `make capstone` has the cube, its goal and its yaw: metres and radians.
+CUBE_XY = (0.5, 0.2)
+GOAL_XY = (0.5, -0.2)
+YAW = 0.5
 
 # What `pick` calls, by the day that teaches it.
 USES = {
@@ -81,14 +85,19 @@ def with_own(own: Mapping[str, Any]) -> SimpleNamespace:
     try:
         fns.heaviest_cube(1.0, 1.0, 0.0)
     except NotImplementedError:
-        fns.heaviest_cube = trajectory.heaviest_cube
+        fns.heaviest_cube = lifting.heaviest_cube
     return fns
 
 
 def _joint_T(q: float) -> Array:
     """Return a turn by q about z, (4, 4), unchecked: it is called 5,000 times."""
-    T, c, s = np.eye(4), np.cos(q), np.sin(q)
-    T[0, 0], T[0, 1], T[1, 0], T[1, 1] = c, -s, s, c
+    T = np.eye(4)
+    c = np.cos(q)
+    s = np.sin(q)
+    T[0, 0] = c
+    T[0, 1] = -s
+    T[1, 0] = s
+    T[1, 1] = c
     return T
 
 

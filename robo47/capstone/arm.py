@@ -62,12 +62,14 @@ class Arm:
         self.damping = model.dof_damping[dofs].copy()
         hand = panda.hand_inertia(model, opening=0.04)
         self.empty = panda.inertias(model).carrying(fns.carry, *hand)
-        self.inertias, self.worst = self.empty, 0.0
+        self.inertias = self.empty
+        self.worst = 0.0
         self.gains = [float(k) for k in fns.gains(OMEGA, 1.0)]
 
     def links(self, q: Array) -> Array:
         """Return T_world_link of the seven links, (7, 4, 4)."""
-        poses, T = [], np.eye(4)
+        poses = []
+        T = np.eye(4)
         for T_parent_link, angle in zip(self.T_parent_link, q, strict=True):
             T = T @ T_parent_link @ self.fns.joint_T(float(angle))
             poses.append(T)
@@ -79,7 +81,8 @@ class Arm:
 
     def at(self, q: Array, qd: Array) -> State:
         """Return the state at q and qd."""
-        fns, T_links = self.fns, self.links(q)
+        fns = self.fns
+        T_links = self.links(q)
         J_space = fns.space_jacobian(self.screws, q)
         G = fns.link_inertias(T_links, *self.inertias)
         M = fns.mass_matrix(J_space, G, self.armature)
@@ -88,7 +91,8 @@ class Arm:
 
     def gravity(self, q: Array) -> Array:
         """Return the torque that holds the arm at q, (7,)."""
-        T_links, (masses, coms, _) = self.links(q), self.inertias
+        T_links = self.links(q)
+        masses, coms, _ = self.inertias
         coms_world = times(T_links[:, :3, :3], coms) + T_links[:, :3, 3]
         J_space = self.fns.space_jacobian(self.screws, q)
         return self.fns.gravity_torque(J_space, masses, coms_world, GRAVITY)
@@ -131,7 +135,8 @@ class Arm:
         """
 
         def torque(t: float, q: Array, qd: Array) -> Array:
-            fns, now = self.fns, self.at(q, qd)
+            fns = self.fns
+            now = self.at(q, qd)
             q_ref, qd_ref, qdd_ref = fns.joint_move(q0, q1, t, T)
             e, ed = q_ref - q, qd_ref - qd
             self.worst = max(self.worst, float(np.abs(e).max()))
@@ -154,7 +159,8 @@ class Arm:
         way = self.fns.pose_error(T0, T1)
 
         def torque(t: float, q: Array, qd: Array) -> Array:
-            fns, now = self.fns, self.at(q, qd)
+            fns = self.fns
+            now = self.at(q, qd)
             s, sd, sdd = fns.quintic_scaling(t, T)
             J = fns.site_jacobian(now.J_space, now.T[:3, 3])
             Lambda = fns.task_inertia(J, now.M)

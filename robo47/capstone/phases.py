@@ -79,14 +79,20 @@ class Task:
         watch: simulate.Watcher | None,
     ):
         """Put the arm at the ready; arguments as in `robo47.capstone.pick`."""
-        self.fns, self.model, self.speed, self.watch = fns, model, speed, watch
+        self.fns = fns
+        self.model = model
+        self.speed = speed
+        self.watch = watch
         self.data = simulate.start(model, READY_Q)
         self.arm = Arm(fns, model)
         self.cube = int(model.jnt_qposadr[model.body("cube").jntadr[0]])
         self.goal = np.array([*goal_xy, scenes.TABLE_HEIGHT + scenes.CUBE_HALF])
-        self.T_world_cube, self.T_tcp_cube = self._cube(), np.eye(4)
+        self.T_world_cube = self._cube()
+        self.T_tcp_cube = np.eye(4)
         self.worst = dict.fromkeys(("joint", "line", "hold", "rest"), 0.0)
-        self.manipulability, self.heaviest, self.now = np.inf, 0.0, 0.0
+        self.manipulability = np.inf
+        self.heaviest = 0.0
+        self.now = 0.0
         self.phases: list[tuple[str, float]] = []
         self.runs: list[simulate.Run] = []
 
@@ -101,7 +107,8 @@ class Task:
             return np.append(tau, phase.fingers)
 
         self.phases.append((phase.name, self.now))
-        world, self.arm.worst = (self.model, self.data), self.worst[phase.kind]
+        world = (self.model, self.data)
+        self.arm.worst = self.worst[phase.kind]
         run = simulate.run(*world, controller, seconds, rate=rate, watch=self._look)
         self.runs.append(run)
         self.worst[phase.kind] = self.arm.worst
@@ -143,13 +150,15 @@ class Task:
 
     def _grasped(self) -> None:
         """Count the cube as part of the hand, and say what this grip can lift."""
-        model, mass = self.model, float(self.model.body("cube").mass[0])
+        model = self.model
+        mass = float(self.model.body("cube").mass[0])
         q = self.data.qpos[simulate.addresses(model)[0]]
         self.T_tcp_cube = self.arm.hold(mass, scenes.CUBE_HALF, self._cube(), q)
         # A tendon over both fingers pulls with 100 N/m; each gets a half.
         opening = float(self.data.qpos[model.joint("finger_joint1").qposadr[0]])
         lift = trajectory.PEAK_ACCELERATION * HOVER / LINE_SECONDS**2
-        grip, mu = 50.0 * max(opening, 0.0), float(model.geom("cube").friction[0])
+        grip = 50.0 * max(opening, 0.0)
+        mu = float(model.geom("cube").friction[0])
         self.heaviest = float(self.fns.heaviest_cube(grip, mu, lift))
 
     def _cube(self) -> Array:

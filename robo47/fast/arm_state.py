@@ -26,11 +26,13 @@ from robo47.fast.vectors import times
 SKEW = screws.skew(np.eye(3)).reshape(3, 9)
 HAT = np.zeros((6, 16))
 _hats = HAT.reshape(6, 4, 4)
-_hats[:3, :3, :3], _hats[3:, :3, 3] = screws.skew(np.eye(3)), np.eye(3)
+_hats[:3, :3, :3] = screws.skew(np.eye(3))
+_hats[3:, :3, 3] = np.eye(3)
 # (f r^T) @ WRENCH is (r x f; f), for f and r of four numbers.
 WRENCH = np.zeros((16, 6))
 _pairs = WRENCH.reshape(4, 4, 6)
-_pairs[:3, :3, :3], _pairs[:3, 3, 3:] = -SKEW.reshape(3, 3, 3).swapaxes(0, 2), np.eye(3)
+_pairs[:3, :3, :3] = -SKEW.reshape(3, 3, 3).swapaxes(0, 2)
+_pairs[:3, 3, 3:] = np.eye(3)
 EYE = np.eye(6)
 
 
@@ -65,7 +67,8 @@ def as_one(masses: Array, coms: Array, inertias: Array) -> tuple[float, Array, A
 
 def _spatial_map() -> Array:
     """Return the map from pseudo-inertia, (16,), to 6x6 inertia, (36,)."""
-    P, G = np.eye(16).reshape(16, 4, 4), np.zeros((16, 6, 6))
+    P = np.eye(16).reshape(16, 4, 4)
+    G = np.zeros((16, 6, 6))
     traces = np.trace(P[:, :3, :3], axis1=1, axis2=2)
     G[:, :3, :3] = traces[:, None, None] * np.eye(3) - P[:, :3, :3]
     G[:, :3, 3:] = screws.skew(P[:, :3, 3])
@@ -83,12 +86,15 @@ class Constants:
     def __init__(self, arm: Any) -> None:
         n = len(arm.masses)
         S = np.zeros((n, 4, 4))
-        S[:, :3, :3], S[:, :3, 3] = screws.skew(arm.screws[:, :3]), arm.screws[:, 3:]
-        S2, S3 = S @ S, S @ S @ S
+        S[:, :3, :3] = screws.skew(arm.screws[:, :3])
+        S[:, :3, 3] = arm.screws[:, 3:]
+        S2 = S @ S
+        S3 = S @ S @ S
         # What 1, q, cos q and sin q are multiplied with, (n, 4, 16), in e^[S]q =
         # 1 + [S] q + [S]^2 (1 - cos q) + [S]^3 (q - sin q) (Modern Robotics, eq. 3.85).
         powers = np.stack([np.eye(4) + S2, S + S3, -S2, -S3], axis=1)
-        self.powers, self.ones = powers.reshape(n, 4, 16), np.ones(n)
+        self.powers = powers.reshape(n, 4, 16)
+        self.ones = np.ones(n)
         self.pairs = arm.screws.reshape(n, 2, 3).copy()  # omega and v of each joint
         P = pseudo_inertias(arm.masses, arm.coms, arm.inertias)
         # Of the links at q = 0, about the world's origin, (n, 4, 4).
@@ -145,7 +151,8 @@ class ArmState:
     def _S(self) -> Array:
         """The joints' screws where they are now, (n, 6): the rows of J_space^T."""
         n = len(self.q)
-        R, p = self._moved[:, :3, :3], self._moved[:, :3, 3]
+        R = self._moved[:, :3, :3]
+        p = self._moved[:, :3, 3]
         S = (self._c.pairs @ R.swapaxes(1, 2)).reshape(n, 6)
         S[:, 3:] += ((p @ SKEW).reshape(n, 3, 3) @ S[:, :3, None])[:, :, 0]
         return S

@@ -37,7 +37,8 @@ class Plan:
 
     def __init__(self, nq: int) -> None:
         """Measure every q from 0 until a joint says otherwise."""
-        self.nq, self.ref = nq, np.zeros((nq, 1))
+        self.nq = nq
+        self.ref = np.zeros((nq, 1))
         self.steps: list[tuple[int, moves.Step]] = []
         self.joints: list[tuple[int, moves.Turn | moves.Slide]] = []  # with their nodes
         self.frames: dict[str, int] = {}  # the node of each that is asked for
@@ -58,7 +59,8 @@ class Cursor:
     """
 
     def __init__(self, plan: Plan) -> None:
-        self.plan, self.node = plan, 0
+        self.plan = plan
+        self.node = 0
         self.R, self.t = np.eye(3), np.zeros(3)
 
     def mark(self, name: str) -> None:
@@ -82,7 +84,8 @@ class Cursor:
         k = int(np.argmax(np.abs(axis)))
         if np.count_nonzero(axis) > 1:  # none of the moving frame's own: make it z
             self._rotate(frame_with_z(axis))
-            k, axis = 2, np.array([0.0, 0.0, 1.0])
+            k = 2
+            axis = np.array([0.0, 0.0, 1.0])
         # A shift along the axis commutes with the turn, so it can wait.
         self._flush_shift(keep=k)
         self.plan.ref[adr] = ref
@@ -100,7 +103,9 @@ class Cursor:
 
     def free(self, name: str, adr: int) -> None:
         """Add a free joint (position, quaternion), which forgets what is before it."""
-        self.node, self.R, self.t = 0, np.eye(3), np.zeros(3)
+        self.node = 0
+        self.R = np.eye(3)
+        self.t = np.zeros(3)
         for axis in range(3):
             self.slide(np.eye(3)[axis], adr + axis, 0.0)
         self.ball(name, adr + 3)
@@ -117,9 +122,11 @@ class Cursor:
         self.R, self.t = rounded(R.T @ self.R), R.T @ self.t
 
     def _flush_shift(self, keep: int | None = None) -> None:
-        now, later = self.t.copy(), np.zeros(3)
+        now = self.t.copy()
+        later = np.zeros(3)
         if keep is not None:
-            now[keep], later[keep] = 0.0, self.t[keep]
+            now[keep] = 0.0
+            later[keep] = self.t[keep]
         if now.any():
             self._step(moves.Shift(now))
         self.t = later
@@ -154,7 +161,8 @@ def _plan(screws: bytes, M: bytes) -> Plan:
             if v.any():
                 cursor.slide(checks.unit(v, "v"), i, 0.0, math.hypot(*v))
             continue
-        point, pitch = np.cross(omega, v), float(omega @ v)  # nearest to the origin
+        point = np.cross(omega, v)  # of the axis, nearest to the origin
+        pitch = float(omega @ v)
         cursor.shift(point)
         cursor.turn(omega, i, 0.0)
         cursor.shift(-point)
@@ -180,7 +188,8 @@ def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:
     """
     only = (qpos.ravel() - plan.ref[:, 0]).tolist() if qpos.size == plan.nq else []
     if only and all(map(math.isfinite, only)):
-        nodes, shape = plan.nodes(one_of(only)), (*qpos.shape[:-1], 4, 4)
+        nodes = plan.nodes(one_of(only))
+        shape = (*qpos.shape[:-1], 4, 4)
         return {
             name: np.array([*_numbers(nodes[node]), *LAST_ROW]).reshape(shape)
             for name, node in plan.frames.items()

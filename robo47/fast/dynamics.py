@@ -78,8 +78,10 @@ def _for_all(
     work: Callable[..., Array], arm: Arm, shape: tuple[int, ...], *given: ArrayLike
 ) -> Array:
     """Return what work(links, cos, sin, ...) returns, all but cos with its sign."""
-    links, names = links_of(arm), ("q", "qd", "qdd")
-    n, signs = len(links), np.array([[link.sign] for link in links])
+    links = links_of(arm)
+    names = ("q", "qd", "qdd")
+    n = len(links)
+    signs = np.array([[link.sign] for link in links])
     rows = [checks.array(x, name, (n,)) for x, name in zip(given, names, strict=False)]
 
     def signed(q: Array, *more: Array) -> Array:
@@ -129,13 +131,16 @@ def links_of(arm: Arm) -> tuple[Link, ...]:
     Raises:
         ValueError: a joint is no hinge.
     """
-    omega, v = arm.screws[:, :3], arm.screws[:, 3:]
+    omega = arm.screws[:, :3]
+    v = arm.screws[:, 3:]
     hinges = (np.vecdot(omega, omega) > 0.5) & (np.abs(np.vecdot(omega, v)) < 1e-9)
     if not hinges.all():
         i = int(hinges.argmin()) + 1
         raise ValueError(f"joint {i} is no hinge; the batch is for arms of hinges")
     links: list[Link] = []
-    T, R, t = np.eye(4), None, np.zeros(3)  # T_link_world; from one link to the next
+    T = np.eye(4)  # T_link_world
+    R = None  # from one link to the next, as t
+    t = np.zeros(3)
     for _, step in plan_of(arm.screws, arm.M_home).steps:
         if isinstance(step, Rotate):
             R = step.R
@@ -145,10 +150,13 @@ def links_of(arm: Arm) -> tuple[Link, ...]:
             own = arm.constants.pseudo[step.adr]  # about the world's origin, at q = 0
             T = se3.inverse(se3.make_T(np.eye(3) if R is None else R, t)) @ T
             P = T @ own @ T.T
-            m, h, Q = float(P[3, 3]), _cleaned(P[:3, 3]), _cleaned(P[:3, :3])
+            m = float(P[3, 3])
+            h = _cleaned(P[:3, 3])
+            Q = _cleaned(P[:3, :3])
             armature = float(arm.armature[step.adr])
             links.append(Link(step.k, step.sign, R, t, m, h, Q, armature))
-            R, t = None, np.zeros(3)
+            R = None
+            t = np.zeros(3)
     return tuple(links)
 
 
@@ -160,7 +168,8 @@ def _cleaned(x: Array) -> Array:
 def _mass_matrices(links: Sequence[Link], cos: Array, sin: Array) -> Array:
     """Return M, (n, n, count): composite bodies, from the tip inwards."""
     n, count = cos.shape
-    M, body = np.empty((n, n, count)), _Body()
+    M = np.empty((n, n, count))
+    body = _Body()
     wrenches: list[tuple[Vector, Vector]] = []  # this joint's and those further out
     for row in reversed(range(n)):
         link = links[row]
@@ -169,8 +178,11 @@ def _mass_matrices(links: Sequence[Link], cos: Array, sin: Array) -> Array:
         h, Q = body.h, body.Q
         moment: Vector = [0.0] * 3
         force: Vector = [0.0] * 3
-        moment[k], moment[i], moment[j] = Q[i][i] + Q[j][j], -Q[i][k], -Q[j][k]
-        force[i], force[j] = -h[j], h[i]
+        moment[k] = Q[i][i] + Q[j][j]
+        moment[i] = -Q[i][k]
+        moment[j] = -Q[j][k]
+        force[i] = -h[j]
+        force[j] = h[i]
         wrenches.insert(0, (moment, force))
         for column, (felt, _) in enumerate(wrenches, start=row):
             sign = link.sign * links[column].sign
@@ -203,11 +215,18 @@ class _Body:
     def to_parent(self, link: Link, c: Array, s: Array) -> None:
         """See it from the frame of the link before: turn, then move by t."""
         k, i, j = link.axes
-        m, h, Q, t = self.m, self.h, self.Q, link.t
-        mean, half = 0.5 * (Q[i][i] + Q[j][j]), 0.5 * (Q[i][i] - Q[j][j])
-        c2, s2 = 1.0 - 2.0 * s * s, 2.0 * s * c  # of twice the angle
+        m = self.m
+        h = self.h
+        Q = self.Q
+        t = link.t
+        mean = 0.5 * (Q[i][i] + Q[j][j])
+        half = 0.5 * (Q[i][i] - Q[j][j])
+        c2 = 1.0 - 2.0 * s * s  # of twice the angle, as s2
+        s2 = 2.0 * s * c
         half, cross = half * c2 - Q[i][j] * s2, half * s2 + Q[i][j] * c2
-        Q[i][i], Q[j][j], Q[i][j] = mean + half, mean - half, cross
+        Q[i][i] = mean + half
+        Q[j][j] = mean - half
+        Q[i][j] = cross
         Q[i][k], Q[j][k] = turned(Q[i][k], Q[j][k], c, s)
         Q[j][i], Q[k][i], Q[k][j] = Q[i][j], Q[i][k], Q[j][k]
         h[i], h[j] = turned(h[i], h[j], c, s)

@@ -81,7 +81,8 @@ def solve_ik(
     lead = np.broadcast_shapes(T.shape[:-2], q.shape[:-1])
     T = np.broadcast_to(T, (*lead, 4, 4)).reshape(-1, 4, 4)
     q = np.broadcast_to(q, (*lead, len(S))).reshape(-1, len(S))
-    plan, out = plan_of(S, M_home), np.empty_like(q)
+    plan = plan_of(S, M_home)
+    out = np.empty_like(q)
     for first in range(0, len(q), CHUNK):
         part = slice(first, first + CHUNK)
         goals = np.ascontiguousarray(np.moveaxis(T[part, :3], 0, -1))
@@ -111,7 +112,8 @@ def reached(
 
 def _solve(problem: _Problem, start: Array) -> Array:
     """Return the best q found for every target, (joints, n)."""
-    rng, around = np.random.default_rng(47), (problem.plan, problem.low, problem.high)
+    rng = np.random.default_rng(47)
+    around = (problem.plan, problem.low, problem.high)
     everyone = np.arange(start.shape[1])
     if start.shape[1] <= FEW:
         best, miss = _one_by_one(problem, start)
@@ -136,7 +138,8 @@ def _one_by_one(problem: _Problem, start: Array) -> tuple[Array, Array]:
     """Return the best q of each target, (joints, n), and its squared error, (n,)."""
     plan, goals, low, high = problem
     limits = np.hstack([low, high])
-    best, miss = start.copy(), np.empty(start.shape[1])
+    best = start.copy()
+    miss = np.empty(start.shape[1])
     for i in range(len(miss)):
         walker = Walker(plan, goals[..., i], limits)
         best[:, i], miss[i] = walker.walk(start[:, i].tolist(), FIRST)
@@ -160,14 +163,17 @@ def _walk(
     Walkers end when one of them reaches their common target, or they no longer gain.
     """
     steps, every, enough, damping = patience
-    best, miss = q.copy(), np.full(q.shape[1], np.inf)
-    before, walker = np.full(q.shape[1], np.inf), np.arange(q.shape[1])
+    best = q.copy()
+    miss = np.full(q.shape[1], np.inf)
+    before = np.full(q.shape[1], np.inf)
+    walker = np.arange(q.shape[1])
     solved = np.zeros(problem.goals.shape[-1], dtype=bool)
     for step in range(steps):
         J, e = _downhill(problem, q, target)
         ee = np.einsum("in,in->n", e, e)
         better = ee < miss[walker]
-        best[:, walker[better]], miss[walker[better]] = q[:, better], ee[better]
+        best[:, walker[better]] = q[:, better]
+        miss[walker[better]] = ee[better]
         solved[target[ee <= STOP**2]] = True
         on = ~solved[target]
         if step % every == 0:
@@ -175,7 +181,10 @@ def _walk(
             before[walker] = ee
         if not on.all():
             walker, target = walker[on], target[on]
-            q, J, e, ee = q[:, on], J[..., on], e[:, on], ee[on]
+            q = q[:, on]
+            J = J[..., on]
+            e = e[:, on]
+            ee = ee[on]
         if not len(walker):
             break
         q = _step(problem, q, J, e, damping * ee + FLOOR)
@@ -267,5 +276,6 @@ def _checked(
     if (bad := (low > high)[:, 0]).any():
         i = int(np.argmax(bad))
         raise ValueError(f"limits[{i}] is {limits[i].tolist()}; expected low <= high")
-    T, q = checks.pose(T, "T_goal"), checks.array(q, "q_start", (len(S),))
+    T = checks.pose(T, "T_goal")
+    q = checks.array(q, "q_start", (len(S),))
     return S, M_home, T, q, low, high

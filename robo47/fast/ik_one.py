@@ -37,12 +37,15 @@ class Walker:
 
     def __init__(self, plan: Plan, goal: Array, limits: Array) -> None:
         """Keep what is asked; the goal is (3, 4), the limits (n, 2)."""
-        self._plan, self._limits = plan, limits.tolist()
+        self._plan = plan
+        self._limits = limits.tolist()
         *self._axes, self._point = goal.T.tolist()
 
     def walk(self, q: list[float], patience: Patience) -> tuple[list[float], float]:
         """Return the best q on the way from q, and the squared length of its error."""
-        best, miss, before = q, math.inf, math.inf
+        best = q
+        miss = math.inf
+        before = math.inf
         for step in range(patience.steps):
             J, e = self._downhill(q)
             ee = sum(x * x for x in e)
@@ -73,8 +76,11 @@ class Walker:
         sine = 0.5 * math.hypot(*turn)
         scale = 0.5 * math.atan2(sine, cosine) / sine if sine else 0.5
         if cosine < NEAR_PI:
-            scale, turn = 1.0, log_rotation(np.transpose(self._axes) @ axes).tolist()
-        (u, v, w), (x, y, z), (a, b, c) = turn, self._point, here
+            scale = 1.0
+            turn = log_rotation(np.transpose(self._axes) @ axes).tolist()
+        u, v, w = turn
+        x, y, z = self._point
+        a, b, c = here
         return columns, [scale * u, scale * v, scale * w, x - a, y - b, z - c]
 
     def _step(self, q: list[float], J: Array, e: Array, damping: float) -> list[float]:

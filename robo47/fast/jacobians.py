@@ -20,7 +20,8 @@ def jacobians(screws: Array, M: Array, q: Array, at_end: bool) -> Array:
 
     The other arguments are those of `chains.plan_of` and `columns_of`.
     """
-    plan, n = plan_of(screws, M), q.shape[-1]
+    plan = plan_of(screws, M)
+    n = q.shape[-1]
     if q.size == n:
         J, _ = columns_of(plan, one_of(q.ravel().tolist()), at_end)
         return np.array([*zip(*J, strict=True)]).reshape(*q.shape[:-1], 6, n)

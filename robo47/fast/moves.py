@@ -40,7 +40,8 @@ class Shift:
     """Move the origin by a fixed vector, in the frame's own axes, metres."""
 
     def __init__(self, vector: Array) -> None:
-        self.vector, self._terms = vector, terms_of(vector)
+        self.vector = vector
+        self._terms = terms_of(vector)
 
     def move(self, at: Axes, chunk: Chunk) -> Axes:
         x, y, z, p = at
@@ -51,7 +52,8 @@ class Rotate:
     """Turn the frame by a fixed rotation, (3, 3)."""
 
     def __init__(self, R: Array) -> None:
-        self.R, self._terms = R, [terms_of(column) for column in R.T]
+        self.R = R
+        self._terms = [terms_of(column) for column in R.T]
 
     def move(self, at: Axes, chunk: Chunk) -> Axes:
         x, y, z = self._terms
@@ -82,14 +84,16 @@ class Slide:
     """Slide: move the origin by q along a fixed direction of the frame."""
 
     def __init__(self, direction: Array, adr: int) -> None:
-        self.adr, self._terms = adr, terms_of(direction)
+        self.adr = adr
+        self._terms = terms_of(direction)
 
     def along(self, at: Axes) -> Triple:
         """Return where q = 1 would move the origin, in world axes."""
         return combine(at, self._terms)
 
     def move(self, at: Axes, chunk: Chunk) -> Axes:
-        (x, y, z), q = self.along(at), chunk.q[self.adr]
+        x, y, z = self.along(at)
+        q = chunk.q[self.adr]
         return (*at[:3], moved(at[3], (x * q, y * q, z * q)))
 
 

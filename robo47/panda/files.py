@@ -66,7 +66,8 @@ def record_of(root: Path) -> dict[str, Any]:
         return {}
     if not isinstance(found, dict) or not isinstance(found.get("source"), str):
         return {}
-    commit, files = found.setdefault("commit", None), found.get("files", {})
+    commit = found.setdefault("commit", None)
+    files = found.get("files", {})
     right = isinstance(commit, str | None) and isinstance(files, dict)
     return found if right else {}
 

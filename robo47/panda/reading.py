@@ -35,13 +35,14 @@ class Inertias(NamedTuple):
         """Return the same bodies, the last one with a load that carry makes part of it.
 
         Args:
-            carry: as `robo47.trajectory.carry`.
+            carry: as `robo47.lifting.carry`.
             load: mass, com (3,) and inertia (3, 3) in the last body's frame and axes.
         """
         masses, coms, inertias = (part.copy() for part in self)
         ten = carry(masses[-1], coms[-1], inertias[-1], *load)
         xx, yy, zz, xy, xz, yz = ten[4:]
-        masses[-1], coms[-1] = ten[0], ten[1:4]
+        masses[-1] = ten[0]
+        coms[-1] = ten[1:4]
         inertias[-1] = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
         return Inertias(masses, coms, inertias)
 
@@ -72,7 +73,8 @@ def screws(model: mujoco.MjModel) -> Array:
     """
     joints = joint_ids(model)
     T = _poses(model, model.jnt_bodyid[joints], _drawn(model))
-    R, p = T[:, :3, :3], T[:, :3, 3]
+    R = T[:, :3, :3]
+    p = T[:, :3, 3]
     axes, anchors = times(R, model.jnt_axis[joints]), times(R, model.jnt_pos[joints])
     return screw_axis(axes, p + anchors) + 0.0  # no -0. where people read it
 
@@ -141,7 +143,8 @@ def hand_inertia(
     q[model.jnt_qposadr[np.isin(model.jnt_bodyid, bodies)]] = opening
     T_world_link7, *T_world = _poses(model, [link7, *bodies], q)
     T = se3.inverse(T_world_link7) @ np.reshape(T_world, (-1, 4, 4))
-    R, p = T[:, :3, :3], T[:, :3, 3]
+    R = T[:, :3, :3]
+    p = T[:, :3, 3]
     turned = R @ _about_coms(model, bodies) @ np.swapaxes(R, -1, -2)
     return as_one(
         model.body_mass[bodies], times(R, model.body_ipos[bodies]) + p, turned
@@ -177,7 +180,8 @@ def arm(model: mujoco.MjModel) -> Arm:
 
 def _drawn(model: mujoco.MjModel) -> Array:
     """Return qpos with hinges and slides at 0; a free body where the file has it."""
-    q, single = model.qpos0.copy(), model.jnt_type >= int(mujoco.mjtJoint.mjJNT_SLIDE)
+    q = model.qpos0.copy()
+    single = model.jnt_type >= int(mujoco.mjtJoint.mjJNT_SLIDE)
     q[model.jnt_qposadr[single]] = 0.0
     return q
 

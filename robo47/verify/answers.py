@@ -96,7 +96,8 @@ def off_log(log_rotation: Function, n: int) -> Array:
     axes /= np.linalg.norm(axes, axis=1, keepdims=True)
     angles = np.pi * rng.uniform(size=n)
     angles[:12] = [0.0, 1e-9, 1e-5, *(np.pi - 10.0 ** -np.arange(1, 10))]
-    axes[12], angles[12] = [0.0, 1.0, 0.0], np.pi
+    axes[12] = [0.0, 1.0, 0.0]
+    angles[12] = np.pi
     R = screws.exp_rotation(axes, angles)
     R[12] = np.round(R[12])  # exactly: there both signs mean the same
     return each(log_rotation, R) - angles[:, None] * axes
@@ -113,7 +114,8 @@ def off_goal(pose_error: Function, T: Array, goal: Array) -> Array:
     Returns:
         Differences of the upper three rows of the poses, (n, 3, 4).
     """
-    e, moved = each(pose_error, T, goal), T.copy()
+    e = each(pose_error, T, goal)
+    moved = T.copy()
     angle = np.linalg.norm(e[:, :3], axis=1)
     turns = angle > 0  # not where it is NaN
     axes = e[turns, :3] / angle[turns, None]
@@ -179,8 +181,10 @@ def off_library(model: mujoco.MjModel, n: int) -> tuple[Array, Array]:
     Returns:
         Differences, (n, 4, 4) and (n, 6, 7).
     """
-    q, S = random_q(model, n, SEED), panda.screws(model)
-    T, J = screws.fk_space(S, panda.home_pose(model), q), jacobian.space_jacobian(S, q)
+    q = random_q(model, n, SEED)
+    S = panda.screws(model)
+    T = screws.fk_space(S, panda.home_pose(model), q)
+    J = jacobian.space_jacobian(S, q)
     J_site = jacobian.site_jacobian(J, T[:, :3, 3])
     truth = mujoco_poses(model, q)[panda.END_FRAME["panda_nohand"]]
     return T - truth, J_site - mujoco_site_jacobian(model, q)

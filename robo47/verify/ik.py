@@ -44,7 +44,8 @@ def ends_of(
         q: configurations, (n, 7); starts are nearer to the middle of the limits.
         seed: of the targets.
     """
-    rng, middle = np.random.default_rng(seed), limits.mean(axis=1)
+    rng = np.random.default_rng(seed)
+    middle = limits.mean(axis=1)
     starts = middle + 0.7 * (q - middle)
     near = np.clip(starts + rng.uniform(-NEAR, NEAR, q.shape), *limits.T)
     goals = fk_space(*arm, near)

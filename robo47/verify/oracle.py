@@ -13,12 +13,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 from tqdm import tqdm
 
-from robo47 import simulate
+from robo47 import checks, simulate
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.kinematics import fk_all, frame_names
 
 SITE = "attachment_site"  # where the arm without a hand ends
+STEP = 3e-4  # s, of the differences of J: leaves 1e-11
 
 
 class Worst(NamedTuple):
@@ -57,7 +58,8 @@ def random_q(model: mujoco.MjModel, n: int, seed: int) -> Array:
     limited = model.jnt_limited.astype(bool)
     low = np.where(limited, model.jnt_range[:, 0], -reach)
     high = np.where(limited, model.jnt_range[:, 1], reach)
-    q, rng = np.empty((n, model.nq)), np.random.default_rng(seed)
+    q = np.empty((n, model.nq))
+    rng = np.random.default_rng(seed)
     q[:, model.jnt_qposadr] = rng.uniform(low, high, (n, model.njnt))
     return q
 
@@ -82,7 +84,8 @@ def mujoco_poses(model: mujoco.MjModel, qpos: Array) -> dict[str, Array]:
         mujoco.mj_kinematics(model, data)
         for kept, array in zip(ours, theirs, strict=True):
             kept[i] = array
-    found, poses = {"body": _poses(*ours[:2]), "site": _poses(*ours[2:])}, {}
+    found = {"body": _poses(*ours[:2]), "site": _poses(*ours[2:])}
+    poses = {}
     for full in frame_names(model):
         kind, _, name = full.partition(":")
         poses[full] = found[kind][:, getattr(model, kind)(name).id]
@@ -99,7 +102,8 @@ def mujoco_screws(model: mujoco.MjModel, qpos: Array) -> Array:
     Returns:
         Screws (omega; v) in world axes, (n, njnt, 6).
     """
-    data, screws = mujoco.MjData(model), np.empty((len(qpos), model.njnt, 6))
+    data = mujoco.MjData(model)
+    screws = np.empty((len(qpos), model.njnt, 6))
     for S, q in zip(screws, qpos, strict=True):
         data.qpos[:] = q
         mujoco.mj_kinematics(model, data)  # fills xaxis, and xanchor: a point of it
@@ -263,6 +267,25 @@ def mujoco_site_jacobian(
     return _ask(model, read, qpos=qpos)
 
 
+def mujoco_site_bias(model: mujoco.MjModel, q: ArrayLike, qd: ArrayLike) -> Array:
+    """Return the rate of MuJoCo's site Jacobian times qd, from differences of it.
+
+    MuJoCo's own mj_jacDot is not used: in 3.3.0 its linear rows are wrong.
+
+    Args:
+        model: the arm without a hand.
+        q: configuration in radians, (7,).
+        qd: joint velocities in rad/s, one number or (7,).
+
+    Returns:
+        The hand's acceleration at qdd = 0 in rad/s2 and m/s2, (6,), to about 1e-11.
+    """
+    q = checks.array(q, "q", (7,))
+    qd = np.broadcast_to(checks.per_joint(qd, "qd", q), 7)
+    J = mujoco_site_jacobian(model, q + np.outer(STEP * np.array([-2, -1, 1, 2]), qd))
+    return (J[0] - 8.0 * J[1] + 8.0 * J[2] - J[3]) @ qd / (12.0 * STEP)
+
+
 def mujoco_push(model: mujoco.MjModel, qpos: ArrayLike, wrench: ArrayLike) -> Array:
     """Return the joint torques that MuJoCo puts in the place of a wrench at the hand.
 
@@ -278,9 +301,11 @@ def mujoco_push(model: mujoco.MjModel, qpos: ArrayLike, wrench: ArrayLike) -> Ar
         Robo47Error: the model has no such site.
     """
     _site(model, SITE)
-    data, answers = mujoco.MjData(model), []
+    data = mujoco.MjData(model)
+    answers = []
     for q, F in zip(np.asarray(qpos), np.asarray(wrench), strict=True):
-        data.qpos[:], data.qfrc_applied[:] = q, 0.0
+        data.qpos[:] = q
+        data.qfrc_applied[:] = 0.0
         simulate.push_at(SITE, F)(model, data)
         answers.append(data.qfrc_applied.copy())
     return np.array(answers)

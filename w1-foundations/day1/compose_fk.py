@@ -11,6 +11,7 @@ import numpy as np
 
 from labkit.base.exchange import Path
 from labkit.judge import HeldOut, Pose, Row
+from labkit.judge.answer_mistakes import of_a_pose
 from labkit.judge.argument_mistakes import (
     FIRST_FOR_ALL,
     LEFT_OUT,
@@ -18,7 +19,6 @@ from labkit.judge.argument_mistakes import (
     REVERSED,
     ROUNDED,
 )
-from labkit.judge.finished import of_a_pose
 from labkit.judge.matrices import pose, rigid_inverse
 from robo47 import se3
 from robo47.panda import READY_Q
@@ -262,7 +262,8 @@ def _(model, q, path=PATH):
 def _(model, q, path=PATH):
     site = mujoco.MjData(model).site("attachment_site")
     T = np.zeros((4, 4))
-    T[:3, :3], T[:3, 3] = site.xmat.reshape(3, 3), site.xpos
+    T[:3, :3] = site.xmat.reshape(3, 3)
+    T[:3, 3] = site.xpos
     return T
 
 

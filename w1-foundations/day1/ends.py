@@ -11,8 +11,10 @@ from robo47 import se3
 
 from .panda_chain import FLANGE_POS, FLANGE_QUAT, PATH, fk
 
-R, NOWHERE = se3.quat_to_R(FLANGE_QUAT), np.zeros(3)
-FLANGE, TO_HAND = pose(R, FLANGE_POS), pose(se3.Rz(np.pi), NOWHERE)
+R = se3.quat_to_R(FLANGE_QUAT)
+NOWHERE = np.zeros(3)
+FLANGE = pose(R, FLANGE_POS)
+TO_HAND = pose(se3.Rz(np.pi), NOWHERE)
 BACK = rigid_inverse(FLANGE)  # to link7
 # Along the z of `hand`, metres.
 FINGER, TIP = (pose(np.eye(3), np.array([0.0, 0.0, z])) for z in (0.0584, 0.1034))

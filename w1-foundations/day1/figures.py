@@ -58,7 +58,8 @@ def _after(
     T_world_ee: np.ndarray, name: str, T_world_moved: np.ndarray, body: str
 ) -> Image.Image:
     """Return the arm, a ghost of a body moved away, and the frames at both ends."""
-    q, ghost = portrait.with_fingers(READY_Q), Ghost(body, T_world_moved)
+    q = portrait.with_fingers(READY_Q)
+    ghost = Ghost(body, T_world_moved)
     T_moved_ee = T_world_moved @ T_world_ee
     return portrait.draw(
         Scene(q, (800, 680), FROM_ABOVE, (ghost,)),

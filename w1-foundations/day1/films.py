@@ -17,7 +17,8 @@ def order() -> Recording:
     T_ee = compose_fk(panda.load("panda_nohand"), READY_Q)
     film.draw.frame("T_world_ee", T_ee)
     film.draw.frame("world", np.eye(4))
-    ghost, end = film.draw.ghost("blue"), film.draw.frame("", T_ee)
+    ghost = film.draw.ghost("blue")
+    end = film.draw.frame("", T_ee)
     for left in (True, False):
         for s in np.clip(np.arange(-0.3, 1.5, 0.5 / FRAMES), 0.0, 1.0):
             T_extra = make_T(Rz(s * np.pi / 4), np.array([s * 0.1, 0.0, 0.0]))

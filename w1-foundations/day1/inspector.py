@@ -40,7 +40,9 @@ class Order(Tab):
     def __init__(self, page: Page) -> None:
         """Start as the lab does: 45 degrees about z, 0.1 m along x."""
         super().__init__(page)
-        self.side, self.angle, self.x = BOTH, np.pi / 4, 0.1
+        self.side = BOTH
+        self.angle = np.pi / 4
+        self.x = 0.1
         page.choice("T_extra", [BOTH, RIGHT, LEFT], self.sets("side"))
         page.slider("turn about z", -np.pi, np.pi, self.angle, self.sets("angle"))
         page.slider("move along x", -0.3, 0.3, self.x, self.sets("x"), unit="m")

@@ -3,7 +3,7 @@
 import numpy as np
 
 from labkit.judge import Pose, Row
-from labkit.judge.finished import of_a_pose
+from labkit.judge.answer_mistakes import of_a_pose
 from labkit.judge.matrices import pose
 
 from .panda_chain import NEAR
@@ -34,5 +34,7 @@ row.of_answer(of_a_pose())
 @row.right  # In Fortran's order in memory, and through the transpose.
 def _(R, t):
     T = np.zeros((4, 4), order="F")
-    T.T[:3, :3], T.T[3, :3], T.T[3, 3] = np.transpose(R), t, 1
+    T.T[:3, :3] = np.transpose(R)
+    T.T[3, :3] = t
+    T.T[3, 3] = 1
     return T

@@ -35,7 +35,8 @@ def _longer(model) -> None:
     model.body_quat[model.body("link3").id] = [0.6, 0.8, 0.0, 0.0]
 
 
-PANDA, OTHER = Robot(), Robot(change=_longer)
+PANDA = Robot()
+OTHER = Robot(change=_longer)
 
 
 def on(robot, path=None, count=10):

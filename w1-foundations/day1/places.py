@@ -115,8 +115,10 @@ def _from_where(case: Case) -> str:
 
 
 def _other_links(model, name: str) -> Iterator[tuple[Finding, Array]]:
-    L, body = link(model, name), model.body(name)
-    pos, quat = body.pos[None], as_written(body.quat)[None]
+    L = link(model, name)
+    body = model.body(name)
+    pos = body.pos[None]
+    quat = as_written(body.quat)[None]
     missing = f"The step to {name} is missing from your chain"
     yield Finding("link-skipped", missing), np.eye(4)
     yield Finding("link-twice", f"The step to {name} is in your chain twice"), L @ L
@@ -151,7 +153,8 @@ def _wrong_angle(joint: str, X: Array) -> Finding | None:
 def _two_mistakes(case: Case) -> Finding | None:
     """Return a mistake all along the arm and a wrong end, if together they fit."""
     model, q = case.arguments
-    elsewhere, to_link7 = {*ends.ENDS, "stops-early"}, PATH[:-1]
+    elsewhere = {*ends.ENDS, "stops-early"}
+    to_link7 = PATH[:-1]
     named = case.ask.named
     firsts = [m for m in named if m.slug not in elsewhere]
     for first in firsts:

@@ -62,7 +62,8 @@ def on_each_other(model, q, path=PATH):
     inertial-turns: each body's iquat is used, which turns its inertia; quat turns the
       body => the product with iquat
     """
-    before, last = fk(model, q, path[:-1]), link(model, path[-1][0])
+    before = fk(model, q, path[:-1])
+    last = link(model, path[-1][0])
     R, t = split(fk(model, q, path))
     return {
         "last-step-in-the-world": pose(

@@ -37,13 +37,15 @@ def test_the_numbers_in_the_docstrings_are_true(twin):
 def test_a_free_body_has_one_number_more_than_degrees_of_freedom():
     ball = "<body><freejoint/><geom size='0.1'/></body>"
     text = f"<mujoco><worldbody>{ball}</worldbody></mujoco>"
-    free, arm = mujoco.MjModel.from_xml_string(text), panda.load("panda_nohand")
+    free = mujoco.MjModel.from_xml_string(text)
+    arm = panda.load("panda_nohand")
     assert (free.nq, free.nv, arm.nq, arm.nv) == (7, 6, 7, 7)
     assert "a free body has six degrees of freedom and seven numbers" in GUIDE
 
 
 def test_quaternions_in_another_order_make_a_rigid_but_wrong_pose(monkeypatch, twin):
-    model, q = panda.load("panda_nohand"), panda.READY_Q
+    model = panda.load("panda_nohand")
+    q = panda.READY_Q
     right = lab.compose_fk(model, q)
     read = lab.quat_to_R
     monkeypatch.setattr(lab, "quat_to_R", lambda quat: read(np.roll(quat, 1)))
@@ -83,7 +85,8 @@ def test_a_transposed_rotation_looks_right_at_ready_and_zero_only(twin):
 def test_servos_that_are_told_nothing_pull_every_joint_to_0(told, twin):
     model = panda.load("panda_nohand")
     data = mujoco.MjData(model)
-    data.qpos[:], data.ctrl[:] = panda.READY_Q, told * panda.READY_Q
+    data.qpos[:] = panda.READY_Q
+    data.ctrl[:] = told * panda.READY_Q
     mujoco.mj_step(model, data, 2000)
     wanted = np.clip(data.ctrl, *model.jnt_range.T)  # joint4 cannot be 0
     assert_same(data.qpos, wanted, 0.006)
@@ -189,7 +192,8 @@ def transposed(T):
 def test_a_wrong_chain_is_named_and_cannot_record_a_small_number(
     name, monkeypatch, tmp_path, capsys
 ):
-    wrong, (function, made) = load_lab(), WRONG[name]
+    wrong = load_lab()
+    function, made = WRONG[name]
     monkeypatch.setattr(wrong, function, made(getattr(wrong, function)))
     monkeypatch.setattr("labkit.log.METRICS_CSV", tmp_path / "m.csv")
     monkeypatch.setattr(sys, "argv", ["day1"])

@@ -24,7 +24,8 @@ def pose_at(q):
 
 
 def orders_apart(q):
-    T, T_extra = pose_at(q), se3.make_T(se3.Rz(np.pi / 4), [0.1, 0.0, 0.0])
+    T = pose_at(q)
+    T_extra = se3.make_T(se3.Rz(np.pi / 4), [0.1, 0.0, 0.0])
     return np.linalg.norm((T @ T_extra)[:3, 3] - (T_extra @ T)[:3, 3])
 
 

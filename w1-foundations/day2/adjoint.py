@@ -48,7 +48,8 @@ def _(T):
       => the right one with R^T
     transposed: the matrix is transposed: that one is for wrenches => its transpose
     """
-    R, p = T[:3, :3], T[:3, 3]
+    R = T[:3, :3]
+    p = T[:3, 3]
     P = skew(p)
     blocks = {
         "block-top-right": [[R, P @ R], [O, R]],

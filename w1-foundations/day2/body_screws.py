@@ -34,7 +34,8 @@ def _(screws, M):
     t-only-negated: in the inverse of M, t is only negated: it has to be told in the
       hand's axes => Ad S with t negated
     """
-    R, t = M[:3, :3], M[:3, 3]
+    R = M[:3, :3]
+    t = M[:3, 3]
     return {
         "adjoint-of-M": screws @ adjoint(M).T,
         "from-the-right": screws @ adjoint(se3.inverse(M)),

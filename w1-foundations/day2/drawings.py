@@ -23,7 +23,8 @@ def pitch(figure: Figure) -> None:
     """Draw a point on its way along a screw, and what the screw's two halves are."""
     axes = figure.subplots()
     v = -np.cross(AXIS, POINT) + PITCH * AXIS
-    S, start = np.append(AXIS, v), np.append(POINT - 0.9 * AXIS, 1.0)
+    S = np.append(AXIS, v)
+    start = np.append(POINT - 0.9 * AXIS, 1.0)
     start[0] += 0.6  # beside the axis
 
     def at(turns: float) -> Array:

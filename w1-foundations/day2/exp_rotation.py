@@ -96,7 +96,8 @@ def _(axis, theta):
       it turns already => cos I + sin K + axis axis^T
     always-about-z: it turns about z, whatever the axis is => Rz(theta)
     """
-    K, dyad = skew(axis), np.outer(axis, axis)
+    K = skew(axis)
+    dyad = np.outer(axis, axis)
     c, s = np.cos(theta), np.sin(theta)
     return {
         "squared-by-entries": I + s * K + (1 - c) * K**2,

@@ -5,8 +5,8 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Pose, Row
+from labkit.judge.answer_mistakes import of_a_pose
 from labkit.judge.argument_mistakes import INTO_COS, RADIANS_TWICE, SMALL_LEFT_OUT
-from labkit.judge.finished import of_a_pose
 from robo47.screws import skew
 
 from .exp_rotation import formula, rodrigues
@@ -59,7 +59,8 @@ def motion(S, theta):
 def moved(S, theta, t):
     """Return the pose of the right rotation, whatever S is, and another translation."""
     T = np.eye(4)
-    T[:3, :3], T[:3, 3] = rodrigues(S[:3], theta), t
+    T[:3, :3] = rodrigues(S[:3], theta)
+    T[:3, 3] = t
     return T
 
 
@@ -154,8 +155,11 @@ def _(S, theta):
     slide-without-theta: right where it turns; with omega = 0 it slides by v, not by
       theta v => the right one with v for slides
     """
-    omega, v = S[:3], S[3:]
-    R, t, turns = rodrigues(omega, theta), motion(S, theta)[:3, 3], omega.any()
+    omega = S[:3]
+    v = S[3:]
+    R = rodrigues(omega, theta)
+    t = motion(S, theta)[:3, 3]
+    turns = omega.any()
     round_it = (I - R) @ np.cross(omega, v)
     along = omega @ v * omega
     travel = {
@@ -181,7 +185,8 @@ def exp_by_entries(S, theta):
     """np.exp works on each entry; the exponential of a matrix is a series of products
     => np.exp of [S] theta"""
     bracket = np.zeros((4, 4))
-    bracket[:3, :3], bracket[:3, 3] = skew(S[:3]), S[3:]
+    bracket[:3, :3] = skew(S[:3])
+    bracket[:3, 3] = S[3:]
     return np.exp(bracket * theta)
 
 
@@ -192,9 +197,12 @@ row.of_answer(of_a_pose(), but=["R-transposed", "inverse-returned"])  # the angl
 
 @row.close("float32")  # float32 throughout.
 def _(S, theta):
-    S, theta = S.astype(np.float32), np.float32(theta)
+    S = S.astype(np.float32)
+    theta = np.float32(theta)
     K = skew(S[:3]).astype(np.float32)
-    c, s, one = np.cos(theta), np.sin(theta), np.eye(3, dtype=np.float32)
+    c = np.cos(theta)
+    s = np.sin(theta)
+    one = np.eye(3, dtype=np.float32)
     T = np.eye(4, dtype=np.float32)
     T[:3, :3] = one + s * K + (1 - c) * K @ K
     T[:3, 3] = (theta * one + (1 - c) * K + (theta - s) * K @ K) @ S[3:]

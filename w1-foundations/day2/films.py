@@ -15,7 +15,8 @@ def screws() -> Recording:
     model = panda.load("panda_nohand")
     at_zero = kinematics.fk_all(model, np.zeros(7))
     links = np.array([at_zero[f"body:link{i}"] for i in range(1, 8)])
-    S, M_home = joint_screws(links), at_zero["site:attachment_site"]
+    S = joint_screws(links)
+    M_home = at_zero["site:attachment_site"]
     film = Recording(panda.load("panda", meshes=True), back=1.6)
     reach = HALF * S[:, None, :3] * np.array([[-1.0], [1.0]])
     axes = links[:, None, :3, 3] + reach  # (7, 2, 3)

@@ -22,7 +22,10 @@ from .roulette import READINGS, distances
 
 JOINTS = 7
 FRAMES = (*(f"link{i}" for i in range(1, JOINTS + 1)), END)
-BACK, NEXT, PLAY, WHOLE = "back", "next", "play / stop", "all seven"
+BACK = "back"
+NEXT = "next"
+PLAY = "play / stop"
+WHOLE = "all seven"
 HALF, SECONDS = 0.22, 1.2  # metres of a drawn axis to either side; time of one motion
 COLOURS = ["red", "orange", "purple", "blue", "black"]
 
@@ -79,7 +82,8 @@ class Screws(Tab):
 
     def _ends(self, i: int) -> Array:
         """Return a joint's line, from its link outwards along omega, (1, 2, 3)."""
-        p, omega = self.links[i, :3, 3], self.S[i, :3]
+        p = self.links[i, :3, 3]
+        omega = self.S[i, :3]
         return np.array([[p - HALF * omega, p + HALF * omega]])
 
     def press(self, name: str) -> None:
@@ -88,7 +92,8 @@ class Screws(Tab):
             self.loop.toggle()
             return
         self.loop.stop()
-        on, back = np.floor(self.done) + 1, np.ceil(self.done) - 1
+        on = np.floor(self.done) + 1
+        back = np.ceil(self.done) - 1
         self.go({NEXT: on, BACK: back, WHOLE: JOINTS}[name])
 
     def play(self, seconds: float) -> bool:

@@ -44,7 +44,8 @@ def _(T_zero):
     last-joint-first: the screws are right, but in the reverse order: joint1's comes
       first => the right answer in reverse
     """
-    R, p = T_zero[:, :3, :3], T_zero[:, :3, 3]
+    R = T_zero[:, :3, :3]
+    p = T_zero[:, :3, 3]
     x, y, z = np.moveaxis(R, -1, 0)
     local = se3.inverse(np.array([np.eye(4), *T_zero[:-1]])) @ T_zero
     carried = np.array(list(accumulate(T_zero, np.matmul)))

@@ -43,7 +43,8 @@ def _(axis, point):
       mixes the entries => (omega; omega * point)
     omega-reversed: v is right, but omega is -axis => the right one with omega negated
     """
-    right, v = screw_axis(axis, point), np.cross(point, axis)
+    right = screw_axis(axis, point)
+    v = np.cross(point, axis)
     return {
         "moment-sign": np.append(axis, -v),
         "moment-is-point": np.append(axis, point),

@@ -101,7 +101,8 @@ def test_mujocos_six_numbers_have_omega_first_and_its_free_joint_v_first():
     v, omega = [1, 2, 3], [4, 5, 6]
     data.qvel = [*v, *omega]
     mujoco.mj_forward(model, data)
-    of_the_object, body = np.empty(6), mujoco.mjtObj.mjOBJ_BODY
+    of_the_object = np.empty(6)
+    body = mujoco.mjtObj.mjOBJ_BODY
     mujoco.mj_objectVelocity(model, data, body, model.body("a").id, of_the_object, 0)
     jacp, jacr = np.zeros((2, 3, 6))
     mujoco.mj_jacBody(model, data, jacp, jacr, model.body("a").id)
@@ -125,7 +126,8 @@ def test_the_v_of_cvel_is_that_of_the_centre_of_mass(mass_at):
         "<mujoco><worldbody><body name='a' pos='1 0 0'><joint axis='0 0 1'/>"
         f"<geom size='0.1' pos='{mass_at} 0 0'/></body></worldbody></mujoco>"
     )
-    data, of_the_object = mujoco.MjData(model), np.empty(6)
+    data = mujoco.MjData(model)
+    of_the_object = np.empty(6)
     data.qvel[0] = 1.0
     mujoco.mj_forward(model, data)
     assert_same(data.cvel[1], [0, 0, 1, 0, mass_at, 0], 1e-15)
@@ -187,7 +189,8 @@ def test_how_many_named_mistakes_are_exact_at_zero(arm):
                 continue
             error = np.abs([way.code(S, M, x) for x in q] - truth).max(axis=(1, 2))
             if np.median(error[2:]) > 1e-6:  # some are none on the Panda
-                wrong, exact = wrong + 1, exact + int(error[0] < 1e-12)
+                wrong = wrong + 1
+                exact = exact + int(error[0] < 1e-12)
     says = f"Of some {round(wrong, -1)} mistakes that the checker knows by name in "
     says += f"`fk_space`, some {round(exact, -1)} are exact at q = 0"
     assert says in GUIDE
@@ -247,7 +250,8 @@ def test_the_lost_motion_at_zero_is_the_turn_about_x(arm):
 def test_the_picture_shows_lines_and_lengths_and_no_answer(monkeypatch):
     need(importlib.util.find_spec("matplotlib") is not None, "matplotlib: make figures")
     monkeypatch.syspath_prepend(str(DAY.source.parent))
-    figures, words = DAY.module("figures"), set()
+    figures = DAY.module("figures")
+    words = set()
     write = lambda layer, at, text, *rest: words.add(text)  # noqa: E731
     name = lambda layer, text, *rest: words.add(text)  # noqa: E731
     monkeypatch.setattr(figures.Layer, "text", write)

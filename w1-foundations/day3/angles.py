@@ -16,7 +16,8 @@ def where_the_angle_fails(case: Case) -> Finding | None:
     S, T = case.S, case.T
     angle = np.linalg.norm(T, axis=1)
     off = difference(S, T) > OFF
-    by_pi, by_0 = angle > np.pi - BY_PI, angle < BY_0
+    by_pi = angle > np.pi - BY_PI
+    by_0 = angle < BY_0
     if not off.any():
         return None
     if off[~by_pi & ~by_0].any():
@@ -88,7 +89,8 @@ def _everywhere(
     S: Array, T: Array, off: np.ndarray, angle: np.ndarray
 ) -> Finding | None:
     """Return that it is right but for the sign, or for whole turns."""
-    k, n = off.sum(), len(off)
+    k = off.sum()
+    n = len(off)
     if difference(S[off], -T[off]).max() < OFF:
         return Finding(
             "sign-of-the-axis",
@@ -119,7 +121,8 @@ def where_the_digits_go(case: Case) -> Finding | None:
     S, T = case.S, case.T
     off = difference(S, T) > NEXT_TO_NONE
     angle = np.linalg.norm(T, axis=1)
-    by_0, by_pi = angle < BY_0, angle > np.pi - BY_PI
+    by_0 = angle < BY_0
+    by_pi = angle > np.pi - BY_PI
     if off[~by_0 & ~by_pi].any():
         return None
     if not off[by_pi].any() and (found := _zero_near_0(S, T, off)):

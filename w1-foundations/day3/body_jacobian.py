@@ -34,7 +34,8 @@ def _(J_space, T):
     turned-by-R: J_site is turned by R, which leads from the hand's axes to the world's;
       the way back is R^T => J_site turned by R
     """
-    J_site, R = site_jacobian(J_space, T[:3, 3]), np.kron(np.eye(2), T[:3, :3])
+    J_site = site_jacobian(J_space, T[:3, 3])
+    R = np.kron(np.eye(2), T[:3, :3])
     return {
         "adjoint-of-T": adjoint(T) @ J_space,
         "space-for-body": J_space,

@@ -80,7 +80,8 @@ class Circle(Tab):
     def turn(self, radius: float) -> None:
         """Choose the radius, in metres; both arms go to the circle's start."""
         self.loop.stop()
-        self.radius, self.steps = radius, 0
+        self.radius = radius
+        self.steps = 0
         arm = (self.arm.screws, self.arm.M_home)
         # the start is the library's
         self.circle, q = verify.circle(arm, self.limits, radius, TIMES)

@@ -32,7 +32,8 @@ STRETCHED = np.radians([16.0, -32.0])
 def singularity(figure: Figure) -> None:
     """Draw singular values, joint speeds in parts of their limits, and misses."""
     model = panda.load("panda_nohand")
-    arm, limits = (panda.screws(model), panda.home_pose(model)), model.jnt_range
+    arm = (panda.screws(model), panda.home_pose(model))
+    limits = model.jnt_range
     circle, q = verify.circle(arm, limits, RADIUS, np.arange(0.0, verify.LAP, DT))
     _, plain, _ = draw_circle(arm, circle, q, 0.0)
     off, damped, path = draw_circle(arm, circle, q, DAMPING)

@@ -125,7 +125,8 @@ class Jacobian(Tab):
         """Draw the second arm at q, (7,), and say how far its hand is off."""
         self.ghost.pose(self.page.links(q))
         left = jacobian.pose_error(screws.fk_space(self.S, self.M, q), T_goal)
-        mm, rad = 1000 * np.linalg.norm(left[3:]), np.linalg.norm(left[:3])
+        mm = 1000 * np.linalg.norm(left[3:])
+        rad = np.linalg.norm(left[:3])
         out = bool(np.any((q < self.limits[:, 0]) | (q > self.limits[:, 1])))
         kind = "good" if np.linalg.norm(left) < REACHED and not out else "bad"
         says = f"the hand is {mm:.2f} mm and {rad:.4f} rad short of the target"
@@ -138,7 +139,8 @@ class Jacobian(Tab):
 
     def swung(self, q: Array, value: float) -> tuple[Array, float]:
         """Return the configuration after some null steps, and the hand's way in mm."""
-        by, self.at = float(np.clip(value - self.at, -MOST, MOST)), value
+        by = float(np.clip(value - self.at, -MOST, MOST))
+        self.at = value
         before = screws.fk_space(self.S, self.M, q[:JOINTS])[:3, 3]
         for _ in range(PART):
             along = self.own.null_step(self.J_site(q[:JOINTS]), np.eye(JOINTS)[2])

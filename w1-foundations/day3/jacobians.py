@@ -40,5 +40,6 @@ def site_jacobians(q: Array) -> Array:
 def near_singular(rng) -> Array:
     """Return Jacobians of all sorts, (9, 6, 7): two are singular, nearly."""
     q = rng.configurations(9)
-    q[1], q[2] = np.zeros(7), [0.0, 0.3, 0.0, -0.08, 0.0, 0.4, 0.2]
+    q[1] = np.zeros(7)
+    q[2] = [0.0, 0.3, 0.0, -0.08, 0.0, 0.4, 0.2]
     return site_jacobians(q)

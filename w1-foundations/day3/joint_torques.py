@@ -38,7 +38,9 @@ def _(J_space, p, F):
     arm-twice: p x f is added to the moment, and the Jacobian is that of p already: one
       of the two => the torques with both
     """
-    J, moment, force = site_jacobian(J_space, p), F[:3], F[3:]
+    J = site_jacobian(J_space, p)
+    moment = F[:3]
+    force = F[3:]
     return {
         "at-the-origin": J_space.T @ F,
         "what-balances-it": -J.T @ F,

@@ -43,7 +43,8 @@ def _(rng):
     """
     small = [1e-9, 1e-7, 1e-6, 5e-6, 1e-5, 1e-3, 0.3]
     by_pi = np.pi - np.array([1e-2, 1e-4, 1e-6, 1e-8])
-    drawn, first = rng.uniform(0.2, 3.0, 5), [0.01, 0.05, 0.1]
+    drawn = rng.uniform(0.2, 3.0, 5)
+    first = [0.01, 0.05, 0.1]
     turns = np.array([*small, *by_pi, 2.0, *drawn, *first])
     R = exp_rotation(rng.units(len(turns)), turns)
     R = [*R[-3:], *R[:-3]]
@@ -116,7 +117,8 @@ def _(R):
     twice-the-sine-in-atan2: the angle comes from twice the sine: the half of (R - R^T)
       / 2 is missing => the axis times atan2 of twice the sine
     """
-    q, (a, sine, _) = se3.R_to_quat(R), parts(R)
+    q = se3.R_to_quat(R)
+    a, sine, _ = parts(R)
     quaternion = -q[1:] if q[0] < 0 else q[1:]
     return {
         "sine-for-angle": a,
@@ -273,8 +275,11 @@ def _(R):
     k = int(np.argmax([np.trace(R), *np.diag(R)]))
     q = np.array([1 + np.trace(R), *vee(R)])
     if k:
-        i, j, m = k - 1, k % 3, (k + 1) % 3
-        q[0], q[1 + i] = R[m, j] - R[j, m], 1 + R[i, i] - R[j, j] - R[m, m]
+        i = k - 1
+        j = k % 3
+        m = (k + 1) % 3
+        q[0] = R[m, j] - R[j, m]
+        q[1 + i] = 1 + R[i, i] - R[j, j] - R[m, m]
         q[1 + j], q[1 + m] = R[i, j] + R[j, i], R[i, m] + R[m, i]
     q = q / np.linalg.norm(q) * (-1.0 if q[0] < 0 else 1.0)
     n = np.linalg.norm(q[1:])

@@ -55,7 +55,8 @@ def _(J):
     diagonal-only: only the diagonal of J J^T is multiplied; a determinant needs all
       entries => the root of that product
     """
-    JJ, s = J @ J.T, values(J)
+    JJ = J @ J.T
+    s = values(J)
     return {
         "no-square-root": np.linalg.det(JJ),
         "other-product": np.sqrt(abs(np.linalg.det(J.T @ J))),

@@ -15,7 +15,9 @@ pinv = np.linalg.pinv
 
 def what_the_hand_feels(case: Case) -> Finding | None:
     """Return whether the hand feels the answer, and if not, what is wrong with it."""
-    J, S, T = case.arguments[0], case.S, case.T
+    J = case.arguments[0]
+    S = case.S
+    T = case.T
     if one_factor(case.ask.kinds[0], S, T):
         return None  # which says more
     felt = np.abs(times(J, S)).max(axis=1)
@@ -73,7 +75,8 @@ def _(J, dq):
       it turns => the projector of three rows
     """
     felt = pinv(J) @ (J @ dq)
-    left, last = dq - felt, np.linalg.svd(J)[2][-1]
+    left = dq - felt
+    last = np.linalg.svd(J)[2][-1]
     return {
         "transpose-for-pseudo-inverse": dq - J.T @ (J @ dq),
         "felt-part": felt,

@@ -34,7 +34,8 @@ def _(rng):
 
 def screw_log(D):
     """Return the twist whose exponential is a pose."""
-    w, p = log_rotation(D[:3, :3]), D[:3, 3]
+    w = log_rotation(D[:3, :3])
+    p = D[:3, 3]
     angle = np.linalg.norm(w)
     if angle < 1e-6:
         return np.concatenate([w, p])
@@ -72,7 +73,9 @@ def _(T, T_goal):
       rotation that leads from one to the other => the difference of those angles
     rotations-multiplied: this is log(R_goal R): one of the two has to be undone
     """
-    R, goal, way = T[:3, :3], T_goal[:3, :3], T_goal[:3, 3] - T[:3, 3]
+    R = T[:3, :3]
+    goal = T_goal[:3, :3]
+    way = T_goal[:3, 3] - T[:3, 3]
     rotations = {
         "rotation-in-the-hands-axes": log_rotation(R.T @ goal),
         "rotation-sign": log_rotation(R @ goal.T),
@@ -95,7 +98,9 @@ def _(T, T_goal):
     screw-for-translation: the lower half is the translation of T_goal T^-1, which is
       p_goal - R p with the rotation between them as R; here it is p_goal - p
     """
-    p, goal, turn = T[:3, 3], T_goal[:3, 3], pose_error(T, T_goal)[:3]
+    p = T[:3, 3]
+    goal = T_goal[:3, 3]
+    turn = pose_error(T, T_goal)[:3]
     translations = {
         "translation-sign": p - goal,
         "translation-in-the-hands-axes": (np.linalg.inv(T) @ T_goal)[:3, 3],

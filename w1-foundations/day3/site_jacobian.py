@@ -31,7 +31,8 @@ def _(J_space, p):
     omega-changed: omega is changed by v x p; all points of a body have the same omega
       => the Jacobian with the cross product above
     """
-    omega, v = J_space[:3], J_space[3:]
+    omega = J_space[:3]
+    v = J_space[3:]
     omega_p, v_p = (np.cross(half, p, axis=0) for half in (omega, v))
     halves = {
         "space-for-site": (omega, v),
@@ -51,5 +52,6 @@ def _(J_space, p):
 
 @row.wrong("rows-swapped")  # Right, but (v; omega), as MuJoCo's jacp above its jacr.
 def _(J_space, p):
-    omega, v = J_space[:3], J_space[3:]
+    omega = J_space[:3]
+    v = J_space[3:]
     return np.vstack([v + np.cross(omega, p, axis=0), omega])

@@ -195,14 +195,18 @@ def _(*target):
 
 @row.right  # The damping shrinks after a good step and grows after a bad one.
 def _(screws, M, T_goal, q_start, limits):
-    q, damping = q_start.copy(), 0.1
+    q = q_start.copy()
+    damping = 0.1
     T = fk_space(screws, M, q)
     for _ in range(60):
-        J, e = at_hand(space_jacobian(screws, q), T), pose_error(T, T_goal)
+        J = at_hand(space_jacobian(screws, q), T)
+        e = pose_error(T, T_goal)
         new = np.clip(q + dls_step(J, e, damping), *limits.T)
         T_new = fk_space(screws, M, new)
         if np.linalg.norm(pose_error(T_new, T_goal)) < np.linalg.norm(e):
-            q, T, damping = new, T_new, max(damping / 3, 1e-6)
+            q = new
+            T = T_new
+            damping = max(damping / 3, 1e-6)
         else:
             damping = 3 * damping
     return q

@@ -74,7 +74,8 @@ def _(screws, q):
       inverse => the Jacobian with the inverse
     columns-reversed: the columns are in the reverse order: joint 1's comes first
     """
-    alone, moved = [np.eye(4), *exp_screw(screws, q)], products(screws, q)
+    alone = [np.eye(4), *exp_screw(screws, q)]
+    moved = products(screws, q)
     after = accumulate([np.eye(4), *alone[:0:-1]], on_the_left)
     motions = {
         "screws-constant": [np.eye(4)] * 7,
@@ -127,7 +128,8 @@ def _(screws, q):
 
 @row.close("rounded-somewhere")  # By central differences of the pose.
 def _(screws, q):
-    J, back = np.zeros((6, 7)), np.linalg.inv(fk_space(screws, np.eye(4), q))
+    J = np.zeros((6, 7))
+    back = np.linalg.inv(fk_space(screws, np.eye(4), q))
     for i, d in enumerate(1e-3 * np.eye(7)):
         ahead, behind = (fk_space(screws, np.eye(4), x) for x in (q + d, q - d))
         V = (ahead - behind) / 2e-3 @ back

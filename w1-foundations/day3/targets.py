@@ -38,7 +38,8 @@ def targets(rng):
     start, goal = _near_targets(rng, 30, 0.7)
     some = np.flatnonzero(_reached(goal, start, limits))[:15]
     start, goal = start[some], goal[some]
-    goal[0], start[0] = screws.fk_space(S, M, panda.READY_Q), panda.READY_Q
+    goal[0] = screws.fk_space(S, M, panda.READY_Q)
+    start[0] = panda.READY_Q
     start[1:3], goal[1:3] = _by_the_limits(rng)
     out = goal[9:11, :3, 3]
     out *= 2.0 / np.linalg.norm(out, axis=1)[:, None]
@@ -126,7 +127,8 @@ def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
 def _half_there(S, M, T_goal, q) -> Finding | None:
     """Return that only the position, or only the rotation, is right."""
     e = jacobian.pose_error(screws.fk_space(S, M, q), T_goal)
-    turn, move = np.linalg.norm(e[:3]), np.linalg.norm(e[3:])
+    turn = np.linalg.norm(e[:3])
+    move = np.linalg.norm(e[3:])
     if move < 1e-8 and turn > 1e-4:
         says = (
             f"The hand's position is right, its rotation is {turn:.2g} rad off: does "

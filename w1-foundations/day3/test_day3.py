@@ -52,7 +52,8 @@ def test_mj_jac_site_is_silent_about_what_it_lacks():
 
 @pytest.mark.parametrize(("before", "fails"), [(1e-9, True), (0.1, False)])
 def test_the_formula_of_most_books_fails_near_pi(before, fails):
-    angle, axis = np.pi - before, np.array([0.6, 0.0, 0.8])
+    angle = np.pi - before
+    axis = np.array([0.6, 0.0, 0.8])
     R = screws.exp_rotation(axis, angle)
     theta = np.arccos((np.trace(R) - 1) / 2)
     a = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
@@ -75,7 +76,8 @@ def test_most_mistakes_in_a_jacobian_are_right_at_zero(arm):
 def targets():
     """Return 200 targets within 0.3 rad of their starts, and these."""
     S, M, limits = ARM
-    middle, rng = limits.mean(axis=1), np.random.default_rng(47)
+    middle = limits.mean(axis=1)
+    rng = np.random.default_rng(47)
     drawn = verify.random_q(panda.load("panda_nohand"), 200, 47)
     start = middle + 0.8 * (drawn - middle)
     near = np.clip(start + rng.uniform(-0.3, 0.3, start.shape), *limits.T)
@@ -108,7 +110,9 @@ LOOPS = {
 @pytest.mark.parametrize("named", LOOPS)
 def test_a_loop_of_wrong_parts_may_arrive_all_the_same(targets, named):
     said = int(re.search(re.escape(f"| {named} | ") + r"(\d+)", GUIDE)[1])
-    (S, M, limits), (goal, start), parts = ARM, targets, LOOPS[named]
+    S, M, limits = ARM
+    goal, start = targets
+    parts = LOOPS[named]
     parts = parts(start) if callable(parts) else parts
     q = LOOP.walk(S, M, goal, start, limits, **parts)
     found = jacobian.reached(S, M, goal, q).sum()
@@ -116,9 +120,11 @@ def test_a_loop_of_wrong_parts_may_arrive_all_the_same(targets, named):
 
 
 def test_it_is_the_joint_limits_that_most_walks_from_ready_end_at():
-    (S, M, limits), start = ARM, np.tile(panda.READY_Q, (300, 1))
+    S, M, limits = ARM
+    start = np.tile(panda.READY_Q, (300, 1))
     drawn = verify.random_q(panda.load("panda_nohand"), 300, 47)
-    goals, missed = screws.fk_space(S, M, drawn), []
+    goals = screws.fk_space(S, M, drawn)
+    missed = []
     for ends in (limits, np.tile([-9.0, 9.0], (7, 1))):
         q = LOOP.walk(S, M, goals, start, ends)
         fails = ~jacobian.reached(S, M, goals, q)
@@ -130,7 +136,8 @@ def test_it_is_the_joint_limits_that_most_walks_from_ready_end_at():
 
 
 def test_a_target_out_of_reach_tells_the_wrong_jacobian(targets):
-    (S, M, limits), start = ARM, targets[1][:12]
+    S, M, limits = ARM
+    start = targets[1][:12]
     middle = limits.mean(axis=1)
     start = middle + 0.7 / 0.8 * (start - middle)  # so that no limit is in the way
     goal = screws.fk_space(S, M, start + 0.1)
@@ -186,7 +193,8 @@ def test_in_which_jacobians_joint_7_does_not_show(arm):
 
 
 def test_the_origin_of_joint_7_has_another_jacobian(arm):
-    model, q = panda.load("panda_nohand"), panda.READY_Q[None]
+    model = panda.load("panda_nohand")
+    q = panda.READY_Q[None]
     J_space = own_jacobians(arm, q)["J_space"]
     ends = verify.mujoco_poses(model, q)
     link, hand = (ends[k][:, :3, 3] for k in ("body:link7", "site:attachment_site"))
@@ -211,7 +219,8 @@ def test_manipulability_and_the_least_singular_value_depend_on_the_unit(arm):
 
 
 def test_the_sine_cannot_tell_120_degrees_from_60(arm):
-    T, goals = np.eye(4)[None], []
+    T = np.eye(4)[None]
+    goals = []
     for degrees in (60, 120):
         goal = np.eye(4)[None].copy()
         goal[0, :3, :3] = screws.exp_rotation([0, 0, 1], np.radians(degrees))

@@ -78,9 +78,11 @@ def test_from_which_radius_on_the_circle_leaves_the_reach(radius):
 def test_a_tool_that_may_tilt_comes_closer():
     S, M, limits = ARM
     goals, _ = verify.circle(*ARMS, lab.RADIUS, np.arange(1.3, 1.9, 0.02))
-    start, tenth = circle(lab.RADIUS)[1], np.array([1.0] * 3 + [10] * 3)
+    start = circle(lab.RADIUS)[1]
+    tenth = np.array([1.0] * 3 + [10] * 3)
     M10, far = M.copy(), goals.copy()  # lengths ten times as large: a radian is 0.1 m
-    M10[:3, 3], far[:, :3, 3] = 10 * M[:3, 3], 10 * goals[:, :3, 3]
+    M10[:3, 3] = 10 * M[:3, 3]
+    far[:, :3, 3] = 10 * goals[:, :3, 3]
     q = jacobian.solve_ik(S * tenth, M10, far, start, limits)
     e = jacobian.pose_error(screws.fk_space(S, M, q), goals)
     tilt, miss = (np.linalg.norm(x, axis=1).max() for x in (e[:, :3], e[:, 3:]))
@@ -90,7 +92,8 @@ def test_a_tool_that_may_tilt_comes_closer():
 
 @pytest.mark.parametrize("radius", [0.36, 0.366])
 def test_where_the_arm_can_go_the_plain_pseudo_inverse_is_the_better_one(radius):
-    (damped, *_), (plain, rate, _) = drawn(radius, lab.DAMPING), drawn(radius, 0.0)
+    damped, *_ = drawn(radius, lab.DAMPING)
+    plain, rate, _ = drawn(radius, 0.0)
     assert damped.max() > 6 * plain.max()
     assert rate.max() < 1.0
     if radius == lab.EASY:
@@ -160,7 +163,8 @@ def test_with_damping_the_circle_is_drawn_within_the_joint_speeds(radius):
 def test_the_elbow_swings_while_the_hand_stands():
     """The side quest: joint 3's direction, 400 steps of 0.005."""
     S, M, limits = ARM
-    q, T = panda.READY_Q, screws.fk_space(S, M, panda.READY_Q)
+    q = panda.READY_Q
+    T = screws.fk_space(S, M, panda.READY_Q)
     for _ in range(400):
         now = screws.fk_space(S, M, q)
         J = lab.site_jacobian(lab.space_jacobian(S, q), now[:3, 3])

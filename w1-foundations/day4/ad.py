@@ -4,19 +4,20 @@ import numpy as np
 
 from labkit.judge import Row
 from labkit.judge.argument_mistakes import HALVES_SWAPPED
-from robo47 import screws
+from robo47 import dynamics
 from robo47.screws import adjoint, exp_screw, skew
 
 from .states import SIX
 
-row = Row(SIX, truth=screws.ad)
+row = Row(SIX, truth=dynamics.ad)
 row.of_argument("V", HALVES_SWAPPED)
 NONE = np.zeros((3, 3))
 
 
 @row.inputs
 def _(rng):
-    case, shift = np.eye(6)[2] + np.eye(6)[3], np.array([0, 0, 0, 0.3, -0.2, 0.5])
+    case = np.eye(6)[2] + np.eye(6)[3]
+    shift = np.array([0, 0, 0, 0.3, -0.2, 0.5])
     return [(V,) for V in (case, shift, *rng.numbers(-2, 2, 9, 6))]
 
 
@@ -39,7 +40,9 @@ def _(V):
     omega-everywhere: [omega] stands where [v] belongs => the matrix with [omega] three
       times
     """
-    W, U, ONE = skew(V[:3]), skew(V[3:]), np.eye(3)
+    W = skew(V[:3])
+    U = skew(V[3:])
+    ONE = np.eye(3)
     blocks = {
         "v-on-top": [[W, U], [NONE, W]],
         "v-forgotten": [[W, NONE], [NONE, W]],
@@ -64,11 +67,11 @@ def _(V):
 
 @row.wrong("transposed")  # What forces need, a task too early.
 def _(V):
-    return screws.ad(V).T
+    return dynamics.ad(V).T
 
 
 @row.wrong(
     "off", hidden="the lab's twists all turn"
 )  # What does not turn is forgotten.
 def _(V):
-    return screws.ad(V) if V[:3].any() else np.zeros((6, 6))
+    return dynamics.ad(V) if V[:3].any() else np.zeros((6, 6))

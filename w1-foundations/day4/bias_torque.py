@@ -1,12 +1,11 @@
-"""4.6 `bias_torque(J, G, qd, g)`: its questions; its mistakes, and the recursion's."""
+"""4.6 `bias_torque(J_space, G, qd, g)`: questions, mistakes, the recursion's too."""
 
 from functools import partial
 
 import numpy as np
 
 from labkit.judge import Row
-from robo47.dynamics import inverse_dynamics, mass_matrix
-from robo47.screws import ad
+from robo47.dynamics import ad, inverse_dynamics, mass_matrix
 
 from .states import TORQUE, motions
 
@@ -79,6 +78,7 @@ def rate_of_the_mass_matrix(J, G, qd, g):
     X = ad(np.cumsum(J * qd, axis=1).T)  # of each link
     J_rate = np.array([X_i @ S for X_i, S in zip(X, J.T)]).T
     G_rate = np.array([-X_i.T @ G_i - G_i @ X_i for X_i, G_i in zip(X, G)])
-    up, down = mass_matrix(J + J_rate, G, 0.0), mass_matrix(J - J_rate, G, 0.0)
+    up = mass_matrix(J + J_rate, G, 0.0)
+    down = mass_matrix(J - J_rate, G, 0.0)
     M_rate = 0.5 * (up - down) + mass_matrix(J, G_rate, 0.0)
     return inverse_dynamics(J, G, STILL, STILL, g) + M_rate @ qd

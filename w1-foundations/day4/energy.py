@@ -14,7 +14,8 @@ row = Row(Vector((2,), "J", names=("the kinetic", "the potential")))
 
 @row.inputs
 def _(rng):
-    M, qd = np.diag([2.0, 0, 0, 0, 0, 0, 0]), 3.0 * np.eye(7)[0]
+    M = np.diag([2.0, 0, 0, 0, 0, 0, 0])
+    qd = 3.0 * np.eye(7)[0]
     yield M, qd, np.zeros(7), np.zeros((7, 3)), DOWN
     ready = arm().at(panda.READY_Q)
     yield ready.M, np.zeros(7), arm().masses, ready.coms_world, DOWN

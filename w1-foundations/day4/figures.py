@@ -34,7 +34,9 @@ POSES = {
 @chart.picture(height=5.2)
 def momentum(figure: Figure) -> None:
     """Draw a body with its centre, its momentum there, and both about the origin."""
-    axes, c, p = figure.subplots(), np.array([3.2, 1.3]), np.array([-0.55, 1.9])
+    axes = figure.subplots()
+    c = np.array([3.2, 1.3])
+    p = np.array([-0.55, 1.9])
     phi = np.linspace(0.0, 2 * np.pi, 100)
     body = c[:, None] + [[1.15, -0.25], [0.35, 0.6]] @ np.array(
         [np.cos(phi), np.sin(phi)]
@@ -71,7 +73,8 @@ def torques(figure: Figure) -> None:
 def float_and_push(figure: Figure) -> None:
     """Draw how far the hand is from where it was, over time, on a log axis."""
     model = panda.load("panda_nohand", drive="torque")
-    arm, calm = panda.arm(model), 0 * PUSH
+    arm = panda.arm(model)
+    calm = 0 * PUSH
     runs = {
         "let go, to a limit": (RED, "-", (0.0, (0.5, calm))),
         "99 % of gravity_torque": (ORANGE, "-.", (0.99, (2.0, calm))),
@@ -97,7 +100,8 @@ def float_and_push(figure: Figure) -> None:
 def _parts(q: Array) -> dict[str, tuple[str, Array]]:
     """Return gravity's, Coriolis' and the acceleration's torque, N m, (7,) each."""
     model = panda.load("panda_nohand")
-    arm, qd = panda.arm(model), np.full(7, SPEED)
+    arm = panda.arm(model)
+    qd = np.full(7, SPEED)
     now = arm.at(q)
     G = link_inertias(now.T_links, *panda.inertias(model))
     g = gravity_torque(now.J_space, arm.masses, now.coms_world, arm.gravity)
@@ -117,7 +121,8 @@ def _bars(axes: Axes, name: str, q: Array) -> None:
     limits = simulate.limits(panda.load("panda_nohand"))[1]
     joints = np.arange(1, 8)
     for k, (label, (colour, tau)) in enumerate(_parts(q).items()):
-        x, share = joints + 0.27 * (k - 1), 100 * tau / limits
+        x = joints + 0.27 * (k - 1)
+        share = 100 * tau / limits
         hatch = ("", "//", "..")[k]
         axes.bar(x, share, 0.25, color=colour, label=label, hatch=hatch, ec="white")
     axes.axhline(0, color=INK, lw=1)

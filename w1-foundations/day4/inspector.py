@@ -17,8 +17,12 @@ from robo47 import dynamics, panda, simulate
 from robo47.checks import Array
 
 JOINTS = 7
-LET_GO, FLOAT, PUSH, BACK = "let go", "float", "push", "back"
-FORCE, PUSHED = np.array([0.0, 10.0, 0.0]), 0.5  # newtons in the world; seconds
+LET_GO = "let go"
+FLOAT = "float"
+PUSH = "push"
+BACK = "back"
+FORCE = np.array([0.0, 10.0, 0.0])  # newtons, in the world
+PUSHED = 0.5  # seconds
 HZ, RATE = 25.0, 100.0  # of the picture; of the controller
 HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
 LENGTH = 0.02  # metres of an arrow per newton
@@ -39,7 +43,9 @@ class Forces(Tab):
         entry = "panda_nohand" if page.model.nq == JOINTS else "panda"
         self.model = panda.load(entry, drive="torque")
         self.data = simulate.start(self.model, page.q[:JOINTS])
-        self.share, self.force, self.falls = 1.0, 0 * FORCE, False
+        self.share = 1.0
+        self.force = 0 * FORCE
+        self.falls = False
         self.begun = self.shown = page.q
         self.own = page.own(dynamics)
         page.buttons([LET_GO, FLOAT, PUSH, BACK], self.press)
@@ -74,7 +80,8 @@ class Forces(Tab):
         """Simulate until the next picture; it waits for the student's torques."""
         if not np.array_equal(self.page.q, self.shown):  # somebody moved a slider
             self.data = simulate.start(self.model, self.page.q[:JOINTS])
-        data, push = self.data, None
+        data = self.data
+        push = None
         if self.force.any() and seconds < PUSHED:
             wrench = np.append(np.zeros(3), self.force)
             push = simulate.push_at("attachment_site", wrench)
@@ -98,7 +105,8 @@ class Forces(Tab):
         self.shown = self.page.q
         self.shown[:JOINTS] = self.data.qpos[:JOINTS]
         self.page.move(self.shown)
-        t, speed = self.data.time, float(np.abs(self.data.qvel[:JOINTS]).max())
+        t = self.data.time
+        speed = float(np.abs(self.data.qvel[:JOINTS]).max())
         says = f"t = {t:.1f} s; the fastest joint turns at {speed:.2f} rad/s"
         self.clock.content = words.line(says, "clock")
 
@@ -116,7 +124,8 @@ class Forces(Tab):
 
     def ask(self, q: Array) -> tuple[Array, Array, Array, Array]:
         """Return the student's torques, the needed ones, the student's M, the right."""
-        now, given = self.rig.at(q), self.pulled(q)
+        now = self.rig.at(q)
+        given = self.pulled(q)
         G = dynamics.link_inertias(now.T_links, *self.weights)
         tau, M = self.own.many(
             ("gravity_torque", *given),

@@ -1,12 +1,11 @@
-"""4.6 `inverse_dynamics(J, G, qd, qdd, g)`: its questions and its mistakes."""
+"""4.6 `inverse_dynamics(J_space, G, qd, qdd, g)`: its questions and its mistakes."""
 
 from functools import partial
 
 import numpy as np
 
 from labkit.judge import Row
-from robo47.dynamics import inverse_dynamics
-from robo47.screws import ad
+from robo47.dynamics import ad, inverse_dynamics
 
 from .gravity import OTHER_GRAVITY
 from .states import TORQUE, motions
@@ -42,7 +41,9 @@ def passes(
         swing: what the force has for -ad(V)^T G V; own is S qd.
         felt: the wrench that motor i feels, from F of all links.
     """
-    V, A, F = np.zeros(6), np.zeros(6), []
+    V = np.zeros(6)
+    A = np.zeros(6)
+    F = []
     for i in range(7):
         own = J[:, i] * qd[i]
         V = V_before * V + own

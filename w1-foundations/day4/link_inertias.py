@@ -24,7 +24,8 @@ def _(rng):
     yield np.tile(np.eye(4), (7, 1, 1)), *body
     yield from ((now.T_links, *body) for now in states(rng, 5))
     for _ in range(4):
-        poses, masses = rng.poses(7), rng.numbers(0.2, 5, 7)
+        poses = rng.poses(7)
+        masses = rng.numbers(0.2, 5, 7)
         yield poses, masses, rng.numbers(-0.5, 0.5, 7, 3), solids(rng, 7)
 
 
@@ -111,7 +112,8 @@ def _(T_links, masses, coms, inertias):
     def placed(T, c=coms):
         return link_inertias(T, masses, c, inertias)
 
-    own, Ad = spatial_inertia(masses, coms, inertias), adjoint(T_links)
+    own = spatial_inertia(masses, coms, inertias)
+    Ad = adjoint(T_links)
     return {
         "left-in-link-axes": own,
         "pose-inverted": lambda: placed(np.linalg.inv(T_links)),

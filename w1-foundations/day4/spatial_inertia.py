@@ -9,13 +9,15 @@ from robo47.screws import skew
 from .states import SIX, solids
 
 row = Row(SIX)
-ONE, NONE = np.eye(3), np.zeros((3, 3))
+ONE = np.eye(3)
+NONE = np.zeros((3, 3))
 
 
 @row.inputs
 def _(rng):
     point = (2.0, np.array([0.0, 0.0, 1.0]), np.zeros((3, 3)))
-    masses, coms = rng.numbers(0.2, 5, 9), rng.numbers(-1, 1, 9, 3)
+    masses = rng.numbers(0.2, 5, 9)
+    coms = rng.numbers(-1, 1, 9, 3)
     return [point, *zip(map(float, masses), coms, solids(rng, 9))]
 
 
@@ -47,7 +49,8 @@ def _(m, c, I):
     diagonal-of-I: only the diagonal of I is used; the other entries are 0 along a
       body's own axes, and these are the world's => the matrix with the rest of I as 0
     """
-    C, own = skew(c), np.diag(np.diag(I))
+    C = skew(c)
+    own = np.diag(np.diag(I))
     shift = m * C @ C.T
     top_left = {
         "parallel-axis-forgotten": I,
@@ -86,8 +89,10 @@ def _(m, c, I):
       on the diagonal => the matrix with m in all of them
     blocks-v-omega: the blocks are in the order (v; omega); omega comes first, as in J
     """
-    C, M = skew(c), m * ONE
-    A, mC = I + m * C @ C.T, m * C
+    C = skew(c)
+    M = m * ONE
+    A = I + m * C @ C.T
+    mC = m * C
     made = {
         "about-the-centre-of-mass": (I, NONE, NONE, M),
         "corners-alike": (A, mC, mC, M),
@@ -110,7 +115,8 @@ def _(m, c, I):
       stands in the lower left one says what belongs there => the matrix with 0 there
     """
     mC = m * skew(c)
-    A, M = I + mC @ skew(c).T, m * ONE
+    A = I + mC @ skew(c).T
+    M = m * ONE
     return {
         "corners-alike": of_blocks(A, mC.T, mC.T, M),
         "one-corner-empty": of_blocks(A, NONE, mC.T, M),

@@ -29,8 +29,12 @@ def hinge(axis, mass):
 
     The other six joints and links are there, and are nothing.
     """
-    J, masses, coms = np.zeros((6, 7)), np.zeros(7), np.zeros((7, 3))
-    J[:3, 0], masses[0], coms[0] = axis, mass, (1.0, 0.0, 0.0)
+    J = np.zeros((6, 7))
+    masses = np.zeros(7)
+    coms = np.zeros((7, 3))
+    J[:3, 0] = axis
+    masses[0] = mass
+    coms[0] = (1.0, 0.0, 0.0)
     return J, dynamics.spatial_inertia(masses, coms, np.zeros((7, 3, 3))), masses, coms
 
 

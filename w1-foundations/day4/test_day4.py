@@ -12,7 +12,8 @@ from compare import assert_same
 from conftest import ROOT, load_script, need, paper
 from labkit.lesson.day import find_day
 from robo47 import dynamics, panda, simulate, verify
-from robo47.verify import links
+
+import day4_mujoco
 
 GUIDE = (ROOT / "w1-foundations/docs/day4-lab.md").read_text("utf-8")
 PAGE = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
@@ -39,7 +40,7 @@ def mass_matrices(arm, model):
     wrong = {}
     for x in q:
         now = arm.at(x)
-        bad = links.wrong_on_purpose(
+        bad = day4_mujoco.wrong_on_purpose(
             lab.link_inertias, now.T_links, *panda.inertias(model)
         )
         for what, G in bad.items():
@@ -67,9 +68,11 @@ def test_a_mass_matrix_with_a_wrong_sign_is_symmetric_and_positive_definite(arm,
 
 
 def test_the_wrong_sign_is_an_arm_with_its_masses_at_minus_c(arm):
-    now, flip = arm.at(panda.READY_Q), np.diag([1.0, 1, 1, -1, -1, -1])
-    body, R = (arm.masses, arm.coms, arm.inertias), now.T_links[:, :3, :3]
-    wrong = links.wrong_on_purpose(lab.link_inertias, now.T_links, *body)[
+    now = arm.at(panda.READY_Q)
+    flip = np.diag([1.0, 1, 1, -1, -1, -1])
+    body = (arm.masses, arm.coms, arm.inertias)
+    R = now.T_links[:, :3, :3]
+    wrong = day4_mujoco.wrong_on_purpose(lab.link_inertias, now.T_links, *body)[
         "m [c] with the wrong sign"
     ]
     own = R @ arm.inertias @ np.swapaxes(R, 1, 2)
@@ -83,10 +86,12 @@ def test_the_wrong_sign_is_an_arm_with_its_masses_at_minus_c(arm):
 
 def test_at_q_zero_M_does_not_see_which_way_I_was_turned(arm):
     def off(q, com, own):
-        now, (m, c, I) = arm.at(q), (arm.masses, arm.coms, arm.inertias)  # noqa: E741
-        R, p = now.T_links[:, :3, :3], now.T_links[:, :3, 3]
+        now = arm.at(q)
+        m, c, inertia = arm.masses, arm.coms, arm.inertias
+        R = now.T_links[:, :3, :3]
+        p = now.T_links[:, :3, 3]
         c = np.einsum(com, R, c) + p
-        G = dynamics.spatial_inertia(m, c, np.einsum(own, R, I, R))
+        G = dynamics.spatial_inertia(m, c, np.einsum(own, R, inertia, R))
         return np.abs(lab.mass_matrix(now.J_space, G, arm.armature) - now.M).max()
 
     assert "q = 0 M does not see which way the inertia I was turned" in SENTENCES
@@ -99,7 +104,8 @@ def test_gravity_at_ready_and_what_the_arm_weighs(arm):
     tau = arm.at(panda.READY_Q).gravity_torque
     assert f"{tau[3]:.3f} N m, of the 87" in SENTENCES
     assert abs(tau[0]) < 1e-12  # "joint1 holds nothing", since its axis is upright
-    now, tipped = arm.at(panda.READY_Q), 9.81 * np.array([0, np.sin(0.1), -np.cos(0.1)])
+    now = arm.at(panda.READY_Q)
+    tipped = 9.81 * np.array([0, np.sin(0.1), -np.cos(0.1)])
     tau = lab.gravity_torque(now.J_space, arm.masses, now.coms_world, tipped)
     assert f"0.1 rad to the side, and it holds {abs(tau[0]):.1f} N m" in SENTENCES
     assert f"a {arm.masses.sum():.0f} kg arm" in SENTENCES
@@ -166,7 +172,8 @@ def test_the_stone_of_step_5_is_pulled_inwards_by_the_second_term(arm):
     for words in ("is (0, 0, 1; 0, 1, 0)", "as (0, 0, 0; -1, 0, 0)"):
         assert words in SENTENCES
     # The law behind it: G rides on its link, so its rate is -ad(V)^T G - G ad(V).
-    V, h = np.random.default_rng(2).normal(size=6), 1e-6
+    V = np.random.default_rng(2).normal(size=6)
+    h = 1e-6
     X = np.eye(6) - h * lab.ad(V)  # takes what rides on the link back by h
     rate = (X.T @ G @ X - G) / h
     assert_same(rate, -lab.ad(V).T @ G - G @ lab.ad(V), 1e-4)
@@ -186,14 +193,16 @@ def test_two_coriolis_matrices_give_one_torque_and_one_of_them_a_skew_rest(arm):
 
 def test_M_plus_h_D_belongs_to_a_step_that_brakes_at_its_end(arm):
     model = panda.load("panda_nohand", drive="torque")
-    q, h = verify.random_q(model, 20, seed=1), model.opt.timestep
+    q = verify.random_q(model, 20, seed=1)
+    h = model.opt.timestep
     rng = np.random.default_rng(1)
     qd, tau = rng.uniform(-2, 2, q.shape), rng.uniform(-10, 10, q.shape)
 
     def off(damped):
         own = []
         for i, now in enumerate(map(arm.at, q)):
-            M, bias = now.M + damped * np.diag(arm.damping), now.bias(qd[i])
+            M = now.M + damped * np.diag(arm.damping)
+            bias = now.bias(qd[i])
             qdd = lab.forward_dynamics(M, bias, arm.damping, qd[i], tau[i])
             own.append(qd[i] + h * qdd)
         return np.abs(own - verify.mujoco_step(model, q, qd, tau)).max()
@@ -207,9 +216,11 @@ def test_M_plus_h_D_belongs_to_a_step_that_brakes_at_its_end(arm):
 
 
 def test_the_inverse_of_M_fits_the_equation_less_well(arm, model):
-    left, rng = np.zeros(2), np.random.default_rng(1)
+    left = np.zeros(2)
+    rng = np.random.default_rng(1)
     for q in verify.random_q(model, 300, seed=3):
-        M, tau = arm.at(q).M, rng.uniform(-50, 50, 7)
+        M = arm.at(q).M
+        tau = rng.uniform(-50, 50, 7)
         for i, qdd in enumerate((np.linalg.solve(M, tau), np.linalg.inv(M) @ tau)):
             left[i] += np.abs(M.astype(np.longdouble) @ qdd - tau).max()
     assert left[1] > 1.2 * left[0]  # measured 1.5
@@ -232,9 +243,9 @@ def test_rk4_asks_four_times_a_step(model):
 
 
 def test_the_integrator_loses_energy_in_proportion_to_its_step():
-    first, half = (links.swing("IMPLICITFAST", step) for step in (0.002, 0.001))
+    first, half = (day4_mujoco.swing("IMPLICITFAST", step) for step in (0.002, 0.001))
     assert 1.8 < first / half < 2.2
-    assert abs(links.swing("RK4", 0.002)) < 1e-6 * abs(first)
+    assert abs(day4_mujoco.swing("RK4", 0.002)) < 1e-6 * abs(first)
 
 
 # -- errata ---------------------------------------------------------------------------
@@ -269,8 +280,11 @@ def test_mj_rne_leaves_out_armature_and_damping(arm, model):
 def test_without_armature_and_damping_the_two_inverses_agree():
     model = panda.load("panda_nohand", drive="torque")
     model.dof_armature[:] = model.dof_damping[:] = 0.0
-    data, rne = mujoco.MjData(model), np.zeros(7)
-    data.qpos[:], data.qvel[:], data.qacc[:] = panda.READY_Q, 1.5, 5.0
+    data = mujoco.MjData(model)
+    rne = np.zeros(7)
+    data.qpos[:] = panda.READY_Q
+    data.qvel[:] = 1.5
+    data.qacc[:] = 5.0
     mujoco.mj_inverse(model, data)
     mujoco.mj_rne(model, data, 1, rne)
     assert_same(data.qfrc_inverse, rne, 1e-11)
@@ -278,10 +292,12 @@ def test_without_armature_and_damping_the_two_inverses_agree():
 
 def departure(arm, model, torque):
     """Return how far errors are from (1 + wt) e^-wt, in parts of what they were."""
-    omega, start = 20.0, 0.1 * np.array([1, -1, 1, 1, -1, 1, -1.0])
+    omega = 20.0
+    start = 0.1 * np.array([1, -1, 1, 1, -1, 1, -1.0])
 
     def controller(t, q, qd):
-        now, e = arm.at(q), panda.READY_Q - q
+        now = arm.at(q)
+        e = panda.READY_Q - q
         wanted = omega**2 * e - 2 * omega * qd
         return torque(now.M, wanted) + now.bias(qd) + arm.damping * qd
 
@@ -301,7 +317,8 @@ def test_gains_outside_M_do_not_give_the_error_that_was_asked_for(arm, model):
 def test_the_mass_matrix_needs_no_mj_fullM(model):
     assert "mj_fullM" in ERRATA
     if tuple(map(int, mujoco.__version__.split(".")[:2])) >= (3, 10):
-        data, dense = mujoco.MjData(model), np.zeros((7, 7))
+        data = mujoco.MjData(model)
+        dense = np.zeros((7, 7))
         mujoco.mj_forward(model, data)
         with pytest.raises((TypeError, AttributeError)):
             mujoco.mj_fullM(model, dense, data.qM)

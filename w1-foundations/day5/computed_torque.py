@@ -61,7 +61,8 @@ def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
     bias-alone-at-the-goal: where e is 0 only bias comes back, but the arm may be moving
       there
     """
-    rub, springs = damping * qd, kd * ed + kp * e
+    rub = damping * qd
+    springs = kd * ed + kp * e
     acc = qdd_ref + springs
     push = M @ acc
     return {

@@ -162,7 +162,9 @@ def _(t, omega, zeta):
       omega
     root-forgotten: under zeta = 1 the damped frequency lacks its square root
     """
-    rate, w, w_2 = zeta * omega, omega * np.sqrt(1 - zeta**2), omega * (1 - zeta**2)
+    rate = zeta * omega
+    w = omega * np.sqrt(1 - zeta**2)
+    w_2 = omega * (1 - zeta**2)
     cos_0, cos, cos_2 = (np.cos(one * t) for one in (omega, w, w_2))
     sin_0, sin, sin_2 = (np.sin(one * t) for one in (omega, w, w_2))
     envelope = np.exp(-rate * t)
@@ -190,7 +192,8 @@ def _(t, omega, zeta):
       slower
     """
     spread = omega * np.sqrt(zeta**2 - 1.0)
-    a, b = zeta * omega - spread, zeta * omega + spread
+    a = zeta * omega - spread
+    b = zeta * omega + spread
     slow, fast = np.exp(-a * t), np.exp(-b * t)
     return {
         "slow-exponential-alone": slow,

@@ -11,7 +11,6 @@ from labkit.figures import chart
 from labkit.figures.chart import BLUE, GREEN, GREY, ORANGE, PURPLE
 from robo47 import panda, references, simulate
 from robo47.checks import Array
-from robo47.verify import loops
 
 SECONDS, RATE = 1.0, 500.0  # at 500 Hz the curve is predicted to 1.2 % of e0
 LOOKS = ((GREY, "-"), (PURPLE, "-"), (ORANGE, "-"), (GREEN, "-."), (BLUE, "-"))
@@ -19,8 +18,11 @@ LOOKS = ((GREY, "-"), (PURPLE, "-"), (ORANGE, "-"), (GREEN, "-."), (BLUE, "-"))
 
 def curves() -> dict[str, Array]:
     """Return the largest |e| / e0 of any joint at every instant, per controller."""
-    ready, model = lab.READY_Q, loops.motors()
-    start, goal, arm = ready - lab.E0, references.hold(ready), panda.arm(model)
+    ready = lab.READY_Q
+    model = lab.day5_mujoco.motors()
+    start = ready - lab.E0
+    goal = references.hold(ready)
+    arm = panda.arm(model)
     servos = panda.load("panda_nohand")
     logs = {
         "servos": simulate.run(
@@ -46,7 +48,8 @@ def curves() -> dict[str, Array]:
 @chart.picture(height=7.2)
 def error_curves(figure: Figure) -> None:
     """Draw the five errors on one log axis, and the predicted curve dashed."""
-    t, axes = np.arange(round(SECONDS * RATE) + 1) / RATE, figure.subplots()
+    t = np.arange(round(SECONDS * RATE) + 1) / RATE
+    axes = figure.subplots()
     for (name, e), (colour, style) in zip(curves().items(), LOOKS, strict=True):
         axes.plot(t, e, style, color=colour)
         axes.text(1.01 * SECONDS, e[-1], name, color=colour, va="center",

@@ -42,7 +42,8 @@ def _(e, ed, kp, kd, g_at_q):
     nothing-at-the-goal: where e is 0, no torque comes back: the arm has its weight at
       the goal too
     """
-    springs, away = kp * e + kd * ed, np.any(e)
+    springs = kp * e + kd * ed
+    away = np.any(e)
     return {
         "gravity-forgotten": springs,
         "gravity-sign": springs - g_at_q,

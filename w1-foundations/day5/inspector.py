@@ -42,7 +42,9 @@ def with_gravity(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Ar
 
 def computed(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
     """Give computed torque of a wanted omega, critically damped."""
-    now, e, ed = arm.at(q), ref[0] - q, ref[1] - qd
+    now = arm.at(q)
+    e = ref[0] - q
+    ed = ref[1] - qd
     known = now.M, now.bias(qd), arm.damping, qd
     return own.computed_torque(*known, e, ed, ref[2], *tab.gains())
 
@@ -55,10 +57,13 @@ def outside(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
 
 def with_integral(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
     """Give computed torque whose acceleration comes from PID."""
-    now, e, ed = arm.at(q), ref[0] - q, ref[1] - qd
+    now = arm.at(q)
+    e = ref[0] - q
+    ed = ref[1] - qd
     given = e, ed, tab.integral, *tab.gains(), KI, 1.0 / RATE, CLAMP
     acc, tab.integral = own.pid_step(*given)
-    known, none = (now.M, now.bias(qd), arm.damping, qd), np.zeros(7)
+    known = (now.M, now.bias(qd), arm.damping, qd)
+    none = np.zeros(7)
     return own.computed_torque(*known, none, none, ref[2] + acc, 0.0, 0.0)
 
 
@@ -91,8 +96,12 @@ class Control(Tab):
             for edit in (None, scenes.hang_kilogram)
         ]
         self.arm = panda.arm(self.models[0])  # the model never knows of the load
-        self.law, self.omega, self.heavy, self.swing = computed, 20.0, 0, False
-        self.known, self.kp_kd = (0.0, 0), np.zeros(2)
+        self.law = computed
+        self.omega = 20.0
+        self.heavy = 0
+        self.swing = False
+        self.known = (0.0, 0)
+        self.kp_kd = np.zeros(2)
         self.limits = simulate.limits(self.models[0])[1]
         steps = simulate.steps_per_period(self.models[0], RATE)
         h = self.models[0].opt.timestep
@@ -149,7 +158,8 @@ class Control(Tab):
     def restart(self, q: Array) -> None:
         """Put the arm at rest somewhere, time at 0, the plot empty."""
         self.data = simulate.start(self.models[self.heavy], q)
-        self.integral, self.since = np.zeros(7), 0
+        self.integral = np.zeros(7)
+        self.since = 0
         self.asked: list[Array] = []
         self.plot.clear()
         self.show(reference(0.0, self.swing)[0])

@@ -137,7 +137,9 @@ def _(e, ed, integral, ki, dt, clamp):
       the other sign must be able to unwind it
     clamped-on-one-side 2: the integral is bounded below and not above
     """
-    step, new, old = e * dt, integral + e * dt, np.clip(integral, -clamp, clamp)
+    step = e * dt
+    new = integral + e * dt
+    old = np.clip(integral, -clamp, clamp)
     length = max(np.linalg.norm(new), 1e-12)
     return {
         "not-clamped": new,
@@ -176,7 +178,8 @@ def _(e, ed, integral, kp, kd, ki, dt, clamp):
       back
     swapped: the two answers are swapped: the acceleration comes first
     """
-    raw, springs = integral + e * dt, kp * e + kd * ed
+    raw = integral + e * dt
+    springs = kp * e + kd * ed
     new, scaled = (np.clip(x, -clamp, clamp) for x in (raw, integral + ki * e * dt))
     acc = springs + ki * new
     return {

@@ -67,7 +67,8 @@ def _(tau, limits):
     all-positive: every torque has lost its sign; a motor turns both ways
     first-joint-only: only joint1 is limited; every motor has a limit
     """
-    right, over = np.clip(tau, -limits, limits), np.abs(tau) > limits
+    right = np.clip(tau, -limits, limits)
+    over = np.abs(tau) > limits
     return {
         "switched-off": np.where(over, 0.0, tau),
         "always-full": np.sign(tau) * limits,

@@ -10,7 +10,6 @@ from scipy.integrate import solve_ivp
 
 from conftest import ROOT, load_script
 from robo47 import control, panda, references, scenes, simulate
-from robo47.verify import loops
 
 SCRIPT = "w1-foundations/src/day5_control.py"
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day5-lab.md").read_text("utf-8").split())
@@ -25,7 +24,7 @@ START = lab.READY_Q - 1e-8 * lab.E0  # so near that no motor is at its limit
 @pytest.fixture(scope="module")
 def bench():
     """The arm with motors, and Day 4's library of it."""
-    model = loops.motors()
+    model = lab.day5_mujoco.motors()
     return model, panda.arm(model)
 
 
@@ -41,7 +40,8 @@ def swing(bench, law, rate=500.0):
 
 def decay(bench, law, seconds, rate=500.0):
     """Return the times, and e / e0 of all joints, from 0.1 rad off."""
-    start, goal = lab.READY_Q - lab.E0, references.hold(lab.READY_Q)
+    start = lab.READY_Q - lab.E0
+    goal = references.hold(lab.READY_Q)
     log = lab.run(*bench, law, goal, seconds, start, rate)
     return log.t, (lab.READY_Q - log.q) / lab.E0
 
@@ -51,7 +51,8 @@ def decay(bench, law, seconds, rate=500.0):
 
 @pytest.mark.parametrize("zeta", [0.1, 0.5, 1.0, 2.0, 5.0])
 def test_the_error_response_solves_its_equation(zeta):
-    t, (kp, kd) = np.linspace(0, 0.5, 21), lab.gains(12.0, zeta)
+    t = np.linspace(0, 0.5, 21)
+    kp, kd = lab.gains(12.0, zeta)
     truth = solve_ivp(
         lambda _, x: [x[1], -kp * x[0] - kd * x[1]], (0, 0.5), [1.0, 0.0],
         "DOP853", t, rtol=1e-11, atol=1e-13,
@@ -100,9 +101,10 @@ def test_gains_outside_m_track_and_do_not_decay_as_designed(bench):
 
 @pytest.mark.parametrize(("armature", "creeps"), [(0.1, True), (1.0, False)])
 def test_gains_outside_m_overdamp_the_light_joints(armature, creeps):
-    model = loops.motors()
+    model = lab.day5_mujoco.motors()
     model.dof_armature[4:] = armature
-    arm, wrist = panda.arm(model), slice(4, 7)
+    arm = panda.arm(model)
+    wrist = slice(4, 7)
     kp, kd = lab.gains(lab.OMEGA, 1.0)
     M = np.diag(arm.at(lab.READY_Q).M)[wrist]
     assert (kd / (2.0 * np.sqrt(kp * M)) > 2.5).all() == creeps
@@ -157,9 +159,7 @@ def test_the_files_own_servos_sag_by_gravity_over_stiffness(bench):
 
 
 def test_ten_times_the_stiffness_sags_a_tenth(bench):
-    q = loops.rest(
-        lab.sag_step, lab.READY_Q, lambda q: bench[1].at(q).gravity_torque, 1000.0
-    )
+    q = lab.rest(lambda q: bench[1].at(q).gravity_torque, 1000.0)
     assert f"a tenth: {1e3 * (lab.READY_Q - q)[3]:.1f} mrad" in GUIDE
 
 
@@ -174,8 +174,12 @@ def without(part):
     """Return computed torque of omega 20 that lacks a part of the model."""
 
     def law(arm, q, qd, ref, omega=20.0):
-        now, (kp, kd) = arm.at(q), lab.gains(omega, 1.0)
-        M, bias, damping, acc = now.M, now.bias(qd), arm.damping, ref[2]
+        now = arm.at(q)
+        kp, kd = lab.gains(omega, 1.0)
+        M = now.M
+        bias = now.bias(qd)
+        damping = arm.damping
+        acc = ref[2]
         M = M - 0.1 * np.eye(7) if part == "armature" else M
         bias = now.gravity_torque if part == "Coriolis" else bias
         damping = 0.0 * damping if part == "damping" else damping
@@ -261,21 +265,21 @@ def test_rates_gains_and_integrators_of_the_guides_table(bench):
         assert (np.ptp(log.q[-rate:], axis=0).max() < 1e-9) == rests
     assert round(tracked[0] / tracked[2]) == 7
     assert "5 tracks 7 times worse" in (ROOT / SCRIPT).read_text("utf-8")
-    model = loops.motors()
+    model = lab.day5_mujoco.motors()
     for name, mrad in (("EULER", 0.22), ("RK4", 0.15)):
         model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{name}")
         error = swing((model, bench[1]), lab.equal_springs(), lab.RATE)
         assert error == pytest.approx(mrad, abs=5e-3)
         assert re.search(rf"`mjINT_{name}` (gives the same )?{mrad}", GUIDE)
-    breaks = loops.breaking(model, lab.equal_springs, 500.0, START)
+    breaks = lab.day5_mujoco.breaking(model, lab.equal_springs, 500.0, START)
     assert f"a torque every 2 ms breaks at {breaks:.0f}, close to the rate" in GUIDE
 
 
 def breaking(bench, step=0.002, rate=500.0, damping=1.0):
     """Return the omega at which the loop of another model and rate breaks."""
-    model = loops.motors()
+    model = lab.day5_mujoco.motors()
     model.opt.timestep, model.dof_damping[:] = step, damping
-    return loops.breaking(model, lab.equal_springs, rate, START)
+    return lab.day5_mujoco.breaking(model, lab.equal_springs, rate, START)
 
 
 @pytest.mark.kit
@@ -289,7 +293,8 @@ def test_the_rate_says_where_the_loop_breaks_and_hardly_the_step(bench, rate, st
 
 def test_the_limit_of_a_held_torque_is_where_an_eigenvalue_is_minus_1():
     for n in (1, 2, 5, 50):
-        omega, h = control.stiffest_omega(0.002, n), 0.002
+        omega = control.stiffest_omega(0.002, n)
+        h = 0.002
         e, ed = np.eye(2)  # the error and its rate, as rows on (e, ed) at the start
         acc = -(omega**2) * e - 2.0 * omega * ed
         for _ in range(n):
@@ -304,7 +309,8 @@ def test_the_limit_of_a_held_torque_is_where_an_eigenvalue_is_minus_1():
 
 def test_an_omega_between_the_two_limits_breaks_the_days_own_loop(bench):
     def left(omega):
-        start, law = lab.READY_Q - 1e-8 * lab.E0, lab.equal_springs(omega)
+        start = lab.READY_Q - 1e-8 * lab.E0
+        law = lab.equal_springs(omega)
         log = lab.run(*bench, law, references.hold(lab.READY_Q), 0.24, start)
         return np.abs(lab.READY_Q - log.q)[-10:].max() / 1e-9
 
@@ -327,7 +333,7 @@ def test_1_kg_is_predicted_at_ready_and_at_its_own_answer(bench):
     now = arm.at(lab.READY_Q)
     first = np.linalg.solve(now.M, now.J_site.T @ [0, 0, 0, 0, 0, 9.81]) / 400.0
     assert f"gives {1e3 * first[3]:.2f} mrad" in GUIDE
-    heavy = loops.motors(edit=scenes.hang_kilogram)
+    heavy = lab.day5_mujoco.motors(edit=scenes.hang_kilogram)
     log = lab.run(
         heavy, arm, lab.equal_springs(40.0), references.hold(lab.READY_Q), 1.0
     )
@@ -336,10 +342,11 @@ def test_1_kg_is_predicted_at_ready_and_at_its_own_answer(bench):
 
 @pytest.mark.kit
 def test_the_integral_has_rouths_limit_and_winds_up(bench):
-    heavy = loops.motors(edit=scenes.hang_kilogram)
+    heavy = lab.day5_mujoco.motors(edit=scenes.hang_kilogram)
 
     def left(ki, model=bench[0], rate=lab.RATE):
-        start, second = lab.READY_Q - 0.01 * lab.E0, round(rate)
+        start = lab.READY_Q - 0.01 * lab.E0
+        second = round(rate)
         law = lab.with_integral(ki, 1e9, 1.0 / rate)
         log = lab.run(
             model, bench[1], law, references.hold(lab.READY_Q), 6.0, start, rate
@@ -353,7 +360,8 @@ def test_the_integral_has_rouths_limit_and_winds_up(bench):
     third = np.roots([1.0, kd, kp, kp * kd])  # at the limit it swings for ever
     assert_same(np.sort(np.abs(third.imag)), [0.0, 20.0, 20.0], 1e-9)
     assert np.abs(third.real).min() < 1e-9
-    M, M_true = bench[1].at(lab.READY_Q).M, panda.arm(heavy).at(lab.READY_Q).M
+    M = bench[1].at(lab.READY_Q).M
+    M_true = panda.arm(heavy).at(lab.READY_Q).M
     least = np.linalg.eigvals(np.linalg.solve(M_true, M)).real.min()
     assert f"eigenvalue is {least:.3f} at ready" in GUIDE
     assert f"falls to {round(least * 16_000, -2):,.0f}" in GUIDE
@@ -379,7 +387,8 @@ def test_a_servo_as_a_motor_is_let_down_by_the_integrator_alone(bench):
     for integrator, mrad in (("IMPLICITFAST", 30.0), ("EULER", 0.23)):
         servos = panda.load("panda_nohand")
         servos.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator}")
-        kp, kd = servos.actuator_gainprm[:, 0], -servos.actuator_biasprm[:, 2]
+        kp = servos.actuator_gainprm[:, 0]
+        kd = -servos.actuator_biasprm[:, 2]
 
         def inverted(t, q, qd, kp=kp, kd=kd):
             tau = law(bench[1], q, qd, raised_cosine(t))

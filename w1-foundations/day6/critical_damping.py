@@ -19,7 +19,8 @@ def root(A):
 def _(rng):
     drawn = [(rng.numbers(10, 500, 6), model(now)[2]) for now in states(rng)]
     K, Lambda = drawn[0]
-    light, stiff = (K, 0.004 * Lambda), (np.round(20.0 * K, 2), Lambda)
+    light = (K, 0.004 * Lambda)
+    stiff = (np.round(20.0 * K, 2), Lambda)
     slack = np.array([0.01, 0.2, 30.0, 0.5, 400.0, 0.02]), Lambda  # hardly any spring
     return [(np.full(6, 4.0), np.eye(6)), light, stiff, slack, *drawn]
 
@@ -66,7 +67,9 @@ def _(K, Lambda):
     no-roots: the square roots are missing: this grows with K, where a damping grows
       with its root => Lambda K + K Lambda
     """
-    k, half, entries = np.sqrt(K), root(Lambda), np.sqrt(Lambda)
+    k = np.sqrt(K)
+    half = root(Lambda)
+    entries = np.sqrt(Lambda)
     low = np.linalg.cholesky(Lambda) * k
     return {
         "one-order-only 2": 2.0 * k[:, None] * half,
@@ -117,7 +120,8 @@ def _(K, Lambda):
 
 @row.right  # The root by Newton's iteration (Denman and Beavers).
 def _(K, Lambda):
-    Y, Z = Lambda.copy(), np.eye(6)
+    Y = Lambda.copy()
+    Z = np.eye(6)
     for _ in range(40):
         Y, Z = (Y + np.linalg.inv(Z)) / 2, (Z + np.linalg.inv(Y)) / 2
     k = np.diag(np.sqrt(K))

@@ -16,7 +16,7 @@ from matplotlib.patches import Circle
 
 from labkit.figures import chart
 from labkit.figures.chart import BLUE, GREEN, INK, ORANGE, RED, RULE
-from robo47 import contact, panda, scenes, simulate
+from robo47 import panda, scenes, simulate
 
 STEP = 0.002  # s, of the simulator
 FORCES = np.linspace(-20.0, 20.0, 11)  # N, along x
@@ -27,9 +27,10 @@ MU = 0.6  # sliding friction of the drawn cone
 def moved(force: float, k: float) -> float:
     """Return how far the hand moves along x under a force along x, in metres."""
     model = panda.load("panda_nohand", drive="torque")
-    arm, start = panda.arm(model), simulate.start(model, lab.READY_Q)
+    arm = panda.arm(model)
+    start = simulate.start(model, lab.READY_Q)
     stiffness = np.append(lab.K[:3], np.full(3, k))
-    push = simulate.push_at(contact.SITE, [0.0, 0.0, 0.0, force, 0.0, 0.0])
+    push = simulate.push_at(lab.day6_mujoco.SITE, [0.0, 0.0, 0.0, force, 0.0, 0.0])
     law = lab.soft_hand(arm, lab.READY_Q, stiffness=stiffness)
     run = simulate.run(model, start, law, 3.0, rate=lab.RATE, push=push)
     ends = [arm.at(q).T_world_ee[0, 3] for q in run.q[[0, -1]]]
@@ -41,12 +42,16 @@ def presses() -> tuple[np.ndarray, ...]:
     start = scenes.TOUCH + 0.01
     depth = lab.set_point_for_force(lab.PRESS, lab.K[5], scenes.TOUCH)
     sink = lambda t: max(depth, start - lab.SINK * t)  # noqa: E731
-    soft = contact.press(
+    soft = lab.day6_mujoco.press(
         lambda arm, q: lab.soft_hand(arm, q, sink), seconds=3.0, rate=lab.RATE
     )
     servos = {"drive": "servo", "seconds": 3.0}
-    stiff = contact.press(lab.stiff_arm, **servos)
-    return soft, stiff, contact.press(lab.stiff_arm, change=_no_limits, **servos)
+    stiff = lab.day6_mujoco.press(lab.stiff_arm, **servos)
+    return (
+        soft,
+        stiff,
+        lab.day6_mujoco.press(lab.stiff_arm, change=_no_limits, **servos),
+    )
 
 
 def _no_limits(model: mujoco.MjModel) -> None:
@@ -63,7 +68,8 @@ def push(figure: Figure) -> None:
         off = [1000 * moved(force, k) for force in FORCES]
         axes.plot(FORCES, off, mark, color=colour)
         x = 13.0 if k > STIFFNESSES[0] else 4.0
-        y, right = 1000 * x / k, "left" if x > 5.0 else "right"
+        y = 1000 * x / k
+        right = "left" if x > 5.0 else "right"
         axes.text(x, y + (5 if x < 5 else -8), f"{k:.0f} N/m", color=colour, ha=right)
     axes.text(-19, 36, "lines: F / k, predicted\nmarks: where the hand\ncame to rest",
               fontsize=chart.SMALL, va="center")  # fmt: skip
@@ -145,7 +151,8 @@ def _box(axes: Axes, x: float, y: float, words: str, colour: str) -> None:
 @chart.picture(height=5.0)
 def cone(figure: Figure) -> None:
     """Draw a tip on a table, its friction cone, a force inside and one outside."""
-    axes, up = figure.subplots(), 3.0
+    axes = figure.subplots()
+    up = 3.0
     side = MU * up
     axes.fill([-3.4, 5.0, 5.0, -3.4], [0, 0, -0.5, -0.5], color=RULE)
     axes.fill([0, -side, side], [0, up, up], color=BLUE, alpha=0.15)

@@ -52,7 +52,8 @@ def _(e, V_err, K, D, force):
       what is to go is what K makes along z, its last row => the right one with e[5] = 0
     """
     spring, damper = K @ e, D @ V_err
-    both, push = spring + damper, damper - force
+    both = spring + damper
+    push = damper - force
     return {
         "pushes-up": at(Z, damper[Z] + force, both),
         "spring-left-in": at(Z, spring[Z] + push[Z], both),

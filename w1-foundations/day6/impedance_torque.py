@@ -54,7 +54,8 @@ def _(J, wrench, bias, damping, qd, tau_null):
     null-sign: tau_null is taken away; it is a torque to add => the right one with
       -tau_null
     """
-    push, rub = J.T @ wrench, damping * qd
+    push = J.T @ wrench
+    rub = damping * qd
     rest = bias + rub + tau_null
     return {
         "damping-summed": push + bias + damping @ qd + tau_null,

@@ -16,8 +16,9 @@ from labkit.inspector.instruments import three
 from labkit.inspector.meshes import Robot
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import contact, control, jacobian, panda, scenes, simulate, task_space
+from robo47 import control, jacobian, panda, scenes, simulate, task_space
 from robo47.checks import Array
+from robo47.rotation_log import small_pose_error
 
 RATE, HZ = 100.0, 25.0  # of the controller, and of the picture
 TURN, BACK = 30.0, 4.0  # N m/rad of the hand; N m s/rad of the elbow
@@ -47,14 +48,19 @@ class Touch(Tab):
     def __init__(self, page: Page) -> None:
         """Make the sliders, the handle and the arm at its table; nothing runs yet."""
         super().__init__(page)
-        self.robot, self.arm = _scene(), panda.arm(_scene())
-        self.force, self.at_elbow, self.k, self.hold = np.zeros(3), 0.0, 400.0, 10.0
+        self.robot = _scene()
+        self.arm = panda.arm(_scene())
+        self.force = np.zeros(3)
+        self.at_elbow = 0.0
+        self.k = 400.0
+        self.hold = 10.0
         self.goal_q = page.q[:7].copy()
         self.data = simulate.start(self.robot, self.goal_q)
         self.own = page.own(task_space)
         page.buttons([AGAIN, LET_GO, READY], self.press)
         page.slider("spring", 50, 2000, self.k, self.set_k, unit="N/m", step=50)
-        unit, hold = "N m/rad", partial(setattr, self, "hold")
+        unit = "N m/rad"
+        hold = partial(setattr, self, "hold")
         page.slider("elbow held", 0, 40, self.hold, hold, unit=unit, step=1)
         page.slider("push at the elbow", -30, 30, 0, self.set_elbow, unit="N", step=1)
         self.numbers = page.html()
@@ -115,19 +121,21 @@ class Touch(Tab):
     def law(self) -> simulate.Controller:
         """Return the student's soft hand, with the chosen stiffness."""
         T_goal = self.arm.at(self.goal_q).T_world_ee
-        K, own = np.array([TURN] * 3 + [self.k] * 3), self.own
+        K = np.array([TURN] * 3 + [self.k] * 3)
+        own = self.own
 
         def torque(t: float, q: Array, qd: Array) -> Array:
             now = self.arm.at(q)
             J, M = now.J_site, now.M
             Lambda = own.task_inertia(J, M)
-            e = contact.small_pose_error(now.T_world_ee, T_goal)
+            e = small_pose_error(now.T_world_ee, T_goal)
             back = control.pd_torque(self.goal_q - q, -qd, self.hold, BACK)
             D, idle = own.many(
                 ("critical_damping", K, Lambda), ("null_torque", J, M, Lambda, back)
             )
             F = own.spring_wrench(e, -J @ qd, np.diag(K), D)
-            bias, rub = now.bias(qd), self.arm.damping
+            bias = now.bias(qd)
+            rub = self.arm.damping
             wanted = own.impedance_torque(J, F, bias, rub, qd, idle)
             return np.clip(wanted, -HUGE, HUGE)
 
@@ -137,14 +145,16 @@ class Touch(Tab):
         """Apply the pull at the hand and the push at the elbow, for one step."""
         simulate.push_at("attachment_site", [0, 0, 0, *self.force])(model, data)
         link4 = model.body("link4").id
-        F, none = np.array([0.0, self.at_elbow, 0.0]), np.zeros(3)
+        F = np.array([0.0, self.at_elbow, 0.0])
+        none = np.zeros(3)
         point = data.xpos[link4]
         mujoco.mj_applyFT(model, data, F, none, point, link4, data.qfrc_applied)
 
     def show(self) -> None:
         """Draw the arm, its mass and the pull, and say what was predicted."""
         q = self.data.qpos[:7].copy()
-        now, goal = self.arm.at(q), self.arm.at(self.goal_q).T_world_ee[:3, 3]
+        now = self.arm.at(q)
+        goal = self.arm.at(self.goal_q).T_world_ee[:3, 3]
         hand = now.T_world_ee[:3, 3]
         self.drawn.show(self.data.qpos)
         mass = task_space.task_inertia(now.J_site, now.M)[3:, 3:]
@@ -154,7 +164,8 @@ class Touch(Tab):
             self.arrow.points = joined([hand, hand + self.force / PULL])
         felt = scenes.contact_force(self.robot, self.data, "tip", "table_top")
         self.bars.show([felt])
-        predicted, moved = 1000 * self.force / self.k, 1000 * (hand - goal)
+        predicted = 1000 * self.force / self.k
+        moved = 1000 * (hand - goal)
         kilograms = ", ".join(f"{m:.1f}" for m in np.diag(mass))
         self.numbers.content = words.line(
             f"t = {self.data.time:.1f} s. Pull ({_three(self.force)}) N; in the air "
@@ -167,7 +178,8 @@ class Touch(Tab):
 
 @cache
 def _over_the_table() -> Array:
-    arm, model = panda.arm(_scene()), _scene()
+    arm = panda.arm(_scene())
+    model = _scene()
     T = arm.at(panda.READY_Q).T_world_ee.copy()
     T[:3, 3] = *scenes.PRESS_XY, scenes.TOUCH + 0.001
     ranges, _ = simulate.limits(model)

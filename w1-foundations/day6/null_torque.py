@@ -1,4 +1,4 @@
-"""6.4 `null_torque(J, M, Lambda, tau)`: its questions and its mistakes."""
+"""6.4 `null_torque(J_site, M, Lambda, tau)`: its questions and its mistakes."""
 
 import numpy as np
 
@@ -72,7 +72,8 @@ def _(J, M, Lambda, tau):
       pinv(J^T) tau
     """
     acc = solve(M, tau)
-    a, elbow = J @ acc, np.linalg.svd(J)[2][-1]  # joint speeds that leave the hand
+    a = J @ acc
+    elbow = np.linalg.svd(J)[2][-1]  # joint speeds that leave the hand at rest
     felt = J.T @ Lambda @ a
     return {
         "another-projector": M @ elbow * (elbow @ acc),

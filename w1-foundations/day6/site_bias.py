@@ -44,7 +44,8 @@ def bias(
     V = np.cumsum((J * qd).T, axis=0)
     parts = (J * (qd if own is None else own)).T
     A = sum(rate(v, s) for v, s in zip(V, parts, strict=True))
-    omega, alpha = V[-1, :3], A[:3]
+    omega = V[-1, :3]
+    alpha = A[:3]
     velocity = move * V[-1, 3:] + centre * np.cross(omega, p)
     linear = A[3:] + turn * np.cross(alpha, p) + np.cross(omega, velocity)
     return np.append(alpha, linear)

@@ -12,7 +12,8 @@ COUNT = 9  # drawn calls of each function, after the docstring's case
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 TORQUE = Vector((7,), "N m", scale=10.0, names=JOINTS)
 WRENCH = Wrench(scale=10.0)
-J_CASE, M_CASE = np.eye(6, 7), np.eye(7)
+J_CASE = np.eye(6, 7)
+M_CASE = np.eye(7)
 SWAP = [3, 4, 5, 0, 1, 2]
 
 
@@ -50,16 +51,19 @@ def some(rng, reach, *shape):
 
 def springs(rng):
     """Return errors, twists, stiffness and damping."""
-    e, K = np.zeros(6), np.diag([30.0, 30.0, 30.0, 400.0, 400.0, 400.0])
+    e = np.zeros(6)
+    K = np.diag([30.0, 30.0, 30.0, 400.0, 400.0, 400.0])
     case = (np.array([0, 0, 0, 0, 0, 0.025]), np.zeros(6), K, np.eye(6))
     drawn = []
     for now in states(rng):
         D = rounded(task_space.critical_damping(np.diag(K), model(now)[2]))
         e = np.append(some(rng, 0.5, 3), some(rng, 0.05, 3))
         stiffness = np.diag(rng.numbers(10, 500, 6))
-        V_err, coupled = some(rng, 0.5, 6), np.triu(some(rng, 50, 6, 6), 1)
+        V_err = some(rng, 0.5, 6)
+        coupled = np.triu(some(rng, 50, 6, 6), 1)
         # D need not be symmetric: from which side it is taken then shows.
         drawn.append((e, V_err, stiffness + coupled + coupled.T, D + coupled))
     e, V_err, K, D = drawn[0]
-    near, far = (0.001 * e, 0.001 * V_err, K, D), (10.0 * e, V_err, K, D)
+    near = (0.001 * e, 0.001 * V_err, K, D)
+    far = (10.0 * e, V_err, K, D)
     return [case, near, far, *drawn]

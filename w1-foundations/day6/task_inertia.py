@@ -1,4 +1,4 @@
-"""6.1 `task_inertia(J, M)`: its questions and its mistakes."""
+"""6.1 `task_inertia(J_site, M)`: its questions and its mistakes."""
 
 import numpy as np
 
@@ -32,7 +32,7 @@ NEARLY_SINGULAR = HeldOut(
     mistaken=lambda J, M: np.linalg.pinv(J @ np.linalg.solve(M, J.T), 1e-3),
 )
 row = Row(Symmetric((6, 6)), unnamed=damped, held_out=[NEARLY_SINGULAR])
-row.of_argument("J", HALVES_SWAPPED.called("rows-swapped"))
+row.of_argument("J_site", HALVES_SWAPPED.called("rows-swapped"))
 
 
 @row.inputs
@@ -71,7 +71,8 @@ def _(J, M):
     blocks-alone: the two 3x3 blocks are inverted alone; a push turns the hand, too, so
       the directions are coupled => the inverse of each block
     """
-    A, back = J @ np.linalg.solve(M, J.T), np.linalg.pinv(J)
+    A = J @ np.linalg.solve(M, J.T)
+    back = np.linalg.pinv(J)
     block = np.kron(np.eye(2), np.ones((3, 3)))
     return {
         "inverse-forgotten": A,

@@ -10,8 +10,7 @@ from compare import assert_same
 from conftest import ROOT, load_script
 from labkit.judge.row import row_of
 from labkit.lesson.day import find_day
-from robo47 import contact, jacobian, panda, simulate, verify
-from robo47.verify import hand
+from robo47 import jacobian, panda, simulate, verify
 
 DAY = find_day(6)
 GUIDE = (ROOT / "w1-foundations/docs/day6-lab.md").read_text("utf-8")
@@ -35,14 +34,17 @@ def test_a_push_at_rest_is_lambda_times_the_hands_acceleration(motors):
         if np.linalg.svd(now.J_site, compute_uv=False)[-1] < 0.05:
             continue
         F = np.random.default_rng(6).uniform(-10, 10, 6)
-        _, acc = contact.mujoco_push(model, one, 0.0, now.gravity_torque, F)
+        data = lab.pushed(model, one, 0.0, now.gravity_torque, F)
+        acc = lab.hand_acceleration(model, data)
         Lambda = lab.task_inertia(now.J_site, now.M)
         assert_same(Lambda @ acc, F, 1e-10 * np.linalg.norm(F))  # measured 1.3e-13
 
 
 def test_the_inertias_of_mistakes_at_ready(motors):
     now = motors[1].at(lab.READY_Q)
-    J, M, right = now.J_site, now.M, lab.task_inertia(now.J_site, now.M)
+    J = now.J_site
+    M = now.M
+    right = lab.task_inertia(now.J_site, now.M)
     off = lambda L: np.linalg.norm(L - right) / np.linalg.norm(right)  # noqa: E731
     assert off(inv(right)) == pytest.approx(1.50, abs=0.005)
     assert off(J @ M @ J.T) == pytest.approx(1.04, abs=0.005)
@@ -51,7 +53,8 @@ def test_the_inertias_of_mistakes_at_ready(motors):
     )
     assert off(lab.task_inertia(now.J_space, M)) == pytest.approx(0.81, abs=0.005)
     assert off(pinv(J).T @ M @ pinv(J)) == pytest.approx(0.0067, abs=1e-4)
-    mass, moving = panda.load("panda_nohand").body_mass.sum(), motors[1].masses.sum()
+    mass = panda.load("panda_nohand").body_mass.sum()
+    moving = motors[1].masses.sum()
     assert f"{mass:.1f} kg, of which {moving:.1f} move" in SENTENCES
     light = np.diag(lab.task_inertia(J, M - 0.1 * np.eye(7)))[3:]
     said = "without armature it would be {:.1f}, {:.1f} and {:.1f} kg".format(*light)
@@ -68,7 +71,8 @@ def test_the_inertias_of_mistakes_at_ready(motors):
 
 def test_the_damping_is_critical_in_every_direction_and_a_diagonal_one_is_not(motors):
     now = motors[1].at(lab.READY_Q)
-    Lambda, none = lab.task_inertia(now.J_site, now.M), np.zeros((6, 6))
+    Lambda = lab.task_inertia(now.J_site, now.M)
+    none = np.zeros((6, 6))
 
     def least_ratio(D):
         below = -np.linalg.solve(Lambda, np.hstack([np.diag(lab.K), D]))
@@ -83,7 +87,8 @@ def test_the_damping_is_critical_in_every_direction_and_a_diagonal_one_is_not(mo
 def test_near_a_singularity_lambda_and_d_grow_and_the_springs_torque_does_not(motors):
     def terms(share):
         now = motors[1].at(share * lab.READY_Q)
-        J, Lambda = now.J_site, lab.task_inertia(now.J_site, now.M)
+        J = now.J_site
+        Lambda = lab.task_inertia(now.J_site, now.M)
         D = lab.critical_damping(lab.K, Lambda)
         idle = lab.null_torque(J, now.M, Lambda, np.ones(7))
         spring = J.T @ lab.spring_wrench(
@@ -111,7 +116,7 @@ def circled(motors, seconds=2.5, **instead):
         run = simulate.run(model, simulate.start(model, lab.READY_Q), law, seconds)
     T = arm.at(lab.READY_Q).T_world_ee
     off = np.array([
-        jacobian.pose_error(arm.at(q).T_world_ee, contact.circle(t, T, 0.12, 2.0)[0])
+        jacobian.pose_error(arm.at(q).T_world_ee, lab.day6_mujoco.circle(t, T, 0.12, 2.0).T)
         for t, q in zip(run.t, run.q, strict=True)
     ]).reshape(-1, 2, 3)  # fmt: skip
     return tuple(1000 * np.linalg.norm(off, axis=2).max(axis=0))[::-1]
@@ -158,14 +163,16 @@ def test_each_mistake_costs_on_the_circle_what_the_guide_says(motors, name):
 
 def test_a_kinematic_projector_draws_the_circle_but_its_torque_is_felt(motors):
     model, arm = motors
-    mm, _ = circled(motors, null_torque=hand.kinematic)
+    mm, _ = circled(motors, null_torque=lab.kinematic)
     assert mm == pytest.approx(0.152, abs=0.002)
     assert "within 0.152 mm, where the right one has 0.130" in " ".join(GUIDE.split())
-    rng, felt = np.random.default_rng(6), []
+    rng = np.random.default_rng(6)
+    felt = []
     for q in verify.random_q(model, 100, seed=6):
-        now, torque = arm.at(q), rng.uniform(-10, 10, 7)
+        now = arm.at(q)
+        torque = rng.uniform(-10, 10, 7)
         if np.linalg.svd(now.J_site, compute_uv=False)[-1] > 0.05:
-            odd = hand.kinematic(now.J_site, now.M, None, torque)
+            odd = lab.kinematic(now.J_site, now.M, None, torque)
             felt.append(np.abs(now.J_site @ np.linalg.solve(now.M, odd)).max())
     assert 5.0 < np.median(felt) < 9.0  # rad/s2 or m/s2, for torques up to 10 N m
 
@@ -173,7 +180,8 @@ def test_a_kinematic_projector_draws_the_circle_but_its_torque_is_felt(motors):
 def test_the_public_pages_null_space_term_reaches_the_hand(motors):
     now = motors[1].at(lab.READY_Q)
     J, M = now.J_site, now.M
-    Lambda, tau = lab.task_inertia(J, M), np.arange(7.0)
+    Lambda = lab.task_inertia(J, M)
+    tau = np.arange(7.0)
     public = mistaken("null_torque", "M-for-identity")
     ours = J @ np.linalg.solve(M, lab.null_torque(J, M, Lambda, tau))
     theirs = J @ np.linalg.solve(M, public(J, M, Lambda, tau))
@@ -204,7 +212,7 @@ def at_rest(motors, push=None, seconds=3.0):
 def test_a_softer_feedback_is_further_off_the_circle(motors, omega, mm, wrong):
     right = circled(motors, OMEGA=omega)[0]
     assert right == pytest.approx(mm, abs=2e-3)
-    theirs = circled(motors, OMEGA=omega, null_torque=hand.kinematic)[0]
+    theirs = circled(motors, OMEGA=omega, null_torque=lab.kinematic)[0]
     assert theirs / right == pytest.approx(wrong, rel=0.02)
     if omega == 5.0:
         assert f"{theirs:.2f} mm, where the right one has {right:.2f}" in SENTENCES
@@ -238,11 +246,12 @@ def test_a_sign_makes_the_soft_hand_fly_away_and_a_pseudo_inverse_does_not(
 
 def test_a_position_read_after_a_step_is_one_step_old(motors):
     model, arm = motors
-    data, T = simulate.start(model, lab.READY_Q), arm.at(lab.READY_Q).T_world_ee
+    data = simulate.start(model, lab.READY_Q)
+    T = arm.at(lab.READY_Q).T_world_ee
     look = lambda model, data: data.site("attachment_site").xpos.copy()  # noqa: E731
     law = lab.circling(arm, lab.null_torque)
     run = simulate.run(model, data, law, 2.5, watch=look)
-    goal = [contact.circle(t, T, 0.12, 2.0)[0][:3, 3] for t in run.t[1:]]
+    goal = [lab.day6_mujoco.circle(t, T, 0.12, 2.0).T[:3, 3] for t in run.t[1:]]
     now = [arm.at(q).T_world_ee[:3, 3] for q in run.q[1:]]
     off = [1e3 * np.linalg.norm(np.subtract(x, goal), axis=1).max()
            for x in (run.seen, now)]  # fmt: skip
@@ -264,7 +273,8 @@ def on_body(name, force, where):
         mujoco.mj_comPos(model, data)
         body = model.body(name).id
         point = getattr(data, where)[body]
-        F, none = np.array(force), np.zeros(3)
+        F = np.array(force)
+        none = np.zeros(3)
         mujoco.mj_applyFT(model, data, F, none, point, body, data.qfrc_applied)
 
     return push

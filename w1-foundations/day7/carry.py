@@ -3,7 +3,7 @@
 import numpy as np
 
 from labkit.judge import Row, Vector, rounded
-from robo47.trajectory import carry
+from robo47.lifting import carry
 
 TEN = ("the mass", "x", "y", "z", "xx", "yy", "zz", "xy", "xz", "yz")
 
@@ -12,7 +12,8 @@ row = Row(Vector((10,), names=TEN))
 
 @row.inputs
 def _(rng):
-    none, two = np.zeros((3, 3)), np.array([2.0, 0.0, 0.0])
+    none = np.zeros((3, 3))
+    two = np.array([2.0, 0.0, 0.0])
     yield 1.0, np.zeros(3), none, 1.0, two, none
     m1, m2 = rng.numbers(0.2, 3.0, 2, 8)
     c1, c2 = rng.numbers(-0.5, 0.5, 2, 8, 3)
@@ -61,7 +62,9 @@ def _(m1, c1, I1, m2, c2, I2):
       with m1 and m2 exchanged there
     inertia-of-one: the second body's own inertia I2 is missing => the answer without I2
     """
-    m, c, own = m1 + m2, centre(m1, c1, m2, c2), I1 + I2
+    m = m1 + m2
+    c = centre(m1, c1, m2, c2)
+    own = I1 + I2
     first, second = parallel_axes(c1 - c), parallel_axes(c2 - c)
     both = parallel_axes(c2 - c1)
     about = {
@@ -140,7 +143,8 @@ def _(m1, c1, I1, m2, c2, I2):
 
 @row.right  # The reduced mass and the distance of the two, in a list.
 def _(m1, c1, I1, m2, c2, I2):
-    d, m = c2 - c1, m1 + m2
+    d = c2 - c1
+    m = m1 + m2
     i = I1 + I2 + m1 * m2 / m * (np.dot(d, d) * np.eye(3) - d[:, None] * d[None, :])
     return [m, *(c1 + m2 / m * d), *np.diag(i), i[0, 1], i[0, 2], i[1, 2]]
 

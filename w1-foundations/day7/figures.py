@@ -45,7 +45,8 @@ WOOD, PAINT = (0.80, 0.72, 0.60, 1.0), (0.95, 0.55, 0.15, 1.0)
 @chart.picture(height=9.5)
 def profile_sheet(figure: Figure) -> None:
     """Draw s, speed, acceleration and jerk over time, one below the other."""
-    T, axes = quintic_duration(GOAL_Q - READY_Q, V_MAX, A_MAX), figure.subplots(4, 1)
+    T = quintic_duration(GOAL_Q - READY_Q, V_MAX, A_MAX)
+    axes = figure.subplots(4, 1)
     for name, (scaling, seconds) in profiles(T).items():
         if name in LOOKS:
             colour, style = LOOKS[name]

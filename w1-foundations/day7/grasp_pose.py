@@ -6,7 +6,7 @@ import numpy as np
 
 from labkit.judge import Pose, Row, rounded
 from robo47 import se3
-from robo47.trajectory import grasp_pose
+from robo47.lifting import grasp_pose
 
 DOWN = np.diag([1.0, -1.0, -1.0])
 QUARTER = np.pi / 2
@@ -100,7 +100,8 @@ def _(T_world_cube, above):
 
 @row.right  # Quarter turns taken off one by one.
 def _(T_world_cube, above):
-    x, z = T_world_cube[:3, 0], np.array([0.0, 0.0, -1.0])
+    x = T_world_cube[:3, 0]
+    z = np.array([0.0, 0.0, -1.0])
     for _ in range(3):
         if x[0] < abs(x[1]):
             x = np.array([x[1], -x[0], 0.0])

@@ -38,8 +38,11 @@ class Plan(Tab):
     def __init__(self, page: Page) -> None:
         """Make the sliders, the bars and the moving arm; nothing moves yet."""
         super().__init__(page)
-        self.kind, self.hurry, self.share = QUINTIC, 1.0, 0.0
-        self.arm, self.T = panda.arm(page.model), 1.0
+        self.kind = QUINTIC
+        self.hurry = 1.0
+        self.share = 0.0
+        self.arm = panda.arm(page.model)
+        self.T = 1.0
         self.q = self.qd = np.zeros((COUNT, 7))
         self.own = page.own(trajectory)
         page.choice("time scaling", [QUINTIC, TRAPEZOID], self.sets("kind"))
@@ -48,7 +51,8 @@ class Plan(Tab):
         self.slider = page.slider("done", 0.0, 1.0, 0.0, self.go, unit="")
         page.buttons([PLAY], lambda _: self.loop.toggle())
         self.numbers = page.html()
-        limits, title = simulate.SPEED_LIMITS, "joint speeds and their limits"
+        limits = simulate.SPEED_LIMITS
+        title = "joint speeds and their limits"
         self.bars = page.bars(panda.ARM_JOINTS, limits, "rad/s", title)
         curves = [*panda.ARM_JOINTS, "limit"]
         self.plot = page.plot(curves, y="speed, parts of its limit", height=180)
@@ -76,7 +80,8 @@ class Plan(Tab):
 
     def plan(self, q0: Array) -> tuple[float, Array, Array]:
         """Return the student's time T, and q and qd, (COUNT, 7), on the way."""
-        dq, s = GOAL_Q - q0, np.linspace(0.0, 1.0, COUNT)
+        dq = GOAL_Q - q0
+        s = np.linspace(0.0, 1.0, COUNT)
         v, a = self.hurry * simulate.SPEED_LIMITS, self.hurry * simulate.ACC_LIMITS
         if self.kind == QUINTIC:
             T = max(float(self.own.quintic_duration(dq, v, a)), 1e-3)
@@ -145,12 +150,15 @@ class Pick(Tab):
     def __init__(self, page: Page) -> None:
         """Stand at the table; nothing moves yet."""
         super().__init__(page)
-        self.own, self.whose, self.begun = page.own(trajectory), TODAY, 0.0
+        self.own = page.own(trajectory)
+        self.whose = TODAY
+        self.begun = 0.0
         self.done: Result | None = None
         page.choice("your functions", [TODAY, ALL], partial(setattr, self, "whose"))
         page.buttons([PICK, STOP], self.press)
         self.clock = page.html()
-        limits, title = simulate.SPEED_LIMITS, "joint speeds and their limits"
+        limits = simulate.SPEED_LIMITS
+        title = "joint speeds and their limits"
         self.bars = page.bars(panda.ARM_JOINTS, limits, "rad/s", title)
         self.loop = page.animate(self.replay)
         self.robot = Robot(page, _scene(), dressed)

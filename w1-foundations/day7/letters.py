@@ -64,14 +64,18 @@ def write(fns: Any) -> Written:
     limits, tau_max = simulate.limits(model)
     q_start = jacobian.solve_ik(arm.screws, arm.M_home, poses[0], panda.READY_Q, limits)
     data = simulate.start(model, q_start)
-    wanted, reached, torque, seconds = [], [], 0.0, 0.0
+    wanted = []
+    reached = []
+    torque = 0.0
+    seconds = 0.0
     for T0, T1 in itertools.pairwise(poses):
         way = jacobian.pose_error(T0, T1)
         T = np.ceil(15 / 8 * np.linalg.norm(way[3:]) / SPEED * RATE) / RATE
 
         def controller(t: float, q: Array, qd: Array) -> Array:
             s, sd, sdd = fns.quintic_scaling(t, T)  # noqa: B023 (called in this round)
-            now, T_ref = arm.at(q), fns.straight_pose(T0, T1, s)  # noqa: B023
+            now = arm.at(q)
+            T_ref = fns.straight_pose(T0, T1, s)  # noqa: B023
             wanted.append(T_ref[:3, 3])
             reached.append(now.T_world_ee[:3, 3])
             ed = sd * way - now.J_site @ qd  # noqa: B023

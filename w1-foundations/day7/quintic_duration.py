@@ -58,11 +58,11 @@ def _(dq, v_max, a_max):
       so this breaks the speed limit by a quarter => the duration with 1.5
     average-speed: the time dq / v would do for a move that is always at its top speed;
       this one starts and stops softly => the duration with dq / v
-    peak-upside-down: the peak speed is 15/8 dq / T; here it is turned into 8/15
+    peak-upside-down: the peak speed is 15/8 dq / duration; here it is turned into 8/15
     peak-at-a-quarter: 5.625 is the acceleration at a quarter of the time; its peak is a
       little earlier, where its derivative is 0 => the duration with 5.625
-    peak-acceleration: the peak acceleration is 10 / sqrt(3) times dq / T^2; the root is
-      lost => the duration with 10/3
+    peak-acceleration: the peak acceleration is 10 / sqrt(3) times dq / duration^2; the
+      root is lost => the duration with 10/3
     """
     peaks = {
         "peak-of-the-cubic": {"speed": 1.5},
@@ -82,8 +82,8 @@ def _(dq, v_max, a_max):
       acceleration
     both-added: the time for the speed and the time for the acceleration are added; one
       way keeps both limits if it takes the longer of the two => their sum
-    shorter-of-two: it takes the shorter of the two durations, which breaks one of
-      the limits; the longer one keeps both => the smaller of the two
+    shorter-of-two: it takes the shorter of the two durations, which breaks one of the
+      limits; the longer one keeps both => the smaller of the two
     fastest-joint: it takes the joint that needs least; all the others break their
       limits => the smallest of the joints' durations
     one-length: the ways of all joints are put together as one length, |dq|; each joint
@@ -96,7 +96,8 @@ def _(dq, v_max, a_max):
     speed-only: only the speed limits count; a short move breaks the acceleration's
     acceleration-only: only the acceleration limits count; a long move breaks the
       speed's => the duration by acceleration
-    root-forgotten: acceleration falls with T squared, so T is a square root
+    root-forgotten: acceleration falls with the duration squared, so the duration is a
+      square root
     added-up: the two durations are added; the longer one keeps both limits
     peak-of-the-cubic 2: 6 is the cubic's peak acceleration; the quintic's is where the
       derivative of its acceleration is 0 => the duration with 6
@@ -110,10 +111,12 @@ def _(dq, v_max, a_max):
     forwards-only: a joint that moves backwards counts as one that is ready before it
       starts: the way's sign is still in it => the duration with signed ways
     """
-    each, i = seconds(dq, v_max, a_max), np.argmax(np.abs(dq))
+    each = seconds(dq, v_max, a_max)
+    i = np.argmax(np.abs(dq))
     by_speed, by_acceleration = each
     longest = np.sqrt(PEAK_ACCELERATION * np.abs(dq[i]) / a_max.min())
-    lowest, signed = (v_max.min(), a_max.min()), 10 / np.sqrt(3) * dq / a_max
+    lowest = (v_max.min(), a_max.min())
+    signed = 10 / np.sqrt(3) * dq / a_max
     return {
         "peak-of-the-cubic": seconds(dq, v_max, a_max, 1.5, 6.0).max(),
         "limits-of-different-joints": max(by_speed.max(), longest),

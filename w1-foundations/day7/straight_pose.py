@@ -98,7 +98,8 @@ def screw_motion(T0, T1, s):
     """this is the screw motion from the one to the other: its origin runs along an arc,
     not a line => T0 exp(s log(T0^-1 T1))"""
     T = se3.inverse(T0) @ T1
-    w, p = log_rotation(T[:3, :3]), T[:3, 3]
+    w = log_rotation(T[:3, :3])
+    p = T[:3, 3]
     theta = np.linalg.norm(w)
     if theta < 1e-12:
         return T0 @ se3.make_T(np.eye(3), s * p)

@@ -18,6 +18,7 @@ from labkit.lesson.day import find_day
 from robo47 import (
     capstone,
     jacobian,
+    lifting,
     panda,
     scenes,
     screws,
@@ -26,7 +27,6 @@ from robo47 import (
     trajectory,
     verify,
 )
-from robo47.verify import moves
 
 SCRIPT = "w1-foundations/src/day7_trajectory.py"
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day7-lab.md").read_text("utf-8").split())
@@ -56,7 +56,8 @@ def test_the_labs_functions_agree_with_scipy(seed):
     for t in rng.uniform(0, T, 5):
         assert_same(six @ t ** np.arange(6), truth(t), 1e-9)
     R = Rotation.random(2, random_state=seed % 1000)
-    p, s = rng.uniform(-1, 1, (2, 3)), rng.uniform()
+    p = rng.uniform(-1, 1, (2, 3))
+    s = rng.uniform()
     T0, T1 = se3.make_T(R.as_matrix(), p)
     ours = lab.straight_pose(T0, T1, s)
     assert_same(ours[:3, :3], Slerp([0, 1], R)(s).as_matrix(), 1e-9)
@@ -67,7 +68,8 @@ def test_the_labs_functions_agree_with_scipy(seed):
 @given(seeds)
 def test_speed_and_acceleration_are_the_derivatives(seed):
     rng = np.random.default_rng(seed)
-    T, h = rng.uniform(0.5, 3.0), 1e-5
+    T = rng.uniform(0.5, 3.0)
+    h = 1e-5
     t = rng.uniform(0.05, 0.95) * T
     before, now, after = (lab.quintic_scaling(t + k * h, T) for k in (-1, 0, 1))
     assert_same((after[:2] - before[:2]) / (2 * h), now[1:], 1e-6)
@@ -130,7 +132,8 @@ def test_half_way_through_120_degrees_entry_by_entry_is_no_rotation():
 
 
 def test_a_limit_of_speed_is_a_division_and_one_of_acceleration_a_root():
-    dq, free = np.eye(7)[0], np.full(7, np.inf)
+    dq = np.eye(7)[0]
+    free = np.full(7, np.inf)
     one, four = (lab.quintic_duration(dq, np.full(7, v), free) for v in (4.0, 1.0))
     assert four / one == pytest.approx(4.0)
     one, four = (lab.quintic_duration(dq, free, np.full(7, a)) for a in (4.0, 1.0))
@@ -152,12 +155,13 @@ def test_a_limit_of_speed_is_a_division_and_one_of_acceleration_a_root():
 
 def test_an_unfolded_yaw_fails_where_joint7_is_at_its_end():
     model = scenes.table_top(capstone.CUBE_XY, 0.0)
-    arm, limits = panda.arm(model), model.jnt_range[:7].copy()
+    arm = panda.arm(model)
+    limits = model.jnt_range[:7].copy()
     yaw = np.radians(np.arange(-180, 180, 5))
     cubes = np.tile(np.eye(4), (len(yaw), 1, 1))
     cubes[:, :3, :3] = se3.Rz(yaw)
     cubes[:, :3, 3] = [*capstone.CUBE_XY, scenes.TABLE_HEIGHT + scenes.CUBE_HALF]
-    folded = trajectory.grasp_pose(cubes, np.full(len(yaw), 0.12))
+    folded = lifting.grasp_pose(cubes, np.full(len(yaw), 0.12))
     plain = folded.copy()
     plain[:, :3, :3] = cubes[:, :3, :3] @ np.diag([1.0, -1.0, -1.0])
     start = np.tile(panda.READY_Q, (len(yaw), 1))
@@ -186,14 +190,16 @@ def test_the_hand_weighs_what_the_guide_says():
 
 
 def test_gravity_shows_a_wrong_centre_and_speed_alone_a_wrong_inertia():
-    model, named = panda.load("panda"), row_of(DAY, "carry").named
+    model = panda.load("panda")
+    named = row_of(DAY, "carry").named
     q = verify.random_q(panda.load("panda_nohand"), 50, lab.SEED)
     ways = {way.slug: way.code for way in named}
 
     def off(slug, speed):
         with patch("numpy.random.default_rng") as rng:
             rng.return_value.uniform.return_value = np.full(q.shape, speed)
-            return np.abs(moves.carried(model, ways[slug], q, lab.SEED)).max()
+            with patch.object(lab, "carry", ways[slug]):
+                return np.abs(lab.off_carried(model, q)).max()
 
     for slug in ("only-the-second-moved", "no-parallel-axes"):
         assert off(slug, 0.0) < 1e-12 < 0.001 < off(slug, 1.0) < 0.1
@@ -204,7 +210,7 @@ def test_gravity_shows_a_wrong_centre_and_speed_alone_a_wrong_inertia():
 
 def followed(scaling, seconds, rate=lab.RATE):
     line = lab.READY_Q, lab.GOAL_Q, lab.OMEGA, rate
-    return moves.follow(scaling, seconds, *line)
+    return lab.day7_mujoco.follow(scaling, seconds, *line)
 
 
 def test_step_7s_sentences():
@@ -227,8 +233,9 @@ def test_step_7s_sentences():
 
 
 def test_half_as_stiff_the_arm_is_twice_as_far_off():
-    quintic, move = lab.profiles(0.995)["quintic"], (lab.READY_Q, lab.GOAL_Q)
-    off = [moves.follow(*quintic, *move, omega, lab.RATE)[0]
+    quintic = lab.profiles(0.995)["quintic"]
+    move = (lab.READY_Q, lab.GOAL_Q)
+    off = [lab.day7_mujoco.follow(*quintic, *move, omega, lab.RATE)[0]
            for omega in (lab.OMEGA, lab.OMEGA / 2)]  # fmt: skip
     assert off[1] / off[0] == pytest.approx(2.0, abs=0.15)
     assert "with 10 the errors are twice as large" in (ROOT / SCRIPT).read_text("utf-8")
@@ -251,7 +258,8 @@ def test_a_short_move_overshoots_without_the_triangle():
 
 
 def test_the_origin_of_a_screw_motion_leaves_the_straight_line():
-    T0, T1 = np.eye(4), se3.make_T(se3.Rz(np.radians(120)), [1.0, 0.0, 0.0])
+    T0 = np.eye(4)
+    T1 = se3.make_T(se3.Rz(np.radians(120)), [1.0, 0.0, 0.0])
     S = np.array([0.0, 0.0, 1.0, 0.5 / np.sqrt(3.0), -0.5, 0.0])  # about the middle
     assert_same(screws.exp_screw(S, np.radians(120)), T1, 1e-12)
     half = screws.exp_screw(S, np.radians(60))

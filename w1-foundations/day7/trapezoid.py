@@ -40,7 +40,8 @@ def timing(L, v, a):
 
 def profile(t, L, a, top, T):
     """Return position, speed and acceleration for any top speed and duration."""
-    ramp, left = top / a, T - t
+    ramp = top / a
+    left = T - t
     if t <= 0:
         return np.zeros(3)
     if t < ramp:
@@ -68,7 +69,7 @@ def _(t, L, v, a):
     triangle-too-soon: it becomes a triangle already below L = 2 v^2 / a, and its top is
       over v then; the two ramps take v^2 / a in all => the triangle below 2 v^2 / a
     ramps-take-no-time: the duration is L / v, as if it were at v from the first moment;
-      the ramps cost one ramp more => the profile with T = L / v
+      the ramps cost one ramp more => the profile with the duration L / v
     """
     top = timing(L, v, a)[0]
     return {
@@ -114,8 +115,11 @@ def _(t, L, v, a):
       the time => the cruise with v t
     """
     top, ramp, T = timing(L, v, a)
-    starts, cruises, brakes = 0 < t < ramp, ramp <= t < T - ramp, T - ramp <= t < T
-    up, down = starts * a * t**2 / 2, brakes * a * (T - t) ** 2 / 2
+    starts = 0 < t < ramp
+    cruises = ramp <= t < T - ramp
+    brakes = T - ramp <= t < T
+    up = starts * a * t**2 / 2
+    down = brakes * a * (T - t) ** 2 / 2
     behind = cruises * top * ramp / 2
     farther = {
         "braking-overshoots": 2 * down,
@@ -130,8 +134,8 @@ def _(t, L, v, a):
 @row.wrongs
 def _(t, L, v, a):
     """both-ramps-added: the duration is one ramp's time, v / a, too long: compared with
-      full speed, each ramp costs only half of its own time => the profile with T = L
-      / v + 2 v / a
+      full speed, each ramp costs only half of its own time => the profile with the
+      duration L / v + 2 v / a
     braking-accelerates: while it slows down the acceleration is negative => the profile
       with +a at the end
     half-forgotten: in the first piece, the way of a ramp is a t^2 / 2, not a t^2
@@ -141,7 +145,8 @@ def _(t, L, v, a):
     order: the order is position, speed, acceleration; here it runs backwards
     """
     top, ramp, T = timing(L, v, a)
-    left, right = T - t, trapezoid(t, L, v, a)
+    left = T - t
+    right = trapezoid(t, L, v, a)
     up = np.array([a * t**2 / 2, a * t, a])
     down = np.array([L - a * left**2 / 2, a * left, -a])
     stops = down if left <= 0 else right
@@ -160,10 +165,14 @@ def _(t, L, v, a):
 def _(t, L, v, a):
     v = min(v, np.sqrt(a * L))
     pieces = [(v / a, a), (L / v - v / a, 0.0), (v / a, -a)]
-    s, sd, t = 0.0, 0.0, max(t, 0.0)
+    s = 0.0
+    sd = 0.0
+    t = max(t, 0.0)
     for seconds, acc in pieces:
         h = min(t, seconds)
-        s, sd, t = s + sd * h + acc * h**2 / 2, sd + acc * h, t - h
+        s = s + sd * h + acc * h**2 / 2
+        sd = sd + acc * h
+        t = t - h
         if t <= 0:
             return np.array([s, sd, acc if h > 0 else 0.0])
     return np.array([L, 0.0, 0.0])

@@ -7,19 +7,21 @@ another mistake too hears of that one first.
 import numpy as np
 
 from labkit.judge import Draw, HeldOut
-from robo47 import se3
+from robo47 import screws, se3
 from robo47.checks import Array
 
 # At exactly pi the sign of the axis is free, so s is 1 there: both ways end at R1.
 HALF = ([1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [-1.0, 2.0, -2.0])
 NEARLY_HALF = np.pi - 1e-3
-TINY, SMALL = 5e-7, (5e-5, 2e-4, 3e-3, 0.03)  # radians
+TINY = 5e-7  # radians
+SMALL = (5e-5, 2e-4, 3e-3, 0.03)  # radians
 
 
 def _ends(R0: Array, turns: Array, s: float, rng: Draw) -> list:
     """Return two poses and s for each turn, which is made from R0."""
     p0, p1 = rng.numbers(-1, 1, 2, len(turns), 3)
-    T0, T1 = se3.make_T(R0, p0), se3.make_T(R0 @ turns, p1)
+    T0 = se3.make_T(R0, p0)
+    T1 = se3.make_T(R0 @ turns, p1)
     return [(a, b, s) for a, b in zip(T0, T1, strict=True)]
 
 
@@ -33,12 +35,12 @@ def _half(rng: Draw) -> list:
 
 
 def _half_or_nearly(rng: Draw) -> list:
-    turns = se3.axis_angle(rng.units(4), NEARLY_HALF)
+    turns = screws.axis_angle(rng.units(4), NEARLY_HALF)
     return [*_half(rng), *_ends(rng.rotations(4), turns, 0.5, rng)]
 
 
 def _small(rng: Draw, angles: tuple[float, ...] = SMALL) -> list:
-    turns = se3.axis_angle(rng.units(len(angles)), np.array(angles))
+    turns = screws.axis_angle(rng.units(len(angles)), np.array(angles))
     return _ends(rng.rotations(len(angles)), turns, 0.7, rng)
 
 

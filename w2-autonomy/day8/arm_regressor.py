@@ -21,7 +21,8 @@ row = Row(Matrix((7, 70), rows=ROWS, scale=10.0))
 def _(rng):
     drawn = moving(rng)
     J, T, qd, qdd, g = drawn[0]
-    hinge, still = np.outer(np.eye(6)[1], np.eye(7)[0]), np.zeros(7)
+    hinge = np.outer(np.eye(6)[1], np.eye(7)[0])
+    still = np.zeros(7)
     case = (hinge, np.array([np.eye(4)] * 7), still, np.eye(7)[0], g)
     alone = [(still, still, g), (still, qdd, 0 * g), (qd, still, 0 * g)]
     tipped = (J, T, qd, qdd, np.array([3.0, -5.0, 7.0]))
@@ -40,11 +41,14 @@ def walk(
     `into` makes X of a pose, `back` what the wrench comes back with of X; `felt` says
     which joints feel link i.
     """
-    V, A, Y = np.zeros(6), falls * np.append(np.zeros(3), -g), np.zeros((7, 70))
+    V = np.zeros(6)
+    A = falls * np.append(np.zeros(3), -g)
+    Y = np.zeros((7, 70))
     for i, S in enumerate(J.T):
         V = V + S * qd[i]
         A = A + own * S * qdd[i] + turned * ad(V) @ S * qd[i]
-        X, at = into(T[i]), felt(i)
+        X = into(T[i])
+        at = felt(i)
         costs = back(X) @ link_regressor(X @ V, X @ A)
         Y[at, 10 * i : 10 * i + 10] = J[:, at].T @ costs
     return Y
@@ -109,7 +113,8 @@ row.reached_by("link_regressor", "in link_regressor, ", but=["ad-not-transposed-
 def _(J_space, T_links, qd, qdd, g):
     Y = []
     for i, unit in itertools.product(range(7), inertia_of(np.eye(10))):
-        G, X = np.zeros((7, 6, 6)), adjoint(inverse(T_links[i]))
+        G = np.zeros((7, 6, 6))
+        X = adjoint(inverse(T_links[i]))
         G[i] = X.T @ unit @ X
         Y.append(dynamics.inverse_dynamics(J_space, G, qd, qdd, g))
     return np.array(Y).T

@@ -20,7 +20,8 @@ SAMPLES = 100
 def shown(figure: Figure) -> None:
     """Draw singular values of two motions, and a predicted torque with its band."""
     model = panda.load("panda_nohand", drive="torque")
-    arm, robot = panda.arm(model), secret.changed(model, lab.SEED)
+    arm = panda.arm(model)
+    robot = secret.changed(model, lab.SEED)
     above, below = figure.subplots(2, 1)
     motion = secret.excitation(robot, lab.SEED, SAMPLES)
     Y = lab.regressor(arm, motion)
@@ -47,11 +48,14 @@ def _values(axes: Axes, Y: np.ndarray, name: str, mark: str, colour: str) -> Non
 def _torque(axes: Axes, arm, robot, Y: np.ndarray, motion: secret.Motion) -> None:
     """Draw how far one joint's torque is off on a new motion: by the fit, the file."""
     noise = lab.NOISE * np.random.default_rng(lab.SEED).normal(size=motion.q.shape)
-    tau, fast = secret.torques(robot, motion) + noise, np.abs(motion.qd) > lab.SLOW
+    tau = secret.torques(robot, motion) + noise
+    fast = np.abs(motion.qd) > lab.SLOW
     new = secret.excitation(robot, lab.SEED + 1, SAMPLES)
-    rows, t = lab.regressor(arm, new)[:, JOINT], np.arange(SAMPLES) * 10.0 / SAMPLES
+    rows = lab.regressor(arm, new)[:, JOINT]
+    t = np.arange(SAMPLES) * 10.0 / SAMPLES
     torque, sigma = lab.predict_with_sigma(Y[fast], tau[fast], rows, lab.RTOL)
-    true, band = secret.torques(robot, new)[:, JOINT], 1.96 * sigma
+    true = secret.torques(robot, new)[:, JOINT]
+    band = 1.96 * sigma
     axes.fill_between(t, -band, band, color=BLUE, alpha=0.25, label="1.96 sigma")
     axes.plot(t, torque - true, "o", ms=4, color=BLUE, label="predicted by the fit")
     axes.plot(

@@ -45,7 +45,8 @@ def _(Y, tau, rtol):
       hide one another is not known by their place => the first columns alone, 0 for the
       rest
     """
-    (U, s, Vt), p = parts(Y, rtol), Y.shape[1]
+    U, s, Vt = parts(Y, rtol)
+    p = Y.shape[1]
     first = np.linalg.lstsq(Y[:, : len(s)], tau, rcond=None)[0]
     return {
         "nothing-cut": fit(Y, tau, 1e-12),

@@ -46,8 +46,10 @@ def _(phi):
       with that in it already => the right one with I + m [c] [c]^T
     velocity-first: the blocks are in the order (v; omega); here omega comes first
     """
-    G, C = right(phi), skew(phi[1:4])
-    below, moved = np.tril(G[:3, :3], -1), C @ C.T / (phi[0] or np.inf)
+    G = right(phi)
+    C = skew(phi[1:4])
+    below = np.tril(G[:3, :3], -1)
+    moved = C @ C.T / (phi[0] or np.inf)
     return {
         "lower-half-zero": G - np.pad(below, (0, 3)),
         "inertia-about-the-centre": G + np.pad(moved, (0, 3)),

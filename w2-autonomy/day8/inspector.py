@@ -26,8 +26,10 @@ class Weigh(Tab):
         """Draw the load; nothing is held yet."""
         super().__init__(page)
         model = panda.load("panda_nohand", drive="torque")
-        self.arm, self.empty = panda.arm(model), secret.changed(model, SEED)
-        self.mass, self.com = 0.5, np.array([0.02, -0.03, 0.06])
+        self.arm = panda.arm(model)
+        self.empty = secret.changed(model, SEED)
+        self.mass = 0.5
+        self.com = np.array([0.02, -0.03, 0.06])
         self.held: list[Array] = []  # q, torque with and without, from either side
         page.html(words.line("Weighed by robo47.identification.", "library"))
         page.slider("load", 50, 2000, 500, self.hang, unit="g", step=50)

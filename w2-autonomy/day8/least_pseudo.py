@@ -19,7 +19,8 @@ def _(rng):
 
 def pseudo(phi, spread=lambda I: np.trace(I) / 2 * np.eye(3) - I, h=1.0):  # noqa: E741
     """Return the matrix, with another upper left, or h times a factor."""
-    first, corner = h * phi[1:4, None], spread(inertia_of(phi)[:3, :3])
+    first = h * phi[1:4, None]
+    corner = spread(inertia_of(phi)[:3, :3])
     return np.block([[corner, first], [first.T, phi[0]]])
 
 

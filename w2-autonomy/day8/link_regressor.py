@@ -9,7 +9,9 @@ from robo47.screws import ad
 from .states import NUMBERS, SWAP, WRENCH
 
 row = Row(Matrix((6, 10), rows=WRENCH, columns=NUMBERS))
-REST, UP, SPIN = np.zeros(6), np.array([0, 0, 0, 0, 0, 9.81]), np.eye(6)[2]
+REST = np.zeros(6)
+UP = np.array([0, 0, 0, 0, 0, 9.81])
+SPIN = np.eye(6)[2]
 # A unit vector has m or m c, never both: what needs both cannot be told here.
 row.reached_by("inertia_of", "in inertia_of, ", but=["inertia-about-the-centre"])
 
@@ -33,7 +35,8 @@ def _(V, A):
       along is the momentum, G V => G A - ad(V)^T G A
     force-first: the rows are (force; moment); the moment's three come first
     """
-    X, G = ad(V), inertia_of(np.eye(10))
+    X = ad(V)
+    G = inertia_of(np.eye(10))
     forces, momenta = (G @ A).T, (G @ V).T
     return {
         "ad-not-transposed": forces - X @ momenta,

@@ -13,7 +13,8 @@ row = Row(Vector((4,), names=("m", "m cx", "m cy", "m cz")), near=1e-6)
 
 @row.inputs
 def _(rng):
-    slide, extra = np.zeros((5, 6, 7)), np.zeros((5, 7))
+    slide = np.zeros((5, 6, 7))
+    extra = np.zeros((5, 7))
     slide[:, 5, 0], extra[:, 0] = 1.0, 9.81
     return [(slide, np.array([np.eye(3)] * 5), extra, DOWN), *hands(rng)]
 
@@ -21,7 +22,8 @@ def _(rng):
 def rows(J_site, R_site, g, moment=-1.0, order=slice(None)):
     """Return what m and m c cost, the moment with another sign, or another order."""
     W = np.zeros((len(R_site), 6, 4))
-    W[:, 3:, 0], W[:, :3, 1:] = g, moment * skew(g) @ R_site
+    W[:, 3:, 0] = g
+    W[:, :3, 1:] = moment * skew(g) @ R_site
     return -np.swapaxes(J_site, 1, 2) @ W[:, order]
 
 
@@ -73,9 +75,11 @@ row.of_argument("R_site", TRANSPOSED.called("R-transposed"))
 
 @row.right  # A hold at a time, with cross products; then the normal equations.
 def _(J_site, R_site, extra, g):
-    A, b = np.zeros((4, 4)), np.zeros(4)
+    A = np.zeros((4, 4))
+    b = np.zeros(4)
     for J, R, tau in zip(J_site, R_site, extra, strict=True):
-        moments, none = np.cross(R.T, g).T, np.zeros((3, 1))
+        moments = np.cross(R.T, g).T
+        none = np.zeros((3, 1))
         rows = -J.T @ np.block([[none, moments], [g[:, None], 0 * R]])
         A, b = A + rows.T @ rows, b + rows.T @ tau
     return np.linalg.pinv(A, rcond=1e-12) @ b

@@ -40,7 +40,8 @@ def _(Y, tau, Y_new, rtol):
       inverted => the right torque, sigma with nothing cut
     """
     torque, sigma = predict_with_sigma(Y, tau, Y_new, rtol)
-    (U, s, _), (n, p) = parts(Y, rtol), Y.shape
+    U, s, _ = parts(Y, rtol)
+    n, p = Y.shape
     left = n - len(s)
     rest = tau - U @ (U.T @ tau)
     noise = np.linalg.norm(rest) / np.sqrt(left)

@@ -23,7 +23,8 @@ def moving(rng, n=6):
     arm = panda.arm(panda.load("panda_nohand"))
     found = []
     for q in rng.configurations(n):
-        now, (qd, qdd) = arm.at(q), rng.numbers(-2, 2, 2, 7)
+        now = arm.at(q)
+        qd, qdd = rng.numbers(-2, 2, 2, 7)
         found.append((now.J_space, now.T_links, qd, 5.0 * qdd, DOWN))
     return found
 
@@ -46,7 +47,8 @@ def hands(rng, n=6, k=5):
     """Return J_site, R_site, extra and g of k holds; gravity points anywhere."""
     found = []
     for i in range(n):
-        J, R = rng.numbers(-1, 1, k, 6, 7), se3.quat_to_R(rng.normal(size=(k, 4)))
+        J = rng.numbers(-1, 1, k, 6, 7)
+        R = se3.quat_to_R(rng.normal(size=(k, 4)))
         extra = rng.numbers(-20, 20, k, 7)
         found.append((J, R, extra, rng.numbers(-10, 10, 3) if i % 2 else DOWN))
     return found

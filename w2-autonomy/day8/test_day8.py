@@ -25,7 +25,8 @@ lab = load_script(ROOT / "w2-autonomy/src/day8_identification.py")
 LOAD = np.append(lab.LOAD, lab.LOAD * lab.AT)
 model = panda.load("panda_nohand", drive="torque")
 hung = panda.load("panda_nohand", drive="torque", edit=secret.load(lab.LOAD, lab.AT))
-arm, robot = panda.arm(model), secret.changed(model, lab.SEED)
+arm = panda.arm(model)
+robot = secret.changed(model, lab.SEED)
 
 
 @pytest.fixture(scope="module")
@@ -59,8 +60,10 @@ def printed():
 
 def fitted(data, name, noise, rtol=lab.RTOL, known=0.0):
     """Return the residual of a fit and its error elsewhere, RMS."""
-    (Y, tau, fast), (Y_new, truth, new) = data[name], data["elsewhere"]
-    Y, tau = Y[fast], (tau + noise)[fast]
+    Y, tau, fast = data[name]
+    Y_new, truth, new = data["elsewhere"]
+    Y = Y[fast]
+    tau = (tau + noise)[fast]
     phi = known + identification.fit(Y, tau - Y @ (known + np.zeros(91)), rtol)
     return lab.rms(tau - Y @ phi), lab.rms((Y_new @ phi - truth)[new])
 
@@ -152,7 +155,8 @@ def test_the_trap_of_the_lab_and_what_tells(data, printed):
     assert (
         f"half as large again, {slow[2]:.3f} instead of {excited[2]:.3f}" in SENTENCES
     )
-    noise, known = noises(lab.SEED)[0], secret.numbers(arm)
+    noise = noises(lab.SEED)[0]
+    known = secret.numbers(arm)
     near = fitted(data, "swing", noise, 1e-2, known)[1]
     assert f"as the file has it: {near:.2f} N m" in SENTENCES
     fast = data["excited"][2][::20]
@@ -236,7 +240,8 @@ def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
     assert f"the {crossed[0]:.0f} g, it rises by {crossed[4]:.0f}" in SENTENCES
     assert f"the {one[0]:.1f} g are {one[0] - 500:.1f} g wrong" in SENTENCES
     assert abs(one[4]) < abs(both[4])  # "float better than 500.0"
-    loaded, rest = secret.changed(hung, lab.SEED), np.zeros(7)
+    loaded = secret.changed(hung, lab.SEED)
+    rest = np.zeros(7)
     phi = secret.numbers(panda.arm(robot))[:70]  # no error of a fit to cancel
 
     def still(now):
@@ -253,8 +258,10 @@ def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
 
 def test_what_no_torque_shows_is_why_there_is_no_such_arm(data):
     Y, tau, fast = data["excited"]
-    Y, tau = Y[fast], (tau + noises(lab.SEED)[1])[fast]
-    phi, true = lab.fit(Y, tau, lab.RTOL), secret.numbers(panda.arm(robot))
+    Y = Y[fast]
+    tau = (tau + noises(lab.SEED)[1])[fast]
+    phi = lab.fit(Y, tau, lab.RTOL)
+    true = secret.numbers(panda.arm(robot))
     hidden = np.linalg.svd(Y, full_matrices=False)[2][62:]
     other = phi + hidden.T @ (hidden @ (true - phi))  # that part from the truth
     assert_same(Y @ other, Y @ phi, 1e-11)
@@ -274,7 +281,8 @@ def test_mujoco_refuses_what_no_body_can_have():
 
 
 def test_second_differences_of_an_encoder_are_off_as_predicted():
-    dt, step = 0.002, 2.0 * np.pi / 2**16
+    dt = 0.002
+    step = 2.0 * np.pi / 2**16
     motion = secret.excitation(model, lab.SEED, 5000)
     q = np.round(motion.q / step) * step
     off = (q[2:] - 2 * q[1:-1] + q[:-2]) / dt**2 - motion.qdd[1:-1]

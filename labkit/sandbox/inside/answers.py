@@ -28,7 +28,8 @@ class Copies:
 
     def __init__(self, data: dict[str, Any]) -> None:
         """Take the model as `labkit.sandbox.messages` packed it."""
-        self.entry, self._data = data["entry"], data
+        self.entry = data["entry"]
+        self._data = data
         packed = data["arrays"]
         self._arrays = {name: wire.unpack_array(packed[name]) for name in packed}
 
@@ -50,13 +51,16 @@ class Answers:
             request: "keep": hold on to every answer, to tell which share their memory;
                 "numbers": how many one answer may have.
         """
-        self.module, self.robots, self.most = module, robots, request["numbers"]
+        self.module = module
+        self.robots = robots
+        self.most = request["numbers"]
         self.begin({**request, "models": ()})
 
     def begin(self, told: dict[str, Any]) -> None:
         """Forget the answers so far; take "keep", and the "models" that are new."""
         self.robots += map(Copies, told["models"])
-        self.keep, self.kept = told["keep"], list[Any]()
+        self.keep = told["keep"]
+        self.kept = list[Any]()
         self.arrays: defaultdict[int, list[np.ndarray]] = defaultdict(list)  # by owner
         self.flooding: dict[str, dict[str, Any]] = {}  # functions that are not called
 
@@ -117,12 +121,14 @@ def describe(error: BaseException, file: str) -> dict[str, Any]:
 
     "line" is where it happened, "callers" the calls before it, the nearest first.
     """
-    lines, trace = [], error.__traceback__
+    lines = []
+    trace = error.__traceback__
     while trace:
         if trace.tb_frame.f_code.co_filename == file:
             lines.append(trace.tb_lineno)
         trace = trace.tb_next
-    line, callers = (lines[-1] if lines else None), lines[-2::-1]
+    line = lines[-1] if lines else None
+    callers = lines[-2::-1]
     try:
         text = str(error)
     except BaseException:  # its __str__ is student code too
@@ -130,7 +136,8 @@ def describe(error: BaseException, file: str) -> dict[str, Any]:
     if isinstance(error, SyntaxError):
         text = error.msg or text
         if error.filename == file:
-            line, callers = error.lineno, []
+            line = error.lineno
+            callers = []
         else:
             text = f"{text} ({error.filename}, line {error.lineno})"
     kind = type(error).__name__[:80]

@@ -68,13 +68,15 @@ class View:
 
     def __init__(self, model: MjModel, kind: str, index: int) -> None:
         """Take whose rows: of a kind, the one at a place."""
-        self.id, self.name = index, model._names[kind][index]
+        self.id = index
+        self.name = model._names[kind][index]
         self._model, self._kind = model, kind
 
     def __getattr__(self, name: str) -> Any:  # noqa: D105
         if name.startswith("_"):  # also of a copy that is not complete yet
             raise AttributeError(name)
-        model, prefix = self._model, KINDS[self._kind][0]
+        model = self._model
+        prefix = KINDS[self._kind][0]
         if prefix + name in model._arrays:
             row = getattr(model, prefix + name)[self.id : self.id + 1]
             return row.reshape(row.shape[1:] or (1,))

@@ -58,9 +58,18 @@ _MACHINES = {
     "x86_64": (0, 0xC000003E),
     "aarch64": (1, 0xC00000B7),
 }  # column above, <linux/audit.h>
-_NUMBER, _ARCH, _FIRST_ARGUMENT, _SECOND_ARGUMENT = 0, 4, 16, 24  # struct seccomp_data
-_LOAD, _IF_EQUAL, _IF_AT_LEAST, _RETURN = 0x20, 0x15, 0x35, 0x06
-_ALLOW, _KILL, _EPERM, _ENOSYS = 0x7FFF0000, 0x80000000, 0x50001, 0x50026
+_NUMBER = 0  # offsets in struct seccomp_data
+_ARCH = 4
+_FIRST_ARGUMENT = 16
+_SECOND_ARGUMENT = 24
+_LOAD = 0x20
+_IF_EQUAL = 0x15
+_IF_AT_LEAST = 0x35
+_RETURN = 0x06
+_ALLOW = 0x7FFF0000
+_KILL = 0x80000000
+_EPERM = 0x50001
+_ENOSYS = 0x50026
 _NO_NEW_PRIVS, _SET_SECCOMP, _FILTER = 38, 22, 2  # <linux/prctl.h>
 
 Instruction = tuple[int, int, int, int]  # what, skip if so, skip if not, operand

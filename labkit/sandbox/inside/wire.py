@@ -41,7 +41,8 @@ def pack_array(array: np.ndarray, most: int = LARGEST) -> dict[str, Any]:
 def unpack_array(packed: Any, most: int = LARGEST) -> np.ndarray:
     """Return a writable array of what `pack_array` made; a ValueError of a forgery."""
     try:
-        code, shape = str(packed["dtype"]), [int(n) for n in packed["shape"]]
+        code = str(packed["dtype"])
+        shape = [int(n) for n in packed["shape"]]
         data = base64.b64decode(packed["data"], validate=True)
     except (TypeError, KeyError, ValueError):
         raise ValueError("not a packed array") from None

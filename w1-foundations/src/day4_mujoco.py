@@ -41,7 +41,8 @@ def motions(
     model: mujoco.MjModel, n: int, seed: int, fastest: float, hardest: float
 ) -> Motions:
     """Return n motions with speeds and accelerations up to these."""
-    arm, rng = panda.arm(model), np.random.default_rng(seed)
+    arm = panda.arm(model)
+    rng = np.random.default_rng(seed)
     q = np.vstack([READY_Q, random_q(model, n - 1, seed)])
     qd, qdd = (rng.uniform(-limit, limit, q.shape) for limit in (fastest, hardest))
     now = [arm.at(x) for x in q]
@@ -83,11 +84,13 @@ def mujoco_inertias(
     model: mujoco.MjModel, q: Array, spatial_inertia: Function
 ) -> list[Array]:
     """Return spatial_inertia of link1 to link7 from where MuJoCo says they are."""
-    data, G = mujoco.MjData(model), []
+    data = mujoco.MjData(model)
+    G = []
     data.qpos[:] = q
     mujoco.mj_kinematics(model, data)  # fills xipos, ximat: centre and principal axes
     for i in [model.body(f"link{n}").id for n in range(1, 8)]:
-        R, c = data.ximat[i].reshape(3, 3), data.xipos[i]
+        R = data.ximat[i].reshape(3, 3)
+        c = data.xipos[i]
         inertia = R @ np.diag(model.body_inertia[i]) @ R.T
         G.append(spatial_inertia(model.body_mass[i], c, inertia))
     return G
@@ -97,11 +100,14 @@ def wrong_on_purpose(
     link_inertias: Function, T: Array, masses: Array, coms: Array, inertias: Array
 ) -> dict[str, Array]:
     """Return {what is wrong: every link's 6x6 inertia, given something wrong}."""
-    G, R = link_inertias(T, masses, coms, inertias), T[:, :3, :3]
-    R_T, flip = np.swapaxes(R, 1, 2), np.diag([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
+    G = link_inertias(T, masses, coms, inertias)
+    R = T[:, :3, :3]
+    R_T = np.swapaxes(R, 1, 2)
+    flip = np.diag([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
     no_lever = G.copy()
     no_lever[:, :3, :3] = R @ inertias @ R_T
-    c_still, inertias_still = (R_T @ coms[..., None])[..., 0], R_T @ inertias @ R
+    c_still = (R_T @ coms[..., None])[..., 0]
+    inertias_still = R_T @ inertias @ R
     return {
         "nothing": G,
         "m [c] with the wrong sign": flip @ G @ flip,
@@ -119,7 +125,8 @@ def wrong_masses(
     Returns:
         {what is wrong: (off by, asymmetric by, least eigenvalue)}.
     """
-    found, bodies = {}, zip(at.T, *at.links, strict=True)
+    found = {}
+    bodies = zip(at.T, *at.links, strict=True)
     bad = [wrong_on_purpose(link_inertias, *x) for x in bodies]
     for what in bad[0]:
         own = each(mass_matrix, at.J, np.array([one[what] for one in bad]), at.armature)
@@ -145,7 +152,8 @@ def forwards(
         at, M, bias: motions, and mass matrices and bias torques there.
         own: the lab's forward_dynamics.
     """
-    rng, h = np.random.default_rng(len(M)), model.opt.timestep
+    rng = np.random.default_rng(len(M))
+    h = model.opt.timestep
     tau = simulate.limits(model)[1] * rng.uniform(-0.5, 0.5, at.q.shape)
     off = each(own, M, bias, at.damping, at.qd, tau)
     off = off - mujoco_acceleration(model, at.q, at.qd, tau)
@@ -172,9 +180,12 @@ def swing(integrator: str, timestep: float) -> float:
         timestep: in seconds. There is no motor, no friction and no joint limit.
     """
     model = panda.load("panda_nohand", drive="torque")
-    model.opt.timestep, model.dof_damping[:], model.jnt_limited[:] = timestep, 0.0, 0
+    model.opt.timestep = timestep
+    model.dof_damping[:] = 0.0
+    model.jnt_limited[:] = 0
     model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator}")
     data = simulate.start(model, READY_Q)
     mujoco.mj_step(model, data, round(1.0 / timestep))
-    q, qd = np.array([data.qpos, READY_Q]), np.array([data.qvel, np.zeros(7)])
+    q = np.array([data.qpos, READY_Q])
+    qd = np.array([data.qvel, np.zeros(7)])
     return -float(np.diff(mujoco_energies(model, q, qd).sum(axis=1))[0])
