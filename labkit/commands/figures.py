@@ -32,7 +32,7 @@ def main() -> int:
     """Draw what was asked for."""
     parser = cli.parser(__doc__)
     parser.add_argument("names", nargs="*", metavar="name", help="default: all")
-    parser.add_argument("--day", type=cli.day, help="default: the last begun")
+    parser.add_argument("--day", type=cli.day, help="default: the one worked on last")
     parser.add_argument("--out", type=Path, help="folder to write to")
     parser.add_argument("--kit", action="store_true", help="the lesson's, not yours")
     options = parser.parse_args()

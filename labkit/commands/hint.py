@@ -19,7 +19,7 @@ from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 
-def check(day: Day, task: Task | None) -> tuple[list[Task], str]:
+def check(day: Day, task: Task | None = None) -> tuple[list[Task], str]:
     """Return the tasks that do not pass, of one or of all, and why none was judged."""
     if not day.work.is_file():
         return [task] if task else list(day.tasks), ""
@@ -82,13 +82,15 @@ def main() -> int:
     parser.add_argument(
         "task", nargs="?", help="such as 1.4, or figure; default: the next task"
     )
-    parser.add_argument("--day", type=cli.day, help="default: the last begun")
+    parser.add_argument("--day", type=cli.day, help="default: the one worked on last")
     parser.add_argument("--again", action="store_true", help="the last hint once more")
     options = parser.parse_args()
     if options.task and not options.task[0].isdecimal():
         return show_deliverable(chosen_day(options.day), options.task)
     day = chosen_day(options.day, options.task)
     wanted = day.task(options.task) if options.task else None
+    if wanted and wanted.id != options.task:
+        print(f"There is no {options.task} any more: it is {wanted.id} now.\n")
     left, problem = check(day, wanted)
     if problem:
         print(cli.wrapped(problem))

@@ -187,7 +187,7 @@ def sections(day: Day, body: list[ast.stmt], lines: list[str]) -> list[list[str]
 def main() -> int:
     """Write a notebook, or check it."""
     parser = cli.parser(__doc__)
-    parser.add_argument("--day", type=cli.day, help="default: the last begun")
+    parser.add_argument("--day", type=cli.day, help="default: the one worked on last")
     how = parser.add_mutually_exclusive_group()
     how.add_argument("--check", action="store_true", help="write nothing")
     how.add_argument("--starter", action="store_true", help="without answers, in work/")

@@ -4,6 +4,7 @@
                 manifest is read
     day         its manifest, day.toml: tasks, hints, deliverables, limits; the Python
                 files of its folder, imported by path
+    last_day    the day that a student worked on last
     lab         what every lab script does the same way: say, check, record
     metric      what a row of the log must be: a number, and its range
     writers     which file wrote a row, and what the row is worth now

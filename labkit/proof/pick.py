@@ -29,6 +29,9 @@ class Picked(NamedTuple):
     total: int  # of how many
 
 
+NO_PICK = Picked(None, "", 0, 0)  # of a week without a capstone
+
+
 def pick(days: Sequence[DayFacts], folders: Sequence[Path], sandbox: Sandbox) -> Picked:
     """Pick the cube up with the functions that pass, the library's for the rest."""
     fns = capstone.library()
