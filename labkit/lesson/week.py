@@ -49,7 +49,7 @@ class Week:
     days: tuple[int, ...]  # in order; each has its dayN/day.toml here
     soon: tuple[Soon, ...] = ()  # announced, not written
     robot: str = "panda_nohand"  # of `panda.load`, or a scene of this folder: "arm.xml"
-    # The module of robo47 with USES (functions by day), library() and pick().
+    # A module of robo47 with what `robo47.attempt` asks of it.
     capstone: str = ""
     extras: tuple[str, ...] = ()  # packages that student code finds: "scipy==1.17.1"
     folder: Path = field(repr=False)  # no entry
