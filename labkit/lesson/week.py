@@ -49,8 +49,8 @@ class Week:
     days: tuple[int, ...]  # in order; each has its dayN/day.toml here
     soon: tuple[Soon, ...] = ()  # announced, not written
     # Which robot `make view` opens, of `panda.load` or a scene of this folder:
-    # "arm.xml". Questions, lab runs and pictures are the Panda's; a row asks for another
-    # robot with `Robot("...")`, a lab with `panda.load`.
+    # "arm.xml". Questions, lab runs and pictures are the Panda's; a row asks for
+    # another robot with `Robot("...")`, a lab with `panda.load`.
     robot: str = "panda_nohand"
     # A module of robo47 with what `robo47.attempt` asks of it.
     capstone: str = ""
