@@ -9,7 +9,7 @@ import pytest
 
 from labkit.lesson.day import find_day
 from labkit.lesson.lab import Lab
-from labkit.lesson.marks import Metric
+from labkit.lesson.metric import Metric
 from labkit.log import read_rows
 from labkit.log.rows import HEADER as LINE
 from robo47.errors import Robo47Error
@@ -87,6 +87,19 @@ def test_a_row_says_which_file_wrote_it(log):
     assert row["notes"] == f"limit 1e-08; file {digest[:8]}"
 
 
+def test_a_zero_prints_without_a_sign(log, capsys):
+    """Which sign a rounding error has is the machine's: arm64 has another one."""
+    lab = lab_with()
+    lab.predicted = {"the sag, mm": "0"}
+    lab.show("M", [[-1e-17, -0.0, -2e-6]])
+    lab.predict("the sag", -1e-17, -4e-4, "mm")
+    lab.measured("the sag, mm", -0.0)
+    out = capsys.readouterr().out
+    assert "    0.000000   0.000000  -0.000002" in out
+    assert "predicted 0.000, measured 0.000 mm" in out
+    assert "measured 0: the sag, mm" in out
+
+
 def test_an_unknown_number_and_a_script_that_is_no_lab_are_refused(
     log,
 ):
@@ -135,3 +148,25 @@ def test_without_a_prediction_nothing_is_said(log, own, capsys, cell):
     script = SCRIPT if cell == "the kit's" else script  # which knows nobody's
     Lab(str(script), "A lab.").measured("height of ee, m", 1)
     assert capsys.readouterr().out == ""
+
+
+def test_what_is_tried_is_measured_and_neither_judged_nor_logged(
+    log, capsys, monkeypatch
+):
+    monkeypatch.setattr(sys, "argv", ["lab", "--try"])
+    lab = lab_with(1.0)
+    lab.check("e", float("nan"))
+    lab.measured("no row of the worksheet", 1.0)
+    assert lab.finish() == 0
+    out = capsys.readouterr().out
+    assert "  ----  fk by hand: 1" in out
+    assert "  ----  e: nan" in out
+    assert "not judged, nothing logged" in out
+    assert not log.exists()
+    for verdict in ("PASS", "FAIL"):
+        assert verdict not in out
+
+
+def test_what_is_not_tried_is_judged(log, capsys):
+    assert lab_with(1.0).finish() == 1
+    assert "FAIL  fk by hand: 1" in capsys.readouterr().out

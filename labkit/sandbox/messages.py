@@ -18,9 +18,10 @@ import numpy as np
 from labkit.base.exchange import MOST, Path, Question, Reply
 from labkit.base.text import visible, visible_lines
 from labkit.judge.ask import Robot
+from labkit.lesson import day_mujoco
 from labkit.lesson.day import NUMBERS, Day, Limits, days_before
 from labkit.lesson.own_files import SCRIPT
-from labkit.lesson.script import function_lines
+from labkit.lesson.starter import function_lines
 from labkit.sandbox.inside import wire
 from labkit.sandbox.inside.fake_model import KINDS
 from robo47 import panda
@@ -250,7 +251,8 @@ def _facts() -> dict[str, Any]:
             )
             for package in ("robo47", "labkit")
             for path in (ROOT / package).rglob("*.py")
-        ),
+        )
+        + list(day_mujoco.modules()),
     }
 
 
