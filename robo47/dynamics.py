@@ -47,7 +47,8 @@ def spatial_inertia(m: ArrayLike, c: ArrayLike, inertia: ArrayLike) -> Array:
     corner = m * C
     around = own + corner @ np.swapaxes(C, -1, -2)
     G = np.empty((*around.shape[:-2], 6, 6))
-    G[..., :3, :3], G[..., :3, 3:] = around, corner
+    G[..., :3, :3] = around
+    G[..., :3, 3:] = corner
     G[..., 3:, :3] = np.swapaxes(corner, -1, -2)
     G[..., 3:, 3:] = m * np.eye(3)
     return G

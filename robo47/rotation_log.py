@@ -91,7 +91,8 @@ def pose_error(T: ArrayLike, T_goal: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape, a non-finite number, or not poses.
     """
-    T, T_goal = checks.pose(T, "T"), checks.pose(T_goal, "T_goal")
+    T = checks.pose(T, "T")
+    T_goal = checks.pose(T_goal, "T_goal")
     turn = log_rotation(T_goal[..., :3, :3] @ np.swapaxes(T[..., :3, :3], -1, -2))
     return np.concatenate([turn, T_goal[..., :3, 3] - T[..., :3, 3]], axis=-1)
 
