@@ -183,7 +183,7 @@ def mujoco_J_site(model: mujoco.MjModel, q: np.ndarray) -> np.ndarray:
 
 
 def mujoco_torques(model: mujoco.MjModel, q: np.ndarray, F: np.ndarray) -> np.ndarray:
-    """Return the joint torques that stand for wrenches F, (n, 6), at the hand, (n, 7)."""
+    """Return the torques, (n, 7), that stand for wrenches F, (n, 6), at the hand."""
     data = mujoco.MjData(model)
     site = data.site("attachment_site")
     link = model.site_bodyid[site.id]  # a wrench acts on a body, at a point

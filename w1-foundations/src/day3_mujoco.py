@@ -5,7 +5,7 @@ in the lab. MuJoCo solves no inverse kinematics: a solver is judged by where the
 ends, and out of reach by the best of the library's hundreds of starts.
 
 A solver takes screws, (7, 6), home pose, (4, 4), T_goal, (4, 4), start, (7,), and joint
-limits, (7, 2), and returns joint angles, (7,). `arm` is the first two. The circle stands
+limits, (7, 2), and returns joint angles, (7,). `arm` is the first two. The circle is
 in the y-z plane, the tool points down all the way: with a radius of 0.36 m all of it is
 in reach; the top of one of 0.38 m is not. Metres, radians.
 """
