@@ -203,13 +203,45 @@ def test_what_each_part_of_the_model_is_worth(bench, part, mrad, row):
     assert row in GUIDE
 
 
-def test_the_feedforward_does_most_of_the_tracking_and_the_springs_the_rest(bench):
-    alone = swing(bench, lab.feedforward, lab.RATE)
+def test_the_model_at_q_does_most_of_the_tracking_and_the_springs_the_rest(bench):
+    alone = swing(bench, lab.without_springs, lab.RATE)
     whole = swing(bench, lab.equal_springs(), lab.RATE)
     springs = swing(bench, lab.springs_and_gravity, lab.RATE)
-    assert f"the same swing is off by {alone:.0f} mrad, ninety times" in GUIDE
+    assert f"that leaves {alone:.0f} mrad, ninety times as much" in GUIDE
     assert 85 < alone / whole < 95
     assert springs > alone
+
+
+def unsprung(rate, step=0.002, gravity=True):
+    """Return the swing's error without springs, mrad: model at q, and feedforward."""
+    model = lab.day5_mujoco.motors()
+    model.opt.timestep = step
+    model.opt.gravity[:] *= gravity
+    bench = model, panda.arm(model)
+    return [swing(bench, law, rate) for law in (lab.without_springs, lab.feedforward)]
+
+
+@pytest.mark.parametrize(
+    ("rate", "step", "gravity", "row"),
+    [
+        (250.0, 0.002, True, "| 250 Hz | {:.1f} mrad | {:,.0f} mrad |"),
+        (500.0, 0.002, True, "| 500 Hz | {:.1f} | {:,.0f} |"),
+        (1000.0, 0.001, True, "| 1,000 Hz (steps of 1 ms) | {:.1f} | {:,.0f} |"),
+        (2000.0, 0.0005, True, "| 2,000 Hz (steps of 0.5 ms) | {:.1f} | {:,.0f} |"),
+        (250.0, 0.002, False, "| 250 Hz, no gravity | {:.1f} | {:.1f} |"),
+    ],
+)
+def test_a_torque_known_beforehand_is_lost_to_gravity_and_to_the_held_torque(
+    rate, step, gravity, row
+):
+    assert row.format(*unsprung(rate, step, gravity)) in GUIDE
+
+
+def test_the_feedforward_ends_with_joint4_at_its_stop(bench):
+    log = lab.run(*bench, lab.feedforward, raised_cosine, 2.0)
+    stop = bench[0].jnt_range[3, 1]
+    assert log.q[:, 3].max() > stop
+    assert "with joint4 at its stop" in GUIDE
 
 
 def test_servos_lag_by_kd_over_kp_times_the_speed():

@@ -69,7 +69,7 @@ def test_the_inertias_of_mistakes_at_ready(motors):
 # --- the damping, and what Lambda makes large ---
 
 
-def test_the_damping_is_critical_in_every_direction_and_a_diagonal_one_is_not(motors):
+def test_every_mode_of_the_damping_has_ratio_1_and_of_a_diagonal_one_not(motors):
     now = motors[1].at(lab.READY_Q)
     Lambda = lab.task_inertia(now.J_site, now.M)
     none = np.zeros((6, 6))
@@ -82,6 +82,53 @@ def test_the_damping_is_critical_in_every_direction_and_a_diagonal_one_is_not(mo
     assert least_ratio(lab.critical_damping(lab.K, Lambda)) == pytest.approx(1.0)
     each = np.diag(2.0 * np.sqrt(lab.K * np.diag(Lambda)))
     assert f"it is {least_ratio(each):.2f} in the worst" in SENTENCES
+
+
+def diagonal_damping(K, Lambda):
+    return np.diag(2.0 * np.sqrt(K * np.diag(Lambda)))
+
+
+def overshoot(motors, e, size=0.03, times=1.0, D=lab.critical_damping):
+    """Return by how much of its way a hand that was released along e overshoots, %."""
+    with patch.object(lab, "critical_damping", D):
+        law = lab.soft_hand(motors[1], lab.READY_Q, stiffness=times * lab.K)
+        return -100 * lab.day6_mujoco.released(motors[0], law, e, size).min()
+
+
+MIXED = np.array([0.17, -0.77, 0.35, 0.39, 0.25, 0.2])
+
+
+def test_modes_that_do_not_swing_overshoot_along_a_mixed_direction(motors):
+    words = str(tuple(MIXED.tolist()))
+    assert f"e = {words}" in SENTENCES
+    assert f"by {overshoot(motors, MIXED):.1f} percent of the way" in SENTENCES
+    assert overshoot(motors, MIXED, D=diagonal_damping) < 0.05
+    for axis in np.eye(6)[3:]:
+        for D in (lab.critical_damping, diagonal_damping):
+            assert overshoot(motors, axis, D=D) < 0.05
+
+
+@pytest.mark.parametrize(
+    "turned", [{"times": 2.0}, {"size": 0.01}, {"times": 0.5}], ids=str
+)
+def test_neither_stiffness_nor_size_makes_the_overshoot(motors, turned):
+    assert 7.65 < overshoot(motors, MIXED, **turned) < 7.95
+    assert "leave the 7.8 (7.7 to 7.9)" in SENTENCES
+
+
+def test_the_springs_torque_does_not_shrink_where_lambda_grows(motors):
+    largest = []
+    torque = []
+    along = []
+    for share in (1.0, 0.1, 0.01, 0.001):
+        now = motors[1].at(share * lab.READY_Q)
+        u, _, _ = np.linalg.svd(now.J_site)
+        largest.append(np.abs(now.J_site).max())
+        torque.append(np.abs(now.J_site.T @ (0.1 * lab.K)).max())
+        along.append(np.linalg.norm(u[:, 5] @ now.J_site))
+    assert_same(largest, np.ones(4), 5e-3)
+    assert min(torque[1:]) > torque[0]
+    assert f"short: {along[-1]:.4f} long instead of {along[0]:.3f}" in SENTENCES
 
 
 def test_near_a_singularity_lambda_and_d_grow_and_the_springs_torque_does_not(motors):
