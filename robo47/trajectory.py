@@ -1,10 +1,10 @@
 """Trajectories: a path says where, a time scaling says when.
 
 Conventions: s is the fraction of the path that is done, 0 to 1; sd and sdd are its
-derivatives in 1/s and 1/s2. Radians, metres, seconds, kilograms. `n` is the number
-of joints; leading dimensions broadcast. Before 0 and after T a scaling stands still
-at its end. Every function raises ValueError where a shape is wrong, a number is not
-finite or out of the range that its docstring states.
+derivatives in 1/s and 1/s2; a T is a pose. Radians, metres, seconds, kilograms. `n`
+is the number of joints; leading dimensions broadcast. Before 0 and after its duration
+a scaling stands still. Every function raises ValueError where a shape is wrong, a
+number is not finite or out of the range that its docstring states.
 
 Sources: Lynch and Park, Modern Robotics (2017), chapter 9 (sections 9.2 and 9.3);
 section 8.2 for inertias.
@@ -15,42 +15,42 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks, se3
 from robo47.checks import Array
+from robo47.gravity import GRAVITY
 from robo47.rotation_log import log_rotation
 
-GRAVITY = 9.81  # m/s2, of `heaviest_cube`
-# The quintic's largest speed and acceleration, times T and T^2.
+# The quintic's largest speed and acceleration, times duration and its square.
 PEAK_SPEED = 15.0 / 8.0
 PEAK_ACCELERATION = 10.0 / np.sqrt(3.0)
 _TOOL_DOWN = np.diag([1.0, -1.0, -1.0])  # z down, x as the world's
 
 
-def quintic_scaling(t: ArrayLike, T: ArrayLike) -> Array:
+def quintic_scaling(t: ArrayLike, duration: ArrayLike) -> Array:
     """Return s, sd and sdd of a move that starts and stops softly.
 
-    s = 10 x^3 - 15 x^4 + 6 x^5 with x = t / T clipped to 0..1: speed and acceleration
-    are zero at both ends (Modern Robotics, section 9.2.2).
+    s = 10 x^3 - 15 x^4 + 6 x^5 with x = t / duration clipped to 0..1: speed and
+    acceleration are zero at both ends (Modern Robotics, section 9.2.2).
 
     Args:
         t: time in seconds, (...).
-        T: duration in seconds, above 0, (...).
+        duration: of the whole move in seconds, above 0, (...).
 
     Returns:
         s, sd in 1/s and sdd in 1/s2, (..., 3).
     """
     t = checks.array(t, "t", ())
-    T = checks.positive(T, "T")
-    x = np.clip(t / T, 0.0, 1.0)
+    duration = checks.positive(duration, "duration")
+    x = np.clip(t / duration, 0.0, 1.0)
     s = x**3 * (10.0 - 15.0 * x + 6.0 * x**2)
-    sd = 30.0 * x**2 * (1.0 - x) ** 2 / T
-    sdd = 60.0 * x * (1.0 - x) * (1.0 - 2.0 * x) / T**2
+    sd = 30.0 * x**2 * (1.0 - x) ** 2 / duration
+    sdd = 60.0 * x * (1.0 - x) * (1.0 - 2.0 * x) / duration**2
     return np.stack([s, sd, sdd], axis=-1)
 
 
 def quintic_duration(dq: ArrayLike, v_max: ArrayLike, a_max: ArrayLike) -> Array:
     """Return the shortest quintic within every joint's limits.
 
-    A quintic over dq peaks at 15/8 dq / T in speed and 10/sqrt(3) dq / T^2 in
-    acceleration; the slowest joint decides (Modern Robotics, section 9.2.2).
+    A quintic over dq that takes D peaks at 15/8 dq / D in speed and 10/sqrt(3) dq / D^2
+    in acceleration; the slowest joint decides (Modern Robotics, section 9.2.2).
 
     Args:
         dq: how far each joint goes in radians, either sign, (..., n).
@@ -66,7 +66,9 @@ def quintic_duration(dq: ArrayLike, v_max: ArrayLike, a_max: ArrayLike) -> Array
     return np.maximum(by_speed, by_acceleration).max(axis=-1)
 
 
-def joint_move(q0: ArrayLike, q1: ArrayLike, t: ArrayLike, T: ArrayLike) -> Array:
+def joint_move(
+    q0: ArrayLike, q1: ArrayLike, t: ArrayLike, duration: ArrayLike
+) -> Array:
     """Return q, qd and qdd on the straight line in joint space, with a quintic.
 
     q0 + (q1 - q0) s and its derivatives (Modern Robotics, section 9.2.1).
@@ -74,13 +76,13 @@ def joint_move(q0: ArrayLike, q1: ArrayLike, t: ArrayLike, T: ArrayLike) -> Arra
     Args:
         q0, q1: first and last configuration in radians, (..., n).
         t: time in seconds, (...).
-        T: duration in seconds, above 0, (...).
+        duration: of the whole move in seconds, above 0, (...).
 
     Returns:
         q, qd in rad/s and qdd in rad/s2, stacked, (..., 3, n).
     """
     q0, q1 = checks.same_size(q0=q0, q1=q1)
-    move = quintic_scaling(t, T)[..., None] * (q1 - q0)[..., None, :]
+    move = quintic_scaling(t, duration)[..., None] * (q1 - q0)[..., None, :]
     start = np.zeros_like(move)
     start[..., 0, :] = q0
     return start + move
@@ -106,40 +108,43 @@ def trapezoid(t: ArrayLike, L: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
     v, a = checks.positive(v, "v"), checks.positive(a, "a")
     top = np.minimum(v, np.sqrt(L * a))
     ramp = top / a
-    T = L / np.where(top > 0.0, top, 1.0) + ramp  # top is 0 where there is no way to go
+    # top is 0 where there is no way to go
+    duration = L / np.where(top > 0.0, top, 1.0) + ramp
     up = np.clip(t, 0.0, ramp)
-    left = np.clip(T - t, 0.0, ramp)
-    cruise = np.clip(t - ramp, 0.0, T - 2.0 * ramp)
-    ended = t >= T
+    left = np.clip(duration - t, 0.0, ramp)
+    cruise = np.clip(t - ramp, 0.0, duration - 2.0 * ramp)
+    ended = t >= duration
     done = a * up**2 / 2.0 + top * cruise + a * (ramp**2 - left**2) / 2.0
     speed = a * np.minimum(up, left)
-    acc = np.where(t < ramp, a, np.where(t > T - ramp, -a, 0.0))
+    acc = np.where(t < ramp, a, np.where(t > duration - ramp, -a, 0.0))
     acc = np.where((t < 0.0) | ended, 0.0, acc)
     return np.stack(np.broadcast_arrays(np.where(ended, L, done), speed, acc), axis=-1)
 
 
-def quintic_coefficients(start: ArrayLike, end: ArrayLike, T: ArrayLike) -> Array:
+def quintic_coefficients(
+    start: ArrayLike, end: ArrayLike, duration: ArrayLike
+) -> Array:
     """Return the quintic through a position, speed and acceleration at both ends.
 
     Six linear equations for six coefficients (Modern Robotics, section 9.3).
 
     Args:
         start: position, speed, acceleration at t = 0, (..., 3).
-        end: the same at t = T, (..., 3).
-        T: duration in seconds, above 0, (...).
+        end: the same at t = duration, (..., 3).
+        duration: of the whole move in seconds, above 0, (...).
 
     Returns:
         Coefficients of 1, t, ..., t^5, (..., 6).
     """
     start, end = checks.array(start, "start", (3,)), checks.array(end, "end", (3,))
-    T = checks.positive(T, "T")
+    duration = checks.positive(duration, "duration")
     powers = np.arange(6)
-    first = powers * T[..., None] ** np.maximum(powers - 1, 0)
-    second = powers * (powers - 1) * T[..., None] ** np.maximum(powers - 2, 0)
-    A = np.zeros((*T.shape, 6, 6))
+    first = powers * duration[..., None] ** np.maximum(powers - 1, 0)
+    second = powers * (powers - 1) * duration[..., None] ** np.maximum(powers - 2, 0)
+    A = np.zeros((*duration.shape, 6, 6))
     A[..., 0, 0] = A[..., 1, 1] = 1.0
     A[..., 2, 2] = 2.0
-    A[..., 3, :] = T[..., None] ** powers
+    A[..., 3, :] = duration[..., None] ** powers
     A[..., 4, :] = first
     A[..., 5, :] = second
     wanted = np.concatenate(np.broadcast_arrays(start, end), axis=-1)
@@ -237,7 +242,7 @@ def heaviest_cube(grip: ArrayLike, mu: ArrayLike, acceleration: ArrayLike) -> Ar
         Mass in kg, (...).
     """
     grip, mu = checks.not_negative(grip, "grip"), checks.not_negative(mu, "mu")
-    lift = GRAVITY + checks.array(acceleration, "acceleration", ())
+    lift = checks.array(acceleration, "acceleration", ()) - GRAVITY[2]
     return 2.0 * mu * grip / checks.positive(lift, "9.81 + acceleration")
 
 

@@ -43,7 +43,7 @@ def work(day, run_in):
 
 def solve(day, work, *names):
     """Write the kit's solution of some functions into the student's file."""
-    from labkit.lesson.script import put_back
+    from labkit.lesson.starter import put_back
 
     work.write_text(put_back(work.read_text(), day.source.read_text("utf-8"), names))
 
@@ -246,7 +246,7 @@ class TestHint:
         self, run_in, work, day, clone
     ):
         solution = "T[:3, :3] = R"
-        (clone / ".robo47").mkdir()
+        (clone / ".robo47").mkdir(exist_ok=True)
         (clone / ".robo47/hints.json").write_text('{"1.1": 9}')
         assert solution not in run_in(HINT, "1.1").stdout
         solve(day, work, "make_T")
@@ -257,7 +257,7 @@ class TestHint:
         assert run_in(HINT).stdout.startswith("1.2 ")
 
     def test_survives_a_memory_that_is_no_json(self, run_in, clone):
-        (clone / ".robo47").mkdir()
+        (clone / ".robo47").mkdir(exist_ok=True)
         (clone / ".robo47/hints.json").write_text("[1, {")
         assert "hint 1 of" in run_in(HINT, "1.4").stdout
 

@@ -247,7 +247,10 @@ def test_the_quintic_is_slower_than_ruckig_which_has_the_jerk_limits_to_use():
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: trajectory.quintic_scaling(1.0, 0.0), "T is 0; it must be above 0"),
+        (
+            lambda: trajectory.quintic_scaling(1.0, 0.0),
+            "duration is 0; it must be above 0",
+        ),
         (lambda: trajectory.quintic_duration([1.0], 0.0, 1.0), "v_max is 0"),
         (lambda: trajectory.quintic_duration([1.0], np.nan, 1.0), "v_max holds"),
         (lambda: trajectory.joint_move([0] * 7, [0] * 6, 0, 1), "q1 has shape"),

@@ -13,7 +13,7 @@ import numpy as np
 from labkit.base.exchange import Question, Reply
 from labkit.judge.answers import InTurn, own, rigid, say_factor
 from labkit.judge.ask import Asked, as_plain
-from labkit.judge.problems import flat
+from labkit.judge.replies_read import flat
 from robo47.checks import Array
 
 QUESTIONS = 4  # per experiment; three of them at least must agree

@@ -1,4 +1,4 @@
-"""4.6 `bias_torque(J, G, qd, g)`: its questions; its mistakes, and the recursion's."""
+"""4.6 `bias_torque(J_space, G, qd, g)`: questions, mistakes, the recursion's too."""
 
 from functools import partial
 

@@ -1,4 +1,4 @@
-"""4.6 `inverse_dynamics(J, G, qd, qdd, g)`: its questions and its mistakes."""
+"""4.6 `inverse_dynamics(J_space, G, qd, qdd, g)`: its questions and its mistakes."""
 
 from functools import partial
 

@@ -4,7 +4,7 @@
     python src/day4_dynamics.py      in w1-foundations/, once that is done
 
 All in world axes about the world's origin: twists (omega; v), wrenches (moment;
-force), J the space Jacobian (6, 7). Metres, radians, kilograms, newtons, seconds.
+force), J_space (6, 7). Metres, radians, kilograms, newtons, seconds.
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
@@ -53,15 +53,15 @@ def link_inertias(
     # endregion 4.2
 
 
-def mass_matrix(J: np.ndarray, G: np.ndarray, armature: np.ndarray) -> np.ndarray:
-    """Return M, (7, 7), from J (6, 7), G (7, 6, 6) and the armature (7,), kg m^2.
+def mass_matrix(J_space: np.ndarray, G: np.ndarray, armature: np.ndarray) -> np.ndarray:
+    """Return M, (7, 7), kg m^2, from J_space (6, 7), G (7, 6, 6) and armature (7,).
 
     One hinge about z, with 2 kg at 1 m: its entry is 2 + armature.
     """
     # region 4.3
     M = np.diag(armature)
     for i, G_i in enumerate(G):
-        J_i = J.copy()
+        J_i = J_space.copy()
         J_i[:, i + 1 :] = 0.0  # joints beyond link i do not move it
         M = M + J_i.T @ G_i @ J_i
     return M
@@ -69,7 +69,7 @@ def mass_matrix(J: np.ndarray, G: np.ndarray, armature: np.ndarray) -> np.ndarra
 
 
 def gravity_torque(
-    J: np.ndarray, masses: np.ndarray, coms_world: np.ndarray, g: np.ndarray
+    J_space: np.ndarray, masses: np.ndarray, coms_world: np.ndarray, g: np.ndarray
 ) -> np.ndarray:
     """Return the torque that holds the arm, (7,); g is the vector (0, 0, -9.81).
 
@@ -78,7 +78,8 @@ def gravity_torque(
     # region 4.4
     tau = np.zeros(len(masses))
     for i, (m, c) in enumerate(zip(masses, coms_world, strict=True)):
-        J_com = J[3:] - skew(c) @ J[:3]  # the velocity of c: Day 3's site_jacobian
+        # The velocity of c: Day 3's site_jacobian.
+        J_com = J_space[3:] - skew(c) @ J_space[:3]
         tau[: i + 1] -= m * g @ J_com[:, : i + 1]
     return tau
     # endregion 4.4
@@ -96,7 +97,7 @@ def ad(V: np.ndarray) -> np.ndarray:
 
 
 def inverse_dynamics(
-    J: np.ndarray, G: np.ndarray, qd: np.ndarray, qdd: np.ndarray, g: np.ndarray
+    J_space: np.ndarray, G: np.ndarray, qd: np.ndarray, qdd: np.ndarray, g: np.ndarray
 ) -> np.ndarray:
     """Return the torque, (7,), for an acceleration qdd, without armature and friction.
 
@@ -105,7 +106,8 @@ def inverse_dynamics(
     # region 4.6
     V, A = np.zeros(6), np.concatenate([np.zeros(3), -g])
     wrenches = []
-    for S, G_i, speed, acc in zip(J.T, G, qd, qdd, strict=True):  # from the base out
+    # From the base out.
+    for S, G_i, speed, acc in zip(J_space.T, G, qd, qdd, strict=True):
         V = V + S * speed
         ad_V = ad(V)
         A = A + S * acc + ad_V @ S * speed
@@ -113,20 +115,20 @@ def inverse_dynamics(
     F, tau = np.zeros(6), np.zeros(len(qd))
     for i in reversed(range(len(qd))):  # from the tip back
         F = F + wrenches[i]
-        tau[i] = J[:, i] @ F
+        tau[i] = J_space[:, i] @ F
     return tau
     # endregion 4.6
 
 
 def bias_torque(
-    J: np.ndarray, G: np.ndarray, qd: np.ndarray, g: np.ndarray
+    J_space: np.ndarray, G: np.ndarray, qd: np.ndarray, g: np.ndarray
 ) -> np.ndarray:
     """Return the torque of Coriolis, centrifugal and gravity forces together, (7,).
 
     At qd = 0 it is gravity_torque.
     """
     # region 4.6
-    return inverse_dynamics(J, G, qd, np.zeros(len(qd)), g)
+    return inverse_dynamics(J_space, G, qd, np.zeros(len(qd)), g)
     # endregion 4.6
 
 

@@ -3,7 +3,7 @@
     make day6                          in the clone: sets everything up, then runs this
     python src/day6_task_space.py      in w1-foundations/, once that is done
 
-J is the site Jacobian: J qd = (omega; velocity of the hand's site), in world axes. A
+J_site qd = (omega; velocity of the hand's site), in world axes; J_space is Day 4's. A
 wrench is (moment; force). M is with armature. Metres, radians, newtons, kilograms.
 """
 
@@ -31,13 +31,13 @@ OMEGA = 20.0  # rad/s, back to the circle: 10 nearly doubles the error, 40 halve
 RADIUS, TURN = 0.12, 2.0  # m; s for a turn
 
 
-def task_inertia(J: np.ndarray, M: np.ndarray) -> np.ndarray:
+def task_inertia(J_site: np.ndarray, M: np.ndarray) -> np.ndarray:
     """Return Lambda, (6, 6): the mass and inertia that you feel at the hand.
 
-    With J the identity and M = 2 I it is 2 I.
+    With J_site the identity and M = 2 I it is 2 I.
     """
     # region 6.1
-    return np.linalg.inv(J @ np.linalg.solve(M, J.T))
+    return np.linalg.inv(J_site @ np.linalg.solve(M, J_site.T))
     # endregion 6.1
 
 
@@ -59,7 +59,7 @@ def site_bias(J_space: np.ndarray, qd: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 
 def osc_torque(
-    J: np.ndarray, Lambda: np.ndarray, bias: np.ndarray, drift: np.ndarray,
+    J_site: np.ndarray, Lambda: np.ndarray, bias: np.ndarray, drift: np.ndarray,
     acc: np.ndarray,
 ) -> np.ndarray:  # fmt: skip
     """Return the torques, (7,), with which the hand accelerates by acc, (6,).
@@ -67,20 +67,21 @@ def osc_torque(
     drift is what site_bias gives; where acc is the same, they are bias.
     """
     # region 6.3
-    return J.T @ Lambda @ (acc - drift) + bias
+    return J_site.T @ Lambda @ (acc - drift) + bias
     # endregion 6.3
 
 
 def null_torque(
-    J: np.ndarray, M: np.ndarray, Lambda: np.ndarray, tau: np.ndarray
+    J_site: np.ndarray, M: np.ndarray, Lambda: np.ndarray, tau: np.ndarray
 ) -> np.ndarray:
     """Return the part of tau, (7,), that does not accelerate the hand.
 
-    What is subtracted from tau is a push at the hand. If J takes only the first six of
-    seven joints, and M and Lambda are identities, seven ones become six 0 and one 1.
+    What is subtracted from tau is a push at the hand. If J_site takes only the first
+    six of seven joints, and M and Lambda are identities, seven ones become six 0 and
+    one 1.
     """
     # region 6.4
-    return tau - J.T @ Lambda @ J @ np.linalg.solve(M, tau)
+    return tau - J_site.T @ Lambda @ J_site @ np.linalg.solve(M, tau)
     # endregion 6.4
 
 
@@ -122,7 +123,7 @@ def critical_damping(K: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
 
 
 def impedance_torque(
-    J: np.ndarray, wrench: np.ndarray, bias: np.ndarray, damping: np.ndarray,
+    J_site: np.ndarray, wrench: np.ndarray, bias: np.ndarray, damping: np.ndarray,
     qd: np.ndarray, tau_null: np.ndarray,
 ) -> np.ndarray:  # fmt: skip
     """Return the torques, (7,), with which the hand pushes with a wrench.
@@ -130,7 +131,7 @@ def impedance_torque(
     At rest, with wrench and tau_null 0, they are bias. damping, (7,), is the joints'.
     """
     # region 6.7
-    return J.T @ wrench + bias + damping * qd + tau_null
+    return J_site.T @ wrench + bias + damping * qd + tau_null
     # endregion 6.7
 
 

@@ -28,10 +28,10 @@ from robo47 import (
 from robo47.lesson.lab import Lab
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
+GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s2
 GOAL_Q = np.array([0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6])  # radians, steps 2 and 7
 V_MAX = simulate.SPEED_LIMITS  # rad/s, as Franka publishes them
 A_MAX = simulate.ACC_LIMITS  # rad/s2, likewise
-GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s2
 TRIALS = 200  # random moves, poses and bodies that your own code is judged on
 SEED = 47  # the same random ones at every run
 OMEGA = 20.0  # rad/s, how stiff the arm follows; with 10 the errors are twice as large
@@ -39,22 +39,23 @@ RATE = 250.0  # Hz, of the controller in step 7
 PICK_RATE = 100.0  # Hz, in step 8; at 20 the arm still picks, at 12.5 the cube falls
 
 
-def quintic_scaling(t: float, T: float) -> np.ndarray:
-    """Return s, sd and sdd at time t of a soft move that takes T seconds, (3,).
+def quintic_scaling(t: float, duration: float) -> np.ndarray:
+    """Return s, sd and sdd at time t of a soft move, (3,).
 
-    At 0.6 of 2 s: 0.16308, 0.6615, 1.26. Before 0 and after T it stands still.
+    duration is in seconds. At 0.6 of 2 s: 0.16308, 0.6615, 1.26. Before 0 and after
+    the duration it stands still.
     """
     # region 7.1
-    x = np.clip(t / T, 0.0, 1.0)
+    x = np.clip(t / duration, 0.0, 1.0)
     s = 10 * x**3 - 15 * x**4 + 6 * x**5
-    sd = (30 * x**2 - 60 * x**3 + 30 * x**4) / T
-    sdd = (60 * x - 180 * x**2 + 120 * x**3) / T**2
+    sd = (30 * x**2 - 60 * x**3 + 30 * x**4) / duration
+    sdd = (60 * x - 180 * x**2 + 120 * x**3) / duration**2
     return np.array([s, sd, sdd])
     # endregion 7.1
 
 
 def quintic_duration(dq: np.ndarray, v_max: np.ndarray, a_max: np.ndarray) -> float:
-    """Return the shortest T of a quintic over dq within every joint's limits.
+    """Return the shortest duration of a quintic over dq within every joint's limits.
 
     All are (7,); dq has either sign. 1 rad at 1.875 rad/s and any acceleration: 1 s.
     Where no joint moves: 0.
@@ -66,13 +67,14 @@ def quintic_duration(dq: np.ndarray, v_max: np.ndarray, a_max: np.ndarray) -> fl
     # endregion 7.2
 
 
-def joint_move(q0: np.ndarray, q1: np.ndarray, t: float, T: float) -> np.ndarray:
+def joint_move(q0: np.ndarray, q1: np.ndarray, t: float, duration: float) -> np.ndarray:
     """Return q, qd and qdd at time t on the way from q0 to q1, three rows, (3, 7).
 
-    At T / 2 it is half way, at 1.875 (q1 - q0) / T. Angles past pi stay as they are.
+    After half the duration it is half way, at 1.875 (q1 - q0) / duration. Angles past
+    pi stay as they are.
     """
     # region 7.3
-    s, sd, sdd = quintic_scaling(t, T)
+    s, sd, sdd = quintic_scaling(t, duration)
     return np.array([q0 + (q1 - q0) * s, (q1 - q0) * sd, (q1 - q0) * sdd])
     # endregion 7.3
 
@@ -87,32 +89,35 @@ def trapezoid(t: float, L: float, v: float, a: float) -> np.ndarray:
     # region 7.4
     top = min(v, np.sqrt(L * a))
     ramp = top / a
-    T = L / top + ramp
+    duration = L / top + ramp
     if t <= 0:
         return np.zeros(3)
     if t < ramp:
         return np.array([a * t**2 / 2, a * t, a])
-    if t < T - ramp:
+    if t < duration - ramp:
         return np.array([top * (t - ramp / 2), top, 0.0])
-    left = max(T - t, 0.0)
+    left = max(duration - t, 0.0)
     return np.array([L - a * left**2 / 2, a * left, -a if left else 0.0])
     # endregion 7.4
 
 
-def quintic_coefficients(start: np.ndarray, end: np.ndarray, T: float) -> np.ndarray:
+def quintic_coefficients(
+    start: np.ndarray, end: np.ndarray, duration: float
+) -> np.ndarray:
     """Return the factors of 1, t, ..., t^5 of the quintic between two states, (6,).
 
     start and end are position, speed and acceleration, (3,).
     From (0, 0, 0) to (1, 0, 0) in 1 s: (0, 0, 0, 10, -15, 6).
     """
     # region 7.5
+    d = duration
     A = np.array([
         [1, 0, 0, 0, 0, 0],
         [0, 1, 0, 0, 0, 0],
         [0, 0, 2, 0, 0, 0],
-        [1, T, T**2, T**3, T**4, T**5],
-        [0, 1, 2 * T, 3 * T**2, 4 * T**3, 5 * T**4],
-        [0, 0, 2, 6 * T, 12 * T**2, 20 * T**3],
+        [1, d, d**2, d**3, d**4, d**5],
+        [0, 1, 2 * d, 3 * d**2, 4 * d**3, 5 * d**4],
+        [0, 0, 2, 6 * d, 12 * d**2, 20 * d**3],
     ])  # fmt: skip
     return np.linalg.solve(A, np.concatenate([start, end]))
     # endregion 7.5
@@ -195,20 +200,20 @@ def limits_used(at: day7_mujoco.Moves) -> np.ndarray:
     inner = [0.5 - np.sqrt(3) / 6, 0.5, 0.5 + np.sqrt(3) / 6]  # where both are largest
 
     def share(q0: np.ndarray, q1: np.ndarray) -> float:
-        T = quintic_duration(q1 - q0, *limits)
-        way = [joint_move(q0, q1, x * T, T) for x in (*inner, *np.linspace(0, 1, 20))]
+        duration = quintic_duration(q1 - q0, *limits)
+        way = [joint_move(q0, q1, x * duration, duration) for x in (*inner, *np.linspace(0, 1, 20))]
         return float((np.abs(way).max(axis=0)[1:] / limits).max())
 
     return verify.each(share, at.q0, at.q1)
 
 
 def missed_ends(at: day7_mujoco.Moves) -> np.ndarray:
-    """Return how far your quintics miss what they had to be at 0 and at T, (n, 6)."""
+    """Return how far your quintics miss what they had to be at both ends, (n, 6)."""
     wanted = np.random.default_rng(SEED).uniform(-1, 1, (2, len(at.T), 3))
 
-    def ends(start: np.ndarray, end: np.ndarray, T: float) -> list[float]:
-        p = np.polynomial.Polynomial(quintic_coefficients(start, end, T))
-        return [f(t) for t in (0.0, T) for f in (p, p.deriv(), p.deriv(2))]
+    def ends(start: np.ndarray, end: np.ndarray, duration: float) -> list[float]:
+        p = np.polynomial.Polynomial(quintic_coefficients(start, end, duration))
+        return [f(t) for t in (0.0, duration) for f in (p, p.deriv(), p.deriv(2))]
 
     return verify.each(ends, *wanted, at.T) - np.concatenate(wanted, axis=1)
 
@@ -230,23 +235,23 @@ def off_carried(model, configurations: np.ndarray) -> np.ndarray:
     return np.array(off)
 
 
-def cubic(t: float, T: float) -> np.ndarray:
+def cubic(t: float, duration: float) -> np.ndarray:
     """Return s, sd and sdd of the softest scaling with four coefficients, (3,)."""
-    x = t / T
-    return np.array([3 * x**2 - 2 * x**3, 6 * x - 6 * x**2, 6 - 12 * x]) / [1, T, T**2]
+    x = t / duration
+    return np.array([3 * x**2 - 2 * x**3, 6 * x - 6 * x**2, 6 - 12 * x]) / [1, duration, duration**2]
 
 
-def profiles(T: float) -> dict:
+def profiles(duration: float) -> dict:
     """Return {name: (s, sd, sdd at time t; seconds)} of five ways to go from 0 to 1."""
     dq = np.abs(GOAL_Q - READY_Q)
     v = np.min(V_MAX / dq)  # of s: the slowest joint decides
     a = np.min(A_MAX / dq)
     return {
-        "step": (lambda t: np.array([1.0, 0.0, 0.0]), T),
-        "constant speed": (lambda t: np.array([t / T, 1 / T, 0.0]), T),
-        "cubic": (lambda t: cubic(t, T), T),
+        "step": (lambda t: np.array([1.0, 0.0, 0.0]), duration),
+        "constant speed": (lambda t: np.array([t / duration, 1 / duration, 0.0]), duration),
+        "cubic": (lambda t: cubic(t, duration), duration),
         "trapezoid": (lambda t: trapezoid(t, 1.0, v, a), 1 / v + v / a),
-        "quintic": (lambda t: quintic_scaling(t, T), T),
+        "quintic": (lambda t: quintic_scaling(t, duration), duration),
     }
 
 
