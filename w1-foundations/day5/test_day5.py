@@ -112,7 +112,7 @@ def test_gains_outside_m_overdamp_the_light_joints(armature, creeps):
     ahead, behind = ((e[t.searchsorted(x), wrist] / lab.error_response(x, 20.0, 1.0))
                      for x in (0.02, 0.3))  # fmt: skip
     assert (ahead < 0.95).all() == (behind > 2.0).all() == creeps
-    assert "a damping ratio near 3, so they set off fast and creep" in GUIDE
+    assert "a damping ratio near 3, so they start fast and crawl" in GUIDE
 
 
 def test_torques_taken_for_angles_switch_the_motors_from_limit_to_limit():
@@ -439,3 +439,22 @@ def test_a_servo_as_a_motor_is_let_down_by_the_integrator_alone(bench):
 def test_the_motors_limits_are_those_of_the_guide(bench):
     assert_same(simulate.limits(bench[0])[1], [87, 87, 87, 87, 12, 12, 12], 0.0)
     assert "87 N m for joints 1 to 4 and 12 N m for 5 to 7" in GUIDE
+
+
+@pytest.mark.parametrize("kd", [20.0, 40.0, 0.0])
+def test_the_energy_of_springs_and_gravity_falls_while_the_arm_moves(bench, kd):
+    model, arm = bench
+    start = lab.READY_Q - lab.E0
+
+    def law(arm, q, qd, ref):
+        g = arm.at(q).gravity_torque
+        against = kd * qd if kd else -arm.damping * qd  # no damper: friction undone
+        return lab.gravity_pd(ref[0] - q, 0.0 * qd, lab.KP, 0.0, g) - against
+
+    log = lab.run(model, arm, law, references.hold(lab.READY_Q), 1.0, start, 500.0)
+    e = lab.READY_Q - log.q
+    moving = [qd @ arm.at(q).M @ qd for q, qd in zip(log.q, log.qd, strict=True)]
+    V = (np.array(moving) + lab.KP * np.sum(e * e, axis=1)) / 2
+    falls = (np.diff(V) < 0).mean()
+    assert (falls == 1.0) if kd else (V[-1] > 0.8 * V[0])
+    assert "it falls whenever the arm moves" in GUIDE

@@ -312,7 +312,7 @@ def main() -> int:
     Lambda = task_inertia(arm.at(READY_Q).J_site, arm.at(READY_Q).M)
     lab.show("Lambda's lower right at ready, in kg", Lambda[3:, 3:], 3)
     free = 1 / np.diag(np.linalg.inv(Lambda))[3:]
-    lab.show("and of a hand that nobody holds: what it weighs along x, y, z", free, 3)
+    lab.show("and the apparent mass of an unconstrained hand, along x, y, z", free, 3)
     # Newton's law at the hand; MuJoCo pushes, and knows nothing of Lambda.
     lab.record("task_inertia", mass_felt(model, at, task_inertia),
                label="|Lambda a - F| / |F|, worst push",

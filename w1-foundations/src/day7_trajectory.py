@@ -201,7 +201,10 @@ def limits_used(at: day7_mujoco.Moves) -> np.ndarray:
 
     def share(q0: np.ndarray, q1: np.ndarray) -> float:
         duration = quintic_duration(q1 - q0, *limits)
-        way = [joint_move(q0, q1, x * duration, duration) for x in (*inner, *np.linspace(0, 1, 20))]
+        way = [
+            joint_move(q0, q1, x * duration, duration)
+            for x in (*inner, *np.linspace(0, 1, 20))
+        ]
         return float((np.abs(way).max(axis=0)[1:] / limits).max())
 
     return verify.each(share, at.q0, at.q1)
@@ -238,7 +241,11 @@ def off_carried(model, configurations: np.ndarray) -> np.ndarray:
 def cubic(t: float, duration: float) -> np.ndarray:
     """Return s, sd and sdd of the softest scaling with four coefficients, (3,)."""
     x = t / duration
-    return np.array([3 * x**2 - 2 * x**3, 6 * x - 6 * x**2, 6 - 12 * x]) / [1, duration, duration**2]
+    return np.array([3 * x**2 - 2 * x**3, 6 * x - 6 * x**2, 6 - 12 * x]) / [
+        1,
+        duration,
+        duration**2,
+    ]
 
 
 def profiles(duration: float) -> dict:
@@ -248,7 +255,10 @@ def profiles(duration: float) -> dict:
     a = np.min(A_MAX / dq)
     return {
         "step": (lambda t: np.array([1.0, 0.0, 0.0]), duration),
-        "constant speed": (lambda t: np.array([t / duration, 1 / duration, 0.0]), duration),
+        "constant speed": (
+            lambda t: np.array([t / duration, 1 / duration, 0.0]),
+            duration,
+        ),
         "cubic": (lambda t: cubic(t, duration), duration),
         "trapezoid": (lambda t: trapezoid(t, 1.0, v, a), 1 / v + v / a),
         "quintic": (lambda t: quintic_scaling(t, duration), duration),
@@ -259,8 +269,8 @@ def pick(lab: Lab) -> None:
     """Pick the cube up and put it down, with your functions of today."""
     done = capstone.pick(capstone.with_own(globals()), rate=PICK_RATE)
     most = done.heaviest
-    print(f"  predicted: this grip lifts up to {most:.3f} kg; the cube has 0.08")
-    lab.measured("heaviest cube that the grip lifts, kg", most)
+    print(f"  predicted: this lift takes up to {most:.3f} kg; the cube has 0.08")
+    lab.measured("heaviest cube while the lift speeds up, kg", most)
     print(f"  lifted to {done.lift:.3f} m; {done.seconds:.2f} s in all; at most")
     print(f"  {done.torque:.2f} of the torque limits, {done.speed:.2f} of the speed's;")
     print(f"  the hand never more than {done.line_mm:.2f} mm off its straight lines")
