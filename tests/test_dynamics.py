@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from robo47 import dynamics, panda, screws, verify
-from robo47.verify.links import mujoco_energies
+
+from day4_mujoco import mujoco_energies
 
 G_EARTH = np.array([0.0, 0.0, -9.81])
 DATA = Path(__file__).parent / "data"

@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike
 from labkit import log
 from labkit.base import cli
 from labkit.base.text import count, number_of
+from labkit.lesson import day_mujoco  # noqa: F401 (a lab's next import needs it)
 from labkit.lesson.day import day_of
 from labkit.lesson.metric import Metric
 from labkit.lesson.writers import file_mark

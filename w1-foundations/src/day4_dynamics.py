@@ -13,7 +13,9 @@ import numpy as np
 from robo47 import cli, panda, simulate, verify
 from robo47.lesson.lab import Lab
 from robo47.screws import skew
-from robo47.verify import each, links
+from robo47.verify import each
+
+import day4_mujoco
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 TRIALS = 100  # random motions that your own code is judged on
@@ -193,7 +195,7 @@ def float_and_push(lab: Lab, model, arm) -> None:
     lab.measured("its speed 4.5 s after a push of 10 N for 0.5 s, m/s", speed[-1])
 
 
-def weigh(lab: Lab, model, now: links.Motions, G: np.ndarray) -> np.ndarray:
+def weigh(lab: Lab, model, now: day4_mujoco.Motions, G: np.ndarray) -> np.ndarray:
     """Compare your mass matrices with MuJoCo's, and return them, (n, 7, 7)."""
     M = each(mass_matrix, now.J, G, now.armature)
     lab.show("M when the arm is ready, kg m2", M[0], 3)
@@ -202,9 +204,9 @@ def weigh(lab: Lab, model, now: links.Motions, G: np.ndarray) -> np.ndarray:
                config="random", seed=SEED)  # fmt: skip
     # The lesson of the day: symmetric, positive definite, and wrong all the same.
     print(f"  {'what is wrong':28}   off by   asymmetric by   least eigenvalue")
-    for what, bad in links.wrong_masses(link_inertias, mass_matrix, now).items():
+    for what, bad in day4_mujoco.wrong_masses(link_inertias, mass_matrix, now).items():
         print(f"  {what:28}{bad[0]:9.3f}{bad[1]:16.0e}{bad[2]:19.3f}")
-    off = links.library_masses(model, LIBRARY_TRIALS, SEED)
+    off = day4_mujoco.library_masses(model, LIBRARY_TRIALS, SEED)
     lab.check(f"the library robo47.dynamics_batch at {LIBRARY_TRIALS:,}", off)
     return M
 
@@ -215,16 +217,16 @@ def main() -> int:
     model = panda.load("panda_nohand", drive="torque")  # ctrl is a torque: no servos
     print(panda.describe("panda_nohand"))
     arm, rng = panda.arm(model), np.random.default_rng(SEED)
-    now = links.motions(model, TRIALS, SEED, FASTEST, HARDEST)
+    now = day4_mujoco.motions(model, TRIALS, SEED, FASTEST, HARDEST)
 
     lab.step("1. A body is many points; ten numbers say how all of them move")
-    off = links.momenta(spatial_inertia, TRIALS, rng)
+    off = day4_mujoco.momenta(spatial_inertia, TRIALS, rng)
     lab.check("largest |G V - the points' momentum|", off)
 
     lab.step("2. Every link of the arm, where it is now")
     lab.show("link1 to link7, kg", arm.masses, 3)
     G = each(link_inertias, now.T, *now.links)
-    off = G - [links.mujoco_inertias(model, x, spatial_inertia) for x in now.q]
+    off = G - [day4_mujoco.mujoco_inertias(model, x, spatial_inertia) for x in now.q]
     lab.check("largest |G - from MuJoCo's centres and axes|", off)
 
     lab.step("3. The mass matrix: how heavy each joint feels")
@@ -238,7 +240,9 @@ def main() -> int:
     lab.check("largest |by hand - MuJoCo's bias at rest|, N m", off)
 
     lab.step("5. The torque of a motion: out along the arm, and back")
-    lab.check("largest |ad(V) W - the cross products|", links.crosses(ad, TRIALS, rng))
+    lab.check(
+        "largest |ad(V) W - the cross products|", day4_mujoco.crosses(ad, TRIALS, rng)
+    )
     off = each(inverse_dynamics, now.J, G, now.qd, now.qdd, now.g)
     off = off - verify.mujoco_inverse_dynamics(model, now.q, now.qd, now.qdd)
     print(f"  Without armature and damping: off by {np.abs(off).max():.2f} N m")
@@ -250,7 +254,7 @@ def main() -> int:
     lab.check("largest |bias_torque - MuJoCo's|, N m", off)
 
     lab.step("6. Forwards: what the simulator does with a torque")
-    off, after = links.forwards(model, now, M, bias, forward_dynamics)
+    off, after = day4_mujoco.forwards(model, now, M, bias, forward_dynamics)
     lab.check("largest |qdd - MuJoCo's|, rad/s2", off)
     lab.check("its next velocity, predicted, rad/s", after)
 
@@ -260,10 +264,10 @@ def main() -> int:
     lab.step("8. Side quest: energy, and who makes it")
     with lab.side_quest():
         off = each(energy, M, now.qd, now.links[0], now.coms, now.g)
-        off = off - links.mujoco_energies(model, now.q, now.qd)
+        off = off - day4_mujoco.mujoco_energies(model, now.q, now.qd)
         lab.check("largest |energy - MuJoCo's|, J", off)
     for name, ms in (("IMPLICITFAST", 2), ("IMPLICITFAST", 1), ("RK4", 2)):
-        gain = links.swing(name, ms / 1000)
+        gain = day4_mujoco.swing(name, ms / 1000)
         print(f"  {name:12} at {ms} ms: a free swing of 1 s gains {gain:.2g} J")
     return lab.finish()
 
