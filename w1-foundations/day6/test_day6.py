@@ -162,10 +162,12 @@ def circled(motors, seconds=2.5, **instead):
         law = lab.circling(arm, lab.null_torque)
         run = simulate.run(model, simulate.start(model, lab.READY_Q), law, seconds)
     T = arm.at(lab.READY_Q).T_world_ee
-    off = np.array([
-        jacobian.pose_error(arm.at(q).T_world_ee, lab.day6_mujoco.circle(t, T, 0.12, 2.0).T)
-        for t, q in zip(run.t, run.q, strict=True)
-    ]).reshape(-1, 2, 3)  # fmt: skip
+    goal = [lab.day6_mujoco.circle(t, T, 0.12, 2.0).T for t in run.t]
+    off = [
+        jacobian.pose_error(arm.at(q).T_world_ee, to)
+        for q, to in zip(run.q, goal, strict=True)
+    ]
+    off = np.reshape(off, (-1, 2, 3))
     return tuple(1000 * np.linalg.norm(off, axis=2).max(axis=0))[::-1]
 
 

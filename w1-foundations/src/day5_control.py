@@ -8,13 +8,14 @@ Radians, rad/s, N m, seconds. The model (M, bias) comes from Day 4's library.
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
-import day5_mujoco
 import mujoco
 import numpy as np
 
 from robo47 import cli, control, panda, references, scenes, simulate
 from robo47.lesson.lab import Lab
 from robo47.verify import each
+
+import day5_mujoco
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 DRIVE = "torque"  # motors, in N m; "servo" would take the same numbers for angles
@@ -222,8 +223,9 @@ def tracking(log, reference) -> np.ndarray:
 
 
 def off_inverse(model, arm, at: day5_mujoco.States) -> np.ndarray:
-    """Return computed_torque minus MuJoCo's torque for the same acceleration, (n, 7)."""
-    kp, kd = 400.0, 28.0  # omega 20, zeta 0.7
+    """Return computed_torque minus MuJoCo's torque for that acceleration, (n, 7)."""
+    kp = 400.0  # omega 20, zeta 0.7
+    kd = 28.0
     data = mujoco.MjData(model)
     off = []
     for q, qd, e, ed, qdd_ref in zip(*at, strict=True):
@@ -239,7 +241,7 @@ def off_inverse(model, arm, at: day5_mujoco.States) -> np.ndarray:
 
 
 def off_library(at: day5_mujoco.States) -> dict:
-    """Return how far the others are from robo47.control: MuJoCo has no call for them."""
+    """Return how far the others are from robo47.control: MuJoCo has none of them."""
     own = {
         "pd_torque": pd_torque,
         "gains": gains,

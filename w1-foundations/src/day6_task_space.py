@@ -8,7 +8,6 @@ wrench is (moment; force). M is with armature. Metres, radians, newtons, kilogra
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
-import day6_mujoco
 import mujoco
 import numpy as np
 
@@ -16,6 +15,8 @@ from robo47 import cli, control, jacobian, panda, scenes, screws, simulate, veri
 from robo47 import task_space as library
 from robo47.lesson.lab import Lab
 from robo47.rotation_log import small_pose_error
+
+import day6_mujoco
 
 READY_Q = panda.READY_Q
 TRIALS = 50  # random states that your own code is judged on
@@ -274,7 +275,7 @@ def off_held(model, arm, at: list) -> np.ndarray:
 
 
 def off_library(name: str, own, at: list) -> np.ndarray:
-    """Return how far a function is from robo47.task_space: MuJoCo has no call for it."""
+    """Return how far a function is from robo47.task_space: MuJoCo has none of them."""
     columns = day6_mujoco.arguments(at)[name]
     truth = getattr(library, name)(*columns)
     return verify.each(own, *columns) - truth

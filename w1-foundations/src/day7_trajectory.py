@@ -10,7 +10,6 @@ maps x coordinates to the world. Metres, radians, seconds, kilograms.
 from dataclasses import replace
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
-import day7_mujoco
 import mujoco
 import numpy as np
 
@@ -26,6 +25,8 @@ from robo47 import (
     verify,
 )
 from robo47.lesson.lab import Lab
+
+import day7_mujoco
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s2
