@@ -360,3 +360,14 @@ def test_the_guides_code_releases_the_hand(capsys, monkeypatch):
     (code,) = (one.split("```")[0] for one in blocks if "released(" in one)
     exec(code, {})
     assert float(capsys.readouterr().out) == pytest.approx(-0.078, abs=1e-3)
+
+
+def test_joint_2_does_the_work_along_x_and_joints_1_3_5_7_along_y(motors):
+    now = motors[1].at(lab.READY_Q)
+    Lambda = lab.task_inertia(now.J_site, now.M)
+    for axis, joints in ((3, [1]), (4, [0, 2, 4, 6])):
+        qdd = np.linalg.solve(now.M, now.J_site.T @ Lambda[:, axis])
+        work = qdd * (now.M @ qdd)
+        assert work[joints].sum() / work.sum() == pytest.approx(1.0, abs=0.02)
+    assert "it is joint2 that turns" in SENTENCES
+    assert "along y joints 1, 3, 5 and 7 share the work" in SENTENCES
