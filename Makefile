@@ -8,8 +8,15 @@ else
 endif
 # The robot: MENAGERIE_ROOT where set, else mujoco_menagerie/ fetched once.
 ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
-# Without DAY= a script takes the last day that you began.
+# Without DAY= a script takes the day that you worked on last.
 ON_DAY = $(if $(DAY),--day $(DAY))
+# A command of a day does not take WEEK= in silence.
+OF_A_DAY = start check hint borrow run view figures notebook docs author
+ifeq ($(origin WEEK),command line)
+  ifneq ($(filter $(OF_A_DAY),$(MAKECMDGOALS)),)
+    $(error make $(firstword $(MAKECMDGOALS)) takes DAY=2, no WEEK=)
+  endif
+endif
 ON_WEEK = $(WEEK) $(ON_DAY)
 # A script's exit code 1 is "not yet", which is no error of make's.
 NOT_YET = || { code=$$?; test $$code -eq 1 || exit $$code; }
@@ -30,7 +37,7 @@ help: ## this list
 	@sed -n 's/^\([a-z0-9%-]*\):.*## \(.*\)/  make \1|\2/p' Makefile | sed 's/%/1/' \
 	  | awk -F'|' '{printf "%-18s %s\n", $$1, $$2}'
 	@echo
-	@echo "DAY=2 names a day, WEEK=1 a week; without it: the last one that you began."
+	@echo "DAY=2 names a day, WEEK=1 a week; without it: the one you worked on last."
 	@echo "ARGS='...' passes options on: make day1 ARGS=--no-log"
 
 day%: .venv/.ready-core $(ROBOT) ## set up, run the kit's Day 1 lab, verify it, log it
@@ -43,7 +50,7 @@ capstone: .venv/.ready-$(if $(findstring .,$(ARGS)),figures,core) $(ROBOT) ## pi
 	@$(PY) scripts/capstone.py $(ON_WEEK) $(ARGS) $(NOT_YET)
 
 proof: .venv/.ready-view $(ROBOT) ## a page to show: your numbers, the pick in 3D, one file
-	@$(PY) scripts/proof.py $(if $(WEEK),--week $(WEEK)) $(ARGS) $(NOT_YET)
+	@$(PY) scripts/proof.py $(if $(WEEK),--week $(WEEK)) $(ON_DAY) $(ARGS) $(NOT_YET)
 
 fresh: .venv/.ready-core $(ROBOT) ## does a clone of your last commit give your numbers?
 	@$(PY) scripts/fresh.py $(ON_WEEK) $(ARGS) $(NOT_YET)
@@ -60,11 +67,11 @@ check: .venv/.ready-core $(ROBOT) ## check your day, or TASK=1.4 alone; ARGS=--w
 hint: .venv/.ready-core $(ROBOT) ## the next hint, for TASK=1.4 or for what is next
 	@$(PY) scripts/hint.py $(TASK) $(ON_DAY) $(ARGS) $(NOT_YET)
 
-borrow: .venv/.ready-core ## stuck? go on with the kit's function of TASK=1.4
-	@$(PY) scripts/borrow.py $(or $(TASK),$(error which task? make borrow TASK=1.4)) $(ON_DAY) $(ARGS)
+borrow: .venv/.ready-core $(ROBOT) ## stuck? go on with the kit's function of TASK=1.4
+	@$(PY) scripts/borrow.py $(TASK) $(ON_DAY) $(ARGS)
 
 run: .venv/.ready-$(RUN) $(ROBOT) ## run your own copy of the lab, log its numbers
-	@$(PY) scripts/run_day.py $(DAY) $(ARGS)
+	@$(PY) scripts/run_day.py $(DAY) $(ARGS) $(NOT_YET)
 
 update: .venv/.ready-core ## the kit's newest version, your work kept; FROM=https://...
 	@$(PY) scripts/update.py $(if $(FROM),--from $(FROM)) $(if $(TO),--to $(TO)) $(ARGS)
@@ -85,8 +92,8 @@ test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 soak: .venv/.ready-test ## the long tests: a log of gigabytes, a class of 200
 	@$(PY) -m pytest -m soak -s $(ARGS)
 
-report: .venv/.ready-core ## metrics/report.html from the log
-	@$(PY) scripts/report_metrics.py $(ON_DAY) $(ARGS)
+report: .venv/.ready-core ## metrics/report.html from the log; WEEK=1 its page alone
+	@$(PY) scripts/report_metrics.py $(if $(WEEK),--week $(WEEK)) $(ON_DAY) $(ARGS)
 
 test-matrix: .venv/.ready-test $(ROBOT) ## the tests on the oldest and newest MuJoCo and Python
 	@$(PY) scripts/test_matrix.py $(ARGS)

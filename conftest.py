@@ -27,7 +27,7 @@ from labkit.commands.new import worksheet_of
 from labkit.figures import backends
 from labkit.judge.ask import replies
 from labkit.lesson.day import Day, all_days, find_day
-from labkit.lesson.script import load_lab as load_script  # noqa: F401 (days' tests)
+from labkit.lesson.lab_module import load_lab as load_script  # noqa: F401 (days' tests)
 from labkit.lesson.week import weeks
 from labkit.sandbox.sandbox import USUAL, Sandbox
 from robo47 import panda

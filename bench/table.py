@@ -133,9 +133,10 @@ def _tests(tests: dict[str, Any]) -> list[str]:
 
 def _first_minute(first: dict[str, Any]) -> list[str]:
     got = first["downloaded_mb"]
+    end = "to All checks PASSED" if first["passed"] else "until it FAILED"
     return [
         "The first minute: git clone and make day1, nothing cached",
-        f"  {first['seconds']:.0f} s to All checks PASSED"
+        f"  {first['seconds']:.0f} s {end}"
         + (f", {got:.0f} MB downloaded in all" if got is not None else ""),
         f"  {first['robot_mb']:.1f} MB of it for the robot;"
         f" the handout clones {first['handout_clone_mb']} MB",

@@ -173,6 +173,11 @@ function apart(T, truth) {
   return [1000 * metres, (Math.atan2(sine, cosine) * 180) / Math.PI];
 }
 
+/** A number with so many decimals; a zero has no sign. */
+function fixed(x, decimals) {
+  return x.toFixed(decimals).replace(/^-(?=[0.]*$)/, "");
+}
+
 function show() {
   data.qpos.set(q);
   mujoco.mj_kinematics(model, data); // fills xpos, xmat, geom_xpos and geom_xmat
@@ -180,7 +185,7 @@ function show() {
   const poses = mistake ? mistaken(mistake) : null;
   const truth = pose(END);
   draw(poses);
-  const row = (i) => truth.slice(4 * i, 4 * i + 4).map((x) => x.toFixed(6).padStart(10));
+  const row = (i) => truth.slice(4 * i, 4 * i + 4).map((x) => fixed(x, 6).padStart(10));
   by("pose").textContent = `T_world_ee\n${[0, 1, 2].map((i) => row(i).join(" ")).join("\n")}`;
   by("says").textContent = mistake ? mistake.says : "";
   const [mm, degrees] = poses ? apart(poses.ee, truth) : [0, 0];
@@ -214,7 +219,7 @@ function turn(i, angle) {
 function read() {
   sliders.forEach((slider, i) => {
     slider.value = q[i];
-    slider.nextSibling.textContent = q[i].toFixed(3);
+    slider.nextSibling.textContent = fixed(q[i], 3);
   });
   show();
 }

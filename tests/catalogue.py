@@ -33,7 +33,7 @@ from labkit.judge import Verdict
 from labkit.judge.row import rows_of
 from labkit.lesson.day import Day, find_day
 from labkit.lesson.lab import Lab
-from labkit.lesson.script import load_lab
+from labkit.lesson.lab_module import load_lab
 
 _HEADER = re.compile(
     r"# tasks? ((?:\d+\.\d+ )*\d+\.\d+): ([a-z0-9A-Z+-]+)( \(not in a run: .+\))?"

@@ -19,8 +19,8 @@ from test_deliverables import png, worksheet
 
 from labkit import log
 from labkit.lesson.day import find_day
-from labkit.lesson.marks import file_mark
-from labkit.lesson.script import make_starter, put_back
+from labkit.lesson.starter import make_starter, put_back
+from labkit.lesson.writers import file_mark
 
 DAY = find_day(1)
 WEEK = DAY.folder.name

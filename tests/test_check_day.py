@@ -43,7 +43,7 @@ def work(day, run_in):
 
 def solve(day, work, *names):
     """Write the kit's solution of some functions into the student's file."""
-    from labkit.lesson.script import put_back
+    from labkit.lesson.starter import put_back
 
     work.write_text(put_back(work.read_text(), day.source.read_text("utf-8"), names))
 

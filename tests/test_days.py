@@ -10,7 +10,7 @@ from conftest import ROOT, days, kits_worksheet
 from labkit.handin.worksheet import split_sections
 from labkit.judge.row import rows_of
 from labkit.lesson.lab import predictions
-from labkit.lesson.script import find_regions, make_starter
+from labkit.lesson.starter import find_regions, make_starter
 from labkit.sandbox.messages import library_of
 
 DAYS = days()

@@ -15,7 +15,7 @@ from labkit.judge.answers import InTurn, difference, gaps, matches, parts
 from labkit.judge.ask import stacked
 from labkit.judge.row import rows_of
 from labkit.lesson.day import find_day
-from labkit.lesson.script import lab_of
+from labkit.lesson.lab_module import lab_of
 from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit

@@ -16,6 +16,7 @@ import pytest
 
 from conftest import AUTHORS, ROOT, kits_worksheet, need
 from labkit.base import processes
+from labkit.base.text import blocks
 from labkit.commands import docs, week
 from labkit.lesson.day import all_days, find_day
 from robo47 import __version__
@@ -166,6 +167,14 @@ def test_every_picture_says_in_words_what_it_shows_and_no_output_is_empty(path):
     text = path.read_text("utf-8")
     assert not re.search(r"(?<!`)!\[.{0,4}\]\((?!.*jpg)", text)
     assert not re.search(r"<!-- run: .+ -->\n<!-- end -->", text)
+
+
+def test_no_zero_in_an_output_has_a_sign():
+    guides = [day.folder / day.guide for day in all_days()]
+    outputs = [out for p in guides for out in blocks(p.read_text("utf-8"), "run")]
+    assert len(outputs) > 8
+    for output in outputs:
+        assert not re.search(r"(?<![\w.])-0(\.0*)?(?![\d.e])", output)
 
 
 def test_what_github_shows_says_what_the_kit_is():

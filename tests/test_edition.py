@@ -6,8 +6,9 @@ import pytest
 
 from conftest import ROOT, need, run_copy
 from labkit.lesson.day import all_days, find_day
-from labkit.lesson.script import find_regions, make_starter, read_script
+from labkit.lesson.lab_module import read_script
 from labkit.lesson.sealed import is_sealed, opened, seal
+from labkit.lesson.starter import find_regions, make_starter
 
 DAY = find_day(1)
 WEEK = DAY.folder.name

@@ -8,8 +8,8 @@ from labkit.base.exchange import Question, Reply
 from labkit.judge import Scalar, Vector
 from labkit.judge.answers import typed
 from labkit.judge.ask import SEED, Ask, Edges, right_answers
+from labkit.judge.failing_call import failing_call
 from labkit.judge.judge import judge
-from labkit.judge.problems import failing_call
 from labkit.judge.row import rows_of
 from labkit.lesson.day import all_days
 

@@ -18,7 +18,7 @@ from labkit.fresh import clone as cloning
 from labkit.fresh.compare import faults, same
 from labkit.fresh.missing import findings
 from labkit.lesson.day import find_day
-from labkit.lesson.marks import Metric
+from labkit.lesson.metric import Metric
 from labkit.report.series import Series, series_of
 from labkit.report.week_labs import Ran
 from robo47.errors import Robo47Error

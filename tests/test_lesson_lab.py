@@ -9,7 +9,7 @@ import pytest
 
 from labkit.lesson.day import find_day
 from labkit.lesson.lab import Lab
-from labkit.lesson.marks import Metric
+from labkit.lesson.metric import Metric
 from labkit.log import read_rows
 from labkit.log.rows import HEADER as LINE
 from robo47.errors import Robo47Error
@@ -85,6 +85,19 @@ def test_a_row_says_which_file_wrote_it(log):
     (row,) = read_rows(log)
     digest = hashlib.sha256(SCRIPT.read_bytes()).hexdigest()
     assert row["notes"] == f"limit 1e-08; file {digest[:8]}"
+
+
+def test_a_zero_prints_without_a_sign(log, capsys):
+    """Which sign a rounding error has is the machine's: arm64 has another one."""
+    lab = lab_with()
+    lab.predicted = {"the sag, mm": "0"}
+    lab.show("M", [[-1e-17, -0.0, -2e-6]])
+    lab.predict("the sag", -1e-17, -4e-4, "mm")
+    lab.measured("the sag, mm", -0.0)
+    out = capsys.readouterr().out
+    assert "    0.000000   0.000000  -0.000002" in out
+    assert "predicted 0.000, measured 0.000 mm" in out
+    assert "measured 0: the sag, mm" in out
 
 
 def test_an_unknown_number_and_a_script_that_is_no_lab_are_refused(

@@ -5,15 +5,9 @@ import ast
 import pytest
 
 from labkit.lesson.day import find_day
-from labkit.lesson.script import (
-    find_regions,
-    function_lines,
-    make_starter,
-    put_back,
-    renamed,
-    unfinished,
-)
-from labkit.lesson.script import solution as solution_of
+from labkit.lesson.slips import renamed, unfinished
+from labkit.lesson.starter import find_regions, function_lines, make_starter, put_back
+from labkit.lesson.starter import solution as solution_of
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 

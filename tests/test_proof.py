@@ -14,8 +14,8 @@ from labkit.commands import grade
 from labkit.commands import proof as command
 from labkit.grade.roster import Student
 from labkit.lesson.day import find_day
-from labkit.lesson.marks import Writers, file_mark
 from labkit.lesson.week import find_week
+from labkit.lesson.writers import Writers, file_mark
 from labkit.proof import facts, page
 from labkit.proof.pick import Picked, pick
 from labkit.report.series import Series

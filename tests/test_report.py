@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import pytest
 
 from labkit.lesson.day import find_day
-from labkit.lesson.marks import Metric
+from labkit.lesson.metric import Metric
 from labkit.log.rows import HEADER as LINE
 from labkit.log.rows import encode, typed
 from labkit.log.scan import scan

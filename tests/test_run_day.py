@@ -5,7 +5,7 @@ from restored import Restored
 
 from conftest import copy_kit, keep_first_day, run_copy
 from labkit.lesson.day import days_of, find_day
-from labkit.lesson.script import is_kits, require_kits
+from labkit.lesson.starter import is_kits, require_kits
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 

@@ -9,15 +9,11 @@ import pytest
 from labkit.check.lab_run import rehearse
 from labkit.check.tasks import check_tasks
 from labkit.lesson import borrowed
-from labkit.lesson.borrowed import with_borrowed
+from labkit.lesson.added_code import old_names
+from labkit.lesson.borrowed import BORROWED, borrowed_tasks, with_borrowed
 from labkit.lesson.day import all_days, find_day
-from labkit.lesson.script import (
-    BORROWED,
-    borrowed_tasks,
-    make_starter,
-    old_names,
-    read_script,
-)
+from labkit.lesson.lab_module import read_script
+from labkit.lesson.starter import make_starter
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import screws
 

@@ -12,6 +12,8 @@ from types import SimpleNamespace
 import pytest
 
 from conftest import ROOT
+from labkit.commands import pins
+from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
 
@@ -122,19 +124,17 @@ def test_an_environment_that_uv_filled_is_whole_and_one_that_it_began_is_not(tmp
     assert real.made_with(venv) == NOW
 
 
-def test_what_uv_and_pip_install_are_the_same_versions_and_public():
-    lock = tomllib.loads((ROOT / "uv.lock").read_text("utf-8"))
-    locked = {
-        (one["name"], one["version"])
-        for one in lock["package"]
-        if one["name"] != "robo47"
-    }
-    text = (ROOT / "constraints.txt").read_text("utf-8")
-    pins = re.findall(r"^([\w.-]+)==([\w.]+)", text, re.MULTILINE)
-    pinned = {(re.sub(r"[-_.]+", "-", name).lower(), v) for name, v in pins}
-    assert locked == pinned
-    hosts = set(re.findall(r"\w+://[^/\"]*", (ROOT / "uv.lock").read_text("utf-8")))
-    assert hosts == {"https://pypi.org", "https://files.pythonhosted.org"}
+def test_what_uv_and_pip_install_are_the_same_versions():
+    constraints = (ROOT / "constraints.txt").read_text("utf-8")
+    text = (ROOT / "pyproject.toml").read_text("utf-8")
+    listed = tomllib.loads(text)["tool"]["uv"]["constraint-dependencies"]
+    pinned = [line.partition("#")[0] for line in constraints.splitlines()]
+    bare = [re.sub(r"\s", "", pin).replace('"', "'") for pin in pinned]
+    assert {re.sub(r"\s", "", pin) for pin in listed} == set(bare) - {""}
+    assert pins.with_pins(text, constraints) == text
+    assert pins.with_pins(text, "numpy==1.0 # old") != text
+    with pytest.raises(Robo47Error, match="0 lists"):
+        pins.with_pins("[tool.uv]\n", constraints)
 
 
 def test_uv_brings_all_that_make_may_put_into_the_environment():

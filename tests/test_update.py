@@ -8,7 +8,7 @@ from restored import Restored
 from conftest import copy_kit, keep_first_day, run_copy
 from labkit.lesson.day import find_day
 from labkit.lesson.merge import keep_both, keep_ours, merged, renewed
-from labkit.lesson.script import make_starter
+from labkit.lesson.starter import make_starter
 
 pytestmark = pytest.mark.kit
 DAY = find_day(1)

@@ -17,9 +17,9 @@ from labkit.base import store
 from labkit.check.memory import Met
 from labkit.commands.week import lines_of
 from labkit.lesson.day import days_of, find_day
-from labkit.lesson.marks import Metric, Writers, file_mark, marks_of
-from labkit.lesson.script import writers_of
+from labkit.lesson.metric import Metric
 from labkit.lesson.week import find_week
+from labkit.lesson.writers import Writers, file_mark, marks_of, writers_of
 from labkit.report import week_page, week_retro
 from labkit.report.series import Series
 from labkit.report.week_facts import OwnDay, facts_of, minutes_of

@@ -40,6 +40,14 @@ def day(text: str) -> int:
     return int(text)
 
 
+def week(text: str) -> int:
+    """Return a week's number, as it was typed."""
+    if not text.isdecimal():
+        says = f"{text!r} is no week; expected its number, such as 1"
+        raise argparse.ArgumentTypeError(says)
+    return int(text)
+
+
 def parser(about: str | None) -> argparse.ArgumentParser:
     """Return the parser of a script whose docstring is its help, lists as they are."""
     summary, *paragraphs = (about or "").strip().split("\n\n")
@@ -57,8 +65,8 @@ def parser(about: str | None) -> argparse.ArgumentParser:
 
 def add_week(it: argparse.ArgumentParser) -> None:
     """Add the number of a week, and --day: the week that has it."""
-    says = "default: the one begun last"
-    it.add_argument("week", type=int, nargs="?", help=says)
+    says = "default: that of the day worked on last"
+    it.add_argument("week", type=week, nargs="?", help=says)
     it.add_argument("--day", type=day, metavar="N", help="the week of this day")
 
 

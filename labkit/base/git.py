@@ -103,6 +103,33 @@ def read_history(
     return History(True, commit, committed, author, blobs)
 
 
+def user_name(clone: Path) -> str:
+    """Return the name that git would put under a commit made here; "" for none.
+
+    Args:
+        clone: the reader's own; another's configuration is not read.
+    """
+    done = run("config", "--get", "user.name", folder=clone, seconds=SECONDS)
+    return done.stdout.strip() if done.returncode == 0 else ""
+
+
+def author_of_work(clone: Path) -> str:
+    """Return who is named as the author of the last commit of somebody's own labs.
+
+    Never that of who wrote the kit: no commit of the kit's has a file in w*/work/.
+
+    Args:
+        clone: a student's folder; "" where no commit has such a file.
+
+    Raises:
+        GitError: git is not there, or takes too long.
+    """
+    git = _repository(clone)
+    listing = ("rev-list", "-1", "HEAD", "--", ":(glob)w*/work/**")
+    commit = (_git(git, *listing) or "").strip()
+    return read_history(clone, (), at=commit).author if commit else ""
+
+
 def before(clone: Path, moment: int) -> tuple[str, int]:
     """Return the last commit up to a moment, by the committers' clocks.
 

@@ -14,7 +14,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -124,6 +124,37 @@ def run(command: Sequence[str], **more: Any) -> subprocess.CompletedProcess[str]
         check=False,
         **more,
     )
+
+
+def run_and_tell(
+    command: Sequence[str], tell: Callable[[str], None], **more: Any
+) -> tuple[int, str]:
+    """Run a program that reads no input, and tell each line as it is printed.
+
+    Args:
+        command: the program and its arguments.
+        tell: gets a line without its end; standard error is among them.
+        more: of `subprocess.Popen`.
+
+    Returns:
+        Its exit code, and all that it printed.
+    """
+    lines = []
+    with subprocess.Popen(
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        encoding="utf-8",
+        errors="replace",
+        **more,
+    ) as process:
+        assert process.stdout is not None
+        for line in process.stdout:
+            lines.append(line)
+            tell(line.rstrip())
+    return process.returncode, "".join(lines)
 
 
 def end(process: subprocess.Popen[bytes]) -> None:

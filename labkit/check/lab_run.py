@@ -22,11 +22,12 @@ from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
 from labkit.handin.handin import Item
 from labkit.judge.ask import Robot
-from labkit.judge.problems import stops_with
+from labkit.judge.replies_read import stops_with
+from labkit.lesson.added_code import old_names
 from labkit.lesson.day import Day
 from labkit.lesson.lab import Lab, number_of
-from labkit.lesson.marks import Metric
-from labkit.lesson.script import load_lab, old_names
+from labkit.lesson.lab_module import load_lab
+from labkit.lesson.metric import Metric
 from labkit.sandbox.messages import PANDA, library_of
 from labkit.sandbox.sandbox import Sandbox, Session
 

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from labkit.check.tasks import TaskResult
-from labkit.lesson.day import Day, Task, day_numbers
+from labkit.lesson.day import Day, Task, all_days
 
 if TYPE_CHECKING:
     from labkit.handin.handin import Item
@@ -79,11 +79,26 @@ class Report:
             if not item.passed:
                 return f"the {item.name}."
         if self.items:
-            later = [n for n in day_numbers() if n > self.day.number]
-            then = f"make start DAY={later[0]}" if later else "make fresh"
-            says = "nothing is left to do here. Well done. Your numbers: make report; "
-            return f"{says}then: {then}."
+            return f"nothing is left to do here. Well done. {_after(self.day)}"
         return f"the whole day: make check DAY={self.day.number}"
+
+
+def _after(day: Day) -> str:
+    """Return what comes after a day that is done, in the order in which one does it."""
+    week = day.week
+    number = week.number
+    then = [other for other in all_days() if not other.work.is_file()]
+    start = f"make start DAY={then[0].number}" if then else ""
+    if day.number != max(week.days):
+        return f"Your numbers: make report{'; then: ' + start if start else ''}."
+    steps = [
+        *([f"make capstone WEEK={number}"] if week.capstone else []),
+        f"make report WEEK={number} and your words in its RETRO",
+        f"commit, make fresh WEEK={number}",
+        f"make proof WEEK={number}",
+        *([start] if start else []),
+    ]
+    return f"That was week {number}. Its end, in this order: {'; '.join(steps)}."
 
 
 def as_json(report: Report) -> dict[str, Any]:

@@ -11,19 +11,13 @@ from labkit.base.exchange import Exchange, LoadError, Reply
 from labkit.judge.ask import Asked, asked_of, replies
 from labkit.judge.judge import judge
 from labkit.judge.mistake import Verdict
-from labkit.judge.problems import no_answer, not_loaded, refusal
+from labkit.judge.replies_read import no_answer, not_loaded, refusal
 from labkit.judge.right_when import right_when
 from labkit.judge.row import row_of
+from labkit.lesson.added_code import kits_functions, kits_own, old_names
+from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
-from labkit.lesson.script import (
-    arguments,
-    borrowed_tasks,
-    kits_functions,
-    kits_own,
-    old_names,
-    renamed,
-    unfinished,
-)
+from labkit.lesson.slips import arguments, renamed, unfinished
 from labkit.sandbox.messages import library_of, robots_of
 from labkit.sandbox.sandbox import Sandbox
 

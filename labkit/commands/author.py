@@ -24,7 +24,8 @@ from labkit.judge.answers import InTurn
 from labkit.judge.ask import Draw, stacked
 from labkit.judge.row import rows_of
 from labkit.lesson.day import Day, day_numbers, find_day
-from labkit.lesson.script import find_regions, read_script
+from labkit.lesson.lab_module import read_script
+from labkit.lesson.starter import find_regions
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 

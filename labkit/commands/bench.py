@@ -16,6 +16,7 @@ import importlib
 import json
 import platform
 import sys
+from collections.abc import Iterable
 from importlib import metadata
 from typing import Any
 
@@ -58,6 +59,29 @@ def cpu() -> str:
         return platform.processor() or "unknown processor"
 
 
+def measure(parts: Iterable[str], results: dict[str, Any]) -> dict[str, str]:
+    """Run parts and write each result when it is there; a failure ends none but its own.
+
+    Args:
+        parts: names of PARTS.
+        results: what is known so far; it gets what is measured.
+
+    Returns:
+        {part: why it failed}.
+    """
+    failed = {}
+    for part in parts:
+        print(f"bench: {part} ...", file=sys.stderr, flush=True)
+        module = f"bench.bench_{part.replace('-', '_')}"
+        try:
+            results[part] = importlib.import_module(module).run()
+        except Exception as error:  # whatever a rival raises
+            failed[part] = str(error) or type(error).__name__
+            continue
+        RESULTS.write_text(json.dumps(results, indent=1) + "\n", "utf-8")
+    return failed
+
+
 def main() -> int:
     """Run the parts that are asked for and keep the results of the others."""
     parser = cli.parser(__doc__)
@@ -76,14 +100,12 @@ def main() -> int:
         print(render(results))
         return cli.EXIT_OK
     results["about"] = machine()
-    for part in options.parts or PARTS:
-        print(f"bench: {part} ...", file=sys.stderr, flush=True)
-        module = f"bench.bench_{part.replace('-', '_')}"
-        results[part] = importlib.import_module(module).run()
-        RESULTS.write_text(json.dumps(results, indent=1) + "\n", "utf-8")
+    failed = measure(options.parts or PARTS, results)
     if "growth" in results:
         from bench.picture import draw
 
         draw(results, PICTURE)
     print(render(results))
-    return cli.EXIT_OK
+    for part, why in failed.items():
+        cli.complain(f"bench: {part} failed, and has its last result: {why}")
+    return cli.EXIT_FAILED if failed else cli.EXIT_OK

@@ -1,17 +1,23 @@
 """Borrow the kit's function of a task you are stuck on, so that you can go on.
 
     python3 scripts/borrow.py 3.3          (make borrow TASK=3.3)
+    python3 scripts/borrow.py              what is next to do (make borrow)
+    python3 scripts/borrow.py --day 5      all that is open on a day, asked once
 
 Your file then calls the kit's function there, and says so. The task counts as
 not passed until you write it yourself: make start RESET=3.3 puts its gap back.
 Your file as it was is kept beside it.
 """
 
+import sys
+
 from labkit.base import cli
-from labkit.commands.start import rewrite
+from labkit.commands.hint import check as open_tasks
+from labkit.commands.start import require_begun, rewrite
 from labkit.lesson.borrowed import with_borrowed
-from labkit.lesson.day import chosen_day, find_task
-from labkit.lesson.script import function_lines, read_script, require_kits
+from labkit.lesson.day import Day, chosen_day, find_task
+from labkit.lesson.lab_module import read_script
+from labkit.lesson.starter import function_lines, require_kits
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -36,11 +42,47 @@ def borrow(task_id: str) -> int:
     return cli.EXIT_OK
 
 
+def borrow_open(day: Day, every: bool) -> int:
+    """Borrow the next task that does not pass, or all of them after a yes.
+
+    Args:
+        day: whose tasks.
+        every: all that is open.
+
+    Raises:
+        Robo47Error: the day was not begun, or its file cannot be judged.
+    """
+    require_begun(day)
+    with cli.busy("checking your functions"):
+        left, problem = open_tasks(day)
+    if problem:
+        raise Robo47Error(f"{problem} Fix that first; nothing was borrowed.")
+    if not left:
+        print(f"All tasks of day {day.number} pass: there is nothing to borrow.")
+        return cli.EXIT_OK
+    wanted = left if every else left[:1]
+    if every and not _agreed([task.id for task in wanted]):
+        print("Nothing was borrowed.")
+        return cli.EXIT_OK
+    for task in wanted:
+        borrow(task.id)
+    return cli.EXIT_OK
+
+
+def _agreed(ids: list[str]) -> bool:
+    """Ask once; without a keyboard to answer on it is a yes, since it was typed."""
+    if not sys.stdin.isatty():
+        return True
+    return input(f"Borrow {', '.join(ids)}? [y/N] ").strip().lower() in ("y", "yes")
+
+
 def main() -> int:
-    """Borrow one task's functions."""
+    """Borrow one task's functions, or what is open."""
     parser = cli.parser(__doc__)
-    parser.add_argument("task", help="such as 3.3")
-    parser.add_argument("--day", type=cli.day, help="default: the task's")
+    parser.add_argument("task", nargs="?", help="such as 3.3; default: the next")
+    parser.add_argument("--day", type=cli.day, help="of a day all that is open")
     options = parser.parse_args()
-    chosen_day(options.day, options.task)
-    return borrow(options.task)
+    day = chosen_day(options.day, options.task)
+    if options.task:
+        return borrow(options.task)
+    return borrow_open(day, every=options.day is not None)

@@ -1,7 +1,7 @@
 """The capstone of the week: the arm picks the cube up, with your own functions.
 
     make capstone                       one cube, your functions of all days
-    make capstone WEEK=1                of this week; default: the last begun
+    make capstone WEEK=1                of this week; default: the one worked on last
     make capstone ARGS=--all            twenty random cubes
     make capstone ARGS=--kit            the library's functions alone
     make capstone ARGS=--ablations      what mistakes do, in a table

@@ -40,7 +40,9 @@ POLL_SECONDS = 0.3  # polling sees saves on WSL and network mounts, where events
 def parse() -> argparse.Namespace:
     """Read the command line."""
     parser = cli.parser(__doc__)
-    parser.add_argument("day", type=cli.day, nargs="?", help="default: the last begun")
+    parser.add_argument(
+        "day", type=cli.day, nargs="?", help="default: the one worked on last"
+    )
     parser.add_argument("--task", help="check this task alone, such as 1.4")
     parser.add_argument("--file", type=Path, help="instead of the file in work/")
     parser.add_argument("--watch", action="store_true", help="check again at each save")

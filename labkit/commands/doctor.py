@@ -63,7 +63,7 @@ if folder:
     found["missing"] = menagerie.missing_files(folder)[:3]
 """
 LESSONS_PROBE = """
-from labkit.lesson.script import is_kits
+from labkit.lesson.starter import is_kits
 from labkit.lesson.day import all_days
 from robo47.paths import shown
 days = all_days()

@@ -15,7 +15,7 @@ from pathlib import Path
 from labkit import log
 from labkit.base import cli
 from labkit.lesson.day import all_days
-from labkit.lesson.script import read_script
+from labkit.lesson.lab_module import read_script
 from labkit.lesson.sealed import seal
 from labkit.update.merge import NOBODY, ask
 from robo47 import __version__

@@ -21,7 +21,7 @@ from labkit.commands.start import require_begun
 from labkit.figures import backends
 from labkit.figures.lessons import lesson_figures
 from labkit.lesson.day import Day, chosen_day
-from labkit.lesson.marks import file_mark
+from labkit.lesson.writers import file_mark
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -32,7 +32,7 @@ def main() -> int:
     """Draw what was asked for."""
     parser = cli.parser(__doc__)
     parser.add_argument("names", nargs="*", metavar="name", help="default: all")
-    parser.add_argument("--day", type=cli.day, help="default: the last begun")
+    parser.add_argument("--day", type=cli.day, help="default: the one worked on last")
     parser.add_argument("--out", type=Path, help="folder to write to")
     parser.add_argument("--kit", action="store_true", help="the lesson's, not yours")
     options = parser.parse_args()

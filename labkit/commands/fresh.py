@@ -23,10 +23,11 @@ from labkit.base.text import count
 from labkit.fresh import FRESH
 from labkit.fresh.clone import clone_commit, head_of, set_up
 from labkit.fresh.compare import faults
-from labkit.fresh.missing import findings
+from labkit.fresh.missing import findings, unwritten
 from labkit.lesson.day import chosen_week, days_of
 from labkit.lesson.week import find_week
 from labkit.report.week_labs import Ran, run_labs
+from robo47.paths import ROOT, shown
 
 FOLDER, LEFT_BEHIND = "robo47-fresh-", 3600  # seconds; a run takes some minutes
 
@@ -85,11 +86,15 @@ def main() -> int:
         days = days_of(find_week(week.number, root))
         missing = findings(days, root)
         say(f"cloned {sha[:7]}")
-        with cli.busy("setting it up, half a minute at most"):
-            python, environment = set_up(root, anew=not options.quick)
+        if not options.quick:
+            say("setting it up from nothing, as somebody else would")
+        python, environment = set_up(root, say, anew=not options.quick)
         say("set up" + (" with this environment" if options.quick else ""))
         labs, wrong = compared(run_labs(days, python, environment), root, say)
     code = verdict(labs, [*missing, *wrong])
+    for diary in unwritten(days, ROOT):
+        says = f"{shown(diary)} asks what this found: write it there, and commit."
+        print(cli.wrapped(f"  Not yet written: {says}", "  "))
     found = {"wrong": len(wrong), "missing": len(missing)}
     when = datetime.date.today().isoformat()  # `make proof` shows it for this commit
     store.write(FRESH, {**found, "commit": sha, "date": when})

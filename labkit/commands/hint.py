@@ -11,14 +11,15 @@ remembered in .robo47/, which git ignores.
 
 from labkit.base import cli, store
 from labkit.lesson.day import Day, Task, chosen_day
-from labkit.lesson.script import read_script, solution
+from labkit.lesson.lab_module import read_script
 from labkit.lesson.sealed import is_sealed
+from labkit.lesson.starter import solution
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 
-def check(day: Day, task: Task | None) -> tuple[list[Task], str]:
+def check(day: Day, task: Task | None = None) -> tuple[list[Task], str]:
     """Return the tasks that do not pass, of one or of all, and why none was judged."""
     if not day.work.is_file():
         return [task] if task else list(day.tasks), ""
@@ -81,13 +82,15 @@ def main() -> int:
     parser.add_argument(
         "task", nargs="?", help="such as 1.4, or figure; default: the next task"
     )
-    parser.add_argument("--day", type=cli.day, help="default: the last begun")
+    parser.add_argument("--day", type=cli.day, help="default: the one worked on last")
     parser.add_argument("--again", action="store_true", help="the last hint once more")
     options = parser.parse_args()
     if options.task and not options.task[0].isdecimal():
         return show_deliverable(chosen_day(options.day), options.task)
     day = chosen_day(options.day, options.task)
     wanted = day.task(options.task) if options.task else None
+    if wanted and wanted.id != options.task:
+        print(f"There is no {options.task} any more: it is {wanted.id} now.\n")
     left, problem = check(day, wanted)
     if problem:
         print(cli.wrapped(problem))

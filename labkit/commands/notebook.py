@@ -19,8 +19,9 @@ from pathlib import Path
 
 from labkit.base import cli
 from labkit.lesson.day import Day, chosen_day
-from labkit.lesson.script import find_regions, lab_of, make_starter, read_script
+from labkit.lesson.lab_module import lab_of, read_script
 from labkit.lesson.sealed import is_sealed
+from labkit.lesson.starter import find_regions, make_starter
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -186,7 +187,7 @@ def sections(day: Day, body: list[ast.stmt], lines: list[str]) -> list[list[str]
 def main() -> int:
     """Write a notebook, or check it."""
     parser = cli.parser(__doc__)
-    parser.add_argument("--day", type=cli.day, help="default: the last begun")
+    parser.add_argument("--day", type=cli.day, help="default: the one worked on last")
     how = parser.add_mutually_exclusive_group()
     how.add_argument("--check", action="store_true", help="write nothing")
     how.add_argument("--starter", action="store_true", help="without answers, in work/")

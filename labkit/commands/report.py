@@ -1,28 +1,28 @@
 """Turn the metrics log into a page worth showing.
 
     python3 scripts/report_metrics.py               metrics/report.html
+    python3 scripts/report_metrics.py --week 1      the page of one week alone
     python3 scripts/report_metrics.py --day 1       one day of the course
     python3 scripts/report_metrics.py --check fk_by_hand --since 2026-09-01
 
 The page works offline, on a phone and in the dark. Thresholds come from the
 days' manifests. Lines that could not be read or may be cut are listed at the end
-of the page. Without a filter there is a page on the week of
-the last day that you began as well, report-week1.html, and its numbers are
-written between the marks of docs/RETRO_w1.md, where that file has them;
-with --file they are left alone.
+of the page. Without a filter there is a page on each week that you began as
+well, report-week1.html, and its numbers are written between the marks of
+docs/RETRO_w1.md, where that file has them; with --file they are left alone.
 """
 
 import argparse
 import datetime
+from collections.abc import Sequence
 from pathlib import Path
 
 from labkit.base import cli
 from labkit.base.text import count
 from labkit.check import memory
 from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
-from labkit.lesson.marks import Writers
-from labkit.lesson.script import writers_of
-from labkit.lesson.week import Week
+from labkit.lesson.week import Week, weeks
+from labkit.lesson.writers import Writers, writers_of
 from labkit.log.logfile import command
 from labkit.log.scan import watched
 from labkit.report import page
@@ -36,6 +36,10 @@ def main() -> int:
     args = parser().parse_args()
     lines = watched(args.file)
     since = str(args.since or "")
+    asked_week = None if args.week is None else chosen_week(args.week, args.day)
+    filtered = bool(since or args.check or args.day is not None)
+    if asked_week and filtered:
+        raise Robo47Error("a week's page has all its rows: leave the other filter out")
     days = all_days() if args.day is None else [find_day(args.day)]
     mine = args.file.resolve() == METRICS_CSV.resolve()
     asked = list[Series]()
@@ -45,13 +49,15 @@ def main() -> int:
     report = collect(lines, asked, since, args.day, args.check)
     heading = describe(args, report)
     out = args.out or args.file.parent
-    whole = not (since or args.check or args.day is not None)
-    week = chosen_week(None) if whole else None
-    checked = {day.number: last_check(day) for day in days} if mine else {}
-    text = page.render(report, heading, week.number if week else None, checked)
-    write(out / "report.html", text)
-    if week is not None:
-        write_week(report, heading, out, week, mine)
+    shown_weeks = [] if filtered else begun(report)
+    if asked_week:
+        shown_weeks = sorted({*shown_weeks, asked_week}, key=lambda week: week.number)
+    else:
+        checked = {day.number: last_check(day) for day in days} if mine else {}
+        beside = [week.number for week in shown_weeks]
+        write(out / "report.html", page.render(report, heading, beside, checked))
+    for week in [asked_week] if asked_week else shown_weeks:
+        write_week(report, heading, out, week, shown_weeks, mine)
     print(
         f"{count(report.rows, 'row')}; checks: {report.count('pass')} passing,"
         f" {report.count('fail')} failing,"
@@ -65,13 +71,36 @@ def main() -> int:
     return cli.EXIT_OK
 
 
-def write_week(report: Report, heading: str, out: Path, week: Week, mine: bool) -> None:
+def begun(report: Report) -> list[Week]:
+    """Return the weeks that have a lab of the student's or a row; else the one to do.
+
+    Args:
+        report: of a whole log.
+    """
+    rows = {one.day for one in report.series if one.latest is not None}
+    found = [
+        week
+        for week in weeks()
+        if any(day.work.is_file() or day.number in rows for day in days_of(week))
+    ]
+    return found or [chosen_week(None)]
+
+
+def write_week(
+    report: Report,
+    heading: str,
+    out: Path,
+    week: Week,
+    beside: Sequence[Week],
+    mine: bool,
+) -> None:
     """Write the page on a week, and from the student's own log its retrospective."""
     from labkit.report import week_page, week_retro
     from labkit.report.week_facts import facts_of
 
     facts = [facts_of(day, report.series) for day in days_of(week)]
-    text = week_page.render(facts, heading)
+    others = [other.number for other in beside if other != week]
+    text = week_page.render(facts, heading, others)
     write(out / f"report-week{week.number}.html", text)
     if mine:  # another log's numbers are not mine
         for path in week_retro.fill(facts):
@@ -116,6 +145,7 @@ def parser() -> argparse.ArgumentParser:
         metavar="YYYY-MM-DD",
         help="rows of that date and later",
     )
+    it.add_argument("--week", type=cli.week, help="the page of this week alone")
     it.add_argument("--day", type=cli.day, help="one day of the course")
     it.add_argument("--check", default="", metavar="NAME", help="one check")
     cli.add_log(it)

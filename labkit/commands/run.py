@@ -14,13 +14,15 @@ import sys
 from labkit.base import cli
 from labkit.commands.start import require_begun
 from labkit.lesson.day import chosen_day
-from labkit.lesson.script import require_kits
+from labkit.lesson.starter import require_kits
 
 
 def main() -> int:
     """Find the lab by its manifest and go on in it."""
     parser = cli.parser(__doc__)
-    parser.add_argument("day", type=cli.day, nargs="?", help="default: the last begun")
+    parser.add_argument(
+        "day", type=cli.day, nargs="?", help="default: the one worked on last"
+    )
     parser.add_argument("--kit", action="store_true", help="the kit's, not yours")
     options, others = parser.parse_known_args()
     day = chosen_day(options.day)

@@ -11,8 +11,10 @@ from itertools import count
 from pathlib import Path
 
 from labkit.base import cli
+from labkit.lesson import last_day
 from labkit.lesson.day import Day, chosen_day, find_task
-from labkit.lesson.script import put_back, read_script, require_kits, starter_of
+from labkit.lesson.lab_module import read_script
+from labkit.lesson.starter import put_back, require_kits, starter_of
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -97,10 +99,15 @@ def free_name(work: Path, task_id: str) -> Path:
 def main() -> int:
     """Start a day or reset a task."""
     parser = cli.parser(__doc__)
-    parser.add_argument("day", type=cli.day, nargs="?", help="default: the last begun")
+    parser.add_argument(
+        "day", type=cli.day, nargs="?", help="default: the one worked on last"
+    )
     parser.add_argument("--reset", metavar="TASK", help="such as 1.4")
     options = parser.parse_args()
     if options.reset:
         chosen_day(options.day, options.reset)
         return reset(options.reset)
-    return start(chosen_day(options.day))
+    day = chosen_day(options.day)
+    code = start(day)
+    last_day.remember(day.number)
+    return code

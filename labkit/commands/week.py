@@ -13,7 +13,7 @@ from tqdm import tqdm
 from labkit.base import cli
 from labkit.base.text import count, number_of
 from labkit.lesson.day import chosen_week, days_of
-from labkit.lesson.script import writers_of
+from labkit.lesson.writers import writers_of
 from labkit.report.week_labs import Ran, run_labs
 
 Line = tuple[str, ...]  # day, whose, check, number, limit, verdict

@@ -49,7 +49,7 @@ def render_panda(
 def screenshot(qpos: ArrayLike, title: str) -> Image.Image:
     """Return a picture to hand in: from the left, q (7,) written in its corner."""
     picture = render_panda(qpos, camera=FROM_THE_LEFT)
-    joints = " ".join(f"{angle:.3f}" for angle in with_fingers(qpos)[:7])
+    joints = " ".join(f"{angle:z.3f}" for angle in with_fingers(qpos)[:7])
     words = f"{title}: q = {joints} rad"
     font = ImageFont.load_default(24)
     ImageDraw.Draw(picture).text((36, 24), words, overlay.INK, font)

@@ -76,4 +76,4 @@ def compare(T_world_ee: Array, who: str, T_mujoco: Array) -> str:
 
 def as_rows(T: Array) -> str:
     """Return a matrix in four lines, without "-0.0000"."""
-    return "\n".join(" ".join(f"{x:8.4f}" for x in row) for row in np.round(T, 4) + 0.0)
+    return "\n".join(" ".join(f"{x:z8.4f}" for x in row) for row in T)

@@ -2,6 +2,7 @@
 
 import os
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from labkit.base import git, processes
@@ -37,13 +38,16 @@ def clone_commit(sha: str, into: Path, root: Path = ROOT) -> None:
     _git("-c", "advice.detachedHead=false", "checkout", "--quiet", sha, folder=into)
 
 
-def set_up(root: Path, *, anew: bool = True) -> tuple[str, dict[str, str]]:
+def set_up(
+    root: Path, say: Callable[[str], None], *, anew: bool = True
+) -> tuple[str, dict[str, str]]:
     """Make a clone ready to run: its Python, and the variables that it runs with.
 
     The robot that is on this machine serves it too.
 
     Args:
         root: of the clone.
+        say: is told what goes on, a line at a time.
         anew: make it an environment of its own; else this Python's packages serve.
 
     Raises:
@@ -57,14 +61,16 @@ def set_up(root: Path, *, anew: bool = True) -> tuple[str, dict[str, str]]:
         environment["PYTHONPATH"] = str(root)
         return sys.executable, environment
     setup = [sys.executable, "scripts/setup_env.py"]
-    done = processes.run(setup, env=environment, cwd=root)
-    if done.returncode != 0:
-        says = " ".join((done.stdout + done.stderr).split())[-400:]
+    # Without it Python keeps the lines of a pipe to itself until it ends.
+    told = environment | {"PYTHONUNBUFFERED": "1"}
+    code, printed = processes.run_and_tell(setup, say, env=told, cwd=root)
+    if code != 0:
+        says = " ".join(printed.split())[-400:]
         raise Robo47Error(f"the clone could not be set up: {says}")
     python = str(root / ".venv" / processes.IN_VENV)
     if not robot.is_dir():  # without a network the embedded twin serves
         fetch = [python, "scripts/fetch_menagerie.py", "--daily"]
-        processes.run(fetch, env=environment, cwd=root)
+        processes.run_and_tell(fetch, say, env=told, cwd=root)
     return python, environment
 
 

@@ -17,6 +17,7 @@ from robo47.paths import ROOT
 _ABSOLUTE = re.compile(r"(/[\w.-]+){2,}|[A-Za-z]:[\\/]\w|~[/\\]\w|file://")
 _LINKED = re.compile(r"\]\(\s*<?([^)>\s]+)|src=[\"']([^\"']+)")  # in Markdown
 # A line of a template that nobody has replaced, or a cell of a table.
+_ASKS = "What `make fresh` found"
 _BLANK = re.compile(
     r"(?:^\s*(?:\d+\.\s+)?|\|\s*)"
     r"\*\(your (?:words|drawing|answer|prediction|number|reason)\)\*\s*(?:$|(?=\|))",
@@ -98,9 +99,33 @@ def _text(sheet: Path) -> str:
     return sheet.read_text("utf-8", errors="replace") if sheet.is_file() else ""
 
 
+def unwritten(days: Sequence[Day], root: Path) -> list[Path]:
+    """Return the retrospectives whose part on `make fresh` is still blank.
+
+    It can be written only after a fresh clone was tried, so it is asked for then and
+    is no gap before.
+
+    Args:
+        days: of a week.
+        root: the student's folder.
+    """
+    if not any((root / day.files["script"]).is_file() for day in days):
+        return []
+    weeks = sorted({day.folder.name for day in days})
+    diaries = [diary for week in weeks for diary in _diaries(root / week)]
+    return [it for it in diaries if any(map(_BLANK.search, _on_fresh(_text(it))))]
+
+
+def _on_fresh(text: str) -> list[str]:
+    """Return the sections of a sheet that ask what `make fresh` found."""
+    return [part for part in re.split(r"^(?=## )", text, flags=re.M) if _ASKS in part]
+
+
 def _blanks(sheet: Path, name: str) -> Iterator[tuple[str, str]]:
     """Yield what nobody has filled in yet."""
     text = _text(sheet)
+    for later in _on_fresh(text):
+        text = text.replace(later, "")
     if no_numbers(text):
         yield name, "its numbers are not filled in yet; make report"
     if blank := len(_BLANK.findall(text)):

@@ -20,7 +20,8 @@ from labkit.grade.roster import Student
 from labkit.grade.sheet import as_csv, nameless, printable, write
 from labkit.grade.similar import Runs
 from labkit.lesson.day import Day
-from labkit.lesson.script import read_script, starter_of
+from labkit.lesson.lab_module import read_script
+from labkit.lesson.starter import starter_of
 from labkit.sandbox.messages import file_of
 from robo47.errors import FaultError
 from robo47.paths import shown

@@ -4,9 +4,10 @@ import io
 
 from labkit.base.text import visible
 from labkit.handin.handin import Handin, Item
+from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day
-from labkit.lesson.marks import Metric, mark_of, marks_of
-from labkit.lesson.script import borrowed_tasks
+from labkit.lesson.metric import Metric
+from labkit.lesson.writers import mark_of, marks_of
 from labkit.log.rows import Row
 from labkit.log.scan import scan_file
 from robo47.errors import Robo47Error

@@ -77,11 +77,11 @@ class Joints(Tab):
         for slider, value in zip(self.sliders, q, strict=True):
             slider.value = float(value)  # type: ignore[misc]
         if not self._says(q):  # nothing is taken from under somebody's hand
-            text = ", ".join(f"{x:.10g}" for x in q)
+            text = ", ".join(f"{x:z.10g}" for x in q)
             self.box.value = text  # type: ignore[misc]
             self.page.say("")
         degrees = ", ".join(
-            f"{x:.4g} m" if unit else f"{math.degrees(x):.4g}°"
+            f"{x:z.4g} m" if unit else f"{math.degrees(x):z.4g}°"
             for unit, x in zip(self.units, q, strict=True)
         )
         self.exact.content = (

@@ -64,7 +64,7 @@ class Bars:
 def three(value: float, most: float) -> str:
     """Return a number as text, with three digits of the largest that it comes to."""
     places = max(0, 2 - int(np.floor(np.log10(most))))
-    return f"{round(value, places) + 0.0:.{places}f}" if np.isfinite(value) else "?"
+    return f"{value:z.{places}f}" if np.isfinite(value) else "?"
 
 
 class Plot:

@@ -16,7 +16,7 @@ import numpy as np
 from labkit.base.exchange import LoadError, Question, Reply
 from labkit.inspector.arm import Arm
 from labkit.inspector.ghost import Ghost, Seen, compare, no_pose, nothing
-from labkit.judge.problems import no_answer, not_loaded, stops_with
+from labkit.judge.replies_read import no_answer, not_loaded, stops_with
 from labkit.lesson.day import Day
 from labkit.sandbox.messages import library_of
 from labkit.sandbox.sandbox import Sandbox, Session

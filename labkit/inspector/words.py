@@ -39,7 +39,7 @@ def matrix(
     head = "".join(f'<span class="{c} head">{c:>10}</span>' for c in COLUMNS)
     rows = "\n".join(
         "".join(_entry(row[j], COLUMNS[j], mark if bad[j] else "") for j in range(4))
-        for row, bad in zip(np.round(T, 6) + 0.0, off, strict=True)
+        for row, bad in zip(T, off, strict=True)
     )
     return (
         f'<div class="r47-matrix"><b>{escape(name)}</b><pre aria-hidden="true">{head}'
@@ -49,7 +49,7 @@ def matrix(
 
 def _entry(value: float, column: str, mark: str) -> str:
     """Return one number, 10 wide; the mark covers the number alone."""
-    text = f"{value:.6f}"
+    text = f"{value:z.6f}"
     space = " " * (10 - len(text))
     return f'{space}<span class="{f"{column} {mark}".strip()}">{text}</span>'
 

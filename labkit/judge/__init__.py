@@ -7,11 +7,12 @@
     kinds       what kind of thing an answer is, which decides the words
                 (matrix_kinds: Jacobians, covariances; other_kinds: twists, points,
                 counts, yes or no, paths, pixels, images)
-    problems    did an answer come back, of the right shape and type? If not, the words;
-                the call that failed
+    replies_read    did an answer come back, of the right shape and type? If not, the
+                words
+    failing_call    the call that failed, as a student can type it
     answers     made by a function; how far two sets of them are apart; in words
     mistake     a mistake that has a name, and the verdict that says so
-    finished    mistakes made with a finished answer
+    answer_mistakes      mistakes made with a finished answer
     argument_mistakes    mistakes made with an argument before it is used
     near_miss   right in method, not in all digits
     judge       from questions with their replies to a verdict and its name

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from labkit.base.exchange import Exchange
-from labkit.judge import near_miss, problems
+from labkit.judge import near_miss, replies_read
 from labkit.judge.answers import (
     InTurn,
     Parts,
@@ -25,8 +25,8 @@ from labkit.judge.answers import (
     worst_part,
 )
 from labkit.judge.ask import Ask, Asked, Case, HeldOut, replies, right_answers, stacked
+from labkit.judge.failing_call import failing_call, for_fresh
 from labkit.judge.mistake import Finding, Mistake, Verdict
-from labkit.judge.problems import failing_call, for_fresh
 from robo47.checks import Array
 
 NO_CALL = ("kept-between-calls", "draws-itself")  # the same call gives something else
@@ -52,10 +52,12 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
 
 
 def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
-    S = problems.read(asked.main, asked.ask, source)
+    S = replies_read.read(asked.main, asked.ask, source)
     if isinstance(S, Finding):
         return Verdict("wrong", *_beside(S, asked, names))
-    if found := problems.of_another_size(asked) or problems.kept_state(asked, source):
+    if found := replies_read.of_another_size(asked) or replies_read.kept_state(
+        asked, source
+    ):
         return Verdict("wrong", *found)
     judge_these = _judge_accepted if asked.ask.accept else _judge_values
     return judge_these(asked, S, names)
@@ -81,7 +83,7 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
 def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     """Return why some answers cannot be judged, and what is wrong with the others."""
     good = [e for e in asked.main if e.reply and e.reply.value is not None]
-    S = problems.read(good, asked.ask) if good else found
+    S = replies_read.read(good, asked.ask) if good else found
     if isinstance(S, Finding) or asked.ask.accept:
         return found
     T = right_answers(asked.ask, good)
@@ -110,10 +112,10 @@ def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Find
 def _judge_right(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdict:
     """Return the verdict on right answers: how did they come about?"""
     ask = asked.ask
-    if shared := problems.shared_memory(replies([*asked.main, *asked.fresh])):
+    if shared := replies_read.shared_memory(replies([*asked.main, *asked.fresh])):
         return Verdict("wrong", *shared, measured)
     if asked.fresh and ask.truth:
-        S = problems.read(asked.fresh, ask)
+        S = replies_read.read(asked.fresh, ask)
         off = np.inf
         if not isinstance(S, Finding):
             gap = gaps(ask.kinds, S, right_answers(ask, asked.fresh))
@@ -132,7 +134,7 @@ def _judge_right(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdic
 
 def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     """Return whether answers to held-out questions give the mistake away."""
-    S = problems.read(exchanges, ask)
+    S = replies_read.read(exchanges, ask)
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
     off = gaps(ask.kinds, S, right_answers(ask, exchanges, held)).max()
@@ -143,10 +145,10 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
 def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     """Return the verdict of a function to which many answers are right."""
     ask = asked.ask
-    fresh = problems.read(asked.fresh, ask)
+    fresh = replies_read.read(asked.fresh, ask)
     if isinstance(fresh, Finding):
         return Verdict("wrong", *fresh)
-    wrong = list(problems.not_accepted(asked))
+    wrong = list(replies_read.not_accepted(asked))
     if not wrong:
         return _judge_right(asked, S, ())
     if named := redone(ask, stacked(asked.main), S, None):

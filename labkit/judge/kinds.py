@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from labkit.judge.answer_mistakes import OF_A_ROTATION, general, of_a_pose
 from labkit.judge.answers import (
     MATCHES,
     RIGID,
@@ -25,7 +26,6 @@ from labkit.judge.answers import (
     say_mm,
     say_range,
 )
-from labkit.judge.finished import OF_A_ROTATION, general, of_a_pose
 from labkit.judge.matrices import split
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
@@ -46,7 +46,7 @@ class Kind:
     # What it is in a sentence, "the torque"; used where a tuple has several.
     called: str = ""
     empty = True  # whether an answer that is all 0 looks like one that was never filled
-    # Mistakes made with a finished answer, by their names in `finished`.
+    # Mistakes made with a finished answer, by their names in `answer_mistakes`.
     usual: ClassVar[tuple[str, ...]] = ("all-signs", "whole-numbers")
     # What wrong shapes come from; where none is known, an axis too many is told.
     misfits: ClassVar[Mapping[tuple[int, ...], str]] = {}
@@ -265,7 +265,7 @@ class Pose(Kind):
             return found
         (R, t), (R_true, t_true) = split(S), split(T)
         if (off := _bottom(S)).max() > NEAR:
-            row = ", ".join(f"{x:.3g}" for x in S[np.argmax(off), 3])
+            row = ", ".join(f"{x:z.3g}" for x in S[np.argmax(off), 3])
             says = f"The bottom row is ({row}), not (0, 0, 0, 1), so this is no pose."
             return Finding("bottom-row", says)
         t_off = say_mm(millimetres(t, t_true))
@@ -291,7 +291,7 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
     """Return what is wrong with rotations, (n, 3, 3)."""
     if (off := _skew(S)) > RIGID:
         det = np.linalg.det(S)
-        worst = f"{np.round(det[np.argmax(np.abs(det - 1.0))], 6) + 0.0:.3g}"  # no -0
+        worst = f"{np.round(det[np.argmax(np.abs(det - 1.0))], 6):z.3g}"
         size = "" if worst == "1" else f"; det R is {worst}, not 1"
         return Finding(
             "not-orthonormal",
@@ -303,7 +303,7 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
         return Finding(
             "axes-mixed-up",
             "R's columns are the right axes, but swapped or with the wrong sign. "
-            f"(det R is {np.linalg.det(S[0]):.0f}.)",
+            f"(det R is {np.linalg.det(S[0]):z.0f}.)",
         )
     if mirrored := np.sum(np.linalg.det(S) < 0.0):
         return Finding(

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from labkit.judge.answer_mistakes import general
 from labkit.judge.answers import difference, gap
-from labkit.judge.finished import general
 from labkit.judge.kinds import NEAR, Kind, few_entries, one_factor
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array

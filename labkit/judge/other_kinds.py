@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from labkit.base.text import count
+from labkit.judge.answer_mistakes import general
 from labkit.judge.answers import capitalised, difference, millimetres, say_mm
-from labkit.judge.finished import general
 from labkit.judge.kinds import NEAR, Kind, Scalar, one_factor
 from labkit.judge.matrix_kinds import Matrix
 from labkit.judge.mistake import Finding, Mistake
@@ -112,7 +112,7 @@ class Count(Scalar):
         i = int(np.argmax(S != T))
         if np.any(np.round(S) != S):
             return Finding("not-whole", f"It is {S[i]:g}; {self.expected} is expected.")
-        return Finding("miscounted", f"It is {S[i]:.0f} where {T[i]:.0f} is right.")
+        return Finding("miscounted", f"It is {S[i]:z.0f} where {T[i]:z.0f} is right.")
 
 
 @dataclass(frozen=True)
@@ -132,7 +132,7 @@ class Mask(Kind):
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if (odd := S[(S != 0) & (S != 1)]).size:
-            says = f"It is {odd[0]:g}; {self.expected} is expected."
+            says = f"It is {odd[0]:zg}; {self.expected} is expected."
             return Finding("not-true-or-false", says)
         yes, no = int(np.sum((S == 1) & (T == 0))), int(np.sum((S == 0) & (T == 1)))
         parts = [f"True {count(yes, 'time')} where False is right"] * (yes > 0)
@@ -173,7 +173,8 @@ class Pixels(Kind):
         there = (S != 0).any(axis=-1) | (T != 0).any(axis=-1)  # no filling up
         off = (S - T)[there]
         if difference(off, off[:1]).max() < NEAR:
-            says = f"Every pixel is off by the same ({off[0, 0]:.3g}, {off[0, 1]:.3g})."
+            x, y = off[0]
+            says = f"Every pixel is off by the same ({x:z.3g}, {y:z.3g})."
             return Finding("shifted", says)
         return one_factor(self, S, T) or super().what_is_wrong(S, T)
 

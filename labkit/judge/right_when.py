@@ -17,7 +17,7 @@ from labkit.base.exchange import Question, Reply
 from labkit.judge.answers import InTurn, number, own, say_factor
 from labkit.judge.ask import Asked, as_plain, right_answers
 from labkit.judge.neutral import SIZES, Neutral, neutrals, scaled
-from labkit.judge.problems import flat, read
+from labkit.judge.replies_read import flat, read
 from robo47.checks import Array
 
 QUESTIONS = 4  # per experiment; three of them at least must agree

@@ -34,7 +34,7 @@ from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, Inputs
 from labkit.judge.mistake import REDONE, Mistake, told
 from labkit.lesson.day import Day
-from labkit.lesson.script import lab_of
+from labkit.lesson.lab_module import lab_of
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 

@@ -10,10 +10,13 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from labkit.lesson.day import day_of
-from labkit.lesson.script import BORROWED, function_lines, lab_of, put_back
+from labkit.lesson.day import Day, Task, day_of
+from labkit.lesson.lab_module import lab_of
+from labkit.lesson.starter import function_lines, put_back
 from robo47.errors import Robo47Error
 from robo47.paths import shown
+
+BORROWED = "# borrowed from the kit"  # in a function that is not the student's own
 
 
 @cache  # a lab's borrowed function asks at every call, thousands of times
@@ -56,3 +59,14 @@ def with_borrowed(text: str, complete: str, functions: Iterable[str]) -> str:
             f'    return kits(__file__, "{name}")({given})',
         ]
     return put_back(text, "\n".join(calls), there)
+
+
+def borrowed_tasks(day: Day, text: str) -> list[Task]:
+    """Return the tasks of which a student's file borrows a function."""
+    if BORROWED not in text:
+        return []
+
+    def borrows(function: str) -> bool:
+        return BORROWED in "\n".join(function_lines(text, function)[2])
+
+    return [task for task in day.tasks if any(map(borrows, task.functions))]

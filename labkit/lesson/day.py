@@ -16,7 +16,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from labkit.lesson.marks import Metric
+from labkit.lesson.last_day import started_day
+from labkit.lesson.metric import Metric
 from labkit.lesson.week import Week, entry, find_week, load, load_week, manifests
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
@@ -264,19 +265,12 @@ def find_day(number: int, root: Path = ROOT) -> Day:
     return load_day(there[number])
 
 
-def started_day(root: Path = ROOT) -> int:
-    """Return the latest day that the student has a script of, else the first."""
-    there = manifests(root)
-    labs = {n: path.parents[1].glob(f"work/day{n}_*.py") for n, path in there.items()}
-    begun = (number for number, found in labs.items() if any(found))
-    return max(begun, default=min(there, default=1))
-
-
 def chosen_day(number: int | None, task_id: str | None = None) -> Day:
     """Return the day that a command line means.
 
     Args:
-        number: of the day; None where none was typed: the task's, or the last begun.
+        number: of the day; None where none was typed: the task's, or that worked on
+            last.
         task_id: such as "1.4", or None.
     """
     if not task_id:
@@ -295,9 +289,23 @@ def chosen_week(number: int | None, day: int | None = None) -> Week:
 
     Args:
         number: of the week; None where none was typed: that of the day.
-        day: its number; None where none was typed: the day begun last.
+        day: its number; None where none was typed: the day worked on last.
+
+    Raises:
+        Robo47Error: there is no such week or day, the week has no days yet, or the
+            day is of another week.
     """
-    return chosen_day(day).week if number is None else find_week(number)
+    if number is None:
+        return chosen_day(day).week
+    week = find_week(number)
+    if not week.days:
+        raise Robo47Error(f"week {number} has no day yet that is written")
+    if day is not None and day not in week.days:
+        other = find_day(day).week.number
+        raise Robo47Error(
+            f"day {day} is of week {other}, not of week {number}: name one of the two"
+        )
+    return week
 
 
 def day_of(script: Path) -> Day:

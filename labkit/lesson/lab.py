@@ -6,7 +6,8 @@
     lab.record("fk_by_hand", errors, seed=47)
     return lab.finish()
 
-What a number must reach stands in the day's day.toml and nowhere else.
+What a number must reach stands in the day's day.toml and nowhere else. A zero prints
+without a sign (the z of a format): which sign a rounding error has is the machine's.
 """
 
 import contextlib
@@ -22,7 +23,8 @@ from labkit import log
 from labkit.base import cli
 from labkit.base.text import count, number_of
 from labkit.lesson.day import day_of
-from labkit.lesson.marks import Metric, file_mark
+from labkit.lesson.metric import Metric
+from labkit.lesson.writers import file_mark
 from robo47.paths import METRICS_CSV, shown
 
 _OPEN = re.compile(r"\*\([^*]*\)\*|[._\s…-]*")  # the template's own words, or none
@@ -69,7 +71,7 @@ class Lab:
             value: in the row's unit.
         """
         if number in self.predicted:
-            yours = f"  you predicted {self.predicted[number]}, measured {value:.4g}: "
+            yours = f"  you predicted {self.predicted[number]}, measured {value:z.4g}: "
             print(cli.wrapped(yours + number, "    "))
 
     def step(self, title: str) -> None:
@@ -87,16 +89,15 @@ class Lab:
     def show(self, title: str, matrix: ArrayLike, decimals: int = 6) -> None:
         """Print a matrix (m, n) or a vector (n,) with aligned columns."""
         print(f"  {title}")
-        values = np.atleast_2d(np.round(np.asarray(matrix, dtype=float), decimals))
-        for row in values + 0.0:  # + 0.0: no "-0.0"
-            print("    " + " ".join(f"{x:{decimals + 4}.{decimals}f}" for x in row))
+        for row in np.atleast_2d(np.asarray(matrix, dtype=float)):
+            print("    " + " ".join(f"{x:z{decimals + 4}.{decimals}f}" for x in row))
 
     def predict(self, what: str, wanted: float, found: float, unit: str) -> None:
         """Print a prediction of the lab's, what came out, and how far apart they are.
 
         "what, unit" may be a row of the worksheet.
         """
-        print(f"  {what}: predicted {wanted:.3f}, measured {found:.3f} {unit}")
+        print(f"  {what}: predicted {wanted:z.3f}, measured {found:z.3f} {unit}")
         print(f"    difference {abs(wanted - found):.1e} {unit}")
         self.measured(f"{what}, {unit}", found)
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from labkit.base import git
 from labkit.lesson.day import Day
-from labkit.lesson.script import function_lines, make_starter, put_back
+from labkit.lesson.starter import function_lines, make_starter, put_back
 from robo47.errors import Robo47Error
 
 Lines = Sequence[str]

@@ -3,4 +3,5 @@
 facts       what is found in a clone, now
 pick        the capstone with its functions, in the sandbox; as a film
 page        one HTML file
+door        the page that leads to those of all weeks
 """

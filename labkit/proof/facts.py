@@ -14,8 +14,7 @@ from labkit.grade.roster import Student
 from labkit.handin.deliverables import check_commit, wanted_names
 from labkit.handin.rows import rows_of
 from labkit.lesson.day import Day
-from labkit.lesson.marks import marks_of
-from labkit.lesson.script import writers_of
+from labkit.lesson.writers import marks_of, writers_of
 from labkit.report.series import series_of
 from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox

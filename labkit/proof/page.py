@@ -92,6 +92,23 @@ def render(proof: Proof) -> str:
     return page.replace(place, played, 1)
 
 
+def in_short(proof: Proof) -> dict[str, Any]:
+    """Return what the door says of the page: texts, and the week's number."""
+    week = proof.days[0].day.week
+    numbers = [_again(one, number) for one in proof.days for number in one.numbers]
+    own = sum(len(one.own) for one in proof.days)
+    result = proof.picked.result
+    return {
+        "week": week.number,
+        "heading": week.heading,
+        "name": proof.name,
+        "functions": f"{own} of {sum(one.functions for one in proof.days)}",
+        "numbers": f"{sum(r == 'pass' for r, _ in numbers)} of {len(numbers)}",
+        "pick": "" if result is None else f"{result.place_mm:.1f} mm from its mark",
+        "date": str(datetime.date.today()),
+    }
+
+
 def _tiles(proof: Proof) -> str:
     numbers = [_again(one, number) for one in proof.days for number in one.numbers]
     right = sum(role == "pass" for role, _ in numbers)
@@ -109,7 +126,7 @@ def _tiles(proof: Proof) -> str:
             f"{right} of {len(numbers)}",
             "numbers, run again here",
         ),
-        (role, placed, "from the cube to its mark"),
+        *([(role, placed, "from the cube to its mark")] if proof.picked.total else []),
         (mood, fresh, "a fresh clone"),
     ])  # fmt: skip
 
@@ -132,6 +149,8 @@ def _fresh(proof: Proof) -> tuple[str, str]:
 
 
 def _pick(picked: Picked, place: str) -> str:
+    if not picked.total:  # the week has no capstone
+        return ""
     result = picked.result
     whose = f"{picked.yours} of the {picked.total} functions that move it are theirs"
     if picked.yours < picked.total:

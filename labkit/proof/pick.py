@@ -8,7 +8,7 @@ import numpy as np
 
 from labkit.base.text import visible
 from labkit.check.lab_run import Budget, EnoughAsked, FirstFailure, behind_wall
-from labkit.lesson.script import lab_of
+from labkit.lesson.lab_module import lab_of
 from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import capstone, scenes
@@ -27,6 +27,9 @@ class Picked(NamedTuple):
     stopped: str  # why it did, in a line
     yours: int  # how many of its functions are the student's
     total: int  # of how many
+
+
+NO_PICK = Picked(None, "", 0, 0)  # of a week without a capstone
 
 
 def pick(days: Sequence[DayFacts], folders: Sequence[Path], sandbox: Sandbox) -> Picked:

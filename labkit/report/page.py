@@ -1,6 +1,6 @@
 """The report as one HTML file that needs nothing else: no script, no font, no net."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from itertools import groupby
 
@@ -31,10 +31,16 @@ NOTHING = (
 )
 
 
+def links(weeks: Sequence[int]) -> str:
+    """Return links to the pages of weeks, each after a dot; "" for none."""
+    names = (f'<a href="report-week{week}.html">Week {week}</a>' for week in weeks)
+    return "".join(f" · {name}" for name in names)
+
+
 def render(
     report: Report,
     heading: str,
-    week: int | None = None,
+    weeks: Sequence[int] = (),
     checked: Mapping[int, str] | None = None,
 ) -> str:
     """Return the whole page.
@@ -42,11 +48,10 @@ def render(
     Args:
         report: what to show.
         heading: one line of plain text on where the rows come from.
-        week: whose own page stands beside this one.
+        weeks: those whose own pages stand beside this one.
         checked: what the last check found, a line of plain text by day.
     """
-    link = f' · <a href="report-week{week}.html">Week {week}</a>'
-    beside = "" if week is None else link
+    beside = links(weeks)
     checked = checked or {}
     days = groupby(report.series, key=lambda series: series.day)
     return html.page(

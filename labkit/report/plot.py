@@ -22,7 +22,7 @@ HALF_LABEL = 26  # of a commit's seven figures
 
 def number(value: float | None) -> str:
     """Return a value as the report prints it: three figures, no padding."""
-    return "–" if value is None else f"{value:.3g}"
+    return "–" if value is None else f"{value:z.3g}"
 
 
 def draw(series: Series) -> str:
@@ -121,7 +121,7 @@ class _Axis:
     def label(self, tick: float) -> str:
         """Return a tick's text, with the figures that tell it from the next."""
         if self.log or tick == 0:
-            return f"{tick:g}"
+            return f"{tick:zg}"
         span = (self.high - self.low) / 4
         figures = math.ceil(math.log10(max(abs(tick) / span, 1))) + 2
         return f"{tick:.{min(figures, 8)}g}"

@@ -5,7 +5,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 from labkit.lesson.day import Day
-from labkit.lesson.marks import Metric, Writers, mark_of
+from labkit.lesson.metric import Metric
+from labkit.lesson.writers import Writers, mark_of
 from labkit.log.rows import Row
 from labkit.log.scan import Line
 

@@ -14,7 +14,7 @@ from labkit.base.git import GitError, run
 from labkit.check import memory
 from labkit.check.memory import Met
 from labkit.lesson.day import Day
-from labkit.lesson.script import writers_of
+from labkit.lesson.writers import writers_of
 from labkit.report.series import Series
 from robo47.paths import ROOT
 

@@ -7,7 +7,7 @@ from labkit.base import html
 from labkit.base.text import number_of
 from labkit.check.memory import Met
 from labkit.lesson.day import Day
-from labkit.report.page import STATUS
+from labkit.report.page import STATUS, links
 from labkit.report.series import Series
 from labkit.report.week_facts import OwnDay
 
@@ -39,16 +39,17 @@ _GENERAL = {
 _MOODS = {"left behind": ("pass", "✓"), "still there": ("fail", "✗")}
 
 
-def render(facts: Sequence[OwnDay], heading: str) -> str:
+def render(facts: Sequence[OwnDay], heading: str, others: Sequence[int] = ()) -> str:
     """Return the whole page.
 
     Args:
         facts: of the week's days, in order.
         heading: one line of plain text on where this comes from.
+        others: numbers of the weeks whose pages stand beside this one.
     """
     return html.page(
         escape(facts[0].day.week.heading),
-        escape(heading),
+        escape(heading) + links(others),
         _tiles(facts),
         _numbers(facts),
         _days(facts),

@@ -20,7 +20,7 @@ from labkit.base.text import visible, visible_lines
 from labkit.judge.ask import Robot
 from labkit.lesson.day import NUMBERS, Day, Limits, days_before
 from labkit.lesson.own_files import SCRIPT
-from labkit.lesson.script import function_lines
+from labkit.lesson.starter import function_lines
 from labkit.sandbox.inside import wire
 from labkit.sandbox.inside.fake_model import KINDS
 from robo47 import panda

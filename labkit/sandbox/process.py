@@ -34,6 +34,7 @@ from typing import Any
 
 from labkit.base import processes
 from labkit.base.exchange import CHANNEL, EndedError, LoadError, stopped
+from labkit.sandbox.environment import clean_environment
 from labkit.sandbox.inside import landlock, seccomp
 from robo47.errors import FaultError, Robo47Error
 from robo47.paths import shown
@@ -265,19 +266,9 @@ def _start(command: list[str]) -> subprocess.Popen[bytes]:
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         cwd=INSIDE,
-        env=_clean_environment(),
+        env=clean_environment(),
         **processes.start_options(),  # type: ignore[call-overload]
     )
-
-
-def _clean_environment() -> dict[str, str]:
-    threads = ("OPENBLAS", "OMP", "MKL", "VECLIB")
-    kept = ("SYSTEMROOT", "SYSTEMDRIVE", "LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH")
-    return {
-        **{name: os.environ[name] for name in kept if name in os.environ},
-        **{f"{name}_NUM_THREADS": "1" for name in threads},
-        "LANG": "C.UTF-8",
-    }
 
 
 @dataclass(frozen=True)

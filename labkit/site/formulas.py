@@ -17,7 +17,7 @@ import numpy as np
 from labkit.base.exchange import Path
 from labkit.judge.row import Row, Way, row_of
 from labkit.lesson.day import Day, find_day
-from labkit.lesson.script import lab_of
+from labkit.lesson.lab_module import lab_of
 from robo47 import checks
 from robo47.errors import Robo47Error
 from robo47.panda import READY_Q

@@ -11,8 +11,8 @@ import tomllib
 from typing import Any
 
 from labkit.lesson.day import Day, all_days
+from labkit.lesson.lab_module import read_script
 from labkit.lesson.merge import renewed
-from labkit.lesson.script import read_script
 from labkit.lesson.sealed import opened
 from labkit.update.merge import ask
 from robo47.paths import ROOT

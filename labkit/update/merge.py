@@ -1,6 +1,7 @@
 """The kit's commits and the student's made one, in a worktree beside the clone."""
 
 import contextlib
+import os
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
@@ -190,7 +191,11 @@ def take(worktree: Path, place: str) -> None:
         Robo47Error: a file in the clone is in the way; says which.
     """
     head = ask("rev-parse", "HEAD", at=worktree)
+    labs = {path: path.stat() for path in ROOT.glob("w*/work/day*.py")}
     ask("merge", "-q", "--ff-only", head)
+    for path, was in labs.items():
+        if path.is_file():  # what the kit merged is no edit of the student's
+            os.utime(path, ns=(was.st_atime_ns, was.st_mtime_ns))
     if place not in REMOTES and place not in ask("remote").split():
         known = "kit" in ask("remote").split()
         ask("remote", *(("set-url",) if known else ("add",)), "kit", place)

@@ -3,8 +3,8 @@
 import numpy as np
 
 from labkit.judge import Rotation, Row
+from labkit.judge.answer_mistakes import OF_A_ROTATION
 from labkit.judge.argument_mistakes import OF_AN_ANGLE, ROUNDED
-from labkit.judge.finished import OF_A_ROTATION
 from robo47 import se3
 
 from .panda_chain import BACKWARDS, NEAR

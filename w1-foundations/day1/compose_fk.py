@@ -11,6 +11,7 @@ import numpy as np
 
 from labkit.base.exchange import Path
 from labkit.judge import HeldOut, Pose, Row
+from labkit.judge.answer_mistakes import of_a_pose
 from labkit.judge.argument_mistakes import (
     FIRST_FOR_ALL,
     LEFT_OUT,
@@ -18,7 +19,6 @@ from labkit.judge.argument_mistakes import (
     REVERSED,
     ROUNDED,
 )
-from labkit.judge.finished import of_a_pose
 from labkit.judge.matrices import pose, rigid_inverse
 from robo47 import se3
 from robo47.panda import READY_Q

@@ -3,7 +3,7 @@
 import numpy as np
 
 from labkit.judge import Pose, Row
-from labkit.judge.finished import of_a_pose
+from labkit.judge.answer_mistakes import of_a_pose
 from labkit.judge.matrices import pose
 
 from .panda_chain import NEAR

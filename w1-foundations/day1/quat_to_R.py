@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Rotation, Row, rounded
-from labkit.judge.finished import OF_A_ROTATION
+from labkit.judge.answer_mistakes import OF_A_ROTATION
 from robo47 import se3
 
 from .panda_chain import FLANGE_QUAT, NEAR

@@ -87,7 +87,7 @@ def test_a_local_pos_is_not_a_world_position(either_panda):
     mujoco.mj_forward(either_panda, data)
     assert_same(either_panda.body("link4").pos, [0.0825, 0.0, 0.0], 0.0)
     x, y, z = data.body("link4").xpos
-    assert f"(0.0825, 0, 0) and ({x:.4f}, {y:.0f}, {z:.4f}) at ready" in ERRATA
+    assert f"(0.0825, 0, 0) and ({x:.4f}, {y:z.0f}, {z:.4f}) at ready" in ERRATA
 
 
 def test_the_viewer_never_reads_mujoco_gl():

@@ -5,8 +5,8 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Pose, Row
+from labkit.judge.answer_mistakes import of_a_pose
 from labkit.judge.argument_mistakes import NEGATED, RADIANS_TWICE
-from labkit.judge.finished import of_a_pose
 from robo47 import se3
 from robo47.screws import dh_link
 

@@ -5,8 +5,8 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Pose, Row
+from labkit.judge.answer_mistakes import of_a_pose
 from labkit.judge.argument_mistakes import INTO_COS, RADIANS_TWICE, SMALL_LEFT_OUT
-from labkit.judge.finished import of_a_pose
 from robo47.screws import skew
 
 from .exp_rotation import formula, rodrigues

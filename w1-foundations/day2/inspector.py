@@ -175,7 +175,7 @@ class Screws(Tab):
 
 
 def _numbers(values: Array) -> str:
-    return ", ".join(f"{x + 0.0:.4g}" for x in np.round(values, 6))
+    return ", ".join(f"{x:z.4g}" for x in np.round(values, 6))
 
 
 TABS = [Screws]

@@ -122,10 +122,18 @@ def test_torques_taken_for_angles_switch_the_motors_from_limit_to_limit():
     law = lab.equal_springs()
     loop = lambda t, q, qd: lab.saturate(law(arm, q, qd, raised_cosine(t)), limits)  # noqa: E731
     push = lambda model, data: np.abs(data.actuator_force) / limits  # noqa: E731
-    start = simulate.start(servos, lab.READY_Q)
-    log = simulate.run(servos, start, loop, 2.0, rate=lab.RATE, watch=push)
-    assert np.mean(np.array(log.seen) > 0.999) > 0.985
-    assert f"the swing is followed within {swing_error(log):.0f} mrad" in GUIDE
+    ends = []
+    for moved in (0.0, 1e-12, -1e-12):
+        start = simulate.start(servos, lab.READY_Q + moved)
+        log = simulate.run(servos, start, loop, 2.0, rate=lab.RATE, watch=push)
+        assert np.mean(np.array(log.seen) > 0.999) > 0.985
+        early = log._replace(t=log.t[:126], q=log.q[:126])
+        said = f"within {swing_error(early):.0f} mrad in its first half second"
+        assert f"the swing is followed {said}, and within 0.1 rad to its end" in GUIDE
+        assert swing_error(log) < 100.0
+        ends.append(log.q[-1])
+    assert np.ptp(ends, axis=0).max() > 1e-3  # from 1e-12: no digit of it is ours
+    assert "0.1 rad to its end (chaotic: the digits differ between machines)" in GUIDE
 
 
 def test_the_error_curves_at_500_hz(bench):

@@ -186,7 +186,7 @@ def _over_the_table() -> Array:
 
 
 def _three(v: Array) -> str:
-    return ", ".join(f"{x:.1f}" for x in np.round(v, 1) + 0.0)
+    return ", ".join(f"{x:z.1f}" for x in v)
 
 
 TABS = [Touch]

@@ -108,12 +108,12 @@ def test_near_a_singularity_lambda_and_d_grow_and_the_springs_torque_does_not(mo
         assert np.linalg.svd(J, compute_uv=False)[-1] < least
 
 
-def circled(motors, **instead):
+def circled(motors, seconds=2.5, **instead):
     """Return how far the hand is from the circle, mm and mrad, with other functions."""
     model, arm = motors
     with patch.dict(vars(lab), instead):
         law = lab.circling(arm, lab.null_torque)
-        run = simulate.run(model, simulate.start(model, lab.READY_Q), law, 2.5)
+        run = simulate.run(model, simulate.start(model, lab.READY_Q), law, seconds)
     T = arm.at(lab.READY_Q).T_world_ee
     off = np.array([
         jacobian.pose_error(arm.at(q).T_world_ee, contact.circle(t, T, 0.12, 2.0)[0])
@@ -239,7 +239,8 @@ def test_a_sign_makes_the_soft_hand_fly_away_and_a_pseudo_inverse_does_not(
     assert (np.linalg.norm(away[:3, 3]) > 0.3) == (named != "pinv")
     if named == "pinv":
         theirs = lambda J, L, b, drift, acc: pinv(J) @ L @ (acc - drift) + b  # noqa: E731
-        assert circled(motors, osc_torque=theirs)[0] > 300.0
+        # A hundred times what it may be; soon after, the motion is chaotic.
+        assert circled(motors, seconds=0.5, osc_torque=theirs)[0] > 100.0
     assert "`V_err` or `acc`; on the circle also $J^+$ for $J^T$" in SENTENCES
 
 

@@ -99,7 +99,7 @@ class Weigh(Tab):
         lines = []
         for name, (load, sigma) in self.weighed().items():
             c, off = 1000 * load[1:] / load[0], 1000 * sigma[1:] / load[0]
-            centre = ", ".join(f"{x:.1f}" for x in c)
+            centre = ", ".join(f"{x:z.1f}" for x in c)
             lines.append(
                 f"{name}: {1000 * load[0]:.1f} g, sigma {1000 * sigma[0]:.1f}; centre "
                 f"{centre} mm, sigma {off.max():.1f}"

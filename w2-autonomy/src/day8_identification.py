@@ -182,8 +182,11 @@ def judged(name: str, Y, tau, new: tuple, rtol: float = RTOL) -> tuple:
     (torque, sigma), phi = predict_with_sigma(Y, tau, new[0], rtol), fit(Y, tau, rtol)
     rank, condition = identifiable(Y, rtol)
     off, inside = rms(torque - new[1]), np.mean(np.abs(torque - new[1]) < 1.96 * sigma)
+    condition = float(f"{condition:.4g}")
+    some = condition < 1e6  # above, rounding reaches the decimals
     print(f"  {name:20}{rank:4}{condition:13,.0f}{rms(tau - Y @ phi):10.4f}"
-          f"{off:12,.3f}{rms(sigma):10,.2f}{inside:5.0%}")  # fmt: skip
+          f"{off:12,.{3 * some}f}{rms(sigma):10,.{2 * some}f}{inside:5.0%}"
+          )  # fmt: skip
     return phi, off, inside
 
 
@@ -253,7 +256,8 @@ def main() -> int:
     for name, (m, *h) in weighings(robot, loaded, arm).items():
         x, y, z = 1000 * np.array(h) / max(m, 1e-9)
         grams, up = 1000 * m, 1000 * secret.rises(loaded, arm, still, (m, *h))
-        print(f"  {name:25}{grams:6.1f} g at {x:4.1f} {y:5.1f} {z:5.1f} mm{up:8.1f} mm")
+        at = f"{x:z4.1f} {y:z5.1f} {z:z5.1f} mm"
+        print(f"  {name:25}{grams:6.1f} g at {at}{up:8.1f} mm")
         lab.measured(f"grams off, of 500: {name}", abs(grams - 1000 * LOAD))
     lab.record("payload_g", 1000 * (m - LOAD), label="the last, g off", seed=SEED)
 

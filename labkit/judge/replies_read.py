@@ -1,4 +1,4 @@
-"""Replies read as answers, or why not (none, shape, state); the call that failed."""
+"""Replies read as answers, or why one is no answer: none, shape, state."""
 
 import linecache
 import re
@@ -8,31 +8,17 @@ from typing import Any
 
 import numpy as np
 
-from labkit.base.exchange import Exchange, Question, Reply
-from labkit.judge.answers import (
-    InTurn,
-    Parts,
-    as_one,
-    difference,
-    gaps,
-    own,
-    parts,
-    plain,
-    typed,
-    worst_part,
-)
-from labkit.judge.ask import Ask, Asked, HeldOut, replies, right_answers, stacked
+from labkit.base.exchange import Exchange, Reply
+from labkit.judge.answers import InTurn, Parts, as_one, own, parts, plain
+from labkit.judge.ask import Ask, Asked, replies, stacked
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Verdict
-from labkit.lesson.script import function_lines
+from labkit.lesson.starter import function_lines
 from robo47.checks import Array
 from robo47.paths import ROOT
 
 ONLY_NUMPY = " The checker has NumPy, the kit and Python's own modules alone."
 IN_MAIN = 'Keep it below `if __name__ == "__main__":`, or in main().'
-# A call whose answer is not right: in a line, "Rz(2.9)[0, 0] is -1, and -0.971 is
-# right.", and in lines with every argument and entry; "" and none without one.
-Failing = tuple[str, tuple[str, ...]]
 SAME = 1e-9  # how far two answers to one question may differ: a last digit
 
 
@@ -284,109 +270,3 @@ def _parts(value: Any, kinds: tuple[Kind, ...]) -> tuple[Any, ...] | Finding:
     expected = f"{len(kinds)} results: {', '.join(kind.expected for kind in kinds)}"
     got = f"{len(value)} results" if isinstance(value, tuple) else "one array"
     return Finding("parts", f"It returns {got}; expected are {expected}.")
-
-
-def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
-    """Return the call that is furthest off, of those always asked if one of them is."""
-    held_out = zip(asked.held_out, asked.ask.held_out, strict=True)
-    for some, held in [(asked.main, None), (asked.fresh, None), *held_out]:
-        if held and held.mistaken:
-            continue
-        if found := _broken(some, names) or _wrong(asked, some, held, names):
-            return found
-    for one, _ in not_accepted(asked):
-        assert one.reply
-        yours = (f"yours: {_matrix(one.reply.value)}",)
-        says = f"{typed(one.question, names)} is such a call."
-        return says, _given(one.question, names) + yours
-    return "", ()
-
-
-def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | None:
-    for one in exchanges:
-        if one.reply and (one.reply.kind or one.reply.value is None):
-            what = "stops" if one.reply.kind else "returns nothing"
-            says = f"{typed(one.question, names)} {what}."
-            return says, _given(one.question, names)
-    return None
-
-
-def _wrong(
-    asked: Asked,
-    exchanges: Sequence[Exchange],
-    held: HeldOut | None,
-    names: Sequence[str],
-) -> Failing | None:
-    ask = asked.ask
-    if not exchanges or not ask.truth:
-        return None
-    S = read(exchanges, ask)
-    if isinstance(S, Finding):
-        return None
-    T = right_answers(ask, exchanges, held)
-    gap = gaps(ask.kinds, S, T)
-    i = int(np.argmax(gap))
-    part = worst_part(ask.kinds, S, T, ask.near)
-    if gap[i] <= ask.tolerance:
-        return None
-    mine, its = as_one([S[part][i], T[part][i]])
-    question = exchanges[i].question
-    apart = np.nan_to_num(np.abs(mine - its), nan=np.inf)
-    at = np.unravel_index(int(np.argmax(apart)), mine.shape)
-    place = f"[{part}]" if len(S) > 1 else ""
-    place += str([int(x) for x in at]) if at else ""
-    says = f"{typed(question, names)}{place} is {_apart(mine[at], its[at])} is right."
-    whole = [*_given(question, names)]
-    for word, one in (("yours", S), ("right", T)):
-        whole += [f"{word}: {_matrix(values[i])}" for values in one]
-    return says, tuple(whole)
-
-
-def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
-    """Return what is wrong with answers to inputs that are not always asked.
-
-    That answers were looked up is said only where all are wrong, and each is one that
-    another input has got.
-    """
-    right = "Right for the inputs that are always asked, but not for"
-    if isinstance(S, Finding):
-        return Finding("some-inputs", f"{right} fresh ones. {S.message}")
-    T = right_answers(asked.ask, asked.fresh)
-    wrong = gaps(asked.ask.kinds, S, T) > asked.ask.near
-    says = f"{right} {int(wrong.sum())} of {len(wrong)} fresh ones."
-    if wrong.all() and _only_known(main, S):
-        return Finding("looked-up", f"{says} The answers do not come from the inputs.")
-    some = "Some inputs take another way through your function."
-    return Finding("some-inputs", says if wrong.all() else f"{says} {some}")
-
-
-def _only_known(main: Parts, S: Parts) -> bool:
-    """Return whether each answer is the same as one to another input."""
-    rows, known = (np.hstack([p.reshape(len(p), -1) for p in x]) for x in (S, main))
-    others = [np.vstack([known, np.delete(rows, i, 0)]) for i in range(len(rows))]
-    pairs = zip(others, rows, strict=True)
-    return all(difference(rest, row).min() < 1e-9 for rest, row in pairs)
-
-
-def _given(question: Question, names: Sequence[str]) -> tuple[str, ...]:
-    """Return the call, and each argument that is too long for it."""
-    found = [f"call: {typed(question, names)}"]
-    for i, arg in enumerate(question.args):
-        if isinstance(arg, np.ndarray) and arg.ndim > 1:
-            name = names[i] if len(names) == len(question.args) else f"argument {i + 1}"
-            found.append(f"{name} = {_matrix(arg)}")
-    return tuple(found)
-
-
-def _matrix(values: Array) -> str:
-    """Return an array as Python reads it."""
-    return repr((np.asarray(values, dtype=float) + 0.0).tolist())
-
-
-def _apart(mine: float, its: float) -> str:
-    """Return two numbers with as many digits as tell them apart."""
-    for digits in (6, 10, 17):
-        one, other = (f"{x + 0.0:.{digits}g}" for x in (mine, its))
-        if one != other:
-            break
-    return f"{one}, and {other}"

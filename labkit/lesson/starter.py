@@ -1,4 +1,4 @@
-"""A day's lab script as text and as a module: its starter, and what a file shows.
+"""A day's starter, made of its complete lab: tasks taken out, and put back.
 
 The complete script in `src/` is the only source. A task's lines stand between
 `# region 1.4` and `# endregion 1.4`, below the docstring of the function they belong
@@ -6,25 +6,16 @@ to; a task may own several regions. The starter keeps everything else, and each 
 raises, naming its task: a placeholder such as the identity is a legal pose.
 """
 
-import ast
-import difflib
 import re
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from functools import cache, lru_cache
-from itertools import chain
-from pathlib import Path
-from types import CodeType, ModuleType
 
-from labkit.lesson.day import Day, Task
-from labkit.lesson.marks import Writers, marks_of
-from labkit.lesson.sealed import opened
+from labkit.lesson.day import Day
+from labkit.lesson.lab_module import read_script
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 _MARKER = re.compile(r"^(?P<indent>\s*)# (?P<end>end)?region\b\s*(?P<task>\S*)\s*$")
 _DEF = re.compile(r"^def (?P<name>\w+)\(")
-BORROWED = "# borrowed from the kit"  # in a function that is not the student's own
 
 
 @dataclass(frozen=True)
@@ -158,169 +149,6 @@ def put_back(text: str, starter: str, functions: tuple[str, ...]) -> str:
         lines[start:end] = gap
         text = "\n".join(lines) + "\n"
     return text
-
-
-def borrowed_tasks(day: Day, text: str) -> list[Task]:
-    """Return the tasks of which a student's file borrows a function."""
-    if BORROWED not in text:
-        return []
-
-    def borrows(function: str) -> bool:
-        return BORROWED in "\n".join(function_lines(text, function)[2])
-
-    return [task for task in day.tasks if any(map(borrows, task.functions))]
-
-
-def writers_of(day: Day, script: bytes | None = None) -> Writers:
-    """Return the files that may have written a day's rows in a student's log.
-
-    Args:
-        day: from its manifest.
-        script: the student's; by default as it is now, b"" where there is none.
-    """
-    kits = day.source.read_bytes() if day.source.is_file() else None
-    if script is None:
-        script = day.work.read_bytes() if day.work.is_file() else b""
-    borrowed = borrowed_tasks(day, script.decode("utf-8", "replace"))
-    # No script has no mark: that of an empty one would make a row somebody's.
-    marks = marks_of(kits or None), marks_of(script or None)
-    return Writers(*marks, [task.id for task in borrowed])
-
-
-def read_script(path: Path) -> str:
-    """Return a script's text in UTF-8, of a sealed one the complete lab's."""
-    try:
-        return opened(path.read_text("utf-8-sig"))
-    except FileNotFoundError:
-        raise Robo47Error(f"{shown(path)} is not there") from None
-    except UnicodeDecodeError:
-        raise Robo47Error(f"{shown(path)} is not in UTF-8: save it as such") from None
-    except OSError as error:
-        raise Robo47Error(f"{shown(path)} cannot be read: {error.strerror}") from None
-
-
-@cache
-def lab_of(day: Day) -> ModuleType:
-    """Return a day's complete lab as a module, one for all who ask; see `load_lab`."""
-    return load_lab(day.source)
-
-
-def load_lab(script: Path) -> ModuleType:
-    """Return a lab script as a module of its own, in the kit's Python: this one."""
-    module = ModuleType(script.stem)
-    module.__file__ = str(script)
-    exec(_code(read_script(script), str(script)), vars(module))
-    return module
-
-
-@lru_cache(maxsize=16)
-def _code(text: str, name: str) -> CodeType:
-    return compile(without_kit(text), name, "exec")
-
-
-def without_kit(text: str) -> str:
-    """Return a lab's text without its first import, which leads to the kit's Python."""
-    return text.replace("\nimport kit ", "\n# ")
-
-
-def arguments(source: str, function: str) -> tuple[str, ...]:
-    """Return the names of a function's arguments; () where it is not in the file."""
-    found = _functions(source).get(function)
-    return tuple(arg.arg for arg in found.args.args) if found else ()
-
-
-def unfinished(source: str, function: str) -> str:
-    """Return what keeps a function from doing anything yet, in a sentence, or ""."""
-    found = _functions(source).get(function)
-    body = found.body if found else []
-    first = body[0] if body else None
-    if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant):
-        body = body[1:]  # the docstring
-    gaps = [node for node in body if _is_gap(node)]
-    if gaps and len(gaps) < len(body):
-        return (
-            f"Your code is there, but line {gaps[0].lineno}, "
-            "`raise NotImplementedError(...)`, still stops it: delete that line."
-        )
-    if body and all(isinstance(node, ast.Pass) for node in body):
-        return "Its body is `pass`, which does nothing: write what it should return."
-    return ""
-
-
-def renamed(source: str, function: str) -> str:
-    """Return what to do about a missing function that has another name, or ""."""
-    there = {name.lower(): found for name, found in _functions(source).items()}
-    for near in difflib.get_close_matches(function.lower(), there, 1, cutoff=0.8):
-        return (
-            f"The file has no function {function}, but {there[near].name} (line "
-            f"{there[near].lineno}): did you mean {function}? Give it that name again."
-        )
-    return ""
-
-
-def kits_functions(day: Day, tasks: Iterable[Task]) -> str:
-    """Return code that puts functions of the complete lab below a file.
-
-    The whole lab comes with it, so nothing that is answered then may pass.
-
-    Args:
-        day: whose complete lab it is; "" is returned where it is not there.
-        tasks: whose functions.
-    """
-    names = [name for task in tasks for name in task.functions]
-    if not names or not day.source.is_file():
-        return ""
-    text = without_kit(read_script(day.source))
-    lines = [f"_kits = {{'__name__': 'kits_lab'}}; exec({text!r}, _kits)"]
-    lines += [f"{name} = _kits[{name!r}]" for name in names]
-    return "\n\n" + "\n".join(lines) + "\n"
-
-
-def kits_own(day: Day, tasks: Iterable[Task]) -> str:
-    """Return code that puts the functions below a file that it borrows.
-
-    No other function of the kit comes with them: the file's own could call it and pass.
-
-    Args:
-        day: whose complete lab has them; "" is returned where it is not there.
-        tasks: that the file borrows.
-    """
-    names = [name for task in tasks for name in task.functions]
-    if not names or not day.source.is_file():
-        return ""
-    text = read_script(day.source)
-    own = "\n".join(chain.from_iterable(function_lines(text, n)[2] for n in names))
-    return f"\n\nexec({own!r}, globals())\n"
-
-
-def old_names(day: Day, text: str) -> str:
-    """Return code that gives functions the names that the manifest has for them now.
-
-    Args:
-        day: from its manifest.
-        text: a student's file, begun with an older one.
-    """
-    there = set(re.findall(r"^def (\w+)\(", text, re.MULTILINE))
-    names = [pair for task in day.tasks for pair in task.renamed]
-    lines = [
-        f"{now} = {was}" for was, now in names if was in there and now not in there
-    ]
-    return "\n\n" + "\n".join(lines) + "\n" if lines else ""
-
-
-@lru_cache(8)  # a check asks for all functions of a file
-def _functions(source: str) -> dict[str, ast.FunctionDef]:
-    """Return the functions at the top of a file; {} where it cannot be read."""
-    try:
-        found = ast.parse(source.removeprefix("\ufeff")).body
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return {}
-    return {node.name: node for node in found if isinstance(node, ast.FunctionDef)}
-
-
-def _is_gap(node: ast.stmt) -> bool:
-    names = (n.id for n in ast.walk(node) if isinstance(n, ast.Name))  # no recursion
-    return isinstance(node, ast.Raise) and "NotImplementedError" in names
 
 
 def is_kits(day: Day) -> bool:
