@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 
 from labkit.base.exchange import Question, Reply
-from labkit.judge.answers import InTurn, number, own, say_factor
+from labkit.judge.answers import InTurn, gaps, number, own, say_factor
 from labkit.judge.ask import Asked, as_plain, right_answers
+from labkit.judge.mistake import Finding
 from labkit.judge.neutral import SIZES, Neutral, neutrals, scaled
 from labkit.judge.replies_read import flat, read
 from robo47.checks import Array
@@ -71,12 +72,12 @@ def _verdicts(asked: Asked) -> list[bool]:
     found = []
     for one in (*asked.main, *asked.fresh):
         S = read([one], asked.ask)
+        if isinstance(S, Finding):
+            found.append(False)
+            continue
         T = right_answers(asked.ask, [one])
-        right = isinstance(S, tuple) and all(
-            s.shape == t.shape and np.abs(s - t).max(initial=0.0) <= asked.ask.near
-            for s, t in zip(S, T, strict=True)
-        )
-        found.append(right)
+        off = gaps(asked.ask.kinds, S, T).max()
+        found.append(bool(off <= asked.ask.near))
     return found
 
 

@@ -173,6 +173,10 @@ class Row:
                 def code(*args: Any, change: Code = one.redo) -> Any:
                     return self.truth(*args[:at], change(args[at]), *args[at + 1 :])
 
+                def given(*args: Any, change: Code = one.redo) -> tuple[Any, ...]:
+                    return (*args[:at], change(args[at]), *args[at + 1 :])
+
+                vars(code)["given"] = given
                 text = (one.slug, one.says, one.redone)
                 slug, says, redone = (part.format(name=name) for part in text)
                 yield Way("wrong", slug, says, code, redone, one.hidden)
