@@ -14,7 +14,6 @@ from labkit.judge.answers import (
     Parts,
     all_match,
     as_one,
-    capitalised,
     difference,
     gaps,
     in_words,
@@ -109,10 +108,9 @@ def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
         return found
     named = diagnose(case, S, T)
     other = named or what_is_wrong(case, S, T)
-    some = f"{wrong.sum()} of the {len(wrong)} other answers" if len(wrong) > 1 else ""
-    which = some if some and not wrong.all() else "The others"
-    be = "is" if wrong.sum() == 1 else "are"
-    says = f"{found.message} {capitalised(which)} {be} wrong, too. {other.message}"
+    some = f"Of the {len(wrong)} other answers {wrong.sum()} are wrong, too."
+    also = "The other answers are wrong, too." if wrong.all() else some
+    says = f"{found.message} {also} {other.message}"
     return Finding(named.slug if named else found.slug, says)
 
 

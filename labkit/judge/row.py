@@ -89,6 +89,7 @@ class Row:
         self.more = {"kind": kind, "near": near, **more}
         self.alike = list(alike)
         self._truth = truth
+        self.unnoticed: dict[str, str] = {}  # changes that make no difference, and why
         self._entries: list[Callable[[], Iterable[Way]]] = []
 
     # What a day's file says.
@@ -231,6 +232,15 @@ class Row:
                     yield replace(way, says=says, code=code, hidden=why, reached=True)
 
         self._entries.append(ways)
+
+    def same(self, change: str, why: str) -> None:
+        """Take a change of the lab's body that no question can notice.
+
+        Args:
+            change: as `make gaps` prints it, "x < 1e-9 => x < 2e-09".
+            why: the answers are right all the same, or nearly always.
+        """
+        self.unnoticed[change] = why
 
     # What the machine makes of it.
 

@@ -17,7 +17,7 @@ class Numbers(OrNaN, Vector):
 
 def _half_turns(rng):
     """Return turns by exactly pi; R is exactly symmetric."""
-    axes = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.6, -0.8, 0], [0, 0.6, 0.8]])
+    axes = np.array([*np.eye(3), [0.6, -0.8, 0], [0, 0.6, 0.8], [0.8, 0, -0.6]])
     return [(2.0 * np.outer(n, n) - np.eye(3),) for n in axes]
 
 

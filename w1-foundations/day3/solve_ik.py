@@ -178,9 +178,14 @@ def _(screws, M, T_goal, q_start, limits):  # 0 is taken to be within all limits
     return walk(screws, M, T_goal, q_start, np.array([low, high]).T)
 
 
-@row.wrong("limits-forgotten")  # Angles are wrapped to +-pi instead.
-def _(screws, M, T_goal, q_start, limits):
-    return (walk(screws, M, T_goal, q_start, None) + np.pi) % (2 * np.pi) - np.pi
+WRAPPED = "the angles are wrapped to +-pi at the end; joint 6 may go to 3.75, and a "
+WRAPPED += "joint that has turned beyond pi has not come back to -pi"
+for kept in (True, False):
+
+    @row.wrong("wrapped-to-pi", WRAPPED)
+    def _(screws, M, T_goal, q_start, limits, kept=kept):
+        q = walk(screws, M, T_goal, q_start, limits if kept else None)
+        return (q + np.pi) % (2 * np.pi) - np.pi
 
 
 @row.wrong("start-returned")  # The error's sign.
