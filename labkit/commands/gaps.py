@@ -73,13 +73,19 @@ def changes(source: str) -> Iterator[Change]:
             body.insert(bool(ast.get_docstring(function)), ast.parse(line).body[0])
             yield Change(f"first {line}", again)
         for k, node in enumerate(ast.walk(tree)):
-            if isinstance(node, ast.Return) and node.value:
+            if isinstance(node, ast.Return) and node.value and _depends(node.value):
                 again = copy.deepcopy(tree)
                 there = list(ast.walk(again))[k]
                 assert isinstance(there, ast.Return) and there.value
                 text = how.format(f"({ast.unparse(there.value)})")
                 there.value = ast.parse(text, mode="eval").body
                 yield Change(f"return {text}", again)
+
+
+def _depends(node: ast.expr) -> bool:
+    """Return whether an expression holds a name; np.zeros(3) is what it is."""
+    names = {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}
+    return bool(names - {"np"})
 
 
 def _instead(node: ast.expr) -> Iterator[ast.expr]:
@@ -89,8 +95,10 @@ def _instead(node: ast.expr) -> Iterator[ast.expr]:
     elif isinstance(node, ast.Compare) and len(node.ops) == 1:
         if turned := _TURNED.get(type(node.ops[0])):
             yield ast.Compare(node.left, [turned()], node.comparators)
-            for factor in (0.5, 10.0):
-                limit = ast.BinOp(ast.Constant(factor), ast.Mult(), node.comparators[0])
+            end = node.comparators[0]
+            by = ast.Add() if _is_0(end) else ast.Mult()
+            for step in (1e-3, -1e-3) if _is_0(end) else (0.5, 10.0):
+                limit = ast.BinOp(ast.Constant(step), by, end)
                 yield ast.Compare(node.left, node.ops, [limit])
     elif isinstance(node, ast.Call) and node.args:
         name = getattr(node.func, "attr", getattr(node.func, "id", ""))
@@ -100,6 +108,10 @@ def _instead(node: ast.expr) -> Iterator[ast.expr]:
             )
             whole = isinstance(node.func, ast.Attribute) and method
             yield node.func.value if whole else node.args[0]  # type: ignore[attr-defined]
+
+
+def _is_0(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and node.value == 0
 
 
 def _replaced(tree: ast.Module, i: int, node: ast.expr, new: ast.expr) -> Change:
@@ -139,9 +151,8 @@ def unnoticed(row: Row, function: str) -> Iterator[str]:
     asked = asked_of("0.0", function, row.ask, SEED)
     drawn = len(row.ask.edges)
     asked = Asked(function, row.ask, asked.main, asked.fresh[:drawn], asked.held_out, [])
-    small = _within_one(asked, row)
     for change in changes(inspect.getsource(body)):
-        if change.says in small:
+        if _by_nature(asked, row, change.says):
             continue
         names = dict(vars(lab))
         try:
@@ -153,15 +164,22 @@ def unnoticed(row: Row, function: str) -> Iterator[str]:
             yield change.says
 
 
-def _within_one(asked: Asked, row: Row) -> set[str]:
-    """Return changes that clip what is no larger than 1 by its nature: an axis, R."""
-    columns = zip(*(one.question.args for one in asked.main), strict=True)
-    found = set()
-    for name, column in zip(row.arguments, columns, strict=True):
-        if all(isinstance(x, np.ndarray) and np.abs(x).max(initial=0) <= 1 + 1e-12
-               for x in column):  # fmt: skip
-            found.add(f"first {name} = np.clip({name}, -1, 1)")
-    return found
+def _by_nature(asked: Asked, row: Row, change: str) -> bool:
+    """Return whether a change makes no difference by the nature of what it changes.
+
+    So it is with the sign of what is never negative, which the row says, and with a
+    clip at 1 of what no question makes larger: an axis, a rotation, a share.
+    """
+    what, _, how = change.partition(" = ")
+    where = what.removeprefix("first ") if how else "answer"
+    if "np.clip(" in change and change.startswith(("first ", "return ")):
+        columns = list(zip(*(one.question.args for one in asked.main), strict=True))
+        values = dict(zip(row.arguments, columns, strict=False))
+        values["answer"] = right_answers(row.ask, asked.main) if row.ask.truth else ()
+        some = [x for x in values.get(where, ()) if isinstance(x, float | np.ndarray)]
+        return bool(some) and all(np.max(np.abs(x)) <= 1 + 1e-12 for x in some)
+    signs = ("np.abs(", "np.maximum(")
+    return where in row.positive and (how or change[7:]).startswith(signs)
 
 
 def _notices(asked: Asked, function: Callable[..., Any]) -> bool:

@@ -89,6 +89,7 @@ class Row:
         self.more = {"kind": kind, "near": near, **more}
         self.alike = list(alike)
         self._truth = truth
+        self.positive: dict[str, str] = {}  # what is never negative, and why
         self.unnoticed: dict[str, str] = {}  # changes that make no difference, and why
         self._entries: list[Callable[[], Iterable[Way]]] = []
 
@@ -241,6 +242,13 @@ class Row:
             why: the answers are right all the same, or nearly always.
         """
         self.unnoticed[change] = why
+
+    def at_least_0(self, **why: str) -> None:
+        """Take arguments, or the `answer`, that are never negative, and why.
+
+        `make gaps` then does not take away their signs, as no question could show it.
+        """
+        self.positive |= why
 
     # What the machine makes of it.
 

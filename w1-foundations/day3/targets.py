@@ -51,15 +51,15 @@ def targets(rng):
 
 
 def _chosen() -> list[tuple[Array, ...]]:
-    """Return a pure turn and a pure move, targets at limits, and one far turn."""
+    """Return a pure turn and a pure move, targets at limits, one far turn, and none at all."""
     S, M, limits = arm()
     at, turned = screws.fk_space(S, M, np.array([panda.READY_Q, FAR_START]))
     limited = screws.fk_space(S, M, np.array([BEYOND_4, AT_6, AT_2, BEYOND_PI]))
     moved = at.copy()
     moved[2, 3] -= 0.1
-    goals = [_turned(at, 2, 0.5), moved, *limited, _turned(turned, 1, 2.5)]
+    goals = [_turned(at, 2, 0.5), moved, *limited, _turned(turned, 1, 2.5), turned]
     starts = [panda.READY_Q, panda.READY_Q, START_4, START_6, START_2]
-    starts += [START_PI, FAR_START]
+    starts += [START_PI, FAR_START, FAR_START]
     return [(S, M, T, q, limits) for T, q in zip(goals, starts, strict=True)]
 
 
