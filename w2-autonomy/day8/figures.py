@@ -4,13 +4,14 @@ shown   what two motions show, value by value; how far a predicted torque is off
 """
 
 import day8_identification as lab
+import day8_mujoco
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from labkit.figures import chart
 from labkit.figures.chart import BLUE, INK, RED
-from robo47 import panda, secret
+from robo47 import panda
 
 JOINT = 3  # joint4: much of the arm hangs on it
 SAMPLES = 100
@@ -21,11 +22,11 @@ def shown(figure: Figure) -> None:
     """Draw singular values of two motions, and a predicted torque with its band."""
     model = panda.load("panda_nohand", drive="torque")
     arm = panda.arm(model)
-    robot = secret.changed(model, lab.SEED)
+    robot = day8_mujoco.changed(model, lab.SEED)
     above, below = figure.subplots(2, 1)
-    motion = secret.excitation(robot, lab.SEED, SAMPLES)
+    motion = day8_mujoco.excitation(robot, lab.SEED, SAMPLES)
     Y = lab.regressor(arm, motion)
-    _values(above, lab.regressor(arm, secret.swing(SAMPLES)), "Day 5's swing", "s", RED)
+    _values(above, lab.regressor(arm, day8_mujoco.swing(SAMPLES)), "Day 5's swing", "s", RED)
     _values(above, Y, "excited", "o", BLUE)
     _torque(below, arm, robot, Y, motion)
     for axes in (above, below):
@@ -45,21 +46,21 @@ def _values(axes: Axes, Y: np.ndarray, name: str, mark: str, colour: str) -> Non
     axes.legend(loc=(0.03, 0.25))
 
 
-def _torque(axes: Axes, arm, robot, Y: np.ndarray, motion: secret.Motion) -> None:
+def _torque(axes: Axes, arm, robot, Y: np.ndarray, motion: day8_mujoco.Motion) -> None:
     """Draw how far one joint's torque is off on a new motion: by the fit, the file."""
     noise = lab.NOISE * np.random.default_rng(lab.SEED).normal(size=motion.q.shape)
-    tau = secret.torques(robot, motion) + noise
+    tau = day8_mujoco.torques(robot, motion) + noise
     fast = np.abs(motion.qd) > lab.SLOW
-    new = secret.excitation(robot, lab.SEED + 1, SAMPLES)
+    new = day8_mujoco.excitation(robot, lab.SEED + 1, SAMPLES)
     rows = lab.regressor(arm, new)[:, JOINT]
     t = np.arange(SAMPLES) * 10.0 / SAMPLES
     torque, sigma = lab.predict_with_sigma(Y[fast], tau[fast], rows, lab.RTOL)
-    true = secret.torques(robot, new)[:, JOINT]
+    true = day8_mujoco.torques(robot, new)[:, JOINT]
     band = 1.96 * sigma
     axes.fill_between(t, -band, band, color=BLUE, alpha=0.25, label="1.96 sigma")
     axes.plot(t, torque - true, "o", ms=4, color=BLUE, label="predicted by the fit")
     axes.plot(
-        t, rows @ secret.numbers(arm) - true, "--", color=RED, label="by the file"
+        t, rows @ day8_mujoco.numbers(arm) - true, "--", color=RED, label="by the file"
     )
     axes.set(xlabel="time, s", ylabel=f"off joint {JOINT + 1}'s torque, N m")
     axes.set_title("A motion that was never shown")

@@ -15,30 +15,31 @@ from compare import assert_same
 from conftest import ROOT, load_script, need
 from labkit.judge.row import rows_of
 from labkit.lesson.day import find_day
-from robo47 import identification, panda, secret, verify
+from robo47 import identification, panda, verify
 
 DAY = find_day(8)
 GUIDE = (ROOT / "w2-autonomy/docs/day8-lab.md").read_text("utf-8")
 OWN = re.sub(r"<!-- run.*?<!-- end -->", "", GUIDE, flags=re.S)
 SENTENCES = " ".join(OWN.replace("*", "").split())
+day8_mujoco = load_script(ROOT / "w2-autonomy/src/day8_mujoco.py")
 lab = load_script(ROOT / "w2-autonomy/src/day8_identification.py")
 LOAD = np.append(lab.LOAD, lab.LOAD * lab.AT)
 model = panda.load("panda_nohand", drive="torque")
-hung = panda.load("panda_nohand", drive="torque", edit=secret.load(lab.LOAD, lab.AT))
+hung = panda.load("panda_nohand", drive="torque", edit=day8_mujoco.load(lab.LOAD, lab.AT))
 arm = panda.arm(model)
-robot = secret.changed(model, lab.SEED)
+robot = day8_mujoco.changed(model, lab.SEED)
 
 
 @pytest.fixture(scope="module")
 def data():
     """Return Y, exact torques and the fast rows of three motions."""
     motions = {
-        "swing": secret.swing(),
-        "excited": secret.excitation(model, lab.SEED),
-        "elsewhere": secret.anywhere(model, lab.SEED, lab.TRIALS),
+        "swing": day8_mujoco.swing(),
+        "excited": day8_mujoco.excitation(model, lab.SEED),
+        "elsewhere": day8_mujoco.anywhere(model, lab.SEED, lab.TRIALS),
     }
     return {
-        name: (lab.regressor(arm, m), secret.torques(robot, m), np.abs(m.qd) > lab.SLOW)
+        name: (lab.regressor(arm, m), day8_mujoco.torques(robot, m), np.abs(m.qd) > lab.SLOW)
         for name, m in motions.items()
     }
 
@@ -89,7 +90,7 @@ def test_what_the_arm_hides(data):
     assert "Nine states at random, 63 rows" in SENTENCES
     tipped = copy.copy(model)  # joint1 upright no more: two of m c show as well
     tipped.opt.gravity[:] = [1.0, 0.3, -9.7]
-    Y = lab.regressor(panda.arm(tipped), secret.anywhere(tipped, lab.SEED, 20))
+    Y = lab.regressor(panda.arm(tipped), day8_mujoco.anywhere(tipped, lab.SEED, 20))
     assert rank(Y.reshape(-1, 91)[:, :70]) == 45
 
 
@@ -156,7 +157,7 @@ def test_the_trap_of_the_lab_and_what_tells(data, printed):
         f"half as large again, {slow[2]:.3f} instead of {excited[2]:.3f}" in SENTENCES
     )
     noise = noises(lab.SEED)[0]
-    known = secret.numbers(arm)
+    known = day8_mujoco.numbers(arm)
     near = fitted(data, "swing", noise, 1e-2, known)[1]
     assert f"as the file has it: {near:.2f} N m" in SENTENCES
     fast = data["excited"][2][::20]
@@ -166,7 +167,7 @@ def test_the_trap_of_the_lab_and_what_tells(data, printed):
 def test_dry_friction_spoils_the_rows_that_the_guide_says(data):
     Y, tau, fast = data["excited"]
     phi = identification.fit(Y[fast], tau[fast], lab.RTOL)
-    motion = secret.excitation(model, lab.SEED)
+    motion = day8_mujoco.excitation(model, lab.SEED)
     bad = np.abs(Y @ phi - tau) > 0.01
     turned = motion.qd + motion.qdd * (0.95 * 0.02 / 2.0)
     assert (bad == (np.sign(turned) != np.sign(motion.qd))).all()
@@ -184,13 +185,13 @@ def costs(code, motion):
         now = arm.at(q)
         given = now.J_space, now.T_links, qd, qdd, arm.gravity
         off.append(code(*given) - identification.arm_regressor(*given))
-    return np.abs(off @ secret.numbers(arm)[:70]).max()
+    return np.abs(off @ day8_mujoco.numbers(arm)[:70]).max()
 
 
 def test_what_mistakes_cost_in_motion_and_at_rest():
     still = np.zeros((1, 7))
-    at_rest = secret.Motion(panda.READY_Q[None], still, still)
-    motions = secret.anywhere(model, lab.SEED, 20), at_rest
+    at_rest = day8_mujoco.Motion(panda.READY_Q[None], still, still)
+    motions = day8_mujoco.anywhere(model, lab.SEED, 20), at_rest
     ways = {way.slug: way.code for way in rows_of(DAY)["arm_regressor"].named}
     cost = {slug: [costs(code, m) for m in motions] for slug, code in ways.items()}
     rows = re.findall(r"^\| ([a-z-]+) \| ([\d.]+) \| ([\d.]+) \|$", GUIDE, re.M)
@@ -205,14 +206,14 @@ def test_what_mistakes_cost_in_motion_and_at_rest():
 @pytest.mark.kit
 def test_other_robots_are_weighed_as_well_and_friction_is_why_not():
     def grams(q, extra):
-        given = *secret.hands(arm, q), extra, arm.gravity
+        given = *day8_mujoco.hands(arm, q), extra, arm.gravity
         return 1000 * identification.payload_from_holds(*given)[0]
 
     both, crossed = [], []
     poses = panda.READY_Q + np.random.default_rng(lab.SEED).uniform(-0.5, 0.5, (5, 7))
     for seed in range(1, 9):
-        robots = (secret.changed(one, seed) for one in (model, hung))
-        (_, empty), (q, full) = (secret.holds(one, arm, poses) for one in robots)
+        robots = (day8_mujoco.changed(one, seed) for one in (model, hung))
+        (_, empty), (q, full) = (day8_mujoco.holds(one, arm, poses) for one in robots)
         both.append(grams(q.mean(axis=0), (full - empty).mean(axis=0)))
         crossed += [grams(q[i], full[i] - empty[1 - i]) for i in (0, 1)]
     assert f"is {np.abs(np.array(both) - 500).max():.1f} g off at worst" in SENTENCES
@@ -223,9 +224,9 @@ def test_poses_that_turn_about_gravity_hide_a_part_of_the_centre():
     q = np.array([panda.READY_Q] * 5)
     q[:, 0] = np.linspace(-1, 1, 5)
     extra = verify.mujoco_bias(hung, q, 0 * q) - verify.mujoco_bias(model, q, 0 * q)
-    rows = identification.load_regressor(*secret.hands(arm, q), arm.gravity)
+    rows = identification.load_regressor(*day8_mujoco.hands(arm, q), arm.gravity)
     assert [np.linalg.matrix_rank(r) for r in (rows[0], rows.reshape(-1, 4))] == [3, 3]
-    m, *h = identification.payload_from_holds(*secret.hands(arm, q), extra, arm.gravity)
+    m, *h = identification.payload_from_holds(*day8_mujoco.hands(arm, q), extra, arm.gravity)
     assert_same(1000 * np.array(h) / m, [20, -30, 0], 1e-9)
     assert "comes out as (20, -30, 0) mm" in SENTENCES
 
@@ -240,9 +241,9 @@ def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
     assert f"the {crossed[0]:.0f} g, it rises by {crossed[4]:.0f}" in SENTENCES
     assert f"the {one[0]:.1f} g are {one[0] - 500:.1f} g wrong" in SENTENCES
     assert abs(one[4]) < abs(both[4])  # "float better than 500.0"
-    loaded = secret.changed(hung, lab.SEED)
+    loaded = day8_mujoco.changed(hung, lab.SEED)
     rest = np.zeros(7)
-    phi = secret.numbers(panda.arm(robot))[:70]  # no error of a fit to cancel
+    phi = day8_mujoco.numbers(panda.arm(robot))[:70]  # no error of a fit to cancel
 
     def still(now):
         given = now.J_space, now.T_links, rest, rest, arm.gravity
@@ -250,7 +251,7 @@ def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
 
     for row in (one, both):
         load = row[0] / 1000 * np.append(1.0, row[1:4] / 1000)
-        row[4] = secret.rises(loaded, arm, still, load)
+        row[4] = day8_mujoco.rises(loaded, arm, still, load)
     assert abs(both[4]) < 0.3 * abs(one[4])
     least = re.search(r"links found: (\S+)", printed)[1]
     assert f"It is {least}: there is no such arm" in SENTENCES
@@ -261,7 +262,7 @@ def test_what_no_torque_shows_is_why_there_is_no_such_arm(data):
     Y = Y[fast]
     tau = (tau + noises(lab.SEED)[1])[fast]
     phi = lab.fit(Y, tau, lab.RTOL)
-    true = secret.numbers(panda.arm(robot))
+    true = day8_mujoco.numbers(panda.arm(robot))
     hidden = np.linalg.svd(Y, full_matrices=False)[2][62:]
     other = phi + hidden.T @ (hidden @ (true - phi))  # that part from the truth
     assert_same(Y @ other, Y @ phi, 1e-11)
@@ -283,7 +284,7 @@ def test_mujoco_refuses_what_no_body_can_have():
 def test_second_differences_of_an_encoder_are_off_as_predicted():
     dt = 0.002
     step = 2.0 * np.pi / 2**16
-    motion = secret.excitation(model, lab.SEED, 5000)
+    motion = day8_mujoco.excitation(model, lab.SEED, 5000)
     q = np.round(motion.q / step) * step
     off = (q[2:] - 2 * q[1:-1] + q[:-2]) / dt**2 - motion.qdd[1:-1]
     assert lab.rms(off) == pytest.approx(np.sqrt(0.5) * step / dt**2, rel=0.01)

@@ -8,9 +8,10 @@ origin. Twists (omega; v), wrenches (moment; force). Metres, radians, kilograms,
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
+import day8_mujoco
 import numpy as np
 
-from robo47 import cli, panda, se3, secret
+from robo47 import cli, panda, se3
 from robo47 import identification as library
 from robo47.lesson.lab import Lab
 from robo47.screws import ad, adjoint, skew
@@ -167,7 +168,7 @@ def arguments() -> dict[str, tuple]:
     }  # fmt: skip
 
 
-def regressor(arm, motion: secret.Motion) -> np.ndarray:
+def regressor(arm, motion: day8_mujoco.Motion) -> np.ndarray:
     """Return all 91 columns at each state of a motion, (n, 7, 91)."""
     Y = []
     for q, qd, qdd in zip(*motion, strict=True):
@@ -194,8 +195,8 @@ def fits(robot, arm, new: tuple) -> tuple:
     """Print how fits to two motions of the secret robot do; return the last."""
     print("  fitted to          rank    condition  residual   elsewhere     sigma   in")
     rng, found = np.random.default_rng(SEED), []
-    for motion in (secret.swing(), secret.excitation(robot, SEED)):
-        tau = secret.torques(robot, motion) + NOISE * rng.normal(size=motion.q.shape)
+    for motion in (day8_mujoco.swing(), day8_mujoco.excitation(robot, SEED)):
+        tau = day8_mujoco.torques(robot, motion) + NOISE * rng.normal(size=motion.q.shape)
         found += [regressor(arm, motion), tau, np.abs(motion.qd) > SLOW]
     Y, tau, fast = found[:3]
     judged("Day 5's swing", Y[fast], tau[fast], new)
@@ -209,8 +210,8 @@ def fits(robot, arm, new: tuple) -> tuple:
 def weighings(robot, loaded, arm) -> dict[str, np.ndarray]:
     """Return (m, m c), (4,), by how the arm was held with a load and without."""
     poses = panda.READY_Q + np.random.default_rng(SEED).uniform(-0.5, 0.5, (5, 7))
-    (_, empty), (q, full) = (secret.holds(one, arm, poses) for one in (robot, loaded))
-    see, g = secret.hands, arm.gravity
+    (_, empty), (q, full) = (day8_mujoco.holds(one, arm, poses) for one in (robot, loaded))
+    see, g = day8_mujoco.hands, arm.gravity
     weigh = lambda q, extra: payload_from_holds(*see(arm, q), extra, g)  # noqa: E731
     return {
         "told of no load": np.zeros(4),
@@ -224,7 +225,7 @@ def main() -> int:
     """Run the lab from top to bottom; return 0 when every check passed."""
     lab, model = Lab(__file__, __doc__), panda.load("panda_nohand", drive="torque")
     print(panda.describe("panda_nohand"))
-    arm, robot = panda.arm(model), secret.changed(model, SEED)
+    arm, robot = panda.arm(model), day8_mujoco.changed(model, SEED)
 
     lab.step("1. A body in ten numbers, and a torque that is linear in them")
     for name, given in arguments().items():
@@ -232,10 +233,10 @@ def main() -> int:
         lab.check(f"{name} - the library's", off)
 
     lab.step("2. The whole arm: what its motion shows, and what it hides")
-    new = secret.anywhere(model, SEED, TRIALS)
+    new = day8_mujoco.anywhere(model, SEED, TRIALS)
     Y = regressor(arm, new)
-    file = secret.numbers(arm)  # the 91 as the model file has them
-    off = Y @ file - secret.torques(model, new)
+    file = day8_mujoco.numbers(arm)  # the 91 as the model file has them
+    off = Y @ file - day8_mujoco.torques(model, new)
     lab.record("regressor", off, label="|Y phi - MuJoCo's torque|, N m", seed=SEED)
     for p, name in ((70, "links"), (91, "with motors")):
         rank, condition = identifiable(Y[..., :p].reshape(-1, p), RTOL)
@@ -243,19 +244,19 @@ def main() -> int:
         lab.measured(f"how many of {p} numbers show: {name}", rank)
 
     lab.step("3. A robot that nobody knows: five fits to its torques, N m")
-    fast, truth = np.abs(new.qd) > SLOW, secret.torques(robot, new)
+    fast, truth = np.abs(new.qd) > SLOW, day8_mujoco.torques(robot, new)
     phi, off, inside = fits(robot, arm, (Y[fast], truth[fast]))
     print(f"  the model file's own numbers{rms((Y @ file - truth)[fast]):31.3f}")
     lab.record("fit", off, metric="new_rms_nm", label="excited, elsewhere", seed=SEED)
     lab.record("fit", inside, metric="inside_95", label="in 1.96 sigma", seed=SEED)
 
     lab.step("4. What hangs on its hand; how far it rises in 2 s when it floats so")
-    loaded = panda.load("panda_nohand", drive="torque", edit=secret.load(LOAD, AT))
-    loaded, rest = secret.changed(loaded, SEED), (np.zeros(7), np.zeros(7), arm.gravity)
+    loaded = panda.load("panda_nohand", drive="torque", edit=day8_mujoco.load(LOAD, AT))
+    loaded, rest = day8_mujoco.changed(loaded, SEED), (np.zeros(7), np.zeros(7), arm.gravity)
     still = lambda now: arm_regressor(now.J_space, now.T_links, *rest) @ phi[:70]  # noqa: E731
     for name, (m, *h) in weighings(robot, loaded, arm).items():
         x, y, z = 1000 * np.array(h) / max(m, 1e-9)
-        grams, up = 1000 * m, 1000 * secret.rises(loaded, arm, still, (m, *h))
+        grams, up = 1000 * m, 1000 * day8_mujoco.rises(loaded, arm, still, (m, *h))
         at = f"{x:z4.1f} {y:z5.1f} {z:z5.1f} mm"
         print(f"  {name:25}{grams:6.1f} g at {at}{up:8.1f} mm")
         lab.measured(f"grams off, of 500: {name}", abs(grams - 1000 * LOAD))
