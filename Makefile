@@ -27,7 +27,7 @@ VIEW := $(if $(findstring --screenshot,$(ARGS)),figures,view)
 RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/dev/null),figures,core)
 
 .DEFAULT_GOAL := help
-.PHONY: update edition start check hint borrow run doctor bench test-matrix setup robot view grade
+.PHONY: update edition start check hint borrow run doctor bench kernels test-matrix setup robot view grade
 .PHONY: capstone proof fresh help test soak report lint docs site oracle figures notebook
 .PHONY: new author
 
@@ -94,6 +94,9 @@ soak: .venv/.ready-test ## the long tests: a log of gigabytes, a class of 200
 
 report: .venv/.ready-core ## metrics/report.html from the log; WEEK=1 its page alone
 	@$(PY) scripts/report_metrics.py $(if $(WEEK),--week $(WEEK)) $(ON_DAY) $(ARGS)
+
+kernels: .venv/.ready-test $(ROBOT) ## the tests of numbers as on other processors
+	@$(PY) scripts/kernels.py $(ARGS)
 
 test-matrix: .venv/.ready-test $(ROBOT) ## the tests on the oldest and newest MuJoCo and Python
 	@$(PY) scripts/test_matrix.py $(ARGS)

@@ -4,8 +4,9 @@ Everything stands in world axes about the world's origin, so what belongs to dif
 links is simply added. The space Jacobian's columns are the joints' screws where they
 are now, and all that the algorithms need to know of the motion. Conventions:
 
-- Twists are (omega; v), wrenches (moment; force), as in *Modern Robotics*; `J` is the
-  space Jacobian, (..., 6, n), whose column i moves link i and all links after it.
+- Twists are (omega; v), wrenches (moment; force), as in *Modern Robotics*; `J_space`
+  is (..., 6, n), its column i moves link i and all links after it. `J_site` has the
+  same shape, and gives an M that is wrong by several kg m^2.
 - Gravity is the vector g = (0, 0, -9.81), never the number 9.81.
 - Radians, metres, kilograms, newtons, seconds; torques in N m.
 - M contains the armature: the inertia of the motors' rotors, as the joints feel
@@ -23,7 +24,7 @@ from numpy.typing import ArrayLike
 from robo47 import checks
 from robo47.checks import Array
 from robo47.fast.vectors import times
-from robo47.screws import ad, skew
+from robo47.screws import skew
 
 
 def spatial_inertia(m: ArrayLike, c: ArrayLike, inertia: ArrayLike) -> Array:
@@ -77,21 +78,21 @@ def link_inertias(
     return spatial_inertia(masses, times(R, coms) + p, turned)
 
 
-def mass_matrix(J: ArrayLike, G: ArrayLike, armature: ArrayLike) -> Array:
+def mass_matrix(J_space: ArrayLike, G: ArrayLike, armature: ArrayLike) -> Array:
     """Return M, which makes qd @ M @ qd / 2 the arm's kinetic energy.
 
-    The sum over the links of J_i^T G_i J_i, where J_i is J with the columns after i
-    zero, and the armature on the diagonal (Modern Robotics, section 8.4).
+    The sum over the links of J_i^T G_i J_i, where J_i is J_space with the columns
+    after i zero, and the armature on the diagonal (Modern Robotics, section 8.4).
 
     Args:
-        J: space Jacobian, (..., 6, n).
+        J_space: space Jacobian, (..., 6, n).
         G: inertias of the links about the world's origin, (..., n, 6, 6).
         armature: kg m^2, a number or (n,).
 
     Returns:
         M, kg m^2, (..., n, n): symmetric and positive definite, as many a wrong one.
     """
-    J = checks.array(J, "J", (6, "n"))
+    J = checks.array(J_space, "J_space", (6, "n"))
     n = J.shape[-1]
     G = checks.array(G, "G", (n, 6, 6))
     armature = np.broadcast_to(checks.array(armature, "armature", ()), n)
@@ -103,7 +104,7 @@ def mass_matrix(J: ArrayLike, G: ArrayLike, armature: ArrayLike) -> Array:
 
 
 def gravity_torque(
-    J: ArrayLike, masses: ArrayLike, coms_world: ArrayLike, g: ArrayLike
+    J_space: ArrayLike, masses: ArrayLike, coms_world: ArrayLike, g: ArrayLike
 ) -> Array:
     """Return the torque that holds the arm still against gravity.
 
@@ -112,7 +113,7 @@ def gravity_torque(
     (Modern Robotics, section 8.4).
 
     Args:
-        J: space Jacobian, (..., 6, n).
+        J_space: space Jacobian, (..., 6, n).
         masses: kg, (n,).
         coms_world: centres of mass in the world, metres, (..., n, 3).
         g: gravity, m/s^2, (3,).
@@ -120,7 +121,7 @@ def gravity_torque(
     Returns:
         Torque, N m, (..., n).
     """
-    J = checks.array(J, "J", (6, "n"))
+    J = checks.array(J_space, "J_space", (6, "n"))
     n = J.shape[-1]
     coms = checks.array(coms_world, "coms_world", (n, 3))
     weights = checks.array(masses, "masses", (n,))[..., None] * _gravity(g)
@@ -129,8 +130,30 @@ def gravity_torque(
     return -_felt(J, np.concatenate([moments, forces], axis=-1))
 
 
+def ad(V: ArrayLike) -> Array:
+    """Return ad(V): at what rate a twist changes that is carried along by V.
+
+    [[[omega], 0], [[v], [omega]]] (Modern Robotics, definition 8.1 of the Lie
+    bracket). ad(V) @ V = 0.
+
+    Args:
+        V: twist (omega; v), rad/s and m/s, (..., 6).
+
+    Returns:
+        Matrix for twists (omega; v), (..., 6, 6).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
+    """
+    V = checks.array(V, "V", (6,))
+    out = np.zeros((*V.shape, 6))
+    out[..., :3, :3] = out[..., 3:, 3:] = skew(V[..., :3])
+    out[..., 3:, :3] = skew(V[..., 3:])
+    return out
+
+
 def inverse_dynamics(
-    J: ArrayLike, G: ArrayLike, qd: ArrayLike, qdd: ArrayLike, g: ArrayLike
+    J_space: ArrayLike, G: ArrayLike, qd: ArrayLike, qdd: ArrayLike, g: ArrayLike
 ) -> Array:
     """Return the torque for an acceleration: recursive Newton-Euler.
 
@@ -140,11 +163,11 @@ def inverse_dynamics(
         A_i = A_(i-1) + S_i qdd_i + ad(V_i) S_i qd_i    A_0 = (0; -g)
         F_i = G_i A_i - ad(V_i)^T G_i V_i               tau_i = S_i . (F_i + ... + F_n)
 
-    with S_i the columns of J (Modern Robotics, section 8.3; Featherstone, section
+    with S_i the columns of J_space (Modern Robotics, section 8.3; Featherstone, section
     5.3). A_0: a base that accelerates upwards feels like gravity.
 
     Args:
-        J: space Jacobian, (..., 6, n).
+        J_space: space Jacobian, (..., 6, n).
         G: inertias of the links about the world's origin, (..., n, 6, 6).
         qd: joint velocities, rad/s, (..., n).
         qdd: joint accelerations, rad/s^2, (..., n).
@@ -153,7 +176,7 @@ def inverse_dynamics(
     Returns:
         Torque, N m, (..., n): the links' alone, without armature and damping.
     """
-    J = checks.array(J, "J", (6, "n"))
+    J = checks.array(J_space, "J_space", (6, "n"))
     n = J.shape[-1]
     G = checks.array(G, "G", (n, 6, 6))
     qd = checks.array(qd, "qd", (n,))[..., None]
@@ -167,18 +190,18 @@ def inverse_dynamics(
     return _felt(J, F)
 
 
-def bias_torque(J: ArrayLike, G: ArrayLike, qd: ArrayLike, g: ArrayLike) -> Array:
+def bias_torque(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike, g: ArrayLike) -> Array:
     """Return the torque of Coriolis, centrifugal and gravity forces together.
 
     Inverse dynamics with qdd = 0. MuJoCo calls it qfrc_bias.
 
     Args:
-        J, G, qd, g: as in `inverse_dynamics`.
+        J_space, G, qd, g: as in `inverse_dynamics`.
 
     Returns:
         Torque, N m, (..., n).
     """
-    return inverse_dynamics(J, G, qd, np.zeros(np.shape(J)[-1:]), g)
+    return inverse_dynamics(J_space, G, qd, np.zeros(np.shape(J_space)[-1:]), g)
 
 
 def forward_dynamics(

@@ -22,8 +22,9 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks, se3
 from robo47.checks import Array
+from robo47.dynamics import ad
 from robo47.fast.vectors import times
-from robo47.screws import ad, adjoint, skew
+from robo47.screws import adjoint, skew
 
 _UPPER = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # of Ixx ... Iyz
 

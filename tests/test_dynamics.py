@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from robo47 import dynamics, panda, screws, verify
-from robo47.verify.links import mujoco_energies
+
+from day4_mujoco import mujoco_energies
 
 G_EARTH = np.array([0.0, 0.0, -9.81])
 DATA = Path(__file__).parent / "data"
@@ -219,9 +220,12 @@ def test_a_batch_is_its_configurations_one_by_one(either_panda):
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: dynamics.mass_matrix(np.eye(7), np.ones((7, 6, 6)), 0.1), "J has"),
+        (
+            lambda: dynamics.mass_matrix(np.eye(7), np.ones((7, 6, 6)), 0.1),
+            "J_space has",
+        ),
         (lambda: dynamics.mass_matrix(np.ones((6, 7)), np.eye(6), 0.1), "G has shape"),
-        (lambda: dynamics.mass_matrix(3.0, np.eye(6), 0.1), "J has shape"),
+        (lambda: dynamics.mass_matrix(3.0, np.eye(6), 0.1), "J_space has shape"),
         (lambda: dynamics.spatial_inertia(1.0, [0, 0], np.eye(3)), "has shape"),
         (lambda: dynamics.spatial_inertia(np.nan, [0, 0, 0], np.eye(3)), "not finite"),
         (lambda: dynamics.bias_torque(*pendulum()[:2], [0.0, 0.0], G_EARTH), "qd has"),

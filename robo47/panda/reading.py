@@ -35,7 +35,7 @@ class Inertias(NamedTuple):
         """Return the same bodies, the last one with a load that carry makes part of it.
 
         Args:
-            carry: as `robo47.trajectory.carry`.
+            carry: as `robo47.lifting.carry`.
             load: mass, com (3,) and inertia (3, 3) in the last body's frame and axes.
         """
         masses, coms, inertias = (part.copy() for part in self)

@@ -12,7 +12,8 @@ from compare import assert_same
 from conftest import ROOT, load_script, need, paper
 from labkit.lesson.day import find_day
 from robo47 import dynamics, panda, simulate, verify
-from robo47.verify import links
+
+import day4_mujoco
 
 GUIDE = (ROOT / "w1-foundations/docs/day4-lab.md").read_text("utf-8")
 PAGE = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
@@ -39,7 +40,7 @@ def mass_matrices(arm, model):
     wrong = {}
     for x in q:
         now = arm.at(x)
-        bad = links.wrong_on_purpose(
+        bad = day4_mujoco.wrong_on_purpose(
             lab.link_inertias, now.T_links, *panda.inertias(model)
         )
         for what, G in bad.items():
@@ -71,7 +72,7 @@ def test_the_wrong_sign_is_an_arm_with_its_masses_at_minus_c(arm):
     flip = np.diag([1.0, 1, 1, -1, -1, -1])
     body = (arm.masses, arm.coms, arm.inertias)
     R = now.T_links[:, :3, :3]
-    wrong = links.wrong_on_purpose(lab.link_inertias, now.T_links, *body)[
+    wrong = day4_mujoco.wrong_on_purpose(lab.link_inertias, now.T_links, *body)[
         "m [c] with the wrong sign"
     ]
     own = R @ arm.inertias @ np.swapaxes(R, 1, 2)
@@ -242,9 +243,9 @@ def test_rk4_asks_four_times_a_step(model):
 
 
 def test_the_integrator_loses_energy_in_proportion_to_its_step():
-    first, half = (links.swing("IMPLICITFAST", step) for step in (0.002, 0.001))
+    first, half = (day4_mujoco.swing("IMPLICITFAST", step) for step in (0.002, 0.001))
     assert 1.8 < first / half < 2.2
-    assert abs(links.swing("RK4", 0.002)) < 1e-6 * abs(first)
+    assert abs(day4_mujoco.swing("RK4", 0.002)) < 1e-6 * abs(first)
 
 
 # -- errata ---------------------------------------------------------------------------

@@ -10,8 +10,7 @@ from compare import assert_same
 from conftest import ROOT, load_script
 from labkit.judge.row import row_of
 from labkit.lesson.day import find_day
-from robo47 import contact, jacobian, panda, simulate, verify
-from robo47.verify import hand
+from robo47 import jacobian, panda, simulate, verify
 
 DAY = find_day(6)
 GUIDE = (ROOT / "w1-foundations/docs/day6-lab.md").read_text("utf-8")
@@ -35,7 +34,8 @@ def test_a_push_at_rest_is_lambda_times_the_hands_acceleration(motors):
         if np.linalg.svd(now.J_site, compute_uv=False)[-1] < 0.05:
             continue
         F = np.random.default_rng(6).uniform(-10, 10, 6)
-        _, acc = contact.mujoco_push(model, one, 0.0, now.gravity_torque, F)
+        data = lab.pushed(model, one, 0.0, now.gravity_torque, F)
+        acc = lab.hand_acceleration(model, data)
         Lambda = lab.task_inertia(now.J_site, now.M)
         assert_same(Lambda @ acc, F, 1e-10 * np.linalg.norm(F))  # measured 1.3e-13
 
@@ -116,7 +116,7 @@ def circled(motors, seconds=2.5, **instead):
         run = simulate.run(model, simulate.start(model, lab.READY_Q), law, seconds)
     T = arm.at(lab.READY_Q).T_world_ee
     off = np.array([
-        jacobian.pose_error(arm.at(q).T_world_ee, contact.circle(t, T, 0.12, 2.0)[0])
+        jacobian.pose_error(arm.at(q).T_world_ee, lab.day6_mujoco.circle(t, T, 0.12, 2.0).T)
         for t, q in zip(run.t, run.q, strict=True)
     ]).reshape(-1, 2, 3)  # fmt: skip
     return tuple(1000 * np.linalg.norm(off, axis=2).max(axis=0))[::-1]
@@ -163,7 +163,7 @@ def test_each_mistake_costs_on_the_circle_what_the_guide_says(motors, name):
 
 def test_a_kinematic_projector_draws_the_circle_but_its_torque_is_felt(motors):
     model, arm = motors
-    mm, _ = circled(motors, null_torque=hand.kinematic)
+    mm, _ = circled(motors, null_torque=lab.kinematic)
     assert mm == pytest.approx(0.152, abs=0.002)
     assert "within 0.152 mm, where the right one has 0.130" in " ".join(GUIDE.split())
     rng = np.random.default_rng(6)
@@ -172,7 +172,7 @@ def test_a_kinematic_projector_draws_the_circle_but_its_torque_is_felt(motors):
         now = arm.at(q)
         torque = rng.uniform(-10, 10, 7)
         if np.linalg.svd(now.J_site, compute_uv=False)[-1] > 0.05:
-            odd = hand.kinematic(now.J_site, now.M, None, torque)
+            odd = lab.kinematic(now.J_site, now.M, None, torque)
             felt.append(np.abs(now.J_site @ np.linalg.solve(now.M, odd)).max())
     assert 5.0 < np.median(felt) < 9.0  # rad/s2 or m/s2, for torques up to 10 N m
 
@@ -212,7 +212,7 @@ def at_rest(motors, push=None, seconds=3.0):
 def test_a_softer_feedback_is_further_off_the_circle(motors, omega, mm, wrong):
     right = circled(motors, OMEGA=omega)[0]
     assert right == pytest.approx(mm, abs=2e-3)
-    theirs = circled(motors, OMEGA=omega, null_torque=hand.kinematic)[0]
+    theirs = circled(motors, OMEGA=omega, null_torque=lab.kinematic)[0]
     assert theirs / right == pytest.approx(wrong, rel=0.02)
     if omega == 5.0:
         assert f"{theirs:.2f} mm, where the right one has {right:.2f}" in SENTENCES
@@ -251,7 +251,7 @@ def test_a_position_read_after_a_step_is_one_step_old(motors):
     look = lambda model, data: data.site("attachment_site").xpos.copy()  # noqa: E731
     law = lab.circling(arm, lab.null_torque)
     run = simulate.run(model, data, law, 2.5, watch=look)
-    goal = [contact.circle(t, T, 0.12, 2.0)[0][:3, 3] for t in run.t[1:]]
+    goal = [lab.day6_mujoco.circle(t, T, 0.12, 2.0).T[:3, 3] for t in run.t[1:]]
     now = [arm.at(q).T_world_ee[:3, 3] for q in run.q[1:]]
     off = [1e3 * np.linalg.norm(np.subtract(x, goal), axis=1).max()
            for x in (run.seen, now)]  # fmt: skip

@@ -18,6 +18,7 @@ from labkit.lesson.day import find_day
 from robo47 import (
     capstone,
     jacobian,
+    lifting,
     panda,
     scenes,
     screws,
@@ -26,7 +27,6 @@ from robo47 import (
     trajectory,
     verify,
 )
-from robo47.verify import moves
 
 SCRIPT = "w1-foundations/src/day7_trajectory.py"
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day7-lab.md").read_text("utf-8").split())
@@ -161,7 +161,7 @@ def test_an_unfolded_yaw_fails_where_joint7_is_at_its_end():
     cubes = np.tile(np.eye(4), (len(yaw), 1, 1))
     cubes[:, :3, :3] = se3.Rz(yaw)
     cubes[:, :3, 3] = [*capstone.CUBE_XY, scenes.TABLE_HEIGHT + scenes.CUBE_HALF]
-    folded = trajectory.grasp_pose(cubes, np.full(len(yaw), 0.12))
+    folded = lifting.grasp_pose(cubes, np.full(len(yaw), 0.12))
     plain = folded.copy()
     plain[:, :3, :3] = cubes[:, :3, :3] @ np.diag([1.0, -1.0, -1.0])
     start = np.tile(panda.READY_Q, (len(yaw), 1))
@@ -198,7 +198,8 @@ def test_gravity_shows_a_wrong_centre_and_speed_alone_a_wrong_inertia():
     def off(slug, speed):
         with patch("numpy.random.default_rng") as rng:
             rng.return_value.uniform.return_value = np.full(q.shape, speed)
-            return np.abs(moves.carried(model, ways[slug], q, lab.SEED)).max()
+            with patch.object(lab, "carry", ways[slug]):
+                return np.abs(lab.off_carried(model, q)).max()
 
     for slug in ("only-the-second-moved", "no-parallel-axes"):
         assert off(slug, 0.0) < 1e-12 < 0.001 < off(slug, 1.0) < 0.1
@@ -209,7 +210,7 @@ def test_gravity_shows_a_wrong_centre_and_speed_alone_a_wrong_inertia():
 
 def followed(scaling, seconds, rate=lab.RATE):
     line = lab.READY_Q, lab.GOAL_Q, lab.OMEGA, rate
-    return moves.follow(scaling, seconds, *line)
+    return lab.day7_mujoco.follow(scaling, seconds, *line)
 
 
 def test_step_7s_sentences():
@@ -234,7 +235,7 @@ def test_step_7s_sentences():
 def test_half_as_stiff_the_arm_is_twice_as_far_off():
     quintic = lab.profiles(0.995)["quintic"]
     move = (lab.READY_Q, lab.GOAL_Q)
-    off = [moves.follow(*quintic, *move, omega, lab.RATE)[0]
+    off = [lab.day7_mujoco.follow(*quintic, *move, omega, lab.RATE)[0]
            for omega in (lab.OMEGA, lab.OMEGA / 2)]  # fmt: skip
     assert off[1] / off[0] == pytest.approx(2.0, abs=0.15)
     assert "with 10 the errors are twice as large" in (ROOT / SCRIPT).read_text("utf-8")

@@ -85,12 +85,13 @@ def pose_error(T: np.ndarray, T_goal: np.ndarray) -> np.ndarray:
     # endregion 3.4
 
 
-def dls_step(J: np.ndarray, e: np.ndarray, damping: float) -> np.ndarray:
+def dls_step(J_site: np.ndarray, e: np.ndarray, damping: float) -> np.ndarray:
     """Return the dq, (7,), that makes |J dq - e|^2 + damping^2 |dq|^2 the smallest.
 
-    With J = [I 0] and damping 1 it is half of e, and 0 for the seventh joint.
+    With J_site = [I 0] and damping 1 it is half of e, and 0 for the seventh joint.
     """
     # region 3.5
+    J = J_site
     return J.T @ np.linalg.solve(J @ J.T + damping**2 * np.eye(6), e)
     # endregion 3.5
 

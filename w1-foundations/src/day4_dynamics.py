@@ -4,7 +4,7 @@
     python src/day4_dynamics.py      in w1-foundations/, once that is done
 
 All in world axes about the world's origin: twists (omega; v), wrenches (moment;
-force), J the space Jacobian (6, 7). Metres, radians, kilograms, newtons, seconds.
+force), J_space (6, 7). Metres, radians, kilograms, newtons, seconds.
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
@@ -13,7 +13,9 @@ import numpy as np
 from robo47 import cli, panda, simulate, verify
 from robo47.lesson.lab import Lab
 from robo47.screws import skew
-from robo47.verify import each, links
+from robo47.verify import each
+
+import day4_mujoco
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 TRIALS = 100  # random motions that your own code is judged on
@@ -53,15 +55,15 @@ def link_inertias(
     # endregion 4.2
 
 
-def mass_matrix(J: np.ndarray, G: np.ndarray, armature: np.ndarray) -> np.ndarray:
-    """Return M, (7, 7), from J (6, 7), G (7, 6, 6) and the armature (7,), kg m^2.
+def mass_matrix(J_space: np.ndarray, G: np.ndarray, armature: np.ndarray) -> np.ndarray:
+    """Return M, (7, 7), kg m^2, from J_space (6, 7), G (7, 6, 6) and armature (7,).
 
     One hinge about z, with 2 kg at 1 m: its entry is 2 + armature.
     """
     # region 4.3
     M = np.diag(armature)
     for i, G_i in enumerate(G):
-        J_i = J.copy()
+        J_i = J_space.copy()
         J_i[:, i + 1 :] = 0.0  # joints beyond link i do not move it
         M = M + J_i.T @ G_i @ J_i
     return M
@@ -69,7 +71,7 @@ def mass_matrix(J: np.ndarray, G: np.ndarray, armature: np.ndarray) -> np.ndarra
 
 
 def gravity_torque(
-    J: np.ndarray, masses: np.ndarray, coms_world: np.ndarray, g: np.ndarray
+    J_space: np.ndarray, masses: np.ndarray, coms_world: np.ndarray, g: np.ndarray
 ) -> np.ndarray:
     """Return the torque that holds the arm, (7,); g is the vector (0, 0, -9.81).
 
@@ -78,7 +80,8 @@ def gravity_torque(
     # region 4.4
     tau = np.zeros(len(masses))
     for i, (m, c) in enumerate(zip(masses, coms_world, strict=True)):
-        J_com = J[3:] - skew(c) @ J[:3]  # the velocity of c: Day 3's site_jacobian
+        # The velocity of c: Day 3's site_jacobian.
+        J_com = J_space[3:] - skew(c) @ J_space[:3]
         tau[: i + 1] -= m * g @ J_com[:, : i + 1]
     return tau
     # endregion 4.4
@@ -96,7 +99,7 @@ def ad(V: np.ndarray) -> np.ndarray:
 
 
 def inverse_dynamics(
-    J: np.ndarray, G: np.ndarray, qd: np.ndarray, qdd: np.ndarray, g: np.ndarray
+    J_space: np.ndarray, G: np.ndarray, qd: np.ndarray, qdd: np.ndarray, g: np.ndarray
 ) -> np.ndarray:
     """Return the torque, (7,), for an acceleration qdd, without armature and friction.
 
@@ -105,7 +108,8 @@ def inverse_dynamics(
     # region 4.6
     V, A = np.zeros(6), np.concatenate([np.zeros(3), -g])
     wrenches = []
-    for S, G_i, speed, acc in zip(J.T, G, qd, qdd, strict=True):  # from the base out
+    # From the base out.
+    for S, G_i, speed, acc in zip(J_space.T, G, qd, qdd, strict=True):
         V = V + S * speed
         ad_V = ad(V)
         A = A + S * acc + ad_V @ S * speed
@@ -113,20 +117,20 @@ def inverse_dynamics(
     F, tau = np.zeros(6), np.zeros(len(qd))
     for i in reversed(range(len(qd))):  # from the tip back
         F = F + wrenches[i]
-        tau[i] = J[:, i] @ F
+        tau[i] = J_space[:, i] @ F
     return tau
     # endregion 4.6
 
 
 def bias_torque(
-    J: np.ndarray, G: np.ndarray, qd: np.ndarray, g: np.ndarray
+    J_space: np.ndarray, G: np.ndarray, qd: np.ndarray, g: np.ndarray
 ) -> np.ndarray:
     """Return the torque of Coriolis, centrifugal and gravity forces together, (7,).
 
     At qd = 0 it is gravity_torque.
     """
     # region 4.6
-    return inverse_dynamics(J, G, qd, np.zeros(len(qd)), g)
+    return inverse_dynamics(J_space, G, qd, np.zeros(len(qd)), g)
     # endregion 4.6
 
 
@@ -191,7 +195,7 @@ def float_and_push(lab: Lab, model, arm) -> None:
     lab.measured("its speed 4.5 s after a push of 10 N for 0.5 s, m/s", speed[-1])
 
 
-def weigh(lab: Lab, model, now: links.Motions, G: np.ndarray) -> np.ndarray:
+def weigh(lab: Lab, model, now: day4_mujoco.Motions, G: np.ndarray) -> np.ndarray:
     """Compare your mass matrices with MuJoCo's, and return them, (n, 7, 7)."""
     M = each(mass_matrix, now.J, G, now.armature)
     lab.show("M when the arm is ready, kg m2", M[0], 3)
@@ -200,9 +204,9 @@ def weigh(lab: Lab, model, now: links.Motions, G: np.ndarray) -> np.ndarray:
                config="random", seed=SEED)  # fmt: skip
     # The lesson of the day: symmetric, positive definite, and wrong all the same.
     print(f"  {'what is wrong':28}   off by   asymmetric by   least eigenvalue")
-    for what, bad in links.wrong_masses(link_inertias, mass_matrix, now).items():
+    for what, bad in day4_mujoco.wrong_masses(link_inertias, mass_matrix, now).items():
         print(f"  {what:28}{bad[0]:9.3f}{bad[1]:16.0e}{bad[2]:19.3f}")
-    off = links.library_masses(model, LIBRARY_TRIALS, SEED)
+    off = day4_mujoco.library_masses(model, LIBRARY_TRIALS, SEED)
     lab.check(f"the library robo47.dynamics_batch at {LIBRARY_TRIALS:,}", off)
     return M
 
@@ -213,16 +217,16 @@ def main() -> int:
     model = panda.load("panda_nohand", drive="torque")  # ctrl is a torque: no servos
     print(panda.describe("panda_nohand"))
     arm, rng = panda.arm(model), np.random.default_rng(SEED)
-    now = links.motions(model, TRIALS, SEED, FASTEST, HARDEST)
+    now = day4_mujoco.motions(model, TRIALS, SEED, FASTEST, HARDEST)
 
     lab.step("1. A body is many points; ten numbers say how all of them move")
-    off = links.momenta(spatial_inertia, TRIALS, rng)
+    off = day4_mujoco.momenta(spatial_inertia, TRIALS, rng)
     lab.check("largest |G V - the points' momentum|", off)
 
     lab.step("2. Every link of the arm, where it is now")
     lab.show("link1 to link7, kg", arm.masses, 3)
     G = each(link_inertias, now.T, *now.links)
-    off = G - [links.mujoco_inertias(model, x, spatial_inertia) for x in now.q]
+    off = G - [day4_mujoco.mujoco_inertias(model, x, spatial_inertia) for x in now.q]
     lab.check("largest |G - from MuJoCo's centres and axes|", off)
 
     lab.step("3. The mass matrix: how heavy each joint feels")
@@ -236,7 +240,9 @@ def main() -> int:
     lab.check("largest |by hand - MuJoCo's bias at rest|, N m", off)
 
     lab.step("5. The torque of a motion: out along the arm, and back")
-    lab.check("largest |ad(V) W - the cross products|", links.crosses(ad, TRIALS, rng))
+    lab.check(
+        "largest |ad(V) W - the cross products|", day4_mujoco.crosses(ad, TRIALS, rng)
+    )
     off = each(inverse_dynamics, now.J, G, now.qd, now.qdd, now.g)
     off = off - verify.mujoco_inverse_dynamics(model, now.q, now.qd, now.qdd)
     print(f"  Without armature and damping: off by {np.abs(off).max():.2f} N m")
@@ -248,7 +254,7 @@ def main() -> int:
     lab.check("largest |bias_torque - MuJoCo's|, N m", off)
 
     lab.step("6. Forwards: what the simulator does with a torque")
-    off, after = links.forwards(model, now, M, bias, forward_dynamics)
+    off, after = day4_mujoco.forwards(model, now, M, bias, forward_dynamics)
     lab.check("largest |qdd - MuJoCo's|, rad/s2", off)
     lab.check("its next velocity, predicted, rad/s", after)
 
@@ -258,10 +264,10 @@ def main() -> int:
     lab.step("8. Side quest: energy, and who makes it")
     with lab.side_quest():
         off = each(energy, M, now.qd, now.links[0], now.coms, now.g)
-        off = off - links.mujoco_energies(model, now.q, now.qd)
+        off = off - day4_mujoco.mujoco_energies(model, now.q, now.qd)
         lab.check("largest |energy - MuJoCo's|, J", off)
     for name, ms in (("IMPLICITFAST", 2), ("IMPLICITFAST", 1), ("RK4", 2)):
-        gain = links.swing(name, ms / 1000)
+        gain = day4_mujoco.swing(name, ms / 1000)
         print(f"  {name:12} at {ms} ms: a free swing of 1 s gains {gain:.2g} J")
     return lab.finish()
 
