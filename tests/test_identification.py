@@ -10,11 +10,11 @@ import pytest
 import scipy.linalg
 from compare import assert_same
 
-from conftest import ROOT, load_script
 from robo47 import dynamics, identification, panda, verify
 from robo47.screws import ad
 
-day8_mujoco = load_script(ROOT / "w2-autonomy/src/day8_mujoco.py")
+import day8_mujoco
+
 DATA = Path(__file__).parent / "data"
 G_EARTH = np.array([0.0, 0.0, -9.81])
 rng = np.random.default_rng(8)

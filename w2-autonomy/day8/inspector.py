@@ -4,7 +4,6 @@ Hang a ball on the hand of the lab's secret robot and let it be held, from both 
 What `robo47.identification` finds stands there with its sigma; the blue ball is where.
 """
 
-import day8_mujoco
 import numpy as np
 
 from labkit.inspector import words
@@ -13,7 +12,11 @@ from labkit.inspector.tab import Tab
 from robo47 import identification, panda
 from robo47.checks import Array
 
-SEED, RTOL = 47, 1e-9
+import day8_mujoco
+
+SEED = 47
+RTOL = 1e-9
+WAIT = 2.0  # s
 HERE, FIVE, FORGET = "hold here", "five poses", "forget"
 
 
@@ -64,8 +67,9 @@ class Weigh(Tab):
         hung = panda.load("panda_nohand", drive="torque", edit=edit)
         full = day8_mujoco.changed(hung, SEED)
         for pose in poses:
-            _, empty = day8_mujoco.holds(self.empty, self.arm, [pose])
-            self.held.append(np.array([*day8_mujoco.holds(full, self.arm, [pose]), empty]))
+            _, empty = day8_mujoco.holds(self.empty, self.arm, [pose], WAIT)
+            held = day8_mujoco.holds(full, self.arm, [pose], WAIT)
+            self.held.append(np.array([*held, empty]))
         self.show()
 
     def on_move(self, q: Array) -> None:

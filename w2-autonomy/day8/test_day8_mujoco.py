@@ -3,10 +3,10 @@
 import numpy as np
 from compare import assert_same
 
-from conftest import ROOT, load_script
 from robo47 import panda, simulate, verify
 
-day8_mujoco = load_script(ROOT / "w2-autonomy/src/day8_mujoco.py")
+import day8_mujoco
+
 AT = np.array([0.02, -0.03, 0.06])
 
 
@@ -36,8 +36,8 @@ def test_the_motions_are_their_own_derivatives_and_keep_the_limits():
 def test_dry_friction_has_the_sign_of_qd_and_a_bit_of_qdd():
     robot, motion = day8_mujoco.changed(model, 3), day8_mujoco.anywhere(model, 3, 100)
     slow = motion._replace(qd=motion.qd / 40.0)
-    free = day8_mujoco.torques(day8_mujoco.without_friction(robot), slow)
-    rub = day8_mujoco.torques(robot, slow) - free
+    free = verify.mujoco_inverse_dynamics(day8_mujoco.without_friction(robot), *slow)
+    rub = verify.mujoco_inverse_dynamics(robot, *slow) - free
     b = 2.0 / (0.95 * 0.02)  # 1/s, of MuJoCo's default solimp and solref
     full = np.abs(slow.qd + slow.qdd / b) > 0.01  # near 0 it is a ramp
     sign = np.sign(slow.qd + slow.qdd / b)

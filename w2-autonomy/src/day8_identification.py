@@ -8,7 +8,6 @@ origin. Twists (omega; v), wrenches (moment; force). Metres, radians, kilograms,
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
-import day8_mujoco
 import mujoco
 import numpy as np
 
@@ -16,6 +15,8 @@ from robo47 import cli, panda, se3
 from robo47 import identification as library
 from robo47.lesson.lab import Lab
 from robo47.screws import ad, adjoint, skew
+
+import day8_mujoco
 
 ROBOT_SEED = 47  # of the robot that nobody knows: another one is another robot
 NOISE_SEED = 47  # of the noise alone
