@@ -42,8 +42,7 @@ from labkit.grade.journal import Journal
 from labkit.grade.package import version
 from labkit.grade.roster import Student, find_students
 from labkit.grade.sheet import PLATFORMS, for_platform, known, of_days, write
-from labkit.lesson.day import Day, all_days, days_of, find_day
-from labkit.lesson.week import find_week
+from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
 from labkit.sandbox.process import wall
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, menagerie_root, shown
@@ -59,8 +58,9 @@ def parse() -> argparse.Namespace:
     add = parser.add_argument
     add("root", type=Path, metavar="CLONES", help="folder with a clone per student")
     add("--day", metavar="N|N-M|all", help="default: 1")
-    add("--week", type=int, metavar="N", help="all days of this week")
-    where = "default: grades-dayN/grades.csv; of several days grades-days/grades.csv"
+    add("--week", type=cli.week, metavar="N", help="all days of this week")
+    where = "default: grades-dayN/grades.csv; of several days in grades-days/, of a "
+    where += "week in grades-weekN/"
     add("--out", type=file, metavar="CSV", help=where)
     add("--roster", type=Path, metavar="CSV", help="default: CLONES/roster.csv")
     add("--pull", action="store_true", help="clone what is missing, update the rest")
@@ -145,7 +145,7 @@ def chosen(text: str | None, week: int | None = None) -> list[Day]:
     if week is not None:
         if text:
             raise Robo47Error("--day and --week: name one of the two")
-        return days_of(find_week(week))
+        return days_of(chosen_week(week))
     text = text or "1"
     if text == "all":
         return all_days()
@@ -161,6 +161,19 @@ def chosen(text: str | None, week: int | None = None) -> list[Day]:
     return found
 
 
+def folder_of(days: list[Day], week: int | None) -> str:
+    """Return where the grades of these days are written, if nobody says where.
+
+    Args:
+        days: that are graded.
+        week: its number, where a whole week was asked for: each has a folder, so that
+            the grades of one are not written over by those of another.
+    """
+    if week is not None:
+        return f"grades-week{week}"
+    return "grades-days" if len(days) > 1 else f"grades-day{days[0].number}"
+
+
 def main() -> int:
     """Grade, write, and say in a few lines what came out."""
     options = parse()
@@ -168,8 +181,7 @@ def main() -> int:
         return with_kit(options.kit)
     days = chosen(options.day, options.week)
     several = len(days) > 1
-    name = "grades-days" if several else f"grades-day{days[0].number}"
-    out = options.out or Path(name) / "grades.csv"
+    out = options.out or Path(folder_of(days, options.week)) / "grades.csv"
     students = find_students(options.root, options.roster)
     platform = PLATFORMS.get(options.format)
     if platform:
@@ -184,8 +196,11 @@ def main() -> int:
         write(own, for_platform(platform, courses, options.assignment))
         print(f"wrote {shown(own.absolute())}: import it into {platform.name}")
     if options.proof:
-        week = days[-1].week.number
-        prove(students, week, out.parent / "proof", options.processes)
+        numbers = sorted({day.week.number for day in days})
+        for week in numbers:
+            place = out.parent / "proof"
+            place = place / f"week{week}" if len(numbers) > 1 else place
+            prove(students, week, place, options.processes)
     failed = tell(courses, notes, out)
     return cli.EXIT_FAILED if failed else cli.EXIT_OK
 

@@ -164,6 +164,19 @@ class Case:
     given: Sequence[str]  # the inputs in words, one per question
     # Per question of `Ask.probe` its arguments and the answer, or None.
     probes: Sequence[tuple[tuple[Any, ...], Any]] = ()
+    further: "Further | None" = None  # what a sentence must hold for as well
+
+
+@dataclass(frozen=True)
+class Further:
+    """Fresh inputs with an answer: a sentence about the main ones is held against them.
+
+    They were asked in the same round, so that costs a check nothing.
+    """
+
+    arguments: tuple[Any, ...]  # stacked, as in a `Case`
+    S: Parts  # the student's answers
+    T: Parts  # the right ones
 
 
 @dataclass(frozen=True)

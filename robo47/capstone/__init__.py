@@ -25,6 +25,7 @@ from robo47 import (
     control,
     dynamics,
     jacobian,
+    lifting,
     scenes,
     screws,
     se3,
@@ -95,7 +96,7 @@ def with_own(own: Mapping[str, Any]) -> SimpleNamespace:
     try:
         fns.heaviest_cube(1.0, 1.0, 0.0)
     except NotImplementedError:
-        fns.heaviest_cube = trajectory.heaviest_cube
+        fns.heaviest_cube = lifting.heaviest_cube
     return fns
 
 
