@@ -12,9 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from conftest import ROOT, load_script
 from robo47 import dynamics, panda, screws, verify
-
-from day4_mujoco import mujoco_energies
 
 G_EARTH = np.array([0.0, 0.0, -9.81])
 DATA = Path(__file__).parent / "data"
@@ -102,7 +101,8 @@ def test_the_energies_are_mujocos(arm):
     model, now = arm
     M = dynamics.mass_matrix(now.J, now.G, model.dof_armature)
     both = dynamics.energy(M, now.qd, now.masses, now.coms_world, G_EARTH)
-    assert_same(both, mujoco_energies(model, now.q, now.qd), 1e-12)
+    lab = load_script(ROOT / "w1-foundations/src/day4_dynamics.py")
+    assert_same(both, lab.mujoco_energies(model, now.q, now.qd), 1e-12)
 
 
 def test_pinocchio_agrees(either_panda):
