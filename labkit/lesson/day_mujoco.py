@@ -1,4 +1,4 @@
-"""Finds `import day5_mujoco`: what a day asks of MuJoCo, beside its complete lab.
+"""Finds `import dayN_mujoco`: what a day asks of MuJoCo, beside its complete lab.
 
 A student's lab lies in `work/`, the module in `src/`, and only the kit's own is found,
 wherever the lab lies: a file of that name in `work/` would be an oracle of their own.
@@ -38,7 +38,7 @@ class BesideTheLab(MetaPathFinder):
 
 
 def install() -> None:
-    """Let `import day5_mujoco` work in this Python."""
+    """Let `import dayN_mujoco` work in this Python."""
     if not any(isinstance(finder, BesideTheLab) for finder in sys.meta_path):
         sys.meta_path.insert(0, BesideTheLab())
 
