@@ -223,6 +223,24 @@ def test_the_power_of_the_dampers_is_what_V_loses_only_with_the_rate_of_M(arm):
     assert np.median(without) > 0.1  # watts
 
 
+def test_the_answers_on_paper_are_those_of_the_functions():
+    S = np.array([[0.0, 1, 0, 0, 0, 0]]).T
+    c = np.array([1.0, 0, 0])
+    g = np.array([0.0, 0, -9.81])
+    G = lab.spatial_inertia(1.0, c, np.zeros((3, 3)))
+    assert_same(G[:3, :3], np.diag([0.0, 1, 1]), 0.0)
+    assert_same(G[:3, 3:], -G[3:, :3], 0.0)
+    held = lab.gravity_torque(S, np.ones(1), c[None], g)
+    M = lab.mass_matrix(S, G[None], np.zeros(1))
+    faster = lab.inverse_dynamics(S, G[None], np.zeros(1), np.ones(1), g)
+    for answer, says in (
+        (held[0], f"turns the other way: {held[0]:.2f} N m"),
+        (M[0, 0], f"- {M[0, 0]:.0f} kg m²: with"),
+        (faster[0], f"- {faster[0]:.2f} N m: it accelerates downwards"),
+    ):
+        assert says in SENTENCES, answer
+
+
 def test_the_stone_of_step_5_is_pulled_inwards_by_the_second_term(arm):
     G = lab.spatial_inertia(1.0, np.array([1.0, 0, 0]), np.zeros((3, 3)))
     V = np.array([0.0, 0, 1, 0, 0, 0])
