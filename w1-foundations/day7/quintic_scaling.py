@@ -85,6 +85,8 @@ def _(t, T):
       quintic of t
     not-clipped: after the end (and before the start) the polynomial goes on: at 1.25 T
       s is 1.22 => the quintic without its ends
+    not-divided+not-clipped: two things at once: sd and sdd are not divided by T and
+      T^2, and after the end, and before the start, the polynomial goes on
     end-not-clipped: it waits for the start, but after the end the polynomial goes on
     start-not-clipped: it stops at the end, but before the start the polynomial is there
       already => the quintic without its start
@@ -99,6 +101,7 @@ def _(t, T):
         "sd-and-sdd-not-divided": (QUINTIC, x, 1.0),
         "t-for-x": (QUINTIC, t, 1.0),
         "not-clipped": (QUINTIC, t / T, T),
+        "not-divided+not-clipped": (QUINTIC, t / T, 1.0),
         "end-not-clipped": (QUINTIC, max(t / T, 0.0), T),
         "start-not-clipped": (QUINTIC, min(t / T, 1.0), T),
         "backwards": (QUINTIC, 1.0 - x, T),
