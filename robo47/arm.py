@@ -21,9 +21,7 @@ from numpy.typing import ArrayLike
 from robo47 import checks
 from robo47.checks import Array
 from robo47.fast.arm_state import ArmState, Constants, as_one
-
-GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s^2
-GRAVITY.flags.writeable = False  # shared by every importer
+from robo47.gravity import GRAVITY as GRAVITY
 
 
 @dataclass(frozen=True, eq=False)

@@ -110,7 +110,7 @@ def joint_torques(J_space: ArrayLike, p: ArrayLike, F: ArrayLike) -> Array:
     return (F[..., None, :] @ J)[..., 0, :]
 
 
-def dls_step(J: ArrayLike, e: ArrayLike, damping: ArrayLike) -> Array:
+def dls_step(J_site: ArrayLike, e: ArrayLike, damping: ArrayLike) -> Array:
     """Return the damped least-squares step, J^T (J J^T + damping^2 I)^-1 e.
 
     It minimises |J dq - e|^2 + damping^2 |dq|^2, so it stays short where J is near
@@ -118,7 +118,7 @@ def dls_step(J: ArrayLike, e: ArrayLike, damping: ArrayLike) -> Array:
     formulations and damped least-squares methods", IEEE Trans. SMC 16(1), 1986).
 
     Args:
-        J: Jacobian, (..., m, n).
+        J_site: site Jacobian, (..., m, n), where e is a `pose_error` in world axes.
         e: wanted motion, (..., m), in the Jacobian's frame and order.
         damping: larger is safer and slower, (...); 0 is the pseudo-inverse.
 
@@ -128,7 +128,7 @@ def dls_step(J: ArrayLike, e: ArrayLike, damping: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape, a non-finite number, or a singular J without damping.
     """
-    J = checks.array(J, "J", ("m", "n"))
+    J = checks.array(J_site, "J_site", ("m", "n"))
     e = checks.array(e, "e", J.shape[-2:-1])
     damping = checks.array(damping, "damping", ())
     Jt = np.swapaxes(J, -1, -2)
@@ -144,7 +144,7 @@ def manipulability(J: ArrayLike) -> Array:
     """Return sqrt(det(J J^T)), the product of the singular values: 0 when singular.
 
     Args:
-        J: Jacobian, (..., m, n); with m > n it is 0.
+        J: any of the three, (..., m, n), with one volume; with m > n it is 0.
 
     Returns:
         Volume of the manipulability ellipsoid but for a constant, (...) (Yoshikawa,
@@ -163,7 +163,7 @@ def null_step(J: ArrayLike, dq: ArrayLike) -> Array:
     """Return the part of dq that the hand does not feel, dq - J^+ J dq.
 
     Args:
-        J: Jacobian, (..., m, n).
+        J: any of the three, (..., m, n), with one null space.
         dq: wanted motion of the joints, (..., n).
 
     Returns:

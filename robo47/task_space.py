@@ -1,12 +1,12 @@
 """Control at the hand: the mass felt there, springs, damping and wanted pushes.
 
 Conventions: twists, errors and accelerations of the hand are (angular; linear) and
-wrenches (moment; force), both in world axes at the site. `J` is the site Jacobian:
-J qd = (omega; velocity of the site point). Only `site_bias` takes the space Jacobian,
-and says so. M is the mass matrix with armature. Metres, radians, newtons, kilograms.
-`n` joints, `m` rows of J (6 for the whole hand); leading dimensions broadcast. Every
-function raises ValueError where a shape is wrong, a number is not finite or out of
-the range that its docstring states.
+wrenches (moment; force), both in world axes at the site. `J_site` qd =
+(omega; velocity of the site point); formulas have J for short. Only `site_bias` takes
+`J_space`. M is the mass matrix with armature. Metres, radians, newtons, kilograms.
+`n` joints, `m` rows of J_site (6 for the whole hand); leading dimensions broadcast.
+Every function raises ValueError where a shape is wrong, a number is not finite or
+out of the range that its docstring states.
 
 Sources: Khatib, "A unified approach for motion and force control of robot
 manipulators", IEEE J. Robotics and Automation 3(1), 1987; Lynch and Park, Modern
@@ -21,19 +21,19 @@ from robo47.checks import Array
 from robo47.fast.vectors import cross_of, times
 
 
-def task_inertia(J: ArrayLike, M: ArrayLike) -> Array:
+def task_inertia(J_site: ArrayLike, M: ArrayLike) -> Array:
     """Return the mass and inertia that somebody pushing at the hand feels.
 
     Lambda = (J M^-1 J^T)^-1 (Khatib 1987; Modern Robotics, section 8.6).
 
     Args:
-        J: site Jacobian, (..., m, n), of full row rank (no singularity).
+        J_site: site Jacobian, (..., m, n), of full row rank (no singularity).
         M: mass matrix with armature in kg m2, (..., n, n).
 
     Returns:
         Lambda, symmetric, (..., m, m): kg m2 in the angular block, kg in the linear.
     """
-    J, M = _model(J, M)
+    J, M = _model(J_site, M)
     try:
         Lambda = np.linalg.inv(J @ np.linalg.solve(M, _T(J)))
     except np.linalg.LinAlgError:
@@ -75,7 +75,11 @@ def site_bias(J_space: ArrayLike, qd: ArrayLike, p: ArrayLike) -> Array:
 
 
 def osc_torque(
-    J: ArrayLike, Lambda: ArrayLike, bias: ArrayLike, drift: ArrayLike, acc: ArrayLike
+    J_site: ArrayLike,
+    Lambda: ArrayLike,
+    bias: ArrayLike,
+    drift: ArrayLike,
+    acc: ArrayLike,
 ) -> Array:
     """Return the torque that gives the hand a wanted acceleration.
 
@@ -83,7 +87,7 @@ def osc_torque(
     it: add damping qd, as `impedance_torque` does.
 
     Args:
-        J: site Jacobian, (..., m, n).
+        J_site: site Jacobian, (..., m, n).
         Lambda: task inertia, (..., m, m).
         bias: Coriolis, centrifugal and gravity torque in N m, (..., n).
         drift: Jdot qd, as `site_bias` returns it, (..., m).
@@ -92,20 +96,22 @@ def osc_torque(
     Returns:
         Joint torques in N m, (..., n).
     """
-    J = checks.array(J, "J", ("m", "n"))
+    J = checks.array(J_site, "J_site", ("m", "n"))
     m, n = J.shape[-2:]
     Lambda = checks.array(Lambda, "Lambda", (m, m))
     left = checks.array(acc, "acc", (m,)) - checks.array(drift, "drift", (m,))
     return times(_T(J), times(Lambda, left)) + checks.array(bias, "bias", (n,))
 
 
-def null_torque(J: ArrayLike, M: ArrayLike, Lambda: ArrayLike, tau: ArrayLike) -> Array:
+def null_torque(
+    J_site: ArrayLike, M: ArrayLike, Lambda: ArrayLike, tau: ArrayLike
+) -> Array:
     """Return the part of tau that does not accelerate the hand.
 
     (I - J^T Lambda J M^-1) tau, for which J M^-1 (its result) = 0 (Khatib 1987).
 
     Args:
-        J: site Jacobian, (..., m, n).
+        J_site: site Jacobian, (..., m, n).
         M: mass matrix with armature in kg m2, (..., n, n).
         Lambda: task inertia, (..., m, m).
         tau: wanted torques, of a posture for example, in N m, (..., n).
@@ -113,7 +119,7 @@ def null_torque(J: ArrayLike, M: ArrayLike, Lambda: ArrayLike, tau: ArrayLike) -
     Returns:
         Joint torques in N m, (..., n).
     """
-    J, M = _model(J, M)
+    J, M = _model(J_site, M)
     m, n = J.shape[-2:]
     tau = checks.array(tau, "tau", (n,))
     Lambda = checks.array(Lambda, "Lambda", (m, m))
@@ -135,7 +141,8 @@ def spring_wrench(e: ArrayLike, V_err: ArrayLike, K: ArrayLike, D: ArrayLike) ->
     """
     e, V_err = checks.same_size(e=e, V_err=V_err)
     square = (e.shape[-1], e.shape[-1])
-    K, D = checks.array(K, "K", square), checks.array(D, "D", square)
+    K = checks.array(K, "K", square)
+    D = checks.array(D, "D", square)
     return times(K, e) + times(D, V_err)
 
 
@@ -164,7 +171,7 @@ def critical_damping(K: ArrayLike, Lambda: ArrayLike) -> Array:
 
 
 def impedance_torque(
-    J: ArrayLike,
+    J_site: ArrayLike,
     wrench: ArrayLike,
     bias: ArrayLike,
     damping: ArrayLike,
@@ -176,7 +183,7 @@ def impedance_torque(
     J^T wrench + bias + damping qd + tau_null (Modern Robotics, sections 5.2, 11.7).
 
     Args:
-        J: site Jacobian, (..., m, n).
+        J_site: site Jacobian, (..., m, n).
         wrench: (moment; force) in N m and N, (..., m).
         bias: Coriolis, centrifugal and gravity torque in N m, (..., n).
         damping: of the joints in N m s/rad, one number or (..., n).
@@ -186,10 +193,11 @@ def impedance_torque(
     Returns:
         Joint torques in N m, (..., n).
     """
-    J = checks.array(J, "J", ("m", "n"))
+    J = checks.array(J_site, "J_site", ("m", "n"))
     m, n = J.shape[-2:]
     wrench = checks.array(wrench, "wrench", (m,))
-    bias, qd = checks.array(bias, "bias", (n,)), checks.array(qd, "qd", (n,))
+    bias = checks.array(bias, "bias", (n,))
+    qd = checks.array(qd, "qd", (n,))
     tau_null = checks.array(tau_null, "tau_null", (n,))
     friction = checks.per_joint(damping, "damping", qd) * qd
     return times(_T(J), wrench) + bias + friction + tau_null

@@ -1,56 +1,56 @@
 """Trajectories: a path says where, a time scaling says when.
 
 Conventions: s is the fraction of the path that is done, 0 to 1; sd and sdd are its
-derivatives in 1/s and 1/s2. Radians, metres, seconds, kilograms. `n` is the number
-of joints; leading dimensions broadcast. Before 0 and after T a scaling stands still
-at its end. Every function raises ValueError where a shape is wrong, a number is not
-finite or out of the range that its docstring states.
+derivatives in 1/s and 1/s2; a T is a pose. Radians, metres, seconds. `n` is the
+number of joints; leading dimensions broadcast. Before 0 and after its duration a
+scaling stands still. Every function raises ValueError where a shape is wrong, a
+number is not finite or out of the range that its docstring states.
 
-Sources: Lynch and Park, Modern Robotics (2017), chapter 9 (sections 9.2 and 9.3);
-section 8.2 for inertias.
+Sources: Lynch and Park, Modern Robotics (2017), chapter 9 (sections 9.2 and 9.3).
 """
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import checks, se3
+from robo47 import checks, screws, se3
 from robo47.checks import Array
+from robo47.lifting import carry as carry  # where labs have typed these three
+from robo47.lifting import grasp_pose as grasp_pose
+from robo47.lifting import heaviest_cube as heaviest_cube
 from robo47.rotation_log import log_rotation
 
-GRAVITY = 9.81  # m/s2, of `heaviest_cube`
-# The quintic's largest speed and acceleration, times T and T^2.
+# The quintic's largest speed and acceleration, times duration and its square.
 PEAK_SPEED = 15.0 / 8.0
 PEAK_ACCELERATION = 10.0 / np.sqrt(3.0)
-_TOOL_DOWN = np.diag([1.0, -1.0, -1.0])  # z down, x as the world's
 
 
-def quintic_scaling(t: ArrayLike, T: ArrayLike) -> Array:
+def quintic_scaling(t: ArrayLike, duration: ArrayLike) -> Array:
     """Return s, sd and sdd of a move that starts and stops softly.
 
-    s = 10 x^3 - 15 x^4 + 6 x^5 with x = t / T clipped to 0..1: speed and acceleration
-    are zero at both ends (Modern Robotics, section 9.2.2).
+    s = 10 x^3 - 15 x^4 + 6 x^5 with x = t / duration clipped to 0..1: speed and
+    acceleration are zero at both ends (Modern Robotics, section 9.2.2).
 
     Args:
         t: time in seconds, (...).
-        T: duration in seconds, above 0, (...).
+        duration: of the whole move in seconds, above 0, (...).
 
     Returns:
         s, sd in 1/s and sdd in 1/s2, (..., 3).
     """
     t = checks.array(t, "t", ())
-    T = checks.positive(T, "T")
-    x = np.clip(t / T, 0.0, 1.0)
+    duration = checks.positive(duration, "duration")
+    x = np.clip(t / duration, 0.0, 1.0)
     s = x**3 * (10.0 - 15.0 * x + 6.0 * x**2)
-    sd = 30.0 * x**2 * (1.0 - x) ** 2 / T
-    sdd = 60.0 * x * (1.0 - x) * (1.0 - 2.0 * x) / T**2
+    sd = 30.0 * x**2 * (1.0 - x) ** 2 / duration
+    sdd = 60.0 * x * (1.0 - x) * (1.0 - 2.0 * x) / duration**2
     return np.stack([s, sd, sdd], axis=-1)
 
 
 def quintic_duration(dq: ArrayLike, v_max: ArrayLike, a_max: ArrayLike) -> Array:
     """Return the shortest quintic within every joint's limits.
 
-    A quintic over dq peaks at 15/8 dq / T in speed and 10/sqrt(3) dq / T^2 in
-    acceleration; the slowest joint decides (Modern Robotics, section 9.2.2).
+    A quintic over dq that takes D peaks at 15/8 dq / D in speed and 10/sqrt(3) dq / D^2
+    in acceleration; the slowest joint decides (Modern Robotics, section 9.2.2).
 
     Args:
         dq: how far each joint goes in radians, either sign, (..., n).
@@ -66,7 +66,9 @@ def quintic_duration(dq: ArrayLike, v_max: ArrayLike, a_max: ArrayLike) -> Array
     return np.maximum(by_speed, by_acceleration).max(axis=-1)
 
 
-def joint_move(q0: ArrayLike, q1: ArrayLike, t: ArrayLike, T: ArrayLike) -> Array:
+def joint_move(
+    q0: ArrayLike, q1: ArrayLike, t: ArrayLike, duration: ArrayLike
+) -> Array:
     """Return q, qd and qdd on the straight line in joint space, with a quintic.
 
     q0 + (q1 - q0) s and its derivatives (Modern Robotics, section 9.2.1).
@@ -74,13 +76,13 @@ def joint_move(q0: ArrayLike, q1: ArrayLike, t: ArrayLike, T: ArrayLike) -> Arra
     Args:
         q0, q1: first and last configuration in radians, (..., n).
         t: time in seconds, (...).
-        T: duration in seconds, above 0, (...).
+        duration: of the whole move in seconds, above 0, (...).
 
     Returns:
         q, qd in rad/s and qdd in rad/s2, stacked, (..., 3, n).
     """
     q0, q1 = checks.same_size(q0=q0, q1=q1)
-    move = quintic_scaling(t, T)[..., None] * (q1 - q0)[..., None, :]
+    move = quintic_scaling(t, duration)[..., None] * (q1 - q0)[..., None, :]
     start = np.zeros_like(move)
     start[..., 0, :] = q0
     return start + move
@@ -103,43 +105,48 @@ def trapezoid(t: ArrayLike, L: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
     """
     t = checks.array(t, "t", ())
     L = checks.not_negative(L, "L")
-    v, a = checks.positive(v, "v"), checks.positive(a, "a")
+    v = checks.positive(v, "v")
+    a = checks.positive(a, "a")
     top = np.minimum(v, np.sqrt(L * a))
     ramp = top / a
-    T = L / np.where(top > 0.0, top, 1.0) + ramp  # top is 0 where there is no way to go
+    # top is 0 where there is no way to go
+    duration = L / np.where(top > 0.0, top, 1.0) + ramp
     up = np.clip(t, 0.0, ramp)
-    left = np.clip(T - t, 0.0, ramp)
-    cruise = np.clip(t - ramp, 0.0, T - 2.0 * ramp)
-    ended = t >= T
+    left = np.clip(duration - t, 0.0, ramp)
+    cruise = np.clip(t - ramp, 0.0, duration - 2.0 * ramp)
+    ended = t >= duration
     done = a * up**2 / 2.0 + top * cruise + a * (ramp**2 - left**2) / 2.0
     speed = a * np.minimum(up, left)
-    acc = np.where(t < ramp, a, np.where(t > T - ramp, -a, 0.0))
+    acc = np.where(t < ramp, a, np.where(t > duration - ramp, -a, 0.0))
     acc = np.where((t < 0.0) | ended, 0.0, acc)
     return np.stack(np.broadcast_arrays(np.where(ended, L, done), speed, acc), axis=-1)
 
 
-def quintic_coefficients(start: ArrayLike, end: ArrayLike, T: ArrayLike) -> Array:
+def quintic_coefficients(
+    start: ArrayLike, end: ArrayLike, duration: ArrayLike
+) -> Array:
     """Return the quintic through a position, speed and acceleration at both ends.
 
     Six linear equations for six coefficients (Modern Robotics, section 9.3).
 
     Args:
         start: position, speed, acceleration at t = 0, (..., 3).
-        end: the same at t = T, (..., 3).
-        T: duration in seconds, above 0, (...).
+        end: the same at t = duration, (..., 3).
+        duration: of the whole move in seconds, above 0, (...).
 
     Returns:
         Coefficients of 1, t, ..., t^5, (..., 6).
     """
-    start, end = checks.array(start, "start", (3,)), checks.array(end, "end", (3,))
-    T = checks.positive(T, "T")
+    start = checks.array(start, "start", (3,))
+    end = checks.array(end, "end", (3,))
+    duration = checks.positive(duration, "duration")
     powers = np.arange(6)
-    first = powers * T[..., None] ** np.maximum(powers - 1, 0)
-    second = powers * (powers - 1) * T[..., None] ** np.maximum(powers - 2, 0)
-    A = np.zeros((*T.shape, 6, 6))
+    first = powers * duration[..., None] ** np.maximum(powers - 1, 0)
+    second = powers * (powers - 1) * duration[..., None] ** np.maximum(powers - 2, 0)
+    A = np.zeros((*duration.shape, 6, 6))
     A[..., 0, 0] = A[..., 1, 1] = 1.0
     A[..., 2, 2] = 2.0
-    A[..., 3, :] = T[..., None] ** powers
+    A[..., 3, :] = duration[..., None] ** powers
     A[..., 4, :] = first
     A[..., 5, :] = second
     wanted = np.concatenate(np.broadcast_arrays(start, end), axis=-1)
@@ -159,86 +166,16 @@ def straight_pose(T0: ArrayLike, T1: ArrayLike, s: ArrayLike) -> Array:
     Returns:
         Pose, (..., 4, 4).
     """
-    T0, T1 = checks.pose(T0, "T0"), checks.pose(T1, "T1")
+    T0 = checks.pose(T0, "T0")
+    T1 = checks.pose(T1, "T1")
     s = checks.array(s, "s", ())
     R0 = T0[..., :3, :3]
     p0 = T0[..., :3, 3]
     turn = log_rotation(np.swapaxes(R0, -1, -2) @ T1[..., :3, :3])
     angle = np.linalg.norm(turn, axis=-1)
     axis = np.where(angle[..., None] > 0.0, turn, [0.0, 0.0, 1.0])
-    R = R0 @ se3.axis_angle(axis, s * angle)
+    R = R0 @ screws.axis_angle(axis, s * angle)
     return se3.make_T(R, p0 + s[..., None] * (T1[..., :3, 3] - p0))
-
-
-def grasp_pose(T_world_cube: ArrayLike, above: ArrayLike) -> Array:
-    """Return the tool's pose over a cube: pointing down, fingers along a near side.
-
-    A cube looks the same after a quarter turn, so its yaw is folded into +-45 degrees:
-    from READY_Q the tool is never far to turn.
-
-    Args:
-        T_world_cube: pose of a cube that stands on one of its faces, its z axis up
-            or down, (..., 4, 4).
-        above: height of the tool over the cube's centre in metres, (...).
-
-    Returns:
-        T_world_tcp, (..., 4, 4); its z axis points down.
-    """
-    T_world_cube = checks.pose(T_world_cube, "T_world_cube")
-    above = checks.array(above, "above", ())
-    yaw = np.arctan2(T_world_cube[..., 1, 0], T_world_cube[..., 0, 0])
-    quarter = np.pi / 2.0
-    R = se3.Rz(yaw - np.round(yaw / quarter) * quarter) @ _TOOL_DOWN
-    up = np.stack([np.zeros_like(above), np.zeros_like(above), above], axis=-1)
-    return se3.make_T(R, T_world_cube[..., :3, 3] + up)
-
-
-def carry(
-    m1: ArrayLike, c1: ArrayLike, I1: ArrayLike,
-    m2: ArrayLike, c2: ArrayLike, I2: ArrayLike,
-) -> Array:  # fmt: skip
-    """Return the one body that two bodies are when the first holds the second.
-
-    Masses add up; the inertias are moved to the common centre of mass by the
-    parallel-axis theorem, I + m (d.d 1 - d d^T), and added (Modern Robotics,
-    section 8.2.1).
-
-    Args:
-        m1, m2: masses in kg, at least 0 and not both 0, (...).
-        c1, c2: centres of mass in metres, in one frame for both, (..., 3).
-        I1, I2: inertias about the own centre of mass, in the axes of that frame,
-            kg m2, (..., 3, 3).
-
-    Returns:
-        Mass, centre of mass (3) and inertia about it as MuJoCo's fullinertia orders
-        it (xx, yy, zz, xy, xz, yz), (..., 10).
-    """
-    m1, m2 = checks.not_negative(m1, "m1"), checks.not_negative(m2, "m2")
-    c1, c2 = checks.array(c1, "c1", (3,)), checks.array(c2, "c2", (3,))
-    I1, I2 = checks.array(I1, "I1", (3, 3)), checks.array(I2, "I2", (3, 3))
-    m = checks.positive(m1 + m2, "m1 + m2")
-    c = (m1[..., None] * c1 + m2[..., None] * c2) / m[..., None]
-    inertia = I1 + _parallel_axis(m1, c1 - c) + I2 + _parallel_axis(m2, c2 - c)
-    six = inertia[..., [0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
-    out = np.empty((*np.broadcast_shapes(m.shape, c.shape[:-1], six.shape[:-1]), 10))
-    out[..., 0], out[..., 1:4], out[..., 4:] = m, c, six
-    return out
-
-
-def heaviest_cube(grip: ArrayLike, mu: ArrayLike, acceleration: ArrayLike) -> Array:
-    """Return the mass that two fingers lift: 2 mu grip = m (g + acceleration).
-
-    Args:
-        grip: force of one finger in newtons, at least 0, (...).
-        mu: coefficient of friction, at least 0, (...).
-        acceleration: upwards, in m/s2, above -9.81, (...).
-
-    Returns:
-        Mass in kg, (...).
-    """
-    grip, mu = checks.not_negative(grip, "grip"), checks.not_negative(mu, "mu")
-    lift = GRAVITY + checks.array(acceleration, "acceleration", ())
-    return 2.0 * mu * grip / checks.positive(lift, "9.81 + acceleration")
 
 
 def _limit(value: ArrayLike, name: str, dq: Array) -> Array:
@@ -247,8 +184,3 @@ def _limit(value: ArrayLike, name: str, dq: Array) -> Array:
     none = np.isposinf(value)
     finite = checks.per_joint(np.where(none, 1.0, value), name, dq)
     return np.where(none, np.inf, checks.positive(finite, name))
-
-
-def _parallel_axis(m: Array, d: Array) -> Array:
-    square = (d * d).sum(axis=-1)[..., None, None] * np.eye(3)
-    return m[..., None, None] * (square - d[..., :, None] * d[..., None, :])

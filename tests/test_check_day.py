@@ -246,7 +246,7 @@ class TestHint:
         self, run_in, work, day, clone
     ):
         solution = "T[:3, :3] = R"
-        (clone / ".robo47").mkdir()
+        (clone / ".robo47").mkdir(exist_ok=True)
         (clone / ".robo47/hints.json").write_text('{"1.1": 9}')
         assert solution not in run_in(HINT, "1.1").stdout
         solve(day, work, "make_T")
@@ -257,7 +257,7 @@ class TestHint:
         assert run_in(HINT).stdout.startswith("1.2 ")
 
     def test_survives_a_memory_that_is_no_json(self, run_in, clone):
-        (clone / ".robo47").mkdir()
+        (clone / ".robo47").mkdir(exist_ok=True)
         (clone / ".robo47/hints.json").write_text("[1, {")
         assert "hint 1 of" in run_in(HINT, "1.4").stdout
 

@@ -60,7 +60,7 @@ def cpu() -> str:
 
 
 def measure(parts: Iterable[str], results: dict[str, Any]) -> dict[str, str]:
-    """Run parts and write each result when it is there; a failure ends none but its own.
+    """Run parts, write each result when it is there, and go on where one fails.
 
     Args:
         parts: names of PARTS.

@@ -116,7 +116,7 @@ def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
 
 def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Finding:
     if off <= near_miss.SINGLE and near_miss.single_precision(replies(asked.main), S):
-        says = f"Right, but in float32: off by {off:.0e}. The labs use float64."
+        says = "Right, but in float32, so to 7 digits. The labs use float64."
         return Finding("float32", says)
     i = worst_part(case.ask.kinds, S, T, case.ask.near)
     found = case.ask.near_miss(case) if case.ask.near_miss else None

@@ -31,6 +31,7 @@ from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
 
 NEAR = 1e-4  # entries that differ by less are not called wrong
+ROUNDED_AWAY = 1e12  # rounding divided by nothing: its digits are the processor's
 RIGHT = 1e-6  # and those that differ by less are called right
 
 
@@ -112,7 +113,8 @@ class Kind:
             return "0"
         unit = f" {self.unit}" if self.unit else ""
         entry = " in one entry" if self.shape else ""
-        return f"{off[at]:.3g}{unit}{entry}"
+        digits = f"{off[at]:.3g}" if off[at] < ROUNDED_AWAY else "1e+12 and more"
+        return f"{digits}{unit}{entry}"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
         """Return the most useful true thing about answers that no mistake gives."""

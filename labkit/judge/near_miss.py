@@ -23,16 +23,20 @@ def explain(S: Array, T: Array) -> Finding:
     if found := rounded(S, T):
         return found
     off = difference(S, T).max()
+    inside = off < SINGLE_INSIDE
+    # What rounding leaves has other digits on another processor; its size has not.
+    size = 10.0 ** np.round(np.log10(max(off, 1e-16)))
+    about = f"about {size:.0e}" if inside else f"{off:.1e}"
     why = (
         "as float32, a difference quotient, a small damping or a loop that stops too "
         "early leaves it."
-        if off < SINGLE_INSIDE
+        if inside
         else "so a number is rounded (is one typed by hand, such as 3.14 or 0.707?), a "
         "derivative is a difference quotient, or what is small counts as 0."
     )
     return Finding(
         "rounded-somewhere",
-        f"Close, but not equal: off by {off:.1e} where 1e-15 is usual, {why}",
+        f"Close, but not equal: off by {about} where 1e-15 is usual, {why}",
     )
 
 

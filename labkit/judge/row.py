@@ -302,7 +302,10 @@ class Row:
         else:
             asked = (InTurn if self._truth else AtOnce)(self.truth)
             more["truth"] = _Answered(self.truth, asked, self)
-        return Ask(mistakes=self._mistakes, **more)
+        try:
+            return Ask(mistakes=self._mistakes, **more)
+        except Robo47Error as error:
+            raise self._fault(f"row cannot be asked: {error}") from None
 
     def _mistakes(self) -> list[Mistake]:
         return [Mistake(w.slug, w.says, InTurn(w.code), w.redone) for w in self.named]

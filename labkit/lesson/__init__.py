@@ -4,10 +4,12 @@
                 manifest is read
     day         its manifest, day.toml: tasks, hints, deliverables, limits; the Python
                 files of its folder, imported by path
+    last_day    the day that a student worked on last
     lab         what every lab script does the same way: say, check, record
     metric      what a row of the log must be: a number, and its range
     writers     which file wrote a row, and what the row is worth now
     sealed      a complete lab that nobody reads by accident
+    day_mujoco  what a day asks of MuJoCo, found beside its complete lab
     lab_module  a lab script read and loaded: as text, and as a module
     starter     made of the complete lab: the tasks taken out, and put back
     borrowed    the kit's own functions in a student's file, so that they can go on

@@ -1,4 +1,4 @@
-"""3.5 `dls_step(J, e, damping)`: its questions and its mistakes."""
+"""3.5 `dls_step(J_site, e, damping)`: its questions and its mistakes."""
 
 import numpy as np
 

@@ -1,12 +1,11 @@
-"""4.6 `bias_torque(J, G, qd, g)`: its questions; its mistakes, and the recursion's."""
+"""4.6 `bias_torque(J_space, G, qd, g)`: questions, mistakes, the recursion's too."""
 
 from functools import partial
 
 import numpy as np
 
 from labkit.judge import Row
-from robo47.dynamics import inverse_dynamics, mass_matrix
-from robo47.screws import ad
+from robo47.dynamics import ad, inverse_dynamics, mass_matrix
 
 from .states import TORQUE, motions
 

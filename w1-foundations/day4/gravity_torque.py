@@ -1,4 +1,4 @@
-"""4.4 `gravity_torque(J, masses, coms_world, g)`: its questions and its mistakes."""
+"""4.4 `gravity_torque(J_space, masses, coms_world, g)`: questions, mistakes."""
 
 from functools import partial
 
@@ -41,15 +41,15 @@ def torque(
 def _(J, masses, coms_world, g):
     """gravity-sign: the sign is wrong: this is the torque of gravity itself, and the
       motors have to balance it. The arm would fall twice as fast => its negative
-    velocity-of-the-origin: the lower half of J is the velocity of the point at the
-      world's origin; the weight acts at the centre of mass => the torque with v instead
-      of v + omega x c
+    velocity-of-the-origin: the lower half of J_space is the velocity of the point at
+      the world's origin; the weight acts at the centre of mass => the torque with v
+      instead of v + omega x c
     cross-product-sign: the velocity of the centre of mass is v + omega x c; here it is
       v + c x omega => the torque with v + c x omega
     v-left-out: the velocity of the centre of mass is v + omega x c; here v is missing
       => the torque with omega x c alone
-    omega-rows-for-v: the upper half of J is used as the velocity; that is omega => the
-      torque with omega for v
+    omega-rows-for-v: the upper half of J_space is used as the velocity; that is omega
+      => the torque with omega for v
     all-mass-at-the-last-centre: all mass sits at the last link's centre; each link has
       one of its own => the torque with that centre for all
     signs-lost: no torque is negative here: a motor has to pull the other way as well
@@ -105,7 +105,7 @@ def centre_not_weighted(J, masses, coms_world, g):
     return tau
 
 
-row.of_argument("J", HALVES_SWAPPED.called("rows-swapped"))
+row.of_argument("J_space", HALVES_SWAPPED.called("rows-swapped"))
 row.of_argument("g", *OTHER_GRAVITY)
 
 

@@ -1,4 +1,4 @@
-"""4.3 `mass_matrix(J, G, armature)`: its questions and its mistakes."""
+"""4.3 `mass_matrix(J_space, G, armature)`: its questions and its mistakes."""
 
 from functools import update_wrapper
 
@@ -11,7 +11,7 @@ from robo47.dynamics import mass_matrix
 from .states import hinge, states
 
 row = Row(Symmetric((7, 7), "kg m2"))
-row.of_argument("J", HALVES_SWAPPED)
+row.of_argument("J_space", HALVES_SWAPPED)
 
 
 @row.inputs
@@ -62,8 +62,8 @@ def cut(J, G, armature):
       that move it
     own-joint-only: only a link's own joint counts for it; all joints before move it,
       too
-    J-overwritten: only the first joint counts: the columns are set to 0 in J itself,
-      and are gone for the next link. Work on a copy
+    J-overwritten: only the first joint counts: the columns are set to 0 in J_space
+      itself, and are gone for the next link. Work on a copy
     last-link-left-out: the last link is left out: range(n - 1) ends one too early
     last-link-only: only the last link has a mass here
     """
@@ -94,10 +94,12 @@ def _(J, G, armature):
       positive definite all the same => M with those signs
     corners-dropped: turning and moving are added up separately: what ties them, the
       corners of G, is missing => M without the corners of G
-    angular-half-only: only the turning counts: the lower half of J, how fast the links
-      move, is not used => M from the upper half of J and the top left block of G
-    linear-half-only: only the lower half of J counts, and of G the mass; a link that
-      turns has energy, too => M from the lower half of J and the lower right block of G
+    angular-half-only: only the turning counts: the lower half of J_space, how fast the
+      links move, is not used => M from the upper half of J_space and the top left block
+      of G
+    linear-half-only: only the lower half of J_space counts, and of G the mass; a link
+      that turns has energy, too => M from the lower half of J_space and the lower right
+      block of G
     """
     flip = np.diag([1, 1, 1, -1, -1, -1])
     upper = np.array([1, 1, 1, 0, 0, 0])[:, None]

@@ -12,7 +12,9 @@ from compare import assert_same
 from conftest import ROOT, load_script, need, paper
 from labkit.lesson.day import find_day
 from robo47 import dynamics, panda, simulate, verify
-from robo47.verify import links
+
+import day4_mujoco
+from day3_mujoco import beyond
 
 GUIDE = (ROOT / "w1-foundations/docs/day4-lab.md").read_text("utf-8")
 PAGE = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
@@ -39,7 +41,7 @@ def mass_matrices(arm, model):
     wrong = {}
     for x in q:
         now = arm.at(x)
-        bad = links.wrong_on_purpose(
+        bad = day4_mujoco.wrong_on_purpose(
             lab.link_inertias, now.T_links, *panda.inertias(model)
         )
         for what, G in bad.items():
@@ -71,7 +73,7 @@ def test_the_wrong_sign_is_an_arm_with_its_masses_at_minus_c(arm):
     flip = np.diag([1.0, 1, 1, -1, -1, -1])
     body = (arm.masses, arm.coms, arm.inertias)
     R = now.T_links[:, :3, :3]
-    wrong = links.wrong_on_purpose(lab.link_inertias, now.T_links, *body)[
+    wrong = day4_mujoco.wrong_on_purpose(lab.link_inertias, now.T_links, *body)[
         "m [c] with the wrong sign"
     ]
     own = R @ arm.inertias @ np.swapaxes(R, 1, 2)
@@ -130,12 +132,12 @@ def test_50_n_drive_the_arm_into_its_limits_and_10_do_not(arm, model, newtons, h
     data = simulate.start(model, panda.READY_Q)
     runs = [simulate.run(model, data, law, seconds, rate=lab.RATE, push=given)
             for seconds, given in ((0.5, push), (4.5, None))]  # fmt: skip
-    assert (verify.beyond(model.jnt_range, np.vstack([r.q for r in runs])) > 0) == hits
+    assert (beyond(model.jnt_range, np.vstack([r.q for r in runs])) > 0) == hits
 
 
 def test_without_torque_a_joint_is_at_its_limit_after_a_quarter_of_a_second(model):
     data = simulate.start(model, panda.READY_Q)
-    while verify.beyond(model.jnt_range, data.qpos[None]) <= 0:
+    while beyond(model.jnt_range, data.qpos[None]) <= 0:
         mujoco.mj_step(model, data)
     assert data.time == pytest.approx(0.25, abs=0.01)
     assert "at a joint limit after a quarter of a second" in SENTENCES
@@ -242,9 +244,9 @@ def test_rk4_asks_four_times_a_step(model):
 
 
 def test_the_integrator_loses_energy_in_proportion_to_its_step():
-    first, half = (links.swing("IMPLICITFAST", step) for step in (0.002, 0.001))
+    first, half = (day4_mujoco.swing("IMPLICITFAST", step) for step in (0.002, 0.001))
     assert 1.8 < first / half < 2.2
-    assert abs(links.swing("RK4", 0.002)) < 1e-6 * abs(first)
+    assert abs(day4_mujoco.swing("RK4", 0.002)) < 1e-6 * abs(first)
 
 
 # -- errata ---------------------------------------------------------------------------

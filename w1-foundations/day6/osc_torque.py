@@ -1,4 +1,4 @@
-"""6.3 `osc_torque(J, Lambda, bias, drift, acc)`: its questions and its mistakes."""
+"""6.3 `osc_torque(J_site, Lambda, bias, drift, acc)`: questions, mistakes."""
 
 import numpy as np
 

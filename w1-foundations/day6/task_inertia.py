@@ -1,4 +1,4 @@
-"""6.1 `task_inertia(J, M)`: its questions and its mistakes."""
+"""6.1 `task_inertia(J_site, M)`: its questions and its mistakes."""
 
 import numpy as np
 
@@ -32,7 +32,7 @@ NEARLY_SINGULAR = HeldOut(
     mistaken=lambda J, M: np.linalg.pinv(J @ np.linalg.solve(M, J.T), 1e-3),
 )
 row = Row(Symmetric((6, 6)), unnamed=damped, held_out=[NEARLY_SINGULAR])
-row.of_argument("J", HALVES_SWAPPED.called("rows-swapped"))
+row.of_argument("J_site", HALVES_SWAPPED.called("rows-swapped"))
 
 
 @row.inputs

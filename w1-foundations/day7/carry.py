@@ -3,7 +3,7 @@
 import numpy as np
 
 from labkit.judge import Row, Vector, rounded
-from robo47.trajectory import carry
+from robo47.lifting import carry
 
 TEN = ("the mass", "x", "y", "z", "xx", "yy", "zz", "xy", "xz", "yz")
 

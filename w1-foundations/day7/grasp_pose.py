@@ -6,7 +6,7 @@ import numpy as np
 
 from labkit.judge import Pose, Row, rounded
 from robo47 import se3
-from robo47.trajectory import grasp_pose
+from robo47.lifting import grasp_pose
 
 DOWN = np.diag([1.0, -1.0, -1.0])
 QUARTER = np.pi / 2

@@ -1,4 +1,4 @@
-"""7.3 `joint_move(q0, q1, t, T)`: its questions and its mistakes."""
+"""7.3 `joint_move(q0, q1, t, duration)`: its questions and its mistakes."""
 
 import numpy as np
 
@@ -42,9 +42,9 @@ def _(q0, q1, t, T):
       is missing => the answer with sd and sdd for every joint
     rates-of-the-goal: in the speed and the acceleration, q1 stands where the way q1 -
       q0 belongs => the answer with q1 sd and q1 sdd
-    rates-divided-again: the speed and the acceleration are divided by T again; sd and
-      sdd are derivatives with respect to t already => the answer with sd / T and sdd /
-      T^2
+    rates-divided-again: the speed and the acceleration are divided by the duration
+      again; sd and sdd are derivatives with respect to t already => the answer with sd
+      / duration and sdd / duration^2
     q-wrapped: the angles are wrapped into +-pi; a joint's angle is no direction, and
       joint6 goes up to 3.75 rad => the answer with q wrapped
     way-wrapped: the way is wrapped into +-pi, the shorter way round; a joint cannot go
@@ -82,6 +82,6 @@ def _(q0, q1, t, T):
     return (1 - s) * q0 + s * q1, (q1 - q0) * sd, (q1 - q0) * sdd
 
 row.at_least_0(
-    T="how long the move takes",
+    duration="how long the move takes",
     t="before 0 it stands at its start, as at 0",
 )

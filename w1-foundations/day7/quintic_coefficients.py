@@ -1,4 +1,4 @@
-"""7.5 `quintic_coefficients(start, end, T)`: its questions and its mistakes."""
+"""7.5 `quintic_coefficients(start, end, duration)`: its questions and its mistakes."""
 
 import numpy as np
 
@@ -71,9 +71,9 @@ def _(rng):
 def _(start, end, T):
     """descending: the highest power comes first; the constant has to
     ends-swapped: it goes from the end to the start => the answer with the ends swapped
-    in-powers-of-x: these are the coefficients of powers of t / T, not of t
-    T-is-1: T does not count: the end's conditions are those at t = 1 => the answer with
-      the coefficients for T = 1
+    in-powers-of-x: these are the coefficients of powers of t / duration, not of t
+    T-is-1: the duration does not count: the end's conditions are those at t = 1 => the
+      answer with the coefficients for 1 s
     cubic: this is a cubic: both accelerations are left out => the cubic
     accelerations-zero: the accelerations at the ends are taken as 0; they are given
     rest-to-rest: speeds and accelerations at the ends are taken as 0; they are given
@@ -107,4 +107,4 @@ def _(start, end, T):
     five = (12 * h - 6 * (v1 + v0) * T + (a1 - a0) * T**2) / (2 * T**5)
     return np.array([q0, v0, a0 / 2, three, four, five])
 
-row.at_least_0(T="how long the move takes")
+row.at_least_0(duration="how long the move takes")

@@ -58,11 +58,11 @@ def _(dq, v_max, a_max):
       so this breaks the speed limit by a quarter => the duration with 1.5
     average-speed: the time dq / v would do for a move that is always at its top speed;
       this one starts and stops softly => the duration with dq / v
-    peak-upside-down: the peak speed is 15/8 dq / T; here it is turned into 8/15
+    peak-upside-down: the peak speed is 15/8 dq / duration; here it is turned into 8/15
     peak-at-a-quarter: 5.625 is the acceleration at a quarter of the time; its peak is a
       little earlier, where its derivative is 0 => the duration with 5.625
-    peak-acceleration: the peak acceleration is 10 / sqrt(3) times dq / T^2; the root is
-      lost => the duration with 10/3
+    peak-acceleration: the peak acceleration is 10 / sqrt(3) times dq / duration^2; the
+      root is lost => the duration with 10/3
     """
     peaks = {
         "peak-of-the-cubic": {"speed": 1.5},
@@ -82,8 +82,8 @@ def _(dq, v_max, a_max):
       acceleration
     both-added: the time for the speed and the time for the acceleration are added; one
       way keeps both limits if it takes the longer of the two => their sum
-    shorter-of-two: it takes the shorter of the two durations, which breaks one of
-      the limits; the longer one keeps both => the smaller of the two
+    shorter-of-two: it takes the shorter of the two durations, which breaks one of the
+      limits; the longer one keeps both => the smaller of the two
     fastest-joint: it takes the joint that needs least; all the others break their
       limits => the smallest of the joints' durations
     one-length: the ways of all joints are put together as one length, |dq|; each joint
@@ -96,7 +96,8 @@ def _(dq, v_max, a_max):
     speed-only: only the speed limits count; a short move breaks the acceleration's
     acceleration-only: only the acceleration limits count; a long move breaks the
       speed's => the duration by acceleration
-    root-forgotten: acceleration falls with T squared, so T is a square root
+    root-forgotten: acceleration falls with the duration squared, so the duration is a
+      square root
     added-up: the two durations are added; the longer one keeps both limits
     peak-of-the-cubic 2: 6 is the cubic's peak acceleration; the quintic's is where the
       derivative of its acceleration is 0 => the duration with 6

@@ -1,4 +1,4 @@
-"""7.1 `quintic_scaling(t, T)`: its questions and its mistakes."""
+"""7.1 `quintic_scaling(t, duration)`: its questions and its mistakes."""
 
 from functools import partial
 
@@ -78,20 +78,22 @@ def _(t, T):
       the task is the quintic => the polynomial of degree 7
     6-and-10-swapped: the factors 6 and 10 are swapped: s ends at 1, but still moving =>
       the quintic with 6 and 10 swapped
-    sign-of-15: the factor 15 has the wrong sign: s(T) is 31 => the quintic with +15
+    sign-of-15: the factor 15 has the wrong sign: at its end s is 31 => the quintic with
+      +15
     sd-and-sdd-not-divided: each of sd and sdd is the derivative with respect to x = t /
-      T; with respect to t, each derivative divides by T once more
-    t-for-x: the time itself stands where t / T belongs, so T does not count => the
-      quintic of t
-    not-clipped: after the end (and before the start) the polynomial goes on: at 1.25 T
-      s is 1.22 => the quintic without its ends
-    not-divided+not-clipped: two things at once: sd and sdd are not divided by T and
-      T^2, and after the end, and before the start, the polynomial goes on
+      duration; with respect to t, each derivative divides by the duration once more
+    t-for-x: the time itself stands where t / duration belongs, so the duration does not
+      count => the quintic of t
+    not-clipped: after the end (and before the start) the polynomial goes on: at 1.25
+      times the duration s is 1.22 => the quintic without its ends
+    not-divided+not-clipped: two things at once: sd and sdd are not divided by the
+      duration and its square, and after the end, and before the start, the polynomial
+      goes on
     end-not-clipped: it waits for the start, but after the end the polynomial goes on
     start-not-clipped: it stops at the end, but before the start the polynomial is there
       already => the quintic without its start
     backwards: it runs from 1 to 0: the remaining time stands where the time belongs =>
-      the quintic of 1 - t / T
+      the quintic of 1 - t / duration
     """
     x = np.clip(t / T, 0.0, 1.0)
     given = {
@@ -111,20 +113,22 @@ def _(t, T):
 
 @row.wrongs
 def _(t, T):
-    """sd-not-divided: the entry sd is the derivative with respect to x = t / T; with
-      respect to t, each derivative divides by T once more => sd without 1/T
-    sdd-not-divided: the entry sdd is the derivative with respect to x = t / T; with
-      respect to t, each derivative divides by T once more => sdd without 1/T^2
-    sdd-divided-once: the entry sdd is divided by T once; it is a second derivative =>
-      sdd with 1/T
-    multiplied-by-T: the derivatives are multiplied by T, where the chain rule divides
-      => the answer with T and T^2 as factors
-    t-for-x: the time itself, clipped to 0..1, stands where t / T belongs => the quintic
-      of t
+    """sd-not-divided: the entry sd is the derivative with respect to x = t / duration;
+      with respect to t, each derivative divides by the duration once more => sd without
+      1/duration
+    sdd-not-divided: the entry sdd is the derivative with respect to x = t / duration;
+      with respect to t, each derivative divides by the duration once more => sdd
+      without 1/duration^2
+    sdd-divided-once: the entry sdd is divided by the duration once; it is a second
+      derivative => sdd with 1/duration
+    multiplied-by-T: the derivatives are multiplied by the duration, where the chain
+      rule divides => the answer with the duration and its square as factors
+    t-for-x: the time itself, clipped to 0..1, stands where t / duration belongs => the
+      quintic of t
     only-s-clipped: s stops at the end, but sd and sdd go on: it says that it moves and
       stands => the answer without the ends of sd and sdd
     order: the order is s, sd, sdd; here the derivatives are swapped
-    t-for-x 2: the time itself stands where t / T belongs => the quintic of t
+    t-for-x 2: the time itself stands where t / duration belongs => the quintic of t
     order 2: the order is s, sd, sdd; here it runs backwards => the order sdd, sd, s
     """
     right = quintic_scaling(t, T)
@@ -173,6 +177,6 @@ def _(t, T):
     return np.array([s(x), sd, (s(x + h) - 2 * s(x) + s(x - h)) / (h * T) ** 2])
 
 row.at_least_0(
-    T="how long the move takes",
+    duration="how long the move takes",
     t="before 0 it stands at its start, as at 0",
 )

@@ -69,7 +69,7 @@ def _(t, L, v, a):
     triangle-too-soon: it becomes a triangle already below L = 2 v^2 / a, and its top is
       over v then; the two ramps take v^2 / a in all => the triangle below 2 v^2 / a
     ramps-take-no-time: the duration is L / v, as if it were at v from the first moment;
-      the ramps cost one ramp more => the profile with T = L / v
+      the ramps cost one ramp more => the profile with the duration L / v
     """
     top = timing(L, v, a)[0]
     return {
@@ -134,8 +134,8 @@ def _(t, L, v, a):
 @row.wrongs
 def _(t, L, v, a):
     """both-ramps-added: the duration is one ramp's time, v / a, too long: compared with
-      full speed, each ramp costs only half of its own time => the profile with T = L
-      / v + 2 v / a
+      full speed, each ramp costs only half of its own time => the profile with the
+      duration L / v + 2 v / a
     braking-accelerates: while it slows down the acceleration is negative => the profile
       with +a at the end
     half-forgotten: in the first piece, the way of a ramp is a t^2 / 2, not a t^2
