@@ -62,15 +62,20 @@ def carry(
         Mass, centre of mass (3) and inertia about it as MuJoCo's fullinertia orders
         it (xx, yy, zz, xy, xz, yz), (..., 10).
     """
-    m1, m2 = checks.not_negative(m1, "m1"), checks.not_negative(m2, "m2")
-    c1, c2 = checks.array(c1, "c1", (3,)), checks.array(c2, "c2", (3,))
-    I1, I2 = checks.array(I1, "I1", (3, 3)), checks.array(I2, "I2", (3, 3))
+    m1 = checks.not_negative(m1, "m1")
+    m2 = checks.not_negative(m2, "m2")
+    c1 = checks.array(c1, "c1", (3,))
+    c2 = checks.array(c2, "c2", (3,))
+    I1 = checks.array(I1, "I1", (3, 3))
+    I2 = checks.array(I2, "I2", (3, 3))
     m = checks.positive(m1 + m2, "m1 + m2")
     c = (m1[..., None] * c1 + m2[..., None] * c2) / m[..., None]
     inertia = I1 + _parallel_axis(m1, c1 - c) + I2 + _parallel_axis(m2, c2 - c)
     six = inertia[..., [0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
     out = np.empty((*np.broadcast_shapes(m.shape, c.shape[:-1], six.shape[:-1]), 10))
-    out[..., 0], out[..., 1:4], out[..., 4:] = m, c, six
+    out[..., 0] = m
+    out[..., 1:4] = c
+    out[..., 4:] = six
     return out
 
 
@@ -85,7 +90,8 @@ def heaviest_cube(grip: ArrayLike, mu: ArrayLike, acceleration: ArrayLike) -> Ar
     Returns:
         Mass in kg, (...).
     """
-    grip, mu = checks.not_negative(grip, "grip"), checks.not_negative(mu, "mu")
+    grip = checks.not_negative(grip, "grip")
+    mu = checks.not_negative(mu, "mu")
     lift = checks.array(acceleration, "acceleration", ()) - GRAVITY[2]
     return 2.0 * mu * grip / checks.positive(lift, "9.81 + acceleration")
 

@@ -214,7 +214,8 @@ def pose_distance(T_a: ArrayLike, T_b: ArrayLike) -> tuple[Array, Array]:
     Raises:
         ValueError: wrong shape, a non-finite number, or not a pose.
     """
-    T_a, T_b = checks.pose(T_a, "T_a"), checks.pose(T_b, "T_b")
+    T_a = checks.pose(T_a, "T_a")
+    T_b = checks.pose(T_b, "T_b")
     metres = np.linalg.norm(T_a[..., :3, 3] - T_b[..., :3, 3], axis=-1)
     R_ab = np.swapaxes(T_a[..., :3, :3], -1, -2) @ T_b[..., :3, :3]
     q = R_to_quat(R_ab)

@@ -105,7 +105,8 @@ def trapezoid(t: ArrayLike, L: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
     """
     t = checks.array(t, "t", ())
     L = checks.not_negative(L, "L")
-    v, a = checks.positive(v, "v"), checks.positive(a, "a")
+    v = checks.positive(v, "v")
+    a = checks.positive(a, "a")
     top = np.minimum(v, np.sqrt(L * a))
     ramp = top / a
     # top is 0 where there is no way to go
@@ -136,7 +137,8 @@ def quintic_coefficients(
     Returns:
         Coefficients of 1, t, ..., t^5, (..., 6).
     """
-    start, end = checks.array(start, "start", (3,)), checks.array(end, "end", (3,))
+    start = checks.array(start, "start", (3,))
+    end = checks.array(end, "end", (3,))
     duration = checks.positive(duration, "duration")
     powers = np.arange(6)
     first = powers * duration[..., None] ** np.maximum(powers - 1, 0)
@@ -164,7 +166,8 @@ def straight_pose(T0: ArrayLike, T1: ArrayLike, s: ArrayLike) -> Array:
     Returns:
         Pose, (..., 4, 4).
     """
-    T0, T1 = checks.pose(T0, "T0"), checks.pose(T1, "T1")
+    T0 = checks.pose(T0, "T0")
+    T1 = checks.pose(T1, "T1")
     s = checks.array(s, "s", ())
     R0 = T0[..., :3, :3]
     p0 = T0[..., :3, 3]

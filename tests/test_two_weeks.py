@@ -26,7 +26,7 @@ FACTS = {
     "heading": "Week 1: foundations",
     "name": "Ada --> <script>alert(1)</script>",
     "functions": "3 of 9",
-    "pick": "",
+    "capstone": "",
 }
 
 

@@ -34,9 +34,9 @@ from pathlib import Path
 from typing import Any
 
 from labkit.base import cli, git, processes, store
-from labkit.base.text import visible
+from labkit.base.text import count, visible
 from labkit.grade import engine, page
-from labkit.grade.classroom import Classroom, pull, write_all
+from labkit.grade.classroom import Again, Classroom, pull, write_all
 from labkit.grade.course import Course, percent
 from labkit.grade.journal import Journal
 from labkit.grade.package import version
@@ -238,6 +238,17 @@ def kit_at(tag: str) -> Path:
     return folder
 
 
+def again_of(text: str | None) -> Again:
+    """Return whom `--again` means: nobody without it, everybody where it stands alone.
+
+    Args:
+        text: None without it, "" where it stands alone, folders with commas between.
+    """
+    if text is None:
+        return Again()
+    return Again(folders=text.split(",")) if text else Again(everybody=True)
+
+
 def grade_days(
     days: list[Day], students: list[Student], out: Path, options: argparse.Namespace
 ) -> tuple[list[Course], dict[str, str]]:
@@ -254,6 +265,7 @@ def grade_days(
     """
     courses = list[Course]()
     notes = dict[str, str]()
+    again = again_of(options.again)
     where = engine.dask(options.dask, options.i_know_them) if options.dask else None
     with where or engine.local(options.processes) as it:
         for day in days:
@@ -270,19 +282,27 @@ def grade_days(
                     drawn = f"fresh inputs for everybody: --seed {journal.seed}"
                     print(f"kit: {version()}; {drawn}")
                     notes = pull(students) if options.pull else {}
-                again = options.again and options.again.split(",")
-                again = () if again is None else (again or None)
-                how = (again, options.frozen, options.keep, notes)
-                room = Classroom(students, day, journal, *how)
+                room = Classroom(
+                    students,
+                    day,
+                    journal,
+                    again=again,
+                    frozen=options.frozen,
+                    keep=options.keep,
+                    notes=notes,
+                )
                 course = room.grade(it, own.parent / "feedback")
                 write_all(course, own, anonymous=options.anonymous)
-            count = course.counts
-            words = ", ".join(
-                f"{count[state]} {state}" for state in page.ROLES if count[state]
-            )
-            print(f"Day {day.number}, {len(students):,} students: {words}", flush=True)
+            print(f"Day {day.number}, {standings(course)}", flush=True)
             courses.append(course)
     return courses, notes
+
+
+def standings(course: Course) -> str:
+    """Return how many students a day has, and how many are in each state."""
+    number = course.counts
+    words = [f"{number[state]} {state}" for state in page.ROLES if number[state]]
+    return f"{count(len(course.class_), 'student')}: {', '.join(words)}"
 
 
 def prove(students: list[Student], week: int, folder: Path, at_once: int) -> None:

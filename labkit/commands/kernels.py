@@ -2,7 +2,7 @@
 
     make kernels                              Prescott, Haswell, SkylakeX
     python3 scripts/kernels.py Nehalem Zen    as on others that OpenBLAS knows
-    python3 scripts/kernels.py --others       not this machine's: `make test` has it
+    python3 scripts/kernels.py --others       all but this machine's own
 
 Each runs the tests of the days and of the library. The first, which is the most
 different, runs the authors' of them too, and compares the documents' outputs. What

@@ -19,13 +19,14 @@ from tempfile import TemporaryDirectory
 from labkit.base import cli, git, store
 from labkit.base.git import GitError, read_history
 from labkit.base.text import visible
+from labkit.check.own_functions import capstone_of
 from labkit.fresh import FRESH
 from labkit.grade.roster import Student
 from labkit.lesson.day import chosen_week, days_of
 from labkit.lesson.week import Week
 from labkit.proof import door, page
+from labkit.proof.capstone import NO_CAPSTONE, attempt
 from labkit.proof.facts import RunDay, facts_of
-from labkit.proof.pick import NO_PICK, pick
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, ROOT, shown
@@ -92,12 +93,13 @@ def found(week: Week, clone: Path, name: str = "", *, own: bool = False) -> page
             print(f"  day {day.number}: {theirs}", flush=True)
         if all("not begun" in one.states.values() for one in known):
             raise Robo47Error("nothing is begun that could be shown: make start DAY=1")
-        picked = NO_PICK
+        tried = NO_CAPSTONE
         if week.capstone:
-            with cli.busy("the pick"):
-                picked = pick(known, folders, sandbox)
+            capstone = capstone_of(week)
+            with cli.busy(capstone.NAME):
+                tried = attempt(capstone, known, folders, sandbox)
     fresh = store.read(FRESH) if own else {}
-    return page.Proof(name, own, history.commit, known, picked, fresh)
+    return page.Proof(name, own, history.commit, known, tried, fresh)
 
 
 def write(path: Path, text: str) -> None:

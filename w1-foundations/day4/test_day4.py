@@ -14,6 +14,7 @@ from labkit.lesson.day import find_day
 from robo47 import dynamics, panda, simulate, verify
 
 import day4_mujoco
+from day3_mujoco import beyond
 
 GUIDE = (ROOT / "w1-foundations/docs/day4-lab.md").read_text("utf-8")
 PAGE = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
@@ -131,12 +132,12 @@ def test_50_n_drive_the_arm_into_its_limits_and_10_do_not(arm, model, newtons, h
     data = simulate.start(model, panda.READY_Q)
     runs = [simulate.run(model, data, law, seconds, rate=lab.RATE, push=given)
             for seconds, given in ((0.5, push), (4.5, None))]  # fmt: skip
-    assert (verify.beyond(model.jnt_range, np.vstack([r.q for r in runs])) > 0) == hits
+    assert (beyond(model.jnt_range, np.vstack([r.q for r in runs])) > 0) == hits
 
 
 def test_without_torque_a_joint_is_at_its_limit_after_a_quarter_of_a_second(model):
     data = simulate.start(model, panda.READY_Q)
-    while verify.beyond(model.jnt_range, data.qpos[None]) <= 0:
+    while beyond(model.jnt_range, data.qpos[None]) <= 0:
         mujoco.mj_step(model, data)
     assert data.time == pytest.approx(0.25, abs=0.01)
     assert "at a joint limit after a quarter of a second" in SENTENCES

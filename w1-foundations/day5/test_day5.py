@@ -112,7 +112,7 @@ def test_gains_outside_m_overdamp_the_light_joints(armature, creeps):
     ahead, behind = ((e[t.searchsorted(x), wrist] / lab.error_response(x, 20.0, 1.0))
                      for x in (0.02, 0.3))  # fmt: skip
     assert (ahead < 0.95).all() == (behind > 2.0).all() == creeps
-    assert "a damping ratio near 3, so they set off fast and creep" in GUIDE
+    assert "a damping ratio near 3, so they start fast and crawl" in GUIDE
 
 
 def test_torques_taken_for_angles_switch_the_motors_from_limit_to_limit():
@@ -208,13 +208,45 @@ def test_what_each_part_of_the_model_is_worth(bench, part, mrad, row):
     assert row in GUIDE
 
 
-def test_the_feedforward_does_most_of_the_tracking_and_the_springs_the_rest(bench):
-    alone = swing(bench, lab.feedforward, lab.RATE)
+def test_the_model_at_q_does_most_of_the_tracking_and_the_springs_the_rest(bench):
+    alone = swing(bench, lab.without_springs, lab.RATE)
     whole = swing(bench, lab.equal_springs(), lab.RATE)
     springs = swing(bench, lab.springs_and_gravity, lab.RATE)
-    assert f"the same swing is off by {alone:.0f} mrad, ninety times" in GUIDE
+    assert f"that leaves {alone:.0f} mrad, ninety times as much" in GUIDE
     assert 85 < alone / whole < 95
     assert springs > alone
+
+
+def unsprung(rate, step=0.002, gravity=True):
+    """Return the swing's error without springs, mrad: model at q, and feedforward."""
+    model = lab.day5_mujoco.motors()
+    model.opt.timestep = step
+    model.opt.gravity[:] *= gravity
+    bench = model, panda.arm(model)
+    return [swing(bench, law, rate) for law in (lab.without_springs, lab.feedforward)]
+
+
+@pytest.mark.parametrize(
+    ("rate", "step", "gravity", "row"),
+    [
+        (250.0, 0.002, True, "| 250 Hz | {:.1f} mrad | {:,.0f} mrad |"),
+        (500.0, 0.002, True, "| 500 Hz | {:.1f} | {:,.0f} |"),
+        (1000.0, 0.001, True, "| 1,000 Hz (steps of 1 ms) | {:.1f} | {:,.0f} |"),
+        (2000.0, 0.0005, True, "| 2,000 Hz (steps of 0.5 ms) | {:.1f} | {:,.0f} |"),
+        (250.0, 0.002, False, "| 250 Hz, no gravity | {:.1f} | {:.1f} |"),
+    ],
+)
+def test_a_torque_known_beforehand_is_lost_to_gravity_and_to_the_held_torque(
+    rate, step, gravity, row
+):
+    assert row.format(*unsprung(rate, step, gravity)) in GUIDE
+
+
+def test_the_feedforward_ends_with_joint4_at_its_stop(bench):
+    log = lab.run(*bench, lab.feedforward, raised_cosine, 2.0)
+    stop = bench[0].jnt_range[3, 1]
+    assert log.q[:, 3].max() > stop
+    assert "with joint4 at its stop" in GUIDE
 
 
 def test_servos_lag_by_kd_over_kp_times_the_speed():
@@ -407,3 +439,22 @@ def test_a_servo_as_a_motor_is_let_down_by_the_integrator_alone(bench):
 def test_the_motors_limits_are_those_of_the_guide(bench):
     assert_same(simulate.limits(bench[0])[1], [87, 87, 87, 87, 12, 12, 12], 0.0)
     assert "87 N m for joints 1 to 4 and 12 N m for 5 to 7" in GUIDE
+
+
+@pytest.mark.parametrize("kd", [20.0, 40.0, 0.0])
+def test_the_energy_of_springs_and_gravity_falls_while_the_arm_moves(bench, kd):
+    model, arm = bench
+    start = lab.READY_Q - lab.E0
+
+    def law(arm, q, qd, ref):
+        g = arm.at(q).gravity_torque
+        against = kd * qd if kd else -arm.damping * qd  # no damper: friction undone
+        return lab.gravity_pd(ref[0] - q, 0.0 * qd, lab.KP, 0.0, g) - against
+
+    log = lab.run(model, arm, law, references.hold(lab.READY_Q), 1.0, start, 500.0)
+    e = lab.READY_Q - log.q
+    moving = [qd @ arm.at(q).M @ qd for q, qd in zip(log.q, log.qd, strict=True)]
+    V = (np.array(moving) + lab.KP * np.sum(e * e, axis=1)) / 2
+    falls = (np.diff(V) < 0).mean()
+    assert (falls == 1.0) if kd else (V[-1] > 0.8 * V[0])
+    assert "it falls whenever the arm moves" in GUIDE

@@ -313,7 +313,7 @@ def test_the_predictions_of_the_side_quest():
     assert says(f"and {lab.heaviest_cube(0.9247, 1.0, up):.3f} kg while")
     assert says(f"bound is {lab.heaviest_cube(0.9247, 0.3, up):.3f} kg")
     inner = scenes.PAD_POS[1] - scenes.PAD_HALF[1]  # a pad's face, from its finger
-    assert says(f"each pad stands {1000 * inner:.1f} mm before its finger")
+    assert says(f"each pad protrudes {1000 * inner:.1f} mm from its finger")
     assert scenes.CUBE_HALF - inner == pytest.approx(0.0185)
 
 
@@ -386,3 +386,31 @@ def test_the_tab_plays_the_capstone_with_ones_own_functions(monkeypatch):
     )
     assert tab.replay(20.0) is False
     assert "placed 0.9 mm from its goal" in tab.page.say.call_args.args[0]
+
+
+def test_the_predictions_can_be_made_from_what_the_guide_says():
+    numbers = lambda q: "(" + ", ".join(f"{x:g}" for x in np.round(q, 3)) + ")"  # noqa: E731
+    assert says(f"from ready, {numbers(lab.READY_Q)}, to {numbers(lab.GOAL_Q)} rad")
+    speeds = np.repeat([2.175, 2.61], [4, 3])
+    assert_same(lab.V_MAX, speeds, 0.0)
+    assert says("Joints 1 to 4 may do 2.175 rad/s, 5 to 7 2.61")
+    assert_same(lab.A_MAX, [15, 7.5, 10, 12.5, 15, 20, 20], 0.0)
+    assert says("7.5, 10, 12.5, 15, 20 and 20 rad/s²")
+
+
+def test_the_code_of_the_72_yaws_finds_the_17_that_fail(capsys, monkeypatch):
+    monkeypatch.syspath_prepend(str((ROOT / SCRIPT).parent))
+    code = paper_code("len(fails)")
+    exec(code, {})
+    assert capsys.readouterr().out.startswith("17 [-175, ")
+    exec(code.replace("place =", "limits[6] = -7, 7\nplace ="), {})
+    assert capsys.readouterr().out == "0 []\n"
+
+
+def paper_code(words):
+    """Return the one block of Python in the guide that holds these words."""
+    text = (ROOT / "w1-foundations/docs/day7-lab.md").read_text("utf-8")
+    (code,) = (
+        one for one in re.findall(r"```python\n(.*?)```", text, re.S) if words in one
+    )
+    return code

@@ -1,4 +1,6 @@
-"""MuJoCo's links, and random motions of the arm that functions of dynamics are asked.
+"""What Day 4 asks its functions: random bodies and motions, mistakes, a free swing.
+
+The calls that the lab is held against stand in the lab; MuJoCo's own swing is here.
 
 Inertias are 6x6 about the world's origin, (angular; linear), in world axes. SI units.
 """
@@ -14,9 +16,6 @@ from robo47.fast import dynamics
 from robo47.panda import READY_Q
 from robo47.verify.answers import Function, each
 from robo47.verify.oracle import (
-    mujoco_acceleration,
-    mujoco_mass_matrix,
-    mujoco_step,
     random_q,
 )
 
@@ -34,7 +33,6 @@ class Motions(NamedTuple):
     armature: Array  # of the arm, n times
     damping: Array  # likewise
     g: Array  # likewise
-    M: Array  # MuJoCo's mass matrices, (n, 7, 7)
 
 
 def motions(
@@ -50,50 +48,40 @@ def motions(
     *links, armature, damping, g = (np.array([x] * n) for x in fixed)
     J, T = np.array([x.J_space for x in now]), np.array([x.T_links for x in now])
     coms = np.array([x.coms_world for x in now])
-    M = mujoco_mass_matrix(model, q)
-    return Motions(q, qd, qdd, J, T, coms, links, armature, damping, g, M)
+    return Motions(q, qd, qdd, J, T, coms, links, armature, damping, g)
 
 
-def momenta(spatial_inertia: Function, n: int, rng: np.random.Generator) -> Array:
-    """Return G V of n random clouds of points minus their momenta, (n, 6).
+class Clouds(NamedTuple):
+    """Bodies of eight points each, that turn and move."""
 
-    A momentum (angular; linear) is added up point by point; G is given the cloud's
-    mass, centre and inertia.
-    """
-    clouds = [(rng.uniform(-1, 1, (8, 3)), rng.uniform(0.1, 1, 8)) for _ in range(n)]
-    off = []
-    for (points, weights), V in zip(clouds, rng.normal(size=(n, 6)), strict=True):
+    m: Array  # masses, kg, (n,)
+    c: Array  # centres of mass, (n, 3)
+    inertia: Array  # about the centres, (n, 3, 3)
+    V: Array  # twists, (n, 6)
+    momentum: Array  # (angular; linear), added up point by point, (n, 6)
+
+
+def clouds(n: int, rng: np.random.Generator) -> Clouds:
+    """Return n random clouds of points."""
+    bodies = [(rng.uniform(-1, 1, (8, 3)), rng.uniform(0.1, 1, 8)) for _ in range(n)]
+    twists = rng.normal(size=(n, 6))
+    rows = []
+    for (points, weights), V in zip(bodies, twists, strict=True):
         c = weights @ points / weights.sum()
         d = points - c
         inertia = np.eye(3) * (weights @ d**2).sum() - (weights * d.T) @ d
         p = weights[:, None] * (V[3:] + np.cross(V[:3], points))
         momentum = np.concatenate([np.cross(points, p).sum(0), p.sum(0)])
-        off.append(spatial_inertia(weights.sum(), c, inertia) @ V - momentum)
-    return np.array(off)
+        rows.append((weights.sum(), c, inertia, V, momentum))
+    return Clouds(*(np.array(column) for column in zip(*rows, strict=True)))
 
 
-def crosses(ad: Function, n: int, rng: np.random.Generator) -> Array:
-    """Return ad(V) W of n random twists minus the cross products, (n, 6)."""
-    V, W = rng.normal(size=(2, n, 6))
-    (w, v), (w2, v2) = np.split(V, 2, axis=1), np.split(W, 2, axis=1)
-    truth = np.hstack([np.cross(w, w2), np.cross(v, w2) + np.cross(w, v2)])
-    return (each(ad, V) @ W[..., None])[..., 0] - truth
+class Wrong(NamedTuple):
+    """What a mistake does to the mass matrices, at worst."""
 
-
-def mujoco_inertias(
-    model: mujoco.MjModel, q: Array, spatial_inertia: Function
-) -> list[Array]:
-    """Return spatial_inertia of link1 to link7 from where MuJoCo says they are."""
-    data = mujoco.MjData(model)
-    G = []
-    data.qpos[:] = q
-    mujoco.mj_kinematics(model, data)  # fills xipos, ximat: centre and principal axes
-    for i in [model.body(f"link{n}").id for n in range(1, 8)]:
-        R = data.ximat[i].reshape(3, 3)
-        c = data.xipos[i]
-        inertia = R @ np.diag(model.body_inertia[i]) @ R.T
-        G.append(spatial_inertia(model.body_mass[i], c, inertia))
-    return G
+    off: float  # from MuJoCo's
+    asymmetric: float
+    least: float  # eigenvalue
 
 
 def wrong_on_purpose(
@@ -118,13 +106,9 @@ def wrong_on_purpose(
 
 
 def wrong_masses(
-    link_inertias: Function, mass_matrix: Function, at: Motions
-) -> dict[str, tuple[float, float, float]]:
-    """Return what mistakes do to the mass matrices.
-
-    Returns:
-        {what is wrong: (off by, asymmetric by, least eigenvalue)}.
-    """
+    link_inertias: Function, mass_matrix: Function, at: Motions, truth: Array
+) -> dict[str, Wrong]:
+    """Return {what is wrong: what it does}; truth, (n, 7, 7), is MuJoCo's."""
     found = {}
     bodies = zip(at.T, *at.links, strict=True)
     bad = [wrong_on_purpose(link_inertias, *x) for x in bodies]
@@ -132,44 +116,14 @@ def wrong_masses(
         own = each(mass_matrix, at.J, np.array([one[what] for one in bad]), at.armature)
         skewed = np.abs(own - np.swapaxes(own, 1, 2)).max()
         least = np.linalg.eigvalsh(own).min()
-        found[what] = float(np.abs(own - at.M).max()), float(skewed), float(least)
+        off = np.abs(own - truth).max()
+        found[what] = Wrong(float(off), float(skewed), float(least))
     return found
 
 
-def library_masses(model: mujoco.MjModel, n: int, seed: int) -> Array:
-    """Return the library's mass matrices of many q minus MuJoCo's, (n, 7, 7)."""
-    q = random_q(model, n, seed)
-    return dynamics.mass_matrix(panda.arm(model), q) - mujoco_mass_matrix(model, q)
-
-
-def forwards(
-    model: mujoco.MjModel, at: Motions, M: Array, bias: Array, own: Function
-) -> tuple[Array, Array]:
-    """Return forward_dynamics minus MuJoCo's qdd, and its next qd minus MuJoCo's.
-
-    Args:
-        model: of the arm, with motors.
-        at, M, bias: motions, and mass matrices and bias torques there.
-        own: the lab's forward_dynamics.
-    """
-    rng = np.random.default_rng(len(M))
-    h = model.opt.timestep
-    tau = simulate.limits(model)[1] * rng.uniform(-0.5, 0.5, at.q.shape)
-    off = each(own, M, bias, at.damping, at.qd, tau)
-    off = off - mujoco_acceleration(model, at.q, at.qd, tau)
-    slower = M + h * np.diag(at.damping[0])  # implicitfast brakes at its step's end
-    after = at.qd + h * each(own, slower, bias, at.damping, at.qd, tau)
-    return off, after - mujoco_step(model, at.q, at.qd, tau)
-
-
-def mujoco_energies(model: mujoco.MjModel, q: Array, qd: Array) -> Array:
-    """Return MuJoCo's kinetic and potential energy of link1 to link7, J, (n, 2)."""
-    model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY  # else they stay 0
-    link0 = model.body("link0")  # never moves, but MuJoCo counts its weight
-    still = -link0.mass[0] * model.opt.gravity @ link0.ipos
-    states = zip(q, qd, strict=True)
-    found = np.array([simulate.start(model, *state).energy for state in states])
-    return found[:, ::-1] - [0.0, still]
+def library_masses(model: mujoco.MjModel, q: Array) -> Array:
+    """Return the library's mass matrices of configurations q, (n, 7, 7)."""
+    return dynamics.mass_matrix(panda.arm(model), q)
 
 
 def swing(integrator: str, timestep: float) -> float:
@@ -184,8 +138,9 @@ def swing(integrator: str, timestep: float) -> float:
     model.dof_damping[:] = 0.0
     model.jnt_limited[:] = 0
     model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator}")
-    data = simulate.start(model, READY_Q)
+    model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY  # else energy stays 0
+    data = simulate.start(model, READY_Q)  # its mj_forward fills energy
+    before = data.energy.sum()
     mujoco.mj_step(model, data, round(1.0 / timestep))
-    q = np.array([data.qpos, READY_Q])
-    qd = np.array([data.qvel, np.zeros(7)])
-    return -float(np.diff(mujoco_energies(model, q, qd).sum(axis=1))[0])
+    mujoco.mj_forward(model, data)  # mj_step leaves the energy of the step before
+    return float(data.energy.sum() - before)

@@ -8,13 +8,14 @@ Radians, rad/s, N m, seconds. The model (M, bias) comes from Day 4's library.
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
-import day5_mujoco
 import mujoco
 import numpy as np
 
 from robo47 import cli, control, panda, references, scenes, simulate
 from robo47.lesson.lab import Lab
 from robo47.verify import each
+
+import day5_mujoco
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 DRIVE = "torque"  # motors, in N m; "servo" would take the same numbers for angles
@@ -167,26 +168,31 @@ def equal_springs(omega: float = OMEGA, zeta: float = 1.0):
     return lambda *now: with_model(*now, kp, kd)
 
 
-def feedforward(arm, q, qd, ref):
-    """Give the model's torque for the reference's acceleration: no springs at all."""
+def without_springs(arm, q, qd, ref):
+    """Give the model's torque for the reference's acceleration, where the arm is."""
     return with_model(arm, q, qd, (q, qd, ref[2]), 0.0, 0.0)
+
+
+def feedforward(arm, q, qd, ref):
+    """Give the model's torque on the reference: known beforehand, nothing measured."""
+    return without_springs(arm, ref[0], ref[1], ref)
 
 
 def gains_outside(arm, q, qd, ref):
     """Give the public page's torque: the model's, and springs that M does not scale."""
     kp, kd = gains(OMEGA, 1.0)
-    return feedforward(arm, q, qd, ref) + pd_torque(ref[0] - q, ref[1] - qd, kp, kd)
+    return without_springs(arm, q, qd, ref) + pd_torque(ref[0] - q, ref[1] - qd, kp, kd)
 
 
 def with_integral(ki: float = KI, clamp: float = CLAMP, dt: float = 1.0 / RATE):
-    """Return the feedforward of an acceleration that comes from PID."""
+    """Return the model's torque for an acceleration that comes from PID."""
     kp, kd = gains(OMEGA, 1.0)
     total = np.zeros(7)
 
     def law(arm, q, qd, ref):
         nonlocal total
         acc, total = pid_step(ref[0] - q, ref[1] - qd, total, kp, kd, ki, dt, clamp)
-        return feedforward(arm, q, qd, (*ref[:2], ref[2] + acc))
+        return without_springs(arm, q, qd, (*ref[:2], ref[2] + acc))
 
     return law
 
@@ -217,8 +223,9 @@ def tracking(log, reference) -> np.ndarray:
 
 
 def off_inverse(model, arm, at: day5_mujoco.States) -> np.ndarray:
-    """Return computed_torque minus MuJoCo's torque for the same acceleration, (n, 7)."""
-    kp, kd = 400.0, 28.0  # omega 20, zeta 0.7
+    """Return computed_torque minus MuJoCo's torque for that acceleration, (n, 7)."""
+    kp = 400.0  # omega 20, zeta 0.7
+    kd = 28.0
     data = mujoco.MjData(model)
     off = []
     for q, qd, e, ed, qdd_ref in zip(*at, strict=True):
@@ -234,7 +241,7 @@ def off_inverse(model, arm, at: day5_mujoco.States) -> np.ndarray:
 
 
 def off_library(at: day5_mujoco.States) -> dict:
-    """Return how far the others are from robo47.control: MuJoCo has no call for them."""
+    """Return how far the others are from robo47.control: MuJoCo has none of them."""
     own = {
         "pd_torque": pd_torque,
         "gains": gains,
@@ -252,11 +259,12 @@ def off_library(at: day5_mujoco.States) -> dict:
 
 
 def ladder(model, arm, swing) -> dict:
-    """Return how far off a swing of all joints six controllers are, mrad, (N, 7)."""
+    """Return how far off a swing of all joints seven controllers are, mrad, (N, 7)."""
     laws = {
         "springs": springs,
         "springs and gravity": springs_and_gravity,
-        "no springs, M at q": feedforward,
+        "feedforward": feedforward,
+        "model at q, no springs": without_springs,
         "gains outside M": gains_outside,
         "computed torque": equal_springs(),
     }
@@ -333,7 +341,7 @@ def main() -> int:
     off = (READY_Q - log.q) / E0 - error_response(log.t, OMEGA, 1.0)[:, None]
     print(f"  gains outside M miss their curve by {np.abs(off).max():.3f} of e0")
 
-    lab.step("4. Six controllers follow a swing of all joints, largest error")
+    lab.step("4. Seven controllers follow a swing of all joints, largest error")
     for name, off in ladder(model, arm, swing).items():
         print(f"  {name:24} {off.max():8.2f} mrad")
     lab.record("tracking", off.max(axis=1), label="computed torque, mrad")

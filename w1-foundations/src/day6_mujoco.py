@@ -86,6 +86,31 @@ def rest_after(
     return jacobian.pose_error(T, T_end)
 
 
+def released(
+    model: mujoco.MjModel, law: simulate.Controller, e: ArrayLike, size: float
+) -> Array:
+    """Return the part of the hand's error along e, released that way from ready, (n,).
+
+    Args:
+        model: of the arm, with motors.
+        law: pulls the hand back to its pose at `READY_Q`.
+        e: the direction, (6,).
+        size: the first error is size times e, rad and m.
+    """
+    arm = panda.arm(model)
+    goal = arm.at(READY_Q).T_world_ee
+    e = np.asarray(e, dtype=np.float64)
+
+    def error(q: Array) -> Array:
+        return jacobian.pose_error(arm.at(q).T_world_ee, goal)
+
+    q = READY_Q
+    for _ in range(50):
+        q = q + np.linalg.pinv(arm.at(q).J_site) @ (error(q) - size * e)
+    run = simulate.run(model, simulate.start(model, q), law, 3.0)
+    return np.array([error(q) for q in run.q]) @ e / (size * e @ e)
+
+
 def circle(t: float, T_start: ArrayLike, radius: float, turn: float) -> Motion:
     """Return where a hand should be that sets off from rest on an upright circle.
 

@@ -8,7 +8,6 @@ wrench is (moment; force). M is with armature. Metres, radians, newtons, kilogra
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
-import day6_mujoco
 import mujoco
 import numpy as np
 
@@ -16,6 +15,8 @@ from robo47 import cli, control, jacobian, panda, scenes, screws, simulate, veri
 from robo47 import task_space as library
 from robo47.lesson.lab import Lab
 from robo47.rotation_log import small_pose_error
+
+import day6_mujoco
 
 READY_Q = panda.READY_Q
 TRIALS = 50  # random states that your own code is judged on
@@ -274,7 +275,7 @@ def off_held(model, arm, at: list) -> np.ndarray:
 
 
 def off_library(name: str, own, at: list) -> np.ndarray:
-    """Return how far a function is from robo47.task_space: MuJoCo has no call for it."""
+    """Return how far a function is from robo47.task_space: MuJoCo has none of them."""
     columns = day6_mujoco.arguments(at)[name]
     truth = getattr(library, name)(*columns)
     return verify.each(own, *columns) - truth
@@ -312,7 +313,7 @@ def main() -> int:
     Lambda = task_inertia(arm.at(READY_Q).J_site, arm.at(READY_Q).M)
     lab.show("Lambda's lower right at ready, in kg", Lambda[3:, 3:], 3)
     free = 1 / np.diag(np.linalg.inv(Lambda))[3:]
-    lab.show("and of a hand that nobody holds: what it weighs along x, y, z", free, 3)
+    lab.show("and the apparent mass of an unconstrained hand, along x, y, z", free, 3)
     # Newton's law at the hand; MuJoCo pushes, and knows nothing of Lambda.
     lab.record("task_inertia", mass_felt(model, at, task_inertia),
                label="|Lambda a - F| / |F|, worst push",

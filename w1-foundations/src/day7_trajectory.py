@@ -10,7 +10,6 @@ maps x coordinates to the world. Metres, radians, seconds, kilograms.
 from dataclasses import replace
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
-import day7_mujoco
 import mujoco
 import numpy as np
 
@@ -26,6 +25,8 @@ from robo47 import (
     verify,
 )
 from robo47.lesson.lab import Lab
+
+import day7_mujoco
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s2
@@ -269,8 +270,8 @@ def pick(lab: Lab) -> None:
     """Pick the cube up and put it down, with your functions of today."""
     done = capstone.pick(capstone.with_own(globals()), rate=PICK_RATE)
     most = done.heaviest
-    print(f"  predicted: this grip lifts up to {most:.3f} kg; the cube has 0.08")
-    lab.measured("heaviest cube that the grip lifts, kg", most)
+    print(f"  predicted: this lift takes up to {most:.3f} kg; the cube has 0.08")
+    lab.measured("heaviest cube while the lift speeds up, kg", most)
     print(f"  lifted to {done.lift:.3f} m; {done.seconds:.2f} s in all; at most")
     print(f"  {done.torque:.2f} of the torque limits, {done.speed:.2f} of the speed's;")
     print(f"  the hand never more than {done.line_mm:.2f} mm off its straight lines")
