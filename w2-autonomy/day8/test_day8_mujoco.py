@@ -47,10 +47,10 @@ def test_dry_friction_has_the_sign_of_qd_and_a_bit_of_qdd():
 
 def test_a_hold_without_friction_ends_where_it_should_and_shows_the_load():
     arm, q = panda.arm(model), panda.READY_Q[None]
-    at, torque = day8_mujoco.holds(model, arm, q)
+    at, torque = day8_mujoco.holds(model, arm, q, 2.0)
     assert_same(at[:, 0], [panda.READY_Q] * 2, 1e-6)
     assert_same(torque, np.zeros((2, 1, 7)), 1e-3)
-    at, torque = (each[0] for each in day8_mujoco.holds(hung, arm, q))
+    at, torque = (each[0] for each in day8_mujoco.holds(hung, arm, q, 2.0))
     extra = verify.mujoco_bias(hung, at, 0 * at) - verify.mujoco_bias(model, at, 0 * at)
     assert_same(torque, extra, 1e-4)
 
