@@ -31,6 +31,7 @@ HEADER = ",".join(COLUMNS)
 BOM = codecs.BOM_UTF8
 HEAD = 4096  # bytes of a log that are looked at for its header, of 98
 INTEGERS = frozenset({"day", "seed", "n_trials", "n_failures"})
+TEXTS = frozenset(COLUMNS) - INTEGERS - {"date", "value"}
 # Python's csv module, and with it many readers, gives up on a longer field.
 LONGEST = 131_072
 
@@ -42,6 +43,7 @@ _UNWRITABLE = re.compile("[\r\n\0\ud800-\udfff]")
 # A spreadsheet runs such a text as a formula; the apostrophe makes it plain text.
 _FORMULA = re.compile("'*[=+@-]")
 _GUARDED = re.compile("'+[=+@-]")
+_GUARDS = frozenset("'=+@-")  # what either begins with
 
 
 def line_end(head: bytes) -> bytes | None:
@@ -75,6 +77,9 @@ def typed(fields: Mapping[str, object], allow_nonfinite: bool) -> tuple[Row, lis
     faults = [_unknown(name) for name in fields if name not in COLUMNS]
     for name in COLUMNS:
         given = fields.get(name)
+        if _as_it_is(name, given):
+            row[name] = given  # type: ignore[assignment]
+            continue
         if not allow_nonfinite and _is_nonfinite(name, given):
             faults.append(
                 f'"{name}" is {given}, which no threshold can judge: find out why, or'
@@ -97,7 +102,7 @@ def _unknown(name: str) -> str:
 
 def encode(row: Row) -> str:
     """Return a typed row as one CSV line, without the line end."""
-    return ",".join([_cell(name, row[name]) for name in COLUMNS])
+    return ",".join([_cell(row[name]) for name in COLUMNS])
 
 
 def decode(cells: list[str]) -> Row:
@@ -122,6 +127,16 @@ def is_open_quote(line: str) -> bool:
     except csv.Error:  # longer than the csv module reads
         return line.count('"') % 2 == 1
     return reader.line_num > 1
+
+
+def _as_it_is(name: str, given: object) -> bool:
+    """Return whether a value needs nothing done: most do not, and a row is quick."""
+    kind = type(given)
+    if kind is str:
+        return name in TEXTS and given.isprintable() and len(given) <= LONGEST  # type: ignore[attr-defined,arg-type]
+    if kind is float:
+        return name == "value" and math.isfinite(given)  # type: ignore[arg-type]
+    return kind is int and name in INTEGERS
 
 
 def _typed(name: str, given: object) -> Cell:
@@ -169,12 +184,12 @@ def _is_nonfinite(name: str, given: object) -> bool:
         return False
 
 
-def _cell(name: str, value: Cell) -> str:
+def _cell(value: Cell) -> str:
     if value is None:
         return ""
     if not isinstance(value, str):
         return repr(value)
-    if _FORMULA.match(value):
+    if value[:1] in _GUARDS and _FORMULA.match(value):
         value = "'" + value
     if "," in value or '"' in value:
         return '"' + value.replace('"', '""') + '"'
