@@ -161,9 +161,15 @@ def test_a_part_that_fails_is_named_the_others_stand_and_its_old_numbers_say_so(
     assert written["tests"] == kept["tests"]
     assert "growth" not in written
     said = capsys.readouterr()
-    assert "bench: tests failed, and has its last result: ValueError: the rival broke" in said.err
-    assert "bench: growth failed, and has no result: ValueError: the rival broke" in said.err
-    tests, checker = said.out.split("make test:")[1], said.out.split("make test:")[0]
+    assert (
+        "bench: tests failed, and has its last result: ValueError: the rival broke"
+        in said.err
+    )
+    assert (
+        "bench: growth failed, and has no result: ValueError: the rival broke"
+        in said.err
+    )
+    checker, _, tests = said.out.partition("make test:")
     assert "OLD: this part failed now" in tests
     assert "OLD" not in checker
 

@@ -31,7 +31,13 @@ HEADER = ",".join(COLUMNS)
 BOM = codecs.BOM_UTF8
 HEAD = 4096  # bytes of a log that are looked at for its header, of 98
 INTEGERS = frozenset({"day", "seed", "n_trials", "n_failures"})
-TEXTS = frozenset(COLUMNS) - INTEGERS - {"date", "value"}
+# A value of its column's kind needs little done; a date must be looked into.
+_KINDS: dict[str, type | None] = {
+    **dict.fromkeys(COLUMNS, str),
+    **dict.fromkeys(INTEGERS, int),
+    "value": float,
+    "date": None,
+}
 # Python's csv module, and with it many readers, gives up on a longer field.
 LONGEST = 131_072
 
@@ -75,9 +81,13 @@ def typed(fields: Mapping[str, object], allow_nonfinite: bool) -> tuple[Row, lis
     """
     row: Row = {}
     faults = [_unknown(name) for name in fields if name not in COLUMNS]
-    for name in COLUMNS:
+    for name, kind in _KINDS.items():
         given = fields.get(name)
-        if _as_it_is(name, given):
+        if type(given) is kind and (
+            given.isprintable() and len(given) <= LONGEST
+            if isinstance(given, str)
+            else kind is int or math.isfinite(given)  # type: ignore[arg-type]
+        ):
             row[name] = given  # type: ignore[assignment]
             continue
         if not allow_nonfinite and _is_nonfinite(name, given):
@@ -127,16 +137,6 @@ def is_open_quote(line: str) -> bool:
     except csv.Error:  # longer than the csv module reads
         return line.count('"') % 2 == 1
     return reader.line_num > 1
-
-
-def _as_it_is(name: str, given: object) -> bool:
-    """Return whether a value needs nothing done: most do not, and a row is quick."""
-    kind = type(given)
-    if kind is str:
-        return name in TEXTS and given.isprintable() and len(given) <= LONGEST  # type: ignore[attr-defined,arg-type]
-    if kind is float:
-        return name == "value" and math.isfinite(given)  # type: ignore[arg-type]
-    return kind is int and name in INTEGERS
 
 
 def _typed(name: str, given: object) -> Cell:
