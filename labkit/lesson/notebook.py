@@ -22,6 +22,7 @@ from robo47.paths import shown
 
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 MARKER = re.compile(r"^ *# (?:end)?region (\S+)\n", re.MULTILINE)
+EARLY = re.compile(r"^( +)return (.+)$", re.MULTILINE)
 LAST = "Record the number"
 
 SETUP = """
@@ -179,6 +180,8 @@ def sections(day: Day, body: list[ast.stmt], lines: list[str]) -> list[list[str]
             case ast.Expr(ast.Call(ast.Attribute(ast.Name("lab"), "step"), [heading])):
                 title = eval(ast.unparse(heading), vars(lab_of(day)))
                 found.append([title, ""])
+            case ast.If():  # "go no further" has no function to leave here
+                found[-1][1] += EARLY.sub(r"\1raise SystemExit(\2)", segment)
             case _:
                 found[-1][1] += segment
     return found
