@@ -27,7 +27,9 @@ def shown(figure: Figure) -> None:
     above, below = figure.subplots(2, 1)
     motion = day8_mujoco.excitation(robot, lab.ROBOT_SEED, SAMPLES)
     Y = lab.regressor(arm, motion)
-    _values(above, lab.regressor(arm, day8_mujoco.swing(SAMPLES)), "Day 5's swing", "s", RED)
+    _values(
+        above, lab.regressor(arm, day8_mujoco.swing(SAMPLES)), "Day 5's swing", "s", RED
+    )
     _values(above, Y, "excited", "o", BLUE)
     _torque(below, arm, robot, Y, motion)
     for axes in (above, below):
@@ -42,14 +44,20 @@ def _values(axes: Axes, Y: np.ndarray, name: str, mark: str, colour: str) -> Non
     words = f"{name}: {rank}, condition {condition:,.3g}"
     axes.semilogy(s / s[0], mark, ms=4, color=colour, label=words)
     axes.axhline(lab.RTOL, color=INK, linestyle="--", linewidth=1.5)
-    axes.set(ylim=(1e-18, 30), title="What a motion shows", xlabel="number of the singular value")
+    axes.set(
+        ylim=(1e-18, 30),
+        title="What a motion shows",
+        xlabel="number of the singular value",
+    )
     axes.set_ylabel("share of the largest")
     axes.legend(loc=(0.03, 0.25))
 
 
 def _torque(axes: Axes, arm, robot, Y: np.ndarray, motion: day8_mujoco.Motion) -> None:
     """Draw how far one joint's torque is off on a new motion: by the fit, the file."""
-    noise = lab.NOISE * np.random.default_rng(lab.NOISE_SEED).normal(size=motion.q.shape)
+    noise = lab.NOISE * np.random.default_rng(lab.NOISE_SEED).normal(
+        size=motion.q.shape
+    )
     tau = lab.mujoco_torques(robot, motion) + noise
     fast = np.abs(motion.qd) > lab.SLOW
     new = day8_mujoco.excitation(robot, lab.ROBOT_SEED + 1, SAMPLES)
