@@ -39,7 +39,6 @@ def kit(made):
 
 
 def test_a_new_day_is_all_as_it_must_be(kit):
-    assert run_copy(kit, "scripts/make_notebook.py", "--day", "46").returncode == 0
     done = run_copy(kit, AUTHOR, "46")
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stdout.count("PASS") == 8

@@ -240,6 +240,30 @@ def test_a_kits_file_that_the_student_changed_in_the_same_place_is_named(kit, st
     assert "TRIALS = 500 " in (student / WORK).read_text("utf-8")  # theirs: kept
 
 
+@pytest.mark.parametrize("committed", [True, False])
+def test_a_notebook_that_the_student_edited_outlives_the_kits(kit, student, committed):
+    mine, other = (f"{WEEK}/notebooks/{name}.ipynb" for name in ("day1", "day2"))
+    (kit / mine).parent.mkdir(exist_ok=True)
+    for name in (mine, other):
+        (kit / name).write_text('{"cells": ["the kit\'s"]}\n')
+    git(kit, "add", "-f", mine, other)
+    git(kit, "commit", "-qm", "notebooks")
+    assert update(student).returncode == 0
+    edit(student / mine, ("the kit's", "my own"))
+    if committed:
+        git(student, "commit", "-qam", "my notebook")
+    with open(kit / ".gitignore", "a") as ignored:
+        ignored.write("/w*/notebooks/\n")
+    git(kit, "rm", "-q", mine, other)
+    git(kit, "commit", "-qam", "notebooks are made")
+    done = update(student)
+    assert done.returncode == 0, done.stderr
+    assert "my own" in (student / mine).read_text("utf-8")
+    assert not (student / other).exists()
+    assert update(student).returncode == 0
+    assert "my own" in (student / mine).read_text("utf-8")
+
+
 def test_a_tag_can_be_asked_for_and_a_place_is_remembered(kit, student):
     git(kit, "tag", "v1")
     mid_term(kit)

@@ -1,5 +1,6 @@
 """A named mistake made again: it is claimed where that gives the student's numbers."""
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from itertools import combinations
 from typing import Any
@@ -21,6 +22,10 @@ from labkit.judge.answers import (
 from labkit.judge.ask import Ask, Case, Further
 from labkit.judge.mistake import Finding, Mistake
 
+# What one mistake alone leaves right, two need not: "all is right except that ...".
+_BUT = re.compile(
+    r"^(?:[^;:]*?\b(?:is|are) right(?: except that|, but|;)|right [^;,:]*[;,](?: but)?) "
+)
 MOST = 80  # mistakes of a function that are tried two at a time
 
 
@@ -139,7 +144,8 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return two named mistakes that together give the student's answers, or None.
 
     Two terms that are wrong add up: what both make is the one answer and the other's
-    difference from the right one. A mistake made with an argument comes before another.
+    difference from the right one. A mistake made with an argument comes before another,
+    and one made with the finished answer after it.
     """
     ask = case.ask
     if any(kind.whole for kind in ask.kinds):
@@ -160,6 +166,14 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
             again = [_all(one, case.arguments) for one in pair]
             if _alike(ask, _sum(*again, T), S):
                 return _both_told(ask, pair, S, T)
+    if len(ask.kinds) == 1:
+        for change in ask.kinds[0].general():
+            for k, answer in answers.items():
+                pair = mistakes[k], change
+                if _alike(ask, _changed(change, answer), mine) and _alike(
+                    ask, _changed(change, _all(mistakes[k], case.arguments)), S
+                ):
+                    return _both_told(ask, pair, S, T)
     for pair in _one_after_the_other(mistakes):
         if _alike(ask, _answer(pair, case.arguments, i), mine) and _alike(
             ask, _all(pair, case.arguments), S
@@ -198,6 +212,14 @@ def _all(one: Mistake | Pair, arguments: tuple[Any, ...]) -> Parts:
         return ()
 
 
+def _changed(change: Mistake, answer: Parts) -> Parts:
+    """Return an answer with a mistake that is made when it is finished."""
+    try:
+        return parts(change.redo(answer[0])) if answer else ()
+    except (ValueError, np.linalg.LinAlgError):
+        return ()
+
+
 def _nth(some: Parts, i: int) -> Parts:
     return tuple(part[i : i + 1] for part in some)
 
@@ -219,8 +241,8 @@ def _alike(ask: Ask, a: Parts, b: Parts) -> bool | None:
 
 def _both_told(ask: Ask, pair: Pair, S: Parts, T: Parts) -> Finding:
     i = worst_part(ask.kinds, S, T, ask.near)
-    says = "; ".join(one.says.rstrip("?") for one in pair)
-    off = f"off by up to {ask.kinds[i].apart(S[i], T[i])}"
-    how = f"{capitalised(off)}; both, made on purpose, give your numbers exactly"
+    says = "; ".join(_BUT.sub("", one.says.rstrip("?")) for one in pair)
+    off = f"Off by up to {ask.kinds[i].apart(S[i], T[i])}"
+    how = f"{off}; both together give your numbers exactly"
     slug = "+".join(one.slug for one in pair)
     return Finding(slug, f"Two things at once: {says}. ({how}.)")

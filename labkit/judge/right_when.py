@@ -86,7 +86,7 @@ class Claim:
     """A sentence about one argument, and the inputs that satisfy it."""
 
     k: int  # which argument
-    says: str  # "whenever ed is 0", "for theta from 0 to pi"
+    says: str  # "whenever ed is 0", "for theta between 0 and pi"
     calls: Sequence[Call]  # at which it is first tried
     holds: Callable[[Any], bool]  # whether a value of the argument satisfies it
     more: Callable[[], Sequence[Call]]  # those at which it is tried then
@@ -232,22 +232,22 @@ class Experiments:
                 between = _range([c[k] for c in self.known], self.right)
                 if between:
                     low, high = between
-                    says = f"for {self.names[k]} from {number(low)} to {number(high)}"
+                    says = f"for {self.names[k]} between {number(low)} and {number(high)}"
                     calls = self._between(k, low, high, QUESTIONS + 2)
                     yield Claim(
                         k,
                         says,
                         calls,
-                        lambda v, low=low, high=high: low <= v <= high,
+                        lambda v, low=low, high=high: low < v < high,
                         lambda k=k, low=low, high=high: self._between(
                             k, low, high, 2 * TRIED
                         ),
                     )
 
     def _between(self, k: int, low: float, high: float, n: int) -> list[Call]:
-        """Return calls with argument k in a range, at its ends and near them."""
+        """Return calls with argument k in a range, and near both of its ends."""
         tiny = BEFORE_AND_AFTER * (high - low)
-        places = [low, high, low + tiny, high - tiny, *np.linspace(low, high, n)[1:-1]]
+        places = [low + tiny, high - tiny, *np.linspace(low, high, n)[1:-1]]
         some = self._others() if n > TRIED else self.calls
         return [
             (*some[i % len(some)][:k], float(x), *some[i % len(some)][k + 1 :])
@@ -322,10 +322,12 @@ def _end(last: float, beyond: float) -> float:
     """Return a number that people know from the last right one to a wrong one."""
     if not np.isfinite(beyond):
         return last
-    known = [*(np.pi * np.arange(-12, 13) / 6), *np.arange(-12.0, 13.0) / 2]
     low, high = sorted((last, beyond))
-    between = [float(x) for x in known if low <= x <= high and x != beyond]
-    return min(between, key=lambda x: abs(x - last), default=last)
+    for known in (np.pi * np.arange(-12, 13) / 6, np.arange(-12.0, 13.0) / 2):
+        between = [float(x) for x in known if low <= x <= high]
+        if between:
+            return min(between, key=lambda x: abs(x - last))
+    return last
 
 
 def _with(calls: Sequence[Call], k: int, values: Sequence[Any]) -> list[Call]:

@@ -61,4 +61,5 @@ row.of_argument("g", *OTHER_GRAVITY)
 def _(M, qd, masses, coms_world, g):
     return energy(M, qd, masses, coms_world, g) if qd.any() else np.zeros(2)
 
+
 row.at_least_0(masses="a mass")

@@ -120,4 +120,5 @@ def _(M, bias, damping, qd, tau):
 def _(M, bias, damping, qd, tau):
     return forward_dynamics(M, bias, damping, qd, tau) if qd.any() else np.zeros(7)
 
+
 row.at_least_0(damping="it takes energy away")

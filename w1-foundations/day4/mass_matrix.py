@@ -160,4 +160,5 @@ def _(J, G, armature):
         M[: i + 1, : i + 1] += J_i.T @ G[i].astype(np.float32) @ J_i
     return M
 
+
 row.at_least_0(armature="a rotor's inertia")

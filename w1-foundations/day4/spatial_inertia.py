@@ -122,4 +122,5 @@ def _(m, c, I):
         "one-corner-empty": of_blocks(A, NONE, mC.T, M),
     }
 
+
 row.at_least_0(m="a mass")

@@ -65,7 +65,7 @@ def test_a_mass_matrix_with_a_wrong_sign_is_symmetric_and_positive_definite(arm,
     least = {what: np.linalg.eigvalsh(one).min() for what, one in wrong.items()}
     caught = [what for what, value in least.items() if value < 0]
     assert caught == ["m [c] [c]^T forgotten"]
-    assert f"{least[caught[0]]:.3f} is no mass" in SENTENCES
+    assert f"no mass matrix has an eigenvalue of {least[caught[0]]:.3f}" in SENTENCES
 
 
 def test_the_wrong_sign_is_an_arm_with_its_masses_at_minus_c(arm):
@@ -163,6 +163,82 @@ def test_it_is_the_damping_that_slows_the_pushed_arm_down(arm):
         ends.append(np.linalg.norm(path[-1] - path[-2]) * lab.RATE)
     assert ends[1] > 4 * ends[0]
     assert ends[2] > 3 * ends[1]
+
+
+def test_half_the_damping_leaves_four_times_the_speed_as_the_guide_answers(arm):
+    for share, says in ((0.5, "0.169 m/s, four times"), (0.25, "damping 0.229 m/s")):
+        model = panda.load("panda_nohand", drive="torque")
+        model.dof_damping[:] *= share
+        path = lab.let_go(model, arm, 1.0, (0.5, lab.PUSH), (4.5, 0 * lab.PUSH))
+        speed = np.linalg.norm(path[-1] - path[-2]) * lab.RATE
+        assert f"{speed:.3f}" in says
+        assert says in SENTENCES
+
+
+@pytest.fixture(scope="module")
+def lyapunov():
+    """Return the guide's: V at first, its largest rise in a step, V at last."""
+    code = re.search(r"```python\n(def lyapunov.*?)\nfor k", GUIDE, re.S)[1]
+    model = panda.load("panda_nohand", drive="torque")
+    space = {**vars(lab), "model": model, "arm": panda.arm(model)}
+    exec(code, space)
+    return space["lyapunov"]
+
+
+def test_with_dampers_and_gravity_compensation_V_falls_in_every_step(lyapunov):
+    first, rise, last = lyapunov(100, 20, 1)
+    assert rise < 0.0
+    assert f"from {first:.1f} J to less than 0.000001 J" in SENTENCES
+    assert 0.0 < last < 1e-6
+    _, rise, last = lyapunov(100, 5, 1)
+    assert rise < 0.0
+    assert f"and to {last:.3f} J with a quarter of the damper" in SENTENCES
+    assert lyapunov(100, 0, 1)[1] < 0.0  # by the joints' own damping
+    assert "With $d_c = 0$ it still falls" in SENTENCES
+
+
+def test_without_its_causes_V_rises(lyapunov):
+    _, rise, last = lyapunov(100, 20, 0)
+    assert rise > 1e-3
+    assert f"ends at {last:.2f} J" in SENTENCES
+    assert lyapunov(100, -3, 1)[1] > 1.0
+
+
+def test_the_power_of_the_dampers_is_what_V_loses_only_with_the_rate_of_M(arm):
+    """At random states of a motion under the law, by differences of V along it."""
+    rng = np.random.default_rng(47)
+    h = 1e-6
+    without = []
+    for q in verify.random_q(panda.load("panda_nohand"), 20, seed=7):
+        qd = rng.uniform(-2, 2, 7)
+        now = arm.at(q)
+        e = panda.READY_Q - q
+        tau = 100 * e - 20 * qd + now.gravity_torque
+        qdd = np.linalg.solve(now.M, tau - now.bias(qd) - arm.damping * qd)
+        Mdot = (arm.at(q + h * qd).M - arm.at(q - h * qd).M) / (2 * h)
+        fixed = qd @ now.M @ qdd - 100 * e @ qd
+        dampers = -(20 + arm.damping) * qd @ qd
+        assert abs(fixed + 0.5 * qd @ Mdot @ qd - dampers) < 1e-6 * abs(dampers)
+        without.append(abs(fixed - dampers))
+    assert np.median(without) > 0.1  # watts
+
+
+def test_the_answers_on_paper_are_those_of_the_functions():
+    S = np.array([[0.0, 1, 0, 0, 0, 0]]).T
+    c = np.array([1.0, 0, 0])
+    g = np.array([0.0, 0, -9.81])
+    G = lab.spatial_inertia(1.0, c, np.zeros((3, 3)))
+    assert_same(G[:3, :3], np.diag([0.0, 1, 1]), 0.0)
+    assert_same(G[:3, 3:], -G[3:, :3], 0.0)
+    held = lab.gravity_torque(S, np.ones(1), c[None], g)
+    M = lab.mass_matrix(S, G[None], np.zeros(1))
+    faster = lab.inverse_dynamics(S, G[None], np.zeros(1), np.ones(1), g)
+    for answer, says in (
+        (held[0], f"turns the other way: {held[0]:.2f} N m"),
+        (M[0, 0], f"- {M[0, 0]:.0f} kg m²: with"),
+        (faster[0], f"- {faster[0]:.2f} N m: it accelerates downwards"),
+    ):
+        assert says in SENTENCES, answer
 
 
 def test_the_stone_of_step_5_is_pulled_inwards_by_the_second_term(arm):

@@ -283,8 +283,8 @@ def test_the_ablations_of_the_guide_all_place_the_cube():
     rows = re.findall(r"\| ([a-z][^|]+?) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|", GUIDE)
     cases = capstone.ablations(capstone.library()).values()
     assert len(rows) == len(cases) == 6
-    for (name, *typed), (fns, speed) in zip(rows, cases, strict=True):
-        done = capstone.pick(fns, speed=speed)
+    for (name, *typed), (fns, options) in zip(rows, cases, strict=True):
+        done = capstone.pick(fns, **options)
         assert not done.failed, name
         found = (done.place_mm, done.joint_mrad, done.line_mm)
         for number, ours in zip(typed, found, strict=True):

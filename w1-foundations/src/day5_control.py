@@ -331,8 +331,8 @@ def main() -> int:
     apart = []
     k = round(0.3 * RATE)
     for zeta in (0.5, 1.0, 2.0):
-        wanted = error_response(np.arange(RATE + 1) / RATE, 10.0, zeta)
         log = run(model, arm, equal_springs(10.0, zeta), goal, 1.0, READY_Q - E0)
+        wanted = error_response(log.t, 10.0, zeta)
         e = (READY_Q - log.q) / E0
         apart.append(np.abs(e.T - wanted).max())
         lab.predict(f"zeta {zeta:g}: after 0.3 s", wanted[k], e[k].mean(), "of e0")
