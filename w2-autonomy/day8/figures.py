@@ -30,7 +30,10 @@ def shown(figure: Figure) -> None:
     _values(
         above, lab.regressor(arm, day8_mujoco.swing(SAMPLES)), "Day 5's swing", "s", RED
     )
-    _values(above, Y, "excited", "o", BLUE)
+    swing = day8_mujoco.swing(SAMPLES)
+    rubs = np.abs(swing.qd) > lab.SLOW  # the rows that the lab fits
+    _values(above, lab.regressor(arm, swing)[rubs], "Day 5's swing", "s", RED)
+    _values(above, Y[np.abs(motion.qd) > lab.SLOW], "excited", "o", BLUE)
     _torque(below, arm, robot, Y, motion)
     for axes in (above, below):
         axes.grid()
@@ -65,6 +68,7 @@ def _torque(axes: Axes, arm, robot, Y: np.ndarray, motion: day8_mujoco.Motion) -
     t = np.arange(SAMPLES) * 10.0 / SAMPLES
     torque, sigma = lab.predict_with_sigma(Y[fast], tau[fast], rows, lab.RTOL)
     true = lab.mujoco_torques(robot, new)[:, JOINT]
+    true[np.abs(new.qd[:, JOINT]) < lab.SLOW] = np.nan  # no column for these rows
     band = 1.96 * sigma
     axes.fill_between(t, -band, band, color=BLUE, alpha=0.25, label="1.96 sigma")
     axes.plot(t, torque - true, "o", ms=4, color=BLUE, label="predicted by the fit")

@@ -46,8 +46,8 @@ for slug, says, redone, told in (
     ("cut-by-the-sum", "a value is compared with rtol times the sum of all; it counts "
      "above rtol times the largest", "the right one with the sum",
      lambda s, rtol: (n := np.sum(s > rtol * s.sum()), s[0] / s[n - 1])),
-    ("cut-by-the-norm", "a value is compared with rtol times the norm of Y, the root of "
-     "the sum of squares; it counts above rtol times the largest",
+    ("cut-by-the-norm", "a value is compared with rtol times the norm of Y, the root "
+     "of the sum of squares; it counts above rtol times the largest",
      "the right one with that norm",
      lambda s, rtol: (n := np.sum(s > rtol * np.linalg.norm(s)), s[0] / s[n - 1])),
     ("cut-not-squared", "these are eigenvalues of Y^T Y, squares of singular values; "
