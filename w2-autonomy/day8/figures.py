@@ -27,9 +27,6 @@ def shown(figure: Figure) -> None:
     above, below = figure.subplots(2, 1)
     motion = day8_mujoco.excitation(robot, lab.ROBOT_SEED, SAMPLES)
     Y = lab.regressor(arm, motion)
-    _values(
-        above, lab.regressor(arm, day8_mujoco.swing(SAMPLES)), "Day 5's swing", "s", RED
-    )
     swing = day8_mujoco.swing(SAMPLES)
     rubs = np.abs(swing.qd) > lab.SLOW  # the rows that the lab fits
     _values(above, lab.regressor(arm, swing)[rubs], "Day 5's swing", "s", RED)
@@ -44,7 +41,7 @@ def _values(axes: Axes, Y: np.ndarray, name: str, mark: str, colour: str) -> Non
     Y = Y.reshape(-1, Y.shape[-1])
     s = np.linalg.svd(Y, compute_uv=False)
     rank, condition = lab.identifiable(Y, lab.RTOL)
-    words = f"{name}: {rank}, condition {condition:,.3g}"
+    words = f"{name}: {rank}, condition {float(f'{condition:.3g}'):,.0f}"
     axes.semilogy(s / s[0], mark, ms=4, color=colour, label=words)
     axes.axhline(lab.RTOL, color=INK, linestyle="--", linewidth=1.5)
     axes.set(
