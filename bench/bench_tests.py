@@ -1,11 +1,14 @@
 """How long `make test` takes, and its ten slowest tests."""
 
+import os
 import re
 import subprocess
 import time
 
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
+
+FROM_MAKE = ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")
 
 
 def run() -> dict:
@@ -17,10 +20,13 @@ def run() -> dict:
     Raises:
         Robo47Error: a test failed; a time without a pass says nothing.
     """
+    # `make bench` hands its own settings on (`-j`, `-k`): they are not `make test`'s.
+    own = {name: os.environ[name] for name in os.environ if name not in FROM_MAKE}
     start = time.perf_counter()
     done = subprocess.run(
         ["make", "test", "ARGS=-q --durations=10"],
         cwd=ROOT,
+        env=own,
         capture_output=True,
         text=True,
         check=False,

@@ -1,10 +1,16 @@
 """The results as plain text: ratios first, each with what it is a ratio of."""
 
+from collections.abc import Container
 from typing import Any
 
 
-def render(results: dict[str, Any]) -> str:
-    """Return the tables of what bench/results.json holds, in 80 columns."""
+def render(results: dict[str, Any], failed: Container[str] = ()) -> str:
+    """Return the tables of what bench/results.json holds, in 80 columns.
+
+    Args:
+        results: {part: what it measured}, and "about".
+        failed: parts that failed now; what is known of them is marked as old.
+    """
     about = results["about"]
     lines = [f"{about['date']}, {about['machine']}"]
     tools = ("python", "mujoco", "numpy", "pin")
@@ -23,6 +29,8 @@ def render(results: dict[str, Any]) -> str:
     for name, table in parts.items():
         if name in results:
             lines += ["", *table(results[name])]
+            if name in failed:
+                lines.append("  OLD: this part failed now, these are its last numbers")
             left_out = results[name].get("left_out", {}).items()
             lines += [f"  left out: {rival} ({why})" for rival, why in left_out]
     return "\n".join(lines)

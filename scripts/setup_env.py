@@ -193,6 +193,12 @@ def install(venv, extras, uv):
         stop(*DISK_FULL)
     if UNRESOLVED.search(said):
         stop("something in {} has no wheel for this Python.".format(what), OLDER)
+    if code < 0 or not said.strip():  # a signal, or an end without a word
+        stop(
+            "the install ended without saying why (code {}): killed, perhaps for"
+            " want of memory.".format(code),
+            "Close other programs (it needs about 1 GB), then run make again.",
+        )
     stop("could not install:\n" + said[-1500:], "Fix that and run make again.")
 
 

@@ -17,6 +17,7 @@ from bench import (
     timing,
 )
 from conftest import ROOT
+from labkit.commands import bench as command
 from labkit.commands import test_matrix as matrix
 from robo47 import kinematics, panda
 
@@ -128,6 +129,56 @@ def test_an_unknown_part_is_refused_with_the_ones_there_are(run):
     done = run("scripts/bench.py", "kf")
     assert done.returncode == 2
     assert "no part kf; there are fk, ik, dynamics, lab" in done.stderr
+
+
+class Part:
+    """Stands in for a part's module."""
+
+    def __init__(self, run):
+        self.run = run
+
+
+def test_a_part_that_fails_is_named_the_others_stand_and_its_old_numbers_say_so(
+    monkeypatch, tmp_path, capsys
+):
+    def broken():
+        raise ValueError("the rival\nbroke")
+
+    parts = {
+        "bench.bench_checker": Part(lambda: {"the whole day": {"median": 9.25}}),
+        "bench.bench_tests": Part(broken),
+        "bench.bench_growth": Part(broken),
+    }
+    results = tmp_path / "results.json"
+    kept = {"tests": RESULTS["tests"]}
+    results.write_text(json.dumps(kept), "utf-8")
+    monkeypatch.setattr(command, "RESULTS", results)
+    monkeypatch.setattr(command.importlib, "import_module", parts.__getitem__)
+    monkeypatch.setattr(sys, "argv", ["bench.py", "tests", "growth", "checker"])
+    assert command.main() == 1
+    written = json.loads(results.read_text("utf-8"))
+    assert written["checker"] == {"the whole day": {"median": 9.25}}
+    assert written["tests"] == kept["tests"]
+    assert "growth" not in written
+    said = capsys.readouterr()
+    assert (
+        "bench: tests failed, and has its last result: ValueError: the rival broke"
+        in said.err
+    )
+    assert (
+        "bench: growth failed, and has no result: ValueError: the rival broke"
+        in said.err
+    )
+    checker, _, tests = said.out.partition("make test:")
+    assert "OLD: this part failed now" in tests
+    assert "OLD" not in checker
+
+
+def test_a_first_minute_that_failed_is_not_printed_as_passed():
+    first = {**RESULTS["first-minute"], "passed": False}
+    text = table.render({"about": RESULTS["about"], "first-minute": first})
+    assert "until it FAILED" in text
+    assert "PASSED" not in text
 
 
 def test_the_handouts_script_mended_runs(real_panda):

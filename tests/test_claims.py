@@ -129,8 +129,13 @@ def test_the_call_shown_has_a_wrong_entry():
         return int(np.sum(s > rtol)), s[0] / s[-1]
 
     day = find_day(8)
-    found = inprocess.verdicts(day, day.source, "8.5", 1, {"identifiable": identifiable})
-    mine, its = found["8.5"].call.removesuffix(" is right.").rsplit(" is ", 1)[1].split(
-        ", and "
+    found = inprocess.verdicts(
+        day, day.source, "8.5", 1, {"identifiable": identifiable}
+    )
+    mine, its = (
+        found["8.5"]
+        .call.removesuffix(" is right.")
+        .rsplit(" is ", 1)[1]
+        .split(", and ")
     )
     assert mine != its

@@ -228,3 +228,19 @@ def test_a_lock_that_is_never_given_back_is_an_error_with_the_row(
     with locked(log), pytest.raises(Robo47Error, match="has held it") as caught:
         append_row(log, check="c", notes="precious")
     assert "precious" in str(caught.value)
+
+
+def test_a_log_that_a_file_server_has_leased_is_waited_for(tmp_path, monkeypatch):
+    log = tmp_path / "metrics.csv"
+    append_row(log, check="c")
+    really = os.open
+
+    def leased(path, flags, *rest):
+        if flags & getattr(os, "O_NONBLOCK", 0):
+            raise BlockingIOError(11, "Resource temporarily unavailable")
+        return really(path, flags, *rest)
+
+    monkeypatch.setattr(os, "open", leased)
+    append_row(log, check="d")
+    monkeypatch.undo()
+    assert [row["check"] for row in read_rows(log)] == ["c", "d"]

@@ -285,3 +285,12 @@ def test_a_failure_names_what_is_missing_and_what_to_do(
     assert "run make again" in message
     setup.answers.clear()
     assert "install" in call(setup, monkeypatch)[-1], "the next run tries again"
+
+
+@pytest.mark.parametrize("ended", [(-9, "Collecting numpy"), (137, "")])
+def test_an_install_that_was_killed_says_so(setup, monkeypatch, ended):
+    setup.answers["pip"] = ended
+    message = said(setup, monkeypatch)
+    assert "killed" in message
+    assert "memory" in message
+    assert "run make again" in message

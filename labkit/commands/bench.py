@@ -76,7 +76,8 @@ def measure(parts: Iterable[str], results: dict[str, Any]) -> dict[str, str]:
         try:
             results[part] = importlib.import_module(module).run()
         except Exception as error:  # whatever a rival raises
-            failed[part] = str(error) or type(error).__name__
+            kind = "" if isinstance(error, Robo47Error) else type(error).__name__ + ": "
+            failed[part] = kind + " ".join(str(error).split())
             continue
         RESULTS.write_text(json.dumps(results, indent=1) + "\n", "utf-8")
     return failed
@@ -105,7 +106,8 @@ def main() -> int:
         from bench.picture import draw
 
         draw(results, PICTURE)
-    print(render(results))
+    print(render(results, failed))
     for part, why in failed.items():
-        cli.complain(f"bench: {part} failed, and has its last result: {why}")
+        has = "has its last result" if part in results else "has no result"
+        cli.complain(f"bench: {part} failed, and {has}: {why}")
     return cli.EXIT_FAILED if failed else cli.EXIT_OK

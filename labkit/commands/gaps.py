@@ -76,7 +76,8 @@ def changes(source: str) -> Iterator[Change]:
             if isinstance(node, ast.Return) and node.value and _depends(node.value):
                 again = copy.deepcopy(tree)
                 there = list(ast.walk(again))[k]
-                assert isinstance(there, ast.Return) and there.value
+                assert isinstance(there, ast.Return)
+                assert there.value
                 text = how.format(f"({ast.unparse(there.value)})")
                 there.value = ast.parse(text, mode="eval").body
                 yield Change(f"return {text}", again)
@@ -125,7 +126,7 @@ def _replaced(tree: ast.Module, i: int, node: ast.expr, new: ast.expr) -> Change
 
     changed = Put().visit(again)
     around = _statement(tree, node)
-    at = [k for k, one in enumerate(ast.walk(tree)) if one is around][0]
+    at = next(k for k, one in enumerate(ast.walk(tree)) if one is around)
     then = list(ast.walk(changed))[at]
     return Change(f"{_line(around)} => {_line(then)}", changed)
 
@@ -150,7 +151,9 @@ def unnoticed(row: Row, function: str) -> Iterator[str]:
     body = getattr(lab, function)
     asked = asked_of("0.0", function, row.ask, SEED)
     drawn = len(row.ask.edges)
-    asked = Asked(function, row.ask, asked.main, asked.fresh[:drawn], asked.held_out, [])
+    asked = Asked(
+        function, row.ask, asked.main, asked.fresh[:drawn], asked.held_out, []
+    )
     for change in changes(inspect.getsource(body)):
         if _by_nature(asked, row, change.says):
             continue
@@ -229,7 +232,9 @@ def of_day(day: Day) -> int:
                 print(f"day {day.number}, {function}: {change}")
         for change in set(row.unnoticed) - set(found):
             count += 1
-            print(f"day {day.number}, {function}: noticed, take row.same away: {change}")
+            print(
+                f"day {day.number}, {function}: noticed, take row.same away: {change}"
+            )
     print(f"Day {day.number}: {count or 'no'} changes go unnoticed")
     return count
 

@@ -75,7 +75,8 @@ def _wrong(
     at = np.unravel_index(int(np.argmax(apart)), mine.shape)
     place = f"[{part}]" if len(S) > 1 else ""
     place += str([int(x) for x in at]) if at else ""
-    says = f"{typed(question, names, LONG)}{place} is {_apart(mine[at], its[at])} is right."
+    says = f"{typed(question, names, LONG)}{place} is {_apart(mine[at], its[at])}"
+    says += " is right."
     whole = [*_given(question, names)]
     for word, one in (("yours", S), ("right", T)):
         whole += [f"{word}: {_matrix(values[i])}" for values in one]

@@ -1,6 +1,6 @@
 """The judge: from a function's questions and replies to a verdict and its name."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import compress
 from typing import Any
@@ -10,16 +10,11 @@ import numpy as np
 from labkit.base.exchange import Exchange
 from labkit.judge import near_miss, replies_read, tried
 from labkit.judge.answers import (
-    InTurn,
     Parts,
-    all_match,
     as_one,
     difference,
     gaps,
     in_words,
-    largest,
-    matches,
-    parts,
     plain,
     worst_part,
 )

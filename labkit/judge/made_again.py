@@ -24,7 +24,8 @@ from labkit.judge.mistake import Finding, Mistake
 
 # What one mistake alone leaves right, two need not: "all is right except that ...".
 _BUT = re.compile(
-    r"^(?:[^;:]*?\b(?:is|are) right(?: except that|, but|;)|right [^;,:]*[;,](?: but)?) "
+    r"^(?:[^;:]*?\b(?:is|are) right(?: except that|, but|;)"
+    r"|right [^;,:]*[;,](?: but)?) "
 )
 MOST = 80  # mistakes of a function that are tried two at a time
 

@@ -85,7 +85,9 @@ def in_common(S: Array, T: Array) -> str:
             " Everywhere that is less than one part in 100: is a constant rounded, or "
             "does something only come near to the formula?"
         )
-    mixed = np.abs(np.sort(S, axis=1) - np.sort(T, axis=1)) <= tiny.max(1, keepdims=True)
+    mixed = np.abs(np.sort(S, axis=1) - np.sort(T, axis=1)) <= tiny.max(
+        1, keepdims=True
+    )
     if mixed.all() and S.shape[1] > 1:
         return " The numbers are the right ones, but in other places."
     return ""

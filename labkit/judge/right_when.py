@@ -8,7 +8,7 @@ several sizes. Each of the two rounds is one batch of questions.
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import accumulate, chain
+from itertools import accumulate, chain, pairwise
 from typing import Any
 
 import numpy as np
@@ -232,7 +232,9 @@ class Experiments:
                 between = _range([c[k] for c in self.known], self.right)
                 if between:
                     low, high = between
-                    says = f"for {self.names[k]} between {number(low)} and {number(high)}"
+                    says = (
+                        f"for {self.names[k]} between {number(low)} and {number(high)}"
+                    )
                     calls = self._between(k, low, high, QUESTIONS + 2)
                     yield Claim(
                         k,
@@ -296,7 +298,9 @@ class Experiments:
         return factor if off <= self.near * max(1.0, float(np.abs(two).max())) else None
 
 
-def _range(values: Sequence[float], right: Sequence[bool]) -> tuple[float, float] | None:
+def _range(
+    values: Sequence[float], right: Sequence[bool]
+) -> tuple[float, float] | None:
     """Return the range of a number in which all answers are right, or None.
 
     It ends at a fraction of pi, or a whole number, where one lies between what was
@@ -310,7 +314,7 @@ def _range(values: Sequence[float], right: Sequence[bool]) -> tuple[float, float
     bounds = [-np.inf, *wrong, np.inf]
     runs = [
         ([x for x in good if low < x < high], low, high)
-        for low, high in zip(bounds, bounds[1:], strict=False)
+        for low, high in pairwise(bounds)
     ]
     run, low, high = max(runs, key=lambda one: len(one[0]))
     if len(run) < max(AGREE, len(good) // 5) or run[0] == run[-1] or not wrong:

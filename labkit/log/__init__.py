@@ -128,7 +128,7 @@ def _filled(fields: Mapping[str, object]) -> dict[str, object]:
 def _file(path: StrPath | None) -> Path:
     """Return where the log is; an installed package makes its own log's folder."""
     if path is not None:
-        return Path(path)
+        return path if isinstance(path, Path) else Path(path)
     if HOME != ROOT and METRICS_CSV.is_relative_to(HOME):
         METRICS_CSV.parent.mkdir(parents=True, exist_ok=True)
     return METRICS_CSV

@@ -32,7 +32,9 @@ _FLAGS = (
     | os.O_CREAT
     | getattr(os, "O_BINARY", 0)
     | getattr(os, "O_NOINHERIT", 0)
+    | getattr(os, "O_NOCTTY", 0)
 )
+_AT_ONCE = getattr(os, "O_NONBLOCK", 0)  # opening a pipe would wait for ever
 
 
 def command(option: str, log: Path) -> str:
@@ -116,10 +118,10 @@ def restore(path: Path) -> int:
 @contextlib.contextmanager
 def locked(path: Path) -> Iterator[int]:
     """Open a file, made if absent, to read and append; nobody else may append."""
-    with contextlib.suppress(FileNotFoundError):  # opening a pipe would wait for ever
-        if not stat.S_ISREG(path.stat().st_mode):
-            raise OSError(errno.EINVAL, "not a file")
-    fd = os.open(path, _FLAGS, 0o666)
+    try:
+        fd = os.open(path, _FLAGS | _AT_ONCE, 0o666)
+    except BlockingIOError:  # a file server has leased it, and gives it up when asked
+        fd = os.open(path, _FLAGS, 0o666)
     try:
         if not stat.S_ISREG(os.fstat(fd).st_mode):
             raise OSError(errno.EINVAL, "not a file")
@@ -136,7 +138,9 @@ def locked(path: Path) -> Iterator[int]:
 
 
 def read_at(fd: int, offset: int, count: int) -> bytes:
-    """Return up to `count` bytes from an offset (os.pread, which Windows lacks)."""
+    """Return up to `count` bytes from an offset."""
+    if sys.platform != "win32":
+        return os.pread(fd, count, offset)
     os.lseek(fd, offset, os.SEEK_SET)
     return os.read(fd, count)
 
@@ -153,8 +157,10 @@ def _try_append(path: Path, text: str, sync: bool) -> str:
             _sync_folder(path.parent)
         # A writer without a lock (bash's echo of over 4,096 bytes comes in two
         # parts) may have left half a line before ours: then our first goes again.
-        alone = before or read_at(fd, start - 1, 1) == b"\n"
-        there = read_at(fd, start, len(data)) == data and _is_at(fd, path)
+        seen = 0 if before else 1  # what stands before our first
+        back = read_at(fd, start - seen, len(data) + seen)
+        alone = back[:seen] in (b"", b"\n")
+        there = back[seen:] == data and _is_at(fd, path)
     if cut is not None:
         _report_cut(path, cut, before)
     if not there:
@@ -170,10 +176,11 @@ def _continuation(fd: int, path: Path) -> tuple[bytes, bytes, str | None]:
     end = line_end(head)
     if end is None:
         raise Robo47Error(wrong_header(path))
+    last = head[-1:] if len(head) < HEAD else _last_byte(fd)[1]
+    if last == b"\n":
+        return b"", end, None
+    time.sleep(MID_WRITE_S)
     size, last = _last_byte(fd)
-    if last != b"\n":
-        time.sleep(MID_WRITE_S)
-        size, last = _last_byte(fd)
     if last == b"\n":
         return b"", end, None
     start = max(0, size - _TAIL)
@@ -241,7 +248,7 @@ def _sync_folder(folder: Path) -> None:
 
 def _is_at(fd: int, path: Path) -> bool:
     try:
-        return os.path.samestat(os.fstat(fd), path.stat())
+        return os.path.samestat(os.fstat(fd), os.stat(path))
     except FileNotFoundError:
         return False
 

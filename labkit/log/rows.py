@@ -31,6 +31,13 @@ HEADER = ",".join(COLUMNS)
 BOM = codecs.BOM_UTF8
 HEAD = 4096  # bytes of a log that are looked at for its header, of 98
 INTEGERS = frozenset({"day", "seed", "n_trials", "n_failures"})
+# A value of its column's kind needs little done; a date must be looked into.
+_KINDS: dict[str, type | None] = {
+    **dict.fromkeys(COLUMNS, str),
+    **dict.fromkeys(INTEGERS, int),
+    "value": float,
+    "date": None,
+}
 # Python's csv module, and with it many readers, gives up on a longer field.
 LONGEST = 131_072
 
@@ -42,6 +49,7 @@ _UNWRITABLE = re.compile("[\r\n\0\ud800-\udfff]")
 # A spreadsheet runs such a text as a formula; the apostrophe makes it plain text.
 _FORMULA = re.compile("'*[=+@-]")
 _GUARDED = re.compile("'+[=+@-]")
+_GUARDS = frozenset("'=+@-")  # what either begins with
 
 
 def line_end(head: bytes) -> bytes | None:
@@ -73,8 +81,15 @@ def typed(fields: Mapping[str, object], allow_nonfinite: bool) -> tuple[Row, lis
     """
     row: Row = {}
     faults = [_unknown(name) for name in fields if name not in COLUMNS]
-    for name in COLUMNS:
+    for name, kind in _KINDS.items():
         given = fields.get(name)
+        if type(given) is kind and (
+            given.isprintable() and len(given) <= LONGEST
+            if isinstance(given, str)
+            else kind is int or math.isfinite(given)  # type: ignore[arg-type]
+        ):
+            row[name] = given  # type: ignore[assignment]
+            continue
         if not allow_nonfinite and _is_nonfinite(name, given):
             faults.append(
                 f'"{name}" is {given}, which no threshold can judge: find out why, or'
@@ -97,7 +112,7 @@ def _unknown(name: str) -> str:
 
 def encode(row: Row) -> str:
     """Return a typed row as one CSV line, without the line end."""
-    return ",".join([_cell(name, row[name]) for name in COLUMNS])
+    return ",".join([_cell(row[name]) for name in COLUMNS])
 
 
 def decode(cells: list[str]) -> Row:
@@ -169,12 +184,12 @@ def _is_nonfinite(name: str, given: object) -> bool:
         return False
 
 
-def _cell(name: str, value: Cell) -> str:
+def _cell(value: Cell) -> str:
     if value is None:
         return ""
     if not isinstance(value, str):
         return repr(value)
-    if _FORMULA.match(value):
+    if value[:1] in _GUARDS and _FORMULA.match(value):
         value = "'" + value
     if "," in value or '"' in value:
         return '"' + value.replace('"', '""') + '"'

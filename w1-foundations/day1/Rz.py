@@ -20,7 +20,10 @@ def angles(rng):
     Small ones and large ones stand there on purpose: nobody draws them every time.
     """
     drawn = rng.numbers(-np.pi, np.pi, 3)
-    return [(x,) for x in (0.0, np.pi / 2, -0.785, 2.356, -7.1, *SMALL, 20.3, *map(float, drawn))]
+    return [
+        (x,)
+        for x in (0.0, np.pi / 2, -0.785, 2.356, -7.1, *SMALL, 20.3, *map(float, drawn))
+    ]
 
 
 def small_angle_formula(theta, below=0.1):

@@ -92,4 +92,5 @@ def _(J, e, damping):
 def _(J, e, damping):
     return J.T @ solve(J @ J.T - damping**2 * I6, e)
 
+
 row.at_least_0(damping="it enters as a square")

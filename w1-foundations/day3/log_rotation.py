@@ -285,9 +285,12 @@ def _(R):
     n = np.linalg.norm(q[1:])
     return 2 * np.arctan2(n, q[0]) * q[1:] / n if n > 0 else np.zeros(3)
 
+
 EXACT = "both ways are exact to the last digits in between"
 SINE = "return a * (angle / sine if sine > 0"
 row.same("if cosine > -0.9: => if cosine > 0.5 * -0.9:", EXACT)
 row.same(f"{SINE} else 1.0) => {SINE} else 2.0)", "there a is 0")
-row.same(f"{SINE} else 1.0) => {SINE.replace('> 0', '> 0.001 + 0')} else 1.0)",
-         "angle / sine differs from 1 by less than 1e-6 there, and a is 1e-3")  # fmt: skip
+row.same(
+    f"{SINE} else 1.0) => {SINE.replace('> 0', '> 0.001 + 0')} else 1.0)",
+    "angle / sine differs from 1 by less than 1e-6 there, and a is 1e-3",
+)

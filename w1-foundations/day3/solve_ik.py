@@ -229,6 +229,7 @@ def _(screws, M, T_goal, q_start, limits):
         raise ValueError("not reached")
     return q
 
+
 STEP = "q = np.clip(q + dls_step(J, e, np.sqrt(e @ e / {} + {})), *limits.T)"
 GIVEN = STEP.format(2, "1e-06")
 for change, why in {

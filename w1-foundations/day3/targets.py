@@ -51,7 +51,7 @@ def targets(rng):
 
 
 def _chosen() -> list[tuple[Array, ...]]:
-    """Return a pure turn and a pure move, targets at limits, one far turn, and none at all."""
+    """Return a pure turn, a pure move, targets at limits, one far turn, and none."""
     S, M, limits = arm()
     at, turned = screws.fk_space(S, M, np.array([panda.READY_Q, FAR_START]))
     limited = screws.fk_space(S, M, np.array([BEYOND_4, AT_6, AT_2, BEYOND_PI]))

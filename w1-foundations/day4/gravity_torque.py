@@ -122,5 +122,7 @@ def _(J, masses, coms_world, g):
 
 
 row.at_least_0(masses="a mass")
-row.same("first J_space = np.clip(J_space, -1, 1)", "the Panda's links are within a metre")
+row.same(
+    "first J_space = np.clip(J_space, -1, 1)", "the Panda's links are within a metre"
+)
 row.same("first coms_world = np.clip(coms_world, -1, 1)", "so are their centres")

@@ -228,6 +228,7 @@ def _(t, omega, zeta):
     s = omega * (-z + np.array([1, -1]) * np.sqrt(complex(z**2 - 1)))
     return ((s[0] * np.exp(s[1] * t) - s[1] * np.exp(s[0] * t)) / (s[0] - s[1])).real
 
+
 row.at_least_0(t="time since the start", omega="a frequency", zeta="a damping ratio")
 for decay in (
     "((fast * np.exp(-slow * t) - slow * np.exp(-fast * t)) / (fast - slow))",

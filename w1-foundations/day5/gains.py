@@ -48,4 +48,5 @@ def _(omega, zeta):
 def _(omega, zeta):
     return [omega * omega, 2 * omega * zeta]
 
+
 row.at_least_0(omega="a frequency", zeta="a damping ratio", answer="gains")

@@ -64,4 +64,5 @@ row.reached_by("pd_torque", "gravity is right; in the springs, ")
 def _(e, ed, kp, kd, g_at_q):
     return kp * (e + g_at_q / kp) + kd * ed
 
+
 row.at_least_0(kp="a gain", kd="a gain")

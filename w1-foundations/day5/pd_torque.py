@@ -62,4 +62,5 @@ def _(e, ed, kp, kd):
 def _(e, ed, kp, kd):
     return np.round(kp * e + kd * ed, 5)
 
+
 row.at_least_0(kp="a gain", kd="a gain")

@@ -225,6 +225,7 @@ def _(e, ed, integral, kp, kd, ki, dt, clamp):
     new = [min(max(i + x * dt, -clamp), clamp) for i, x in zip(integral, e)]
     return [kp * e + kd * ed + ki * np.array(new), new]
 
+
 row.at_least_0(
     kp="a gain",
     kd="a gain",

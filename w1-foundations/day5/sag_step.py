@@ -70,4 +70,5 @@ def _(q_goal, g_at_q, kp):
 def _(q_goal, g_at_q, kp):
     return (kp * q_goal - g_at_q) / kp
 
+
 row.at_least_0(kp="a gain")

@@ -84,4 +84,5 @@ def _(tau, limits):
 def _(tau, limits):
     return np.median([-limits, tau, limits], axis=0)
 
+
 row.at_least_0(limits="bounds on both sides")

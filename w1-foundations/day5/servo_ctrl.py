@@ -51,4 +51,5 @@ def _(tau, q, qd, kp, kd):
         "stiffness-forgotten": q + tau + kd * qd,
     }
 
+
 row.at_least_0(kp="a gain", kd="a gain")

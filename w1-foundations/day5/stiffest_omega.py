@@ -51,4 +51,5 @@ def _(h):
 def _(h):
     return 0.828427 / h
 
+
 row.at_least_0(h="a step of time", answer="a frequency")

@@ -127,4 +127,5 @@ def _(K, Lambda):
     k = np.diag(np.sqrt(K))
     return Y @ k + k @ Y
 
+
 row.at_least_0(K="a stiffness")

@@ -73,4 +73,5 @@ def _(force, k, surface):
 def _(force, k, surface):
     return np.subtract(surface, np.divide(force, k))
 
+
 row.at_least_0(k="a stiffness")

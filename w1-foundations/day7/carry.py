@@ -153,4 +153,5 @@ def _(m1, c1, I1, m2, c2, I2):
 def _(m1, c1, I1, m2, c2, I2):
     return np.round(carry(m1, c1, I1, m2, c2, I2), 6)
 
+
 row.at_least_0(m1="a mass", m2="a mass")

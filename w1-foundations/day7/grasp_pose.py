@@ -108,4 +108,5 @@ def _(T_world_cube, above):
     R = np.stack([x, np.cross(z, x), z], axis=1)
     return se3.make_T(R, T_world_cube[:3, 3] + [0.0, 0.0, above])
 
+
 row.at_least_0(above="a height over the cube")

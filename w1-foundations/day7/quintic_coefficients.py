@@ -107,4 +107,5 @@ def _(start, end, T):
     five = (12 * h - 6 * (v1 + v0) * T + (a1 - a0) * T**2) / (2 * T**5)
     return np.array([q0, v0, a0 / 2, three, four, five])
 
+
 row.at_least_0(duration="how long the move takes")

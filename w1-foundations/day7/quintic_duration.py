@@ -153,6 +153,7 @@ def _(dq, v_max, a_max):
 def _(dq, v_max, a_max):
     return seconds(dq, v_max, a_max, acceleration=5.77350).max()
 
+
 row.at_least_0(
     dq="its way counts, not its sign",
     v_max="a limit",

@@ -176,6 +176,7 @@ def _(t, T):
     sd = (s(x + h) - s(x - h)) / (2 * h * T)
     return np.array([s(x), sd, (s(x + h) - 2 * s(x) + s(x - h)) / (h * T) ** 2])
 
+
 row.at_least_0(
     duration="how long the move takes",
     t="before 0 it stands at its start, as at 0",

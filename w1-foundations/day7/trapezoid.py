@@ -177,6 +177,7 @@ def _(t, L, v, a):
             return np.array([s, sd, acc if h > 0 else 0.0])
     return np.array([L, 0.0, 0.0])
 
+
 row.at_least_0(
     L="a length",
     v="a top speed",
@@ -184,5 +185,8 @@ row.at_least_0(
     t="before 0 it stands at its start, as at 0",
 )
 for move in ("a * t ** 2 / 2, a * t, a", "top * (t - ramp / 2), top, 0.0"):
-    for sign in (f"np.abs((np.array([{move}])))", f"np.maximum((np.array([{move}])), 0)"):
+    for sign in (
+        f"np.abs((np.array([{move}])))",
+        f"np.maximum((np.array([{move}])), 0)",
+    ):
         row.same(f"return {sign}", "before the brake none of the three is negative")
