@@ -354,7 +354,6 @@ def main() -> int:
     fast = np.abs(own.qd) > SLOW
     Y_own = regressor(arm, own)[fast]
     judged("your two harmonics", Y_own, tau_own[fast], Y_new, truth, RTOL)
-    lab.measured("condition of your two harmonics", identifiable(Y_own, RTOL)[1])
     print(f"  the model file's own numbers{rms(Y_new @ phi_file - truth):29.2f}")
     lab.record("fit", off, metric="new_rms_nm", label="excited, elsewhere",
                seed=ROBOT_SEED)  # fmt: skip
