@@ -27,9 +27,9 @@ VIEW := $(if $(findstring --screenshot,$(ARGS)),figures,view)
 RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/dev/null),figures,core)
 
 .DEFAULT_GOAL := help
-.PHONY: update edition start check hint borrow run doctor bench test-matrix setup robot view grade
+.PHONY: update edition start check hint borrow run doctor bench kernels test-matrix setup robot view grade
 .PHONY: capstone proof fresh help test soak report lint docs site oracle figures notebook
-.PHONY: new author
+.PHONY: new author gaps
 
 help: ## this list
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
@@ -95,6 +95,9 @@ soak: .venv/.ready-test ## the long tests: a log of gigabytes, a class of 200
 report: .venv/.ready-core ## metrics/report.html from the log; WEEK=1 its page alone
 	@$(PY) scripts/report_metrics.py $(if $(WEEK),--week $(WEEK)) $(ON_DAY) $(ARGS)
 
+kernels: .venv/.ready-test $(ROBOT) ## the tests of numbers as on other processors
+	@$(PY) scripts/kernels.py $(ARGS)
+
 test-matrix: .venv/.ready-test $(ROBOT) ## the tests on the oldest and newest MuJoCo and Python
 	@$(PY) scripts/test_matrix.py $(ARGS)
 
@@ -121,8 +124,11 @@ new: .venv/.ready-core $(ROBOT) ## a day's skeleton: make new DAY=8 WEEK=w2-auto
 	@$(PY) scripts/new_day.py "$(or $(DAY),$(error which day? make new DAY=8 \
 	WEEK=w2-autonomy NAME=my_day))" "$(WEEK)" "$(NAME)" $(ARGS)
 
-author: .venv/.ready-test .venv/.ready-notebook $(ROBOT) ## is a day that you write as it must be?
-	@$(PY) scripts/author_day.py $(DAY) $(ARGS) $(NOT_YET)
+author: .venv/.ready-test .venv/.ready-notebook .venv/.ready-view $(ROBOT) ## is a day that you write as it must be? TASK=9.3
+	@$(PY) scripts/author_day.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS) $(NOT_YET)
+
+gaps: .venv/.ready-core $(ROBOT) ## what no question of a day notices: its functions, changed by machine
+	@$(PY) scripts/gaps.py $(DAY) $(ARGS) $(NOT_YET)
 
 oracle: .venv/.ready-core ## regenerate tests/data from Pinocchio (own environment)
 	@$(PY) scripts/make_oracle.py $(ARGS)

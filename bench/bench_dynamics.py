@@ -173,7 +173,8 @@ def run(rounds: int = 7, n: int = N) -> dict:
     """
     motion = _motion(n)
     few = Motion(*(part[:CHECKED] for part in motion))
-    truth, (rivals, left_out) = truths(few), installed(RIVALS)
+    truth = truths(few)
+    rivals, left_out = installed(RIVALS)
 
     def error(name: str, question: str) -> float:
         off = np.abs(rivals[name].solve(question, few) - truth[question]).max()
@@ -196,7 +197,8 @@ def run(rounds: int = 7, n: int = N) -> dict:
 def one_at_a_time(rounds: int = 7) -> dict[str, float]:
     """Return microseconds for what a control loop asks of one configuration."""
     model = _model()
-    arm, data = panda.arm(model), mujoco.MjData(model)
+    arm = panda.arm(model)
+    data = mujoco.MjData(model)
     chain = kinematics.chain_to(model, SITE)
     motion = _motion(ONE)
 

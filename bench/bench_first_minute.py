@@ -19,7 +19,8 @@ def run() -> dict:
         {"seconds", "downloaded_mb", "robot_mb", "handout_clone_mb", "passed"}.
     """
     with tempfile.TemporaryDirectory() as folder:
-        clone, cache = Path(folder) / "robo47", Path(folder) / "cache"
+        clone = Path(folder) / "robo47"
+        cache = Path(folder) / "cache"
         environment = {
             **os.environ, "HOME": folder, "PIP_CACHE_DIR": str(cache),
             "UV_CACHE_DIR": str(cache), "XDG_CACHE_HOME": folder + "/xdg",

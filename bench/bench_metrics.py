@@ -91,7 +91,9 @@ def _ways(folder: Path, base: sqlite3.Connection, rows: int) -> dict[str, Way]:
                 file.write((LINE + "\n") * min(10_000, rows - start))
         return path
 
-    ours, synced, naive = log("ours.csv"), log("synced.csv"), log("naive.csv")
+    ours = log("ours.csv")
+    synced = log("synced.csv")
+    naive = log("naive.csv")
     ways: dict[str, Way] = {
         "naive csv append": lambda: _naive(naive),
         "robo47": lambda: append_row(ours, **ROW),

@@ -46,7 +46,8 @@ def gains(omega: ArrayLike, zeta: ArrayLike) -> Array:
     Returns:
         kp in 1/s2 and kd in 1/s, (..., 2).
     """
-    omega, zeta = checks.array(omega, "omega", ()), checks.array(zeta, "zeta", ())
+    omega = checks.array(omega, "omega", ())
+    zeta = checks.array(zeta, "zeta", ())
     omega, zeta = np.broadcast_arrays(omega, zeta)
     return np.stack([omega**2, 2.0 * zeta * omega], axis=-1)
 
@@ -68,7 +69,8 @@ def error_response(t: ArrayLike, omega: ArrayLike, zeta: ArrayLike) -> Array:
     Returns:
         The error as a fraction of the first one, (...).
     """
-    t, omega = checks.not_negative(t, "t"), checks.positive(omega, "omega")
+    t = checks.not_negative(t, "t")
+    omega = checks.positive(omega, "omega")
     zeta = checks.not_negative(zeta, "zeta")
     rate = zeta * omega
     swing = omega * np.sqrt(np.maximum(1.0 - zeta**2, 0.0))
@@ -223,7 +225,8 @@ def stiffest_omega(h: ArrayLike, steps: ArrayLike = 1) -> Array:
     Returns:
         Natural frequency in rad/s, (...).
     """
-    h, steps = checks.positive(h, "h"), checks.positive(steps, "steps")
+    h = checks.positive(h, "h")
+    steps = checks.positive(steps, "steps")
     return 2.0 * (np.sqrt(1.0 + 1.0 / steps) - 1.0) / h
 
 

@@ -70,7 +70,8 @@ def dh_fk(table: ArrayLike, q: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape or a non-finite number.
     """
-    table, q = checks.array(table, "table", ()), checks.array(q, "q", ())
+    table = checks.array(table, "table", ())
+    q = checks.array(q, "q", ())
     if q.ndim == 0 or table.shape != (q.shape[-1] + 1, 3):
         raise ValueError(
             f"table has shape {table.shape} and q {q.shape}; expected (n + 1, 3) and "

@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 from robo47 import checks
 from robo47.checks import Array
 from robo47.fast.vectors import times
-from robo47.screws import ad, skew
+from robo47.screws import skew
 
 
 def spatial_inertia(m: ArrayLike, c: ArrayLike, inertia: ArrayLike) -> Array:
@@ -47,7 +47,8 @@ def spatial_inertia(m: ArrayLike, c: ArrayLike, inertia: ArrayLike) -> Array:
     corner = m * C
     around = own + corner @ np.swapaxes(C, -1, -2)
     G = np.empty((*around.shape[:-2], 6, 6))
-    G[..., :3, :3], G[..., :3, 3:] = around, corner
+    G[..., :3, :3] = around
+    G[..., :3, 3:] = corner
     G[..., 3:, :3] = np.swapaxes(corner, -1, -2)
     G[..., 3:, 3:] = m * np.eye(3)
     return G
@@ -130,6 +131,28 @@ def gravity_torque(
     return -_felt(J, np.concatenate([moments, forces], axis=-1))
 
 
+def ad(V: ArrayLike) -> Array:
+    """Return ad(V): at what rate a twist changes that is carried along by V.
+
+    [[[omega], 0], [[v], [omega]]] (Modern Robotics, definition 8.1 of the Lie
+    bracket). ad(V) @ V = 0.
+
+    Args:
+        V: twist (omega; v), rad/s and m/s, (..., 6).
+
+    Returns:
+        Matrix for twists (omega; v), (..., 6, 6).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
+    """
+    V = checks.array(V, "V", (6,))
+    out = np.zeros((*V.shape, 6))
+    out[..., :3, :3] = out[..., 3:, 3:] = skew(V[..., :3])
+    out[..., 3:, :3] = skew(V[..., 3:])
+    return out
+
+
 def inverse_dynamics(
     J_space: ArrayLike, G: ArrayLike, qd: ArrayLike, qdd: ArrayLike, g: ArrayLike
 ) -> Array:
@@ -182,6 +205,44 @@ def bias_torque(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike, g: ArrayLike) -
     return inverse_dynamics(J_space, G, qd, np.zeros(np.shape(J_space)[-1:]), g)
 
 
+def coriolis_matrix(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike) -> Array:
+    """Return C(q, qd), whose product with qd is the Coriolis and centrifugal torque.
+
+    Of the many matrices with this product it is Christoffel's, C_ij = sum of
+    (dM_ij/dq_k + dM_ik/dq_j - dM_jk/dq_i) qd_k / 2, so dM/dt = C + C^T, and dM/dt - 2 C
+    is skew-symmetric (Modern Robotics, section 8.1.2 and proposition 8.1). The sum over
+    the links of J_i^T (G_i Jdot_i + B_i J_i), with B_i the half of what the velocity
+    does to the momentum and to the inertia (Echeandia and Wensing, "Numerical methods
+    to compute the Coriolis matrix and Christoffel symbols for rigid-body systems",
+    J. Computational and Nonlinear Dynamics 16(9), 2021).
+
+    Args:
+        J_space, G, qd: as in `inverse_dynamics`.
+
+    Returns:
+        C, N m s/rad, (..., n, n).
+    """
+    J = checks.array(J_space, "J_space", (6, "n"))
+    n = J.shape[-1]
+    G = checks.array(G, "G", (n, 6, 6))
+    qd = checks.array(qd, "qd", (n,))[..., None]
+    S = np.swapaxes(J, -1, -2)
+    V = np.cumsum(S * qd, axis=-2)
+    ad_V = ad(V)
+    S_rate = times(ad_V, S)  # a screw is carried along by its own link
+    B = _velocity_product(G, V, ad_V)
+    # Joint i carries link i and all after it, as in `mass_matrix`.
+    carried_G = np.cumsum(G[..., ::-1, :, :], axis=-3)[..., ::-1, :, :]
+    carried_B = np.cumsum(B[..., ::-1, :, :], axis=-3)[..., ::-1, :, :]
+    # The links that both joints move begin with the later one of the two.
+    later = times(carried_G, S_rate) + times(carried_B, S)
+    upper = np.triu(S @ np.swapaxes(later, -1, -2))
+    momenta = times(carried_G, S)
+    turned = times(np.swapaxes(carried_B, -1, -2), S)
+    lower = momenta @ np.swapaxes(S_rate, -1, -2) + turned @ J
+    return upper + np.tril(lower, -1)
+
+
 def forward_dynamics(
     M: ArrayLike, bias: ArrayLike, damping: ArrayLike, qd: ArrayLike, tau: ArrayLike
 ) -> Array:
@@ -228,6 +289,18 @@ def energy(
     kinetic = 0.5 * (qd * times(M, qd)).sum(axis=-1)
     potential = -(masses * (coms @ _gravity(g))).sum(axis=-1)
     return np.stack(np.broadcast_arrays(kinetic, potential), axis=-1)
+
+
+def _velocity_product(G: Array, V: Array, ad_V: Array) -> Array:
+    """Return B, half of -ad(V)^T G - G ad(V) + [G V]*: B V = -ad(V)^T G V."""
+    momentum = times(G, V)
+    moment = skew(momentum[..., :3])
+    force = skew(momentum[..., 3:])
+    crossed = np.zeros_like(ad_V)  # takes a twist m to -ad(m)^T G V
+    crossed[..., :3, :3] = -moment
+    crossed[..., :3, 3:] = -force
+    crossed[..., 3:, :3] = -force
+    return 0.5 * (crossed - np.swapaxes(ad_V, -1, -2) @ G - G @ ad_V)
 
 
 def _felt(J: Array, wrenches: Array) -> Array:

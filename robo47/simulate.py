@@ -153,7 +153,8 @@ def run(
     tau = np.empty((n, 7))
     seen: list[Any] = []
     for k in range(n + 1):
-        q[k], qd[k] = data.qpos[adr], data.qvel[dof]
+        q[k] = data.qpos[adr]
+        qd[k] = data.qvel[dof]
         if k == n:
             break
         ctrl = np.asarray(controller(k / rate, q[k].copy(), qd[k].copy()), float)

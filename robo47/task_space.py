@@ -141,7 +141,8 @@ def spring_wrench(e: ArrayLike, V_err: ArrayLike, K: ArrayLike, D: ArrayLike) ->
     """
     e, V_err = checks.same_size(e=e, V_err=V_err)
     square = (e.shape[-1], e.shape[-1])
-    K, D = checks.array(K, "K", square), checks.array(D, "D", square)
+    K = checks.array(K, "K", square)
+    D = checks.array(D, "D", square)
     return times(K, e) + times(D, V_err)
 
 
@@ -195,7 +196,8 @@ def impedance_torque(
     J = checks.array(J_site, "J_site", ("m", "n"))
     m, n = J.shape[-2:]
     wrench = checks.array(wrench, "wrench", (m,))
-    bias, qd = checks.array(bias, "bias", (n,)), checks.array(qd, "qd", (n,))
+    bias = checks.array(bias, "bias", (n,))
+    qd = checks.array(qd, "qd", (n,))
     tau_null = checks.array(tau_null, "tau_null", (n,))
     friction = checks.per_joint(damping, "damping", qd) * qd
     return times(_T(J), wrench) + bias + friction + tau_null

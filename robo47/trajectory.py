@@ -1,27 +1,27 @@
 """Trajectories: a path says where, a time scaling says when.
 
 Conventions: s is the fraction of the path that is done, 0 to 1; sd and sdd are its
-derivatives in 1/s and 1/s2; a T is a pose. Radians, metres, seconds, kilograms. `n`
-is the number of joints; leading dimensions broadcast. Before 0 and after its duration
-a scaling stands still. Every function raises ValueError where a shape is wrong, a
+derivatives in 1/s and 1/s2; a T is a pose. Radians, metres, seconds. `n` is the
+number of joints; leading dimensions broadcast. Before 0 and after its duration a
+scaling stands still. Every function raises ValueError where a shape is wrong, a
 number is not finite or out of the range that its docstring states.
 
-Sources: Lynch and Park, Modern Robotics (2017), chapter 9 (sections 9.2 and 9.3);
-section 8.2 for inertias.
+Sources: Lynch and Park, Modern Robotics (2017), chapter 9 (sections 9.2 and 9.3).
 """
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import checks, se3
+from robo47 import checks, screws, se3
 from robo47.checks import Array
-from robo47.gravity import GRAVITY
+from robo47.lifting import carry as carry  # where labs have typed these three
+from robo47.lifting import grasp_pose as grasp_pose
+from robo47.lifting import heaviest_cube as heaviest_cube
 from robo47.rotation_log import log_rotation
 
 # The quintic's largest speed and acceleration, times duration and its square.
 PEAK_SPEED = 15.0 / 8.0
 PEAK_ACCELERATION = 10.0 / np.sqrt(3.0)
-_TOOL_DOWN = np.diag([1.0, -1.0, -1.0])  # z down, x as the world's
 
 
 def quintic_scaling(t: ArrayLike, duration: ArrayLike) -> Array:
@@ -105,7 +105,8 @@ def trapezoid(t: ArrayLike, L: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
     """
     t = checks.array(t, "t", ())
     L = checks.not_negative(L, "L")
-    v, a = checks.positive(v, "v"), checks.positive(a, "a")
+    v = checks.positive(v, "v")
+    a = checks.positive(a, "a")
     top = np.minimum(v, np.sqrt(L * a))
     ramp = top / a
     # top is 0 where there is no way to go
@@ -136,7 +137,8 @@ def quintic_coefficients(
     Returns:
         Coefficients of 1, t, ..., t^5, (..., 6).
     """
-    start, end = checks.array(start, "start", (3,)), checks.array(end, "end", (3,))
+    start = checks.array(start, "start", (3,))
+    end = checks.array(end, "end", (3,))
     duration = checks.positive(duration, "duration")
     powers = np.arange(6)
     first = powers * duration[..., None] ** np.maximum(powers - 1, 0)
@@ -164,86 +166,16 @@ def straight_pose(T0: ArrayLike, T1: ArrayLike, s: ArrayLike) -> Array:
     Returns:
         Pose, (..., 4, 4).
     """
-    T0, T1 = checks.pose(T0, "T0"), checks.pose(T1, "T1")
+    T0 = checks.pose(T0, "T0")
+    T1 = checks.pose(T1, "T1")
     s = checks.array(s, "s", ())
     R0 = T0[..., :3, :3]
     p0 = T0[..., :3, 3]
     turn = log_rotation(np.swapaxes(R0, -1, -2) @ T1[..., :3, :3])
     angle = np.linalg.norm(turn, axis=-1)
     axis = np.where(angle[..., None] > 0.0, turn, [0.0, 0.0, 1.0])
-    R = R0 @ se3.axis_angle(axis, s * angle)
+    R = R0 @ screws.axis_angle(axis, s * angle)
     return se3.make_T(R, p0 + s[..., None] * (T1[..., :3, 3] - p0))
-
-
-def grasp_pose(T_world_cube: ArrayLike, above: ArrayLike) -> Array:
-    """Return the tool's pose over a cube: pointing down, fingers along a near side.
-
-    A cube looks the same after a quarter turn, so its yaw is folded into +-45 degrees:
-    from READY_Q the tool is never far to turn.
-
-    Args:
-        T_world_cube: pose of a cube that stands on one of its faces, its z axis up
-            or down, (..., 4, 4).
-        above: height of the tool over the cube's centre in metres, (...).
-
-    Returns:
-        T_world_tcp, (..., 4, 4); its z axis points down.
-    """
-    T_world_cube = checks.pose(T_world_cube, "T_world_cube")
-    above = checks.array(above, "above", ())
-    yaw = np.arctan2(T_world_cube[..., 1, 0], T_world_cube[..., 0, 0])
-    quarter = np.pi / 2.0
-    R = se3.Rz(yaw - np.round(yaw / quarter) * quarter) @ _TOOL_DOWN
-    up = np.stack([np.zeros_like(above), np.zeros_like(above), above], axis=-1)
-    return se3.make_T(R, T_world_cube[..., :3, 3] + up)
-
-
-def carry(
-    m1: ArrayLike, c1: ArrayLike, I1: ArrayLike,
-    m2: ArrayLike, c2: ArrayLike, I2: ArrayLike,
-) -> Array:  # fmt: skip
-    """Return the one body that two bodies are when the first holds the second.
-
-    Masses add up; the inertias are moved to the common centre of mass by the
-    parallel-axis theorem, I + m (d.d 1 - d d^T), and added (Modern Robotics,
-    section 8.2.1).
-
-    Args:
-        m1, m2: masses in kg, at least 0 and not both 0, (...).
-        c1, c2: centres of mass in metres, in one frame for both, (..., 3).
-        I1, I2: inertias about the own centre of mass, in the axes of that frame,
-            kg m2, (..., 3, 3).
-
-    Returns:
-        Mass, centre of mass (3) and inertia about it as MuJoCo's fullinertia orders
-        it (xx, yy, zz, xy, xz, yz), (..., 10).
-    """
-    m1, m2 = checks.not_negative(m1, "m1"), checks.not_negative(m2, "m2")
-    c1, c2 = checks.array(c1, "c1", (3,)), checks.array(c2, "c2", (3,))
-    I1, I2 = checks.array(I1, "I1", (3, 3)), checks.array(I2, "I2", (3, 3))
-    m = checks.positive(m1 + m2, "m1 + m2")
-    c = (m1[..., None] * c1 + m2[..., None] * c2) / m[..., None]
-    inertia = I1 + _parallel_axis(m1, c1 - c) + I2 + _parallel_axis(m2, c2 - c)
-    six = inertia[..., [0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
-    out = np.empty((*np.broadcast_shapes(m.shape, c.shape[:-1], six.shape[:-1]), 10))
-    out[..., 0], out[..., 1:4], out[..., 4:] = m, c, six
-    return out
-
-
-def heaviest_cube(grip: ArrayLike, mu: ArrayLike, acceleration: ArrayLike) -> Array:
-    """Return the mass that two fingers lift: 2 mu grip = m (g + acceleration).
-
-    Args:
-        grip: force of one finger in newtons, at least 0, (...).
-        mu: coefficient of friction, at least 0, (...).
-        acceleration: upwards, in m/s2, above -9.81, (...).
-
-    Returns:
-        Mass in kg, (...).
-    """
-    grip, mu = checks.not_negative(grip, "grip"), checks.not_negative(mu, "mu")
-    lift = checks.array(acceleration, "acceleration", ()) - GRAVITY[2]
-    return 2.0 * mu * grip / checks.positive(lift, "9.81 + acceleration")
 
 
 def _limit(value: ArrayLike, name: str, dq: Array) -> Array:
@@ -252,8 +184,3 @@ def _limit(value: ArrayLike, name: str, dq: Array) -> Array:
     none = np.isposinf(value)
     finite = checks.per_joint(np.where(none, 1.0, value), name, dq)
     return np.where(none, np.inf, checks.positive(finite, name))
-
-
-def _parallel_axis(m: Array, d: Array) -> Array:
-    square = (d * d).sum(axis=-1)[..., None, None] * np.eye(3)
-    return m[..., None, None] * (square - d[..., :, None] * d[..., None, :])

@@ -104,4 +104,6 @@ def end(code, *lines):
 sys.excepthook = explain
 if not here():
     go_on()
+import labkit.lesson.day_mujoco  # noqa: E402, F401 (labs find `day5_mujoco` then)
+
 os.environ.pop("ROBO47_HANDED_ON", None)  # programs that we start may hand on too

@@ -1,6 +1,7 @@
 """A new day's skeleton passes; what is wrong with a day is told with its line."""
 
 import shutil
+import subprocess
 
 import pytest
 
@@ -38,10 +39,9 @@ def kit(made):
 
 
 def test_a_new_day_is_all_as_it_must_be(kit):
-    assert run_copy(kit, "scripts/make_notebook.py", "--day", "46").returncode == 0
     done = run_copy(kit, AUTHOR, "46")
     assert done.returncode == 0, done.stdout + done.stderr
-    assert done.stdout.count("PASS") == 7
+    assert done.stdout.count("PASS") == 8
     assert f"**[Day 46: Trial]({GUIDE})**" in (kit / "README.md").read_text()
 
 
@@ -135,3 +135,59 @@ def test_the_worksheets_skeleton_has_what_the_manifest_asks_for(day):
     assert {term.lower() for term in day.terms} <= set(sections)
     assert sum(name.startswith("drawing ") for name in sections) == day.drawings
     assert worksheet_of(find_day(day.number)).count("*(your answer)*") == day.questions
+
+
+METRICS = '\n[[metrics]]\ncheck = "speed"\nmetric = "seconds"\nmax = 3.0\n'
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "says"),
+    [
+        (
+            f"{WEEK}/day46/day.toml",
+            "\n[[tasks]]",
+            f"{METRICS}\n[[tasks]]",
+            "no step of",
+        ),
+        (
+            GUIDE,
+            "# Day 46",
+            "![gone](../figures/gone.png)\n\n# Day 46",
+            "gone.png is not",
+        ),
+        (LAB, "# region 46.1\n", "# region 46.1\n    raise KeyError\n", "judges the"),
+    ],
+)
+def test_what_only_a_student_would_meet_is_told_to_the_author(
+    kit, file, old, new, says
+):
+    text = (kit / file).read_text()
+    assert old in text
+    (kit / file).write_text(text.replace(old, new, 1))
+    done = run_copy(kit, AUTHOR, "46", "--fast")
+    assert done.returncode == 1
+    assert says in " ".join(done.stdout.split())
+
+
+def test_a_students_file_in_the_repository_is_told(kit):
+    work = kit / WEEK / "work"
+    work.mkdir()
+    (work / "day46_trial.py").write_text("mine")
+    for words in (["init", "-q"], ["add", "-A", WEEK]):
+        subprocess.run(["git", *words], cwd=kit, check=True)
+    done = run_copy(kit, AUTHOR, "46", "--fast")
+    shutil.rmtree(kit / ".git")
+    assert f"git holds {WEEK}/work/day46_trial.py" in " ".join(done.stdout.split())
+
+
+def test_a_function_that_another_day_has_is_told(kit):
+    change(kit / WEEK / "day46" / "day.toml", '["reach"]', '["skew"]')
+    done = run_copy(kit, AUTHOR, "46", "--fast")
+    assert "day 2 has a function skew too" in " ".join(done.stdout.split())
+
+
+def test_one_task_is_looked_at_alone(kit):
+    (kit / GUIDE).unlink()
+    done = run_copy(kit, AUTHOR, "--task", "46.1")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "0 not told what they must be" in done.stdout

@@ -109,8 +109,8 @@ def test_it_runs_with_the_functions_that_the_labs_ask_for():
 
 @pytest.mark.kit
 def test_with_gravity_forgotten_the_cube_is_still_placed_but_the_arm_is_far_off():
-    fns, speed = capstone.ablations(capstone.library())["gravity forgotten"]
-    result = capstone.pick(fns, speed=speed)
+    fns, options = capstone.ablations(capstone.library())["gravity forgotten"]
+    result = capstone.pick(fns, **options)
     assert not result.failed  # measured 5.7 mm on 4.0.0, 6.3 on 3.3.0
     assert result.joint_mrad > 30.0  # measured 68
     assert result.line_mm > 50.0  # measured 100
@@ -145,9 +145,9 @@ def test_random_tasks_repeat_and_lie_on_the_table():
 
 def test_the_ablations_change_one_thing_each():
     fns = capstone.library()
-    for name, (changed, speed) in capstone.ablations(fns).items():
+    for name, (changed, options) in capstone.ablations(fns).items():
         different = [n for n in vars(fns) if vars(changed)[n] is not vars(fns)[n]]
-        faster = speed != capstone.SPEED
+        faster = options["speed"] != capstone.SPEED
         assert len(different) + faster == (0 if name == "right" else 1), name
 
 

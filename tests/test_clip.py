@@ -95,11 +95,11 @@ def test_a_red_arm_is_really_drawn(gl):
 def test_a_picks_clip_names_its_phases_and_a_small_cube_keeps_its_colour(tmp_path):
     from robo47 import capstone
 
-    result = capstone.pick(capstone.library(), rate=50.0)
-    rows = [int(np.searchsorted(result.t, t)) for t in (0.0, result.t[-1])]
-    assert [clip.phase(result, row)[0] for row in rows] == [
+    film = capstone.film(capstone.pick(capstone.library(), rate=50.0))
+    rows = [int(np.searchsorted(film.t, t)) for t in (0.0, film.t[-1])]
+    assert [clip.phase(film, row)[0] for row in rows] == [
         "reach, 0.0 s",
-        f"rest, {result.t[-1]:.1f} s",
+        f"rest, {film.t[-1]:.1f} s",
     ]
     grey = np.full((200, 300, 3), 128, dtype=np.uint8)
     grey[:, :, 1] = np.linspace(100, 160, 300)

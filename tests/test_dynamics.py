@@ -12,8 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from conftest import ROOT, load_script
 from robo47 import dynamics, panda, screws, verify
-from robo47.verify.links import mujoco_energies
 
 G_EARTH = np.array([0.0, 0.0, -9.81])
 DATA = Path(__file__).parent / "data"
@@ -101,7 +101,8 @@ def test_the_energies_are_mujocos(arm):
     model, now = arm
     M = dynamics.mass_matrix(now.J, now.G, model.dof_armature)
     both = dynamics.energy(M, now.qd, now.masses, now.coms_world, G_EARTH)
-    assert_same(both, mujoco_energies(model, now.q, now.qd), 1e-12)
+    lab = load_script(ROOT / "w1-foundations/src/day4_dynamics.py")
+    assert_same(both, lab.mujoco_energies(model, now.q, now.qd), 1e-12)
 
 
 def test_pinocchio_agrees(either_panda):
@@ -234,3 +235,47 @@ def test_a_batch_is_its_configurations_one_by_one(either_panda):
 def test_a_wrong_argument_is_named_with_what_was_expected(call, words):
     with pytest.raises(ValueError, match=words):
         call()
+
+
+def test_the_coriolis_matrix_times_qd_is_mujocos_bias_without_gravity(arm):
+    model, now = arm
+    C = dynamics.coriolis_matrix(now.J, now.G, now.qd)
+    gravity = verify.mujoco_bias(model, now.q, 0 * now.qd)
+    truth = verify.mujoco_bias(model, now.q, now.qd) - gravity
+    assert_same((C @ now.qd[..., None])[..., 0], truth, 1e-12)
+
+
+def test_the_mass_matrix_changes_by_the_coriolis_matrix_and_its_transpose(arm):
+    model, now = arm
+    h = 1e-5
+    ahead = verify.mujoco_mass_matrix(model, now.q + h * now.qd)
+    behind = verify.mujoco_mass_matrix(model, now.q - h * now.qd)
+    C = dynamics.coriolis_matrix(now.J, now.G, now.qd)
+    # So dM/dt - 2 C is C^T - C, which is skew-symmetric.
+    assert_same(C + np.swapaxes(C, -1, -2), (ahead - behind) / (2 * h), 1e-7)
+
+
+def test_the_coriolis_matrix_is_christoffels_of_mujocos_mass_matrix(arm):
+    model, now = arm
+    h = 1e-5
+    q, qd = now.q[:10], now.qd[:10]
+    rates = []  # of M along each joint
+    for k in range(7):
+        step = h * np.eye(7)[k]
+        ahead = verify.mujoco_mass_matrix(model, q + step)
+        behind = verify.mujoco_mass_matrix(model, q - step)
+        rates.append((ahead - behind) / (2 * h))
+    dM = np.stack(rates, axis=-1)  # [..., i, j, k] = dM_ij / dq_k
+    symbols = (dM + np.swapaxes(dM, -1, -2) - np.moveaxis(dM, -1, -3)) / 2
+    truth = (symbols @ qd[:, None, :, None])[..., 0]
+    C = dynamics.coriolis_matrix(now.J[:10], now.G[:10], qd)
+    assert_same(C, truth, 1e-6)
+
+
+@given(arrays(np.float64, 7, elements=numbers))
+def test_the_coriolis_matrix_is_linear_in_the_speed(qd):
+    model = panda.load("panda_nohand")
+    now = terms(model, panda.READY_Q[None])
+    C = dynamics.coriolis_matrix(now.J, now.G, qd)
+    assert_same(dynamics.coriolis_matrix(now.J, now.G, 2.0 * qd), 2.0 * C, 1e-12)
+    assert not dynamics.coriolis_matrix(now.J, now.G, 0.0 * qd).any()

@@ -14,7 +14,7 @@ from labkit.base.git import before
 from labkit.commands import grade as command
 from labkit.grade import package as packages
 from labkit.grade import sheet
-from labkit.grade.course import Graded, percent
+from labkit.grade.course import Course, Graded, percent
 from labkit.grade.journal import Journal
 from labkit.grade.package import collect, read_in_time
 from labkit.grade.pull import pull_all
@@ -271,16 +271,15 @@ def test_a_frozen_result_is_regraded_for_nobody_but_who_asks(clone, tmp_path):
     [(30, 0, (0, 0)), (-1, 2, (1, 1)), (-1441, 1, (1441, 2)), (5, None, (None, None))],
 )
 def test_the_table_says_how_late_in_minutes_and_begun_days(minutes, late, expected):
-    one = Graded(Student("A", "a", Path()), result(4), "", minutes, late=late)
+    one = Graded(Student("A", "a", Path()), result(4), minutes=minutes, late=late)
     assert one.late_by == expected
     assert percent(one) == "50.0"
 
 
 def test_a_table_for_handing_on_says_nothing_of_who_it_is():
     told = replace(result(2), error="no such folder mia", refused=("read /home/mia",))
-    mia = Graded(
-        Student("Mia M", "mia", Path(), id="m@x.org"), told, "abc123", 5, "mia"
-    )
+    student = Student("Mia M", "mia", Path(), id="m@x.org")
+    mia = Graded(student, told, commit="abc123", minutes=5, note="mia")
     text = sheet.as_csv(sheet.nameless([mia], 4711)).decode("utf-8-sig")
     head, row = text.splitlines()
     assert "mia" not in row.lower()
@@ -316,3 +315,19 @@ def test_the_other_kit_gets_the_rest_of_the_command(monkeypatch, tmp_path, asked
     monkeypatch.setattr("sys.argv", ["grade_class.py", "class", *asked, "--day", "2"])
     command.with_kit("v1")
     assert called[2:] == ["class", "--day", "2", "--frozen"]
+
+
+@pytest.mark.parametrize(
+    ("typed", "asked", "kept"),
+    [(None, "", "mia ben"), ("", "mia ben", ""), ("mia,eva", "mia", "ben")],
+)
+def test_again_means_nobody_everybody_or_who_is_named(typed, asked, kept):
+    again = command.again_of(typed)
+    assert all(map(again.asks_for, asked.split()))
+    assert not any(map(again.asks_for, kept.split()))
+
+
+@pytest.mark.parametrize(("number", "said"), [(1, "1 student: "), (2, "2 students: ")])
+def test_a_class_of_one_is_one_student(number, said):
+    everybody = [Graded(Student("A", "a", Path()), result(4))] * number
+    assert command.standings(Course(DAY, everybody)) == f"{said}{number} under way"

@@ -1,6 +1,8 @@
 """The parts of grading: what is read, what travels, what is kept, what counts."""
 
 import contextlib
+import csv
+import io
 import os
 import re
 import shutil
@@ -38,7 +40,7 @@ from labkit.grade.package import Package, collect, fingerprint, unpack
 from labkit.grade.pull import OURS, pull_all
 from labkit.grade.result import Mark, Result, from_json, ungraded
 from labkit.grade.roster import Student, file_names, find_students
-from labkit.grade.sheet import plain
+from labkit.grade.sheet import as_csv, plain
 from labkit.handin import handin
 from labkit.handin.deliverables import check_deliverables, item_names
 from labkit.handin.handin import Handin
@@ -809,13 +811,28 @@ def test_bars_fill_their_line_and_escape_their_words():
         ("-5", "'-5"),
         ("a\nb\0c", "a b c"),
         ("\u202ea\x9bb", "a b"),
-        (";=cmd|' /C calc'!A0", ",=cmd,' /C calc'!A0"),
+        (";=cmd|' /C calc'!A0", ",=cmd¦' /C calc'!A0"),
+        (
+            "read as (x, y, z, w); here w is first",
+            "read as (x, y, z, w) – here w is first",
+        ),
+        ("; =1+1", "– =1+1"),
         ("\ud800", "\\ud800"),
         ("Zoë", "Zoë"),
     ],
 )
 def test_a_cell_is_one_line_of_plain_text(text, shown):
     assert plain(text) == shown
+
+
+def test_a_mistakes_name_and_sentence_reach_the_table_as_plain_text():
+    slips = result("wrong", *["todo"] * 7, mistakes={0: "named; =1+1"})
+    told = replace(slips.tasks[0], message="=1+1; @x|y")
+    one = Graded(Student("A", "a", Path()), replace(slips, tasks=(told,)))
+    head, row = csv.reader(io.StringIO(as_csv([one]).decode("utf-8-sig")))
+    cells = dict(zip(head, row, strict=True))
+    assert cells["what_it_says"] == "'=1+1 – @x¦y"
+    assert cells["first_mistake"] == f"{told.id} named – =1+1"
 
 
 def test_the_kits_own_solution_is_known_on_every_day():

@@ -10,8 +10,10 @@ import pytest
 import scipy.linalg
 from compare import assert_same
 
-from robo47 import dynamics, identification, panda, secret, verify
+from robo47 import dynamics, identification, panda, verify
 from robo47.screws import ad
+
+import day8_mujoco
 
 DATA = Path(__file__).parent / "data"
 G_EARTH = np.array([0.0, 0.0, -9.81])
@@ -33,7 +35,7 @@ def columns(arm, q, qd, qdd):
     now = [arm.at(x) for x in q]
     J, T = np.array([x.J_space for x in now]), np.array([x.T_links for x in now])
     Y = identification.arm_regressor(J, T, qd, qdd, arm.gravity)
-    return Y, secret.numbers(arm)[:70]
+    return Y, day8_mujoco.numbers(arm)[:70]
 
 
 def deficient():
@@ -53,7 +55,7 @@ def test_ten_numbers_are_day_4s_inertia_and_their_regressor_newton_and_eulers_wr
 
 
 def test_the_arms_regressor_is_mj_inverse_on_either_panda(either_panda):
-    arm, motion = panda.arm(either_panda), secret.anywhere(either_panda, 8, 50)
+    arm, motion = panda.arm(either_panda), day8_mujoco.anywhere(either_panda, 8, 50)
     Y, phi = columns(arm, *motion)
     motors = identification.motor_features(motion.qd, motion.qdd)
     friction = np.concatenate([arm.armature, arm.damping, np.zeros(7)])
@@ -96,10 +98,10 @@ def test_sigma_is_how_far_predictions_scatter():
 def test_a_load_is_weighed_to_rounding_where_nothing_rubs():
     model = panda.load("panda_nohand", drive="torque")
     com = np.array([0.02, -0.03, 0.06])
-    loaded = panda.load("panda_nohand", drive="torque", edit=secret.load(0.5, com))
+    loaded = panda.load("panda_nohand", drive="torque", edit=day8_mujoco.load(0.5, com))
     q = verify.random_q(model, 6, 8)
     extra = verify.mujoco_bias(loaded, q, 0 * q) - verify.mujoco_bias(model, q, 0 * q)
-    J, R = secret.hands(panda.arm(model), q)
+    J, R = day8_mujoco.hands(panda.arm(model), q)
     found = identification.payload_from_holds(J, R, extra, G_EARTH)
     assert_same(found, [0.5, *0.5 * com], 1e-13)
 

@@ -148,3 +148,25 @@ def test_without_a_prediction_nothing_is_said(log, own, capsys, cell):
     script = SCRIPT if cell == "the kit's" else script  # which knows nobody's
     Lab(str(script), "A lab.").measured("height of ee, m", 1)
     assert capsys.readouterr().out == ""
+
+
+def test_what_is_tried_is_measured_and_neither_judged_nor_logged(
+    log, capsys, monkeypatch
+):
+    monkeypatch.setattr(sys, "argv", ["lab", "--try"])
+    lab = lab_with(1.0)
+    lab.check("e", float("nan"))
+    lab.measured("no row of the worksheet", 1.0)
+    assert lab.finish() == 0
+    out = capsys.readouterr().out
+    assert "  ----  fk by hand: 1" in out
+    assert "  ----  e: nan" in out
+    assert "not judged, nothing logged" in out
+    assert not log.exists()
+    for verdict in ("PASS", "FAIL"):
+        assert verdict not in out
+
+
+def test_what_is_not_tried_is_judged(log, capsys):
+    assert lab_with(1.0).finish() == 1
+    assert "FAIL  fk by hand: 1" in capsys.readouterr().out

@@ -1,16 +1,18 @@
 """The notebook: made from the script, never stale, and it runs from top to bottom."""
 
 import dataclasses
+import functools
 import importlib.util
 import json
 import os
 import re
 import shutil
+import subprocess
 import sys
 
 import pytest
 
-from conftest import ROOT
+from conftest import ROOT, need
 
 if not os.environ.get("ROBO47_CI"):
     for package in ("ipykernel", "ipywidgets", "jupytext", "nbclient"):
@@ -25,7 +27,6 @@ from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
 
-NOTEBOOK = ROOT / "w1-foundations" / "notebooks" / "day1_transforms.ipynb"
 DAY = find_day(1)
 LOGGING = 'sys.argv = ["day1_transforms"]'
 
@@ -39,8 +40,14 @@ def generator(monkeypatch, tmp_path):
     return command
 
 
+@functools.cache
+def made():
+    """Return the text of the day's notebook."""
+    return command.build(DAY)
+
+
 def cells(kind):
-    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    notebook = nbformat.reads(made(), as_version=4)
     return [cell for cell in notebook.cells if cell.cell_type == kind]
 
 
@@ -49,11 +56,42 @@ def outputs(notebook, kind):
     return [out for out in found if out.output_type == kind]
 
 
-def test_the_committed_notebook_is_what_the_script_makes(monkeypatch, capsys):
-    monkeypatch.setattr(sys, "argv", ["make_notebook.py", "--check"])
-    assert command.main() == 0
-    printed = capsys.readouterr()
-    assert ("is up to date" in printed.out, printed.err) == (True, "")
+def test_a_notebook_is_made_once_and_is_up_to_date_then(generator, monkeypatch, capsys):
+    assert generator.main() == 0
+    assert "written" in capsys.readouterr().out
+    monkeypatch.setattr(sys, "argv", [*sys.argv, "--check"])
+    assert generator.main() == 0
+    assert "is up to date" in capsys.readouterr().out
+
+
+def test_no_notebook_comes_with_the_kit():
+    ignored = (ROOT / ".gitignore").read_text("utf-8").splitlines()
+    assert "/w*/notebooks/" in ignored
+    need((ROOT / ".git").exists(), "the kit as a git repository")
+    listed = ["git", "ls-files", "w*/notebooks"]
+    done = subprocess.run(listed, cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout == ""
+
+
+def test_one_that_was_only_run_is_made_anew_and_one_with_an_edit_is_kept(
+    generator, capsys
+):
+    path = generator.notebook_of(DAY)
+    assert generator.main() == 0
+    ran = nbformat.read(path, as_version=4)
+    cell = next(cell for cell in ran.cells if cell.cell_type == "code")
+    cell.outputs = [nbformat.v4.new_output("stream", text="printed")]
+    nbformat.write(ran, path)
+    assert generator.main() == 0
+    assert [p.name for p in path.parent.iterdir()] == [path.name]
+    for n in (1, 2):
+        cell.source = f"mine = {n}"
+        nbformat.write(ran, path)
+        assert generator.main() == 0
+        kept = path.with_suffix(f".before-{n}.ipynb")
+        assert kept.name in capsys.readouterr().out
+        assert f"mine = {n}" in kept.read_text("utf-8")
+    assert path.read_text("utf-8") == made()
 
 
 def test_a_changed_script_makes_it_stale(generator, monkeypatch, tmp_path):
@@ -99,7 +137,7 @@ def test_every_function_and_step_of_the_script_is_there(generator):
 
 
 def test_it_holds_no_markers_no_outputs_and_no_unfilled_heading():
-    raw = NOTEBOOK.read_text("utf-8")
+    raw = made()
     assert "region" not in raw
     assert all(cell.outputs == [] for cell in cells("code"))
     assert all(cell.execution_count is None for cell in cells("code"))
@@ -111,7 +149,7 @@ def test_it_holds_no_markers_no_outputs_and_no_unfilled_heading():
 @pytest.mark.gl
 @pytest.mark.usefixtures("gl")
 def test_it_runs_from_top_to_bottom(tmp_path):
-    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    notebook = nbformat.reads(made(), as_version=4)
     setup = next(cell for cell in notebook.cells if LOGGING in cell.source)
     setup.source = setup.source.replace(LOGGING, LOGGING[:-1] + ', "--no-log"]')
     for cell in notebook.cells:

@@ -9,7 +9,6 @@ from labkit.judge import (
     Ask,
     Count,
     Covariance,
-    Image,
     Mask,
     Matrix,
     Pixels,
@@ -244,31 +243,6 @@ def test_pixels_of_several_sizes_may_be_shifted_too():
 )
 def test_pixels_are_told_what_happened_to_them(change, slug, says):
     verdict = told(Pixels((8, 2)), PIXELS, change(PIXELS))
-    assert verdict.mistake == slug
-    assert says in verdict.message
-
-
-IMAGES = NUMBERS.integers(0, 255, (3, 6, 8, 3)).astype(np.uint8)
-
-
-def spotted(images):
-    spot = images.copy()
-    spot[:, 2:4, 5] //= 2
-    return spot
-
-
-@pytest.mark.parametrize(
-    ("change", "slug", "says"),
-    [
-        (lambda im: im[:, ::-1], "upside-down", "row 0"),
-        (lambda im: im[:, :, ::-1], "mirrored", "Left and right"),
-        (lambda im: im[..., ::-1], "blue-first", "red comes first"),
-        (lambda im: im.transpose(0, 2, 1, 3), "shape", "rows come first, then columns"),
-        (spotted, "pixels-off", "rows 2 to 3, columns 5 to 5"),
-    ],
-)
-def test_an_image_is_told_what_happened_to_it(change, slug, says):
-    verdict = told(Image((6, 8, 3), scale=255.0), IMAGES, change(IMAGES))
     assert verdict.mistake == slug
     assert says in verdict.message
 

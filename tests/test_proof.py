@@ -17,7 +17,7 @@ from labkit.lesson.day import find_day
 from labkit.lesson.week import find_week
 from labkit.lesson.writers import Writers, file_mark
 from labkit.proof import facts, page
-from labkit.proof.pick import Picked, pick
+from labkit.proof.capstone import Attempt, attempt
 from labkit.report.series import Series
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import capstone
@@ -81,8 +81,8 @@ def test_a_half_done_week_says_what_is_theirs_and_is_one_small_file(tmp_path):
         assert wanted.passes(first.again[wanted.check, wanted.metric])
         assert number.status == "none"
     used = set(capstone.USES[1]) & set(functions)
-    assert proof.picked.yours == len(used)
-    assert not proof.picked.result.failed
+    assert proof.attempt.yours == len(used)
+    assert not proof.attempt.result.failed
     text = page.render(proof)
     assert len(text.encode()) < 3_000_000
     assert f"{len(functions)} of " in Seen(text).words
@@ -127,7 +127,9 @@ def hostile():
     states = {task.id: EVIL for task in day.tasks}
     one = facts.RunDay(day, states, numbers, {}, EVIL, EVIL)
     fresh = {"commit": EVIL, "wrong": 0, "missing": 2, "date": EVIL}
-    return page.Proof(EVIL, False, EVIL, [one], Picked(None, EVIL, 3, 35), fresh)
+    return page.Proof(
+        EVIL, False, EVIL, [one], Attempt(capstone, None, EVIL, 3, 35), fresh
+    )
 
 
 def test_nothing_from_outside_becomes_a_tag():
@@ -144,7 +146,9 @@ def test_nothing_from_outside_becomes_a_tag():
 def filmed():
     """Return a hostile page with a film that ends after half a second."""
     result = capstone.pick(capstone.library())._replace(seconds=0.5)
-    return page.render(replace(hostile(), picked=Picked(result, "", 35, 35)))
+    return page.render(
+        replace(hostile(), attempt=Attempt(capstone, result, "", 35, 35))
+    )
 
 
 def test_no_script_runs_but_the_players():
@@ -191,8 +195,8 @@ def test_an_arm_that_stops_is_told_and_not_filmed():
     known = facts.RunDay(day, {task.id: "passed"}, [])
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("labkit.check.lab_run.stops_with", lambda reply: "It hangs.")
-        found = pick([known], [day.source.parent], Failing())
-    assert found == Picked(None, "make_T hangs", 1, found.total)
+        found = attempt(capstone, [known], [day.source.parent], Failing())
+    assert found == Attempt(capstone, None, "make_T hangs", 1, found.total)
 
 
 def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path, capsys):

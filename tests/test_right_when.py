@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from labkit.judge.right_when import Experiments, neutrals
+from labkit.judge.neutral import neutrals
+from labkit.judge.right_when import Experiments
 from robo47 import se3
 
 pytestmark = pytest.mark.kit
@@ -77,7 +78,7 @@ def test_a_question_without_an_answer_says_nothing():
 
 def test_a_pose_is_neutral_in_two_ways():
     T = se3.make_T(se3.Rz(0.3), [1.0, 2.0, 3.0])
-    still, unturned = (value for _, value in neutrals(T))
+    still, unturned = (one.value for one in neutrals(T))
     np.testing.assert_array_equal(still, se3.make_T(se3.Rz(0.3), np.zeros(3)))
     np.testing.assert_array_equal(unturned, se3.make_T(np.eye(3), [1.0, 2.0, 3.0]))
 

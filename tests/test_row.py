@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from labkit.judge import HeldOut, Scalar
+from labkit.judge import Ask, HeldOut, Scalar
 from labkit.judge import argument_mistakes as kinds
 from labkit.judge.mistake import REDONE
 from labkit.judge.row import Row
@@ -113,3 +113,18 @@ def test_one_mistake_can_be_made_in_two_ways():
 
     assert [way.slug for way in row.named] == ["doubled", "doubled"]
     assert [way.code(3) for way in row.named] == [6, 6]
+
+
+def test_a_row_of_many_right_answers_refuses_a_question_that_asks_for_one():
+    def ask(**more):
+        held = HeldOut("x", "It says x.", lambda rng: [(5.0,)], **more)
+        return Ask(
+            lambda rng: [(1.0,)],
+            Scalar(),
+            accept=lambda x, y: None,
+            held_out=[held],
+        )
+
+    with pytest.raises(Robo47Error, match='"x" asks for the right answer'):
+        ask()
+    assert ask(mistaken=lambda x: 2 * x).held_out[0].slug == "x"

@@ -10,6 +10,7 @@ from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
 from robo47 import kinematics, panda, screws, se3, verify
+from robo47.rotation_log import log_pose
 
 # The Panda's, read off its drawing with the arm at q = 0 (omega; v).
 PANDA = [
@@ -243,3 +244,37 @@ def test_what_is_no_arm_is_named(call, words):
     with pytest.raises(ValueError, match=words) as caught:
         call()
     assert "\n" not in str(caught.value)
+
+
+@given(twists)
+def test_the_logarithm_of_a_pose_is_exps_inverse_by_scipys_expm(x):
+    angle = np.linalg.norm(x[:3])
+    if angle > np.pi - 1e-3:
+        x = x * (3.0 / angle)
+    T = expm(bracket(x))
+    assert_same(log_pose(T), x, 1e-9)
+    theta = np.linalg.norm(x[:3])
+    if theta > 1e-3:
+        assert_same(screws.exp_screw(x / theta, theta), T, 1e-12)
+
+
+def test_the_logarithm_of_the_textbooks_pose():
+    # Modern Robotics, example 3.26: s = (0, 0, 1), v = (3.37, -3.37, 0), theta pi / 6.
+    near = se3.make_T(se3.Rz(np.radians(30)), [1.0, 2.0, 0.0])
+    far = se3.make_T(se3.Rz(np.radians(60)), [2.0, 1.0, 0.0])
+    x = log_pose(far @ se3.inverse(near))
+    assert_same(x / np.radians(30), [0, 0, 1, 3.37, -3.37, 0], 0.005)
+
+
+@pytest.mark.parametrize("theta", [0.0, 1e-300, 1e-12, 1e-5, 0.029, 0.031, 3.0, np.pi])
+def test_the_logarithm_of_a_pose_keeps_its_digits_at_every_angle(theta):
+    S = np.array([0.6, 0.0, 0.8, 0.3, -1.2, 0.5])
+    T = screws.exp_screw(S, theta)
+    assert_same(log_pose(T), theta * S, 1e-14)
+
+
+def test_the_logarithm_of_a_slide_is_its_way():
+    T = se3.make_T(np.eye(3), [[1.0, 2.0, 3.0], [0.0, 0.0, -4.0]])
+    assert_same(log_pose(T), [[0, 0, 0, 1, 2, 3], [0, 0, 0, 0, 0, -4]], 0.0)
+    with pytest.raises(ValueError, match="T is not a pose"):
+        log_pose(np.ones((4, 4)))

@@ -72,7 +72,8 @@ def test_an_error_on_some_inputs_hides_no_wrong_answer(check):
     assert code != REFERENCE
     message = check(code, task="1.3")["1.3"].message
     assert message.startswith("It stops with ValueError")
-    assert "The other answers are wrong, too." in message
+    assert "other answers" in message
+    assert "wrong, too." in message
 
 
 @pytest.fixture(scope="module")

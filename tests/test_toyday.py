@@ -154,6 +154,69 @@ def test_its_picture_is_drawn_and_its_notebook_made(kit, run):
     assert (kit / "w9-toy" / "figures" / "day46_square.png").is_file()
 
 
+class TestItsCapstone:
+    """A module of its own, and a line of week.toml: nothing else."""
+
+    @pytest.fixture(autouse=True)
+    def capstone(self, kit):
+        manifest = kit / "w9-toy" / "week.toml"
+        before = manifest.read_text("utf-8")
+        manifest.write_text(f'{before}capstone = "pointing"\n', "utf-8")
+        module = kit / "robo47" / "pointing.py"
+        shutil.copyfile(TOY.parent / "pointing.py", module)
+        yield module
+        module.unlink(missing_ok=True)
+        manifest.write_text(before, "utf-8")
+
+    def test_prints_what_its_module_returns_and_nothing_of_another_weeks(self, run):
+        done = run("scripts/capstone.py", 9, "--kit")
+        assert done.returncode == 0, done.stderr
+        assert "one mark           0.00\nit points with its base" in done.stdout
+        assert "1 of 1 pointed at within 1 mrad" in done.stdout
+        every = run("scripts/capstone.py", 9, "--kit", "--all")
+        assert "20 of 20 pointed at within 1 mrad" in every.stdout
+        none = run("scripts/capstone.py", 9, "--kit", "--ablations")
+        assert none.returncode == 2
+        assert "the pointing has no table of mistakes" in none.stderr
+        for word in ("cube", "pick", "place"):
+            assert word not in done.stdout + every.stdout + none.stderr
+
+    def test_is_done_with_the_students_own_functions(self, kit, run, begun):
+        solve(kit, begun)
+        text = begun.read_text("utf-8").replace("np.arctan2(y, x)", "np.arctan2(x, y)")
+        begun.write_text(text, "utf-8")
+        done = run("scripts/capstone.py", 9)
+        assert "the library's instead of polar: wrong" in done.stdout
+        assert "1 of 1 pointed at within 1 mrad" in done.stdout
+
+    def test_is_on_the_proof_with_its_own_words_and_film(
+        self, kit, run, begun, tmp_path
+    ):
+        pytest.importorskip("viser", reason="needs viser: make view")
+        solve(kit, begun)
+        begun.write_text(f"{begun.read_text('utf-8')}\n\nMINE = 1\n", "utf-8")
+        out = tmp_path / "proof.html"
+        done = run("scripts/proof.py", "--week", 9, "--out", out)
+        assert done.returncode == 0, done.stderr
+        page = out.read_text("utf-8")
+        assert "The pointing in 3D" in page
+        assert "The arm turns to its mark; 1 mrad is allowed." in page
+        assert "cube" not in page.partition("srcdoc")[0]
+
+    def test_that_lacks_something_is_told_in_a_line(self, run, capstone):
+        text = capstone.read_text("utf-8").replace("def told(", "def said(")
+        capstone.write_text(text, "utf-8")
+        done = run("scripts/capstone.py", 9, "--kit")
+        assert done.returncode == 2
+        told = " ".join(done.stderr.split())
+        assert "robo47.pointing has no told; what a capstone needs" in told
+        capstone.unlink()
+        done = run("scripts/capstone.py", 9, "--kit")
+        assert done.returncode == 2
+        told = " ".join(done.stderr.split())
+        assert "capstone pointing: No module named 'robo47.pointing'" in told
+
+
 def test_no_shared_file_was_touched_for_it():
     for path in (*ROOT.glob("robo47/**/*.py"), *ROOT.glob("labkit/**/*.py")):
         text = path.read_text("utf-8")

@@ -13,7 +13,7 @@ from scipy.interpolate import BPoly
 from scipy.spatial.transform import Rotation, Slerp
 
 from conftest import need
-from robo47 import panda, se3, trajectory
+from robo47 import lifting, panda, se3, trajectory
 from robo47.simulate import ACC_LIMITS, SPEED_LIMITS
 
 durations = st.floats(0.05, 20.0)
@@ -47,12 +47,12 @@ def test_the_tutorial_cases_of_day_7():
     cube = se3.make_T(se3.Rz(np.radians(80)), [0.5, 0.1, 0.2])
     turned = se3.Rz(np.radians(-10)) @ np.diag([1, -1, -1])
     assert_same(
-        trajectory.grasp_pose(cube, 0.1), se3.make_T(turned, [0.5, 0.1, 0.3]), 1e-15
+        lifting.grasp_pose(cube, 0.1), se3.make_T(turned, [0.5, 0.1, 0.3]), 1e-15
     )
     none = np.zeros((3, 3))
-    both = trajectory.carry(1, [0, 0, 0], none, 1, [2, 0, 0], none)
+    both = lifting.carry(1, [0, 0, 0], none, 1, [2, 0, 0], none)
     assert_same(both, [2, 1, 0, 0, 0, 2, 2, 0, 0, 0])
-    assert trajectory.heaviest_cube(0.9173, 1, 0) == pytest.approx(0.187, abs=1e-4)
+    assert lifting.heaviest_cube(0.9173, 1, 0) == pytest.approx(0.187, abs=1e-4)
 
 
 @given(durations)
@@ -147,7 +147,7 @@ def test_a_straight_pose_is_scipys_slerp_on_a_straight_line(T0, T1, s):
 @given(st.floats(-np.pi, np.pi), metres, st.floats(0, 0.5))
 def test_a_grasp_points_down_along_a_side_and_turns_by_45_degrees_at_most(yaw, p, up):
     cube = se3.make_T(se3.Rz(yaw), p)
-    T = trajectory.grasp_pose(cube, up)
+    T = lifting.grasp_pose(cube, up)
     assert_same(T[:3, 2], [0, 0, -1.0], 1e-15)
     assert_same(T[:3, 3] - p, [0, 0, up], 1e-15)
     along = np.abs(cube[:2, :2].T @ T[:2, 1])  # the fingers' way, in the cube's axes
@@ -159,7 +159,7 @@ def test_a_link_that_carries_the_hand_is_mujocos_fused_body():
     model = panda.load("panda")
     links, hand = panda.inertias(model), panda.hand_inertia(model, 0.02)
     last = (part[6] for part in links)
-    ours = trajectory.carry(*last, *hand)
+    ours = lifting.carry(*last, *hand)
     data = mujoco.MjData(model)
     data.qpos[7:9] = 0.02
     mujoco.mj_forward(model, data)
@@ -174,8 +174,8 @@ def test_carrying_works_either_way_round_and_keeps_the_moment_about_any_point(
     m1, c1, m2, c2
 ):
     I1, I2 = np.diag([1.0, 2.0, 2.5]), np.diag([0.3, 0.2, 0.4])
-    both = trajectory.carry(m1, c1, I1, m2, c2, I2)
-    assert_same(both, trajectory.carry(m2, c2, I2, m1, c1, I1), 1e-9)
+    both = lifting.carry(m1, c1, I1, m2, c2, I2)
+    assert_same(both, lifting.carry(m2, c2, I2, m1, c1, I1), 1e-9)
 
     def about_origin(m, c, inertia):
         return inertia + m * (c @ c * np.eye(3) - np.outer(c, c))
@@ -196,7 +196,7 @@ def test_many_at_once_equal_one_at_a_time():
     straight = trajectory.straight_pose(T0, T1, t / 2)
     ends = rng.normal(size=(5, 3))
     six = trajectory.quintic_coefficients(ends, [1, 0, 0], t + 1)
-    heavy = trajectory.carry(t, ends, np.eye(3), 1.0, [0, 0, 1], np.eye(3))
+    heavy = lifting.carry(t, ends, np.eye(3), 1.0, [0, 0, 1], np.eye(3))
     assert heavy.shape == (5, 10)
     for i in range(5):
         assert_same(ours[i], trajectory.joint_move(q0[i], q1[i], t[i], 2.0), 1e-14)
@@ -258,11 +258,11 @@ def test_the_quintic_is_slower_than_ruckig_which_has_the_jerk_limits_to_use():
         (lambda: trajectory.trapezoid(0, 1, 1, 0), "a is 0; it must be above 0"),
         (lambda: trajectory.straight_pose(np.ones((4, 4)), np.eye(4), 0), "T0 is not"),
         (
-            lambda: trajectory.carry(0, [0] * 3, np.eye(3), 0, [0] * 3, np.eye(3)),
+            lambda: lifting.carry(0, [0] * 3, np.eye(3), 0, [0] * 3, np.eye(3)),
             r"m1 \+ m2 is 0; it must be above 0",
         ),
-        (lambda: trajectory.heaviest_cube(1, -1, 0), "mu is -1; it must not be below"),
-        (lambda: trajectory.heaviest_cube(1, 1, -10), r"9.81 \+ acceleration is -0.19"),
+        (lambda: lifting.heaviest_cube(1, -1, 0), "mu is -1; it must not be below"),
+        (lambda: lifting.heaviest_cube(1, 1, -10), r"9.81 \+ acceleration is -0.19"),
     ],
 )
 def test_what_is_wrong_is_named_in_one_line(call, words):

@@ -11,9 +11,10 @@ import pytest
 from conftest import ROOT, copy_kit, need, run_copy
 from labkit.base import git, store
 from labkit.check import report
+from labkit.commands import grade
 from labkit.fresh import missing
 from labkit.lesson import last_day
-from labkit.lesson.day import chosen_week, find_day
+from labkit.lesson.day import all_days, chosen_week, days_of, find_day
 from labkit.lesson.starter import put_back
 from labkit.lesson.week import weeks
 from labkit.proof import door
@@ -25,7 +26,7 @@ FACTS = {
     "heading": "Week 1: foundations",
     "name": "Ada --> <script>alert(1)</script>",
     "functions": "3 of 9",
-    "pick": "",
+    "capstone": "",
 }
 
 
@@ -121,6 +122,18 @@ class TestWhichWeek:
         )
         assert done.returncode == 2
         assert "make check takes DAY=2, no WEEK=" in done.stderr
+
+
+def test_the_grades_of_a_week_are_not_written_over_by_those_of_another():
+    first, second = weeks()[:2]
+    folders = {
+        grade.folder_of(days_of(first), 1),
+        grade.folder_of(days_of(second), 2),
+        grade.folder_of(all_days(), None),
+        grade.folder_of([find_day(8)], None),
+    }
+    assert folders == {"grades-week1", "grades-week2", "grades-days", "grades-day8"}
+    assert grade.chosen(None, 2) == days_of(second)
 
 
 @pytest.mark.kit

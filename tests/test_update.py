@@ -1,12 +1,14 @@
 """`make update`: a mid-term kit on a student's clone, and nothing of theirs is lost."""
 
 import subprocess
+from shutil import copytree, ignore_patterns
 
 import pytest
 from restored import Restored
 
 from conftest import copy_kit, keep_first_day, run_copy
 from labkit.lesson.day import find_day
+from labkit.lesson.last_day import started_day
 from labkit.lesson.merge import keep_both, keep_ours, merged, renewed
 from labkit.lesson.starter import make_starter
 
@@ -169,6 +171,32 @@ def test_a_mid_term_kit_comes_around_what_is_the_students(kit, student):
     assert "nothing has changed" in again.stdout
 
 
+def test_a_second_week_comes_beside_the_first_and_both_keep_their_work(kit, student):
+    second = find_day(8)
+    copytree(second.folder, kit / second.folder.name, ignore=ignore_patterns("work"))
+    commit(kit, "a second week")
+    mine = (student / WORK).read_text("utf-8")
+    assert update(student).returncode == 0
+    assert run_copy(student, "scripts/start_day.py", 8).returncode == 0
+    day = find_day(8, student)
+    begun = day.work.read_text("utf-8")
+    commit(student, "the second week is begun")
+    edit(
+        kit / day.source.relative_to(student),
+        ("\ndef main(", "\nNEWER = 1\n\n\ndef main("),
+    )
+    edit(kit / SRC, ("\ndef main(", "\nNEWER = 1\n\n\ndef main("))
+    commit(kit, "both weeks are newer")
+    done = update(student)
+    assert done.returncode == 0, done.stderr
+    for lab, before in ((student / WORK, mine), (day.work, begun)):
+        text = lab.read_text("utf-8")
+        assert "NEWER = 1" in text
+        assert set(before.splitlines()) <= set(text.splitlines())
+    assert ROW in (student / "metrics" / "metrics.csv").read_text("utf-8")
+    assert started_day(student) == 8  # what the kit merged is no edit of theirs
+
+
 def test_without_a_network_everything_is_as_it_was(kit, student):
     mid_term(kit)
     kit.rename(kit.with_name("gone"))
@@ -210,6 +238,30 @@ def test_a_kits_file_that_the_student_changed_in_the_same_place_is_named(kit, st
     assert f"{SRC} is the kit's now; as you had it: git show" in done.stdout
     assert "TRIALS = 2_000 " in (student / SRC).read_text("utf-8")
     assert "TRIALS = 500 " in (student / WORK).read_text("utf-8")  # theirs: kept
+
+
+@pytest.mark.parametrize("committed", [True, False])
+def test_a_notebook_that_the_student_edited_outlives_the_kits(kit, student, committed):
+    mine, other = (f"{WEEK}/notebooks/{name}.ipynb" for name in ("day1", "day2"))
+    (kit / mine).parent.mkdir(exist_ok=True)
+    for name in (mine, other):
+        (kit / name).write_text('{"cells": ["the kit\'s"]}\n')
+    git(kit, "add", "-f", mine, other)
+    git(kit, "commit", "-qm", "notebooks")
+    assert update(student).returncode == 0
+    edit(student / mine, ("the kit's", "my own"))
+    if committed:
+        git(student, "commit", "-qam", "my notebook")
+    with open(kit / ".gitignore", "a") as ignored:
+        ignored.write("/w*/notebooks/\n")
+    git(kit, "rm", "-q", mine, other)
+    git(kit, "commit", "-qam", "notebooks are made")
+    done = update(student)
+    assert done.returncode == 0, done.stderr
+    assert "my own" in (student / mine).read_text("utf-8")
+    assert not (student / other).exists()
+    assert update(student).returncode == 0
+    assert "my own" in (student / mine).read_text("utf-8")
 
 
 def test_a_tag_can_be_asked_for_and_a_place_is_remembered(kit, student):

@@ -4,9 +4,12 @@ import mujoco
 import numpy as np
 import pytest
 from compare import assert_same
+from scipy.spatial.transform import Rotation
 
 from robo47 import jacobian, panda, screws, se3, verify
 from robo47.errors import Robo47Error
+
+import day3_mujoco
 
 
 def test_the_poses_are_those_of_mj_forward(twin):
@@ -141,51 +144,20 @@ def poses(n, seed):
     return q, screws.fk_space(*ARM, q)
 
 
-@pytest.mark.parametrize("wrong", [False, True])
-def test_rotations_motions_and_adjoints_are_judged(wrong):
-    def ask(function):
-        return (lambda *given: function(*given).T) if wrong else function
-
-    _, T = poses(10, 1)
-    off = [
-        verify.off_cross(ask(screws.skew), 10),
-        verify.off_rotation(ask(screws.exp_rotation), 10),
-        verify.off_motion(ask(screws.exp_screw), 10),
-        verify.off_adjoint(ask(screws.adjoint), T),
-    ]
-    assert all((np.abs(x).max() > 0.1) == wrong for x in off)
-    assert all((np.abs(x).max() < 1e-12) != wrong for x in off)
-
-
-@pytest.mark.parametrize("right", [True, False])
-def test_logarithms_errors_and_steps_are_judged(right):
-    def ask(function):
-        return function if right else lambda *given: -function(*given)
-
-    q, T = poses(12, 2)
-    J = verify.mujoco_site_jacobian(PANDA, q)
-    off = [
-        verify.off_log(ask(jacobian.log_rotation), 20),
-        verify.off_goal(ask(jacobian.pose_error), T[:6], T[6:]),
-        verify.off_least_squares(ask(jacobian.dls_step), J),
-        verify.off_null_vector(ask(jacobian.null_step), J),
-        verify.off_volume(jacobian.manipulability if right else np.trace, J),
-    ]
-    assert all((np.abs(x).max() < 1e-9) == right for x in off)
-
-
 def test_a_solver_is_judged_by_where_it_ends():
     q, T = poses(8, 6)
-    good = verify.ends_of(jacobian.solve_ik, ARM, LIMITS, q, 7)
+    good = day3_mujoco.ends_of(jacobian.solve_ik, ARM, LIMITS, q, 7)
     assert good.missed == good.beyond == 0.0
     assert good.out_of_reach.max() == pytest.approx(1.0)
-    lazy = verify.ends_of(lambda S, M, T, q, limits: q + 9.0, ARM, LIMITS, q, 7)
+    lazy = day3_mujoco.ends_of(lambda S, M, T, q, limits: q + 9.0, ARM, LIMITS, q, 7)
     assert lazy.missed == 1.0
     assert lazy.beyond > 1.0
     assert lazy.out_of_reach.max() > 1.01
-    at = verify.tries(jacobian.solve_ik, ARM, LIMITS, T[:3], q[0], 2, 8)
+    at = day3_mujoco.tries(jacobian.solve_ik, ARM, LIMITS, T[:3], q[0], 2, 8)
     assert at.tolist() == [1, 1, 1]
-    never = verify.tries(lambda S, M, T, q, limits: q, ARM, LIMITS, T[1:], q[0], 2, 8)
+    never = day3_mujoco.tries(
+        lambda S, M, T, q, limits: q, ARM, LIMITS, T[1:], q[0], 2, 8
+    )
     assert never.tolist() == [0, 0, 0]  # after three failures the rest is spared
 
 
@@ -198,6 +170,22 @@ def test_the_joints_axes_and_rotations_are_mujocos():
 
 def test_what_is_no_number_is_off_and_ends_no_lab():
     _, T = poses(4, 9)
-    nan = lambda T, goal: np.full(6, np.nan)  # noqa: E731
-    assert np.isnan(verify.off_goal(nan, T[:2], T[2:])).any()
-    assert verify.miss(ARM, np.full((2, 7), np.nan), T[:2]).tolist() == [np.inf] * 2
+    assert np.isnan(day3_mujoco.moved(T, np.full((4, 6), np.nan))).any()
+    off = day3_mujoco.miss(ARM, np.full((2, 7), np.nan), T[:2])
+    assert off.tolist() == [np.inf] * 2
+
+
+def test_the_turns_of_day_3_have_the_logarithms_that_scipy_finds():
+    R, logs = day3_mujoco.turns(40, 47)
+    found = Rotation.from_matrix(R[13:]).as_rotvec()
+    assert np.abs(found - logs[13:]).max() < 1e-7
+    assert_same(R[12], np.diag([-1.0, 1.0, -1.0]), 0.0)
+    assert_same(np.sort(np.pi - np.linalg.norm(logs[3:12], axis=1)),
+                10.0 ** -np.arange(9, 0, -1), 1e-12)  # fmt: skip
+
+
+def test_a_hand_moved_by_its_error_is_at_its_goal():
+    _, T = poses(12, 2)
+    e = jacobian.pose_error(T[:6], T[6:])
+    assert np.abs(day3_mujoco.moved(T[:6], e) - T[6:]).max() < 1e-9
+    assert np.abs(day3_mujoco.moved(T[:6], -e) - T[6:]).max() > 0.1

@@ -53,6 +53,7 @@ class Rehearsal(Lab):
     ) -> None:
         """Take the day, what takes its numbers, and what a `Lab` takes."""
         self.log = False
+        self.trial = False
         self.script = Path(file)
         self.day = day
         self.numbers = numbers

@@ -114,11 +114,11 @@ def note(results: Sequence["TaskResult"], root: Path = ROOT) -> None:
         known = last.get(result.task.id)
         verdict = result.verdict
         # What follows from another task is no mistake of its own.
-        state = (verdict.status, "" if verdict.follows else verdict.mistake)
-        if known is None or (known.status, known.mistake) != state:
-            says = _sentence(verdict.message) if state[1] else ""
-            entry = Entry(result.task.id, *state, says)
-            lines.append(json.dumps(entry))
+        mistake = "" if verdict.follows else verdict.mistake
+        says = _sentence(verdict.message) if mistake else ""
+        now = Entry(result.task.id, verdict.status, mistake, says)
+        if known is None or known._replace(says=says) != now:
+            lines.append(json.dumps(now))
     store.add_lines(JOURNAL, lines, root)
 
 

@@ -12,7 +12,6 @@ import importlib
 import sys
 from dataclasses import dataclass, field
 from types import ModuleType, SimpleNamespace
-from typing import Any
 
 from labkit.check import memory
 from labkit.check.tasks import check_tasks
@@ -20,6 +19,13 @@ from labkit.lesson.day import Day, days_of, find_day, started_day
 from labkit.lesson.week import Week, weeks
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+# What `robo47.attempt` asks of a capstone's module.
+ASKED = (
+    "NAME", "THING", "GOAL", "USES", "HEAD",
+    "library", "attempt", "row", "told", "film",
+)  # fmt: skip
 
 
 @dataclass
@@ -50,18 +56,30 @@ def capstone_week() -> Week:
     return (begun or having)[-1]
 
 
-def capstone_of(week: Week) -> Any:
+def capstone_of(week: Week) -> ModuleType:
     """Return the module of a week's capstone.
 
     Raises:
-        Robo47Error: it has none; names the weeks that have.
+        Robo47Error: it has none, and names the weeks that have; or the module is not
+            there, or lacks something that `robo47.attempt` asks of it.
     """
     if not week.capstone:
         having = ", ".join(str(w.number) for w in weeks() if w.capstone)
         raise Robo47Error(
             f"week {week.number} has no capstone yet; weeks with one: {having}"
         )
-    return importlib.import_module(f"robo47.{week.capstone}")
+    name = f"robo47.{week.capstone}"
+    where = shown(week.folder / "week.toml")
+    try:
+        capstone = importlib.import_module(name)
+    except ModuleNotFoundError as error:
+        raise Robo47Error(f"{where}: capstone {week.capstone}: {error}") from None
+    if missing := [word for word in ASKED if not hasattr(capstone, word)]:
+        raise Robo47Error(
+            f"{where}: {name} has no {', '.join(missing)}; what a capstone needs "
+            "stands in robo47/attempt.py"
+        )
+    return capstone
 
 
 def load(week: Week | None = None) -> Mine:

@@ -3,6 +3,7 @@
     make author DAY=8                         all of it, that day's alone
     python3 scripts/author_day.py 8           the same
     python3 scripts/author_day.py 8 --fast    without its tests
+    make author TASK=8.3                      one task alone, in seconds
 
 What is not right is told with its file and line, and with what to do.
 Exit code: 0 all as it must be, 1 something to fix, 2 could not run.
@@ -15,17 +16,19 @@ import time
 from collections.abc import Iterator
 from importlib.util import find_spec
 
-from labkit.base import cli, processes
+from labkit.base import cli, git, processes
 from labkit.base.exchange import Exchange, Question
+from labkit.check.as_student import faults_of
 from labkit.commands import docs, notebook
 from labkit.commands.new import worksheet_of
 from labkit.handin.worksheet import split_sections
 from labkit.judge.answers import InTurn
 from labkit.judge.ask import Draw, stacked
 from labkit.judge.row import rows_of
-from labkit.lesson.day import Day, day_numbers, find_day
+from labkit.lesson.day import Day, Task, all_days, day_numbers, find_day, find_task
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import find_regions
+from labkit.report.week_labs import run_labs
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
@@ -37,7 +40,18 @@ MARKS = "not soak and not browser and not network"
 
 def faults(day: Day) -> Iterator[str]:
     """Yield what is missing or does not fit between a day's files, with its remedy."""
-    for part in (_regions, _functions, _guide, _worksheet, _pictures, _tabs):
+    parts = (
+        _regions,
+        _names,
+        _functions,
+        _guide,
+        _links,
+        _worksheet,
+        _pictures,
+        _tabs,
+        _committed,
+    )
+    for part in parts:
         yield from part(day)
 
 
@@ -57,6 +71,19 @@ def _regions(day: Day) -> Iterator[str]:
             f"{source}, line {found[task, name]}: region {task} in {name}, which "
             f"{manifest} does not know. Add it to the functions of task {task}"
         )
+
+
+def _names(day: Day) -> Iterator[str]:
+    """Yield the functions that another day has as well: robo47.mine holds all."""
+    own = {name for task in day.tasks for name in task.functions}
+    for other in all_days():
+        if other.number != day.number:
+            theirs = {name for task in other.tasks for name in task.functions}
+            for name in sorted(own & theirs):
+                yield (
+                    f"{shown(day.own / 'day.toml')}: day {other.number} has a function "
+                    f"{name} too; give this one another name"
+                )
 
 
 def _functions(day: Day) -> Iterator[str]:
@@ -89,6 +116,26 @@ def _guide(day: Day) -> Iterator[str]:
                 f"{shown(day.own / 'day.toml')}, task {task.id}: {shown(path)} has no "
                 f"heading {section!r}; it has {', '.join(map(repr, headings[1:]))}"
             )
+
+
+def _links(day: Day) -> Iterator[str]:
+    """Yield what the guide links to and is not there."""
+    path = day.folder / day.guide
+    text = path.read_text("utf-8") if path.is_file() else ""
+    for link in re.findall(r"\]\((?!\w+:|#)([^)#\s]+)", text):
+        if not (path.parent / link).exists():
+            yield f"{shown(path)}: {link} is not there"
+
+
+def _committed(day: Day) -> Iterator[str]:
+    """Yield a student's file in the repository: the next clone would begin with it."""
+    work = shown(day.folder / "work")
+    try:
+        done = git.run("ls-files", "--", work, folder=ROOT, seconds=git.SECONDS)
+    except git.GitError:
+        return
+    if names := done.stdout.split():
+        yield f"git holds {names[0]}; take it out: git rm -r --cached {work}"
 
 
 def _worksheet(day: Day) -> Iterator[str]:
@@ -165,6 +212,28 @@ def _failures(lines: list[str], own: str) -> list[str]:
     return found
 
 
+def as_student(day: Day) -> Iterator[str]:
+    """Yield what a student who hands the complete lab in would be told."""
+    yield from faults_of(day)
+    yield from _unrecorded(day)
+
+
+def _unrecorded(day: Day) -> Iterator[str]:
+    """Yield the numbers that day.toml asks for and a run of the lab does not record."""
+    (ran,) = run_labs([day], kits=True)
+    if ran.why:
+        yield f"{shown(day.source)} does not pass: {ran.why}"
+        return
+    for one in ran.numbers:
+        wanted = one.wanted
+        if one.latest is None and one.kit is None:
+            yield (
+                f"{shown(day.own / 'day.toml')}: no step of the lab records "
+                f"{wanted.check} ({wanted.metric}), so no student can finish the day. "
+                f'Add lab.record("{wanted.check}", ...), or take the entry out'
+            )
+
+
 def documents(day: Day) -> Iterator[str]:
     """Yield what the documents do not show as it is."""
     if drift := docs.renew(docs.documents_of(day), check=True):
@@ -172,10 +241,11 @@ def documents(day: Day) -> Iterator[str]:
 
 
 def notebooks(day: Day) -> Iterator[str]:
-    """Yield that the notebook is not what the lab makes."""
-    path = notebook.notebook_of(day)
-    if not path.exists() or path.read_text("utf-8") != notebook.build(day):
-        yield f"{shown(path)} is not the lab's: make notebook DAY={day.number}"
+    """Yield why no notebook can be made of the lab."""
+    try:
+        notebook.build(day)
+    except Robo47Error as error:
+        yield str(error)
 
 
 def style(day: Day) -> Iterator[str]:
@@ -192,6 +262,7 @@ def style(day: Day) -> Iterator[str]:
 PARTS = {
     "files": faults,
     "catalogue": catalogue,
+    "student": as_student,
     "documents": documents,
     "notebook": notebooks,
     "style": style,
@@ -202,15 +273,32 @@ PARTS = {
 def look(name: str, day: Day) -> bool:
     """Print how one part of a day is; return whether it is as it must be."""
     began = time.monotonic()
+    found = []
     try:
         with cli.busy(name):
-            found = list(PARTS[name](day))
-    except Robo47Error as error:
-        found = [str(error)]
+            for line in PARTS[name](day):
+                found.append(line)
+    except Robo47Error as error:  # what was found before it stands
+        found.append(str(error))
     print(f"{cli.verdict(not found)}  {name:10}{time.monotonic() - began:6.1f} s")
     for line in found:
         print(cli.wrapped(f"    {line}", "    "))
     return not found
+
+
+def one_task(day: Day, task: Task) -> int:
+    """Look at one task alone, which takes seconds and needs no guide yet."""
+    print(f"Task {task.id}: {', '.join(task.functions)}, in {shown(day.own)}/")
+    found = []
+    for name in task.functions:
+        code, lines = run(day, "tests/catalogue.py", str(day.number), f"{name}:")
+        found += lines[:-1] if code else []
+        print(f"{cli.verdict(not code)}  {name}: {lines[-1] if lines else 'nothing'}")
+    told = list(faults_of(day, task.id))
+    print(f"{cli.verdict(not told)}  make check, on the lab's own file")
+    for line in [*found, *told]:
+        print(cli.wrapped(f"    {line}", "    "))
+    return cli.conclude(not (found or told), f"task {task.id}")
 
 
 def main() -> int:
@@ -218,7 +306,10 @@ def main() -> int:
     parser = cli.parser(__doc__)
     parser.add_argument("day", type=cli.day, nargs="?", help="default: the kit's last")
     parser.add_argument("--fast", action="store_true", help="without its tests")
+    parser.add_argument("--task", help="such as 9.3: its mistakes and its check alone")
     options = parser.parse_args()
+    if options.task:
+        return one_task(*find_task(options.task))
     number = options.day or max(day_numbers(), default=1)
     day = find_day(number)
     print(f"Day {number}: {day.title}, in {shown(day.own)}/")

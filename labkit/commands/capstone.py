@@ -1,8 +1,8 @@
-"""The capstone of the week: the arm picks the cube up, with your own functions.
+"""The capstone of a week, such as the arm's pick, with your own functions.
 
-    make capstone                       one cube, your functions of all days
+    make capstone                       one, with your functions of all days
     make capstone WEEK=1                of this week; default: the one worked on last
-    make capstone ARGS=--all            twenty random cubes
+    make capstone ARGS=--all            twenty random ones
     make capstone ARGS=--kit            the library's functions alone
     make capstone ARGS=--ablations      what mistakes do, in a table
     make capstone ARGS="--clip a.gif"   a short film of it
@@ -13,8 +13,8 @@ Each function of yours that `make check` does not pass is replaced by the librar
 
 import sys
 import traceback
-from itertools import pairwise
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from tqdm import tqdm
@@ -23,13 +23,9 @@ from labkit.base import cli
 from labkit.check import own_functions
 from labkit.lesson.day import chosen_week
 from labkit.lesson.week import Week
-from robo47.capstone.phases import Result
 from robo47.errors import Robo47Error
 
-CUBES = 20
-HEAD = f"""
-{"":26}{"place":>8}{"joints":>9}{"line":>8}{"time":>7}{"torque":>8}{"speed":>7}
-{"":26}{"mm":>8}{"mrad":>9}{"mm":>8}{"s":>7}{"of max":>8}{"of max":>7}"""
+RANDOM = 20
 
 
 def chosen(week: Week, kit_only: bool) -> Any:
@@ -47,22 +43,14 @@ def chosen(week: Week, kit_only: bool) -> Any:
     return own.functions
 
 
-def row(name: str, result: Result) -> str:
-    """Return one line of the table."""
-    return (
-        f"{name:26}{result.place_mm:8.1f}{result.joint_mrad:9.2f}{result.line_mm:8.1f}"
-        f"{result.seconds:7.1f}{result.torque:8.2f}{result.speed:7.2f}"
-    )
-
-
-def pick(capstone: Any, fns: Any, *where: Any, **options: Any) -> Result:
-    """Pick once; a function that stops is told in a line.
+def attempted(capstone: ModuleType, fns: Any, *seed: int, **options: Any) -> Any:
+    """Attempt it once; a function that stops is told in a line.
 
     Raises:
         Robo47Error: one of the functions raised an exception.
     """
     try:
-        return capstone.pick(fns, *where, **options)
+        return capstone.attempt(fns, *seed, **options)
     except Robo47Error:
         raise
     except Exception as error:
@@ -74,48 +62,55 @@ def pick(capstone: Any, fns: Any, *where: Any, **options: Any) -> Result:
         ) from None
 
 
-def verdict(failed: int, count: int) -> int:
-    """Say how many cubes arrived; return the exit code."""
-    return cli.conclude(not failed, f"{count - failed} of {count} placed within 10 mm")
+def verdict(capstone: ModuleType, failed: int, count: int) -> int:
+    """Say how many arrived; return the exit code."""
+    return cli.conclude(not failed, f"{count - failed} of {count} {capstone.GOAL}")
 
 
-def all_cubes(capstone: Any, fns: Any) -> int:
-    """Pick twenty random cubes."""
-    print(HEAD)
+def random_ones(capstone: ModuleType, fns: Any) -> int:
+    """Attempt twenty random ones."""
+    print(capstone.HEAD)
     failed = 0
-    for seed in tqdm(range(CUBES), "cubes", leave=False, disable=None):
-        result = pick(capstone, fns, *capstone.random_task(seed))
+    several = f"{capstone.THING}s"
+    for seed in tqdm(range(RANDOM), several, leave=False, disable=None):
+        result = attempted(capstone, fns, seed)
         failed += result.failed
-        tqdm.write(row(f"cube {seed + 1}", result), file=sys.stdout)
-    return verdict(failed, CUBES)
+        line = capstone.row(f"{capstone.THING} {seed + 1}", result)
+        tqdm.write(line, file=sys.stdout)
+    return verdict(capstone, failed, RANDOM)
 
 
-def ablations(capstone: Any, fns: Any) -> int:
-    """Show what a mistake does: most of them still place the cube."""
-    print(HEAD)
-    for name, (changed, speed) in capstone.ablations(fns).items():
-        print(row(name, pick(capstone, changed, speed=speed)), flush=True)
-    print("Placed is no proof: look at the joints and the line.")
+def ablations(capstone: ModuleType, fns: Any) -> int:
+    """Show what a mistake does: most of them still arrive.
+
+    Raises:
+        Robo47Error: this capstone has none.
+    """
+    if not hasattr(capstone, "ablations"):
+        raise Robo47Error(f"{capstone.NAME} has no table of mistakes")
+    print(capstone.HEAD)
+    for name, (changed, options) in capstone.ablations(fns).items():
+        result = attempted(capstone, changed, **options)
+        print(capstone.row(name, result), flush=True)
+    print(capstone.MORAL)
     return cli.EXIT_OK
 
 
-def one_cube(capstone: Any, fns: Any, clip: Path | None, picture: Path | None) -> int:
-    """Pick the cube from where it always is; film and picture where they are wanted."""
-    result = pick(capstone, fns)
-    print()
-    for (name, begins), (_, ends) in pairwise([*result.phases, ("", result.seconds)]):
-        print(f"  {begins:5.2f} s  {name:9} {ends - begins:5.2f} s")
-    print(f"{HEAD}\n{row('one cube', result)}")
-    print(f"lifted {1000 * result.lift:.0f} mm; this grip can lift, as predicted,")
-    print(f"  {result.heaviest:.3f} kg; the cube has 0.080 kg")
+def one(capstone: ModuleType, fns: Any, clip: Path | None, picture: Path | None) -> int:
+    """Attempt the one that is always the same; film it and draw it where asked to."""
+    result = attempted(capstone, fns)
+    told = capstone.told(result)
+    print("", *told.before, capstone.HEAD, sep="\n")
+    print(capstone.row(f"one {capstone.THING}", result), *told.after, sep="\n")
     if clip or picture:
-        from labkit.figures.clip import pick_clip, pick_picture
+        from labkit.figures.clip import film_clip, film_picture
 
+        film = capstone.film(result)
         if picture:
-            print(pick_picture(result, picture))
+            print(film_picture(film, picture))
         if clip:
-            print(pick_clip(result, clip))
-    return verdict(int(result.failed), 1)
+            print(film_clip(film, clip))
+    return verdict(capstone, int(result.failed), 1)
 
 
 def main() -> int:
@@ -123,7 +118,7 @@ def main() -> int:
     parser = cli.parser(__doc__)
     cli.add_week(parser)
     add = parser.add_argument
-    add("--all", action="store_true", help="twenty random cubes")
+    add("--all", action="store_true", help="twenty random ones")
     add("--kit", action="store_true", help="the library's functions")
     add("--ablations", action="store_true", help="mistakes, in a table")
     add("--clip", type=Path, metavar="FILE", help="a film (.gif, .webp)")
@@ -136,7 +131,7 @@ def main() -> int:
     capstone = own_functions.capstone_of(week)
     fns = chosen(week, options.kit)
     if options.all:
-        return all_cubes(capstone, fns)
+        return random_ones(capstone, fns)
     if options.ablations:
         return ablations(capstone, fns)
-    return one_cube(capstone, fns, options.clip, options.picture)
+    return one(capstone, fns, options.clip, options.picture)

@@ -29,7 +29,8 @@ from labkit.lesson.week import find_week
 from labkit.report.week_labs import Ran, run_labs
 from robo47.paths import ROOT, shown
 
-FOLDER, LEFT_BEHIND = "robo47-fresh-", 3600  # seconds; a run takes some minutes
+FOLDER = "robo47-fresh-"
+LEFT_BEHIND = 3600  # seconds; a run takes some minutes
 
 
 def progress(begun: float, what: str) -> None:

@@ -34,16 +34,15 @@ from pathlib import Path
 from typing import Any
 
 from labkit.base import cli, git, processes, store
-from labkit.base.text import visible
+from labkit.base.text import count, visible
 from labkit.grade import engine, page
-from labkit.grade.classroom import Classroom, pull, write_all
+from labkit.grade.classroom import Again, Classroom, pull, write_all
 from labkit.grade.course import Course, percent
 from labkit.grade.journal import Journal
 from labkit.grade.package import version
 from labkit.grade.roster import Student, find_students
 from labkit.grade.sheet import PLATFORMS, for_platform, known, of_days, write
-from labkit.lesson.day import Day, all_days, days_of, find_day
-from labkit.lesson.week import find_week
+from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
 from labkit.sandbox.process import wall
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, menagerie_root, shown
@@ -59,8 +58,9 @@ def parse() -> argparse.Namespace:
     add = parser.add_argument
     add("root", type=Path, metavar="CLONES", help="folder with a clone per student")
     add("--day", metavar="N|N-M|all", help="default: 1")
-    add("--week", type=int, metavar="N", help="all days of this week")
-    where = "default: grades-dayN/grades.csv; of several days grades-days/grades.csv"
+    add("--week", type=cli.week, metavar="N", help="all days of this week")
+    where = "default: grades-dayN/grades.csv; of several days in grades-days/, of a "
+    where += "week in grades-weekN/"
     add("--out", type=file, metavar="CSV", help=where)
     add("--roster", type=Path, metavar="CSV", help="default: CLONES/roster.csv")
     add("--pull", action="store_true", help="clone what is missing, update the rest")
@@ -145,7 +145,7 @@ def chosen(text: str | None, week: int | None = None) -> list[Day]:
     if week is not None:
         if text:
             raise Robo47Error("--day and --week: name one of the two")
-        return days_of(find_week(week))
+        return days_of(chosen_week(week))
     text = text or "1"
     if text == "all":
         return all_days()
@@ -161,6 +161,19 @@ def chosen(text: str | None, week: int | None = None) -> list[Day]:
     return found
 
 
+def folder_of(days: list[Day], week: int | None) -> str:
+    """Return where the grades of these days are written, if nobody says where.
+
+    Args:
+        days: that are graded.
+        week: its number, where a whole week was asked for: each has a folder, so that
+            the grades of one are not written over by those of another.
+    """
+    if week is not None:
+        return f"grades-week{week}"
+    return "grades-days" if len(days) > 1 else f"grades-day{days[0].number}"
+
+
 def main() -> int:
     """Grade, write, and say in a few lines what came out."""
     options = parse()
@@ -168,8 +181,7 @@ def main() -> int:
         return with_kit(options.kit)
     days = chosen(options.day, options.week)
     several = len(days) > 1
-    name = "grades-days" if several else f"grades-day{days[0].number}"
-    out = options.out or Path(name) / "grades.csv"
+    out = options.out or Path(folder_of(days, options.week)) / "grades.csv"
     students = find_students(options.root, options.roster)
     platform = PLATFORMS.get(options.format)
     if platform:
@@ -184,8 +196,11 @@ def main() -> int:
         write(own, for_platform(platform, courses, options.assignment))
         print(f"wrote {shown(own.absolute())}: import it into {platform.name}")
     if options.proof:
-        week = days[-1].week.number
-        prove(students, week, out.parent / "proof", options.processes)
+        numbers = sorted({day.week.number for day in days})
+        for week in numbers:
+            place = out.parent / "proof"
+            place = place / f"week{week}" if len(numbers) > 1 else place
+            prove(students, week, place, options.processes)
     failed = tell(courses, notes, out)
     return cli.EXIT_FAILED if failed else cli.EXIT_OK
 
@@ -223,6 +238,17 @@ def kit_at(tag: str) -> Path:
     return folder
 
 
+def again_of(text: str | None) -> Again:
+    """Return whom `--again` means: nobody without it, everybody where it stands alone.
+
+    Args:
+        text: None without it, "" where it stands alone, folders with commas between.
+    """
+    if text is None:
+        return Again()
+    return Again(folders=text.split(",")) if text else Again(everybody=True)
+
+
 def grade_days(
     days: list[Day], students: list[Student], out: Path, options: argparse.Namespace
 ) -> tuple[list[Course], dict[str, str]]:
@@ -239,6 +265,7 @@ def grade_days(
     """
     courses = list[Course]()
     notes = dict[str, str]()
+    again = again_of(options.again)
     where = engine.dask(options.dask, options.i_know_them) if options.dask else None
     with where or engine.local(options.processes) as it:
         for day in days:
@@ -255,19 +282,27 @@ def grade_days(
                     drawn = f"fresh inputs for everybody: --seed {journal.seed}"
                     print(f"kit: {version()}; {drawn}")
                     notes = pull(students) if options.pull else {}
-                again = options.again and options.again.split(",")
-                again = () if again is None else (again or None)
-                how = (again, options.frozen, options.keep, notes)
-                room = Classroom(students, day, journal, *how)
+                room = Classroom(
+                    students,
+                    day,
+                    journal,
+                    again=again,
+                    frozen=options.frozen,
+                    keep=options.keep,
+                    notes=notes,
+                )
                 course = room.grade(it, own.parent / "feedback")
                 write_all(course, own, anonymous=options.anonymous)
-            count = course.counts
-            words = ", ".join(
-                f"{count[state]} {state}" for state in page.ROLES if count[state]
-            )
-            print(f"Day {day.number}, {len(students):,} students: {words}", flush=True)
+            print(f"Day {day.number}, {standings(course)}", flush=True)
             courses.append(course)
     return courses, notes
+
+
+def standings(course: Course) -> str:
+    """Return how many students a day has, and how many are in each state."""
+    number = course.counts
+    words = [f"{number[state]} {state}" for state in page.ROLES if number[state]]
+    return f"{count(len(course.class_), 'student')}: {', '.join(words)}"
 
 
 def prove(students: list[Student], week: int, folder: Path, at_once: int) -> None:

@@ -149,5 +149,5 @@ def main() -> int:
         print(f"wrote {shown(path)}")
     docs.renew(docs.documents_of(find_day(options.day)))
     n = options.day
-    print(f"Now: make notebook DAY={n}, make author DAY={n}, and docs/teaching.md")
+    print(f"Now: make author DAY={n}, and docs/teaching.md")
     return cli.EXIT_OK

@@ -7,15 +7,19 @@
 
 The script is the only source: its functions and the steps of its main() become
 cells. What a notebook adds to them (pictures, sliders) is in dayN/notebook.toml.
+It is yours: git does not keep it, and one that you edited is kept under another name.
 """
 
 import ast
+import hashlib
+import json
 import re
 import textwrap
 import tomllib
-from collections.abc import Iterator
-from itertools import pairwise
+from collections.abc import Iterable, Iterator
+from itertools import count, pairwise
 from pathlib import Path
+from typing import Any
 
 from labkit.base import cli
 from labkit.lesson.day import Day, chosen_day
@@ -74,10 +78,37 @@ def build(day: Day, starter: bool = False) -> str:
     cells += library(tree.body[: tree.body.index(main)], lines)
     cells += lab(day, main.body, lines)
     notebook = jupytext.reads("\n\n".join(cells), fmt="py:percent")
-    notebook.metadata = {"kernelspec": KERNEL, "language_info": {"name": "python"}}
+    notebook.metadata = {
+        "kernelspec": KERNEL,
+        "language_info": {"name": "python"},
+        "robo47": digest(cell["source"] for cell in notebook.cells),
+    }
     for i, cell in enumerate(notebook.cells):
         cell["id"] = f"cell-{i:02}"  # random ones would differ at every run
     return jupytext.writes(notebook, fmt="ipynb").rstrip("\n") + "\n"
+
+
+def digest(sources: Iterable[Any]) -> str:
+    """Return what changes with any cell, however its lines are stored."""
+    text = "\0".join("".join(source) for source in sources)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def is_edited(path: Path) -> bool:
+    """Return whether somebody has written in a notebook: a run alone is no edit."""
+    try:
+        found = json.loads(path.read_text("utf-8"))
+        made = digest(cell["source"] for cell in found["cells"])
+        return bool(found["metadata"].get("robo47") != made)
+    except (ValueError, LookupError, TypeError, AttributeError):
+        return True
+
+
+def put_aside(path: Path) -> Path:
+    """Give a notebook a name beside itself that nothing has yet, and return it."""
+    names = (path.with_suffix(f".before-{n}.ipynb") for n in count(1))
+    free = next(name for name in names if not name.exists())
+    return path.rename(free)
 
 
 def notebook_of(day: Day) -> Path:
@@ -205,6 +236,8 @@ def main() -> int:
         print(f"{shown(path)} is out of date: make notebook DAY={day.number}")
         return cli.EXIT_FAILED
     path.parent.mkdir(parents=True, exist_ok=True)
+    if path.exists() and is_edited(path):
+        print(f"as you had it: {shown(put_aside(path))}")
     path.write_text(fresh, "utf-8", newline="\n")
     print(f"{shown(path)} written{'; the answers are yours to find' * starter}")
     if not starter:

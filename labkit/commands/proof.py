@@ -13,19 +13,21 @@ metrics/proof.html leads to those of all weeks.
 
 import importlib.util
 import time
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from labkit.base import cli, git, store
 from labkit.base.git import GitError, read_history
 from labkit.base.text import visible
+from labkit.check.own_functions import capstone_of
 from labkit.fresh import FRESH
 from labkit.grade.roster import Student
-from labkit.lesson.day import chosen_week, days_of
+from labkit.lesson.day import Day, chosen_week, days_of, find_day
 from labkit.lesson.week import Week
 from labkit.proof import door, page
+from labkit.proof.capstone import NO_CAPSTONE, attempt
 from labkit.proof.facts import RunDay, facts_of
-from labkit.proof.pick import NO_PICK, pick
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, ROOT, shown
@@ -82,22 +84,43 @@ def found(week: Week, clone: Path, name: str = "", *, own: bool = False) -> page
     name = visible(name, 80) or "somebody whom git does not know"
     student = Student(name, clone.name, clone)
     with Sandbox() as sandbox, TemporaryDirectory(prefix="robo47-grade-") as top:
-        folders = [Path(top).resolve() / str(day.number) for day in days]
-        known: list[RunDay] = []
-        for day, folder in zip(days, folders, strict=True):
-            folder.mkdir()
-            with cli.busy(f"day {day.number}"):
-                known.append(facts_of(day, student, folder, sandbox, own=own))
-            theirs = f"{len(known[-1].own)} of {known[-1].functions} functions theirs"
-            print(f"  day {day.number}: {theirs}", flush=True)
+        place = Path(top).resolve()
+        known = list(run_days(days, student, place, sandbox, own))
         if all("not begun" in one.states.values() for one in known):
             raise Robo47Error("nothing is begun that could be shown: make start DAY=1")
-        picked = NO_PICK
+        tried = NO_CAPSTONE
         if week.capstone:
-            with cli.busy("the pick"):
-                picked = pick(known, folders, sandbox)
+            capstone = capstone_of(week)
+            # It may stand on the functions of other weeks as well.
+            others = [find_day(n) for n in capstone.USES if n not in week.days]
+            whole = [*known, *run_days(others, student, place, sandbox, own)]
+            folders = [place / str(one.day.number) for one in whole]
+            with cli.busy(capstone.NAME):
+                tried = attempt(capstone, whole, folders, sandbox)
     fresh = store.read(FRESH) if own else {}
-    return page.Proof(name, own, history.commit, known, picked, fresh)
+    return page.Proof(name, own, history.commit, known, tried, fresh)
+
+
+def run_days(
+    days: Sequence[Day], student: Student, place: Path, sandbox: Sandbox, own: bool
+) -> Iterator[RunDay]:
+    """Yield how each day stands; its files stay in a folder of its number.
+
+    Args:
+        days: to check and to run.
+        student: whose.
+        place: an empty folder, in which each day gets one.
+        sandbox: where the functions run.
+        own: it is the reader's own clone.
+    """
+    for day in days:
+        folder = place / str(day.number)
+        folder.mkdir()
+        with cli.busy(f"day {day.number}"):
+            found = facts_of(day, student, folder, sandbox, own=own)
+        theirs = f"{len(found.own)} of {found.functions} functions theirs"
+        print(f"  day {day.number}: {theirs}", flush=True)
+        yield found
 
 
 def write(path: Path, text: str) -> None:

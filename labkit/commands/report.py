@@ -64,7 +64,7 @@ def main() -> int:
         f" {report.count('none') + report.count('kit')} not run yet"
     )
     if mine:
-        tell(report, days)
+        tell(report, days_of(asked_week) if asked_week else days)
     if look := len(report.look):
         need = f"{count(look, 'line')} {'needs' if look == 1 else 'need'} a look"
         print(f"{need}: {command('--check', args.file)}")

@@ -108,6 +108,5 @@ def main() -> int:
         chosen_day(options.day, options.reset)
         return reset(options.reset)
     day = chosen_day(options.day)
-    code = start(day)
     last_day.remember(day.number)
-    return code
+    return start(day)

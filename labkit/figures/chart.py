@@ -27,7 +27,8 @@ GREEN = "#009E73"
 RED = "#D55E00"
 PURPLE, SKY = "#CC79A7", "#56B4E9"
 INK, GREY, RULE = "#212529", "#868e96", "#dee2e6"
-WIDTH, DPI = 8.0, 150  # inches; 1200 pixels
+WIDTH = 8.0  # inches
+DPI = 150  # so 1200 pixels
 FONT, SMALL = 16.0, 13.5  # points: of nearly all text, and the smallest
 STYLE: Any = {
     "font.family": "DejaVu Sans",

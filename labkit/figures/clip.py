@@ -19,8 +19,8 @@ from labkit.figures import client
 from labkit.figures.portrait import LINKS, link_frames, with_fingers
 from labkit.figures.scene import Box, Camera, Ghost, Scene
 from labkit.figures.sheet import INK, with_line
-from robo47 import scenes, se3
-from robo47.capstone.phases import Result
+from robo47 import se3
+from robo47.attempt import Film
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.paths import shown
@@ -40,9 +40,7 @@ AT_THE_TABLE = Camera(
     azimuth=np.radians(215.0),
     elevation=np.radians(-18.0),
 )
-ARM = 9  # numbers of qpos: seven joints and two fingers; the cube's seven follow
-TABLE, CUBE = (0.80, 0.74, 0.66, 1.0), (0.85, 0.35, 0.10, 1.0)
-MOMENTS = ("close", "carry", "open")  # whose beginnings a picture shows
+ARM = 9  # numbers of qpos: seven joints and two fingers; others follow
 Caption = tuple[str, bool | None]  # words; whether they are good news, None for neither
 Shot = tuple[Scene, Caption]
 
@@ -137,23 +135,22 @@ def _encoded(frames: Sequence[Image.Image], kind: str, each: int) -> bytes:
     return buffer.getvalue()
 
 
-def pick_clip(result: Result, path: Path) -> str:
-    """Write a film of a pick, .gif or .webp; return a line about it."""
+def film_clip(film: Film, path: Path) -> str:
+    """Write a film of an attempt, .gif or .webp; return a line about it."""
     kind_of(path)
-    rows = np.linspace(0, len(result.qpos) - 1, FRAMES).astype(int)
+    rows = np.linspace(0, len(film.qpos) - 1, FRAMES).astype(int)
     shots = (
-        (_scene(result.qpos[row], PICK_SIZE, fast=True), phase(result, row))
-        for row in rows
+        (_scene(film, row, PICK_SIZE, fast=True), phase(film, row)) for row in rows
     )
-    size = save_clip(drawn(shots), path, seconds=result.seconds)
+    size = save_clip(drawn(shots), path, seconds=film.seconds)
     return f"{shown(path.absolute())}  {size / 1e3:.0f} kB"
 
 
-def pick_picture(result: Result, path: Path) -> str:
-    """Write a PNG: the arm where it grasps, lifts and puts down; say so in a line."""
-    begins = dict(result.phases)
-    rows = np.searchsorted(result.t, [begins[name] for name in MOMENTS])
-    whole = [client.draw(_scene(q, PICTURE_SIZE)) for q in result.qpos[rows]]
+def film_picture(film: Film, path: Path) -> str:
+    """Write a PNG: the arm at the film's moments, side by side; say so in a line."""
+    begins = dict(film.phases)
+    rows = np.searchsorted(film.t, [begins[name] for name in film.moments])
+    whole = [client.draw(_scene(film, row, PICTURE_SIZE)) for row in rows]
     quarter = PICTURE_SIZE[0] // 4
     middles = [part[:, quarter:-quarter] for part in whole]
     sheet = Image.fromarray(np.hstack(middles))
@@ -164,19 +161,15 @@ def pick_picture(result: Result, path: Path) -> str:
     return f"{shown(path.absolute())}  {sheet.width} x {sheet.height}"
 
 
-def phase(result: Result, row: int) -> Caption:
+def phase(film: Film, row: int) -> Caption:
     """Return what the arm does at an instant, and when that is."""
-    t = float(result.t[row])
-    name = [name for name, begins in result.phases if begins <= t][-1]
+    t = float(film.t[row])
+    name = [name for name, begins in film.phases if begins <= t][-1]
     return f"{name}, {t:.1f} s", None
 
 
-def _scene(qpos: Array, size: tuple[int, int], fast: bool = False) -> Scene:
-    """Return one configuration of arm and cube, (16,)."""
-    table = se3.make_T(np.eye(3), [*scenes.TABLE_CENTRE, scenes.TABLE_HEIGHT / 2])
-    cube = se3.make_T(se3.quat_to_R(qpos[ARM + 3 : ARM + 7]), qpos[ARM : ARM + 3])
-    boxes = (
-        Box(table, (*scenes.TABLE_HALF, scenes.TABLE_HEIGHT / 2), TABLE),
-        Box(cube, (scenes.CUBE_HALF,) * 3, CUBE),
-    )
+def _scene(film: Film, row: int, size: tuple[int, int], fast: bool = False) -> Scene:
+    """Return the arm at an instant, and what stands around it."""
+    qpos = film.qpos[row]
+    boxes = tuple(Box(*block) for block in film.blocks(qpos))
     return Scene(qpos[:ARM], size, AT_THE_TABLE, fast=fast, boxes=boxes)

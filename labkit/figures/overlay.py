@@ -15,7 +15,8 @@ from robo47.checks import Array
 X, Y, Z = (224, 49, 49), (47, 158, 68), (28, 100, 242)  # the axes' colours
 INK, LEADER, HALO = (33, 37, 41), (134, 142, 150), (255, 255, 255)
 SMOOTH = 3  # lines are drawn this many times larger, then shrunk: no jagged edges
-AXIS, SECOND = 0.115, 0.7  # metres; a frame on top of another is drawn shorter
+AXIS = 0.115  # metres
+SECOND = 0.7  # of that for a frame on top of another
 
 Pixel = tuple[float, float]
 

@@ -12,7 +12,8 @@ from robo47 import se3
 from robo47.checks import Array
 
 FOVY = np.radians(30.0)  # vertical angle of view; narrow, so that lines stay parallel
-FARTHEST, MARGIN = 6.0, 0.05  # metres; share of the picture left free at its sides
+FARTHEST = 6.0  # metres
+MARGIN = 0.05  # share of the picture left free at its sides
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """Grade a class from start to end: who, what they hand in, grades, what to write."""
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import KW_ONLY, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,18 @@ from robo47.paths import shown
 FAULT = "this machine failed ({}); the same command tries again"
 
 
+@dataclass(frozen=True)
+class Again:
+    """Whose work is graded again though it has not changed; by default nobody's."""
+
+    everybody: bool = False
+    folders: Collection[str] = ()  # or theirs, and what the others have stays
+
+    def asks_for(self, folder: str) -> bool:
+        """Return whether a student's work is."""
+        return self.everybody or folder in self.folders
+
+
 @dataclass
 class Classroom:
     """One class on the way to its grades for a day."""
@@ -36,8 +48,8 @@ class Classroom:
     students: Sequence[Student]  # from the roster
     day: Day  # from the kit's manifest
     journal: Journal  # results so far
-    # Folders to grade though they have a result; None is everybody.
-    again: Collection[str] | None = ()
+    _: KW_ONLY
+    again: Again = Again()
     frozen: bool = False  # what another version of the kit gave stays
     keep: str = "last"  # or "best" of all results of somebody
     # What to add to a student's error, by folder.
@@ -94,10 +106,9 @@ class Classroom:
         except (OSError, GitError, MemoryError) as error:
             fault = FaultError(visible(error) or type(error).__name__)
             return Package(self.day.number, ""), fault
-        kept = self.frozen or bool(self.again)
+        kept = self.frozen or bool(self.again.folders)
         known = self.journal.find(student.folder, package, frozen=kept)
-        anew = self.again is None or student.folder in self.again
-        return package, None if anew else known
+        return package, None if self.again.asks_for(student.folder) else known
 
     def _graded(
         self, student: Student, package: Package, result: Result | FaultError
@@ -113,9 +124,15 @@ class Classroom:
         minutes = None
         if given.committed is not None:
             minutes = (self.journal.reference - given.committed) // 60
-        note = self.notes.get(student.folder, "")
-        facts = (given.commit, minutes, note, fault)
-        return Graded(student, result, *facts, late if self.journal.deadline else None)
+        return Graded(
+            student,
+            result,
+            commit=given.commit,
+            minutes=minutes,
+            note=self.notes.get(student.folder, ""),
+            fault=fault,
+            late=late if self.journal.deadline else None,
+        )
 
     def _course(
         self, everybody: Sequence[Graded], runs: Mapping[str, list[Runs]], now: int
@@ -127,8 +144,17 @@ class Classroom:
         if journal.odd:
             path = shown(journal.path.absolute())
             odd = f"{path}: lines that are no result, left out: {journal.odd:,}"
-        facts = (journal.reference, journal.deadline, journal.seed)
-        return Course(self.day, everybody, alike, *facts, now, journal.outdated, odd)
+        return Course(
+            self.day,
+            everybody,
+            alike=alike,
+            reference=journal.reference,
+            deadline=journal.deadline,
+            seed=journal.seed,
+            graded_now=now,
+            outdated=journal.outdated,
+            odd=odd,
+        )
 
 
 def pull(students: Sequence[Student]) -> dict[str, str]:

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 
 from labkit.grade.result import UNGRADED, Mark, Result
 from labkit.grade.roster import Student
@@ -16,6 +16,7 @@ class Graded:
 
     student: Student  # from the roster
     result: Result  # the grade; without its text, where a class is held
+    _: KW_ONLY
     commit: str = ""  # the hash of the last commit, or ""
     # From there to the deadline, by the student's own clock, negative past it; None
     # without a commit.
@@ -70,6 +71,7 @@ class Course:
 
     day: Day  # from the manifest
     class_: Sequence[Graded]  # everybody, in the order to show them
+    _: KW_ONLY
     alike: Sequence[Group] = ()  # similar submissions, by folder
     reference: int = 0  # what commit times count to, seconds since 1970
     deadline: bool = False  # whether that is the deadline

@@ -118,8 +118,13 @@ class Journal:
 
     def keep(self, folder: str, package: Package, result: Result) -> None:
         """Write a result and wait until the disk has it."""
-        facts = (package.fingerprint, package.kit, package.commit, package.committed)
-        kept = Kept(*facts, result)
+        kept = Kept(
+            package=package.fingerprint,
+            kit=package.kit,
+            commit=package.commit,
+            committed=package.committed,
+            result=result,
+        )
         self._note(folder, kept)
         told = {**kept._asdict(), "result": asdict(result)}
         self._append({"day": package.day, "folder": folder, **told})
@@ -193,10 +198,13 @@ class Journal:
         self._written = self._head()
 
     def _kept(self, record: dict[str, Any]) -> Kept:
-        facts = (record["package"], record["kit"], record["commit"])
-        if not all(isinstance(fact, str) for fact in (record["folder"], *facts)):
-            raise TypeError(facts)
+        words = {name: record[name] for name in ("package", "kit", "commit")}
+        if not all(
+            isinstance(word, str) for word in (record["folder"], *words.values())
+        ):
+            raise TypeError(words)
         at = record["committed"]
         if record["day"] != self._day.number or type(at) not in (int, type(None)):
             raise ValueError(record["day"], at)
-        return Kept(*facts, at, from_json(record["result"], self._day))
+        result = from_json(record["result"], self._day)
+        return Kept(**words, committed=at, result=result)

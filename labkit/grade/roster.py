@@ -124,8 +124,15 @@ def _student(cells: Mapping[str, str], root: Path) -> Student:
         problem = f"no name of a folder here: {error}"
     name = cells.get("name") or cells.get("student", "")
     name = name or os.fsencode(folder).decode("utf-8", "backslashreplace")
-    shows = (visible(problem), visible(id, 120), cells)
-    return Student(visible(name, 120), folder, path, url, *shows)
+    return Student(
+        visible(name, 120),
+        folder,
+        path,
+        url=url,
+        problem=visible(problem),
+        id=visible(id, 120),
+        cells=cells,
+    )
 
 
 def _read_roster(path: Path, root: Path) -> list[Student]:

@@ -25,7 +25,9 @@ from robo47.paths import shown
 # A spreadsheet runs a text that begins like this as a formula.
 _FORMULA = re.compile(r"\s*['=+@|%＝＋－＠-]")
 Cell = str | int | None
-_SEPARATORS = str.maketrans(";|", ",,")  # where half the world's spreadsheets split
+# Where half the world's spreadsheets split, and what reads alike: what stands behind it
+# would be a cell of its own, and may be a formula.
+_SEPARATORS = {"; ": " – ", ";": ",", "|": "¦"}
 
 
 def as_csv(class_: Sequence[Graded]) -> bytes:
@@ -198,7 +200,9 @@ def _as_known(platform: Platform, student: Student, column: str) -> str:
 
 def plain(text: str) -> str:
     """Return a text that any spreadsheet shows as it is, in one cell, on one line."""
-    line = visible(printable(text), 2000).translate(_SEPARATORS)
+    line = visible(printable(text), 2000)
+    for separator, alike in _SEPARATORS.items():
+        line = line.replace(separator, alike).strip()
     return f"'{line}" if _FORMULA.match(line) else line
 
 

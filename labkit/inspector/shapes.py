@@ -48,13 +48,17 @@ def shapes(
             continue
         body, material = model.geom_bodyid[geom], model.geom_matid[geom]
         rgba = model.mat_rgba[material] if material >= 0 else model.geom_rgba[geom]
-        key = model.body(body).name, tuple(rgba.tolist())
-        vertices, faces = parts.setdefault(key, ([], []))
+        look = (model.body(body).name, tuple(rgba.tolist()))
+        vertices, faces = parts.setdefault(look, ([], []))
         R = se3.quat_to_R(model.geom_quat[geom])
         vertices.append(made.vertices @ R.T + model.geom_pos[geom])
         faces.append(made.faces)
+    found = []
     append: Any = trimesh.util.append_faces
-    return [Shape(*key, *append(*part)) for key, part in parts.items()]
+    for (name, rgba), part in parts.items():
+        vertices, faces = append(*part)
+        found.append(Shape(name, rgba, vertices, faces))
+    return found
 
 
 def simple_links(model: mujoco.MjModel) -> list[Shape]:

@@ -6,7 +6,7 @@
                 drawn from
     kinds       what kind of thing an answer is, which decides the words
                 (matrix_kinds: Jacobians, covariances; other_kinds: twists, points,
-                counts, yes or no, paths, pixels, images)
+                counts, yes or no, paths, pixels)
     replies_read    did an answer come back, of the right shape and type? If not, the
                 words
     failing_call    the call that failed, as a student can type it
@@ -30,7 +30,6 @@ from labkit.judge.matrix_kinds import Covariance, Jacobian, Matrix, Symmetric
 from labkit.judge.mistake import Finding, Mistake, Verdict
 from labkit.judge.other_kinds import (
     Count,
-    Image,
     Mask,
     Pixels,
     Points,

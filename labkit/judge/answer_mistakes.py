@@ -61,11 +61,6 @@ GENERAL = _mistakes(
     inverted: True and False are swapped => the right one turned round
     row-first: a pixel is (column, row), x before y; here the row comes first => the
       right one with its two columns swapped
-    upside-down: the image stands on its head: row 0 is the top one => the right one
-      with its rows reversed
-    mirrored: left and right are swapped => the right one with its columns reversed
-    blue-first: the colours are (blue, green, red); here red comes first => the right
-      one with its colours reversed
     """,
     {
         "all-signs": np.negative,
@@ -77,9 +72,6 @@ GENERAL = _mistakes(
         "halves-swapped": lambda answer: np.roll(answer, 3, axis=-1),
         "inverted": lambda answer: 1.0 - answer,
         "row-first": lambda answer: answer[..., ::-1],
-        "upside-down": lambda image: image[:, ::-1],
-        "mirrored": lambda image: image[:, :, ::-1],
-        "blue-first": lambda image: image[..., ::-1],
     },
 )
 

@@ -269,11 +269,16 @@ def capitalised(clause: str) -> str:
     return clause[0].upper() + clause[1:]
 
 
-def typed(question: Question, names: Sequence[str] = ()) -> str:
+def typed(
+    question: Question, names: Sequence[str] = (), longest: float = np.inf
+) -> str:
     """Return a call as a student can type it; what is too long goes by its name."""
     args = question.args
     others = names if len(names) == len(args) else ["..."] * len(args)
-    words = [_value(arg) or name for arg, name in zip(args, others, strict=True)]
+    words = [
+        value if 0 < len(value := typed_one(arg)) <= longest else name
+        for arg, name in zip(args, others, strict=True)
+    ]
     return f"{question.function}({', '.join(words)})"
 
 
@@ -290,12 +295,12 @@ def in_words(question: Question, names: Sequence[str] = ()) -> str:
     words = [
         f"{names[i]} = {says}" if named else says
         for i, arg in enumerate(args)
-        if (says := _value(arg))  # not the robot, or a path along it
+        if (says := typed_one(arg))  # not the robot, or a path along it
     ]
     return (", " if named else " and ").join(words)
 
 
-def _value(arg: Any) -> str:
+def typed_one(arg: Any) -> str:
     """Return a number or a vector as it is typed, "" for anything else."""
     if isinstance(arg, (int, float)):
         return number(float(arg))

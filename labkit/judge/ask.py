@@ -164,6 +164,19 @@ class Case:
     given: Sequence[str]  # the inputs in words, one per question
     # Per question of `Ask.probe` its arguments and the answer, or None.
     probes: Sequence[tuple[tuple[Any, ...], Any]] = ()
+    further: "Further | None" = None  # what a sentence must hold for as well
+
+
+@dataclass(frozen=True)
+class Further:
+    """Fresh inputs with an answer: a sentence about the main ones is held against them.
+
+    They were asked in the same round, so that costs a check nothing.
+    """
+
+    arguments: tuple[Any, ...]  # stacked, as in a `Case`
+    S: Parts  # the student's answers
+    T: Parts  # the right ones
 
 
 @dataclass(frozen=True)
@@ -203,9 +216,20 @@ class Ask:
     at_edge: Callable[..., bool] | None = None
 
     def __post_init__(self) -> None:
-        """Refuse a row that has neither or both of truth and accept."""
+        """Refuse a row that has neither or both of truth and accept.
+
+        And one that would judge wrong answers, and stop at a right one: what a held-out
+        question without `mistaken` asks is whether the answer is the truth's.
+        """
         if (self.truth is None) == (self.accept is None):
             raise ValueError("an Ask has either truth or accept")
+        for held in self.held_out if self.accept else ():
+            if held.mistaken is None:
+                raise Robo47Error(
+                    f'the held-out question "{held.slug}" asks for the right answer, '
+                    "and a row with accept= has none: give it mistaken=, the function "
+                    "whose answers it looks for, or let accept say what is wrong"
+                )
 
     @cached_property
     def known(self) -> dict[Any, Any]:

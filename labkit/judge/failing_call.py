@@ -11,6 +11,7 @@ from labkit.judge.answers import (
     difference,
     gaps,
     typed,
+    typed_one,
     worst_part,
 )
 from labkit.judge.ask import Asked, HeldOut, right_answers
@@ -20,6 +21,7 @@ from robo47.checks import Array
 
 # A call whose answer is not right: in a line, "Rz(2.9)[0, 0] is -1, and -0.971 is
 # right.", and in lines with every argument and entry; "" and none without one.
+LONG = 80  # characters; a longer argument goes by its name, and --explain has all of it
 Failing = tuple[str, tuple[str, ...]]
 
 
@@ -63,16 +65,18 @@ def _wrong(
     T = right_answers(ask, exchanges, held)
     gap = gaps(ask.kinds, S, T)
     i = int(np.argmax(gap))
-    part = worst_part(ask.kinds, S, T, ask.near)
     if gap[i] <= ask.tolerance:
         return None
+    here = [tuple(part[i : i + 1] for part in some) for some in (S, T)]
+    part = worst_part(ask.kinds, *here, ask.tolerance)
     mine, its = as_one([S[part][i], T[part][i]])
     question = exchanges[i].question
-    apart = np.nan_to_num(np.abs(mine - its), nan=np.inf)
+    apart = np.nan_to_num(np.abs(mine - its) / ask.kinds[part].scale, nan=np.inf)
     at = np.unravel_index(int(np.argmax(apart)), mine.shape)
     place = f"[{part}]" if len(S) > 1 else ""
     place += str([int(x) for x in at]) if at else ""
-    says = f"{typed(question, names)}{place} is {_apart(mine[at], its[at])} is right."
+    says = f"{typed(question, names, LONG)}{place} is {_apart(mine[at], its[at])}"
+    says += " is right."
     whole = [*_given(question, names)]
     for word, one in (("yours", S), ("right", T)):
         whole += [f"{word}: {_matrix(values[i])}" for values in one]
@@ -107,9 +111,9 @@ def _only_known(main: Parts, S: Parts) -> bool:
 
 def _given(question: Question, names: Sequence[str]) -> tuple[str, ...]:
     """Return the call, and each argument that is too long for it."""
-    found = [f"call: {typed(question, names)}"]
+    found = [f"call: {typed(question, names, LONG)}"]
     for i, arg in enumerate(question.args):
-        if isinstance(arg, np.ndarray) and arg.ndim > 1:
+        if isinstance(arg, np.ndarray) and (arg.ndim > 1 or len(typed_one(arg)) > LONG):
             name = names[i] if len(names) == len(question.args) else f"argument {i + 1}"
             found.append(f"{name} = {_matrix(arg)}")
     return tuple(found)

@@ -1,6 +1,6 @@
 """The judge: from a function's questions and replies to a verdict and its name."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import compress
 from typing import Any
@@ -8,25 +8,29 @@ from typing import Any
 import numpy as np
 
 from labkit.base.exchange import Exchange
-from labkit.judge import near_miss, replies_read
+from labkit.judge import near_miss, replies_read, tried
 from labkit.judge.answers import (
-    InTurn,
     Parts,
-    all_match,
     as_one,
-    capitalised,
     difference,
     gaps,
     in_words,
-    largest,
-    matches,
-    parts,
     plain,
     worst_part,
 )
-from labkit.judge.ask import Ask, Asked, Case, HeldOut, replies, right_answers, stacked
+from labkit.judge.ask import (
+    Ask,
+    Asked,
+    Case,
+    Further,
+    HeldOut,
+    replies,
+    right_answers,
+    stacked,
+)
 from labkit.judge.failing_call import failing_call, for_fresh
-from labkit.judge.mistake import Finding, Mistake, Verdict
+from labkit.judge.made_again import redone, two_at_once
+from labkit.judge.mistake import Finding, Verdict
 from robo47.checks import Array
 
 NO_CALL = ("kept-between-calls", "draws-itself")  # the same call gives something else
@@ -70,6 +74,7 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     gap = gaps(ask.kinds, S, T)
     measured = _measured(case, S, T, gap)
     if (off := gap.max()) > ask.near:
+        case = replace(case, further=_further(asked))
         if found := diagnose(case, S, T):
             return Verdict("wrong", *found, measured)
         wrong = tuple(np.flatnonzero(gap > ask.near).tolist())
@@ -88,21 +93,25 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
         return found
     T = right_answers(asked.ask, good)
     rest = replace(asked, main=good, probes=[])
-    return _both(found, _case(rest, S, T, names), S, T)
+    case = replace(_case(rest, S, T, names), further=_further(asked))
+    return _both(found, case, S, T)
 
 
 def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
-    if gaps(case.ask.kinds, S, T).max() <= case.ask.near:
+    wrong = gaps(case.ask.kinds, S, T) > case.ask.near
+    if not wrong.any():
         return found
     named = diagnose(case, S, T)
     other = named or what_is_wrong(case, S, T)
-    says = f"{found.message} The other answers are wrong, too. {other.message}"
+    some = f"Of the {len(wrong)} other answers {wrong.sum()} are wrong, too."
+    also = "The other answers are wrong, too." if wrong.all() else some
+    says = f"{found.message} {also} {other.message}"
     return Finding(named.slug if named else found.slug, says)
 
 
 def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Finding:
     if off <= near_miss.SINGLE and near_miss.single_precision(replies(asked.main), S):
-        says = f"Right, but in float32: off by {off:.0e}. The labs use float64."
+        says = "Right, but in float32, so to 7 digits. The labs use float64."
         return Finding("float32", says)
     i = worst_part(case.ask.kinds, S, T, case.ask.near)
     found = case.ask.near_miss(case) if case.ask.near_miss else None
@@ -140,6 +149,23 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     off = gaps(ask.kinds, S, right_answers(ask, exchanges, held)).max()
     near = ask.near if held.near is None else held.near
     return off <= near if held.mistaken else off > near
+
+
+def _further(asked: Asked) -> Further | None:
+    """Return the fresh questions that have an answer, all of numbers, or None."""
+    good = []
+    for one in asked.fresh:
+        S = replies_read.read([one], asked.ask)
+        if isinstance(S, Finding):
+            continue
+        if all(np.isfinite(part).all() for part in S):
+            good.append(one)
+    if not good:
+        return None
+    S = replies_read.read(good, asked.ask)
+    if isinstance(S, Finding):
+        return None
+    return Further(stacked(good), S, right_answers(asked.ask, good))
 
 
 def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
@@ -191,12 +217,14 @@ def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
 def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return the first of: a named mistake, an answer that is none, one place."""
     ask = case.ask
-    found = redone(ask, case.arguments, S, T) or _nothing_there(ask, S)
-    if found := found or _not_finite(case, S, T):
+    found = redone(ask, case.arguments, S, T, case.further)
+    found = found or _nothing_there(case, S)
+    if found := found or _not_finite(case, S, T) or two_at_once(case, S, T):
         return found
     i = worst_part(ask.kinds, S, T, ask.near)
     kind = ask.kinds[i]
-    if found := _all_the_same(kind, S[i], T[i]) or near_miss.rounded(S[i], T[i]):
+    every = (S[i], case.further.S[i]) if case.further else (S[i],)
+    if found := _all_the_same(kind, every, T[i]) or near_miss.rounded(S[i], T[i]):
         return found
     try:
         return ask.unnamed(case) if ask.unnamed else None
@@ -227,11 +255,11 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     ask = case.ask
     i = worst_part(case.ask.kinds, S, T, case.ask.near)
     kind = ask.kinds[i]
-    found = kind.what_is_wrong(S[i], T[i])
+    found = tried.what_is_wrong(case, S, T, i)
     called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
     where = ""
     if found.slug != "one-factor-off":  # every entry, so where does not matter
-        where = near_miss.in_common(S[i], T[i])
+        where = tried.in_common(case, S, T, i)
         wrong = difference(S[i], T[i], kind.scale) > ask.tolerance
         if not wrong.all():
             where += f" It is right for {np.sum(~wrong)} of {len(wrong)} inputs"
@@ -239,76 +267,10 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     return Finding(found.slug, f"{called}{found.message}{where}")
 
 
-def _named(
-    mistakes: Sequence[Mistake],
-    arguments: tuple[Any, ...],
-    kinds: Sequence[Any],
-    S: Parts,
-    T: Parts | None,
-    near: float,
-) -> Finding | None:
-    """Return the first mistake that, made on purpose, gives the student's answers."""
-    first = -1 if T is None else int(np.argmax(gaps(kinds, S, T)))
-    for mistake in mistakes:
-        try:
-            again = _made_again(mistake.redo, arguments, kinds, S, first)
-        except (ValueError, np.linalg.LinAlgError):  # it has no answer of its own here
-            continue
-        if all_match(kinds, S, again):
-            says = capitalised(mistake.says)
-            says += "" if says.endswith("?") else "."
-            if T is not None:
-                i = worst_part(kinds, S, T, near)
-                how = mistake.redone
-                if np.isfinite(S[i]).all():  # of a NaN nobody says how far it is off
-                    how = f"off by up to {kinds[i].apart(S[i], T[i])}; {how}"
-                says += f" ({capitalised(how)} gives your numbers exactly.)"
-            return Finding(mistake.slug, says)
-    return None
-
-
-def _made_again(
-    redo: Callable[..., Any],
-    arguments: tuple[Any, ...],
-    kinds: Sequence[Any],
-    S: Parts,
-    first: int,
-) -> Parts:
-    """Return the answers with a mistake; none where the first is not the student's.
-
-    Raises:
-        ValueError: it has no answer to one of the questions.
-    """
-    if isinstance(redo, InTurn):
-        again = parts(redo.nth(first, arguments))
-        for s, a, kind in zip(S, again, kinds, strict=False):
-            scale = kind.scale * max(1.0, largest(s, kind.scale))
-            mine, its = as_one([s[first], a])
-            if not matches(mine[None], its[None], scale):
-                return ()
-    return parts(redo(*arguments))
-
-
-def redone(
-    ask: Ask, arguments: tuple[Any, ...], S: Parts, T: Parts | None
-) -> Finding | None:
-    """Return a named mistake of the function, or a general one of its kind."""
-    if found := _named(ask.named, arguments, ask.kinds, S, T, ask.near):
-        return found
-    if T is None:
-        return None
-    for i, kind in enumerate(ask.kinds):
-        if not all(matches(S[j], T[j]) for j in range(len(T)) if j != i):
-            continue
-        mine, its = (S[i],), (T[i],)
-        if found := _named(kind.general(), its, [kind], mine, its, ask.near):
-            called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
-            return Finding(found.slug, called + found.message)
-    return None
-
-
-def _nothing_there(ask: Ask, S: Parts) -> Finding | None:
-    if any(part.any() for part in S) or not all(kind.empty for kind in ask.kinds):
+def _nothing_there(case: Case, S: Parts) -> Finding | None:
+    ask = case.ask
+    every = (*S, *case.further.S) if case.further else S
+    if any(part.any() for part in every) or not all(kind.empty for kind in ask.kinds):
         return None
     return Finding(
         "all-zeros",
@@ -317,9 +279,17 @@ def _nothing_there(ask: Ask, S: Parts) -> Finding | None:
     )
 
 
-def _all_the_same(kind: Any, S: Array, T: Array) -> Finding | None:
-    """Return that the answer does not depend on the input, though it should."""
-    if len(S) < 2 or difference(S, S[0]).max() > 1e-8:
+def _all_the_same(kind: Any, every: Sequence[Array], T: Array) -> Finding | None:
+    """Return that the answer does not depend on the input, though it should.
+
+    Args:
+        kind: of the answers.
+        every: the student's, of the main questions, then of others.
+        T: the right ones to the main ones.
+    """
+    S = every[0]
+    whole = as_one([answer for some in every for answer in some])
+    if len(S) < 2 or difference(whole, whole[0]).max() > 1e-8:
         return None
     off = f"(Off by up to {kind.apart(S, T)}.)"
     square = S.ndim == 3 and S.shape[1] == S.shape[2]

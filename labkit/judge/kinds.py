@@ -31,6 +31,8 @@ from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
 
 NEAR = 1e-4  # entries that differ by less are not called wrong
+ROUNDED_AWAY = 1e12  # rounding divided by nothing: its digits are the processor's
+RIGHT = 1e-6  # and those that differ by less are called right
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,7 @@ class Kind:
     scale: Any = 1.0
     # What it is in a sentence, "the torque"; used where a tuple has several.
     called: str = ""
+    whole: ClassVar[bool] = False  # whether equal numbers prove little: counts, choices
     empty = True  # whether an answer that is all 0 looks like one that was never filled
     # Mistakes made with a finished answer, by their names in `answer_mistakes`.
     usual: ClassVar[tuple[str, ...]] = ("all-signs", "whole-numbers")
@@ -110,7 +113,8 @@ class Kind:
             return "0"
         unit = f" {self.unit}" if self.unit else ""
         entry = " in one entry" if self.shape else ""
-        return f"{off[at]:.3g}{unit}{entry}"
+        digits = f"{off[at]:.3g}" if off[at] < ROUNDED_AWAY else "1e+12 and more"
+        return f"{digits}{unit}{entry}"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
         """Return the most useful true thing about answers that no mistake gives."""
@@ -144,7 +148,7 @@ class Vector(Kind):
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if found := one_factor(self, S, T):
             return found
-        off = np.abs(S - T).max(axis=0) > NEAR * self.scale
+        off = np.abs(S - T).max(axis=0) > RIGHT * self.scale
         if not 0 < off.sum() <= max(1, len(off) // 3):
             return Finding("off", f"It is off by up to {self.apart(S, T)}.")
         counted = [f"[{i}], counted from 0" for i in range(len(off))]
@@ -182,7 +186,7 @@ def few_entries(
         ignored: a row and column that has a name of its own, such as a pose's last.
     """
     apart = np.abs(S - T)
-    rows, columns = np.nonzero(apart.max(axis=0) > NEAR * kind.scale)
+    rows, columns = np.nonzero(apart.max(axis=0) > RIGHT * kind.scale)
     if not len(rows):
         return None
     sides = {"row": rows, "column": columns}
@@ -269,7 +273,7 @@ class Pose(Kind):
             says = f"The bottom row is ({row}), not (0, 0, 0, 1), so this is no pose."
             return Finding("bottom-row", says)
         t_off = say_mm(millimetres(t, t_true))
-        if difference(R, R_true).max() <= NEAR and t_off != "0":
+        if difference(R, R_true).max() <= RIGHT and t_off != "0":
             says = "R is right everywhere; the translation is not: up to"
             return Finding("translation-off", f"{says} {t_off} off.")
         slug, message = rotation_wrong(R, R_true)

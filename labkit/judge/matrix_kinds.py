@@ -7,7 +7,7 @@ import numpy as np
 
 from labkit.judge.answer_mistakes import general
 from labkit.judge.answers import difference, gap
-from labkit.judge.kinds import NEAR, Kind, few_entries, one_factor
+from labkit.judge.kinds import NEAR, RIGHT, Kind, few_entries, one_factor
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
 
@@ -54,7 +54,7 @@ class Jacobian(Matrix):
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if found := one_factor(self, S, T):
             return found
-        wrong = np.abs(S - T).max(axis=0) > NEAR * self.scale
+        wrong = np.abs(S - T).max(axis=0) > RIGHT * self.scale
         bad = np.flatnonzero(wrong.any(axis=0))
         halves = np.flatnonzero(wrong.reshape(2, -1).any(axis=1))
         where = f" in its {('omega', 'v')[halves[0]]} rows" if len(halves) == 1 else ""
@@ -85,9 +85,9 @@ class Symmetric(Matrix):
             )
         off = gap(S, T) / self.scale
         diagonal = np.eye(S.shape[-1], dtype=bool)
-        if off[:, ~diagonal].max(initial=0.0) <= NEAR:
+        if off[:, ~diagonal].max(initial=0.0) <= RIGHT:
             says = "Only the diagonal is wrong"
-        elif off[:, diagonal].max() <= NEAR:
+        elif off[:, diagonal].max() <= RIGHT:
             says = "The diagonal is right, the rest is not"
         else:
             return super().what_is_wrong(S, T)

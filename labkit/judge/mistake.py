@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-REDONE = "the answer with this mistake"
+REDONE = "this mistake, made on purpose,"
 
 
 class Finding(NamedTuple):

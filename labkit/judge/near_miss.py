@@ -8,12 +8,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from labkit.base.exchange import Reply
-from labkit.judge.answers import MATCHES, difference
+from labkit.judge.answers import difference
 from labkit.judge.mistake import Finding
 from robo47.checks import Array
 
 SINGLE = 5e-6  # what products in float32 may leave at worst
 SINGLE_INSIDE = 1e-6  # and what one float32 in a float64 file leaves
+EXACT = 1e-7  # of an entry: it is the right one, but for its sign or place
 ABOUT = 1e-2  # of its largest entry: an answer is about right
 
 
@@ -22,16 +23,20 @@ def explain(S: Array, T: Array) -> Finding:
     if found := rounded(S, T):
         return found
     off = difference(S, T).max()
+    inside = off < SINGLE_INSIDE
+    # What rounding leaves has other digits on another processor; its size has not.
+    size = 10.0 ** np.round(np.log10(max(off, 1e-16)))
+    about = f"about {size:.0e}" if inside else f"{off:.1e}"
     why = (
         "as float32, a difference quotient, a small damping or a loop that stops too "
         "early leaves it."
-        if off < SINGLE_INSIDE
+        if inside
         else "so a number is rounded (is one typed by hand, such as 3.14 or 0.707?), a "
         "derivative is a difference quotient, or what is small counts as 0."
     )
     return Finding(
         "rounded-somewhere",
-        f"Close, but not equal: off by {off:.1e} where 1e-15 is usual, {why}",
+        f"Close, but not equal: off by {about} where 1e-15 is usual, {why}",
     )
 
 
@@ -55,22 +60,34 @@ def rounded(S: Array, T: Array) -> Finding | None:
     return None
 
 
+def about_right(S: Array, T: Array) -> bool:
+    """Return whether all answers are less than a hundredth of their size off."""
+    if S.shape != T.shape:
+        return False
+    size = np.abs(T.reshape(len(T), -1)).max(axis=1, initial=0.0)
+    return bool((difference(S, T) <= ABOUT * size).all())
+
+
 def in_common(S: Array, T: Array) -> str:
     """Return what all wrong answers of a function share with the right ones, or ""."""
     if S.shape != T.shape:
         return ""
-    tiny = MATCHES * max(1.0, float(np.abs(T).max(initial=0.0)))
+    about = about_right(S, T)
     S, T = (some.reshape(len(some), -1) for some in (S, T))
-    if np.abs(np.abs(S) - np.abs(T)).max() < tiny:
+    tiny = EXACT * np.maximum(np.abs(T), np.abs(T).max(axis=1, keepdims=True) * EXACT)
+    wrong = np.abs(S - T) > tiny
+    if not wrong.any():
+        return ""
+    if (np.abs(np.abs(S) - np.abs(T)) <= tiny).all():
         return " Every number is right but for its sign."
-    off = difference(S, T)
-    size = np.abs(T).max(axis=1)
-    if (off <= ABOUT * size).all():
+    if about:
         return (
             " Everywhere that is less than one part in 100: is a constant rounded, or "
             "does something only come near to the formula?"
         )
-    mixed = np.abs(np.sort(S, axis=1) - np.sort(T, axis=1)).max() < tiny
-    if mixed and S.shape[1] > 1:
+    mixed = np.abs(np.sort(S, axis=1) - np.sort(T, axis=1)) <= tiny.max(
+        1, keepdims=True
+    )
+    if mixed.all() and S.shape[1] > 1:
         return " The numbers are the right ones, but in other places."
     return ""

@@ -1,4 +1,4 @@
-"""Kinds of answers that are twists, points, counts, choices, paths or images."""
+"""Kinds of answers that are twists, points, counts, choices, paths or pixels."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ import numpy as np
 from labkit.base.text import count
 from labkit.judge.answer_mistakes import general
 from labkit.judge.answers import capitalised, difference, millimetres, say_mm
-from labkit.judge.kinds import NEAR, Kind, Scalar, one_factor
+from labkit.judge.kinds import NEAR, RIGHT, Kind, Scalar, one_factor
 from labkit.judge.matrix_kinds import Matrix
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
@@ -33,7 +33,7 @@ class _Halves(Kind):
         if found := one_factor(self, S, T):
             return found
         for i, slug in enumerate(("second-half-off", "first-half-off")):
-            if off[i] <= NEAR:
+            if off[i] <= RIGHT:
                 says = f"{self.halves[i]} is right; {self.halves[1 - i]} is not: off by"
                 return Finding(slug, f"{capitalised(says)} up to {self.apart(S, T)}.")
         says = f"{self.halves[0]} and {self.halves[1]} are both wrong: off by up to"
@@ -104,6 +104,7 @@ class Points(Kind):
 class Count(Scalar):
     """How many: one whole number."""
 
+    whole = True
     empty = False
     expected = "a whole number"
     usual = ()
@@ -119,6 +120,7 @@ class Count(Scalar):
 class Mask(Kind):
     """True or False, one or many. `Mask((8,))`."""
 
+    whole = True
     empty = False
     usual = ("inverted",)
 
@@ -152,7 +154,7 @@ class Waypoints(Matrix):
         return f"a path, with a row of {self.shape[1]} numbers per way point"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        off = np.abs(S - T) / self.scale > NEAR
+        off = np.abs(S - T) / self.scale > RIGHT
         first = int(np.argmax(off.any(axis=(0, 2))))
         says = f"It is right before way point {first}, counted from 0, and wrong there"
         says = says if first else "It is wrong from its first way point on"
@@ -177,32 +179,3 @@ class Pixels(Kind):
             says = f"Every pixel is off by the same ({x:z.3g}, {y:z.3g})."
             return Finding("shifted", says)
         return one_factor(self, S, T) or super().what_is_wrong(S, T)
-
-
-@dataclass(frozen=True)
-class Image(Kind):
-    """An image, (rows, columns) or (rows, columns, 3). `Image((48, 64), "m")`."""
-
-    @property
-    def expected(self) -> str:  # noqa: D102
-        colours = " of three colours" if len(self.shape) == 3 else ""
-        return f"an image of {self.shape[0]} rows and {self.shape[1]} columns{colours}"
-
-    def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
-        if got[:2] == self.shape[1::-1] != self.shape[:2]:
-            return "rows come first, then columns"
-        return super().why_shape(got)
-
-    def general(self) -> Sequence[Mistake]:  # noqa: D102
-        colours = ["blue-first"] * (len(self.shape) == 3)
-        return general("upside-down", "mirrored", *colours, "whole-numbers")
-
-    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        if found := one_factor(self, S, T):
-            return found
-        off = np.abs(S - T) / self.scale > NEAR
-        wrong = off.reshape(*S.shape[:3], -1).any(axis=3)
-        rows, columns = (np.flatnonzero(wrong.any(axis=(0, i))) for i in (2, 1))
-        where = f"rows {rows[0]} to {rows[-1]}, columns {columns[0]} to {columns[-1]}"
-        says = f"{wrong.mean():.2g} of the pixels are wrong ({where})"
-        return Finding("pixels-off", f"{says}: off by up to {self.apart(S, T)}.")

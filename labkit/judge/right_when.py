@@ -1,26 +1,33 @@
 """Controlled experiments on a wrong function: with which argument neutral it is right.
 
 "It is right whenever ed is 0, and whenever M is the identity" says which term is wrong
-where no named mistake fits. It is true by construction: it was asked.
+where no named mistake fits. It is said only where it was tried: at the calls that were
+answered wrongly, made neutral, and then at thirty inputs and more of both signs and
+several sizes. Each of the two rounds is one batch of questions.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import accumulate, chain, pairwise
 from typing import Any
 
 import numpy as np
 
 from labkit.base.exchange import Question, Reply
-from labkit.judge.answers import InTurn, own, rigid, say_factor
-from labkit.judge.ask import Asked, as_plain
-from labkit.judge.replies_read import flat
+from labkit.judge.answers import InTurn, gaps, number, own, say_factor
+from labkit.judge.ask import Asked, as_plain, right_answers
+from labkit.judge.mistake import Finding
+from labkit.judge.neutral import SIZES, Neutral, neutrals, scaled
+from labkit.judge.replies_read import flat, read
 from robo47.checks import Array
 
 QUESTIONS = 4  # per experiment; three of them at least must agree
 AGREE = 3
+TRIED = 30  # inputs that a sentence is held against, at least
 NOTHING = 1e-12  # a right answer as small as this says nothing
 COMMON = 0.5  # the share of other wrong functions that may be right there as well
 OTHERS = 12  # of them are asked
+BEFORE_AND_AFTER = 1e-3  # how near the ends of a range it is asked
 Call = tuple[Any, ...]  # its arguments
 # From calls to the answers of a function, None where there is none, which says nothing.
 Answers = Callable[[Sequence[Call]], Iterable[Any]]
@@ -41,8 +48,8 @@ def right_when(
         reply_to: asks it further questions.
     """
     ask = asked.ask
-    mains = [asked.main[i].question for i in wrong][-QUESTIONS:]
-    calls = [question.args for question in mains]
+    mains = [asked.main[i].question for i in wrong]
+    calls = [question.args for question in mains][-QUESTIONS:]
     if any(len(names) != len(call) for call in calls):
         return ""
 
@@ -52,8 +59,38 @@ def right_when(
 
     assert isinstance(ask.truth, InTurn)
     others = [_answers_of(m.redo) for m in ask.named if isinstance(m.redo, InTurn)]
-    seen = Experiments(calls, names, mine, _answers_of(ask.truth), ask.near)
-    return f"{seen.neutral(others)} {seen.doubled()}".strip()
+    known = [*asked.main, *asked.fresh]
+    more = [one.question.args for one in known]
+    seen = Experiments(
+        calls, names, mine, _answers_of(ask.truth), ask.near, more, _verdicts(asked)
+    )
+    return seen.told(others)
+
+
+def _verdicts(asked: Asked) -> list[bool]:
+    """Return of each main and fresh question whether its answer is right."""
+    found = []
+    for one in (*asked.main, *asked.fresh):
+        S = read([one], asked.ask)
+        if isinstance(S, Finding):
+            found.append(False)
+            continue
+        T = right_answers(asked.ask, [one])
+        off = gaps(asked.ask.kinds, S, T).max()
+        found.append(bool(off <= asked.ask.near))
+    return found
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A sentence about one argument, and the inputs that satisfy it."""
+
+    k: int  # which argument
+    says: str  # "whenever ed is 0", "for theta between 0 and pi"
+    calls: Sequence[Call]  # at which it is first tried
+    holds: Callable[[Any], bool]  # whether a value of the argument satisfies it
+    more: Callable[[], Sequence[Call]]  # those at which it is tried then
+    changed: float = 0.0  # how many numbers of a call that changes
 
 
 @dataclass(frozen=True)
@@ -65,6 +102,12 @@ class Experiments:
     mine: Answers  # the function
     truth: Answers  # the right answers
     near: float  # how far off a right answer may be, relative to its largest entry
+    known: Sequence[Call] = ()  # all that it was asked
+    right: Sequence[bool] = ()  # of each of those whether it was answered rightly
+
+    def told(self, others: Sequence[Answers] = ()) -> str:
+        """Return what all experiments show, in words."""
+        return f"{self.neutral(others)} {self.doubled()}".strip()
 
     def neutral(self, others: Sequence[Answers] = ()) -> str:
         """Return which arguments, neutral, make the answers right, in words, or "".
@@ -72,31 +115,50 @@ class Experiments:
         Args:
             others: other wrong functions. What is true of most of them says nothing.
         """
+        claims = [*self._ranges(), *self._claims()]
+        claims = [one for one in claims if not self._refuted(one)]
+        first = self._each([one.calls for one in claims])
         telling = []
-        for i, (words, k, changed, some) in enumerate(_neutral_calls(self.calls)):
-            if self._right(self.mine, some):
-                right = [self._right(other, some) for other in others[:OTHERS]]
-                if (share := sum(right) / max(1, len(right))) <= COMMON:
-                    telling.append((share, changed, i, k, words))
+        for i, (claim, given) in enumerate(zip(claims, first, strict=True)):
+            if self._right(given, claim.calls):
+                right = [self._right(f(claim.calls), claim.calls)
+                         for f in others[:OTHERS]]  # fmt: skip
+                share = sum(right) / max(1, len(right))
+                if share <= COMMON or not claim.changed:
+                    telling.append((share, claim.changed, i, claim))
+        telling.sort(key=lambda one: one[:3])
+        tried = [(claim, list(claim.more())) for *_, claim in telling]
         says: dict[int, str] = {}  # of each argument the most telling
-        for *_, k, words in sorted(telling):
-            says.setdefault(k, f"whenever {words.format(self.names[k])}")
+        answers = self._each([some for _, some in tried])
+        for (claim, some), given in zip(tried, answers, strict=True):
+            if len(some) >= TRIED and self._right(given, some, TRIED // 2):
+                says.setdefault(claim.k, claim.says)
         return f"It is right {', and '.join([*says.values()][:2])}." if says else ""
 
     def doubled(self) -> str:
         """Return that answers do not grow with an argument as the right ones, or ""."""
-        before, base = list(self.mine(self.calls)), list(self.truth(self.calls))
-        for k, name in enumerate(self.names):
-            if not all(_may_be_doubled(call[k]) for call in self.calls):
+        some = [*self.calls, *self._others()]
+        doubled = {
+            k: _with(some, k, [2.0 * call[k] for call in some])
+            for k in range(len(self.names))
+            if all(_may_be_doubled(call[k]) for call in self.calls)
+            and all(isinstance(call[k], float | np.ndarray) for call in some)
+        }
+        before, *after = self._each([some, *doubled.values()])
+        base = list(self.truth(some))
+        for (k, twice), given in zip(doubled.items(), after, strict=True):
+            right = list(self.truth(twice))
+            first = slice(len(self.calls))
+            if any(answer is None for answer in right[first]):
                 continue
-            some = _with(self.calls, k, [2.0 * call[k] for call in self.calls])
-            given = self.mine(some)
-            right = list(self.truth(some))
-            if any(answer is None for answer in right):
-                continue
-            grew, its = self._growth(before, given), self._growth(base, right)
+            grew = self._growth(before[first], given[first])
+            its = self._growth(base[first], right[first])
             if grew is None or (its is not None and np.isclose(grew, its, rtol=1e-3)):
                 continue
+            always = self._growth(before, given)
+            if always is None or not np.isclose(always, grew, rtol=1e-3):
+                continue
+            name = self.names[k]
             if np.isclose(grew, 1.0, rtol=self.near):
                 return f"With {name} doubled, your answer stays the same; it must not."
             if its is not None:
@@ -106,14 +168,105 @@ class Experiments:
                 )
         return ""
 
-    def _right(self, function: Answers, calls: Sequence[Call]) -> bool:
+    def _refuted(self, claim: Claim) -> bool:
+        """Return whether a call that was answered wrongly satisfies a claim."""
+        wrong = [c for c, ok in zip(self.known, self.right, strict=False) if not ok]
+        return any(claim.holds(call[claim.k]) for call in (*self.calls, *wrong))
+
+    def _each(self, rounds: Sequence[Sequence[Call]]) -> list[list[Any]]:
+        """Return the function's answers to several rounds, asked at once."""
+        if not (whole := list(chain(*rounds))):
+            return [[] for _ in rounds]
+        given = list(self.mine(whole))
+        ends = list(accumulate(map(len, rounds)))
+        pairs = zip([0, *ends], ends, strict=False)
+        return [given[begin:end] for begin, end in pairs]
+
+    def _others(self) -> list[Call]:
+        """Return further calls to try, of other inputs and other sizes."""
+        shapes = [np.shape(x) for x in self.calls[0]]
+        known = [c for c in self.known if [np.shape(x) for x in c] == shapes][-TRIED:]
+        some = [*known, *self.calls]
+        resized = [
+            tuple(scaled(x, size) for x in call)
+            for size in SIZES
+            for call in some[-(TRIED // len(SIZES)) :]
+        ]
+        return [*known, *resized]
+
+    def _claims(self) -> Iterator[Claim]:
+        """Yield that an argument is neutral, in every way that all calls have."""
+        for k, column in enumerate(zip(*self.calls, strict=True)):
+            for choices in zip(*map(neutrals, column), strict=False):
+                first = choices[0]
+                if len({one.says for one in choices}) > 1:
+                    continue
+                values = [one.value for one in choices]
+                pairs = zip(column, values, strict=True)
+                changed = float(np.mean([np.sum(np.not_equal(x, v)) for x, v in pairs]))
+                if changed:
+                    says = f"whenever {first.says.format(self.names[k])}"
+                    calls = _with(self.calls, k, values)
+                    more = self._more(k, first)
+                    yield Claim(k, says, calls, first.holds, more, changed)
+
+    def _more(self, k: int, neutral: Neutral) -> Callable[[], list[Call]]:
+        def more() -> list[Call]:
+            found = []
+            for n, call in enumerate(self._others()):
+                again = [one for one in neutrals(call[k]) if one.says == neutral.says]
+                for one in again:
+                    values = [*one.others, one.value]
+                    found.append((*call[:k], values[n % len(values)], *call[k + 1 :]))
+                    if n < TRIED:  # another of its values, of the same call
+                        m = (7 * n + 3) % len(values)
+                        found.append((*call[:k], values[m], *call[k + 1 :]))
+            return found
+
+        return more
+
+    def _ranges(self) -> Iterator[Claim]:
+        """Yield in which range of a number it is right, as far as it was asked."""
+        for k, x in enumerate(self.calls[0]):
+            if isinstance(x, float):
+                between = _range([c[k] for c in self.known], self.right)
+                if between:
+                    low, high = between
+                    says = (
+                        f"for {self.names[k]} between {number(low)} and {number(high)}"
+                    )
+                    calls = self._between(k, low, high, QUESTIONS + 2)
+                    yield Claim(
+                        k,
+                        says,
+                        calls,
+                        lambda v, low=low, high=high: low < v < high,
+                        lambda k=k, low=low, high=high: self._between(
+                            k, low, high, 2 * TRIED
+                        ),
+                    )
+
+    def _between(self, k: int, low: float, high: float, n: int) -> list[Call]:
+        """Return calls with argument k in a range, and near both of its ends."""
+        tiny = BEFORE_AND_AFTER * (high - low)
+        places = [low + tiny, high - tiny, *np.linspace(low, high, n)[1:-1]]
+        some = self._others() if n > TRIED else self.calls
+        return [
+            (*some[i % len(some)][:k], float(x), *some[i % len(some)][k + 1 :])
+            for i, x in enumerate(places)
+        ]
+
+    def _right(
+        self, given: Iterable[Any], calls: Sequence[Call], least: int = AGREE
+    ) -> bool:
         """Return whether all answers are right and enough of them say something.
 
         Zeros say nothing, and neither do right answers that are all the same.
         """
-        agree, different = 0, False
+        agree = 0
+        different = False
         first: Array | None = None
-        for answer, its in zip(function(calls), self.truth(calls), strict=True):
+        for answer, its in zip(given, self.truth(calls), strict=True):
             right = flat(its)
             if right is None or not np.isfinite(right).all():
                 continue  # the question has no answer: it says nothing
@@ -126,7 +279,7 @@ class Experiments:
             agree += size > NOTHING
             first = right if first is None else first
             different = different or not np.allclose(right, first)
-        return agree >= AGREE and different
+        return agree >= least and different
 
     def _growth(self, before: Iterable[Any], after: Iterable[Any]) -> float | None:
         """Return by which one factor all answers grew, None where there is none.
@@ -145,17 +298,40 @@ class Experiments:
         return factor if off <= self.near * max(1.0, float(np.abs(two).max())) else None
 
 
-def _neutral_calls(
-    calls: Sequence[Call],
-) -> Iterator[tuple[str, int, float, list[Call]]]:
-    """Yield "{} is 0", which argument, how many numbers that changed, and the calls."""
-    for k, column in enumerate(zip(*calls, strict=True)):
-        for choices in zip(*map(neutrals, column), strict=False):
-            says, values = zip(*choices, strict=True)
-            pairs = zip(column, values, strict=True)
-            count = float(np.mean([np.sum(np.not_equal(x, v)) for x, v in pairs]))
-            if len(set(says)) == 1 and count:
-                yield says[0], k, count, _with(calls, k, values)
+def _range(
+    values: Sequence[float], right: Sequence[bool]
+) -> tuple[float, float] | None:
+    """Return the range of a number in which all answers are right, or None.
+
+    It ends at a fraction of pi, or a whole number, where one lies between what was
+    right and what was wrong. None where nothing is wrong beyond it, or where under
+    three values in it, or a fifth of all, were asked.
+    """
+    if len(values) != len(right) or not all(isinstance(x, float) for x in values):
+        return None
+    wrong = sorted({x for x, ok in zip(values, right, strict=True) if not ok})
+    good = sorted({x for x, ok in zip(values, right, strict=True) if ok} - set(wrong))
+    bounds = [-np.inf, *wrong, np.inf]
+    runs = [
+        ([x for x in good if low < x < high], low, high)
+        for low, high in pairwise(bounds)
+    ]
+    run, low, high = max(runs, key=lambda one: len(one[0]))
+    if len(run) < max(AGREE, len(good) // 5) or run[0] == run[-1] or not wrong:
+        return None
+    return _end(run[0], low), _end(run[-1], high)
+
+
+def _end(last: float, beyond: float) -> float:
+    """Return a number that people know from the last right one to a wrong one."""
+    if not np.isfinite(beyond):
+        return last
+    low, high = sorted((last, beyond))
+    for known in (np.pi * np.arange(-12, 13) / 6, np.arange(-12.0, 13.0) / 2):
+        between = [float(x) for x in known if low <= x <= high]
+        if between:
+            return min(between, key=lambda x: abs(x - last))
+    return last
 
 
 def _with(calls: Sequence[Call], k: int, values: Sequence[Any]) -> list[Call]:
@@ -164,45 +340,9 @@ def _with(calls: Sequence[Call], k: int, values: Sequence[Any]) -> list[Call]:
     return [(*call[:k], value, *call[k + 1 :]) for call, value in pairs]
 
 
-def neutrals(x: Any) -> Iterator[tuple[str, Any]]:
-    """Yield the neutral values of an argument in words, the most telling first.
-
-    Args:
-        x: a number, a vector, a matrix, a rotation or a pose; anything else has none.
-    """
-    if isinstance(x, float) and not isinstance(x, bool):
-        yield "{} is 0", 0.0
-        yield "{} is 1", 1.0
-    elif isinstance(x, np.ndarray) and x.ndim == 1 and len(x) > 1:
-        yield "{} is 0", np.zeros_like(x)
-        yield "all entries of {} are equal", np.full_like(x, x[0])
-        one = np.where(np.arange(len(x)) == np.argmax(np.abs(x)), x, 0.0)
-        yield "only one entry of {} is not 0", one
-    elif isinstance(x, np.ndarray) and x.ndim == 2:
-        yield from _of_a_matrix(x)
-
-
-def _of_a_matrix(x: Array) -> Iterator[tuple[str, Array]]:
-    if x.shape == (4, 4) and rigid(x[None]):
-        turned, moved = x.copy(), x.copy()
-        turned[:3, 3] = 0.0
-        moved[:3, :3] = np.eye(3)
-        yield "{} does not translate", turned
-        yield "{} does not rotate", moved
-    elif x.shape == (3, 3) and rigid(x[None]):
-        yield "{} is the identity", np.eye(3)
-    elif x.shape[0] == x.shape[1]:
-        yield "{} is diagonal", np.diag(np.diag(x))
-        yield "{} is the identity", np.eye(len(x))
-        yield "{} is 0", np.zeros_like(x)
-    else:
-        yield "only the first column of {} is not 0", x * (np.arange(x.shape[1]) == 0)
-
-
 def _may_be_doubled(x: Any) -> bool:
     if isinstance(x, np.ndarray):
-        turned = x.shape in ((3, 3), (4, 4)) and rigid(x[None])
-        return bool(x.any()) and not turned
+        return bool(x.any()) and scaled(x, 2.0) is not x
     return isinstance(x, float) and x != 0.0
 
 

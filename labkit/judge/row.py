@@ -89,6 +89,8 @@ class Row:
         self.more = {"kind": kind, "near": near, **more}
         self.alike = list(alike)
         self._truth = truth
+        self.positive: dict[str, str] = {}  # what is never negative, and why
+        self.unnoticed: dict[str, str] = {}  # changes that make no difference, and why
         self._entries: list[Callable[[], Iterable[Way]]] = []
 
     # What a day's file says.
@@ -173,6 +175,10 @@ class Row:
                 def code(*args: Any, change: Code = one.redo) -> Any:
                     return self.truth(*args[:at], change(args[at]), *args[at + 1 :])
 
+                def given(*args: Any, change: Code = one.redo) -> tuple[Any, ...]:
+                    return (*args[:at], change(args[at]), *args[at + 1 :])
+
+                vars(code)["given"] = given
                 text = (one.slug, one.says, one.redone)
                 slug, says, redone = (part.format(name=name) for part in text)
                 yield Way("wrong", slug, says, code, redone, one.hidden)
@@ -228,6 +234,22 @@ class Row:
 
         self._entries.append(ways)
 
+    def same(self, change: str, why: str) -> None:
+        """Take a change of the lab's body that no question can notice.
+
+        Args:
+            change: as `make gaps` prints it, "x < 1e-9 => x < 2e-09".
+            why: the answers are right all the same, or nearly always.
+        """
+        self.unnoticed[change] = why
+
+    def at_least_0(self, **why: str) -> None:
+        """Take arguments, or the `answer`, that are never negative, and why.
+
+        `make gaps` then does not take away their signs, as no question could show it.
+        """
+        self.positive |= why
+
     # What the machine makes of it.
 
     def bind(self, day: Day, function: str) -> "Row":
@@ -280,7 +302,10 @@ class Row:
         else:
             asked = (InTurn if self._truth else AtOnce)(self.truth)
             more["truth"] = _Answered(self.truth, asked, self)
-        return Ask(mistakes=self._mistakes, **more)
+        try:
+            return Ask(mistakes=self._mistakes, **more)
+        except Robo47Error as error:
+            raise self._fault(f"row cannot be asked: {error}") from None
 
     def _mistakes(self) -> list[Mistake]:
         return [Mistake(w.slug, w.says, InTurn(w.code), w.redone) for w in self.named]

@@ -9,6 +9,7 @@
     metric      what a row of the log must be: a number, and its range
     writers     which file wrote a row, and what the row is worth now
     sealed      a complete lab that nobody reads by accident
+    day_mujoco  what a day asks of MuJoCo, found beside its complete lab
     lab_module  a lab script read and loaded: as text, and as a module
     starter     made of the complete lab: the tasks taken out, and put back
     borrowed    the kit's own functions in a student's file, so that they can go on

@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike
 from labkit import log
 from labkit.base import cli
 from labkit.base.text import count, number_of
+from labkit.lesson import day_mujoco  # noqa: F401 (a lab's next import needs it)
 from labkit.lesson.day import day_of
 from labkit.lesson.metric import Metric
 from labkit.lesson.writers import file_mark
@@ -47,7 +48,15 @@ class Lab:
         parser.add_argument(
             "--no-log", action="store_true", help="leave metrics/metrics.csv alone"
         )
-        self.log = not parser.parse_args().no_log
+        parser.add_argument(
+            "--try",
+            action="store_true",
+            dest="trial",
+            help="measure with constants of your own: nothing is judged or logged",
+        )
+        options = parser.parse_args()
+        self.trial = options.trial
+        self.log = not (options.no_log or options.trial)
         self.script = Path(file)
         self.day = day_of(self.script)
         self.failed: list[str] = []
@@ -157,6 +166,9 @@ class Lab:
 
     def finish(self) -> int:
         """Write the rows, say how it went and return the exit code."""
+        if self.trial:
+            print("\nTried: measured, not judged, nothing logged.")
+            return cli.EXIT_OK
         try:
             if self.log:
                 # A failed check is recorded too: NaN is its value.
@@ -174,6 +186,9 @@ class Lab:
         return cli.EXIT_OK
 
     def _judge(self, name: str, wanted: Metric, value: float) -> None:
+        if self.trial:
+            print(f"  ----  {name}: {number_of(value)}")
+            return
         good = wanted.passes(value)
         verdict = cli.paint("PASS", "good") if good else cli.paint("FAIL", "bad")
         number = number_of(value)

@@ -4,6 +4,7 @@ from functools import cache, lru_cache
 from pathlib import Path
 from types import CodeType, ModuleType
 
+from labkit.lesson import day_mujoco  # noqa: F401 (a lab's import needs it)
 from labkit.lesson.day import Day
 from labkit.lesson.sealed import opened
 from robo47.errors import Robo47Error

@@ -48,8 +48,11 @@ class Week:
     title: str  # what the week is about, for its page
     days: tuple[int, ...]  # in order; each has its dayN/day.toml here
     soon: tuple[Soon, ...] = ()  # announced, not written
-    robot: str = "panda_nohand"  # of `panda.load`, or a scene of this folder: "arm.xml"
-    # The module of robo47 with USES (functions by day), library() and pick().
+    # Which robot `make view` opens, of `panda.load` or a scene of this folder:
+    # "arm.xml". Questions, lab runs and pictures are the Panda's; a row asks for
+    # another robot with `Robot("...")`, a lab with `panda.load`.
+    robot: str = "panda_nohand"
+    # A module of robo47 with what `robo47.attempt` asks of it.
     capstone: str = ""
     extras: tuple[str, ...] = ()  # packages that student code finds: "scipy==1.17.1"
     folder: Path = field(repr=False)  # no entry

@@ -71,5 +71,8 @@ def writers_of(day: Day, script: bytes | None = None) -> Writers:
         script = day.work.read_bytes() if day.work.is_file() else b""
     borrowed = borrowed_tasks(day, script.decode("utf-8", "replace"))
     # No script has no mark: that of an empty one would make a row somebody's.
-    marks = marks_of(kits or None), marks_of(script or None)
-    return Writers(*marks, [task.id for task in borrowed])
+    return Writers(
+        kits=marks_of(kits or None),
+        own=marks_of(script or None),
+        borrowed=[task.id for task in borrowed],
+    )

@@ -1,7 +1,7 @@
 """A page to show: a student's week, run again here, and what it does not prove.
 
 facts       what is found in a clone, now
-pick        the capstone with its functions, in the sandbox; as a film
+capstone    the week's, with its functions, in the sandbox; as a film
 page        one HTML file
 door        the page that leads to those of all weeks
 """

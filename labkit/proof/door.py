@@ -67,11 +67,8 @@ def _card(path: Path, facts: dict[str, Any]) -> str:
     parts = (
         ("functions", "functions theirs"),
         ("numbers", "numbers, run again"),
-        ("pick", "the pick"),
-        ("date", "made on"),
     )
-    told = [f"{escape(str(facts[k]))} {what}" for k, what in parts[:2] if facts.get(k)]
-    told += [
-        f"{what}: {escape(str(facts[k]))}" for k, what in parts[2:] if facts.get(k)
-    ]
+    told = [f"{escape(str(facts[k]))} {what}" for k, what in parts if facts.get(k)]
+    told += [escape(str(facts["capstone"]))] if facts.get("capstone") else []
+    told += [f"made on: {escape(str(facts['date']))}"] if facts.get("date") else []
     return html.card(link, f"<p>{'; '.join(told)}</p>")

@@ -5,6 +5,7 @@ import secrets
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from html import escape
+from types import ModuleType
 from typing import Any
 
 import mujoco
@@ -13,8 +14,8 @@ import robo47
 from labkit.base import html
 from labkit.base.text import count, number_of
 from labkit.check.lab_run import TRIALS
+from labkit.proof.capstone import Attempt, recorded
 from labkit.proof.facts import RunDay
-from labkit.proof.pick import Picked, film
 from labkit.report.series import Series
 
 # What viser's player needs of the page's policy. Its workers compile what they run.
@@ -55,7 +56,7 @@ class Proof:
     own: bool  # the reader's own, and not a student's
     commit: str  # the hash of the last one, "" without one
     days: Sequence[RunDay]  # of a week, in order
-    picked: Picked  # the capstone
+    attempt: Attempt  # at the capstone
     # What `make fresh` found last: commit, date, how many numbers are wrong and how
     # many things missing; {} where nobody asked.
     fresh: dict[str, Any] = field(default_factory=dict)
@@ -78,7 +79,7 @@ def render(proof: Proof) -> str:
         f"Run by {who} on {datetime.date.today()}: robo47 {robo47.__version__}, MuJoCo"
         f" {mujoco.__version__}. Every function ran in a sandbox, none was trusted.",
         _tiles(proof),
-        _pick(proof.picked, place),
+        _capstone(proof.attempt, place),
         _numbers(proof.days),
         _functions(proof.days),
         _commit(proof),
@@ -86,9 +87,11 @@ def render(proof: Proof) -> str:
         style=STYLE,
         policy=ALLOWED.format(nonce=nonce),
     )
-    if proof.picked.result is None:
+    told = proof.attempt
+    if told.capstone is None or told.result is None:
         return page
-    played = escape(film(proof.picked.result).page("The pick", nonce))
+    film = recorded(told.capstone.film(told.result))
+    played = escape(film.page(_heading(told.capstone), nonce))
     return page.replace(place, played, 1)
 
 
@@ -97,14 +100,13 @@ def in_short(proof: Proof) -> dict[str, Any]:
     week = proof.days[0].day.week
     numbers = [_again(one, number) for one in proof.days for number in one.numbers]
     own = sum(len(one.own) for one in proof.days)
-    result = proof.picked.result
     return {
         "week": week.number,
         "heading": week.heading,
         "name": proof.name,
         "functions": f"{own} of {sum(one.functions for one in proof.days)}",
         "numbers": f"{sum(r == 'pass' for r, _ in numbers)} of {len(numbers)}",
-        "pick": "" if result is None else f"{result.place_mm:.1f} mm from its mark",
+        "capstone": _capstone_in_short(proof.attempt),
         "date": str(datetime.date.today()),
     }
 
@@ -114,10 +116,6 @@ def _tiles(proof: Proof) -> str:
     right = sum(role == "pass" for role, _ in numbers)
     own = sum(len(one.own) for one in proof.days)
     total = sum(one.functions for one in proof.days)
-    result = proof.picked.result
-    placed = "–" if result is None else f"{result.place_mm:.1f} mm"
-    theirs = proof.picked.yours == proof.picked.total
-    role = "none" if result is None else "fail" if result.failed else "pass" * theirs
     fresh, mood = _fresh(proof)
     return html.tiles([
         ("pass" if own == total else "", f"{own} of {total}", "functions theirs"),
@@ -126,7 +124,7 @@ def _tiles(proof: Proof) -> str:
             f"{right} of {len(numbers)}",
             "numbers, run again here",
         ),
-        *([(role, placed, "from the cube to its mark")] if proof.picked.total else []),
+        *_capstone_tiles(proof.attempt),
         (mood, fresh, "a fresh clone"),
     ])  # fmt: skip
 
@@ -148,28 +146,48 @@ def _fresh(proof: Proof) -> tuple[str, str]:
     return ("same numbers", "pass") if wrong == 0 else ("not the same", "fail")
 
 
-def _pick(picked: Picked, place: str) -> str:
-    if not picked.total:  # the week has no capstone
+def _heading(capstone: ModuleType) -> str:
+    """Return what a capstone is called, with a capital letter."""
+    return f"{capstone.NAME[0].upper()}{capstone.NAME[1:]}"
+
+
+def _capstone_tiles(attempt: Attempt) -> list[tuple[str, str, str]]:
+    """Return the capstone's tile, of a week that has one."""
+    if attempt.capstone is None:
+        return []
+    if attempt.result is None:
+        return [("none", "–", attempt.capstone.NAME)]
+    told = attempt.capstone.told(attempt.result)
+    role = "pass" if attempt.yours == attempt.total else ""
+    return [("fail" if attempt.result.failed else role, told.number, told.of)]
+
+
+def _capstone_in_short(attempt: Attempt) -> str:
+    """Return "the pick: 0.9 mm from the cube to its mark", "" without a result."""
+    if attempt.capstone is None or attempt.result is None:
         return ""
-    result = picked.result
-    whose = f"{picked.yours} of the {picked.total} functions that move it are theirs"
-    if picked.yours < picked.total:
+    told = attempt.capstone.told(attempt.result)
+    return f"{attempt.capstone.NAME}: {told.number} {told.of}"
+
+
+def _capstone(attempt: Attempt, place: str) -> str:
+    if attempt.capstone is None:
+        return ""
+    heading = escape(_heading(attempt.capstone))
+    whose = f"{attempt.yours} of the {attempt.total} functions that move it are theirs"
+    if attempt.yours < attempt.total:
         whose += "; the kit's own do the rest"
-    if result is None:
-        why = f"It stopped: {escape(picked.stopped)}." if picked.stopped else ""
+    if attempt.result is None:
+        why = f"It stopped: {escape(attempt.stopped)}." if attempt.stopped else ""
         words = why or "None of the functions that move the arm is theirs yet."
-        return html.section("The pick", f"<p>{words}</p>")
-    words = (
-        f"<p>The arm picks the cube up and puts it down {result.place_mm:.1f} mm from"
-        f" its mark; 10 mm are allowed. {whose}. On its way no joint is more than"
-        f" {result.joint_mrad:.2f} mrad off, the hand {result.line_mm:.1f} mm from its"
-        f" lines. Drag to turn it.</p>"
+        return html.section(heading, f"<p>{words}</p>")
+    told = attempt.capstone.told(attempt.result)
+    words = escape(f"{told.came} {whose}. {told.way} Drag to turn it.")
+    player = (
+        f'<iframe title="{heading} in 3D" sandbox="allow-scripts" srcdoc="{place}">'
     )
     return html.section(
-        "The pick",
-        words,
-        f'<div class="card film"><iframe title="The pick in 3D" sandbox="allow-scripts"'
-        f' srcdoc="{place}"></iframe></div>',
+        heading, f"<p>{words}</p>", f'<div class="card film">{player}</iframe></div>'
     )
 
 

@@ -18,6 +18,7 @@ import numpy as np
 from labkit.base.exchange import MOST, Path, Question, Reply
 from labkit.base.text import visible, visible_lines
 from labkit.judge.ask import Robot
+from labkit.lesson import day_mujoco
 from labkit.lesson.day import NUMBERS, Day, Limits, days_before
 from labkit.lesson.own_files import SCRIPT
 from labkit.lesson.starter import function_lines
@@ -250,7 +251,8 @@ def _facts() -> dict[str, Any]:
             )
             for package in ("robo47", "labkit")
             for path in (ROOT / package).rglob("*.py")
-        ),
+        )
+        + list(day_mujoco.modules()),
     }
 
 

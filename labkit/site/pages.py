@@ -47,7 +47,7 @@ CONTENTS = """
 MODULES = (
     ("Poses and chains", ("se3", "kinematics", "screws", "dh", "rotation_log")),
     ("Velocities and forces", ("jacobian", "fast.jacobians", "fast.ik", "dynamics")),
-    ("Control and motion", ("control", "task_space", "trajectory", "contact")),
+    ("Control and motion", ("control", "task_space", "trajectory")),
     ("The robot and its world", ("panda", "scenes", "simulate", "verify", "arm")),
     ("The week's end", ("capstone",)),
 )

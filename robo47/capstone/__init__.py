@@ -1,5 +1,7 @@
 """The capstone of Week 1: the arm picks a cube up and puts it down.
 
+What `make capstone` and `make proof` ask of it stands in `robo47.attempt`.
+
 `pick` is given the functions to do it with, one per name in `USES`: the library's
 (`library()`), a student's, or a mixture. So whoever wants to know what a mistake does
 to the arm replaces one function. The robot's numbers are read from the model; every
@@ -23,6 +25,7 @@ from robo47 import (
     control,
     dynamics,
     jacobian,
+    lifting,
     scenes,
     screws,
     se3,
@@ -30,10 +33,19 @@ from robo47 import (
     task_space,
     trajectory,
 )  # fmt: skip
+from robo47.attempt import Film
 from robo47.capstone.phases import PHASES, Result, Task
+from robo47.capstone.told import HEAD as HEAD
+from robo47.capstone.told import film_of
+from robo47.capstone.told import row as row
+from robo47.capstone.told import told as told
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 
+NAME = "the pick"
+THING = "cube"
+GOAL = "placed within 10 mm"
+MORAL = "Placed is no proof: look at the joints and the line."
 RATE = 100.0  # Hz, of the controller; 50 is coarse, 500 the most
 SPEED = 0.6  # of the joints' speed and acceleration limits, in joint moves
 # Where `make capstone` has the cube, its goal and its yaw: metres and radians.
@@ -84,7 +96,7 @@ def with_own(own: Mapping[str, Any]) -> SimpleNamespace:
     try:
         fns.heaviest_cube(1.0, 1.0, 0.0)
     except NotImplementedError:
-        fns.heaviest_cube = trajectory.heaviest_cube
+        fns.heaviest_cube = lifting.heaviest_cube
     return fns
 
 
@@ -144,6 +156,23 @@ def pick(
     return task.result()
 
 
+def attempt(fns: Any, seed: int | None = None, **options: Any) -> Result:
+    """Pick the cube up from where `make capstone` has it, or a random one.
+
+    Args:
+        fns: as for `pick`.
+        seed: of the random task; None is always the same one.
+        options: further ones of `pick`.
+    """
+    where = () if seed is None else random_task(seed)
+    return pick(fns, *where, **options)
+
+
+def film(result: Result) -> Film:
+    """Return what a pick of the cube from where it always is looked like."""
+    return film_of(result, CUBE_XY, YAW)
+
+
 def random_task(seed: int) -> tuple[Array, Array, float]:
     """Return a random cube_xy, goal_xy and yaw, all within reach.
 
@@ -156,18 +185,20 @@ def random_task(seed: int) -> tuple[Array, Array, float]:
     return cube, goal, float(rng.uniform(-np.pi / 2, np.pi / 2))
 
 
-def ablations(fns: Any) -> dict[str, tuple[SimpleNamespace, float]]:
-    """Return what `pick` is to be given to show what a mistake does, by name.
+def ablations(fns: Any) -> dict[str, tuple[SimpleNamespace, dict[str, float]]]:
+    """Return what `attempt` is to be given to show what a mistake does, by name.
 
     Args:
         fns: right functions, as `library` returns them.
 
     Returns:
-        {name: (functions, speed)}; the first is right.
+        {name: (functions, options)}; the first is right.
     """
 
-    def but(speed: float = SPEED, **changed: Any) -> tuple[SimpleNamespace, float]:
-        return SimpleNamespace(**{**vars(fns), **changed}), speed
+    def but(
+        speed: float = SPEED, **changed: Any
+    ) -> tuple[SimpleNamespace, dict[str, float]]:
+        return SimpleNamespace(**{**vars(fns), **changed}), {"speed": speed}
 
     return {
         "right": but(),

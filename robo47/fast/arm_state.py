@@ -107,7 +107,9 @@ class Constants:
         # The acceleration of a base that feels like gravity, and it as a matrix, (16,).
         self.A_base = np.concatenate([np.zeros(3), -arm.gravity])
         self.W_base = self.A_base @ HAT
-        self.M_home, self.T_zero, self.coms = arm.M_home, arm.T_zero, arm.coms
+        self.M_home = arm.M_home
+        self.T_zero = arm.T_zero
+        self.coms = arm.coms
 
 
 class ArmState:
@@ -121,7 +123,8 @@ class ArmState:
 
     def __init__(self, constants: Constants, q: Array) -> None:
         """Compute the links' poses; use `Arm.at`, which checks q."""
-        self.q, self._c = q, constants
+        self.q = q
+        self._c = constants
         n = len(q)
         numbers = np.array((constants.ones, q, np.cos(q), np.sin(q)))
         moved = (numbers.T[:, None] @ constants.powers).reshape(n, 4, 4)

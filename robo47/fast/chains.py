@@ -61,7 +61,8 @@ class Cursor:
     def __init__(self, plan: Plan) -> None:
         self.plan = plan
         self.node = 0
-        self.R, self.t = np.eye(3), np.zeros(3)
+        self.R = np.eye(3)
+        self.t = np.zeros(3)
 
     def mark(self, name: str) -> None:
         """Ask for the frame at this place."""
@@ -119,7 +120,8 @@ class Cursor:
     def _rotate(self, R: Array) -> None:
         """Really turn the moving frame by R."""
         self._step(moves.Rotate(R))
-        self.R, self.t = rounded(R.T @ self.R), R.T @ self.t
+        self.R = rounded(R.T @ self.R)
+        self.t = R.T @ self.t
 
     def _flush_shift(self, keep: int | None = None) -> None:
         now = self.t.copy()

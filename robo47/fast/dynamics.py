@@ -175,7 +175,8 @@ def _mass_matrices(links: Sequence[Link], cos: Array, sin: Array) -> Array:
         link = links[row]
         k, i, j = link.axes
         body.add(link)
-        h, Q = body.h, body.Q
+        h = body.h
+        Q = body.Q
         moment: Vector = [0.0] * 3
         force: Vector = [0.0] * 3
         moment[k] = Q[i][i] + Q[j][j]
@@ -256,7 +257,8 @@ def _torques(
     f: Vector = [0.0] * 3
     n: Vector = [0.0] * 3
     for row in reversed(range(len(tau))):
-        link, (own_n, own_f) = links[row], wrenches[row]
+        link = links[row]
+        own_n, own_f = wrenches[row]
         n, f = plus(n, own_n), plus(f, own_f)
         np.multiply(n[link.k], link.sign, out=tau[row])
         n, f = link.to_parent(cos[row], sin[row], n, f)
@@ -291,7 +293,9 @@ def _wrenches(
 def _point_accelerations(w: Vector, alpha: Vector) -> list[Vector]:
     """Return B = [alpha] + [omega]^2, 3 x 3."""
     xx, yy, zz = (x * x for x in w)
-    xy, xz, yz = w[0] * w[1], w[0] * w[2], w[1] * w[2]
+    xy = w[0] * w[1]
+    xz = w[0] * w[2]
+    yz = w[1] * w[2]
     return [
         [-yy - zz, xy - alpha[2], xz + alpha[1]],
         [xy + alpha[2], -xx - zz, yz - alpha[0]],

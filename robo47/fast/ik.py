@@ -36,7 +36,8 @@ FEW = 16  # targets that are walked to one by one: more of them share their call
 TRIES = 16  # starts of each of those before they go on together
 # Patient from the caller's start, impatient from a random one; with less damping a
 # walker takes fewer steps, but ends farther from a target that is out of reach.
-FIRST, AGAIN = Patience(60, 5, 0.9, 0.5), Patience(30, 3, 0.5, 0.5)
+FIRST = Patience(60, 5, 0.9, 0.5)
+AGAIN = Patience(30, 3, 0.5, 0.5)
 BOLD = AGAIN._replace(damping=0.1)
 
 
@@ -229,7 +230,8 @@ def _damped(J: Array, e: Array, damping: Array) -> Array:
 @functools.lru_cache(maxsize=16)
 def _pool(plan: Plan, low: bytes, high: bytes) -> tuple[Array, Array]:
     """Return random configurations of one arm, drawn once, with their poses."""
-    lowest, highest = np.frombuffer(low)[:, None], np.frombuffer(high)[:, None]
+    lowest = np.frombuffer(low)[:, None]
+    highest = np.frombuffer(high)[:, None]
     n = DRAWN // TRIES * TRIES
     return _drawn(plan, lowest, highest, n, np.random.default_rng(48))
 
@@ -265,7 +267,8 @@ def _nearest(
 def _checked(
     S: ArrayLike, M_home: ArrayLike, T: ArrayLike, q: ArrayLike, limits: ArrayLike
 ) -> tuple[Array, ...]:
-    S, M_home = checks.screws(S, "screws"), checks.pose(M_home, "M_home")
+    S = checks.screws(S, "screws")
+    M_home = checks.pose(M_home, "M_home")
     if S.ndim != 2 or M_home.ndim != 2:
         raise ValueError(
             f"screws has shape {S.shape} and M_home {M_home.shape}; expected (n, 6) "

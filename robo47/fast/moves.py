@@ -64,7 +64,9 @@ class Turn:
     """Hinge: turn by q about the frame's axis k, or about minus that axis."""
 
     def __init__(self, k: int, sign: float, adr: int) -> None:
-        self.k, self.sign, self.adr = k, sign, adr
+        self.k = k
+        self.sign = sign
+        self.adr = adr
         one, two = (k + 1) % 3, (k + 2) % 3
         # A turn about -k is a turn about k with the other two axes swapped.
         self._turned = (one, two) if sign > 0 else (two, one)  # from one to the other
@@ -73,7 +75,8 @@ class Turn:
         i, j = self._turned
         _, cos, sin = chunk
         c, s = cos[self.adr], sin[self.adr]
-        (x, y, z), (u, v, w) = at[i], at[j]
+        x, y, z = at[i]
+        u, v, w = at[j]
         axes = list(at)
         axes[i] = c * x + s * u, c * y + s * v, c * z + s * w
         axes[j] = c * u - s * x, c * v - s * y, c * w - s * z
@@ -101,7 +104,8 @@ class Ball:
     """Ball: turn by the quaternion in q."""
 
     def __init__(self, name: str, adr: int) -> None:
-        self.name, self.adr = name, adr
+        self.name = name
+        self.adr = adr
 
     def move(self, at: Axes, chunk: Chunk) -> Axes:
         try:
@@ -133,7 +137,8 @@ def combine(at: Axes, terms: Terms) -> Triple:
 
 def moved(p: Triple, by: Triple) -> Triple:
     """Return the sum of two triples."""
-    (x, y, z), (u, v, w) = p, by
+    x, y, z = p
+    u, v, w = by
     return x + u, y + v, z + w
 
 

@@ -190,7 +190,8 @@ def _twin_xml(entry: str) -> str:
     """Return the embedded twin, which has both ends, with the end of the entry."""
     root = ET.fromstring(TWIN_XML.read_bytes())
     if entry == "panda_nohand":  # nor what drives, couples or counts the fingers
-        names, tags = {"hand", "actuator8"}, {"tendon", "equality"}
+        names = {"hand", "actuator8"}
+        tags = {"tendon", "equality"}
         _remove(root, lambda part: part.get("name") in names or part.tag in tags)
         for key in root.iter("key"):
             for name in ("qpos", "ctrl"):

@@ -35,7 +35,7 @@ class Inertias(NamedTuple):
         """Return the same bodies, the last one with a load that carry makes part of it.
 
         Args:
-            carry: as `robo47.trajectory.carry`.
+            carry: as `robo47.lifting.carry`.
             load: mass, com (3,) and inertia (3, 3) in the last body's frame and axes.
         """
         masses, coms, inertias = (part.copy() for part in self)
@@ -75,7 +75,8 @@ def screws(model: mujoco.MjModel) -> Array:
     T = _poses(model, model.jnt_bodyid[joints], _drawn(model))
     R = T[:, :3, :3]
     p = T[:, :3, 3]
-    axes, anchors = times(R, model.jnt_axis[joints]), times(R, model.jnt_pos[joints])
+    axes = times(R, model.jnt_axis[joints])
+    anchors = times(R, model.jnt_pos[joints])
     return screw_axis(axes, p + anchors) + 0.0  # no -0. where people read it
 
 

@@ -9,17 +9,31 @@ from robo47 import se3
 
 from .panda_chain import BACKWARDS, NEAR
 
+SMALL = (1e-3, -0.04, 0.09)
 row = Row(Rotation(), near=NEAR, alike=[BACKWARDS])
 
 
 @row.inputs
 def angles(rng):
-    """Return no turn, a right angle, some as in the lab and three drawn ones."""
+    """Return no turn, a right angle, some as in the lab and three drawn ones.
+
+    Small ones and large ones stand there on purpose: nobody draws them every time.
+    """
     drawn = rng.numbers(-np.pi, np.pi, 3)
-    return [(x,) for x in (0.0, np.pi / 2, -0.785, 2.356, -7.1, *map(float, drawn))]
+    return [
+        (x,)
+        for x in (0.0, np.pi / 2, -0.785, 2.356, -7.1, *SMALL, 20.3, *map(float, drawn))
+    ]
 
 
-@row.wrongs
+def small_angle_formula(theta, below=0.1):
+    """Return Rz where a small angle has a formula that only comes near."""
+    if abs(theta) >= below:
+        return se3.Rz(theta)
+    return np.array([[1, -theta, 0], [theta, 1, 0], [0, 0, 1]])
+
+
+@row.wrongs(hidden={"small-angle-formula": "the lab draws hardly any angle so small"})
 def _(theta):
     """turns-backwards: it turns the wrong way: a positive angle takes x towards -y =>
       Rz(-theta)
@@ -28,6 +42,8 @@ def _(theta):
       is not I) => the right one without that minus
     minus-twice: only one of the two sines has a minus: as it is, lengths change
     reflection: a cosine has a minus that belongs to a sine: this mirrors (det R = -1)
+    small-angle-formula: a small theta has a formula of its own, sin theta = theta and
+      cos theta = 1, which is not exact; the sine and cosine are
     z-lost: whatever is along z disappears: the last entry is 0, so det R = 0 => the
       right one with a 0 there
     """
@@ -38,6 +54,7 @@ def _(theta):
         "minus-missing": np.array([[c, s, 0], [s, c, 0], [0, 0, 1]]),
         "minus-twice": np.array([[c, -s, 0], [-s, c, 0], [0, 0, 1]]),
         "reflection": np.array([[c, s, 0], [s, -c, 0], [0, 0, 1]]),
+        "small-angle-formula": small_angle_formula(theta),
         "z-lost": np.array([[c, -s, 0], [s, c, 0], [0, 0, 0]]),
     }
 

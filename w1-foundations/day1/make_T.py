@@ -15,17 +15,25 @@ row = Row(Pose(), near=NEAR)
 def _(rng):
     moves = rng.numbers(-2, 2, 5, 3)
     yield np.eye(3), np.array([1.0, 2.0, 3.0])
+    yield np.eye(3, dtype=int), np.array([0.5, 0.2, -1.7])  # R holds whole numbers
     yield from zip(rng.rotations(5), moves, strict=True)
 
 
-@row.wrongs
+@row.wrongs(hidden={"type-of-R": "the lab's rotations hold no whole numbers alone"})
 def _(R, t):
     """move-then-turn: the translation comes out turned by R: you move first and turn
       after, where a pose turns first
     t-turned-back: the translation comes out turned by R backwards: t is already in the
       outer frame
+    type-of-R: the array takes R's own type: where R holds whole numbers, np.eye(3,
+      dtype=int) say, the decimals of t are cut off
     """
-    return {"move-then-turn": pose(R, R @ t), "t-turned-back": pose(R, R.T @ t)}
+    whole = np.array_equal(R, np.round(R))
+    return {
+        "move-then-turn": pose(R, R @ t),
+        "t-turned-back": pose(R, R.T @ t),
+        "type-of-R": pose(R, np.trunc(t) if whole else t),
+    }
 
 
 row.of_answer(of_a_pose())

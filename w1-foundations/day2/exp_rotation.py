@@ -23,8 +23,8 @@ def _(rng):
     Some angles are small and one is beyond pi: the formula needs no case of its own.
     One angle comes with two axes, so that no cache can take it for the whole question.
     """
-    axes = [Z, *np.eye(3), Z, *[OBLIQUE] * 3, *rng.units(6)]
-    angles = [np.pi / 2, 0.5, -1.2, 2.5, 3.3, 1e-4, -5e-3, 0.5, 0.0]
+    axes = [Z, *np.eye(3), Z, *[OBLIQUE] * 4, Z, *rng.units(6)]
+    angles = [np.pi / 2, 0.5, -1.2, 2.5, 3.3, 1e-4, -5e-3, 0.5, 9.5, -20.3, 0.0]
     angles += map(float, rng.numbers(-3, 3, 5))
     return zip(axes, angles, strict=True)
 
@@ -114,8 +114,9 @@ row.of_argument("theta", *OF_AN_ANGLE, SIGN_LOST, *SMALL_LEFT_OUT)
 row.reached_by("skew", "in [axis], ", but=["made-unit", "p-cross-w"])
 
 
-@row.close("rounded-somewhere")  # The series to the sixteenth term.
+@row.close("rounded-somewhere")  # The series to the sixteenth term, within +-pi.
 def _(axis, theta):
+    theta = np.remainder(theta + np.pi, 2.0 * np.pi) - np.pi
     out, term = np.eye(3), np.eye(3)
     for k in range(1, 17):
         term = term @ skew(axis) * theta / k

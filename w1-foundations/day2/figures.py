@@ -8,7 +8,7 @@ pitch, dh_conventions   drawings: a screw's two halves, one link's frame in two 
 from itertools import pairwise
 
 import numpy as np
-from day2_screws import FRANKA_DH, LINKS, SEED, exp_rotation, joint_screws
+from day2_screws import FRANKA_DH, SEED, exp_rotation, joint_screws
 from PIL import Image
 
 from labkit.figures import client, portrait
@@ -21,6 +21,7 @@ from .drawings import dh_conventions, pitch
 from .roulette import READINGS, distances
 
 SIZE = (1200, 1000)
+LINKS = [f"body:link{i}" for i in range(1, 8)]  # each turns about its own z axis
 AXES = [
     (224, 49, 49), (28, 100, 242), (232, 119, 34), (47, 158, 68),
     (134, 46, 156), (12, 133, 153), (194, 37, 92),

@@ -12,13 +12,15 @@ from labkit.inspector import words
 from labkit.inspector.draw import joined
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import jacobian, panda, verify
+from robo47 import jacobian, panda
 from robo47.arm import Arm
 from robo47.checks import Array
 
+import day3_mujoco
+
 SPEED = np.array([2.175] * 4 + [2.61] * 3)  # rad/s, of the seven joints
 DT, GAIN = 0.02, 10.0  # seconds, 1/s: as in the lab
-TIMES = np.arange(0.0, verify.LAP, DT)
+TIMES = np.arange(0.0, day3_mujoco.LAP, DT)
 DAMPING, RADIUS = 0.05, 0.38
 DRAW, AGAIN = "draw", "from the start"
 NAMES = ("damped", "plain")
@@ -84,7 +86,7 @@ class Circle(Tab):
         self.steps = 0
         arm = (self.arm.screws, self.arm.M_home)
         # the start is the library's
-        self.circle, q = verify.circle(arm, self.limits, radius, TIMES)
+        self.circle, q = day3_mujoco.circle(arm, self.limits, radius, TIMES)
         self.pens = [Pen(self.arm, q, damping) for damping in (DAMPING, 0.0)]
         points = self.circle[:, :3, 3]
         self.goal.points = joined([*points, points[0]])

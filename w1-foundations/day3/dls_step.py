@@ -91,3 +91,6 @@ def _(J, e, damping):
 @row.wrong("raises")  # Minus: with J = [I 0] and damping 1 nothing is left to invert.
 def _(J, e, damping):
     return J.T @ solve(J @ J.T - damping**2 * I6, e)
+
+
+row.at_least_0(damping="it enters as a square")

@@ -22,6 +22,8 @@ from labkit.figures.chart import BLUE, GREY, INK, ORANGE, RED, RULE
 from robo47 import panda, screws, verify
 from robo47.checks import Array
 
+import day3_mujoco
+
 LINK = 1.0  # metres, of both
 DRAWN = 0.42  # metres of the picture for 1 m/s, or for 1 N
 BENT = np.radians([50.0, -100.0])  # joint angles of the two pictures
@@ -34,10 +36,12 @@ def singularity(figure: Figure) -> None:
     model = panda.load("panda_nohand")
     arm = (panda.screws(model), panda.home_pose(model))
     limits = model.jnt_range
-    circle, q = verify.circle(arm, limits, RADIUS, np.arange(0.0, verify.LAP, DT))
+    circle, q = day3_mujoco.circle(
+        arm, limits, RADIUS, np.arange(0.0, day3_mujoco.LAP, DT)
+    )
     _, plain, _ = draw_circle(arm, circle, q, 0.0)
     off, damped, path = draw_circle(arm, circle, q, DAMPING)
-    least = verify.least_miss(arm, limits, circle[:-1], q)
+    least = day3_mujoco.least_miss(arm, limits, circle[:-1], q)
     sigma = np.linalg.svd(verify.each(lambda x: _J_site(arm, x), path))[1]
     time = DT * np.arange(len(damped))
     above, below, last = figure.subplots(3, 1, sharex=True)

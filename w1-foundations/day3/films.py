@@ -4,7 +4,9 @@ import numpy as np
 from day3_jacobian_ik import DAMPING, DT, RADIUS, draw_circle, fk_space
 
 from labkit.inspector.recording import Recording
-from robo47 import panda, verify
+from robo47 import panda
+
+import day3_mujoco
 
 COLOURS = ("blue", "red")
 WILD = 12.0  # rad/s, of any joint: faster than the eye
@@ -15,7 +17,9 @@ def singularity() -> Recording:
     model = panda.load("panda_nohand")
     arm = panda.screws(model), panda.home_pose(model)
     limits = model.jnt_range[:7]
-    path, q = verify.circle(arm, limits, RADIUS, np.arange(0.0, verify.LAP, DT))
+    path, q = day3_mujoco.circle(
+        arm, limits, RADIUS, np.arange(0.0, day3_mujoco.LAP, DT)
+    )
     film = Recording(panda.load("panda", meshes=True), back=1.5)
     film.draw.curve(path[:, :3, 3], "grey", 2.0)
     pens = [film.draw.curve(path[:2, :3, 3], colour, 5.0) for colour in COLOURS]

@@ -17,7 +17,7 @@ class Numbers(OrNaN, Vector):
 
 def _half_turns(rng):
     """Return turns by exactly pi; R is exactly symmetric."""
-    axes = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.6, -0.8, 0], [0, 0.6, 0.8]])
+    axes = np.array([*np.eye(3), [0.6, -0.8, 0], [0, 0.6, 0.8], [0.8, 0, -0.6]])
     return [(2.0 * np.outer(n, n) - np.eye(3),) for n in axes]
 
 
@@ -284,3 +284,13 @@ def _(R):
     q = q / np.linalg.norm(q) * (-1.0 if q[0] < 0 else 1.0)
     n = np.linalg.norm(q[1:])
     return 2 * np.arctan2(n, q[0]) * q[1:] / n if n > 0 else np.zeros(3)
+
+
+EXACT = "both ways are exact to the last digits in between"
+SINE = "return a * (angle / sine if sine > 0"
+row.same("if cosine > -0.9: => if cosine > 0.5 * -0.9:", EXACT)
+row.same(f"{SINE} else 1.0) => {SINE} else 2.0)", "there a is 0")
+row.same(
+    f"{SINE} else 1.0) => {SINE.replace('> 0', '> 0.001 + 0')} else 1.0)",
+    "angle / sine differs from 1 by less than 1e-6 there, and a is 1e-3",
+)

@@ -82,3 +82,9 @@ for determinant, called in (
         f"the root of {called}, with its NaN,",
         hidden="rounding at q = 0 differs",
     )(lambda J, determinant=determinant: np.sqrt(determinant(J @ J.T)))
+
+row.at_least_0(answer="a product of singular values")
+row.same(
+    "return (np.linalg.svd(J, compute_uv=False).prod()).astype(np.float32)",
+    "it is below 0.2: float32's last digit is below what passes",
+)

@@ -178,9 +178,14 @@ def _(screws, M, T_goal, q_start, limits):  # 0 is taken to be within all limits
     return walk(screws, M, T_goal, q_start, np.array([low, high]).T)
 
 
-@row.wrong("limits-forgotten")  # Angles are wrapped to +-pi instead.
-def _(screws, M, T_goal, q_start, limits):
-    return (walk(screws, M, T_goal, q_start, None) + np.pi) % (2 * np.pi) - np.pi
+WRAPPED = "the angles are wrapped to +-pi at the end; joint 6 may go to 3.75, and a "
+WRAPPED += "joint that has turned beyond pi has not come back to -pi"
+for kept in (True, False):
+
+    @row.wrong("wrapped-to-pi", WRAPPED)
+    def _(screws, M, T_goal, q_start, limits, kept=kept):
+        q = walk(screws, M, T_goal, q_start, limits if kept else None)
+        return (q + np.pi) % (2 * np.pi) - np.pi
 
 
 @row.wrong("start-returned")  # The error's sign.
@@ -223,3 +228,15 @@ def _(screws, M, T_goal, q_start, limits):
     if np.linalg.norm(pose_error(fk_space(screws, M, q), T_goal)) > 1e-8:
         raise ValueError("not reached")
     return q
+
+
+STEP = "q = np.clip(q + dls_step(J, e, np.sqrt(e @ e / {} + {})), *limits.T)"
+GIVEN = STEP.format(2, "1e-06")
+for change, why in {
+    "for _ in range(61): => for _ in range(122):": "more steps are right as well",
+    "if least < 1e-08 ** 2: => if least < 0.5 * 1e-08 ** 2:": "so is one step more",
+    "if least < 1e-08 ** 2: => if least < 1e-08 ** 4:": "so are some steps more",
+    f"{GIVEN} => {STEP.format(2, '2e-06')}": "other dampings arrive as well",
+    f"{GIVEN} => {STEP.format(4, '1e-06')}": "other dampings arrive as well",
+}.items():
+    row.same(change, why)

@@ -24,6 +24,9 @@ AT_6 = np.array([-1.44, -1.026, 0.941, -2.329, -2.077, -0.017, -2.897])
 # Near, and yet 34 steps away: the way leads along joint 2's limit.
 START_2 = np.array([-0.775, -1.623, -1.586, -2.163, -0.907, 1.989, -0.731])
 AT_2 = np.array([-0.646, -1.7628, -1.382, -2.193, -0.649, 1.929, -1.005])
+# Joint 6 may go to 3.75: an angle beyond pi that is wrapped leaves its limits.
+START_PI = np.array([0.5, 0.4, -0.3, -2.0, 0.5, 3.25, 0.6])
+BEYOND_PI = np.array([0.55, 0.45, -0.3, -1.9, 0.5, 3.35, 0.6])
 # A turn by 2.5 rad about y from here meets no limit, and leads into a valley: the
 # best q that the loop has passed is a third nearer than its last.
 FAR_START = np.array([0.578, 0.069, 0.367, -1.654, -1.832, 2.08, 1.819])
@@ -48,14 +51,15 @@ def targets(rng):
 
 
 def _chosen() -> list[tuple[Array, ...]]:
-    """Return a pure turn and a pure move, three targets at limits, and one far turn."""
+    """Return a pure turn, a pure move, targets at limits, one far turn, and none."""
     S, M, limits = arm()
     at, turned = screws.fk_space(S, M, np.array([panda.READY_Q, FAR_START]))
-    limited = screws.fk_space(S, M, np.array([BEYOND_4, AT_6, AT_2]))
+    limited = screws.fk_space(S, M, np.array([BEYOND_4, AT_6, AT_2, BEYOND_PI]))
     moved = at.copy()
     moved[2, 3] -= 0.1
-    goals = [_turned(at, 2, 0.5), moved, *limited, _turned(turned, 1, 2.5)]
-    starts = [panda.READY_Q, panda.READY_Q, START_4, START_6, START_2, FAR_START]
+    goals = [_turned(at, 2, 0.5), moved, *limited, _turned(turned, 1, 2.5), turned]
+    starts = [panda.READY_Q, panda.READY_Q, START_4, START_6, START_2]
+    starts += [START_PI, FAR_START, FAR_START]
     return [(S, M, T, q, limits) for T, q in zip(goals, starts, strict=True)]
 
 

@@ -10,6 +10,8 @@ from conftest import ROOT, load_script, need, paper
 from labkit.lesson.day import find_day
 from robo47 import jacobian, panda, screws, verify
 
+import day3_mujoco
+
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day3-lab.md").read_text("utf-8").split())
 DAY = find_day(3)
 ARM = DAY.module("jacobians").arm()  # screws, M and limits
@@ -26,8 +28,8 @@ def site_jacobian(q):
 
 def circle(radius, first=0.0):
     """Return the circle's poses, DT apart, and q at the first."""
-    times = first + np.arange(0.0, verify.LAP, lab.DT)
-    return verify.circle(*ARMS, radius, times)
+    times = first + np.arange(0.0, day3_mujoco.LAP, lab.DT)
+    return day3_mujoco.circle(*ARMS, radius, times)
 
 
 def drawn(radius, damping, off=0.0):
@@ -40,13 +42,13 @@ def drawn(radius, damping, off=0.0):
 def out_of_reach(radius, limits=ARM[2]):
     """Return the best misses along the circle in mm, (n,); over 1e-3: out of reach."""
     path, q = circle(radius)
-    return verify.least_miss(ARM[:2], limits, path[:-1], q)
+    return day3_mujoco.least_miss(ARM[:2], limits, path[:-1], q)
 
 
 def test_by_hand_the_larger_circle_is_12_mm_too_far():
     reach = np.hypot(0.316, 0.0825) + np.hypot(0.384, 0.0825)
     assert f"= {reach:.4f}" in GUIDE
-    x, y, z = verify.CENTRE
+    x, y, z = day3_mujoco.CENTRE
     side = np.hypot(x, y) - 0.088
     far = [np.hypot(side, z + r + 0.107 - 0.333)
            for r in (lab.EASY, lab.RADIUS)]  # fmt: skip
@@ -77,7 +79,7 @@ def test_from_which_radius_on_the_circle_leaves_the_reach(radius):
 @pytest.mark.kit
 def test_a_tool_that_may_tilt_comes_closer():
     S, M, limits = ARM
-    goals, _ = verify.circle(*ARMS, lab.RADIUS, np.arange(1.3, 1.9, 0.02))
+    goals, _ = day3_mujoco.circle(*ARMS, lab.RADIUS, np.arange(1.3, 1.9, 0.02))
     start = circle(lab.RADIUS)[1]
     tenth = np.array([1.0] * 3 + [10] * 3)
     M10, far = M.copy(), goals.copy()  # lengths ten times as large: a radian is 0.1 m
@@ -145,7 +147,7 @@ def test_out_of_reach_the_plain_one_depends_on_the_step_and_not_on_rounding(
 ):
     off, rate, path = drawn(lab.RADIUS, 0.0)
     assert rate.max() > 5
-    assert verify.beyond(ARM[2], path) > 1.0
+    assert day3_mujoco.beyond(ARM[2], path) > 1.0
     assert f"the hand is {off.max() / 1000:.2f} m off in steps of 0.02 s" in GUIDE
     assert abs(drawn(lab.RADIUS, 0.0, 1e-12)[0].max() - off.max()) < 1e-3
     monkeypatch.setattr(lab, "DT", 0.019)
@@ -157,7 +159,7 @@ def test_with_damping_the_circle_is_drawn_within_the_joint_speeds(radius):
     off, share, path = drawn(radius, lab.DAMPING)
     assert off.max() < 20.0
     assert share.max() < 1.0
-    assert verify.beyond(ARM[2], path) < 0.01
+    assert day3_mujoco.beyond(ARM[2], path) < 0.01
 
 
 def test_the_elbow_swings_while_the_hand_stands():
@@ -170,7 +172,7 @@ def test_the_elbow_swings_while_the_hand_stands():
         J = lab.site_jacobian(lab.space_jacobian(S, q), now[:3, 3])
         step = lab.null_step(J, 0.005 * np.eye(7)[2])
         q = q + step + lab.dls_step(J, lab.pose_error(now, T), 0.01)
-        if verify.beyond(limits, q):
+        if day3_mujoco.beyond(limits, q):
             break
     moved = np.linalg.norm(lab.pose_error(screws.fk_space(S, M, q), T))
     elbow = verify.mujoco_poses(
@@ -227,7 +229,7 @@ def test_a_dragged_target_is_reached_and_a_swung_elbow_leaves_the_hand():
     q = tab.page.move.call_args.args[0]
     assert np.abs(q - panda.READY_Q).max() > 0.05
     assert "good" in tab.numbers.content
-    assert verify.beyond(limits, q) == 0.0
+    assert day3_mujoco.beyond(limits, q) == 0.0
     tab = tab_with({**vars(lab), "null_step": lambda J, dq: dq})
     tab.swing(0.2)
     assert "bad" in tab.numbers.content

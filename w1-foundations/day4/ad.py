@@ -4,12 +4,12 @@ import numpy as np
 
 from labkit.judge import Row
 from labkit.judge.argument_mistakes import HALVES_SWAPPED
-from robo47 import screws
+from robo47 import dynamics
 from robo47.screws import adjoint, exp_screw, skew
 
 from .states import SIX
 
-row = Row(SIX, truth=screws.ad)
+row = Row(SIX, truth=dynamics.ad)
 row.of_argument("V", HALVES_SWAPPED)
 NONE = np.zeros((3, 3))
 
@@ -67,11 +67,11 @@ def _(V):
 
 @row.wrong("transposed")  # What forces need, a task too early.
 def _(V):
-    return screws.ad(V).T
+    return dynamics.ad(V).T
 
 
 @row.wrong(
     "off", hidden="the lab's twists all turn"
 )  # What does not turn is forgotten.
 def _(V):
-    return screws.ad(V) if V[:3].any() else np.zeros((6, 6))
+    return dynamics.ad(V) if V[:3].any() else np.zeros((6, 6))

@@ -5,8 +5,7 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Row
-from robo47.dynamics import inverse_dynamics, mass_matrix
-from robo47.screws import ad
+from robo47.dynamics import ad, inverse_dynamics, mass_matrix
 
 from .states import TORQUE, motions
 
@@ -75,7 +74,7 @@ row.reached_by(
 @row.wrong
 def rate_of_the_mass_matrix(J, G, qd, g):
     """the rate of M times qd is not the Coriolis torque: half of what it holds belongs
-    there => the torque so"""
+    there"""
     X = ad(np.cumsum(J * qd, axis=1).T)  # of each link
     J_rate = np.array([X_i @ S for X_i, S in zip(X, J.T)]).T
     G_rate = np.array([-X_i.T @ G_i - G_i @ X_i for X_i, G_i in zip(X, G)])

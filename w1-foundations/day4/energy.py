@@ -60,3 +60,6 @@ row.of_argument("g", *OTHER_GRAVITY)
 @row.wrong("few-entries-off", hidden="nothing is at rest there")  # No energy at rest.
 def _(M, qd, masses, coms_world, g):
     return energy(M, qd, masses, coms_world, g) if qd.any() else np.zeros(2)
+
+
+row.at_least_0(masses="a mass")

@@ -119,3 +119,6 @@ def _(M, bias, damping, qd, tau):
 @row.wrong("off", hidden="nothing is at rest there")  # What is still is taken to stay.
 def _(M, bias, damping, qd, tau):
     return forward_dynamics(M, bias, damping, qd, tau) if qd.any() else np.zeros(7)
+
+
+row.at_least_0(damping="it takes energy away")

@@ -119,3 +119,10 @@ def _(J, masses, coms_world, g):
             for m, c in list(zip(masses, coms_world))[i:]:
                 tau[i] -= m * g @ (change @ np.append(c, 1.0))[:3] / (2 * h)
     return tau
+
+
+row.at_least_0(masses="a mass")
+row.same(
+    "first J_space = np.clip(J_space, -1, 1)", "the Panda's links are within a metre"
+)
+row.same("first coms_world = np.clip(coms_world, -1, 1)", "so are their centres")

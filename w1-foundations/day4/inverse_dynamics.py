@@ -5,8 +5,7 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Row
-from robo47.dynamics import inverse_dynamics
-from robo47.screws import ad
+from robo47.dynamics import ad, inverse_dynamics
 
 from .gravity import OTHER_GRAVITY
 from .states import TORQUE, motions

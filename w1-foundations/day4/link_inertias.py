@@ -137,3 +137,5 @@ for first, whose in FIRST:
 
 row.of_argument("T_links", FIRST_FOR_ALL.called("first-pose-for-all"))
 row.reached_by("spatial_inertia", "in each link's matrix ")
+
+row.at_least_0(masses="a mass")

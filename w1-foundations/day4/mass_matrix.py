@@ -159,3 +159,6 @@ def _(J, G, armature):
         J_i = J[:, : i + 1].astype(np.float32)
         M[: i + 1, : i + 1] += J_i.T @ G[i].astype(np.float32) @ J_i
     return M
+
+
+row.at_least_0(armature="a rotor's inertia")

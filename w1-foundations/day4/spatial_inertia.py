@@ -121,3 +121,6 @@ def _(m, c, I):
         "corners-alike": of_blocks(A, mC.T, mC.T, M),
         "one-corner-empty": of_blocks(A, NONE, mC.T, M),
     }
+
+
+row.at_least_0(m="a mass")

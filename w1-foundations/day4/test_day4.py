@@ -12,7 +12,9 @@ from compare import assert_same
 from conftest import ROOT, load_script, need, paper
 from labkit.lesson.day import find_day
 from robo47 import dynamics, panda, simulate, verify
-from robo47.verify import links
+
+import day4_mujoco
+from day3_mujoco import beyond
 
 GUIDE = (ROOT / "w1-foundations/docs/day4-lab.md").read_text("utf-8")
 PAGE = (ROOT / "w1-foundations/docs/errata.md").read_text("utf-8")
@@ -39,7 +41,7 @@ def mass_matrices(arm, model):
     wrong = {}
     for x in q:
         now = arm.at(x)
-        bad = links.wrong_on_purpose(
+        bad = day4_mujoco.wrong_on_purpose(
             lab.link_inertias, now.T_links, *panda.inertias(model)
         )
         for what, G in bad.items():
@@ -63,7 +65,7 @@ def test_a_mass_matrix_with_a_wrong_sign_is_symmetric_and_positive_definite(arm,
     least = {what: np.linalg.eigvalsh(one).min() for what, one in wrong.items()}
     caught = [what for what, value in least.items() if value < 0]
     assert caught == ["m [c] [c]^T forgotten"]
-    assert f"{least[caught[0]]:.3f} is no mass" in SENTENCES
+    assert f"no mass matrix has an eigenvalue of {least[caught[0]]:.3f}" in SENTENCES
 
 
 def test_the_wrong_sign_is_an_arm_with_its_masses_at_minus_c(arm):
@@ -71,7 +73,7 @@ def test_the_wrong_sign_is_an_arm_with_its_masses_at_minus_c(arm):
     flip = np.diag([1.0, 1, 1, -1, -1, -1])
     body = (arm.masses, arm.coms, arm.inertias)
     R = now.T_links[:, :3, :3]
-    wrong = links.wrong_on_purpose(lab.link_inertias, now.T_links, *body)[
+    wrong = day4_mujoco.wrong_on_purpose(lab.link_inertias, now.T_links, *body)[
         "m [c] with the wrong sign"
     ]
     own = R @ arm.inertias @ np.swapaxes(R, 1, 2)
@@ -130,12 +132,12 @@ def test_50_n_drive_the_arm_into_its_limits_and_10_do_not(arm, model, newtons, h
     data = simulate.start(model, panda.READY_Q)
     runs = [simulate.run(model, data, law, seconds, rate=lab.RATE, push=given)
             for seconds, given in ((0.5, push), (4.5, None))]  # fmt: skip
-    assert (verify.beyond(model.jnt_range, np.vstack([r.q for r in runs])) > 0) == hits
+    assert (beyond(model.jnt_range, np.vstack([r.q for r in runs])) > 0) == hits
 
 
 def test_without_torque_a_joint_is_at_its_limit_after_a_quarter_of_a_second(model):
     data = simulate.start(model, panda.READY_Q)
-    while verify.beyond(model.jnt_range, data.qpos[None]) <= 0:
+    while beyond(model.jnt_range, data.qpos[None]) <= 0:
         mujoco.mj_step(model, data)
     assert data.time == pytest.approx(0.25, abs=0.01)
     assert "at a joint limit after a quarter of a second" in SENTENCES
@@ -161,6 +163,82 @@ def test_it_is_the_damping_that_slows_the_pushed_arm_down(arm):
         ends.append(np.linalg.norm(path[-1] - path[-2]) * lab.RATE)
     assert ends[1] > 4 * ends[0]
     assert ends[2] > 3 * ends[1]
+
+
+def test_half_the_damping_leaves_four_times_the_speed_as_the_guide_answers(arm):
+    for share, says in ((0.5, "0.169 m/s, four times"), (0.25, "damping 0.229 m/s")):
+        model = panda.load("panda_nohand", drive="torque")
+        model.dof_damping[:] *= share
+        path = lab.let_go(model, arm, 1.0, (0.5, lab.PUSH), (4.5, 0 * lab.PUSH))
+        speed = np.linalg.norm(path[-1] - path[-2]) * lab.RATE
+        assert f"{speed:.3f}" in says
+        assert says in SENTENCES
+
+
+@pytest.fixture(scope="module")
+def lyapunov():
+    """Return the guide's: V at first, its largest rise in a step, V at last."""
+    code = re.search(r"```python\n(def lyapunov.*?)\nfor k", GUIDE, re.S)[1]
+    model = panda.load("panda_nohand", drive="torque")
+    space = {**vars(lab), "model": model, "arm": panda.arm(model)}
+    exec(code, space)
+    return space["lyapunov"]
+
+
+def test_with_dampers_and_gravity_compensation_V_falls_in_every_step(lyapunov):
+    first, rise, last = lyapunov(100, 20, 1)
+    assert rise < 0.0
+    assert f"from {first:.1f} J to less than 0.000001 J" in SENTENCES
+    assert 0.0 < last < 1e-6
+    _, rise, last = lyapunov(100, 5, 1)
+    assert rise < 0.0
+    assert f"and to {last:.3f} J with a quarter of the damper" in SENTENCES
+    assert lyapunov(100, 0, 1)[1] < 0.0  # by the joints' own damping
+    assert "With $d_c = 0$ it still falls" in SENTENCES
+
+
+def test_without_its_causes_V_rises(lyapunov):
+    _, rise, last = lyapunov(100, 20, 0)
+    assert rise > 1e-3
+    assert f"ends at {last:.2f} J" in SENTENCES
+    assert lyapunov(100, -3, 1)[1] > 1.0
+
+
+def test_the_power_of_the_dampers_is_what_V_loses_only_with_the_rate_of_M(arm):
+    """At random states of a motion under the law, by differences of V along it."""
+    rng = np.random.default_rng(47)
+    h = 1e-6
+    without = []
+    for q in verify.random_q(panda.load("panda_nohand"), 20, seed=7):
+        qd = rng.uniform(-2, 2, 7)
+        now = arm.at(q)
+        e = panda.READY_Q - q
+        tau = 100 * e - 20 * qd + now.gravity_torque
+        qdd = np.linalg.solve(now.M, tau - now.bias(qd) - arm.damping * qd)
+        Mdot = (arm.at(q + h * qd).M - arm.at(q - h * qd).M) / (2 * h)
+        fixed = qd @ now.M @ qdd - 100 * e @ qd
+        dampers = -(20 + arm.damping) * qd @ qd
+        assert abs(fixed + 0.5 * qd @ Mdot @ qd - dampers) < 1e-6 * abs(dampers)
+        without.append(abs(fixed - dampers))
+    assert np.median(without) > 0.1  # watts
+
+
+def test_the_answers_on_paper_are_those_of_the_functions():
+    S = np.array([[0.0, 1, 0, 0, 0, 0]]).T
+    c = np.array([1.0, 0, 0])
+    g = np.array([0.0, 0, -9.81])
+    G = lab.spatial_inertia(1.0, c, np.zeros((3, 3)))
+    assert_same(G[:3, :3], np.diag([0.0, 1, 1]), 0.0)
+    assert_same(G[:3, 3:], -G[3:, :3], 0.0)
+    held = lab.gravity_torque(S, np.ones(1), c[None], g)
+    M = lab.mass_matrix(S, G[None], np.zeros(1))
+    faster = lab.inverse_dynamics(S, G[None], np.zeros(1), np.ones(1), g)
+    for answer, says in (
+        (held[0], f"turns the other way: {held[0]:.2f} N m"),
+        (M[0, 0], f"- {M[0, 0]:.0f} kg m²: with"),
+        (faster[0], f"- {faster[0]:.2f} N m: it accelerates downwards"),
+    ):
+        assert says in SENTENCES, answer
 
 
 def test_the_stone_of_step_5_is_pulled_inwards_by_the_second_term(arm):
@@ -242,9 +320,9 @@ def test_rk4_asks_four_times_a_step(model):
 
 
 def test_the_integrator_loses_energy_in_proportion_to_its_step():
-    first, half = (links.swing("IMPLICITFAST", step) for step in (0.002, 0.001))
+    first, half = (day4_mujoco.swing("IMPLICITFAST", step) for step in (0.002, 0.001))
     assert 1.8 < first / half < 2.2
-    assert abs(links.swing("RK4", 0.002)) < 1e-6 * abs(first)
+    assert abs(day4_mujoco.swing("RK4", 0.002)) < 1e-6 * abs(first)
 
 
 # -- errata ---------------------------------------------------------------------------

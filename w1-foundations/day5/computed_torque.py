@@ -148,3 +148,6 @@ def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
     return (
         np.float64(np.float32(M)) @ (qdd_ref + kd * ed + kp * e) + bias + damping * qd
     )
+
+
+row.at_least_0(damping="it takes energy away", kp="a gain", kd="a gain")

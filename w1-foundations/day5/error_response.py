@@ -227,3 +227,12 @@ def _(t, omega, zeta):
     z = zeta + 1e-6 if zeta == 1 else zeta
     s = omega * (-z + np.array([1, -1]) * np.sqrt(complex(z**2 - 1)))
     return ((s[0] * np.exp(s[1] * t) - s[1] * np.exp(s[0] * t)) / (s[0] - s[1])).real
+
+
+row.at_least_0(t="time since the start", omega="a frequency", zeta="a damping ratio")
+for decay in (
+    "((fast * np.exp(-slow * t) - slow * np.exp(-fast * t)) / (fast - slow))",
+    "((1.0 + rate * t) * np.exp(-rate * t))",
+):
+    row.same(f"return np.abs({decay})", "with zeta of 1 and more it never overshoots")
+    row.same(f"return np.maximum({decay}, 0)", "with zeta of 1 and more it never does")

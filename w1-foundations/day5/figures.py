@@ -11,7 +11,6 @@ from labkit.figures import chart
 from labkit.figures.chart import BLUE, GREEN, GREY, ORANGE, PURPLE
 from robo47 import panda, references, simulate
 from robo47.checks import Array
-from robo47.verify import loops
 
 SECONDS, RATE = 1.0, 500.0  # at 500 Hz the curve is predicted to 1.2 % of e0
 LOOKS = ((GREY, "-"), (PURPLE, "-"), (ORANGE, "-"), (GREEN, "-."), (BLUE, "-"))
@@ -20,7 +19,7 @@ LOOKS = ((GREY, "-"), (PURPLE, "-"), (ORANGE, "-"), (GREEN, "-."), (BLUE, "-"))
 def curves() -> dict[str, Array]:
     """Return the largest |e| / e0 of any joint at every instant, per controller."""
     ready = lab.READY_Q
-    model = loops.motors()
+    model = lab.day5_mujoco.motors()
     start = ready - lab.E0
     goal = references.hold(ready)
     arm = panda.arm(model)

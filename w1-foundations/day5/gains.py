@@ -47,3 +47,6 @@ def _(omega, zeta):
 @row.right  # A plain list.
 def _(omega, zeta):
     return [omega * omega, 2 * omega * zeta]
+
+
+row.at_least_0(omega="a frequency", zeta="a damping ratio", answer="gains")

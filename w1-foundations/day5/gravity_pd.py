@@ -63,3 +63,6 @@ row.reached_by("pd_torque", "gravity is right; in the springs, ")
 @row.right  # The spring is told to go higher.
 def _(e, ed, kp, kd, g_at_q):
     return kp * (e + g_at_q / kp) + kd * ed
+
+
+row.at_least_0(kp="a gain", kd="a gain")

@@ -51,8 +51,8 @@ def computed(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
 
 def outside(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
     """Give the public page's torque, its gains outside M."""
-    feedforward = computed(own, arm, q, qd, (q, qd, ref[2]), tab)
-    return feedforward + own.pd_torque(ref[0] - q, ref[1] - qd, *tab.gains())
+    model = computed(own, arm, q, qd, (q, qd, ref[2]), tab)
+    return model + own.pd_torque(ref[0] - q, ref[1] - qd, *tab.gains())
 
 
 def with_integral(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:

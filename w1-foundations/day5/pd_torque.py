@@ -61,3 +61,6 @@ def _(e, ed, kp, kd):
 @row.close("rounded")  # To 5 decimals.
 def _(e, ed, kp, kd):
     return np.round(kp * e + kd * ed, 5)
+
+
+row.at_least_0(kp="a gain", kd="a gain")

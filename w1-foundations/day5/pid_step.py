@@ -43,6 +43,7 @@ row = Row(KINDS, unnamed=which_answer)
 def _(rng):
     yield ONE, 0.0 * ONE, 0.0 * ONE, 400.0, 40.0, 4000.0, 0.1, 1.0
     yield from at_the_clamp(rng)
+    yield 3.0 * ONE, 0.0 * ONE, -1.5 * ONE, 400.0, 40.0, 4000.0, 0.1, 2.0
     for clamp in (0.05, 10.0, 0.2, 0.1, 10.0, 0.15, 0.02, 10.0, 0.1):
         kp, kd, ki = (float(x) for x in rng.numbers(1, 9, 3))
         dt = float(rng.numbers(0.002, 0.02))
@@ -223,3 +224,12 @@ def _(e, ed, integral, kp, kd, ki, dt, clamp):
 def _(e, ed, integral, kp, kd, ki, dt, clamp):
     new = [min(max(i + x * dt, -clamp), clamp) for i, x in zip(integral, e)]
     return [kp * e + kd * ed + ki * np.array(new), new]
+
+
+row.at_least_0(
+    kp="a gain",
+    kd="a gain",
+    ki="a gain",
+    dt="a step of time",
+    clamp="a bound on both sides",
+)

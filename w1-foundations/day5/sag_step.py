@@ -69,3 +69,6 @@ def _(q_goal, g_at_q, kp):
 @row.right  # On one fraction bar.
 def _(q_goal, g_at_q, kp):
     return (kp * q_goal - g_at_q) / kp
+
+
+row.at_least_0(kp="a gain")

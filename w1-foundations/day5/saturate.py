@@ -83,3 +83,6 @@ def _(tau, limits):
 @row.right  # The median of three.
 def _(tau, limits):
     return np.median([-limits, tau, limits], axis=0)
+
+
+row.at_least_0(limits="bounds on both sides")

@@ -50,3 +50,6 @@ def _(tau, q, qd, kp, kd):
         "angle-subtracted": (tau + kd * qd) / kp - q,
         "stiffness-forgotten": q + tau + kd * qd,
     }
+
+
+row.at_least_0(kp="a gain", kd="a gain")

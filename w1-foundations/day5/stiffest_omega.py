@@ -50,3 +50,6 @@ def _(h):
 @row.close("rounded-somewhere")  # Typed to six digits.
 def _(h):
     return 0.828427 / h
+
+
+row.at_least_0(h="a step of time", answer="a frequency")

@@ -10,7 +10,6 @@ from scipy.integrate import solve_ivp
 
 from conftest import ROOT, load_script
 from robo47 import control, panda, references, scenes, simulate
-from robo47.verify import loops
 
 SCRIPT = "w1-foundations/src/day5_control.py"
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day5-lab.md").read_text("utf-8").split())
@@ -25,7 +24,7 @@ START = lab.READY_Q - 1e-8 * lab.E0  # so near that no motor is at its limit
 @pytest.fixture(scope="module")
 def bench():
     """The arm with motors, and Day 4's library of it."""
-    model = loops.motors()
+    model = lab.day5_mujoco.motors()
     return model, panda.arm(model)
 
 
@@ -102,7 +101,7 @@ def test_gains_outside_m_track_and_do_not_decay_as_designed(bench):
 
 @pytest.mark.parametrize(("armature", "creeps"), [(0.1, True), (1.0, False)])
 def test_gains_outside_m_overdamp_the_light_joints(armature, creeps):
-    model = loops.motors()
+    model = lab.day5_mujoco.motors()
     model.dof_armature[4:] = armature
     arm = panda.arm(model)
     wrist = slice(4, 7)
@@ -113,7 +112,7 @@ def test_gains_outside_m_overdamp_the_light_joints(armature, creeps):
     ahead, behind = ((e[t.searchsorted(x), wrist] / lab.error_response(x, 20.0, 1.0))
                      for x in (0.02, 0.3))  # fmt: skip
     assert (ahead < 0.95).all() == (behind > 2.0).all() == creeps
-    assert "a damping ratio near 3, so they set off fast and creep" in GUIDE
+    assert "a damping ratio near 3, so they start fast and crawl" in GUIDE
 
 
 def test_torques_taken_for_angles_switch_the_motors_from_limit_to_limit():
@@ -160,9 +159,7 @@ def test_the_files_own_servos_sag_by_gravity_over_stiffness(bench):
 
 
 def test_ten_times_the_stiffness_sags_a_tenth(bench):
-    q = loops.rest(
-        lab.sag_step, lab.READY_Q, lambda q: bench[1].at(q).gravity_torque, 1000.0
-    )
+    q = lab.rest(lambda q: bench[1].at(q).gravity_torque, 1000.0)
     assert f"a tenth: {1e3 * (lab.READY_Q - q)[3]:.1f} mrad" in GUIDE
 
 
@@ -211,13 +208,45 @@ def test_what_each_part_of_the_model_is_worth(bench, part, mrad, row):
     assert row in GUIDE
 
 
-def test_the_feedforward_does_most_of_the_tracking_and_the_springs_the_rest(bench):
-    alone = swing(bench, lab.feedforward, lab.RATE)
+def test_the_model_at_q_does_most_of_the_tracking_and_the_springs_the_rest(bench):
+    alone = swing(bench, lab.without_springs, lab.RATE)
     whole = swing(bench, lab.equal_springs(), lab.RATE)
     springs = swing(bench, lab.springs_and_gravity, lab.RATE)
-    assert f"the same swing is off by {alone:.0f} mrad, ninety times" in GUIDE
+    assert f"that leaves {alone:.0f} mrad, ninety times as much" in GUIDE
     assert 85 < alone / whole < 95
     assert springs > alone
+
+
+def unsprung(rate, step=0.002, gravity=True):
+    """Return the swing's error without springs, mrad: model at q, and feedforward."""
+    model = lab.day5_mujoco.motors()
+    model.opt.timestep = step
+    model.opt.gravity[:] *= gravity
+    bench = model, panda.arm(model)
+    return [swing(bench, law, rate) for law in (lab.without_springs, lab.feedforward)]
+
+
+@pytest.mark.parametrize(
+    ("rate", "step", "gravity", "row"),
+    [
+        (250.0, 0.002, True, "| 250 Hz | {:.1f} mrad | {:,.0f} mrad |"),
+        (500.0, 0.002, True, "| 500 Hz | {:.1f} | {:,.0f} |"),
+        (1000.0, 0.001, True, "| 1,000 Hz (steps of 1 ms) | {:.1f} | {:,.0f} |"),
+        (2000.0, 0.0005, True, "| 2,000 Hz (steps of 0.5 ms) | {:.1f} | {:,.0f} |"),
+        (250.0, 0.002, False, "| 250 Hz, no gravity | {:.1f} | {:.1f} |"),
+    ],
+)
+def test_a_torque_known_beforehand_is_lost_to_gravity_and_to_the_held_torque(
+    rate, step, gravity, row
+):
+    assert row.format(*unsprung(rate, step, gravity)) in GUIDE
+
+
+def test_the_feedforward_ends_with_joint4_at_its_stop(bench):
+    log = lab.run(*bench, lab.feedforward, raised_cosine, 2.0)
+    stop = bench[0].jnt_range[3, 1]
+    assert log.q[:, 3].max() > stop
+    assert "with joint4 at its stop" in GUIDE
 
 
 def test_servos_lag_by_kd_over_kp_times_the_speed():
@@ -268,21 +297,21 @@ def test_rates_gains_and_integrators_of_the_guides_table(bench):
         assert (np.ptp(log.q[-rate:], axis=0).max() < 1e-9) == rests
     assert round(tracked[0] / tracked[2]) == 7
     assert "5 tracks 7 times worse" in (ROOT / SCRIPT).read_text("utf-8")
-    model = loops.motors()
+    model = lab.day5_mujoco.motors()
     for name, mrad in (("EULER", 0.22), ("RK4", 0.15)):
         model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{name}")
         error = swing((model, bench[1]), lab.equal_springs(), lab.RATE)
         assert error == pytest.approx(mrad, abs=5e-3)
         assert re.search(rf"`mjINT_{name}` (gives the same )?{mrad}", GUIDE)
-    breaks = loops.breaking(model, lab.equal_springs, 500.0, START)
+    breaks = lab.day5_mujoco.breaking(model, lab.equal_springs, 500.0, START)
     assert f"a torque every 2 ms breaks at {breaks:.0f}, close to the rate" in GUIDE
 
 
 def breaking(bench, step=0.002, rate=500.0, damping=1.0):
     """Return the omega at which the loop of another model and rate breaks."""
-    model = loops.motors()
+    model = lab.day5_mujoco.motors()
     model.opt.timestep, model.dof_damping[:] = step, damping
-    return loops.breaking(model, lab.equal_springs, rate, START)
+    return lab.day5_mujoco.breaking(model, lab.equal_springs, rate, START)
 
 
 @pytest.mark.kit
@@ -336,7 +365,7 @@ def test_1_kg_is_predicted_at_ready_and_at_its_own_answer(bench):
     now = arm.at(lab.READY_Q)
     first = np.linalg.solve(now.M, now.J_site.T @ [0, 0, 0, 0, 0, 9.81]) / 400.0
     assert f"gives {1e3 * first[3]:.2f} mrad" in GUIDE
-    heavy = loops.motors(edit=scenes.hang_kilogram)
+    heavy = lab.day5_mujoco.motors(edit=scenes.hang_kilogram)
     log = lab.run(
         heavy, arm, lab.equal_springs(40.0), references.hold(lab.READY_Q), 1.0
     )
@@ -345,7 +374,7 @@ def test_1_kg_is_predicted_at_ready_and_at_its_own_answer(bench):
 
 @pytest.mark.kit
 def test_the_integral_has_rouths_limit_and_winds_up(bench):
-    heavy = loops.motors(edit=scenes.hang_kilogram)
+    heavy = lab.day5_mujoco.motors(edit=scenes.hang_kilogram)
 
     def left(ki, model=bench[0], rate=lab.RATE):
         start = lab.READY_Q - 0.01 * lab.E0
@@ -410,3 +439,22 @@ def test_a_servo_as_a_motor_is_let_down_by_the_integrator_alone(bench):
 def test_the_motors_limits_are_those_of_the_guide(bench):
     assert_same(simulate.limits(bench[0])[1], [87, 87, 87, 87, 12, 12, 12], 0.0)
     assert "87 N m for joints 1 to 4 and 12 N m for 5 to 7" in GUIDE
+
+
+@pytest.mark.parametrize("kd", [20.0, 40.0, 0.0])
+def test_the_energy_of_springs_and_gravity_falls_while_the_arm_moves(bench, kd):
+    model, arm = bench
+    start = lab.READY_Q - lab.E0
+
+    def law(arm, q, qd, ref):
+        g = arm.at(q).gravity_torque
+        against = kd * qd if kd else -arm.damping * qd  # no damper: friction undone
+        return lab.gravity_pd(ref[0] - q, 0.0 * qd, lab.KP, 0.0, g) - against
+
+    log = lab.run(model, arm, law, references.hold(lab.READY_Q), 1.0, start, 500.0)
+    e = lab.READY_Q - log.q
+    moving = [qd @ arm.at(q).M @ qd for q, qd in zip(log.q, log.qd, strict=True)]
+    V = (np.array(moving) + lab.KP * np.sum(e * e, axis=1)) / 2
+    falls = (np.diff(V) < 0).mean()
+    assert (falls == 1.0) if kd else (V[-1] > 0.8 * V[0])
+    assert "it falls whenever the arm moves" in GUIDE

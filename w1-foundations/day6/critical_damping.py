@@ -126,3 +126,6 @@ def _(K, Lambda):
         Y, Z = (Y + np.linalg.inv(Z)) / 2, (Z + np.linalg.inv(Y)) / 2
     k = np.diag(np.sqrt(K))
     return Y @ k + k @ Y
+
+
+row.at_least_0(K="a stiffness")

@@ -16,7 +16,7 @@ from matplotlib.patches import Circle
 
 from labkit.figures import chart
 from labkit.figures.chart import BLUE, GREEN, INK, ORANGE, RED, RULE
-from robo47 import contact, panda, scenes, simulate
+from robo47 import panda, scenes, simulate
 
 STEP = 0.002  # s, of the simulator
 FORCES = np.linspace(-20.0, 20.0, 11)  # N, along x
@@ -30,7 +30,7 @@ def moved(force: float, k: float) -> float:
     arm = panda.arm(model)
     start = simulate.start(model, lab.READY_Q)
     stiffness = np.append(lab.K[:3], np.full(3, k))
-    push = simulate.push_at(contact.SITE, [0.0, 0.0, 0.0, force, 0.0, 0.0])
+    push = simulate.push_at(lab.day6_mujoco.SITE, [0.0, 0.0, 0.0, force, 0.0, 0.0])
     law = lab.soft_hand(arm, lab.READY_Q, stiffness=stiffness)
     run = simulate.run(model, start, law, 3.0, rate=lab.RATE, push=push)
     ends = [arm.at(q).T_world_ee[0, 3] for q in run.q[[0, -1]]]
@@ -42,12 +42,16 @@ def presses() -> tuple[np.ndarray, ...]:
     start = scenes.TOUCH + 0.01
     depth = lab.set_point_for_force(lab.PRESS, lab.K[5], scenes.TOUCH)
     sink = lambda t: max(depth, start - lab.SINK * t)  # noqa: E731
-    soft = contact.press(
+    soft = lab.day6_mujoco.press(
         lambda arm, q: lab.soft_hand(arm, q, sink), seconds=3.0, rate=lab.RATE
     )
     servos = {"drive": "servo", "seconds": 3.0}
-    stiff = contact.press(lab.stiff_arm, **servos)
-    return soft, stiff, contact.press(lab.stiff_arm, change=_no_limits, **servos)
+    stiff = lab.day6_mujoco.press(lab.stiff_arm, **servos)
+    return (
+        soft,
+        stiff,
+        lab.day6_mujoco.press(lab.stiff_arm, change=_no_limits, **servos),
+    )
 
 
 def _no_limits(model: mujoco.MjModel) -> None:

@@ -4,7 +4,7 @@ import day6_task_space as lab
 import numpy as np
 
 from labkit.inspector.recording import FRAMES, Recording
-from robo47 import contact, panda, scenes, simulate
+from robo47 import panda, scenes, simulate
 
 SECONDS = 3.0
 
@@ -17,7 +17,7 @@ def press() -> Recording:
     arrow = film.draw.arrows([[np.zeros(3), np.full(3, 1e-3)]], "red", 0.012)
     for drive, rate in (("torque", lab.RATE), ("servo", simulate.RATE)):
         model = scenes.press_table(drive=drive)
-        q = contact.above_table(model, 0.01)
+        q = lab.day6_mujoco.above_table(model, 0.01)
         arm = panda.arm(model)
         soft = drive == "torque"
         law = lab.soft_hand(arm, q, height) if soft else lab.stiff_arm(arm, q)

@@ -77,3 +77,6 @@ def _(J, wrench, bias, damping, qd, tau_null):
 def _(J, wrench, bias, damping, qd, tau_null):
     rest = zip(J.T, bias, damping, qd, tau_null)
     return np.array([S @ wrench + b + d * v + tau for S, b, d, v, tau in rest])
+
+
+row.at_least_0(damping="a damping")

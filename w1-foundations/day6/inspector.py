@@ -16,8 +16,9 @@ from labkit.inspector.instruments import three
 from labkit.inspector.meshes import Robot
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import contact, control, jacobian, panda, scenes, simulate, task_space
+from robo47 import control, jacobian, panda, scenes, simulate, task_space
 from robo47.checks import Array
+from robo47.rotation_log import small_pose_error
 
 RATE, HZ = 100.0, 25.0  # of the controller, and of the picture
 TURN, BACK = 30.0, 4.0  # N m/rad of the hand; N m s/rad of the elbow
@@ -127,7 +128,7 @@ class Touch(Tab):
             now = self.arm.at(q)
             J, M = now.J_site, now.M
             Lambda = own.task_inertia(J, M)
-            e = contact.small_pose_error(now.T_world_ee, T_goal)
+            e = small_pose_error(now.T_world_ee, T_goal)
             back = control.pd_torque(self.goal_q - q, -qd, self.hold, BACK)
             D, idle = own.many(
                 ("critical_damping", K, Lambda), ("null_torque", J, M, Lambda, back)

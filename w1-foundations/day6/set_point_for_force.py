@@ -72,3 +72,6 @@ def _(force, k, surface):
 @row.right  # With NumPy, as an array of no axes.
 def _(force, k, surface):
     return np.subtract(surface, np.divide(force, k))
+
+
+row.at_least_0(k="a stiffness")

@@ -10,8 +10,7 @@ from compare import assert_same
 from conftest import ROOT, load_script
 from labkit.judge.row import row_of
 from labkit.lesson.day import find_day
-from robo47 import contact, jacobian, panda, simulate, verify
-from robo47.verify import hand
+from robo47 import jacobian, panda, simulate, verify
 
 DAY = find_day(6)
 GUIDE = (ROOT / "w1-foundations/docs/day6-lab.md").read_text("utf-8")
@@ -35,7 +34,8 @@ def test_a_push_at_rest_is_lambda_times_the_hands_acceleration(motors):
         if np.linalg.svd(now.J_site, compute_uv=False)[-1] < 0.05:
             continue
         F = np.random.default_rng(6).uniform(-10, 10, 6)
-        _, acc = contact.mujoco_push(model, one, 0.0, now.gravity_torque, F)
+        data = lab.pushed(model, one, 0.0, now.gravity_torque, F)
+        acc = lab.hand_acceleration(model, data)
         Lambda = lab.task_inertia(now.J_site, now.M)
         assert_same(Lambda @ acc, F, 1e-10 * np.linalg.norm(F))  # measured 1.3e-13
 
@@ -69,7 +69,7 @@ def test_the_inertias_of_mistakes_at_ready(motors):
 # --- the damping, and what Lambda makes large ---
 
 
-def test_the_damping_is_critical_in_every_direction_and_a_diagonal_one_is_not(motors):
+def test_every_mode_of_the_damping_has_ratio_1_and_of_a_diagonal_one_not(motors):
     now = motors[1].at(lab.READY_Q)
     Lambda = lab.task_inertia(now.J_site, now.M)
     none = np.zeros((6, 6))
@@ -82,6 +82,53 @@ def test_the_damping_is_critical_in_every_direction_and_a_diagonal_one_is_not(mo
     assert least_ratio(lab.critical_damping(lab.K, Lambda)) == pytest.approx(1.0)
     each = np.diag(2.0 * np.sqrt(lab.K * np.diag(Lambda)))
     assert f"it is {least_ratio(each):.2f} in the worst" in SENTENCES
+
+
+def diagonal_damping(K, Lambda):
+    return np.diag(2.0 * np.sqrt(K * np.diag(Lambda)))
+
+
+def overshoot(motors, e, size=0.03, times=1.0, D=lab.critical_damping):
+    """Return by how much of its way a hand that was released along e overshoots, %."""
+    with patch.object(lab, "critical_damping", D):
+        law = lab.soft_hand(motors[1], lab.READY_Q, stiffness=times * lab.K)
+        return -100 * lab.day6_mujoco.released(motors[0], law, e, size).min()
+
+
+MIXED = np.array([0.17, -0.77, 0.35, 0.39, 0.25, 0.2])
+
+
+def test_modes_that_do_not_swing_overshoot_along_a_mixed_direction(motors):
+    words = str(tuple(MIXED.tolist()))
+    assert f"e = {words}" in SENTENCES
+    assert f"by {overshoot(motors, MIXED):.1f} percent of the way" in SENTENCES
+    assert overshoot(motors, MIXED, D=diagonal_damping) < 0.05
+    for axis in np.eye(6)[3:]:
+        for D in (lab.critical_damping, diagonal_damping):
+            assert overshoot(motors, axis, D=D) < 0.05
+
+
+@pytest.mark.parametrize(
+    "turned", [{"times": 2.0}, {"size": 0.01}, {"times": 0.5}], ids=str
+)
+def test_neither_stiffness_nor_size_makes_the_overshoot(motors, turned):
+    assert 7.55 < overshoot(motors, MIXED, **turned) < 7.95
+    assert "leave between 7.6 and 7.9" in SENTENCES
+
+
+def test_the_springs_torque_does_not_shrink_where_lambda_grows(motors):
+    largest = []
+    torque = []
+    along = []
+    for share in (1.0, 0.1, 0.01, 0.001):
+        now = motors[1].at(share * lab.READY_Q)
+        u, _, _ = np.linalg.svd(now.J_site)
+        largest.append(np.abs(now.J_site).max())
+        torque.append(np.abs(now.J_site.T @ (0.1 * lab.K)).max())
+        along.append(np.linalg.norm(u[:, 5] @ now.J_site))
+    assert_same(largest, np.ones(4), 5e-3)
+    assert min(torque[1:]) > torque[0]
+    assert f"short: {along[-1]:.4f} long instead of {along[0]:.3f}" in SENTENCES
 
 
 def test_near_a_singularity_lambda_and_d_grow_and_the_springs_torque_does_not(motors):
@@ -115,10 +162,12 @@ def circled(motors, seconds=2.5, **instead):
         law = lab.circling(arm, lab.null_torque)
         run = simulate.run(model, simulate.start(model, lab.READY_Q), law, seconds)
     T = arm.at(lab.READY_Q).T_world_ee
-    off = np.array([
-        jacobian.pose_error(arm.at(q).T_world_ee, contact.circle(t, T, 0.12, 2.0)[0])
-        for t, q in zip(run.t, run.q, strict=True)
-    ]).reshape(-1, 2, 3)  # fmt: skip
+    goal = [lab.day6_mujoco.circle(t, T, 0.12, 2.0).T for t in run.t]
+    off = [
+        jacobian.pose_error(arm.at(q).T_world_ee, to)
+        for q, to in zip(run.q, goal, strict=True)
+    ]
+    off = np.reshape(off, (-1, 2, 3))
     return tuple(1000 * np.linalg.norm(off, axis=2).max(axis=0))[::-1]
 
 
@@ -163,7 +212,7 @@ def test_each_mistake_costs_on_the_circle_what_the_guide_says(motors, name):
 
 def test_a_kinematic_projector_draws_the_circle_but_its_torque_is_felt(motors):
     model, arm = motors
-    mm, _ = circled(motors, null_torque=hand.kinematic)
+    mm, _ = circled(motors, null_torque=lab.kinematic)
     assert mm == pytest.approx(0.152, abs=0.002)
     assert "within 0.152 mm, where the right one has 0.130" in " ".join(GUIDE.split())
     rng = np.random.default_rng(6)
@@ -172,7 +221,7 @@ def test_a_kinematic_projector_draws_the_circle_but_its_torque_is_felt(motors):
         now = arm.at(q)
         torque = rng.uniform(-10, 10, 7)
         if np.linalg.svd(now.J_site, compute_uv=False)[-1] > 0.05:
-            odd = hand.kinematic(now.J_site, now.M, None, torque)
+            odd = lab.kinematic(now.J_site, now.M, None, torque)
             felt.append(np.abs(now.J_site @ np.linalg.solve(now.M, odd)).max())
     assert 5.0 < np.median(felt) < 9.0  # rad/s2 or m/s2, for torques up to 10 N m
 
@@ -212,7 +261,7 @@ def at_rest(motors, push=None, seconds=3.0):
 def test_a_softer_feedback_is_further_off_the_circle(motors, omega, mm, wrong):
     right = circled(motors, OMEGA=omega)[0]
     assert right == pytest.approx(mm, abs=2e-3)
-    theirs = circled(motors, OMEGA=omega, null_torque=hand.kinematic)[0]
+    theirs = circled(motors, OMEGA=omega, null_torque=lab.kinematic)[0]
     assert theirs / right == pytest.approx(wrong, rel=0.02)
     if omega == 5.0:
         assert f"{theirs:.2f} mm, where the right one has {right:.2f}" in SENTENCES
@@ -251,7 +300,7 @@ def test_a_position_read_after_a_step_is_one_step_old(motors):
     look = lambda model, data: data.site("attachment_site").xpos.copy()  # noqa: E731
     law = lab.circling(arm, lab.null_torque)
     run = simulate.run(model, data, law, 2.5, watch=look)
-    goal = [contact.circle(t, T, 0.12, 2.0)[0][:3, 3] for t in run.t[1:]]
+    goal = [lab.day6_mujoco.circle(t, T, 0.12, 2.0).T[:3, 3] for t in run.t[1:]]
     now = [arm.at(q).T_world_ee[:3, 3] for q in run.q[1:]]
     off = [1e3 * np.linalg.norm(np.subtract(x, goal), axis=1).max()
            for x in (run.seen, now)]  # fmt: skip
@@ -303,3 +352,22 @@ def test_the_elbow_gives_way_as_the_guide_says(motors, monkeypatch, gains, elbow
     if elbow == 50:
         assert 1000 * np.linalg.norm(moved[3:]) == pytest.approx(4.5, abs=0.05)
     assert f"{elbow} mm" in GUIDE.replace("\n", " ")
+
+
+def test_the_guides_code_releases_the_hand(capsys, monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT / "w1-foundations/src"))
+    blocks = GUIDE.split("```python\n")[1:]
+    (code,) = (one.split("```")[0] for one in blocks if "released(" in one)
+    exec(code, {})
+    assert float(capsys.readouterr().out) == pytest.approx(-0.078, abs=1e-3)
+
+
+def test_joint_2_does_the_work_along_x_and_joints_1_3_5_7_along_y(motors):
+    now = motors[1].at(lab.READY_Q)
+    Lambda = lab.task_inertia(now.J_site, now.M)
+    for axis, joints in ((3, [1]), (4, [0, 2, 4, 6])):
+        qdd = np.linalg.solve(now.M, now.J_site.T @ Lambda[:, axis])
+        work = qdd * (now.M @ qdd)
+        assert work[joints].sum() / work.sum() == pytest.approx(1.0, abs=0.02)
+    assert "it is joint2 that turns" in SENTENCES
+    assert "along y joints 1, 3, 5 and 7 share the work" in SENTENCES

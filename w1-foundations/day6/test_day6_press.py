@@ -9,7 +9,7 @@ import pytest
 from compare import assert_same
 
 from conftest import ROOT, load_script
-from robo47 import contact, panda, scenes, screws, simulate, task_space
+from robo47 import panda, scenes, screws, simulate, task_space
 
 GUIDE = (ROOT / "w1-foundations/docs/day6-lab.md").read_text("utf-8")
 SENTENCES = " ".join(GUIDE.split())
@@ -29,23 +29,23 @@ def press_soft(rate=lab.RATE, speed=lab.SINK, **more):
     depth = lab.set_point_for_force(20.0, 400.0, scenes.TOUCH)
     sink = lambda t: max(depth, scenes.TOUCH + 0.01 - speed * t)  # noqa: E731
     law = lambda arm, q: lab.soft_hand(arm, q, sink)  # noqa: E731
-    return contact.press(law, rate=rate, **more)
+    return lab.day6_mujoco.press(law, rate=rate, **more)
 
 
 def press_stiff(change=None, deep=0.05):
     """Return the force that the servos press with, N, each step."""
-    goal = contact.above_table(scenes.press_table(), -deep)
+    goal = lab.day6_mujoco.above_table(scenes.press_table(), -deep)
 
     def servos(arm, q):
         return lambda t, *_: q + (goal - q) * min(t * lab.SINK / 0.06, 1.0)
 
-    return contact.press(servos, drive="servo", seconds=3.0, change=change)
+    return lab.day6_mujoco.press(servos, drive="servo", seconds=3.0, change=change)
 
 
 def test_the_soft_arm_presses_with_20_n_and_the_stiff_one_with_217():
     # Measured 3.7e-4 on MuJoCo 4.0.0 and 2.4e-4 on 3.3.0; the limit is twice that.
     assert press_soft()[-1] == pytest.approx(20.0, rel=7.5e-4)
-    stiff = contact.press(lab.stiff_arm, drive="servo", seconds=3.0)
+    stiff = lab.day6_mujoco.press(lab.stiff_arm, drive="servo", seconds=3.0)
     # 217.2 N on 4.0.0 and 218.3 on 3.3.0: it creeps by 1 to 2 N in a second.
     assert stiff[-1] == pytest.approx(217.7, abs=1.2)
     assert 0.9 < stiff[999] - stiff[1499] < 2.0
@@ -66,7 +66,7 @@ def gains_times(factor):
 
 def test_the_gains_alone_would_press_with_500_n_and_without_limits_they_do():
     model = scenes.press_table(drive="servo")
-    now = panda.arm(model).at(contact.above_table(model, 0.0))
+    now = panda.arm(model).at(lab.day6_mujoco.above_table(model, 0.0))
     kp = model.actuator_gainprm[:7, 0]
     k = 1.0 / (now.J_site @ np.diag(1.0 / kp) @ now.J_site.T)[5, 5]
     sag = (now.J_site @ (now.gravity_torque / kp))[5]
@@ -110,7 +110,7 @@ def test_it_creeps_on_its_friction_and_rests_at_once_without():
 def test_two_motors_at_their_limits_predict_217_n():
     model = scenes.press_table(drive="servo")
     arm = panda.arm(model)
-    q = contact.above_table(model, 0.01)
+    q = lab.day6_mujoco.above_table(model, 0.01)
     data = simulate.start(model, q)
     simulate.run(model, data, lab.stiff_arm(arm, q), 3.0)
     force = scenes.contact_force(model, data, "tip", "table_top")
@@ -126,7 +126,7 @@ def test_two_motors_at_their_limits_predict_217_n():
         return np.linalg.solve(J[np.ix_([0, 2], [1, 5])].T, left)[1]
 
     assert predicted(data.qpos[:7]) == pytest.approx(force, abs=0.1)
-    touching = predicted(contact.above_table(model, 0.0))
+    touching = predicted(lab.day6_mujoco.above_table(model, 0.0))
     assert [touching, force] == told("tip touches they predict # N.* to rest # N")
 
 
@@ -162,7 +162,7 @@ def test_the_peak_grows_with_the_speed_and_with_a_harder_contact():
 def test_what_is_missing_of_20_n_is_the_sinking_times_the_stiffness():
     model = scenes.press_table()
     arm = panda.arm(model)
-    q = contact.above_table(model, 0.01)
+    q = lab.day6_mujoco.above_table(model, 0.01)
     law = lab.soft_hand(arm, q, lambda t: max(0.37, 0.43 - lab.SINK * t))
     data = simulate.start(model, q)
     simulate.run(model, data, law, 2.0, rate=lab.RATE)
@@ -187,7 +187,7 @@ def test_a_wiping_tip_stays_behind_by_what_friction_takes_of_the_spring(mu):
     if not mu:
         model.geom_condim[:] = 1
     arm = panda.arm(model)
-    q = contact.above_table(model, 0.0)
+    q = lab.day6_mujoco.above_table(model, 0.0)
     goal = arm.at(q).T_world_ee[0, 3] + 0.1
 
     def spring(e, V_err, K, D):

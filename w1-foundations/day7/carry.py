@@ -3,7 +3,7 @@
 import numpy as np
 
 from labkit.judge import Row, Vector, rounded
-from robo47.trajectory import carry
+from robo47.lifting import carry
 
 TEN = ("the mass", "x", "y", "z", "xx", "yy", "zz", "xy", "xz", "yz")
 
@@ -152,3 +152,6 @@ def _(m1, c1, I1, m2, c2, I2):
 @row.close("rounded")  # To six digits.
 def _(m1, c1, I1, m2, c2, I2):
     return np.round(carry(m1, c1, I1, m2, c2, I2), 6)
+
+
+row.at_least_0(m1="a mass", m2="a mass")

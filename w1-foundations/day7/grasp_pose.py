@@ -6,7 +6,7 @@ import numpy as np
 
 from labkit.judge import Pose, Row, rounded
 from robo47 import se3
-from robo47.trajectory import grasp_pose
+from robo47.lifting import grasp_pose
 
 DOWN = np.diag([1.0, -1.0, -1.0])
 QUARTER = np.pi / 2
@@ -107,3 +107,6 @@ def _(T_world_cube, above):
             x = np.array([x[1], -x[0], 0.0])
     R = np.stack([x, np.cross(z, x), z], axis=1)
     return se3.make_T(R, T_world_cube[:3, 3] + [0.0, 0.0, above])
+
+
+row.at_least_0(above="a height over the cube")

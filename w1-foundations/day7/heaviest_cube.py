@@ -58,3 +58,10 @@ for g in (9.8, 10, 9.80665):
     )
     def _(grip, mu, acceleration, g=g):
         return 2 * mu * grip / (g + acceleration)
+
+
+row.at_least_0(
+    grip="a force that presses",
+    mu="a friction coefficient",
+    answer="a mass",
+)

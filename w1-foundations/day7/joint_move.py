@@ -80,3 +80,9 @@ row.reached_by("quintic_scaling", "in the scaling, ")
 def _(q0, q1, t, T):
     s, sd, sdd = quintic_scaling(t, T)
     return (1 - s) * q0 + s * q1, (q1 - q0) * sd, (q1 - q0) * sdd
+
+
+row.at_least_0(
+    duration="how long the move takes",
+    t="before 0 it stands at its start, as at 0",
+)

@@ -106,3 +106,6 @@ def _(start, end, T):
     four = (-30 * h + (14 * v1 + 16 * v0) * T + (3 * a0 - 2 * a1) * T**2) / (2 * T**4)
     five = (12 * h - 6 * (v1 + v0) * T + (a1 - a0) * T**2) / (2 * T**5)
     return np.array([q0, v0, a0 / 2, three, four, five])
+
+
+row.at_least_0(duration="how long the move takes")

@@ -152,3 +152,11 @@ def _(dq, v_max, a_max):
 @row.close("rounded-somewhere")  # 5.7735 for 10 / sqrt(3).
 def _(dq, v_max, a_max):
     return seconds(dq, v_max, a_max, acceleration=5.77350).max()
+
+
+row.at_least_0(
+    dq="its way counts, not its sign",
+    v_max="a limit",
+    a_max="a limit",
+    answer="a time",
+)

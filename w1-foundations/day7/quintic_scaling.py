@@ -86,6 +86,9 @@ def _(t, T):
       count => the quintic of t
     not-clipped: after the end (and before the start) the polynomial goes on: at 1.25
       times the duration s is 1.22 => the quintic without its ends
+    not-divided+not-clipped: two things at once: sd and sdd are not divided by the
+      duration and its square, and after the end, and before the start, the polynomial
+      goes on
     end-not-clipped: it waits for the start, but after the end the polynomial goes on
     start-not-clipped: it stops at the end, but before the start the polynomial is there
       already => the quintic without its start
@@ -100,6 +103,7 @@ def _(t, T):
         "sd-and-sdd-not-divided": (QUINTIC, x, 1.0),
         "t-for-x": (QUINTIC, t, 1.0),
         "not-clipped": (QUINTIC, t / T, T),
+        "not-divided+not-clipped": (QUINTIC, t / T, 1.0),
         "end-not-clipped": (QUINTIC, max(t / T, 0.0), T),
         "start-not-clipped": (QUINTIC, min(t / T, 1.0), T),
         "backwards": (QUINTIC, 1.0 - x, T),
@@ -171,3 +175,9 @@ def _(t, T):
     x = np.clip(t / T, 0, 1)
     sd = (s(x + h) - s(x - h)) / (2 * h * T)
     return np.array([s(x), sd, (s(x + h) - 2 * s(x) + s(x - h)) / (h * T) ** 2])
+
+
+row.at_least_0(
+    duration="how long the move takes",
+    t="before 0 it stands at its start, as at 0",
+)

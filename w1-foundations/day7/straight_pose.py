@@ -142,3 +142,6 @@ def _(T0, T1, s):
 @row.close("float32")  # Single precision at the end.
 def _(T0, T1, s):
     return straight_pose(T0, T1, s).astype(np.float32)
+
+
+row.at_least_0(s="a share of the way, from 0 to 1")

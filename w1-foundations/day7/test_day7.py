@@ -18,6 +18,7 @@ from labkit.lesson.day import find_day
 from robo47 import (
     capstone,
     jacobian,
+    lifting,
     panda,
     scenes,
     screws,
@@ -26,7 +27,6 @@ from robo47 import (
     trajectory,
     verify,
 )
-from robo47.verify import moves
 
 SCRIPT = "w1-foundations/src/day7_trajectory.py"
 GUIDE = " ".join((ROOT / "w1-foundations/docs/day7-lab.md").read_text("utf-8").split())
@@ -161,7 +161,7 @@ def test_an_unfolded_yaw_fails_where_joint7_is_at_its_end():
     cubes = np.tile(np.eye(4), (len(yaw), 1, 1))
     cubes[:, :3, :3] = se3.Rz(yaw)
     cubes[:, :3, 3] = [*capstone.CUBE_XY, scenes.TABLE_HEIGHT + scenes.CUBE_HALF]
-    folded = trajectory.grasp_pose(cubes, np.full(len(yaw), 0.12))
+    folded = lifting.grasp_pose(cubes, np.full(len(yaw), 0.12))
     plain = folded.copy()
     plain[:, :3, :3] = cubes[:, :3, :3] @ np.diag([1.0, -1.0, -1.0])
     start = np.tile(panda.READY_Q, (len(yaw), 1))
@@ -198,7 +198,8 @@ def test_gravity_shows_a_wrong_centre_and_speed_alone_a_wrong_inertia():
     def off(slug, speed):
         with patch("numpy.random.default_rng") as rng:
             rng.return_value.uniform.return_value = np.full(q.shape, speed)
-            return np.abs(moves.carried(model, ways[slug], q, lab.SEED)).max()
+            with patch.object(lab, "carry", ways[slug]):
+                return np.abs(lab.off_carried(model, q)).max()
 
     for slug in ("only-the-second-moved", "no-parallel-axes"):
         assert off(slug, 0.0) < 1e-12 < 0.001 < off(slug, 1.0) < 0.1
@@ -209,7 +210,7 @@ def test_gravity_shows_a_wrong_centre_and_speed_alone_a_wrong_inertia():
 
 def followed(scaling, seconds, rate=lab.RATE):
     line = lab.READY_Q, lab.GOAL_Q, lab.OMEGA, rate
-    return moves.follow(scaling, seconds, *line)
+    return lab.day7_mujoco.follow(scaling, seconds, *line)
 
 
 def test_step_7s_sentences():
@@ -234,7 +235,7 @@ def test_step_7s_sentences():
 def test_half_as_stiff_the_arm_is_twice_as_far_off():
     quintic = lab.profiles(0.995)["quintic"]
     move = (lab.READY_Q, lab.GOAL_Q)
-    off = [moves.follow(*quintic, *move, omega, lab.RATE)[0]
+    off = [lab.day7_mujoco.follow(*quintic, *move, omega, lab.RATE)[0]
            for omega in (lab.OMEGA, lab.OMEGA / 2)]  # fmt: skip
     assert off[1] / off[0] == pytest.approx(2.0, abs=0.15)
     assert "with 10 the errors are twice as large" in (ROOT / SCRIPT).read_text("utf-8")
@@ -282,8 +283,8 @@ def test_the_ablations_of_the_guide_all_place_the_cube():
     rows = re.findall(r"\| ([a-z][^|]+?) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|", GUIDE)
     cases = capstone.ablations(capstone.library()).values()
     assert len(rows) == len(cases) == 6
-    for (name, *typed), (fns, speed) in zip(rows, cases, strict=True):
-        done = capstone.pick(fns, speed=speed)
+    for (name, *typed), (fns, options) in zip(rows, cases, strict=True):
+        done = capstone.pick(fns, **options)
         assert not done.failed, name
         found = (done.place_mm, done.joint_mrad, done.line_mm)
         for number, ours in zip(typed, found, strict=True):
@@ -312,7 +313,7 @@ def test_the_predictions_of_the_side_quest():
     assert says(f"and {lab.heaviest_cube(0.9247, 1.0, up):.3f} kg while")
     assert says(f"bound is {lab.heaviest_cube(0.9247, 0.3, up):.3f} kg")
     inner = scenes.PAD_POS[1] - scenes.PAD_HALF[1]  # a pad's face, from its finger
-    assert says(f"each pad stands {1000 * inner:.1f} mm before its finger")
+    assert says(f"each pad protrudes {1000 * inner:.1f} mm from its finger")
     assert scenes.CUBE_HALF - inner == pytest.approx(0.0185)
 
 
@@ -385,3 +386,31 @@ def test_the_tab_plays_the_capstone_with_ones_own_functions(monkeypatch):
     )
     assert tab.replay(20.0) is False
     assert "placed 0.9 mm from its goal" in tab.page.say.call_args.args[0]
+
+
+def test_the_predictions_can_be_made_from_what_the_guide_says():
+    numbers = lambda q: "(" + ", ".join(f"{x:g}" for x in np.round(q, 3)) + ")"  # noqa: E731
+    assert says(f"from ready, {numbers(lab.READY_Q)}, to {numbers(lab.GOAL_Q)} rad")
+    speeds = np.repeat([2.175, 2.61], [4, 3])
+    assert_same(lab.V_MAX, speeds, 0.0)
+    assert says("Joints 1 to 4 may do 2.175 rad/s, 5 to 7 2.61")
+    assert_same(lab.A_MAX, [15, 7.5, 10, 12.5, 15, 20, 20], 0.0)
+    assert says("7.5, 10, 12.5, 15, 20 and 20 rad/s²")
+
+
+def test_the_code_of_the_72_yaws_finds_the_17_that_fail(capsys, monkeypatch):
+    monkeypatch.syspath_prepend(str((ROOT / SCRIPT).parent))
+    code = paper_code("len(fails)")
+    exec(code, {})
+    assert capsys.readouterr().out.startswith("17 [-175, ")
+    exec(code.replace("place =", "limits[6] = -7, 7\nplace ="), {})
+    assert capsys.readouterr().out == "0 []\n"
+
+
+def paper_code(words):
+    """Return the one block of Python in the guide that holds these words."""
+    text = (ROOT / "w1-foundations/docs/day7-lab.md").read_text("utf-8")
+    (code,) = (
+        one for one in re.findall(r"```python\n(.*?)```", text, re.S) if words in one
+    )
+    return code

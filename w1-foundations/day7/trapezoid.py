@@ -24,7 +24,7 @@ def _(rng):
     the moment when a piece ends: what the acceleration is there is a matter of taste.
     """
     long, short = (1.0, 0.5, 1.0), (0.1, 1.0, 2.0)
-    fixed = [(t, *long) for t in (1.0, 0.3, 2.2, 3.0, -0.2)]
+    fixed = [(t, *long) for t in (1.0, 0.3, 2.2, 3.0, -0.2, 4e-4, -4e-4)]
     fixed += [(t, *short) for t in (0.1, 0.3, 0.6)]
     fixed += [(0.6, L, 1.0, 2.0) for L in (0.48, 0.51, 0.7)]  # v^2 / a is 0.5
     sizes = rng.numbers(0.3, 2.0, 6, 3)
@@ -176,3 +176,17 @@ def _(t, L, v, a):
         if t <= 0:
             return np.array([s, sd, acc if h > 0 else 0.0])
     return np.array([L, 0.0, 0.0])
+
+
+row.at_least_0(
+    L="a length",
+    v="a top speed",
+    a="a size",
+    t="before 0 it stands at its start, as at 0",
+)
+for move in ("a * t ** 2 / 2, a * t, a", "top * (t - ramp / 2), top, 0.0"):
+    for sign in (
+        f"np.abs((np.array([{move}])))",
+        f"np.maximum((np.array([{move}])), 0)",
+    ):
+        row.same(f"return {sign}", "before the brake none of the three is negative")

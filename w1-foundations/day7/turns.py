@@ -7,7 +7,7 @@ another mistake too hears of that one first.
 import numpy as np
 
 from labkit.judge import Draw, HeldOut
-from robo47 import se3
+from robo47 import screws, se3
 from robo47.checks import Array
 
 # At exactly pi the sign of the axis is free, so s is 1 there: both ways end at R1.
@@ -35,12 +35,12 @@ def _half(rng: Draw) -> list:
 
 
 def _half_or_nearly(rng: Draw) -> list:
-    turns = se3.axis_angle(rng.units(4), NEARLY_HALF)
+    turns = screws.axis_angle(rng.units(4), NEARLY_HALF)
     return [*_half(rng), *_ends(rng.rotations(4), turns, 0.5, rng)]
 
 
 def _small(rng: Draw, angles: tuple[float, ...] = SMALL) -> list:
-    turns = se3.axis_angle(rng.units(len(angles)), np.array(angles))
+    turns = screws.axis_angle(rng.units(len(angles)), np.array(angles))
     return _ends(rng.rotations(len(angles)), turns, 0.7, rng)
 
 

@@ -7,17 +7,20 @@ A joint is a screw: a line in the world, with the arm at q = 0. Screws and twist
 (omega; v). T_world_ee maps end-effector coordinates to the world. Metres, radians.
 """
 
+from typing import NamedTuple
+
 import kit  # noqa: F401 (goes on in the kit's own Python)
+import mujoco
 import numpy as np
 
 from robo47 import cli, panda, se3, verify
+from robo47 import screws as library
 from robo47.lesson.lab import Lab
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 TRIALS = 500  # random configurations that your own code is judged on
 LIBRARY_TRIALS = 10_000  # and the library; a hundred thousand take it a second
 SEED = 47  # the same random configurations at every run
-LINKS = [f"body:link{i}" for i in range(1, 8)]  # each turns about its own z axis
 # Franka's published table: alpha and theta turn about x and z, a and d move along them.
 # A table means nothing without its convention. This one is Craig's; swap two columns
 # or use another book's formula, and the arm ends up decimetres away.
@@ -163,6 +166,58 @@ def dh_fk(table: np.ndarray, q: np.ndarray) -> np.ndarray:
     # endregion 2.9
 
 
+class Seen(NamedTuple):
+    """What MuJoCo says of the arm at n configurations."""
+
+    T_ee: np.ndarray  # T_world_ee, (n, 4, 4)
+    T_links: np.ndarray  # of link1 to link7: each turns about its own z, (n, 7, 4, 4)
+    axes: np.ndarray  # the joints' axes in the world, as screws, (n, 7, 6)
+
+
+def mujoco_sees(model: mujoco.MjModel, q: np.ndarray) -> Seen:
+    """Return what MuJoCo says of configurations q, (n, 7)."""
+    data = mujoco.MjData(model)
+    site = data.site("attachment_site")
+    links = [model.body(f"link{i}").id for i in range(1, 8)]
+    T_ee = []
+    T_links = []
+    axes = []
+    for one in q:
+        data.qpos[:] = one
+        mujoco.mj_kinematics(model, data)  # fills xpos, xmat, xanchor and xaxis
+        T_ee.append(se3.make_T(site.xmat.reshape(3, 3), site.xpos))
+        T_links.append(se3.make_T(data.xmat[links].reshape(7, 3, 3), data.xpos[links]))
+        # xanchor is a point on the axis: Day 2's own formula, with NumPy's cross.
+        axes.append(np.hstack([data.xaxis, np.cross(data.xanchor, data.xaxis)]))
+    return Seen(np.array(T_ee), np.array(T_links), np.array(axes))
+
+
+def mujoco_rotation(axis: np.ndarray, theta: float) -> np.ndarray:
+    """Return MuJoCo's rotation by theta about an axis of length 1, (3, 3)."""
+    quat = np.empty(4)
+    R = np.empty(9)
+    mujoco.mju_axisAngle2Quat(quat, axis, theta)  # fills quat: (w, x, y, z)
+    mujoco.mju_quat2Mat(R, quat)  # fills R, row by row
+    return R.reshape(3, 3)
+
+
+def random_screws(n: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return n screws, (n, 6), of which every fourth is a slide, and angles, (n,)."""
+    rng = np.random.default_rng(SEED)
+    S = rng.normal(size=(n, 6))
+    S[:, :3] /= np.linalg.norm(S[:, :3], axis=1, keepdims=True)
+    S[::4, :3] = 0.0
+    return S, rng.uniform(-np.pi, np.pi, n)
+
+
+def bracket(S: np.ndarray) -> np.ndarray:
+    """Return [S], (4, 4): a screw as the rate of a pose. NumPy's cross, not yours."""
+    bracketed = np.zeros((4, 4))
+    bracketed[:3, :3] = np.cross(np.eye(3), S[:3])
+    bracketed[:3, 3] = S[3:]
+    return bracketed
+
+
 def on_purpose(screws: np.ndarray, M_home: np.ndarray) -> dict:
     """Return {what is wrong: q -> your own fk_space, given something wrong}."""
     omega, v = screws[:, :3], screws[:, 3:]
@@ -203,46 +258,59 @@ def main() -> int:
     model = panda.load("panda_nohand")
     print(panda.describe("panda_nohand"))
     q = np.vstack([np.zeros(7), READY_Q, verify.random_q(model, TRIALS, SEED)])
-    truth = verify.mujoco_poses(model, q)  # what MuJoCo says: every frame at every q
-    T_ee = truth["site:attachment_site"]
+    mujocos = mujoco_sees(model, q)
 
     lab.step("1. A rotation about any axis, not only about z")
-    lab.check("largest |[a] b - a x b|", verify.off_cross(skew, TRIALS))
-    off = verify.off_rotation(exp_rotation, TRIALS)
+    a, b = np.random.default_rng(SEED).normal(size=(2, TRIALS, 3))
+    off = [skew(x) @ y for x, y in zip(a, b, strict=True)] - np.cross(a, b)
+    lab.check("largest |[a] b - a x b|", off)
+    S, theta = random_screws(2 * TRIALS)
+    turns = S[1::2, :3], theta[1::2]  # every other screw: none of them is a slide
+    off = verify.each(exp_rotation, *turns) - verify.each(mujoco_rotation, *turns)
     lab.check("largest |exp_rotation - MuJoCo's|", off)
 
     lab.step("2. Seven joints, seven lines in the world, with the arm at q = 0")
-    T_links = np.stack([truth[link] for link in LINKS], axis=1)
-    screws, M_home = joint_screws(T_links[0]), T_ee[0]  # the first q is 0
+    screws = joint_screws(mujocos.T_links[0])  # the first q is 0
+    M_home = mujocos.T_ee[0]
     lab.show("(omega; v) of joint1 to joint7", screws, 4)
     lab.measured("third number of v of joint4's screw, m", screws[3, 5])
     # The function knows nothing of q = 0: elsewhere it has to find the lines too.
-    off = verify.each(joint_screws, T_links) - verify.mujoco_screws(model, q)
+    off = verify.each(joint_screws, mujocos.T_links) - mujocos.axes
     lab.check(f"largest |by hand - MuJoCo's axes| at {len(q)} q", off)
 
     lab.step("3. The motion along one screw: hinges, slides, and both in one")
-    lab.check("largest |exp_screw - library|", verify.off_motion(exp_screw, TRIALS))
+    # MuJoCo has no call for the motion along a screw: the library's stands in for it.
+    S, theta = random_screws(TRIALS)
+    off = verify.each(exp_screw, S, theta) - library.exp_screw(S, theta)
+    lab.check("largest |exp_screw - library|", off)
 
     lab.step("4. Seven motions, then M: what is wrong, and how far off is the hand?")
-    how_far_off(lab, on_purpose(screws, M_home), q[:22], T_ee[:22])
+    how_far_off(lab, on_purpose(screws, M_home), q[:22], mujocos.T_ee[:22])
     # The lesson of the day: at q = 0 nearly all of them are right. Never judge there.
-    off = [fk_space(screws, M_home, x) for x in q] - T_ee
+    off = [fk_space(screws, M_home, x) for x in q] - mujocos.T_ee
     lab.check("fk_space at q = 0, which says little", off[0])
     lab.record("poe_by_hand", np.abs(off[2:]).max(axis=(1, 2)),
                label=f"fk_space at {TRIALS} random q, which says all",
                config="random", seed=SEED)  # fmt: skip
 
     lab.step("5. The same arm as the end effector sees it")
-    lab.check("largest |[Ad(T) S] - T [S] inv(T)|", verify.off_adjoint(adjoint, T_ee))
+    S, _ = random_screws(len(q))
+    told = [adjoint(T) @ one for T, one in zip(mujocos.T_ee, S, strict=True)]
+    moved = mujocos.T_ee @ verify.each(bracket, S) @ se3.inverse(mujocos.T_ee)
+    off = verify.each(bracket, np.array(told)) - moved
+    lab.check("largest |[Ad(T) S] - T [S] inv(T)|", off)
     B = body_screws(screws, M_home)
     lab.show("body screws of joint1 to joint7", B, 4)
-    lab.check("largest |fk_body - MuJoCo|", [fk_body(B, M_home, x) for x in q] - T_ee)
-    off, _ = verify.off_library(model, LIBRARY_TRIALS)
+    off = [fk_body(B, M_home, x) for x in q] - mujocos.T_ee
+    lab.check("largest |fk_body - MuJoCo|", off)
+    many = verify.random_q(model, LIBRARY_TRIALS, SEED)
+    by_library = library.fk_space(panda.screws(model), panda.home_pose(model), many)
+    off = by_library - mujoco_sees(model, many).T_ee
     lab.check(f"the library robo47.screws at {LIBRARY_TRIALS:,}", off)
 
     lab.step("6. Denavit and Hartenberg: four numbers per link instead of six")
-    T_flange = T_ee.copy()  # the site sits on the flange, turned by 135 degrees
-    T_flange[:, :3, :3] = truth["body:link7"][:, :3, :3]
+    T_flange = mujocos.T_ee.copy()  # the site sits on the flange, turned by 135 degrees
+    T_flange[:, :3, :3] = mujocos.T_links[:, 6, :3, :3]
     off = [dh_fk(FRANKA_DH, x) for x in q] - T_flange
     lab.show("row 4 of Franka's table, at theta = 0", dh_link(*FRANKA_DH[3], 0.0), 4)
     link4 = model.body("link4")

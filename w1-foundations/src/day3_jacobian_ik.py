@@ -10,11 +10,15 @@ J_space, J_site and J_body are three different matrices. Metres, radians, second
 from itertools import pairwise
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
+import mujoco
 import numpy as np
 
-from robo47 import cli, panda, se3, verify
+from robo47 import cli, jacobian, panda, se3
 from robo47.lesson.lab import Lab
 from robo47.screws import adjoint, exp_screw, fk_space, skew
+from robo47.verify import each, random_q
+
+import day3_mujoco
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 TRIALS = 500  # random configurations that your own code is judged on
@@ -165,6 +169,35 @@ def body_jacobian(J_space: np.ndarray, T: np.ndarray) -> np.ndarray:
     # endregion 3.9
 
 
+def mujoco_J_site(model: mujoco.MjModel, q: np.ndarray) -> np.ndarray:
+    """Return MuJoCo's Jacobian of the hand's site at configurations q, (n, 6, 7)."""
+    data = mujoco.MjData(model)
+    site = data.site("attachment_site")
+    J = np.zeros((len(q), 2, 3, 7))
+    for one, (J_omega, J_v) in zip(q, J, strict=True):
+        data.qpos[:] = one
+        mujoco.mj_kinematics(model, data)  # fills where everything is
+        mujoco.mj_comPos(model, data)  # fills cdof, which mj_jacSite reads: else zeros
+        mujoco.mj_jacSite(model, data, J_v, J_omega, site.id)  # fills both; v is first
+    return J.reshape(-1, 6, 7)
+
+
+def mujoco_torques(model: mujoco.MjModel, q: np.ndarray, F: np.ndarray) -> np.ndarray:
+    """Return the torques, (n, 7), that stand for wrenches F, (n, 6), at the hand."""
+    data = mujoco.MjData(model)
+    site = data.site("attachment_site")
+    link = model.site_bodyid[site.id]  # a wrench acts on a body, at a point
+    torques = np.zeros((len(q), 7))
+    for one, push, tau in zip(q, F, torques, strict=True):
+        data.qpos[:] = one
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        moment = push[:3]
+        force = push[3:]
+        mujoco.mj_applyFT(model, data, force, moment, site.xpos, link, tau)  # adds
+    return torques
+
+
 def draw_circle(arm: tuple, path: np.ndarray, q: np.ndarray, damping: float) -> tuple:
     """Return how far off the hand is, mm, (n,), and joint speeds and angles, (n, 7)."""
     off, speeds, angles = [], [], []
@@ -183,13 +216,13 @@ def draw_circle(arm: tuple, path: np.ndarray, q: np.ndarray, damping: float) -> 
 
 def circles(lab: Lab, arm: tuple, limits: np.ndarray) -> None:
     """Draw the larger circle with damping, then both without."""
-    times = np.arange(0.0, verify.LAP, DT)
-    path, q = verify.circle(arm, limits, RADIUS, times)
+    times = np.arange(0.0, day3_mujoco.LAP, DT)
+    path, q = day3_mujoco.circle(arm, limits, RADIUS, times)
     off, speeds, _ = draw_circle(arm, path, q, DAMPING)
     lab.record("circle_dls", off, metric="max_err_mm", label="mm off the circle")
     lab.record("circle_dls", (speeds / SPEED).max(axis=1), metric="rate_over_limit",
                label="fastest joint, in parts of its limit")  # fmt: skip
-    least = verify.least_miss(arm, limits, path[:-1], q)
+    least = day3_mujoco.least_miss(arm, limits, path[:-1], q)
     print(f"  {np.sum(least > 1e-3)} of {len(least)} poses are out of reach,", end=" ")
     print(f"by up to {least.max():.2f} mm.")
     if RADIUS == 0.38:
@@ -198,7 +231,7 @@ def circles(lab: Lab, arm: tuple, limits: np.ndarray) -> None:
 
     lab.step("6. Without damping: another DT, other numbers")
     for radius in (EASY, RADIUS):
-        path, q = verify.circle(arm, limits, radius, times)
+        path, q = day3_mujoco.circle(arm, limits, radius, times)
         off, speeds, _ = draw_circle(arm, path, q, 0.0)
         print(f"  {radius:.3f} m: {off.max():8.2f} mm off, {speeds.max():8.2f} rad/s, "
               f"{(speeds / SPEED).max():.2f} of the limit")  # fmt: skip
@@ -209,53 +242,80 @@ def main() -> int:
     lab = Lab(__file__, __doc__)
     model = panda.load("panda_nohand")
     print(panda.describe("panda_nohand"))
-    arm, limits = (panda.screws(model), panda.home_pose(model)), model.jnt_range
-    q = np.vstack([np.zeros(7), READY_Q, verify.random_q(model, TRIALS, SEED)])
-    J_mujoco, T = verify.mujoco_site_jacobian(model, q), fk_space(*arm, q)
+    arm = panda.screws(model), panda.home_pose(model)
+    limits = model.jnt_range
+    q = np.vstack([np.zeros(7), READY_Q, random_q(model, TRIALS, SEED)])
+    T = fk_space(*arm, q)  # Day 2's
+    p = T[:, :3, 3]
+    J_mujoco = mujoco_J_site(model, q)
 
     lab.step("1. The Jacobian: every column is a joint's screw, where it is now")
-    J_space = verify.each(lambda x: space_jacobian(arm[0], x), q)
-    J_site = verify.each(site_jacobian, J_space, T[:, :3, 3])
+    J_space = each(lambda x: space_jacobian(arm[0], x), q)
+    J_site = each(site_jacobian, J_space, p)
     lab.show("J_site when the arm is ready: rows (omega; v)", J_site[1], 3)
     lab.check("J_space at q = 0: the screws", J_space[0] - arm[0].T)
     lab.record("jacobian_by_hand", np.abs(J_site[2:] - J_mujoco[2:]).max(axis=(1, 2)),
                label=f"J_site - MuJoCo's at {TRIALS} random q",
                config="random", seed=SEED)  # fmt: skip
     with lab.side_quest():
-        J_body = verify.each(body_jacobian, J_space, T)
-        lab.check("J_body - MuJoCo's, turned", J_body - verify.in_the_hand(J_mujoco, T))
-    _, off = verify.off_library(model, LIBRARY_TRIALS)
+        J_body = each(body_jacobian, J_space, T)
+        # Both halves of MuJoCo's, seen from the hand: its axes are the columns of R.
+        back = np.swapaxes(T[:, None, :3, :3], 2, 3)
+        turned = back @ J_mujoco.reshape(-1, 2, 3, 7)
+        lab.check("J_body - MuJoCo's, turned", J_body - turned.reshape(-1, 6, 7))
+    many = random_q(model, LIBRARY_TRIALS, SEED)
+    J_many = jacobian.space_jacobian(arm[0], many)
+    ends = fk_space(*arm, many)[:, :3, 3]
+    off = jacobian.site_jacobian(J_many, ends) - mujoco_J_site(model, many)
     lab.check(f"the library robo47.jacobian at {LIBRARY_TRIALS:,}", off)
 
     lab.step("2. How far is it to the goal? A rotation vector and a translation")
-    off = verify.off_log(log_rotation, TRIALS)
+    known = day3_mujoco.turns(TRIALS, SEED)
+    off = each(log_rotation, known.R) - known.logs
     lab.check(f"log_rotation of {TRIALS} turns, also near 0 and at pi", off)
-    off = verify.off_goal(pose_error, T[:-1], T[1:])
+    start = T[:-1]
+    goal = T[1:]
+    e = each(pose_error, start, goal)
+    off = (day3_mujoco.moved(start, e) - goal)[:, :3]
     lab.check("moved by the error, the hand is at the goal", off)
 
     lab.step("3. Steps, damped and unfelt, and the torques that a push costs")
-    off = verify.off_least_squares(dls_step, J_mujoco[:12])  # singular at q = 0
+    # |J dq - e|^2 + damping^2 |dq|^2 is one plain sum of squares, with 7 more rows.
+    J = J_mujoco[:12]  # singular at q = 0, the first
+    e = np.random.default_rng(SEED).normal(size=(len(J), 6))
+    damping = np.resize([0.05, 1.0], len(J))
+    rows = np.concatenate([J, damping[:, None, None] * np.eye(7)], axis=1)
+    right = np.hstack([e, np.zeros((len(J), 7))])
+    truth = each(lambda A, b: np.linalg.lstsq(A, b)[0], rows, right)
+    off = each(dls_step, J, e, damping) - truth
     lab.check("dls_step - least squares with 7 more rows", off)
     F = np.random.default_rng(SEED).normal(size=(len(q), 6))  # N m and N
-    tau = verify.each(joint_torques, J_space, T[:, :3, 3], F)
-    lab.check("joint_torques - MuJoCo's", tau - verify.mujoco_push(model, q, F))
-    tau = joint_torques(J_space[1], T[1, :3, 3], DOWN)
+    off = each(joint_torques, J_space, p, F) - mujoco_torques(model, q, F)
+    lab.check("joint_torques - MuJoCo's", off)
+    tau = joint_torques(J_space[1], p[1], DOWN)
     lab.measured("joint 2's torque at ready, pushing down with 10 N, N m", tau[1])
-    off = verify.off_null_vector(null_step, J_mujoco[1:])
+    J = J_mujoco[1:]  # of rank 6: one motion of the joints leaves the hand where it is
+    dq = np.random.default_rng(SEED).normal(size=(len(J), 7))
+    null = np.linalg.svd(J)[2][:, 6]
+    along = np.sum(dq * null, axis=1, keepdims=True) * null
+    off = each(null_step, J, dq) - along
     lab.check("null_step - the part along the null vector", off)
-    off = verify.off_volume(manipulability, J_mujoco)
+    squared = np.linalg.det(J_mujoco @ np.swapaxes(J_mujoco, 1, 2))
+    off = each(manipulability, J_mujoco) ** 2 - squared
     lab.check("manipulability squared - det(J J^T)", off)
-    flat, u = manipulability(J_mujoco[0]), np.linalg.svd(J_mujoco[0])[0][:, -1]
+    flat = manipulability(J_mujoco[0])
+    u = np.linalg.svd(J_mujoco[0])[0][:, -1]
     lab.show(f"At q = 0 it is {abs(flat):.4f}; no motor feels the wrench", np.abs(u), 3)
 
     lab.step("4. Inverse kinematics")
     off = solve_ik(*arm, T[1], READY_Q, limits) - READY_Q
     lab.check("a start that is there already comes back", off)
-    ends = verify.ends_of(solve_ik, arm, limits, q[2 : NEAR + 2], SEED)
+    ends = day3_mujoco.ends_of(solve_ik, arm, limits, q[2 : NEAR + 2], SEED)
     lab.check(f"share of {NEAR} near targets not reached", ends.missed, 0.03)
     lab.check("2 m away, out of reach: error / the best", ends.out_of_reach, 1.01)
     lab.check("rad beyond the joint limits", ends.beyond)
-    at = verify.tries(solve_ik, arm, limits, T[2 : FAR + 2], READY_Q, TRIES, SEED)
+    goals = T[2 : FAR + 2]
+    at = day3_mujoco.tries(solve_ik, arm, limits, goals, READY_Q, TRIES, SEED)
     print(f"  Reached of {len(at)}: {sum(at == 1)} from ready, {sum(at > 0)} in all.")
     lab.record("ik_by_hand", np.mean(at == 0), label="share not reached", seed=SEED,
                n_trials=len(at), n_failures=int(np.sum(at == 0)))  # fmt: skip

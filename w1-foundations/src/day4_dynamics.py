@@ -8,12 +8,15 @@ force), J_space (6, 7). Metres, radians, kilograms, newtons, seconds.
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
+import mujoco
 import numpy as np
 
-from robo47 import cli, panda, simulate, verify
+from robo47 import cli, panda, simulate
 from robo47.lesson.lab import Lab
 from robo47.screws import skew
-from robo47.verify import each, links
+from robo47.verify import each, random_q
+
+import day4_mujoco
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 TRIALS = 100  # random motions that your own code is judged on
@@ -193,18 +196,106 @@ def float_and_push(lab: Lab, model, arm) -> None:
     lab.measured("its speed 4.5 s after a push of 10 N for 0.5 s, m/s", speed[-1])
 
 
-def weigh(lab: Lab, model, now: links.Motions, G: np.ndarray) -> np.ndarray:
+def mujoco_inertias(model: mujoco.MjModel, q: np.ndarray) -> np.ndarray:
+    """Return spatial_inertia of links that are where MuJoCo has them, (7, 6, 6)."""
+    data = mujoco.MjData(model)
+    data.qpos[:] = q
+    mujoco.mj_kinematics(model, data)  # fills xipos, ximat: centre and principal axes
+    G = []
+    for link in [model.body(f"link{i}").id for i in range(1, 8)]:
+        R = data.ximat[link].reshape(3, 3)
+        inertia = R @ np.diag(model.body_inertia[link]) @ R.T
+        G.append(spatial_inertia(model.body_mass[link], data.xipos[link], inertia))
+    return np.array(G)
+
+
+def mujoco_masses(model: mujoco.MjModel, q: np.ndarray) -> np.ndarray:
+    """Return MuJoCo's mass matrices at configurations q, (n, 7, 7)."""
+    data = mujoco.MjData(model)
+    M = np.empty((len(q), 7, 7))
+    for one, rows in zip(q, M, strict=True):
+        data.qpos[:] = one
+        mujoco.mj_forward(model, data)  # fills M, in a form that only mj_mulM reads
+        for unit, row in zip(np.eye(7), rows, strict=True):
+            mujoco.mj_mulM(model, data, row, unit)  # fills row: M @ unit, of M = M^T
+    return M
+
+
+def mujoco_bias(model: mujoco.MjModel, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
+    """Return MuJoCo's Coriolis, centrifugal and gravity torques at states, (n, 7)."""
+    data = mujoco.MjData(model)
+    bias = []
+    for position, velocity in zip(q, qd, strict=True):
+        data.qpos[:] = position
+        data.qvel[:] = velocity
+        mujoco.mj_forward(model, data)  # fills qfrc_bias
+        bias.append(data.qfrc_bias.copy())
+    return np.array(bias)
+
+
+def mujoco_inverse(model: mujoco.MjModel, now: day4_mujoco.Motions) -> np.ndarray:
+    """Return the torques that MuJoCo finds for motions, (n, 7)."""
+    data = mujoco.MjData(model)
+    torques = []
+    for q, qd, qdd in zip(now.q, now.qd, now.qdd, strict=True):
+        data.qpos[:] = q
+        data.qvel[:] = qd
+        data.qacc[:] = qdd
+        mujoco.mj_inverse(model, data)  # fills qfrc_inverse
+        torques.append(data.qfrc_inverse.copy())
+    return np.array(torques)
+
+
+def mujoco_forward(
+    model: mujoco.MjModel, now: day4_mujoco.Motions, tau: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the accelerations that motors give, (n, 7), and the next velocities."""
+    data = mujoco.MjData(model)
+    qdd = []
+    after = []
+    for q, qd, ctrl in zip(now.q, now.qd, tau, strict=True):
+        mujoco.mj_resetData(model, data)  # nothing is left of the state before
+        data.qpos[:] = q
+        data.qvel[:] = qd
+        data.ctrl[:] = ctrl  # of a motor it is the torque itself
+        mujoco.mj_forward(model, data)  # fills qacc, and moves nothing
+        qdd.append(data.qacc.copy())
+        mujoco.mj_step(model, data)  # moves on by one time step: new qpos and qvel
+        after.append(data.qvel.copy())
+    return np.array(qdd), np.array(after)
+
+
+def mujoco_energies(model: mujoco.MjModel, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
+    """Return MuJoCo's kinetic and potential energy of link1 to link7, J, (n, 2)."""
+    model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY  # else they stay 0
+    data = mujoco.MjData(model)
+    link0 = model.body("link0")  # never moves, but MuJoCo counts its weight
+    still = -link0.mass[0] * model.opt.gravity @ link0.ipos
+    energies = []
+    for position, velocity in zip(q, qd, strict=True):
+        data.qpos[:] = position
+        data.qvel[:] = velocity
+        mujoco.mj_forward(model, data)  # fills energy: potential first, then kinetic
+        potential, kinetic = data.energy
+        energies.append([kinetic, potential - still])
+    return np.array(energies)
+
+
+def weigh(lab: Lab, model, now: day4_mujoco.Motions, G: np.ndarray) -> np.ndarray:
     """Compare your mass matrices with MuJoCo's, and return them, (n, 7, 7)."""
     M = each(mass_matrix, now.J, G, now.armature)
     lab.show("M when the arm is ready, kg m2", M[0], 3)
-    off = np.abs(M - now.M).max(axis=(1, 2))
+    truth = mujoco_masses(model, now.q)
+    off = np.abs(M - truth).max(axis=(1, 2))
     lab.record("mass_matrix", off, label=f"mass_matrix at {TRIALS} q, kg m2",
                config="random", seed=SEED)  # fmt: skip
     # The lesson of the day: symmetric, positive definite, and wrong all the same.
     print(f"  {'what is wrong':28}   off by   asymmetric by   least eigenvalue")
-    for what, bad in links.wrong_masses(link_inertias, mass_matrix, now).items():
-        print(f"  {what:28}{bad[0]:9.3f}{bad[1]:16.0e}{bad[2]:19.3f}")
-    off = links.library_masses(model, LIBRARY_TRIALS, SEED)
+    found = day4_mujoco.wrong_masses(link_inertias, mass_matrix, now, truth)
+    for what, bad in found.items():
+        print(f"  {what:28}{bad.off:9.3f}{bad.asymmetric:16.0e}{bad.least:19.3f}")
+    many = random_q(model, LIBRARY_TRIALS, SEED)
+    off = day4_mujoco.library_masses(model, many) - mujoco_masses(model, many)
     lab.check(f"the library robo47.dynamics_batch at {LIBRARY_TRIALS:,}", off)
     return M
 
@@ -214,17 +305,20 @@ def main() -> int:
     lab = Lab(__file__, __doc__)
     model = panda.load("panda_nohand", drive="torque")  # ctrl is a torque: no servos
     print(panda.describe("panda_nohand"))
-    arm, rng = panda.arm(model), np.random.default_rng(SEED)
-    now = links.motions(model, TRIALS, SEED, FASTEST, HARDEST)
+    arm = panda.arm(model)
+    rng = np.random.default_rng(SEED)
+    now = day4_mujoco.motions(model, TRIALS, SEED, FASTEST, HARDEST)
 
     lab.step("1. A body is many points; ten numbers say how all of them move")
-    off = links.momenta(spatial_inertia, TRIALS, rng)
+    body = day4_mujoco.clouds(TRIALS, rng)
+    G = each(spatial_inertia, body.m, body.c, body.inertia)
+    off = (G @ body.V[..., None])[..., 0] - body.momentum
     lab.check("largest |G V - the points' momentum|", off)
 
     lab.step("2. Every link of the arm, where it is now")
     lab.show("link1 to link7, kg", arm.masses, 3)
     G = each(link_inertias, now.T, *now.links)
-    off = G - [links.mujoco_inertias(model, x, spatial_inertia) for x in now.q]
+    off = G - [mujoco_inertias(model, x) for x in now.q]
     lab.check("largest |G - from MuJoCo's centres and axes|", off)
 
     lab.step("3. The mass matrix: how heavy each joint feels")
@@ -234,25 +328,36 @@ def main() -> int:
     tau = each(gravity_torque, now.J, now.links[0], now.coms, now.g)
     lab.show("gravity_torque when the arm is ready, N m", tau[0], 3)
     lab.measured("torque that holds joint4 at ready, N m", tau[0, 3])
-    off = tau - verify.mujoco_bias(model, now.q, 0 * now.qd)
+    off = tau - mujoco_bias(model, now.q, 0 * now.qd)
     lab.check("largest |by hand - MuJoCo's bias at rest|, N m", off)
 
     lab.step("5. The torque of a motion: out along the arm, and back")
-    lab.check("largest |ad(V) W - the cross products|", links.crosses(ad, TRIALS, rng))
+    V, W = rng.normal(size=(2, TRIALS, 6))
+    (w, v), (w2, v2) = np.split(V, 2, axis=1), np.split(W, 2, axis=1)
+    truth = np.hstack([np.cross(w, w2), np.cross(v, w2) + np.cross(w, v2)])
+    off = (each(ad, V) @ W[..., None])[..., 0] - truth
+    lab.check("largest |ad(V) W - the cross products|", off)
     off = each(inverse_dynamics, now.J, G, now.qd, now.qdd, now.g)
-    off = off - verify.mujoco_inverse_dynamics(model, now.q, now.qd, now.qdd)
+    off = off - mujoco_inverse(model, now)
     print(f"  Without armature and damping: off by {np.abs(off).max():.2f} N m")
     off = np.abs(off + now.armature * now.qdd + now.damping * now.qd).max(axis=1)
     lab.record("inverse_dynamics", off, label="with them, N m",
                config="random", seed=SEED)  # fmt: skip
     bias = each(bias_torque, now.J, G, now.qd, now.g)
-    off = bias - verify.mujoco_bias(model, now.q, now.qd)
+    off = bias - mujoco_bias(model, now.q, now.qd)
     lab.check("largest |bias_torque - MuJoCo's|, N m", off)
 
     lab.step("6. Forwards: what the simulator does with a torque")
-    off, after = links.forwards(model, now, M, bias, forward_dynamics)
+    share = np.random.default_rng(TRIALS).uniform(-0.5, 0.5, now.q.shape)
+    tau = share * simulate.limits(model)[1]
+    qdd, qd_next = mujoco_forward(model, now, tau)
+    off = each(forward_dynamics, M, bias, now.damping, now.qd, tau) - qdd
     lab.check("largest |qdd - MuJoCo's|, rad/s2", off)
-    lab.check("its next velocity, predicted, rad/s", after)
+    # MuJoCo's implicitfast takes the damping at the end of its step: M + h D, not M.
+    h = model.opt.timestep
+    M_step = M + h * np.diag(arm.damping)
+    qdd = each(forward_dynamics, M_step, bias, now.damping, now.qd, tau)
+    lab.check("its next velocity, predicted, rad/s", now.qd + h * qdd - qd_next)
 
     lab.step("7. Let go, float, push")
     float_and_push(lab, model, arm)
@@ -260,10 +365,10 @@ def main() -> int:
     lab.step("8. Side quest: energy, and who makes it")
     with lab.side_quest():
         off = each(energy, M, now.qd, now.links[0], now.coms, now.g)
-        off = off - links.mujoco_energies(model, now.q, now.qd)
+        off = off - mujoco_energies(model, now.q, now.qd)
         lab.check("largest |energy - MuJoCo's|, J", off)
     for name, ms in (("IMPLICITFAST", 2), ("IMPLICITFAST", 1), ("RK4", 2)):
-        gain = links.swing(name, ms / 1000)
+        gain = day4_mujoco.swing(name, ms / 1000)
         print(f"  {name:12} at {ms} ms: a free swing of 1 s gains {gain:.2g} J")
     return lab.finish()
 

@@ -8,11 +8,14 @@ Radians, rad/s, N m, seconds. The model (M, bias) comes from Day 4's library.
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
+import mujoco
 import numpy as np
 
-from robo47 import cli, panda, references, scenes, simulate
+from robo47 import cli, control, panda, references, scenes, simulate
 from robo47.lesson.lab import Lab
-from robo47.verify import loops
+from robo47.verify import each
+
+import day5_mujoco
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 DRIVE = "torque"  # motors, in N m; "servo" would take the same numbers for angles
@@ -153,7 +156,9 @@ def springs_and_gravity(arm, q, qd, ref):
 
 def with_model(arm, q, qd, ref, kp: float, kd: float) -> np.ndarray:
     """Give your computed torque, with Day 4's model of the arm from the library."""
-    now, e, ed = arm.at(q), ref[0] - q, ref[1] - qd
+    now = arm.at(q)
+    e = ref[0] - q
+    ed = ref[1] - qd
     return computed_torque(now.M, now.bias(qd), arm.damping, qd, e, ed, ref[2], kp, kd)
 
 
@@ -163,25 +168,31 @@ def equal_springs(omega: float = OMEGA, zeta: float = 1.0):
     return lambda *now: with_model(*now, kp, kd)
 
 
-def feedforward(arm, q, qd, ref):
-    """Give the model's torque for the reference's acceleration: no springs at all."""
+def without_springs(arm, q, qd, ref):
+    """Give the model's torque for the reference's acceleration, where the arm is."""
     return with_model(arm, q, qd, (q, qd, ref[2]), 0.0, 0.0)
+
+
+def feedforward(arm, q, qd, ref):
+    """Give the model's torque on the reference: known beforehand, nothing measured."""
+    return without_springs(arm, ref[0], ref[1], ref)
 
 
 def gains_outside(arm, q, qd, ref):
     """Give the public page's torque: the model's, and springs that M does not scale."""
     kp, kd = gains(OMEGA, 1.0)
-    return feedforward(arm, q, qd, ref) + pd_torque(ref[0] - q, ref[1] - qd, kp, kd)
+    return without_springs(arm, q, qd, ref) + pd_torque(ref[0] - q, ref[1] - qd, kp, kd)
 
 
 def with_integral(ki: float = KI, clamp: float = CLAMP, dt: float = 1.0 / RATE):
-    """Return the feedforward of an acceleration that comes from PID."""
-    (kp, kd), total = gains(OMEGA, 1.0), np.zeros(7)
+    """Return the model's torque for an acceleration that comes from PID."""
+    kp, kd = gains(OMEGA, 1.0)
+    total = np.zeros(7)
 
     def law(arm, q, qd, ref):
         nonlocal total
         acc, total = pid_step(ref[0] - q, ref[1] - qd, total, kp, kd, ki, dt, clamp)
-        return feedforward(arm, q, qd, (*ref[:2], ref[2] + acc))
+        return without_springs(arm, q, qd, (*ref[:2], ref[2] + acc))
 
     return law
 
@@ -189,37 +200,124 @@ def with_integral(ki: float = KI, clamp: float = CLAMP, dt: float = 1.0 / RATE):
 def run(model, arm, law, reference, seconds: float, start=READY_Q, rate=RATE):
     """Close the loop: the law sees the measured q and qd, the motors their limits."""
     limits = simulate.limits(model)[1]
-    loop = lambda t, q, qd: saturate(law(arm, q, qd, reference(t)), limits)  # noqa: E731
-    return simulate.run(model, simulate.start(model, start), loop, seconds, rate=rate)
+
+    def loop(t: float, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
+        return saturate(law(arm, q, qd, reference(t)), limits)
+
+    data = simulate.start(model, start)
+    # Every period asks the loop, writes data.ctrl and calls mujoco.mj_step.
+    return simulate.run(model, data, loop, seconds, rate=rate)
 
 
-def ladder(lab: Lab, model, arm, swing) -> None:
-    """Follow a swing of all joints with one controller after the other."""
-    logs = {"the model file's servos": loops.by_servos(swing, 2.0)}
-    laws = {"springs": springs, "springs and gravity": springs_and_gravity,
-            "feedforward, no springs": feedforward, "gains outside M": gains_outside,
-            "computed torque": equal_springs()}  # fmt: skip
-    logs |= {k: run(model, arm, law, swing, 2.0) for k, law in laws.items()}
-    for name, log in logs.items():
-        error = loops.tracking(log, swing)
-        print(f"  {name:24} {error.max():8.2f} mrad")
-    lab.record("tracking", error.max(axis=1), label="computed torque, mrad")
+def rest(torque_at, kp: Gain) -> np.ndarray:
+    """Return where the springs rest: sag_step, asked 100 times at its own answer."""
+    q = READY_Q
+    for _ in range(100):
+        q = sag_step(READY_Q, torque_at(q), kp)
+    return q
+
+
+def tracking(log, reference) -> np.ndarray:
+    """Return how far each joint is from a reference at every instant, mrad, (N, 7)."""
+    return 1e3 * np.abs(log.q - np.array([reference(t)[0] for t in log.t]))
+
+
+def off_inverse(model, arm, at: day5_mujoco.States) -> np.ndarray:
+    """Return computed_torque minus MuJoCo's torque for that acceleration, (n, 7)."""
+    kp = 400.0  # omega 20, zeta 0.7
+    kd = 28.0
+    data = mujoco.MjData(model)
+    off = []
+    for q, qd, e, ed, qdd_ref in zip(*at, strict=True):
+        now = arm.at(q)
+        known = now.M, now.bias(qd), arm.damping, qd
+        tau = computed_torque(*known, e, ed, qdd_ref, kp, kd)
+        data.qpos[:] = q
+        data.qvel[:] = qd
+        data.qacc[:] = qdd_ref + kp * e + kd * ed
+        mujoco.mj_inverse(model, data)  # fills qfrc_inverse, with damping and armature
+        off.append(tau - data.qfrc_inverse)
+    return np.array(off)
+
+
+def off_library(at: day5_mujoco.States) -> dict:
+    """Return how far the others are from robo47.control: MuJoCo has none of them."""
+    own = {
+        "pd_torque": pd_torque,
+        "gains": gains,
+        "error_response": error_response,
+        "sag_step": sag_step,
+        "gravity_pd": gravity_pd,
+        "pid_step": pid_step,
+        "saturate": saturate,
+    }
+    given = day5_mujoco.arguments(at, SEED)
+    return {
+        name: each(own[name], *given[name]) - each(getattr(control, name), *given[name])
+        for name in own
+    }
+
+
+def ladder(model, arm, swing) -> dict:
+    """Return how far off a swing of all joints seven controllers are, mrad, (N, 7)."""
+    laws = {
+        "springs": springs,
+        "springs and gravity": springs_and_gravity,
+        "feedforward": feedforward,
+        "model at q, no springs": without_springs,
+        "gains outside M": gains_outside,
+        "computed torque": equal_springs(),
+    }
+    logs = {"the model file's servos": day5_mujoco.servos_follow(swing, 2.0)}
+    for name, law in laws.items():
+        logs[name] = run(model, arm, law, swing, 2.0)
+    return {name: tracking(log, swing) for name, log in logs.items()}
+
+
+def off_servo(tau: np.ndarray) -> np.ndarray:
+    """Return the torque of MuJoCo's servos minus the one that was asked for, (7,)."""
+    model = panda.load("panda_nohand")
+    data = simulate.start(model, READY_Q, [0.1, -0.1] * 3 + [0.1])
+    servos = day5_mujoco.servos_of(model)
+    data.ctrl[:] = servo_ctrl(tau, data.qpos, data.qvel, servos.kp, servos.kd)
+    mujoco.mj_forward(model, data)  # fills actuator_force; mj_step would move on
+    return data.actuator_force - tau
+
+
+def through_servos(law, reference) -> float:
+    """Return how far off servos are that are commanded torques, at 500 Hz, in mrad."""
+    model = panda.load("panda_nohand")
+    arm = panda.arm(model)
+    servos = day5_mujoco.servos_of(model)
+
+    def loop(t: float, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
+        tau = law(arm, q, qd, reference(t))
+        return servo_ctrl(tau, q, qd, servos.kp, servos.kd)
+
+    data = simulate.start(model, READY_Q)
+    log = simulate.run(model, data, loop, 2.0, rate=500)  # at 250: 94 mrad
+    return tracking(log, reference).max()
 
 
 def main() -> int:
     """Run the lab from top to bottom; return 0 when every check passed."""
     lab = Lab(__file__, __doc__)
-    model, goal = loops.motors(DRIVE, INTEGRATOR), references.hold(READY_Q)
-    swing = references.raised_cosine(READY_Q, REACH)  # out and back in 2 s
+    model = day5_mujoco.motors(DRIVE, INTEGRATOR)
     arm = panda.arm(model)  # Day 4's M, bias and gravity torque, of the library
+    goal = references.hold(READY_Q)
+    swing = references.raised_cosine(READY_Q, REACH)  # out and back in 2 s
     print(panda.describe("panda_nohand"))
 
     lab.step(f"1. Your functions by value, at {TRIALS} random states")
     # A loop hides mistakes: with the gains outside M it tracks as well.
-    loops.compare(lab.check, globals(), TRIALS, SEED)
+    at = day5_mujoco.states(model, TRIALS, SEED)
+    lab.check("computed_torque - MuJoCo's mj_inverse, N m", off_inverse(model, arm, at))
+    print("  the library robo47.control instead of MuJoCo:")
+    for name, off in off_library(at).items():
+        lab.check(name, off)
 
     lab.step("2. Springs sag: predicted by gravity over stiffness")
-    predicted = loops.rest(sag_step, READY_Q, lambda q: arm.at(q).gravity_torque, KP)
+    predicted = rest(lambda q: arm.at(q).gravity_torque, KP)
     log = run(model, arm, springs, goal, 6.0)
     low = [1e3 * (READY_Q - q)[3] for q in (predicted, log.q[-1])]
     lab.predict("joint 4 hangs low by", *low, "mrad")
@@ -230,10 +328,12 @@ def main() -> int:
     lab.check("with gravity's torque added, rad", log.q - READY_Q)
 
     lab.step("3. Computed torque: seven equal springs, one curve")
-    apart, k = [], round(0.3 * RATE)
+    apart = []
+    k = round(0.3 * RATE)
     for zeta in (0.5, 1.0, 2.0):
         log = run(model, arm, equal_springs(10.0, zeta), goal, 1.0, READY_Q - E0)
-        e, wanted = (READY_Q - log.q) / E0, error_response(log.t, 10.0, zeta)
+        wanted = error_response(log.t, 10.0, zeta)
+        e = (READY_Q - log.q) / E0
         apart.append(np.abs(e.T - wanted).max())
         lab.predict(f"zeta {zeta:g}: after 0.3 s", wanted[k], e[k].mean(), "of e0")
     lab.record("error_dynamics", apart, label="curve - predicted, of e0", seed=0)
@@ -241,14 +341,16 @@ def main() -> int:
     off = (READY_Q - log.q) / E0 - error_response(log.t, OMEGA, 1.0)[:, None]
     print(f"  gains outside M miss their curve by {np.abs(off).max():.3f} of e0")
 
-    lab.step("4. Six controllers follow a swing of all joints, largest error")
-    ladder(lab, model, arm, swing)  # the more the model does, the less do springs
+    lab.step("4. Seven controllers follow a swing of all joints, largest error")
+    for name, off in ladder(model, arm, swing).items():
+        print(f"  {name:24} {off.max():8.2f} mrad")
+    lab.record("tracking", off.max(axis=1), label="computed torque, mrad")
 
     lab.step("5. 1 kg nobody told the model about")
-    heavy = loops.motors(DRIVE, INTEGRATOR, scenes.hang_kilogram)
+    heavy = day5_mujoco.motors(DRIVE, INTEGRATOR, scenes.hang_kilogram)
     # What the springs, of unit inertia, have to hold: M^-1 J^T F.
     load = lambda q: np.linalg.solve(arm.at(q).M, arm.at(q).J_site[5] * 9.81)  # noqa: E731
-    predicted = loops.rest(sag_step, READY_Q, load, gains(OMEGA, 1.0)[0])
+    predicted = rest(load, gains(OMEGA, 1.0)[0])
     log = run(heavy, arm, equal_springs(), goal, 1.5)
     low = [1e3 * (READY_Q - q)[3] for q in (predicted, log.q[-1])]
     lab.predict("joint 4 under 1 kg hangs low by", *low, "mrad")
@@ -259,9 +361,21 @@ def main() -> int:
     lab.step("6. Side quest: how stiff can it be?")
     with lab.side_quest():
         start = READY_Q - 1e-8 * E0
-        loops.compare_breaking(lab, model, equal_springs, stiffest_omega, RATE, start)
-        lab.check("a servo's torque as asked, N m", loops.servo_torque(servo_ctrl))
-        off = loops.through_servos(equal_springs(), servo_ctrl, swing)
+        h = model.opt.timestep
+        limit = stiffest_omega(h)
+        found = day5_mujoco.breaking(model, equal_springs, 1 / h, start)
+        lab.predict("torque every 2 ms, loop breaks at", limit, found, "rad/s")
+        lab.check("largest omega, rad/s", limit - found, limit=2.0)
+        n = simulate.steps_per_period(model, RATE)
+        limit = control.stiffest_omega(h, n)
+        found = day5_mujoco.breaking(model, equal_springs, RATE, start)
+        what = f"torque every {1e3 / RATE:g} ms, loop breaks at"
+        lab.predict(what, limit, found, "rad/s")
+        whose = f"the library's, at the day's {RATE:g} Hz, rad/s"
+        lab.check(whose, limit - found, limit=2.0)
+        off = off_servo(np.array([5.0, -20, 3, 15, 1, 2, -1]))
+        lab.check("a servo's torque as asked, N m", off)
+        off = through_servos(equal_springs(), swing)
         print(f"  and yet computed torque through servos is {off:.1f} mrad off. Why?")
     return lab.finish()
 

@@ -8,12 +8,15 @@ wrench is (moment; force). M is with armature. Metres, radians, newtons, kilogra
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
+import mujoco
 import numpy as np
 
-from robo47 import cli, contact, control, panda, scenes, screws
+from robo47 import cli, control, jacobian, panda, scenes, screws, simulate, verify
 from robo47 import task_space as library
 from robo47.lesson.lab import Lab
-from robo47.verify import hand
+from robo47.rotation_log import small_pose_error
+
+import day6_mujoco
 
 READY_Q = panda.READY_Q
 TRIALS = 50  # random states that your own code is judged on
@@ -154,10 +157,11 @@ def soft_hand(arm, q_rest: np.ndarray, height=None, stiffness: np.ndarray = K):
 
     def law(t: float, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
         now = arm.at(q)
-        J, Lambda = now.J_site, task_inertia(now.J_site, now.M)
+        J = now.J_site
+        Lambda = task_inertia(J, now.M)
         if height:
             T_goal[2, 3] = height(t)
-        e = contact.small_pose_error(now.T_world_ee, T_goal)
+        e = small_pose_error(now.T_world_ee, T_goal)
         D = critical_damping(stiffness, Lambda)
         wrench = spring_wrench(e, -J @ qd, np.diag(stiffness), D)
         back = control.pd_torque(q_rest - q, -qd, *ELBOW)
@@ -169,24 +173,8 @@ def soft_hand(arm, q_rest: np.ndarray, height=None, stiffness: np.ndarray = K):
 
 def stiff_arm(arm, q_start: np.ndarray):
     """Return a controller for servos: 10 mm above the table's top to 50 below it."""
-    q_deep = contact.above_table(scenes.press_table(), -0.05)
+    q_deep = day6_mujoco.above_table(scenes.press_table(), -0.05)
     return lambda t, q, qd: q_start + (q_deep - q_start) * min(t * SINK / 0.06, 1.0)
-
-
-def press(lab: Lab, at: list[hand.State]) -> None:
-    """Press on the table softly, with the force that was chosen; then stiffly."""
-    hand.compare(lab.check, at, set_point_for_force=set_point_for_force)
-    depth = set_point_for_force(PRESS, K[5], scenes.TOUCH)
-    lab.show("height to command, m; the tip touches at 0.42", depth, 3)
-    height = lambda t: max(depth, scenes.TOUCH + 0.01 - SINK * t)  # noqa: E731
-    soft = contact.press(lambda arm, q: soft_hand(arm, q, height), rate=RATE)
-    # The file's own servos, told to go 50 mm into the table, know of no force.
-    stiff = contact.press(stiff_arm, drive="servo", seconds=3.0)
-    for name, felt in (("soft", soft), ("stiff", stiff)):
-        print(f"  {name:5} arm: {felt[-1]:6.1f} N in the end; peak {felt.max():.1f} N")
-    lab.measured("force of the soft arm, told to go 50 mm into a table, N", soft[-1])
-    lab.measured("force of the stiff arm, the model file's servos, N", stiff[-1])
-    lab.record("press_predicted", soft[-1] / PRESS - 1, label="soft arm, part of 20 N")
 
 
 def circling(arm, project):
@@ -194,16 +182,123 @@ def circling(arm, project):
     T_start = arm.at(READY_Q).T_world_ee
 
     def law(t: float, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
-        now, (T, V, A) = arm.at(q), contact.circle(t, T_start, RADIUS, TURN)
-        J, Lambda = now.J_site, task_inertia(now.J_site, now.M)
+        now = arm.at(q)
+        to = day6_mujoco.circle(t, T_start, RADIUS, TURN)
+        J = now.J_site
+        Lambda = task_inertia(J, now.M)
         drift = site_bias(now.J_space, qd, now.T_world_ee[:3, 3])
-        e = contact.small_pose_error(now.T_world_ee, T)
-        acc = A + 2 * OMEGA * (V - J @ qd) + OMEGA**2 * e
+        e = small_pose_error(now.T_world_ee, to.T)
+        acc = to.A + 2 * OMEGA * (to.V - J @ qd) + OMEGA**2 * e
         torque = osc_torque(J, Lambda, now.bias(qd), drift, acc) + arm.damping * qd
         back = control.pd_torque(READY_Q - q, -qd, *ELBOW)
         return torque + project(J, now.M, Lambda, back)
 
     return law
+
+
+def kinematic(J: np.ndarray, M, Lambda, tau: np.ndarray) -> np.ndarray:
+    """Return tau through Day 3's projector, which is for speeds: tau - J^+ J tau."""
+    return jacobian.null_step(J, tau)
+
+
+def pushed(model, q, qd, tau: np.ndarray, wrench: np.ndarray):
+    """Return MuJoCo's data of an arm under torques, (7,), and a push at its hand."""
+    data = simulate.start(model, q, qd)
+    data.qfrc_applied[:] = tau
+    push = simulate.push_at(day6_mujoco.SITE, wrench)
+    push(model, data)  # mujoco.mj_applyFT adds J^T F to qfrc_applied
+    mujoco.mj_forward(model, data)  # fills qacc, the joints' acceleration
+    return data
+
+
+def hand_acceleration(model, data) -> np.ndarray:
+    """Return how MuJoCo's hand accelerates, (6,): J qdd, and the rate of J times qd."""
+    J = verify.mujoco_site_jacobian(model, data.qpos)  # mujoco.mj_jacSite
+    drift = verify.mujoco_site_bias(model, data.qpos, data.qvel)  # differences of it
+    return J @ data.qacc + drift
+
+
+def mass_felt(model, at: list, inertia) -> np.ndarray:
+    """Return |Lambda a - F| / |F| of MuJoCo's resting hand, pushed by F, (n,)."""
+    off = []
+    for s in at:
+        data = pushed(model, s.now.q, 0.0, s.now.gravity_torque, s.wrench)
+        felt = inertia(s.now.J_site, s.now.M) @ hand_acceleration(model, data)
+        off.append(np.linalg.norm(felt - s.wrench) / np.linalg.norm(s.wrench))
+    return np.array(off)
+
+
+def off_drift(model, at: list) -> np.ndarray:
+    """Return site_bias minus the rate of MuJoCo's Jacobian times qd, (n, 6)."""
+    off = []
+    for s in at:
+        truth = verify.mujoco_site_bias(model, s.now.q, s.qd)  # of mujoco.mj_jacSite
+        off.append(site_bias(s.now.J_space, s.qd, s.now.T_world_ee[:3, 3]) - truth)
+    return np.array(off)
+
+
+def off_asked(model, arm, at: list) -> np.ndarray:
+    """Return how MuJoCo's hand accelerates minus what osc_torque was asked, (n, 6)."""
+    off = []
+    for s in at:
+        J = s.now.J_site
+        Lambda = task_inertia(J, s.now.M)
+        drift = site_bias(s.now.J_space, s.qd, s.now.T_world_ee[:3, 3])
+        tau = osc_torque(J, Lambda, s.now.bias(s.qd), drift, s.acc)
+        data = pushed(model, s.now.q, s.qd, tau + arm.damping * s.qd, np.zeros(6))
+        off.append(hand_acceleration(model, data) - s.acc)
+    return np.array(off)
+
+
+def felt_of(model, at: list, project) -> np.ndarray:
+    """Return how MuJoCo's resting hand accelerates under projected torques, (n, 6)."""
+    felt = []
+    for s in at:
+        J = s.now.J_site
+        idle = project(J, s.now.M, task_inertia(J, s.now.M), s.torque)
+        data = pushed(model, s.now.q, 0.0, s.now.gravity_torque + idle, np.zeros(6))
+        felt.append(hand_acceleration(model, data))
+    return np.array(felt)
+
+
+def off_held(model, arm, at: list) -> np.ndarray:
+    """Return the joints' qdd in MuJoCo when a hand is pushed back as it pushes, (n, 7).
+
+    The arm's own motion is held by bias and damping, so nothing is left.
+    """
+    off = []
+    for s in at:
+        given = s.now.bias(s.qd), arm.damping, s.qd
+        tau = impedance_torque(s.now.J_site, s.wrench, *given, s.torque) - s.torque
+        off.append(pushed(model, s.now.q, s.qd, tau, -s.wrench).qacc)
+    return np.array(off)
+
+
+def off_library(name: str, own, at: list) -> np.ndarray:
+    """Return how far a function is from robo47.task_space: MuJoCo has none of them."""
+    columns = day6_mujoco.arguments(at)[name]
+    truth = getattr(library, name)(*columns)
+    return verify.each(own, *columns) - truth
+
+
+def press(lab: Lab) -> None:
+    """Press on the table softly, with the force that was chosen; then stiffly."""
+    depth = set_point_for_force(PRESS, K[5], scenes.TOUCH)
+    lab.show("height to command, m; the tip touches at 0.42", depth, 3)
+
+    def soft_arm(arm, q: np.ndarray):
+        sink = lambda t: max(depth, scenes.TOUCH + 0.01 - SINK * t)  # noqa: E731
+        return soft_hand(arm, q, sink)
+
+    # After every mujoco.mj_step: mujoco.mj_contactForce, of tip and table.
+    soft = day6_mujoco.press(soft_arm, rate=RATE)
+    # The file's own servos, told to go 50 mm into the table, know of no force.
+    stiff = day6_mujoco.press(stiff_arm, drive="servo", seconds=3.0)
+    for name, felt in (("soft", soft), ("stiff", stiff)):
+        print(f"  {name:5} arm: {felt[-1]:6.1f} N in the end; peak {felt.max():.1f} N")
+    lab.measured("force of the soft arm, told to go 50 mm into a table, N", soft[-1])
+    lab.measured("force of the stiff arm, the model file's servos, N", stiff[-1])
+    lab.record("press_predicted", soft[-1] / PRESS - 1, label="soft arm, part of 20 N")
 
 
 def main() -> int:
@@ -212,57 +307,62 @@ def main() -> int:
     model = panda.load("panda_nohand", drive="torque")  # motors: ctrl is a torque
     arm = panda.arm(model)
     print(panda.describe("panda_nohand"))
-    at = hand.states(model, TRIALS, SEED, SIGMA)
+    at = day6_mujoco.states(model, TRIALS, SEED, SIGMA)
 
     lab.step("1. What the hand weighs: push it, and see how it accelerates")
     Lambda = task_inertia(arm.at(READY_Q).J_site, arm.at(READY_Q).M)
     lab.show("Lambda's lower right at ready, in kg", Lambda[3:, 3:], 3)
     free = 1 / np.diag(np.linalg.inv(Lambda))[3:]
-    lab.show("and of a hand that nobody holds: what it weighs along x, y, z", free, 3)
+    lab.show("and the apparent mass of an unconstrained hand, along x, y, z", free, 3)
     # Newton's law at the hand; MuJoCo pushes, and knows nothing of Lambda.
-    off = np.linalg.norm(hand.mass_felt(model, at, task_inertia), axis=1)
-    lab.record("task_inertia", off, label="|Lambda a - F| / |F|, worst push",
+    lab.record("task_inertia", mass_felt(model, at, task_inertia),
+               label="|Lambda a - F| / |F|, worst push",
                config="random", seed=SEED)  # fmt: skip
-    off = hand.mass_felt(model, at, library.task_inertia)
+    off = mass_felt(model, at, library.task_inertia)
     lab.check("the library robo47.task_space, the same push", off)
 
     lab.step("2. Torques for a wanted acceleration of the hand")
-    off = hand.drift(model, at, site_bias)
-    lab.check("site_bias - MuJoCo's rate of J times qd", off)
-    off = hand.asked_for(model, at, task_inertia, site_bias, osc_torque)
+    lab.check("site_bias - MuJoCo's rate of J times qd", off_drift(model, at))
+    off = off_asked(model, arm, at)
     lab.check("MuJoCo's hand accelerates as osc_torque asks", off)
 
     lab.step("3. What is left for the elbow")
-    off = hand.unfelt(model, at, task_inertia, null_torque)
+    off = felt_of(model, at, null_torque)
     lab.check("the hand's acceleration under null_torque", off)
-    hand.compare(lab.check, at, null_torque=null_torque)
-    odd = np.abs(hand.unfelt(model, at, task_inertia, hand.kinematic)).max(axis=1)
+    off = off_library("null_torque", null_torque, at)
+    lab.check("null_torque - the library's", off)
+    odd = np.abs(felt_of(model, at, kinematic)).max(axis=1)
     print("  Day 3's projector in its place: "
           f"the hand feels {np.median(odd):.1f} rad/s2 or m/s2.")  # fmt: skip
 
     lab.step("4. A hand that is a spring")
-    hand.compare(lab.check, at, spring_wrench=spring_wrench,
-                 critical_damping=critical_damping)  # fmt: skip
-    off = hand.held(model, at, impedance_torque)
+    off = off_library("spring_wrench", spring_wrench, at)
+    lab.check("spring_wrench - the library's", off)
+    off = off_library("critical_damping", critical_damping, at)
+    lab.check("critical_damping - the library's", off)
+    off = off_held(model, arm, at)
     lab.check("impedance_torque against MuJoCo's push", off)
     lab.show("pushed with 10 N and 1 N m; predicted, rad and m", PUSH / K)
-    moved = hand.rest_after(model, soft_hand(arm, READY_Q), PUSH, RATE)
+    moved = day6_mujoco.rest_after(model, soft_hand(arm, READY_Q), PUSH, RATE)
     lab.show("where the hand came to rest", moved)
     lab.measured("way of a hand on 400 N/m, pushed with 10 N, mm", 1e3 * moved[3])
     lab.record("push_predicted", moved - PUSH / K, label="largest difference")
 
     lab.step("5. Pressing on a table, with a force that was chosen")
-    press(lab, at)
+    off = off_library("set_point_for_force", set_point_for_force, at)
+    lab.check("set_point_for_force - the library's", off)
+    press(lab)
 
     lab.step("6. An upright circle, 0.12 m in radius, in two seconds")
-    for name, project in (("Day 3's", hand.kinematic), ("today's", null_torque)):
-        off = 1e3 * hand.off_circle(model, circling(arm, project), RADIUS, TURN)
+    for name, project in (("Day 3's", kinematic), ("today's", null_torque)):
+        off = 1e3 * day6_mujoco.off_circle(model, circling(arm, project), RADIUS, TURN)
         print(f"  with {name} projector it is at most {off.max():.3f} mm off")
     lab.record("osc_circle", off, label="today's, mm")
 
     lab.step("7. Side quest: a spring sideways, a force downwards")
     with lab.side_quest():
-        hand.compare(lab.check, at, hybrid_wrench=hybrid_wrench)
+        off = off_library("hybrid_wrench", hybrid_wrench, at)
+        lab.check("hybrid_wrench - the library's", off)
     return lab.finish()
 
 

@@ -7,12 +7,26 @@ s is the part of a path that is done, 0 to 1; sd and sdd are its derivatives. T_
 maps x coordinates to the world. Metres, radians, seconds, kilograms.
 """
 
+from dataclasses import replace
+
 import kit  # noqa: F401 (goes on in the kit's own Python)
+import mujoco
 import numpy as np
 
-from robo47 import capstone, cli, jacobian, panda, screws, se3, simulate
+from robo47 import (
+    capstone,
+    cli,
+    jacobian,
+    panda,
+    screws,
+    se3,
+    simulate,
+    trajectory,
+    verify,
+)
 from robo47.lesson.lab import Lab
-from robo47.verify import moves
+
+import day7_mujoco
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
 GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s2
@@ -174,17 +188,79 @@ def heaviest_cube(grip: float, mu: float, acceleration: float) -> float:
     # endregion 7.9
 
 
+def off_library(name: str, own, at: day7_mujoco.Moves) -> np.ndarray:
+    """Return how far a function is from robo47's: MuJoCo knows no trajectories."""
+    columns = day7_mujoco.arguments(at, SEED)[name]
+    truth = getattr(trajectory, name)(*columns)
+    return verify.each(own, *columns) - truth
+
+
+def limits_used(at: day7_mujoco.Moves) -> np.ndarray:
+    """Return the largest share of any limit that each joint move uses, (n,)."""
+    limits = V_MAX, A_MAX
+    inner = [0.5 - np.sqrt(3) / 6, 0.5, 0.5 + np.sqrt(3) / 6]  # where both are largest
+
+    def share(q0: np.ndarray, q1: np.ndarray) -> float:
+        duration = quintic_duration(q1 - q0, *limits)
+        way = [
+            joint_move(q0, q1, x * duration, duration)
+            for x in (*inner, *np.linspace(0, 1, 20))
+        ]
+        return float((np.abs(way).max(axis=0)[1:] / limits).max())
+
+    return verify.each(share, at.q0, at.q1)
+
+
+def missed_ends(at: day7_mujoco.Moves) -> np.ndarray:
+    """Return how far your quintics miss what they had to be at both ends, (n, 6)."""
+    wanted = np.random.default_rng(SEED).uniform(-1, 1, (2, len(at.T), 3))
+
+    def ends(start: np.ndarray, end: np.ndarray, duration: float) -> list[float]:
+        p = np.polynomial.Polynomial(quintic_coefficients(start, end, duration))
+        return [f(t) for t in (0.0, duration) for f in (p, p.deriv(), p.deriv(2))]
+
+    return verify.each(ends, *wanted, at.T) - np.concatenate(wanted, axis=1)
+
+
+def off_carried(model, configurations: np.ndarray) -> np.ndarray:
+    """Return the bias of an arm whose link 7 carries the hand minus MuJoCo's, N m."""
+    heavier = panda.inertias(model).carrying(carry, *panda.hand_inertia(model))
+    arm = replace(panda.arm(model), **heavier._asdict())  # seven links, no hand
+    data = mujoco.MjData(model)  # the hand is a body of its own, with two fingers
+    rng = np.random.default_rng(SEED)
+    off = []
+    for q, qd in zip(
+        configurations, rng.uniform(-2, 2, configurations.shape), strict=True
+    ):
+        data.qpos[:7] = q
+        data.qvel[:7] = qd
+        mujoco.mj_forward(model, data)  # fills qfrc_bias
+        off.append(arm.at(q).bias(qd) - data.qfrc_bias[:7])
+    return np.array(off)
+
+
+def cubic(t: float, duration: float) -> np.ndarray:
+    """Return s, sd and sdd of the softest scaling with four coefficients, (3,)."""
+    x = t / duration
+    return np.array([3 * x**2 - 2 * x**3, 6 * x - 6 * x**2, 6 - 12 * x]) / [
+        1,
+        duration,
+        duration**2,
+    ]
+
+
 def profiles(duration: float) -> dict:
     """Return {name: (s, sd, sdd at time t; seconds)} of five ways to go from 0 to 1."""
     dq = np.abs(GOAL_Q - READY_Q)
-    v, a = np.min(V_MAX / dq), np.min(A_MAX / dq)  # of s: the slowest joint decides
+    v = np.min(V_MAX / dq)  # of s: the slowest joint decides
+    a = np.min(A_MAX / dq)
     return {
         "step": (lambda t: np.array([1.0, 0.0, 0.0]), duration),
         "constant speed": (
             lambda t: np.array([t / duration, 1 / duration, 0.0]),
             duration,
         ),
-        "cubic": (lambda t: moves.cubic(t, duration), duration),
+        "cubic": (lambda t: cubic(t, duration), duration),
         "trapezoid": (lambda t: trapezoid(t, 1.0, v, a), 1 / v + v / a),
         "quintic": (lambda t: quintic_scaling(t, duration), duration),
     }
@@ -194,8 +270,8 @@ def pick(lab: Lab) -> None:
     """Pick the cube up and put it down, with your functions of today."""
     done = capstone.pick(capstone.with_own(globals()), rate=PICK_RATE)
     most = done.heaviest
-    print(f"  predicted: this grip lifts up to {most:.3f} kg; the cube has 0.08")
-    lab.measured("heaviest cube that the grip lifts, kg", most)
+    print(f"  predicted: this lift takes up to {most:.3f} kg; the cube has 0.08")
+    lab.measured("heaviest cube while the lift speeds up, kg", most)
     print(f"  lifted to {done.lift:.3f} m; {done.seconds:.2f} s in all; at most")
     print(f"  {done.torque:.2f} of the torque limits, {done.speed:.2f} of the speed's;")
     print(f"  the hand never more than {done.line_mm:.2f} mm off its straight lines")
@@ -208,47 +284,52 @@ def main() -> int:
     """Run the lab from top to bottom; return 0 when every check passed."""
     lab = Lab(__file__, __doc__)
     model = panda.load("panda")  # the one with a hand
-    at = moves.moves(model, TRIALS, SEED)
+    at = day7_mujoco.moves(model, TRIALS, SEED)
 
     lab.step("1. A soft start and a soft stop: one number from 0 to 1")
     lab.show("s, sd, sdd at 0.6 s of a move of 2 s", quintic_scaling(0.6, 2.0))
-    moves.compare(lab.check, at, SEED, quintic_scaling=quintic_scaling,
-                  joint_move=joint_move)  # fmt: skip
+    off = off_library("quintic_scaling", quintic_scaling, at)
+    lab.check("quintic_scaling, off the library", off)
+    off = off_library("joint_move", joint_move, at)
+    lab.check("joint_move, off the library", off)
 
     lab.step("2. How long: the slowest joint decides")
-    dq = np.abs(GOAL_Q - READY_Q)
-    lab.show("seconds that joint1 to joint7 need, by speed", 15 / 8 * dq / V_MAX, 3)
-    lab.show("by acceleration", np.sqrt(10 / np.sqrt(3) * dq / A_MAX), 3)
+    each = [quintic_duration(one, V_MAX, A_MAX) for one in np.diag(GOAL_Q - READY_Q)]
+    lab.show("seconds that joint1 to joint7 need, each alone", each, 3)
     T_move = quintic_duration(GOAL_Q - READY_Q, V_MAX, A_MAX)
     print(f"  So the move takes {T_move:.4f} s.")
     lab.measured("seconds that the move of step 2 takes", T_move)
-    used = moves.peaks_over_limits(at, quintic_duration, joint_move)
+    used = limits_used(at)
     lab.record("limits", used, label=f"largest share of a limit, {TRIALS} moves",
                config="random", seed=SEED)  # fmt: skip
     # Slow is no art: a duration is right when some joint is at its limit.
     lab.check("largest share left unused", 1 - used)
 
     lab.step("3. The trapezoid: as fast as the limits allow, with corners")
-    moves.compare(lab.check, at, SEED, trapezoid=trapezoid)
-    short = moves.too_short(TRIALS, SEED)
+    off = off_library("trapezoid", trapezoid, at)
+    lab.check("trapezoid, off the library", off)
+    L, v, a = day7_mujoco.ramps(4 * TRIALS, SEED)
+    short = np.mean(v**2 / a > L)
     print(f"  {short:.0%} of those moves are too short to reach their top speed.")
 
     lab.step("4. Any start, any end: six conditions, six coefficients")
-    off = moves.missed_ends(quintic_coefficients, at, SEED)
-    lab.check("position, speed, acceleration at both ends", off)
+    lab.check("position, speed, acceleration at both ends", missed_ends(at))
 
     lab.step("5. The hand on a straight line, and over a cube")
-    moves.compare(lab.check, at, SEED, straight_pose=straight_pose,
-                  grasp_pose=grasp_pose)  # fmt: skip
+    off = off_library("straight_pose", straight_pose, at)
+    lab.check("straight_pose, off the library", off)
+    off = off_library("grasp_pose", grasp_pose, at)
+    lab.check("grasp_pose, off the library", off)
     cube = se3.make_T(se3.Rz(np.radians(80)), np.array([0.5, 0.2, 0.22]))
     lab.show("the tool 0.12 m over a cube at a yaw of 80 degrees",
              grasp_pose(cube, 0.12), 4)  # fmt: skip
 
     lab.step("6. What the last link carries, and how much it can lift")
-    off = moves.carried(model, carry, at.q0, SEED)
+    off = off_carried(model, at.q0)
     lab.check("torque to carry the hand, off MuJoCo's", off)
     with lab.side_quest():
-        moves.compare(lab.check, at, SEED, heaviest_cube=heaviest_cube)
+        off = off_library("heaviest_cube", heaviest_cube, at)
+        lab.check("heaviest_cube, off the library", off)
     if lab.failed:
         # The habit of every real robot: no power before the checks are green.
         print("\n  The arm stays off until these checks pass.")
@@ -257,8 +338,9 @@ def main() -> int:
     lab.step("7. The same move with five time scalings, simulated")
     print(f"  {'':16}{'seconds':>9}{'mrad off':>10}{'rad/s3':>9}{'of the torque':>15}")
     for name, (scaling, seconds) in profiles(T_move).items():
-        off, jerk, share = moves.follow(scaling, seconds, READY_Q, GOAL_Q, OMEGA, RATE)
-        print(f"  {name:16}{seconds:9.3f}{off:10.2f}{jerk:9.0f}{share:15.2f}")
+        one = day7_mujoco.follow(scaling, seconds, READY_Q, GOAL_Q, OMEGA, RATE)
+        print(f"  {name:16}{seconds:9.3f}{one.mrad:10.2f}"
+              f"{one.jerk:9.0f}{one.torque:15.2f}")  # fmt: skip
 
     lab.step("8. Pick the cube up and put it down")
     pick(lab)

@@ -85,6 +85,8 @@ for slug, says, other in (
      "carries its own link and those after it", {"felt": lambda i: slice(0, 7)}),
     ("cut-early", "the joint that carries a link as its own does not feel it: the "
      "slice ends one too early", {"felt": lambda i: slice(0, i)}),
+    ("later-links-only", "link i is felt by the joints from its own on; a joint "
+     "carries its own link and those after it", {"felt": lambda i: slice(i, 7)}),
     ("own-link-only", "each joint feels its own link only; it carries those after it, "
      "too", {"felt": lambda i: slice(i, i + 1)}),
 ):  # fmt: skip

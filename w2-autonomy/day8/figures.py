@@ -10,10 +10,12 @@ from matplotlib.figure import Figure
 
 from labkit.figures import chart
 from labkit.figures.chart import BLUE, INK, RED
-from robo47 import panda, secret
+from robo47 import panda
+
+import day8_mujoco
 
 JOINT = 3  # joint4: much of the arm hangs on it
-SAMPLES = 100
+SAMPLES = 200
 
 
 @chart.picture(height=9.0)
@@ -21,11 +23,11 @@ def shown(figure: Figure) -> None:
     """Draw singular values of two motions, and a predicted torque with its band."""
     model = panda.load("panda_nohand", drive="torque")
     arm = panda.arm(model)
-    robot = secret.changed(model, lab.SEED)
+    robot = day8_mujoco.changed(model, lab.ROBOT_SEED)
     above, below = figure.subplots(2, 1)
-    motion = secret.excitation(robot, lab.SEED, SAMPLES)
+    motion = day8_mujoco.excitation(robot, lab.ROBOT_SEED, SAMPLES)
     Y = lab.regressor(arm, motion)
-    _values(above, lab.regressor(arm, secret.swing(SAMPLES)), "Day 5's swing", "s", RED)
+    _values(above, lab.regressor(arm, day8_mujoco.swing(SAMPLES)), "Day 5's swing", "s", RED)
     _values(above, Y, "excited", "o", BLUE)
     _torque(below, arm, robot, Y, motion)
     for axes in (above, below):
@@ -37,29 +39,29 @@ def _values(axes: Axes, Y: np.ndarray, name: str, mark: str, colour: str) -> Non
     Y = Y.reshape(-1, Y.shape[-1])
     s = np.linalg.svd(Y, compute_uv=False)
     rank, condition = lab.identifiable(Y, lab.RTOL)
-    words = f"{name}: {rank}, condition {condition:.0e}"
+    words = f"{name}: {rank}, condition {condition:,.3g}"
     axes.semilogy(s / s[0], mark, ms=4, color=colour, label=words)
     axes.axhline(lab.RTOL, color=INK, linestyle="--", linewidth=1.5)
-    axes.set(ylim=(1e-18, 30), title="What a motion shows", xlabel="singular value")
+    axes.set(ylim=(1e-18, 30), title="What a motion shows", xlabel="number of the singular value")
     axes.set_ylabel("share of the largest")
     axes.legend(loc=(0.03, 0.25))
 
 
-def _torque(axes: Axes, arm, robot, Y: np.ndarray, motion: secret.Motion) -> None:
+def _torque(axes: Axes, arm, robot, Y: np.ndarray, motion: day8_mujoco.Motion) -> None:
     """Draw how far one joint's torque is off on a new motion: by the fit, the file."""
-    noise = lab.NOISE * np.random.default_rng(lab.SEED).normal(size=motion.q.shape)
-    tau = secret.torques(robot, motion) + noise
+    noise = lab.NOISE * np.random.default_rng(lab.NOISE_SEED).normal(size=motion.q.shape)
+    tau = lab.mujoco_torques(robot, motion) + noise
     fast = np.abs(motion.qd) > lab.SLOW
-    new = secret.excitation(robot, lab.SEED + 1, SAMPLES)
+    new = day8_mujoco.excitation(robot, lab.ROBOT_SEED + 1, SAMPLES)
     rows = lab.regressor(arm, new)[:, JOINT]
     t = np.arange(SAMPLES) * 10.0 / SAMPLES
     torque, sigma = lab.predict_with_sigma(Y[fast], tau[fast], rows, lab.RTOL)
-    true = secret.torques(robot, new)[:, JOINT]
+    true = lab.mujoco_torques(robot, new)[:, JOINT]
     band = 1.96 * sigma
     axes.fill_between(t, -band, band, color=BLUE, alpha=0.25, label="1.96 sigma")
     axes.plot(t, torque - true, "o", ms=4, color=BLUE, label="predicted by the fit")
     axes.plot(
-        t, rows @ secret.numbers(arm) - true, "--", color=RED, label="by the file"
+        t, rows @ day8_mujoco.numbers(arm) - true, "--", color=RED, label="by the file"
     )
     axes.set(xlabel="time, s", ylabel=f"off joint {JOINT + 1}'s torque, N m")
     axes.set_title("A motion that was never shown")

@@ -9,10 +9,14 @@ import numpy as np
 from labkit.inspector import words
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import identification, panda, secret
+from robo47 import identification, panda
 from robo47.checks import Array
 
-SEED, RTOL = 47, 1e-9
+import day8_mujoco
+
+SEED = 47
+RTOL = 1e-9
+WAIT = 2.0  # s
 HERE, FIVE, FORGET = "hold here", "five poses", "forget"
 
 
@@ -27,7 +31,7 @@ class Weigh(Tab):
         super().__init__(page)
         model = panda.load("panda_nohand", drive="torque")
         self.arm = panda.arm(model)
-        self.empty = secret.changed(model, SEED)
+        self.empty = day8_mujoco.changed(model, SEED)
         self.mass = 0.5
         self.com = np.array([0.02, -0.03, 0.06])
         self.held: list[Array] = []  # q, torque with and without, from either side
@@ -36,8 +40,8 @@ class Weigh(Tab):
         page.slider("below the hand", 0, 200, 60, self.lower, unit="mm", step=5)
         page.buttons([HERE, FIVE, FORGET], self.press)
         self.table = page.html()
-        self.ball = page.draw.sphere(np.zeros(3), secret.RADIUS, "orange", 0.5)
-        self.found = page.draw.sphere(np.zeros(3), secret.RADIUS / 2, "blue")
+        self.ball = page.draw.sphere(np.zeros(3), day8_mujoco.RADIUS, "orange", 0.5)
+        self.found = page.draw.sphere(np.zeros(3), day8_mujoco.RADIUS / 2, "blue")
         page.light("ee", {"ee"})
         self.show()
 
@@ -59,12 +63,13 @@ class Weigh(Tab):
             poses = list(panda.READY_Q + beside)
         if name != HERE:  # the same holds again would only look like more
             self.held = []
-        edit = secret.load(self.mass, self.com)
+        edit = day8_mujoco.load(self.mass, self.com)
         hung = panda.load("panda_nohand", drive="torque", edit=edit)
-        full = secret.changed(hung, SEED)
+        full = day8_mujoco.changed(hung, SEED)
         for pose in poses:
-            _, empty = secret.holds(self.empty, self.arm, [pose])
-            self.held.append(np.array([*secret.holds(full, self.arm, [pose]), empty]))
+            _, empty = day8_mujoco.holds(self.empty, self.arm, [pose], WAIT)
+            held = day8_mujoco.holds(full, self.arm, [pose], WAIT)
+            self.held.append(np.array([*held, empty]))
         self.show()
 
     def on_move(self, q: Array) -> None:
@@ -81,7 +86,7 @@ class Weigh(Tab):
         }
         found = {}
         for name, (at, extra) in ways.items():
-            J, R = secret.hands(self.arm, at)
+            J, R = day8_mujoco.hands(self.arm, at)
             rows = identification.load_regressor(J, R, self.arm.gravity).reshape(-1, 4)
             given = rows, extra.ravel(), np.eye(4), RTOL
             found[name] = identification.predict_with_sigma(*given)

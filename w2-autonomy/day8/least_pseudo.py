@@ -5,7 +5,7 @@ import numpy as np
 from labkit.judge import Row, Scalar
 from robo47.identification import inertia_of
 
-from .states import bodies
+from .states import bodies, real_bodies
 
 row = Row(Scalar(called="the eigenvalue"))
 POINT = np.array([2.0, 2, 4, 6, 26, 20, 10, -4, -6, -12])  # 2 kg at (1, 2, 3)
@@ -14,7 +14,8 @@ POINT = np.array([2.0, 2, 4, 6, 26, 20, 10, -4, -6, -12])  # 2 kg at (1, 2, 3)
 @row.inputs
 def _(rng):
     case = np.array([1.0, 0, 0, 0, 1, 1, 3, 0, 0, 0])
-    return [(case,), (POINT,), *((phi,) for phi in bodies(rng))]
+    asked = [*bodies(rng, 4), *real_bodies(rng, 4)]  # else a clip at 0 shows nowhere
+    return [(case,), (POINT,), *((phi,) for phi in asked)]
 
 
 def pseudo(phi, spread=lambda I: np.trace(I) / 2 * np.eye(3) - I, h=1.0):  # noqa: E741
@@ -39,6 +40,19 @@ for slug, says, redone, code in (
     ("singular-value", "this is the least singular value, which is never below 0; the "
      "sign is what is asked for", "the least singular value",
      lambda phi: np.linalg.svd(pseudo(phi), compute_uv=False)[-1]),
+    ("clipped", "what is above 0 has become 0; of a body it is above 0, and says how "
+     "far it is from none", "0 where it is above",
+     lambda phi: min(np.linalg.eigvalsh(pseudo(phi))[0], 0.0)),
+    ("never-above-zero", "minus its size; of a body it is above 0", "minus its size",
+     lambda phi: -abs(np.linalg.eigvalsh(pseudo(phi))[0])),
+    ("never-below-zero", "what is below 0 has become 0; the sign is what is asked for",
+     "0 where it is below", lambda phi: max(np.linalg.eigvalsh(pseudo(phi))[0], 0.0)),
+    ("trace-in-thirds", "the trace is divided by 3; r.r is counted twice in it, so by "
+     "2", "with tr(I) / 3", lambda phi: np.linalg.eigvalsh(
+         pseudo(phi, lambda I: np.trace(I) / 3 * np.eye(3) - I))[0]),  # noqa: E741
+    ("first-moment-once", "h stands in the upper half only; what asks for a symmetric "
+     "matrix reads the lower one", "with h above only", lambda phi: np.linalg.eigvalsh(
+         np.triu(pseudo(phi)) + np.triu(pseudo(phi, h=0.0), 1).T)[0]),
     ("largest", "this is the largest eigenvalue", "the largest",
      lambda phi: np.linalg.eigvalsh(pseudo(phi))[-1]),
 ):  # fmt: skip

@@ -33,6 +33,7 @@ def _(V, A):
       missing => G A
     acceleration-in-the-velocity-product: the velocity product has G A; what is carried
       along is the momentum, G V => G A - ad(V)^T G A
+    arguments-swapped: V and A are swapped => G V - ad(A)^T G A
     force-first: the rows are (force; moment); the moment's three come first
     """
     X = ad(V)
@@ -44,6 +45,7 @@ def _(V, A):
         "velocity-product-sign": forces + X.T @ momenta,
         "velocity-product-forgotten": forces,
         "acceleration-in-the-velocity-product": forces - X.T @ forces,
+        "arguments-swapped": link_regressor(A, V),
         "force-first": link_regressor(V, A)[SWAP],
     }
 

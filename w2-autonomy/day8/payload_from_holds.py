@@ -43,6 +43,9 @@ def _(J_site, R_site, extra, g):
     holds-averaged: the holds are averaged before they are solved: seven rows are left
       of all, and what the poses tell apart is gone; stack them
     first-hold-only: only the first hold is used; one pose does not show all four
+    R-of-the-first-hold: the first hold's R is used for all; each pose has its own
+    solutions-averaged: each hold is solved alone, and the mean taken; one pose does not
+      show all four, so stack them
     g-turned-after-the-cross: R stands on the left of [g]: m c is turned into the world
       first, so [g] R => with R [g]
     centre-for-first-moment: the last three are c; asked for is m c, which is what is
@@ -59,6 +62,12 @@ def _(J_site, R_site, extra, g):
         "R-forgotten": solved(rows(J_site, 0 * R_site + np.eye(3), g), extra),
         "holds-averaged": solved(Y.mean(axis=0), extra.mean(axis=0)),
         "first-hold-only": solved(Y[0], extra[0]),
+        "R-of-the-first-hold": solved(
+            rows(J_site, 0 * R_site + R_site[0], g), extra
+        ),
+        "solutions-averaged": np.mean(
+            [solved(one, tau) for one, tau in zip(Y, extra, strict=True)], axis=0
+        ),
         "g-turned-after-the-cross": solved(left, extra),
         "centre-for-first-moment": np.append(right[0], right[1:] / right[0]),
     }

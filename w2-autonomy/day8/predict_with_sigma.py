@@ -28,6 +28,12 @@ def _(Y, tau, Y_new, rtol):
       are left => sigma with n
     columns-for-rank: the noise is divided by n - p; the fit only used rank of the p
       columns => sigma with n - p
+    one-more-taken-off: the noise is divided by n - rank - 1; no mean was taken off,
+      n - rank are left => sigma with n - rank - 1
+    mean-of-sizes: the noise is the mean of the sizes of what is left; it is the root of
+      the mean square => sigma with the mean of |r|
+    noise-squared: the noise is not rooted: r.r / (n - rank) is its square => sigma
+      times the noise
     noise-added: the noise of a new measurement is added; sigma is that of the
       prediction => the root of sigma^2 + noise^2
     mean-taken-off: the mean of what is left is taken off first; it is noise as well,
@@ -49,6 +55,9 @@ def _(Y, tau, Y_new, rtol):
     sigmas = {
         "n-for-n-rank": sigma * np.sqrt(left / n),
         "columns-for-rank": sigma * np.sqrt(left / (n - p)),
+        "one-more-taken-off": sigma * np.sqrt(left / (left - 1)),
+        "mean-of-sizes": sigma * np.abs(rest).mean() / noise,
+        "noise-squared": sigma * noise,
         "noise-added": np.hypot(sigma, noise),
         "mean-taken-off": sigma * np.std(rest, ddof=len(s)) / noise,
         "variance": sigma**2,
@@ -57,6 +66,11 @@ def _(Y, tau, Y_new, rtol):
         "sigma-not-cut": noise * np.linalg.norm(Y_new @ along.T / every, axis=1),
     }
     return {slug: (torque, one) for slug, one in sigmas.items()}
+
+
+@row.wrong("answers-swapped", "the two answers are swapped: the torque comes first")
+def _(Y, tau, Y_new, rtol):
+    return predict_with_sigma(Y, tau, Y_new, rtol)[::-1]
 
 
 @row.right  # By the pseudo-inverse alone: its rows are what multiplies the noise.

@@ -18,6 +18,20 @@ def bodies(rng, n=8):
     return phi
 
 
+def real_bodies(rng, n=4):
+    """Return ten numbers each of bodies that exist: twelve points with masses."""
+    found = []
+    for _ in range(n):
+        points = rng.numbers(-1, 1, 12, 3)
+        masses = rng.numbers(0.2, 1, 12)
+        P = points.T * masses @ points
+        about = np.trace(P) * np.eye(3) - P
+        i, j = np.transpose([(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)])
+        phi = np.hstack([masses.sum(), masses @ points, about[i, j]])
+        found.append(np.round(phi, 6))
+    return found
+
+
 def moving(rng, n=6):
     """Return J, T_links, qd, qdd and g of the Panda in motion."""
     arm = panda.arm(panda.load("panda_nohand"))

@@ -8,20 +8,36 @@ origin. Twists (omega; v), wrenches (moment; force). Metres, radians, kilograms,
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
+import mujoco
 import numpy as np
 
-from robo47 import cli, panda, se3, secret
+from robo47 import cli, panda, se3
 from robo47 import identification as library
 from robo47.lesson.lab import Lab
 from robo47.screws import ad, adjoint, skew
 
-SEED = 47  # of the secret robot and of all that is random; another one is another robot
-TRIALS = 100  # random states that a fit is judged on
-NOISE = 0.1  # N m, of each measured torque; 1 of them moves the fit tenfold
-SLOW = 0.1  # rad/s: below it a joint's dry friction is not yet that of its sign
+import day8_mujoco
+
+ROBOT_SEED = 47  # of the robot that nobody knows: another one is another robot
+NOISE_SEED = 47  # of the noise alone
+NOISE = 0.1  # N m, of each measured torque; 0 is no sensor of this world
+TRIALS = 100  # random states, elsewhere, that a fit is judged on
+SLOW = 0.1  # rad/s: below it dry friction need not have the sign of the speed
 RTOL = 1e-9  # of the largest singular value: smaller ones count as nothing
-LOAD, AT = 0.5, np.array([0.02, -0.03, 0.06])  # kg and m: what the arm is to find
-rms = lambda x: np.sqrt(np.mean(np.square(x)))  # noqa: E731
+CUT = 1e-3  # the same, where a motion shows little
+LOAD = 0.5  # kg that the arm is to find, and ...
+AT = np.array([0.02, -0.03, 0.06])  # ... m, where its centre is in the hand's axes
+WAIT = 2.0  # s until a hold counts as at rest; 8 make another number of step 5
+# Your own motion, of two harmonics: how often a second each swings, how far each of
+# the seven joints swings with it (rad), and where in its swing it begins (rad).
+OFTEN = (0.2, 0.5)
+FAR = np.array([[0.3] * 7, [0.0] * 7])
+BEGIN = np.array([[0.0] * 7, [0.0] * 7])
+
+
+def rms(x: np.ndarray) -> float:
+    """Return the root of the mean square."""
+    return np.sqrt(np.mean(np.square(x)))
 
 
 def inertia_of(phi: np.ndarray) -> np.ndarray:
@@ -64,7 +80,9 @@ def arm_regressor(
     identity: for every link its row is (0, -9.81, 0, 0, 0, 1, 0, 0, 0, 0).
     """
     # region 8.3
-    V, A, Y = np.zeros(6), np.append(np.zeros(3), -g), np.zeros((7, 70))
+    V = np.zeros(6)
+    A = np.append(np.zeros(3), -g)  # the base, as if it accelerated upwards
+    Y = np.zeros((7, 70))
     for i, (S, T) in enumerate(zip(J_space.T, T_links, strict=True)):
         V = V + S * qd[i]
         A = A + S * qdd[i] + ad(V) @ S * qd[i]
@@ -119,7 +137,8 @@ def predict_with_sigma(
     """
     # region 8.7
     _, s, Vt = np.linalg.svd(Y, full_matrices=False)
-    kept, phi = s > rtol * s[0], fit(Y, tau, rtol)
+    kept = s > rtol * s[0]
+    phi = fit(Y, tau, rtol)
     noise = np.linalg.norm(tau - Y @ phi) / np.sqrt(len(tau) - kept.sum())
     return Y_new @ phi, noise * np.linalg.norm(Y_new @ Vt[kept].T / s[kept], axis=1)
     # endregion 8.7
@@ -135,7 +154,8 @@ def payload_from_holds(
     """
     # region 8.8
     weight = np.zeros((len(R_site), 6, 4))  # (moment; force) of m and of m c
-    weight[:, 3:, 0], weight[:, :3, 1:] = g, -skew(g) @ R_site
+    weight[:, 3:, 0] = g
+    weight[:, :3, 1:] = -skew(g) @ R_site
     rows = -np.swapaxes(J_site, 1, 2) @ weight
     return np.linalg.lstsq(rows.reshape(-1, 4), extra.ravel(), rcond=None)[0]
     # endregion 8.8
@@ -147,121 +167,203 @@ def least_pseudo(phi: np.ndarray) -> float:
     Of a body it is never below 0. (1, 0, 0, 0, 1, 1, 3, 0, 0, 0) has -0.5.
     """
     # region 8.9
-    about, h = inertia_of(phi)[:3, :3], phi[1:4, None]
+    about = inertia_of(phi)[:3, :3]
+    h = phi[1:4, None]
     spread = np.trace(about) / 2 * np.eye(3) - about
     return np.linalg.eigvalsh(np.block([[spread, h], [h.T, phi[0]]]))[0]
     # endregion 8.9
 
 
-def arguments() -> dict[str, tuple]:
-    """Return random arguments for what is compared with the library."""
-    rng, rtol = np.random.default_rng(SEED), 4e-3
-    Y = rng.normal(size=(40, 6)) * [1e3, 300, 100, 40, 0.1, 0.1]  # two hardly show
-    tau, Y_new, (V, A) = (rng.normal(size=n) for n in (40, (8, 6), (2, 6)))
-    J, R, extra = (rng.normal(size=(5, *n)) for n in ((6, 7), (3, 3), (7,)))
-    return {
-        "inertia_of": (rng.normal(size=10),), "link_regressor": (V, A),
-        "motor_features": (np.maximum(V, 0.0), A), "identifiable": (Y, rtol),
-        "fit": (Y, tau, rtol), "predict_with_sigma": (Y, tau, Y_new, rtol),
-        "payload_from_holds": (J, R, extra, A[3:]),
-    }  # fmt: skip
+def pendulum(reach: float, second: float) -> np.ndarray:
+    """Return Y, (200, 5), of one hinge: q'', cos q, sin q, q', sign q'.
+
+    It swings by sin t, reach (rad) to either side; second is how much of sin 2.37 t
+    is added to that.
+    """
+    t = np.arange(200) * 0.05
+    q = reach * (np.sin(t) + second * np.sin(2.37 * t))
+    qd = reach * (np.cos(t) + second * 2.37 * np.cos(2.37 * t))
+    qdd = -reach * (np.sin(t) + second * 2.37**2 * np.sin(2.37 * t))
+    return np.transpose([qdd, np.cos(q), np.sin(q), qd, np.sign(qd)])
 
 
-def regressor(arm, motion: secret.Motion) -> np.ndarray:
-    """Return all 91 columns at each state of a motion, (n, 7, 91)."""
-    Y = []
-    for q, qd, qdd in zip(*motion, strict=True):
+def regressor(arm, motion: day8_mujoco.Motion) -> np.ndarray:
+    """Return Y, (n, 7, 91): 70 columns of the links and 21 of the motors, per state."""
+    rows = []
+    for q, qd, qdd in zip(motion.q, motion.qd, motion.qdd, strict=True):
         now = arm.at(q)
         links = arm_regressor(now.J_space, now.T_links, qd, qdd, arm.gravity)
-        Y.append(np.hstack([links, motor_features(qd, qdd)]))
-    return np.array(Y)
+        motors = motor_features(qd, qdd)
+        rows.append(np.hstack([links, motors]))
+    return np.array(rows)
 
 
-def judged(name: str, Y, tau, new: tuple, rtol: float = RTOL) -> tuple:
-    """Fit, print how good it looks and how good it is; return phi, RMS and share."""
-    (torque, sigma), phi = predict_with_sigma(Y, tau, new[0], rtol), fit(Y, tau, rtol)
+def mujoco_torques(model, motion: day8_mujoco.Motion) -> np.ndarray:
+    """Return what MuJoCo says that a motion takes, N m, (n, 7)."""
+    data = mujoco.MjData(model)
+    torques = []
+    for q, qd, qdd in zip(motion.q, motion.qd, motion.qdd, strict=True):
+        data.qpos[:] = q
+        data.qvel[:] = qd
+        data.qacc[:] = qdd
+        mujoco.mj_inverse(model, data)  # fills qfrc_inverse
+        torques.append(data.qfrc_inverse.copy())
+    return np.array(torques)
+
+
+def lengths(per_metre: float) -> np.ndarray:
+    """Return by what each of the 91 numbers is larger in a smaller unit of length."""
+    body = [1.0] + [per_metre] * 3 + [per_metre**2] * 6  # kg, kg m, kg m^2
+    return np.append(np.tile(body, 7), np.ones(21))
+
+
+def judged(name: str, Y, tau, Y_new, truth, rtol: float) -> tuple[float, float]:
+    """Fit, print how good it looks and how good it is; return RMS and share inside."""
     rank, condition = identifiable(Y, rtol)
-    off, inside = rms(torque - new[1]), np.mean(np.abs(torque - new[1]) < 1.96 * sigma)
-    condition = float(f"{condition:.4g}")
-    some = condition < 1e6  # above, rounding reaches the decimals
-    print(f"  {name:20}{rank:4}{condition:13,.0f}{rms(tau - Y @ phi):10.4f}"
-          f"{off:12,.{3 * some}f}{rms(sigma):10,.{2 * some}f}{inside:5.0%}"
+    condition = float(f"{condition:.3g}")
+    phi = fit(Y, tau, rtol)
+    torque, sigma = predict_with_sigma(Y, tau, Y_new, rtol)
+    off = rms(torque - truth)
+    inside = np.mean(np.abs(torque - truth) < 1.96 * sigma)
+    digits = 2 if condition < 1e6 else -3  # above, rounding reaches the last ones
+    print(f"  {name:22}{rank:3}{condition:13,.0f}{rms(tau - Y @ phi):9.4f}"
+          f"{round(off, digits):10,.{max(digits, 0)}f}"
+          f"{round(rms(sigma), digits):10,.{max(digits, 0)}f}{inside:6.0%}"
           )  # fmt: skip
-    return phi, off, inside
+    return off, inside
 
 
-def fits(robot, arm, new: tuple) -> tuple:
-    """Print how fits to two motions of the secret robot do; return the last."""
-    print("  fitted to          rank    condition  residual   elsewhere     sigma   in")
-    rng, found = np.random.default_rng(SEED), []
-    for motion in (secret.swing(), secret.excitation(robot, SEED)):
-        tau = secret.torques(robot, motion) + NOISE * rng.normal(size=motion.q.shape)
-        found += [regressor(arm, motion), tau, np.abs(motion.qd) > SLOW]
-    Y, tau, fast = found[:3]
-    judged("Day 5's swing", Y[fast], tau[fast], new)
-    judged("the same, rtol 1e-3", Y[fast], tau[fast], new, 1e-3)
-    Y, tau, fast = found[3:]
-    judged("ten samples, excited", Y[::20][fast[::20]], tau[::20][fast[::20]], new)
-    judged("excited, slow rows", Y.reshape(-1, 91), tau.ravel(), new)
-    return judged("excited", Y[fast], tau[fast], new)
+def weighed(arm, q, extra) -> tuple[np.ndarray, np.ndarray]:
+    """Return (m, m c), (4,), from holds at q, (k, 7), and the sigma of each, (4,)."""
+    J_site, R_site = day8_mujoco.hands(arm, q)
+    load = payload_from_holds(J_site, R_site, extra, arm.gravity)
+    rows = library.load_regressor(J_site, R_site, arm.gravity).reshape(-1, 4)
+    _, sigma = predict_with_sigma(rows, extra.ravel(), np.eye(4), RTOL)
+    return load, sigma
 
 
-def weighings(robot, loaded, arm) -> dict[str, np.ndarray]:
-    """Return (m, m c), (4,), by how the arm was held with a load and without."""
-    poses = panda.READY_Q + np.random.default_rng(SEED).uniform(-0.5, 0.5, (5, 7))
-    (_, empty), (q, full) = (secret.holds(one, arm, poses) for one in (robot, loaded))
-    see, g = secret.hands, arm.gravity
-    weigh = lambda q, extra: payload_from_holds(*see(arm, q), extra, g)  # noqa: E731
+def weighings(robot, loaded, arm, rng) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Return load and sigma by how the arm was held, with the load and without."""
+    poses = panda.READY_Q + np.random.default_rng(47).uniform(-0.5, 0.5, (5, 7))
+    _, empty = day8_mujoco.holds(robot, arm, poses, WAIT)
+    q, full = day8_mujoco.holds(loaded, arm, poses, WAIT)
+    empty = empty + NOISE * rng.normal(size=empty.shape)
+    full = full + NOISE * rng.normal(size=full.shape)
+    one_side = full[0] - empty[0]
+    either_side = full[1] - empty[0]
+    averaged = (full - empty).mean(axis=0)
     return {
-        "told of no load": np.zeros(4),
-        "both held from one side": weigh(q[0], full[0] - empty[0]),
-        "one from either side": weigh(q[1], full[1] - empty[0]),
-        "each from both, averaged": weigh(q.mean(axis=0), (full - empty).mean(axis=0)),
+        "both from one side": weighed(arm, q[0], one_side),
+        "one from either side": weighed(arm, q[1], either_side),
+        "each from both sides": weighed(arm, q.mean(axis=0), averaged),
     }
+
+
+def weigh_the_load(lab: Lab, robot, arm, phi: np.ndarray, rng) -> None:
+    """Hold the arm with a load and without; float with what was found."""
+    hung = panda.load("panda_nohand", drive="torque", edit=day8_mujoco.load(LOAD, AT))
+    loaded = day8_mujoco.changed(hung, ROBOT_SEED)
+    rest = np.zeros(7)
+
+    def still(now):
+        links = arm_regressor(now.J_space, now.T_links, rest, rest, arm.gravity)
+        return links @ phi[:70]
+
+    nothing = np.zeros(4)
+    truth = LOAD * np.append(1.0, AT)
+    found = weighings(robot, loaded, arm, rng)
+    told = {"nothing": (nothing, nothing), **found, "the truth": (truth, nothing)}
+    print("  told to the arm         grams  sigma       centre, mm    rises, mm")
+    for name, (load, sigma) in told.items():
+        x, y, z = 1000 * load[1:] / max(load[0], 1e-9)
+        up = 1000 * day8_mujoco.rises(loaded, arm, still, load)
+        print(f"  {name:22}{1000 * load[0]:7.1f}{1000 * sigma[0]:7.1f}"
+              f"{x:z7.1f}{y:z6.1f}{z:z6.1f}{up:z10.0f}")  # fmt: skip
+    for name, (load, sigma) in found.items():
+        lab.measured(f"grams off, of 500: {name}", 1000 * abs(load[0] - LOAD))
+    lab.measured("sigma of the load, g: each from both sides", 1000 * sigma[0])
+    lab.record("payload_g", (load[0] - LOAD) / max(sigma[0], 1e-6),
+               label="the last, off in sigmas", seed=ROBOT_SEED)  # fmt: skip
 
 
 def main() -> int:
     """Run the lab from top to bottom; return 0 when every check passed."""
-    lab, model = Lab(__file__, __doc__), panda.load("panda_nohand", drive="torque")
+    lab = Lab(__file__, __doc__)
+    model = panda.load("panda_nohand", drive="torque")
+    arm = panda.arm(model)
+    rng = np.random.default_rng(NOISE_SEED)
     print(panda.describe("panda_nohand"))
-    arm, robot = panda.arm(model), secret.changed(model, SEED)
 
-    lab.step("1. A body in ten numbers, and a torque that is linear in them")
-    for name, given in arguments().items():
-        off = np.subtract(globals()[name](*given), getattr(library, name)(*given))
-        lab.check(f"{name} - the library's", off)
+    lab.step("1. A body in ten numbers: what it takes to move one that floats")
+    off = []
+    for body in day8_mujoco.bodies(TRIALS, ROBOT_SEED):
+        truth = day8_mujoco.mujoco_wrench(body)  # mujoco.mj_inverse of one free body
+        off.append(link_regressor(body.V, body.A) @ body.phi - truth)
+    lab.check("|link_regressor phi - MuJoCo's wrench|, N and N m", off)
 
     lab.step("2. The whole arm: what its motion shows, and what it hides")
-    new = secret.anywhere(model, SEED, TRIALS)
-    Y = regressor(arm, new)
-    file = secret.numbers(arm)  # the 91 as the model file has them
-    off = Y @ file - secret.torques(model, new)
-    lab.record("regressor", off, label="|Y phi - MuJoCo's torque|, N m", seed=SEED)
+    elsewhere = day8_mujoco.anywhere(model, ROBOT_SEED, TRIALS)
+    Y_elsewhere = regressor(arm, elsewhere)
+    phi_file = day8_mujoco.numbers(arm)  # the 91 as the model file has them
+    off = Y_elsewhere @ phi_file - mujoco_torques(model, elsewhere)
+    lab.record("regressor", off, label="|Y phi - MuJoCo's torque|, N m",
+               seed=ROBOT_SEED)  # fmt: skip
     for p, name in ((70, "links"), (91, "with motors")):
-        rank, condition = identifiable(Y[..., :p].reshape(-1, p), RTOL)
+        rank, condition = identifiable(Y_elsewhere[..., :p].reshape(-1, p), RTOL)
         print(f"  {name}: {rank} of {p} show, condition {condition:.0f}")
         lab.measured(f"how many of {p} numbers show: {name}", rank)
 
-    lab.step("3. A robot that nobody knows: five fits to its torques, N m")
-    fast, truth = np.abs(new.qd) > SLOW, secret.torques(robot, new)
-    phi, off, inside = fits(robot, arm, (Y[fast], truth[fast]))
-    print(f"  the model file's own numbers{rms((Y @ file - truth)[fast]):31.3f}")
-    lab.record("fit", off, metric="new_rms_nm", label="excited, elsewhere", seed=SEED)
-    lab.record("fit", inside, metric="inside_95", label="in 1.96 sigma", seed=SEED)
+    lab.step("3. One pendulum, five numbers: how evenly a swing shows them")
+    print("  reach, rad    one sine    with a fifth of a second one")
+    for reach in (0.1, 0.3, 0.6):
+        _, alone = identifiable(pendulum(reach, 0.0), RTOL)
+        _, both = identifiable(pendulum(reach, 0.2), RTOL)
+        print(f"  {reach:10.1f}{alone:12,.0f}{both:32,.0f}")
 
-    lab.step("4. What hangs on its hand; how far it rises in 2 s when it floats so")
-    loaded = panda.load("panda_nohand", drive="torque", edit=secret.load(LOAD, AT))
-    loaded, rest = secret.changed(loaded, SEED), (np.zeros(7), np.zeros(7), arm.gravity)
-    still = lambda now: arm_regressor(now.J_space, now.T_links, *rest) @ phi[:70]  # noqa: E731
-    for name, (m, *h) in weighings(robot, loaded, arm).items():
-        x, y, z = 1000 * np.array(h) / max(m, 1e-9)
-        grams, up = 1000 * m, 1000 * secret.rises(loaded, arm, still, (m, *h))
-        at = f"{x:z4.1f} {y:z5.1f} {z:z5.1f} mm"
-        print(f"  {name:25}{grams:6.1f} g at {at}{up:8.1f} mm")
-        lab.measured(f"grams off, of 500: {name}", abs(grams - 1000 * LOAD))
-    lab.record("payload_g", 1000 * (m - LOAD), label="the last, g off", seed=SEED)
+    lab.step("4. A robot that nobody knows: fits to its torques, N m")
+    robot = day8_mujoco.changed(model, ROBOT_SEED)
+    # All are judged at states that no fit has seen, where the joints are fast enough ...
+    new = np.abs(elsewhere.qd) > SLOW
+    Y_new = Y_elsewhere[new]
+    truth = mujoco_torques(robot, elsewhere)[new]
+    print("  fitted to           rank    condition residual elsewhere     sigma    in")
+    # ... first a fit to Day 5's swing: torques measured with noise, slow rows left out,
+    swing = day8_mujoco.swing()
+    tau_swing = mujoco_torques(robot, swing) + NOISE * rng.normal(size=swing.q.shape)
+    fast = np.abs(swing.qd) > SLOW
+    Y_swing = regressor(arm, swing)[fast]
+    judged("Day 5's swing", Y_swing, tau_swing[fast], Y_new, truth, RTOL)
+    # with the small values cut off, which depends on the unit of length,
+    for name, per_metre in (("metres", 1.0), ("decimetres", 10.0), ("cm", 100.0)):
+        unit = lengths(per_metre)
+        judged(f"  cut, in {name}", Y_swing / unit, tau_swing[fast],
+               Y_new / unit, truth, CUT)  # fmt: skip
+    # then to a motion that was chosen to show much,
+    excited = day8_mujoco.excitation(robot, ROBOT_SEED)
+    tau = mujoco_torques(robot, excited) + NOISE * rng.normal(size=excited.q.shape)
+    Y = regressor(arm, excited)
+    fast = np.abs(excited.qd) > SLOW
+    judged("excited, ten samples", Y[::20][fast[::20]], tau[::20][fast[::20]],
+           Y_new, truth, RTOL)  # fmt: skip
+    off, inside = judged("excited", Y[fast], tau[fast], Y_new, truth, RTOL)
+    phi = fit(Y[fast], tau[fast], RTOL)
+    # and to yours: FAR, OFTEN and BEGIN on top of this file.
+    own = day8_mujoco.harmonics(robot, OFTEN, FAR, BEGIN)
+    tau_own = mujoco_torques(robot, own) + NOISE * rng.normal(size=own.q.shape)
+    fast = np.abs(own.qd) > SLOW
+    Y_own = regressor(arm, own)[fast]
+    judged("your two harmonics", Y_own, tau_own[fast], Y_new, truth, RTOL)
+    lab.measured("condition of your two harmonics", identifiable(Y_own, RTOL)[1])
+    print(f"  the model file's own numbers{rms(Y_new @ phi_file - truth):29.2f}")
+    lab.record("fit", off, metric="new_rms_nm", label="excited, elsewhere",
+               seed=ROBOT_SEED)  # fmt: skip
+    lab.record("fit", inside, metric="inside_95", label="in 1.96 sigma",
+               seed=ROBOT_SEED)  # fmt: skip
 
-    lab.step("5. Side quest: can a body have these ten numbers?")
+    lab.step("5. What hangs on its hand; how far it rises in 2 s when it floats so")
+    weigh_the_load(lab, robot, arm, phi, rng)
+
+    lab.step("6. Side quest: can a body have these ten numbers?")
     with lab.side_quest():
         found = np.array([least_pseudo(x) for x in phi[:70].reshape(7, 10)])
         off = found - library.least_pseudo(phi[:70].reshape(7, 10))

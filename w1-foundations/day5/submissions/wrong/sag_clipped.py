@@ -1,4 +1,4 @@
-# task 5.4: few-entries-off (not in a run: nothing there sags as far)
+# task 5.4: off (not in a run: nothing there sags as far)
 # No sag of more than 0.5 rad.
 import numpy as np
 

@@ -1,21 +1,71 @@
-"""Inverse kinematics that is given as a function: does it arrive, or come near?
+"""What Day 3 holds its lab against: turns that are known, targets, a circle to draw.
+
+The Jacobian and the torques of a push are held against MuJoCo's own calls, which stand
+in the lab. MuJoCo solves no inverse kinematics: a solver is judged by where the hand
+ends, and out of reach by the best of the library's hundreds of starts.
 
 A solver takes screws, (7, 6), home pose, (4, 4), T_goal, (4, 4), start, (7,), and joint
-limits, (7, 2), and returns joint angles, (7,). `arm` is the first two.
+limits, (7, 2), and returns joint angles, (7,). `arm` is the first two. The circle is
+in the y-z plane, the tool points down all the way: with a radius of 0.36 m all of it is
+in reach; the top of one of 0.38 m is not. Metres, radians.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from robo47 import jacobian
+from robo47 import jacobian, screws
 from robo47.checks import Array
 from robo47.fast.ik import REACHED
+from robo47.jacobian import solve_ik
 from robo47.screws import fk_space
-from robo47.verify.answers import Function, each
+from robo47.verify import each
+from robo47.verify.answers import Function
+
+CENTRE = np.array([0.28, -0.06, 0.55])
+LAP = 6.0  # seconds
+# From here the elbow meets no joint limit on the way.
+_START_Q = np.array([0.5, -1.3, 0.0, -2.4, -0.5, 1.7, 1.2])
 
 NEAR, FAR = 0.3, 2.0  # radians from the start; metres from the base, out of reach
 ENOUGH = 3  # failures, after which the rest is spared
+
+
+class Turns(NamedTuple):
+    """Rotations whose logarithms are known."""
+
+    R: Array  # rotation matrices, (n, 3, 3)
+    logs: Array  # axis times angle, (n, 3)
+
+
+def turns(n: int, seed: int) -> Turns:
+    """Return n turns, some next to 0 or next to pi down to 1e-9 rad, one half a turn.
+
+    Args:
+        n: how many; 13 at least.
+        seed: of the others.
+    """
+    rng = np.random.default_rng(seed)
+    axes = rng.normal(size=(n, 3))
+    axes /= np.linalg.norm(axes, axis=1, keepdims=True)
+    angles = np.pi * rng.uniform(size=n)
+    angles[:12] = [0.0, 1e-9, 1e-5, *(np.pi - 10.0 ** -np.arange(1, 10))]
+    axes[12] = [0.0, 1.0, 0.0]
+    angles[12] = np.pi
+    R = screws.exp_rotation(axes, angles)
+    R[12] = np.round(R[12])  # exactly: there both signs mean the same
+    return Turns(R, angles[:, None] * axes)
+
+
+def moved(T: Array, e: Array) -> Array:
+    """Return poses, (n, 4, 4), turned and moved by pose errors, (n, 6), world axes."""
+    there = T.copy()
+    angle = np.linalg.norm(e[:, :3], axis=1)
+    turned = angle > 0  # not where it is NaN
+    axes = e[turned, :3] / angle[turned, None]
+    there[turned, :3, :3] = screws.exp_rotation(axes, angle[turned]) @ T[turned, :3, :3]
+    there[:, :3, 3] += e[:, 3:]
+    return there
 
 
 class Ends(NamedTuple):
@@ -109,3 +159,38 @@ def miss(arm: tuple[Array, Array], q: Array, goal: Array) -> Array:
 def beyond(limits: Array, q: Array) -> float:
     """Return how far q, (..., 7), is beyond the joint limits at worst, radians."""
     return float(np.maximum(limits[:, 0] - q, q - limits[:, 1]).max().clip(0.0))
+
+
+def circle(
+    arm: tuple[Array, Array], limits: Array, radius: float, times: Array
+) -> tuple[Array, Array]:
+    """Return where the hand should be, and joint angles at the first of these poses.
+
+    Args:
+        arm: screws, (7, 6), and home pose, (4, 4).
+        limits: of the joints, (7, 2).
+        radius: of the circle.
+        times: in seconds, (n,); a lap takes LAP.
+
+    Returns:
+        Poses, (n, 4, 4), and q, (7,): the library's, so that all start alike.
+    """
+    phi = 2 * np.pi * np.asarray(times) / LAP
+    T = np.tile(np.diag([-1.0, 1.0, -1.0, 1.0]), (len(phi), 1, 1))
+    T[:, :3, 3] = CENTRE
+    T[:, 1, 3] += radius * np.cos(phi)
+    T[:, 2, 3] += radius * np.sin(phi)
+    return T, solve_ik(*arm, T[0], _START_Q, limits)
+
+
+def least_miss(arm: tuple[Array, Array], limits: Array, path: Array, q: Array) -> Array:
+    """Return how far from each pose the hand must stay, mm, (n,): 0 within reach.
+
+    Args:
+        arm: screws, (7, 6), and home pose, (4, 4).
+        limits: of the joints, (7, 2).
+        path: poses, (n, 4, 4), each tried from hundreds of starts.
+        q: the first of these, (7,).
+    """
+    best = fk_space(*arm, solve_ik(*arm, path, q, limits))
+    return 1000 * np.linalg.norm(best[:, :3, 3] - path[:, :3, 3], axis=1)

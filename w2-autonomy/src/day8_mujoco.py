@@ -1,7 +1,7 @@
-"""A Panda that differs from its file, and the motions and holds that find out how.
+"""What Day 8 asks of MuJoCo: a robot that differs from its file, motions, and holds.
 
-The plumbing of identification: everything that needs a model of MuJoCo's. What is found
-with it is the subject of `robo47.identification`. Radians, seconds, kilograms, N m.
+What is found with it is the subject of `robo47.identification`. Radians, seconds,
+kilograms, N m; twists (omega; v), wrenches (moment; force).
 """
 
 import copy
@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from robo47 import checks, identification, simulate, verify
 from robo47.arm import Arm
 from robo47.checks import Array
+from robo47.errors import Robo47Error
 from robo47.fast.arm_state import ArmState
 from robo47.panda import READY_Q
 from robo47.panda.loading import Edit
@@ -29,7 +30,8 @@ REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])  # rad, of Day 5's swing
 RADIUS = 0.04  # m, of the ball that is hung on the hand
 OMEGA, RATE = 20.0, 100.0  # rad/s of the springs that hold the arm; Hz
 SLOW_RATE = 10.0  # Hz: gravity is in no hurry
-AWAY, REST = 0.1, 2.0  # rad that a hold begins beside its pose; s
+AWAY = 0.1  # rad that a hold begins beside its pose
+FLOAT = 2.0  # s, of the demo
 
 
 class Motion(NamedTuple):
@@ -38,6 +40,60 @@ class Motion(NamedTuple):
     q: Array
     qd: Array
     qdd: Array
+
+
+class Body(NamedTuple):
+    """One body in motion, in its own axes."""
+
+    phi: Array  # its ten numbers, (10,)
+    V: Array  # twist, rad/s and m/s, (6,)
+    A: Array  # acceleration of that twist, rad/s^2 and m/s^2, (6,)
+
+
+def bodies(n: int, seed: int) -> list[Body]:
+    """Return n bodies that can exist, each of forty points, in some motion."""
+    rng = np.random.default_rng(seed)
+    found = []
+    for _ in range(n):
+        points = rng.normal(size=(40, 3))
+        masses = rng.uniform(0.01, 0.1, 40)
+        m = masses.sum()
+        h = masses @ points
+        P = points.T * masses @ points  # the sum of m r r^T
+        about = np.trace(P) * np.eye(3) - P
+        i, j = np.transpose([(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)])
+        found.append(Body(np.hstack([m, h, about[i, j]]), *rng.normal(size=(2, 6))))
+    return found
+
+
+def mujoco_wrench(body: Body) -> Array:
+    """Return the wrench, (6,), that MuJoCo finds for a body that floats, by mj_inverse.
+
+    A free joint's qvel is (v; omega), and its qacc has the acceleration of the origin
+    as one sees it: that of the twist plus omega x v.
+    """
+    m = body.phi[0]
+    c = body.phi[1:4] / m
+    xx, yy, zz, xy, xz, yz = body.phi[4:]
+    about = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    about = about - m * (c @ c * np.eye(3) - np.outer(c, c))  # MuJoCo's is about c
+    spec = mujoco.MjSpec()
+    spec.option.gravity = [0.0, 0.0, 0.0]
+    floats = spec.worldbody.add_body()
+    floats.add_freejoint()
+    floats.explicitinertial = True
+    floats.mass = m
+    floats.ipos = c
+    i, j = np.transpose([(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)])
+    floats.fullinertia = about[i, j]
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    omega, v = body.V.reshape(2, 3)
+    alpha, a = body.A.reshape(2, 3)
+    data.qvel[:] = [*v, *omega]
+    data.qacc[:] = [*(a + np.cross(omega, v)), *alpha]
+    mujoco.mj_inverse(model, data)  # fills qfrc_inverse: (force; moment)
+    return np.roll(data.qfrc_inverse, 3)
 
 
 def changed(model: mujoco.MjModel, seed: int) -> mujoco.MjModel:
@@ -109,6 +165,37 @@ def swing(n: int = 200) -> Motion:
     return Motion(*np.stack([reference(t) for t in np.arange(n) * SECONDS / n], axis=1))
 
 
+def harmonics(
+    model: mujoco.MjModel, often: ArrayLike, far: ArrayLike, begin: ArrayLike,
+    n: int = 200,
+) -> Motion:  # fmt: skip
+    """Return n samples, over ten seconds, of sines about the ready configuration.
+
+    Args:
+        model: its ranges count, and the Panda's speeds.
+        often: swings a second, (k,).
+        far: how far each joint swings with each, rad, (k, 7).
+        begin: where in its swing each joint begins, rad, (k, 7).
+
+    Raises:
+        Robo47Error: a joint leaves its range, or is faster than it can be.
+    """
+    w = 2.0 * np.pi * np.asarray(often)[:, None]
+    far = checks.array(far, "far", (len(w), 7))
+    angle = w * (np.arange(n) * SECONDS / n)[:, None, None]
+    angle = angle + checks.array(begin, "begin", (len(w), 7))
+    q = READY_Q + (far * np.sin(angle)).sum(axis=1)
+    qd = (far * w * np.cos(angle)).sum(axis=1)
+    qdd = -(far * w**2 * np.sin(angle)).sum(axis=1)
+    low, high = simulate.limits(model)[0].T
+    for j in range(7):
+        if not (low[j] < q[:, j].min() and q[:, j].max() < high[j]):
+            raise Robo47Error(f"your motion takes joint{j + 1} out of its range: less")
+        if np.abs(qd[:, j]).max() > simulate.SPEED_LIMITS[j]:
+            raise Robo47Error(f"your motion is too fast for joint{j + 1}: less FAR")
+    return Motion(q, qd, qdd)
+
+
 def anywhere(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
     """Return n random states, up to 2 rad/s and 10 rad/s^2 in each joint."""
     rng = np.random.default_rng(seed)
@@ -122,16 +209,9 @@ def numbers(known: Arm) -> Array:
     return np.concatenate([links.ravel(), known.armature, known.damping, np.zeros(7)])
 
 
-def torques(model: mujoco.MjModel, motion: Motion) -> Array:
-    """Return the torques, N m, (n, 7), that MuJoCo finds for a motion.
-
-    Its dry friction has the sign of qd + qdd / b with b about 105 1/s, a property of
-    its constraint solver: below 0.1 rad/s it need not be that of qd.
-    """
-    return verify.mujoco_inverse_dynamics(model, *motion)
-
-
-def holds(model: mujoco.MjModel, known: Arm, poses: ArrayLike) -> tuple[Array, Array]:
+def holds(
+    model: mujoco.MjModel, known: Arm, poses: ArrayLike, wait: float
+) -> tuple[Array, Array]:
     """Return where the arm came to rest on springs, and what the springs gave there.
 
     Gravity, Coriolis forces and damping of the known arm are made up for, so what the
@@ -143,17 +223,20 @@ def holds(model: mujoco.MjModel, known: Arm, poses: ArrayLike) -> tuple[Array, A
         model: the robot, with motors.
         known: what its controller takes it for.
         poses: where it is to be held, rad, (k, 7).
+        wait: s. MuJoCo's dry friction does not stick: it creeps, and is gone one day.
 
     Returns:
         (q at rest in rad, torque of the springs in N m), (2, k, 7) each, by side.
     """
     poses = checks.array(poses, "poses", (7,))
-    found = [[_hold(model, known, q, side) for q in poses] for side in (1.0, -1.0)]
+    found = [[_hold(model, known, q, side, wait) for q in poses] for side in (1.0, -1.0)]
     at, torque = np.moveaxis(np.array(found), 2, 0)
     return at, torque
 
 
-def _hold(model: mujoco.MjModel, known: Arm, q: Array, side: float) -> list[Array]:
+def _hold(
+    model: mujoco.MjModel, known: Arm, q: Array, side: float, wait: float
+) -> list[Array]:
     def law(t: float, q_now: Array, qd: Array) -> Array:
         now = known.at(q_now)
         pull = OMEGA**2 * (q - q_now) - 2.0 * OMEGA * qd
@@ -161,7 +244,7 @@ def _hold(model: mujoco.MjModel, known: Arm, q: Array, side: float) -> list[Arra
 
     lifts = np.where(known.at(q).J_site[5] < -1e-9, -1.0, 1.0)
     data = simulate.start(model, q + side * AWAY * lifts)
-    run = simulate.run(model, data, law, REST, rate=RATE)
+    run = simulate.run(model, data, law, wait, rate=RATE)  # mujoco.mj_step
     return [run.q[-2], run.tau[-1] - known.at(run.q[-2]).gravity_torque]
 
 
@@ -197,6 +280,6 @@ def rises(
         hand = now.J_site, now.T_world_ee[:3, :3]
         return still(now) + identification.load_regressor(*hand, known.gravity) @ load
 
-    run = simulate.run(free, simulate.start(free, READY_Q), law, REST, rate=SLOW_RATE)
+    run = simulate.run(free, simulate.start(free, READY_Q), law, FLOAT, rate=SLOW_RATE)
     before, *_, end = (known.at(q).T_world_ee[2, 3] for q in run.q)
     return float(end - before)

@@ -1,0 +1,122 @@
+"""Run what can differ between processors as on others: no number hangs on a last bit.
+
+    make kernels                              Prescott, Haswell, SkylakeX
+    python3 scripts/kernels.py Nehalem Zen    as on others that OpenBLAS knows
+    python3 scripts/kernels.py --others       all but this machine's own
+
+Each runs the tests of the days and of the library. The first, which is the most
+different, runs the authors' of them too, and compares the documents' outputs. What
+OpenBLAS does not take here is named and left out. To find a number that moves set
+OPENBLAS_CORETYPE or NPY_DISABLE_CPU_FEATURES: all commands heed them, the sandbox too.
+
+Exit code: 0 the same everywhere, 1 something differs, 2 could not run.
+"""
+
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from labkit.base import cli, processes
+from labkit.lesson.week import weeks
+from robo47.paths import ROOT
+
+THREE = ("Prescott", "Haswell", "SkylakeX")  # without AVX, with AVX2, with AVX-512
+MARKS = "not soak and not browser and not network"
+NO_AVX = {"NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4"}  # of NumPy's own loops
+# Prints whose kernels OpenBLAS takes, after it has used them; nothing without OpenBLAS.
+PROBE = """
+import ctypes, pathlib, numpy
+numpy.ones((50, 50)) @ numpy.ones((50, 50))
+for path in pathlib.Path(numpy.__file__).parents[1].glob("numpy.libs/*openblas*"):
+    name = ctypes.CDLL(str(path)).scipy_openblas_get_corename64_
+    name.restype = ctypes.c_char_p
+    print(name().decode())
+"""
+OLDER = {"Katmai": "Prescott"}  # what OpenBLAS calls itself where it was asked for that
+
+
+def environment(kernel: str) -> dict[str, str]:
+    """Return the environment in which a process computes as on another processor.
+
+    Args:
+        kernel: a name that OpenBLAS knows; "" is this machine's own.
+    """
+    others = ("OPENBLAS_CORETYPE", "OPENBLAS_L2_SIZE", *NO_AVX)
+    plain = {name: value for name, value in os.environ.items() if name not in others}
+    asked = {"OPENBLAS_CORETYPE": kernel} if kernel else {}
+    return plain | asked | (NO_AVX if kernel == "Prescott" else {})
+
+
+def taken(kernel: str) -> str:
+    """Return whose kernels OpenBLAS takes where these are asked for; "" if none runs.
+
+    Args:
+        kernel: as `environment` has it.
+    """
+    done = processes.run([sys.executable, "-c", PROBE], env=environment(kernel))
+    said = done.stdout.strip() if done.returncode == 0 else ""
+    return OLDER.get(said, said)
+
+
+def tests() -> Iterator[Path]:
+    """Yield the days' folders, and the files that test the library alone."""
+    yield from (week.folder for week in weeks())
+    for path in sorted((ROOT / "tests").glob("test_*.py")):
+        text = path.read_text("utf-8")
+        if "labkit" not in text and "pytestmark = pytest.mark.kit" not in text:
+            yield path
+
+
+def commands(*, whole: bool) -> list[list[str]]:
+    """Return what is run under one kernel.
+
+    Args:
+        whole: also the tests with the mark `kit`, and the documents.
+    """
+    where = map(str, tests())
+    marks = MARKS if whole else f"{MARKS} and not kit"
+    asked = ["-q", "-n", "2", "--dist", "worksteal", "-m", marks, *where]
+    found = [[sys.executable, "-m", "pytest", *asked]]
+    if whole:
+        found.append([sys.executable, "scripts/build_docs.py", "--check"])
+    return found
+
+
+def differs(kernel: str, *, whole: bool) -> bool:
+    """Return whether something fails under a kernel; print what, and a line of each.
+
+    Args:
+        kernel: a name that OpenBLAS knows.
+        whole: as `commands` has it.
+    """
+    bad = False
+    for command in commands(whole=whole):
+        done = processes.run(command, env=environment(kernel), cwd=ROOT)
+        if done.returncode:
+            bad = True
+            print(done.stdout + done.stderr)
+        last = (done.stdout.splitlines() or ["it printed nothing"])[-1]
+        print(f"{cli.verdict(not done.returncode)}  {kernel}: {last}", flush=True)
+    return bad
+
+
+def main() -> int:
+    """Run each kernel and print what differs."""
+    parser = cli.parser(__doc__)
+    parser.add_argument("kernels", nargs="*", default=THREE, metavar="KERNEL")
+    parser.add_argument("--others", action="store_true", help="not this machine's own")
+    options = parser.parse_args()
+    own = taken(os.environ.get("OPENBLAS_CORETYPE", "")) if options.others else ""
+    bad = False
+    whole = True
+    for kernel in options.kernels:
+        found = taken(kernel)
+        if found.lower() != kernel.lower():
+            print(f"left out  {kernel}: here OpenBLAS takes {found or 'none'} for it")
+        elif kernel == own:
+            print(f"left out  {kernel}: this machine's own, which `make test` has run")
+        else:
+            bad = differs(kernel, whole=whole) or bad
+            whole = False
+    return cli.EXIT_FAILED if bad else cli.EXIT_OK

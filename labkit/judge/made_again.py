@@ -1,0 +1,249 @@
+"""A named mistake made again: it is claimed where that gives the student's numbers."""
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from labkit.judge.answers import (
+    InTurn,
+    Parts,
+    all_match,
+    as_one,
+    capitalised,
+    gaps,
+    largest,
+    matches,
+    parts,
+    worst_part,
+)
+from labkit.judge.ask import Ask, Case, Further
+from labkit.judge.mistake import Finding, Mistake
+
+# What one mistake alone leaves right, two need not: "all is right except that ...".
+_BUT = re.compile(
+    r"^(?:[^;:]*?\b(?:is|are) right(?: except that|, but|;)"
+    r"|right [^;,:]*[;,](?: but)?) "
+)
+MOST = 80  # mistakes of a function that are tried two at a time
+
+
+def _named(
+    mistakes: Sequence[Mistake],
+    arguments: tuple[Any, ...],
+    kinds: Sequence[Any],
+    S: Parts,
+    T: Parts | None,
+    near: float,
+) -> Finding | None:
+    """Return the first mistake that, made on purpose, gives the student's answers."""
+    first = -1 if T is None else int(np.argmax(gaps(kinds, S, T)))
+    for mistake in mistakes:
+        try:
+            again = _made_again(mistake.redo, arguments, kinds, S, first)
+        except (ValueError, np.linalg.LinAlgError):  # it has no answer of its own here
+            continue
+        if all_match(kinds, S, again):
+            says = capitalised(mistake.says)
+            says += "" if says.endswith("?") else "."
+            if T is not None:
+                i = worst_part(kinds, S, T, near)
+                how = mistake.redone
+                if np.isfinite(S[i]).all():  # of a NaN nobody says how far it is off
+                    how = f"off by up to {kinds[i].apart(S[i], T[i])}; {how}"
+                says += f" ({capitalised(how)} gives your numbers exactly.)"
+            return Finding(mistake.slug, says)
+    return None
+
+
+def _made_again(
+    redo: Callable[..., Any],
+    arguments: tuple[Any, ...],
+    kinds: Sequence[Any],
+    S: Parts,
+    first: int,
+) -> Parts:
+    """Return the answers with a mistake; none where the first is not the student's.
+
+    Raises:
+        ValueError: it has no answer to one of the questions.
+    """
+    if isinstance(redo, InTurn):
+        again = parts(redo.nth(first, arguments))
+        for s, a, kind in zip(S, again, kinds, strict=False):
+            scale = kind.scale * max(1.0, largest(s, kind.scale))
+            mine, its = as_one([s[first], a])
+            if not matches(mine[None], its[None], scale):
+                return ()
+    return parts(redo(*arguments))
+
+
+def redone(
+    ask: Ask,
+    arguments: tuple[Any, ...],
+    S: Parts,
+    T: Parts | None,
+    further: Further | None = None,
+) -> Finding | None:
+    """Return a named mistake of the function, or a general one of its kind.
+
+    Args:
+        ask: the function's row.
+        arguments: of the main questions, stacked.
+        S: the student's answers.
+        T: the right ones; None where many are right.
+        further: fresh answers. Whole numbers that are equal prove little, so there a
+            mistake has to give these as well, and must be the only one that does.
+    """
+    if any(kind.whole for kind in ask.kinds):
+        return _of_whole_numbers(ask, arguments, S, T, further)
+    if found := _named(ask.named, arguments, ask.kinds, S, T, ask.near):
+        return found
+    if T is None:
+        return None
+    for i, kind in enumerate(ask.kinds):
+        if not all(matches(S[j], T[j]) for j in range(len(T)) if j != i):
+            continue
+        mine, its = (S[i],), (T[i],)
+        if found := _named(kind.general(), its, [kind], mine, its, ask.near):
+            called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
+            return Finding(found.slug, called + found.message)
+    return None
+
+
+def _of_whole_numbers(
+    ask: Ask,
+    arguments: tuple[Any, ...],
+    S: Parts,
+    T: Parts | None,
+    further: Further | None,
+) -> Finding | None:
+    """Return the one or two mistakes that give all of the student's numbers."""
+    found: dict[str, Finding] = {}
+    for one in ask.named:
+        first = _named([one], arguments, ask.kinds, S, T, ask.near)
+        if first is None:
+            continue
+        if further:
+            try:
+                again = parts(one.redo(*further.arguments))
+            except (ValueError, np.linalg.LinAlgError):
+                continue
+            if not all_match(ask.kinds, further.S, again):
+                continue
+        found.setdefault(one.slug, first)
+    if len(found) == 2:
+        one, other = found.values()
+        says = f"Two mistakes give these numbers. Either: {one.message} Or: "
+        return Finding(one.slug, says + other.message)
+    return next(iter(found.values())) if len(found) == 1 else None
+
+
+def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
+    """Return two named mistakes that together give the student's answers, or None.
+
+    Two terms that are wrong add up: what both make is the one answer and the other's
+    difference from the right one. A mistake made with an argument comes before another,
+    and one made with the finished answer after it.
+    """
+    ask = case.ask
+    if any(kind.whole for kind in ask.kinds):
+        return None
+    i = int(np.argmax(gaps(ask.kinds, S, T)))
+    mistakes = [one for one in ask.named if isinstance(one.redo, InTurn)][:MOST]
+    mine = _nth(S, i)
+    its = _nth(T, i)
+    answers = {}
+    for k, one in enumerate(mistakes):
+        answer = _answer(one, case.arguments, i)
+        if _alike(ask, answer, its) is False:
+            answers[k] = answer
+    for a, b in combinations(answers, 2):
+        both = _sum(answers[a], answers[b], its)
+        pair = mistakes[a], mistakes[b]
+        if pair[0].slug != pair[1].slug and _alike(ask, both, mine):
+            again = [_all(one, case.arguments) for one in pair]
+            if _alike(ask, _sum(*again, T), S):
+                return _both_told(ask, pair, S, T)
+    if len(ask.kinds) == 1:
+        for change in ask.kinds[0].general():
+            for k, answer in answers.items():
+                pair = mistakes[k], change
+                if _alike(ask, _changed(change, answer), mine) and _alike(
+                    ask, _changed(change, _all(mistakes[k], case.arguments)), S
+                ):
+                    return _both_told(ask, pair, S, T)
+    for pair in _one_after_the_other(mistakes):
+        if _alike(ask, _answer(pair, case.arguments, i), mine) and _alike(
+            ask, _all(pair, case.arguments), S
+        ):
+            return _both_told(ask, pair, S, T)
+    return None
+
+
+Pair = tuple[Mistake, Mistake]
+
+
+def _one_after_the_other(mistakes: Sequence[Mistake]) -> Iterator[Pair]:
+    """Yield pairs of which the first is made with an argument."""
+    for first in mistakes:
+        if hasattr(first.redo.function, "given"):  # type: ignore[attr-defined]
+            for second in mistakes:
+                if first.slug != second.slug:
+                    yield first, second
+
+
+def _answer(one: Mistake | Pair, arguments: tuple[Any, ...], i: int) -> Parts:
+    """Return the answer to one question with a mistake, or with two; () for none."""
+    column = [c[[i]] if isinstance(c, np.ndarray) else c for c in arguments]
+    return _nth(_all(one, tuple(column)), 0)
+
+
+def _all(one: Mistake | Pair, arguments: tuple[Any, ...]) -> Parts:
+    try:
+        if isinstance(one, Mistake):
+            return parts(one.redo(*arguments))
+        first: Any = one[0].redo
+        second: Any = one[1].redo
+        function = lambda *args: second.function(*first.function.given(*args))  # noqa: E731
+        return parts(InTurn(function)(*arguments))
+    except (ValueError, np.linalg.LinAlgError):
+        return ()
+
+
+def _changed(change: Mistake, answer: Parts) -> Parts:
+    """Return an answer with a mistake that is made when it is finished."""
+    try:
+        return parts(change.redo(answer[0])) if answer else ()
+    except (ValueError, np.linalg.LinAlgError):
+        return ()
+
+
+def _nth(some: Parts, i: int) -> Parts:
+    return tuple(part[i : i + 1] for part in some)
+
+
+def _sum(a: Parts, b: Parts, right: Parts) -> Parts:
+    """Return what two wrong terms make together."""
+    trios = list(zip(a, b, right, strict=False))
+    if any(len({x.shape for x in trio}) > 1 for trio in trios):
+        return ()
+    return tuple(x + y - z for x, y, z in trios)
+
+
+def _alike(ask: Ask, a: Parts, b: Parts) -> bool | None:
+    """Return whether two answers match; None where there is none."""
+    if len(a) != len(b):
+        return None
+    return all_match(ask.kinds, a, b)
+
+
+def _both_told(ask: Ask, pair: Pair, S: Parts, T: Parts) -> Finding:
+    i = worst_part(ask.kinds, S, T, ask.near)
+    says = "; ".join(_BUT.sub("", one.says.rstrip("?")) for one in pair)
+    off = f"Off by up to {ask.kinds[i].apart(S[i], T[i])}"
+    how = f"{off}; both together give your numbers exactly"
+    slug = "+".join(one.slug for one in pair)
+    return Finding(slug, f"Two things at once: {says}. ({how}.)")

@@ -1,0 +1,120 @@
+"""Values of an argument at which a term drops out: 0, the identity, one entry alone."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from labkit.judge.answers import rigid
+from robo47.checks import Array
+
+SIZES = (-1.0, 5.0, -0.2)  # that another input has, in units of what was asked
+_SEVERAL = (1.0, -1.0, 5.0, -0.2, 0.2, -5.0)
+
+
+@dataclass(frozen=True)
+class Neutral:
+    """One way for an argument to be neutral."""
+
+    says: str  # "{} is 0"
+    value: Any  # the argument made so with as little change as that takes
+    holds: Callable[[Any], bool]  # whether a value of such an argument is so
+    others: tuple[Any, ...] = ()  # further values that are so: signs, sizes, places
+
+
+def neutrals(x: Any) -> Iterator[Neutral]:
+    """Yield the neutral values of an argument, the most telling first.
+
+    Args:
+        x: a number, a vector, a matrix, a rotation or a pose; anything else has none.
+    """
+    if isinstance(x, float) and not isinstance(x, bool):
+        yield Neutral("{} is 0", 0.0, lambda v: v == 0)
+        yield Neutral("{} is 1", 1.0, lambda v: v == 1)
+    elif not isinstance(x, np.ndarray):
+        return
+    elif x.ndim == 1 and len(x) > 1:
+        yield from _of_a_vector(x)
+    elif x.ndim == 2:
+        yield from _of_a_matrix(x)
+
+
+def scaled(x: Any, size: float) -> Any:
+    """Return an argument of another size: a number or plain array; others stay."""
+    if isinstance(x, float):
+        return x * size
+    if not isinstance(x, np.ndarray) or x.dtype.kind != "f":
+        return x
+    square = x.ndim == 2 and x.shape[0] == x.shape[1]
+    if square and x.shape[0] in (3, 4) and rigid(x[None]):
+        return x
+    if square and np.array_equal(x, x.T) and (np.diag(x) > 0).all():
+        return x * abs(size)  # a mass matrix stays one
+    return x * size
+
+
+def _of_a_vector(x: Array) -> Iterator[Neutral]:
+    size = float(np.abs(x).max()) or 1.0
+    all_of = [np.full_like(x, s * size) for s in _SEVERAL]
+    yield Neutral("{} is 0", np.zeros_like(x), lambda v: not v.any())
+    yield Neutral(
+        "all entries of {} are equal",
+        np.full_like(x, x[0]),
+        lambda v: bool((v == v[0]).all()),
+        tuple(all_of),
+    )
+    places = np.eye(len(x), dtype=x.dtype)
+    yield Neutral(
+        "only one entry of {} is not 0",
+        np.where(np.arange(len(x)) == np.argmax(np.abs(x)), x, 0.0),
+        lambda v: int(np.count_nonzero(v)) == 1,
+        tuple(s * size * one for s in _SEVERAL[:4] for one in places),
+    )
+
+
+def _of_a_matrix(x: Array) -> Iterator[Neutral]:
+    square = x.shape[0] == x.shape[1]
+    if x.shape == (4, 4) and rigid(x[None]):
+        turned = x.copy()
+        moved = x.copy()
+        turned[:3, 3] = 0.0
+        moved[:3, :3] = np.eye(3)
+        yield Neutral("{} does not translate", turned, lambda v: not v[:3, 3].any())
+        yield Neutral(
+            "{} does not rotate",
+            moved,
+            lambda v: np.array_equal(v[:3, :3], np.eye(3)),
+            tuple(_moved(moved, s) for s in _SEVERAL[1:]),
+        )
+    elif x.shape == (3, 3) and rigid(x[None]):
+        yield Neutral("{} is the identity", np.eye(3), _is_identity)
+    elif square:
+        diagonal = np.diag(np.diag(x))
+        yield Neutral(
+            "{} is diagonal",
+            diagonal,
+            lambda v: not (v - np.diag(np.diag(v))).any(),
+            tuple(scaled(diagonal, s) for s in _SEVERAL[1:]),
+        )
+        yield Neutral("{} is the identity", np.eye(len(x)), _is_identity)
+        yield Neutral("{} is 0", np.zeros_like(x), lambda v: not v.any())
+    else:
+        columns = [x * (np.arange(x.shape[1]) == i) for i in range(x.shape[1])]
+        yield Neutral(
+            "only one column of {} is not 0",
+            columns[0],
+            lambda v: int(v.any(axis=0).sum()) == 1,
+            tuple(s * one for one in columns for s in _SEVERAL[:4]),
+        )
+
+
+def _moved(T: Array, size: float) -> Array:
+    """Return a pose with its translation in another size."""
+    found = T.copy()
+    found[:3, 3] *= size
+    return found
+
+
+def _is_identity(v: Array) -> bool:
+    return np.array_equal(v, np.eye(len(v)))

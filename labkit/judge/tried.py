@@ -1,0 +1,59 @@
+"""Sentences about all answers, held against the fresh ones as well.
+
+"All entries are right but [0, 2]" is read from the main questions. It is said only if
+the fresh ones, which were asked in the same round, would be told the same.
+"""
+
+import re
+
+from labkit.judge import near_miss
+from labkit.judge.answers import Parts, as_one
+from labkit.judge.ask import Case
+from labkit.judge.mistake import Finding
+from robo47.checks import Array
+
+# What must be the same; any other number may grow with more inputs.
+_KEPT = re.compile(r"(\[[^\]]*\]|\b(?:joint|rows?|columns?|link) ?\d+(?: to \d+)?)")
+_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+
+
+def what_is_wrong(case: Case, S: Parts, T: Parts, i: int) -> Finding:
+    """Return what is wrong with a part of the answers, where it is so at all inputs.
+
+    Args:
+        case: what was asked; S, T: the answers, as parts.
+        i: which part.
+    """
+    kind = case.ask.kinds[i]
+    found = kind.what_is_wrong(S[i], T[i])
+    plain = Finding("off", f"It is off by up to {kind.apart(S[i], T[i])}.")
+    if near_miss.about_right(S[i], T[i]):
+        return plain
+    if case.further is None:
+        return found
+    try:
+        wider = kind.what_is_wrong(*_with_further(case, S, T, i))
+    except ValueError:  # of other sizes than a kind takes
+        return plain
+    return found if _form(found.message) == _form(wider.message) else plain
+
+
+def in_common(case: Case, S: Parts, T: Parts, i: int) -> str:
+    """Return what all wrong answers share with the right ones, or ""."""
+    found = near_miss.in_common(S[i], T[i])
+    if case.further is None or not found:
+        return found
+    return found if near_miss.in_common(*_with_further(case, S, T, i)) == found else ""
+
+
+def _with_further(case: Case, S: Parts, T: Parts, i: int) -> tuple[Array, Array]:
+    assert case.further is not None
+    mine = as_one([*S[i], *case.further.S[i]])
+    its = as_one([*T[i], *case.further.T[i]])
+    return mine, its
+
+
+def _form(message: str) -> str:
+    """Return a sentence without the numbers that say how much."""
+    parts = _KEPT.split(message)
+    return "".join(p if k % 2 else _NUMBER.sub("#", p) for k, p in enumerate(parts))

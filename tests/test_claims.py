@@ -1,0 +1,141 @@
+"""A sentence about all inputs is said only where it holds at inputs not asked."""
+
+import inprocess
+import numpy as np
+import pytest
+
+from labkit.lesson.day import find_day
+from labkit.lesson.lab_module import lab_of
+
+pytestmark = pytest.mark.kit
+
+
+def told(number, task, **instead):
+    """Return what a wrong function of a day is told; the others are the lab's."""
+    day = find_day(number)
+    verdict = inprocess.verdicts(day, day.source, task, instead=instead)[task]
+    assert verdict.status in ("wrong", "close")
+    return verdict.message
+
+
+def right(number, name):
+    return getattr(lab_of(find_day(number)), name)
+
+
+def test_a_lost_sign_is_not_right_whenever_one_entry_is_not_0():
+    def spring_wrench(e, V_err, K, D):
+        return K @ np.abs(e) + D @ V_err
+
+    assert "only one entry" not in told(6, "6.5", spring_wrench=spring_wrench)
+
+
+def test_a_clipped_step_is_not_right_whenever_damping_is_1():
+    def dls_step(J, e, damping):
+        return np.clip(right(3, "dls_step")(J, e, damping), -0.5, 0.5)
+
+    says = told(3, "3.5", dls_step=dls_step)
+    assert "whenever" not in says
+
+
+def test_a_rounded_quaternion_is_not_right_whenever_one_entry_is_not_0():
+    def quat_to_R(quat):
+        return right(1, "quat_to_R")(np.round(quat, 2))
+
+    assert "whenever" not in told(1, "1.4", quat_to_R=quat_to_R)
+
+
+def test_a_constant_that_is_a_little_off_is_no_wrong_sign():
+    def dls_step(J, e, damping):
+        if damping < 1e-2:
+            return np.linalg.pinv(J) @ e
+        return right(3, "dls_step")(J, e, damping)
+
+    assert "sign" not in told(3, "3.5", dls_step=dls_step)
+
+
+def test_what_comes_near_in_all_columns_is_not_right_up_to_one():
+    def space_jacobian(screws, q):
+        def turned(q):
+            return right(2, "fk_space")(screws, np.eye(4), q)
+
+        T = turned(q)
+        J = np.zeros((6, 7))
+        for i, step in enumerate(1e-4 * np.eye(7)):
+            W = (turned(q + step) - T) / 1e-4 @ np.linalg.inv(T)
+            J[:, i] = [W[2, 1], W[0, 2], W[1, 0], *W[:3, 3]]
+        return J
+
+    says = told(3, "3.1", space_jacobian=space_jacobian)
+    assert "right up to" not in says
+    assert "one part in 100" in says
+
+
+def test_of_the_other_answers_those_that_are_wrong_are_counted():
+    def make_T(R, t):
+        if t[0] == 1:
+            raise ValueError(t)
+        T = right(1, "make_T")(R, t)
+        T[2, 3] += 0.3 * (t[2] > 0)
+        return T
+
+    assert "Of the " in told(1, "1.1", make_T=make_T)
+
+
+def test_a_range_is_said_where_an_angle_has_one():
+    def Rz(theta):
+        return right(1, "Rz")(theta % np.pi)
+
+    says = told(1, "1.2", Rz=Rz)
+    assert "whenever theta" not in says
+    assert "It is right for theta between 0 and pi." in says
+
+
+def test_a_small_angle_s_own_formula_never_passes_by_chance():
+    def Rz(theta):
+        c, s = np.cos(theta), np.sin(theta)
+        c = 1.0 if abs(theta) < 0.1 else c
+        return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+
+    day = find_day(1)
+    for seed in range(3):
+        verdict = inprocess.verdicts(day, day.source, "1.2", seed, {"Rz": Rz})["1.2"]
+        assert verdict.status == "wrong"
+
+
+def test_a_joint_wrapped_to_pi_leaves_its_limits():
+    def solve_ik(*target):
+        q = right(3, "solve_ik")(*target)
+        return np.where(np.abs(q) > np.pi, (q + np.pi) % (2 * np.pi) - np.pi, q)
+
+    assert "wrapped" in told(3, "3.6", solve_ik=solve_ik)
+
+
+def test_two_mistakes_at_once_are_both_told():
+    def link_inertias(T_links, masses, coms, inertias):
+        found = []
+        for T, m, c, inertia in zip(T_links, masses, coms, inertias, strict=True):
+            R = T[:3, :3]
+            made = right(4, "spatial_inertia")(m, R @ c, R.T @ inertia @ R)
+            found.append(made)
+        return np.array(found)
+
+    says = told(4, "4.2", link_inertias=link_inertias)
+    assert says.startswith("Two things at once: ")
+
+
+def test_the_call_shown_has_a_wrong_entry():
+    def identifiable(Y, rtol):
+        s = np.linalg.svd(Y, compute_uv=False)
+        return int(np.sum(s > rtol)), s[0] / s[-1]
+
+    day = find_day(8)
+    found = inprocess.verdicts(
+        day, day.source, "8.5", 1, {"identifiable": identifiable}
+    )
+    mine, its = (
+        found["8.5"]
+        .call.removesuffix(" is right.")
+        .rsplit(" is ", 1)[1]
+        .split(", and ")
+    )
+    assert mine != its

@@ -1,0 +1,35 @@
+"""What `make gaps` changes in a function, and what it prints."""
+
+import sys
+
+import pytest
+
+from labkit.commands.gaps import changes, unnoticed
+from labkit.judge import Row
+from labkit.judge.row import rows_of
+from labkit.lesson.day import find_day
+
+pytestmark = [
+    pytest.mark.kit,
+    pytest.mark.skipif(sys.platform == "win32", reason="no SIGALRM there"),
+]
+
+
+def test_a_limit_is_moved_a_constant_doubled_and_a_sign_taken_away():
+    source = "def f(x):\n    return 2.0 if abs(x) < 0.5 else x\n"
+    found = {change.says for change in changes(source)}
+    line = "return 2.0 if abs(x) < 0.5 else x"
+    assert f"{line} => return 4.0 if abs(x) < 0.5 else x" in found
+    assert f"{line} => return 2.0 if abs(x) >= 0.5 else x" in found
+    assert f"{line} => return 2.0 if abs(x) < 10.0 * 0.5 else x" in found
+    assert f"{line} => return 2.0 if x < 0.5 else x" in found
+    assert "first x = np.abs(x)" in found
+
+
+def test_what_no_question_asks_is_found_and_what_is_asked_is_not():
+    day = find_day(1)
+    row = rows_of(day)["Rz"]
+    assert not list(unnoticed(row, "Rz"))
+    few = Row(row.ask.kinds[0], truth=row.truth).bind(day, "Rz")
+    few.inputs(lambda rng: [(0.0,), (0.5,), (1.0,)])
+    assert "first theta = np.abs(theta)" in list(unnoticed(few, "Rz"))
