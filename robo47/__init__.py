@@ -8,7 +8,6 @@ __version__ = "0.2.0"
 # What labs of before December 2026 have typed.
 _WAS = {
     "dynamics_batch": "robo47.fast.dynamics",
-    "touch": "robo47.contact",
 }
 
 

@@ -146,7 +146,9 @@ def test_with_the_gains_outside_of_m_it_does_not(motors):
 
 def test_computed_torque_tracks_within_a_milliradian(motors):
     model, arm = motors
-    swing = references.raised_cosine(READY_Q, np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6]))
+    swing = references.raised_cosine(
+        READY_Q, np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])
+    )
     law = computed_torque(arm, swing, 20, 1)
     run = simulate.run(model, simulate.start(model, READY_Q), law, 2.0)
     off = run.q - np.array([swing(t)[0] for t in run.t])

@@ -27,8 +27,10 @@ def shown(figure: Figure) -> None:
     above, below = figure.subplots(2, 1)
     motion = day8_mujoco.excitation(robot, lab.ROBOT_SEED, SAMPLES)
     Y = lab.regressor(arm, motion)
-    _values(above, lab.regressor(arm, day8_mujoco.swing(SAMPLES)), "Day 5's swing", "s", RED)
-    _values(above, Y, "excited", "o", BLUE)
+    swing = day8_mujoco.swing(SAMPLES)
+    rubs = np.abs(swing.qd) > lab.SLOW  # the rows that the lab fits
+    _values(above, lab.regressor(arm, swing)[rubs], "Day 5's swing", "s", RED)
+    _values(above, Y[np.abs(motion.qd) > lab.SLOW], "excited", "o", BLUE)
     _torque(below, arm, robot, Y, motion)
     for axes in (above, below):
         axes.grid()
@@ -39,17 +41,23 @@ def _values(axes: Axes, Y: np.ndarray, name: str, mark: str, colour: str) -> Non
     Y = Y.reshape(-1, Y.shape[-1])
     s = np.linalg.svd(Y, compute_uv=False)
     rank, condition = lab.identifiable(Y, lab.RTOL)
-    words = f"{name}: {rank}, condition {condition:,.3g}"
+    words = f"{name}: {rank}, condition {float(f'{condition:.3g}'):,.0f}"
     axes.semilogy(s / s[0], mark, ms=4, color=colour, label=words)
     axes.axhline(lab.RTOL, color=INK, linestyle="--", linewidth=1.5)
-    axes.set(ylim=(1e-18, 30), title="What a motion shows", xlabel="number of the singular value")
+    axes.set(
+        ylim=(1e-18, 30),
+        title="What a motion shows",
+        xlabel="number of the singular value",
+    )
     axes.set_ylabel("share of the largest")
     axes.legend(loc=(0.03, 0.25))
 
 
 def _torque(axes: Axes, arm, robot, Y: np.ndarray, motion: day8_mujoco.Motion) -> None:
     """Draw how far one joint's torque is off on a new motion: by the fit, the file."""
-    noise = lab.NOISE * np.random.default_rng(lab.NOISE_SEED).normal(size=motion.q.shape)
+    noise = lab.NOISE * np.random.default_rng(lab.NOISE_SEED).normal(
+        size=motion.q.shape
+    )
     tau = lab.mujoco_torques(robot, motion) + noise
     fast = np.abs(motion.qd) > lab.SLOW
     new = day8_mujoco.excitation(robot, lab.ROBOT_SEED + 1, SAMPLES)
@@ -57,6 +65,7 @@ def _torque(axes: Axes, arm, robot, Y: np.ndarray, motion: day8_mujoco.Motion) -
     t = np.arange(SAMPLES) * 10.0 / SAMPLES
     torque, sigma = lab.predict_with_sigma(Y[fast], tau[fast], rows, lab.RTOL)
     true = lab.mujoco_torques(robot, new)[:, JOINT]
+    true[np.abs(new.qd[:, JOINT]) < lab.SLOW] = np.nan  # no column for these rows
     band = 1.96 * sigma
     axes.fill_between(t, -band, band, color=BLUE, alpha=0.25, label="1.96 sigma")
     axes.plot(t, torque - true, "o", ms=4, color=BLUE, label="predicted by the fit")

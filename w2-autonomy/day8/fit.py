@@ -5,7 +5,7 @@ import numpy as np
 from labkit.judge import Row, Vector
 from robo47.identification import fit
 
-from .states import CUT, regressors
+from .states import CUT, regressors, uneven
 
 row = Row(Vector((None,)))
 CASE = np.array([[1.0, 1.0], [2.0, 2.0]]), np.array([2.0, 4.0]), 1e-9
@@ -13,7 +13,13 @@ CASE = np.array([[1.0, 1.0], [2.0, 2.0]]), np.array([2.0, 4.0]), 1e-9
 
 @row.inputs
 def _(rng):
-    return [CASE, *((Y, scaled(rng, Y), CUT) for Y in regressors(rng))]
+    return [
+        CASE,
+        *(
+            (Y, scaled(rng, Y), CUT)
+            for Y in [uneven(rng, 5.0), uneven(rng, 8.0), *regressors(rng)]
+        ),
+    ]
 
 
 def scaled(rng, Y):
@@ -35,6 +41,10 @@ def _(Y, tau, rtol):
       up of noise, and large => the right one with nothing cut
     rtol-absolute: a value is compared with rtol itself; it counts above rtol times the
       largest => the right one with rtol absolute
+    cut-by-the-sum: a value is compared with rtol times the sum of all; it counts above
+      rtol times the largest => the right one with the sum
+    cut-by-the-norm: a value is compared with rtol times the norm of Y, the root of the
+      sum of squares; it counts above rtol times the largest => with that norm
     cut-not-squared: the cut is made on eigenvalues of Y^T Y, which are squares, and is
       not squared => the right one with rtol's square root
     ridge: something is added to the diagonal of Y^T Y: every parameter is pulled
@@ -46,11 +56,14 @@ def _(Y, tau, rtol):
       rest
     """
     U, s, Vt = parts(Y, rtol)
+    every = np.linalg.svd(Y, compute_uv=False)
     p = Y.shape[1]
     first = np.linalg.lstsq(Y[:, : len(s)], tau, rcond=None)[0]
     return {
         "nothing-cut": fit(Y, tau, 1e-12),
         "rtol-absolute": fit(Y, tau, min(rtol / s[0], 0.999)),
+        "cut-by-the-sum": fit(Y, tau, rtol * every.sum() / every[0]),
+        "cut-by-the-norm": fit(Y, tau, rtol * np.linalg.norm(every) / every[0]),
         "cut-not-squared": fit(Y, tau, np.sqrt(rtol)),
         "ridge": np.linalg.solve(Y.T @ Y + np.eye(p), Y.T @ tau),
         "times-s": Vt.T @ (s * (U.T @ tau)),

@@ -6,7 +6,7 @@ from labkit.judge import Count, Row, Scalar
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
 
-from .states import CUT, regressors
+from .states import CUT, hidden, regressors, uneven
 
 
 def of_dust(case: Case) -> Finding | None:
@@ -15,8 +15,8 @@ def of_dust(case: Case) -> Finding | None:
         return None
     if all(n == Y.shape[1] for n, Y in zip(case.S[0], case.arguments[0], strict=True)):
         return Finding("nothing-cut", "Every value counts, so rtol is not used.")
-    says = "The condition is over 1 / rtol: it is that of all values, and those that do"
-    return Finding("condition-of-all", f"{says} not count are only rounding.")
+    says = "The condition is over 1 / rtol: it ends at a value that does not count."
+    return Finding("condition-of-all", says)
 
 
 row = Row((Count(called="the rank"), Scalar(called="the condition")), unnamed=of_dust)
@@ -26,7 +26,9 @@ CASE = np.array([[1.0, 1.0], [2.0, 2.0]])
 @row.inputs
 def _(rng):
     even = [(Y[:, :k], CUT) for k, Y in zip((1, 2, 3), regressors(rng, 3), strict=True)]
-    return [(CASE, 1e-9), *even, *((Y, CUT) for Y in regressors(rng))]
+    exact = (hidden(rng), 1e-9)  # squared, its zeros are 1e-8 of the largest
+    near = [(uneven(rng, fifth), CUT) for fifth in (5.0, 8.0)]
+    return [(CASE, 1e-9), exact, *near, *even, *((Y, CUT) for Y in regressors(rng))]
 
 
 for slug, says, redone, told in (
@@ -41,6 +43,13 @@ for slug, says, redone, told in (
     ("nothing-cut", "every value counts, so rtol is not used",
      "the number of values, the largest over the smallest",
      lambda s, rtol: (len(s), s[0] / max(s[-1], 1e-300))),
+    ("cut-by-the-sum", "a value is compared with rtol times the sum of all; it counts "
+     "above rtol times the largest", "the right one with the sum",
+     lambda s, rtol: (n := np.sum(s > rtol * s.sum()), s[0] / s[n - 1])),
+    ("cut-by-the-norm", "a value is compared with rtol times the norm of Y, the root "
+     "of the sum of squares; it counts above rtol times the largest",
+     "the right one with that norm",
+     lambda s, rtol: (n := np.sum(s > rtol * np.linalg.norm(s)), s[0] / s[n - 1])),
     ("cut-not-squared", "these are eigenvalues of Y^T Y, squares of singular values; "
      "the cut has to be squared, too", "the right one with rtol's square root",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), s[0] / s[n - 1])),

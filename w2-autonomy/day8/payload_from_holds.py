@@ -16,7 +16,11 @@ def _(rng):
     slide = np.zeros((5, 6, 7))
     extra = np.zeros((5, 7))
     slide[:, 5, 0], extra[:, 0] = 1.0, 9.81
-    return [(slide, np.array([np.eye(3)] * 5), extra, DOWN), *hands(rng)]
+    return [
+        (slide, np.array([np.eye(3)] * 5), extra, DOWN),
+        *hands(rng),
+        *hands(rng, 4, 2),
+    ]
 
 
 def rows(J_site, R_site, g, moment=-1.0, order=slice(None)):
@@ -62,9 +66,7 @@ def _(J_site, R_site, extra, g):
         "R-forgotten": solved(rows(J_site, 0 * R_site + np.eye(3), g), extra),
         "holds-averaged": solved(Y.mean(axis=0), extra.mean(axis=0)),
         "first-hold-only": solved(Y[0], extra[0]),
-        "R-of-the-first-hold": solved(
-            rows(J_site, 0 * R_site + R_site[0], g), extra
-        ),
+        "R-of-the-first-hold": solved(rows(J_site, 0 * R_site + R_site[0], g), extra),
         "solutions-averaged": np.mean(
             [solved(one, tau) for one, tau in zip(Y, extra, strict=True)], axis=0
         ),

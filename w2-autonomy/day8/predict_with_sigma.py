@@ -6,7 +6,7 @@ from labkit.judge import Row, Vector
 from robo47.identification import predict_with_sigma
 
 from .fit import parts, scaled
-from .states import CUT, regressors
+from .states import CUT, regressors, uneven
 
 row = Row(tuple(Vector((None,), "N m", called=x) for x in ("the torque", "sigma")))
 CASE = np.ones((4, 1)), np.array([1.0, 3.0, 1.0, 3.0]), np.ones((1, 1)), 1e-9
@@ -16,7 +16,7 @@ row.reached_by("fit", "in fit, ")
 @row.inputs
 def _(rng):
     drawn = []
-    for Y in regressors(rng):
+    for Y in [uneven(rng, 5.0), uneven(rng, 8.0), *regressors(rng)]:
         new = rng.numbers(-1, 1, 5, 6) * np.linalg.norm(Y, 2)
         drawn.append((Y, scaled(rng, Y), new, CUT))
     return [CASE, *drawn]

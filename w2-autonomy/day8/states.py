@@ -57,6 +57,22 @@ def regressors(rng, n=6, rows=20):
     return found
 
 
+def uneven(rng, fifth, rows=20):
+    """Return a matrix, (rows, 6), of which five values count at CUT, the fifth just.
+
+    At CUT times the root of their squares 6.3 would not count, times their sum 10.9.
+    """
+    s = np.array([1000.0, 900.0, 800.0, 40.0, fifth, 0.1])
+    U = np.linalg.qr(rng.normal(size=(rows, 6)))[0]
+    V = np.linalg.qr(rng.normal(size=(6, 6)))[0]
+    return U * s @ V.T
+
+
+def hidden(rng, rows=40):
+    """Return a matrix, (rows, 6), of rank 4 but for rounding."""
+    return rng.normal(size=(rows, 4)) @ rng.normal(size=(4, 6))
+
+
 def hands(rng, n=6, k=5):
     """Return J_site, R_site, extra and g of k holds; gravity points anywhere."""
     found = []

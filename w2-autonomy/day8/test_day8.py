@@ -27,7 +27,9 @@ SENTENCES = " ".join(OWN.replace("*", "").split())
 lab = load_script(ROOT / "w2-autonomy/src/day8_identification.py")
 LOAD = np.append(lab.LOAD, lab.LOAD * lab.AT)
 model = panda.load("panda_nohand", drive="torque")
-hung = panda.load("panda_nohand", drive="torque", edit=day8_mujoco.load(lab.LOAD, lab.AT))
+hung = panda.load(
+    "panda_nohand", drive="torque", edit=day8_mujoco.load(lab.LOAD, lab.AT)
+)
 arm = panda.arm(model)
 robot = day8_mujoco.changed(model, lab.ROBOT_SEED)
 
@@ -41,7 +43,11 @@ def data():
         "elsewhere": day8_mujoco.anywhere(model, lab.ROBOT_SEED, lab.TRIALS),
     }
     return {
-        name: (lab.regressor(arm, m), lab.mujoco_torques(robot, m), np.abs(m.qd) > lab.SLOW)
+        name: (
+            lab.regressor(arm, m),
+            lab.mujoco_torques(robot, m),
+            np.abs(m.qd) > lab.SLOW,
+        )
         for name, m in motions.items()
     }
 
@@ -92,7 +98,9 @@ def test_what_the_arm_hides(data):
     assert "Nine random states (63 rows)" in SENTENCES
     tipped = copy.copy(model)  # joint1 upright no more: two of m c show as well
     tipped.opt.gravity[:] = [1.0, 0.3, -9.7]
-    Y = lab.regressor(panda.arm(tipped), day8_mujoco.anywhere(tipped, lab.ROBOT_SEED, 20))
+    Y = lab.regressor(
+        panda.arm(tipped), day8_mujoco.anywhere(tipped, lab.ROBOT_SEED, 20)
+    )
     assert rank(Y.reshape(-1, 91)[:, :70]) == 45
 
 
@@ -220,7 +228,7 @@ def test_a_second_sine_and_own_beginnings_bring_the_condition_down():
         condition(10 * two, begin)
 
 
-@pytest.mark.parametrize("axes, rank", [("zzz", 1 + 2 + 3 + 3), ("zyx", 1 + 7 + 7)])
+@pytest.mark.parametrize(("axes", "rank"), [("zzz", 1 + 2 + 3 + 3), ("zyx", 1 + 7 + 7)])
 def test_seven_of_ten_show_only_where_a_parent_turns_about_another_axis(axes, rank):
     spec = mujoco.MjSpec()
     spec.option.gravity = [0.0, -9.81, 0.0] if axes == "zzz" else [0.0, 0.0, -9.81]
@@ -247,6 +255,8 @@ def test_seven_of_ten_show_only_where_a_parent_turns_about_another_axis(axes, ra
         rows.append(identification.arm_regressor(J, T, qd, qdd, g))
     shown = np.linalg.matrix_rank(np.vstack(rows), tol=1e-9)
     assert shown == rank
+
+
 def test_dry_friction_spoils_the_rows_that_the_guide_says(data):
     Y, tau, fast = data["excited"]
     phi = identification.fit(Y[fast], tau[fast], lab.RTOL)
@@ -259,6 +269,8 @@ def test_dry_friction_spoils_the_rows_that_the_guide_says(data):
     assert f"none is faster than {np.abs(motion.qd)[bad].max():.3f} rad/s" in SENTENCES
     phi = identification.fit(Y.reshape(-1, 91), tau.ravel(), lab.RTOL)
     assert f"they cost {np.abs(Y @ phi - tau).max():.2f} N m at worst" in SENTENCES
+
+
 def costs(code, motion):
     """Return the largest wrong torque of an arm_regressor at some states, N m."""
     off = []
@@ -288,7 +300,9 @@ def grams(robots, wait, noise=0.0, seed=0):
     """Return grams and sigma by each way of holding, without noise or with it."""
     with patch.object(lab, "WAIT", wait), patch.object(lab, "NOISE", noise):
         found = lab.weighings(*robots, arm, np.random.default_rng(seed))
-    return np.array([(1000 * load[0], 1000 * sigma[0]) for load, sigma in found.values()])
+    return np.array(
+        [(1000 * load[0], 1000 * sigma[0]) for load, sigma in found.values()]
+    )
 
 
 def test_the_grams_of_one_from_either_side_are_how_long_mujocos_friction_creeps():
@@ -311,13 +325,17 @@ def test_the_load_is_within_four_sigmas_for_other_robots_and_other_noises():
         assert abs(found - 500) < 4 * sigma < 100
         exact, _ = grams(robots, 2.0)[2]
         assert abs(exact - 500) < 1.2
+
+
 def test_poses_that_turn_about_gravity_hide_a_part_of_the_centre():
     q = np.array([panda.READY_Q] * 5)
     q[:, 0] = np.linspace(-1, 1, 5)
     extra = verify.mujoco_bias(hung, q, 0 * q) - verify.mujoco_bias(model, q, 0 * q)
     rows = identification.load_regressor(*day8_mujoco.hands(arm, q), arm.gravity)
     assert [np.linalg.matrix_rank(r) for r in (rows[0], rows.reshape(-1, 4))] == [3, 3]
-    m, *h = identification.payload_from_holds(*day8_mujoco.hands(arm, q), extra, arm.gravity)
+    m, *h = identification.payload_from_holds(
+        *day8_mujoco.hands(arm, q), extra, arm.gravity
+    )
     assert_same(1000 * np.array(h) / m, [20, -30, 0], 1e-9)
     assert "comes out as (20, -30, 0) mm" in SENTENCES
 
@@ -343,6 +361,8 @@ def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
     assert abs(day8_mujoco.rises(loaded, arm, still, LOAD)) < 1e-3
     least = re.search(r"links found: (\S+)", printed)[1]
     assert f"It is {least}: there is no such arm" in SENTENCES
+
+
 def test_what_no_torque_shows_is_why_there_is_no_such_arm(data):
     Y, tau, fast = data["excited"]
     Y = Y[fast]

@@ -26,7 +26,10 @@ def test_a_seed_makes_one_robot_and_leaves_the_file_alone():
 
 def test_the_motions_are_their_own_derivatives_and_keep_the_limits():
     (low, high), dt = simulate.limits(model)[0].T, 5e-4
-    for q, qd, qdd in (day8_mujoco.excitation(model, 5, 20_000), day8_mujoco.swing(20_000)):
+    for q, qd, qdd in (
+        day8_mujoco.excitation(model, 5, 20_000),
+        day8_mujoco.swing(20_000),
+    ):
         assert_same((q[2:] - q[:-2]) / (2 * dt), qd[1:-1], 1e-5)
         assert_same((qd[2:] - qd[:-2]) / (2 * dt), qdd[1:-1], 1e-4)
         assert ((q > low) & (q < high)).all()

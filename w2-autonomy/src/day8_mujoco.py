@@ -229,7 +229,9 @@ def holds(
         (q at rest in rad, torque of the springs in N m), (2, k, 7) each, by side.
     """
     poses = checks.array(poses, "poses", (7,))
-    found = [[_hold(model, known, q, side, wait) for q in poses] for side in (1.0, -1.0)]
+    found = [
+        [_hold(model, known, q, side, wait) for q in poses] for side in (1.0, -1.0)
+    ]
     at, torque = np.moveaxis(np.array(found), 2, 0)
     return at, torque
 
