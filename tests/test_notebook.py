@@ -23,7 +23,7 @@ import numpy as np
 
 from labkit.commands import notebook as command
 from labkit.lesson import notebook
-from labkit.lesson.day import find_day
+from labkit.lesson.day import all_days, find_day
 from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
@@ -135,6 +135,14 @@ def test_every_function_and_step_of_the_script_is_there(generator):
     assert source.count("lab.record(") == code.count("lab.record(") > 0
     for step in range(1, source.count("lab.step(") + 1):
         assert f"### {step}. " in text
+
+
+@pytest.mark.parametrize("day", all_days(), ids=lambda day: f"day {day.number}")
+def test_every_cell_of_every_day_is_python_by_itself(day):
+    found = nbformat.reads(notebook.build(day), as_version=4)
+    for cell in found.cells:
+        if cell.cell_type == "code":  # a `return` of main() has no function there
+            compile(cell.source, f"day {day.number}, {cell.id}", "exec")
 
 
 def test_it_holds_no_markers_no_outputs_and_no_unfilled_heading():

@@ -1,8 +1,10 @@
 """The site: links hold, nothing comes from elsewhere, and the arm's page is right."""
 
+import base64
 import functools
 import http.server
 import json
+import re
 import subprocess
 import sys
 import threading
@@ -12,7 +14,9 @@ import numpy as np
 import pytest
 
 from conftest import ROOT, need
+from labkit.figures import backends
 from robo47 import panda, verify
+from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
 
@@ -24,7 +28,13 @@ WITHOUT_3D = ["--disable-gpu", "--disable-3d-apis"]
 def site(tmp_path_factory):
     """Return the site, built as a person does: it ends with 0 without a warning."""
     need(find_spec("sphinx") is not None, "Sphinx: python3 scripts/setup_env.py site")
+    for package in ("ipykernel", "ipywidgets", "jupytext", "nbclient"):
+        need(find_spec(package) is not None, f"{package}: make notebook")
     need((ROOT / "site" / "node_modules").is_dir(), "npm ci --prefix site")
+    try:
+        backends.rendering_environment()  # the notebooks draw
+    except Robo47Error as error:
+        need(False, f"an OpenGL backend: {error}")
     out = tmp_path_factory.mktemp("site") / "_site"
     command = [sys.executable, ROOT / "scripts" / "build_site.py", "--out", out]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -112,6 +122,60 @@ def test_every_guide_worksheet_and_taught_module_has_a_page(site):
                 *site.rglob(f"{str(name).rpartition('/')[2].removesuffix('.md')}.html")
             ]
             assert found, f"day {day.number}: {name}"
+
+
+def test_every_notebook_is_shown_run_and_linked_from_its_days_page(site):
+    from labkit.lesson.day import all_days
+
+    for day in all_days():
+        name = f"{day.script.removesuffix('.py')}.html"
+        guide = site / day.folder.name / day.guide.replace(".md", ".html")
+        assert f'href="../notebooks/{name}"' in guide.read_text("utf-8")
+        page = (guide.parent.parent / "notebooks" / name).read_text("utf-8")
+        assert "All checks PASSED." in page
+        assert "nothing logged (--no-log)" in page
+        assert "FAIL" not in page
+        for task in day.tasks:
+            assert f"{task.id} <code" in page, f"task {task.id}"
+        extras = (day.own / "notebook.toml").read_text("utf-8")
+        drawn = len(re.findall("lesson_figures|render_panda", extras)) > 0
+        assert ("What the cell above draws" in page) == drawn
+
+
+def test_a_notebooks_page_has_what_a_cell_printed_and_the_picture_it_drew(tmp_path):
+    nbformat = pytest.importorskip("nbformat", reason="needs nbformat: make notebook")
+    pytest.importorskip("nbclient", reason="needs nbclient: make notebook")
+    from labkit.site import notebooks
+
+    v4 = nbformat.v4
+    progress = v4.new_output("stream", name="stderr", text="50 %")
+    printed = v4.new_output("stream", name="stdout", text="\n  PASS\n")
+    both = {"image/png": base64.b64encode(b"drawn").decode(), "text/plain": "<Image>"}
+    drawn = v4.new_output("execute_result", both)
+    sliders = {notebooks.WIDGET: {}, "text/plain": "HBox()"}
+    moved = v4.new_output("execute_result", sliders)
+    code = v4.new_code_cell("f(x)", outputs=[progress, printed, drawn, moved])
+    ran = v4.new_notebook(cells=[v4.new_markdown_cell("# Day 9"), code])
+    text = notebooks.page(ran, tmp_path / "day9.md", 9)
+    order = ["# Day 9", "python\nf(x)\n", "  PASS\n", "(day9-1.png)", "DAY=9"]
+    places = [text.index(part) for part in order]
+    assert places == sorted(places)
+    assert (tmp_path / "day9-1.png").read_bytes() == b"drawn"
+    assert not any(part in text for part in ("50 %", "<Image>", "HBox"))
+
+
+def test_a_cell_that_fails_is_named_with_its_day(monkeypatch):
+    nbformat = pytest.importorskip("nbformat", reason="needs nbformat: make notebook")
+    pytest.importorskip("nbclient", reason="needs nbclient: make notebook")
+    pytest.importorskip("ipykernel", reason="needs ipykernel: make notebook")
+    from labkit.lesson.day import find_day
+    from labkit.site import notebooks
+
+    v4 = nbformat.v4
+    made = v4.new_notebook(cells=[v4.new_code_cell("1 / 0")])
+    monkeypatch.setattr(notebooks.notebook, "build", lambda day: nbformat.writes(made))
+    with pytest.raises(Robo47Error, match="day 1: .*ZeroDivisionError: division"):
+        notebooks.run(find_day(1))
 
 
 def test_an_accented_letter_has_its_index_beside_it_and_not_below():

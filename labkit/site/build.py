@@ -7,7 +7,7 @@ import json
 import re
 import shutil
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -18,7 +18,7 @@ from sphinx.application import Sphinx
 
 from labkit.base import processes
 from labkit.inspector.recording import Recording
-from labkit.lesson.day import Day, all_days
+from labkit.lesson.day import all_days
 from labkit.site import formulas, links, notebooks, pages
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, TWIN_XML
@@ -59,23 +59,21 @@ _BELOW = re.compile(
 _BESIDE = r'<msub><mover accent="true">\1\3</mover>\2</msub>'
 
 
-def build(out: Path, ran: Sequence[Day]) -> None:
+def build(out: Path) -> None:
     """Build the site into a folder, which is made anew.
 
-    Args:
-        out: the folder.
-        ran: days whose notebook is run and shown.
-
     Raises:
-        Robo47Error: a warning, a link that leads nowhere, or no packages for the arm.
+        Robo47Error: a warning, a link that leads nowhere, a cell of a notebook that failed,
+            or no packages for the arm.
     """
     if not WASM.exists():
         raise Robo47Error("the arm's packages are missing: npm ci --prefix site")
     shutil.rmtree(out, ignore_errors=True)
     with tempfile.TemporaryDirectory(prefix="robo47-site-") as name:
         work = Path(name).resolve()
-        pages.lay_out(work / "pages", films(), ran)
-        notebooks.write_all(ran, work / "pages")
+        days = all_days()
+        pages.lay_out(work / "pages", films(), days)
+        notebooks.write_all(days, work / "pages")
         site = Sphinx(
             work / "pages",
             None,
