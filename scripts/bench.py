@@ -1,3 +1,10 @@
+import sys
+
 import kit
 
-kit.run("bench")  # labkit/commands/bench.py
+sys.path[0] = kit.ROOT  # in scripts/, this file would hide the package of its name
+
+from bench.command import main  # noqa: E402
+from labkit.base import cli  # noqa: E402
+
+cli.run(main)

@@ -13,11 +13,11 @@ from bench import (
     bench_growth,
     bench_ik,
     bench_metrics,
+    command,
     table,
     timing,
 )
 from conftest import ROOT
-from labkit.commands import bench as command
 from labkit.commands import test_matrix as matrix
 from robo47 import kinematics, panda
 

@@ -73,6 +73,17 @@ def test_every_arrow_points_down():
     assert up == []
 
 
+def test_the_machine_imports_nothing_that_only_a_clone_has():
+    above = {"bench", "scripts", "tests", "conftest", "kit"}
+    found = {
+        f"{path.relative_to(ROOT).as_posix()}: {other}"
+        for path in MODULES
+        for other in imported(path)
+        if other.partition(".")[0] in above
+    }
+    assert found == set()
+
+
 def test_no_files_import_each_other_in_a_circle():
     names = {}
     for path in MODULES:

@@ -174,7 +174,7 @@ def test_a_cell_that_fails_is_named_with_its_day(monkeypatch):
     v4 = nbformat.v4
     made = v4.new_notebook(cells=[v4.new_code_cell("1 / 0")])
     monkeypatch.setattr(notebooks.notebook, "build", lambda day: nbformat.writes(made))
-    with pytest.raises(Robo47Error, match="day 1: .*ZeroDivisionError: division"):
+    with pytest.raises(Robo47Error, match=r"day 1: .*ZeroDivisionError: division"):
         notebooks.run(find_day(1))
 
 

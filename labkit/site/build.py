@@ -63,7 +63,7 @@ def build(out: Path) -> None:
     """Build the site into a folder, which is made anew.
 
     Raises:
-        Robo47Error: a warning, a link that leads nowhere, a cell of a notebook that failed,
+        Robo47Error: a warning, a link that leads nowhere, a notebook's cell that fails,
             or no packages for the arm.
     """
     if not WASM.exists():

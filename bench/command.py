@@ -20,13 +20,10 @@ from collections.abc import Iterable
 from importlib import metadata
 from typing import Any
 
+from bench.table import render
 from labkit.base import cli
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
-
-sys.path[0] = str(ROOT)  # in scripts/, bench.py would hide the package of its name
-
-from bench.table import render  # noqa: E402
 
 RESULTS = ROOT / "bench" / "results.json"
 PICTURE = ROOT / "bench" / "bench.png"
