@@ -18,7 +18,7 @@ from labkit.inspector.arm import Arm
 from labkit.inspector.common_tabs import Standing
 from labkit.inspector.ghost import Ghost, compare, nothing
 from labkit.inspector.guard import LocalServer
-from labkit.inspector.meshes import Robot
+from labkit.inspector.robot import Robot
 from labkit.inspector.serve import on_loop
 from labkit.inspector.shapes import Shape
 from labkit.inspector.tab import DayTabs, Tab, day_tabs

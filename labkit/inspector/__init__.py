@@ -63,6 +63,7 @@ The modules, from the numbers to the page:
     words, typed                numbers as HTML; as people type them, in the URL
     shapes, meshes, draw, scene what is in the picture
     page, instruments, animate  what a tab gets
+    robot                       a tab's own robot, instead of the arm
     tab, common_tabs            what a tab is; the tabs that every day has
     app                         the page as a whole
     guard                       who may talk to it; our part of viser's page

@@ -9,7 +9,7 @@ import asyncio
 import time
 from collections.abc import Callable
 from functools import partial
-from typing import Any, TypeVar
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -23,7 +23,7 @@ from labkit.inspector.common_tabs import Chain, Joints, Standing, Tasks
 from labkit.inspector.draw import Sketch
 from labkit.inspector.ghost import Seen
 from labkit.inspector.guard import TITLE
-from labkit.inspector.page import Page
+from labkit.inspector.page import Page, Widget
 from labkit.inspector.scene import GHOST_COLOUR, ArmScene, Pointed
 from labkit.inspector.shapes import Shape
 from labkit.inspector.student import Student
@@ -39,7 +39,6 @@ COLOURS = {
     "MuJoCo": (122, 125, 135), "YOURS agrees": (87, 158, 133),
     "YOURS, where not": GHOST_COLOUR,
 }  # fmt: skip
-Widget = TypeVar("Widget", bound=Any)
 
 
 class Inspector:
@@ -253,6 +252,10 @@ class Inspector:
         """Tell the open tab where the arm is; a closed one hears of no move."""
         if self.page is not None:
             self.guarded(partial(self.tab.on_move, q.copy()))
+
+    def lose(self) -> None:
+        """Tell the open tab that the student's function gave no numbers."""
+        self.guarded(self.tab.lost)
 
     def guarded(self, call: Callable[[], None]) -> None:
         """Call a tab's code; where it fails the page says so and goes on."""

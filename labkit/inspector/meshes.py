@@ -1,24 +1,18 @@
-"""Meshes in the scene: the arm, the student's, a tab's ghost or its own robot."""
+"""Meshes in the scene: the arm, the student's, a tab's ghost."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache, partial
 from itertools import count
-from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
 import viser
 from numpy.typing import ArrayLike
 
-from labkit.inspector.shapes import Shape, shapes, simple_links
+from labkit.inspector.shapes import Shape
 from robo47 import se3
 from robo47.checks import Array
 
-if TYPE_CHECKING:
-    from labkit.inspector.page import Page
-
-Load = Callable[[], mujoco.MjModel]
 Rgb = tuple[float, float, float]
 AS_IS: Rgb = (1, 1, 1)
 # The browser remembers the pose of a node that is gone: a name is never given again.
@@ -88,45 +82,6 @@ class Skin:
         for mesh, shape in self.meshes:
             mesh.color = _rgb(shape, shade)
             mesh.opacity = opacity
-
-
-class Robot:
-    """A scene of MuJoCo's in a tab: robot, table, cube, where qpos has them.
-
-    What the bare model has is there at once; the meshes follow when they are loaded.
-    """
-
-    def __init__(self, page: "Page", model: mujoco.MjModel, dressed: Load) -> None:
-        """Draw what is simulated instead of the page's arm.
-
-        `dressed` loads the same with its looks; a function of a module, asked once.
-        """
-        self.page = page
-        self.model = model
-        self.data = mujoco.MjData(model)
-        self.skin = Skin(page.host.server, page.draw.path())
-        self.skin.put_on(shapes(model))
-        page.hide_arm()
-        page.jobs_apart().want(partial(_looks, dressed, page.host.simple), self._dress)
-
-    def _dress(self, made: list[Shape]) -> None:
-        with self.page.host.server.atomic():
-            self.skin.put_on(made)
-            self.show(self.data.qpos)
-
-    def show(self, qpos: ArrayLike) -> None:
-        """Put everything where a configuration has it, (nq,)."""
-        self.skin.pose(self.skin.poses(self.data, qpos))
-
-
-@cache
-def _looks(dressed: Load, simple: bool) -> list[Shape]:
-    model = dressed()
-    if not simple:
-        return shapes(model)
-    coarse = simple_links(model)
-    links = {shape.body for shape in coarse}
-    return coarse + [shape for shape in shapes(model) if shape.body not in links]
 
 
 def _rgb(shape: Shape, shade: Rgb = AS_IS) -> tuple[int, int, int]:

@@ -4,7 +4,7 @@ The widgets are viser's own. Where a callback fails the page says so and goes on
 """
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol, TypeVar
 
 import mujoco
 import numpy as np
@@ -13,24 +13,54 @@ from numpy.typing import ArrayLike
 
 from labkit.inspector import words
 from labkit.inspector.animate import Animation, Jobs, Step
+from labkit.inspector.arm import Arm
 from labkit.inspector.draw import Colour, Sketch, rgb
 from labkit.inspector.instruments import Bars, Plot, as_bytes
 from labkit.inspector.own import NoAnswerError, Own
+from labkit.inspector.scene import ArmScene
+from labkit.inspector.student import Student
 from robo47.checks import Array
-
-if TYPE_CHECKING:
-    from labkit.inspector.app import Inspector
 
 SLOW = 1.5  # times slower than real time, which is said
 NARROW = "\u202f"  # a space that no line breaks at
 DIGITS = 4  # shown behind the point in a slider's box
 END = 1e14  # of a tab, in the order of widgets
+Widget = TypeVar("Widget", bound=Any)
+
+
+class Host(Protocol):
+    """What a page asks of `labkit.inspector.app.Inspector`, which opens it."""
+
+    server: viser.ViserServer
+    arm: Arm
+    q: Array
+    scene: ArmScene
+    solid: viser.GuiCheckboxHandle
+    legend: viser.GuiHtmlHandle
+    student: Student
+    simple: bool
+    standing: Any  # how the tasks stand, as a tab of every day shows it
+
+    def move(self, q: ArrayLike) -> None:
+        """Move the arm to q, (nq,), in radians and metres."""
+
+    def undo(self) -> None:
+        """Take the last move back."""
+
+    def schedule(self) -> None:
+        """Have all that is shown brought up to date soon."""
+
+    def listen(self, widget: Widget, then: Callable[[Any], None]) -> Widget:
+        """Have a function called when a person changes a widget; return the widget."""
+
+    def lose(self) -> None:
+        """Tell the open tab that the student's function gave no numbers."""
 
 
 class Page:
     """One opened tab's view of the page."""
 
-    def __init__(self, host: "Inspector", sketch: Sketch) -> None:
+    def __init__(self, host: Host, sketch: Sketch) -> None:
         self.host = host
         self.gui = host.server.gui
         self.draw = sketch
@@ -141,7 +171,7 @@ class Page:
         """Say what stopped a job or a loop, and how the student's functions compare."""
         if isinstance(error, NoAnswerError):
             self._show_whose(str(error), "bad")
-            self.host.guarded(self.host.tab.lost)
+            self.host.lose()
         elif error is not None:
             self.say(f"stopped: {type(error).__name__}: {error}", "bad")
         elif self._own is not None:

@@ -17,9 +17,9 @@ from labkit.inspector.arm import Arm
 from labkit.inspector.draw import Anchor, Sketch, Triad, joined
 from labkit.inspector.meshes import Skin
 from labkit.inspector.shapes import COLLISION_GROUPS, VISIBLE_GROUPS, Shape
-from labkit.inspector.tab import View
 from robo47.checks import Array
 
+View = tuple[tuple[float, float, float], tuple[float, float, float]]
 FOV = 0.72  # vertical, radians
 # For a page that is higher than wide: from further away, the arm above the panel.
 PHONE: View = ((3.0, -2.6, 1.1), (0.2, 0.0, -0.35))

@@ -11,9 +11,9 @@ from robo47.paths import shown
 
 if TYPE_CHECKING:
     from labkit.inspector.page import Page
+    from labkit.inspector.scene import View
 
 FILE = "inspector"
-View = tuple[tuple[float, float, float], tuple[float, float, float]]
 
 
 class Tab:
@@ -23,7 +23,7 @@ class Tab:
     wide = False  # whether it needs the room of the two matrices above it
     # From where one looks, and at what, metres; aimed beside the arm, since the panel
     # covers the right third of the page.
-    camera: View = ((1.75, -1.45, 0.95), (0.42, 0.24, 0.4))
+    camera: "View" = ((1.75, -1.45, 0.95), (0.42, 0.24, 0.4))
 
     def __init__(self, page: "Page") -> None:
         """Open the tab: make its widgets and drawings."""

@@ -13,8 +13,8 @@ import numpy as np
 from labkit.inspector import words
 from labkit.inspector.draw import joined
 from labkit.inspector.instruments import three
-from labkit.inspector.meshes import Robot
 from labkit.inspector.page import Page
+from labkit.inspector.robot import Robot
 from labkit.inspector.tab import Tab
 from robo47 import control, jacobian, panda, scenes, simulate, task_space
 from robo47.checks import Array

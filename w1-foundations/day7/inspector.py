@@ -13,9 +13,9 @@ import numpy as np
 
 from labkit.inspector import words
 from labkit.inspector.draw import joined
-from labkit.inspector.meshes import Robot
 from labkit.inspector.own import week
 from labkit.inspector.page import Page
+from labkit.inspector.robot import Robot
 from labkit.inspector.tab import Tab
 from robo47 import capstone, panda, scenes, simulate, trajectory
 from robo47.capstone.phases import Result
