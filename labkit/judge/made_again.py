@@ -97,16 +97,27 @@ def redone(
         further: fresh answers. Whole numbers that are equal prove little, so there a
             mistake has to give these as well, and must be the only one that does.
     """
-    if any(kind.whole for kind in ask.kinds):
-        return _of_whole_numbers(ask, arguments, S, T, further)
-    if found := _named(ask.named, arguments, ask.kinds, S, T, ask.near):
+    whole = any(kind.whole for kind in ask.kinds)
+    if whole:
+        found = _of_whole_numbers(ask, arguments, S, T, further)
+    else:
+        found = _named(ask.named, arguments, ask.kinds, S, T, ask.near)
+    if found or T is None:
         return found
-    if T is None:
-        return None
+    found = _general(ask, S, T)
+    if found and whole and further:
+        again = _general(ask, further.S, further.T)
+        return found if again and again.slug == found.slug else None
+    return found
+
+
+def _general(ask: Ask, S: Parts, T: Parts) -> Finding | None:
+    """Return the mistake of its kind that gives the one part that is wrong."""
     for i, kind in enumerate(ask.kinds):
         if not all(matches(S[j], T[j]) for j in range(len(T)) if j != i):
             continue
-        mine, its = (S[i],), (T[i],)
+        mine = (S[i],)
+        its = (T[i],)
         if found := _named(kind.general(), its, [kind], mine, its, ask.near):
             called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
             return Finding(found.slug, called + found.message)
@@ -135,9 +146,9 @@ def _of_whole_numbers(
                 continue
         found.setdefault(one.slug, first)
     if len(found) == 2:
-        one, other = found.values()
-        says = f"Two mistakes give these numbers. Either: {one.message} Or: "
-        return Finding(one.slug, says + other.message)
+        either, other = found.values()
+        says = f"Two mistakes give these numbers. Either: {either.message} Or: "
+        return Finding(either.slug, says + other.message)
     return next(iter(found.values())) if len(found) == 1 else None
 
 
@@ -164,8 +175,9 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
         both = _sum(answers[a], answers[b], its)
         pair = mistakes[a], mistakes[b]
         if pair[0].slug != pair[1].slug and _alike(ask, both, mine):
-            again = [_all(one, case.arguments) for one in pair]
-            if _alike(ask, _sum(*again, T), S):
+            first = _all(pair[0], case.arguments)
+            second = _all(pair[1], case.arguments)
+            if _alike(ask, _sum(first, second, T), S):
                 return _both_told(ask, pair, S, T)
     if len(ask.kinds) == 1:
         for change in ask.kinds[0].general():
