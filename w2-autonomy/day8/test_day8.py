@@ -375,18 +375,18 @@ def test_the_excitation_is_as_fast_as_the_joints_may_go_but_not_as_far():
     assert "five random harmonics, as fast as the joints may go" in SENTENCES
 
 
-def test_normal_equations_raise_for_zero_columns_and_not_for_what_else_hides(data):
+def test_normal_equations_are_singular_by_zero_columns_and_else_up_to_rounding(data):
     Y, tau, fast = data["excited"]
     Y = Y[fast]
-    tau = tau[fast]
     with pytest.raises(np.linalg.LinAlgError, match="Singular"):
-        np.linalg.solve(Y.T @ Y, Y.T @ tau)
+        np.linalg.solve(Y.T @ Y, Y.T @ tau[fast])
     Y = Y[:, np.abs(Y).max(axis=0) > 1e-9]
-    phi = np.linalg.solve(Y.T @ Y, Y.T @ tau)  # raises nothing, and explains all
-    assert lab.rms(Y @ phi - tau) < 1e-8
+    square = np.abs(np.linalg.eigvalsh(Y.T @ Y))  # one machine solves it, others raise
+    assert (square < 1e-13 * square.max()).sum() == 18
     rank, _ = lab.identifiable(Y, lab.RTOL)
     assert Y.shape[1] - rank == 18
     assert "Without them the other 18 are as hidden" in SENTENCES
+    assert "what is raised is up to rounding" in SENTENCES
 
 
 def test_to_drop_all_slow_rows_costs_little_beside_the_twenty_wrong_ones(data):
