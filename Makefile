@@ -107,7 +107,7 @@ lint: .venv/.ready-test ## style, format and types
 docs: .venv/.ready-core $(ROBOT) ## insert fresh outputs into the documents
 	@$(PY) scripts/build_docs.py $(ON_DAY) $(ARGS)
 
-site: .venv/.ready-site $(ROBOT) site/node_modules/.package-lock.json ## the course as a site, in _site/ (needs Node.js)
+site: .venv/.ready-site .venv/.ready-notebook $(ROBOT) site/node_modules/.package-lock.json ## the course as a site, in _site/ (needs Node.js)
 	@$(PY) scripts/build_site.py $(ARGS)
 
 site/node_modules/.package-lock.json: site/package-lock.json

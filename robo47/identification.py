@@ -12,9 +12,9 @@ model can be fitted, and what a motion cannot show can be counted. Conventions:
   is not finite is a ValueError, in every function.
 
 Sources: Lynch and Park, *Modern Robotics* (2017), section 8.3; Siciliano et al.,
-*Robotics* (2009), section 7.2.2; Golub and Van Loan, *Matrix Computations*, section 5.5;
-Wensing, Kim and Slotine, "Linear matrix inequalities for physically consistent inertial
-parameter identification" (2018).
+*Robotics* (2009), section 7.2.2; Golub and Van Loan, *Matrix Computations*,
+section 5.5; Wensing, Kim and Slotine, "Linear matrix inequalities for physically
+consistent inertial parameter identification" (2018).
 """
 
 import numpy as np

@@ -6,7 +6,7 @@ from judged import answered, replies_of, right, round_of
 
 from labkit.base.exchange import Question, Reply
 from labkit.judge import Scalar, Vector
-from labkit.judge.answers import typed
+from labkit.judge.answers import InTurn, typed
 from labkit.judge.ask import SEED, Ask, Edges, right_answers
 from labkit.judge.failing_call import failing_call
 from labkit.judge.judge import judge
@@ -112,3 +112,17 @@ def test_an_edge_with_two_right_answers_is_not_asked():
                at_edge=lambda x: x != 1)  # fmt: skip
     assert (1.0,) not in jump.edges
     assert {(0.0,), (2.0,)} == set(jump.edges)
+
+
+def test_of_several_results_the_one_that_is_wrong_is_named():
+    kinds = (Scalar(called="the sine"), Vector((2,)))
+    ask = Ask(lambda rng: [(2.0,), (3.0,)], kinds, truth=InTurn(_sine_and_pair))
+    asked = round_of(ask)
+    answers = right(ask)
+    answers[1][1, 1] = 7.0
+    answered(asked.exchanges, replies_of(answers))
+    assert failing_call(asked)[0] == "f(3)[1][1] is 7, and 3 is right."
+
+
+def _sine_and_pair(x):
+    return np.sin(x), np.array([x, x])

@@ -105,8 +105,9 @@ def test_the_guide_tells_the_way_of_a_check_file_by_file(run, student):
     assert told == set(re.findall(r"^(\S+\.py)$", done.stderr, re.M))
 
 
-# A lab is a recipe too, but other hands are at it: w*/src joins when it is at 4 %.
-@pytest.mark.parametrize("where", ["robo47", "labkit", "scripts", "bench", "w*/day*"])
+@pytest.mark.parametrize(
+    "where", ["robo47", "labkit", "scripts", "bench", "w*/src", "w*/day*"]
+)
 def test_one_statement_has_one_subject(where):
     packed = assigned = 0
     for path in ROOT.glob(f"{where}/**/*.py"):

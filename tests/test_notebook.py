@@ -22,6 +22,7 @@ import nbformat
 import numpy as np
 
 from labkit.commands import notebook as command
+from labkit.lesson import notebook
 from labkit.lesson.day import find_day
 from robo47.errors import Robo47Error
 
@@ -43,7 +44,7 @@ def generator(monkeypatch, tmp_path):
 @functools.cache
 def made():
     """Return the text of the day's notebook."""
-    return command.build(DAY)
+    return notebook.build(DAY)
 
 
 def cells(kind):
@@ -121,7 +122,7 @@ def test_a_notebook_toml_that_is_not_right_is_named(generator, tmp_path, text):
     moved.own.mkdir()
     (moved.own / "notebook.toml").write_text(text, "utf-8")
     with pytest.raises(Robo47Error, match=r"notebook\.toml: .*expected \[\[cells\]\]"):
-        generator.extras(moved)
+        notebook.extras(moved)
 
 
 def test_every_function_and_step_of_the_script_is_there(generator):

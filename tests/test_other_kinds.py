@@ -254,3 +254,21 @@ def test_who_draws_random_numbers_is_told_that_they_are_an_argument():
     assert judged_replies(ask, replies, draws).mistake == "draws-itself"
     lab = "def f(x):\n    return x\n\n\ndef main():\n    np.random.normal()\n"
     assert judged_replies(ask, replies, lab).mistake == "kept-between-calls"
+
+
+def test_a_mask_is_inverted_only_where_it_is_so_at_fresh_inputs_too():
+    def inputs(rng):
+        return [(float(x),) for x in rng.uniform(-1.0, 1.0, 6)]
+
+    ask = Ask(inputs, Mask(), truth=InTurn(lambda x: x > 0.0))
+
+    def verdict(function):
+        exchanges = round_of(ask)
+        for one in exchanges.exchanges:
+            x = np.asarray(function(*one.question.args))
+            one.reply = Reply(value=x, again=x)
+        return judge(exchanges).mistake
+
+    main = [exchange.question.args[0] for exchange in round_of(ask).main]
+    assert verdict(lambda x: x <= 0.0) == "inverted"
+    assert verdict(lambda x: (x > 0.0) != (x in main)) != "inverted"

@@ -19,12 +19,13 @@ from importlib.util import find_spec
 from labkit.base import cli, git, processes
 from labkit.base.exchange import Exchange, Question
 from labkit.check.as_student import faults_of
-from labkit.commands import docs, notebook
+from labkit.commands import docs
 from labkit.commands.new import worksheet_of
 from labkit.handin.worksheet import split_sections
 from labkit.judge.answers import InTurn
 from labkit.judge.ask import Draw, stacked
 from labkit.judge.row import rows_of
+from labkit.lesson import notebook
 from labkit.lesson.day import Day, Task, all_days, day_numbers, find_day, find_task
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import find_regions

@@ -72,8 +72,8 @@ def changes(source: str) -> Iterator[Change]:
             body = again.body[0].body  # type: ignore[attr-defined]
             body.insert(bool(ast.get_docstring(function)), ast.parse(line).body[0])
             yield Change(f"first {line}", again)
-        for k, node in enumerate(ast.walk(tree)):
-            if isinstance(node, ast.Return) and node.value and _depends(node.value):
+        for k, one in enumerate(ast.walk(tree)):
+            if isinstance(one, ast.Return) and one.value and _depends(one.value):
                 again = copy.deepcopy(tree)
                 there = list(ast.walk(again))[k]
                 assert isinstance(there, ast.Return)
@@ -91,8 +91,9 @@ def _depends(node: ast.expr) -> bool:
 
 def _instead(node: ast.expr) -> Iterator[ast.expr]:
     """Yield what may stand in an expression's place."""
-    if isinstance(node, ast.Constant) and type(node.value) in (int, float):
-        yield ast.Constant(2 * node.value if node.value else 1)
+    value = getattr(node, "value", None)
+    if isinstance(node, ast.Constant) and type(value) in (int, float):
+        yield ast.Constant(2 * value if value else 1)
     elif isinstance(node, ast.Compare) and len(node.ops) == 1:
         if turned := _TURNED.get(type(node.ops[0])):
             yield ast.Compare(node.left, [turned()], node.comparators)

@@ -2,16 +2,19 @@
 
     make site                            build it
     python3 scripts/build_site.py        the same
+    python3 scripts/build_site.py --notebooks 1     with Day 1's notebook alone
     python3 -m http.server -d _site      look at it: http://localhost:8000
 
 Its documents are those of the repository; a warning, or a link that leads nowhere, is
-an error. The arm's page needs Node.js, and its packages: npm ci --prefix site.
+an error, and so is a notebook's cell that fails. The arm's page needs Node.js, and its
+packages: npm ci --prefix site.
 """
 
 import time
 from pathlib import Path
 
 from labkit.base import cli
+from labkit.lesson.day import all_days, find_day
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
@@ -20,7 +23,13 @@ def main() -> int:
     """Build the site and say how large it is."""
     parser = cli.parser(__doc__)
     parser.add_argument("--out", type=Path, default=ROOT / "_site", metavar="FOLDER")
+    parser.add_argument(
+        "--notebooks", type=cli.day, nargs="*", metavar="DAY",
+        help="run these days' notebooks alone; default: every day's",
+    )  # fmt: skip
     options = parser.parse_args()
+    chosen = options.notebooks
+    ran = all_days() if chosen is None else [find_day(number) for number in chosen]
     try:
         from labkit.site.build import build
     except ModuleNotFoundError as missing:
@@ -28,7 +37,7 @@ def main() -> int:
             f"the site needs {missing.name}, which is not installed yet: make site"
         ) from None
     begun = time.monotonic()
-    build(options.out.resolve())
+    build(options.out.resolve(), ran)
     files = [path for path in options.out.rglob("*") if path.is_file()]
     pages = sum(path.suffix == ".html" for path in files)
     size = sum(path.stat().st_size for path in files) / 1e6

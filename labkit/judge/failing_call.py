@@ -67,8 +67,9 @@ def _wrong(
     i = int(np.argmax(gap))
     if gap[i] <= ask.tolerance:
         return None
-    here = [tuple(part[i : i + 1] for part in some) for some in (S, T)]
-    part = worst_part(ask.kinds, *here, ask.tolerance)
+    given = tuple(part[i : i + 1] for part in S)
+    right = tuple(part[i : i + 1] for part in T)
+    part = worst_part(ask.kinds, given, right, ask.tolerance)
     mine, its = as_one([S[part][i], T[part][i]])
     question = exchanges[i].question
     apart = np.nan_to_num(np.abs(mine - its) / ask.kinds[part].scale, nan=np.inf)

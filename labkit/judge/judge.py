@@ -215,16 +215,15 @@ def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
 
 
 def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
-    """Return the first of: a named mistake, an answer that is none, one place."""
+    """Return the first of: a named mistake, no answer, always one, two mistakes."""
     ask = case.ask
     found = redone(ask, case.arguments, S, T, case.further)
-    found = found or _nothing_there(case, S)
-    if found := found or _not_finite(case, S, T) or two_at_once(case, S, T):
+    if found := found or _nothing_there(case, S) or _not_finite(case, S, T):
         return found
     i = worst_part(ask.kinds, S, T, ask.near)
-    kind = ask.kinds[i]
     every = (S[i], case.further.S[i]) if case.further else (S[i],)
-    if found := _all_the_same(kind, every, T[i]) or near_miss.rounded(S[i], T[i]):
+    found = _all_the_same(ask.kinds[i], every, T[i])  # simpler than two mistakes
+    if found := found or two_at_once(case, S, T) or near_miss.rounded(S[i], T[i]):
         return found
     try:
         return ask.unnamed(case) if ask.unnamed else None

@@ -1,7 +1,8 @@
 """A named mistake made again: it is claimed where that gives the student's numbers."""
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
@@ -97,16 +98,27 @@ def redone(
         further: fresh answers. Whole numbers that are equal prove little, so there a
             mistake has to give these as well, and must be the only one that does.
     """
-    if any(kind.whole for kind in ask.kinds):
-        return _of_whole_numbers(ask, arguments, S, T, further)
-    if found := _named(ask.named, arguments, ask.kinds, S, T, ask.near):
+    whole = any(kind.whole for kind in ask.kinds)
+    if whole:
+        found = _of_whole_numbers(ask, arguments, S, T, further)
+    else:
+        found = _named(ask.named, arguments, ask.kinds, S, T, ask.near)
+    if found or T is None:
         return found
-    if T is None:
-        return None
+    found = _general(ask, S, T)
+    if found and whole and further:
+        again = _general(ask, further.S, further.T)
+        return found if again and again.slug == found.slug else None
+    return found
+
+
+def _general(ask: Ask, S: Parts, T: Parts) -> Finding | None:
+    """Return the mistake of its kind that gives the one part that is wrong."""
     for i, kind in enumerate(ask.kinds):
         if not all(matches(S[j], T[j]) for j in range(len(T)) if j != i):
             continue
-        mine, its = (S[i],), (T[i],)
+        mine = (S[i],)
+        its = (T[i],)
         if found := _named(kind.general(), its, [kind], mine, its, ask.near):
             called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
             return Finding(found.slug, called + found.message)
@@ -135,9 +147,9 @@ def _of_whole_numbers(
                 continue
         found.setdefault(one.slug, first)
     if len(found) == 2:
-        one, other = found.values()
-        says = f"Two mistakes give these numbers. Either: {one.message} Or: "
-        return Finding(one.slug, says + other.message)
+        either, other = found.values()
+        says = f"Two mistakes give these numbers. Either: {either.message} Or: "
+        return Finding(either.slug, says + other.message)
     return next(iter(found.values())) if len(found) == 1 else None
 
 
@@ -153,37 +165,66 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
         return None
     i = int(np.argmax(gaps(ask.kinds, S, T)))
     mistakes = [one for one in ask.named if isinstance(one.redo, InTurn)][:MOST]
-    mine = _nth(S, i)
-    its = _nth(T, i)
     answers = {}
     for k, one in enumerate(mistakes):
         answer = _answer(one, case.arguments, i)
-        if _alike(ask, answer, its) is False:
+        if _alike(ask, answer, _nth(T, i)) is False:
             answers[k] = answer
-    for a, b in combinations(answers, 2):
-        both = _sum(answers[a], answers[b], its)
-        pair = mistakes[a], mistakes[b]
-        if pair[0].slug != pair[1].slug and _alike(ask, both, mine):
-            again = [_all(one, case.arguments) for one in pair]
-            if _alike(ask, _sum(*again, T), S):
-                return _both_told(ask, pair, S, T)
-    if len(ask.kinds) == 1:
-        for change in ask.kinds[0].general():
-            for k, answer in answers.items():
-                pair = mistakes[k], change
-                if _alike(ask, _changed(change, answer), mine) and _alike(
-                    ask, _changed(change, _all(mistakes[k], case.arguments)), S
-                ):
-                    return _both_told(ask, pair, S, T)
-    for pair in _one_after_the_other(mistakes):
-        if _alike(ask, _answer(pair, case.arguments, i), mine) and _alike(
-            ask, _all(pair, case.arguments), S
-        ):
-            return _both_told(ask, pair, S, T)
-    return None
+    pairs = _Pairs(case, S, T, i, mistakes, answers)
+    found = pairs.added() or pairs.finished() or pairs.in_turn()
+    return _both_told(ask, found, S, T) if found else None
 
 
 Pair = tuple[Mistake, Mistake]
+
+
+@dataclass(frozen=True)
+class _Pairs:
+    """Pairs of mistakes beside a student's answers: one call's first, then all."""
+
+    case: Case
+    S: Parts  # the student's
+    T: Parts  # the right ones
+    i: int  # the call that is furthest off
+    mistakes: Sequence[Mistake]
+    answers: Mapping[int, Parts]  # to that call, of those that are wrong there
+
+    def added(self) -> Pair | None:
+        """Return two mistakes whose differences from the right answer add up."""
+        its = _nth(self.T, self.i)
+        for a, b in combinations(self.answers, 2):
+            first = self.mistakes[a]
+            second = self.mistakes[b]
+            both = _sum(self.answers[a], self.answers[b], its)
+            if first.slug != second.slug and self._is_this_one(both):
+                every = [_all(one, self.case.arguments) for one in (first, second)]
+                if _alike(self.case.ask, _sum(every[0], every[1], self.T), self.S):
+                    return first, second
+        return None
+
+    def finished(self) -> Pair | None:
+        """Return a mistake and another that is made with its finished answer."""
+        if len(self.case.ask.kinds) != 1:
+            return None
+        for change in self.case.ask.kinds[0].general():
+            for k, answer in self.answers.items():
+                if self._is_this_one(_changed(change, answer)):
+                    every = _all(self.mistakes[k], self.case.arguments)
+                    if _alike(self.case.ask, _changed(change, every), self.S):
+                        return self.mistakes[k], change
+        return None
+
+    def in_turn(self) -> Pair | None:
+        """Return a mistake made with an argument, and one made after it."""
+        for pair in _one_after_the_other(self.mistakes):
+            if self._is_this_one(_answer(pair, self.case.arguments, self.i)):
+                every = _all(pair, self.case.arguments)
+                if _alike(self.case.ask, every, self.S):
+                    return pair
+        return None
+
+    def _is_this_one(self, answer: Parts) -> bool:
+        return bool(_alike(self.case.ask, answer, _nth(self.S, self.i)))
 
 
 def _one_after_the_other(mistakes: Sequence[Mistake]) -> Iterator[Pair]:

@@ -76,17 +76,7 @@ def _of_a_vector(x: Array) -> Iterator[Neutral]:
 def _of_a_matrix(x: Array) -> Iterator[Neutral]:
     square = x.shape[0] == x.shape[1]
     if x.shape == (4, 4) and rigid(x[None]):
-        turned = x.copy()
-        moved = x.copy()
-        turned[:3, 3] = 0.0
-        moved[:3, :3] = np.eye(3)
-        yield Neutral("{} does not translate", turned, lambda v: not v[:3, 3].any())
-        yield Neutral(
-            "{} does not rotate",
-            moved,
-            lambda v: np.array_equal(v[:3, :3], np.eye(3)),
-            tuple(_moved(moved, s) for s in _SEVERAL[1:]),
-        )
+        yield from _of_a_pose(x)
     elif x.shape == (3, 3) and rigid(x[None]):
         yield Neutral("{} is the identity", np.eye(3), _is_identity)
     elif square:
@@ -107,6 +97,20 @@ def _of_a_matrix(x: Array) -> Iterator[Neutral]:
             lambda v: int(v.any(axis=0).sum()) == 1,
             tuple(s * one for one in columns for s in _SEVERAL[:4]),
         )
+
+
+def _of_a_pose(T: Array) -> Iterator[Neutral]:
+    turned = T.copy()
+    moved = T.copy()
+    turned[:3, 3] = 0.0
+    moved[:3, :3] = np.eye(3)
+    yield Neutral("{} does not translate", turned, lambda v: not v[:3, 3].any())
+    yield Neutral(
+        "{} does not rotate",
+        moved,
+        lambda v: np.array_equal(v[:3, :3], np.eye(3)),
+        tuple(_moved(moved, s) for s in _SEVERAL[1:]),
+    )
 
 
 def _moved(T: Array, size: float) -> Array:

@@ -8,6 +8,7 @@ several sizes. Each of the two rounds is one batch of questions.
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import accumulate, chain, pairwise
 from typing import Any
 
@@ -236,15 +237,8 @@ class Experiments:
                         f"for {self.names[k]} between {number(low)} and {number(high)}"
                     )
                     calls = self._between(k, low, high, QUESTIONS + 2)
-                    yield Claim(
-                        k,
-                        says,
-                        calls,
-                        lambda v, low=low, high=high: low < v < high,
-                        lambda k=k, low=low, high=high: self._between(
-                            k, low, high, 2 * TRIED
-                        ),
-                    )
+                    more = partial(self._between, k, low, high, 2 * TRIED)
+                    yield Claim(k, says, calls, partial(_inside, low, high), more)
 
     def _between(self, k: int, low: float, high: float, n: int) -> list[Call]:
         """Return calls with argument k in a range, and near both of its ends."""
@@ -320,6 +314,10 @@ def _range(
     if len(run) < max(AGREE, len(good) // 5) or run[0] == run[-1] or not wrong:
         return None
     return _end(run[0], low), _end(run[-1], high)
+
+
+def _inside(low: float, high: float, x: float) -> bool:
+    return low < x < high
 
 
 def _end(last: float, beyond: float) -> float:

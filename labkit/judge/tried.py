@@ -14,6 +14,9 @@ from robo47.checks import Array
 
 # What must be the same; any other number may grow with more inputs.
 _KEPT = re.compile(r"(\[[^\]]*\]|\b(?:joint|rows?|columns?|link) ?\d+(?: to \d+)?)")
+# Of answers that are nearly right only what tells the wrong entries, or all of them,
+# exactly: whether R is a rotation, say, follows from a rounded constant.
+_EXACT = {"few-entries-off", "one-factor-off", "shifted"}
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 
@@ -27,7 +30,7 @@ def what_is_wrong(case: Case, S: Parts, T: Parts, i: int) -> Finding:
     kind = case.ask.kinds[i]
     found = kind.what_is_wrong(S[i], T[i])
     plain = Finding("off", f"It is off by up to {kind.apart(S[i], T[i])}.")
-    if near_miss.about_right(S[i], T[i]):
+    if near_miss.about_right(S[i], T[i]) and found.slug not in _EXACT:
         return plain
     if case.further is None:
         return found

@@ -12,6 +12,7 @@
     day_mujoco  what a day asks of MuJoCo, found beside its complete lab
     lab_module  a lab script read and loaded: as text, and as a module
     starter     made of the complete lab: the tasks taken out, and put back
+    notebook    the complete lab as a notebook, cell by cell
     borrowed    the kit's own functions in a student's file, so that they can go on
     added_code  what the checker puts below a student's file before it is asked
     slips       what shows in a student's file unrun

@@ -7,7 +7,7 @@ import json
 import re
 import shutil
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -18,8 +18,8 @@ from sphinx.application import Sphinx
 
 from labkit.base import processes
 from labkit.inspector.recording import Recording
-from labkit.lesson.day import all_days
-from labkit.site import formulas, links, pages
+from labkit.lesson.day import Day, all_days
+from labkit.site import formulas, links, notebooks, pages
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, TWIN_XML
 
@@ -59,8 +59,12 @@ _BELOW = re.compile(
 _BESIDE = r'<msub><mover accent="true">\1\3</mover>\2</msub>'
 
 
-def build(out: Path) -> None:
+def build(out: Path, ran: Sequence[Day]) -> None:
     """Build the site into a folder, which is made anew.
+
+    Args:
+        out: the folder.
+        ran: days whose notebook is run and shown.
 
     Raises:
         Robo47Error: a warning, a link that leads nowhere, or no packages for the arm.
@@ -70,7 +74,8 @@ def build(out: Path) -> None:
     shutil.rmtree(out, ignore_errors=True)
     with tempfile.TemporaryDirectory(prefix="robo47-site-") as name:
         work = Path(name).resolve()
-        pages.lay_out(work / "pages", filmed=films())
+        pages.lay_out(work / "pages", films(), ran)
+        notebooks.write_all(ran, work / "pages")
         site = Sphinx(
             work / "pages",
             None,

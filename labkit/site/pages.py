@@ -10,7 +10,7 @@ import shutil
 from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 
-from labkit.lesson.day import days_of
+from labkit.lesson.day import Day, days_of
 from labkit.lesson.week import weeks
 from robo47.paths import ROOT
 
@@ -53,11 +53,19 @@ MODULES = (
 )
 
 
-def lay_out(folder: Path, filmed: Collection[str]) -> None:
-    """Write the site's source into a new folder; some pictures are filmed."""
+def lay_out(folder: Path, filmed: Collection[str], ran: Sequence[Day]) -> None:
+    """Write the site's source into a new folder.
+
+    Args:
+        folder: the new folder.
+        filmed: names of the pictures that have a film.
+        ran: days whose notebook has a page, which `labkit.site.notebooks` writes.
+    """
+    notebooks = {Path(day.folder.name, day.guide): day for day in ran}
     pages = {p.relative_to(ROOT) for each in DOCUMENTS for p in ROOT.glob(each)}
     for page in pages:
         text = _with_films((ROOT / page).read_text("utf-8"), page, filmed)
+        text = _with_notebook(text, notebooks.get(page))
         name = Path("index.md") if page == HOME else page
         _write(folder / name, _linked(text, page, pages, folder))
     with (folder / "index.md").open("a", encoding="utf-8") as home:
@@ -102,6 +110,20 @@ def _with_films(text: str, page: Path, filmed: Collection[str]) -> str:
         return f'{found[0]}\n\n```{{raw}} html\n<p class="film">{link}</p>\n```'
 
     return PICTURE.sub(add, text)
+
+
+def _with_notebook(text: str, day: Day | None) -> str:
+    """Return a day's guide with a link to its notebook below the title."""
+    if day is None:
+        return text
+    title, rest = text.split("\n\n", 1)
+    link = f"[The lab as a notebook, run from top to bottom](../{notebook_of(day)})"
+    return f"{title}\n\n{link}\n\n{rest}"
+
+
+def notebook_of(day: Day) -> Path:
+    """Return where the page of a day's notebook is, in its week's folder."""
+    return Path("notebooks", Path(day.script).stem + ".md")
 
 
 def _shown(file: Path, name: Path) -> str:

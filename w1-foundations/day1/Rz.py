@@ -54,7 +54,7 @@ def _(theta):
         "minus-missing": np.array([[c, s, 0], [s, c, 0], [0, 0, 1]]),
         "minus-twice": np.array([[c, -s, 0], [-s, c, 0], [0, 0, 1]]),
         "reflection": np.array([[c, s, 0], [s, -c, 0], [0, 0, 1]]),
-        "small-angle-formula": small_angle_formula(theta),
+        "small-angle-formula": lambda: small_angle_formula(theta),
         "z-lost": np.array([[c, -s, 0], [s, c, 0], [0, 0, 0]]),
     }
 

@@ -3,13 +3,14 @@
 import day7_trajectory
 
 from labkit.inspector.recording import Recording
-from labkit.proof import pick as picking
+from labkit.proof.capstone import recorded
 from robo47 import capstone
 
 
 def pick() -> Recording:
     """Return the cube being picked up and put down."""
-    return picking.film(capstone.pick(capstone.with_own(vars(day7_trajectory))))
+    picked = capstone.pick(capstone.with_own(vars(day7_trajectory)))
+    return recorded(capstone.film(picked))
 
 
 FILMS = {"pick": pick}

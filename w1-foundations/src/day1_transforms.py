@@ -203,7 +203,8 @@ def main() -> int:
         lab.check(f"{entry}, worst at {worst.frame}", worst.error)
 
     lab.step("6. Side quest: link4 as the file has it, and link4 in the world")
-    link4, T_world_link4 = model.body("link4"), link4_to_world(model, READY_Q)
+    link4 = model.body("link4")
+    T_world_link4 = link4_to_world(model, READY_Q)
     lab.show("in the file: T_link3_link4", link_T(link4.pos, link4.quat))
     lab.show("data.xpos, in the world", data.body("link4").xpos)
     lab.show("composed up to the world: T_world_link4", T_world_link4)

@@ -76,7 +76,9 @@ def exp_screw(S: np.ndarray, theta: float) -> np.ndarray:
     (0, 0, 1, 0, -1, 0) takes the origin to (1, -1, 0).
     """
     # region 2.4
-    K, c, s = skew(S[:3]), np.cos(theta), np.sin(theta)
+    K = skew(S[:3])
+    c = np.cos(theta)
+    s = np.sin(theta)
     T = np.eye(4)
     T[:3, :3] = exp_rotation(S[:3], theta)
     T[:3, 3] = (theta * np.eye(3) + (1 - c) * K + (theta - s) * K @ K) @ S[3:]
@@ -145,7 +147,10 @@ def dh_link(alpha: float, a: float, d: float, theta: float) -> np.ndarray:
     dh_link(pi / 2, 0, 0.316, 0) puts it at (0, -0.316, 0), as the file puts link3.
     """
     # region 2.9
-    ca, sa, c, s = np.cos(alpha), np.sin(alpha), np.cos(theta), np.sin(theta)
+    ca = np.cos(alpha)
+    sa = np.sin(alpha)
+    c = np.cos(theta)
+    s = np.sin(theta)
     row_x = [c, -s, 0.0, a]
     row_y = [s * ca, c * ca, -sa, -d * sa]
     row_z = [s * sa, c * sa, ca, d * ca]

@@ -67,7 +67,8 @@ def log_rotation(R: np.ndarray) -> np.ndarray:
     """
     # region 3.3
     a = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
-    sine, cosine = np.linalg.norm(a), (np.trace(R) - 1) / 2
+    sine = np.linalg.norm(a)
+    cosine = (np.trace(R) - 1) / 2
     angle = np.arctan2(sine, cosine)
     if cosine > -0.9:
         return a * (angle / sine if sine > 0 else 1.0)
@@ -114,12 +115,15 @@ def solve_ik(
     whose error was the shortest.
     """
     # region 3.6
-    q, best, least = q_start.copy(), q_start, np.inf
+    q = q_start.copy()
+    best = q_start
+    least = np.inf
     for _ in range(61):
         T = fk_space(screws, M_home, q)
         e = pose_error(T, T_goal)
         if e @ e < least:
-            best, least = q, e @ e
+            best = q
+            least = e @ e
         if least < 1e-8**2:
             break
         J = site_jacobian(space_jacobian(screws, q), T[:3, 3])

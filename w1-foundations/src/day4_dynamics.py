@@ -94,7 +94,8 @@ def ad(V: np.ndarray) -> np.ndarray:
     ad(V) @ V = 0: carried along by itself, a twist stays the same.
     """
     # region 4.5
-    W, zero = skew(V[:3]), np.zeros((3, 3))
+    W = skew(V[:3])
+    zero = np.zeros((3, 3))
     return np.block([[W, zero], [skew(V[3:]), W]])
     # endregion 4.5
 
@@ -107,7 +108,8 @@ def inverse_dynamics(
     The pendulum of task 4.4 with qdd = 1: -8.81 N m.
     """
     # region 4.6
-    V, A = np.zeros(6), np.concatenate([np.zeros(3), -g])
+    V = np.zeros(6)
+    A = np.concatenate([np.zeros(3), -g])
     wrenches = []
     # From the base out.
     for S, G_i, speed, acc in zip(J_space.T, G, qd, qdd, strict=True):
@@ -115,7 +117,8 @@ def inverse_dynamics(
         ad_V = ad(V)
         A = A + S * acc + ad_V @ S * speed
         wrenches.append(G_i @ A - ad_V.T @ G_i @ V)
-    F, tau = np.zeros(6), np.zeros(len(qd))
+    F = np.zeros(6)
+    tau = np.zeros(len(qd))
     for i in reversed(range(len(qd))):  # from the tip back
         F = F + wrenches[i]
         tau[i] = J_space[:, i] @ F
@@ -169,7 +172,8 @@ def let_go(model, arm, share: float, *phases: tuple) -> np.ndarray:
         given = now.J_space, arm.masses, now.coms_world, arm.gravity
         return share * gravity_torque(*given)
 
-    data, path = simulate.start(model, READY_Q), [READY_Q]
+    data = simulate.start(model, READY_Q)
+    path = [READY_Q]
     for seconds, force in phases:  # s, and newtons on the hand
         push = simulate.push_at("attachment_site", np.append(np.zeros(3), force))
         run = simulate.run(model, data, hold, seconds, rate=RATE, push=push)

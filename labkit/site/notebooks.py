@@ -1,0 +1,102 @@
+"""A day's notebook, run from top to bottom, as a page of the site.
+
+It runs where nothing is logged. What it printed, and the pictures that it drew, stand
+below the cell; a widget is moved in a notebook of one's own, and here it is only named.
+"""
+
+import base64
+import subprocess
+import tempfile
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import nbclient
+import nbformat
+
+from labkit.lesson import notebook
+from labkit.lesson.day import Day
+from labkit.site.pages import notebook_of
+from robo47.errors import Robo47Error
+
+AT_ONCE = 2  # kernels
+SECONDS = 300  # of a cell
+WIDGET = "application/vnd.jupyter.widget-view+json"
+SLIDERS = "*Sliders: move them in a notebook of your own, `make notebook DAY={}`.*"
+FENCE = "`" * 8
+HEAD = "---\norphan: true\n---\n"
+
+
+def write_all(days: Sequence[Day], folder: Path) -> None:
+    """Run the days' notebooks, and write each one's page where its guide links to.
+
+    Args:
+        days: whose notebooks.
+        folder: the site's source.
+
+    Raises:
+        Robo47Error: a cell failed.
+    """
+    with ThreadPoolExecutor(AT_ONCE) as threads:
+        for day, ran in zip(days, threads.map(run, days), strict=True):
+            path = folder / day.folder.name / notebook_of(day)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(page(ran, path, day.number), "utf-8", newline="\n")
+
+
+def run(day: Day) -> Any:
+    """Return a day's notebook with what its cells gave.
+
+    Raises:
+        Robo47Error: a cell failed; one that draws fails where OpenGL is missing.
+    """
+    made = nbformat.reads(notebook.build(day), as_version=4)
+    logs = f'sys.argv = ["{Path(day.script).stem}"]'
+    for cell in made.cells:
+        cell.source = cell.source.replace(logs, f'{logs[:-1]}, "--no-log"]')
+        cell.metadata.pop("tags", None)  # a page has no picture that failed
+    with tempfile.TemporaryDirectory(prefix="robo47-notebook-") as empty:
+        where = {"metadata": {"path": empty}}
+        client = nbclient.NotebookClient(made, timeout=SECONDS, resources=where)
+        try:
+            client.execute(stderr=subprocess.DEVNULL)  # the kernel's own warnings
+        except nbclient.exceptions.CellExecutionError as error:
+            raise Robo47Error(
+                f"day {day.number}: a cell of the notebook failed: "
+                f"{error.ename}: {error.evalue}; try make notebook DAY={day.number}"
+            ) from None
+    return made
+
+
+def page(ran: Any, path: Path, day: int) -> str:
+    """Return a notebook that was run as Markdown; its pictures are put beside it."""
+    parts = []
+    for n, cell in enumerate(ran.cells):
+        if cell.cell_type == "markdown":
+            parts.append(cell.source)
+            continue
+        parts.append(f"{FENCE}python\n{cell.source}\n{FENCE}")
+        parts += _shown(cell.outputs, path.with_name(f"{path.stem}-{n}.png"), day)
+    return HEAD + "\n\n".join(parts) + "\n"
+
+
+def _shown(outputs: Sequence[Any], picture: Path, day: int) -> Iterator[str]:
+    """Yield what a cell gave; progress, which goes to stderr, is left out."""
+    printed = "".join(it.text for it in outputs if it.get("name") == "stdout")
+    if printed.strip():
+        yield _text(printed)
+    for data in (it.data for it in outputs if "data" in it):
+        if WIDGET in data:
+            yield SLIDERS.format(day)
+        elif "image/png" in data:
+            picture.write_bytes(base64.b64decode(data["image/png"]))
+            yield f"![What the cell above draws]({picture.name})"
+        else:
+            yield _text(data["text/plain"])
+
+
+def _text(words: str) -> str:
+    """Return what was printed, as it was."""
+    option = ":class: printed"
+    return f"{FENCE}{{code-block}} text\n{option}\n\n{words.strip(chr(10))}\n{FENCE}"
