@@ -1,23 +1,57 @@
 """Day 8 in the inspector: the tab Weigh.
 
 Hang a ball on the hand of the lab's secret robot and let it be held, from both sides.
-What `robo47.identification` finds stands there with its sigma; the blue ball is where.
+What the student's own functions find stands there with its sigma, and the library's
+below it; the blue ball is where theirs puts it.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
 from labkit.inspector import words
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
+from labkit.lesson.day import find_day
+from labkit.lesson.lab_module import lab_of
 from robo47 import identification, panda
 from robo47.checks import Array
 
 import day8_mujoco
 
-SEED = 47
-RTOL = 1e-9
-WAIT = 2.0  # s
+LAB = lab_of(find_day(8))  # its robot, poses, wait and cut
 HERE, FIVE, FORGET = "hold here", "five poses", "forget"
+NO_MASS = 1e-9  # kg: what weighs less has no centre
+
+
+class Found(NamedTuple):
+    """What holds show of a load, when they are compared in one way."""
+
+    load: Array  # m and m c, kg and kg m, (4,)
+    sigma: Array  # of each, (4,)
+    rank: int  # how many of the four show
+
+    def centre(self) -> Array:
+        """Return its centre in the hand's axes, m, (3,); NaN where nothing weighs."""
+        m = self.load[0] if abs(self.load[0]) > NO_MASS else np.nan
+        return self.load[1:] / m
+
+    def says(self) -> str:
+        """Return it in words."""
+        grams, sigma = 1000 * self.load[0], 1000 * self.sigma[0]
+        centre = ", ".join(f"{1000 * x:z.1f}" for x in self.centre())
+        m = max(abs(self.load[0]), NO_MASS)
+        return (
+            f"{grams:.1f} g, sigma {sigma:.1f}; centre {centre} mm, "
+            f"sigma {1000 * self.sigma[1:].max() / m:.1f}"
+        )
+
+
+class Weighed(NamedTuple):
+    """What the student's functions find, and the library's, by the way of comparing."""
+
+    own: dict[str, Found]
+    library: dict[str, Found]
 
 
 class Weigh(Tab):
@@ -31,19 +65,22 @@ class Weigh(Tab):
         super().__init__(page)
         model = panda.load("panda_nohand", drive="torque")
         self.arm = panda.arm(model)
-        self.empty = day8_mujoco.changed(model, SEED)
-        self.mass = 0.5
-        self.com = np.array([0.02, -0.03, 0.06])
+        self.empty = day8_mujoco.changed(model, LAB.ROBOT_SEED)
+        self.mass = LAB.LOAD
+        self.com = LAB.AT.copy()
         self.held: list[Array] = []  # q, torque with and without, from either side
-        page.html(words.line("Weighed by robo47.identification.", "library"))
-        page.slider("load", 50, 2000, 500, self.hang, unit="g", step=50)
-        page.slider("below the hand", 0, 200, 60, self.lower, unit="mm", step=5)
+        self.centre: Array | None = None
+        self.own = page.own(identification)
+        grams = round(1000 * self.mass)
+        page.slider("load", 50, 2000, grams, self.hang, unit="g", step=50)
+        below = round(1000 * self.com[2])
+        page.slider("below the hand", 0, 200, below, self.lower, unit="mm", step=5)
         page.buttons([HERE, FIVE, FORGET], self.press)
         self.table = page.html()
         self.ball = page.draw.sphere(np.zeros(3), day8_mujoco.RADIUS, "orange", 0.5)
         self.found = page.draw.sphere(np.zeros(3), day8_mujoco.RADIUS / 2, "blue")
         page.light("ee", {"ee"})
-        self.show()
+        self.weigh()
 
     def hang(self, grams: float) -> None:
         """Hang another load on the hand, which was never held."""
@@ -56,66 +93,110 @@ class Weigh(Tab):
         self.press(FORGET)
 
     def press(self, name: str) -> None:
-        """Hold the arm where it is, or in five poses near by; or forget all holds."""
+        """Hold the arm where it is, or in the lab's five poses; or forget all holds."""
         poses = [self.page.q[:7]] if name == HERE else []
         if name == FIVE:
-            beside = np.random.default_rng(SEED).uniform(-0.5, 0.5, (5, 7))
-            poses = list(panda.READY_Q + beside)
+            poses = list(LAB.POSES)
         if name != HERE:  # the same holds again would only look like more
             self.held = []
         edit = day8_mujoco.load(self.mass, self.com)
         hung = panda.load("panda_nohand", drive="torque", edit=edit)
-        full = day8_mujoco.changed(hung, SEED)
+        full = day8_mujoco.changed(hung, LAB.ROBOT_SEED)
         for pose in poses:
-            _, empty = day8_mujoco.holds(self.empty, self.arm, [pose], WAIT)
-            held = day8_mujoco.holds(full, self.arm, [pose], WAIT)
-            self.held.append(np.array([*held, empty]))
-        self.show()
+            _, empty = day8_mujoco.holds(self.empty, self.arm, [pose], LAB.WAIT)
+            held = day8_mujoco.holds(full, self.arm, [pose], LAB.WAIT)
+            self.held = [*self.held, np.array([*held, empty])]
+        self.weigh()
 
     def on_move(self, q: Array) -> None:
-        """Move both balls with the hand."""
-        self.show()
+        """Move both balls with the hand; ask again, for the file may be another."""
+        self.place()
+        self.weigh()
 
-    def weighed(self) -> dict[str, tuple[Array, Array]]:
-        """Return (m, m c) and its sigma, (4,) each, by how the holds are compared."""
-        q, full, empty = np.concatenate(self.held, axis=2)  # (side, pose, joint) each
+    def weigh(self) -> None:
+        """Ask for what the holds show, or say that there are none."""
+        held = self.held
+        if held:
+            self.page.job(lambda: (held, self.ask(held)), self.answered)
+        else:
+            self.lost()
+            self.table.content = words.line("Not held yet.", "weighed")
+
+    def answered(self, asked: tuple[list[Array], Weighed]) -> None:
+        """Show what was found, unless those holds have been forgotten meanwhile."""
+        held, weighed = asked
+        if held is self.held:
+            self.show(weighed)
+
+    def ask(self, held: list[Array]) -> Weighed:
+        """Return what the student's functions find in these holds, and the library's.
+
+        A hold is q (rad), torque with the load and without (N m), (3, 2, 1, 7).
+        """
+        q, full, empty = np.concatenate(held, axis=2)  # (side, pose, joint) each
         ways = {
             "from one side": (q[0], full[0] - empty[0]),
             "one from either side": (q[1], full[1] - empty[0]),
             "both, averaged": (q.mean(axis=0), (full - empty).mean(axis=0)),
         }
-        found = {}
-        for name, (at, extra) in ways.items():
-            J, R = day8_mujoco.hands(self.arm, at)
-            rows = identification.load_regressor(J, R, self.arm.gravity).reshape(-1, 4)
-            given = rows, extra.ravel(), np.eye(4), RTOL
-            found[name] = identification.predict_with_sigma(*given)
-            self.rank, _ = identification.identifiable(rows, RTOL)
-        return found
+        calls = [call for way in ways.values() for call in self.calls(*way)]
+        own = self.own.many(*calls)
+        library = [getattr(identification, name)(*given) for name, *given in calls]
+        return Weighed(by_way(ways, own), by_way(ways, library))
 
-    def show(self) -> None:
-        """Draw both balls and say what was found."""
+    def calls(self, at: Array, extra: Array) -> list[tuple[object, ...]]:
+        """Return what to ask of holds at q, rad, (k, 7), and their torque, N m."""
+        J, R = day8_mujoco.hands(self.arm, at)
+        g = self.arm.gravity
+        rows = identification.load_regressor(J, R, g).reshape(-1, 4)
+        return [
+            ("payload_from_holds", J, R, extra, g),
+            ("predict_with_sigma", rows, extra.ravel(), np.eye(4), LAB.RTOL),
+            ("identifiable", rows, LAB.RTOL),
+        ]
+
+    def show(self, weighed: Weighed) -> None:
+        """Say what was found, the library's below the student's; draw the ball."""
+        *_, last = weighed.own.values()
+        hidden = ": the centre along gravity does not" if last.rank < 4 else ""
+        text = [
+            f"{len(self.held)} held, {last.rank} of 4 numbers show{hidden}; "
+            f"hung are {1000 * self.mass:.0f} g."
+        ]
+        for name, found in weighed.own.items():
+            text.append(f"{name}: {found.says()}")
+            text.append(f"the library's: {weighed.library[name].says()}")
+        kinds = ["", *["", "quiet"] * len(weighed.own)]
+        self.table.content = "".join(
+            words.line(line, "weighed" if k else "shown", kind)
+            for k, (line, kind) in enumerate(zip(text, kinds, strict=True))
+        )
+        centre = last.centre()
+        self.centre = centre if np.isfinite(centre).all() else None
+        self.place()
+
+    def place(self) -> None:
+        """Draw both balls where the hand is now."""
         T = self.arm.at(self.page.q[:7]).T_world_ee
         self.ball.position = T[:3, 3] + T[:3, :3] @ self.com
-        self.found.visible = bool(self.held)
-        if not self.held:
-            self.table.content = words.line("Not held yet.", "weighed")
-            return
-        lines = []
-        for name, (load, sigma) in self.weighed().items():
-            c, off = 1000 * load[1:] / load[0], 1000 * sigma[1:] / load[0]
-            centre = ", ".join(f"{x:z.1f}" for x in c)
-            lines.append(
-                f"{name}: {1000 * load[0]:.1f} g, sigma {1000 * sigma[0]:.1f}; centre "
-                f"{centre} mm, sigma {off.max():.1f}"
-            )
-            self.found.position = T[:3, 3] + T[:3, :3] @ c / 1000.0
-        poses = f"{len(self.held)} held, {self.rank} of 4 numbers show"
-        hidden = ": the centre along gravity does not" if self.rank < 4 else ""
-        text = [f"{poses}{hidden}; hung are {1000 * self.mass:.0f} g.", *lines]
-        self.table.content = "".join(
-            words.line(line, "weighed" if k else "shown") for k, line in enumerate(text)
-        )
+        self.found.visible = self.centre is not None
+        if self.centre is not None:
+            self.found.position = T[:3, 3] + T[:3, :3] @ self.centre
+
+    def lost(self) -> None:
+        """Show no numbers, and no ball where they would put it."""
+        self.table.content = ""
+        self.centre = None
+        self.place()
+
+
+def by_way(ways: dict[str, tuple[Array, Array]], answers: list) -> dict[str, Found]:
+    """Return what was found in each way, from three answers each, as `calls` asks."""
+    found = {}
+    for k, name in enumerate(ways):
+        load, (_, sigma), (rank, _) = answers[3 * k : 3 * k + 3]
+        found[name] = Found(np.asarray(load), np.asarray(sigma), int(rank))
+    return found
 
 
 TABS = [Weigh]

@@ -30,6 +30,9 @@ for slug, says, redone, blocks in (
      lambda qd, qdd: (qdd, qd, np.tanh(qd / 0.1))),
     ("sign-at-rest", "a joint at rest is given a direction; sign(0) is 0",
      "1 where qd is 0", lambda qd, qdd: (qdd, qd, np.where(qd < 0.0, -1.0, 1.0))),
+    ("sign-at-rest-negative", "a joint at rest is given a direction, backwards; "
+     "sign(0) is 0", "-1 where qd is 0",
+     lambda qd, qdd: (qdd, qd, np.where(qd > 0.0, 1.0, -1.0))),
     ("dry-forgotten", "dry friction is missing: its seven columns are 0",
      "the last block empty", lambda qd, qdd: (qdd, qd, 0 * qd)),
     ("friction-drives", "friction has a minus; the motors give this torque against it",

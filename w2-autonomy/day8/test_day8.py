@@ -5,17 +5,17 @@ import importlib.util
 import io
 import re
 from contextlib import redirect_stdout
-from unittest.mock import MagicMock, patch
+from unittest.mock import patch
 
 import mujoco
 import numpy as np
 import pytest
 from compare import assert_same
 
-from conftest import ROOT, load_script, need
+from conftest import ROOT, load_script, need, paper
 from labkit.judge.row import rows_of
 from labkit.lesson.day import find_day
-from robo47 import identification, panda, verify
+from robo47 import identification, panda, simulate, verify
 from robo47.errors import Robo47Error
 
 import day8_mujoco
@@ -271,6 +271,148 @@ def test_dry_friction_spoils_the_rows_that_the_guide_says(data):
     assert f"they cost {np.abs(Y @ phi - tau).max():.2f} N m at worst" in SENTENCES
 
 
+def chain(axes, offsets, gravity=(0.0, 0.0, -9.81)):
+    """Return a chain of hinges by their axes, with a body of 1 kg on each."""
+    spec = mujoco.MjSpec()
+    spec.option.gravity = gravity
+    body = spec.worldbody
+    for axis, offset in zip(axes, offsets, strict=True):
+        body = body.add_body(pos=offset)
+        body.add_joint(axis=axis)
+        body.mass = 1.0
+        body.explicitinertial = True
+        body.inertia = [0.1, 0.1, 0.1]
+    return spec.compile()
+
+
+def shown_by(chained, rotors=()):
+    """Return how many numbers of each link a chain shows, from the first link on.
+
+    The last of them is with the rotors of those joints as well.
+    """
+    data = mujoco.MjData(chained)
+    rng = np.random.default_rng(8)
+    n = chained.njnt
+    rows = []
+    for _ in range(60):
+        data.qpos[:] = rng.uniform(-3, 3, n)
+        mujoco.mj_forward(chained, data)  # fills xpos, xmat, xaxis and xanchor
+        T = np.tile(np.eye(4), (n, 1, 1))
+        T[:, :3, :3] = data.xmat[1:].reshape(n, 3, 3)
+        T[:, :3, 3] = data.xpos[1:]
+        J = np.vstack([data.xaxis.T, np.cross(data.xanchor, data.xaxis).T])
+        qd, qdd = rng.normal(size=(2, n))
+        g = chained.opt.gravity
+        links = identification.arm_regressor(J, T, qd, qdd, g)
+        rows.append(np.hstack([links, np.diag(qdd)[:, list(rotors)]]))
+    Y = np.vstack(rows)
+    widths = [*range(10, 10 * n + 1, 10), Y.shape[1]]
+    return [int(np.linalg.matrix_rank(Y[:, :p], tol=1e-9)) for p in widths]
+
+
+def test_a_scara_shows_three_numbers_for_each_hinge_after_the_first():
+    upright = [[0.0, 0.0, 1.0]] * 3
+    scara = chain(upright, [[0.0, 0.0, 0.3], [0.3, 0.0, 0.0], [0.3, 0.0, 0.0]])
+    assert shown_by(scara)[:3] == [1, 1 + 3, 1 + 3 + 3]
+    assert "and SCARA arms too" in SENTENCES
+
+
+@pytest.mark.parametrize(("degrees", "more"), [(90, 0), (80, 1)])
+def test_a_rotor_hides_where_its_link_turns_about_that_axis_by_its_joint_alone(
+    degrees, more
+):
+    tip = np.radians(degrees)
+    axes = [[0.0, 0.0, 1.0], [np.sin(tip), 0.0, np.cos(tip)]]
+    *_, links, both = shown_by(chain(axes, [[0, 0, 0.3], [0, 0, 0.3]]), (0, 1))
+    assert both - links == more
+    why = "turn about an axis about which no joint before them can turn anything"
+    assert why in SENTENCES
+    assert "to which axis 2 is at a right angle" in SENTENCES
+
+
+def test_a_unit_vector_divided_by_its_mass_is_nan_in_nine_of_ten_columns():
+    right = lab.inertia_of
+
+    def divides(phi):
+        m = phi[0]
+        c = phi[1:4] / m
+        return right(np.hstack([m, m * c, phi[4:]]))
+
+    V, A = np.random.default_rng(8).normal(size=(2, 6))
+    with (
+        patch.object(lab, "inertia_of", divides),
+        np.errstate(divide="ignore", invalid="ignore"),
+    ):
+        columns = lab.link_regressor(V, A)
+    spoilt = ~np.isfinite(columns).all(axis=0)
+    assert spoilt.tolist() == [False] + [True] * 9
+    assert "Code that divides by m gives NaN in nine of the ten columns" in SENTENCES
+
+
+def test_what_the_arm_weighs_is_in_both_holds_only_where_springs_are_stiff():
+    secret = [
+        day8_mujoco.without_friction(day8_mujoco.changed(one, lab.ROBOT_SEED))
+        for one in (model, hung)
+    ]
+    off = []
+    for omega in (20.0, 10.0, 5.0):
+        with patch.object(day8_mujoco, "OMEGA", omega):
+            off.append(abs(grams(secret, 4.0)[2, 0] - 500))
+    stiff, softer, soft = off  # grams: the softer, the more the load lets it sag
+    assert stiff < 0.2
+    assert 3 * stiff < softer
+    assert 3 * softer < soft
+    assert "the springs that hold it have to be stiff" in SENTENCES
+
+
+def test_the_excitation_is_as_fast_as_the_joints_may_go_but_not_as_far():
+    motion = day8_mujoco.excitation(model, lab.ROBOT_SEED, 2000)
+    speed = np.abs(motion.qd).max(axis=0) / simulate.SPEED_LIMITS
+    assert_same(speed, np.full(7, day8_mujoco.SPEED_SHARE), 1e-9)
+    low, high = simulate.limits(model)[0].T
+    reach = np.ptp(motion.q, axis=0) / (high - low)
+    assert reach.max() < 0.7 < day8_mujoco.RANGE_SHARE
+    assert "five random harmonics, as fast as the joints may go" in SENTENCES
+
+
+def test_normal_equations_are_singular_by_zero_columns_and_else_up_to_rounding(data):
+    Y, tau, fast = data["excited"]
+    Y = Y[fast]
+    with pytest.raises(np.linalg.LinAlgError, match="Singular"):
+        np.linalg.solve(Y.T @ Y, Y.T @ tau[fast])
+    Y = Y[:, np.abs(Y).max(axis=0) > 1e-9]
+    square = np.abs(np.linalg.eigvalsh(Y.T @ Y))  # one machine solves it, others raise
+    assert (square < 1e-13 * square.max()).sum() == 18
+    rank, _ = lab.identifiable(Y, lab.RTOL)
+    assert Y.shape[1] - rank == 18
+    assert "Without them the other 18 are as hidden" in SENTENCES
+    assert "what is raised is up to rounding" in SENTENCES
+
+
+def test_to_drop_all_slow_rows_costs_little_beside_the_twenty_wrong_ones(data):
+    Y, tau, fast = data["excited"]
+    motion = day8_mujoco.excitation(model, lab.ROBOT_SEED)
+    turned = np.sign(motion.qd + motion.qdd * (0.95 * 0.02 / 2.0))
+    right = turned == np.sign(motion.qd)
+    assert ((~fast).sum(), (~right).sum()) == (138, 20)
+    other = Y.copy()
+    joints = np.arange(7)
+    other[:, joints, 84 + joints] = turned
+    Y_new, truth, new = data["elsewhere"]
+    ways = ((Y, fast), (Y, right), (other, fast | True))
+    off = np.zeros((10, 3))
+    for seed in range(10):
+        measured = tau + noises(seed)[1]
+        for k, (rows, kept) in enumerate(ways):
+            phi = identification.fit(rows[kept], measured[kept], lab.RTOL)
+            off[seed, k] = lab.rms((Y_new @ phi - truth)[new])
+    slow, twenty, column = off.mean(axis=0)
+    assert max(twenty, column) < slow < 1.1 * min(twenty, column)
+    assert "To drop all slow rows is the simplest thing to do and costs little" in (
+        SENTENCES
+    )
+
+
 def costs(code, motion):
     """Return the largest wrong torque of an arm_regressor at some states, N m."""
     off = []
@@ -401,20 +543,59 @@ def test_second_differences_of_an_encoder_are_off_as_predicted():
     assert lab.rms(off) / np.abs(motion.qdd).max() == pytest.approx(3.0, abs=0.2)
 
 
-def test_the_tab_weighs_and_shows_what_has_no_sigma():
+def weigh(functions):
+    """Return the tab Weigh of who wrote these functions; None wrote no file."""
     need(importlib.util.find_spec("viser") is not None, "viser: make view")
-    inspector = DAY.module("inspector")
-    tab = inspector.Weigh(MagicMock(q=panda.READY_Q.copy()))
+    page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
+    return DAY.module("inspector").Weigh(page)
+
+
+def test_the_tab_weighs_and_shows_what_has_no_sigma():
+    tab = weigh(vars(lab))
     assert "Not held yet" in tab.table.content
-    tab.press(inspector.HERE)
+    tab.press("hold here")
     assert "3 of 4 numbers show" in tab.table.content
-    load, sigma = tab.weighed()["both, averaged"]
-    assert abs(load[3]) < 0.001 < 0.02 < LOAD[3]  # far off, and says it is sure
-    assert 1000 * sigma[3] / load[0] < 0.25
-    tab.press(inspector.FIVE)
-    good, sure = tab.weighed()["both, averaged"]
-    _, unsure = tab.weighed()["one from either side"]
-    assert_same(good, LOAD, 2e-3)
-    assert sure[0] < 0.001 < 0.02 < unsure[0]
+    one = tab.ask(tab.held).own["both, averaged"]
+    assert abs(one.load[3]) < 0.001 < 0.02 < LOAD[3]  # far off, and says it is sure
+    assert 1000 * one.sigma[3] / one.load[0] < 0.25
+    tab.press("five poses")
+    found = tab.ask(tab.held).own
+    assert_same(found["both, averaged"].load, LOAD, 2e-3)
+    assert found["both, averaged"].sigma[0] < 0.001
+    assert found["one from either side"].sigma[0] > 0.02
+    assert tab.own.says()[1] == "good"
     tab.hang(1000)
     assert not tab.held
+    assert "Not held yet" in tab.table.content
+
+
+def test_a_wrong_sign_in_ones_own_function_changes_what_the_tab_shows():
+    negative = {"payload_from_holds": lambda *given: -lab.payload_from_holds(*given)}
+    shown = {}
+    for name, functions in (("right", {}), ("wrong", negative)):
+        tab = weigh({**vars(lab), **functions})
+        tab.press("hold here")
+        shown[name] = re.findall(r"[a-z, ']+: (-?\d+)\.\d g", tab.table.content)
+    assert shown["right"][::2] == shown["right"][1::2]  # one's own and the library's
+    assert shown["wrong"][::2] == [f"-{grams}" for grams in shown["right"][::2]]
+    assert shown["wrong"][1::2] == shown["right"][1::2]
+    says, kind = tab.own.says()
+    assert (kind, "payload_from_holds by" in says) == ("bad", True)
+
+
+def test_without_a_file_the_tab_says_that_it_is_the_librarys():
+    tab = weigh(None)
+    tab.press("hold here")
+    says, _ = tab.own.says()
+    assert "the library's payload_from_holds" in says
+    assert "there is no file yet" in says
+    ways = tab.ask(tab.held)
+    for name, found in ways.own.items():
+        assert_same(found.load, ways.library[name].load, 0.0)
+
+
+def test_the_tab_draws_no_centre_of_what_weighs_nothing():
+    tab = weigh({**vars(lab), "payload_from_holds": lambda *given: np.zeros(4)})
+    tab.press("hold here")
+    assert "centre nan" in tab.table.content
+    assert not tab.found.visible

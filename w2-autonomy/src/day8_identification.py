@@ -28,6 +28,8 @@ CUT = 1e-3  # the same, where a motion shows little
 LOAD = 0.5  # kg that the arm is to find, and ...
 AT = np.array([0.02, -0.03, 0.06])  # ... m, where its centre is in the hand's axes
 WAIT = 2.0  # s until a hold counts as at rest; 8 make another number of step 5
+# rad, (5, 7): where the arm is held
+POSES = panda.READY_Q + np.random.default_rng(47).uniform(-0.5, 0.5, (5, 7))
 # Your own motion, of two harmonics: how often a second each swings, how far each of
 # the seven joints swings with it (rad), and where in its swing it begins (rad).
 OFTEN = (0.2, 0.5)
@@ -244,9 +246,8 @@ def weighed(arm, q, extra) -> tuple[np.ndarray, np.ndarray]:
 
 def weighings(robot, loaded, arm, rng) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Return load and sigma by how the arm was held, with the load and without."""
-    poses = panda.READY_Q + np.random.default_rng(47).uniform(-0.5, 0.5, (5, 7))
-    _, empty = day8_mujoco.holds(robot, arm, poses, WAIT)
-    q, full = day8_mujoco.holds(loaded, arm, poses, WAIT)
+    _, empty = day8_mujoco.holds(robot, arm, POSES, WAIT)
+    q, full = day8_mujoco.holds(loaded, arm, POSES, WAIT)
     empty = empty + NOISE * rng.normal(size=empty.shape)
     full = full + NOISE * rng.normal(size=full.shape)
     one_side = full[0] - empty[0]
