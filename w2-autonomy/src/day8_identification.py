@@ -213,6 +213,41 @@ def mujoco_torques(model, motion: day8_mujoco.Motion) -> np.ndarray:
     return np.array(torques)
 
 
+def off_library() -> dict[str, np.ndarray]:
+    """Return how far your fits are from robo47's, by function: MuJoCo knows no fits."""
+    rng = np.random.default_rng(ROBOT_SEED)
+    shows = [1e3, 300, 100, 40, 0.1, 0.1]  # a cut of 4e-3 leaves two of six out,
+    wide = [1e3, 900, 800, 700, 6.5, 6.5]  # and here none: the sum would, the norm too
+    speeds = np.array([-0.4, 0.0, 3e-4, 0.02, 0.5])
+    tau = rng.normal(size=40)
+    Y, Y_wide = rng.normal(size=(2, 40, 6)) * [[shows], [wide]]
+    Y_new = rng.normal(size=(8, 6))
+    J_site = rng.normal(size=(5, 6, 7))
+    R_site = np.linalg.qr(rng.normal(size=(5, 3, 3)))[0]
+    extra = rng.normal(size=(5, 7))
+    g = np.array([1.0, -2.0, -9.0])  # an arm may hang on a wall
+    given = {
+        "motor_features": [(speeds, rng.normal(size=5))],
+        "identifiable": [(Y, 4e-3), (Y_wide, 4e-3), (Y[:, :4] / 1e3, 1e-9)],
+        "fit": [(Y, tau, 4e-3), (Y_wide, tau, 4e-3)],
+        "predict_with_sigma": [(Y, tau, Y_new, 4e-3), (Y_wide, tau, Y_new, 4e-3)],
+        "payload_from_holds": [(J_site, R_site, extra, g)],
+    }
+    own = {"motor_features": motor_features, "identifiable": identifiable, "fit": fit,
+           "predict_with_sigma": predict_with_sigma,
+           "payload_from_holds": payload_from_holds}  # fmt: skip
+
+    def off(name: str) -> np.ndarray:
+        parts = []
+        for one in given[name]:
+            truth = np.asarray(getattr(library, name)(*one))
+            size = max(1.0, np.abs(truth).max())  # a condition has a thousand's digits
+            parts.append(np.ravel(own[name](*one) - truth) / size)
+        return np.concatenate(parts)
+
+    return {name: off(name) for name in own}
+
+
 def lengths(per_metre: float) -> np.ndarray:
     """Return by what each of the 91 numbers is larger in a smaller unit of length."""
     body = [1.0] + [per_metre] * 3 + [per_metre**2] * 6  # kg, kg m, kg m^2
@@ -315,6 +350,9 @@ def main() -> int:
         print(f"  {name}: {rank} of {p} show, condition {condition:.0f}")
         lab.measured(f"how many of {p} numbers show: {name}", rank)
 
+    for name, off in off_library().items():
+        lab.check(f"{name} - the library's", off)
+
     lab.step("3. One pendulum, five numbers: how evenly a swing shows them")
     print("  reach, rad    one sine    with a fifth of a second one")
     for reach in (0.1, 0.3, 0.6):
@@ -366,8 +404,10 @@ def main() -> int:
 
     lab.step("6. Side quest: can a body have these ten numbers?")
     with lab.side_quest():
-        found = np.array([least_pseudo(x) for x in phi[:70].reshape(7, 10)])
-        off = found - library.least_pseudo(phi[:70].reshape(7, 10))
+        # The links of the fit, which need not exist, and those of the file, which do.
+        both = np.concatenate([phi[:70], phi_file[:70]]).reshape(14, 10)
+        off = [least_pseudo(x) for x in both] - library.least_pseudo(both)
+        found = library.least_pseudo(both[:7])
         lab.check("least_pseudo - the library's", off)
         print(f"  the least of the links found: {found.min():.2f}")
     return lab.finish()
