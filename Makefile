@@ -127,7 +127,7 @@ new: .venv/.ready-core $(ROBOT) ## a day's skeleton: make new DAY=8 WEEK=w2-auto
 author: .venv/.ready-test .venv/.ready-notebook .venv/.ready-view $(ROBOT) ## is a day that you write as it must be? TASK=9.3
 	@$(PY) scripts/author_day.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS) $(NOT_YET)
 
-gaps: .venv/.ready-core $(ROBOT) ## what no question of a day notices: its functions, changed by machine
+gaps: .venv/.ready-core $(ROBOT) ## changes of a day's functions that no question notices
 	@$(PY) scripts/gaps.py $(DAY) $(ARGS) $(NOT_YET)
 
 oracle: .venv/.ready-core ## regenerate tests/data from Pinocchio (own environment)

@@ -58,7 +58,7 @@ EXPECTED = {
     "binary": (0, "1.1 does-not-load", "not in UTF-8"),
     "no git": (ALL, "", ""),
     "corrupt git": (ALL, "", ""),
-    "300 MB": (0, "1.1 does-not-load", "has 300.0 MB, at most 100 kB is looked at"),
+    "300 MB": (0, "1.1 does-not-load", "has 300.0 MB – at most 100 kB is looked at"),
     "link loop": (0, "1.1 does-not-load", "no file" if WINDOWS else "behind a link"),
     "uncommitted": (ALL, "", ""),
     "git with a program": (ALL, "", ""),

@@ -102,9 +102,8 @@ def lab(tmp_path):
 def test_a_lab_goes_on_in_the_kits_own_python(bare, lab):
     need((ROOT / ".venv").exists(), "the kit's own .venv: make day1")
     own = lab.parents[2] / ".venv" / "bin" / "python"
-    for path in (own, lab.parents[2] / "robo47" / "__init__.py"):
-        path.parent.mkdir(parents=True)
-        path.write_text("")
+    own.parent.mkdir(parents=True)
+    shutil.copytree(ROOT / "robo47", lab.parents[2] / "robo47")
     path = f"PYTHONPATH={lab.parents[2]} {ROOT}/.venv/bin/python"
     own.write_text(f'#!/bin/sh\n{path} "$@"\n')
     own.chmod(0o755)

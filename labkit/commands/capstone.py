@@ -1,7 +1,7 @@
 """The capstone of a week, such as the arm's pick, with your own functions.
 
     make capstone                       one, with your functions of all days
-    make capstone WEEK=1                of this week; default: the one worked on last
+    make capstone WEEK=1                of week 1
     make capstone ARGS=--all            twenty random ones
     make capstone ARGS=--kit            the library's functions alone
     make capstone ARGS=--ablations      what mistakes do, in a table
