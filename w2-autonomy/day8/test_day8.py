@@ -1,35 +1,26 @@
 """Day 8: the numbers in the guide's sentences, every reason in it, and the tab."""
 
 import copy
-import importlib.util
 import io
 import re
 from contextlib import redirect_stdout
 from unittest.mock import patch
 
-import mujoco
 import numpy as np
 import pytest
 from compare import assert_same
 
-from conftest import ROOT, load_script, need, paper
-from labkit.judge.row import rows_of
-from labkit.lesson.day import find_day
-from robo47 import identification, panda, simulate, verify
+from conftest import ROOT, load_script
+from robo47 import identification, panda, simulate
 from robo47.errors import Robo47Error
 
 import day8_mujoco
 
-DAY = find_day(8)
 GUIDE = (ROOT / "w2-autonomy/docs/day8-lab.md").read_text("utf-8")
 OWN = re.sub(r"<!-- run.*?<!-- end -->", "", GUIDE, flags=re.S)
 SENTENCES = " ".join(OWN.replace("*", "").split())
 lab = load_script(ROOT / "w2-autonomy/src/day8_identification.py")
-LOAD = np.append(lab.LOAD, lab.LOAD * lab.AT)
 model = panda.load("panda_nohand", drive="torque")
-hung = panda.load(
-    "panda_nohand", drive="torque", edit=day8_mujoco.load(lab.LOAD, lab.AT)
-)
 arm = panda.arm(model)
 robot = day8_mujoco.changed(model, lab.ROBOT_SEED)
 
@@ -119,13 +110,6 @@ def test_two_predictions_of_the_worksheet_stand_beside_what_is_measured(printed)
     assert "you predicted 20, measured 15.7" in printed
     for row in ("how many of 70 numbers show: links", "sigma of the load, g: each"):
         assert f"| {row}" in sheet
-
-
-def test_one_hinge_feels_three_of_ten():
-    A = [[0, a, 0, a, 0, 9.81] for a in (-1, 1, 2)]
-    row = identification.link_regressor([0, 2.0, 0, 0, 0, 0], A)[:, 1]
-    assert np.flatnonzero(np.abs(row).max(axis=0)).tolist() == [1, 3, 5]
-    assert "Three: m cx, m cz and Iyy" in SENTENCES
 
 
 def test_without_noise_torques_are_right_and_masses_wrong(data):
@@ -228,35 +212,6 @@ def test_a_second_sine_and_own_beginnings_bring_the_condition_down():
         condition(10 * two, begin)
 
 
-@pytest.mark.parametrize(("axes", "rank"), [("zzz", 1 + 2 + 3 + 3), ("zyx", 1 + 7 + 7)])
-def test_seven_of_ten_show_only_where_a_parent_turns_about_another_axis(axes, rank):
-    spec = mujoco.MjSpec()
-    spec.option.gravity = [0.0, -9.81, 0.0] if axes == "zzz" else [0.0, 0.0, -9.81]
-    body = spec.worldbody
-    for axis in axes:
-        body = body.add_body(pos=[0.3, 0.1 if axes == "zyx" else 0.0, 0.0])
-        body.add_joint(axis=np.eye(3)["xyz".index(axis)])
-        body.mass = 1.0
-        body.explicitinertial = True
-        body.inertia = [0.1, 0.1, 0.1]
-    model = spec.compile()
-    data = mujoco.MjData(model)
-    rng = np.random.default_rng(8)
-    rows = []
-    for _ in range(30):
-        data.qpos[:] = rng.uniform(-3, 3, 3)
-        mujoco.mj_forward(model, data)  # fills xpos, xmat, xaxis and xanchor
-        T = np.tile(np.eye(4), (3, 1, 1))
-        T[:, :3, :3] = data.xmat[1:].reshape(3, 3, 3)
-        T[:, :3, 3] = data.xpos[1:]
-        J = np.vstack([data.xaxis.T, np.cross(data.xanchor, data.xaxis).T])
-        qd, qdd = rng.normal(size=(2, 3))
-        g = model.opt.gravity
-        rows.append(identification.arm_regressor(J, T, qd, qdd, g))
-    shown = np.linalg.matrix_rank(np.vstack(rows), tol=1e-9)
-    assert shown == rank
-
-
 def test_dry_friction_spoils_the_rows_that_the_guide_says(data):
     Y, tau, fast = data["excited"]
     phi = identification.fit(Y[fast], tau[fast], lab.RTOL)
@@ -269,100 +224,6 @@ def test_dry_friction_spoils_the_rows_that_the_guide_says(data):
     assert f"none is faster than {np.abs(motion.qd)[bad].max():.3f} rad/s" in SENTENCES
     phi = identification.fit(Y.reshape(-1, 91), tau.ravel(), lab.RTOL)
     assert f"they cost {np.abs(Y @ phi - tau).max():.2f} N m at worst" in SENTENCES
-
-
-def chain(axes, offsets, gravity=(0.0, 0.0, -9.81)):
-    """Return a chain of hinges by their axes, with a body of 1 kg on each."""
-    spec = mujoco.MjSpec()
-    spec.option.gravity = gravity
-    body = spec.worldbody
-    for axis, offset in zip(axes, offsets, strict=True):
-        body = body.add_body(pos=offset)
-        body.add_joint(axis=axis)
-        body.mass = 1.0
-        body.explicitinertial = True
-        body.inertia = [0.1, 0.1, 0.1]
-    return spec.compile()
-
-
-def shown_by(chained, rotors=()):
-    """Return how many numbers of each link a chain shows, from the first link on.
-
-    The last of them is with the rotors of those joints as well.
-    """
-    data = mujoco.MjData(chained)
-    rng = np.random.default_rng(8)
-    n = chained.njnt
-    rows = []
-    for _ in range(60):
-        data.qpos[:] = rng.uniform(-3, 3, n)
-        mujoco.mj_forward(chained, data)  # fills xpos, xmat, xaxis and xanchor
-        T = np.tile(np.eye(4), (n, 1, 1))
-        T[:, :3, :3] = data.xmat[1:].reshape(n, 3, 3)
-        T[:, :3, 3] = data.xpos[1:]
-        J = np.vstack([data.xaxis.T, np.cross(data.xanchor, data.xaxis).T])
-        qd, qdd = rng.normal(size=(2, n))
-        g = chained.opt.gravity
-        links = identification.arm_regressor(J, T, qd, qdd, g)
-        rows.append(np.hstack([links, np.diag(qdd)[:, list(rotors)]]))
-    Y = np.vstack(rows)
-    widths = [*range(10, 10 * n + 1, 10), Y.shape[1]]
-    return [int(np.linalg.matrix_rank(Y[:, :p], tol=1e-9)) for p in widths]
-
-
-def test_a_scara_shows_three_numbers_for_each_hinge_after_the_first():
-    upright = [[0.0, 0.0, 1.0]] * 3
-    scara = chain(upright, [[0.0, 0.0, 0.3], [0.3, 0.0, 0.0], [0.3, 0.0, 0.0]])
-    assert shown_by(scara)[:3] == [1, 1 + 3, 1 + 3 + 3]
-    assert "and SCARA arms too" in SENTENCES
-
-
-@pytest.mark.parametrize(("degrees", "more"), [(90, 0), (80, 1)])
-def test_a_rotor_hides_where_its_link_turns_about_that_axis_by_its_joint_alone(
-    degrees, more
-):
-    tip = np.radians(degrees)
-    axes = [[0.0, 0.0, 1.0], [np.sin(tip), 0.0, np.cos(tip)]]
-    *_, links, both = shown_by(chain(axes, [[0, 0, 0.3], [0, 0, 0.3]]), (0, 1))
-    assert both - links == more
-    why = "turn about an axis about which no joint before them can turn anything"
-    assert why in SENTENCES
-    assert "to which axis 2 is at a right angle" in SENTENCES
-
-
-def test_a_unit_vector_divided_by_its_mass_is_nan_in_nine_of_ten_columns():
-    right = lab.inertia_of
-
-    def divides(phi):
-        m = phi[0]
-        c = phi[1:4] / m
-        return right(np.hstack([m, m * c, phi[4:]]))
-
-    V, A = np.random.default_rng(8).normal(size=(2, 6))
-    with (
-        patch.object(lab, "inertia_of", divides),
-        np.errstate(divide="ignore", invalid="ignore"),
-    ):
-        columns = lab.link_regressor(V, A)
-    spoilt = ~np.isfinite(columns).all(axis=0)
-    assert spoilt.tolist() == [False] + [True] * 9
-    assert "Code that divides by m gives NaN in nine of the ten columns" in SENTENCES
-
-
-def test_what_the_arm_weighs_is_in_both_holds_only_where_springs_are_stiff():
-    secret = [
-        day8_mujoco.without_friction(day8_mujoco.changed(one, lab.ROBOT_SEED))
-        for one in (model, hung)
-    ]
-    off = []
-    for omega in (20.0, 10.0, 5.0):
-        with patch.object(day8_mujoco, "OMEGA", omega):
-            off.append(abs(grams(secret, 4.0)[2, 0] - 500))
-    stiff, softer, soft = off  # grams: the softer, the more the load lets it sag
-    assert stiff < 0.2
-    assert 3 * stiff < softer
-    assert 3 * softer < soft
-    assert "the springs that hold it have to be stiff" in SENTENCES
 
 
 def test_the_excitation_is_as_fast_as_the_joints_may_go_but_not_as_far():
@@ -413,98 +274,6 @@ def test_to_drop_all_slow_rows_costs_little_beside_the_twenty_wrong_ones(data):
     )
 
 
-def costs(code, motion):
-    """Return the largest wrong torque of an arm_regressor at some states, N m."""
-    off = []
-    for q, qd, qdd in zip(*motion, strict=True):
-        now = arm.at(q)
-        given = now.J_space, now.T_links, qd, qdd, arm.gravity
-        off.append(code(*given) - identification.arm_regressor(*given))
-    return np.abs(off @ day8_mujoco.numbers(arm)[:70]).max()
-
-
-def test_what_mistakes_cost_in_motion_and_at_rest():
-    still = np.zeros((1, 7))
-    at_rest = day8_mujoco.Motion(panda.READY_Q[None], still, still)
-    motions = day8_mujoco.anywhere(model, lab.ROBOT_SEED, 20), at_rest
-    ways = {way.slug: way.code for way in rows_of(DAY)["arm_regressor"].named}
-    cost = {slug: [costs(code, m) for m in motions] for slug, code in ways.items()}
-    rows = re.findall(r"^\| ([a-z-]+) \| ([\d.]+) \| ([\d.]+) \|$", GUIDE, re.M)
-    assert len(rows) == 6
-    for slug, *written in rows:
-        for value, words in zip(cost[slug], written, strict=True):
-            assert f"{value:.{len(words.partition('.')[2])}f}" == words
-    unseen = sum(rest < 1e-9 < moving for moving, rest in cost.values())
-    assert f"shows nothing of {unseen} of the {len(cost)} mistakes" in SENTENCES
-
-
-def grams(robots, wait, noise=0.0, seed=0):
-    """Return grams and sigma by each way of holding, without noise or with it."""
-    with patch.object(lab, "WAIT", wait), patch.object(lab, "NOISE", noise):
-        found = lab.weighings(*robots, arm, np.random.default_rng(seed))
-    return np.array(
-        [(1000 * load[0], 1000 * sigma[0]) for load, sigma in found.values()]
-    )
-
-
-def test_the_grams_of_one_from_either_side_are_how_long_mujocos_friction_creeps():
-    robots = [day8_mujoco.changed(one, lab.ROBOT_SEED) for one in (model, hung)]
-    for wait in (1, 2, 4, 8):
-        words = "{:.1f} | {:.1f} | {:.1f}".format(*grams(robots, wait)[:, 0])
-        assert f"| {wait} s | {words} |" in GUIDE
-    for one in robots:
-        one.dof_solimp[:7, :2] = 0.999
-        mujoco.mj_setConst(one, mujoco.MjData(one))
-    words = "{:.1f} | {:.1f} | {:.1f}".format(*grams(robots, 2.0)[:, 0])
-    assert f"| 2 s, friction that sticks | {words} |" in GUIDE
-
-
-@pytest.mark.kit
-def test_the_load_is_within_four_sigmas_for_other_robots_and_other_noises():
-    for seed in range(1, 9):
-        robots = [day8_mujoco.changed(one, seed) for one in (model, hung)]
-        found, sigma = grams(robots, 2.0, lab.NOISE, seed)[2]
-        assert abs(found - 500) < 4 * sigma < 100
-        exact, _ = grams(robots, 2.0)[2]
-        assert abs(exact - 500) < 1.2
-
-
-def test_poses_that_turn_about_gravity_hide_a_part_of_the_centre():
-    q = np.array([panda.READY_Q] * 5)
-    q[:, 0] = np.linspace(-1, 1, 5)
-    extra = verify.mujoco_bias(hung, q, 0 * q) - verify.mujoco_bias(model, q, 0 * q)
-    rows = identification.load_regressor(*day8_mujoco.hands(arm, q), arm.gravity)
-    assert [np.linalg.matrix_rank(r) for r in (rows[0], rows.reshape(-1, 4))] == [3, 3]
-    m, *h = identification.payload_from_holds(
-        *day8_mujoco.hands(arm, q), extra, arm.gravity
-    )
-    assert_same(1000 * np.array(h) / m, [20, -30, 0], 1e-9)
-    assert "comes out as (20, -30, 0) mm" in SENTENCES
-
-
-def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
-    lines = re.findall(r"^  [a-z ]+?((?: +-?\d+\.\d){5}) +(-?\d+)$", printed, re.M)
-    rows = [[*map(float, numbers.split()), int(up)] for numbers, up in lines]
-    untold, _, crossed, both, truth = rows
-    assert f"give or take {both[1]:.0f} g" in SENTENCES
-    assert f"sigma is {both[1]:.0f} g" in SENTENCES
-    assert crossed[1] == pytest.approx(3 * both[1], rel=0.1)
-    assert f"the hand sinks by {-untold[5]} mm" in SENTENCES
-    assert f"it still rises by {truth[5]}: that is the error" in SENTENCES
-    robot = day8_mujoco.changed(model, lab.ROBOT_SEED)
-    loaded = day8_mujoco.changed(hung, lab.ROBOT_SEED)
-    rest = np.zeros(7)
-    phi = day8_mujoco.numbers(panda.arm(robot))[:70]  # gravity without a fit's error
-
-    def still(now):
-        given = now.J_space, now.T_links, rest, rest, arm.gravity
-        return lab.arm_regressor(*given) @ phi
-
-    assert abs(day8_mujoco.rises(loaded, arm, still, LOAD)) < 1e-3
-    least = re.search(r"links found: (\S+)", printed)[1]
-    assert f"It is {least}: there is no such arm" in SENTENCES
-
-
 def test_what_no_torque_shows_is_why_there_is_no_such_arm(data):
     Y, tau, fast = data["excited"]
     Y = Y[fast]
@@ -522,16 +291,6 @@ def test_what_no_torque_shows_is_why_there_is_no_such_arm(data):
     assert min(map(lab.least_pseudo, other[:70].reshape(7, 10))) > 0.0
 
 
-def test_mujoco_refuses_what_no_body_can_have():
-    body = (
-        '<mujoco><worldbody><body><inertial pos="0 0 0" mass="1" diaginertia="{}"/>'
-        "</body></worldbody></mujoco>"
-    )
-    mujoco.MjModel.from_xml_string(body.format("1 1 2"))
-    with pytest.raises(ValueError, match="inertia"):
-        mujoco.MjModel.from_xml_string(body.format("1 1 3"))
-
-
 def test_second_differences_of_an_encoder_are_off_as_predicted():
     dt = 0.002
     step = 2.0 * np.pi / 2**16
@@ -541,61 +300,3 @@ def test_second_differences_of_an_encoder_are_off_as_predicted():
     assert lab.rms(off) == pytest.approx(np.sqrt(0.5) * step / dt**2, rel=0.01)
     assert f"off by {lab.rms(off):.1f} rad/s²" in SENTENCES
     assert lab.rms(off) / np.abs(motion.qdd).max() == pytest.approx(3.0, abs=0.2)
-
-
-def weigh(functions):
-    """Return the tab Weigh of who wrote these functions; None wrote no file."""
-    need(importlib.util.find_spec("viser") is not None, "viser: make view")
-    page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
-    return DAY.module("inspector").Weigh(page)
-
-
-def test_the_tab_weighs_and_shows_what_has_no_sigma():
-    tab = weigh(vars(lab))
-    assert "Not held yet" in tab.table.content
-    tab.press("hold here")
-    assert "3 of 4 numbers show" in tab.table.content
-    one = tab.ask(tab.held).own["both, averaged"]
-    assert abs(one.load[3]) < 0.001 < 0.02 < LOAD[3]  # far off, and says it is sure
-    assert 1000 * one.sigma[3] / one.load[0] < 0.25
-    tab.press("five poses")
-    found = tab.ask(tab.held).own
-    assert_same(found["both, averaged"].load, LOAD, 2e-3)
-    assert found["both, averaged"].sigma[0] < 0.001
-    assert found["one from either side"].sigma[0] > 0.02
-    assert tab.own.says()[1] == "good"
-    tab.hang(1000)
-    assert not tab.held
-    assert "Not held yet" in tab.table.content
-
-
-def test_a_wrong_sign_in_ones_own_function_changes_what_the_tab_shows():
-    negative = {"payload_from_holds": lambda *given: -lab.payload_from_holds(*given)}
-    shown = {}
-    for name, functions in (("right", {}), ("wrong", negative)):
-        tab = weigh({**vars(lab), **functions})
-        tab.press("hold here")
-        shown[name] = re.findall(r"[a-z, ']+: (-?\d+)\.\d g", tab.table.content)
-    assert shown["right"][::2] == shown["right"][1::2]  # one's own and the library's
-    assert shown["wrong"][::2] == [f"-{grams}" for grams in shown["right"][::2]]
-    assert shown["wrong"][1::2] == shown["right"][1::2]
-    says, kind = tab.own.says()
-    assert (kind, "payload_from_holds by" in says) == ("bad", True)
-
-
-def test_without_a_file_the_tab_says_that_it_is_the_librarys():
-    tab = weigh(None)
-    tab.press("hold here")
-    says, _ = tab.own.says()
-    assert "the library's payload_from_holds" in says
-    assert "there is no file yet" in says
-    ways = tab.ask(tab.held)
-    for name, found in ways.own.items():
-        assert_same(found.load, ways.library[name].load, 0.0)
-
-
-def test_the_tab_draws_no_centre_of_what_weighs_nothing():
-    tab = weigh({**vars(lab), "payload_from_holds": lambda *given: np.zeros(4)})
-    tab.press("hold here")
-    assert "centre nan" in tab.table.content
-    assert not tab.found.visible

@@ -1,0 +1,126 @@
+"""Day 8: what hangs on the hand, by how long one waits and how noisy a hold is."""
+
+import io
+import re
+from contextlib import redirect_stdout
+from unittest.mock import patch
+
+import mujoco
+import numpy as np
+import pytest
+from compare import assert_same
+
+from conftest import ROOT, load_script
+from robo47 import identification, panda, verify
+
+import day8_mujoco
+
+GUIDE = (ROOT / "w2-autonomy/docs/day8-lab.md").read_text("utf-8")
+OWN = re.sub(r"<!-- run.*?<!-- end -->", "", GUIDE, flags=re.S)
+SENTENCES = " ".join(OWN.replace("*", "").split())
+lab = load_script(ROOT / "w2-autonomy/src/day8_identification.py")
+LOAD = np.append(lab.LOAD, lab.LOAD * lab.AT)
+model = panda.load("panda_nohand", drive="torque")
+hung = panda.load(
+    "panda_nohand", drive="torque", edit=day8_mujoco.load(lab.LOAD, lab.AT)
+)
+arm = panda.arm(model)
+robot = day8_mujoco.changed(model, lab.ROBOT_SEED)
+
+
+@pytest.fixture(scope="module")
+def printed():
+    """Return what the lab prints, 80 columns wide at most."""
+    told = {"how many of 70 numbers show: links": "43",
+            "sigma of the load, g: each from both sides": "20"}  # fmt: skip
+    with (
+        patch("sys.argv", ["lab", "--no-log"]),
+        patch("labkit.lesson.lab.predictions", lambda worksheet: told),
+        redirect_stdout(io.StringIO()) as out,
+    ):
+        assert lab.main() == 0
+    assert all(len(line) <= 80 for line in out.getvalue().splitlines())
+    return out.getvalue()
+
+
+def test_what_the_arm_weighs_is_in_both_holds_only_where_springs_are_stiff():
+    secret = [
+        day8_mujoco.without_friction(day8_mujoco.changed(one, lab.ROBOT_SEED))
+        for one in (model, hung)
+    ]
+    off = []
+    for omega in (20.0, 10.0, 5.0):
+        with patch.object(day8_mujoco, "OMEGA", omega):
+            off.append(abs(grams(secret, 4.0)[2, 0] - 500))
+    stiff, softer, soft = off  # grams: the softer, the more the load lets it sag
+    assert stiff < 0.2
+    assert 3 * stiff < softer
+    assert 3 * softer < soft
+    assert "the springs that hold it have to be stiff" in SENTENCES
+
+
+def grams(robots, wait, noise=0.0, seed=0):
+    """Return grams and sigma by each way of holding, without noise or with it."""
+    with patch.object(lab, "WAIT", wait), patch.object(lab, "NOISE", noise):
+        found = lab.weighings(*robots, arm, np.random.default_rng(seed))
+    return np.array(
+        [(1000 * load[0], 1000 * sigma[0]) for load, sigma in found.values()]
+    )
+
+
+def test_the_grams_of_one_from_either_side_are_how_long_mujocos_friction_creeps():
+    robots = [day8_mujoco.changed(one, lab.ROBOT_SEED) for one in (model, hung)]
+    for wait in (1, 2, 4, 8):
+        words = "{:.1f} | {:.1f} | {:.1f}".format(*grams(robots, wait)[:, 0])
+        assert f"| {wait} s | {words} |" in GUIDE
+    for one in robots:
+        one.dof_solimp[:7, :2] = 0.999
+        mujoco.mj_setConst(one, mujoco.MjData(one))
+    words = "{:.1f} | {:.1f} | {:.1f}".format(*grams(robots, 2.0)[:, 0])
+    assert f"| 2 s, friction that sticks | {words} |" in GUIDE
+
+
+@pytest.mark.kit
+def test_the_load_is_within_four_sigmas_for_other_robots_and_other_noises():
+    for seed in range(1, 9):
+        robots = [day8_mujoco.changed(one, seed) for one in (model, hung)]
+        found, sigma = grams(robots, 2.0, lab.NOISE, seed)[2]
+        assert abs(found - 500) < 4 * sigma < 100
+        exact, _ = grams(robots, 2.0)[2]
+        assert abs(exact - 500) < 1.2
+
+
+def test_poses_that_turn_about_gravity_hide_a_part_of_the_centre():
+    q = np.array([panda.READY_Q] * 5)
+    q[:, 0] = np.linspace(-1, 1, 5)
+    extra = verify.mujoco_bias(hung, q, 0 * q) - verify.mujoco_bias(model, q, 0 * q)
+    rows = identification.load_regressor(*day8_mujoco.hands(arm, q), arm.gravity)
+    assert [np.linalg.matrix_rank(r) for r in (rows[0], rows.reshape(-1, 4))] == [3, 3]
+    m, *h = identification.payload_from_holds(
+        *day8_mujoco.hands(arm, q), extra, arm.gravity
+    )
+    assert_same(1000 * np.array(h) / m, [20, -30, 0], 1e-9)
+    assert "comes out as (20, -30, 0) mm" in SENTENCES
+
+
+def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
+    lines = re.findall(r"^  [a-z ]+?((?: +-?\d+\.\d){5}) +(-?\d+)$", printed, re.M)
+    rows = [[*map(float, numbers.split()), int(up)] for numbers, up in lines]
+    untold, _, crossed, both, truth = rows
+    assert f"give or take {both[1]:.0f} g" in SENTENCES
+    assert f"sigma is {both[1]:.0f} g" in SENTENCES
+    assert crossed[1] == pytest.approx(3 * both[1], rel=0.1)
+    assert f"the hand sinks by {-untold[5]} mm" in SENTENCES
+    assert f"it still rises by {truth[5]}: that is the error" in SENTENCES
+    robot = day8_mujoco.changed(model, lab.ROBOT_SEED)
+    loaded = day8_mujoco.changed(hung, lab.ROBOT_SEED)
+    rest = np.zeros(7)
+    phi = day8_mujoco.numbers(panda.arm(robot))[:70]  # gravity without a fit's error
+
+    def still(now):
+        given = now.J_space, now.T_links, rest, rest, arm.gravity
+        return lab.arm_regressor(*given) @ phi
+
+    assert abs(day8_mujoco.rises(loaded, arm, still, LOAD)) < 1e-3
+    least = re.search(r"links found: (\S+)", printed)[1]
+    assert f"It is {least}: there is no such arm" in SENTENCES
