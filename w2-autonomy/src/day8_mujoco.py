@@ -84,8 +84,10 @@ def mujoco_wrench(body: Body) -> Array:
     floats.explicitinertial = True
     floats.mass = m
     floats.ipos = c
-    i, j = np.transpose([(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)])
-    floats.fullinertia = about[i, j]
+    # By its own axes: MuJoCo 3.3 finds them from six numbers to six digits only.
+    floats.inertia, axes = np.linalg.eigh(about)
+    axes[:, 0] *= np.sign(np.linalg.det(axes))  # right-handed
+    mujoco.mju_mat2Quat(floats.iquat, axes.ravel())
     model = spec.compile()
     data = mujoco.MjData(model)
     omega, v = body.V.reshape(2, 3)
