@@ -9,8 +9,9 @@ import inspect
 import io
 import time
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -23,6 +24,7 @@ from labkit.base.exchange import Question
 from labkit.handin.handin import Item
 from labkit.judge.ask import Robot
 from labkit.judge.replies_read import stops_with
+from labkit.judge.row import rows_of
 from labkit.lesson.added_code import old_names
 from labkit.lesson.day import Day
 from labkit.lesson.lab import Lab, number_of
@@ -31,7 +33,9 @@ from labkit.lesson.metric import Metric
 from labkit.sandbox.messages import PANDA, library_of
 from labkit.sandbox.sandbox import Sandbox, Session
 
-ROBOTS = [PANDA, Robot("panda")]  # those that labs hand to a function
+ROBOTS = (PANDA, Robot("panda"))  # those that labs hand to a function
+# Of a model, what makes it another robot.
+MADE_OF = ("body_pos", "body_quat", "body_mass", "jnt_axis", "jnt_pos")
 TRIALS = 15  # random inputs per step: a mistake that shows in a lab shows in these
 CALLS = 8_000  # of the student's functions, a second or two; simulations ask more
 SECONDS = 60.0  # for all of them; a slow function is no wrong one
@@ -141,12 +145,20 @@ def behind_wall(
     """
     added = old_names(day, script.read_text("utf-8", "replace"))
     library = library_of(day)
-    session = sandbox.session(script, ROBOTS, library, added, day.limits, brief=True)
+    robots = (*ROBOTS, *_own_robots(day))
+    session = sandbox.session(script, robots, library, added, day.limits, brief=True)
     return {
-        name: _asked(session, task.id, getattr(lab, name), budget)
+        name: _asked(session, robots, task.id, getattr(lab, name), budget)
         for task in day.tasks
         for name in task.functions
     }
+
+
+def _own_robots(day: Day) -> list[Robot]:
+    """Return the robots of a day's folder: those that its rows ask about by a path."""
+    args = (arg for row in rows_of(day).values() for arg in chain(*row.ask.main))
+    found = dict.fromkeys(arg for arg in args if isinstance(arg, Robot))
+    return [robot for robot in found if isinstance(robot.entry, Path)]
 
 
 class Budget:
@@ -169,7 +181,11 @@ class Budget:
 
 
 def _asked(
-    session: Session, task: str, right: Callable[..., Any], budget: Budget
+    session: Session,
+    robots: Iterable[Robot],
+    task: str,
+    right: Callable[..., Any],
+    budget: Budget,
 ) -> Callable[..., Any]:
     """Return a function of the lab whose answers come from the sandbox."""
     signature = inspect.signature(right)
@@ -178,7 +194,8 @@ def _asked(
         budget.spend()
         bound = signature.bind(*args, **named)
         bound.apply_defaults()
-        question = Question(task, right.__name__, tuple(map(_sent, bound.args)))
+        args = tuple(_sent(arg, robots) for arg in bound.args)
+        question = Question(task, right.__name__, args)
         (reply,) = session.ask([question])
         if reply.kind:
             says = stops_with(reply).rstrip(".").removeprefix("It ")
@@ -190,17 +207,24 @@ def _asked(
     return ask
 
 
-def _sent(arg: Any) -> Any:
+def _sent(arg: Any, robots: Iterable[Robot]) -> Any:
     """Return an argument as questions have it.
 
     Raises:
         EnoughAsked: a robot that the session was not given.
     """
     if isinstance(arg, mujoco.MjModel):
-        for robot in ROBOTS:
-            if robot.model.nq == arg.nq:
+        for robot in robots:
+            if _same(robot.model, arg):
                 return robot
         raise EnoughAsked
     if isinstance(arg, list | tuple) and arg and isinstance(arg[0], tuple):
         return Chain(tuple(arg))
     return arg
+
+
+def _same(one: mujoco.MjModel, other: mujoco.MjModel) -> bool:
+    """Return whether two models are of one robot; their motors may differ."""
+    return all(
+        np.array_equal(getattr(one, name), getattr(other, name)) for name in MADE_OF
+    )

@@ -92,7 +92,11 @@ class Kind:
         return Finding("shape", f"It returns shape {got}; expected is {expected}.")
 
     def plain(self, answer: Array) -> Array:
-        """Return an answer without differences that make none."""
+        """Return an answer without differences that make none.
+
+        It is asked of the student's alone: right answers and those of mistakes have
+        that form already.
+        """
         return answer
 
     def why_shape(self, got: tuple[int, ...]) -> str:
