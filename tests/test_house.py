@@ -65,6 +65,12 @@ def test_one_file_knows_where_the_memory_is():
     assert knows == {"store.py"}
 
 
+def test_one_file_knows_what_the_students_folder_is_called():
+    paths = ROOT.glob("labkit/**/*.py")
+    knows = {path.name for path in paths if '"work"' in path.read_text("utf-8")}
+    assert knows == {"week.py"}
+
+
 def test_the_pages_have_one_head():
     heads = [p.name for p in MODULES if "<!doctype" in p.read_text("utf-8").lower()]
     assert heads == ["html.py"]

@@ -130,7 +130,7 @@ def _links(day: Day) -> Iterator[str]:
 
 def _committed(day: Day) -> Iterator[str]:
     """Yield a student's file in the repository: the next clone would begin with it."""
-    work = shown(day.folder / "work")
+    work = shown(day.work.parent)
     try:
         done = git.run("ls-files", "--", work, folder=ROOT, seconds=git.SECONDS)
     except git.GitError:

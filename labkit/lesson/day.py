@@ -18,7 +18,15 @@ from typing import Any
 
 from labkit.lesson.last_day import started_day
 from labkit.lesson.metric import Metric
-from labkit.lesson.week import Week, entry, find_week, load, load_week, manifests
+from labkit.lesson.week import (
+    WORK,
+    Week,
+    entry,
+    find_week,
+    load,
+    load_week,
+    manifests,
+)
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
@@ -98,7 +106,7 @@ class Day:
     @property
     def work(self) -> Path:
         """The student's script."""
-        return self.folder / "work" / self.script
+        return self.folder / WORK / self.script
 
     @property
     def own(self) -> Path:
@@ -131,7 +139,7 @@ class Day:
         """What it hands in: paths from the clone's top, by what they are."""
         week = self.folder.name
         found = {
-            "script": f"{week}/work/{self.script}",
+            "script": f"{week}/{WORK}/{self.script}",
             "worksheet": self.worksheet and f"{week}/{self.worksheet}",
             "figure": self.figure and f"{week}/{self.figure}",
             "log": self.metrics and "metrics/metrics.csv",

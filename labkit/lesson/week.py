@@ -21,6 +21,10 @@ from typing import Any
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
+# A week's folder of the student's own labs; scripts/kit.py, Makefile and .gitignore,
+# which read no Python of the kit's, name it too.
+WORK = "work"
+
 _EXPECTED = {
     str: "a text",
     int: "a whole number",
