@@ -218,8 +218,8 @@ def few_told(where: str, wrong: Array, off: str) -> Finding:
         off: by how much, in words.
     """
     if 2 * wrong.any(axis=1).sum() < len(wrong):
-        says = f"In these calls all is right but {where}; that is wrong in some of them"
-        return Finding("few-entries-off", f"{says} only, by up to {off}.")
+        says = f"In these calls all is right but {where}, and that is wrong in some"
+        return Finding("few-entries-off", f"{says} only: up to {off} off.")
     says = f"All entries are right but {where}: up to {off} off. Look there for a wrong"
     return Finding("few-entries-off", f"{says} sign, letter or factor.")
 

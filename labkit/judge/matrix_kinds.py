@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -58,7 +59,7 @@ def part_off(kind: Matrix, S: Array, T: Array) -> Finding | None:
     return Finding("part-off", f"{says}: off by up to {kind.apart(S, T)}.")
 
 
-def _blocks(kind: Matrix, wrong: Array) -> str:
+def _blocks(kind: Matrix, wrong: Any) -> str:
     """Return which columns are wrong, in words, or "" where most are."""
     columns = wrong.any(axis=0)
     if not kind.blocks:
@@ -66,21 +67,25 @@ def _blocks(kind: Matrix, wrong: Array) -> str:
     each = columns.reshape(len(kind.blocks), -1)
     if 2 * each.any(axis=1).sum() <= len(each):
         names = [kind.blocks[i] for i in np.flatnonzero(each.any(axis=1))]
-        return f"the columns of {' and '.join(names)}"
+        return f"the columns of {_listed(names)}"
     within = _lines("column", kind.columns, each.any(axis=0))
     return f"{within} of each block" if within and not kind.columns else within
 
 
-def _lines(side: str, names: tuple[str, ...], wrong: Array) -> str:
+def _listed(words: Sequence[str]) -> str:
+    *before, last = words
+    return f"{', '.join(before)} and {last}" if before else last
+
+
+def _lines(side: str, names: tuple[str, ...], wrong: Any) -> str:
     """Return rows or columns, in words, or "" where most of them are wrong."""
     at = np.flatnonzero(wrong)
     if not 0 < 3 * len(at) <= 2 * len(wrong):
         return ""
-    first, last = at[0], at[-1]
-    if names and len(at) <= 3:
-        return f"the {side}{'s' * (len(at) > 1)} of " + " and ".join(
-            names[i].removeprefix(f"the {side} of ") for i in at
-        )
+    first, last = int(at[0]), int(at[-1])
+    if names and len(at) <= 4:
+        called = [names[i].removeprefix(f"the {side} of ") for i in at]
+        return f"the {side}{'s' * (len(at) > 1)} of {_listed(called)}"
     if len(at) == last - first + 1:
         counted = f"{first} to {last}" if last > first else str(first)
         return f"{side}{'s' * (last > first)} {counted}, counted from 0"
@@ -129,7 +134,8 @@ class Symmetric(Matrix):
                 f"It is not symmetric (by up to {skew:.3g}), and it has to be; it is "
                 f"off by up to {self.apart(S, T)}.",
             )
-        if found := few_entries(self, S, T) or one_factor(self, S, T):
+        found = few_entries(self, S, T) or one_factor(self, S, T)
+        if found := found or part_off(self, S, T):
             return found
         off = gap(S, T) / self.scale
         diagonal = np.eye(S.shape[-1], dtype=bool)

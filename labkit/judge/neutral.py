@@ -77,12 +77,14 @@ def _of_a_vector(x: Array) -> Iterator[Neutral]:
         for some, where in ((slice(3), "[:3]"), (slice(3, None), "[3:]")):
             yield _half(x, some, where)
     if x.dtype.kind == "f":
-        yield Neutral(
-            "no entry of {} is negative",
-            np.abs(x),
-            lambda v: bool((v >= 0).all()),
-            tuple(s * np.roll(np.abs(x), i) for i, s in enumerate((5.0, 0.2))),
-        )
+        for sign, word in ((1.0, "negative"), (-1.0, "positive")):
+            sized = sign * np.abs(x)
+            yield Neutral(
+                f"no entry of {{}} is {word}",
+                sized,
+                lambda v, sign=sign: bool((sign * v >= 0).all()),  # type: ignore[misc]
+                tuple(s * np.roll(sized, i) for i, s in enumerate((5.0, 0.2))),
+            )
 
 
 def _half(x: Array, some: slice, where: str) -> Neutral:

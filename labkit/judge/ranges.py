@@ -16,6 +16,7 @@ from robo47.checks import Array
 
 BEFORE_AND_AFTER = 1e-3  # how near the ends of a range it is asked
 LEAST = 3  # right answers in a range
+SMALL = 0.2  # of a usual entry: a limit below which an entry is taken for 0
 BEYOND = 20.0  # how much larger than the least entry that is asked
 
 
@@ -53,7 +54,8 @@ def spans(x: Any, asked: Sequence[Any], right: Sequence[bool]) -> Iterator[Span]
     least = [float(np.abs(one).min()) for one in asked]
     if (between := _range(least, right)) and max(least) == between[1]:
         low = between[0]
-        if low > min(least):
+        usual = float(np.median(np.abs(np.concatenate(list(asked)))))
+        if min(least) < low <= SMALL * usual:
             says = f"whenever every entry of {{}} is {number(low)} or more in size"
             yield Span(says, partial(_above, low), partial(_lifted, low))
 

@@ -7,7 +7,46 @@ from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
 from robo47.identification import fit
 
-from .states import CUT, regressors, spread, stairs, uneven
+from .identifiable import miscounted
+from .states import CUT, hidden, regressors, spread, stairs, uneven
+
+
+def of_the_values(case: Case) -> Finding | None:
+    """Say which singular values count, or that all are damped, where that is all."""
+    more = fewer = 0
+    cut = True
+    added = []
+    for Y, tau, rtol, mine in zip(*case.arguments, case.S, strict=True):
+        U, s, Vt = np.linalg.svd(Y, full_matrices=False)
+        sound = s > 1e-12 * s[0]
+        right = (s > rtol * s[0])[sound]
+        share = (Vt @ mine[: Y.shape[1]] * s)[sound] / (U.T @ tau)[sound]
+        kept = np.isclose(share, 1.0, rtol=1e-4)
+        cut = cut and bool((kept | (np.abs(share) < 1e-4)).all())
+        more += int((kept & ~right).any())
+        fewer += int((~kept & right).any())
+        added.append(s[sound] ** 2 * (1.0 / np.where(share, share, 1e-9) - 1.0))
+    if cut:
+        says = miscounted(more, fewer, f"of {len(case.S)} calls")
+        return Finding("cut-elsewhere", says)
+    if all(one[0] > 0 and np.allclose(one, one[0], rtol=1e-2) for one in added):
+        says = f"up to {max(one[0] for one in added):.3g} is added to the diagonal of "
+        return Finding("ridge", f"Every parameter is pulled towards 0: {says}Y^T Y.")
+    return columns_left_out(case) or not_the_smallest(case)
+
+
+def columns_left_out(case: Case) -> Finding | None:
+    """Say that whole parameters are 0, as many as values that do not count."""
+    count = 0
+    for Y, rtol, mine in zip(case.arguments[0], case.arguments[2], case.S, strict=True):
+        hides = Y.shape[1] - len(parts(Y, rtol)[1])
+        if int(np.sum(mine[: Y.shape[1]] == 0.0)) != hides:
+            return None
+        count += hides
+    if not count:
+        return None
+    says = "As many parameters are 0 as values do not count. What a motion hides is a "
+    return Finding("columns-left-out", says + "combination of several.")
 
 
 def not_the_smallest(case: Case) -> Finding | None:
@@ -25,14 +64,17 @@ def not_the_smallest(case: Case) -> Finding | None:
     return Finding("not-the-smallest", says + "show has to be 0.")
 
 
-row = Row(Vector((None,)), unnamed=not_the_smallest)
+row = Row(Vector((None,)), unnamed=of_the_values)
+row.at_least_0(rtol="a tolerance")
 CASE = np.array([[1.0, 1.0], [2.0, 2.0]]), np.array([2.0, 4.0]), 1e-9
 
 
 @row.inputs
 def _(rng):
+    exact = hidden(rng)
     return [
         CASE,
+        (exact, scaled(rng, exact), 1e-9),
         *((Y, scaled(rng, Y), CUT) for Y in asked(rng)),
     ]
 
@@ -72,7 +114,8 @@ def _(Y, tau, rtol):
     cut-by-the-sum: a value is compared with rtol times the sum of all; it counts above
       rtol times the largest => the right one with the sum
     cut-by-the-norm: a value is compared with rtol times the norm of Y, the root of the
-      sum of squares; it counts above rtol times the largest => with that norm
+      sum of squares; it counts above rtol times the largest => the right one with
+      that norm
     cut-by-rows: a value is compared with rtol times the number of rows times the
       largest, as NumPy does with its own eps; rtol is the whole of it here => the right
       one with rtol times the rows

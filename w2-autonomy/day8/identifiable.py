@@ -12,34 +12,48 @@ from .states import CUT, hidden, regressors, spread, stairs, uneven
 def of_what_counts(case: Case) -> Finding | None:
     """Say which values count, where the condition is that of some of Y's values."""
     ranks, conditions = case.S
-    more = fewer = other = 0
+    more = fewer = other = dust = 0
     for Y, n, right, condition in zip(
         case.arguments[0], ranks, case.T[0], conditions, strict=True
     ):
         s = np.linalg.svd(Y, compute_uv=False)
+        if n > right and s[int(n) - 1] < 1e-12 * s[0]:
+            dust += 1
+            continue
         its = s[0] / np.maximum(s, 1e-300)
         sound = its < 1e12  # above, a value is rounding
         k = 1 + int(np.argmin(np.abs(its - condition)))
         if sound[k - 1] and not np.isclose(its[k - 1], condition, rtol=1e-6):
             return None  # it is no quotient of two values
-        more += n > right
-        fewer += n < right
-        other += k != n
+        more += int(n > right)
+        fewer += int(n < right)
+        other += int(k != n)
     calls = f"of {len(ranks)} calls"
+    if dust and not more and not fewer and not other:
+        says = f"Rounding counts as a value in {dust} {calls}. Are the values roots of "
+        says += "eigenvalues of Y^T Y? Their rounding is 1e-8 of the largest, that of "
+        return Finding("rounding-counts", says + "svd is 1e-16.")
+    if dust:
+        return None
     if not more and not fewer:
         says = f"The rank is right, but in {other} {calls} the condition does not end "
         return Finding("condition-of-all", says + "at the last value that counts.")
+    says = miscounted(more, fewer, calls)
+    says += "" if other else " The condition ends at the last that you count."
+    return Finding("cut-elsewhere", says)
+
+
+def miscounted(more: int, fewer: int, calls: str) -> str:
+    """Return in how many calls other values count than do."""
     parts = [f"too many values count in {more} {calls}"] * (more > 0)
-    parts += [f"too few in {fewer}" if more else f"too few values count in {fewer} "
-              f"{calls}"] * (fewer > 0)  # fmt: skip
-    says = f"{', and '.join(parts).capitalize()}: one counts if it is above rtol times "
-    says += "the largest. "
-    says += "" if other else "The condition ends at the last that you count. "
-    return Finding("cut-elsewhere", says.strip())
+    parts += [f"too few values count in {fewer} {calls}"] * (fewer > 0)
+    says = f"{', and '.join(parts)}: one counts if it is above rtol times the largest."
+    return says[0].upper() + says[1:]
 
 
 KIND = Count(called="the rank"), Scalar(called="the condition")
 row = Row(KIND, unnamed=of_what_counts)
+row.at_least_0(rtol="a tolerance", answer="a count, a quotient of lengths")
 CASE = np.array([[1.0, 1.0], [2.0, 2.0]])
 
 
@@ -78,6 +92,9 @@ for slug, says, redone, told in (
     ("rtol-not-used", "the cut is a fixed one; rtol is an argument, and the lab asks "
      "with another one", "the right one with 1e-9 for rtol",
      lambda s, rtol: (n := np.sum(s > 1e-9 * s[0]), s[0] / s[n - 1])),
+    ("eigenvalues-of-the-square", "these are eigenvalues of Y^T Y; the singular values "
+     "of Y are their roots", "the right one with squares all along",
+     lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), (s[0] / s[n - 1]) ** 2)),
     ("cut-not-squared", "these are eigenvalues of Y^T Y, squares of singular values; "
      "the cut has to be squared, too", "the right one with rtol's square root",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), s[0] / s[n - 1])),

@@ -9,6 +9,11 @@ from robo47.screws import skew
 from .states import DOWN, SWAP, alike, hands
 
 row = Row(Vector((4,), names=("m", "m cx", "m cy", "m cz")), near=1e-6)
+row.same(
+    "return np.linalg.lstsq(rows.reshape(-1, 4), extra.ravel(), rcond=None)[0] => "
+    "return np.linalg.lstsq(rows.reshape(-2, 4), extra.ravel(), rcond=None)[0]",
+    "NumPy takes any negative number for the one that it works out",
+)
 
 
 @row.inputs
@@ -42,7 +47,7 @@ def _(J_site, R_site, extra, g):
     """load-drives: the sign is that of what the load does to the arm; the motors hold
       against it => the right one with +J^T
     moment-sign: the moment has the wrong sign: c x m g is -[g] m c, and its centre
-      comes out on the other side => with +[g] R
+      comes out on the other side => the right one with +[g] R
     force-first: the wrench is (force; moment); J has its angular rows first
     R-forgotten: R is not in it: m c is taken to stand in world axes all along
     holds-averaged: the holds are averaged before they are solved: seven rows are left
@@ -53,9 +58,11 @@ def _(J_site, R_site, extra, g):
     last-hold-only: only the last hold is used: what the loop made of the others is
       overwritten; stack them
     extra-by-joint: extra is read joint by joint, and the rows are stacked hold by hold:
-      each pair is of two different torques => with extra in that order
+      each pair is of two different torques => the right one with extra
+      in that order
     reshaped: J_site is reshaped to (k, 7, 6), which only counts the numbers off anew;
-      the transpose swaps the last two axes => with J reshaped
+      the transpose swaps the last two axes => the right one with J
+      reshaped
     wrenches-first: each hold's torques are turned into a wrench, and the wrenches are
       fitted; what the motors measured are torques, so stack their rows => the fit to
       wrenches
@@ -68,7 +75,8 @@ def _(J_site, R_site, extra, g):
     solutions-averaged: each hold is solved alone, and the mean taken; one pose does not
       show all four, so stack them
     g-turned-after-the-cross: R stands on the left of [g]: m c is turned into the world
-      first, so [g] R => with R [g]
+      first, so [g] R => the right one with
+      R [g]
     centre-for-first-moment: the last three are c; asked for is m c, which is what is
       linear => m, then c
     """

@@ -7,16 +7,19 @@ from labkit.judge.argument_mistakes import Change
 from robo47.identification import predict_with_sigma
 
 from .fit import asked, parts, scaled
-from .states import CUT
+from .states import CUT, hidden
 
 row = Row(tuple(Vector((None,), "N m", called=x) for x in ("the torque", "sigma")))
+row.at_least_0(rtol="a tolerance")
 CASE = np.ones((4, 1)), np.array([1.0, 3.0, 1.0, 3.0]), np.ones((1, 1)), 1e-9
 row.reached_by("fit", "in fit, ")
 
 
 @row.inputs
 def _(rng):
-    drawn = []
+    exact = hidden(rng)
+    new = rng.numbers(-1, 1, 5, 6)
+    drawn = [(exact, scaled(rng, exact), new, 1e-9)]
     for Y in asked(rng):
         new = rng.numbers(-1, 1, 5, 6) * np.linalg.norm(Y, 2)
         drawn.append((Y, scaled(rng, Y), new, CUT))
