@@ -164,7 +164,7 @@ class _Check:
             verdict = replace(verdict, measured=(*verdict.measured, says))
             if verdict.mistake in FRESH_ONLY:
                 verdict = replace(verdict, message=f"{verdict.message} {says}")
-        if len(verdict.wrong_calls) >= 3:
+        if verdict.wrong_calls:
             verdict = self._with_experiments(task, verdict, added)
         return replace(result, verdict=verdict)
 

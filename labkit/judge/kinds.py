@@ -242,7 +242,8 @@ def few_entries(
         ignored: a row and column that has a name of its own, such as a pose's last.
     """
     apart = np.abs(S - T)
-    rows, columns = np.nonzero(apart.max(axis=0) > RIGHT * kind.scale)
+    wrong = apart > RIGHT * kind.scale
+    rows, columns = np.nonzero(wrong.any(axis=0))
     if not len(rows):
         return None
     sides = {"row": rows, "column": columns}
@@ -255,14 +256,28 @@ def few_entries(
     elif one:
         side, k = next(iter(one.items()))
         names = getattr(kind, f"{side}s", ())
-        where = names[k] if names else f"{side} {k}, counted from 0"
+        where = names[k] if k < len(names) else f"{side} {k}, counted from 0"
     else:
         return None
-    return Finding(
-        "few-entries-off",
-        f"All entries are right but {where}: up to {apart.max():.2g} off. Look there "
-        "for a wrong sign, letter or factor.",
-    )
+    return few_told(where, wrong.reshape(len(S), -1), f"{apart.max():.2g}")
+
+
+def few_told(where: str, wrong: Array, off: str) -> Finding:
+    """Return that only some entries are wrong.
+
+    An advice to look at them follows where they are so nearly always; else it is the
+    inputs that make the difference, and with others it may be other entries.
+
+    Args:
+        where: the entries, in words.
+        wrong: which are wrong, (n, ...), per answer.
+        off: by how much, in words.
+    """
+    if 2 * wrong.any(axis=1).sum() < len(wrong):
+        says = f"In these calls all is right but {where}, and that is wrong in some"
+        return Finding("few-entries-off", f"{says} only: up to {off} off.")
+    says = f"All entries are right but {where}: up to {off} off. Look there for a wrong"
+    return Finding("few-entries-off", f"{says} sign, letter or factor.")
 
 
 @dataclass(frozen=True)

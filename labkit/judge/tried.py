@@ -46,7 +46,8 @@ def in_common(case: Case, S: Parts, T: Parts, i: int) -> str:
     found = near_miss.in_common(S[i], T[i])
     if case.further is None or not found:
         return found
-    return found if near_miss.in_common(*_with_further(case, S, T, i)) == found else ""
+    wider = near_miss.in_common(*_with_further(case, S, T, i))
+    return wider if _form(wider) == _form(found) else ""
 
 
 def _with_further(case: Case, S: Parts, T: Parts, i: int) -> tuple[Array, Array]:
