@@ -2,7 +2,7 @@
 
     make constants DAY=8                    the table that its guide shows
     python3 scripts/constants.py 8          the same
-    python3 scripts/constants.py 8 --check  only what is not as list and guide say
+    python3 scripts/constants.py 8 --check  only what is not as it says
 
 The list is `constants.py` in the day's folder: numbers, the constants of each, and why
 it moves or stays. Where it does something else the reason is wrong, here or in the

@@ -20,7 +20,9 @@ turned. Where the number does not do what its effect says, that is a fault.
 import inspect
 import re
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from types import ModuleType
 from typing import Any, TypeVar
 
 from labkit.lesson.day import Day
@@ -230,11 +232,11 @@ def table(found: Iterable[Measured]) -> str:
             now += " (hangs on none of these)"
         for turn in one.turns:
             then = number.printed(turn.then)
-            then = "the same" if then == number.printed(one.now) else then
-            says = f", {turn.effect.says}" if turn.effect.says else ""
-            lines.append(
-                f"| {now} | {turn.constant} | {then}{says} | {turn.effect.why} |"
-            )
+            if then == number.printed(one.now):
+                then = "the same"
+            elif turn.effect.says:
+                then += f", {turn.effect.says}"
+            lines.append(f"| {now} | {turn.constant} | {then} | {turn.effect.why} |")
             now = ""
     return "\n".join(lines) + "\n"
 
@@ -249,3 +251,19 @@ def unprinted(found: Iterable[Measured], day: Day) -> Iterator[str]:
         digits = re.search(r"\d[\d,]*(\.\d+)?", printed)  # rounding has none
         if digits and not re.search(rf"(?<![\d.,]){re.escape(digits[0])}(?!\d)", text):
             yield f"{one.number.name!r} is {printed}; {day.guide} does not print it"
+
+
+@contextmanager
+def turned(module: ModuleType, **values: Any) -> Iterator[None]:
+    """Give a module's constants other values for a while.
+
+    Args:
+        module: a lab, or what it imports.
+        values: by name; each must be there.
+    """
+    before = {name: getattr(module, name) for name in values}
+    vars(module).update(values)
+    try:
+        yield
+    finally:
+        vars(module).update(before)
