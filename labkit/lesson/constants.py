@@ -236,7 +236,8 @@ def table(found: Iterable[Measured]) -> str:
                 then = "the same"
             elif turn.effect.says:
                 then += f", {turn.effect.says}"
-            lines.append(f"| {now} | {turn.constant} | {then} | {turn.effect.why} |")
+            cells = now, turn.constant, then, turn.effect.why
+            lines.append("| " + " | ".join(c.replace("|", r"\|") for c in cells) + " |")
             now = ""
     return "\n".join(lines) + "\n"
 
