@@ -23,6 +23,8 @@ from robo47.checks import Array
 # right.", and in lines with every argument and entry; "" and none without one.
 LONG = 80  # characters; a longer argument goes by its name, and --explain has all of it
 Failing = tuple[str, tuple[str, ...]]
+AS_FAR = 0.999  # of the furthest: as far off, so that rounding does not choose
+DUST = 1e-12  # of an entry's scale: rounding, whose digits are the processor's
 
 
 def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
@@ -64,7 +66,7 @@ def _wrong(
         return None
     T = right_answers(ask, exchanges, held)
     gap = gaps(ask.kinds, S, T)
-    i = int(np.argmax(gap))
+    i = _furthest(gap)
     if gap[i] <= ask.tolerance:
         return None
     one = exchanges[i]
@@ -91,12 +93,19 @@ def _entry(kind: Kind, mine: Array, its: Array) -> tuple[str, str]:
     if mine.shape != its.shape:
         return "", f"has shape {mine.shape}, and {its.shape}"
     apart = np.nan_to_num(np.abs(mine - its) / kind.scale, nan=np.inf)
-    at = np.unravel_index(int(np.argmax(apart)), mine.shape)
+    at = np.unravel_index(_furthest(apart), mine.shape)
     place = str([int(x) for x in at]) if at else ""
     if kind.whole:
         yours, right = (shown(kind.sent(x[at])) for x in (mine, its))
         return place, f"is {yours}, and {right}"
-    return place, f"is {_apart(mine[at], its[at])}"
+    dust = DUST * np.broadcast_to(kind.scale, its.shape)[at]
+    pair = (0.0 if abs(x[at]) < dust else x[at] for x in (mine, its))
+    return place, f"is {_apart(*pair)}"
+
+
+def _furthest(off: Array) -> int:
+    """Return the place of the first that is as far off as any; infinity is, too."""
+    return int(np.argmax(off >= AS_FAR * np.max(off)))
 
 
 def _part(kind: Kind, answer: Array) -> str:

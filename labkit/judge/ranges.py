@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from labkit.judge.answers import number
+from labkit.judge.typed import number
 from robo47.checks import Array
 
 BEFORE_AND_AFTER = 1e-3  # how near the ends of a range it is asked

@@ -21,7 +21,6 @@ from labkit.judge.mistake import Finding
 from labkit.judge.neutral import SIZES, Neutral, neutrals, scaled
 from labkit.judge.ranges import Span, spans
 from labkit.judge.replies_read import flat, read
-from labkit.judge.typed import number
 from robo47.checks import Array
 
 QUESTIONS = 4  # per experiment; three of them at least must agree
