@@ -109,6 +109,11 @@ def _of_a_stack(x: Array) -> Iterator[Neutral]:
         turned[:, :3, 3] = 0.0
         moved[:, :3, :3] = np.eye(3)
         yield Neutral(
+            "every pose of {} is the identity",
+            np.zeros_like(x) + np.eye(4),
+            lambda v: not (v - np.eye(4)).any(),
+        )
+        yield Neutral(
             "no pose of {} translates", turned, lambda v: not v[:, :3, 3].any()
         )
         yield Neutral(
