@@ -33,7 +33,8 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
     for some, held in [(asked.main, None), (asked.fresh, None), *held_out]:
         if held and held.mistaken:
             continue
-        if found := _broken(some, names) or _wrong(asked, some, held, names):
+        found = _broken(some, names) or _misfit(asked, some, names)
+        if found := found or _wrong(asked, some, held, names):
             return found
     for one, _ in not_accepted(asked):
         assert one.reply
@@ -48,6 +49,21 @@ def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | No
         if one.reply and (one.reply.kind or one.reply.value is None):
             what = "stops" if one.reply.kind else "returns nothing"
             says = f"{typed(one.question, names)} {what}."
+            return says, _given(one.question, names)
+    return None
+
+
+def _misfit(
+    asked: Asked, exchanges: Sequence[Exchange], names: Sequence[str]
+) -> Failing | None:
+    """Return the first call whose answer has a wrong shape."""
+    for one in exchanges:
+        found = read([one], asked.ask)
+        if isinstance(found, Finding) and found.slug == "shape" and one.reply:
+            if not isinstance(one.reply.value, np.ndarray):
+                return None
+            shape = one.reply.value.shape
+            says = f"{typed(one.question, names, LONG)} returns shape {shape}."
             return says, _given(one.question, names)
     return None
 

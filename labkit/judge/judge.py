@@ -13,6 +13,7 @@ from labkit.judge import near_miss, odd_answers, replies_read, tried
 from labkit.judge.answers import (
     Parts,
     as_one,
+    capitalised,
     difference,
     gaps,
     plain,
@@ -305,7 +306,8 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
         where = tried.in_common(case, S, T, i)
         wrong = difference(S[i], T[i], kind.scale) > ask.tolerance
         if not wrong.all():
-            where += f" It is right for {np.sum(~wrong)} of {len(wrong)} inputs"
+            it = capitalised(kind.called) if called else "It"
+            where += f" {it} is right for {np.sum(~wrong)} of {len(wrong)} inputs"
             where += f"{_first(wrong, case.given, 'but not for')}."
     return Finding(found.slug, f"{called}{found.message}{where}")
 

@@ -5,6 +5,7 @@ module has numbers, vectors, rotations and poses; the others have all else. Arra
 answers are stacked, (n, *shape); S is the student's, T the right one.
 """
 
+import contextlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
@@ -109,17 +110,22 @@ class Kind:
                 says = f"It returns {array.dtype} values; expected is {self.expected}"
                 return Finding("not-numbers", f"{says} of real numbers.")
             if not self.fits(array.shape):
-                return self._misfit(array.shape)
+                return self._misfit(array.shape, values)
             found.append(self.plain(array))
         return found
 
-    def _misfit(self, got: tuple[int, ...]) -> Finding:
+    def _misfit(self, got: tuple[int, ...], values: Sequence[Any]) -> Finding:
         expected = self.expected
         if None not in self.shape and str(self.shape) not in expected:
             expected += f", shape {self.shape}"
         if reason := self.why_shape(got):
             expected += f": {reason}"
-        return Finding("shape", f"It returns shape {got}; expected is {expected}.")
+        often = ""
+        with contextlib.suppress(ValueError):  # one has parts of different shapes
+            fit = sum(self.fits(np.asarray(value).shape) for value in values)
+            often = f" in {len(values) - fit} of {len(values)} calls" if fit else ""
+        says = f"It returns shape {got}{often}; expected is {expected}."
+        return Finding("shape", says)
 
     def numbers(self, value: Any) -> Array:
         """Return a right or a mistaken answer as numbers; None is NaN."""
@@ -205,9 +211,14 @@ class Vector(Kind):
         if found := one_factor(self, S, T):
             return found
         off = np.abs(S - T).max(axis=0) > RIGHT * self.scale
+        counted = [f"[{i}], counted from 0" for i in range(len(off))]
+        empty = np.flatnonzero(off & ~S.any(axis=0))
+        if len(S) > 1 and 0 < len(empty) < len(off):
+            where = " and ".join((self.names or counted)[i] for i in empty)
+            says = f"{where} {'are' if len(empty) > 1 else 'is'} 0 every time. It is "
+            return Finding("entries-empty", f"{says}off by up to {self.apart(S, T)}.")
         if not 0 < off.sum() <= max(1, len(off) // 3):
             return Finding("off", f"It is off by up to {self.apart(S, T)}.")
-        counted = [f"[{i}], counted from 0" for i in range(len(off))]
         names = [f"{name}'s" for name in self.names] or counted
         where = " and ".join(names[i] for i in np.flatnonzero(off))
         says = f"All entries are right but {where}: up to {self.apart(S, T)} off."

@@ -204,15 +204,19 @@ class _Pairs:
     answers: Mapping[int, Parts]  # to that call, of those that are wrong there
 
     def added(self) -> Pair | None:
-        """Return two mistakes whose differences from the right answer add up."""
+        """Return two mistakes whose differences, or factors, come together."""
         its = _nth(self.T, self.i)
         for a, b in combinations(self.answers, 2):
             first = self.mistakes[a]
             second = self.mistakes[b]
-            both = _sum(self.answers[a], self.answers[b], its)
-            if first.slug != second.slug and self._is_this_one(both):
-                every = [_all(one, self.case.arguments) for one in (first, second)]
-                if _alike(self.case.ask, _sum(every[0], every[1], self.T), self.S):
+            if first.slug == second.slug:
+                continue
+            pair = self.answers[a], self.answers[b]
+            for combined in (_sum, _product):
+                if not self._is_this_one(combined(*pair, its)):
+                    continue
+                one, other = (_all(x, self.case.arguments) for x in (first, second))
+                if _alike(self.case.ask, combined(one, other, self.T), self.S):
                     return first, second
         return None
 
@@ -220,12 +224,19 @@ class _Pairs:
         """Return a mistake and another that is made with its finished answer."""
         if len(self.case.ask.kinds) != 1:
             return None
-        for change in self.case.ask.kinds[0].general():
+        general = list(self.case.ask.kinds[0].general())
+        its = _nth(self.T, self.i)
+        for n, change in enumerate(general):
             for k, answer in self.answers.items():
                 if self._is_this_one(_changed(change, answer)):
                     every = _all(self.mistakes[k], self.case.arguments)
                     if _alike(self.case.ask, _changed(change, every), self.S):
                         return self.mistakes[k], change
+            for first in general[:n]:
+                if self._is_this_one(_changed(change, _changed(first, its))):
+                    every = _changed(change, _changed(first, self.T))
+                    if _alike(self.case.ask, every, self.S):
+                        return first, change
         return None
 
     def in_turn(self) -> Pair | None:
@@ -308,6 +319,14 @@ def _sum(a: Parts, b: Parts, right: Parts) -> Parts:
     if any(len({x.shape for x in trio}) > 1 for trio in trios):
         return ()
     return tuple(x + y - z for x, y, z in trios)
+
+
+def _product(a: Parts, b: Parts, right: Parts) -> Parts:
+    """Return what two wrong factors make together."""
+    trios = list(zip(a, b, right, strict=False))
+    if any(len({x.shape for x in trio}) > 1 for trio in trios):
+        return ()
+    return tuple(np.where(z == 0, 0.0, x * y / np.where(z, z, 1)) for x, y, z in trios)
 
 
 def _alike(ask: Ask, a: Parts, b: Parts) -> bool | None:

@@ -30,7 +30,8 @@ class Matrix(Kind):
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         square = self.shape[0] == self.shape[1] is not None
-        return general(*["transposed"] * square, *self.usual)
+        turned = "transposed" if square else "reshaped"
+        return general(*[turned] * (None not in self.shape), *self.usual)
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
         if got == self.shape[::-1] != self.shape:
@@ -56,7 +57,12 @@ def part_off(kind: Matrix, S: Array, T: Array) -> Finding | None:
     if not parts:
         return None
     says = f"All that is wrong stands in {' and '.join(parts)}"
-    return Finding("part-off", f"{says}: off by up to {kind.apart(S, T)}.")
+    off = f"off by up to {kind.apart(S, T)}"
+    alone = np.ndim(kind.scale) == 0
+    if alone and (found := one_factor(kind, S[:, wrong], T[:, wrong])):
+        times = found.message.removeprefix("It ").partition(",")[0]
+        off = f"what stands there {times}"
+    return Finding("part-off", f"{says}: {off}.")
 
 
 def _blocks(kind: Matrix, wrong: Any) -> str:
@@ -100,7 +106,7 @@ class Jacobian(Matrix):
     shape: tuple[int, ...] = (6, 7)
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return general("rows-swapped", *self.usual)
+        return general("rows-swapped", "reshaped", *self.usual)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if found := one_factor(self, S, T):

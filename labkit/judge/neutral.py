@@ -58,7 +58,10 @@ def scaled(x: Any, size: float) -> Any:
 
 def _of_a_vector(x: Array) -> Iterator[Neutral]:
     size = float(np.abs(x).max()) or 1.0
+    length = float(np.linalg.norm(x)) or 1.0  # what is normed depends on it
+    ends = [s * each for each in (size, length) for s in (1.0, -1.0)]
     all_of = [np.full_like(x, s * size) for s in _SEVERAL]
+    all_of += [np.full_like(x, s * length / np.sqrt(len(x))) for s in (1.0, -1.0)]
     yield Neutral("{} is 0", np.zeros_like(x), lambda v: not v.any())
     yield Neutral(
         "all entries of {} are equal",
@@ -71,7 +74,7 @@ def _of_a_vector(x: Array) -> Iterator[Neutral]:
         "only one entry of {} is not 0",
         np.where(np.arange(len(x)) == np.argmax(np.abs(x)), x, 0.0),
         lambda v: int(np.count_nonzero(v)) == 1,
-        tuple(s * size * one for s in _SEVERAL[:4] for one in places),
+        tuple(s * one for s in (*ends, 5.0 * size, -0.2 * size) for one in places),
     )
     if len(x) == 6:
         for some, where in ((slice(3), "[:3]"), (slice(3, None), "[3:]")):
@@ -105,6 +108,11 @@ def _of_a_stack(x: Array) -> Iterator[Neutral]:
         moved = x.copy()
         turned[:, :3, 3] = 0.0
         moved[:, :3, :3] = np.eye(3)
+        yield Neutral(
+            "every pose of {} is the identity",
+            np.zeros_like(x) + np.eye(4),
+            lambda v: not (v - np.eye(4)).any(),
+        )
         yield Neutral(
             "no pose of {} translates", turned, lambda v: not v[:, :3, 3].any()
         )

@@ -37,7 +37,7 @@ def walk(
     back=lambda X: X.T,
     felt=lambda i: slice(0, i + 1),
     pose=lambda T, i: T[i],
-    links=7, carried=1.0, passed_on=1.0, per_speed=False, late=False,
+    links=7, carried=1.0, passed_on=1.0, per_speed=False, late=False, both=True,
 ):  # fmt: skip
     """Return Y by the walk out along the arm, with other parts.
 
@@ -45,7 +45,8 @@ def walk(
     `into` makes X of a pose, `back` what the wrench comes back with of X; `felt` says
     which joints feel link i, `pose` where it is, `links` how many there are. `carried`
     and `passed_on` are factors of the V and A of the link before, `per_speed` leaves qd
-    out of ad(V) S qd, and `late` uses V before it is added to.
+    out of ad(V) S qd, `late` uses V before it is added to, and without `both` A is left
+    in the world's axes.
     """
     V = np.zeros(6)
     base = A = falls * np.append(np.zeros(3), -g)
@@ -57,7 +58,8 @@ def walk(
         A = base + passed_on * (A - base) + own * S * qdd[i] + turns
         X = into(pose(T, i))
         at = felt(i)
-        costs = back(X) @ link_regressor(X @ (before if late else V), X @ A)
+        turned_in = X @ A if both else A
+        costs = back(X) @ link_regressor(X @ (before if late else V), turned_in)
         Y[at, 10 * i : 10 * i + 10] = J[:, at].T @ costs
     return Y
 
@@ -129,6 +131,7 @@ for slug, says, other in (
     ("acceleration-starts-anew", "each link's A is the base's and its own joint's; "
      "those before it carry it along", {"passed_on": 0.0}),
     ("bracket-without-qd", "ad(V) S is not multiplied by qd", {"per_speed": True}),
+    ("acceleration-not-turned", "V is turned into the link, A is not", {"both": False}),
     ("twist-too-late", "V is used before the link's own S qd is added: it is the link "
      "before's", {"late": True}),
 ):  # fmt: skip

@@ -25,28 +25,34 @@ def of_the_values(case: Case) -> Finding | None:
         cut = cut and bool((kept | (np.abs(share) < 1e-4)).all())
         more += int((kept & ~right).any())
         fewer += int((~kept & right).any())
-        added.append(s[sound] ** 2 * (1.0 / np.where(share, share, 1e-9) - 1.0))
+        lacks = 1.0 / np.where(share, share, 1e-9) - 1.0
+        if np.abs(lacks).max() > 1e-9:  # else it is too little to show
+            added.append(s[sound] ** 2 * lacks)
     if cut:
         says = miscounted(more, fewer, f"of {len(case.S)} calls")
         return Finding("cut-elsewhere", says)
-    if all(one[0] > 0 and np.allclose(one, one[0], rtol=1e-2) for one in added):
-        says = f"up to {max(one[0] for one in added):.3g} is added to the diagonal of "
+    if all(one[-1] > 0 and np.allclose(one, one[-1], rtol=0.1) for one in added):
+        says = f"up to {max(one[-1] for one in added):.3g} is added to the diagonal of "
         return Finding("ridge", f"Every parameter is pulled towards 0: {says}Y^T Y.")
     return columns_left_out(case) or not_the_smallest(case)
 
 
 def columns_left_out(case: Case) -> Finding | None:
-    """Say that whole parameters are 0, as many as values that do not count."""
+    """Say that whole parameters are 0 where there are values that do not count."""
     count = 0
     for Y, rtol, mine in zip(case.arguments[0], case.arguments[2], case.S, strict=True):
         hides = Y.shape[1] - len(parts(Y, rtol)[1])
-        if int(np.sum(mine[: Y.shape[1]] == 0.0)) != hides:
+        empty = int(np.sum(mine[: Y.shape[1]] == 0.0))
+        if (empty > 0) != (hides > 0):
             return None
         count += hides
     if not count:
         return None
-    says = "As many parameters are 0 as values do not count. What a motion hides is a "
-    return Finding("columns-left-out", says + "combination of several.")
+    says = (
+        "Whole parameters are 0 wherever a value does not count. What a motion hides "
+    )
+    says += "is a combination of several, and the smallest answer has a part of each."
+    return Finding("columns-left-out", says)
 
 
 def not_the_smallest(case: Case) -> Finding | None:

@@ -114,6 +114,26 @@ for slug, says, redone, told in (
     )
 
 
+@row.wrongs
+def _(Y, rtol):
+    """columns-scaled: each column is divided by its length first; that asks about other
+      parameters => with columns of length 1
+    columns-centred: each column's mean is taken off first, as in statistics; no torque
+      is lost so => with the means taken off
+    """
+    return {
+        "columns-scaled": counted(Y / np.linalg.norm(Y, axis=0), rtol),
+        "columns-centred": counted(Y - Y.mean(axis=0), rtol),
+    }
+
+
+def counted(Y, rtol):
+    """Return rank and condition."""
+    s = np.linalg.svd(Y, compute_uv=False)
+    n = np.sum(s > rtol * s[0])
+    return n, s[0] / s[n - 1]
+
+
 @row.right  # By the eigenvalues of Y^T Y, the cut squared too.
 def _(Y, rtol):
     s2 = np.linalg.eigvalsh(Y.T @ Y)[::-1]

@@ -38,6 +38,7 @@ def _(rng):
     # The middle of a range is asked, too, and 0 is where a sign jumps.
     qd, qdd = rng.numbers(-2, 3, 6, 7), rng.numbers(-9, 9, 6, 7)
     qd[[0, 1, 2], [2, 5, 3]] = 0.0, 0.01, 1e-4  # a joint at rest; two that hardly move
+    qd[[3, 4, 5], [0, 4, 6]] = 0.0
     return [(0.5 * FIRST, 2.0 * FIRST), *zip(qd, qdd, strict=True)]
 
 
@@ -58,6 +59,9 @@ for slug, says, redone, blocks in (
     ("sign-at-rest-negative", "a joint at rest is given a direction, backwards; "
      "sign(0) is 0", "-1 where qd is 0",
      lambda qd, qdd: (qdd, qd, np.where(qd > 0.0, 1.0, -1.0))),
+    ("sign-at-rest-of-qdd", "a joint at rest is given the direction of its "
+     "acceleration; sign(0) is 0", "sign(qdd) where qd is 0",
+     lambda qd, qdd: (qdd, qd, np.where(qd == 0.0, np.sign(qdd), np.sign(qd)))),
     ("slow-left-out", "a joint that moves slowly gets no dry friction; it has one "
      "size, whatever the speed", "0 where |qd| is under 0.1",
      lambda qd, qdd: (qdd, qd, np.sign(qd) * (np.abs(qd) >= 0.1))),

@@ -57,6 +57,8 @@ def _(J_site, R_site, extra, g):
     R-of-the-last-hold: the last hold's R is used for all; each pose has its own
     last-hold-only: only the last hold is used: what the loop made of the others is
       overwritten; stack them
+    last-hold-missing: the last hold does not count: the loop ends one too early
+    first-hold-missing: the first hold does not count: the loop starts one too late
     extra-by-joint: extra is read joint by joint, and the rows are stacked hold by hold:
       each pair is of two different torques => the right one with extra
       in that order
@@ -95,6 +97,8 @@ def _(J_site, R_site, extra, g):
         "R-of-the-first-hold": solved(rows(J_site, 0 * R_site + R_site[0], g), extra),
         "R-of-the-last-hold": solved(rows(J_site, 0 * R_site + R_site[-1], g), extra),
         "last-hold-only": solved(Y[-1], extra[-1]),
+        "last-hold-missing": solved(Y[:-1], extra[:-1]),
+        "first-hold-missing": solved(Y[1:], extra[1:]),
         "extra-by-joint": solved(Y, extra.T),
         "reshaped": solved(
             rows(np.swapaxes(J_site.reshape(-1, 7, 6), 1, 2), R_site, g), extra

@@ -40,8 +40,8 @@ def _(Y, tau, Y_new, rtol):
       times the noise
     noise-added: the noise of a new measurement is added; sigma is that of the
       prediction => the root of sigma^2 + noise^2
-    mean-taken-off: the mean of what is left is taken off first; it is noise as well,
-      and the rank has counted it already
+    mean-taken-off: the mean of what is left is taken off first, as a standard deviation
+      does; it is a part of the noise
     variance: this is the variance; sigma is its root => sigma squared
     noise-left-out: the noise is missing: this is how much a fit amplifies it
     noise-for-sigma: this is the noise for every row; a motion that was never shown is
