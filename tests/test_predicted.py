@@ -1,8 +1,10 @@
 """The worksheet's predictions: what a run writes there, and what it leaves alone."""
 
+import re
+
 import pytest
 
-from conftest import kits_worksheet
+from conftest import ROOT, kits_worksheet
 from labkit.commands.run import waiting, without_numbers
 from labkit.lesson.day import all_days, find_day
 from labkit.lesson.predicted import predictions, rows_asked, with_measured
@@ -79,6 +81,38 @@ def test_every_day_asks_for_three_numbers_first(day):
     asked = rows_asked(kits_worksheet(day))
     assert list(asked.values()) == ["", "", ""]
     assert waiting(day) == 3
+
+
+# What a lab measures of the rows of its worksheet, as documents print it.
+ANSWERS = {
+    1: ("0.59", "0.243", "3.2e-15"),
+    2: ("-0.0825", "rank 5"),
+    3: ("3.07", "12.94", "197"),
+    4: ("18.575", "103 mm", "0.039"),
+    5: ("190.4", "0.195", "225.1"),
+    6: ("25.000", "with 20 N", "217"),
+    7: ("0.995", "0.167", "5.7 mm"),
+    8: ("43 of 70", "16 g", "0.048"),
+}
+
+
+def read_before(day):
+    """Return what stands before a day's predictions, without what is folded."""
+    guide = (day.folder / day.guide).read_text("utf-8")
+    first = [ROOT / "README.md", day.folder / "README.md"]
+    texts = [path.read_text("utf-8") for path in first]
+    texts = [*texts, day.see, guide.partition("*Predictions*")[0]]
+    return re.sub(r"(?s)<details>.*?</details>", "", "\n".join(texts)), guide
+
+
+@pytest.mark.parametrize("day", all_days(), ids=lambda day: str(day.number))
+def test_what_is_to_be_predicted_stands_nowhere_before_it_is_asked(day):
+    before, guide = read_before(day)
+    assert "*Predictions*" in guide
+    for answer in ANSWERS[day.number]:
+        assert not re.search(rf"(?<![\d.]){re.escape(answer)}", before), answer
+    if day.number != 2:  # whose third is the joint's own line
+        assert all(answer.split()[-1] in guide for answer in ANSWERS[day.number][:1])
 
 
 @pytest.mark.kit
