@@ -10,12 +10,12 @@ from .states import CUT, hidden, regressors, uneven
 
 
 def of_dust(case: Case) -> Finding | None:
-    """Say that a condition ends at a value that does not count: those are rounding."""
+    """Ask whether values that do not count are in the answer: those are rounding."""
     if (case.S[1] <= 1.0 / case.arguments[1]).all():
         return None
     if all(n == Y.shape[1] for n, Y in zip(case.S[0], case.arguments[0], strict=True)):
-        return Finding("nothing-cut", "Every value counts, so rtol is not used.")
-    says = "The condition is over 1 / rtol: it ends at a value that does not count."
+        return Finding("nothing-cut", "Every value counts: is rtol used at all?")
+    says = "The condition is over 1 / rtol: does it end at a value that does not count?"
     return Finding("condition-of-all", says)
 
 
