@@ -72,6 +72,13 @@ def test_a_number_may_turn_its_sign(effect):
     assert list(faults(listed(law=effect))) == []
 
 
+def test_a_number_that_is_0_is_no_multiple_of_itself():
+    numbers = Numbers(wait="it waits {} s")
+    numbers.add("off", "{:.1f} mm", wait=times(2.0, "so"))(lambda wait=1.0: 0.0)
+    (told,) = faults(numbers.measured())
+    assert "is 0.0 mm, and 0.0 mm with it waits 1 → 2 s; the list says × 2" in told
+
+
 def test_a_constant_that_the_function_takes_and_nobody_explains_is_refused():
     numbers = Numbers(**WORDS)
     with pytest.raises(Robo47Error, match="no effect of noise"):
@@ -104,7 +111,7 @@ def test_every_day_has_a_list_and_its_guide_shows_it(day):
     shown = [block for block in blocks(guide, "run") if block.startswith("| number |")]
     assert len(shown) == 1
     for number in numbers.all:
-        assert f"| {number.name}: **" in shown[0]
+        assert f"| {number.name}: **".replace("|", r"\|")[1:] in shown[0]
     assert "<summary>What each number hangs on</summary>" in guide
 
 

@@ -124,6 +124,8 @@ class Number:
         """Return whether a constant did what its effect says."""
         if turn.effect.least == turn.effect.most == 1.0:
             return self.printed(turn.then) == self.printed(now)
+        if not now:  # of which every multiple is 0
+            return not turn.effect.moves
         low, high = sorted([turn.effect.least * now, turn.effect.most * now])
         return bool(low <= turn.then <= high)
 
