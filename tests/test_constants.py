@@ -100,10 +100,7 @@ def test_what_nothing_moves_and_what_is_rounding_are_said_so():
     assert "| off: **rounding** (hangs on none of these) |" in text
 
 
-LISTED = [day for day in all_days() if day.has("constants")]
-
-
-@pytest.mark.parametrize("day", LISTED, ids=lambda day: f"day{day.number}")
+@pytest.mark.parametrize("day", all_days(), ids=lambda day: f"day{day.number}")
 def test_every_day_has_a_list_and_its_guide_shows_it(day):
     numbers = numbers_of(day)
     guide = (day.folder / day.guide).read_text("utf-8")

@@ -198,7 +198,7 @@ def circle(project, omega, radius, turn, elbow, step, damping):
 @numbers.add(
     "off the circle, with today's projector", "{:.3f} mm",
     omega=between(0.4, 0.6, "what disturbs it stays; the damper holds twice as much"),
-    radius=between(0.2, 0.6, "half the speed and the acceleration (and twice it, 0.24 m, "
+    radius=between(0.2, 0.6, "half of the speed and the acceleration (0.24 m "
                    "leads out of reach)", to=0.06),
     turn=between(0.1, 0.4, "half the speed, a quarter of the acceleration"),
     elbow=between(0.9, 1.1, "the hand does not feel the elbow's torque"),
@@ -212,7 +212,7 @@ def on_circle(omega=LAB.OMEGA, radius=LAB.RADIUS, turn=LAB.TURN, elbow=1.0, step
 @numbers.add(
     "off the circle, with Day 3's projector", "{:.3f} mm",
     omega=between(0.3, 0.6, "the hand's springs win against what leaks through"),
-    elbow=between(0.9, 1.1, "what passes is what the elbow's motion takes: the same motion"),
+    elbow=between(0.9, 1.1, "what passes moves the elbow, which moves as before"),
 )  # fmt: skip
 def with_day3(omega=LAB.OMEGA, elbow=1.0):
     """Return how far off."""
