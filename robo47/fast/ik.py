@@ -26,13 +26,23 @@ from robo47.rotation_log import pose_error
 from robo47.screws import fk_space
 
 REACHED = 1e-8  # the length of the pose error (radians and metres) of a solution
-CHUNK = 1024  # targets at once
-WIDTH = 500  # walkers at once while targets are left, at least
+# Targets at once. Their table of distances to DRAWN poses is the largest array, 8 MB.
+# Of 4,096 it would be 33 MB, for a third less time (measured).
+CHUNK = 1024
+# Walkers at once while targets are left, at least: with one for each, 2 of 1,024 random
+# targets stay unreached after all rounds (measured).
+WIDTH = 500
 MOST = 50  # walkers of one target
-DRAWN = 1000  # random configurations that the nearest ones are chosen from
+# Random configurations that the nearest ones are chosen from: with 160 a target alone
+# takes 8 % more steps, with 4,000 11 % fewer (measured), but all are compared.
+DRAWN = 1000
 ROUNDS = 20
-FEW = 16  # targets that are walked to one by one: more of them share their calls better
-TRIES = 16  # starts of each of those before they go on together
+# Targets that are walked to one by one. 4 of them so take a third of the time that they
+# take together, 16 as long, 32 twice as long (measured).
+FEW = 16
+# Starts of each of those before they go on together: with 2 it takes half as many steps
+# again, since a round together walks from up to MOST starts (measured).
+TRIES = 16
 # Patient from the caller's start, impatient from a random one; with less damping a
 # walker takes fewer steps, but ends farther from a target that is out of reach.
 FIRST = Patience(60, 5, 0.9, 0.5)

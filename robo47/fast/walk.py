@@ -12,8 +12,12 @@ of `ik_many`, in arrays.
 from typing import Any, NamedTuple, Protocol
 
 STOP = 1e-9  # the length of the error where a walker stops: a tenth of what is asked
-FLOOR = 1e-8  # squared damping that is left where the error is 0
-NEAR_PI = -0.9  # cosine of the angle beyond which sin(angle) is no base for the axis
+# Squared damping that is left where the error is 0: at a singularity J J^T has no
+# inverse, however small the error is.
+FLOOR = 1e-8
+# Cosine of the angle beyond which R - R^T does not give the axis: it is 2 sin(angle)
+# times the axis, and nothing at half a turn. `log_rotation` knows more, and costs more.
+NEAR_PI = -0.9
 
 
 class Patience(NamedTuple):
@@ -64,7 +68,7 @@ def walk(walkers: Walkers, patience: Patience) -> None:
     for i in range(patience.steps):
         ee = walkers.look()
         on = walkers.open(ee > STOP**2)
-        if i % patience.every == 0:
+        if i % patience.every == 0:  # not at each step: the error may rise for a while
             if i:
                 on = on & (ee < patience.enough * before)
             before = ee

@@ -1,24 +1,19 @@
 """Day 8: the numbers in the guide's sentences, every reason in it, and the tab."""
 
 import copy
-import io
 import re
-from contextlib import redirect_stdout
-from unittest.mock import patch
 
 import numpy as np
 import pytest
 from compare import assert_same
 
-from conftest import ROOT, load_script
+from conftest import ROOT, load_script, printed_by, sentences
 from robo47 import identification, panda, simulate
 from robo47.errors import Robo47Error
 
 import day8_mujoco
 
-GUIDE = (ROOT / "w2-autonomy/docs/day8-lab.md").read_text("utf-8")
-OWN = re.sub(r"<!-- run.*?<!-- end -->", "", GUIDE, flags=re.S)
-SENTENCES = " ".join(OWN.replace("*", "").split())
+SENTENCES = sentences(8)
 lab = load_script(ROOT / "w2-autonomy/src/day8_identification.py")
 model = panda.load("panda_nohand", drive="torque")
 arm = panda.arm(model)
@@ -45,17 +40,10 @@ def data():
 
 @pytest.fixture(scope="module")
 def printed():
-    """Return what the lab prints, 80 columns wide at most."""
+    """Return what the lab prints."""
     told = {"how many of 70 numbers show: links": "43",
             "sigma of the load, g: each from both sides": "20"}  # fmt: skip
-    with (
-        patch("sys.argv", ["lab", "--no-log"]),
-        patch("labkit.lesson.lab.predictions", lambda worksheet: told),
-        redirect_stdout(io.StringIO()) as out,
-    ):
-        assert lab.main() == 0
-    assert all(len(line) <= 80 for line in out.getvalue().splitlines())
-    return out.getvalue()
+    return printed_by(lab, told)
 
 
 def fitted(data, name, noise, rtol=lab.RTOL, known=0.0):

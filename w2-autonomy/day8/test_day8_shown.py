@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from conftest import ROOT, load_script
+from conftest import ROOT, load_script, sentences
 from labkit.judge.row import rows_of
 from labkit.lesson.day import find_day
 from robo47 import identification, panda
@@ -16,8 +16,7 @@ import day8_mujoco
 
 DAY = find_day(8)
 GUIDE = (ROOT / "w2-autonomy/docs/day8-lab.md").read_text("utf-8")
-OWN = re.sub(r"<!-- run.*?<!-- end -->", "", GUIDE, flags=re.S)
-SENTENCES = " ".join(OWN.replace("*", "").split())
+SENTENCES = sentences(8)
 lab = load_script(ROOT / "w2-autonomy/src/day8_identification.py")
 model = panda.load("panda_nohand", drive="torque")
 arm = panda.arm(model)
