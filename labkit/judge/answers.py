@@ -265,6 +265,12 @@ def say_range(values: Array, say: Callable[[Array], str]) -> str:
     return most if least == most else f"{least} to {most}"
 
 
+def listed(words: Sequence[str]) -> str:
+    """Return words as a list: "m, m cx and m cy"."""
+    *before, last = words
+    return f"{', '.join(before)} and {last}" if before else last
+
+
 def capitalised(clause: str) -> str:
     """Return a clause as a sentence starts; a symbol, qd say, stays what it is."""
     first = clause.partition(" ")[0].rstrip(",")

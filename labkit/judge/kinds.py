@@ -16,9 +16,11 @@ from labkit.judge.answer_mistakes import OF_A_ROTATION, general, of_a_pose
 from labkit.judge.answers import (
     MATCHES,
     RIGID,
+    capitalised,
     degrees,
     difference,
     gap,
+    listed,
     matches,
     millimetres,
     rigid,
@@ -214,7 +216,7 @@ class Vector(Kind):
         counted = [f"[{i}], counted from 0" for i in range(len(off))]
         empty = np.flatnonzero(off & ~S.any(axis=0))
         if len(S) > 1 and 0 < len(empty) < len(off):
-            where = " and ".join((self.names or counted)[i] for i in empty)
+            where = capitalised(listed([(self.names or counted)[i] for i in empty]))
             says = f"{where} {'are' if len(empty) > 1 else 'is'} 0 every time. It is "
             return Finding("entries-empty", f"{says}off by up to {self.apart(S, T)}.")
         if not 0 < off.sum() <= max(1, len(off) // 3):

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from labkit.judge.answer_mistakes import general
-from labkit.judge.answers import difference, gap
+from labkit.judge.answers import difference, gap, listed
 from labkit.judge.kinds import NEAR, RIGHT, Kind, few_entries, one_factor
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
@@ -73,14 +73,9 @@ def _blocks(kind: Matrix, wrong: Any) -> str:
     each = columns.reshape(len(kind.blocks), -1)
     if 2 * each.any(axis=1).sum() <= len(each):
         names = [kind.blocks[i] for i in np.flatnonzero(each.any(axis=1))]
-        return f"the columns of {_listed(names)}"
+        return f"the columns of {listed(names)}"
     within = _lines("column", kind.columns, each.any(axis=0))
     return f"{within} of each block" if within and not kind.columns else within
-
-
-def _listed(words: Sequence[str]) -> str:
-    *before, last = words
-    return f"{', '.join(before)} and {last}" if before else last
 
 
 def _lines(side: str, names: tuple[str, ...], wrong: Any) -> str:
@@ -91,7 +86,7 @@ def _lines(side: str, names: tuple[str, ...], wrong: Any) -> str:
     first, last = int(at[0]), int(at[-1])
     if names and len(at) <= 4:
         called = [names[i].removeprefix(f"the {side} of ") for i in at]
-        return f"the {side}{'s' * (len(at) > 1)} of {_listed(called)}"
+        return f"the {side}{'s' * (len(at) > 1)} of {listed(called)}"
     if len(at) == last - first + 1:
         counted = f"{first} to {last}" if last > first else str(first)
         return f"{side}{'s' * (last > first)} {counted}, counted from 0"

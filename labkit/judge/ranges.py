@@ -39,7 +39,13 @@ def spans(x: Any, asked: Sequence[Any], right: Sequence[bool]) -> Iterator[Span]
         right: of each whether the answer was right.
     """
     if isinstance(x, float):
-        if between := _range(asked, right):
+        between = _range(asked, right)
+        sizes = [abs(one) for one in asked]
+        beyond = _range(sizes, right)
+        if beyond and beyond[1] == max(sizes) and 0.0 < beyond[0] < SMALL * beyond[1]:
+            says = f"whenever {{}} is {number(beyond[0])} or more in size"
+            yield Span(says, partial(_above, beyond[0]), partial(_beyond, *beyond))
+        elif between:
             low, high = between
             yield Span(
                 f"for {{}} between {number(low)} and {number(high)}",
@@ -64,7 +70,12 @@ def _inside(low: float, high: float, x: float) -> bool:
     return low < x < high
 
 
-def _above(low: float, x: Array) -> bool:
+def _beyond(low: float, high: float, some: Sequence[float]) -> list[float]:
+    sizes = np.geomspace(low, high, len(some))
+    return [float(x) * (-1.0) ** i for i, x in enumerate(sizes)]
+
+
+def _above(low: float, x: Any) -> bool:
     return bool((np.abs(x) >= low).all())
 
 
@@ -111,7 +122,9 @@ def _end(last: float, beyond: float) -> float:
     if not np.isfinite(beyond):
         return last
     low, high = sorted((last, beyond))
-    for known in (np.pi * np.arange(-12, 13) / 6, np.arange(-12.0, 13.0) / 2):
+    decades = 10.0 ** np.arange(-6.0, 3.0)
+    halves = np.arange(-12.0, 13.0) / 2
+    for known in (np.pi * np.arange(-12, 13) / 6, halves, decades):
         between = [float(x) for x in known if low <= x <= high]
         if between:
             return min(between, key=lambda x: abs(x - last))
