@@ -159,7 +159,7 @@ def test_what_mistakes_cost_in_motion_and_at_rest():
         for value, words in zip(cost[slug], written, strict=True):
             assert f"{value:.{len(words.partition('.')[2])}f}" == words
     unseen = sum(rest < 1e-9 < moving for moving, rest in cost.values())
-    assert f"shows nothing of {unseen} of the {len(cost)} mistakes" in SENTENCES
+    assert f"reveals nothing about {unseen} of the {len(cost)} mistakes" in SENTENCES
 
 
 def test_mujoco_refuses_what_no_body_can_have():
