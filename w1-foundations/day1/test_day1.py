@@ -78,7 +78,7 @@ def test_a_transposed_rotation_looks_right_at_ready_and_zero_only(twin):
     off = np.abs(R - np.swapaxes(R, 1, 2)).max(axis=(1, 2))
     assert off[:2].max() < 1e-8
     assert 1.9 < off[2:].max() <= 2.0
-    assert "At random it is off by up to 2" in GUIDE
+    assert "At random configurations its entries are off by up to 2" in GUIDE
 
 
 @pytest.mark.parametrize("told", [0.0, 1.0])
