@@ -295,14 +295,13 @@ def either_side(
                 within=0.05),
     noise_seed=between(0.7, 1.4, "it is estimated from 35 torques", to=48),
     poses=between(0.6, 0.85, "twice the poses: 1/√2, and other poses"),
-    wait=times(1.0, "from both sides, friction is gone after any time", within=0.05),
 )  # fmt: skip
-def load_sigma(noise=LAB.NOISE, noise_seed=LAB.NOISE_SEED, poses=5, wait=LAB.WAIT):
+def load_sigma(noise=LAB.NOISE, noise_seed=LAB.NOISE_SEED, poses=5):
     """Return the sigma of the mass that the lab finds."""
     rng = np.random.default_rng(noise_seed)
     rng.normal(size=(600, 7))  # the lab's three motions have these
     off = noise * rng.normal(size=(2, 2, poses, 7))  # empty and loaded, by side
-    how = poses, wait, 1.0, 0.02, 0.9, 0.002, DAY.OMEGA
+    how = poses, LAB.WAIT, 1.0, 0.02, 0.9, 0.002, DAY.OMEGA
     empty, full = (
         [holds(m, side, *how) for side in (1.0, -1.0)] for m in (0, LAB.LOAD)
     )
