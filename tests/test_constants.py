@@ -98,6 +98,10 @@ def test_what_nothing_moves_and_what_is_rounding_are_said_so():
         "| legs: **4** (hangs on none of these) | it waits 1 → 2 s | the same" in text
     )
     assert "| off: **rounding** (hangs on none of these) |" in text
+    drawn = between(0.5, 2.0, "another draw", to=48.0)
+    numbers = Numbers(wait="seed {}")
+    numbers.add("mean", "{:.0f}", wait=drawn)(lambda wait=47.0: wait)
+    assert "| mean: **47** | seed 47 → 48 | 48 |" in table(numbers.measured())
 
 
 @pytest.mark.parametrize("day", all_days(), ids=lambda day: f"day{day.number}")

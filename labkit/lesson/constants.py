@@ -230,7 +230,9 @@ def table(found: Iterable[Measured]) -> str:
     for one in found:
         number = one.number
         now = f"{number.name}: **{number.printed(one.now)}**"
-        if not any(turn.effect.moves for turn in one.turns):
+        if {number.printed(turn.then) for turn in one.turns} == {
+            number.printed(one.now)
+        }:
             now += " (hangs on none of these)"
         for turn in one.turns:
             then = number.printed(turn.then)

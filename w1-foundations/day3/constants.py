@@ -124,7 +124,7 @@ def drawn(radius, damping, gain, dt, lap, metre=1.0):
     damping=between(1.1, 2.5, "then the worst place is the bottom, which is in reach"),
     gain=between(0.9, 1.1, "a gain does not reach what is out of reach"),
     dt=between(0.95, 1.05, "the damping is slower than either step"),
-    lap=between(0.85, 1.0, "more time against the damping; what is out of reach stays"),
+    lap=between(0.85, 1.0, "more time against the damping; out of reach stays so"),
     radius=between(0.2, 0.5, "2 cm less, and all of it is in reach", to=0.36),
 )  # fmt: skip
 def off(damping=LAB.DAMPING, gain=LAB.GAIN, dt=LAB.DT, lap=DAY.LAP, radius=LAB.RADIUS):

@@ -80,24 +80,23 @@ def apparent(masses=1.0, armature=1.0, metre=1.0, gravity=1.0, damping=1.0):
                  within=0.001),
     gravity=same("gravity is taken off"),
     elbow=same("the elbow's torque is projected: the hand does not feel it"),
-    rate=same("nothing moves any more", to=250.0),
     step=same("nothing moves any more", to=0.001),
     wait=same("nothing moves any more"),
 )  # fmt: skip
-def pushed(push=1.0, k=1.0, masses=1.0, gravity=1.0, elbow=1.0,
-           rate=LAB.RATE, step=0.002, wait=3.0):  # fmt: skip
+def pushed(push=1.0, k=1.0, masses=1.0, gravity=1.0, elbow=1.0, step=0.002,
+           wait=3.0):  # fmt: skip
     """Return how far the hand gives way along x."""
     model, known = arm(masses=masses, gravity=gravity, step=step)
     with turned(LAB, ELBOW=tuple(elbow * np.array(LAB.ELBOW))):
         law = LAB.soft_hand(known, READY, stiffness=k * LAB.K)
-        return 1e3 * rests(model, known, law, push * LAB.PUSH, rate, wait)
+        return 1e3 * rests(model, known, law, push * LAB.PUSH, wait)
 
 
-def rests(model, known, law, wrench, rate, wait):
+def rests(model, known, law, wrench, wait):
     """Return where a push takes the hand along x, m."""
     push = LAB.simulate.push_at(DAY.SITE, wrench)
     run = LAB.simulate.run(model, LAB.simulate.start(model, READY), law, wait,
-                           rate=rate, push=push)  # fmt: skip
+                           rate=LAB.RATE, push=push)  # fmt: skip
     ends = (known.at(q).T_world_ee[0, 3] for q in (run.q[-1], READY))
     return float(np.subtract(*ends))
 
@@ -109,13 +108,12 @@ def rests(model, known, law, wrench, rate, wait):
     masses=between(1.1, 1.2, "the rotors' share of Lambda is smaller, so the modes "
                    "are others"),
     inertia=between(0.95, 1.05, "Lambda is twice itself: only time runs more slowly"),
-    gravity=times(1.0, "it is made up for at every period"),
     step=times(1.0, "the controller's period is the same", to=0.001),
 )  # fmt: skip
-def overshoot(k=1.0, size=1.0, masses=1.0, inertia=1.0, gravity=1.0, step=0.002):
+def overshoot(k=1.0, size=1.0, masses=1.0, inertia=1.0, step=0.002):
     """Return how far beyond its target the hand goes, of the way."""
     both = {"masses": masses * inertia, "armature": inertia}
-    model, known = arm(**both, gravity=gravity, step=step)
+    model, known = arm(**both, step=step)
     law = LAB.soft_hand(known, READY, stiffness=k * LAB.K)
     return -100 * DAY.released(model, law, E, 0.03 * size).min()
 
