@@ -305,7 +305,7 @@ def test_M_plus_h_D_belongs_to_a_step_that_brakes_at_its_end(arm):
         return np.abs(own - verify.mujoco_step(model, q, qd, tau)).max()
 
     assert off(h) < 1e-12
-    assert f"With $M$ alone the prediction is off by {off(0.0):.3f} rad/s" in SENTENCES
+    assert off(0.0) > 1e-3
     model.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_EULERDAMP
     assert off(0.0) < 1e-12  # it brakes with the velocity at the start
