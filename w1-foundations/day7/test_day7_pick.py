@@ -127,7 +127,7 @@ def test_what_the_grip_lifts_is_as_predicted(mass, mu, slips):
 
 def test_the_predictions_of_the_side_quest():
     up = trajectory.PEAK_ACCELERATION * 0.12 / 0.75**2
-    assert says(f"speeds up with {up:.2f} m/s²")
+    assert says(f"speeds up with {up:.3f} m/s²")
     assert says(f"{lab.heaviest_cube(0.9247, 1.0, 0.0):.3f} kg at rest")
     assert says(f"and {lab.heaviest_cube(0.9247, 1.0, up):.3f} kg while")
     assert says(f"bound is {lab.heaviest_cube(0.9247, 0.3, up):.3f} kg")
