@@ -17,7 +17,7 @@ from PIL import Image
 
 from labkit.figures import chart, client, portrait
 from labkit.figures.chart import BLUE, GREEN, GREY, INK, ORANGE, RED
-from labkit.figures.overlay import HALO, Layer
+from labkit.figures.overlay import HALO, SMOOTH, Layer
 from labkit.figures.scene import Box, Camera, Scene
 from robo47 import capstone, scenes, se3
 from robo47.checks import Array
@@ -130,10 +130,11 @@ def _sampled(scaling: Callable[[float], Array], seconds: float, T: float) -> Arr
 
 def _with_way(scene: Scene, pieces: list[Array]) -> Image.Image:
     """Draw a scene, and over it lines through points, (n, 3) each."""
-    layer = Layer(SIZE)
+    large = (SIZE[0] * SMOOTH, SIZE[1] * SMOOTH)
+    layer = Layer(large)
     for colour, width in ((HALO, 9), (WAY, 5)):
         for piece in pieces:
-            pixels = scene.camera.project(piece, SIZE)[:, :2]
+            pixels = scene.camera.project(piece, large)[:, :2]
             for a, b in pairwise(pixels):
                 layer.line([tuple(map(float, a)), tuple(map(float, b))], colour, width)
     return layer.over(Image.fromarray(client.draw(scene)))
