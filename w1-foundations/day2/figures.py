@@ -94,7 +94,9 @@ def _axis(layer: Layer, camera: Camera, S: Array, origin: Array, i: int) -> Arra
     across = np.cross(omega, [1.0, 0.0, 0.0])
     angles = np.radians(np.linspace(0.0, 290.0, 40))
     circle = np.array([exp_rotation(omega, x) @ across for x in angles])
-    points = camera.project(ends[0] + 0.85 * (ends[1] - ends[0]) + ROUND * circle, LARGE)
+    points = camera.project(
+        ends[0] + 0.85 * (ends[1] - ends[0]) + ROUND * circle, LARGE
+    )
     _polyline(layer, points[:-3, :2], AXES[i], THIN)
     layer.arrow(tuple(points[-4, :2]), tuple(points[-1, :2]), AXES[i], 0)
     return camera.project(origin + 0.6 * HALF * omega, LARGE)[:2]
@@ -104,7 +106,9 @@ def _labels(layer: Layer, anchors: Array) -> None:
     """Write each screw's name in a column at the right, with a leader."""
     tops = SMOOTH * np.linspace(130.0, SIZE[1] - 250.0, len(anchors))
     for top, i in zip(tops, np.argsort(anchors[:, 1]), strict=True):
-        layer.label(f"S{i + 1}", (760.0 * SMOOTH, float(top)), tuple(map(float, anchors[i])))
+        layer.label(
+            f"S{i + 1}", (760.0 * SMOOTH, float(top)), tuple(map(float, anchors[i]))
+        )
 
 
 def _lengths(layer: Layer, camera: Camera) -> None:
