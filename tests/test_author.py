@@ -137,6 +137,7 @@ def test_the_worksheets_skeleton_has_what_the_manifest_asks_for(day):
     assert worksheet_of(find_day(day.number)).count("*(your answer)*") == day.questions
 
 
+OPEN = "    open(__file__).close()\n"  # the wall refuses it
 METRICS = '\n[[metrics]]\ncheck = "speed"\nmetric = "seconds"\nmax = 3.0\n'
 
 
@@ -155,7 +156,8 @@ METRICS = '\n[[metrics]]\ncheck = "speed"\nmetric = "seconds"\nmax = 3.0\n'
             "![gone](../figures/gone.png)\n\n# Day 46",
             "gone.png is not",
         ),
-        (LAB, "# region 46.1\n", "# region 46.1\n    raise KeyError\n", "judges the"),
+        (LAB, "# region 46.1\n", "# region 46.1\n    raise KeyError\n", "stops at a"),
+        (LAB, "# region 46.1\n", f"# region 46.1\n{OPEN}", "make grade judges"),
     ],
 )
 def test_what_only_a_student_would_meet_is_told_to_the_author(
