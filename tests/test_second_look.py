@@ -95,7 +95,7 @@ class TestTheLabWithAFilesFunctions:
         assert body != head[start:]
         script = tmp_path / day.script
         script.write_text(head[:start] + body + line + tail, "utf-8")
-        says, _ = rehearse(day, script, sandbox)
+        says, *_ = rehearse(day, script, sandbox)
         assert says.startswith('at "')
         assert "it must be" in says
 
@@ -103,7 +103,7 @@ class TestTheLabWithAFilesFunctions:
         code = REFERENCE.replace("    c, s =", "    1 / 0\n    c, s =", 1)
         script = tmp_path / DAY.script
         script.write_text(code, "utf-8")
-        says, _ = rehearse(DAY, script, sandbox)
+        says, *_ = rehearse(DAY, script, sandbox)
         assert says.startswith("compose_fk stops with ZeroDivisionError")
 
 

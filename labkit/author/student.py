@@ -100,13 +100,14 @@ def _proved(day: Day, clone: Path) -> Iterator[str]:
             tried = attempt(capstone, [facts], [Path(folder)], sandbox)
     if facts.fault:
         yield f"the lab fails with its own functions behind the wall: {facts.fault}"
-    for one in day.metrics:
-        if not facts.fault and (one.check, one.metric) not in facts.again:
-            yield (
-                f"make grade ARGS=--proof gives no {one.check} ({one.metric}): its run "
-                f"of the lab ends before. Have {shown(day.source)} call the functions "
-                "less often, or record it earlier"
-            )
+    lacks = [m for m in day.metrics if (m.check, m.metric) not in facts.again]
+    if facts.unfinished:
+        named = ", ".join(f"{m.check} ({m.metric})" for m in lacks) or "no number"
+        yield (
+            f"{facts.unfinished} Never run again for a student: {named}. "
+            "Give its run more, `[limits] lab_seconds` in day.toml (now "
+            f"{day.lab_seconds:g}), or fewer calls"
+        )
     if tried.capstone and tried.stopped:
         yield f"{tried.capstone.NAME} with the day's functions: {tried.stopped}"
     page.render(page.Proof(student.name, False, "", [facts], tried, {}))

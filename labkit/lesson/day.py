@@ -25,6 +25,7 @@ from robo47.paths import ROOT, shown
 NUMBERS = 100_000  # of one answer, where a task does not say; a pose has 16
 # What a grader's machine gives a task at most, whatever its manifest asks for.
 MOST = {"seconds": 60.0, "memory": 4.0, "numbers": 1_000_000}
+MOST_LAB = 90.0  # and a lab's run, in seconds
 
 
 @dataclass(frozen=True)
@@ -88,6 +89,8 @@ class Day:
     drawings: int = entry(0, at="worksheet.drawings")  # how many it holds
     questions: int = entry(0, at="worksheet.questions")  # how many it asks
     metrics: tuple[Metric, ...] = ()  # rows of the log
+    # Of a processor, for the lab's run with a student's functions.
+    lab_seconds: float = entry(30.0, at="limits.lab_seconds")
     folder: Path = field(repr=False)  # the week's; no entry
 
     @property
@@ -345,6 +348,9 @@ def _faults(day: Day, folder: str) -> Iterator[str]:
     for i, metric in enumerate(day.metrics, 1):
         if metric.min is None and metric.max is None:
             yield f", metrics {i}: it has neither max nor min"
+    if not 0 < day.lab_seconds <= MOST_LAB:
+        asked = f"limits, lab_seconds is {day.lab_seconds:g}"
+        yield f", {asked}; a grader gives {MOST_LAB:.0f} at most"
     earlier: set[str] = set()
     functions: set[str] = set()
     for task in day.tasks:

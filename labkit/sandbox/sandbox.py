@@ -21,6 +21,7 @@ from operator import methodcaller
 from pathlib import Path
 from typing import Any
 
+from labkit.base import processes
 from labkit.base.exchange import (
     CHANNEL,
     MOST,
@@ -247,6 +248,10 @@ class Session:
             self._end(CHANNEL)
         missing = len(questions) - len(replies)
         return replies + [self._ended] * missing if self._ended else replies
+
+    def used(self) -> tuple[float, float]:
+        """Return for how many seconds it had a processor, and waited for one."""
+        return processes.scheduled(self._process.process)
 
     def close(self) -> None:
         """End it."""
