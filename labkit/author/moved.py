@@ -145,11 +145,10 @@ def _remember(manifest: Path, day: Day, stem: str) -> None:
 def _left(day: Day, number: int, own: list[Path]) -> Iterator[str]:
     """Yield the places that still name the day, or may: for a person to look at."""
     n = day.number
-    named = re.compile(
-        rf"\b[dD]ay ?{n}(?!\d|\.\d)|\bDAY={n}\b|(?<![\d.]){n}\.(?:"
-        + "|".join(task.id.partition(".")[2] for task in day.tasks)
-        + r")(?![\d.]*\d)"
-    )
+    ids = "|".join(re.escape(task.id) for task in day.tasks)
+    name = rf"\b[dD]ay ?{n}(?!\d|\.\d)|\bDAY={n}\b"
+    own_words = re.compile(rf"{name}|(?<![\d.])(?:{ids})(?![\d.]*\d)")
+    elsewhere = re.compile(rf"{name}|[\"'`](?:{ids})[\"'`]|\b[Tt]ask (?:{ids})\b")
     inside = {one for path in own for one in (path, *path.rglob("*")) if one.is_file()}
     others = {
         path
@@ -161,10 +160,10 @@ def _left(day: Day, number: int, own: list[Path]) -> Iterator[str]:
         if path.suffix not in TEXTS:
             continue
         text = OUTPUTS.sub(lambda m: "\n" * m[0].count("\n"), path.read_text("utf-8"))
+        named = own_words if path in inside else elsewhere
         for i, line in enumerate(text.splitlines(), 1):
-            if found := named.search(line):
-                if line.startswith("was = "):
-                    continue
+            found = named.search(line)
+            if found and not line.startswith("was = "):
                 yield f"{shown(path)}, line {i}: {found[0]}"
 
 
