@@ -1,5 +1,6 @@
 """Do a day's files fit together? Regions, rows, headings, links, hints, sections."""
 
+import inspect
 import re
 from collections.abc import Iterator
 
@@ -10,7 +11,7 @@ from labkit.base.exchange import Exchange, Question
 from labkit.handin.worksheet import split_sections
 from labkit.judge.answers import InTurn
 from labkit.judge.ask import Draw, stacked
-from labkit.judge.row import rows_of
+from labkit.judge.row import Row, rows_of
 from labkit.lesson.day import Day, all_days
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import find_regions
@@ -73,13 +74,19 @@ def _functions(day: Day) -> Iterator[str]:
         calls = row.ask.inputs
         file = f"{shown(day.own)}/{name}.py"
         first = next(iter(calls(Draw(0))))
-        if len(first) != len(row.arguments):
+        if not _needed(row) <= len(first) <= len(row.arguments):
             yield (
                 f"{file}: @row.inputs yields {len(first)} arguments; "
                 f"{name} takes {len(row.arguments)}: {', '.join(row.arguments)}"
             )
         elif isinstance(row.ask.truth, InTurn):  # which says what does not fit
             row.ask.truth(*stacked([Exchange(Question("", name, tuple(first)))]))
+
+
+def _needed(row: Row) -> int:
+    """Return how many arguments a function has to be given."""
+    taken = inspect.signature(getattr(row.lab, row.function)).parameters.values()
+    return sum(one.default is inspect.Parameter.empty for one in taken)
 
 
 def _guide(day: Day) -> Iterator[str]:
