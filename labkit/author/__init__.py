@@ -7,5 +7,6 @@ student     the complete lab as a student's own file: check, grade, proof
 seen        the day's tabs opened, its pictures drawn and compared
 week        what a week's capstone lacks
 blank       an empty worksheet
+tables      of kinds and limits, for documents
 moved       a day under another number, or in another week
 """

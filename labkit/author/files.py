@@ -12,6 +12,7 @@ from labkit.handin.worksheet import split_sections
 from labkit.judge.answers import InTurn
 from labkit.judge.ask import Draw, stacked
 from labkit.judge.row import Row, rows_of
+from labkit.judge.written import faults as row_faults
 from labkit.lesson.day import Day, all_days
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import find_regions
@@ -79,8 +80,12 @@ def _functions(day: Day) -> Iterator[str]:
                 f"{file}: @row.inputs yields {len(first)} arguments; "
                 f"{name} takes {len(row.arguments)}: {', '.join(row.arguments)}"
             )
-        elif isinstance(row.ask.truth, InTurn):  # which says what does not fit
+            continue
+        if isinstance(row.ask.truth, InTurn):  # which says what does not fit
             row.ask.truth(*stacked([Exchange(Question("", name, tuple(first)))]))
+        task = next(one for one in day.tasks if name in one.functions)
+        for says in row_faults(row.ask, task.seconds / len(task.functions)):
+            yield f"{file}: {says}"
 
 
 def _needed(row: Row) -> int:

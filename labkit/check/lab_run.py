@@ -9,7 +9,7 @@ import inspect
 import io
 import warnings
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from types import ModuleType
@@ -20,9 +20,16 @@ import numpy as np
 
 from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
-from labkit.check.lab_time import Budget, EnoughAsked, kits_functions, not_to_its_end
+from labkit.check.slow import (
+    Budget,
+    EnoughAsked,
+    kits_functions,
+    not_to_its_end,
+    too_slow,
+)
 from labkit.handin.handin import Item
 from labkit.judge.ask import Robot
+from labkit.judge.mistake import Verdict
 from labkit.judge.replies_read import no_answer, stops_with
 from labkit.lesson.added_code import old_names
 from labkit.lesson.day import Day, Task
@@ -30,6 +37,7 @@ from labkit.lesson.lab import Lab, number_of
 from labkit.lesson.lab_module import load_lab
 from labkit.lesson.metric import Metric
 from labkit.sandbox.messages import PANDA, library_of
+from labkit.sandbox.process import ENDLESS
 from labkit.sandbox.sandbox import CALL_SECONDS, Sandbox, Session
 
 ROBOTS = [PANDA, Robot("panda")]  # those that labs hand to a function
@@ -152,16 +160,17 @@ def behind_wall(
     session = sandbox.session(script, ROBOTS, library, added, day.limits, brief=True)
     budget.watch(session)
     return {
-        name: _asked(session, task, getattr(lab, name), budget)
+        name: _asked(session, day, task, getattr(lab, name), budget)
         for task in day.tasks
         for name in task.functions
     }
 
 
 def _asked(
-    session: Session, task: Task, right: Callable[..., Any], budget: Budget
+    session: Session, day: Day, task: Task, right: Callable[..., Any], budget: Budget
 ) -> Callable[..., Any]:
     """Return a function of the lab whose answers come from the sandbox."""
+    name = right.__name__
     signature = inspect.signature(right)
     seconds = max(CALL_SECONDS, task.seconds / 3.0)
 
@@ -169,13 +178,18 @@ def _asked(
         bound = signature.bind(*args, **named)
         bound.apply_defaults()
         sent = tuple(map(_sent, bound.args))
-        budget.spend(right.__name__, bound.args)
-        (reply,) = session.ask([Question(task.id, right.__name__, sent)], seconds)
-        if early := no_answer(reply, right.__name__, task.id):
+        budget.spend(name, bound.args)
+        (reply,) = session.ask([Question(task.id, name, sent)], seconds)
+        if reply.error == ENDLESS:
+            reply = replace(reply, given=seconds)
+            early: Verdict | None = too_slow(day, name, bound.args, reply)
+        else:
+            early = no_answer(reply, name, task.id)
+        if early:
             raise FirstFailure(early.message.rstrip("."))
         if reply.kind:
             says = stops_with(reply).rstrip(".").removeprefix("It ")
-            raise FirstFailure(f"{right.__name__} {says}")
+            raise FirstFailure(f"{name} {says}")
         return reply.value
 
     return ask

@@ -11,9 +11,12 @@ A document asks for an output between two comments:
     <!-- end -->
 
 `| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends. And for
-the list of a week's days, from their manifests (`w*`: of every week):
+the list of a week's days, from their manifests (`w*`: of every week), or a table for
+authors, of the code (`kinds` or `limits`):
 
     <!-- days: w1-foundations -->
+    <!-- end -->
+    <!-- table: kinds -->
     <!-- end -->
 """
 
@@ -27,6 +30,7 @@ from collections.abc import Mapping
 from fnmatch import fnmatch
 from pathlib import Path
 
+from labkit.author.tables import TABLES
 from labkit.base import cli, processes
 from labkit.base.text import Maker, refill
 from labkit.lesson.day import Day, days_of, find_day
@@ -136,7 +140,10 @@ def rebuilt(
     def days(request: str, old: str) -> str:
         return renewed(request, old, days_list(request, folder))
 
-    makers: dict[str, Maker] = {"days": days}
+    def table(request: str, old: str) -> str:
+        return renewed(request, old, TABLES[request.strip()]())
+
+    makers: dict[str, Maker] = {"days": days, "table": table}
     return refill(document, makers if tables else makers | {"run": run}), drifted
 
 
@@ -175,6 +182,7 @@ def main() -> int:
         documents = documents_of(find_day(options.day))
     else:
         paths = [ROOT / "README.md", ROOT / "bench" / "README.md"]
+        paths += [ROOT / "docs" / "authors.md"]
         paths += [p for week in weeks() for p in sorted(week.folder.rglob("*.md"))]
         documents = dict.fromkeys(paths, False)
     drift = renew(documents, options.check)

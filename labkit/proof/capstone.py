@@ -9,7 +9,7 @@ import numpy as np
 
 from labkit.base.text import visible
 from labkit.check.lab_run import FirstFailure, behind_wall
-from labkit.check.lab_time import Budget, EnoughAsked
+from labkit.check.slow import Budget, EnoughAsked
 from labkit.lesson.lab_module import lab_of
 from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox

@@ -1,10 +1,10 @@
-"""How long a lab's run may take with a student's functions, and what it took.
+"""How long a student's functions may take, beside what the kit's own take here.
 
-A run has seconds, `[limits] lab_seconds` of its day.toml, and no count of calls; what
-it waits for a processor does not count. Where they are up, the kit's own functions are
-timed here, with the same arguments: if the student's are about as fast, the machine is
-slow or the lab is long, and it goes on, up to `MORE` times as long. What was not run to
-its end is said.
+A lab's run has seconds, `[limits] lab_seconds` of its day.toml, and no count of calls;
+what it waits for a processor does not count. Where they are up, the kit's own functions
+are timed here, with the same arguments: if the student's are about as fast, the machine
+is slow or the lab is long, and it goes on, up to `MORE` times as long. What was not run
+to its end is said.
 """
 
 import time
@@ -13,9 +13,11 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol
 
 from labkit.base import processes
-from labkit.base.exchange import Question
+from labkit.base.exchange import Question, Reply
 from labkit.base.text import count
 from labkit.judge.answers import own
+from labkit.judge.ask import as_plain
+from labkit.judge.mistake import Verdict
 from labkit.lesson.day import MOST_LAB, Day
 from labkit.lesson.lab_module import load_lab
 
@@ -24,6 +26,9 @@ FAST = 3.0  # times what the kit's own take: about as fast as those
 LITTLE = 0.1  # of all seconds: too little to slow a lab down
 EMPTY = 50  # questions that ask for nothing, to learn what asking takes
 NOTHING = "no function has this name"
+# How many times what the kit's own takes, or the longest call that came back, is long
+# enough for any right way: who takes longer runs on and on.
+ENDLESS = 100.0
 
 Functions = Mapping[str, Callable[..., Any]]
 
@@ -126,24 +131,24 @@ class Budget:
         if self._kits_own is None:
             functions = self._kits()
             self._kits_own = {
-                name: self._timed(functions.get(name), args)
+                name: seconds_of(functions.get(name), args)
                 for name, args in self._last.items()
             }
         return self._kits_own
 
-    def _timed(self, function: Callable[..., Any] | None, args: Any) -> float:
-        if function is None:
+
+def seconds_of(function: Callable[..., Any] | None, args: Sequence[Any]) -> float:
+    """Return how many seconds a call takes here, 0 where it stops."""
+    times = []
+    for _ in range(2 if function else 0):  # the first time it may load something
+        mine = [own(as_plain(arg)) for arg in args]
+        started = time.perf_counter()
+        try:
+            function(*mine)  # type: ignore[misc]
+        except Exception:  # of arguments that a wrong number led to
             return 0.0
-        times = []
-        for _ in range(2):  # the first time it may load something
-            mine = [own(arg) for arg in args]
-            started = time.perf_counter()
-            try:
-                function(*mine)
-            except Exception:  # of arguments that a wrong number led to
-                return 0.0
-            times.append(time.perf_counter() - started)
-        return min(times)
+        times.append(time.perf_counter() - started)
+    return min(times, default=0.0)
 
 
 def kits_functions(day: Day) -> Callable[[], Functions]:
@@ -164,3 +169,30 @@ def not_to_its_end(title: str, budget: Budget) -> str:
         f"The lab was not run to its end here: {budget.told()}. It stopped{where}; "
         "what comes after that was not looked at."
     )
+
+
+def too_slow(day: Day, function: str, args: Sequence[Any], reply: Reply) -> Verdict:
+    """Return the verdict on a call that was stopped: slow, or a loop without an end.
+
+    Args:
+        day: whose complete lab is timed with the same arguments.
+        function: that was called; args: with what.
+        reply: with the time that it was given.
+    """
+    kits = 0.0
+    if day.source.is_file():
+        kits = seconds_of(kits_functions(day)().get(function), args)
+    given = f"{reply.given:.3g} s"
+    beside = f"yours was stopped after {given}"
+    if reply.came:
+        beside = f"yours was stopped after {count(reply.came, 'call')} and {given}"
+    if kits:
+        beside = f"the kit's own takes {_briefly(kits)} a call here; {beside}"
+    if max(kits, reply.longest) * ENDLESS > reply.given:
+        return Verdict("wrong", "too-slow", f"{function} is too slow: {beside}.")
+    says = f"{function} did not return: {reply.error} ({beside})."
+    return Verdict("wrong", "stopped", says)
+
+
+def _briefly(seconds: float) -> str:
+    return f"{seconds:.2g} s" if seconds >= 0.1 else "under 0.1 s"
