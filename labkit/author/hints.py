@@ -10,7 +10,9 @@ from robo47.paths import shown
 
 HOW_MANY = (2, 3)  # hints of a task
 WORDS = (20, 50)  # of a hint
-GIVEN_AWAY = 7  # tokens of the solution in a row, two of them operators: no formula
+GIVEN_AWAY = (
+    7  # tokens of the solution in a row, with an operator or a bracket: a formula
+)
 
 
 def faults_of(day: Day) -> Iterator[str]:
@@ -66,5 +68,5 @@ def given_away(hint: str, solution: list[list[str]]) -> str:
                 while said[i + n : i + n + 1] == region[j + n : j + n + 1] != []:
                     n += 1
                 best = max(best, said[i : i + n], key=len)
-    operators = sum(one in "+-*/@=" for one in best)
+    operators = sum(one in "+-*/@=([" for one in best)
     return " ".join(best) if len(best) >= GIVEN_AWAY and operators else ""

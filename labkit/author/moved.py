@@ -32,7 +32,7 @@ def move(day: Day, number: int, folder: Path, name: str) -> Moved:
         day: as it is now.
         number: a new one.
         folder: of the week, which is there; it may be the day's own.
-        name: of the script, "identification" for src/dayN_identification.py.
+        name: of the script, "game" for src/dayN_game.py.
 
     Raises:
         Robo47Error: a file of the new number is there already.
@@ -107,7 +107,7 @@ def renumbered(text: str, day: Day, number: int, stem: str) -> str:
         text: of a file.
         day: as it was.
         number: the new one.
-        stem: of the script, "day12_identification".
+        stem: of the script, without ".py".
     """
     n = day.number
     text = re.sub(rf"\b{Path(day.script).stem}\b", stem, text)

@@ -1,4 +1,4 @@
-"""Tables for authors, made of the code: kinds of answers, and limits.
+"""What documents for authors show of the code: kinds of answers, limits, a capstone.
 
 A document asks for one between two comments, and `make docs` writes it:
 
@@ -18,6 +18,7 @@ from labkit.judge.kinds import Kind
 from labkit.lesson import day
 from labkit.sandbox import sandbox
 from labkit.sandbox.inside import wire
+from robo47.paths import ROOT
 
 EXAMPLES = (
     'Scalar(unit="J", scale=10.0)',
@@ -122,7 +123,7 @@ def _sizes() -> Iterator[tuple[str, str, str]]:
         ("hints of a task", " or ".join(map(str, hints.HOW_MANY)), "day.toml"),
         (
             "words of a hint",
-            f"{low} to {high}, one of them with a question",
+            f"{low} to {high}; one of them asks",
             "day.toml",
         ),
         ("a student's picture", f"{width} x {height} at least", "–"),
@@ -130,4 +131,14 @@ def _sizes() -> Iterator[tuple[str, str, str]]:
     )
 
 
-TABLES: dict[str, Callable[[], str]] = {"kinds": kinds, "limits": limits}
+def capstone() -> str:
+    """Return a whole capstone, one that the kit's tests run."""
+    text = (ROOT / "tests" / "toyday" / "pointing.py").read_text("utf-8")
+    return f"```python\n{text.rstrip()}\n```\n"
+
+
+TABLES: dict[str, Callable[[], str]] = {
+    "kinds": kinds,
+    "limits": limits,
+    "capstone": capstone,
+}

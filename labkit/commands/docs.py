@@ -184,7 +184,7 @@ def main() -> int:
         paths = [ROOT / "README.md", ROOT / "bench" / "README.md"]
         paths += [ROOT / "docs" / "authors.md"]
         paths += [p for week in weeks() for p in sorted(week.folder.rglob("*.md"))]
-        documents = dict.fromkeys(paths, False)
+        documents = dict.fromkeys(filter(Path.is_file, paths), False)
     drift = renew(documents, options.check)
     state = "drifted" if options.check else "renewed"
     print(f"{len(documents)} documents, {drift} outputs {state}")
