@@ -149,23 +149,25 @@ def test_a_row_of_the_skeleton_has_few_lines_that_are_no_content():
     assert len([line for line in lines if not line.startswith(content)]) <= 8
 
 
+@pytest.fixture(scope="module")
+def moved(tmp_path_factory):
+    """Return a copy of the kit whose toy day became day 45, and what was said."""
+    copy = tmp_path_factory.mktemp("kit") / "clone"
+    for name in kit_folders():
+        shutil.copytree(ROOT / name, copy / name, ignore=SKIPPED)
+    toy = ROOT / "tests" / "toyday" / "w9-toy"
+    shutil.copytree(toy, copy / "w9-toy")
+    for name in ("README.md", "pyproject.toml"):
+        shutil.copyfile(ROOT / name, copy / name)
+    to = ("45", "2", "game", "--from", "46")
+    refused = run_copy(copy, "scripts/new_day.py", *to)
+    assert refused.returncode == 2
+    assert "day 46 is all that week 9 has" in refused.stderr
+    return copy, run_copy(copy, "scripts/new_day.py", "45", "--from", "46")
+
+
 class TestADayThatMoves:
     """The toy day, to another number, week and name."""
-
-    @pytest.fixture(scope="class")
-    def moved(self, tmp_path_factory):
-        copy = tmp_path_factory.mktemp("kit") / "clone"
-        for name in kit_folders():
-            shutil.copytree(ROOT / name, copy / name, ignore=SKIPPED)
-        toy = ROOT / "tests" / "toyday" / "w9-toy"
-        shutil.copytree(toy, copy / "w9-toy")
-        for name in ("README.md", "pyproject.toml"):
-            shutil.copyfile(ROOT / name, copy / name)
-        to = ("45", "2", "game", "--from", "46")
-        refused = run_copy(copy, "scripts/new_day.py", *to)
-        assert refused.returncode == 2
-        assert "day 46 is all that week 9 has" in refused.stderr
-        return copy, run_copy(copy, "scripts/new_day.py", "45", "--from", "46")
 
     def test_takes_its_files_its_number_and_its_tasks_along(self, moved):
         copy, done = moved

@@ -165,7 +165,8 @@ def tell_moved(old: int, options: Any) -> int:
     for path, to in done.files:
         print(f"moved {shown(path)} to {shown(to)}")
     day = find_day(options.day)
-    docs.renew({**docs.documents_of(day), before: True})
+    listed = dict.fromkeys(filter(Path.is_file, [before]), True)
+    docs.renew({**docs.documents_of(day), **listed})
     if done.left:
         print("Not touched; look at each:")
     for place in done.left:
