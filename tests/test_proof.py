@@ -10,6 +10,7 @@ import pytest
 
 pytest.importorskip("viser", reason="the extra view")
 
+from labkit.base.exchange import Reply
 from labkit.commands import grade
 from labkit.commands import proof as command
 from labkit.grade.roster import Student
@@ -186,17 +187,15 @@ def test_the_pick_plays_on_the_page_and_the_evil_does_not(tmp_path, chromium):
 def test_an_arm_that_stops_is_told_and_not_filmed():
     class Failing:
         def session(self, *_, **__):
-            return SimpleNamespace(
-                ask=lambda questions: [SimpleNamespace(kind="stopped", value=None)]
-            )
+            hangs = Reply(kind="stopped", error="it hangs")
+            return SimpleNamespace(ask=lambda *_: [hangs], used=lambda: (0.0, 0.0))
 
     day = find_day(1)
     (task,) = (task for task in day.tasks if "make_T" in task.functions)
     known = facts.RunDay(day, {task.id: "passed"}, [])
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("labkit.check.lab_run.stops_with", lambda reply: "It hangs.")
-        found = attempt(capstone, [known], [day.source.parent], Failing())
-    assert found == Attempt(capstone, None, "make_T hangs", 1, found.total)
+    found = attempt(capstone, [known], [day.source.parent], Failing())
+    says = "make_T did not return: it hangs"
+    assert found == Attempt(capstone, None, says, 1, found.total)
 
 
 def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path, capsys):

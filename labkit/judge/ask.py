@@ -16,12 +16,13 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Path, Question, Reply
 from labkit.judge import fits
-from labkit.judge.answers import InTurn, Parts, parts
+from labkit.judge.answers import InTurn, Parts, gaps, parts
 from labkit.judge.draw import Draw, Edges
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
 from labkit.judge.results import Kinds, flat_kinds, numbers
 from robo47 import panda
+from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -145,6 +146,8 @@ class Ask:
     # An answer is right up to this, in units of its kind's scale.
     tolerance: float = 1e-8
     near: float = 1e-4  # and nearly right up to this
+    # What share of the right answer's largest entry is allowed besides: 0.01 is 1 %.
+    rtol: float = 0.0
     held_out: Sequence[HeldOut] = ()  # further questions to a right function
     # Inputs of further questions, whose replies only help to say where a wrong answer
     # goes wrong; they may be errors.
@@ -198,6 +201,10 @@ class Ask:
     def main(self) -> list[tuple[Any, ...]]:
         """The calls that are the same at every check."""
         return [tuple(call) for call in self.inputs(Draw(SEED))]
+
+    def gaps(self, S: Parts, T: Parts) -> Array:
+        """Return per call how far an answer is off, beyond what `rtol` allows."""
+        return gaps(self.kinds, S, T, self.rtol)
 
     @cached_property
     def cost(self) -> float:

@@ -8,7 +8,6 @@ from labkit.base.exchange import Exchange, Question
 from labkit.judge.answers import (
     Parts,
     difference,
-    gaps,
     worst_part,
 )
 from labkit.judge.ask import Asked, HeldOut, right_answers
@@ -63,7 +62,7 @@ def _wrong(
     if isinstance(S, Finding):
         return None
     T = right_answers(ask, exchanges, held)
-    gap = gaps(ask.kinds, S, T)
+    gap = ask.gaps(S, T)
     i = int(np.argmax(gap))
     if gap[i] <= ask.tolerance:
         return None
@@ -113,7 +112,7 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     if isinstance(S, Finding):
         return Finding("some-inputs", f"{right} fresh ones. {S.message}")
     T = right_answers(asked.ask, asked.fresh)
-    wrong = gaps(asked.ask.kinds, S, T) > asked.ask.near
+    wrong = asked.ask.gaps(S, T) > asked.ask.near
     says = f"{right} {int(wrong.sum())} of {len(wrong)} fresh ones."
     if wrong.all() and _only_known(main, S):
         return Finding("looked-up", f"{says} The answers do not come from the inputs.")

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from labkit.base.exchange import Question, Reply
-from labkit.judge.answers import InTurn, gaps, own, say_factor
+from labkit.judge.answers import InTurn, own, say_factor
 from labkit.judge.ask import Asked, as_plain, right_answers
 from labkit.judge.mistake import Finding
 from labkit.judge.neutral import SIZES, Neutral, neutrals, scaled
@@ -64,7 +64,13 @@ def right_when(
     known = [*asked.main, *asked.fresh]
     more = [one.question.args for one in known]
     seen = Experiments(
-        calls, names, mine, _answers_of(ask.truth), ask.near, more, _verdicts(asked)
+        calls,
+        names,
+        mine,
+        _answers_of(ask.truth),
+        max(ask.near, ask.rtol),
+        more,
+        _verdicts(asked),
     )
     return seen.told(others)
 
@@ -78,7 +84,7 @@ def _verdicts(asked: Asked) -> list[bool]:
             found.append(False)
             continue
         T = right_answers(asked.ask, [one])
-        off = gaps(asked.ask.kinds, S, T).max()
+        off = asked.ask.gaps(S, T).max()
         found.append(bool(off <= asked.ask.near))
     return found
 
