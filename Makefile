@@ -122,7 +122,7 @@ notebook: .venv/.ready-notebook $(ROBOT) ## turn a day's lab into a notebook
 
 new: .venv/.ready-core $(ROBOT) ## a day's skeleton: make new DAY=8 WEEK=w2-autonomy NAME=me
 	@$(PY) scripts/new_day.py "$(or $(DAY),$(error which day? make new DAY=8 \
-	WEEK=w2-autonomy NAME=my_day))" "$(WEEK)" "$(NAME)" $(ARGS)
+	WEEK=w2-autonomy NAME=my_day))" "$(WEEK)" "$(NAME)" $(if $(FROM),--from $(FROM)) $(ARGS)
 
 author: .venv/.ready-test .venv/.ready-notebook .venv/.ready-view $(ROBOT) ## is a day that you write as it must be? TASK=9.3
 	@$(PY) scripts/author_day.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS) $(NOT_YET)

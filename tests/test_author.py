@@ -41,7 +41,7 @@ def kit(made):
 def test_a_new_day_is_all_as_it_must_be(kit):
     done = run_copy(kit, AUTHOR, "46")
     assert done.returncode == 0, done.stdout + done.stderr
-    assert done.stdout.count("PASS") == 9
+    assert done.stdout.count("PASS") == 13
     assert f"**[Day 46: Trial]({GUIDE})**" in (kit / "README.md").read_text()
 
 
@@ -137,6 +137,7 @@ def test_the_worksheets_skeleton_has_what_the_manifest_asks_for(day):
     assert worksheet_of(find_day(day.number)).count("*(your answer)*") == day.questions
 
 
+OPEN = "    open(__file__).close()\n"  # the wall refuses it
 METRICS = '\n[[metrics]]\ncheck = "speed"\nmetric = "seconds"\nmax = 3.0\n'
 
 
@@ -155,7 +156,8 @@ METRICS = '\n[[metrics]]\ncheck = "speed"\nmetric = "seconds"\nmax = 3.0\n'
             "![gone](../figures/gone.png)\n\n# Day 46",
             "gone.png is not",
         ),
-        (LAB, "# region 46.1\n", "# region 46.1\n    raise KeyError\n", "judges the"),
+        (LAB, "# region 46.1\n", "# region 46.1\n    raise KeyError\n", "stops at a"),
+        (LAB, "# region 46.1\n", f"# region 46.1\n{OPEN}", "make grade judges"),
     ],
 )
 def test_what_only_a_student_would_meet_is_told_to_the_author(

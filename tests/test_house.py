@@ -27,6 +27,7 @@ FLOORS = [
     "labkit.grade",
     "labkit.update",
     "labkit.proof",
+    "labkit.author",
     "labkit.commands",
 ]
 # Names that labs and handouts have typed: three lines each.

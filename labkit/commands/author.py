@@ -14,168 +14,47 @@ import re
 import sys
 import time
 from collections.abc import Iterator
-from importlib.util import find_spec
 
-from labkit.base import cli, git, processes
-from labkit.base.exchange import Exchange, Question
-from labkit.check.as_student import faults_of
+from labkit.author import docstring, files, seen, student, week
+from labkit.base import cli, processes
 from labkit.commands import docs
-from labkit.commands.new import worksheet_of
-from labkit.handin.worksheet import split_sections
-from labkit.judge.answers import InTurn
-from labkit.judge.ask import Draw, stacked
 from labkit.judge.row import rows_of
-from labkit.judge.written import faults as row_faults
 from labkit.lesson import notebook
 from labkit.lesson.constants import TABLE_OF
-from labkit.lesson.day import Day, Task, all_days, day_numbers, find_day, find_task
-from labkit.lesson.lab_module import read_script
-from labkit.lesson.starter import find_regions
-from labkit.report.week_labs import run_labs
+from labkit.lesson.day import Day, Task, day_numbers, find_day, find_task
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
 TESTS = ("test_days.py", "test_days_judging.py", "test_days_catalogue.py")
 TOLD = "test_a_file_is_told_what_the_catalogue_says"  # the catalogue has better words
 MOST_FAILURES = 10  # that are told
+# What to do where a test of every day fails, by words of its name.
+REMEDIES = {
+    "no_mistake_is_there_that_no_question_shows": "the slugs on one side alone give "
+    "the right answer, or stop, at every question: yield an input where they differ",
+    "no_two_mistakes_look_alike": "no question tells these apart: yield one where they "
+    'differ, or say Row(..., alike=[{"one", "other"}])',
+    "an_edge_value_has_one_right_answer": "this call has several right answers: say "
+    "Row(..., at_edge=lambda ARGUMENTS: whether it has one)",
+    "numbers_at_random_get_no_name": "the mistake of that name is made by any numbers: "
+    "yield more inputs",
+    "a_right_answer_with_rounding_noise": "tolerance=... of the Row is too small, or "
+    "scale=... of its kind is not what an entry is like",
+    "a_nearly_right_answer_is_close": "near=... of the Row is not what an answer may "
+    "be off by and still be right in method",
+    "an_answer_that_never_changes": "yield inputs with different answers",
+    "accept_takes_the_labs_own": "accept=... must return None for the lab's own "
+    "answer, and say what is wrong with numbers at random",
+    "a_wrong_file_run_as_a_lab_fails": "record or check in the lab what these get "
+    'wrong, or say why it cannot show: hidden="why"',
+    "has_files_of_every_task": "write a @row.wrong for each task",
+    "every_function_has_a_row": "a file dayN/FUNCTION.py with row = Row(...) for each",
+    "explains_every_term": "write each term of day.toml as **term** in the guide",
+    "take_the_minutes": "the guide's table and minutes in day.toml must be the same",
+    "the_lab_measures_what_the_worksheet": "the first argument of lab.measured(...) is "
+    "a row of the worksheet's predictions",
+}
 MARKS = "not soak and not browser and not network"
-
-
-def faults(day: Day) -> Iterator[str]:
-    """Yield what is missing or does not fit between a day's files, with its remedy."""
-    parts = (
-        _regions,
-        _names,
-        _functions,
-        _guide,
-        _links,
-        _worksheet,
-        _pictures,
-        _tabs,
-        _committed,
-    )
-    for part in parts:
-        yield from part(day)
-
-
-def _regions(day: Day) -> Iterator[str]:
-    manifest = shown(day.own / "day.toml")
-    source = shown(day.source)
-    wanted = {(task.id, name) for task in day.tasks for name in task.functions}
-    regions = find_regions(read_script(day.source), source)
-    found = {(region.task, region.function): region.start + 1 for region in regions}
-    for task, name in sorted(wanted - set(found)):
-        yield (
-            f"{source}: no region {task} in {name}, which {manifest} asks for. Put "
-            f"`# region {task}` and `# endregion {task}` around its body"
-        )
-    for task, name in sorted(set(found) - wanted):
-        yield (
-            f"{source}, line {found[task, name]}: region {task} in {name}, which "
-            f"{manifest} does not know. Add it to the functions of task {task}"
-        )
-
-
-def _names(day: Day) -> Iterator[str]:
-    """Yield the functions that another day has as well: robo47.mine holds all."""
-    own = {name for task in day.tasks for name in task.functions}
-    for other in all_days():
-        if other.number != day.number:
-            theirs = {name for task in other.tasks for name in task.functions}
-            for name in sorted(own & theirs):
-                yield (
-                    f"{shown(day.own / 'day.toml')}: day {other.number} has a function "
-                    f"{name} too; give this one another name"
-                )
-
-
-def _functions(day: Day) -> Iterator[str]:
-    for name, row in rows_of(day).items():
-        if not callable(getattr(row.lab, name, None)):
-            yield f"{shown(day.source)}: no function {name}"
-            continue
-        calls = row.ask.inputs
-        file = f"{shown(day.own)}/{name}.py"
-        first = next(iter(calls(Draw(0))))
-        if len(first) != len(row.arguments):
-            yield (
-                f"{file}: @row.inputs yields {len(first)} arguments; "
-                f"{name} takes {len(row.arguments)}: {', '.join(row.arguments)}"
-            )
-            continue
-        if isinstance(row.ask.truth, InTurn):  # which says what does not fit
-            row.ask.truth(*stacked([Exchange(Question("", name, tuple(first)))]))
-        task = next(one for one in day.tasks if name in one.functions)
-        for says in row_faults(row.ask, task.seconds / len(task.functions)):
-            yield f"{file}: {says}"
-
-
-def _guide(day: Day) -> Iterator[str]:
-    path = day.folder / day.guide
-    if not path.is_file():
-        yield f"{shown(path)} is not there; it is the guide"
-        return
-    headings = re.findall(r"^#+ (.+)$", path.read_text("utf-8"), re.MULTILINE)
-    for task in day.tasks:
-        section = task.read.partition(";")[0].removeprefix("Lab guide, ")
-        if section not in headings:
-            yield (
-                f"{shown(day.own / 'day.toml')}, task {task.id}: {shown(path)} has no "
-                f"heading {section!r}; it has {', '.join(map(repr, headings[1:]))}"
-            )
-
-
-def _links(day: Day) -> Iterator[str]:
-    """Yield what the guide links to and is not there."""
-    path = day.folder / day.guide
-    text = path.read_text("utf-8") if path.is_file() else ""
-    for link in re.findall(r"\]\((?!\w+:|#)([^)#\s]+)", text):
-        if not (path.parent / link).exists():
-            yield f"{shown(path)}: {link} is not there"
-
-
-def _committed(day: Day) -> Iterator[str]:
-    """Yield a student's file in the repository: the next clone would begin with it."""
-    work = shown(day.work.parent)
-    try:
-        done = git.run("ls-files", "--", work, folder=ROOT, seconds=git.SECONDS)
-    except git.GitError:
-        return
-    if names := done.stdout.split():
-        yield f"git holds {names[0]}; take it out: git rm -r --cached {work}"
-
-
-def _worksheet(day: Day) -> Iterator[str]:
-    """Yield the sections that a worksheet lacks; write one where there is none."""
-    if not day.worksheet:
-        return
-    path = day.folder / day.worksheet
-    if not path.is_file():
-        path.write_text(worksheet_of(day), "utf-8", newline="\n")
-        yield f"{shown(path)} was not there: written from day.toml, yours to fill in"
-        return
-    there = split_sections(path.read_text("utf-8"))
-    for name in split_sections(worksheet_of(day)):
-        asked = [one for one in there if one.startswith(name.partition(":")[0])]
-        if name and name != "predictions" and not asked:
-            yield f"{shown(path)}: no section {name!r}, which day.toml asks for"
-
-
-def _pictures(day: Day) -> Iterator[str]:
-    file = day.own / "figures.py"
-    if day.draw and f'"{day.draw}"' not in (file.read_text() if file.is_file() else ""):
-        yield f"{shown(file)}: FIGURES has no {day.draw!r}, which day.toml draws"
-
-
-def _tabs(day: Day) -> Iterator[str]:
-    """Yield why the day's tabs do not load; nothing where viser is not installed."""
-    if day.has("inspector") and find_spec("viser"):
-        from labkit.inspector.tab import day_tabs
-
-        try:
-            day_tabs(day)
-        except Robo47Error as error:
-            yield str(error)
 
 
 def run(day: Day, *command: str) -> tuple[int, list[str]]:
@@ -221,29 +100,26 @@ def _failures(lines: list[str], own: str) -> list[str]:
         places = re.findall(r"^(\S+:\d+): in", block, re.MULTILINE)
         where = [place for place in places if place.startswith(own)][-1:] or places[:1]
         errors = re.findall(r"^E +(.+)", block, re.MULTILINE)[:1]
-        found.append(f"{name} ({''.join(where)}): {''.join(errors)}")
+        found.append(f"{name} ({''.join(where)}): {''.join(errors)}{_remedy(name)}")
     return found
 
 
-def as_student(day: Day) -> Iterator[str]:
-    """Yield what a student who hands the complete lab in would be told."""
-    yield from faults_of(day)
-    yield from _unrecorded(day)
+def _remedy(test: str) -> str:
+    """Return what to do where a test of every day fails, behind its words."""
+    known = [remedy for word, remedy in REMEDIES.items() if word in test]
+    return f". To do: {known[0]}" if known else ""
 
 
-def _unrecorded(day: Day) -> Iterator[str]:
-    """Yield the numbers that day.toml asks for and a run of the lab does not record."""
-    (ran,) = run_labs([day], kits=True)
-    if ran.why:
-        yield f"{shown(day.source)} does not pass: {ran.why}"
-        return
-    for one in ran.numbers:
-        wanted = one.wanted
-        if one.latest is None and one.kit is None:
-            yield (
-                f"{shown(day.own / 'day.toml')}: no step of the lab records "
-                f"{wanted.check} ({wanted.metric}), so no student can finish the day. "
-                f'Add lab.record("{wanted.check}", ...), or take the entry out'
+def docstrings(day: Day) -> Iterator[str]:
+    """Yield what docstrings say and is not so; print what is worth a look."""
+    for name, row in rows_of(day).items():
+        for fault in docstring.faults_of(row):
+            yield f"{shown(day.source)}, {name}: {fault}"
+        if typed := docstring.unlike_its_questions(row):
+            NOTES.append(
+                f"{shown(day.source)}, {name}: its docstring has {', '.join(typed)}, "
+                f"and no first question or answer has. To have a case run, write it "
+                f"as {name}(...) -> ..."
             )
 
 
@@ -286,20 +162,26 @@ def style(day: Day) -> Iterator[str]:
 
 
 PARTS = {
-    "files": faults,
+    "files": files.faults_of,
+    "docstrings": docstrings,
     "catalogue": catalogue,
-    "student": as_student,
+    "student": student.faults_of,
+    "tabs": seen.tabs,
+    "pictures": seen.pictures,
     "constants": constants,
     "documents": documents,
     "notebook": notebooks,
+    "capstone": week.faults_of,
     "style": style,
     "tests": tests,
 }
+NOTES: list[str] = []  # of the part that is looked at: no faults, worth a look
 
 
 def look(name: str, day: Day) -> bool:
     """Print how one part of a day is; return whether it is as it must be."""
     began = time.monotonic()
+    NOTES.clear()
     found = []
     try:
         with cli.busy(name):
@@ -308,7 +190,7 @@ def look(name: str, day: Day) -> bool:
     except Robo47Error as error:  # what was found before it stands
         found.append(str(error))
     print(f"{cli.verdict(not found)}  {name:10}{time.monotonic() - began:6.1f} s")
-    for line in found:
+    for line in [*found, *(f"to look at: {note}" for note in NOTES)]:
         print(cli.wrapped(f"    {line}", "    "))
     return not found
 
@@ -320,8 +202,9 @@ def one_task(day: Day, task: Task) -> int:
     for name in task.functions:
         code, lines = run(day, "tests/catalogue.py", str(day.number), f"{name}:")
         found += lines[:-1] if code else []
+        found += docstring.faults_of(rows_of(day)[name])
         print(f"{cli.verdict(not code)}  {name}: {lines[-1] if lines else 'nothing'}")
-    told = list(faults_of(day, task.id))
+    told = list(student.check(day, task.id))
     print(f"{cli.verdict(not told)}  make check, on the lab's own file")
     for line in [*found, *told]:
         print(cli.wrapped(f"    {line}", "    "))
@@ -345,6 +228,8 @@ def main() -> int:
         skipped = options.fast and name == "tests"
         wrong += [] if skipped or look(name, day) else [name]
         if wrong == ["files"]:  # nothing else could say more than that
+            first = day.tasks[0].id
+            print(f"    the rest comes then; one task now: make author TASK={first}")
             break
     says = f"not yet as it must be: {', '.join(wrong)}" if wrong else ""
     return cli.conclude(not wrong, says or "all as it must be")

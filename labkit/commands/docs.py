@@ -12,9 +12,12 @@ A document asks for an output between two comments:
 
 `| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends; `| table`
 takes it for a table, not for text. And for the list of a week's days, from their
-manifests (`w*`: of every week):
+manifests (`w*`: of every week), or a table for authors, of the code (`kinds` or
+`limits`):
 
     <!-- days: w1-foundations -->
+    <!-- end -->
+    <!-- table: kinds -->
     <!-- end -->
 
 `functions: by day` lists the library's functions, `functions: simulate` a module's.
@@ -30,6 +33,7 @@ from collections.abc import Mapping
 from fnmatch import fnmatch
 from pathlib import Path
 
+from labkit.author.tables import TABLES
 from labkit.base import cli, processes
 from labkit.base.text import Maker, refill
 from labkit.lesson.day import Day, days_of, find_day
@@ -149,7 +153,10 @@ def rebuilt(
     def functions(request: str, old: str) -> str:
         return renewed(request, old, functions_list(request))
 
-    makers: dict[str, Maker] = {"days": days, "functions": functions}
+    def table(request: str, old: str) -> str:
+        return renewed(request, old, TABLES[request.strip()]())
+
+    makers: dict[str, Maker] = {"days": days, "functions": functions, "table": table}
     return refill(document, makers if tables else makers | {"run": run}), drifted
 
 
@@ -188,8 +195,9 @@ def main() -> int:
         documents = documents_of(find_day(options.day))
     else:
         paths = [ROOT / "README.md", ROOT / "bench" / "README.md", FUNCTIONS]
+        paths += [ROOT / "docs" / "authors.md"]
         paths += [p for week in weeks() for p in sorted(week.folder.rglob("*.md"))]
-        documents = dict.fromkeys(paths, False)
+        documents = dict.fromkeys(filter(Path.is_file, paths), False)
     drift = renew(documents, options.check)
     state = "drifted" if options.check else "renewed"
     print(f"{len(documents)} documents, {drift} outputs {state}")

@@ -1,7 +1,9 @@
-"""Write the skeleton of a new day, which passes its own tests as it is.
+"""Write the skeleton of a new day, which passes its own tests as it is; move a day.
 
     make new DAY=8 WEEK=w2-autonomy NAME=identification
     python3 scripts/new_day.py 8 w2-autonomy identification
+    make new DAY=12 FROM=9                    day 9 becomes day 12
+    make new DAY=12 FROM=9 WEEK=w3-x NAME=imitation    there, and under this name
 
 A week that is not there yet gets its own files too. Nothing is overwritten. What to do
 next: docs/teaching.md.
@@ -10,10 +12,13 @@ next: docs/teaching.md.
 import re
 from pathlib import Path
 from string import Template
+from typing import Any
 
+from labkit.author import moved
+from labkit.author.blank import worksheet_of
 from labkit.base import cli
 from labkit.commands import docs
-from labkit.lesson.day import Day, day_numbers, find_day, load_day
+from labkit.lesson.day import day_numbers, find_day, load_day
 from labkit.lesson.week import weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
@@ -21,23 +26,6 @@ from robo47.paths import ROOT, shown
 TEMPLATES = Path(__file__).parent / "templates"  # with $number, $name, $week
 COPIED = ("Makefile", "src/kit.py", "docs/RETRO_w{}.md")  # from another week
 LAST_DAY = 47
-HEAD = """\
-# Day {number} worksheet
-
-Write below each heading; what is in *(italics)* is yours to replace. `make check
-DAY={number}` looks at what you have so far.
-"""
-PREDICTIONS = """\
-## Predictions
-
-Write the first column before you run anything: `make run` then writes what it measures
-beside it, and leaves what you wrote alone. The last column is yours; if your prediction
-was right, say why it could be.
-
-| number | predicted | measured | why apart |
-|---|---|---|---|
-"""
-PREDICTION = "| {} | *(your prediction)* | *(your number)* | *(your reason)* |\n"
 
 
 def new_day(number: int, week: str, name: str) -> list[Path]:
@@ -48,16 +36,8 @@ def new_day(number: int, week: str, name: str) -> list[Path]:
         week: its week's folder, "w2-autonomy", or the number of one that is there.
         name: of its script, "identification" for src/dayN_identification.py.
     """
-    if not 1 <= number <= LAST_DAY or number in day_numbers():
-        why = "is there already" if number in day_numbers() else "cannot be"
-        raise Robo47Error(f"day {number} {why}; expected a new one, 1 to {LAST_DAY}")
-    if not re.fullmatch(r"[a-z][a-z0-9_]*", name):
-        raise Robo47Error(f"{name!r} is no name of a script; expected one like my_day")
-    known = {str(one.number): one.folder.name for one in weeks()}
-    folder = ROOT / known.get(week, week)
-    values = {"number": str(number), "name": name, "script": f"day{number}_{name}"}
-    values |= {"title": name.replace("_", " ").capitalize(), "week": folder.name}
-    begun = [] if folder.name in known.values() else _new_week(folder, values)
+    _refuse(number, name)
+    folder, values, begun = _week(number, week, name)
     files = {
         f"day{number}/day.toml": "day.toml",
         f"day{number}/reach.py": "function.py",
@@ -72,6 +52,57 @@ def new_day(number: int, week: str, name: str) -> list[Path]:
     if not begun:
         _list(folder / "week.toml", number)
     return [*begun, *written, sheet]
+
+
+def move_day(old: int, number: int, week: str = "", name: str = "") -> moved.Moved:
+    """Give a day another number, and where asked for another week and name.
+
+    Args:
+        old: its number now.
+        number: the new one.
+        week: as for `new_day`; "" for the week that it is in.
+        name: of its script; "" for the one it has.
+    """
+    day = find_day(old)
+    name = name or Path(day.script).stem.partition("_")[2]
+    _refuse(number, name)
+    here = day.folder / "week.toml"
+    others = [n for n in day.week.days if n != old]
+    folder, _, begun = _week(number, week or day.folder.name, name)
+    if folder != day.folder and not others:
+        raise Robo47Error(
+            f"day {old} is all that week {day.week.number} has; a week needs a day"
+        )
+    done = moved.move(day, number, folder, name)
+    _unlist(here, old)
+    if not begun:
+        _list(folder / "week.toml", number)
+    return done
+
+
+def _refuse(number: int, name: str) -> None:
+    """Refuse a number that is taken or none, and a name that is none."""
+    if not 1 <= number <= LAST_DAY or number in day_numbers():
+        why = "is there already" if number in day_numbers() else "cannot be"
+        raise Robo47Error(f"day {number} {why}; expected a new one, 1 to {LAST_DAY}")
+    if not re.fullmatch(r"[a-z][a-z0-9_]*", name):
+        raise Robo47Error(f"{name!r} is no name of a script; expected one like my_day")
+
+
+def _week(number: int, week: str, name: str) -> tuple[Path, dict[str, str], list[Path]]:
+    """Return a week's folder, what templates are filled with, and files it begins with.
+
+    Args:
+        number: of a day that it is to have.
+        week: its folder, or the number of one that is there.
+        name: of the day's script.
+    """
+    known = {str(one.number): one.folder.name for one in weeks()}
+    folder = ROOT / known.get(week, week)
+    values = {"number": str(number), "name": name, "script": f"day{number}_{name}"}
+    values |= {"title": name.replace("_", " ").capitalize(), "week": folder.name}
+    begun = [] if folder.name in known.values() else _new_week(folder, values)
+    return folder, values, begun
 
 
 def _new_week(folder: Path, values: dict[str, str]) -> list[Path]:
@@ -118,35 +149,46 @@ def _list(manifest: Path, number: int) -> None:
     manifest.write_text(text, "utf-8", newline="\n")
 
 
-def worksheet_of(day: Day) -> str:
-    """Return an empty worksheet: its terms, drawings, numbers, questions, checklist."""
-    parts = [HEAD.format(number=day.number), "## Glossary\n"]
-    parts += [f"### {term}\n\n*(your words)*\n" for term in day.terms]
-    parts += ["## Drawings\n"] * (day.drawings > 0)
-    drawn = "### Drawing {}: what it shows\n\n*(your drawing)*\n"
-    parts += [drawn.format(i + 1) for i in range(day.drawings)]
-    checks = dict.fromkeys(metric.check for metric in day.metrics)
-    parts.append(PREDICTIONS + "".join(map(PREDICTION.format, checks)))
-    parts.append("## Can you explain?\n")
-    asked = "{}. What do you want to ask?\n\n   *(your answer)*\n"
-    parts += [asked.format(i + 1) for i in range(day.questions)]
-    boxes = [f"I ran `make run DAY={day.number}` and saw `All checks PASSED.`"]
-    boxes.append(f"All tasks of `make check DAY={day.number}` pass")
-    boxes += [f"My picture is `{day.files['figure']}`"] if day.figure else []
-    boxes.append("The words above are mine")
-    boxes += ["`metrics/metrics.csv` has my rows for the day"] if day.metrics else []
-    lines = "".join(f"- [ ] {box}\n" for box in [*boxes, "I committed all of it"])
-    return "\n".join([*parts, f"## Checklist\n\n{lines}"])
+def _unlist(manifest: Path, number: int) -> None:
+    """Take a day from its week's."""
+    text = manifest.read_text("utf-8")
+    days = re.search(r"^days = \[(.*?)\]", text, re.MULTILINE | re.DOTALL)
+    if days:
+        numbers = sorted({*map(int, re.findall(r"\d+", days[1]))} - {number})
+        text = text.replace(days[0], f"days = {numbers}")
+        manifest.write_text(text, "utf-8", newline="\n")
+
+
+def tell_moved(old: int, options: Any) -> int:
+    """Move a day; say what was moved, and what names it and was not touched."""
+    before = find_day(old).folder / "README.md"
+    done = move_day(old, options.day, options.week, options.name)
+    for path, to in done.files:
+        print(f"moved {shown(path)} to {shown(to)}")
+    day = find_day(options.day)
+    listed = dict.fromkeys(filter(Path.is_file, [before]), True)
+    docs.renew({**docs.documents_of(day), **listed})
+    if done.left:
+        print("Not touched; look at each:")
+    for place in done.left:
+        print(f"  {place}")
+    print(f"Not touched: work/, metrics/, whoever imports {day.script}'s functions.")
+    print("A student's make update follows the script by its former name, was = [...].")
+    print(f"Now: make author DAY={options.day}")
+    return cli.EXIT_OK
 
 
 def main() -> int:
-    """Write the files and fill their outputs in."""
+    """Write the files and fill their outputs in, or move those of a day."""
     parser = cli.parser(__doc__)
     add = parser.add_argument
     add("day", type=cli.day, help="its number")
-    add("week", help="its week's folder, or the number of one that is there")
-    add("name", help="of its script: identification")
+    add("week", nargs="?", default="", help="its week's folder, or a week's number")
+    add("name", nargs="?", default="", help="of its script: identification")
+    add("--from", dest="old", type=cli.day, metavar="N", help="the day to move")
     options = parser.parse_args()
+    if options.old:
+        return tell_moved(options.old, options)
     for path in new_day(options.day, options.week, options.name):
         print(f"wrote {shown(path)}")
     docs.renew(docs.documents_of(find_day(options.day)))

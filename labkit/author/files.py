@@ -1,0 +1,151 @@
+"""Do a day's files fit together? Regions, rows, headings, links, hints, sections."""
+
+import inspect
+import re
+from collections.abc import Iterator
+
+from labkit.author import hints
+from labkit.author.blank import worksheet_of
+from labkit.base import git
+from labkit.base.exchange import Exchange, Question
+from labkit.handin.worksheet import split_sections
+from labkit.judge.answers import InTurn
+from labkit.judge.ask import Draw, stacked
+from labkit.judge.row import Row, rows_of
+from labkit.judge.written import faults as row_faults
+from labkit.lesson.day import Day, all_days
+from labkit.lesson.lab_module import read_script
+from labkit.lesson.starter import find_regions
+from robo47.paths import ROOT, shown
+
+
+def faults_of(day: Day) -> Iterator[str]:
+    """Yield what is missing or does not fit between a day's files, with its remedy."""
+    parts = (
+        _regions,
+        _names,
+        _functions,
+        _guide,
+        hints.faults_of,
+        _links,
+        _worksheet,
+        _pictures,
+        _committed,
+    )
+    for part in parts:
+        yield from part(day)
+
+
+def _regions(day: Day) -> Iterator[str]:
+    manifest = shown(day.own / "day.toml")
+    source = shown(day.source)
+    wanted = {(task.id, name) for task in day.tasks for name in task.functions}
+    regions = find_regions(read_script(day.source), source)
+    found = {(region.task, region.function): region.start + 1 for region in regions}
+    for task, name in sorted(wanted - set(found)):
+        yield (
+            f"{source}: no region {task} in {name}, which {manifest} asks for. Put "
+            f"`# region {task}` and `# endregion {task}` around its body"
+        )
+    for task, name in sorted(set(found) - wanted):
+        yield (
+            f"{source}, line {found[task, name]}: region {task} in {name}, which "
+            f"{manifest} does not know. Add it to the functions of task {task}"
+        )
+
+
+def _names(day: Day) -> Iterator[str]:
+    """Yield the functions that another day has as well: robo47.mine holds all."""
+    own = {name for task in day.tasks for name in task.functions}
+    for other in all_days():
+        if other.number != day.number:
+            theirs = {name for task in other.tasks for name in task.functions}
+            for name in sorted(own & theirs):
+                yield (
+                    f"{shown(day.own / 'day.toml')}: day {other.number} has a function "
+                    f"{name} too; give this one another name"
+                )
+
+
+def _functions(day: Day) -> Iterator[str]:
+    for name, row in rows_of(day).items():
+        if not callable(getattr(row.lab, name, None)):
+            yield f"{shown(day.source)}: no function {name}"
+            continue
+        calls = row.ask.inputs
+        file = f"{shown(day.own)}/{name}.py"
+        first = next(iter(calls(Draw(0))))
+        if not _needed(row) <= len(first) <= len(row.arguments):
+            yield (
+                f"{file}: @row.inputs yields {len(first)} arguments; "
+                f"{name} takes {len(row.arguments)}: {', '.join(row.arguments)}"
+            )
+            continue
+        if isinstance(row.ask.truth, InTurn):  # which says what does not fit
+            row.ask.truth(*stacked([Exchange(Question("", name, tuple(first)))]))
+        task = next(one for one in day.tasks if name in one.functions)
+        for says in row_faults(row.ask, task.seconds / len(task.functions)):
+            yield f"{file}: {says}"
+
+
+def _needed(row: Row) -> int:
+    """Return how many arguments a function has to be given."""
+    taken = inspect.signature(getattr(row.lab, row.function)).parameters.values()
+    return sum(one.default is inspect.Parameter.empty for one in taken)
+
+
+def _guide(day: Day) -> Iterator[str]:
+    path = day.folder / day.guide
+    if not path.is_file():
+        yield f"{shown(path)} is not there; it is the guide"
+        return
+    headings = re.findall(r"^#+ (.+)$", path.read_text("utf-8"), re.MULTILINE)
+    for task in day.tasks:
+        section = task.read.partition(";")[0].removeprefix("Lab guide, ")
+        if section not in headings:
+            yield (
+                f"{shown(day.own / 'day.toml')}, task {task.id}: {shown(path)} has no "
+                f"heading {section!r}; it has {', '.join(map(repr, headings[1:]))}"
+            )
+
+
+def _links(day: Day) -> Iterator[str]:
+    """Yield what the guide links to and is not there."""
+    path = day.folder / day.guide
+    text = path.read_text("utf-8") if path.is_file() else ""
+    for link in re.findall(r"\]\((?!\w+:|#)([^)#\s]+)", text):
+        if not (path.parent / link).exists():
+            yield f"{shown(path)}: {link} is not there"
+
+
+def _committed(day: Day) -> Iterator[str]:
+    """Yield a student's file in the repository: the next clone would begin with it."""
+    work = shown(day.work.parent)
+    try:
+        done = git.run("ls-files", "--", work, folder=ROOT, seconds=git.SECONDS)
+    except git.GitError:
+        return
+    if names := done.stdout.split():
+        yield f"git holds {names[0]}; take it out: git rm -r --cached {work}"
+
+
+def _worksheet(day: Day) -> Iterator[str]:
+    """Yield the sections that a worksheet lacks; write one where there is none."""
+    if not day.worksheet:
+        return
+    path = day.folder / day.worksheet
+    if not path.is_file():
+        path.write_text(worksheet_of(day), "utf-8", newline="\n")
+        yield f"{shown(path)} was not there: written from day.toml, yours to fill in"
+        return
+    there = split_sections(path.read_text("utf-8"))
+    for name in split_sections(worksheet_of(day)):
+        asked = [one for one in there if one.startswith(name.partition(":")[0])]
+        if name and name != "predictions" and not asked:
+            yield f"{shown(path)}: no section {name!r}, which day.toml asks for"
+
+
+def _pictures(day: Day) -> Iterator[str]:
+    file = day.own / "figures.py"
+    if day.draw and f'"{day.draw}"' not in (file.read_text() if file.is_file() else ""):
+        yield f"{shown(file)}: FIGURES has no {day.draw!r}, which day.toml draws"
