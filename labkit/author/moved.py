@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from labkit.base import git
 from labkit.lesson.day import Day
+from labkit.lesson.week import WORK
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
@@ -114,7 +115,7 @@ def renumbered(text: str, day: Day, number: int, stem: str) -> str:
     text = re.sub(
         rf"\b((?:lesson_|test_)?[dD]ay ?){n}(?!\d|\.\d)", rf"\g<1>{number}", text
     )
-    text = re.sub(rf"(\bDAY=|\bfind_day\(|^number = |\bload_day\(){n}\b",
+    text = re.sub(rf"(\bDAY=|\bfind_day\(|^number = |\bload_day\(|\bconstants\.py ){n}\b",
                   rf"\g<1>{number}", text, flags=re.MULTILINE)  # fmt: skip
     ids = "|".join(re.escape(task.id) for task in day.tasks)
     one = rf"(?:{ids})(?!\d)"
@@ -169,5 +170,5 @@ def _left(day: Day, number: int, own: list[Path]) -> Iterator[str]:
 
 def _skipped(path: Path) -> bool:
     """Return whether a file is somebody's own, or fetched."""
-    skipped = {"work", "node_modules", "toyday", "data", ".venv"}
+    skipped = {WORK, "node_modules", "toyday", "data", ".venv"}
     return bool(skipped & set(path.parts)) or path.name == "CHANGELOG.md"

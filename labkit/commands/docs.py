@@ -164,7 +164,8 @@ def documents_of(day: Day) -> dict[Path, bool]:
     """Return a day's documents and those that list it, and whether in a table alone."""
     names = filter(None, (day.guide, day.worksheet, "README.md"))
     own = [path for name in names if (path := day.folder / name).is_file()]
-    return dict.fromkeys(own, False) | {ROOT / "README.md": True, FUNCTIONS: True}
+    shared = filter(Path.is_file, (ROOT / "README.md", FUNCTIONS))
+    return dict.fromkeys(own, False) | dict.fromkeys(shared, True)
 
 
 def renew(documents: Mapping[Path, bool], check: bool = False) -> int:
