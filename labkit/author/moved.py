@@ -115,8 +115,8 @@ def renumbered(text: str, day: Day, number: int, stem: str) -> str:
     text = re.sub(
         rf"\b((?:lesson_|test_)?[dD]ay ?){n}(?!\d|\.\d)", rf"\g<1>{number}", text
     )
-    text = re.sub(rf"(\bDAY=|\bfind_day\(|^number = |\bload_day\(|\bconstants\.py ){n}\b",
-                  rf"\g<1>{number}", text, flags=re.MULTILINE)  # fmt: skip
+    calls = r"\bDAY=|\bfind_day\(|^number = |\bload_day\(|\bconstants\.py "
+    text = re.sub(rf"({calls}){n}\b", rf"\g<1>{number}", text, flags=re.MULTILINE)
     ids = "|".join(re.escape(task.id) for task in day.tasks)
     one = rf"(?:{ids})(?!\d)"
     before = r"\b[Tt]asks? |TASK=|--task |region |^\"\"\"|# tasks? "
