@@ -335,7 +335,7 @@ def off_library() -> dict[str, np.ndarray]:
     x, z, y = rng.normal(size=3), rng.normal(size=2), rng.normal(size=40)
     left, right = rng.normal(size=(3, 3)), rng.normal(size=(2, 2))
     P, R = left @ left.T + np.eye(3), right @ right.T + np.eye(2)
-    H, F = rng.normal(size=(2, 3)), rng.normal(size=(3, 3))
+    H, F, Q = rng.normal(size=(2, 3)), rng.normal(size=(2, 2)), P[:2, :2]
     six, damping = rng.normal(size=(6, 7)), rng.uniform(1, 2, 7)
     given = {
         quantise: [(six[0], 4096), (six[1], 1000)],
@@ -343,7 +343,7 @@ def off_library() -> dict[str, np.ndarray]:
         delay_margin: [(400.0, 40.0), (90.0, 7.0)],
         low_pass: [(y, DT, 20.0)],
         constant_velocity: [(DT, WANDERS), (0.3, 2.0)],
-        kalman_predict: [(x, P, F, left @ left.T)],
+        kalman_predict: [(x[:2], R, F, Q)],
         kalman_update: [(x, P, z, H, R)],
         nis_interval: [(1950, 1), (100, 3)],
         whiteness: [(y,), (np.cumsum(y),)],
