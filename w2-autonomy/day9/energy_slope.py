@@ -36,7 +36,7 @@ def slope(
 
 for slug, says, redone, other in (
     ("slope-sign", "the sign is the other one: seen from the links that turn, V turns "
-     "back", "the right one with +", {"sign": 1.0}),
+     "back; and ad(V) S is minus ad(S) V", "the right one with +", {"sign": 1.0}),
     ("halved", "it is halved: energy is half of momentum times twist, but both change "
      "with the twist", "half of the right one", {"sign": -0.5}),
     ("own-link-only", "each joint turns its own link only; all links after it turn "
@@ -47,17 +47,15 @@ for slug, says, redone, other in (
      "with k <= i", {"felt": lambda i: slice(0, i + 1)}),
     ("all-links", "the momenta of all links are added; those before i stay where they "
      "are", "with all k", {"felt": lambda i: slice(0, None)}),
-    ("brackets-order", "it is ad(V_i) S_i, which is minus ad(S_i) V_i",
-     "the right one with ad(V) S", {"turned": lambda S, V: ad(V) @ S}),
     ("ad-transposed", "ad is transposed: that is how a wrench turns; V is a twist",
      "with ad^T", {"turned": lambda S, V: ad(S).T @ V}),
     ("own-twist-only", "V_i is that of its own joint, S_i qd_i; the twists of all joints "
-     "before it add up", "with V_i = S_i qd_i", {"twists": lambda S, qd: S * qd[:, None]}),
-    ("outer-twists", "the twists are added up from the tip; link i is moved by the joints "
-     "up to i", "with V_i of the joints from i on",
+     "before it add up", "with V_i = S_i qd_i",
+     {"twists": lambda S, qd: S * qd[:, None]}),
+    ("outer-twists", "the twists are added up from the tip; link i is moved by the "
+     "joints up to i", "with V_i of the joints from i on",
      {"twists": lambda S, qd: np.cumsum((S * qd[:, None])[::-1], axis=0)[::-1]}),
-    ("cross-of-the-turning-only", "only the turning part is turned, omega x omega; v "
-     "turns along", "with ad of omega alone",
+    ("omega-alone", "only omega is turned; v turns along", "with ad of omega alone",
      {"turned": lambda S, V: np.append(np.cross(S[:3], V[:3]), np.zeros(3))}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(

@@ -22,7 +22,8 @@ def _(rng):
         if last:
             share[last - 1] = [-1.6, 2.4][last % 2]
         if last > 2:
-            share[last - 3] = -4.0
+            share[last - 3] = [-4.0, -1.2][last // 2 % 2]
+            share[0] = 1.1
         drawn.append((threshold * share, threshold))
     return [case, (np.zeros(7), half), *drawn]
 
