@@ -6,11 +6,12 @@ from judged import answered, replies_of, right, round_of
 
 from labkit.base.exchange import Question, Reply
 from labkit.judge import Scalar, Vector
-from labkit.judge.answers import InTurn, typed
+from labkit.judge.answers import InTurn
 from labkit.judge.ask import SEED, Ask, Edges, right_answers
 from labkit.judge.failing_call import failing_call
 from labkit.judge.judge import judge
 from labkit.judge.row import rows_of
+from labkit.judge.typed import typed
 from labkit.lesson.day import all_days
 
 SINE = Ask(

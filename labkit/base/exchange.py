@@ -13,7 +13,8 @@ class Question:
 
     task: str  # whose it is; a task that hangs is not asked again
     function: str  # a name in the student's file
-    # Floats, ints, float64 arrays, a `Robot` or compiled MjModel, a `Path`.
+    # Whatever travels (`labkit.sandbox.inside.wire`), a `Robot` or compiled MjModel, a
+    # `Path`.
     args: tuple[Any, ...]
 
 
@@ -34,7 +35,7 @@ class Reply:
     All text in it is harmless: see `labkit.base.text.visible`.
     """
 
-    value: Any = None  # an array, a tuple of arrays, or None
+    value: Any = None  # as the function returned it: `labkit.sandbox.inside.wire`
     error: str = ""  # "" or what went wrong, in words
     # "" where the function returned; the exception's name where it raised one;
     # "missing", "unsendable", "stopped" (time, memory, ended, channel), or "waits" (not

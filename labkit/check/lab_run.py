@@ -183,9 +183,7 @@ def _asked(
         if reply.kind:
             says = stops_with(reply).rstrip(".").removeprefix("It ")
             raise FirstFailure(f"{right.__name__} {says}")
-        value = reply.value
-        plain = isinstance(value, np.ndarray) and value.ndim == 0
-        return value[()] if plain else value
+        return reply.value
 
     return ask
 
@@ -201,6 +199,11 @@ def _sent(arg: Any) -> Any:
             if robot.model.nq == arg.nq:
                 return robot
         raise EnoughAsked
-    if isinstance(arg, list | tuple) and arg and isinstance(arg[0], tuple):
+    if isinstance(arg, list | tuple) and arg and all(map(_of_a_chain, arg)):
         return Chain(tuple(arg))
     return arg
+
+
+def _of_a_chain(pair: Any) -> bool:
+    """Return whether it is a body and its joint or None, as in a `Chain`."""
+    return isinstance(pair, tuple) and len(pair) == 2 and isinstance(pair[0], str)

@@ -7,16 +7,16 @@ import numpy as np
 from labkit.base.exchange import Exchange, Question
 from labkit.judge.answers import (
     Parts,
-    as_one,
     difference,
     gaps,
-    typed,
-    typed_one,
     worst_part,
 )
 from labkit.judge.ask import Asked, HeldOut, right_answers
+from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding
 from labkit.judge.replies_read import not_accepted, read
+from labkit.judge.results import places, split
+from labkit.judge.typed import shown, typed, typed_one
 from robo47.checks import Array
 
 # A call whose answer is not right: in a line, "Rz(2.9)[0, 0] is -1, and -0.971 is
@@ -35,7 +35,7 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
             return found
     for one, _ in not_accepted(asked):
         assert one.reply
-        yours = (f"yours: {_matrix(one.reply.value)}",)
+        yours = (f"yours: {shown(one.reply.value)}",)
         says = f"{typed(one.question, names)} is such a call."
         return says, _given(one.question, names) + yours
     return "", ()
@@ -67,21 +67,40 @@ def _wrong(
     i = int(np.argmax(gap))
     if gap[i] <= ask.tolerance:
         return None
-    given = tuple(part[i : i + 1] for part in S)
-    right = tuple(part[i : i + 1] for part in T)
+    one = exchanges[i]
+    given = read([one], ask)  # alone, in their own shapes
+    assert one.reply
+    assert not isinstance(given, Finding)
+    right = right_answers(ask, [one], held)
     part = worst_part(ask.kinds, given, right, ask.tolerance)
-    mine, its = as_one([S[part][i], T[part][i]])
-    question = exchanges[i].question
-    apart = np.nan_to_num(np.abs(mine - its) / ask.kinds[part].scale, nan=np.inf)
+    place, entries = _entry(ask.kinds[part], given[part][0], right[part][0])
+    says = f"{typed(one.question, names, LONG)}{places(ask.kind)[part]}{place}"
+    whole = [*_given(one.question, names)]
+    mine = split(ask.kind, one.reply.value)
+    assert not isinstance(mine, Finding)
+    whole += [f"yours: {shown(value)}" for value in mine]
+    pairs = zip(ask.kinds, right, strict=True)
+    whole += [f"right: {shown(kind.sent(values[0]))}" for kind, values in pairs]
+    return f"{says} {entries} is right.", tuple(whole)
+
+
+def _entry(kind: Kind, mine: Array, its: Array) -> tuple[str, str]:
+    """Return the entry that is furthest off, and "is 1, and 2" of it."""
+    if kind.is_none(mine) or kind.is_none(its):
+        return "", f"is {_part(kind, mine)}, and {_part(kind, its)}"
+    if mine.shape != its.shape:
+        return "", f"has shape {mine.shape}, and {its.shape}"
+    apart = np.nan_to_num(np.abs(mine - its) / kind.scale, nan=np.inf)
     at = np.unravel_index(int(np.argmax(apart)), mine.shape)
-    place = f"[{part}]" if len(S) > 1 else ""
-    place += str([int(x) for x in at]) if at else ""
-    says = f"{typed(question, names, LONG)}{place} is {_apart(mine[at], its[at])}"
-    says += " is right."
-    whole = [*_given(question, names)]
-    for word, one in (("yours", S), ("right", T)):
-        whole += [f"{word}: {_matrix(values[i])}" for values in one]
-    return says, tuple(whole)
+    place = str([int(x) for x in at]) if at else ""
+    if kind.whole:
+        yours, right = (shown(kind.sent(x[at])) for x in (mine, its))
+        return place, f"is {yours}, and {right}"
+    return place, f"is {_apart(mine[at], its[at])}"
+
+
+def _part(kind: Kind, answer: Array) -> str:
+    return "None" if kind.is_none(answer) else "an answer"
 
 
 def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
@@ -116,13 +135,8 @@ def _given(question: Question, names: Sequence[str]) -> tuple[str, ...]:
     for i, arg in enumerate(question.args):
         if isinstance(arg, np.ndarray) and (arg.ndim > 1 or len(typed_one(arg)) > LONG):
             name = names[i] if len(names) == len(question.args) else f"argument {i + 1}"
-            found.append(f"{name} = {_matrix(arg)}")
+            found.append(f"{name} = {shown(arg)}")
     return tuple(found)
-
-
-def _matrix(values: Array) -> str:
-    """Return an array as Python reads it."""
-    return repr((np.asarray(values, dtype=float) + 0.0).tolist())
 
 
 def _apart(mine: float, its: float) -> str:

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 
 from labkit.base.exchange import Exchange
-from labkit.judge import near_miss, replies_read, tried
+from labkit.base.text import count
+from labkit.judge import near_miss, odd_answers, replies_read, tried
 from labkit.judge.answers import (
     Parts,
     as_one,
     difference,
     gaps,
-    in_words,
     plain,
     worst_part,
 )
@@ -29,8 +29,10 @@ from labkit.judge.ask import (
     stacked,
 )
 from labkit.judge.failing_call import failing_call, for_fresh
+from labkit.judge.kinds import Kind
 from labkit.judge.made_again import redone, two_at_once
 from labkit.judge.mistake import Finding, Verdict
+from labkit.judge.typed import in_words
 from robo47.checks import Array
 
 NO_CALL = ("kept-between-calls", "draws-itself")  # the same call gives something else
@@ -58,10 +60,12 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
 def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
     S = replies_read.read(asked.main, asked.ask, source)
     if isinstance(S, Finding):
+        if S.slug == "shape":
+            S = odd_answers.named(asked, S)
         return Verdict("wrong", *_beside(S, asked, names))
-    if found := replies_read.of_another_size(asked) or replies_read.kept_state(
-        asked, source
-    ):
+    if found := replies_read.of_another_size(asked):
+        return Verdict("wrong", *odd_answers.named(asked, found))
+    if found := replies_read.kept_state(asked, source):
         return Verdict("wrong", *found)
     judge_these = _judge_accepted if asked.ask.accept else _judge_values
     return judge_these(asked, S, names)
@@ -75,6 +79,7 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     measured = _measured(case, S, T, gap)
     if (off := gap.max()) > ask.near:
         case = replace(case, further=_further(asked))
+        case, S, T = _with_answers(case, S, T)
         if found := diagnose(case, S, T):
             return Verdict("wrong", *found, measured)
         wrong = tuple(np.flatnonzero(gap > ask.near).tolist())
@@ -94,7 +99,8 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     T = right_answers(asked.ask, good)
     rest = replace(asked, main=good, probes=[])
     case = replace(_case(rest, S, T, names), further=_further(asked))
-    return _both(found, case, S, T)
+    both = _both(found, case, S, T)
+    return odd_answers.stops_alike(asked, found) if both is found else both
 
 
 def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
@@ -218,7 +224,8 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return the first of: a named mistake, no answer, always one, two mistakes."""
     ask = case.ask
     found = redone(ask, case.arguments, S, T, case.further)
-    if found := found or _nothing_there(case, S) or _not_finite(case, S, T):
+    found = found or _nothing_there(case, S) or _none_or_not(case, S, T)
+    if found := found or _not_finite(case, S, T):
         return found
     i = worst_part(ask.kinds, S, T, ask.near)
     every = (S[i], case.further.S[i]) if case.further else (S[i],)
@@ -240,13 +247,50 @@ def _not_finite(case: Case, S: Parts, T: Parts) -> Finding | None:
     found = Finding("not-finite", f"{says}{_first(~good, case.given, 'first for')}.")
     if not good.any():
         return found
+    rest, S, T = _only(good, case, S, T)
+    return _both(found, rest, S, T)
+
+
+def _only(good: Array, case: Case, S: Parts, T: Parts) -> tuple[Case, Parts, Parts]:
+    """Return some of the questions alone, with their answers."""
     S, T = tuple(s[good] for s in S), tuple(t[good] for t in T)
     arguments = tuple(
         a[good] if isinstance(a, np.ndarray) else a for a in case.arguments
     )
     given = list(compress(case.given, good))
     rest = replace(case, arguments=arguments, S=plain(S), T=plain(T), given=given)
-    return _both(found, rest, S, T)
+    return rest, S, T
+
+
+def _with_answers(case: Case, S: Parts, T: Parts) -> tuple[Case, Parts, Parts]:
+    """Return the questions to which None is not both the answer and the right one."""
+    pairs = zip(S, T, case.ask.kinds, strict=True)
+    nones = [_none(s, kind) & _none(t, kind) for s, t, kind in pairs if kind.none]
+    both = np.any(nones, axis=0) if nones else np.zeros(len(S[0]), bool)
+    return _only(~both, case, S, T) if both.any() else (case, S, T)
+
+
+def _none(some: Array, kind: Kind) -> Any:
+    return np.array([kind.is_none(answer) for answer in some])
+
+
+def _none_or_not(case: Case, S: Parts, T: Parts) -> Finding | None:
+    """Return that it is None where there is an answer, or the other way round."""
+    for s, t, kind in zip(S, T, case.ask.kinds, strict=True):
+        if not kind.none:
+            continue
+        lost, made = _none(s, kind) & ~_none(t, kind), _none(t, kind) & ~_none(s, kind)
+        if not (lost.any() or made.any()):
+            continue
+        says = [f"None for {count(lost.sum(), 'input')} to which there is an answer"]
+        says = says * bool(lost.any())
+        if made.any():
+            many = count(made.sum(), "input")
+            says += [f"an answer for {many} where None is right ({kind.none})"]
+        where = _first(lost | made, case.given, "first for")
+        called = f"{kind.called}: it" if len(S) > 1 and kind.called else "It"
+        return Finding("none-or-not", f"{called} returns {', and '.join(says)}{where}.")
+    return None
 
 
 def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:

@@ -6,7 +6,7 @@ answers are stacked, (n, *shape); S is the student's, T the right one.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
@@ -29,6 +29,7 @@ from labkit.judge.answers import (
 from labkit.judge.matrices import split
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
+from robo47.errors import Robo47Error
 
 NEAR = 1e-4  # entries that differ by less are not called wrong
 ROUNDED_AWAY = 1e12  # rounding divided by nothing: its digits are the processor's
@@ -47,12 +48,34 @@ class Kind:
     scale: Any = 1.0
     # What it is in a sentence, "the torque"; used where a tuple has several.
     called: str = ""
+    # What it means where the answer is None, "no way is free"; "" where it never is.
+    none: str = field(default="", kw_only=True)
+    single: ClassVar[bool] = False  # whether it has no shape
     whole: ClassVar[bool] = False  # whether equal numbers prove little: counts, choices
     empty = True  # whether an answer that is all 0 looks like one that was never filled
     # Mistakes made with a finished answer, by their names in `answer_mistakes`.
     usual: ClassVar[tuple[str, ...]] = ("all-signs", "whole-numbers")
     # What wrong shapes come from; where none is known, an axis too many is told.
     misfits: ClassVar[Mapping[tuple[int, ...], str]] = {}
+
+    def __post_init__(self) -> None:
+        """Refuse a shape that is none: kinds begin with it, and "s" is a unit."""
+        sizes = isinstance(self.shape, tuple) and all(
+            n is None or (isinstance(n, int) and n >= 0) for n in self.shape
+        )
+        alone = type(self).single and self.shape != ()
+        if sizes and not alone:
+            return
+        name = type(self).__name__
+        remedy = (
+            "has no shape; it is a single one"
+            if alone
+            else ("begins with its shape, a tuple such as (7,) or (None, 2)")
+        )
+        raise Robo47Error(
+            f"{name}({self.shape!r}): a {name} {remedy}. Name what else it has: "
+            f'{name}(unit="m"), scale=10.0, called="the distance"'
+        )
 
     @property
     def expected(self) -> str:
@@ -68,6 +91,13 @@ class Kind:
         """Return answers as arrays, or what keeps one of them from it."""
         found = []
         for value in values:
+            if value is None and self.none:
+                found.append(self.numbers(None))
+                continue
+            if value is None or isinstance(value, str):
+                says = f"It returns {value!r}; expected is {self.expected}."
+                slug = "not-an-array" if value else "nothing-returned"
+                return Finding(slug, says)
             try:
                 array = np.asarray(value)
             except ValueError:  # parts of different shapes
@@ -90,6 +120,27 @@ class Kind:
         if reason := self.why_shape(got):
             expected += f": {reason}"
         return Finding("shape", f"It returns shape {got}; expected is {expected}.")
+
+    def numbers(self, value: Any) -> Array:
+        """Return a right or a mistaken answer as numbers; None is NaN."""
+        if value is None and self.none:
+            return np.full([n or 1 for n in self.shape], np.nan)
+        return np.asarray(value, dtype=np.float64)
+
+    def sent(self, answer: Array) -> Any:
+        """Return such numbers as the function returns them."""
+        return None if self.is_none(answer) else self._sent(answer)
+
+    def is_none(self, answer: Array) -> bool:
+        """Return whether such numbers stand for None."""
+        return bool(self.none and answer.size and np.isnan(answer).all())
+
+    def another_size(self, got: tuple[int, ...], right: tuple[int, ...]) -> str:
+        """Return that an answer has not the size that its question asks for."""
+        return f"It returns shape {got} where {right} is right"
+
+    def _sent(self, answer: Array) -> Any:
+        return answer if np.ndim(answer) else float(answer)
 
     def plain(self, answer: Array) -> Array:
         """Return an answer without differences that make none."""
@@ -131,6 +182,7 @@ class Kind:
 class Scalar(Kind):
     """One number. `Scalar(unit="J", scale=10.0)`."""
 
+    single = True
     expected = "one number"
 
 

@@ -108,7 +108,8 @@ class Covariance(Symmetric):
         return 0.5 * (answer + answer.T) if (skew <= NEAR).all() else answer
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return general("inverse", "sigma-for-variance", *self.usual)
+        blocks = ["blocks-swapped"] * (self.shape == (6, 6))
+        return general("inverse", "sigma-for-variance", *blocks, *self.usual)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         least = np.linalg.eigvalsh(S).min() if np.isfinite(S).all() else 0.0

@@ -15,11 +15,12 @@ from typing import Any
 import numpy as np
 
 from labkit.base.exchange import Question, Reply
-from labkit.judge.answers import InTurn, gaps, number, own, say_factor
+from labkit.judge.answers import InTurn, gaps, own, say_factor
 from labkit.judge.ask import Asked, as_plain, right_answers
 from labkit.judge.mistake import Finding
 from labkit.judge.neutral import SIZES, Neutral, neutrals, scaled
 from labkit.judge.replies_read import flat, read
+from labkit.judge.typed import number
 from robo47.checks import Array
 
 QUESTIONS = 4  # per experiment; three of them at least must agree
