@@ -41,16 +41,16 @@ for slug, says, redone, other in (
      "with the twist", "half of the right one", {"sign": -0.5}),
     ("own-link-only", "each joint turns its own link only; all links after it turn "
      "along", "with the momentum of link i alone", {"felt": lambda i: slice(i, i + 1)}),
-    ("later-links-only", "link i itself is left out; the sum begins at k = i",
-     "with k > i", {"felt": lambda i: slice(i + 1, None)}),
-    ("earlier-links", "the momenta of the links up to i are added; those from i on turn",
-     "with k <= i", {"felt": lambda i: slice(0, i + 1)}),
+    ("later-links-only", "link i itself is left out; k starts at i", "with k > i",
+     {"felt": lambda i: slice(i + 1, None)}),
+    ("earlier-links", "the momenta of the links up to i are added; those from i on "
+     "turn", "with k <= i", {"felt": lambda i: slice(0, i + 1)}),
     ("all-links", "the momenta of all links are added; those before i stay where they "
      "are", "with all k", {"felt": lambda i: slice(0, None)}),
     ("ad-transposed", "ad is transposed: that is how a wrench turns; V is a twist",
      "with ad^T", {"turned": lambda S, V: ad(S).T @ V}),
-    ("own-twist-only", "V_i is that of its own joint, S_i qd_i; the twists of all joints "
-     "before it add up", "with V_i = S_i qd_i",
+    ("own-twist-only", "V_i is that of its own joint, S_i qd_i; the twists of all "
+     "joints before it add up", "with V_i = S_i qd_i",
      {"twists": lambda S, qd: S * qd[:, None]}),
     ("outer-twists", "the twists are added up from the tip; link i is moved by the "
      "joints up to i", "with V_i of the joints from i on",

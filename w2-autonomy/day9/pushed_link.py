@@ -22,8 +22,7 @@ def _(rng):
         if last:
             share[last - 1] = [-1.6, 2.4][last % 2]
         if last > 2:
-            share[last - 3] = [-4.0, -1.2][last // 2 % 2]
-            share[0] = 1.1
+            share[last - 3] = -4.0
         drawn.append((threshold * share, threshold))
     return [case, (np.zeros(7), half), *drawn]
 
@@ -40,7 +39,6 @@ def _(residual, threshold):
     negative-only: only a residual below minus the threshold counts; a push may turn a
       joint either way
     largest: it is the joint that feels it most; a long lever is no later link
-    largest-share: it is the joint that is most over its threshold
     how-many: it is how many joints feel it
     below: it is the last joint that is under its threshold
     one-threshold: every joint is compared with the first one's threshold
@@ -64,7 +62,6 @@ def _(residual, threshold):
         "sign-lost": last(residual > threshold),
         "negative-only": last(residual < -threshold),
         "largest": int(np.argmax(size)) + 1 if n else 0,
-        "largest-share": int(np.argmax(size / threshold)) + 1 if n else 0,
         "how-many": int(over.sum()),
         "below": last(~over),
         "one-threshold": last(size > threshold[0]),

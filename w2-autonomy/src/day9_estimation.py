@@ -137,7 +137,7 @@ def kalman_update(
 def nis_interval(n: int, m: int) -> np.ndarray:
     """Return the two numbers between which a mean of n NIS lies, 95 times in 100.
 
-    m is the size of a reading. 1950 of one number: (0.93821, 1.06374).
+    m is the size of a reading; take 1.96 sigma. 1950 of one: (0.93821, 1.06374).
     """
     # region 9.6
     c = 2.0 / (9.0 * n * m)
