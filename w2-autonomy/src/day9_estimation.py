@@ -338,28 +338,23 @@ def off_library() -> dict[str, np.ndarray]:
     H, F, Q = rng.normal(size=(2, 3)), rng.normal(size=(2, 2)), P[:2, :2]
     six, damping = rng.normal(size=(6, 7)), rng.uniform(1, 2, 7)
     given = {
-        quantise: [(six[0], 4096), (six[1], 1000)],
-        difference: [(y, DT)],
-        delay_margin: [(400.0, 40.0), (90.0, 7.0)],
-        low_pass: [(y, DT, 20.0)],
-        constant_velocity: [(DT, WANDERS), (0.3, 2.0)],
-        kalman_predict: [(x[:2], R, F, Q)],
-        kalman_update: [(x, P, z, H, R)],
-        nis_interval: [(1950, 1), (100, 3)],
-        whiteness: [(y,), (np.cumsum(y),)],
-        observer_step: [(*six, damping, x[0] + six[0], GAIN, DT)],
+        "quantise": (quantise, [(six[0], 4096), (six[1], 1000)]),
+        "difference": (difference, [(y, DT)]),
+        "delay_margin": (delay_margin, [(400.0, 40.0), (90.0, 7.0)]),
+        "low_pass": (low_pass, [(y, DT, 20.0)]),
+        "constant_velocity": (constant_velocity, [(DT, WANDERS), (0.3, 2.0)]),
+        "kalman_predict": (kalman_predict, [(x[:2], R, F, Q)]),
+        "kalman_update": (kalman_update, [(x, P, z, H, R)]),
+        "nis_interval": (nis_interval, [(1950, 1), (100, 3)]),
+        "whiteness": (whiteness, [(y,), (np.cumsum(y),)]),
+        "observer_step": (observer_step, [(*six, damping, x[0] + six[0], GAIN, DT)]),
     }
     found = {}
-    for own, calls in given.items():
-        parts = [own(*one) for one in calls], [library_of(own)(*one) for one in calls]
-        ours, truth = (np.concatenate([flat(one) for one in side]) for side in parts)
-        found[own.__name__] = (ours - truth) / max(1.0, np.abs(truth).max())
+    for name, (own, calls) in given.items():
+        ours = np.concatenate([flat(own(*one)) for one in calls])
+        truth = np.concatenate([flat(getattr(library, name)(*one)) for one in calls])
+        found[name] = (ours - truth) / max(1.0, np.abs(truth).max())
     return found
-
-
-def library_of(own):
-    """Return robo47's function of the same name."""
-    return getattr(library, own.__name__)
 
 
 def flat(answer) -> np.ndarray:
