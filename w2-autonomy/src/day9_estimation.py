@@ -290,10 +290,10 @@ class Observer:
 
 
 def felt(arm, run, share: float = 1.0) -> np.ndarray:
-    """Return the residual at each sample of a run, up to the first second, (n, 7)."""
+    """Return the residual at each sample of a run, N m, (n, 7)."""
     observer = Observer(arm, share)
     found = []
-    for q, qd, tau in zip(run.q[:500], run.qd[:500], run.tau[:500], strict=False):
+    for q, qd, tau in zip(run.q, run.qd, run.tau, strict=False):
         now = arm.at(q)
         found.append(observer.feel(now, qd))
         observer.commanded(now, qd, tau)
@@ -413,9 +413,9 @@ def main() -> int:
         off = low_pass(raw, DT, cutoff) - qd
         lag = low_pass(qd, DT, cutoff) - qd
         print(f"  {cutoff:5.0f} Hz{rms(off[SETTLED:]):17.4f}{rms(lag[SETTLED:]):12.4f}")
-    print("  Kalman, R = step^2/12 off     own sigma  NIS   in   white  inside")
+    print("  Kalman, R = step²/12      off    sigma     NIS   in   white  inside")
     R = (2 * np.pi / 2**BITS) ** 2 / 12
-    for q in (0.1, 1.0, 10.0):
+    for q in (0.001, 0.01, 0.1, 1.0):
         tested(f"q = {q:g}", z, qd, q, R)
 
     lab.step("4. A claim that can be tested: a joint that is what the filter believes")
@@ -438,8 +438,9 @@ def main() -> int:
         off.append(energy_slope(now.J_space, now.G, qd) - mujoco_slope(model, q, qd))
     lab.record("slope_by_hand", off, label="|energy_slope - MuJoCo's|, N m", seed=SEED)
     print("  the swing, which nobody pushes: largest residual, N m")
+    way = swing._replace(q=swing.q[:500], qd=swing.qd[:500], tau=swing.tau[:500])
     for name, share in (("energy_slope", 1), ("none", 0), ("its sign turned", -1)):
-        residual = np.abs(felt(arm, swing, share)).max()
+        residual = np.abs(felt(arm, way, share)).max()
         print(f"  {name:18}{residual:8.3f}")
         if share == 1:
             lab.record("free_motion", residual, label="the first, N m")
@@ -461,6 +462,11 @@ def main() -> int:
 
     lab.step("7. Side quest: push it anywhere; it says which link, and stops")
     with lab.side_quest():
+        rows = rng.normal(size=(20, 7)) * rng.uniform(0, 2, (20, 1))
+        limits = rng.uniform(0.5, 1.5, (20, 7))
+        pairs = list(zip(rows, limits, strict=True))
+        off = [pushed_link(*one) - library.pushed_link(*one) for one in pairs]
+        lab.check("pushed_link - the library's", off)
         print("  pushed with, N                   link   after, ms   moves on, mm")
         limit = np.full(7, THRESHOLD)
         for name, force in PUSHES:
