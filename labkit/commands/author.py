@@ -26,6 +26,7 @@ from labkit.judge.answers import InTurn
 from labkit.judge.ask import Draw, stacked
 from labkit.judge.row import rows_of
 from labkit.lesson import notebook
+from labkit.lesson.constants import TABLE_OF
 from labkit.lesson.day import Day, Task, all_days, day_numbers, find_day, find_task
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import find_regions
@@ -182,10 +183,16 @@ def run(day: Day, *command: str) -> tuple[int, list[str]]:
 def catalogue(day: Day) -> Iterator[str]:
     """Yield each way of the catalogue that is not told what it must be."""
     code, lines = run(day, "tests/catalogue.py", str(day.number))
-    if any(line.startswith("Traceback") for line in lines):
-        own = [ln for ln in lines if f"{day.own}{os.sep}" in ln] or lines[-3:-2]
-        lines = [own[-1].strip(), lines[-1]]
+    lines = _without_trace(day, lines)
     yield from lines if code else ()
+
+
+def _without_trace(day: Day, lines: list[str]) -> list[str]:
+    """Return what a command printed; of a traceback the line of the day, and why."""
+    if not any(line.startswith("Traceback") for line in lines):
+        return lines
+    own = [ln for ln in lines if f"{day.own}{os.sep}" in ln] or lines[-3:-2]
+    return [own[-1].strip(), lines[-1]]
 
 
 def tests(day: Day) -> Iterator[str]:
@@ -235,6 +242,19 @@ def _unrecorded(day: Day) -> Iterator[str]:
             )
 
 
+def constants(day: Day) -> Iterator[str]:
+    """Yield what moves, or stays, otherwise than the day's list of constants says."""
+    if not day.has("constants"):
+        file = shown(day.own / "constants.py")
+        yield f"{file} is not there: what the guide's numbers hang on (teaching.md)"
+        return
+    block = f"<!-- run: {TABLE_OF.format(day.number)} -->"
+    if block not in (day.folder / day.guide).read_text("utf-8"):
+        yield f"{shown(day.folder / day.guide)} has no block {block}"
+    code, lines = run(day, "scripts/constants.py", str(day.number), "--check")
+    yield from _without_trace(day, lines) if code else ()
+
+
 def documents(day: Day) -> Iterator[str]:
     """Yield what the documents do not show as it is."""
     if drift := docs.renew(docs.documents_of(day), check=True):
@@ -264,6 +284,7 @@ PARTS = {
     "files": faults,
     "catalogue": catalogue,
     "student": as_student,
+    "constants": constants,
     "documents": documents,
     "notebook": notebooks,
     "style": style,

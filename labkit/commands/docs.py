@@ -10,8 +10,9 @@ A document asks for an output between two comments:
     <!-- run: python src/LAB.py --no-log | step 2 -->
     <!-- end -->
 
-`| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends. And for
-the list of a week's days, from their manifests (`w*`: of every week):
+`| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends; `| table`
+takes it for a table, not for text. And for the list of a week's days, from their
+manifests (`w*`: of every week):
 
     <!-- days: w1-foundations -->
     <!-- end -->
@@ -36,6 +37,7 @@ from robo47.paths import ROOT, shown
 
 SMALL = "figures/day{}_small.png"  # of a week's folder: a day's thumbnail
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+TABLE = "table"  # asks for an output that is Markdown already
 ROUNDING = 1e-9  # errors this small differ between processors, and should
 OLD_ZERO = re.compile(r"(?<![\d.])0(?:\.0+)?e[-+]?\d+")  # a lab prints such as 0
 # What depends on where the robot came from, and where among equals the worst was.
@@ -63,7 +65,7 @@ def wanted(request: str) -> str:
     """Return the output that a document asks for."""
     command, _, part = (piece.strip() for piece in request.partition("|"))
     text = output_of(command)
-    if not part:
+    if part in ("", TABLE):
         return text
     kind, number = part.split()
     lines = text.splitlines(keepends=True)
@@ -131,7 +133,11 @@ def rebuilt(
         return body
 
     def run(request: str, old: str) -> str:
-        return renewed(request, old, f"```text\n{wanted(request).rstrip()}\n```\n")
+        text = wanted(request).rstrip()
+        whole = request.endswith(f"| {TABLE}")
+        return renewed(
+            request, old, f"{text}\n" if whole else f"```text\n{text}\n```\n"
+        )
 
     def days(request: str, old: str) -> str:
         return renewed(request, old, days_list(request, folder))

@@ -60,6 +60,7 @@ def new_day(number: int, week: str, name: str) -> list[Path]:
     files = {
         f"day{number}/day.toml": "day.toml",
         f"day{number}/reach.py": "function.py",
+        f"day{number}/constants.py": "constants.py",
         f"day{number}/test_day{number}.py": "test.py",
         f"src/{values['script']}.py": "lab.py",
         f"docs/day{number}-lab.md": "guide.md",

@@ -165,6 +165,26 @@ def test_it_is_the_damping_that_slows_the_pushed_arm_down(arm):
     assert ends[2] > 3 * ends[1]
 
 
+def test_with_M_alone_the_next_velocity_is_off_by_what_the_guide_says():
+    model = panda.load("panda_nohand", drive="torque")
+    now = lab.day4_mujoco.motions(model, 100, lab.SEED, lab.FASTEST, lab.HARDEST)
+    share = np.random.default_rng(lab.TRIALS).uniform(-0.5, 0.5, now.q.shape)
+    qdd, after = lab.mujoco_forward(model, now, share * simulate.limits(model)[1])
+    off = np.abs(now.qd + model.opt.timestep * qdd - after).max()
+    assert f"(With $M$ alone the prediction is off by {off:.3f} rad/s;" in SENTENCES
+
+
+def test_a_torque_that_is_held_brakes_the_pushed_arm_as_well(arm, monkeypatch):
+    model = panda.load("panda_nohand", drive="torque")
+    ends = []
+    for rate in (50.0, 500.0):
+        monkeypatch.setattr(lab, "RATE", rate)
+        path = lab.let_go(model, arm, 1.0, (0.5, lab.PUSH), (4.5, 0 * lab.PUSH))
+        ends.append(f"{np.linalg.norm(path[-1] - path[-2]) * rate:.3f}")
+    says = "with `RATE = 500.0` the hand still does {1} m/s instead of {0}."
+    assert says.format(*ends) in SENTENCES
+
+
 def test_half_the_damping_leaves_four_times_the_speed_as_the_guide_answers(arm):
     for share, says in ((0.5, "0.169 m/s, four times"), (0.25, "damping 0.229 m/s")):
         model = panda.load("panda_nohand", drive="torque")
