@@ -88,4 +88,4 @@ def _(dt, q):
     return np.array([[1, dt], [0, 1]]), q * (dt / 2) * (weights * kick) @ kick.T
 
 
-row.at_least_0(dt="a time", q="an intensity")
+row.at_least_0(dt="a time", q="an intensity", answer="made of times")

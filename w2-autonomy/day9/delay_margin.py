@@ -66,4 +66,4 @@ def _(kp, kd):
     return np.angle(kp + 1j * kd * w) / w
 
 
-row.at_least_0(kp="a gain", kd="a gain")
+row.at_least_0(kp="a gain", kd="a gain", answer="a time")

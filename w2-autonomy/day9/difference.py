@@ -55,3 +55,6 @@ def _(q, dt):
     for before, now in itertools.pairwise(q):
         found.append((now - before) / dt)
     return found
+
+
+row.at_least_0(dt="a time")

@@ -1,8 +1,8 @@
 """Day 9 in the inspector: the tab Feel.
 
-Pull at a link of the arm that holds still, or move it: the student's own observer finds
-the torque that nobody commanded, seven bars of it beside J^T F, and the ball marks the
-link that it names. The arm is simulated; the observer is asked 100 times a second.
+Drag the handle to pull at a link of an arm that holds still: the student's own observer
+finds the torque that nobody commanded, seven bars of it beside J^T F, and a ball marks
+the link that it names. The arm is simulated; the observer is asked 100 times a second.
 """
 
 from functools import partial
@@ -25,12 +25,12 @@ import day9_mujoco
 LAB = lab_of(find_day(9))  # its gain and threshold
 RATE, HZ = 100.0, 25.0  # of the observer, and of the picture
 PULL = 100.0  # N per metre that the handle is away
-FULL = 12.0  # N m, where a bar ends
-AGAIN, LET_GO = "start / stop", "let go"
+FULL, MOST = 12.0, 999.0  # N m, where a bar ends; what is shown at most
+AGAIN, LET_GO, DOWN = "start / stop", "let go", "10 N down"
 PLACES = [day9_mujoco.FLANGE, *[f"link{i}" for i in range(7, 0, -1)]]
 ARM_JOINTS = [f"joint{i}" for i in range(1, 8)]
 
-dressed = partial(panda.load, "panda_nohand", drive="torque")
+dressed = partial(panda.load, "panda_nohand", meshes=True, drive="torque")
 
 
 class Feel(Tab):
@@ -51,7 +51,7 @@ class Feel(Tab):
         self.own = page.own(estimation)
         self.again()
         page.choice("pull at", PLACES, self.pull_at)
-        page.buttons([AGAIN, LET_GO], self.press)
+        page.buttons([AGAIN, DOWN, LET_GO], self.press)
         gain = partial(setattr, self, "gain")
         page.slider("gain", 5, 100, self.gain, gain, unit="1/s", step=5)
         least = partial(setattr, self, "threshold")
@@ -87,13 +87,16 @@ class Feel(Tab):
         self.show()
 
     def press(self, name: str) -> None:
-        """Start, stop, or let go."""
+        """Start, stop, pull downwards, or let go."""
         if name == AGAIN:
             self.loop.toggle()
             return
         self.force = np.zeros(3)
+        if name == DOWN:
+            self.force[2] = -10.0
+            self.loop.start()
         T = np.eye(4)
-        T[:3, 3] = self.point()
+        T[:3, 3] = self.point() + self.force / PULL
         self.target.place(T)
         self.show()
 
@@ -144,7 +147,7 @@ class Feel(Tab):
         if self.force.any():
             self.arrow.points = joined([at, at + self.force / PULL])
         truth = LAB.mujoco_push(self.model, q, self.place, self.force)
-        self.bars.show(self.residual, truth)
+        self.bars.show(np.clip(self.residual, -MOST, MOST), truth)
         link = int(self.link)
         self.named.visible = 1 <= link <= 7
         if self.named.visible:

@@ -74,4 +74,4 @@ def _(n, m):
     return low / n, high / n
 
 
-row.at_least_0(n="a count", m="a count")
+row.at_least_0(n="a count", m="a count", answer="a mean of squares")

@@ -81,4 +81,5 @@ def _(residual, threshold):
     return 0
 
 
-row.at_least_0(threshold="a limit")
+row.at_least_0(threshold="a limit", answer="a place")
+row.same("first residual = np.abs(residual)", "it takes the size anyway")

@@ -33,9 +33,7 @@ def feel(monkeypatch):
 
 def pulled(tab, seconds=0.6):
     """Pull at the flange with 10 N downwards for some seconds."""
-    T = np.eye(4)
-    T[:3, 3] = tab.point() - [0.0, 0.0, 0.1]
-    tab.drag(T)
+    tab.press("10 N down")
     for _ in range(round(25 * seconds)):
         tab.step(0.0)
     tab.show()
@@ -56,6 +54,10 @@ def test_the_bars_are_the_push_and_the_ball_stands_at_the_link(feel):
     assert tab.own.says()[1] == "good"
     tab.press("let go")
     assert not tab.force.any()
+    T = np.eye(4)
+    T[:3, 3] = tab.point() + np.array([0.0, 0.2, 0.0])
+    tab.drag(T)  # the handle: 20 N along y
+    assert_same(tab.force, [0.0, 20.0, 0.0], 1e-9)
 
 
 def test_a_wrong_sign_in_ones_own_observer_changes_what_the_tab_shows(feel):
