@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-from judged import round_of
+from toyrows import explained, row_of, told
 
-from labkit.base.exchange import Reply
 from labkit.judge import (
     Covariance,
     Index,
@@ -17,36 +16,9 @@ from labkit.judge import (
     Waypoints,
     Word,
 )
-from labkit.judge.judge import judge
-from labkit.sandbox.inside import wire
 from robo47.errors import Robo47Error
 
 WORDS = ("reached", "advanced", "trapped")
-
-
-def row_of(kind, truth, inputs, **more):
-    """Return a toy row of its own, which stands in no file."""
-    row = Row(kind, truth=truth, **more)
-    row.inputs(inputs)
-    return row
-
-
-def told(row, function, names=("x", "y", "z")):
-    """Return the verdict on a function; its answers travel as those of students do."""
-    asked = round_of(row.ask)
-    for one in asked.exchanges:
-        try:
-            value = function(*one.question.args)
-            value = wire.unpack_value(wire.pack_value(value))
-            one.reply = Reply(value=value, again=value)
-        except ArithmeticError as error:
-            one.reply = Reply(kind=type(error).__name__, error=str(error), line=3)
-    return judge(asked, names=names[: len(asked.main[0].question.args)])
-
-
-def explained(verdict, word):
-    """Return the lines of --explain that begin with a word."""
-    return [line for line in verdict.measured if line.startswith(f"{word}: ")]
 
 
 class TestAnIndex:

@@ -51,6 +51,11 @@ class Reply:
     again_error: str = ""  # "" or what went wrong the second time alone
     # What the answer shares its memory with: "another answer", or an argument's name.
     shares: tuple[str, ...] = ()
+    # Of one that was stopped as it took too long: the seconds that it was given, how
+    # many calls of its task came back before it, and how long the longest of them took.
+    given: float = 0.0
+    came: int = 0
+    longest: float = 0.0
 
 
 @dataclass(eq=False)

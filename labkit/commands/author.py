@@ -25,6 +25,7 @@ from labkit.handin.worksheet import split_sections
 from labkit.judge.answers import InTurn
 from labkit.judge.ask import Draw, stacked
 from labkit.judge.row import rows_of
+from labkit.judge.written import faults as row_faults
 from labkit.lesson import notebook
 from labkit.lesson.constants import TABLE_OF
 from labkit.lesson.day import Day, Task, all_days, day_numbers, find_day, find_task
@@ -101,8 +102,12 @@ def _functions(day: Day) -> Iterator[str]:
                 f"{file}: @row.inputs yields {len(first)} arguments; "
                 f"{name} takes {len(row.arguments)}: {', '.join(row.arguments)}"
             )
-        elif isinstance(row.ask.truth, InTurn):  # which says what does not fit
+            continue
+        if isinstance(row.ask.truth, InTurn):  # which says what does not fit
             row.ask.truth(*stacked([Exchange(Question("", name, tuple(first)))]))
+        task = next(one for one in day.tasks if name in one.functions)
+        for says in row_faults(row.ask, task.seconds / len(task.functions)):
+            yield f"{file}: {says}"
 
 
 def _guide(day: Day) -> Iterator[str]:
@@ -131,7 +136,7 @@ def _links(day: Day) -> Iterator[str]:
 
 def _committed(day: Day) -> Iterator[str]:
     """Yield a student's file in the repository: the next clone would begin with it."""
-    work = shown(day.folder / "work")
+    work = shown(day.work.parent)
     try:
         done = git.run("ls-files", "--", work, folder=ROOT, seconds=git.SECONDS)
     except git.GitError:

@@ -30,7 +30,8 @@ DAY={number}` looks at what you have so far.
 PREDICTIONS = """\
 ## Predictions
 
-Write the first column before you run anything, the others after it. If your prediction
+Write the first column before you run anything: `make run` then writes what it measures
+beside it, and leaves what you wrote alone. The last column is yours; if your prediction
 was right, say why it could be.
 
 | number | predicted | measured | why apart |

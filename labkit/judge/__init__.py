@@ -4,6 +4,7 @@
                 functions, each a mistake or another way that is right
     ask         the same for the judge; the questions made of it
     draw        what inputs are drawn from
+    fits        how many questions a task has time for
     results     what a function returns, result by result, as its row says
     written     what does not fit in a row, told to its author
     kinds       what kind of thing an answer is, which decides the words

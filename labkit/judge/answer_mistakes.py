@@ -50,6 +50,8 @@ GENERAL = _mistakes(
     whole-numbers: only whole numbers are left: an array of integers cuts off what is
       stored in it => the right one cut to whole numbers
     transposed: the matrix is transposed => its transpose
+    reshaped: its transpose is reshaped, which only counts the numbers off anew; rows
+      become columns by .T => its transpose, reshaped
     rows-swapped: the rows are (v; omega); omega's three come first => the right one
       with its rows swapped
     inverse: it is the inverse, which says how much is known; a covariance says how
@@ -71,6 +73,7 @@ GENERAL = _mistakes(
         "all-signs": np.negative,
         "whole-numbers": np.trunc,
         "transposed": np.matrix_transpose,
+        "reshaped": lambda M: np.swapaxes(M, -1, -2).reshape(M.shape),
         "rows-swapped": lambda J: np.roll(J, 3, axis=-2),
         "inverse": lambda P: np.linalg.inv(P),
         "sigma-for-variance": lambda P: np.sign(P) * np.sqrt(np.abs(P)),

@@ -31,15 +31,23 @@ def gap(a: Array, b: Array) -> Array:
     return np.nan_to_num(apart, nan=np.inf, posinf=np.inf)
 
 
-def difference(a: Array, b: Array, scale: float | Array = 1.0) -> Array:
+def difference(
+    a: Array, b: Array, scale: float | Array = 1.0, rtol: float = 0.0
+) -> Array:
     """Return the largest difference of any entry per case, (n,); one NaN is inf.
 
     Args:
         a: (n, ...).
         b: the same, or one case for all.
         scale: what it is measured in: a number, or an array with one for each entry.
+        rtol: the share of b's largest entry that is no difference.
     """
-    return (gap(a, b) / scale).reshape(len(a), -1).max(axis=1, initial=0.0)
+    apart = gap(a, b)
+    if rtol:
+        sizes = np.where(np.isfinite(b), np.abs(b), 0.0).reshape(len(b), -1)
+        free = rtol * sizes.max(axis=1, initial=0.0)
+        apart = np.maximum(apart - free.reshape(-1, *[1] * (apart.ndim - 1)), 0.0)
+    return (apart / scale).reshape(len(a), -1).max(axis=1, initial=0.0)
 
 
 def matches(a: Array, b: Array, scale: float | Array = 1.0) -> bool:
@@ -84,10 +92,10 @@ def plain(some: Parts) -> Any:
     return some[0] if len(some) == 1 else some
 
 
-def gaps(kinds: Sequence[Any], S: Parts, T: Parts) -> Array:
+def gaps(kinds: Sequence[Any], S: Parts, T: Parts, rtol: float = 0.0) -> Array:
     """Return per call the largest difference of an entry, in units of its scale."""
     pairs = zip(map(as_one, zip(S, T, strict=True)), kinds, strict=True)
-    each = [difference(s, t, kind.scale) for (s, t), kind in pairs]
+    each = [difference(s, t, kind.scale, rtol) for (s, t), kind in pairs]
     return np.max(each, axis=0)
 
 
@@ -265,10 +273,17 @@ def say_range(values: Array, say: Callable[[Array], str]) -> str:
     return most if least == most else f"{least} to {most}"
 
 
+def listed(words: Sequence[str]) -> str:
+    """Return words as a list: "m, m cx and m cy"."""
+    *before, last = words
+    return f"{', '.join(before)} and {last}" if before else last
+
+
 def capitalised(clause: str) -> str:
     """Return a clause as a sentence starts; a symbol, qd say, stays what it is."""
     first = clause.partition(" ")[0].rstrip(",")
     letter = len(first) == 1 and first != "a"
-    if letter or first in SYMBOLS or not first.isalpha():
+    mixed = first[1:] != first[1:].lower()  # dY, as no word is written
+    if letter or mixed or first in SYMBOLS or not first.isalpha():
         return clause
     return clause[0].upper() + clause[1:]

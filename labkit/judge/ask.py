@@ -15,12 +15,14 @@ import mujoco
 import numpy as np
 
 from labkit.base.exchange import Exchange, Path, Question, Reply
-from labkit.judge.answers import InTurn, Parts, parts
+from labkit.judge import fits
+from labkit.judge.answers import InTurn, Parts, gaps, parts
 from labkit.judge.draw import Draw, Edges
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
 from labkit.judge.results import Kinds, flat_kinds, numbers
 from robo47 import panda
+from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -28,6 +30,7 @@ Inputs = Callable[["Draw"], Iterable[tuple[Any, ...]]]
 SEED = 47  # of the questions that are the same at every check
 # How many inputs are drawn anew, and as many edge values: a rare bug is found sooner.
 FRESH, CHEAP_FRESH, CHEAP = 8, 32, 16  # few numbers cost little
+SECONDS = 10.0  # for all calls of a function, where its task does not say
 KNOWN = 20  # right answers of a function's that are kept: a class is asked the same
 
 
@@ -143,6 +146,8 @@ class Ask:
     # An answer is right up to this, in units of its kind's scale.
     tolerance: float = 1e-8
     near: float = 1e-4  # and nearly right up to this
+    # What share of the right answer's largest entry is allowed besides: 0.01 is 1 %.
+    rtol: float = 0.0
     held_out: Sequence[HeldOut] = ()  # further questions to a right function
     # Inputs of further questions, whose replies only help to say where a wrong answer
     # goes wrong; they may be errors.
@@ -155,6 +160,7 @@ class Ask:
     slips: Sequence[Slip] = ()  # exceptions that have better words than their own
     # Whether a call with edge values has one right answer; None is yes.
     at_edge: Callable[..., bool] | None = None
+    seconds: float = 0.0  # that a call of the reference takes; 0: it is measured here
 
     def __post_init__(self) -> None:
         """Refuse a row that has neither or both of truth and accept.
@@ -195,6 +201,19 @@ class Ask:
     def main(self) -> list[tuple[Any, ...]]:
         """The calls that are the same at every check."""
         return [tuple(call) for call in self.inputs(Draw(SEED))]
+
+    def gaps(self, S: Parts, T: Parts) -> Array:
+        """Return per call how far an answer is off, beyond what `rtol` allows."""
+        return gaps(self.kinds, S, T, self.rtol)
+
+    @cached_property
+    def cost(self) -> float:
+        """Seconds of a call, as the row says, or as its truth takes here."""
+        truth = self.truth
+        if self.seconds or truth is None:
+            return self.seconds
+        last = stacked([Exchange(Question("", "", self.main[-1]))])
+        return fits.measured(lambda: truth(*last))
 
     @cached_property
     def drawn(self) -> int:
@@ -248,7 +267,9 @@ def replies(exchanges: Iterable[Exchange]) -> list[Reply]:
     return found
 
 
-def asked_of(task: str, function: str, ask: Ask, seed: int) -> Asked:
+def asked_of(
+    task: str, function: str, ask: Ask, seed: int, seconds: float = SECONDS
+) -> Asked:
     """Return the questions to a function, which the sandbox is to answer.
 
     Args:
@@ -256,15 +277,17 @@ def asked_of(task: str, function: str, ask: Ask, seed: int) -> Asked:
         function: its name.
         ask: its row.
         seed: of the fresh inputs; nobody should know it beforehand.
+        seconds: for all its calls; fewer are asked where they take long.
     """
-
-    if (key := (task, function, seed)) not in ask.known:
+    key = (task, function, seed, seconds)
+    if key not in ask.known:
         ask.known.clear()
         more = [ask.probe or (lambda rng: []), *(held.inputs for held in ask.held_out)]
         further = [draw(Draw(SEED)) for draw in more]
+        beside = fits.fitting(ask.main, ask.edges, ask.anew(seed), ask.cost, seconds)
         ask.known[key] = [
             [Question(task, function, tuple(args)) for args in calls]
-            for calls in (ask.main, [*ask.edges, *ask.anew(seed)], *further)
+            for calls in (ask.main, beside, *further)
         ]
     roles = ([Exchange(one) for one in some] for some in ask.known[key])
     main, fresh, probes, *held_out = roles

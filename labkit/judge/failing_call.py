@@ -8,7 +8,6 @@ from labkit.base.exchange import Exchange, Question
 from labkit.judge.answers import (
     Parts,
     difference,
-    gaps,
     worst_part,
 )
 from labkit.judge.ask import Asked, HeldOut, right_answers
@@ -23,6 +22,8 @@ from robo47.checks import Array
 # right.", and in lines with every argument and entry; "" and none without one.
 LONG = 80  # characters; a longer argument goes by its name, and --explain has all of it
 Failing = tuple[str, tuple[str, ...]]
+AS_FAR = 0.999  # of the furthest: as far off, so that rounding does not choose
+DUST = 1e-12  # of an entry's scale: rounding, whose digits are the processor's
 
 
 def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
@@ -31,7 +32,8 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
     for some, held in [(asked.main, None), (asked.fresh, None), *held_out]:
         if held and held.mistaken:
             continue
-        if found := _broken(some, names) or _wrong(asked, some, held, names):
+        found = _broken(some, names) or _misfit(asked, some, names)
+        if found := found or _wrong(asked, some, held, names):
             return found
     for one, _ in not_accepted(asked):
         assert one.reply
@@ -50,6 +52,21 @@ def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | No
     return None
 
 
+def _misfit(
+    asked: Asked, exchanges: Sequence[Exchange], names: Sequence[str]
+) -> Failing | None:
+    """Return the first call whose answer has a wrong shape."""
+    for one in exchanges:
+        found = read([one], asked.ask)
+        if isinstance(found, Finding) and found.slug == "shape" and one.reply:
+            if not isinstance(one.reply.value, np.ndarray):
+                return None
+            shape = one.reply.value.shape
+            says = f"{typed(one.question, names, LONG)} returns shape {shape}."
+            return says, _given(one.question, names)
+    return None
+
+
 def _wrong(
     asked: Asked,
     exchanges: Sequence[Exchange],
@@ -63,8 +80,8 @@ def _wrong(
     if isinstance(S, Finding):
         return None
     T = right_answers(ask, exchanges, held)
-    gap = gaps(ask.kinds, S, T)
-    i = int(np.argmax(gap))
+    gap = ask.gaps(S, T)
+    i = _furthest(gap)
     if gap[i] <= ask.tolerance:
         return None
     one = exchanges[i]
@@ -91,12 +108,19 @@ def _entry(kind: Kind, mine: Array, its: Array) -> tuple[str, str]:
     if mine.shape != its.shape:
         return "", f"has shape {mine.shape}, and {its.shape}"
     apart = np.nan_to_num(np.abs(mine - its) / kind.scale, nan=np.inf)
-    at = np.unravel_index(int(np.argmax(apart)), mine.shape)
+    at = np.unravel_index(_furthest(apart), mine.shape)
     place = str([int(x) for x in at]) if at else ""
     if kind.whole:
         yours, right = (shown(kind.sent(x[at])) for x in (mine, its))
         return place, f"is {yours}, and {right}"
-    return place, f"is {_apart(mine[at], its[at])}"
+    dust = DUST * np.broadcast_to(kind.scale, its.shape)[at]
+    pair = (0.0 if abs(x[at]) < dust else x[at] for x in (mine, its))
+    return place, f"is {_apart(*pair)}"
+
+
+def _furthest(off: Array) -> int:
+    """Return the place of the first that is as far off as any; infinity is, too."""
+    return int(np.argmax(off >= AS_FAR * np.max(off)))
 
 
 def _part(kind: Kind, answer: Array) -> str:
@@ -113,7 +137,7 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     if isinstance(S, Finding):
         return Finding("some-inputs", f"{right} fresh ones. {S.message}")
     T = right_answers(asked.ask, asked.fresh)
-    wrong = gaps(asked.ask.kinds, S, T) > asked.ask.near
+    wrong = asked.ask.gaps(S, T) > asked.ask.near
     says = f"{right} {int(wrong.sum())} of {len(wrong)} fresh ones."
     if wrong.all() and _only_known(main, S):
         return Finding("looked-up", f"{says} The answers do not come from the inputs.")

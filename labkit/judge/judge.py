@@ -13,8 +13,8 @@ from labkit.judge import near_miss, odd_answers, replies_read, tried
 from labkit.judge.answers import (
     Parts,
     as_one,
+    capitalised,
     difference,
-    gaps,
     plain,
     worst_part,
 )
@@ -75,7 +75,7 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     ask = asked.ask
     T = right_answers(ask, asked.main)
     case = _case(asked, S, T, names)
-    gap = gaps(ask.kinds, S, T)
+    gap = ask.gaps(S, T)
     measured = _measured(case, S, T, gap)
     if (off := gap.max()) > ask.near:
         case = replace(case, further=_further(asked))
@@ -104,7 +104,7 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
 
 
 def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
-    wrong = gaps(case.ask.kinds, S, T) > case.ask.near
+    wrong = case.ask.gaps(S, T) > case.ask.near
     if not wrong.any():
         return found
     named = diagnose(case, S, T)
@@ -133,7 +133,7 @@ def _judge_right(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdic
         S = replies_read.read(asked.fresh, ask)
         off = np.inf
         if not isinstance(S, Finding):
-            gap = gaps(ask.kinds, S, right_answers(ask, asked.fresh))
+            gap = ask.gaps(S, right_answers(ask, asked.fresh))
             off = float(gap.max())
             lines = _counted(ask, gap, "with fresh inputs")
             measured += lines[1:]
@@ -152,7 +152,7 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     S = replies_read.read(exchanges, ask)
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
-    off = gaps(ask.kinds, S, right_answers(ask, exchanges, held)).max()
+    off = ask.gaps(S, right_answers(ask, exchanges, held)).max()
     near = ask.near if held.near is None else held.near
     return off <= near if held.mistaken else off > near
 
@@ -213,9 +213,10 @@ def _measured(case: Case, S: Parts, T: Parts, gap: Array) -> tuple[str, ...]:
 
 def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
     """Return how far off calls are by their gaps, and how many are right."""
+    beyond = f" beyond {ask.rtol:.3g} of the largest" if ask.rtol else ""
     return (
         f"largest difference of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} "
-        f"of {len(gap)}; passes up to {ask.tolerance:.0e})",
+        f"of {len(gap)}; passes up to {ask.tolerance:.0e}{beyond})",
         f"calls that are right: {np.sum(gap <= ask.tolerance)} of {len(gap)} {which}",
     )
 
@@ -303,9 +304,10 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     where = ""
     if found.slug != "one-factor-off":  # every entry, so where does not matter
         where = tried.in_common(case, S, T, i)
-        wrong = difference(S[i], T[i], kind.scale) > ask.tolerance
+        wrong = difference(S[i], T[i], kind.scale, ask.rtol) > ask.tolerance
         if not wrong.all():
-            where += f" It is right for {np.sum(~wrong)} of {len(wrong)} inputs"
+            it = capitalised(kind.called) if called else "It"
+            where += f" {it} is right for {np.sum(~wrong)} of {len(wrong)} inputs"
             where += f"{_first(wrong, case.given, 'but not for')}."
     return Finding(found.slug, f"{called}{found.message}{where}")
 

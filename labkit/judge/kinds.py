@@ -5,6 +5,7 @@ module has numbers, vectors, rotations and poses; the others have all else. Arra
 answers are stacked, (n, *shape); S is the student's, T the right one.
 """
 
+import contextlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
@@ -15,9 +16,11 @@ from labkit.judge.answer_mistakes import OF_A_ROTATION, general, of_a_pose
 from labkit.judge.answers import (
     MATCHES,
     RIGID,
+    capitalised,
     degrees,
     difference,
     gap,
+    listed,
     matches,
     millimetres,
     rigid,
@@ -109,17 +112,22 @@ class Kind:
                 says = f"It returns {array.dtype} values; expected is {self.expected}"
                 return Finding("not-numbers", f"{says} of real numbers.")
             if not self.fits(array.shape):
-                return self._misfit(array.shape)
+                return self._misfit(array.shape, values)
             found.append(self.plain(array))
         return found
 
-    def _misfit(self, got: tuple[int, ...]) -> Finding:
+    def _misfit(self, got: tuple[int, ...], values: Sequence[Any]) -> Finding:
         expected = self.expected
         if None not in self.shape and str(self.shape) not in expected:
             expected += f", shape {self.shape}"
         if reason := self.why_shape(got):
             expected += f": {reason}"
-        return Finding("shape", f"It returns shape {got}; expected is {expected}.")
+        often = ""
+        with contextlib.suppress(ValueError):  # one has parts of different shapes
+            fit = sum(self.fits(np.asarray(value).shape) for value in values)
+            often = f" in {len(values) - fit} of {len(values)} calls" if fit else ""
+        says = f"It returns shape {got}{often}; expected is {expected}."
+        return Finding("shape", says)
 
     def numbers(self, value: Any) -> Array:
         """Return a right or a mistaken answer as numbers; None is NaN."""
@@ -143,7 +151,11 @@ class Kind:
         return answer if np.ndim(answer) else float(answer)
 
     def plain(self, answer: Array) -> Array:
-        """Return an answer without differences that make none."""
+        """Return an answer without differences that make none.
+
+        It is asked of the student's alone: right answers and those of mistakes have
+        that form already.
+        """
         return answer
 
     def why_shape(self, got: tuple[int, ...]) -> str:
@@ -201,9 +213,14 @@ class Vector(Kind):
         if found := one_factor(self, S, T):
             return found
         off = np.abs(S - T).max(axis=0) > RIGHT * self.scale
+        counted = [f"[{i}], counted from 0" for i in range(len(off))]
+        empty = np.flatnonzero(off & ~S.any(axis=0))
+        if len(S) > 1 and 0 < len(empty) < len(off):
+            where = capitalised(listed([(self.names or counted)[i] for i in empty]))
+            says = f"{where} {'are' if len(empty) > 1 else 'is'} 0 every time. It is "
+            return Finding("entries-empty", f"{says}off by up to {self.apart(S, T)}.")
         if not 0 < off.sum() <= max(1, len(off) // 3):
             return Finding("off", f"It is off by up to {self.apart(S, T)}.")
-        counted = [f"[{i}], counted from 0" for i in range(len(off))]
         names = [f"{name}'s" for name in self.names] or counted
         where = " and ".join(names[i] for i in np.flatnonzero(off))
         says = f"All entries are right but {where}: up to {self.apart(S, T)} off."
@@ -238,7 +255,8 @@ def few_entries(
         ignored: a row and column that has a name of its own, such as a pose's last.
     """
     apart = np.abs(S - T)
-    rows, columns = np.nonzero(apart.max(axis=0) > RIGHT * kind.scale)
+    wrong = apart > RIGHT * kind.scale
+    rows, columns = np.nonzero(wrong.any(axis=0))
     if not len(rows):
         return None
     sides = {"row": rows, "column": columns}
@@ -251,14 +269,28 @@ def few_entries(
     elif one:
         side, k = next(iter(one.items()))
         names = getattr(kind, f"{side}s", ())
-        where = names[k] if names else f"{side} {k}, counted from 0"
+        where = names[k] if k < len(names) else f"{side} {k}, counted from 0"
     else:
         return None
-    return Finding(
-        "few-entries-off",
-        f"All entries are right but {where}: up to {apart.max():.2g} off. Look there "
-        "for a wrong sign, letter or factor.",
-    )
+    return few_told(where, wrong.reshape(len(S), -1), f"{apart.max():.2g}")
+
+
+def few_told(where: str, wrong: Array, off: str) -> Finding:
+    """Return that only some entries are wrong.
+
+    An advice to look at them follows where they are so nearly always; else it is the
+    inputs that make the difference, and with others it may be other entries.
+
+    Args:
+        where: the entries, in words.
+        wrong: which are wrong, (n, ...), per answer.
+        off: by how much, in words.
+    """
+    if 2 * wrong.any(axis=1).sum() < len(wrong):
+        says = f"In these calls all is right but {where}, and that is wrong in some"
+        return Finding("few-entries-off", f"{says} only: up to {off} off.")
+    says = f"All entries are right but {where}: up to {off} off. Look there for a wrong"
+    return Finding("few-entries-off", f"{says} sign, letter or factor.")
 
 
 @dataclass(frozen=True)
