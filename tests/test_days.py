@@ -53,7 +53,7 @@ class TestManifest:
         guide = (day.folder / day.guide).read_text("utf-8")
         prose = re.sub(r"```.*?```", "", guide, flags=re.DOTALL)
         prose = re.sub(r"(?m)^\|.*|(?:such as|after a paragraph,)\s+\(.+?\)", "", prose)
-        id_ = rf"({day.number}\.\d)"
+        id_ = rf"({day.number}\.\d+)"
         marks = set(re.findall(rf"\({id_}\)", prose))
         named = marks | set(re.findall(rf"\btask {id_}\b", prose))
         ids = {task.id for task in day.tasks}
