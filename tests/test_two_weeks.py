@@ -272,3 +272,9 @@ class TestTheEndOfAWeek:
         ]
         sheet.write_text(f"## One\n\nmine\n\n{asked}*(your words)*\n")
         assert list(missing._blanks(sheet, "it")) == []
+
+
+def test_no_two_days_give_two_functions_one_name():
+    """`robo47.mine` puts all days' functions into one namespace."""
+    names = [f for day in all_days() for task in day.tasks for f in task.functions]
+    assert sorted(names) == sorted(set(names))

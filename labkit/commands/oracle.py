@@ -82,7 +82,8 @@ def ask_for_poses() -> dict:
 def ask_for_forces() -> dict:
     """Return Pinocchio's dynamics of panda_nohand at seeded motions.
 
-    Mass matrix, torque of a motion, torque at rest.
+    Mass matrix, torque of a motion, its part without acceleration, and how the kinetic
+    energy changes with q: C^T qd.
     """
     pin, model, data = read_robot("panda_nohand")
     q = verify.random_q(panda.load("panda_nohand"), CONFIGURATIONS, SEED)
@@ -91,12 +92,14 @@ def ask_for_forces() -> dict:
     motion["qdd"] = rng.uniform(-10, 10, q.shape)
     motion = {name: part.round(6) for name, part in motion.items()}
     answer = {name: part.tolist() for name, part in motion.items()}
-    answer |= {"crba": [], "rnea": [], "bias": []}
+    answer |= {"crba": [], "rnea": [], "bias": [], "slope": []}
     for row in zip(*motion.values(), strict=True):
         M = np.triu(pin.crba(model, data, row[0]))
         answer["crba"].append((M + np.triu(M, 1).T).tolist())
         answer["rnea"].append(pin.rnea(model, data, *row).tolist())
         answer["bias"].append(pin.nonLinearEffects(model, data, *row[:2]).tolist())
+        C = pin.computeCoriolisMatrix(model, data, *row[:2])
+        answer["slope"].append((C.T @ row[1]).tolist())
     return {"pinocchio": pin.__version__, "panda_nohand": answer}
 
 

@@ -1,0 +1,192 @@
+"""What Day 9's numbers hang on: each constant turned by two, measured, explained.
+
+Everything is computed by the lab's own functions.
+"""
+
+from copy import copy
+from functools import cache
+
+import numpy as np
+
+from labkit.lesson.constants import Numbers, between, same, times, turned
+from labkit.lesson.day import find_day
+from labkit.lesson.lab_module import lab_of
+from robo47 import panda, simulate
+from robo47.references import raised_cosine
+
+LAB = lab_of(find_day(9))
+DAY = LAB.day9_mujoco
+MODEL = panda.load("panda_nohand", drive="torque")
+ARM = panda.arm(MODEL)
+
+numbers = Numbers(
+    bits="bits of the encoder: {}",
+    dt="time between samples: {} s",
+    reach="REACH of the swing: × {}",
+    omega="omega of the springs: {} 1/s",
+    zeta="damping ratio: {}",
+    late="delay: {} s",
+    rate="rate of the control: {} Hz",
+    small="the error it begins with: {} rad",
+    cutoff="cutoff: {} Hz",
+    wanders="WANDERS, in truth and in the filter: {} rad²/s³",
+    noise="NOISE, in truth and in the filter: {} rad",
+    seed="SEED: {}",
+    told_q="q that the filter is told: WANDERS × {}",
+    told_R="R that it is told: NOISE² × {}",
+    gain="GAIN: {} 1/s",
+    step="time step: {} s",
+    share="share of the slope that is taken: {}",
+    force="the push: {} N",
+    threshold="THRESHOLD: {} N m",
+)
+
+
+@cache
+def swung(reach):
+    """Return how the arm follows two seconds of the swing."""
+    swing = raised_cosine(panda.READY_Q, reach * DAY.REACH)
+    return DAY.moved(MODEL, ARM, swing, 2.0)
+
+
+@numbers.add(
+    "noise of a 16-bit difference", "{:.4f} rad/s",
+    bits=times(0.5, "a step is half as large", to=17),
+    dt=times(0.5, "the same two errors, divided by twice the time", within=0.05),
+    reach=between(0.98, 1.02, "the error of a count does not hang on the motion, as "
+                  "long as a step is small beside it"),
+)  # fmt: skip
+def difference_noise(bits=LAB.BITS, dt=LAB.DT, reach=1.0):
+    """Return the RMS error of the differences, all joints."""
+    q = swung(reach).q[:: round(dt / LAB.DT)]
+    with turned(LAB, DT=dt):
+        off = LAB.speeds(LAB.encoder(q, bits)) - LAB.speeds(q)
+    return LAB.rms(off[1:])
+
+
+@numbers.add(
+    "delay margin", "{:.2f} ms",
+    omega=times(0.5, "time is measured in 1 / omega: nothing else has a unit"),
+    zeta=between(0.4, 1.0, "the damper leads more, but the loop is faster as well"),
+)  # fmt: skip
+def margin(omega=DAY.OMEGA, zeta=1.0):
+    """Return it."""
+    return 1000 * LAB.delay_margin(omega**2, 2 * zeta * omega)
+
+
+@numbers.add(
+    "what is left of an error after 2 s, 34 ms late", "{:.3g}",
+    late=between(1.5, 1e9, "far over the margin: it grows until a motor can no more"),
+    omega=times(0.0, "10 1/s have a margin of 65 ms", within=0.05, to=10.0),
+    rate=between(0.3, 0.8, "a torque is held for half a millisecond less on the "
+                 "average: 31.9 ms are left, and 34 is still more"),
+    small=same("the loop is linear as long as no motor is at its limit"),
+)  # fmt: skip
+def left(late=0.034, omega=DAY.OMEGA, rate=DAY.RATE, small=DAY.SMALL):
+    """Return the share."""
+    model = copy(MODEL)
+    model.opt.timestep = 1 / rate
+    with turned(DAY, SMALL=small):
+        return DAY.left_over(model, ARM, late, omega, rate)
+
+
+@numbers.add(
+    "joint 4's speed behind 50 Hz is off by", "{:.4f} rad/s",
+    cutoff=between(1.3, 1.7, "right of the valley's bottom all is noise"),
+    bits=between(0.5, 0.75, "half the noise, the same lag", to=17),
+    reach=between(1.1, 1.4, "twice the acceleration is twice the lag"),
+)  # fmt: skip
+def smooth(cutoff=50.0, bits=LAB.BITS, reach=1.0):
+    """Return the RMS error."""
+    run = swung(reach)
+    z = LAB.encoder(run.q, bits)[:, LAB.JOINT]
+    raw = LAB.difference(z, LAB.DT)
+    off = LAB.low_pass(raw, LAB.DT, cutoff) - run.qd[:, LAB.JOINT]
+    return LAB.rms(off[LAB.SETTLED :])
+
+
+@cache
+def tracked(wanders, noise, seed, told_q, told_R):
+    """Return what a filter says that is told so much of q and R."""
+    with turned(LAB, WANDERS=wanders, NOISE=noise):
+        z, _ = LAB.wandering(np.random.default_rng(seed))
+    return LAB.track(z, told_q * wanders, told_R * noise**2)
+
+
+@numbers.add(
+    "mean NIS of the filter that is told the truth", "{:.3f}",
+    wanders=between(0.95, 1.05, "the surprises grow as the filter expects"),
+    noise=between(0.95, 1.05, "as above"),
+    seed=between(0.9, 1.1, "another draw", to=10),
+    told_q=between(0.7, 0.95, "too modest: smaller surprises than it expects"),
+    told_R=between(0.5, 0.8, "the same, by the readings"),
+)  # fmt: skip
+def nis(wanders=LAB.WANDERS, noise=LAB.NOISE, seed=LAB.SEED, told_q=1.0, told_R=1.0):
+    """Return it."""
+    return tracked(wanders, noise, seed, told_q, told_R)["nis"].mean()
+
+
+@numbers.add(
+    "whiteness of the filter that tracks", "{:.3f}",
+    wanders=between(0.9, 1.05, "the two lies are the same"),
+    noise=between(0.95, 1.1, "the two lies are the same"),
+    seed=between(0.95, 1.05, "another draw", to=10),
+    told_q=between(0.85, 0.99, "a smaller lie"),
+    told_R=between(1.0, 1.1, "a larger one"),
+)  # fmt: skip
+def white(wanders=LAB.WANDERS, noise=LAB.NOISE, seed=LAB.SEED, told_q=0.1, told_R=10.0):
+    """Return it."""
+    said = tracked(wanders, noise, seed, told_q, told_R)
+    return LAB.whiteness(said["surprise"])
+
+
+@numbers.add(
+    "largest residual in free motion", "{:.3f} N m",
+    gain=between(1.0, 1.01, "it is not the gain's lag"),
+    step=times(2.0, "slope and gravity are a sample old", within=0.02),
+    reach=between(1.5, 4.5, "they change faster"),
+    share=between(50, 200, "without the slope it is the slope", to=0.0),
+)  # fmt: skip
+def free(gain=LAB.GAIN, step=LAB.DT, reach=1.0, share=1.0):
+    """Return it, over the first second of the swing."""
+    model = copy(MODEL)
+    model.opt.timestep = step
+    law = DAY.tracking(ARM, raised_cosine(panda.READY_Q, reach * DAY.REACH))
+    data = simulate.start(model, panda.READY_Q)
+    run = simulate.run(model, data, law, 1.0, rate=1 / step)
+    with turned(LAB, GAIN=gain, DT=step):
+        return np.abs(LAB.felt(ARM, run, share)).max()
+
+
+@cache
+def pushed(force, omega):
+    """Return the run of step 6 with another push or other springs."""
+    with turned(DAY, OMEGA=omega):
+        push = DAY.push(LAB.FLANGE, [0.0, 0.0, -force], LAB.SINCE)
+        return DAY.moved(MODEL, ARM, DAY.STAY, 0.8, push)
+
+
+@numbers.add(
+    "joint 4's residual of 10 N on the flange", "{:.3f} N m",
+    force=times(2.0, "J^T F is linear; the arm gives way a little more"),
+    omega=between(0.99, 1.01, "stiffer springs give way less"),
+    gain=same("a gain says when, and not how much"),
+    share=same("at rest there is no slope", to=-1.0),
+)  # fmt: skip
+def steady(force=10.0, omega=DAY.OMEGA, gain=LAB.GAIN, share=1.0):
+    """Return it at the end."""
+    with turned(LAB, GAIN=gain):
+        return LAB.felt(ARM, pushed(force, omega), share)[-1, LAB.JOINT]
+
+
+@numbers.add(
+    "10 N on the flange are noticed after", "{:.0f} ms",
+    force=times(0.5, "half of the share is enough: 1.1 ms, so the first sample"),
+    gain=times(0.5, "it rises twice as fast: 1.1 ms, so the first sample"),
+    threshold=times(1.5, "4.8 ms of 2 ms each: the third sample"),
+    share=same("at rest there is no slope", to=-1.0),
+)  # fmt: skip
+def noticed(force=10.0, gain=LAB.GAIN, threshold=LAB.THRESHOLD, share=1.0):
+    """Return it."""
+    with turned(LAB, GAIN=gain, THRESHOLD=threshold):
+        return LAB.notices(LAB.felt(ARM, pushed(force, DAY.OMEGA), share))

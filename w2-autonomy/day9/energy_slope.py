@@ -1,0 +1,101 @@
+"""9.8 `energy_slope(J_space, G, qd)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+from robo47 import dynamics
+from robo47.estimation import energy_slope
+from robo47.screws import ad
+
+from .signals import JOINTS, moving
+
+row = Row(Vector((7,), "N m", names=JOINTS))
+
+
+@row.inputs
+def _(rng):
+    drawn = moving(rng)
+    J, G, qd = drawn[0]
+    rest = (J, G, np.zeros(7))
+    two = (J, G, np.array([1.0, 0.0, 0.0, -1.5, 0.0, 0.0, 0.0]))
+    return [rest, two, (J, G, np.eye(7)[0]), (J, G, -2.0 * qd), *drawn]
+
+
+def slope(
+    J, G, qd, sign=-1.0, felt=lambda i: slice(i, None), turned=lambda S, V: ad(S) @ V,
+    twists=lambda S, qd: np.cumsum(S * qd[:, None], axis=0),
+):  # fmt: skip
+    """Return the slope with other parts: whose momentum, and which twist turns how."""
+    S = J.T
+    V = twists(S, qd)
+    momenta = (G @ V[:, :, None])[:, :, 0]
+    return np.array([
+        sign * momenta[felt(i)].sum(axis=0) @ turned(S[i], V[i]) for i in range(len(S))
+    ])  # fmt: skip
+
+
+for slug, says, redone, other in (
+    ("slope-sign", "the sign is the other one: seen from the links that turn, V turns "
+     "back; and ad(V) S is minus ad(S) V", "the right one with +", {"sign": 1.0}),
+    ("halved", "it is halved: energy is half of momentum times twist, but both change "
+     "with the twist", "half of the right one", {"sign": -0.5}),
+    ("own-link-only", "each joint turns its own link only; all links after it turn "
+     "along", "with the momentum of link i alone", {"felt": lambda i: slice(i, i + 1)}),
+    ("later-links-only", "link i itself is left out; k starts at i", "with k > i",
+     {"felt": lambda i: slice(i + 1, None)}),
+    ("earlier-links", "the momenta of the links up to i are added; those from i on "
+     "turn", "with k <= i", {"felt": lambda i: slice(0, i + 1)}),
+    ("all-links", "the momenta of all links are added; those before i stay where they "
+     "are", "with all k", {"felt": lambda i: slice(0, None)}),
+    ("ad-transposed", "ad is transposed: that is how a wrench turns; V is a twist",
+     "with ad^T", {"turned": lambda S, V: ad(S).T @ V}),
+    ("own-twist-only", "V_i is that of its own joint, S_i qd_i; the twists of all "
+     "joints before it add up", "with V_i = S_i qd_i",
+     {"twists": lambda S, qd: S * qd[:, None]}),
+    ("outer-twists", "the twists are added up from the tip; link i is moved by the "
+     "joints up to i", "with V_i of the joints from i on",
+     {"twists": lambda S, qd: np.cumsum((S * qd[:, None])[::-1], axis=0)[::-1]}),
+    ("omega-alone", "only omega is turned; v turns along", "with ad of omega alone",
+     {"turned": lambda S, V: np.append(np.cross(S[:3], V[:3]), np.zeros(3))}),
+):  # fmt: skip
+    row.wrong(slug, says, redone)(
+        lambda J_space, G, qd, other=other: slope(J_space, G, qd, **other)
+    )
+
+
+@row.wrongs
+def _(J_space, G, qd):
+    """C-qd: this is C qd, the Coriolis torque itself; asked for is C^T qd, how the
+      energy changes with the angle
+    minus-C-qd: this is minus C qd, the Coriolis torque; asked for is C^T qd
+    twist-of-the-tip: it is V of the last link that turns; that of link i does, for
+      links after it turn along as they are
+    inverse-order: the answer is backwards: joint1 comes first
+    """
+    C = dynamics.coriolis_matrix(J_space, G, qd)
+    S = J_space.T
+    tip = J_space @ qd
+    momenta = (G @ np.cumsum(S * qd[:, None], axis=0)[:, :, None])[:, :, 0]
+    carried = np.cumsum(momenta[::-1], axis=0)[::-1]
+    return {
+        "C-qd": C @ qd,
+        "minus-C-qd": -C @ qd,
+        "twist-of-the-tip": -(carried * (ad(S) @ tip)).sum(axis=1),
+        "inverse-order": energy_slope(J_space, G, qd)[::-1].copy(),
+    }
+
+
+@row.right  # Christoffel's matrix, transposed.
+def _(J_space, G, qd):
+    return dynamics.coriolis_matrix(J_space, G, qd).T @ qd
+
+
+@row.right  # V of the link before, for ad(S) S is 0; a loop from the tip.
+def _(J_space, G, qd):
+    found = np.zeros(7)
+    momentum = np.zeros(6)
+    for i in range(6, -1, -1):
+        V = J_space[:, : i + 1] @ qd[: i + 1]
+        momentum = momentum + G[i] @ V
+        found[i] = -momentum @ ad(J_space[:, i]) @ (J_space[:, :i] @ qd[:i])
+    return found

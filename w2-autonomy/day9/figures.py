@@ -1,0 +1,67 @@
+"""The picture of Day 9, made with the lab's own functions; drawn by `make figures`.
+
+felt    the error of a filtered speed over its cutoff; seven joints that feel a push
+"""
+
+import day9_estimation as lab
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from labkit.figures import chart
+from labkit.figures.chart import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, RED, SKY
+from robo47 import panda
+
+import day9_mujoco
+
+CUTOFFS = np.geomspace(2.0, 200.0, 13)  # Hz
+ENCODERS = ((14, RED, "s-"), (16, BLUE, "o-"), (18, GREEN, "^-"))
+COLOURS = (GREY, BLUE, ORANGE, RED, SKY, GREEN, PURPLE)
+
+
+@chart.picture(height=9.0)
+def felt(figure: Figure) -> None:
+    """Draw the valley of three encoders, and the residual through a push."""
+    model = panda.load("panda_nohand", drive="torque")
+    arm = panda.arm(model)
+    above, below = figure.subplots(2, 1)
+    _valley(above, day9_mujoco.moved(model, arm, day9_mujoco.SWING, 2.0))
+    push = day9_mujoco.push(lab.FLANGE, lab.FORCE, lab.SINCE)
+    held = day9_mujoco.moved(model, arm, day9_mujoco.STAY, 0.8, push)
+    truth = lab.mujoco_push(model, held.q[-1], lab.FLANGE, lab.FORCE)
+    _push(below, lab.felt(arm, held), truth)
+    for axes in (above, below):
+        axes.grid()
+
+
+def _valley(axes: Axes, swing) -> None:
+    """Draw how far a speed is off behind each low pass, for each encoder."""
+    qd = swing.qd[:, lab.JOINT]
+    for bits, colour, mark in ENCODERS:
+        raw = lab.difference(lab.encoder(swing.q, bits)[:, lab.JOINT], lab.DT)
+        off = [
+            lab.rms((lab.low_pass(raw, lab.DT, f) - qd)[lab.SETTLED :]) for f in CUTOFFS
+        ]
+        axes.loglog(CUTOFFS, off, mark, color=colour, label=f"{bits} bits")
+    lag = [lab.rms((lab.low_pass(qd, lab.DT, f) - qd)[lab.SETTLED :]) for f in CUTOFFS]
+    axes.loglog(CUTOFFS, lag, "--", color=INK, label="lag alone")
+    axes.set(xlabel="cutoff of the low pass, Hz", ylabel="speed off, rad/s RMS")
+    axes.set_title("Joint 4: to the left lag, to the right noise")
+    axes.legend(loc="lower left")
+
+
+def _push(axes: Axes, residual: np.ndarray, truth: np.ndarray) -> None:
+    """Draw the seven residuals, and what MuJoCo says that the push is."""
+    t = 1000 * (np.arange(len(residual)) * lab.DT - lab.SINCE)
+    shown = (t > -60) & (t < 240)
+    for joint, colour in enumerate(COLOURS):
+        name = f"joint {joint + 1}" if abs(truth[joint]) > lab.THRESHOLD else None
+        axes.plot(t[shown], residual[shown, joint], color=colour, label=name)
+        axes.plot([0, 240], [truth[joint]] * 2, "--", color=colour, linewidth=1.5)
+    axes.set(xlabel="time since the push, ms", ylabel="residual, N m")
+    axes.set_title("10 N on the flange; dashed: $J^T F$")
+    axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.77))
+
+
+FIGURES = {"felt": felt}
+SMALL = ("felt", 0.02, 0.555, 0.74)  # its left, top and width, in parts of its width

@@ -1,0 +1,116 @@
+"""9.9 `observer_step(residual, integral, p, tau, ..., dt)`: questions and mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+from robo47.estimation import observer_step
+
+from .signals import JOINTS
+
+row = Row((
+    Vector((7,), "N m", names=JOINTS, called="the residual", scale=10.0),
+    Vector((7,), names=JOINTS, called="the integral"),
+))  # fmt: skip
+
+
+@row.inputs
+def _(rng):
+    nothing = np.zeros(7)
+    case = (nothing, nothing, np.ones(7), *[nothing] * 5, 50.0, 0.002)
+    drawn = []
+    for k in range(6):
+        parts = rng.numbers(-2, 2, 8, 7)
+        parts[6] = rng.numbers(0.2, 2, 7)  # the damping
+        gain, dt = float(rng.numbers(5, 90)), [0.1, 0.05, 0.2][k % 3]
+        drawn.append((*parts, gain, dt))
+    return [case, *drawn]
+
+
+NAMES = ("residual", "integral", "p", "tau", "slope", "gravity", "damping", "qd")
+
+
+@row.wrongs
+def _(residual, integral, p, tau, slope, gravity, damping, qd, gain, dt):
+    """slope-sign: the slope is subtracted; it pushes the momentum along, as tau does
+    slope-forgotten: the slope is missing: at rest it is 0, and nothing shows
+    gravity-sign: gravity is added; `gravity` is what holds the arm, so the weight
+      itself has a minus
+    gravity-forgotten: gravity is missing
+    tau-forgotten: tau is missing: then the motors count as somebody who pushes
+    tau-sign: tau is subtracted
+    damping-sign: damping is added; it brakes
+    damping-forgotten: damping is missing
+    damping-without-speed: damping is subtracted as it is; times qd it is a torque
+    residual-not-fed-back: the residual is not fed back: a steady push is added up for
+      ever
+    residual-subtracted: the residual is subtracted from what is known; p moves by it,
+      so it is added
+    dt-forgotten: what is known is added without dt: a torque is no momentum
+    residual-without-dt: the residual is added without dt
+    sign-of-the-answer: the residual is integral - p: a push forwards then comes out
+      backwards
+    gain-forgotten: the gain is missing: p - integral is a momentum, not a torque
+    gain-divided: it is divided by the gain
+    gain-on-the-integral: the gain multiplies p only
+    gain-times-dt: it is multiplied by dt as well
+    integral-of-before: the residual is made with the integral of before: that is a
+      sample late
+    integral-not-kept: the integral begins anew at each step; what was known before is
+      lost
+    integral-not-handed-on: the integral that is returned is the old one
+    p-added: p is added to the integral as well
+    """
+    brake = damping * qd
+    known = tau + slope - gravity - brake
+    now = integral + (known + residual) * dt
+
+    def of(changed):
+        new = now + changed * dt
+        return gain * (p - new), new
+
+    def with_integral(new):
+        return gain * (p - new), new
+
+    return {
+        "slope-sign": of(-2 * slope),
+        "slope-forgotten": of(-slope),
+        "gravity-sign": of(2 * gravity),
+        "gravity-forgotten": of(gravity),
+        "tau-forgotten": of(-tau),
+        "tau-sign": of(-2 * tau),
+        "damping-sign": of(2 * brake),
+        "damping-forgotten": of(brake),
+        "damping-without-speed": of(brake - damping),
+        "residual-not-fed-back": of(-residual),
+        "residual-subtracted": of(-2 * residual),
+        "dt-forgotten": with_integral(integral + known + residual),
+        "residual-without-dt": with_integral(integral + known * dt + residual),
+        "sign-of-the-answer": (gain * (now - p), now),
+        "gain-forgotten": (p - now, now),
+        "gain-divided": ((p - now) / gain, now),
+        "gain-on-the-integral": (gain * p - now, now),
+        "gain-times-dt": (gain * (p - now) * dt, now),
+        "integral-of-before": (gain * (p - integral), now),
+        "integral-not-kept": with_integral((known + residual) * dt),
+        "integral-not-handed-on": (gain * (p - now), integral.copy()),
+        "p-added": with_integral(now + p),
+    }
+
+
+@row.wrong("answers-swapped", "the two answers are swapped: the residual comes first")
+def _(residual, integral, p, tau, slope, gravity, damping, qd, gain, dt):
+    given = (residual, integral, p, tau, slope, gravity, damping, qd, gain, dt)
+    return observer_step(*given)[::-1]
+
+
+@row.right  # A joint at a time.
+def _(residual, integral, p, tau, slope, gravity, damping, qd, gain, dt):
+    r, new = np.zeros(7), np.zeros(7)
+    for j in range(7):
+        torque = tau[j] + slope[j] - gravity[j] - damping[j] * qd[j]
+        new[j] = integral[j] + dt * torque + dt * residual[j]
+        r[j] = gain * p[j] - gain * new[j]
+    return r, new
+
+
+row.at_least_0(gain="a gain", dt="a time", damping="a damping")
