@@ -23,14 +23,16 @@ SEED = 10  # of where the cube stands, and of guesses
 NOISE_SEED = 47  # of the noise alone
 NOISE = 0.3  # px, of each corner that is found in a picture
 TRIALS = 50  # cubes that are seen without noise
-NOISY = 200  # fits with noise
+NOISY = 100  # fits with noise
+CHI2_95 = 12.592  # of six numbers: 95 % of all twists are within
 NEAR = 0.8  # m, from the eye to the cube whose pose is fitted
 HEIGHTS = (480, 240, 120)  # px, of the pictures it is fitted to; 4 : 3
 TURN = 0.17  # rad that a guess is turned wrong
 SLIDE = 0.05  # m that it stands beside
 STEPS = 10  # of a fit
 LOOKS = 8  # poses of the arm from which the eye on its hand looks
-FREE = np.array([0.5, 0.05])  # rad about joint 7's axis and m along it: another eye
+JITTER = 0.001  # rad and m: noise of each look, per axis
+FREE = np.array([0, 0, 0.5, 0, 0, 0.05])  # twist about joint 7's axis: another X
 ABOVE = 0.006  # m above the table: lower points are the table's
 STARTS = (-0.5, 0.0, 0.5)  # rad: yaws from which a cloud is fitted
 ICP_STEPS = 20
@@ -210,46 +212,137 @@ def off_library(rng: np.random.Generator) -> dict[str, np.ndarray]:
     }
 
 
-def same_cube(model, data, rng: np.random.Generator) -> tuple[list, list]:
-    """Return how far corners are seen beside MuJoCo's, px, and fits beside the truth."""
-    seen, poses = [], []
-    for T_world_cube in day10_mujoco.cubes(TRIALS, SEED):
-        day10_mujoco.place(model, data, T_world_cube)
-        mujoco.mj_forward(model, data)  # fills sensordata: what camprojection sees
-        K, T_world_cam = eye.camera(model, data, "eye")
-        T_cam_world = se3.inverse(T_world_cam)
-        corners = day10_mujoco.CORNERS @ T_world_cube[:3, :3].T + T_world_cube[:3, 3]
-        truth = day10_mujoco.corners_seen(model, data)
-        seen.append(project(K, T_cam_world, corners) - truth)
-        T_cam_cube = T_cam_world @ T_world_cube
-        guess = guesses(T_cam_cube, 1, rng)[0]
-        fitted = refine_pose(K, guess, day10_mujoco.CORNERS, truth)
-        poses.append(fitted - T_cam_cube)
-    return seen, poses
+def looked_at(model, data, T_world_cube: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Return where MuJoCo sees a cube's corners, px, (8, 2), and where they are, m."""
+    day10_mujoco.place(model, data, T_world_cube)
+    mujoco.mj_forward(model, data)  # fills sensordata: what camprojection sees
+    corners = day10_mujoco.CORNERS @ T_world_cube[:3, :3].T + T_world_cube[:3, 3]
+    return day10_mujoco.corners_seen(model, data), corners
 
 
-def noisy_fits(K: np.ndarray, T: np.ndarray, rng) -> tuple[np.ndarray, ...]:
-    """Return fits to noisy corners of a cube at T: their errors, and what is predicted.
+def slopes(model, data, T_cam_cube: np.ndarray, T_world_cam: np.ndarray) -> np.ndarray:
+    """Return what MuJoCo's pixels change per twist of the cube, (8, 2, 6).
 
-    Twists away from T, (n, 6), places beside T's, m, (n, 3); sigma of both, as
-    covariances (6, 6) and (3, 3).
+    By central differences: about 1e-9 of an entry is lost.
     """
-    exact = project(K, T, day10_mujoco.CORNERS)
-    p_cam = day10_mujoco.CORNERS @ T[:3, :3].T + T[:3, 3]
+    h = 1e-6
+    columns = []
+    for xi in h * np.eye(6):
+        there = T_world_cam @ library.moved(T_cam_cube, xi)
+        back = T_world_cam @ library.moved(T_cam_cube, -xi)
+        ahead, _ = looked_at(model, data, there)
+        behind, _ = looked_at(model, data, back)
+        columns.append((ahead - behind) / (2 * h))
+    return np.stack(columns, axis=-1)
+
+
+def fit_with_noise(lab: Lab, height: int, T: np.ndarray, rng) -> None:
+    """Fit a cube at T to noisy corners, and print how far off it is and was told."""
+    K = camera_matrix(np.deg2rad(day10_mujoco.FOVY), height * 4 / 3, height)
+    corners = day10_mujoco.CORNERS
+    exact = project(K, T, corners)
+    p_cam = corners @ T[:3, :3].T + T[:3, 3]
     C = pose_covariance(projection_jacobian(K, p_cam), NOISE)
-    to_place = np.hstack([-skew(T[:3, 3]), np.eye(3)])  # v + omega x p of the cube
-    fits = [
-        refine_pose(K, T, day10_mujoco.CORNERS, exact + noise)
-        for noise in NOISE * rng.normal(size=(NOISY, 8, 2))
-    ]
-    twists = np.array([log_pose(fit @ se3.inverse(T)) for fit in fits])
-    places = np.array([fit[:3, 3] - T[:3, 3] for fit in fits])
-    return twists, places, C, to_place @ C @ to_place.T
+    at_cube = np.hstack([-skew(T[:3, 3]), np.eye(3)])  # v of the cube: v + omega x p
+    sigma = 1000 * np.sqrt(np.diag(at_cube @ C @ at_cube.T))
+    fits = [refine_pose(K, T, corners, exact + NOISE * rng.normal(size=exact.shape))
+            for _ in range(NOISY)]  # fmt: skip
+    xi = np.array([log_pose(fit @ se3.inverse(T)) for fit in fits])
+    off = 1000 * np.array([fit[:3, 3] - T[:3, 3] for fit in fits])
+    inside = np.mean(np.einsum("ni,ij,nj->n", xi, np.linalg.inv(C), xi) < CHI2_95)
+    across = rms(off[:, 0])
+    along = rms(off[:, 2])
+    print(f"  {height:6}{sigma[0]:12.2f}{across:10.2f}{sigma[2]:14.1f}{along:10.1f}"
+          f"{inside:9.0%}")  # fmt: skip
+    if height == day10_mujoco.HEIGHT:
+        lab.measured("mm off along the view, 240 px", along)
+        lab.record("pose", inside, metric="inside_95", label="inside 95 %, 240 px",
+                   seed=NOISE_SEED)  # fmt: skip
 
 
-def same_all_along(A: np.ndarray, B: np.ndarray, X: np.ndarray) -> float:
-    """Return the residual |A X - X B|, the largest entry."""
-    return np.abs(A @ X - X @ B).max()
+def wanders(hands: np.ndarray, eyes: np.ndarray, X: np.ndarray) -> float:
+    """Return how far the table's middle moves, mm, if the eye sits at X on the hand.
+
+    It stands still: what each look says of it is hand, X, and what the eye saw.
+    """
+    middle = np.append(day10_mujoco.TO, 1.0)
+    said = hands @ X @ se3.inverse(eyes) @ middle
+    return 1000 * np.linalg.norm(said - said[0], axis=1).max()
+
+
+def jittered(T: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """Return poses, (k, 4, 4), measured with noise: JITTER rad, JITTER m an axis."""
+    xi = JITTER * rng.normal(size=(len(T), 6))
+    return T @ np.array([library.moved(np.eye(4), one) for one in xi])
+
+
+def calibrate(lab: Lab, rng: np.random.Generator) -> None:
+    """Find where on the hand the eye sits, by all joints and by joint 7 alone."""
+    model = day10_mujoco.handheld()
+    away = rng.uniform(-0.5, 0.5, (2, LOOKS, 7))
+    # mujoco.mj_forward fills site_xpos, site_xmat, cam_xpos and cam_xmat of each look.
+    many = day10_mujoco.looks(model, panda.READY_Q + away[0])
+    few = day10_mujoco.looks(model, panda.READY_Q + away[0] * np.eye(7)[6])
+    fresh = day10_mujoco.looks(model, panda.READY_Q + away[1])
+    noisy = (many[0], jittered(many[1], rng))
+    another = library.moved(day10_mujoco.ON_HAND, FREE)
+    print("                             second                      off   wanders, mm")
+    print("  turned                      axis  residual   deg     mm   here elsewhere")
+    for name, looks, told in (
+        ("all joints", many, None),
+        ("all joints, 1 mrad, 1 mm", noisy, None),
+        ("joint 7 alone", few, None),
+        ("joint 7 alone, another X", few, another),
+    ):
+        A, B = (se3.inverse(T[0]) @ T[1:] for T in looks)
+        vectors = [log_rotation(T[:3, :3]) for T in A]
+        X = hand_eye(A, B) if told is None else told
+        residual = np.abs(A @ X - X @ B).max()
+        off = log_pose(X @ se3.inverse(day10_mujoco.ON_HAND))
+        turned = np.degrees(np.linalg.norm(off[:3]))
+        beside = 1000 * np.linalg.norm(X[:3, 3] - day10_mujoco.ON_HAND[:3, 3])
+        second = np.linalg.svd(vectors, compute_uv=False)[1]
+        print(f"  {name:26}{second:6.2f}{residual:10.0e}{turned:6.2f}{beside:7.2f}"
+              f"{wanders(*looks, X):7.2f}{wanders(*fresh, X):10.2f}")  # fmt: skip
+        if looks is many:
+            lab.record("hand_eye", X - day10_mujoco.ON_HAND, seed=SEED,
+                       label="|hand_eye - where MuJoCo's camera sits|")  # fmt: skip
+
+
+def found(cloud: np.ndarray) -> np.ndarray:
+    """Return `T_world_cube` of the cube that a cloud of points, (n, 3), belongs to."""
+    faces = day10_mujoco.faces()
+    fits = []
+    for yaw in STARTS:
+        middle = np.append(cloud[:, :2].mean(axis=0), day10_mujoco.CUBE_HEIGHT)
+        T = se3.inverse(se3.make_T(se3.Rz(yaw), middle))
+        for _ in range(ICP_STEPS):
+            T = icp_step(T, cloud, faces)
+        now = cloud @ T[:3, :3].T + T[:3, 3]
+        beside = np.linalg.norm(now[:, None] - faces, axis=2).min(axis=1)
+        fits.append((rms(beside), T))
+    _, best = min(fits, key=lambda fit: fit[0])
+    return se3.inverse(best)
+
+
+def see_the_cube(lab: Lab, model, data, K: np.ndarray, T_world_cam) -> None:
+    """Find Day 7's cube by its depth image; nobody tells where it stands."""
+    pixels = eye.middles(day10_mujoco.WIDTH, day10_mujoco.HEIGHT)
+    off = []
+    for T_world_cube in day10_mujoco.cubes(DEMO, SEED + 1):
+        day10_mujoco.place(model, data, T_world_cube)
+        mujoco.mj_forward(model, data)  # fills geom_xpos: what rays meet
+        far = eye.depth(model, data, "eye").ravel()  # mujoco.mj_multiRay, a ray a pixel
+        hit = np.isfinite(far)
+        cloud = back_project(K, T_world_cam, pixels[hit], far[hit])
+        cloud = cloud[cloud[:, 2] > day10_mujoco.TABLE + ABOVE]
+        T = found(cloud)
+        beside = 1000 * np.linalg.norm((T - T_world_cube)[:2, 3])
+        mean = 1000 * np.linalg.norm(cloud.mean(axis=0)[:2] - T_world_cube[:2, 3])
+        print(f"  {len(cloud)} points: {beside:.1f} mm beside its place; "
+              f"their mean: {mean:.1f} mm")  # fmt: skip
+        off.append(beside)
+    lab.record("cube_seen", off, label="the cube, seen, mm off", seed=SEED + 1)
 
 
 def main() -> int:
@@ -257,17 +350,68 @@ def main() -> int:
     lab = Lab(__file__, __doc__)
     rng = np.random.default_rng(SEED)
     model, data = day10_mujoco.table()
-    print(f"an eye of {day10_mujoco.WIDTH} x {day10_mujoco.HEIGHT} pixels, a table, "
-          "and Day 7's cube")
+    places = day10_mujoco.cubes(TRIALS, SEED)
+    _, corners = looked_at(model, data, places[0])
+    truth_K, T_world_cam = eye.camera(
+        model, data, "eye"
+    )  # cam_fovy, cam_xpos, cam_xmat
+    T_cam_world = se3.inverse(T_world_cam)
 
     lab.step("1. Where a point is seen")
-    seen, poses = same_cube(model, data, rng)
-    K, T_world_cam = eye.camera(model, data, "eye")
-    fovy = np.deg2rad(model.cam_fovy[0])
-    own_K = camera_matrix(fovy, *model.cam_resolution[0])
-    lab.check("|camera_matrix - MuJoCo's camera|, px", own_K - K)
-    lab.record("project", seen, label="|project - MuJoCo's camprojection|, px",
+    K = camera_matrix(np.deg2rad(day10_mujoco.FOVY), *model.cam_resolution[0])
+    lab.show("K", K, 3)
+    lab.check("|K - that of MuJoCo's camera|, px", K - truth_K)
+    off = []
+    for T_world_cube in places:
+        pixels, corners = looked_at(model, data, T_world_cube)
+        off.append(project(K, T_cam_world, corners) - pixels)
+    lab.record("project", off, label="|project - MuJoCo's camprojection|, px",
                seed=SEED)  # fmt: skip
+
+    lab.step("2. A depth image is a cloud of points")
+    day10_mujoco.place(model, data, day10_mujoco.ASIDE)
+    mujoco.mj_forward(model, data)  # fills geom_xpos: what rays meet
+    far = eye.depth(model, data, "eye").ravel()  # mujoco.mj_multiRay, a ray a pixel
+    hit = np.isfinite(far)
+    pixels = eye.middles(day10_mujoco.WIDTH, day10_mujoco.HEIGHT)[hit]
+    cloud = back_project(K, T_world_cam, pixels, far[hit])
+    flat = day10_mujoco.on_top(cloud)
+    lab.check("|height of the table's points - the table's|, m",
+              cloud[flat, 2] - day10_mujoco.TABLE)  # fmt: skip
+    shifted = back_project(K, T_world_cam, pixels + 0.5, far[hit])
+    half = 1000 * rms(np.linalg.norm(shifted - cloud, axis=1)[flat])
+    print(f"  {len(cloud)} points; half a pixel, both ways, is {half:.1f} mm")
+    lab.measured("half a pixel, both ways, on the table, mm", half)
+
+    lab.step("3. Pixels per twist, poses from pixels")
+    off, fits = [], []
+    for T_world_cube in places:
+        T_cam_cube = T_cam_world @ T_world_cube
+        p_cam = day10_mujoco.CORNERS @ T_cam_cube[:3, :3].T + T_cam_cube[:3, 3]
+        truth = slopes(model, data, T_cam_cube, T_world_cam)
+        off.append(projection_jacobian(K, p_cam) - truth)
+        pixels, _ = looked_at(model, data, T_world_cube)
+        guess = guesses(T_cam_cube, 1, rng)[0]
+        fits.append(refine_pose(K, guess, day10_mujoco.CORNERS, pixels) - T_cam_cube)
+    lab.check("|J - slopes of MuJoCo's pixels|, px", off, 1e-4)
+    lab.check("|refine_pose - MuJoCo's pose|", fits)
+    for name, off in off_library(rng).items():
+        lab.check(f"{name} - the library's", off)
+
+    lab.step(f"4. The same with {NOISE} px of noise, {NEAR} m away, mm")
+    print("            across the view      along the view")
+    print("  height  predicted  measured     predicted  measured  inside")
+    noise = np.random.default_rng(NOISE_SEED)
+    T = se3.make_T(se3.Rz(0.3) @ se3.Rx(2.3), (0.05, 0.02, NEAR))
+    for height in HEIGHTS:
+        fit_with_noise(lab, height, T, noise)
+
+    lab.step("5. An eye on the hand: where does it sit?")
+    calibrate(lab, rng)
+
+    lab.step("6. Side quest: Day 7's cube, seen and not told")
+    with lab.side_quest():
+        see_the_cube(lab, model, data, K, T_world_cam)
     return lab.finish()
 
 

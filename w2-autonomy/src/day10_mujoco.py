@@ -12,10 +12,14 @@ import numpy as np
 from robo47 import eye, panda, scenes, se3
 from robo47.checks import Array
 
-WIDTH, HEIGHT = 320, 240  # pixels
+WIDTH = 320  # pixels
+HEIGHT = 240
 FOVY = 45.0  # degrees, as MuJoCo has it
 AT = np.array([1.15, 0.0, 0.9])  # m, where the eye hangs, and ...
 TO = np.array([0.5, 0.0, 0.2])  # ... m, what it looks at: the middle of the table
+TABLE = scenes.TABLE_HEIGHT  # m
+CUBE_HEIGHT = TABLE + scenes.CUBE_HALF  # m, of its middle
+ASIDE = se3.make_T(np.eye(3), (0.0, 0.0, -9.0))  # where no eye sees the cube
 # The cube's eight corners in its own axes, m, (8, 3).
 CORNERS = scenes.CUBE_HALF * np.array(list(itertools.product((-1, 1), repeat=3)))
 # Where the camera sits on the hand, `T_hand_cam`: nobody tells the arm.
@@ -28,7 +32,7 @@ def table() -> tuple[mujoco.MjModel, mujoco.MjData]:
     Each corner of the cube is a site with a `camprojection` sensor, "corner0" on.
     """
     spec = mujoco.MjSpec()
-    top = (*scenes.TABLE_CENTRE, scenes.TABLE_HEIGHT - 0.01)
+    top = (*scenes.TABLE_CENTRE, TABLE - 0.01)
     half = (*scenes.TABLE_HALF, 0.01)
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, pos=top, size=half)
     spec.worldbody.add_camera(
@@ -58,9 +62,8 @@ def cubes(n: int, seed: int) -> Array:
     """Return n places of the cube on the table, turned about z: `T_world_cube`."""
     rng = np.random.default_rng(seed)
     xy = rng.uniform((0.4, -0.25), (0.6, 0.25), (n, 2))
-    height = scenes.TABLE_HEIGHT + scenes.CUBE_HALF
     turned = se3.Rz(rng.uniform(-np.pi / 4, np.pi / 4, n))
-    return se3.make_T(turned, np.column_stack([xy, np.full(n, height)]))
+    return se3.make_T(turned, np.column_stack([xy, np.full(n, CUBE_HEIGHT)]))
 
 
 def corners_seen(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
@@ -99,18 +102,26 @@ def looks(model: mujoco.MjModel, q: Array) -> tuple[Array, Array]:
     return np.array(hands), np.array(eyes)
 
 
+def on_top(points: Array) -> Array:
+    """Return which points of the world, (n, 3), are 10 mm and more within the table."""
+    beside = np.abs(points[:, :2] - scenes.TABLE_CENTRE)
+    return (beside < np.array(scenes.TABLE_HALF) - 0.01).all(axis=1)
+
+
 def faces(n: int = 9) -> Array:
     """Return points on the cube's top and four sides, in its own axes, (5 n n, 3)."""
     line = scenes.CUBE_HALF * (np.arange(n) + 0.5 - n / 2) / (n / 2)
     u, v = (x.ravel() for x in np.meshgrid(line, line))
     out = np.full(u.size, scenes.CUBE_HALF)
-    return np.vstack([
-        np.column_stack([u, v, out]),
-        np.column_stack([u, out, v]),
-        np.column_stack([u, -out, v]),
-        np.column_stack([out, u, v]),
-        np.column_stack([-out, u, v]),
-    ])
+    return np.vstack(
+        [
+            np.column_stack([u, v, out]),
+            np.column_stack([u, out, v]),
+            np.column_stack([u, -out, v]),
+            np.column_stack([out, u, v]),
+            np.column_stack([-out, u, v]),
+        ]
+    )
 
 
 def _towards(way: Array) -> Array:
