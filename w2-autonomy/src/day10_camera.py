@@ -119,7 +119,7 @@ def moved(T: np.ndarray, xi: np.ndarray) -> np.ndarray:
     # region 10.6
     angle = np.linalg.norm(xi[:3])
     theta = angle if angle > 0 else np.linalg.norm(xi[3:])
-    return exp_screw(xi / theta, theta) @ T if theta > 0 else T
+    return exp_screw(xi / theta, theta) @ T if theta > 0 else T.copy()
     # endregion 10.6
 
 
