@@ -22,8 +22,8 @@ import day10_mujoco
 SEED = 10  # of where the cube stands, and of guesses
 NOISE_SEED = 47  # of the noise alone
 NOISE = 0.3  # px, of each corner that is found in a picture
-TRIALS = 50  # cubes that are seen without noise
-NOISY = 100  # fits with noise
+TRIALS = 20  # cubes that are seen without noise
+NOISY = 50  # fits with noise, at each height
 CHI2_95 = 12.592  # of six numbers: 95 % of all twists are within
 NEAR = 0.8  # m, from the eye to the cube whose pose is fitted
 HEIGHTS = (480, 240, 120)  # px, of the pictures it is fitted to; 4 : 3
@@ -35,8 +35,8 @@ JITTER = 0.001  # rad and m: noise of each look, per axis
 FREE = np.array([0, 0, 0.5, 0, 0, 0.05])  # twist about joint 7's axis: another X
 ABOVE = 0.006  # m above the table: lower points are the table's
 STARTS = (-0.5, 0.0, 0.5)  # rad: yaws from which a cloud is fitted
-ICP_STEPS = 20
-DEMO = 4  # cubes that are found by their depth alone
+ICP_STEPS = 15
+DEMO = 3  # cubes that are found by their depth alone
 
 
 def rms(x: np.ndarray) -> float:
@@ -177,7 +177,7 @@ def icp_step(T: np.ndarray, source: np.ndarray, target: np.ndarray) -> np.ndarra
     """
     # region 10.9
     now = source @ T[:3, :3].T + T[:3, 3]
-    away = np.linalg.norm(now[:, None] - target, axis=2)
+    away = np.sum((now[:, None] - target) ** 2, axis=2)
     return kabsch(source, target[np.argmin(away, axis=1)])
     # endregion 10.9
 
@@ -236,38 +236,41 @@ def slopes(model, data, T_cam_cube: np.ndarray, T_world_cam: np.ndarray) -> np.n
     return np.stack(columns, axis=-1)
 
 
-def fit_with_noise(lab: Lab, height: int, T: np.ndarray, rng) -> None:
-    """Fit a cube at T to noisy corners, and print how far off it is and was told."""
+def fit_with_noise(height: int, T: np.ndarray, rng) -> tuple[np.ndarray, float]:
+    """Fit a cube at T to noisy corners; print how far off it is, and was told to be.
+
+    Return which fits lie in their 95 % ellipse, (NOISY,), and mm off along the view.
+    """
     K = camera_matrix(np.deg2rad(day10_mujoco.FOVY), height * 4 / 3, height)
     corners = day10_mujoco.CORNERS
     exact = project(K, T, corners)
     p_cam = corners @ T[:3, :3].T + T[:3, 3]
     C = pose_covariance(projection_jacobian(K, p_cam), NOISE)
-    at_cube = np.hstack([-skew(T[:3, 3]), np.eye(3)])  # v of the cube: v + omega x p
+    at_cube = np.hstack([-skew(T[:3, 3]), np.eye(3)])  # its velocity, omega x p + v
     sigma = 1000 * np.sqrt(np.diag(at_cube @ C @ at_cube.T))
-    fits = [refine_pose(K, T, corners, exact + NOISE * rng.normal(size=exact.shape))
-            for _ in range(NOISY)]  # fmt: skip
+    seen = exact + NOISE * rng.normal(size=(NOISY, *exact.shape))
+    fits = np.array([refine_pose(K, T, corners, pixels) for pixels in seen])
     xi = np.array([log_pose(fit @ se3.inverse(T)) for fit in fits])
-    off = 1000 * np.array([fit[:3, 3] - T[:3, 3] for fit in fits])
-    inside = np.mean(np.einsum("ni,ij,nj->n", xi, np.linalg.inv(C), xi) < CHI2_95)
-    across = rms(off[:, 0])
-    along = rms(off[:, 2])
-    print(f"  {height:6}{sigma[0]:12.2f}{across:10.2f}{sigma[2]:14.1f}{along:10.1f}"
-          f"{inside:9.0%}")  # fmt: skip
-    if height == day10_mujoco.HEIGHT:
-        lab.measured("mm off along the view, 240 px", along)
-        lab.record("pose", inside, metric="inside_95", label="inside 95 %, 240 px",
-                   seed=NOISE_SEED)  # fmt: skip
+    inside = np.einsum("ni,ij,nj->n", xi, np.linalg.inv(C), xi) < CHI2_95
+    off = 1000 * np.array([rms(x) for x in (fits[:, :3, 3] - T[:3, 3]).T])
+    print(f"  {height:6}{sigma[0]:12.2f}{off[0]:10.2f}{sigma[2]:14.1f}{off[2]:10.1f}"
+          f"{np.mean(inside):9.0%}")  # fmt: skip
+    return inside, off[2]
 
 
-def wanders(hands: np.ndarray, eyes: np.ndarray, X: np.ndarray) -> float:
-    """Return how far the table's middle moves, mm, if the eye sits at X on the hand.
+def said(hands: np.ndarray, eyes: np.ndarray, X: np.ndarray) -> np.ndarray:
+    """Return where the table's middle seems to be, (k, 3), if the eye sits at X.
 
     It stands still: what each look says of it is hand, X, and what the eye saw.
     """
     middle = np.append(day10_mujoco.TO, 1.0)
-    said = hands @ X @ se3.inverse(eyes) @ middle
-    return 1000 * np.linalg.norm(said - said[0], axis=1).max()
+    return (hands @ X @ se3.inverse(eyes) @ middle)[:, :3]
+
+
+def wanders(hands: np.ndarray, eyes: np.ndarray, X: np.ndarray) -> float:
+    """Return by how much the table's middle seems to move between looks, mm."""
+    points = said(hands, eyes, X)
+    return 1000 * np.linalg.norm(points - points[0], axis=1).max()
 
 
 def jittered(T: np.ndarray, rng: np.random.Generator) -> np.ndarray:
@@ -276,8 +279,33 @@ def jittered(T: np.ndarray, rng: np.random.Generator) -> np.ndarray:
     return T @ np.array([library.moved(np.eye(4), one) for one in xi])
 
 
-def calibrate(lab: Lab, rng: np.random.Generator) -> None:
-    """Find where on the hand the eye sits, by all joints and by joint 7 alone."""
+def motions(looks) -> tuple[np.ndarray, np.ndarray]:
+    """Return A and B, (k - 1, 4, 4): how hand and eye moved from the first look."""
+    hands, eyes = (se3.inverse(T[0]) @ T[1:] for T in looks)
+    return hands, eyes
+
+
+def judged(name: str, looks, fresh, X: np.ndarray, known: bool = True) -> None:
+    """Print how good X looks at these looks, and how good it is."""
+    A, B = motions(looks)
+    residual = np.abs(A @ X - X @ B).max()
+    turns = [log_rotation(T[:3, :3]) for T in A]
+    second = np.linalg.svd(turns, compute_uv=False)[1]
+    text = f"  {name:26}{second:6.2f}{residual:10.0e}"
+    if known:
+        at = day10_mujoco.ON_HAND
+        turned = np.degrees(np.linalg.norm(log_rotation(X[:3, :3] @ at[:3, :3].T)))
+        beside = 1000 * np.linalg.norm(X[:3, 3] - at[:3, 3])
+        text += f"{turned:7.2f}{beside:7.2f}{wanders(*looks, X):7.2f}"
+        text += f"{wanders(*fresh, X):10.2f}"
+    print(text)
+
+
+def calibrate(rng: np.random.Generator) -> np.ndarray:
+    """Find where on the hand the eye sits, by all joints and by joint 7 alone.
+
+    Return how far the first is from where MuJoCo's camera sits, (4, 4).
+    """
     model = day10_mujoco.handheld()
     away = rng.uniform(-0.5, 0.5, (2, LOOKS, 7))
     # mujoco.mj_forward fills site_xpos, site_xmat, cam_xpos and cam_xmat of each look.
@@ -286,27 +314,19 @@ def calibrate(lab: Lab, rng: np.random.Generator) -> None:
     fresh = day10_mujoco.looks(model, panda.READY_Q + away[1])
     noisy = (many[0], jittered(many[1], rng))
     another = library.moved(day10_mujoco.ON_HAND, FREE)
-    print("                             second                      off   wanders, mm")
-    print("  turned                      axis  residual   deg     mm   here elsewhere")
-    for name, looks, told in (
-        ("all joints", many, None),
-        ("all joints, 1 mrad, 1 mm", noisy, None),
-        ("joint 7 alone", few, None),
-        ("joint 7 alone, another X", few, another),
-    ):
-        A, B = (se3.inverse(T[0]) @ T[1:] for T in looks)
-        vectors = [log_rotation(T[:3, :3]) for T in A]
-        X = hand_eye(A, B) if told is None else told
-        residual = np.abs(A @ X - X @ B).max()
-        off = log_pose(X @ se3.inverse(day10_mujoco.ON_HAND))
-        turned = np.degrees(np.linalg.norm(off[:3]))
-        beside = 1000 * np.linalg.norm(X[:3, 3] - day10_mujoco.ON_HAND[:3, 3])
-        second = np.linalg.svd(vectors, compute_uv=False)[1]
-        print(f"  {name:26}{second:6.2f}{residual:10.0e}{turned:6.2f}{beside:7.2f}"
-              f"{wanders(*looks, X):7.2f}{wanders(*fresh, X):10.2f}")  # fmt: skip
-        if looks is many:
-            lab.record("hand_eye", X - day10_mujoco.ON_HAND, seed=SEED,
-                       label="|hand_eye - where MuJoCo's camera sits|")  # fmt: skip
+    X = hand_eye(*motions(many))
+    print("                             second                      off  wanders, mm")
+    print(
+        "  turned                       axis  residual    deg     mm   here elsewhere"
+    )
+    judged("all joints", many, fresh, X)
+    judged("all joints, 1 mrad, 1 mm", noisy, fresh, hand_eye(*motions(noisy)))
+    # Which of many X this is only rounding decides, so it is not shown ...
+    judged("joint 7 alone", few, fresh, hand_eye(*motions(few)), known=False)
+    judged("joint 7 alone, another X", few, fresh, another)  # ... but one of them is.
+    aside = 1000 * np.linalg.norm(said(*few, another)[0] - day10_mujoco.TO)
+    print(f"  with the last, the table's middle is {aside:.0f} mm beside its place")
+    return X - day10_mujoco.ON_HAND
 
 
 def found(cloud: np.ndarray) -> np.ndarray:
@@ -325,24 +345,46 @@ def found(cloud: np.ndarray) -> np.ndarray:
     return se3.inverse(best)
 
 
-def see_the_cube(lab: Lab, model, data, K: np.ndarray, T_world_cam) -> None:
-    """Find Day 7's cube by its depth image; nobody tells where it stands."""
+def depth_cloud(model, data, K: np.ndarray, T_world_cam: np.ndarray, half: float = 0):
+    """Return the points that the eye sees, (n, 3), in the world.
+
+    With `half` pixels added, both ways, they are where they are not.
+    """
+    mujoco.mj_forward(model, data)  # fills geom_xpos: what rays meet
+    far = eye.depth(model, data, "eye").ravel()  # mujoco.mj_multiRay, a ray a pixel
+    hit = np.isfinite(far)
     pixels = eye.middles(day10_mujoco.WIDTH, day10_mujoco.HEIGHT)
+    return back_project(K, T_world_cam, pixels[hit] + half, far[hit])
+
+
+def see_the_cube(model, data, K: np.ndarray, T_world_cam: np.ndarray) -> list[float]:
+    """Find Day 7's cube by its depth image; return how far off each is, mm."""
     off = []
     for T_world_cube in day10_mujoco.cubes(DEMO, SEED + 1):
         day10_mujoco.place(model, data, T_world_cube)
-        mujoco.mj_forward(model, data)  # fills geom_xpos: what rays meet
-        far = eye.depth(model, data, "eye").ravel()  # mujoco.mj_multiRay, a ray a pixel
-        hit = np.isfinite(far)
-        cloud = back_project(K, T_world_cam, pixels[hit], far[hit])
+        cloud = depth_cloud(model, data, K, T_world_cam)
         cloud = cloud[cloud[:, 2] > day10_mujoco.TABLE + ABOVE]
-        T = found(cloud)
-        beside = 1000 * np.linalg.norm((T - T_world_cube)[:2, 3])
+        beside = 1000 * np.linalg.norm((found(cloud) - T_world_cube)[:2, 3])
         mean = 1000 * np.linalg.norm(cloud.mean(axis=0)[:2] - T_world_cube[:2, 3])
         print(f"  {len(cloud)} points: {beside:.1f} mm beside its place; "
               f"their mean: {mean:.1f} mm")  # fmt: skip
         off.append(beside)
-    lab.record("cube_seen", off, label="the cube, seen, mm off", seed=SEED + 1)
+    return off
+
+
+def off_mujoco(model, data, K: np.ndarray, T_world_cam, rng) -> dict[str, list]:
+    """Return how far your slopes and fits are from what MuJoCo sees, by cube."""
+    T_cam_world = se3.inverse(T_world_cam)
+    off: dict[str, list] = {"J": [], "pose": []}
+    for T_world_cube in day10_mujoco.cubes(TRIALS, SEED):
+        T = T_cam_world @ T_world_cube
+        p_cam = day10_mujoco.CORNERS @ T[:3, :3].T + T[:3, 3]
+        truth = slopes(model, data, T, T_world_cam)
+        off["J"].append(projection_jacobian(K, p_cam) - truth)
+        pixels, _ = looked_at(model, data, T_world_cube)
+        guess = guesses(T, 1, rng)[0]
+        off["pose"].append(refine_pose(K, guess, day10_mujoco.CORNERS, pixels) - T)
+    return off
 
 
 def main() -> int:
@@ -350,68 +392,58 @@ def main() -> int:
     lab = Lab(__file__, __doc__)
     rng = np.random.default_rng(SEED)
     model, data = day10_mujoco.table()
-    places = day10_mujoco.cubes(TRIALS, SEED)
-    _, corners = looked_at(model, data, places[0])
-    truth_K, T_world_cam = eye.camera(
-        model, data, "eye"
-    )  # cam_fovy, cam_xpos, cam_xmat
-    T_cam_world = se3.inverse(T_world_cam)
+    mujoco.mj_forward(model, data)  # fills cam_xpos and cam_xmat
+    K_file, T_world_cam = eye.camera(model, data, "eye")
+    print(panda.describe("panda_nohand"))
 
     lab.step("1. Where a point is seen")
     K = camera_matrix(np.deg2rad(day10_mujoco.FOVY), *model.cam_resolution[0])
     lab.show("K", K, 3)
-    lab.check("|K - that of MuJoCo's camera|, px", K - truth_K)
+    lab.check("|K - that of MuJoCo's camera|, px", K - K_file)
     off = []
-    for T_world_cube in places:
+    for T_world_cube in day10_mujoco.cubes(TRIALS, SEED):
         pixels, corners = looked_at(model, data, T_world_cube)
-        off.append(project(K, T_cam_world, corners) - pixels)
+        off.append(project(K, se3.inverse(T_world_cam), corners) - pixels)
     lab.record("project", off, label="|project - MuJoCo's camprojection|, px",
                seed=SEED)  # fmt: skip
 
     lab.step("2. A depth image is a cloud of points")
     day10_mujoco.place(model, data, day10_mujoco.ASIDE)
-    mujoco.mj_forward(model, data)  # fills geom_xpos: what rays meet
-    far = eye.depth(model, data, "eye").ravel()  # mujoco.mj_multiRay, a ray a pixel
-    hit = np.isfinite(far)
-    pixels = eye.middles(day10_mujoco.WIDTH, day10_mujoco.HEIGHT)[hit]
-    cloud = back_project(K, T_world_cam, pixels, far[hit])
+    cloud = depth_cloud(model, data, K, T_world_cam)
     flat = day10_mujoco.on_top(cloud)
-    lab.check("|height of the table's points - the table's|, m",
-              cloud[flat, 2] - day10_mujoco.TABLE)  # fmt: skip
-    shifted = back_project(K, T_world_cam, pixels + 0.5, far[hit])
+    off = cloud[flat, 2] - day10_mujoco.TABLE
+    lab.check("|height of the table's points - the table's|, m", off)
+    shifted = depth_cloud(model, data, K, T_world_cam, half=0.5)
     half = 1000 * rms(np.linalg.norm(shifted - cloud, axis=1)[flat])
     print(f"  {len(cloud)} points; half a pixel, both ways, is {half:.1f} mm")
     lab.measured("half a pixel, both ways, on the table, mm", half)
 
     lab.step("3. Pixels per twist, poses from pixels")
-    off, fits = [], []
-    for T_world_cube in places:
-        T_cam_cube = T_cam_world @ T_world_cube
-        p_cam = day10_mujoco.CORNERS @ T_cam_cube[:3, :3].T + T_cam_cube[:3, 3]
-        truth = slopes(model, data, T_cam_cube, T_world_cam)
-        off.append(projection_jacobian(K, p_cam) - truth)
-        pixels, _ = looked_at(model, data, T_world_cube)
-        guess = guesses(T_cam_cube, 1, rng)[0]
-        fits.append(refine_pose(K, guess, day10_mujoco.CORNERS, pixels) - T_cam_cube)
-    lab.check("|J - slopes of MuJoCo's pixels|, px", off, 1e-4)
-    lab.check("|refine_pose - MuJoCo's pose|", fits)
-    for name, off in off_library(rng).items():
-        lab.check(f"{name} - the library's", off)
+    off = off_mujoco(model, data, K, T_world_cam, rng)
+    lab.check("|J - slopes of MuJoCo's pixels|, px", off["J"], 1e-4)
+    lab.check("|refine_pose - MuJoCo's pose|", off["pose"])
+    for name, own in off_library(rng).items():
+        lab.check(f"{name} - the library's", own)
 
     lab.step(f"4. The same with {NOISE} px of noise, {NEAR} m away, mm")
     print("            across the view      along the view")
     print("  height  predicted  measured     predicted  measured  inside")
     noise = np.random.default_rng(NOISE_SEED)
     T = se3.make_T(se3.Rz(0.3) @ se3.Rx(2.3), (0.05, 0.02, NEAR))
-    for height in HEIGHTS:
-        fit_with_noise(lab, height, T, noise)
+    fits = {height: fit_with_noise(height, T, noise) for height in HEIGHTS}
+    inside = np.mean([one for one, _ in fits.values()])
+    lab.record("pose", inside, metric="inside_95", label="inside 95 %, all three",
+               seed=NOISE_SEED)  # fmt: skip
+    lab.measured("mm off along the view, 240 px", fits[day10_mujoco.HEIGHT][1])
 
     lab.step("5. An eye on the hand: where does it sit?")
-    calibrate(lab, rng)
+    lab.record("hand_eye", calibrate(np.random.default_rng(SEED)), seed=SEED,
+               label="|hand_eye - where MuJoCo's camera sits|")  # fmt: skip
 
     lab.step("6. Side quest: Day 7's cube, seen and not told")
     with lab.side_quest():
-        see_the_cube(lab, model, data, K, T_world_cam)
+        off = see_the_cube(model, data, K, T_world_cam)
+        lab.record("cube_seen", off, label="the cube, seen, mm off", seed=SEED + 1)
     return lab.finish()
 
 

@@ -108,7 +108,7 @@ def on_top(points: Array) -> Array:
     return (beside < np.array(scenes.TABLE_HALF) - 0.01).all(axis=1)
 
 
-def faces(n: int = 9) -> Array:
+def faces(n: int = 7) -> Array:
     """Return points on the cube's top and four sides, in its own axes, (5 n n, 3)."""
     line = scenes.CUBE_HALF * (np.arange(n) + 0.5 - n / 2) / (n / 2)
     u, v = (x.ravel() for x in np.meshgrid(line, line))
