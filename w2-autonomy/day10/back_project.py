@@ -12,7 +12,7 @@ row = Row(Matrix((None, 3), unit="m", columns=("x", "y", "z")))
 
 @row.inputs
 def _(rng):
-    found = [(K, np.eye(4), [[125.0, 50.0]], [2.0])]
+    found = [(K, np.eye(4), np.array([[125.0, 50]]), np.array([2.0]))]
     for n, k, T in zip((8, 8, 8, 3, 3, 1), cameras(rng, 6), rng.poses(6), strict=True):
         pixels = rounded(rng.uniform((0, 0), 2 * k[:2, 2], (n, 2)))
         found.append((k, T, pixels, rng.numbers(0.4, 2.0, n)))

@@ -20,7 +20,7 @@ def _(rng):
     slide = np.append(np.zeros(3), rng.numbers(-1, 1, 3))
     turn = np.append(rng.numbers(-1, 1, 3), np.zeros(3))
     some = [*xi, *small, slide, turn]
-    first = (np.eye(4), [0, 0, 0, 1.0, 0, 0])
+    first = (np.eye(4), np.eye(6)[3])
     return [first, *zip(T, some, strict=True), (T[0], np.zeros(6))]
 
 

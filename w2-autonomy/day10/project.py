@@ -11,7 +11,8 @@ row = Row(Pixels())
 
 @row.inputs
 def _(rng):
-    return [(K, np.eye(4), [[1, 0, 2]]), *views(rng), *views(rng, 2, 3)]
+    first = (K, np.eye(4), np.array([[1.0, 0, 2]]))
+    return [first, *views(rng), *views(rng, 2, 3)]
 
 
 def seen(K, p):
@@ -35,7 +36,14 @@ def _(K, T_cam_world, points):
     view-along-minus-z: it is divided by -z; here the camera looks along +z, unlike
       MuJoCo's => with -z
     y-up: y is taken upwards; here it points down, as v does => with -y
-    K-transposed: K is transposed => with K^T
+    K-transposed: K is transposed: points stand in rows here, so it is p K^T => with K^T
+    homogeneous-by-mistake: it is divided by the last of K T p, and by depth again; the
+      last is the depth, so one division is enough => divided by z twice
+    whole-pixels: the pixels are rounded; (125.3, 50.7) is a place in the image as well
+      => rounded
+    row-column: the answer is (row, column); u, to the right, comes first => (v, u)
+    middle-of-a-pixel: half a pixel is taken off; (0, 0) is the image's corner, not the
+      middle of its first pixel, as OpenCV has it => with pixels - 0.5
     centre-forgotten: the centre is missing: (0, 0) is the image's corner, and a point
       straight ahead is seen in the middle
     """
@@ -56,8 +64,12 @@ def _(K, T_cam_world, points):
         "divided-by-range": p[:, :2] / np.linalg.norm(p, axis=1)[:, None] * f + centre,
         "view-along-minus-z": -plain + centre,
         "y-up": plain * [1, -1] + centre,
-        "K-transposed": seen(K.T, p),
+        "K-transposed": (p @ K)[:, :2] / (p @ K)[:, 2:],
         "centre-forgotten": plain,
+        "homogeneous-by-mistake": seen(K, p) / p[:, 2:],
+        "whole-pixels": np.round(seen(K, p)),
+        "row-column": seen(K, p)[:, ::-1],
+        "middle-of-a-pixel": seen(K, p) - 0.5,
     }
 
 

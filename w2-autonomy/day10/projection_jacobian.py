@@ -15,7 +15,7 @@ row = Row(Kind((None, 2, 6), unit="px", scale=100.0))
 @row.inputs
 def _(rng):
     drawn = [(k, before(rng, n)) for k, n in zip(cameras(rng), SIZES, strict=True)]
-    return [(K, [[0.0, 0.0, 2.0]]), *drawn]
+    return [(K, np.array([[0.0, 0, 2]])), *drawn]
 
 
 def by_point(K, p):

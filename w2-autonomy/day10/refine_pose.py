@@ -4,7 +4,9 @@ import numpy as np
 
 from labkit.judge import Pose, Row
 from robo47.camera import moved, project, projection_jacobian, refine_pose
+from robo47.screws import skew
 
+from .projection_jacobian import by_point, by_twist
 from .seen import guesses
 
 row = Row(Pose())
@@ -14,19 +16,56 @@ row = Row(Pose())
 def _(rng):
     some = guesses(rng)
     K, T, points, _ = some[0]
-    return [(K, T, points, project(K, T, points)), *some]
+    exact = (K, T, points, project(K, T, points))
+    return [exact, *some, *guesses(rng, 2, far=2.5)]
 
 
-def steps(K, T, points, pixels, *, n=10, solve=np.linalg.lstsq, move=moved, held=False):
-    """Return T after steps that may be wrong."""
+def least_squares(J, off):
+    """Return the twist that explains the pixels' errors best."""
+    return np.linalg.lstsq(J.reshape(-1, 6), off.ravel(), rcond=None)[0]
+
+
+def mixed(J, off):
+    """Return what least squares give where u and v are stacked in two ways."""
+    return least_squares(np.concatenate([J[:, 0], J[:, 1]]), off)
+
+
+def apart(T, xi):
+    """Return T with R turned and t moved, each alone."""
+    T = T.copy()
+    T[:3, :3] = moved(np.eye(4), np.append(xi[:3], np.zeros(3)))[:3, :3] @ T[:3, :3]
+    T[:3, 3] += xi[3:]
+    return T
+
+
+def first_order(T, xi):
+    """Return T + [xi] T."""
+    W = np.zeros((4, 4))
+    W[:3, :3] = skew(xi[:3])
+    W[:3, 3] = xi[3:]
+    return T + W @ T
+
+
+def on_the_right(T, xi):
+    """Return T moved in its own axes."""
+    return T @ moved(np.eye(4), xi)
+
+
+def steps(K, T, points, pixels, *, n=10, solve=least_squares, move=moved, held=False):
+    """Return T after steps that may be wrong; NaN where they run away."""
     J = None
     for _ in range(n):
-        off = (pixels - project(K, T, points)).ravel()
+        p = points @ T[:3, :3].T + T[:3, 3]
+        off = pixels - (p @ K.T)[:, :2] / p[:, 2:]
         if J is None or not held:
-            p = points @ T[:3, :3].T + T[:3, 3]
-            J = projection_jacobian(K, p).reshape(-1, 6)
-        T = move(T, np.linalg.lstsq(J, off, rcond=None)[0])
+            J = slopes(K, p)
+        T = move(T, solve(J, off))
     return T
+
+
+def slopes(K, p):
+    """Return 10.4's J, also of points behind the camera, where wrong steps may lead."""
+    return by_point(K, p) @ by_twist(p)
 
 
 @row.wrongs
@@ -35,13 +74,32 @@ def _(K, T_guess, points, pixels):
     J-of-the-guess: the Jacobian is that of the guess in all steps; it changes with the
       pose => with J at the guess alone
     guess-returned: this is the guess itself
+    body-twist: each step stands on T's right; J's twists are in the camera's axes, so
+      the exponential stands on the left => T exp([xi])
+    apart: each step turns R and slides t by v, each alone: a turn about the camera's
+      origin moves what stands beside it, too => exp([omega]) R and t + v
+    first-order: each step is T + [xi] T, and R no rotation any more => (1 + [xi]) T
+    gradient: each step is J^T r, the steepest way, and no least squares => with J^T r
+    residual-sign: the error is predicted less seen, so each step goes the wrong way
+      => with -r
+    rows-mixed: J has all u above all v, but the error has u and v in turn
+      => with J's rows in another order
+    two-steps: it stops after two steps; ten were asked for
     inverse: this is the camera seen from the thing, T's inverse
     """
-    right = refine_pose(K, T_guess, points, pixels)
+    given = (K, T_guess, points, pixels)
+    right = refine_pose(*given)
     return {
-        "one-step": steps(K, T_guess, points, pixels, n=1),
-        "J-of-the-guess": steps(K, T_guess, points, pixels, held=True),
+        "one-step": steps(*given, n=1),
+        "J-of-the-guess": steps(*given, held=True),
         "guess-returned": T_guess,
+        "body-twist": steps(*given, move=on_the_right),
+        "apart": steps(*given, move=apart),
+        "first-order": steps(*given, move=first_order),
+        "gradient": steps(*given, solve=lambda J, r: J.reshape(-1, 6).T @ r.ravel()),
+        "residual-sign": steps(*given, solve=lambda J, r: -least_squares(J, r)),
+        "rows-mixed": steps(*given, solve=mixed),
+        "two-steps": steps(*given, n=2),
         "inverse": np.linalg.inv(right),
     }
 

@@ -48,7 +48,7 @@ def clouds(rng, n=6, points=9, noise=0.05):
     return found
 
 
-def guesses(rng, n=6):
+def guesses(rng, n=6, far=1.0):
     """Return K, a guess, points and the pixels where they are seen, with noise."""
     found = []
     for k in cameras(rng, n):
@@ -58,16 +58,16 @@ def guesses(rng, n=6):
         )
         T[2, 3] = rng.uniform(0.9, 1.6)
         pixels = camera.project(k, T, points) + rng.normal(scale=0.3, size=(8, 2))
-        guess = moved(se3.make_T(np.eye(3), T[:3, 3]), _beside(rng))
+        guess = moved(se3.make_T(np.eye(3), T[:3, 3]), _beside(rng, far))
         guess[:3, :3] = guess[:3, :3] @ T[:3, :3]
         found.append((k, guess, points, rounded(pixels)))
     return found
 
 
-def _beside(rng) -> Array:
-    """Return a twist by which a guess is off: 0.1 rad and 20 mm an axis."""
-    xi = rng.normal(size=6) * ([0.1] * 3 + [0.02] * 3)
-    xi[:3] = np.clip(xi[:3], -0.2, 0.2)
+def _beside(rng, far: float) -> Array:
+    """Return a twist by which a guess is off: far times 0.1 rad and 20 mm an axis."""
+    xi = far * rng.normal(size=6) * ([0.1] * 3 + [0.02] * 3)
+    xi[:3] = np.clip(xi[:3], -0.2 * far, 0.2 * far)
     return xi
 
 
