@@ -76,8 +76,6 @@ def _(K, T_guess, points, pixels):
     guess-returned: this is the guess itself
     body-twist: each step stands on T's right; J's twists are in the camera's axes, so
       the exponential stands on the left => T exp([xi])
-    apart: each step turns R and slides t by v, each alone: a turn about the camera's
-      origin moves what stands beside it, too => exp([omega]) R and t + v
     first-order: each step is T + [xi] T, and R no rotation any more => (1 + [xi]) T
     gradient: each step is J^T r, the steepest way, and no least squares => with J^T r
     residual-sign: the error is predicted less seen, so each step goes the wrong way
@@ -94,7 +92,6 @@ def _(K, T_guess, points, pixels):
         "J-of-the-guess": steps(*given, held=True),
         "guess-returned": T_guess,
         "body-twist": steps(*given, move=on_the_right),
-        "apart": steps(*given, move=apart),
         "first-order": steps(*given, move=first_order),
         "gradient": steps(*given, solve=lambda J, r: J.reshape(-1, 6).T @ r.ravel()),
         "residual-sign": steps(*given, solve=lambda J, r: -least_squares(J, r)),
@@ -102,6 +99,11 @@ def _(K, T_guess, points, pixels):
         "two-steps": steps(*given, n=2),
         "inverse": np.linalg.inv(right),
     }
+
+
+@row.close("rounded-somewhere")  # Wrong steps, that still end where nothing is left.
+def _(K, T_guess, points, pixels):
+    return steps(K, T_guess, points, pixels, move=apart)
 
 
 @row.right  # Normal equations, and a point at a time.

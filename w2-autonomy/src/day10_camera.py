@@ -190,26 +190,35 @@ def guesses(T: np.ndarray, n: int, rng: np.random.Generator) -> np.ndarray:
     return se3.make_T(turned, np.array(off)[:, :3, 3] + T[:3, 3])
 
 
-def off_library(rng: np.random.Generator) -> dict[str, np.ndarray]:
-    """Return how far your fits are from robo47's, by function: MuJoCo knows no fits."""
+def jittered(T: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """Return poses, (k, 4, 4), measured with noise: JITTER rad, JITTER m an axis."""
+    xi = JITTER * rng.normal(size=(len(T), 6))
+    return T @ np.array([library.moved(np.eye(4), one) for one in xi])
+
+
+def given_to_fits(rng: np.random.Generator) -> dict[str, list[tuple]]:
+    """Return what your fits are asked, by function: MuJoCo knows no fits."""
     A = rng.normal(size=(9, 3))
     B = A + rng.normal(scale=0.1, size=A.shape)
     J = rng.normal(size=(8, 2, 6))
     T = guesses(np.eye(4), 1, rng)[0]
+    hand = guesses(day10_mujoco.ON_HAND, 5, rng)  # motions, and the eye's, with noise
+    seen = jittered(hand, rng)
     flat = np.array([1.0, 1.0, 0.0])
     mirror = np.array([1.0, 1.0, -1.0])
-    given = {
+    return {
         "kabsch": [(A, B), (flat * A, flat * B), (A, mirror * A)],
         "moved": [(T, rng.normal(size=6)), (T, 2.0 * np.eye(6)[4]), (T, np.zeros(6))],
         "pose_covariance": [(J, NOISE)],
+        "hand_eye": [(hand, seen)],
         "icp_step": [(T, A, B)],
     }
-    own = {"kabsch": kabsch, "moved": moved, "pose_covariance": pose_covariance,
-           "icp_step": icp_step}  # fmt: skip
-    return {
-        name: np.array([own[name](*one) - getattr(library, name)(*one) for one in some])
-        for name, some in given.items()
-    }
+
+
+def off_library(name: str, own, given: list[tuple]) -> np.ndarray:
+    """Return how far your function is from robo47's of that name."""
+    truth = getattr(library, name)
+    return np.array([own(*some) - truth(*some) for some in given])
 
 
 def looked_at(model, data, T_world_cube: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -271,12 +280,6 @@ def wanders(hands: np.ndarray, eyes: np.ndarray, X: np.ndarray) -> float:
     """Return by how much the table's middle seems to move between looks, mm."""
     points = said(hands, eyes, X)
     return 1000 * np.linalg.norm(points - points[0], axis=1).max()
-
-
-def jittered(T: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """Return poses, (k, 4, 4), measured with noise: JITTER rad, JITTER m an axis."""
-    xi = JITTER * rng.normal(size=(len(T), 6))
-    return T @ np.array([library.moved(np.eye(4), one) for one in xi])
 
 
 def motions(looks) -> tuple[np.ndarray, np.ndarray]:
@@ -422,19 +425,22 @@ def main() -> int:
     off = off_mujoco(model, data, K, T_world_cam, rng)
     lab.check("|J - slopes of MuJoCo's pixels|, px", off["J"], 1e-4)
     lab.check("|refine_pose - MuJoCo's pose|", off["pose"])
-    for name, own in off_library(rng).items():
-        lab.check(f"{name} - the library's", own)
+    given = given_to_fits(rng)
+    yours = {"kabsch": kabsch, "moved": moved, "pose_covariance": pose_covariance,
+             "hand_eye": hand_eye}  # fmt: skip
+    for name, own in yours.items():
+        lab.check(f"{name} - the library's", off_library(name, own, given[name]))
 
     lab.step(f"4. The same with {NOISE} px of noise, {NEAR} m away, mm")
     print("            across the view      along the view")
     print("  height  predicted  measured     predicted  measured  inside")
     noise = np.random.default_rng(NOISE_SEED)
     T = se3.make_T(se3.Rz(0.3) @ se3.Rx(2.3), (0.05, 0.02, NEAR))
-    fits = {height: fit_with_noise(height, T, noise) for height in HEIGHTS}
-    inside = np.mean([one for one, _ in fits.values()])
+    noisy = {height: fit_with_noise(height, T, noise) for height in HEIGHTS}
+    inside = np.mean([one for one, _ in noisy.values()])
     lab.record("pose", inside, metric="inside_95", label="inside 95 %, all three",
                seed=NOISE_SEED)  # fmt: skip
-    lab.measured("mm off along the view, 240 px", fits[day10_mujoco.HEIGHT][1])
+    lab.measured("mm off along the view, 240 px", noisy[day10_mujoco.HEIGHT][1])
 
     lab.step("5. An eye on the hand: where does it sit?")
     lab.record("hand_eye", calibrate(np.random.default_rng(SEED)), seed=SEED,
@@ -442,6 +448,8 @@ def main() -> int:
 
     lab.step("6. Side quest: Day 7's cube, seen and not told")
     with lab.side_quest():
+        off = off_library("icp_step", icp_step, given["icp_step"])
+        lab.check("icp_step - the library's", off)
         off = see_the_cube(model, data, K, T_world_cam)
         lab.record("cube_seen", off, label="the cube, seen, mm off", seed=SEED + 1)
     return lab.finish()
