@@ -15,7 +15,7 @@ from robo47 import camera as library
 from robo47 import cli, eye, panda, se3
 from robo47.lesson.lab import Lab
 from robo47.rotation_log import log_pose, log_rotation
-from robo47.screws import exp_screw, skew
+from robo47.screws import adjoint, exp_screw, skew
 
 import day10_mujoco
 
@@ -288,26 +288,36 @@ def motions(looks) -> tuple[np.ndarray, np.ndarray]:
     return hands, eyes
 
 
+def free(A: np.ndarray) -> int:
+    """Return how many of X's six numbers the motions A, (k, 4, 4), leave open.
+
+    A twist xi of X is not seen where A exp([xi]) = exp([xi]) A, that is Ad(A) xi = xi.
+    """
+    seen = (adjoint(A) - np.eye(6)).reshape(-1, 6)
+    return 6 - np.linalg.matrix_rank(seen, tol=1e-9)
+
+
 def judged(name: str, looks, fresh, X: np.ndarray, known: bool = True) -> None:
     """Print how good X looks at these looks, and how good it is."""
     A, B = motions(looks)
     residual = np.abs(A @ X - X @ B).max()
     turns = [log_rotation(T[:3, :3]) for T in A]
     second = np.linalg.svd(turns, compute_uv=False)[1]
-    text = f"  {name:26}{second:6.2f}{residual:10.0e}"
+    text = f"  {name:25}{second:6.2f}{free(A):6}{residual:10.0e}"
     if known:
         at = day10_mujoco.ON_HAND
         turned = np.degrees(np.linalg.norm(log_rotation(X[:3, :3] @ at[:3, :3].T)))
         beside = 1000 * np.linalg.norm(X[:3, 3] - at[:3, 3])
         text += f"{turned:7.2f}{beside:7.2f}{wanders(*looks, X):7.2f}"
-        text += f"{wanders(*fresh, X):10.2f}"
+        text += f"{wanders(*fresh, X):7.1f}"
     print(text)
 
 
-def calibrate(rng: np.random.Generator) -> np.ndarray:
+def calibrate(rng: np.random.Generator) -> tuple[np.ndarray, int]:
     """Find where on the hand the eye sits, by all joints and by joint 7 alone.
 
-    Return how far the first is from where MuJoCo's camera sits, (4, 4).
+    Return how far the first is from where MuJoCo's camera sits, (4, 4), and how many
+    numbers the second leaves free.
     """
     model = day10_mujoco.handheld()
     away = rng.uniform(-0.5, 0.5, (2, LOOKS, 7))
@@ -318,9 +328,9 @@ def calibrate(rng: np.random.Generator) -> np.ndarray:
     noisy = (many[0], jittered(many[1], rng))
     another = library.moved(day10_mujoco.ON_HAND, FREE)
     X = hand_eye(*motions(many))
-    print("                             second                      off  wanders, mm")
+    print("                            second  left                off   wanders, mm")
     print(
-        "  turned                       axis  residual    deg     mm   here elsewhere"
+        "  turned                      axis  free  residual   deg    mm   here  there"
     )
     judged("all joints", many, fresh, X)
     judged("all joints, 1 mrad, 1 mm", noisy, fresh, hand_eye(*motions(noisy)))
@@ -329,7 +339,7 @@ def calibrate(rng: np.random.Generator) -> np.ndarray:
     judged("joint 7 alone, another X", few, fresh, another)  # ... but one of them is.
     aside = 1000 * np.linalg.norm(said(*few, another)[0] - day10_mujoco.TO)
     print(f"  with the last, the table's middle is {aside:.0f} mm beside its place")
-    return X - day10_mujoco.ON_HAND
+    return X - day10_mujoco.ON_HAND, free(motions(few)[0])
 
 
 def found(cloud: np.ndarray) -> np.ndarray:
@@ -443,8 +453,10 @@ def main() -> int:
     lab.measured("mm off along the view, 240 px", noisy[day10_mujoco.HEIGHT][1])
 
     lab.step("5. An eye on the hand: where does it sit?")
-    lab.record("hand_eye", calibrate(np.random.default_rng(SEED)), seed=SEED,
-               label="|hand_eye - where MuJoCo's camera sits|")  # fmt: skip
+    off, unseen = calibrate(np.random.default_rng(SEED))
+    lab.record("hand_eye", off, label="|hand_eye - where MuJoCo's camera sits|",
+               seed=SEED)  # fmt: skip
+    lab.measured("numbers of X that joint 7 alone leaves free", unseen)
 
     lab.step("6. Side quest: Day 7's cube, seen and not told")
     with lab.side_quest():
