@@ -14,7 +14,7 @@ row = Row(Matrix((None, 3), unit="m", columns=("x", "y", "z")))
 def _(rng):
     found = [(K, np.eye(4), np.array([[125.0, 50]]), np.array([2.0]))]
     for n, k, T in zip((8, 8, 8, 3, 3, 1), cameras(rng, 6), rng.poses(6), strict=True):
-        pixels = rounded(rng.uniform((0, 0), 2 * k[:2, 2], (n, 2)))
+        pixels = rounded(rng.uniform((-40, -40), 2 * k[:2, 2], (n, 2)))
         found.append((k, T, pixels, rng.numbers(0.4, 2.0, n)))
     return found
 
@@ -66,6 +66,9 @@ def _(K, T_world_cam, pixels, depth):
         "pixels-swapped": d * swapped @ R.T + t,
         "y-up": d * ray * [1, -1, 1] @ R.T + t,
     }
+
+
+row.at_least_0(K="f and the centre are", depth="a camera sees before it")
 
 
 @row.right  # A point at a time, by homogeneous coordinates.

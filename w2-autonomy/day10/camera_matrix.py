@@ -74,6 +74,12 @@ def _(fovy, width, height):
 
 
 row.of_argument("fovy", RADIANS_TWICE)
+row.at_least_0(
+    fovy="an angle of view",
+    width="a number of pixels",
+    height="a number of pixels",
+    answer="f and the centre are",
+)
 
 
 @row.right  # By the cotangent, in one product.

@@ -73,6 +73,13 @@ def _(A, B):
     }
 
 
+row.same(
+    "C = (A[:, :3, :3] - np.eye(3)).reshape(-1, 3) => "
+    "C = (A[:, :3, :3] - np.eye(3)).reshape(-2, 3)",
+    "NumPy takes any size below 0 for what is left",
+)
+
+
 @row.right  # By the polar factor, and normal equations.
 def _(A, B):
     M = sum(

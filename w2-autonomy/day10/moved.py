@@ -14,12 +14,13 @@ row = Row(Pose())
 
 @row.inputs
 def _(rng):
-    T = rng.poses(8)
+    T = rng.poses(9)
     xi = rng.numbers(-2, 2, 4, 6)
     small = rounded(1e-3 * rng.normal(size=(2, 6)))
     slide = np.append(np.zeros(3), rng.numbers(-1, 1, 3))
     turn = np.append(rng.numbers(-1, 1, 3), np.zeros(3))
-    some = [*xi, *small, slide, turn]
+    far = np.append([1e-4, -2e-4, 2e-4], rng.numbers(-1, 1, 3))  # a slide, nearly
+    some = [*xi, *small, slide, turn, far]
     first = (np.eye(4), np.eye(6)[3])
     return [first, *zip(T, some, strict=True), (T[0], np.zeros(6))]
 

@@ -48,6 +48,13 @@ def _(J, sigma):
     }
 
 
+row.at_least_0(sigma="it enters as a square")
+row.same(
+    "J = J.reshape(-1, 6) => J = J.reshape(-2, 6)",
+    "NumPy takes any size below 0 for what is left",
+)
+
+
 @row.right  # By the pseudo-inverse: what lstsq does to the noise, twice.
 def _(J, sigma):
     P = np.linalg.pinv(J.reshape(-1, 6))

@@ -73,6 +73,9 @@ def _(K, T_cam_world, points):
     }
 
 
+row.at_least_0(K="f and the centre are")
+
+
 @row.right  # By the homogeneous 3x4 matrix, a point at a time.
 def _(K, T_cam_world, points):
     P = K @ T_cam_world[:3]

@@ -73,6 +73,9 @@ def _(K, p_cam):
     }
 
 
+row.at_least_0(K="f and the centre are")
+
+
 @row.right  # Entry by entry, as in papers on visual servoing.
 def _(K, p_cam):
     f = K[0, 0]

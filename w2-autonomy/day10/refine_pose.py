@@ -101,6 +101,15 @@ def _(K, T_guess, points, pixels):
     }
 
 
+row.at_least_0(K="f and the centre are")
+row.same("first T_guess = np.clip(T_guess, -1, 1)", "it is near enough to end there")
+row.same(
+    "J = projection_jacobian(K, p_cam).reshape(-1, 6) => "
+    "J = projection_jacobian(K, p_cam).reshape(-2, 6)",
+    "NumPy takes any size below 0 for what is left",
+)
+
+
 @row.close("rounded-somewhere")  # Wrong steps, that still end where nothing is left.
 def _(K, T_guess, points, pixels):
     return steps(K, T_guess, points, pixels, move=apart)
