@@ -23,7 +23,7 @@ CHI2_2 = 5.991  # of two numbers: 95 % are within
 @chart.picture(height=9.0)
 def shown(figure: Figure) -> None:
     """Draw a depth image, the points above the table, and how far fits are off."""
-    above, below = figure.subplots(2, 2, height_ratios=(1.0, 1.1))
+    above, below = figure.subplots(2, 2, height_ratios=(1.15, 1.0))
     model, data = day10_mujoco.table()
     T_world_cube = day10_mujoco.cubes(1, lab.SEED + 1)[0]
     day10_mujoco.place(model, data, T_world_cube)
@@ -33,7 +33,7 @@ def shown(figure: Figure) -> None:
     corners = day10_mujoco.CORNERS @ T_world_cube[:3, :3].T + T_world_cube[:3, 3]
     pixels = lab.project(K, se3.inverse(T_world_cam), corners)
     above[0].plot(*pixels.T, "o", ms=3, color=RED, label="project: its corners")
-    above[0].legend(loc="lower left")
+    above[0].legend(loc="lower left", facecolor="white", framealpha=0.8, frameon=True)
     cloud = lab.depth_cloud(model, data, K, T_world_cam)
     _cloud(above[1], cloud[cloud[:, 2] > day10_mujoco.TABLE + lab.ABOVE], T_world_cube)
     T = se3.make_T(se3.Rz(0.3) @ se3.Rx(2.3), (0.05, 0.02, lab.NEAR))
@@ -45,10 +45,11 @@ def shown(figure: Figure) -> None:
 def _image(axes: Axes, depth: np.ndarray) -> None:
     """Draw the depth image, dark is near."""
     height, width = depth.shape
-    # "equal" below is per axis; the picture's (0, 0) is its corner, as in the lab.
     seen = np.where(np.isfinite(depth), depth, np.nan)
-    axes.imshow(seen, cmap="Blues_r", extent=(0, width, height, 0))
+    edge = (0, width, height, 0)  # (0, 0) is the picture's corner, as in the lab
+    axes.imshow(seen, cmap="viridis_r", extent=edge)
     axes.set(title="Depth: what is seen", xlabel="u, px", ylabel="v, px")
+    axes.set(xlim=(100, 220), ylim=(150, 50))  # the cube is small in it
 
 
 def _cloud(axes: Axes, cloud: np.ndarray, T_world_cube: np.ndarray) -> None:
@@ -62,8 +63,8 @@ def _cloud(axes: Axes, cloud: np.ndarray, T_world_cube: np.ndarray) -> None:
     axes.plot(x.mean(), y.mean(), "s", ms=8, color=RED, label="mean of the points")
     axes.set(title="The cloud, from above", xlabel="x, mm", ylabel="y, mm")
     axes.set_aspect("equal", adjustable="datalim")
-    axes.legend(loc="upper right")
-    axes.margins(0.25)
+    axes.legend(loc="lower center")
+    axes.set(ylim=(y.mean() - 70, y.mean() + 35))
     axes.grid()
 
 
@@ -88,7 +89,8 @@ def _ellipse(axes: Axes, K: np.ndarray, T: np.ndarray) -> None:
         xlabel="along the view, mm",
         ylabel="across, mm",
         xlim=(-110, 110),
-        ylim=(-8, 8),
+        ylim=(-60, 100),
+        aspect="equal",
     )
     axes.legend(loc="upper right")
     axes.grid()
