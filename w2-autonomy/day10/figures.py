@@ -20,10 +20,10 @@ FITS = 150
 CHI2_2 = 5.991  # of two numbers: 95 % are within
 
 
-@chart.picture(height=9.0)
+@chart.picture(height=7.5)
 def shown(figure: Figure) -> None:
     """Draw a depth image, the points above the table, and how far fits are off."""
-    above, below = figure.subplots(2, 2, height_ratios=(1.15, 1.0))
+    above, below = figure.subplots(2, 2, height_ratios=(1.5, 1.0))
     model, data = day10_mujoco.table()
     T_world_cube = day10_mujoco.cubes(1, lab.SEED + 1)[0]
     day10_mujoco.place(model, data, T_world_cube)
@@ -49,7 +49,7 @@ def _image(axes: Axes, depth: np.ndarray) -> None:
     edge = (0, width, height, 0)  # (0, 0) is the picture's corner, as in the lab
     axes.imshow(seen, cmap="viridis_r", extent=edge)
     axes.set(title="Depth: what is seen", xlabel="u, px", ylabel="v, px")
-    axes.set(xlim=(100, 220), ylim=(150, 50))  # the cube is small in it
+    axes.set(xlim=(130, 190), ylim=(140, 80))  # the cube is small in it
 
 
 def _cloud(axes: Axes, cloud: np.ndarray, T_world_cube: np.ndarray) -> None:
@@ -62,9 +62,10 @@ def _cloud(axes: Axes, cloud: np.ndarray, T_world_cube: np.ndarray) -> None:
     axes.plot(*turned, "-", color=INK, linewidth=1.5, label="the cube")
     axes.plot(x.mean(), y.mean(), "s", ms=8, color=RED, label="mean of the points")
     axes.set(title="The cloud, from above", xlabel="x, mm", ylabel="y, mm")
-    axes.set_aspect("equal", adjustable="datalim")
     axes.legend(loc="lower center")
-    axes.set(ylim=(y.mean() - 70, y.mean() + 35))
+    middle = x.mean() - 6, y.mean() - 16
+    axes.set(xlim=(middle[0] - 45, middle[0] + 45), aspect="equal")
+    axes.set(ylim=(middle[1] - 45, middle[1] + 45))
     axes.grid()
 
 
@@ -82,14 +83,14 @@ def _ellipse(axes: Axes, K: np.ndarray, T: np.ndarray) -> None:
     turn = np.linspace(0, 2 * np.pi, 200)
     circle = np.sqrt(CHI2_2) * np.array([np.cos(turn), np.sin(turn)])
     across = 1000 * np.linalg.cholesky(C[np.ix_([2, 0], [2, 0])]) @ circle
-    axes.plot(*off.T, ".", ms=4, color=BLUE, label="fits")
-    axes.plot(*across, "-", color=RED, label="95 % ellipse")
+    axes.plot(*across, "-", linewidth=1.2, color=RED, label="95 % ellipse")
+    axes.plot(*off.T, ".", ms=2.5, color=BLUE, label="fits")
     axes.set(
         title=f"Off, {T[2, 3]:.1f} m away",
         xlabel="along the view, mm",
         ylabel="across, mm",
         xlim=(-110, 110),
-        ylim=(-60, 100),
+        ylim=(-40, 80),
         aspect="equal",
     )
     axes.legend(loc="upper right")
@@ -97,4 +98,4 @@ def _ellipse(axes: Axes, K: np.ndarray, T: np.ndarray) -> None:
 
 
 FIGURES = {"shown": shown}
-SMALL = ("shown", 0.02, 0.02, 0.46)  # its left, top and width, in parts of its width
+SMALL = ("shown", 0.09, 0.1, 0.42)  # its left, top and width, in parts of its width

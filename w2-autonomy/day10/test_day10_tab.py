@@ -46,6 +46,7 @@ def test_a_wrong_sign_moves_the_students_corners_in_the_picture():
     upside = {"project": lambda K, *more: lab.project(K * flip, *more)}
     tab = looked({**vars(lab), **upside})
     assert "less than" not in said(tab)
+    tab.sets("x")(380.0)  # away from the picture's middle
     seen = tab.ask(tab.place(), tab.noise)
     shown = DAY.module("inspector").picture(seen)
     red, white = (
