@@ -11,7 +11,7 @@ ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 # Without DAY= a script takes the day that you worked on last.
 ON_DAY = $(if $(DAY),--day $(DAY))
 # A command of a day does not take WEEK= in silence.
-OF_A_DAY = start check hint borrow run view figures notebook docs author
+OF_A_DAY = start check hint borrow run view figures notebook docs author constants
 ifeq ($(origin WEEK),command line)
   ifneq ($(filter $(OF_A_DAY),$(MAKECMDGOALS)),)
     $(error make $(firstword $(MAKECMDGOALS)) takes DAY=2, no WEEK=)
@@ -29,7 +29,7 @@ RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/
 .DEFAULT_GOAL := help
 .PHONY: update edition start check hint borrow run doctor bench kernels test-matrix setup robot view grade
 .PHONY: capstone proof fresh help test soak report lint docs site oracle figures notebook
-.PHONY: new author gaps
+.PHONY: new author gaps constants
 
 help: ## this list
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
@@ -126,6 +126,9 @@ new: .venv/.ready-core $(ROBOT) ## a day's skeleton: make new DAY=8 WEEK=w2-auto
 
 author: .venv/.ready-test .venv/.ready-notebook .venv/.ready-view $(ROBOT) ## is a day that you write as it must be? TASK=9.3
 	@$(PY) scripts/author_day.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS) $(NOT_YET)
+
+constants: .venv/.ready-core $(ROBOT) ## what a guide's numbers hang on: each constant by two
+	@$(PY) scripts/constants.py $(DAY) $(ARGS) $(NOT_YET)
 
 gaps: .venv/.ready-core $(ROBOT) ## changes of a day's functions that no question notices
 	@$(PY) scripts/gaps.py $(DAY) $(ARGS) $(NOT_YET)

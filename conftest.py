@@ -1,5 +1,6 @@
 """What every test file shares: the robot, a clean environment, and honest skips."""
 
+import io
 import os
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy: -n 2 on two cores
@@ -9,11 +10,12 @@ import shutil
 import subprocess
 import sys
 import textwrap
+from contextlib import redirect_stdout
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
-from unittest.mock import MagicMock
+from unittest.mock import MagicMock, patch
 
 import hypothesis
 import mujoco
@@ -185,6 +187,26 @@ def kits_worksheet(day) -> str:
     untouched = text.count("*(your words)*") == len(day.terms)
     need(untouched, "the worksheet as the kit brings it; here it is filled in")
     return text
+
+
+def sentences(number: int) -> str:
+    """Return a day's guide on one line, without outputs of runs and without stars."""
+    day = find_day(number)
+    guide = (day.folder / day.guide).read_text("utf-8")
+    own = re.sub(r"<!-- run.*?<!-- end -->", "", guide, flags=re.S)
+    return " ".join(own.replace("*", "").split())
+
+
+def printed_by(lab, predicted: dict[str, str]) -> str:
+    """Return what a lab prints, 80 columns wide at most, after these predictions."""
+    with (
+        patch("sys.argv", ["lab", "--no-log"]),
+        patch("labkit.lesson.lab.predictions", lambda worksheet: predicted),
+        redirect_stdout(io.StringIO()) as out,
+    ):
+        assert lab.main() == 0
+    assert all(len(line) <= 80 for line in out.getvalue().splitlines())
+    return out.getvalue()
 
 
 def copy_kit(copy: Path) -> Path:

@@ -16,7 +16,9 @@ import numpy as np
 from bench.timing import installed, microseconds, pinocchio, take_turns
 from robo47 import jacobian, panda, se3, verify
 from robo47.checks import Array
-from robo47.fast import ik, ik_one
+from robo47.fast.ik import REACHED
+from robo47.fast.ik_many import Many
+from robo47.fast.ik_one import One
 
 N = 1000
 FRAME = "site:attachment_site"
@@ -39,22 +41,22 @@ def ours() -> Rival:
     model = panda.load("panda_nohand")
     S, M = panda.screws(model), panda.home_pose(model)
     steps = [0]
-    many = ik._downhill
-    one = ik_one.Walker._downhill
+    look_many = Many.look
+    look_one = One.look
 
-    def count_many(problem: Any, q: Array, target: Array) -> Any:
-        steps[0] += q.shape[1]
-        return many(problem, q, target)
+    def count_many(many: Many) -> Array:
+        steps[0] += many.walking
+        return look_many(many)
 
-    def count_one(walker: ik_one.Walker, q: list[float]) -> Any:
+    def count_one(one: One) -> float:
         steps[0] += 1
-        return one(walker, q)
+        return look_one(one)
 
     def solve(T: Array) -> tuple[Array, int]:
         steps[0] = 0
         with (
-            mock.patch.object(ik, "_downhill", count_many),
-            mock.patch.object(ik_one.Walker, "_downhill", count_one),
+            mock.patch.object(Many, "look", count_many),
+            mock.patch.object(One, "look", count_one),
         ):
             q = jacobian.solve_ik(S, M, T, panda.READY_Q, model.jnt_range)
         return q, steps[0]
@@ -182,7 +184,7 @@ def judge(rival: Rival, T: Array) -> dict[str, float]:
     model = panda.load("panda_nohand")
     q, steps = rival.solve(T)
     metres, radians = se3.pose_distance(verify.mujoco_poses(model, q)[FRAME], T)
-    there = np.hypot(metres, radians) < ik.REACHED
+    there = np.hypot(metres, radians) < REACHED
     inside = ((q >= model.jnt_range[:, 0]) & (q <= model.jnt_range[:, 1])).all(axis=1)
     return {
         "targets": len(T),

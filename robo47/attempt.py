@@ -52,7 +52,9 @@ class Film(NamedTuple):
 
     seconds: float  # how long it took
     t: Array  # time of each instant, seconds, (N,)
-    qpos: Array  # everything's configuration then, (N, nq); the robot's numbers first
+    # Everything's configuration then, (N, nq); first the nine numbers of the Panda with
+    # its hand.
+    qpos: Array
     phases: Sequence[tuple[str, float]]  # (name, when it began in seconds), in order
     moments: Sequence[str]  # phases whose beginnings a picture shows
     blocks: Callable[[Array], Sequence[Block]]  # from a configuration, (nq,)

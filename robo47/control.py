@@ -3,8 +3,6 @@
 Conventions: e = q_ref - q and ed = qd_ref - qd, so that a positive error asks for a
 positive torque. Radians, rad/s, rad/s2, N m, seconds. `n` is the number of joints;
 leading dimensions broadcast. A gain is one number for all joints, or (n,).
-Every function raises ValueError where a shape is wrong, a number is not finite or
-out of the range that its docstring states.
 
 Sources: Lynch and Park, Modern Robotics (2017), chapter 11: section 11.2 for error
 dynamics, 11.4 for control by torques.
@@ -28,6 +26,9 @@ def pd_torque(e: ArrayLike, ed: ArrayLike, kp: ArrayLike, kd: ArrayLike) -> Arra
 
     Returns:
         Joint torques in N m, (..., n).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     e, ed = checks.same_size(e=e, ed=ed)
     return checks.per_joint(kp, "kp", e) * e + checks.per_joint(kd, "kd", e) * ed
@@ -45,6 +46,9 @@ def gains(omega: ArrayLike, zeta: ArrayLike) -> Array:
 
     Returns:
         kp in 1/s2 and kd in 1/s, (..., 2).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     omega = checks.array(omega, "omega", ())
     zeta = checks.array(zeta, "zeta", ())
@@ -68,6 +72,10 @@ def error_response(t: ArrayLike, omega: ArrayLike, zeta: ArrayLike) -> Array:
 
     Returns:
         The error as a fraction of the first one, (...).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, omega not above 0, or t or zeta
+            below 0.
     """
     t = checks.not_negative(t, "t")
     omega = checks.positive(omega, "omega")
@@ -99,6 +107,9 @@ def sag_step(q_goal: ArrayLike, g_at_q: ArrayLike, kp: ArrayLike) -> Array:
 
     Returns:
         The next q in radians, (..., n).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or kp not above 0.
     """
     q_goal, g_at_q = checks.same_size(q_goal=q_goal, g_at_q=g_at_q)
     kp = checks.positive(checks.per_joint(kp, "kp", q_goal), "kp")
@@ -118,6 +129,9 @@ def gravity_pd(
 
     Returns:
         Joint torques in N m, (..., n).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     e, g_at_q = checks.same_size(e=e, g_at_q=g_at_q)
     return pd_torque(e, ed, kp, kd) + g_at_q
@@ -152,6 +166,9 @@ def computed_torque(
 
     Returns:
         Joint torques in N m, (..., n).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     bias, qd, qdd_ref, e, ed = checks.same_size(
         bias=bias, qd=qd, qdd_ref=qdd_ref, e=e, ed=ed
@@ -186,6 +203,9 @@ def pid_step(
 
     Returns:
         Acceleration in rad/s2, (..., n), and the new integral in rad s, (..., n).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or a clamp below 0.
     """
     e, integral = checks.same_size(e=e, integral=integral)
     clamp = checks.not_negative(checks.per_joint(clamp, "clamp", e), "clamp")
@@ -203,6 +223,9 @@ def saturate(tau: ArrayLike, limits: ArrayLike) -> Array:
 
     Returns:
         Torques within +-limits in N m, (..., n).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or a limit below 0.
     """
     tau = checks.array(tau, "tau", ("n",))
     limits = checks.not_negative(checks.per_joint(limits, "limits", tau), "limits")
@@ -224,6 +247,9 @@ def stiffest_omega(h: ArrayLike, steps: ArrayLike = 1) -> Array:
 
     Returns:
         Natural frequency in rad/s, (...).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or one not above 0.
     """
     h = checks.positive(h, "h")
     steps = checks.positive(steps, "steps")
@@ -245,6 +271,9 @@ def servo_ctrl(
 
     Returns:
         Commanded configuration in radians, (..., n).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or kp not above 0.
     """
     tau, q, qd = checks.same_size(tau=tau, q=q, qd=qd)
     kp = checks.positive(checks.per_joint(kp, "kp", q), "kp")

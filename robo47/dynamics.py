@@ -12,7 +12,6 @@ are now, and all that the algorithms need to know of the motion. Conventions:
 - M contains the armature: the inertia of the motors' rotors, as the joints feel
   it (Modern Robotics, section 8.9).
 - Leading dimensions broadcast: one configuration, or many at once.
-- A wrong shape or a number that is not finite is a ValueError, in every function.
 
 Sources: Lynch and Park, *Modern Robotics* (2017), chapter 8; Featherstone, *Rigid Body
 Dynamics Algorithms* (2008), chapters 2, 5 and 6.
@@ -40,6 +39,9 @@ def spatial_inertia(m: ArrayLike, c: ArrayLike, inertia: ArrayLike) -> Array:
 
     Returns:
         G, (..., 6, 6): takes twists (omega; v) to momenta (angular; linear).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     m = checks.array(m, "m", ())[..., None, None]
     C = skew(c)
@@ -69,6 +71,9 @@ def link_inertias(
 
     Returns:
         G of each link about the world's origin, (..., n, 6, 6).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or not poses.
     """
     T = checks.pose(T_links, "T_links")
     coms = checks.array(coms, "coms", (3,))
@@ -92,6 +97,9 @@ def mass_matrix(J_space: ArrayLike, G: ArrayLike, armature: ArrayLike) -> Array:
 
     Returns:
         M, kg m^2, (..., n, n): symmetric and positive definite, as many a wrong one.
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     J = checks.array(J_space, "J_space", (6, "n"))
     n = J.shape[-1]
@@ -121,6 +129,9 @@ def gravity_torque(
 
     Returns:
         Torque, N m, (..., n).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or g is one number.
     """
     J = checks.array(J_space, "J_space", (6, "n"))
     n = J.shape[-1]
@@ -176,6 +187,9 @@ def inverse_dynamics(
 
     Returns:
         Torque, N m, (..., n): the links' alone, without armature and damping.
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or g is one number.
     """
     J = checks.array(J_space, "J_space", (6, "n"))
     n = J.shape[-1]
@@ -201,6 +215,9 @@ def bias_torque(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike, g: ArrayLike) -
 
     Returns:
         Torque, N m, (..., n).
+
+    Raises:
+        ValueError: as `inverse_dynamics`.
     """
     return inverse_dynamics(J_space, G, qd, np.zeros(np.shape(J_space)[-1:]), g)
 
@@ -221,6 +238,9 @@ def coriolis_matrix(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike) -> Array:
 
     Returns:
         C, N m s/rad, (..., n, n).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     J = checks.array(J_space, "J_space", (6, "n"))
     n = J.shape[-1]
@@ -259,6 +279,9 @@ def forward_dynamics(
 
     Returns:
         qdd, rad/s^2, (..., n).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or a singular M.
     """
     bias, qd, tau = checks.same_size(bias=bias, qd=qd, tau=tau)
     M = checks.array(M, "M", (qd.shape[-1], qd.shape[-1]))
@@ -281,6 +304,9 @@ def energy(
 
     Returns:
         (kinetic, potential) in joules, (..., 2); potential is 0 at the origin.
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or g is one number.
     """
     qd, masses = checks.same_size(qd=qd, masses=masses)
     n = qd.shape[-1]

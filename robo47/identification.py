@@ -8,8 +8,7 @@ model can be fitted, and what a motion cannot show can be counted. Conventions:
   (not about its centre). kg, kg m, kg m^2.
 - Twists are (omega; v), wrenches (moment; force); `J_space` is the space Jacobian.
 - Gravity is the vector g = (0, 0, -9.81), as in `robo47.dynamics`.
-- Bodies and motions broadcast; a fit takes one matrix. A wrong shape or a number that
-  is not finite is a ValueError, in every function.
+- Bodies and motions broadcast; a fit takes one matrix.
 
 Sources: Lynch and Park, *Modern Robotics* (2017), section 8.3; Siciliano et al.,
 *Robotics* (2009), section 7.2.2; Golub and Van Loan, *Matrix Computations*,
@@ -39,6 +38,9 @@ def inertia_of(phi: ArrayLike) -> Array:
 
     Returns:
         G, (..., 6, 6): takes twists (omega; v) to momenta (angular; linear).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     phi = checks.array(phi, "phi", (10,))
     G = np.zeros((*phi.shape[:-1], 6, 6))
@@ -58,6 +60,9 @@ def parameters(masses: ArrayLike, coms: ArrayLike, inertias: ArrayLike) -> Array
         masses: kg, (...).
         coms: centres of mass, metres, (..., 3).
         inertias: about the centres of mass, kg m^2, (..., 3, 3).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     m = checks.array(masses, "masses", ())[..., None]
     c = checks.array(coms, "coms", (3,))
@@ -79,6 +84,9 @@ def link_regressor(V: ArrayLike, A: ArrayLike) -> Array:
 
     Returns:
         (..., 6, 10): times phi it is the wrench (moment; force) that moves the body.
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     V, A = checks.array(V, "V", (6,)), checks.array(A, "A", (6,))
     G = inertia_of(np.eye(10))
@@ -103,6 +111,9 @@ def arm_regressor(
 
     Returns:
         Y, (..., n, 10 n): ten columns per link; without rotors and friction.
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     J = checks.array(J_space, "J_space", (6, "n"))
     n = J.shape[-1]
@@ -128,6 +139,9 @@ def motor_features(qd: ArrayLike, qdd: ArrayLike) -> Array:
 
     Returns:
         (..., n, 3 n): times (armature, damping, dry friction) it is a torque.
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     qd, qdd = checks.same_size(qd=qd, qdd=qdd)
     blocks = [each[..., None] * np.eye(qd.shape[-1]) for each in (qdd, qd, np.sign(qd))]
@@ -143,6 +157,9 @@ def identifiable(Y: ArrayLike, rtol: float) -> tuple[int, float]:
 
     Returns:
         (rank, condition): how many count; the largest over the smallest that counts.
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, Y of zeros, or rtol of 1 or more.
     """
     _, s, _ = _kept(Y, rtol)
     return len(s), float(s[0] / s[-1])
@@ -157,6 +174,9 @@ def fit(Y: ArrayLike, tau: ArrayLike, rtol: float) -> Array:
         Y: regressor, (n, p).
         tau: measured torques, N m, (n,).
         rtol: as in `identifiable`.
+
+    Raises:
+        ValueError: as `identifiable`.
     """
     U, s, Vt = _kept(Y, rtol)
     return Vt.T @ (U.T @ checks.array(tau, "tau", U.shape[:1]) / s)
@@ -177,6 +197,9 @@ def predict_with_sigma(
     Returns:
         (torque, sigma), N m, (m,) each: sigma is that of the prediction, without the
         noise of a new measurement. What a motion never showed has no sigma.
+
+    Raises:
+        ValueError: as `identifiable`; or no more rows than the rank.
     """
     _, s, Vt = _kept(Y, rtol)
     Y_new = checks.array(Y_new, "Y_new", Vt.shape[1:])
@@ -200,6 +223,9 @@ def load_regressor(J_site: ArrayLike, R_site: ArrayLike, g: ArrayLike) -> Array:
 
     Returns:
         (..., n, 4): times (m, m c) it is the torque that holds the load, N m.
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     J = checks.array(J_site, "J_site", (6, "n"))
     R = checks.array(R_site, "R_site", (3, 3))
@@ -222,6 +248,9 @@ def payload_from_holds(
     Returns:
         (m, m c), kg and kg m in the site's axes, (4,). Poses that only turn about
         gravity leave a part of c unseen; the smallest is returned.
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     rows = load_regressor(J_site, R_site, g)
     extra = checks.array(extra, "extra", rows.shape[-2:-1])
@@ -236,6 +265,9 @@ def least_pseudo(phi: ArrayLike) -> Array:
 
     Args:
         phi: as above, (..., 10).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     about = inertia_of(phi)[..., :3, :3]
     phi = np.asarray(phi, dtype=np.float64)

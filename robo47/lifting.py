@@ -1,9 +1,7 @@
 """Lifting a cube: where the tool stands, what the hand weighs then, what slips.
 
 Conventions: poses are `T_world_x`. Metres, kilograms, newtons; an inertia is about its
-body's centre of mass. Leading dimensions broadcast. Every function raises ValueError
-where a shape is wrong, a number is not finite or out of the range that its docstring
-states.
+body's centre of mass. Leading dimensions broadcast.
 
 Source: Lynch and Park, Modern Robotics (2017), section 8.2 for inertias; Coulomb
 friction, section 12.2.1, for what two fingers hold.
@@ -32,6 +30,9 @@ def grasp_pose(T_world_cube: ArrayLike, above: ArrayLike) -> Array:
 
     Returns:
         T_world_tcp, (..., 4, 4); its z axis points down.
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or not a pose.
     """
     T_world_cube = checks.pose(T_world_cube, "T_world_cube")
     above = checks.array(above, "above", ())
@@ -61,6 +62,9 @@ def carry(
     Returns:
         Mass, centre of mass (3) and inertia about it as MuJoCo's fullinertia orders
         it (xx, yy, zz, xy, xz, yz), (..., 10).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, a mass below 0, or no mass at all.
     """
     m1 = checks.not_negative(m1, "m1")
     m2 = checks.not_negative(m2, "m2")
@@ -89,6 +93,10 @@ def heaviest_cube(grip: ArrayLike, mu: ArrayLike, acceleration: ArrayLike) -> Ar
 
     Returns:
         Mass in kg, (...).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, grip or mu below 0, or a fall as
+            fast as gravity's or faster.
     """
     grip = checks.not_negative(grip, "grip")
     mu = checks.not_negative(mu, "mu")

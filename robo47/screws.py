@@ -29,7 +29,7 @@ from robo47.fast.vectors import cross_of
 
 
 def skew(w: ArrayLike) -> Array:
-    """Return the matrix [w] that does "cross w with": skew(w) @ p = w x p.
+    """Return the matrix [w] that takes p to w x p.
 
     Args:
         w: vector, (..., 3), in any unit.

@@ -5,8 +5,6 @@ wrenches (moment; force), both in world axes at the site. `J_site` qd =
 (omega; velocity of the site point); formulas have J for short. Only `site_bias` takes
 `J_space`. M is the mass matrix with armature. Metres, radians, newtons, kilograms.
 `n` joints, `m` rows of J_site (6 for the whole hand); leading dimensions broadcast.
-Every function raises ValueError where a shape is wrong, a number is not finite or
-out of the range that its docstring states.
 
 Sources: Khatib, "A unified approach for motion and force control of robot
 manipulators", IEEE J. Robotics and Automation 3(1), 1987; Lynch and Park, Modern
@@ -32,6 +30,10 @@ def task_inertia(J_site: ArrayLike, M: ArrayLike) -> Array:
 
     Returns:
         Lambda, symmetric, (..., m, m): kg m2 in the angular block, kg in the linear.
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, a hand at a singularity, or a
+            singular M.
     """
     J, M = _model(J_site, M)
     try:
@@ -56,6 +58,9 @@ def site_bias(J_space: ArrayLike, qd: ArrayLike, p: ArrayLike) -> Array:
 
     Returns:
         (angular; linear) acceleration in rad/s2 and m/s2, (..., 6).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     J_space = checks.array(J_space, "J_space", (6, "n"))
     qd = checks.array(qd, "qd", J_space.shape[-1:])
@@ -95,6 +100,9 @@ def osc_torque(
 
     Returns:
         Joint torques in N m, (..., n).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     J = checks.array(J_site, "J_site", ("m", "n"))
     m, n = J.shape[-2:]
@@ -118,6 +126,9 @@ def null_torque(
 
     Returns:
         Joint torques in N m, (..., n).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or a singular M.
     """
     J, M = _model(J_site, M)
     m, n = J.shape[-2:]
@@ -138,6 +149,9 @@ def spring_wrench(e: ArrayLike, V_err: ArrayLike, K: ArrayLike, D: ArrayLike) ->
 
     Returns:
         Wrench (moment; force) in N m and N, (..., m).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     e, V_err = checks.same_size(e=e, V_err=V_err)
     square = (e.shape[-1], e.shape[-1])
@@ -159,6 +173,10 @@ def critical_damping(K: ArrayLike, Lambda: ArrayLike) -> Array:
 
     Returns:
         D, symmetric, (..., m, m), in N m s/rad and N s/m.
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, K below 0, or Lambda not positive
+            definite.
     """
     K = checks.not_negative(checks.array(K, "K", ("m",)), "K")
     Lambda = checks.array(Lambda, "Lambda", (K.shape[-1], K.shape[-1]))
@@ -192,6 +210,9 @@ def impedance_torque(
 
     Returns:
         Joint torques in N m, (..., n).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     J = checks.array(J_site, "J_site", ("m", "n"))
     m, n = J.shape[-2:]
@@ -212,6 +233,9 @@ def set_point_for_force(force: ArrayLike, k: ArrayLike, surface: ArrayLike) -> A
 
     Returns:
         Height to command in metres, surface - force / k, (...).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or k not above 0.
     """
     surface = checks.array(surface, "surface", ())
     return surface - checks.array(force, "force", ()) / checks.positive(k, "k")
@@ -231,6 +255,9 @@ def hybrid_wrench(
 
     Returns:
         Wrench (moment; force) in N m and N, (..., 6).
+
+    Raises:
+        ValueError: wrong shape or a non-finite number.
     """
     V_err = checks.array(V_err, "V_err", (6,))
     D = checks.array(D, "D", (6, 6))

@@ -3,8 +3,7 @@
 Conventions: s is the fraction of the path that is done, 0 to 1; sd and sdd are its
 derivatives in 1/s and 1/s2; a T is a pose. Radians, metres, seconds. `n` is the
 number of joints; leading dimensions broadcast. Before 0 and after its duration a
-scaling stands still. Every function raises ValueError where a shape is wrong, a
-number is not finite or out of the range that its docstring states.
+scaling stands still.
 
 Sources: Lynch and Park, Modern Robotics (2017), chapter 9 (sections 9.2 and 9.3).
 """
@@ -36,6 +35,9 @@ def quintic_scaling(t: ArrayLike, duration: ArrayLike) -> Array:
 
     Returns:
         s, sd in 1/s and sdd in 1/s2, (..., 3).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or a duration not above 0.
     """
     t = checks.array(t, "t", ())
     duration = checks.positive(duration, "duration")
@@ -59,6 +61,9 @@ def quintic_duration(dq: ArrayLike, v_max: ArrayLike, a_max: ArrayLike) -> Array
 
     Returns:
         Duration in seconds, (...); 0 where nothing moves.
+
+    Raises:
+        ValueError: wrong shape, NaN, an infinite dq, or a limit not above 0.
     """
     dq = np.abs(checks.array(dq, "dq", ("n",)))
     by_speed = PEAK_SPEED * dq / _limit(v_max, "v_max", dq)
@@ -80,6 +85,9 @@ def joint_move(
 
     Returns:
         q, qd in rad/s and qdd in rad/s2, stacked, (..., 3, n).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or a duration not above 0.
     """
     q0, q1 = checks.same_size(q0=q0, q1=q1)
     move = quintic_scaling(t, duration)[..., None] * (q1 - q0)[..., None, :]
@@ -102,6 +110,9 @@ def trapezoid(t: ArrayLike, L: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
 
     Returns:
         Position, speed and acceleration in units of L, per s and per s2, (..., 3).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, L below 0, or v or a not above 0.
     """
     t = checks.array(t, "t", ())
     L = checks.not_negative(L, "L")
@@ -136,6 +147,9 @@ def quintic_coefficients(
 
     Returns:
         Coefficients of 1, t, ..., t^5, (..., 6).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or a duration not above 0.
     """
     start = checks.array(start, "start", (3,))
     end = checks.array(end, "end", (3,))
@@ -165,6 +179,9 @@ def straight_pose(T0: ArrayLike, T1: ArrayLike, s: ArrayLike) -> Array:
 
     Returns:
         Pose, (..., 4, 4).
+
+    Raises:
+        ValueError: wrong shape, a non-finite number, or not poses.
     """
     T0 = checks.pose(T0, "T0")
     T1 = checks.pose(T1, "T1")

@@ -22,6 +22,8 @@ from labkit.base.exchange import LoadError, Path, Reply
 from labkit.check import tasks
 from labkit.judge import Robot
 from labkit.judge.answers import InTurn
+from labkit.lesson.day import NUMBERS
+from labkit.sandbox.inside import wire
 from labkit.sandbox.sandbox import twice
 from robo47 import panda
 
@@ -33,6 +35,7 @@ class InProcess:
         """Take functions that stand in the file instead of its own, by name."""
         self.instead = instead or {}
         self.added = ""
+        self.most = NUMBERS
 
     def run(self, script, exchanges, library, needs=None, added="", limits=None):
         """Ask every question, load the file anew, and ask again from the end.
@@ -41,6 +44,7 @@ class InProcess:
         keep, every third question tells.
         """
         self.added = added
+        self.most = limits.numbers if limits else NUMBERS
         first = self._load(script)
         kept = []
         for exchange in exchanges:
@@ -96,6 +100,10 @@ class InProcess:
                 value = function(*args)
         except BaseException as error:
             return _describe(error, self.script)
+        try:
+            sent = wire.unpack_value(wire.pack_value(value, self.most))
+        except wire.UnsendableError as error:
+            return Reply(error=f"it returned {error}", kind="unsendable")
         changed = [
             i
             for i, (arg, was) in enumerate(zip(args, question.args, strict=True))
@@ -104,7 +112,7 @@ class InProcess:
         shares, handed = _shares(value, kept, args)
         names = list(inspect.signature(function).parameters) if changed + handed else ()
         return Reply(
-            value=_copied(value),
+            value=sent,
             changed=tuple(names[i] for i in changed),
             printed=printed.getvalue(),
             shares=(*shares, *(names[i] for i in handed)),
@@ -121,12 +129,6 @@ class InProcess:
 @functools.cache
 def _compiled(source, name):
     return compile(source.replace(b"\nimport kit ", b"\n# "), name, "exec")
-
-
-def _copied(value):
-    if isinstance(value, tuple) and all(isinstance(v, np.ndarray) for v in value):
-        return tuple(np.array(v) for v in value)
-    return None if value is None else np.array(value)
 
 
 def _shares(value, kept, args):

@@ -41,7 +41,7 @@ def kit(made):
 def test_a_new_day_is_all_as_it_must_be(kit):
     done = run_copy(kit, AUTHOR, "46")
     assert done.returncode == 0, done.stdout + done.stderr
-    assert done.stdout.count("PASS") == 8
+    assert done.stdout.count("PASS") == 9
     assert f"**[Day 46: Trial]({GUIDE})**" in (kit / "README.md").read_text()
 
 

@@ -48,6 +48,36 @@ class TestManifest:
             section = task.read.partition(";")[0].removeprefix("Lab guide, ")
             assert section in headings, task.id
 
+    def test_each_task_is_named_where_a_paragraph_leads_to_it(self, day):
+        """By a mark, (4.2), or as "task 4.2"; not by the example of a mark alone."""
+        guide = (day.folder / day.guide).read_text("utf-8")
+        prose = re.sub(r"```.*?```", "", guide, flags=re.DOTALL)
+        prose = re.sub(r"(?m)^\|.*|(?:such as|after a paragraph,)\s+\(.+?\)", "", prose)
+        id_ = rf"({day.number}\.\d)"
+        marks = set(re.findall(rf"\({id_}\)", prose))
+        named = marks | set(re.findall(rf"\btask {id_}\b", prose))
+        ids = {task.id for task in day.tasks}
+        assert ids - named == set()
+        assert marks - ids == set()
+
+    def test_a_hole_in_the_numbers_of_tasks_is_explained(self, day):
+        guide = " ".join((day.folder / day.guide).read_text("utf-8").split())
+        numbers = [int(task.id.partition(".")[2]) for task in day.tasks]
+        holes = set(range(1, max(numbers))) - set(numbers)
+        for hole in holes:
+            assert re.search(rf"no (\d\.\d and no )?{day.number}\.{hole}\b", guide), (
+                hole
+            )
+
+    def test_the_questions_have_folded_answers(self, day):
+        guide = (day.folder / day.guide).read_text("utf-8")
+        answers = guide.partition('## Answers to "Can you explain?"')[2]
+        fold = answers.partition("</details>")[0]
+        assert fold.count("<summary>") == 1
+        numbers = re.findall(r"^(\d+)\. ", fold, re.MULTILINE)
+        assert numbers == [str(i + 1) for i in range(day.questions)]
+        assert "<details>" not in kits_worksheet(day)  # else it counts as an answer
+
     def test_the_worksheet_has_room_for_what_is_asked(self, day):
         sections = split_sections(kits_worksheet(day))
         assert {term.lower() for term in day.terms} <= sections.keys()

@@ -57,7 +57,8 @@ def worksheet(terms, *, drawings=3, ticked="x", definition=None, answer=ANSWER):
         lines += [f"### Drawing {i + 1}: a frame", "```", " z", " |", " +-- x", "```"]
     lines += ["## Can you explain?"]
     for i in range(1, 6):
-        lines += [f"{i}. It moves along x. Whose x? Which side?", "", f"   {answer}"]
+        mine = f"{answer} ({i})" if answer == ANSWER else answer
+        lines += [f"{i}. It moves along x. Whose x? Which side?", "", f"   {mine}"]
     return "\n".join([*lines, "## Checklist", f"- [{ticked}] ran it", "- [x] read it"])
 
 
@@ -242,8 +243,8 @@ def test_a_definition_has_to_be_a_sentence_of_ones_own(sheet, definition, says):
 @pytest.mark.parametrize(
     "words",
     [
-        "*where the hand is and how it is turned, all in one*",
-        "位姿是一个刚体的位置和姿态在同一个坐标系",
+        "*where the hand is and how it is turned, all in one, {}*",
+        "位姿是一个刚体的位置和姿态在同一个坐标系 {}",
     ],
 )
 def test_words_between_asterisks_or_without_spaces_are_words(sheet, words):
@@ -264,6 +265,59 @@ def test_the_questions_want_an_answer_in_words(sheet, answer, open_ones):
     item = sheet(worksheet(TERMS, answer=answer))["definitions"]
     assert item.passed == (not open_ones)
     assert open_ones in item.message
+
+
+PASTED = "The same sentence"
+SENTENCE = "It depends on the frame in which one looks at it."  # eleven words
+
+
+def table(*reasons):
+    rows = [f"| number {i} | 1 | 2 | {why} |" for i, why in enumerate(reasons)]
+    return "\n## Predictions\n" + "\n".join(rows)
+
+
+@pytest.mark.parametrize(
+    ("answer", "definition"),
+    [
+        (SENTENCE, None),
+        ("I do not know yet.", None),  # five times, though it is short
+        (ANSWER, SENTENCE),
+        (SENTENCE.upper().replace(" ", "  "), SENTENCE),
+    ],
+)
+def test_one_sentence_pasted_everywhere_is_not_a_worksheet(sheet, answer, definition):
+    text = worksheet(TERMS, answer=answer, definition=definition)
+    item = sheet(text)["definitions"]
+    assert item.status == "wrong"
+    assert item.message.startswith(PASTED)
+
+
+@pytest.mark.parametrize(
+    ("reasons", "passes"),
+    [
+        (["rounding"] * 3, True),  # short and true
+        (["yes", "yes", "0"], True),
+        (["I forgot the armature"] * 3, True),
+        (["I left the armature of the motors out here"] * 2, True),
+        (["I left the armature of the motors out here"] * 3, False),
+        ([SENTENCE, "none", "none"], True),  # an answer may be a reason, too
+    ],
+)
+def test_a_short_true_answer_may_stand_there_often(sheet, reasons, passes):
+    text = worksheet(TERMS).replace(f"{ANSWER} (1)", SENTENCE) + table(*reasons)
+    item = sheet(text)["definitions"]
+    assert item.passed == passes, item.message
+
+
+def test_two_answers_alike_are_pasted_where_they_are_long(sheet):
+    text = worksheet(TERMS)
+    for i in (1, 2):
+        text = text.replace(f"{ANSWER} ({i})", SENTENCE)
+    assert PASTED in sheet(text)["definitions"].message
+    short = worksheet(TERMS)
+    for i in (1, 2):
+        short = short.replace(f"{ANSWER} ({i})", "On the right of it.")
+    assert sheet(short)["definitions"].passed
 
 
 @pytest.mark.parametrize("blank", ["\n\n   ", "\n   ", " "])

@@ -6,9 +6,9 @@ from judged import answered, judged, judged_replies, replies_of, right, round_of
 
 from labkit.base.exchange import Reply
 from labkit.judge import Ask, Draw, HeldOut, Matrix, Pose, Robot, Scalar, Vector
-from labkit.judge.answers import number
 from labkit.judge.judge import judge
 from labkit.judge.row import row_of
+from labkit.judge.typed import number
 from labkit.lesson.day import find_day
 from labkit.sandbox.messages import robots_of
 

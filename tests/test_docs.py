@@ -23,7 +23,11 @@ from robo47 import __version__
 
 WEEK = ROOT / "w1-foundations"
 DAY = find_day(1)
-DOCUMENTS = [ROOT / "README.md", *sorted(WEEK.rglob("*.md")), *ROOT.glob("C*.md")]
+DOCUMENTS = [
+    ROOT / "README.md",
+    *sorted(ROOT.glob("w*-*/**/*.md")),
+    *ROOT.glob("C*.md"),
+]
 DOCUMENTS += sorted((ROOT / "docs").glob("*.md"))
 # The student's own are no business of a test.
 DOCUMENTS = [
@@ -160,6 +164,20 @@ def test_formulas_are_in_a_dialect_that_github_and_the_site_read(path):
         from docutils.utils.math.latex2mathml import tex2mathml
 
         assert all(tex2mathml(formula) for formula in found)
+
+
+GUIDES = [day.folder / day.guide for day in all_days()]
+
+
+@pytest.mark.parametrize("path", GUIDES, ids=lambda p: p.name)
+def test_no_sentence_goes_on_with_what_the_site_takes_for_a_list(path):
+    """A line that begins with "1. " or "- " within a paragraph becomes a list."""
+    text = re.sub(r"```.*?```", "", path.read_text("utf-8"), flags=re.DOTALL)
+    paragraphs = (part.splitlines() for part in text.split("\n\n"))
+    prose = [lines for lines in paragraphs if lines and lines[0][:1].isalpha()]
+    found = [ln for lines in prose for ln in lines if re.match(r"(1\.|[-+*]) ", ln)]
+    assert prose
+    assert found == []
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=lambda p: p.name)

@@ -6,11 +6,12 @@ from judged import answered, replies_of, right, round_of
 
 from labkit.base.exchange import Question, Reply
 from labkit.judge import Scalar, Vector
-from labkit.judge.answers import InTurn, typed
+from labkit.judge.answers import InTurn
 from labkit.judge.ask import SEED, Ask, Edges, right_answers
 from labkit.judge.failing_call import failing_call
 from labkit.judge.judge import judge
 from labkit.judge.row import rows_of
+from labkit.judge.typed import typed
 from labkit.lesson.day import all_days
 
 SINE = Ask(
@@ -126,3 +127,15 @@ def test_of_several_results_the_one_that_is_wrong_is_named():
 
 def _sine_and_pair(x):
     return np.sin(x), np.array([x, x])
+
+
+@pytest.mark.parametrize("rounding", [(0.0, 1e-15), (1e-15, 0.0), (0.0, 0.0)])
+def test_rounding_neither_chooses_the_entry_nor_is_shown_as_a_number(rounding):
+    ask = Ask(lambda rng: [(2.0,), (3.0,)], Vector((2,)), truth=lambda x: _pairs(0 * x))
+    says, _ = failing_call(
+        asked_with(lambda x: np.array([np.add(rounding, 1 / 3)]), ask)
+    )
+    assert says == "f(2)[0] is 0.333333, and 0 is right."
+    dust = Ask(lambda rng: [(2.0,)], Vector((1,)), truth=lambda x: x[:, None] * 1e-17)
+    says, _ = failing_call(asked_with(lambda x: np.array([[1.0]]), dust))
+    assert says == "f(2)[0] is 1, and 0 is right."

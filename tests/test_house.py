@@ -31,6 +31,12 @@ FLOORS = [
 ]
 # Names that labs and handouts have typed: three lines each.
 FACES = {f"robo47/{name}.py" for name in ("cli", "metrics", "mine", "lesson/lab")}
+TAUGHT = [
+    *("se3", "kinematics", "screws", "jacobian", "dynamics", "control", "task_space"),
+    *("trajectory", "lifting", "identification", "rotation_log", "orientation", "dh"),
+]
+# They answer, whatever they are given.
+NEVER_RAISE = {"is_rotation", "is_pose", "frame_names", "small_pose_error"}
 MODULES = sorted([*ROOT.glob("robo47/**/*.py"), *ROOT.glob("labkit/*/**/*.py")])
 
 
@@ -63,6 +69,12 @@ def test_one_file_knows_where_the_memory_is():
     paths = [*ROOT.glob("labkit/**/*.py"), *ROOT.glob("scripts/*.py")]
     knows = {path.name for path in paths if '".robo47"' in path.read_text("utf-8")}
     assert knows == {"store.py"}
+
+
+def test_one_file_knows_what_the_students_folder_is_called():
+    paths = ROOT.glob("labkit/**/*.py")
+    knows = {path.name for path in paths if '"work"' in path.read_text("utf-8")}
+    assert knows == {"week.py"}
 
 
 def test_the_pages_have_one_head():
@@ -123,6 +135,19 @@ def test_the_guide_tells_the_way_of_a_check_file_by_file(run, student):
     steps = guide.partition("## How `make check")[2].partition("\n## ")[0]
     told = set(re.findall(r"`(\S+\.py)`", steps))
     assert told == set(re.findall(r"^(\S+\.py)$", done.stderr, re.M))
+
+
+@pytest.mark.parametrize("name", TAUGHT)
+def test_a_taught_function_says_in_one_form_what_it_raises(name):
+    tree = ast.parse((ROOT / "robo47" / f"{name}.py").read_text("utf-8"))
+    for function in tree.body:
+        if not isinstance(function, ast.FunctionDef) or function.name[0] == "_":
+            continue
+        says = ast.get_docstring(function) or ""
+        if function.name not in NEVER_RAISE:
+            form = r"\n\nRaises:\n    (ValueError|Robo47Error): .+(\n {8}.+)*\.(\n|$)"
+            assert re.search(form, says), function.name
+    assert "Error" not in (ast.get_docstring(tree) or "")
 
 
 @pytest.mark.parametrize(

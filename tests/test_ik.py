@@ -6,7 +6,10 @@ from compare import assert_same
 from test_screws import PANDA, arm
 
 from robo47 import jacobian, panda, screws, se3, verify
-from robo47.fast import ik
+from robo47.fast import chains, ik
+from robo47.fast.ik_many import Many
+from robo47.fast.ik_one import One
+from robo47.fast.walk import walk
 
 READY = panda.READY_Q
 
@@ -67,6 +70,30 @@ def test_one_alone_takes_the_steps_that_it_takes_among_many(robot):
     together = jacobian.solve_ik(S, M, goals, READY, limits)
     alone = [jacobian.solve_ik(S, M, goal, READY, limits) for goal in goals]
     assert_same(alone, together, 1e-9)
+
+
+@pytest.mark.parametrize("steps", [1, 2, 3, 5, 8])
+def test_both_ways_to_compute_a_walk_are_at_one_place_after_each_step(robot, steps):
+    S, M, limits, _ = robot
+    rng = np.random.default_rng(10)
+    near = READY + rng.uniform(-0.4, 0.4, (40, 7))
+    tight = np.stack([READY - 0.2, READY + 0.2], axis=1)  # most come to a limit
+    goals = screws.fk_space(S, M, near)
+    goals[0, :3, :3] = np.diag([1.0, -1.0, -1.0]) @ goals[0, :3, :3]  # half a turn
+    goals[1, :3, 3] += 3.0  # out of reach
+    columns = np.ascontiguousarray(np.moveaxis(goals[:, :3], 0, -1))
+    patience = ik.FIRST._replace(steps=steps)
+    plan = chains.plan_of(S, M)
+    for ends in (limits, tight):
+        start = np.repeat(READY[:, None], 40, axis=1)
+        many = Many(plan, columns, ends.T[..., None], start, np.arange(40))
+        walk(many, patience)
+        for i in range(40):
+            one = One(plan, columns[..., i], ends)
+            one.begin(READY.tolist())
+            walk(one, patience)
+            assert_same(one.best, many.best[:, i], 1e-11)
+            assert one.miss == pytest.approx(many.miss[i], rel=1e-9, abs=1e-18)
 
 
 def test_targets_one_by_one_are_all_reached_wherever_they_are(robot):

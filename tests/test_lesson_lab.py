@@ -142,12 +142,38 @@ def test_a_prediction_stands_beside_what_is_measured(log, own, capsys):
 
 
 @pytest.mark.parametrize("cell", ["*(your prediction)*", " ", "...", "-", "the kit's"])
-def test_without_a_prediction_nothing_is_said(log, own, capsys, cell):
+def test_without_a_prediction_it_is_asked_for_and_no_number_said(
+    log, own, capsys, cell
+):
     own.write_text(ROW.format(cell))
     script = own.parent / "work" / SCRIPT.name
     script = SCRIPT if cell == "the kit's" else script  # which knows nobody's
-    Lab(str(script), "A lab.").measured("height of ee, m", 1)
-    assert capsys.readouterr().out == ""
+    lab = Lab(str(script), "A lab.")
+    lab.measured("height of ee, m", 1)
+    asked = "Predict first: 1 number still open in day1.md\n"
+    assert capsys.readouterr().out == ("" if cell == "the kit's" else asked)
+    assert lab.finish() == 0
+    assert own.read_text() == ROW.format(cell)
+
+
+def test_a_run_that_is_logged_writes_what_it_measured(log, own, monkeypatch):
+    text = f"\ufeff# Day 1\n{ROW.format('0.6')}".replace("\n", "\r\n")
+    own.write_bytes(text.encode())
+    for options in (["lab", "--no-log"], ["lab", "--try"], ["lab"]):
+        before = own.read_bytes()
+        assert b"run of" not in before
+        monkeypatch.setattr(sys, "argv", options)
+        lab = Lab(str(own.parent / "work" / SCRIPT.name), "A lab.")
+        lab.measured("height of ee, m", 0.59027)
+        assert lab.finish() == 0
+        assert (own.read_bytes() == before) == (len(options) == 2)
+    assert b"| 0.6 | 0.5903 (run of " in own.read_bytes()
+    assert own.read_bytes().endswith(b"\r\n")
+    monkeypatch.setenv("ROBO47_METRICS", "elsewhere.csv")  # a look at the week
+    lab.came_out = {"height of ee, m": 0.7}
+    before = own.read_bytes()
+    lab.finish()
+    assert own.read_bytes() == before
 
 
 def test_what_is_tried_is_measured_and_neither_judged_nor_logged(

@@ -72,6 +72,21 @@ def test_the_committed_pictures_can_be_drawn_again(monkeypatch, tmp_path):
 
 
 @pytest.mark.gl
+@pytest.mark.meshes
+@pytest.mark.usefixtures("gl", "real_panda")
+def test_words_over_an_arm_stand_where_the_committed_pictures_have_them(
+    monkeypatch, tmp_path
+):
+    names = ["day2_screws", "day2_dh_roulette"]
+    monkeypatch.setattr(sys, "argv", ["", *names, "--out", str(tmp_path)])
+    assert command.main() == 0
+    for name in names:
+        fresh = Image.open(tmp_path / f"{name}.png").convert("RGB")
+        kept = Image.open(FOLDER / f"{name}.png").convert("RGB")
+        assert differing(fresh, kept) < 0.02
+
+
+@pytest.mark.gl
 @pytest.mark.usefixtures("gl")
 def test_the_pictures_of_the_order_show_the_labs_numbers(monkeypatch, capsys):
     draw = lesson_figures(1)["day1_order"]

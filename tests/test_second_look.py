@@ -1,18 +1,22 @@
 """Second looks: whose fault it is, when it is right, what a lab finds, borrowing."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import inprocess
+import mujoco
 import numpy as np
 import pytest
 
-from labkit.check.lab_run import rehearse
+from labkit.check import lab_run
+from labkit.check.lab_run import Budget, EnoughAsked, behind_wall, rehearse
 from labkit.check.tasks import check_tasks
+from labkit.judge import Robot
 from labkit.lesson import borrowed
 from labkit.lesson.added_code import old_names
 from labkit.lesson.borrowed import BORROWED, borrowed_tasks, with_borrowed
 from labkit.lesson.day import all_days, find_day
-from labkit.lesson.lab_module import read_script
+from labkit.lesson.lab_module import load_lab, read_script
 from labkit.lesson.starter import make_starter
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import screws
@@ -22,6 +26,11 @@ pytestmark = pytest.mark.kit
 DAY = find_day(1)
 REFERENCE = DAY.source.read_text("utf-8")
 XYZW = REFERENCE.replace("w, x, y, z = quat", "x, y, z, w = quat", 1)
+LINK = (
+    '<body name="b{0}" pos="{0} 0.1 0.2"><joint name="j{0}" axis="0 0 1"/>'
+    '<geom size="0.1"/>'
+)
+IN_WORLD = "<mujoco><worldbody>{}</worldbody></mujoco>"
 
 
 @pytest.fixture
@@ -95,7 +104,7 @@ class TestTheLabWithAFilesFunctions:
         assert body != head[start:]
         script = tmp_path / day.script
         script.write_text(head[:start] + body + line + tail, "utf-8")
-        says, _ = rehearse(day, script, sandbox)
+        says, *_ = rehearse(day, script, sandbox)
         assert says.startswith('at "')
         assert "it must be" in says
 
@@ -103,8 +112,31 @@ class TestTheLabWithAFilesFunctions:
         code = REFERENCE.replace("    c, s =", "    1 / 0\n    c, s =", 1)
         script = tmp_path / DAY.script
         script.write_text(code, "utf-8")
-        says, _ = rehearse(DAY, script, sandbox)
+        says, *_ = rehearse(DAY, script, sandbox)
         assert says.startswith("compose_fk stops with ZeroDivisionError")
+
+    def test_hands_over_the_robot_that_it_has_and_not_the_panda(
+        self, sandbox, tmp_path, monkeypatch
+    ):
+        scene = tmp_path / "arm.xml"
+        links = map(LINK.format, range(7))
+        scene.write_text(IN_WORLD.format("".join(links) + "</body>" * 7), "utf-8")
+        arm = Robot(scene)
+        data = mujoco.MjData(arm.model)
+        data.qpos[:] = np.linspace(-1.0, 1.0, 7)
+        mujoco.mj_kinematics(arm.model, data)  # fills xpos
+        row = SimpleNamespace(ask=SimpleNamespace(main=[(arm,)]))
+        lab = load_lab(DAY.source)
+        path = [(f"b{i}", arm.model.joint(i).name) for i in range(7)]
+
+        def end():
+            own = behind_wall(DAY, DAY.source, sandbox, lab, Budget())
+            return own["compose_fk"](arm.model, data.qpos.copy(), path)[:3, 3]
+
+        with pytest.raises(EnoughAsked):  # it has the Panda's seven joints
+            end()
+        monkeypatch.setattr(lab_run, "rows_of", lambda day: {"compose_fk": row})
+        np.testing.assert_allclose(end(), data.xpos[-1], atol=1e-12)
 
 
 class TestBorrowing:

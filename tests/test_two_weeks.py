@@ -12,6 +12,7 @@ from conftest import ROOT, copy_kit, need, run_copy
 from labkit.base import git, store
 from labkit.check import report
 from labkit.commands import grade
+from labkit.commands.proof import OWN_LABS
 from labkit.fresh import missing
 from labkit.lesson import last_day
 from labkit.lesson.day import all_days, chosen_week, days_of, find_day
@@ -210,12 +211,12 @@ class TestName:
             subprocess.run(["git", *who, *words], cwd=folder, check=True)
 
     def test_who_wrote_the_kit_is_never_the_student(self, clone):
-        assert git.author_of_work(clone) == ""
+        assert git.author_of(clone, OWN_LABS) == ""
 
     def test_a_student_is_who_committed_work_last_even_before_an_update(self, clone):
         self.commit(clone, "w1-foundations/work/day1_transforms.py", "Ada")
         self.commit(clone, "CHANGELOG.md", "The kit's maintainers")
-        assert git.author_of_work(clone) == "Ada"
+        assert git.author_of(clone, OWN_LABS) == "Ada"
 
     def test_in_ones_own_clone_it_is_gits_user_name(self, clone):
         subprocess.run(["git", "config", "user.name", "Grace"], cwd=clone, check=True)

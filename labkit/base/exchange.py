@@ -13,7 +13,8 @@ class Question:
 
     task: str  # whose it is; a task that hangs is not asked again
     function: str  # a name in the student's file
-    # Floats, ints, float64 arrays, a `Robot` or compiled MjModel, a `Path`.
+    # Whatever travels (`labkit.sandbox.inside.wire`), a `Robot` or compiled MjModel, a
+    # `Path`.
     args: tuple[Any, ...]
 
 
@@ -34,7 +35,7 @@ class Reply:
     All text in it is harmless: see `labkit.base.text.visible`.
     """
 
-    value: Any = None  # an array, a tuple of arrays, or None
+    value: Any = None  # as the function returned it: `labkit.sandbox.inside.wire`
     error: str = ""  # "" or what went wrong, in words
     # "" where the function returned; the exception's name where it raised one;
     # "missing", "unsendable", "stopped" (time, memory, ended, channel), or "waits" (not
@@ -50,6 +51,11 @@ class Reply:
     again_error: str = ""  # "" or what went wrong the second time alone
     # What the answer shares its memory with: "another answer", or an argument's name.
     shares: tuple[str, ...] = ()
+    # Of one that was stopped as it took too long: the seconds that it was given, how
+    # many calls of its task came back before it, and how long the longest of them took.
+    given: float = 0.0
+    came: int = 0
+    longest: float = 0.0
 
 
 @dataclass(eq=False)

@@ -114,19 +114,18 @@ def user_name(clone: Path) -> str:
     return done.stdout.strip() if done.returncode == 0 else ""
 
 
-def author_of_work(clone: Path) -> str:
-    """Return who is named as the author of the last commit of somebody's own labs.
-
-    Never that of who wrote the kit: no commit of the kit's has a file in w*/work/.
+def author_of(clone: Path, files: str) -> str:
+    """Return who is named as the author of the last commit of some files.
 
     Args:
         clone: a student's folder; "" where no commit has such a file.
+        files: "w*/work/**".
 
     Raises:
         GitError: git is not there, or takes too long.
     """
     git = _repository(clone)
-    listing = ("rev-list", "-1", "HEAD", "--", ":(glob)w*/work/**")
+    listing = ("rev-list", "-1", "HEAD", "--", f":(glob){files}")
     commit = (_git(git, *listing) or "").strip()
     return read_history(clone, (), at=commit).author if commit else ""
 

@@ -227,15 +227,25 @@ def scheduled(process: subprocess.Popen[bytes]) -> tuple[float, float]:
     return ran / 1e9, waited / 1e9
 
 
+def waited() -> float:
+    """Return for how many seconds this process waited for a processor, as above."""
+    places = (f"/proc/self/task/{one}/schedstat" for one in _threads("self"))
+    times = (_read(place).split() for place in places)
+    return sum(int(each[1]) for each in times if each) / 1e9
+
+
 def _family(pid: int) -> list[int]:
     """Return a process and what any of its threads started, on Linux."""
-    try:
-        threads = os.listdir(f"/proc/{pid}/task")
-    except OSError:  # it has ended
-        threads = []
-    lists = [_read(f"/proc/{pid}/task/{thread}/children") for thread in threads]
+    lists = [_read(f"/proc/{pid}/task/{one}/children") for one in _threads(pid)]
     children = [int(child) for some in lists for child in some.split()]
     return [pid, *(one for child in children for one in _family(child))]
+
+
+def _threads(pid: int | str) -> list[str]:
+    try:
+        return os.listdir(f"/proc/{pid}/task")
+    except OSError:  # it has ended, or this is another system
+        return []
 
 
 def _read(path: str) -> str:

@@ -35,5 +35,12 @@ def faults_of(day: Day, task: str | None = None) -> Iterator[str]:
                 )
             if wrong or task:
                 return
-            if fault := rehearse(day, script, sandbox)[0]:
-                yield f"the lab fails with its own functions behind the wall: {fault}"
+            ran = rehearse(day, script, sandbox)
+            if ran.fault:
+                says = "the lab fails with its own functions behind the wall"
+                yield f"{says}: {ran.fault}"
+            if ran.unfinished:
+                yield (
+                    f"{ran.unfinished} Give its run more, `[limits] lab_seconds` in "
+                    f"day.toml (now {day.lab_seconds:g}), or fewer calls"
+                )

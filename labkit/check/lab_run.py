@@ -7,64 +7,77 @@ sandbox's wall and is asked call by call. The first check that fails ends the ru
 import contextlib
 import inspect
 import io
-import time
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field, replace
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
 
 from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
+from labkit.check.slow import (
+    Budget,
+    EnoughAsked,
+    kits_functions,
+    not_to_its_end,
+    too_slow,
+)
 from labkit.handin.handin import Item
 from labkit.judge.ask import Robot
-from labkit.judge.replies_read import stops_with
+from labkit.judge.mistake import Verdict
+from labkit.judge.replies_read import no_answer, stops_with
+from labkit.judge.row import rows_of
 from labkit.lesson.added_code import old_names
-from labkit.lesson.day import Day
+from labkit.lesson.day import Day, Task
 from labkit.lesson.lab import Lab, number_of
 from labkit.lesson.lab_module import load_lab
 from labkit.lesson.metric import Metric
 from labkit.sandbox.messages import PANDA, library_of
-from labkit.sandbox.sandbox import Sandbox, Session
+from labkit.sandbox.process import ENDLESS
+from labkit.sandbox.sandbox import CALL_SECONDS, Sandbox, Session
 
-ROBOTS = [PANDA, Robot("panda")]  # those that labs hand to a function
+ROBOTS = (PANDA, Robot("panda"))  # those that labs hand to a function
+# Of a model, what makes it another robot.
+MADE_OF = ("body_pos", "body_quat", "body_mass", "jnt_axis", "jnt_pos")
 TRIALS = 15  # random inputs per step: a mistake that shows in a lab shows in these
-CALLS = 8_000  # of the student's functions, a second or two; simulations ask more
-SECONDS = 60.0  # for all of them; a slow function is no wrong one
 
 
 class FirstFailure(Exception):  # noqa: N818 (it ends a run; nothing went wrong here)
     """A check of the lab failed, or a function stopped; the text says which."""
 
 
-class EnoughAsked(Exception):  # noqa: N818
-    """As many calls or seconds went by as a check may take."""
+@dataclass
+class _Run:
+    """What is kept of a lab's run."""
+
+    day: Day
+    numbers: dict[tuple[str, str], float] = field(default_factory=dict)
+    title: str = ""  # of the step that is being run
 
 
 class Rehearsal(Lab):
     """The lab's recorder, which writes nothing and stops at the first failure."""
 
-    def __init__(
-        self, day: Day, numbers: dict[tuple[str, str], float], file: str, _: str | None
-    ) -> None:
-        """Take the day, what takes its numbers, and what a `Lab` takes."""
+    def __init__(self, run: "_Run", file: str, _: str | None) -> None:
+        """Take what is kept of the run, and what a `Lab` takes."""
         self.log = False
         self.trial = False
         self.script = Path(file)
-        self.day = day
-        self.numbers = numbers
-        self.title = ""
+        self.day = run.day
+        self._run = run
         self.failed = []
         self.rows = []
         self.predicted = {}
 
     def step(self, title: str) -> None:
         """Remember the heading."""
-        self.title = title
+        self._run.title = title
 
     @contextlib.contextmanager
     def side_quest(self) -> Iterator[None]:
@@ -74,133 +87,154 @@ class Rehearsal(Lab):
 
     def _judge(self, name: str, wanted: Metric, value: float) -> None:
         if not wanted.passes(value):
-            where = f'at "{self.title}", ' if self.title else ""
+            where = f'at "{self._run.title}", ' if self._run.title else ""
             raise FirstFailure(
                 f"{where}{name} is {number_of(value)}; it must be {wanted.limit}"
             )
         if wanted.check:
-            self.numbers[wanted.check, wanted.metric] = value
+            self._run.numbers[wanted.check, wanted.metric] = value
+
+
+class Rehearsed(NamedTuple):
+    """What came of a lab's run with a file's functions."""
+
+    fault: str  # the first step that fails, "" where none did
+    # What the steps before it gave, by check and metric, with `TRIALS` random inputs
+    # instead of the lab's own.
+    numbers: dict[tuple[str, str], float]
+    unfinished: str = ""  # that it was not run to its end, "" where it was
 
 
 def check_lab(day: Day, script: Path, sandbox: Sandbox) -> list[Item]:
-    """Return what a check says of the lab: nothing where no step of it fails."""
-    if not (failed := rehearse(day, script, sandbox)[0]):
-        return []
-    says = f"All tasks pass, but the lab fails with your functions: {failed}."
-    return [Item("lab", "wrong", f"{says}\nSee it: make run DAY={day.number}")]
+    """Return what a check says of the lab: nothing where it passes to its end."""
+    fault, _, unfinished = rehearse(day, script, sandbox)
+    see = f"\nSee it: make run DAY={day.number}"
+    if fault:
+        says = f"All tasks pass, but the lab fails with your functions: {fault}."
+        return [Item("lab", "wrong", f"{says}{see}")]
+    return [Item("lab", "unfinished", f"{unfinished}{see}")] if unfinished else []
 
 
-def rehearse(
-    day: Day, script: Path, sandbox: Sandbox, calls: int = CALLS
-) -> tuple[str, dict[tuple[str, str], float]]:
+def rehearse(day: Day, script: Path, sandbox: Sandbox) -> Rehearsed:
     """Run the lab with a file's functions, each behind the sandbox's wall.
 
     Args:
         day: from its manifest; where its complete lab is not there, nothing is said.
         script: the student's file; all its tasks pass.
         sandbox: where its functions run.
-        calls: of those functions, at most.
-
-    Returns:
-        The first step that fails, or ""; the numbers that the steps before it gave,
-        by check and metric, with `TRIALS` random inputs instead of the lab's own.
     """
-    numbers: dict[tuple[str, str], float] = {}
     if not day.source.is_file():
-        return "", numbers
+        return Rehearsed("", {})
     lab = load_lab(day.source)
-    vars(lab).update(behind_wall(day, script, sandbox, lab, Budget(calls)))
+    run = _Run(day)
+    budget = Budget(day.lab_seconds, kits_functions(day))
+    vars(lab).update(behind_wall(day, script, sandbox, lab, budget))
     counts = [k for k in ("TRIALS", "LIBRARY_TRIALS") if hasattr(lab, k)]
     vars(lab).update(dict.fromkeys(counts, TRIALS))
-    vars(lab)["Lab"] = partial(Rehearsal, day, numbers)
-    fault = ""
+    vars(lab)["Lab"] = partial(Rehearsal, run)
+    fault = unfinished = ""
     try:
         with (
             contextlib.redirect_stdout(io.StringIO()),
-            contextlib.suppress(EnoughAsked),
             warnings.catch_warnings(action="ignore"),
             np.errstate(all="ignore"),
         ):
             lab.main()
+    except EnoughAsked:
+        unfinished = not_to_its_end(run.title, budget)
     except FirstFailure as failure:
         fault = str(failure)
     except Exception as error:  # what a wrong number leads to, in the kit's own code
         fault = f"it stops with {type(error).__name__}: {error}"
-    return fault, numbers
+    return Rehearsed(fault, run.numbers, unfinished)
 
 
 def behind_wall(
-    day: Day, script: Path, sandbox: Sandbox, lab: ModuleType, budget: "Budget"
+    day: Day, script: Path, sandbox: Sandbox, lab: ModuleType, budget: Budget
 ) -> dict[str, Callable[..., Any]]:
     """Return a file's functions, by name; each call of one is asked in the sandbox.
 
     Args:
         day, script, sandbox: as those of `rehearse`.
         lab: the complete one, whose functions have the same arguments.
-        budget: of calls and seconds.
+        budget: of seconds.
     """
     added = old_names(day, script.read_text("utf-8", "replace"))
     library = library_of(day)
-    session = sandbox.session(script, ROBOTS, library, added, day.limits, brief=True)
+    robots = (*ROBOTS, *_own_robots(day))
+    session = sandbox.session(script, robots, library, added, day.limits, brief=True)
+    budget.watch(session)
     return {
-        name: _asked(session, task.id, getattr(lab, name), budget)
+        name: _asked(session, day, robots, task, getattr(lab, name), budget)
         for task in day.tasks
         for name in task.functions
     }
 
 
-class Budget:
-    """Calls and seconds that are left."""
-
-    def __init__(self, calls: int = CALLS, seconds: float = SECONDS) -> None:
-        """Start the clock."""
-        self.calls = calls
-        self.deadline = time.monotonic() + seconds
-
-    def spend(self) -> None:
-        """Take one call.
-
-        Raises:
-            EnoughAsked: none is left.
-        """
-        self.calls -= 1
-        if self.calls < 0 or time.monotonic() > self.deadline:
-            raise EnoughAsked
+def _own_robots(day: Day) -> list[Robot]:
+    """Return the robots of a day's folder: those that its rows ask about by a path."""
+    args = (arg for row in rows_of(day).values() for arg in chain(*row.ask.main))
+    found = dict.fromkeys(arg for arg in args if isinstance(arg, Robot))
+    return [robot for robot in found if isinstance(robot.entry, Path)]
 
 
 def _asked(
-    session: Session, task: str, right: Callable[..., Any], budget: Budget
+    session: Session,
+    day: Day,
+    robots: Iterable[Robot],
+    task: Task,
+    right: Callable[..., Any],
+    budget: Budget,
 ) -> Callable[..., Any]:
     """Return a function of the lab whose answers come from the sandbox."""
+    name = right.__name__
     signature = inspect.signature(right)
+    seconds = max(CALL_SECONDS, task.seconds / 3.0)
 
     def ask(*args: Any, **named: Any) -> Any:
-        budget.spend()
         bound = signature.bind(*args, **named)
         bound.apply_defaults()
-        question = Question(task, right.__name__, tuple(map(_sent, bound.args)))
-        (reply,) = session.ask([question])
+        sent = tuple(_sent(arg, robots) for arg in bound.args)
+        budget.spend(name, bound.args)
+        (reply,) = session.ask([Question(task.id, name, sent)], seconds)
+        if reply.error == ENDLESS:
+            reply = replace(reply, given=seconds)
+            early: Verdict | None = too_slow(day, name, bound.args, reply)
+        else:
+            early = no_answer(reply, name, task.id)
+        if early:
+            raise FirstFailure(early.message.rstrip("."))
         if reply.kind:
             says = stops_with(reply).rstrip(".").removeprefix("It ")
-            raise FirstFailure(f"{right.__name__} {says}")
-        value = reply.value
-        plain = isinstance(value, np.ndarray) and value.ndim == 0
-        return value[()] if plain else value
+            raise FirstFailure(f"{name} {says}")
+        return reply.value
 
     return ask
 
 
-def _sent(arg: Any) -> Any:
+def _sent(arg: Any, robots: Iterable[Robot]) -> Any:
     """Return an argument as questions have it.
 
     Raises:
         EnoughAsked: a robot that the session was not given.
     """
     if isinstance(arg, mujoco.MjModel):
-        for robot in ROBOTS:
-            if robot.model.nq == arg.nq:
+        for robot in robots:
+            if _same(robot.model, arg):
                 return robot
         raise EnoughAsked
-    if isinstance(arg, list | tuple) and arg and isinstance(arg[0], tuple):
+    if isinstance(arg, list | tuple) and arg and all(map(_of_a_chain, arg)):
         return Chain(tuple(arg))
     return arg
+
+
+def _same(one: mujoco.MjModel, other: mujoco.MjModel) -> bool:
+    """Return whether two models are of one robot; their motors may differ."""
+    return all(
+        np.array_equal(getattr(one, name), getattr(other, name)) for name in MADE_OF
+    )
+
+
+def _of_a_chain(pair: Any) -> bool:
+    """Return whether it is a body and its joint or None, as in a `Chain`."""
+    return isinstance(pair, tuple) and len(pair) == 2 and isinstance(pair[0], str)

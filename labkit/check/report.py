@@ -21,6 +21,7 @@ _LABEL = {
     "unjudged": "not judged",  # the file does not load
     "inherited": "waits",
     "borrowed": "borrowed",
+    "unfinished": "passed as far as it was run",
 }
 _COLOUR = {"passed": "32", "wrong": "31"}  # of all others: yellow
 _INDENT = 7  # where a message starts
@@ -155,7 +156,7 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
         lines.append("")
     for item in report.items:
         lines.append(_line(item.name, item.status, colour, width))
-        if not report.left or explain or item.status == "wrong":
+        if not report.left or explain or item.status in ("wrong", "unfinished"):
             lines += _wrapped(item.message, _INDENT)
     share = f", {100 * report.done // report.total} % of the day"
     whole = len(report.tasks) == len(day.tasks)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from labkit.base.exchange import Exchange, LoadError, Reply
+from labkit.check.slow import too_slow
 from labkit.judge.ask import Asked, asked_of, replies
 from labkit.judge.judge import judge
 from labkit.judge.mistake import Verdict
@@ -115,7 +116,9 @@ class _Check:
         """
         for task in tasks:
             rows = [(name, row_of(self.day, name).ask) for name in task.functions]
-            self.asked[task.id] = [asked_of(task.id, *r, self.seed) for r in rows]
+            each = task.seconds / len(rows)
+            asked = [asked_of(task.id, *row, self.seed, each) for row in rows]
+            self.asked[task.id] = asked
         if tasks:
             self.sandbox.run(
                 self.script,
@@ -137,7 +140,8 @@ class _Check:
         came = replies(_exchanges(asked))
         printed = next((reply.printed for reply in came if reply.printed), "")
         refused = tuple(dict.fromkeys(what for reply in came for what in reply.refused))
-        return TaskResult(task, _verdict_of(task, asked, self.source), printed, refused)
+        verdict = _verdict_of(self.day, task, asked, self.source)
+        return TaskResult(task, verdict, printed, refused)
 
     def second_look(self, task: Task, results: dict[str, TaskResult]) -> TaskResult:
         """Return a task's result with what further questions say of a wrong one.
@@ -164,7 +168,7 @@ class _Check:
             verdict = replace(verdict, measured=(*verdict.measured, says))
             if verdict.mistake in FRESH_ONLY:
                 verdict = replace(verdict, message=f"{verdict.message} {says}")
-        if len(verdict.wrong_calls) >= 3:
+        if verdict.wrong_calls:
             verdict = self._with_experiments(task, verdict, added)
         return replace(result, verdict=verdict)
 
@@ -212,11 +216,11 @@ def _following(
     return found
 
 
-def _verdict_of(task: Task, asked: Sequence[Asked], source: str) -> Verdict:
+def _verdict_of(day: Day, task: Task, asked: Sequence[Asked], source: str) -> Verdict:
     """Return a task's verdict: of several functions that of the first wrong one."""
     verdict = Verdict("passed")
     for one in asked:
-        verdict = replace(_of_function(task, one, source), function=one.function)
+        verdict = replace(_of_function(day, task, one, source), function=one.function)
         if len(asked) > 1 and verdict.message and not verdict.follows:
             verdict = replace(verdict, message=f"{one.function}: {verdict.message}")
         if verdict.status != "passed":
@@ -224,9 +228,12 @@ def _verdict_of(task: Task, asked: Sequence[Asked], source: str) -> Verdict:
     return verdict
 
 
-def _of_function(task: Task, asked: Asked, source: str) -> Verdict:
+def _of_function(day: Day, task: Task, asked: Asked, source: str) -> Verdict:
     function = asked.function
-    for reply in replies([*asked.main, *asked.fresh]):
+    both = [*asked.main, *asked.fresh]
+    for one, reply in zip(both, replies(both), strict=True):
+        if reply.given:
+            return too_slow(day, function, one.question.args, reply)
         if early := no_answer(reply, function, task.id):
             slip = early.mistake == "unwritten" and unfinished(source, function)
             if early.mistake == "missing" and (near := renamed(source, function)):

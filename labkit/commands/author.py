@@ -25,7 +25,9 @@ from labkit.handin.worksheet import split_sections
 from labkit.judge.answers import InTurn
 from labkit.judge.ask import Draw, stacked
 from labkit.judge.row import rows_of
+from labkit.judge.written import faults as row_faults
 from labkit.lesson import notebook
+from labkit.lesson.constants import TABLE_OF
 from labkit.lesson.day import Day, Task, all_days, day_numbers, find_day, find_task
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import find_regions
@@ -100,8 +102,12 @@ def _functions(day: Day) -> Iterator[str]:
                 f"{file}: @row.inputs yields {len(first)} arguments; "
                 f"{name} takes {len(row.arguments)}: {', '.join(row.arguments)}"
             )
-        elif isinstance(row.ask.truth, InTurn):  # which says what does not fit
+            continue
+        if isinstance(row.ask.truth, InTurn):  # which says what does not fit
             row.ask.truth(*stacked([Exchange(Question("", name, tuple(first)))]))
+        task = next(one for one in day.tasks if name in one.functions)
+        for says in row_faults(row.ask, task.seconds / len(task.functions)):
+            yield f"{file}: {says}"
 
 
 def _guide(day: Day) -> Iterator[str]:
@@ -130,7 +136,7 @@ def _links(day: Day) -> Iterator[str]:
 
 def _committed(day: Day) -> Iterator[str]:
     """Yield a student's file in the repository: the next clone would begin with it."""
-    work = shown(day.folder / "work")
+    work = shown(day.work.parent)
     try:
         done = git.run("ls-files", "--", work, folder=ROOT, seconds=git.SECONDS)
     except git.GitError:
@@ -182,10 +188,16 @@ def run(day: Day, *command: str) -> tuple[int, list[str]]:
 def catalogue(day: Day) -> Iterator[str]:
     """Yield each way of the catalogue that is not told what it must be."""
     code, lines = run(day, "tests/catalogue.py", str(day.number))
-    if any(line.startswith("Traceback") for line in lines):
-        own = [ln for ln in lines if f"{day.own}{os.sep}" in ln] or lines[-3:-2]
-        lines = [own[-1].strip(), lines[-1]]
+    lines = _without_trace(day, lines)
     yield from lines if code else ()
+
+
+def _without_trace(day: Day, lines: list[str]) -> list[str]:
+    """Return what a command printed; of a traceback the line of the day, and why."""
+    if not any(line.startswith("Traceback") for line in lines):
+        return lines
+    own = [ln for ln in lines if f"{day.own}{os.sep}" in ln] or lines[-3:-2]
+    return [own[-1].strip(), lines[-1]]
 
 
 def tests(day: Day) -> Iterator[str]:
@@ -235,6 +247,19 @@ def _unrecorded(day: Day) -> Iterator[str]:
             )
 
 
+def constants(day: Day) -> Iterator[str]:
+    """Yield what moves, or stays, otherwise than the day's list of constants says."""
+    if not day.has("constants"):
+        file = shown(day.own / "constants.py")
+        yield f"{file} is not there: what the guide's numbers hang on (teaching.md)"
+        return
+    block = f"<!-- run: {TABLE_OF.format(day.number)} -->"
+    if block not in (day.folder / day.guide).read_text("utf-8"):
+        yield f"{shown(day.folder / day.guide)} has no block {block}"
+    code, lines = run(day, "scripts/constants.py", str(day.number), "--check")
+    yield from _without_trace(day, lines) if code else ()
+
+
 def documents(day: Day) -> Iterator[str]:
     """Yield what the documents do not show as it is."""
     if drift := docs.renew(docs.documents_of(day), check=True):
@@ -264,6 +289,7 @@ PARTS = {
     "files": faults,
     "catalogue": catalogue,
     "student": as_student,
+    "constants": constants,
     "documents": documents,
     "notebook": notebooks,
     "style": style,

@@ -10,11 +10,14 @@ A document asks for an output between two comments:
     <!-- run: python src/LAB.py --no-log | step 2 -->
     <!-- end -->
 
-`| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends. And for
-the list of a week's days, from their manifests (`w*`: of every week):
+`| step N` keeps one numbered step of it, `| head N` and `| tail N` its ends; `| table`
+takes it for a table, not for text. And for the list of a week's days, from their
+manifests (`w*`: of every week):
 
     <!-- days: w1-foundations -->
     <!-- end -->
+
+`functions: by day` lists the library's functions, `functions: simulate` a module's.
 """
 
 import functools
@@ -30,12 +33,15 @@ from pathlib import Path
 from labkit.base import cli, processes
 from labkit.base.text import Maker, refill
 from labkit.lesson.day import Day, days_of, find_day
+from labkit.lesson.functions import functions_list
 from labkit.lesson.week import weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
 SMALL = "figures/day{}_small.png"  # of a week's folder: a day's thumbnail
+FUNCTIONS = ROOT / "docs" / "library.md"  # of the library, by day
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+TABLE = "table"  # asks for an output that is Markdown already
 ROUNDING = 1e-9  # errors this small differ between processors, and should
 OLD_ZERO = re.compile(r"(?<![\d.])0(?:\.0+)?e[-+]?\d+")  # a lab prints such as 0
 # What depends on where the robot came from, and where among equals the worst was.
@@ -63,7 +69,7 @@ def wanted(request: str) -> str:
     """Return the output that a document asks for."""
     command, _, part = (piece.strip() for piece in request.partition("|"))
     text = output_of(command)
-    if not part:
+    if part in ("", TABLE):
         return text
     kind, number = part.split()
     lines = text.splitlines(keepends=True)
@@ -131,12 +137,19 @@ def rebuilt(
         return body
 
     def run(request: str, old: str) -> str:
-        return renewed(request, old, f"```text\n{wanted(request).rstrip()}\n```\n")
+        text = wanted(request).rstrip()
+        whole = request.endswith(f"| {TABLE}")
+        return renewed(
+            request, old, f"{text}\n" if whole else f"```text\n{text}\n```\n"
+        )
 
     def days(request: str, old: str) -> str:
         return renewed(request, old, days_list(request, folder))
 
-    makers: dict[str, Maker] = {"days": days}
+    def functions(request: str, old: str) -> str:
+        return renewed(request, old, functions_list(request))
+
+    makers: dict[str, Maker] = {"days": days, "functions": functions}
     return refill(document, makers if tables else makers | {"run": run}), drifted
 
 
@@ -144,7 +157,7 @@ def documents_of(day: Day) -> dict[Path, bool]:
     """Return a day's documents and those that list it, and whether in a table alone."""
     names = filter(None, (day.guide, day.worksheet, "README.md"))
     own = [path for name in names if (path := day.folder / name).is_file()]
-    return dict.fromkeys(own, False) | {ROOT / "README.md": True}
+    return dict.fromkeys(own, False) | {ROOT / "README.md": True, FUNCTIONS: True}
 
 
 def renew(documents: Mapping[Path, bool], check: bool = False) -> int:
@@ -174,7 +187,7 @@ def main() -> int:
     if options.day is not None:
         documents = documents_of(find_day(options.day))
     else:
-        paths = [ROOT / "README.md", ROOT / "bench" / "README.md"]
+        paths = [ROOT / "README.md", ROOT / "bench" / "README.md", FUNCTIONS]
         paths += [p for week in weeks() for p in sorted(week.folder.rglob("*.md"))]
         documents = dict.fromkeys(paths, False)
     drift = renew(documents, options.check)

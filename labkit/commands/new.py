@@ -30,7 +30,8 @@ DAY={number}` looks at what you have so far.
 PREDICTIONS = """\
 ## Predictions
 
-Write the first column before you run anything, the others after it. If your prediction
+Write the first column before you run anything: `make run` then writes what it measures
+beside it, and leaves what you wrote alone. The last column is yours; if your prediction
 was right, say why it could be.
 
 | number | predicted | measured | why apart |
@@ -60,6 +61,7 @@ def new_day(number: int, week: str, name: str) -> list[Path]:
     files = {
         f"day{number}/day.toml": "day.toml",
         f"day{number}/reach.py": "function.py",
+        f"day{number}/constants.py": "constants.py",
         f"day{number}/test_day{number}.py": "test.py",
         f"src/{values['script']}.py": "lab.py",
         f"docs/day{number}-lab.md": "guide.md",

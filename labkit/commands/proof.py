@@ -24,13 +24,15 @@ from labkit.check.own_functions import capstone_of
 from labkit.fresh import FRESH
 from labkit.grade.roster import Student
 from labkit.lesson.day import Day, chosen_week, days_of, find_day
-from labkit.lesson.week import Week
+from labkit.lesson.week import WORK, Week
 from labkit.proof import door, page
 from labkit.proof.capstone import NO_CAPSTONE, attempt
 from labkit.proof.facts import RunDay, facts_of
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, ROOT, shown
+
+OWN_LABS = f"w*/{WORK}/**"  # no commit of the kit's has such a file
 
 
 def main() -> int:
@@ -80,7 +82,7 @@ def found(week: Week, clone: Path, name: str = "", *, own: bool = False) -> page
     """
     days = days_of(week)
     history = read_history(clone, (), own=own)
-    name = name or (git.user_name(clone) if own else git.author_of_work(clone))
+    name = name or (git.user_name(clone) if own else git.author_of(clone, OWN_LABS))
     name = visible(name, 80) or "somebody whom git does not know"
     student = Student(name, clone.name, clone)
     with Sandbox() as sandbox, TemporaryDirectory(prefix="robo47-grade-") as top:

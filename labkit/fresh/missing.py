@@ -10,6 +10,7 @@ from labkit.base.text import count
 from labkit.fresh.clone import ignored_by, uncommitted
 from labkit.lesson.day import Day
 from labkit.lesson.own_files import helpers_of
+from labkit.lesson.week import WORK
 from labkit.report.week_retro import no_numbers, without_numbers
 from robo47.paths import ROOT
 
@@ -134,7 +135,7 @@ def _blanks(sheet: Path, name: str) -> Iterator[tuple[str, str]]:
 
 def _absolute(week: Path, clone: Path) -> Iterator[str]:
     """Yield the lines that name a place which other machines do not have."""
-    scripts = ((path, _texts(path)) for path in sorted((week / "work").glob("*.py")))
+    scripts = ((path, _texts(path)) for path in sorted((week / WORK).glob("*.py")))
     sheets = ((path, _links(path)) for path in sorted((week / "docs").glob("*.md")))
     for path, named in [*scripts, *sheets]:
         name = path.relative_to(clone).as_posix()

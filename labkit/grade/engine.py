@@ -45,7 +45,7 @@ PATIENCE = 60.0  # seconds without any worker before giving up
 SILENCE = 900.0  # seconds without any result before giving up on what is under way
 # For one package. The sandbox stops a file after 100 s of its own, so only a machine
 # under load gets here.
-SECONDS = 240.0
+SECONDS = 360.0
 LEFT_BEHIND = 86_400  # seconds after which a folder of ours belongs to nobody
 FOLDER = "robo47-grader-"
 

@@ -30,13 +30,15 @@ class Item:
     """How one deliverable stands."""
 
     name: str  # "figure", "definitions", ...
-    status: str = "passed"  # or "todo" (not there yet), "wrong" (there, but)
+    # Or "todo" (not there yet), "wrong" (there, but), "unfinished" (right as far as it
+    # was looked at).
+    status: str = "passed"
     message: str = ""  # what to do; "" when passed
 
     @property
     def passed(self) -> bool:
         """Whether nothing is left to do."""
-        return self.status == "passed"
+        return self.status in ("passed", "unfinished")
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,7 @@
 """The student's worksheet: definitions in their own words, drawings, checklist."""
 
 import re
+from collections import Counter
 
 from labkit.base.text import count, visible
 from labkit.handin.handin import Handin, Item, image_names, picture_path
@@ -11,6 +12,9 @@ SHINGLE = 5  # words in a row that count as taken over
 TAKEN_OVER = 0.5  # share of a definition's shingles that may stand in the lab guide
 DRAWN_LINES = 3  # of a drawing made of text
 FEWEST_ANSWER_WORDS = 4  # "Its own: multiply right." answers a question
+# The same text twice is pasted where it is as long as a definition, a shorter one from
+# three times on; below an answer's length ("yes", a number) it is no sentence at all.
+PASTED = {FEWEST_WORDS: 2, FEWEST_ANSWER_WORDS: 3}  # times, by words
 LONGEST = 2000  # characters of a line that are looked at
 
 # What to do about a definition or a drawing, by how it stands.
@@ -106,9 +110,16 @@ def _in_words(sections: dict[str, str], day: Day, guide: str, where: str) -> Ite
     texts = {term: sections.get(term.lower(), "") for term in day.terms}
     states = {term: _definition(text, given) for term, text in texts.items()}
     item = _item("definitions", states, _DEFINE, where)
-    open_ones = _unanswered(sections.get("can you explain?", ""), day.questions)
-    blank = _blank_cells(sections.get("predictions", ""))
-    if not item.passed or not (open_ones or blank):
+    answers = _answers(sections.get("can you explain?", ""), day.questions)
+    open_ones = [i for i, answer in enumerate(answers, start=1) if not answer]
+    table = sections.get("predictions", "")
+    blank = _blank_cells(table)
+    written = [_words(_written(text)) for text in texts.values()]
+    if not item.passed:
+        return item
+    if pasted := _pasted([*written, *answers], _reasons(table)):
+        return Item("definitions", "wrong", f"{pasted}, in {where}.")
+    if not (open_ones or blank):
         return item
     says = f"All {len(day.terms)} are there. "
     if open_ones:
@@ -126,8 +137,26 @@ def _blank_cells(section: str) -> int:
     return sum(bool(_PROMPT.fullmatch(cell.strip())) for cell in cells)
 
 
-def _unanswered(section: str, number: int) -> list[int]:
-    """Return the numbers of the questions without an answer in words.
+def _reasons(section: str) -> list[list[str]]:
+    """Return the words of the last cell of each row: why the two numbers differ."""
+    rows = (line.strip() for line in section.splitlines())
+    return [_words(row.strip("|").rpartition("|")[2]) for row in rows if row[:1] == "|"]
+
+
+def _pasted(answers: list[list[str]], reasons: list[list[str]]) -> str:
+    """Return what to say of a sentence that stands in several places, or ""."""
+    told = Counter(map(tuple, answers))
+    for words, times in (told + Counter(map(tuple, reasons))).items():
+        # Two predictions may be apart, or right, for one reason; three rarely are.
+        alone = max(told[words], times - 1)
+        if any(len(words) >= long and alone >= most for long, most in PASTED.items()):
+            says = visible(" ".join(words), 60)
+            return f'The same sentence {times} times, and each asks its own: "{says}"'
+    return ""
+
+
+def _answers(section: str, number: int) -> list[list[str]]:
+    """Return the words of the answer to each question, [] where it has none.
 
     A question ends with the last question mark of its first paragraph; what comes
     after it is the answer.
@@ -142,15 +171,20 @@ def _unanswered(section: str, number: int) -> list[int]:
     for lines in found:
         first, _, rest = "\n".join(lines).partition("\n\n")
         answer = first.rpartition("?")[2] if "?" in first else ""
-        answered.append(len(_words(f"{answer} {rest}")) >= FEWEST_ANSWER_WORDS)
-    answered += [False] * (number - len(answered))
-    return [i for i, done in enumerate(answered[:number], start=1) if not done]
+        words = _words(f"{answer} {rest}")
+        answered.append(words if len(words) >= FEWEST_ANSWER_WORDS else [])
+    return (answered + [[]] * number)[:number]
+
+
+def _written(text: str) -> str:
+    """Return a section without the template's own lines."""
+    lines = (line for line in text.splitlines() if not _PROMPT.fullmatch(line.strip()))
+    return " ".join(lines)
 
 
 def _definition(text: str, given: set[tuple[str, ...]]) -> str:
     """Return how a definition stands: in a sentence, and not in the guide's words."""
-    written = (ln for ln in text.splitlines() if not _PROMPT.fullmatch(ln.strip()))
-    words = _words(" ".join(written))
+    words = _words(_written(text))
     own = _shingles(words)
     if not words:
         return "empty"

@@ -96,7 +96,7 @@ class Own:
             before = self._apart.get(name, 0.0)
             judged = name not in self._free and off > SAME * scale
             self._apart[name] = max(before, off if judged else 0.0)
-        return reply.value if isinstance(reply.value, tuple) else theirs[0]
+        return _as_drawn(reply.value)
 
     def says(self) -> tuple[str, str]:
         """Return whose functions were at work, and how they compare; its kind."""
@@ -119,7 +119,16 @@ def _parts(value: Any) -> Sequence[Any]:
     if value is None:
         return []
     some = value if isinstance(value, tuple) else (value,)
-    return [np.asarray(part, dtype=float) for part in some]
+    plain = (list(map(ord, one)) if isinstance(one, str) else one for one in some)
+    return [np.asarray(part, dtype=float) for part in plain]
+
+
+def _as_drawn(value: Any) -> Any:
+    """Return an answer with its lists as arrays; a truth value and an index stay."""
+    if isinstance(value, tuple):
+        return tuple(map(_as_drawn, value))
+    rows = isinstance(value, list) or getattr(value, "ndim", 0) > 0
+    return np.asarray(value, dtype=float) if rows else value
 
 
 @contextlib.contextmanager

@@ -2,20 +2,25 @@
 
     row         a function as a day's author writes it down: a file of decorated
                 functions, each a mistake or another way that is right
-    ask         the same for the judge; the questions made of it, and what inputs are
-                drawn from
+    ask         the same for the judge; the questions made of it
+    draw        what inputs are drawn from
+    fits        how many questions a task has time for
+    results     what a function returns, result by result, as its row says
+    written     what does not fit in a row, told to its author
     kinds       what kind of thing an answer is, which decides the words
                 (matrix_kinds: Jacobians, covariances; other_kinds: twists, points,
-                counts, yes or no, paths, pixels)
+                counts, indices, words, yes or no, paths, pixels)
     replies_read    did an answer come back, of the right shape and type? If not, the
                 words
     failing_call    the call that failed, as a student can type it
+    typed       calls and values as they are typed
     answers     made by a function; how far two sets of them are apart; in words
     mistake     a mistake that has a name, and the verdict that says so
     answer_mistakes      mistakes made with a finished answer
     argument_mistakes    mistakes made with an argument before it is used
     near_miss   right in method, not in all digits
     judge       from questions with their replies to a verdict and its name
+    odd_answers a mistake that stops, or changes its shape, at some questions
     right_when  with which argument neutral a wrong function is right
     chain       where along a serial chain a product goes wrong
     matrices    moves of matrices that need not be poses
@@ -24,17 +29,20 @@ The student's code is never run here, and nothing it computed is used as the tru
 What is special about a day stands in the day's own folder.
 """
 
-from labkit.judge.ask import Ask, Case, Draw, HeldOut, Robot, Slip, rounded
+from labkit.judge.ask import Ask, Case, HeldOut, Robot, Slip
+from labkit.judge.draw import Draw, rounded
 from labkit.judge.kinds import Pose, Rotation, Scalar, Vector
 from labkit.judge.matrix_kinds import Covariance, Jacobian, Matrix, Symmetric
 from labkit.judge.mistake import Finding, Mistake, Verdict
 from labkit.judge.other_kinds import (
     Count,
+    Index,
     Mask,
     Pixels,
     Points,
     Twist,
     Waypoints,
+    Word,
     Wrench,
 )
 from labkit.judge.row import Row

@@ -50,6 +50,8 @@ GENERAL = _mistakes(
     whole-numbers: only whole numbers are left: an array of integers cuts off what is
       stored in it => the right one cut to whole numbers
     transposed: the matrix is transposed => its transpose
+    reshaped: its transpose is reshaped, which only counts the numbers off anew; rows
+      become columns by .T => its transpose, reshaped
     rows-swapped: the rows are (v; omega); omega's three come first => the right one
       with its rows swapped
     inverse: it is the inverse, which says how much is known; a covariance says how
@@ -58,6 +60,11 @@ GENERAL = _mistakes(
       the root of each entry
     halves-swapped: the two halves are swapped: {halves[0]} comes first, then
       {halves[1]} => the right one with its halves swapped
+    blocks-swapped: its blocks are in the order (v; omega); omega's three come first
+      => the right one with its blocks swapped
+    counted-from-one: the places are counted from 1; an index counts them from 0 => the
+      right one and 1
+    one-too-small: it is one too small: the place before the right one
     inverted: True and False are swapped => the right one turned round
     row-first: a pixel is (column, row), x before y; here the row comes first => the
       right one with its two columns swapped
@@ -66,10 +73,14 @@ GENERAL = _mistakes(
         "all-signs": np.negative,
         "whole-numbers": np.trunc,
         "transposed": np.matrix_transpose,
+        "reshaped": lambda M: np.swapaxes(M, -1, -2).reshape(M.shape),
         "rows-swapped": lambda J: np.roll(J, 3, axis=-2),
         "inverse": lambda P: np.linalg.inv(P),
         "sigma-for-variance": lambda P: np.sign(P) * np.sqrt(np.abs(P)),
         "halves-swapped": lambda answer: np.roll(answer, 3, axis=-1),
+        "blocks-swapped": lambda P: np.roll(P, (3, 3), axis=(-2, -1)),
+        "counted-from-one": lambda answer: answer + 1.0,
+        "one-too-small": lambda answer: answer - 1.0,
         "inverted": lambda answer: 1.0 - answer,
         "row-first": lambda answer: answer[..., ::-1],
     },

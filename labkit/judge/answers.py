@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from labkit.base.exchange import Question
 from robo47.checks import Array, pose_flaw, rotation_flaw
 
 Parts = tuple[Array, ...]  # of answers: per result that the function returns, (n, ...)
@@ -32,15 +31,23 @@ def gap(a: Array, b: Array) -> Array:
     return np.nan_to_num(apart, nan=np.inf, posinf=np.inf)
 
 
-def difference(a: Array, b: Array, scale: float | Array = 1.0) -> Array:
+def difference(
+    a: Array, b: Array, scale: float | Array = 1.0, rtol: float = 0.0
+) -> Array:
     """Return the largest difference of any entry per case, (n,); one NaN is inf.
 
     Args:
         a: (n, ...).
         b: the same, or one case for all.
         scale: what it is measured in: a number, or an array with one for each entry.
+        rtol: the share of b's largest entry that is no difference.
     """
-    return (gap(a, b) / scale).reshape(len(a), -1).max(axis=1, initial=0.0)
+    apart = gap(a, b)
+    if rtol:
+        sizes = np.where(np.isfinite(b), np.abs(b), 0.0).reshape(len(b), -1)
+        free = rtol * sizes.max(axis=1, initial=0.0)
+        apart = np.maximum(apart - free.reshape(-1, *[1] * (apart.ndim - 1)), 0.0)
+    return (apart / scale).reshape(len(a), -1).max(axis=1, initial=0.0)
 
 
 def matches(a: Array, b: Array, scale: float | Array = 1.0) -> bool:
@@ -85,10 +92,10 @@ def plain(some: Parts) -> Any:
     return some[0] if len(some) == 1 else some
 
 
-def gaps(kinds: Sequence[Any], S: Parts, T: Parts) -> Array:
+def gaps(kinds: Sequence[Any], S: Parts, T: Parts, rtol: float = 0.0) -> Array:
     """Return per call the largest difference of an entry, in units of its scale."""
     pairs = zip(map(as_one, zip(S, T, strict=True)), kinds, strict=True)
-    each = [difference(s, t, kind.scale) for (s, t), kind in pairs]
+    each = [difference(s, t, kind.scale, rtol) for (s, t), kind in pairs]
     return np.max(each, axis=0)
 
 
@@ -150,11 +157,16 @@ def entry_of(
     return one
 
 
+def _same(answer: Any) -> Any:
+    return answer
+
+
 @dataclass(frozen=True, eq=False)
 class InTurn:
     """A function of one question's arguments as one of all, stacked."""
 
     function: Callable[..., Any]  # of one question, as a student writes it
+    numbers: Callable[[Any], Any] = _same  # of an answer, as its kind takes it
 
     def __call__(self, *columns: Any) -> Any:
         """Return the answers to all questions, (n, ...), or a tuple of such.
@@ -178,7 +190,7 @@ class InTurn:
             for i in range(_count(columns))
         ]
         try:
-            return [self.function(*args) for args in calls]
+            return [self.numbers(self.function(*args)) for args in calls]
         except Exception as error:  # a mistake may stop, as a student's may
             raise ValueError(str(error)) from error
 
@@ -198,7 +210,8 @@ class AtOnce(InTurn):
             (last,) = super().each(end)
             whole = self.function(*map(own, columns))
             several = isinstance(whole, tuple)
-            answers = list(zip(*whole, strict=True) if several else whole)
+            rows = zip(*whole, strict=True) if several else whole
+            answers = list(map(self.numbers, rows))
             pairs = zip(parts(answers[-1]), parts(last), strict=True)
             if len(answers) == _count(columns) and all(starmap(np.array_equal, pairs)):
                 return answers
@@ -260,61 +273,17 @@ def say_range(values: Array, say: Callable[[Array], str]) -> str:
     return most if least == most else f"{least} to {most}"
 
 
+def listed(words: Sequence[str]) -> str:
+    """Return words as a list: "m, m cx and m cy"."""
+    *before, last = words
+    return f"{', '.join(before)} and {last}" if before else last
+
+
 def capitalised(clause: str) -> str:
     """Return a clause as a sentence starts; a symbol, qd say, stays what it is."""
     first = clause.partition(" ")[0].rstrip(",")
     letter = len(first) == 1 and first != "a"
-    if letter or first in SYMBOLS or not first.isalpha():
+    mixed = first[1:] != first[1:].lower()  # dY, as no word is written
+    if letter or mixed or first in SYMBOLS or not first.isalpha():
         return clause
     return clause[0].upper() + clause[1:]
-
-
-def typed(
-    question: Question, names: Sequence[str] = (), longest: float = np.inf
-) -> str:
-    """Return a call as a student can type it; what is too long goes by its name."""
-    args = question.args
-    others = names if len(names) == len(args) else ["..."] * len(args)
-    words = [
-        value if 0 < len(value := typed_one(arg)) <= longest else name
-        for arg, name in zip(args, others, strict=True)
-    ]
-    return f"{question.function}({', '.join(words)})"
-
-
-def in_words(question: Question, names: Sequence[str] = ()) -> str:
-    """Return a question's input as a student can type it, or "" where it is too long.
-
-    Numbers and vectors can be typed; where a matrix is among them, the rest would
-    mislead.
-    """
-    args = question.args
-    if any(isinstance(arg, np.ndarray) and arg.ndim != 1 for arg in args):
-        return ""
-    named = len(names) == len(args) > 1
-    words = [
-        f"{names[i]} = {says}" if named else says
-        for i, arg in enumerate(args)
-        if (says := typed_one(arg))  # not the robot, or a path along it
-    ]
-    return (", " if named else " and ").join(words)
-
-
-def typed_one(arg: Any) -> str:
-    """Return a number or a vector as it is typed, "" for anything else."""
-    if isinstance(arg, (int, float)):
-        return number(float(arg))
-    if isinstance(arg, np.ndarray) and arg.ndim == 1:
-        return "(" + ", ".join(number(float(x)) for x in arg) + ")"
-    return ""
-
-
-def number(x: float) -> str:
-    """Return a number as Python reads it back, "pi / 2" for a fraction of pi."""
-    for over in (1, 2, 3, 4, 6):
-        times = x * over / np.pi
-        if times and times == round(times) and abs(times) <= 2 * over:
-            sign = "-" if times < 0 else ""
-            many = "" if abs(times) == 1 else f"{abs(round(times))} * "
-            return f"{sign}{many}pi" + (f" / {over}" if over > 1 else "")
-    return repr(round(x)) if x == round(x) and abs(x) < 1e6 else repr(x)

@@ -6,7 +6,7 @@ function of the manifest. Inputs are drawn from a `Draw`, or from `Edges`.
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property, partial
 from itertools import chain
 from pathlib import Path as File
 from typing import Any
@@ -15,79 +15,23 @@ import mujoco
 import numpy as np
 
 from labkit.base.exchange import Exchange, Path, Question, Reply
-from labkit.judge.answers import InTurn, Parts, parts
+from labkit.judge import fits
+from labkit.judge.answers import InTurn, Parts, gaps, parts
+from labkit.judge.draw import Draw, Edges
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
-from robo47 import panda, se3, verify
+from labkit.judge.results import Kinds, flat_kinds, numbers
+from robo47 import panda
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 Inputs = Callable[["Draw"], Iterable[tuple[Any, ...]]]
-DECIMALS = 3
 SEED = 47  # of the questions that are the same at every check
 # How many inputs are drawn anew, and as many edge values: a rare bug is found sooner.
 FRESH, CHEAP_FRESH, CHEAP = 8, 32, 16  # few numbers cost little
+SECONDS = 10.0  # for all calls of a function, where its task does not say
 KNOWN = 20  # right answers of a function's that are kept: a class is asked the same
-
-
-def rounded(values: Array) -> Array:
-    """Return numbers with as many decimals as a person would type."""
-    return np.round(values, DECIMALS) + 0.0
-
-
-@cache
-def _arm() -> mujoco.MjModel:
-    return panda.load("panda_nohand")
-
-
-class Draw(np.random.Generator):
-    """A seeded generator of inputs, rounded: a student can read and type them."""
-
-    def __init__(self, seed: int | Sequence[int]) -> None:
-        """Take the seed; the numbers are those of `np.random.default_rng(seed)`."""
-        super().__init__(np.random.PCG64(seed))
-
-    def numbers(self, low: float, high: float, *shape: int) -> Array:
-        """Return uniform numbers, (*shape,)."""
-        return rounded(self.uniform(low, high, shape))
-
-    def units(self, n: int) -> Array:
-        """Return unit vectors, (n, 3), not rounded: they would not be unit then."""
-        v = self.normal(size=(n, 3))
-        return v / np.linalg.norm(v, axis=1, keepdims=True)
-
-    def rotations(self, n: int) -> Array:
-        """Return random rotations, (n, 3, 3), not rounded."""
-        return se3.quat_to_R(self.normal(size=(n, 4)))
-
-    def poses(self, n: int, reach: float = 1.0) -> Array:
-        """Return random poses, (n, 4, 4), each axis up to `reach` metres away."""
-        return se3.make_T(self.rotations(n), self.numbers(-reach, reach, n, 3))
-
-    def configurations(self, n: int) -> Array:
-        """Return joint angles of the Panda within its limits, (n, 7)."""
-        return rounded(verify.random_q(_arm(), n, int(self.integers(2**31))))
-
-
-class Edges(Draw):
-    """Values at which a function's branches part: ends, middles, whole axes."""
-
-    def uniform(self, low=0.0, high=1.0, size=None):
-        """Return for each number one of the ends or the middle of its range."""
-        part = self.choice([0.0, 0.5, 1.0], size)
-        return low + (np.asarray(high) - low) * part
-
-    def normal(self, loc=0.0, scale=1.0, size=None):
-        """Return rows of 0, 1 and -1, none of zeros alone."""
-        found = np.atleast_1d(self.choice([0.0, 1.0, -1.0], size))
-        found[..., 0] += ~found.any(axis=-1)
-        return loc + scale * found
-
-    def configurations(self, n: int) -> Array:
-        """Return joint angles at the ends and middles of their ranges, (n, 7)."""
-        low, high = _arm().jnt_range[:7].T
-        return rounded(self.uniform(low, high, (n, 7)))
 
 
 @dataclass(frozen=True)
@@ -189,7 +133,7 @@ class Ask:
     # of whole numbers stay what they are.
     inputs: Inputs
     # Of the answer; a tuple of kinds where the function returns a tuple.
-    kind: Kind | tuple[Kind, ...]
+    kind: Kinds
     # The right answers to all calls, from stacked arguments as `Mistake.redo` takes
     # them; an oracle, never the lab script.
     truth: Callable[..., Any] | None = None
@@ -202,6 +146,8 @@ class Ask:
     # An answer is right up to this, in units of its kind's scale.
     tolerance: float = 1e-8
     near: float = 1e-4  # and nearly right up to this
+    # What share of the right answer's largest entry is allowed besides: 0.01 is 1 %.
+    rtol: float = 0.0
     held_out: Sequence[HeldOut] = ()  # further questions to a right function
     # Inputs of further questions, whose replies only help to say where a wrong answer
     # goes wrong; they may be errors.
@@ -214,6 +160,7 @@ class Ask:
     slips: Sequence[Slip] = ()  # exceptions that have better words than their own
     # Whether a call with edge values has one right answer; None is yes.
     at_edge: Callable[..., bool] | None = None
+    seconds: float = 0.0  # that a call of the reference takes; 0: it is measured here
 
     def __post_init__(self) -> None:
         """Refuse a row that has neither or both of truth and accept.
@@ -239,7 +186,11 @@ class Ask:
     @cached_property
     def kinds(self) -> tuple[Kind, ...]:
         """The kinds of the answer's parts; one where it is no tuple."""
-        return self.kind if isinstance(self.kind, tuple) else (self.kind,)
+        return flat_kinds(self.kind)
+
+    def in_turn(self, function: Callable[..., Any]) -> InTurn:
+        """Return a function of one question as one of all, with its answers read."""
+        return InTurn(function, partial(numbers, self.kind))
 
     @cached_property
     def named(self) -> list[Mistake]:
@@ -250,6 +201,19 @@ class Ask:
     def main(self) -> list[tuple[Any, ...]]:
         """The calls that are the same at every check."""
         return [tuple(call) for call in self.inputs(Draw(SEED))]
+
+    def gaps(self, S: Parts, T: Parts) -> Array:
+        """Return per call how far an answer is off, beyond what `rtol` allows."""
+        return gaps(self.kinds, S, T, self.rtol)
+
+    @cached_property
+    def cost(self) -> float:
+        """Seconds of a call, as the row says, or as its truth takes here."""
+        truth = self.truth
+        if self.seconds or truth is None:
+            return self.seconds
+        last = stacked([Exchange(Question("", "", self.main[-1]))])
+        return fits.measured(lambda: truth(*last))
 
     @cached_property
     def drawn(self) -> int:
@@ -303,7 +267,9 @@ def replies(exchanges: Iterable[Exchange]) -> list[Reply]:
     return found
 
 
-def asked_of(task: str, function: str, ask: Ask, seed: int) -> Asked:
+def asked_of(
+    task: str, function: str, ask: Ask, seed: int, seconds: float = SECONDS
+) -> Asked:
     """Return the questions to a function, which the sandbox is to answer.
 
     Args:
@@ -311,15 +277,17 @@ def asked_of(task: str, function: str, ask: Ask, seed: int) -> Asked:
         function: its name.
         ask: its row.
         seed: of the fresh inputs; nobody should know it beforehand.
+        seconds: for all its calls; fewer are asked where they take long.
     """
-
-    if (key := (task, function, seed)) not in ask.known:
+    key = (task, function, seed, seconds)
+    if key not in ask.known:
         ask.known.clear()
         more = [ask.probe or (lambda rng: []), *(held.inputs for held in ask.held_out)]
         further = [draw(Draw(SEED)) for draw in more]
+        beside = fits.fitting(ask.main, ask.edges, ask.anew(seed), ask.cost, seconds)
         ask.known[key] = [
             [Question(task, function, tuple(args)) for args in calls]
-            for calls in (ask.main, [*ask.edges, *ask.anew(seed)], *further)
+            for calls in (ask.main, beside, *further)
         ]
     roles = ([Exchange(one) for one in some] for some in ask.known[key])
     main, fresh, probes, *held_out = roles
@@ -369,7 +337,7 @@ def right_answers(
         held: whose these are; what its mistake gives, where it looks for one.
     """
     mistaken = held and held.mistaken
-    function = InTurn(mistaken) if mistaken else ask.truth
+    function = ask.in_turn(mistaken) if mistaken else ask.truth
     assert function is not None
     asked = [exchange.question for exchange in exchanges]  # as long as its key is kept
     key = (held and held.slug, *map(id, asked))

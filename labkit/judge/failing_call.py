@@ -7,22 +7,23 @@ import numpy as np
 from labkit.base.exchange import Exchange, Question
 from labkit.judge.answers import (
     Parts,
-    as_one,
     difference,
-    gaps,
-    typed,
-    typed_one,
     worst_part,
 )
 from labkit.judge.ask import Asked, HeldOut, right_answers
+from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding
 from labkit.judge.replies_read import not_accepted, read
+from labkit.judge.results import places, split
+from labkit.judge.typed import shown, typed, typed_one
 from robo47.checks import Array
 
 # A call whose answer is not right: in a line, "Rz(2.9)[0, 0] is -1, and -0.971 is
 # right.", and in lines with every argument and entry; "" and none without one.
 LONG = 80  # characters; a longer argument goes by its name, and --explain has all of it
 Failing = tuple[str, tuple[str, ...]]
+AS_FAR = 0.999  # of the furthest: as far off, so that rounding does not choose
+DUST = 1e-12  # of an entry's scale: rounding, whose digits are the processor's
 
 
 def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
@@ -31,11 +32,12 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
     for some, held in [(asked.main, None), (asked.fresh, None), *held_out]:
         if held and held.mistaken:
             continue
-        if found := _broken(some, names) or _wrong(asked, some, held, names):
+        found = _broken(some, names) or _misfit(asked, some, names)
+        if found := found or _wrong(asked, some, held, names):
             return found
     for one, _ in not_accepted(asked):
         assert one.reply
-        yours = (f"yours: {_matrix(one.reply.value)}",)
+        yours = (f"yours: {shown(one.reply.value)}",)
         says = f"{typed(one.question, names)} is such a call."
         return says, _given(one.question, names) + yours
     return "", ()
@@ -46,6 +48,21 @@ def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | No
         if one.reply and (one.reply.kind or one.reply.value is None):
             what = "stops" if one.reply.kind else "returns nothing"
             says = f"{typed(one.question, names)} {what}."
+            return says, _given(one.question, names)
+    return None
+
+
+def _misfit(
+    asked: Asked, exchanges: Sequence[Exchange], names: Sequence[str]
+) -> Failing | None:
+    """Return the first call whose answer has a wrong shape."""
+    for one in exchanges:
+        found = read([one], asked.ask)
+        if isinstance(found, Finding) and found.slug == "shape" and one.reply:
+            if not isinstance(one.reply.value, np.ndarray):
+                return None
+            shape = one.reply.value.shape
+            says = f"{typed(one.question, names, LONG)} returns shape {shape}."
             return says, _given(one.question, names)
     return None
 
@@ -63,25 +80,51 @@ def _wrong(
     if isinstance(S, Finding):
         return None
     T = right_answers(ask, exchanges, held)
-    gap = gaps(ask.kinds, S, T)
-    i = int(np.argmax(gap))
+    gap = ask.gaps(S, T)
+    i = _furthest(gap)
     if gap[i] <= ask.tolerance:
         return None
-    given = tuple(part[i : i + 1] for part in S)
-    right = tuple(part[i : i + 1] for part in T)
+    one = exchanges[i]
+    given = read([one], ask)  # alone, in their own shapes
+    assert one.reply
+    assert not isinstance(given, Finding)
+    right = right_answers(ask, [one], held)
     part = worst_part(ask.kinds, given, right, ask.tolerance)
-    mine, its = as_one([S[part][i], T[part][i]])
-    question = exchanges[i].question
-    apart = np.nan_to_num(np.abs(mine - its) / ask.kinds[part].scale, nan=np.inf)
-    at = np.unravel_index(int(np.argmax(apart)), mine.shape)
-    place = f"[{part}]" if len(S) > 1 else ""
-    place += str([int(x) for x in at]) if at else ""
-    says = f"{typed(question, names, LONG)}{place} is {_apart(mine[at], its[at])}"
-    says += " is right."
-    whole = [*_given(question, names)]
-    for word, one in (("yours", S), ("right", T)):
-        whole += [f"{word}: {_matrix(values[i])}" for values in one]
-    return says, tuple(whole)
+    place, entries = _entry(ask.kinds[part], given[part][0], right[part][0])
+    says = f"{typed(one.question, names, LONG)}{places(ask.kind)[part]}{place}"
+    whole = [*_given(one.question, names)]
+    mine = split(ask.kind, one.reply.value)
+    assert not isinstance(mine, Finding)
+    whole += [f"yours: {shown(value)}" for value in mine]
+    pairs = zip(ask.kinds, right, strict=True)
+    whole += [f"right: {shown(kind.sent(values[0]))}" for kind, values in pairs]
+    return f"{says} {entries} is right.", tuple(whole)
+
+
+def _entry(kind: Kind, mine: Array, its: Array) -> tuple[str, str]:
+    """Return the entry that is furthest off, and "is 1, and 2" of it."""
+    if kind.is_none(mine) or kind.is_none(its):
+        return "", f"is {_part(kind, mine)}, and {_part(kind, its)}"
+    if mine.shape != its.shape:
+        return "", f"has shape {mine.shape}, and {its.shape}"
+    apart = np.nan_to_num(np.abs(mine - its) / kind.scale, nan=np.inf)
+    at = np.unravel_index(_furthest(apart), mine.shape)
+    place = str([int(x) for x in at]) if at else ""
+    if kind.whole:
+        yours, right = (shown(kind.sent(x[at])) for x in (mine, its))
+        return place, f"is {yours}, and {right}"
+    dust = DUST * np.broadcast_to(kind.scale, its.shape)[at]
+    pair = (0.0 if abs(x[at]) < dust else x[at] for x in (mine, its))
+    return place, f"is {_apart(*pair)}"
+
+
+def _furthest(off: Array) -> int:
+    """Return the place of the first that is as far off as any; infinity is, too."""
+    return int(np.argmax(off >= AS_FAR * np.max(off)))
+
+
+def _part(kind: Kind, answer: Array) -> str:
+    return "None" if kind.is_none(answer) else "an answer"
 
 
 def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
@@ -94,7 +137,7 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     if isinstance(S, Finding):
         return Finding("some-inputs", f"{right} fresh ones. {S.message}")
     T = right_answers(asked.ask, asked.fresh)
-    wrong = gaps(asked.ask.kinds, S, T) > asked.ask.near
+    wrong = asked.ask.gaps(S, T) > asked.ask.near
     says = f"{right} {int(wrong.sum())} of {len(wrong)} fresh ones."
     if wrong.all() and _only_known(main, S):
         return Finding("looked-up", f"{says} The answers do not come from the inputs.")
@@ -116,13 +159,8 @@ def _given(question: Question, names: Sequence[str]) -> tuple[str, ...]:
     for i, arg in enumerate(question.args):
         if isinstance(arg, np.ndarray) and (arg.ndim > 1 or len(typed_one(arg)) > LONG):
             name = names[i] if len(names) == len(question.args) else f"argument {i + 1}"
-            found.append(f"{name} = {_matrix(arg)}")
+            found.append(f"{name} = {shown(arg)}")
     return tuple(found)
-
-
-def _matrix(values: Array) -> str:
-    """Return an array as Python reads it."""
-    return repr((np.asarray(values, dtype=float) + 0.0).tolist())
 
 
 def _apart(mine: float, its: float) -> str:

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 
 from labkit.base.exchange import Exchange
-from labkit.judge import near_miss, replies_read, tried
+from labkit.base.text import count
+from labkit.judge import near_miss, odd_answers, replies_read, tried
 from labkit.judge.answers import (
     Parts,
     as_one,
+    capitalised,
     difference,
-    gaps,
-    in_words,
     plain,
     worst_part,
 )
@@ -29,8 +29,10 @@ from labkit.judge.ask import (
     stacked,
 )
 from labkit.judge.failing_call import failing_call, for_fresh
+from labkit.judge.kinds import Kind
 from labkit.judge.made_again import redone, two_at_once
 from labkit.judge.mistake import Finding, Verdict
+from labkit.judge.typed import in_words
 from robo47.checks import Array
 
 NO_CALL = ("kept-between-calls", "draws-itself")  # the same call gives something else
@@ -58,10 +60,12 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
 def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
     S = replies_read.read(asked.main, asked.ask, source)
     if isinstance(S, Finding):
+        if S.slug == "shape":
+            S = odd_answers.named(asked, S)
         return Verdict("wrong", *_beside(S, asked, names))
-    if found := replies_read.of_another_size(asked) or replies_read.kept_state(
-        asked, source
-    ):
+    if found := replies_read.of_another_size(asked):
+        return Verdict("wrong", *odd_answers.named(asked, found))
+    if found := replies_read.kept_state(asked, source):
         return Verdict("wrong", *found)
     judge_these = _judge_accepted if asked.ask.accept else _judge_values
     return judge_these(asked, S, names)
@@ -71,10 +75,11 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     ask = asked.ask
     T = right_answers(ask, asked.main)
     case = _case(asked, S, T, names)
-    gap = gaps(ask.kinds, S, T)
+    gap = ask.gaps(S, T)
     measured = _measured(case, S, T, gap)
     if (off := gap.max()) > ask.near:
         case = replace(case, further=_further(asked))
+        case, S, T = _with_answers(case, S, T)
         if found := diagnose(case, S, T):
             return Verdict("wrong", *found, measured)
         wrong = tuple(np.flatnonzero(gap > ask.near).tolist())
@@ -94,11 +99,12 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     T = right_answers(asked.ask, good)
     rest = replace(asked, main=good, probes=[])
     case = replace(_case(rest, S, T, names), further=_further(asked))
-    return _both(found, case, S, T)
+    both = _both(found, case, S, T)
+    return odd_answers.stops_alike(asked, found) if both is found else both
 
 
 def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
-    wrong = gaps(case.ask.kinds, S, T) > case.ask.near
+    wrong = case.ask.gaps(S, T) > case.ask.near
     if not wrong.any():
         return found
     named = diagnose(case, S, T)
@@ -127,7 +133,7 @@ def _judge_right(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdic
         S = replies_read.read(asked.fresh, ask)
         off = np.inf
         if not isinstance(S, Finding):
-            gap = gaps(ask.kinds, S, right_answers(ask, asked.fresh))
+            gap = ask.gaps(S, right_answers(ask, asked.fresh))
             off = float(gap.max())
             lines = _counted(ask, gap, "with fresh inputs")
             measured += lines[1:]
@@ -146,7 +152,7 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     S = replies_read.read(exchanges, ask)
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
-    off = gaps(ask.kinds, S, right_answers(ask, exchanges, held)).max()
+    off = ask.gaps(S, right_answers(ask, exchanges, held)).max()
     near = ask.near if held.near is None else held.near
     return off <= near if held.mistaken else off > near
 
@@ -207,9 +213,10 @@ def _measured(case: Case, S: Parts, T: Parts, gap: Array) -> tuple[str, ...]:
 
 def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
     """Return how far off calls are by their gaps, and how many are right."""
+    beyond = f" beyond {ask.rtol:.3g} of the largest" if ask.rtol else ""
     return (
         f"largest difference of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} "
-        f"of {len(gap)}; passes up to {ask.tolerance:.0e})",
+        f"of {len(gap)}; passes up to {ask.tolerance:.0e}{beyond})",
         f"calls that are right: {np.sum(gap <= ask.tolerance)} of {len(gap)} {which}",
     )
 
@@ -218,7 +225,8 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return the first of: a named mistake, no answer, always one, two mistakes."""
     ask = case.ask
     found = redone(ask, case.arguments, S, T, case.further)
-    if found := found or _nothing_there(case, S) or _not_finite(case, S, T):
+    found = found or _nothing_there(case, S) or _none_or_not(case, S, T)
+    if found := found or _not_finite(case, S, T):
         return found
     i = worst_part(ask.kinds, S, T, ask.near)
     every = (S[i], case.further.S[i]) if case.further else (S[i],)
@@ -240,13 +248,50 @@ def _not_finite(case: Case, S: Parts, T: Parts) -> Finding | None:
     found = Finding("not-finite", f"{says}{_first(~good, case.given, 'first for')}.")
     if not good.any():
         return found
+    rest, S, T = _only(good, case, S, T)
+    return _both(found, rest, S, T)
+
+
+def _only(good: Array, case: Case, S: Parts, T: Parts) -> tuple[Case, Parts, Parts]:
+    """Return some of the questions alone, with their answers."""
     S, T = tuple(s[good] for s in S), tuple(t[good] for t in T)
     arguments = tuple(
         a[good] if isinstance(a, np.ndarray) else a for a in case.arguments
     )
     given = list(compress(case.given, good))
     rest = replace(case, arguments=arguments, S=plain(S), T=plain(T), given=given)
-    return _both(found, rest, S, T)
+    return rest, S, T
+
+
+def _with_answers(case: Case, S: Parts, T: Parts) -> tuple[Case, Parts, Parts]:
+    """Return the questions to which None is not both the answer and the right one."""
+    pairs = zip(S, T, case.ask.kinds, strict=True)
+    nones = [_none(s, kind) & _none(t, kind) for s, t, kind in pairs if kind.none]
+    both = np.any(nones, axis=0) if nones else np.zeros(len(S[0]), bool)
+    return _only(~both, case, S, T) if both.any() else (case, S, T)
+
+
+def _none(some: Array, kind: Kind) -> Any:
+    return np.array([kind.is_none(answer) for answer in some])
+
+
+def _none_or_not(case: Case, S: Parts, T: Parts) -> Finding | None:
+    """Return that it is None where there is an answer, or the other way round."""
+    for s, t, kind in zip(S, T, case.ask.kinds, strict=True):
+        if not kind.none:
+            continue
+        lost, made = _none(s, kind) & ~_none(t, kind), _none(t, kind) & ~_none(s, kind)
+        if not (lost.any() or made.any()):
+            continue
+        says = [f"None for {count(lost.sum(), 'input')} to which there is an answer"]
+        says = says * bool(lost.any())
+        if made.any():
+            many = count(made.sum(), "input")
+            says += [f"an answer for {many} where None is right ({kind.none})"]
+        where = _first(lost | made, case.given, "first for")
+        called = f"{kind.called}: it" if len(S) > 1 and kind.called else "It"
+        return Finding("none-or-not", f"{called} returns {', and '.join(says)}{where}.")
+    return None
 
 
 def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
@@ -259,9 +304,10 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     where = ""
     if found.slug != "one-factor-off":  # every entry, so where does not matter
         where = tried.in_common(case, S, T, i)
-        wrong = difference(S[i], T[i], kind.scale) > ask.tolerance
+        wrong = difference(S[i], T[i], kind.scale, ask.rtol) > ask.tolerance
         if not wrong.all():
-            where += f" It is right for {np.sum(~wrong)} of {len(wrong)} inputs"
+            it = capitalised(kind.called) if called else "It"
+            where += f" {it} is right for {np.sum(~wrong)} of {len(wrong)} inputs"
             where += f"{_first(wrong, case.given, 'but not for')}."
     return Finding(found.slug, f"{called}{found.message}{where}")
 

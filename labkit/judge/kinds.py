@@ -5,8 +5,9 @@ module has numbers, vectors, rotations and poses; the others have all else. Arra
 answers are stacked, (n, *shape); S is the student's, T the right one.
 """
 
+import contextlib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
@@ -15,9 +16,11 @@ from labkit.judge.answer_mistakes import OF_A_ROTATION, general, of_a_pose
 from labkit.judge.answers import (
     MATCHES,
     RIGID,
+    capitalised,
     degrees,
     difference,
     gap,
+    listed,
     matches,
     millimetres,
     rigid,
@@ -29,6 +32,7 @@ from labkit.judge.answers import (
 from labkit.judge.matrices import split
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
+from robo47.errors import Robo47Error
 
 NEAR = 1e-4  # entries that differ by less are not called wrong
 ROUNDED_AWAY = 1e12  # rounding divided by nothing: its digits are the processor's
@@ -47,12 +51,34 @@ class Kind:
     scale: Any = 1.0
     # What it is in a sentence, "the torque"; used where a tuple has several.
     called: str = ""
+    # What it means where the answer is None, "no way is free"; "" where it never is.
+    none: str = field(default="", kw_only=True)
+    single: ClassVar[bool] = False  # whether it has no shape
     whole: ClassVar[bool] = False  # whether equal numbers prove little: counts, choices
     empty = True  # whether an answer that is all 0 looks like one that was never filled
     # Mistakes made with a finished answer, by their names in `answer_mistakes`.
     usual: ClassVar[tuple[str, ...]] = ("all-signs", "whole-numbers")
     # What wrong shapes come from; where none is known, an axis too many is told.
     misfits: ClassVar[Mapping[tuple[int, ...], str]] = {}
+
+    def __post_init__(self) -> None:
+        """Refuse a shape that is none: kinds begin with it, and "s" is a unit."""
+        sizes = isinstance(self.shape, tuple) and all(
+            n is None or (isinstance(n, int) and n >= 0) for n in self.shape
+        )
+        alone = type(self).single and self.shape != ()
+        if sizes and not alone:
+            return
+        name = type(self).__name__
+        remedy = (
+            "has no shape; it is a single one"
+            if alone
+            else ("begins with its shape, a tuple such as (7,) or (None, 2)")
+        )
+        raise Robo47Error(
+            f"{name}({self.shape!r}): a {name} {remedy}. Name what else it has: "
+            f'{name}(unit="m"), scale=10.0, called="the distance"'
+        )
 
     @property
     def expected(self) -> str:
@@ -68,6 +94,13 @@ class Kind:
         """Return answers as arrays, or what keeps one of them from it."""
         found = []
         for value in values:
+            if value is None and self.none:
+                found.append(self.numbers(None))
+                continue
+            if value is None or isinstance(value, str):
+                says = f"It returns {value!r}; expected is {self.expected}."
+                slug = "not-an-array" if value else "nothing-returned"
+                return Finding(slug, says)
             try:
                 array = np.asarray(value)
             except ValueError:  # parts of different shapes
@@ -79,20 +112,50 @@ class Kind:
                 says = f"It returns {array.dtype} values; expected is {self.expected}"
                 return Finding("not-numbers", f"{says} of real numbers.")
             if not self.fits(array.shape):
-                return self._misfit(array.shape)
+                return self._misfit(array.shape, values)
             found.append(self.plain(array))
         return found
 
-    def _misfit(self, got: tuple[int, ...]) -> Finding:
+    def _misfit(self, got: tuple[int, ...], values: Sequence[Any]) -> Finding:
         expected = self.expected
         if None not in self.shape and str(self.shape) not in expected:
             expected += f", shape {self.shape}"
         if reason := self.why_shape(got):
             expected += f": {reason}"
-        return Finding("shape", f"It returns shape {got}; expected is {expected}.")
+        often = ""
+        with contextlib.suppress(ValueError):  # one has parts of different shapes
+            fit = sum(self.fits(np.asarray(value).shape) for value in values)
+            often = f" in {len(values) - fit} of {len(values)} calls" if fit else ""
+        says = f"It returns shape {got}{often}; expected is {expected}."
+        return Finding("shape", says)
+
+    def numbers(self, value: Any) -> Array:
+        """Return a right or a mistaken answer as numbers; None is NaN."""
+        if value is None and self.none:
+            return np.full([n or 1 for n in self.shape], np.nan)
+        return np.asarray(value, dtype=np.float64)
+
+    def sent(self, answer: Array) -> Any:
+        """Return such numbers as the function returns them."""
+        return None if self.is_none(answer) else self._sent(answer)
+
+    def is_none(self, answer: Array) -> bool:
+        """Return whether such numbers stand for None."""
+        return bool(self.none and answer.size and np.isnan(answer).all())
+
+    def another_size(self, got: tuple[int, ...], right: tuple[int, ...]) -> str:
+        """Return that an answer has not the size that its question asks for."""
+        return f"It returns shape {got} where {right} is right"
+
+    def _sent(self, answer: Array) -> Any:
+        return answer if np.ndim(answer) else float(answer)
 
     def plain(self, answer: Array) -> Array:
-        """Return an answer without differences that make none."""
+        """Return an answer without differences that make none.
+
+        It is asked of the student's alone: right answers and those of mistakes have
+        that form already.
+        """
         return answer
 
     def why_shape(self, got: tuple[int, ...]) -> str:
@@ -131,6 +194,7 @@ class Kind:
 class Scalar(Kind):
     """One number. `Scalar(unit="J", scale=10.0)`."""
 
+    single = True
     expected = "one number"
 
 
@@ -149,9 +213,14 @@ class Vector(Kind):
         if found := one_factor(self, S, T):
             return found
         off = np.abs(S - T).max(axis=0) > RIGHT * self.scale
+        counted = [f"[{i}], counted from 0" for i in range(len(off))]
+        empty = np.flatnonzero(off & ~S.any(axis=0))
+        if len(S) > 1 and 0 < len(empty) < len(off):
+            where = capitalised(listed([(self.names or counted)[i] for i in empty]))
+            says = f"{where} {'are' if len(empty) > 1 else 'is'} 0 every time. It is "
+            return Finding("entries-empty", f"{says}off by up to {self.apart(S, T)}.")
         if not 0 < off.sum() <= max(1, len(off) // 3):
             return Finding("off", f"It is off by up to {self.apart(S, T)}.")
-        counted = [f"[{i}], counted from 0" for i in range(len(off))]
         names = [f"{name}'s" for name in self.names] or counted
         where = " and ".join(names[i] for i in np.flatnonzero(off))
         says = f"All entries are right but {where}: up to {self.apart(S, T)} off."
@@ -186,7 +255,8 @@ def few_entries(
         ignored: a row and column that has a name of its own, such as a pose's last.
     """
     apart = np.abs(S - T)
-    rows, columns = np.nonzero(apart.max(axis=0) > RIGHT * kind.scale)
+    wrong = apart > RIGHT * kind.scale
+    rows, columns = np.nonzero(wrong.any(axis=0))
     if not len(rows):
         return None
     sides = {"row": rows, "column": columns}
@@ -199,14 +269,28 @@ def few_entries(
     elif one:
         side, k = next(iter(one.items()))
         names = getattr(kind, f"{side}s", ())
-        where = names[k] if names else f"{side} {k}, counted from 0"
+        where = names[k] if k < len(names) else f"{side} {k}, counted from 0"
     else:
         return None
-    return Finding(
-        "few-entries-off",
-        f"All entries are right but {where}: up to {apart.max():.2g} off. Look there "
-        "for a wrong sign, letter or factor.",
-    )
+    return few_told(where, wrong.reshape(len(S), -1), f"{apart.max():.2g}")
+
+
+def few_told(where: str, wrong: Array, off: str) -> Finding:
+    """Return that only some entries are wrong.
+
+    An advice to look at them follows where they are so nearly always; else it is the
+    inputs that make the difference, and with others it may be other entries.
+
+    Args:
+        where: the entries, in words.
+        wrong: which are wrong, (n, ...), per answer.
+        off: by how much, in words.
+    """
+    if 2 * wrong.any(axis=1).sum() < len(wrong):
+        says = f"In these calls all is right but {where}, and that is wrong in some"
+        return Finding("few-entries-off", f"{says} only: up to {off} off.")
+    says = f"All entries are right but {where}: up to {off} off. Look there for a wrong"
+    return Finding("few-entries-off", f"{says} sign, letter or factor.")
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,8 @@
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations
+from functools import partial
+from itertools import combinations, permutations
 from typing import Any
 
 import numpy as np
@@ -105,11 +106,24 @@ def redone(
         found = _named(ask.named, arguments, ask.kinds, S, T, ask.near)
     if found or T is None:
         return found
+    if found := _in_another_order(ask, S, T):
+        return found
     found = _general(ask, S, T)
     if found and whole and further:
         again = _general(ask, further.S, further.T)
         return found if again and again.slug == found.slug else None
     return found
+
+
+def _in_another_order(ask: Ask, S: Parts, T: Parts) -> Finding | None:
+    """Return that a function's results stand in another order, if so."""
+    for order in permutations(range(len(T))):
+        again = tuple(T[i] for i in order)
+        if order != tuple(range(len(T))) and all_match(ask.kinds, S, again):
+            names = [ask.kinds[i].called or f"result {i + 1}" for i in range(len(T))]
+            says = f"The results are in another order; it is {', then '.join(names)}."
+            return Finding("answers-swapped", says)
+    return None
 
 
 def _general(ask: Ask, S: Parts, T: Parts) -> Finding | None:
@@ -190,15 +204,19 @@ class _Pairs:
     answers: Mapping[int, Parts]  # to that call, of those that are wrong there
 
     def added(self) -> Pair | None:
-        """Return two mistakes whose differences from the right answer add up."""
+        """Return two mistakes whose differences, or factors, come together."""
         its = _nth(self.T, self.i)
         for a, b in combinations(self.answers, 2):
             first = self.mistakes[a]
             second = self.mistakes[b]
-            both = _sum(self.answers[a], self.answers[b], its)
-            if first.slug != second.slug and self._is_this_one(both):
-                every = [_all(one, self.case.arguments) for one in (first, second)]
-                if _alike(self.case.ask, _sum(every[0], every[1], self.T), self.S):
+            if first.slug == second.slug:
+                continue
+            pair = self.answers[a], self.answers[b]
+            for combined in (_sum, _product):
+                if not self._is_this_one(combined(*pair, its)):
+                    continue
+                one, other = (_all(x, self.case.arguments) for x in (first, second))
+                if _alike(self.case.ask, combined(one, other, self.T), self.S):
                     return first, second
         return None
 
@@ -206,17 +224,24 @@ class _Pairs:
         """Return a mistake and another that is made with its finished answer."""
         if len(self.case.ask.kinds) != 1:
             return None
-        for change in self.case.ask.kinds[0].general():
+        general = list(self.case.ask.kinds[0].general())
+        its = _nth(self.T, self.i)
+        for n, change in enumerate(general):
             for k, answer in self.answers.items():
                 if self._is_this_one(_changed(change, answer)):
                     every = _all(self.mistakes[k], self.case.arguments)
                     if _alike(self.case.ask, _changed(change, every), self.S):
                         return self.mistakes[k], change
+            for first in general[:n]:
+                if self._is_this_one(_changed(change, _changed(first, its))):
+                    every = _changed(change, _changed(first, self.T))
+                    if _alike(self.case.ask, every, self.S):
+                        return first, change
         return None
 
     def in_turn(self) -> Pair | None:
-        """Return a mistake made with an argument, and one made after it."""
-        for pair in _one_after_the_other(self.mistakes):
+        """Return a mistake made with an argument and one after it, or two options."""
+        for pair in _that_combine(self.mistakes):
             if self._is_this_one(_answer(pair, self.case.arguments, self.i)):
                 every = _all(pair, self.case.arguments)
                 if _alike(self.case.ask, every, self.S):
@@ -227,13 +252,35 @@ class _Pairs:
         return bool(_alike(self.case.ask, answer, _nth(self.S, self.i)))
 
 
-def _one_after_the_other(mistakes: Sequence[Mistake]) -> Iterator[Pair]:
-    """Yield pairs of which the first is made with an argument."""
-    for first in mistakes:
-        if hasattr(first.redo.function, "given"):  # type: ignore[attr-defined]
-            for second in mistakes:
-                if first.slug != second.slug:
-                    yield first, second
+def _that_combine(mistakes: Sequence[Mistake]) -> Iterator[Pair]:
+    """Yield pairs that can be made together.
+
+    The first is made with an argument, or both are one function's with other options,
+    as `partial` gives them.
+    """
+    for i, first in enumerate(mistakes):
+        one: Any = first.redo
+        for k, second in enumerate(mistakes):
+            other: Any = second.redo
+            given = hasattr(one.function, "given")
+            if first.slug != second.slug and (
+                given or (i < k and _options(one.function, other.function))
+            ):
+                yield first, second
+
+
+def _options(one: Any, other: Any) -> bool:
+    """Return whether two are the same function with different options."""
+    if not (isinstance(one, partial) and isinstance(other, partial)):
+        return False
+    return one.func is other.func and not one.keywords.keys() & other.keywords.keys()
+
+
+def _together(one: Any, other: Any) -> Callable[..., Any]:
+    """Return a function with two mistakes."""
+    if hasattr(one, "given"):
+        return lambda *args: other(*one.given(*args))
+    return partial(one, **other.keywords)
 
 
 def _answer(one: Mistake | Pair, arguments: tuple[Any, ...], i: int) -> Parts:
@@ -248,7 +295,7 @@ def _all(one: Mistake | Pair, arguments: tuple[Any, ...]) -> Parts:
             return parts(one.redo(*arguments))
         first: Any = one[0].redo
         second: Any = one[1].redo
-        function = lambda *args: second.function(*first.function.given(*args))  # noqa: E731
+        function = _together(first.function, second.function)
         return parts(InTurn(function)(*arguments))
     except (ValueError, np.linalg.LinAlgError):
         return ()
@@ -272,6 +319,14 @@ def _sum(a: Parts, b: Parts, right: Parts) -> Parts:
     if any(len({x.shape for x in trio}) > 1 for trio in trios):
         return ()
     return tuple(x + y - z for x, y, z in trios)
+
+
+def _product(a: Parts, b: Parts, right: Parts) -> Parts:
+    """Return what two wrong factors make together."""
+    trios = list(zip(a, b, right, strict=False))
+    if any(len({x.shape for x in trio}) > 1 for trio in trios):
+        return ()
+    return tuple(np.where(z == 0, 0.0, x * y / np.where(z, z, 1)) for x, y, z in trios)
 
 
 def _alike(ask: Ask, a: Parts, b: Parts) -> bool | None:

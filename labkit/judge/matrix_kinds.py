@@ -2,11 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from labkit.judge.answer_mistakes import general
-from labkit.judge.answers import difference, gap
+from labkit.judge.answers import difference, gap, listed
 from labkit.judge.kinds import NEAR, RIGHT, Kind, few_entries, one_factor
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
@@ -19,6 +20,8 @@ class Matrix(Kind):
     # What its rows are called, "omega x" and so on; else they are counted.
     rows: tuple[str, ...] = ()
     columns: tuple[str, ...] = ()  # likewise
+    # Where the columns stand in blocks of one width: what each block is called.
+    blocks: tuple[str, ...] = ()
 
     @property
     def expected(self) -> str:  # noqa: D102
@@ -27,7 +30,8 @@ class Matrix(Kind):
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         square = self.shape[0] == self.shape[1] is not None
-        return general(*["transposed"] * square, *self.usual)
+        turned = "transposed" if square else "reshaped"
+        return general(*[turned] * (None not in self.shape), *self.usual)
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
         if got == self.shape[::-1] != self.shape:
@@ -38,8 +42,56 @@ class Matrix(Kind):
         return (
             few_entries(self, S, T)
             or one_factor(self, S, T)
+            or part_off(self, S, T)
             or Finding("off", f"It is off by up to {self.apart(S, T)}.")
         )
+
+
+def part_off(kind: Matrix, S: Array, T: Array) -> Finding | None:
+    """Return which rows and columns hold all that is wrong, if others are right."""
+    if None in kind.shape:
+        return None
+    wrong = (gap(S, T) / kind.scale > RIGHT).any(axis=0)
+    parts = [_blocks(kind, wrong), _lines("row", kind.rows, wrong.any(axis=1))]
+    parts = [one for one in parts if one]
+    if not parts:
+        return None
+    says = f"All that is wrong stands in {' and '.join(parts)}"
+    off = f"off by up to {kind.apart(S, T)}"
+    alone = np.ndim(kind.scale) == 0
+    if alone and (found := one_factor(kind, S[:, wrong], T[:, wrong])):
+        times = found.message.removeprefix("It ").partition(",")[0]
+        off = f"what stands there {times}"
+    return Finding("part-off", f"{says}: {off}.")
+
+
+def _blocks(kind: Matrix, wrong: Any) -> str:
+    """Return which columns are wrong, in words, or "" where most are."""
+    columns = wrong.any(axis=0)
+    if not kind.blocks:
+        return _lines("column", kind.columns, columns)
+    each = columns.reshape(len(kind.blocks), -1)
+    if 2 * each.any(axis=1).sum() <= len(each):
+        names = [kind.blocks[i] for i in np.flatnonzero(each.any(axis=1))]
+        return f"the columns of {listed(names)}"
+    within = _lines("column", kind.columns, each.any(axis=0))
+    return f"{within} of each block" if within and not kind.columns else within
+
+
+def _lines(side: str, names: tuple[str, ...], wrong: Any) -> str:
+    """Return rows or columns, in words, or "" where most of them are wrong."""
+    at = np.flatnonzero(wrong)
+    if not 0 < 3 * len(at) <= 2 * len(wrong):
+        return ""
+    first, last = int(at[0]), int(at[-1])
+    if names and len(at) <= 4:
+        called = [names[i].removeprefix(f"the {side} of ") for i in at]
+        return f"the {side}{'s' * (len(at) > 1)} of {listed(called)}"
+    if len(at) == last - first + 1:
+        counted = f"{first} to {last}" if last > first else str(first)
+        return f"{side}{'s' * (last > first)} {counted}, counted from 0"
+    counted = ", ".join(map(str, at))
+    return f"{side}s {counted}, counted from 0" if len(at) <= 4 else ""
 
 
 @dataclass(frozen=True)
@@ -49,7 +101,7 @@ class Jacobian(Matrix):
     shape: tuple[int, ...] = (6, 7)
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return general("rows-swapped", *self.usual)
+        return general("rows-swapped", "reshaped", *self.usual)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if found := one_factor(self, S, T):
@@ -83,12 +135,15 @@ class Symmetric(Matrix):
                 f"It is not symmetric (by up to {skew:.3g}), and it has to be; it is "
                 f"off by up to {self.apart(S, T)}.",
             )
+        found = few_entries(self, S, T) or one_factor(self, S, T)
+        if found := found or part_off(self, S, T):
+            return found
         off = gap(S, T) / self.scale
         diagonal = np.eye(S.shape[-1], dtype=bool)
         if off[:, ~diagonal].max(initial=0.0) <= RIGHT:
             says = "Only the diagonal is wrong"
         elif off[:, diagonal].max() <= RIGHT:
-            says = "The diagonal is right, the rest is not"
+            says = "The diagonal is right, some of the rest is not"
         else:
             return super().what_is_wrong(S, T)
         return Finding("part-off", f"{says}: off by up to {self.apart(S, T)}.")
@@ -108,7 +163,8 @@ class Covariance(Symmetric):
         return 0.5 * (answer + answer.T) if (skew <= NEAR).all() else answer
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return general("inverse", "sigma-for-variance", *self.usual)
+        blocks = ["blocks-swapped"] * (self.shape == (6, 6))
+        return general("inverse", "sigma-for-variance", *blocks, *self.usual)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         least = np.linalg.eigvalsh(S).min() if np.isfinite(S).all() else 0.0

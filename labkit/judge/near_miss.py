@@ -16,6 +16,7 @@ SINGLE = 5e-6  # what products in float32 may leave at worst
 SINGLE_INSIDE = 1e-6  # and what one float32 in a float64 file leaves
 EXACT = 1e-7  # of an entry: it is the right one, but for its sign or place
 ABOUT = 1e-2  # of its largest entry: an answer is about right
+OFTEN = 4  # answers that a rule has to hold for
 
 
 def explain(S: Array, T: Array) -> Finding:
@@ -80,6 +81,8 @@ def in_common(S: Array, T: Array) -> str:
         return ""
     if (np.abs(np.abs(S) - np.abs(T)) <= tiny).all():
         return " Every number is right but for its sign."
+    if found := one_rule(S, T, wrong):
+        return found
     if about:
         return (
             " Everywhere that is less than one part in 100: is a constant rounded, or "
@@ -91,3 +94,47 @@ def in_common(S: Array, T: Array) -> str:
     if mixed.all() and S.shape[1] > 1:
         return " The numbers are the right ones, but in other places."
     return ""
+
+
+def one_rule(S: Array, T: Array, wrong: Array) -> str:
+    """Return by which one rule all answers come from the right ones, or "".
+
+    Args:
+        S: the student's, (n, m).
+        T: the right ones.
+        wrong: which entries are wrong.
+    """
+    if len(S) < OFTEN or not np.isfinite(S).all():
+        return ""
+    near = EXACT * max(1.0, float(np.abs(T).max()))
+    off = S - T
+    if np.abs(off - off[0]).max() <= near and np.ptp(T, axis=0).max() > near:
+        return (
+            f" It is off by the same every time, by {np.abs(off).max():.3g} in one "
+            "entry: something is added or left out that no argument changes."
+        )
+    limit = float(np.abs(S).max())
+    cut = np.abs(S - np.clip(T, -limit, limit)).max() <= near
+    if cut and wrong.any(axis=1).sum() >= 2:
+        return f" It is the right one, cut off at {limit:.4g}."
+    return _a_factor_each(S, T)
+
+
+def _a_factor_each(S: Array, T: Array) -> str:
+    """Return that each answer is the right one times a factor of its own, or ""."""
+    large = np.abs(T) > EXACT * np.abs(T).max(axis=1, keepdims=True)
+    telling = large.sum(axis=1) >= 2
+    if telling.sum() < OFTEN:
+        return ""
+    size = np.sum(T * T, axis=1)
+    factor = np.sum(S * T, axis=1) / np.where(size, size, 1.0)
+    off = np.abs(S - factor[:, None] * T).max(axis=1)
+    if (off > EXACT * np.abs(T).max(axis=1) * np.maximum(1.0, np.abs(factor))).any():
+        return ""
+    low, high = factor[telling].min(), factor[telling].max()
+    if np.abs(factor).min() == 0.0 or np.isclose(low, high, rtol=1e-3):
+        return ""
+    return (
+        " In each answer every entry is off by one factor, another at each input "
+        f"({low:.3g} to {high:.3g}): one number that multiplies all of it is wrong."
+    )

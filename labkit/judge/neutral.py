@@ -36,6 +36,8 @@ def neutrals(x: Any) -> Iterator[Neutral]:
         return
     elif x.ndim == 1 and len(x) > 1:
         yield from _of_a_vector(x)
+    elif x.ndim == 3 and len(x) > 1 and x.dtype.kind == "f":
+        yield from _of_a_stack(x)
     elif x.ndim == 2:
         yield from _of_a_matrix(x)
 
@@ -47,7 +49,7 @@ def scaled(x: Any, size: float) -> Any:
     if not isinstance(x, np.ndarray) or x.dtype.kind != "f":
         return x
     square = x.ndim == 2 and x.shape[0] == x.shape[1]
-    if square and x.shape[0] in (3, 4) and rigid(x[None]):
+    if x.shape[-2:] in ((3, 3), (4, 4)) and rigid(x.reshape(-1, *x.shape[-2:])):
         return x
     if square and np.array_equal(x, x.T) and (np.diag(x) > 0).all():
         return x * abs(size)  # a mass matrix stays one
@@ -56,7 +58,10 @@ def scaled(x: Any, size: float) -> Any:
 
 def _of_a_vector(x: Array) -> Iterator[Neutral]:
     size = float(np.abs(x).max()) or 1.0
+    length = float(np.linalg.norm(x)) or 1.0  # what is normed depends on it
+    ends = [s * each for each in (size, length) for s in (1.0, -1.0)]
     all_of = [np.full_like(x, s * size) for s in _SEVERAL]
+    all_of += [np.full_like(x, s * length / np.sqrt(len(x))) for s in (1.0, -1.0)]
     yield Neutral("{} is 0", np.zeros_like(x), lambda v: not v.any())
     yield Neutral(
         "all entries of {} are equal",
@@ -69,7 +74,64 @@ def _of_a_vector(x: Array) -> Iterator[Neutral]:
         "only one entry of {} is not 0",
         np.where(np.arange(len(x)) == np.argmax(np.abs(x)), x, 0.0),
         lambda v: int(np.count_nonzero(v)) == 1,
-        tuple(s * size * one for s in _SEVERAL[:4] for one in places),
+        tuple(s * one for s in (*ends, 5.0 * size, -0.2 * size) for one in places),
+    )
+    if len(x) == 6:
+        for some, where in ((slice(3), "[:3]"), (slice(3, None), "[3:]")):
+            yield _half(x, some, where)
+    if x.dtype.kind == "f":
+        for sign, word in ((1.0, "negative"), (-1.0, "positive")):
+            sized = sign * np.abs(x)
+            yield Neutral(
+                f"no entry of {{}} is {word}",
+                sized,
+                lambda v, sign=sign: bool((sign * v >= 0).all()),  # type: ignore[misc]
+                tuple(s * np.roll(sized, i) for i, s in enumerate((5.0, 0.2))),
+            )
+
+
+def _half(x: Array, some: slice, where: str) -> Neutral:
+    """Return a twist or a wrench with one of its halves 0."""
+    found = x.copy()
+    found[some] = 0.0
+    others = tuple(s * found for s in _SEVERAL[1:])
+    return Neutral(f"{{}}{where} is 0", found, lambda v: not v[some].any(), others)
+
+
+def _of_a_stack(x: Array) -> Iterator[Neutral]:
+    """Yield what poses, rotations or any matrices have in common, (n, m, k)."""
+    kind = {(4, 4): "poses", (3, 3): "rotations"}.get(x.shape[1:])
+    if kind is None or not rigid(x):
+        kind = "matrices"
+    if kind == "poses":
+        turned = x.copy()
+        moved = x.copy()
+        turned[:, :3, 3] = 0.0
+        moved[:, :3, :3] = np.eye(3)
+        yield Neutral(
+            "every pose of {} is the identity",
+            np.zeros_like(x) + np.eye(4),
+            lambda v: not (v - np.eye(4)).any(),
+        )
+        yield Neutral(
+            "no pose of {} translates", turned, lambda v: not v[:, :3, 3].any()
+        )
+        yield Neutral(
+            "no pose of {} rotates",
+            moved,
+            lambda v: not (v[:, :3, :3] - np.eye(3)).any(),
+        )
+    if kind == "rotations":
+        yield Neutral(
+            "every rotation of {} is the identity",
+            np.zeros_like(x) + np.eye(3),
+            lambda v: not (v - np.eye(3)).any(),
+        )
+    yield Neutral(
+        f"all {kind} of {{}} are the same",
+        np.zeros_like(x) + x[0],
+        lambda v: not (v - v[0]).any(),
+        tuple(np.zeros_like(x) + one for one in x[1:]),
     )
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from labkit.judge.kinds import NEAR, RIGHT, Kind, Scalar, one_factor
 from labkit.judge.matrix_kinds import Matrix
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
+from robo47.errors import Robo47Error
 
 
 @dataclass(frozen=True)
@@ -107,13 +109,87 @@ class Count(Scalar):
     whole = True
     empty = False
     expected = "a whole number"
-    usual = ()
+    usual: ClassVar[tuple[str, ...]] = ()
+
+    def _sent(self, answer: Array) -> Any:
+        return int(answer) if answer == np.round(answer) else float(answer)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         i = int(np.argmax(S != T))
         if np.any(np.round(S) != S):
             return Finding("not-whole", f"It is {S[i]:g}; {self.expected} is expected.")
         return Finding("miscounted", f"It is {S[i]:z.0f} where {T[i]:z.0f} is right.")
+
+
+@dataclass(frozen=True)
+class Index(Count):
+    """Which one: a whole number that counts places from 0."""
+
+    expected = "an index, a whole number"
+    usual = ("counted-from-one", "one-too-small")
+
+    def read(self, values: Sequence[object]) -> list[Array] | Finding:  # noqa: D102
+        for value in values:
+            one = isinstance(value, float | bool | np.generic | np.ndarray)
+            array = np.asarray(value if one else 0)
+            if array.ndim == 0 and array.dtype.kind not in "iu":
+                says = f"It returns {value!r}; expected is {self.expected}: an array "
+                says += "takes no other in its brackets. Make it one: int(...)."
+                return Finding("not-an-index", says)
+        return super().read(values)
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+        i = int(np.argmax(S != T))
+        says = f"It is {S[i]:z.0f} where {T[i]:z.0f} is right, counted from 0."
+        return Finding("another-one", says)
+
+
+@dataclass(frozen=True)
+class Word(Kind):
+    """One word of several. `Word(words=("reached", "advanced", "trapped"))`."""
+
+    words: tuple[str, ...] = ()
+    single = True
+    whole = True
+    empty = False
+    usual = ()
+
+    def __post_init__(self) -> None:
+        """Refuse a choice of nothing."""
+        super().__post_init__()
+        if not isinstance(self.words, tuple) or len(self.words) < 2:
+            raise Robo47Error('a Word says which there are: Word(words=("yes", "no"))')
+
+    @property
+    def expected(self) -> str:  # noqa: D102
+        *first, last = map(repr, self.words)
+        return f"{', '.join(first)} or {last}"
+
+    def read(self, values: Sequence[object]) -> list[Array] | Finding:  # noqa: D102
+        for value in values:
+            known = isinstance(value, str) and value in self.words
+            if not known and not (value is None and self.none):
+                says = f"It returns {_briefly(value)}; expected is {self.expected}."
+                return Finding("another-word", says)
+        return [self.numbers(value) for value in values]
+
+    def numbers(self, value: Any) -> Array:  # noqa: D102
+        if value is None and self.none:
+            return np.array(np.nan)
+        there = isinstance(value, str) and value in self.words
+        return np.array(float(self.words.index(value) if there else -1))
+
+    def _sent(self, answer: Array) -> Any:
+        place = int(answer)
+        return self.words[place] if 0 <= place < len(self.words) else "?"
+
+    def apart(self, S: Array, T: Array) -> str:  # noqa: D102
+        return f"{count(int(np.sum(S != T)), 'word')} of {len(S)}"
+
+    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+        i = int(np.argmax(S != T))
+        says = f"It is {self.sent(S[i])!r} where {self.sent(T[i])!r} is right."
+        return Finding("the-other-word", says)
 
 
 @dataclass(frozen=True)
@@ -128,6 +204,11 @@ class Mask(Kind):
     def expected(self) -> str:  # noqa: D102
         where = f", in shape {self.shape},".replace("None", "any")
         return f"True or False{where if self.shape else ''}"
+
+    def _sent(self, answer: Array) -> Any:
+        odd = np.any((answer != 0) & (answer != 1))
+        found = np.asarray(answer if odd else answer == 1)
+        return found if found.ndim else found.item()
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
         return f"{np.mean(S != T):.0%} of them"
@@ -152,6 +233,13 @@ class Waypoints(Matrix):
     @property
     def expected(self) -> str:  # noqa: D102
         return f"a path, with a row of {self.shape[1]} numbers per way point"
+
+    def another_size(self, got: tuple[int, ...], right: tuple[int, ...]) -> str:  # noqa: D102
+        if got[1:] != right[1:]:
+            return super().another_size(got, right)
+        are = "is" if right[0] == 1 else "are"
+        its = f"{right[0] or 'none'} {are} right"
+        return f"It has {count(got[0], 'way point')} where {its}"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         off = np.abs(S - T) / self.scale > RIGHT
@@ -179,3 +267,10 @@ class Pixels(Kind):
             says = f"Every pixel is off by the same ({x:z.3g}, {y:z.3g})."
             return Finding("shifted", says)
         return one_factor(self, S, T) or super().what_is_wrong(S, T)
+
+
+def _briefly(value: Any) -> str:
+    """Return what came for a word, in few words."""
+    if isinstance(value, str | None):
+        return repr(value)
+    return f"an array of shape {np.shape(value)}" if np.shape(value) else f"{value!r}"

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from labkit.base.exchange import Exchange, Reply
-from labkit.judge.answers import InTurn, Parts, as_one, own, parts, plain
+from labkit.judge import results
+from labkit.judge.answers import InTurn, Parts, as_one, own, parts
 from labkit.judge.ask import Ask, Asked, replies, stacked
-from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Verdict
 from labkit.lesson.starter import function_lines
 from robo47.checks import Array
@@ -138,13 +138,14 @@ def read(exchanges: Iterable[Exchange], ask: Ask, source: str = "") -> Parts | F
                 return Finding(slip.slug, slip.says)
         often = f", in {len(broken)} of {len(replied)} calls"
         return Finding("raises", stops_with(broken[0], often))
-    if nothing := sum(reply.value is None for reply in replied):
+    nothing = sum(reply.value is None for reply in replied)
+    if nothing and not getattr(ask.kind, "none", ""):
         says = "It returns nothing (None): the result is worked out, but not handed "
         says += "back."
         if nothing < len(replied):
             says = f"It returns None for {nothing} of {len(replied)} inputs."
         return Finding("nothing-returned", says)
-    columns = _columns(replied, ask.kinds)
+    columns = results.read(ask.kind, [reply.value for reply in replied])
     return columns if isinstance(columns, Finding) else tuple(map(as_one, columns))
 
 
@@ -156,7 +157,7 @@ def not_accepted(asked: Asked) -> Iterator[tuple[Exchange, Finding]]:
         S = read([one], asked.ask)
         if isinstance(S, Finding):
             continue
-        answer = plain(tuple(part[0] for part in S))
+        answer = results.as_sent(asked.ask.kind, [part[0] for part in S])
         if why := accept(*map(own, one.question.args), answer):
             yield one, why if isinstance(why, Finding) else Finding("not-accepted", why)
 
@@ -166,12 +167,14 @@ def of_another_size(asked: Asked) -> Finding | None:
     truth, kinds = asked.ask.truth, asked.ask.kinds
     if not isinstance(truth, InTurn) or all(None not in kind.shape for kind in kinds):
         return None
-    right = truth.each(stacked(asked.main))
-    for i, (wanted, reply) in enumerate(zip(right, replies(asked.main), strict=True)):
-        got = reply.value if len(kinds) > 1 else (reply.value,)
-        for T, S in zip(parts(wanted), got, strict=True):
-            if np.shape(S) != T.shape:
-                says = f"It returns shape {np.shape(S)} where {T.shape} is right"
+    right = map(parts, truth.each(stacked(asked.main)))
+    given = results.read(asked.ask.kind, [one.value for one in replies(asked.main)])
+    assert not isinstance(given, Finding)  # it was read before
+    for i, (its, mine) in enumerate(zip(right, zip(*given, strict=True), strict=True)):
+        for T, S, kind in zip(its, mine, kinds, strict=True):
+            there = not (kind.is_none(T) or kind.is_none(S))
+            if there and S.shape != T.shape:
+                says = kind.another_size(S.shape, T.shape)
                 where = f"in call {i + 1} of {len(asked.main)}"
                 return Finding("shape", f"{says}, {where}.")
     return None
@@ -234,39 +237,17 @@ def flat(answer: Any) -> Array | None:
     """Return all numbers of one answer, (n,); None where it is none."""
     if answer is None:
         return None
-    some = answer if isinstance(answer, tuple) else (answer,)
     try:
-        return np.concatenate([np.asarray(p, dtype=np.float64).ravel() for p in some])
+        return np.concatenate(list(_numbers(answer)))
     except (TypeError, ValueError):
         return None
 
 
-def _columns(
-    replies: Sequence[Reply], kinds: tuple[Kind, ...]
-) -> list[list[Array]] | Finding:
-    """Return the answers, checked: a list of arrays per part."""
-    columns: list[Any] = [[reply.value for reply in replies]]
-    if len(kinds) > 1:
-        rows = [_parts(value, kinds) for value in columns[0]]
-        if broken := [row for row in rows if isinstance(row, Finding)]:
-            return broken[0]
-        columns = list(zip(*rows, strict=True))
-    found = []
-    for kind, column in zip(kinds, columns, strict=True):
-        part = kind.read(column)
-        if isinstance(part, Finding):
-            called = f"{kind.called or 'One result'}: " if len(kinds) > 1 else ""
-            return Finding(part.slug, called + part.message)
-        found.append(part)
-    return found
-
-
-def _parts(value: Any, kinds: tuple[Kind, ...]) -> tuple[Any, ...] | Finding:
-    """Return one answer's parts, of a function that returns several."""
-    if isinstance(value, np.ndarray) and value.ndim:  # numbers, that travel as one
-        value = tuple(value)
-    if isinstance(value, tuple) and len(value) == len(kinds):
-        return value
-    expected = f"{len(kinds)} results: {', '.join(kind.expected for kind in kinds)}"
-    got = f"{len(value)} results" if isinstance(value, tuple) else "one array"
-    return Finding("parts", f"It returns {got}; expected are {expected}.")
+def _numbers(answer: Any) -> Iterator[Array]:
+    """Yield the numbers of each part; a text's are its letters, None's is NaN."""
+    if isinstance(answer, tuple):
+        for part in answer:
+            yield from _numbers(part)
+        return
+    plain = list(map(ord, answer)) if isinstance(answer, str) else answer
+    yield np.asarray(plain, dtype=np.float64).ravel()

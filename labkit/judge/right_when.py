@@ -9,16 +9,17 @@ several sizes. Each of the two rounds is one batch of questions.
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import accumulate, chain, pairwise
+from itertools import accumulate, chain
 from typing import Any
 
 import numpy as np
 
 from labkit.base.exchange import Question, Reply
-from labkit.judge.answers import InTurn, gaps, number, own, say_factor
+from labkit.judge.answers import InTurn, own, say_factor
 from labkit.judge.ask import Asked, as_plain, right_answers
 from labkit.judge.mistake import Finding
 from labkit.judge.neutral import SIZES, Neutral, neutrals, scaled
+from labkit.judge.ranges import Span, spans
 from labkit.judge.replies_read import flat, read
 from robo47.checks import Array
 
@@ -28,7 +29,6 @@ TRIED = 30  # inputs that a sentence is held against, at least
 NOTHING = 1e-12  # a right answer as small as this says nothing
 COMMON = 0.5  # the share of other wrong functions that may be right there as well
 OTHERS = 12  # of them are asked
-BEFORE_AND_AFTER = 1e-3  # how near the ends of a range it is asked
 Call = tuple[Any, ...]  # its arguments
 # From calls to the answers of a function, None where there is none, which says nothing.
 Answers = Callable[[Sequence[Call]], Iterable[Any]]
@@ -63,7 +63,13 @@ def right_when(
     known = [*asked.main, *asked.fresh]
     more = [one.question.args for one in known]
     seen = Experiments(
-        calls, names, mine, _answers_of(ask.truth), ask.near, more, _verdicts(asked)
+        calls,
+        names,
+        mine,
+        _answers_of(ask.truth),
+        max(ask.near, ask.rtol),
+        more,
+        _verdicts(asked),
     )
     return seen.told(others)
 
@@ -77,7 +83,7 @@ def _verdicts(asked: Asked) -> list[bool]:
             found.append(False)
             continue
         T = right_answers(asked.ask, [one])
-        off = gaps(asked.ask.kinds, S, T).max()
+        off = asked.ask.gaps(S, T).max()
         found.append(bool(off <= asked.ask.near))
     return found
 
@@ -227,28 +233,21 @@ class Experiments:
         return more
 
     def _ranges(self) -> Iterator[Claim]:
-        """Yield in which range of a number it is right, as far as it was asked."""
+        """Yield in which range of a number, or of entries, it is right, as asked."""
         for k, x in enumerate(self.calls[0]):
-            if isinstance(x, float):
-                between = _range([c[k] for c in self.known], self.right)
-                if between:
-                    low, high = between
-                    says = (
-                        f"for {self.names[k]} between {number(low)} and {number(high)}"
-                    )
-                    calls = self._between(k, low, high, QUESTIONS + 2)
-                    more = partial(self._between, k, low, high, 2 * TRIED)
-                    yield Claim(k, says, calls, partial(_inside, low, high), more)
+            column = [call[k] for call in self.known]
+            for one in spans(x, column, self.right):
+                says = one.says.format(self.names[k])
+                calls = self._spanned(k, one, QUESTIONS + 2)
+                more = partial(self._spanned, k, one, 2 * TRIED)
+                yield Claim(k, says, calls, one.holds, more)
 
-    def _between(self, k: int, low: float, high: float, n: int) -> list[Call]:
-        """Return calls with argument k in a range, and near both of its ends."""
-        tiny = BEFORE_AND_AFTER * (high - low)
-        places = [low + tiny, high - tiny, *np.linspace(low, high, n)[1:-1]]
+    def _spanned(self, k: int, one: Span, n: int) -> list[Call]:
+        """Return calls with argument k in a range, and near its ends."""
         some = self._others() if n > TRIED else self.calls
-        return [
-            (*some[i % len(some)][:k], float(x), *some[i % len(some)][k + 1 :])
-            for i, x in enumerate(places)
-        ]
+        again = [some[i % len(some)] for i in range(n)]
+        values = one.values([call[k] for call in again])
+        return _with(again, k, values)
 
     def _right(
         self, given: Iterable[Any], calls: Sequence[Call], least: int = AGREE
@@ -290,46 +289,6 @@ class Experiments:
         factor = float(one @ two / (one @ one))
         off = np.abs(two - factor * one).max()
         return factor if off <= self.near * max(1.0, float(np.abs(two).max())) else None
-
-
-def _range(
-    values: Sequence[float], right: Sequence[bool]
-) -> tuple[float, float] | None:
-    """Return the range of a number in which all answers are right, or None.
-
-    It ends at a fraction of pi, or a whole number, where one lies between what was
-    right and what was wrong. None where nothing is wrong beyond it, or where under
-    three values in it, or a fifth of all, were asked.
-    """
-    if len(values) != len(right) or not all(isinstance(x, float) for x in values):
-        return None
-    wrong = sorted({x for x, ok in zip(values, right, strict=True) if not ok})
-    good = sorted({x for x, ok in zip(values, right, strict=True) if ok} - set(wrong))
-    bounds = [-np.inf, *wrong, np.inf]
-    runs = [
-        ([x for x in good if low < x < high], low, high)
-        for low, high in pairwise(bounds)
-    ]
-    run, low, high = max(runs, key=lambda one: len(one[0]))
-    if len(run) < max(AGREE, len(good) // 5) or run[0] == run[-1] or not wrong:
-        return None
-    return _end(run[0], low), _end(run[-1], high)
-
-
-def _inside(low: float, high: float, x: float) -> bool:
-    return low < x < high
-
-
-def _end(last: float, beyond: float) -> float:
-    """Return a number that people know from the last right one to a wrong one."""
-    if not np.isfinite(beyond):
-        return last
-    low, high = sorted((last, beyond))
-    for known in (np.pi * np.arange(-12, 13) / 6, np.arange(-12.0, 13.0) / 2):
-        between = [float(x) for x in known if low <= x <= high]
-        if between:
-            return min(between, key=lambda x: abs(x - last))
-    return last
 
 
 def _with(calls: Sequence[Call], k: int, values: Sequence[Any]) -> list[Call]:

@@ -19,20 +19,18 @@ which proves the name. Nothing else is written of a mistake.
 
 import importlib
 import inspect
-import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial, update_wrapper
-from pathlib import Path
 from types import MappingProxyType, ModuleType
 from typing import Any
-
-import numpy as np
 
 from labkit.judge.answers import AtOnce, InTurn, entry_of, once
 from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, Inputs
 from labkit.judge.mistake import REDONE, Mistake, told
+from labkit.judge.results import checked, numbers
+from labkit.judge.written import Answered, stops_with
 from labkit.lesson.day import Day
 from labkit.lesson.lab_module import lab_of
 from robo47.errors import Robo47Error
@@ -86,7 +84,7 @@ class Row:
         """
         if unknown := set(more) - {one.name for one in fields(Ask)}:
             raise TypeError(f"a Row has no {min(unknown)}")
-        self.more = {"kind": kind, "near": near, **more}
+        self.more = {"kind": checked(kind), "near": near, **more}
         self.alike = list(alike)
         self._truth = truth
         self.positive: dict[str, str] = {}  # what is never negative, and why
@@ -300,21 +298,29 @@ class Row:
         if "accept" in more:
             more["accept"] = self._accept
         else:
+            kind = self.more["kind"]
             asked = (InTurn if self._truth else AtOnce)(self.truth)
-            more["truth"] = _Answered(self.truth, asked, self)
+            more["truth"] = Answered(
+                self.truth,
+                partial(numbers, kind),
+                asked=asked,
+                kind=kind,
+                fault=self._fault,
+            )
         try:
             return Ask(mistakes=self._mistakes, **more)
         except Robo47Error as error:
             raise self._fault(f"row cannot be asked: {error}") from None
 
     def _mistakes(self) -> list[Mistake]:
-        return [Mistake(w.slug, w.says, InTurn(w.code), w.redone) for w in self.named]
+        read = self.ask.in_turn
+        return [Mistake(w.slug, w.says, read(w.code), w.redone) for w in self.named]
 
     def _accept(self, *args: Any) -> Any:
         try:
             return self.more["accept"](*args)
         except Exception as error:
-            says = f"accept {_stops_with(error)}, and any answer"
+            says = f"accept {stops_with(error)}, and any answer"
             raise self._fault(says) from None
 
     def _fault(self, says: str) -> Robo47Error:
@@ -341,14 +347,6 @@ class Row:
         return code
 
 
-def _stops_with(error: BaseException) -> str:
-    """Return what an author's function stops with, where, and what it has to do."""
-    last = traceback.extract_tb(error.__traceback__)[-1]
-    where = f"{shown(Path(last.filename))}, line {last.lineno}"
-    says = f"stops with {type(error).__name__}: {error} ({where}). It has to take all "
-    return f"{says}that @row.inputs yields"
-
-
 def row_of(day: Day, function: str) -> Row:
     """Return the row of a function: what its file calls `row`.
 
@@ -366,27 +364,3 @@ def rows_of(day: Day) -> dict[str, Row]:
     """Return the rows of all of a day's functions, in the manifest's order."""
     names = [name for task in day.tasks for name in task.functions]
     return {name: row_of(day, name) for name in names}
-
-
-@dataclass(frozen=True, eq=False)
-class _Answered(InTurn):
-    """The truth: where it has no answer to a question, its author is told."""
-
-    asked: InTurn  # the same function
-    row: Row
-
-    def each(self, columns: Sequence[Any]) -> list[Any]:
-        row = self.row
-        kinds = self.row.ask.kinds
-        try:
-            answers = self.asked.each(columns)
-        except ValueError as error:
-            says = f"truth {_stops_with(error.__cause__ or error)}"
-            raise row._fault(says) from None
-        parts = [a if isinstance(a, tuple) else (a,) for a in answers]
-        for shapes in {tuple(map(np.shape, some)) for some in parts}:
-            for got, kind in zip(shapes, kinds, strict=False):
-                if len(shapes) != len(kinds) or not kind.fits(got):
-                    says = f"truth returns shape {got}, and its kind is {kind.expected}"
-                    raise row._fault(says)
-        return answers

@@ -17,6 +17,8 @@ _KEPT = re.compile(r"(\[[^\]]*\]|\b(?:joint|rows?|columns?|link) ?\d+(?: to \d+)
 # Of answers that are nearly right only what tells the wrong entries, or all of them,
 # exactly: whether R is a rotation, say, follows from a rounded constant.
 _EXACT = {"few-entries-off", "one-factor-off", "shifted"}
+# Where all that is wrong stands is said of all answers, fresh ones as well.
+_OF_ALL = {"part-off", "few-entries-off"}
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 
@@ -38,6 +40,8 @@ def what_is_wrong(case: Case, S: Parts, T: Parts, i: int) -> Finding:
         wider = kind.what_is_wrong(*_with_further(case, S, T, i))
     except ValueError:  # of other sizes than a kind takes
         return plain
+    if wider.slug in _OF_ALL:
+        return wider
     return found if _form(found.message) == _form(wider.message) else plain
 
 
@@ -46,7 +50,8 @@ def in_common(case: Case, S: Parts, T: Parts, i: int) -> str:
     found = near_miss.in_common(S[i], T[i])
     if case.further is None or not found:
         return found
-    return found if near_miss.in_common(*_with_further(case, S, T, i)) == found else ""
+    wider = near_miss.in_common(*_with_further(case, S, T, i))
+    return wider if _form(wider) == _form(found) else ""
 
 
 def _with_further(case: Case, S: Parts, T: Parts, i: int) -> tuple[Array, Array]:

@@ -18,13 +18,22 @@ from typing import Any
 
 from labkit.lesson.last_day import started_day
 from labkit.lesson.metric import Metric
-from labkit.lesson.week import Week, entry, find_week, load, load_week, manifests
+from labkit.lesson.week import (
+    WORK,
+    Week,
+    entry,
+    find_week,
+    load,
+    load_week,
+    manifests,
+)
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
 NUMBERS = 100_000  # of one answer, where a task does not say; a pose has 16
 # What a grader's machine gives a task at most, whatever its manifest asks for.
 MOST = {"seconds": 60.0, "memory": 4.0, "numbers": 1_000_000}
+MOST_LAB = 90.0  # and a lab's run, in seconds
 
 
 @dataclass(frozen=True)
@@ -88,6 +97,8 @@ class Day:
     drawings: int = entry(0, at="worksheet.drawings")  # how many it holds
     questions: int = entry(0, at="worksheet.questions")  # how many it asks
     metrics: tuple[Metric, ...] = ()  # rows of the log
+    # Of a processor, for the lab's run with a student's functions.
+    lab_seconds: float = entry(30.0, at="limits.lab_seconds")
     folder: Path = field(repr=False)  # the week's; no entry
 
     @property
@@ -98,7 +109,7 @@ class Day:
     @property
     def work(self) -> Path:
         """The student's script."""
-        return self.folder / "work" / self.script
+        return self.folder / WORK / self.script
 
     @property
     def own(self) -> Path:
@@ -131,7 +142,7 @@ class Day:
         """What it hands in: paths from the clone's top, by what they are."""
         week = self.folder.name
         found = {
-            "script": f"{week}/work/{self.script}",
+            "script": f"{week}/{WORK}/{self.script}",
             "worksheet": self.worksheet and f"{week}/{self.worksheet}",
             "figure": self.figure and f"{week}/{self.figure}",
             "log": self.metrics and "metrics/metrics.csv",
@@ -345,6 +356,9 @@ def _faults(day: Day, folder: str) -> Iterator[str]:
     for i, metric in enumerate(day.metrics, 1):
         if metric.min is None and metric.max is None:
             yield f", metrics {i}: it has neither max nor min"
+    if not 0 < day.lab_seconds <= MOST_LAB:
+        asked = f"limits, lab_seconds is {day.lab_seconds:g}"
+        yield f", {asked}; a grader gives {MOST_LAB:.0f} at most"
     earlier: set[str] = set()
     functions: set[str] = set()
     for task in day.tasks:

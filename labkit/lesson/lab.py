@@ -11,7 +11,8 @@ without a sign (the z of a format): which sign a rounding error has is the machi
 """
 
 import contextlib
-import re
+import os
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -20,15 +21,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from labkit import log
-from labkit.base import cli
+from labkit.base import cli, store
 from labkit.base.text import count, number_of
 from labkit.lesson import day_mujoco  # noqa: F401 (a lab's next import needs it)
 from labkit.lesson.day import day_of
 from labkit.lesson.metric import Metric
+from labkit.lesson.predicted import predictions, rows_asked, with_measured
 from labkit.lesson.writers import file_mark
 from robo47.paths import METRICS_CSV, shown
-
-_OPEN = re.compile(r"\*\([^*]*\)\*|[._\s…-]*")  # the template's own words, or none
 
 
 class Lab:
@@ -61,25 +61,34 @@ class Lab:
         self.day = day_of(self.script)
         self.failed: list[str] = []
         self.rows: list[dict[str, Any]] = []
-        self.predicted = predictions(self._worksheet())
+        sheet = self._worksheet()
+        self.predicted = predictions(sheet)
+        self.came_out: dict[str, float] = {}  # measured, by what it is
+        if blank := list(rows_asked(sheet).values()).count(""):
+            says = f"Predict first: {count(blank, 'number')} still open in "
+            print(cli.wrapped(says + self.day.worksheet))
 
     def _worksheet(self) -> str:
         """Return the text of the day's worksheet; "" where the kit's own lab runs."""
         if self.script.resolve() != self.day.work.resolve():
             return ""
         try:
-            return (self.day.folder / self.day.worksheet).read_text("utf-8-sig")
+            data = (self.day.folder / self.day.worksheet).read_bytes()
+            return data.decode("utf-8")  # with its own line ends
         except (OSError, UnicodeDecodeError):  # `make check` says so
             return ""
 
     def measured(self, number: str, value: float) -> None:
         """Print a number beside the student's prediction; nothing where there is none.
 
+        A run that is logged writes it into the worksheet as well.
+
         Args:
             number: the first cell of its row in the worksheet's table of predictions.
             value: in the row's unit.
         """
         if number in self.predicted:
+            self.came_out[number] = value
             yours = f"  you predicted {self.predicted[number]}, measured {value:z.4g}: "
             print(cli.wrapped(yours + number, "    "))
 
@@ -175,6 +184,7 @@ class Lab:
                 log.append_rows(self.rows, sync=True, allow_nonfinite=True)
                 rows = count(len(self.rows), "row")
                 print(f"\nlogged {rows} to {shown(METRICS_CSV)}")
+                self._write_measured()
             else:
                 print("\nnothing logged (--no-log)")
         finally:  # worth saying also where the log takes nothing
@@ -184,6 +194,19 @@ class Lab:
             return cli.EXIT_FAILED
         print(cli.paint("All checks PASSED.", "good"))
         return cli.EXIT_OK
+
+    def _write_measured(self) -> None:
+        """Write what was measured beside what was predicted; a week's look does not."""
+        if os.environ.get("ROBO47_METRICS"):  # another log than the student's
+            return
+        before = self._worksheet()
+        after = with_measured(before, self.came_out, time.strftime("%H:%M"))
+        if after == before:
+            return
+        path = self.day.folder / self.day.worksheet
+        with contextlib.suppress(OSError):  # one that nobody may write stays
+            store.replace(path, after.encode())
+            print(f"measured numbers: in {self.day.worksheet}")
 
     def _judge(self, name: str, wanted: Metric, value: float) -> None:
         if self.trial:
@@ -196,19 +219,6 @@ class Lab:
         print(f"  {verdict}  {name}: {number} ({asked})")
         if not good:
             self.failed.append(f"{name} is {number}; it must be {wanted.limit}")
-
-
-def predictions(worksheet: str) -> dict[str, str]:
-    """Return {number: predicted} of the rows of a worksheet that have a prediction.
-
-    A row is `| number | predicted | measured | why apart |`.
-    """
-    found = {}
-    for line in worksheet.splitlines():
-        cells = [cell.strip() for cell in line.strip().split("|")]
-        if len(cells) == 6 and not _OPEN.fullmatch(cells[2]):  # "" at both ends
-            found[cells[1].replace("`", "")] = cells[2]
-    return found
 
 
 def _bounds(wanted: Metric) -> str:

@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 from labkit.base import store
-from labkit.lesson.week import manifests
+from labkit.lesson.week import WORK, manifests
 from robo47.paths import ROOT
 
 MEMORY = "last_day.json"
@@ -47,5 +47,5 @@ def started_day(root: Path = ROOT) -> int:
 
 def _saved(week: Path, number: int) -> float:
     """Return when a day's lab was saved, seconds since 1970; 0 where there is none."""
-    labs = week.glob(f"work/day{number}_*.py")
+    labs = week.glob(f"{WORK}/day{number}_*.py")
     return max((lab.stat().st_mtime for lab in labs if lab.is_file()), default=0.0)

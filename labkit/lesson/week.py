@@ -21,6 +21,10 @@ from typing import Any
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
+# A week's folder of the student's own labs; scripts/kit.py, Makefile and .gitignore,
+# which read no Python of the kit's, name it too.
+WORK = "work"
+
 _EXPECTED = {
     str: "a text",
     int: "a whole number",
@@ -50,7 +54,8 @@ class Week:
     soon: tuple[Soon, ...] = ()  # announced, not written
     # Which robot `make view` opens, of `panda.load` or a scene of this folder:
     # "arm.xml". Questions, lab runs and pictures are the Panda's; a row asks for
-    # another robot with `Robot("...")`, a lab with `panda.load`.
+    # another robot with `Robot(path)`, a lab loads it in `main`; the check then runs
+    # the lab with that robot, too.
     robot: str = "panda_nohand"
     # A module of robo47 with what `robo47.attempt` asks of it.
     capstone: str = ""

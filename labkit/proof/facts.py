@@ -6,7 +6,7 @@ from pathlib import Path
 
 from labkit.base.git import read_history
 from labkit.base.text import visible
-from labkit.check.lab_run import rehearse
+from labkit.check.lab_run import Rehearsed, rehearse
 from labkit.check.memory import in_words
 from labkit.check.tasks import check_tasks, required_pass
 from labkit.grade.package import collect, unpack
@@ -20,8 +20,6 @@ from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
 
-CALLS = 20_000  # of a lab's functions: all of the kit's labs need fewer
-
 
 @dataclass(frozen=True)
 class RunDay(DayFacts):
@@ -30,6 +28,7 @@ class RunDay(DayFacts):
     # The numbers that the lab gave with theirs as far as it came, by check and metric.
     again: Mapping[tuple[str, str], float] = field(default_factory=dict)
     fault: str = ""  # the first step of the lab that failed here, "" where none did
+    unfinished: str = ""  # that the lab was not run to its end, "" where it was
     # What the commit lacks of what is in the folder; "" where it has all.
     left: str = ""
 
@@ -61,15 +60,15 @@ def facts_of(
     if script is None:
         return RunDay(day, {task.id: "not begun" for task in day.tasks}, numbers)
     states = {task.id: "the kit's own file" for task in day.tasks}
-    fault = ""
-    again = dict[tuple[str, str], float]()
+    ran = Rehearsed("", {})
     if writers.kits.isdisjoint(marks_of(script)):
         results = check_tasks(day, folder / day.script, sandbox)
         states = {result.task.id: in_words(result.verdict) for result in results}
         if required_pass(results):
-            fault, again = rehearse(day, folder / day.script, sandbox, CALLS)
+            ran = rehearse(day, folder / day.script, sandbox)
     if own:
         history = read_history(student.path, wanted_names(day, handin), own=True)
         item = check_commit(day, handin, history)
     left = "" if item.passed else visible(item.message.partition("\n")[0], 300)
-    return RunDay(day, states, numbers, again, visible(fault, 300), left)
+    fault, unfinished = visible(ran.fault, 300), visible(ran.unfinished, 300)
+    return RunDay(day, states, numbers, ran.numbers, fault, unfinished, left)

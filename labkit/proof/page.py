@@ -198,6 +198,11 @@ def _numbers(days: Sequence[RunDay]) -> str:
         for one in days
         if one.fault
     )
+    faults += "".join(
+        f"<p>Day {one.day.number}: {escape(one.unfinished)}</p>"
+        for one in days
+        if one.unfinished
+    )
     head = "<th>day</th><th>number</th><th class=n>run again</th><th>limit</th>"
     about = (
         f'<p class="muted">Run again: the day\'s lab with their functions, now, with'

@@ -135,8 +135,6 @@ def pack(
             packed[key] = {"model": models.index(_copy_of(arg))}
         elif isinstance(arg, Path):
             packed[key] = {"path": [list(pair) for pair in arg.pairs]}
-        elif isinstance(arg, int | float):
-            packed[key] = {"number": arg}
     plain = {key: arg for key, arg in args.items() if key not in packed}
     try:
         packed |= zip(plain, map(wire.pack_value, plain.values()), strict=True)
@@ -273,9 +271,13 @@ def _reply(message: dict[str, Any], value: Any) -> Reply:
 
 def _largest(value: Any) -> float:
     """Return the largest finite number of an answer."""
-    some = value if isinstance(value, tuple) else (value,)
-    arrays = [part[np.isfinite(part)] for part in some if part is not None]
-    return max([float(np.abs(part).max(initial=0)) for part in arrays], default=0.0)
+    if value is None or isinstance(value, str):
+        return 0.0
+    try:
+        array = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError):  # of unlike things
+        return max(map(_largest, value), default=0.0)
+    return float(np.abs(array[np.isfinite(array)]).max(initial=0))
 
 
 def _texts(told: Any) -> tuple[str, ...]:

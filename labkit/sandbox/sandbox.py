@@ -21,6 +21,7 @@ from operator import methodcaller
 from pathlib import Path
 from typing import Any
 
+from labkit.base import processes
 from labkit.base.exchange import (
     CHANNEL,
     MOST,
@@ -34,7 +35,7 @@ from labkit.base.exchange import (
 from labkit.lesson.day import Limits
 from labkit.sandbox import messages
 from labkit.sandbox.messages import USUAL, Robots
-from labkit.sandbox.process import Process
+from labkit.sandbox.process import ENDLESS, Process
 from robo47.errors import FaultError
 
 CALL_SECONDS, TASK_SECONDS = 3.0, 10.0  # for one call, for all calls of a task
@@ -248,6 +249,10 @@ class Session:
         missing = len(questions) - len(replies)
         return replies + [self._ended] * missing if self._ended else replies
 
+    def used(self) -> tuple[float, float]:
+        """Return for how many seconds it had a processor, and waited for one."""
+        return processes.scheduled(self._process.process)
+
     def close(self) -> None:
         """End it."""
         if self._ended is None:
@@ -270,6 +275,7 @@ class _Rounds:
         self.second: dict[Exchange, Reply] = {}
         self.ended: tuple[Exchange, Reply] | None = None  # where, and why
         self.call: defaultdict[str, float] = defaultdict(lambda: CALL_SECONDS)
+        self.took: defaultdict[str, list[float]] = defaultdict(list)  # by calls so far
         self.spare: defaultdict[str, float] = defaultdict(lambda: TASK_SECONDS)
         for task, seconds in limits.seconds.items():
             if seconds > TASK_SECONDS:
@@ -301,13 +307,26 @@ class _Rounds:
                 came.append(process.next(min(self.call[task], self.spare[task], left)))
             except EndedError as error:
                 late = time.monotonic() > self.deadline + process.waited
-                self.ended = exchange, stopped(TOO_LONG) if late else error.reply
+                why = stopped(TOO_LONG) if late else self._timed(task, error.reply)
+                self.ended = exchange, why
                 break
-            self.spare[task] -= time.monotonic() - started - (process.waited - waited)
+            took = time.monotonic() - started - (process.waited - waited)
+            self.spare[task] -= took
+            self.took[task].append(took)
         found = messages.read(came, self.numbers)
         into.update(zip(asked, found, strict=False))
         if len(found) < len(came):
             self.ended = asked[len(found)], stopped(CHANNEL)
+
+    def _timed(self, task: str, reply: Reply) -> Reply:
+        """Return the reply of a call that was stopped, with the time that it had."""
+        if reply.error != ENDLESS:
+            return reply
+        took = self.took[task]
+        whole = self.spare[task] < self.call[task]
+        given = self.spare[task] + sum(took) if whole else self.call[task]
+        came = len(took) if whole else 0
+        return replace(reply, given=given, came=came, longest=max(took, default=0.0))
 
     def fill(self, needs: Mapping[str, Iterable[str]]) -> None:
         """Fill in what was answered twice, and what is not asked again."""

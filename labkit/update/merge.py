@@ -9,6 +9,7 @@ from pathlib import Path
 from labkit.base import git, store
 from labkit.lesson.day import all_days
 from labkit.lesson.merge import keep_both, merged
+from labkit.lesson.week import WORK
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
@@ -134,7 +135,7 @@ def merge(worktree: Path, target: str) -> list[str]:
     taken = [
         name
         for name, blobs in both.items()
-        if not _resolve(worktree, name, blobs, name in mine or "/work/" in name)
+        if not _resolve(worktree, name, blobs, name in mine or f"/{WORK}/" in name)
     ]
     _keep_rows(worktree, own)
     ask("add", "-A", at=worktree)
@@ -191,7 +192,7 @@ def take(worktree: Path, place: str) -> None:
         Robo47Error: a file in the clone is in the way; says which.
     """
     head = ask("rev-parse", "HEAD", at=worktree)
-    labs = {path: path.stat() for path in ROOT.glob("w*/work/day*.py")}
+    labs = {path: path.stat() for path in ROOT.glob(f"w*/{WORK}/day*.py")}
     ask("merge", "-q", "--ff-only", head)
     for path, was in labs.items():
         if path.is_file():  # what the kit merged is no edit of the student's

@@ -3,7 +3,9 @@
     moves         elementary motions of a frame
     chains        products of frames or exponentials, for many q or for one, in floats
     jacobians     Jacobian columns for many q
-    ik            damped least squares for many targets at once;  ik_one: for one
+    ik            inverse kinematics: who walks to which target, and from where
+    walk          the walk: damped steps within the limits, until nothing is gained
+    ik_many       its arithmetic for many at once;  ik_one: for one, in plain floats
     vectors       vectors as three arrays
     dynamics      mass matrix and torque for many q
     arm_state     all that a control loop asks for at one q

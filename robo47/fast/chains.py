@@ -189,6 +189,7 @@ def evaluate(plan: Plan, qpos: Array) -> dict[str, Array]:
         ValueError: a non-finite number, or a quaternion of length 0.
     """
     only = (qpos.ravel() - plan.ref[:, 0]).tolist() if qpos.size == plan.nq else []
+    # One alone, in floats; where a number is not finite, the way for many says which.
     if only and all(map(math.isfinite, only)):
         nodes = plan.nodes(one_of(only))
         shape = (*qpos.shape[:-1], 4, 4)

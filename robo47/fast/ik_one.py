@@ -1,39 +1,36 @@
-"""One walker of inverse kinematics, in plain Python floats.
+"""One walker of inverse kinematics, in plain Python floats; its walk is `walk.walk`.
 
-The same steps as `robo47.fast.ik` takes for many at once, which says where they are
-from. For a single walker NumPy spends its time on calls, not on numbers: floats do the
+For a single walker NumPy spends its time on calls, not on numbers: floats do the
 chain and its Jacobian, and only the 6x6 system is NumPy's.
 
 Units: metres and radians; (omega; v) in world axes.
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from robo47.checks import Array
 from robo47.fast.chains import Plan, one_of
 from robo47.fast.jacobians import columns_of
+from robo47.fast.walk import NEAR_PI
 from robo47.rotation_log import log_rotation
 
-STOP = 1e-9  # the length of the error where a walker stops: a tenth of what is asked
-FLOOR = 1e-8  # squared damping that is left where the error is 0
-NEAR_PI = -0.9  # cosine of the angle beyond which sin(angle) is no base for the axis
 EYE = np.eye(6)
+Step = list[float]
 
 
-class Patience(NamedTuple):
-    """How a walker goes, and when it gives up."""
+class One:
+    """A walker towards one target, within the limits.
 
-    steps: int  # at most
-    every: int  # steps between two looks at the squared error
-    enough: float  # where a larger share than this of it is left, the walker gives up
-    damping: float  # the squared damping as a share of the squared error
+    Attributes:
+        best: the best place on the way.
+        miss: the squared length of the pose error there.
+    """
 
-
-class Walker:
-    """A walker towards one target, within the limits."""
+    best: list[float]
+    miss: float
 
     def __init__(self, plan: Plan, goal: Array, limits: Array) -> None:
         """Keep what is asked; the goal is (3, 4), the limits (n, 2)."""
@@ -41,28 +38,62 @@ class Walker:
         self._limits = limits.tolist()
         *self._axes, self._point = goal.T.tolist()
 
-    def walk(self, q: list[float], patience: Patience) -> tuple[list[float], float]:
-        """Return the best q on the way from q, and the squared length of its error."""
-        best = q
-        miss = math.inf
-        before = math.inf
-        for step in range(patience.steps):
-            J, e = self._downhill(q)
-            ee = sum(x * x for x in e)
-            if ee < miss:
-                best, miss = q, ee
-            if ee <= STOP**2:
-                break
-            if step % patience.every == 0:
-                if ee >= patience.enough * before:
-                    break
-                before = ee
-            q = self._step(q, np.array(J), np.array(e), patience.damping * ee + FLOOR)
-        return best, miss
+    def begin(self, q: list[float]) -> None:
+        """Stand at q."""
+        self._q = q
+        self.best = q
+        self.miss = math.inf
 
-    def _downhill(self, q: list[float]) -> tuple[list[Any], list[float]]:
+    def look(self) -> float:
+        """As in `Walkers`."""
+        columns, e = self._errors()
+        self._J = np.array(columns)
+        self._e = np.array(e)
+        ee = sum(x * x for x in e)
+        if ee < self.miss:
+            self.best = self._q
+            self.miss = ee
+        return ee
+
+    def open(self, far: bool) -> bool:
+        """As in `Walkers`: nobody shares the target."""
+        return far
+
+    def any(self, some: bool | list[bool]) -> bool:
+        """As in `Walkers`."""
+        return some if isinstance(some, bool) else any(some)
+
+    def only(self, on: bool, *numbers: float) -> tuple[float, ...]:
+        """As in `Walkers`: it is the only one."""
+        return numbers
+
+    def downhill(self, damping: float) -> Step:
+        """As in `Walkers`; J is (n, 6) here."""
+        J = self._J
+        return (J @ np.linalg.solve(J.T @ J + damping * EYE, self._e)).tolist()
+
+    def stuck(self, step: Step) -> list[bool]:
+        """As in `Walkers`."""
+        return [
+            x >= high if dx > 0.0 else x <= low and dx < 0.0
+            for x, dx, (low, high) in zip(self._q, step, self._limits, strict=True)
+        ]
+
+    def without(self, stuck: list[bool], step: Step, damping: float) -> Step:
+        """As in `Walkers`."""
+        self._J[stuck] = 0.0
+        return self.downhill(damping)
+
+    def go(self, step: Step) -> None:
+        """As in `Walkers`."""
+        self._q = [
+            min(max(x + dx, low), high)
+            for x, dx, (low, high) in zip(self._q, step, self._limits, strict=True)
+        ]
+
+    def _errors(self) -> tuple[list[Any], list[float]]:
         """Return the site Jacobian's columns and the pose error, each (6)."""
-        columns, (*axes, here) = columns_of(self._plan, one_of(q), at_end=True)
+        columns, (*axes, here) = columns_of(self._plan, one_of(self._q), at_end=True)
         (a, b, c), (d, e, f), (g, h, i) = axes
         (r, s, t), (u, v, w), (x, y, z) = self._axes
         # R_goal R^T has the sum of axis times goal's axis, scalar and cross products.
@@ -82,23 +113,3 @@ class Walker:
         x, y, z = self._point
         a, b, c = here
         return columns, [scale * u, scale * v, scale * w, x - a, y - b, z - c]
-
-    def _step(self, q: list[float], J: Array, e: Array, damping: float) -> list[float]:
-        """Return q after one damped step, within the limits; J is (n, 6)."""
-        dq = _damped(J, e, damping)
-        stuck = [
-            x >= high if dx > 0.0 else x <= low and dx < 0.0
-            for x, dx, (low, high) in zip(q, dq, self._limits, strict=True)
-        ]
-        if any(stuck):
-            J[stuck] = 0.0
-            dq = _damped(J, e, damping)
-        return [
-            min(max(x + dx, low), high)
-            for x, dx, (low, high) in zip(q, dq, self._limits, strict=True)
-        ]
-
-
-def _damped(J: Array, e: Array, damping: float) -> list[float]:
-    """Return J^T (J J^T + damping I)^-1 e; J is (n, 6), damping squared already."""
-    return (J @ np.linalg.solve(J.T @ J + damping * EYE, e)).tolist()

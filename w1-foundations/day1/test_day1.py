@@ -78,7 +78,7 @@ def test_a_transposed_rotation_looks_right_at_ready_and_zero_only(twin):
     off = np.abs(R - np.swapaxes(R, 1, 2)).max(axis=(1, 2))
     assert off[:2].max() < 1e-8
     assert 1.9 < off[2:].max() <= 2.0
-    assert "At random it is off by up to 2" in GUIDE
+    assert "At random configurations its entries are off by up to 2" in GUIDE
 
 
 @pytest.mark.parametrize("told", [0.0, 1.0])
@@ -207,3 +207,21 @@ def test_a_wrong_chain_is_named_and_cannot_record_a_small_number(
     assert by_hand["check"] == "fk_by_hand"
     assert by_hand["value"] > 0.1
     assert by_hand["n_failures"] > 900
+
+
+def test_the_folded_predictions_come_from_the_files_lengths(twin):
+    model = panda.load("panda_nohand")
+    up = {name: abs(model.body(name).pos).max() for name in ("link1", "link3", "link4")}
+    hand, half = 0.107, np.sqrt(0.5)
+    assert abs(model.body("attachment").pos).max() == hand
+    d1, d3, a4 = up.values()
+    height = d1 + d3 * half + a4 * half + a4 - hand  # forearm level, the hand down
+    T_world_ee = lab.compose_fk(model, panda.READY_Q)
+    assert_same(height, T_world_ee[2, 3], 1e-3)
+    assert f"- 0.107$ is {height:.3f} m" in GUIDE
+    T_extra = lab.make_T(lab.Rz(np.pi / 4), np.array([0.1, 0, 0]))
+    right, left = (T_world_ee @ T_extra)[:3, 3], (T_extra @ T_world_ee)[:3, 3]
+    (dx, dy, _), (x, y, _) = abs(left - right), left
+    assert f"{{{dx:.3f}^2 + {dy:.3f}^2}} = {np.hypot(dx, dy):.3f}" in GUIDE
+    assert f"to {right[0]:.3f} m in front of the base" in GUIDE
+    assert f"is added: $({x:.3f}, {y:.3f})$" in GUIDE

@@ -12,7 +12,7 @@ from day2_screws import FRANKA_DH, SEED, exp_rotation, joint_screws
 from PIL import Image
 
 from labkit.figures import client, portrait
-from labkit.figures.overlay import HALO, INK, LEADER, Layer
+from labkit.figures.overlay import HALO, INK, LEADER, SMOOTH, Layer
 from labkit.figures.scene import Camera, Scene
 from robo47 import kinematics, panda, verify
 from robo47.checks import Array
@@ -21,6 +21,7 @@ from .drawings import dh_conventions, pitch
 from .roulette import READINGS, distances
 
 SIZE = (1200, 1000)
+LARGE = (SIZE[0] * SMOOTH, SIZE[1] * SMOOTH)  # of the sheet over it
 LINKS = [f"body:link{i}" for i in range(1, 8)]  # each turns about its own z axis
 AXES = [
     (224, 49, 49), (28, 100, 242), (232, 119, 34), (47, 158, 68),
@@ -52,7 +53,7 @@ def screws() -> Image.Image:
         fast=False,
     )
     picture = Image.fromarray(client.draw(scene))
-    layer = Layer(SIZE)
+    layer = Layer(LARGE)
     _lengths(layer, scene.camera)
     anchors = []
     for i, (S, T) in enumerate(zip(rows, T_zero, strict=True)):
@@ -68,17 +69,17 @@ def dh_roulette() -> Image.Image:
         SIZE,
         Camera((0.1, 0.0, 0.53), 2.4, np.radians(125.0), np.radians(-12.0)),
     )
-    layer = Layer(SIZE)
+    layer = Layer(LARGE)
     random = verify.random_q(panda.load("panda_nohand"), 20, SEED)
     median = {k: np.median(v) for k, v in distances(FRANKA_DH, random).items()}
     for i, (name, read) in enumerate(READINGS.items()):
         poses = read(FRANKA_DH, SHOWN_Q)
-        seen = scene.camera.project(poses[:, :3, 3], SIZE)[:, :2]
+        seen = scene.camera.project(poses[:, :3, 3], LARGE)[:, :2]
         _polyline(layer, seen, GHOSTS[i], width=14 if i == 3 else 6)
-        y = 60.0 + 46.0 * i
-        layer.line([(40.0, y), (90.0, y)], GHOSTS[i], 8)
+        y = (60.0 + 46.0 * i) * SMOOTH
+        layer.line([(40.0 * SMOOTH, y), (90.0 * SMOOTH, y)], GHOSTS[i], 8)
         words = f"{1000 * median[name]:.0f} mm  {name}"
-        layer.text((110.0 * 3, y * 3), words, "lm")
+        layer.text((110.0 * SMOOTH, y), words, "lm")
     return layer.over(Image.fromarray(client.draw(scene)))
 
 
@@ -87,30 +88,34 @@ def _axis(layer: Layer, camera: Camera, S: Array, origin: Array, i: int) -> Arra
     omega = S[:3]
     # Three of the seven are one line: draw each where its own link is.
     ends = np.array([origin - HALF / 2 * omega, origin + HALF * omega])
-    start, tip = (tuple(p) for p in camera.project(ends, SIZE)[:, :2])
+    start, tip = (tuple(p) for p in camera.project(ends, LARGE)[:, :2])
     layer.arrow(start, tip, HALO, 4)
     layer.arrow(start, tip, AXES[i], 0)
     across = np.cross(omega, [1.0, 0.0, 0.0])
     angles = np.radians(np.linspace(0.0, 290.0, 40))
     circle = np.array([exp_rotation(omega, x) @ across for x in angles])
-    points = camera.project(ends[0] + 0.85 * (ends[1] - ends[0]) + ROUND * circle, SIZE)
+    points = camera.project(
+        ends[0] + 0.85 * (ends[1] - ends[0]) + ROUND * circle, LARGE
+    )
     _polyline(layer, points[:-3, :2], AXES[i], THIN)
     layer.arrow(tuple(points[-4, :2]), tuple(points[-1, :2]), AXES[i], 0)
-    return camera.project(origin + 0.6 * HALF * omega, SIZE)[:2]
+    return camera.project(origin + 0.6 * HALF * omega, LARGE)[:2]
 
 
 def _labels(layer: Layer, anchors: Array) -> None:
     """Write each screw's name in a column at the right, with a leader."""
-    tops = np.linspace(130.0, SIZE[1] - 250.0, len(anchors))
+    tops = np.linspace(130.0, SIZE[1] - 250.0, len(anchors)) * SMOOTH
     for top, i in zip(tops, np.argsort(anchors[:, 1]), strict=True):
-        layer.label(f"S{i + 1}", (760.0, float(top)), tuple(map(float, anchors[i])))
+        layer.label(
+            f"S{i + 1}", (760.0 * SMOOTH, float(top)), tuple(map(float, anchors[i]))
+        )
 
 
 def _lengths(layer: Layer, camera: Camera) -> None:
     """Draw how far the axes are apart, with ticks, and the origin's frame."""
 
     def seen(x: float, z: float) -> tuple[float, float]:
-        at = camera.project(np.array([x, 0.0, z]), SIZE)
+        at = camera.project(np.array([x, 0.0, z]), LARGE)
         return float(at[0]), float(at[1])
 
     for z, x in HEIGHTS.items():
@@ -120,16 +125,16 @@ def _lengths(layer: Layer, camera: Camera) -> None:
         if start[0] == end[0]:
             layer.arrow(a, b, INK, -2)
             layer.arrow(b, a, INK, -2)
-            middle = (3 * (a[0] + b[0]) / 2 - 42, 3 * (a[1] + b[1]) / 2)
+            middle = ((a[0] + b[0]) / 2 - 42, (a[1] + b[1]) / 2)
             layer.text(middle, words, "rm")
         else:  # too short for two arrows
             layer.line([a, b], INK, 4)
-            layer.text((3 * b[0] + 42, 3 * b[1]), words, "lm")
+            layer.text((b[0] + 42, b[1]), words, "lm")
     x, y = seen(0.0, 0.0)
-    tips = [seen(0.15, 0.0), camera.project(np.array([0, 0.15, 0.0]), SIZE)[:2]]
+    tips = [seen(0.15, 0.0), camera.project(np.array([0, 0.15, 0.0]), LARGE)[:2]]
     for name, tip in zip("xy", tips, strict=True):
         layer.arrow((x, y), (float(tip[0]), float(tip[1])), INK, -1)
-        layer.text((3 * float(tip[0]) + 30, 3 * float(tip[1]) + 36), name, "mm")
+        layer.text((float(tip[0]) + 30, float(tip[1]) + 36), name, "mm")
 
 
 def _polyline(
@@ -142,7 +147,7 @@ def _polyline(
     for a, b in pairwise(pixels):
         layer.line([a, b], colour, width)
     for x, y in pixels if width > THIN else []:
-        layer.dot((x * 3, y * 3), INK, 5)
+        layer.dot((x, y), INK, 5)
 
 
 FIGURES = {

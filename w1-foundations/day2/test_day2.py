@@ -216,6 +216,7 @@ def test_the_wrong_adjoint_does_not_hide_in_a_tilted_tool(arm, turn, hides):
     mm, deg = off(screws.fk_body(B, M, q), screws.fk_space(S, M, q))
     if hides:
         assert deg.max() < 1e-5
+        assert f"Only the 88 mm become {np.median(mm[2:]):.0f}." in GUIDE
     else:
         assert f"off by {np.median(deg[2:]):.0f} degrees, the median of the" in GUIDE
         assert f"and the hand by {np.median(mm[2:]):.0f} mm: a tilted M" in GUIDE
@@ -322,3 +323,14 @@ def test_the_tab_applies_one_exponential_at_a_time():
         frame = "site:attachment_site" if name == "ee" else f"body:{name}"
         pose = verify.mujoco_poses(model, page.q[None])[frame][0]
         assert_same(lab.fk_space(*args), pose, 1e-14)
+
+
+def test_the_folded_answers_on_paper_are_the_arms_screws():
+    seven = panda.screws(panda.load("panda_nohand"))
+    assert_same(seven[1], [0, 1, 0, -0.333, 0, 0], 1e-9)
+    assert_same(seven[3], [0, -1, 0, 0.649, 0, -0.0825], 1e-9)
+    assert_same(seven[[0, 2, 4]], np.tile([0, 0, 1, 0, 0, 0], (3, 1)), 1e-9)
+    assert not seven[:, 0].any()  # no turn about x, and it is the rank that is lost
+    assert np.linalg.matrix_rank(seven) == np.linalg.matrix_rank(seven[:, 1:]) == 5
+    for answer in ("= (-0.333, 0, 0)$", "= (0.649, 0, -0.0825)$"):
+        assert answer in GUIDE

@@ -60,8 +60,8 @@ def _(screws, q):
       have moved its screw => the screws as columns
     last-joint-only: each screw is moved by the one joint before it; all joints before
       it move it => the Jacobian with one exponential per column
-    product-reversed: the exponentials are multiplied in the reverse order: the first
-      joint's stands on the left => the Jacobian with the reversed product
+    product-reversed: the exponentials are multiplied in the reverse order; the first
+      joint's belongs on the left => the Jacobian with the reversed product
     one-joint-late: each screw lacks the motion of the joint right before it: the
       product is used before that joint is in it => the Jacobian one joint late
     moved-by-the-next: each screw is moved by the joint behind it too, which it does not

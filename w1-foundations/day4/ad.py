@@ -71,7 +71,7 @@ def _(V):
 
 
 @row.wrong(
-    "off", hidden="the lab's twists all turn"
+    "part-off", hidden="the lab's twists all turn"
 )  # What does not turn is forgotten.
 def _(V):
     return dynamics.ad(V) if V[:3].any() else np.zeros((6, 6))

@@ -17,7 +17,7 @@ from PIL import Image
 
 from labkit.figures import chart, client, portrait
 from labkit.figures.chart import BLUE, GREEN, GREY, INK, ORANGE, RED
-from labkit.figures.overlay import HALO, Layer
+from labkit.figures.overlay import HALO, SMOOTH, Layer
 from labkit.figures.scene import Box, Camera, Scene
 from robo47 import capstone, scenes, se3
 from robo47.checks import Array
@@ -38,6 +38,7 @@ ROWS = (
 )
 SAMPLES = 2000  # times at which the curves are drawn
 SIZE = (1200, 900)
+LARGE = (SIZE[0] * SMOOTH, SIZE[1] * SMOOTH)  # of the sheet over it
 WAY = (224, 49, 49)
 WOOD, PAINT = (0.80, 0.72, 0.60, 1.0), (0.95, 0.55, 0.15, 1.0)
 
@@ -130,10 +131,10 @@ def _sampled(scaling: Callable[[float], Array], seconds: float, T: float) -> Arr
 
 def _with_way(scene: Scene, pieces: list[Array]) -> Image.Image:
     """Draw a scene, and over it lines through points, (n, 3) each."""
-    layer = Layer(SIZE)
+    layer = Layer(LARGE)
     for colour, width in ((HALO, 9), (WAY, 5)):
         for piece in pieces:
-            pixels = scene.camera.project(piece, SIZE)[:, :2]
+            pixels = scene.camera.project(piece, LARGE)[:, :2]
             for a, b in pairwise(pixels):
                 layer.line([tuple(map(float, a)), tuple(map(float, b))], colour, width)
     return layer.over(Image.fromarray(client.draw(scene)))

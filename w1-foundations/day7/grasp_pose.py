@@ -24,6 +24,7 @@ def _(rng):
     yaw = quarters * np.pi / 2 + rng.uniform(-0.7, 0.7, 5)
     yaw = [np.radians(80.0), 0.3, -0.5, np.radians(-130.0), *rounded(yaw)]
     place = rng.numbers(0.1, 0.7, len(yaw), 3)
+    place[1, 2] *= -1.0  # a cube lower than the arm stands
     above = map(float, rng.numbers(0.02, 0.3, len(yaw)))
     rows = list(zip(se3.make_T(se3.Rz(np.array(yaw)), place), above, strict=True))
     p = np.array([0.55, -0.15, 0.22])

@@ -38,7 +38,7 @@ FRANKA_DH = np.array([
 
 
 def skew(w: np.ndarray) -> np.ndarray:
-    """Return [w], (3, 3), the matrix that does "cross w with": [w] p = w x p.
+    """Return [w], (3, 3), the matrix that takes p to w x p.
 
     skew((0, 0, 1)) takes (1, 0, 0) to (0, 1, 0).
     """

@@ -24,7 +24,7 @@ LIBRARY_TRIALS = 2_000  # and the library; MuJoCo's own answers take most of the
 SEED = 47  # the same random motions at every run
 FASTEST, HARDEST = 2.0, 10.0  # rad/s and rad/s^2 in them; real motors do about that
 PUSH = np.array([0.0, 10.0, 0.0])  # newtons on the hand; 50 drive it into its limits
-RATE = 50.0  # Hz, of the loops in step 7; gravity is in no hurry: 10 will do
+RATE = 50.0  # Hz, of the loops in step 7; slower ones brake the glide, 500 do not
 
 
 def spatial_inertia(m: float, c: np.ndarray, inertia: np.ndarray) -> np.ndarray:

@@ -1,6 +1,7 @@
 """8.3 `arm_regressor(J_space, T_links, qd, qdd, g)`: its questions and its mistakes."""
 
 import itertools
+from functools import partial
 
 import numpy as np
 
@@ -8,13 +9,14 @@ from labkit.judge import Matrix, Row
 from labkit.judge.argument_mistakes import Change
 from robo47 import dynamics
 from robo47.identification import arm_regressor, inertia_of, link_regressor
-from robo47.screws import ad, adjoint
+from robo47.screws import ad, adjoint, skew
 from robo47.se3 import inverse
 
-from .states import DOWN, moving
+from .states import DOWN, NUMBERS, moving
 
 ROWS = tuple(f"the row of joint{i}" for i in range(1, 8))
-row = Row(Matrix((7, 70), rows=ROWS, scale=10.0))
+LINKS = tuple(f"link{i}" for i in range(1, 8))
+row = Row(Matrix((7, 70), rows=ROWS, columns=NUMBERS, blocks=LINKS, scale=10.0))
 
 
 @row.inputs
@@ -34,24 +36,39 @@ def walk(
     into=lambda T: adjoint(inverse(T)),
     back=lambda X: X.T,
     felt=lambda i: slice(0, i + 1),
+    pose=lambda T, i: T[i],
+    links=7, carried=1.0, passed_on=1.0, per_speed=False, late=False, both=True,
 ):  # fmt: skip
     """Return Y by the walk out along the arm, with other parts.
 
     `falls`, `own` and `turned` are factors of the base's and a joint's acceleration;
     `into` makes X of a pose, `back` what the wrench comes back with of X; `felt` says
-    which joints feel link i.
+    which joints feel link i, `pose` where it is, `links` how many there are. `carried`
+    and `passed_on` are factors of the V and A of the link before, `per_speed` leaves qd
+    out of ad(V) S qd, `late` uses V before it is added to, and without `both` A is left
+    in the world's axes.
     """
     V = np.zeros(6)
-    A = falls * np.append(np.zeros(3), -g)
+    base = A = falls * np.append(np.zeros(3), -g)
     Y = np.zeros((7, 70))
-    for i, S in enumerate(J.T):
-        V = V + S * qd[i]
-        A = A + own * S * qdd[i] + turned * ad(V) @ S * qd[i]
-        X = into(T[i])
+    for i, S in enumerate(J.T[:links]):
+        before = V
+        V = carried * V + S * qd[i]
+        turns = turned * ad(V) @ S * (1.0 if per_speed else qd[i])
+        A = base + passed_on * (A - base) + own * S * qdd[i] + turns
+        X = into(pose(T, i))
         at = felt(i)
-        costs = back(X) @ link_regressor(X @ V, X @ A)
+        turned_in = X @ A if both else A
+        costs = back(X) @ link_regressor(X @ (before if late else V), turned_in)
         Y[at, 10 * i : 10 * i + 10] = J[:, at].T @ costs
     return Y
+
+
+def below(corner, T):
+    """Return R^T twice on the diagonal, with another lower corner."""
+    X = np.kron(np.eye(2), T[:3, :3].T)
+    X[3:, :3] = corner
+    return X
 
 
 for slug, says, other in (
@@ -89,8 +106,36 @@ for slug, says, other in (
      "carries its own link and those after it", {"felt": lambda i: slice(i, 7)}),
     ("own-link-only", "each joint feels its own link only; it carries those after it, "
      "too", {"felt": lambda i: slice(i, i + 1)}),
+    ("cut-late", "a joint feels the link before its own as well: the slice ends one "
+     "too late", {"felt": lambda i: slice(0, i + 2)}),
+    ("last-link-missing", "the last link's columns are empty: the loop ends one too "
+     "early", {"links": 6}),
+    ("pose-of-the-link-before", "each link has the pose of the one before it; "
+     "T_links[0] is link1's already", {"pose": lambda T, i: T[max(i - 1, 0)]}),
+    ("pose-of-the-link-before", "each link has the pose of the one before it; "
+     "T_links[0] is link1's already", {"pose": lambda T, i: T[i - 1]}),
+    ("pose-of-the-link-before", "each link has the pose of the one before it; "
+     "T_links[0] is link1's already",
+     {"pose": lambda T, i: T[i - 1] if i else np.eye(4)}),
+    ("pose-on-the-link-before", "T_links are poses in the world; they are taken for "
+     "those of one link on the one before, or made into them",
+     {"pose": lambda T, i: inverse(T[i - 1]) @ T[i] if i else T[0]}),
+    ("p-sign", "p has the wrong sign in X: below stands -R^T [p] in Ad(T^-1)",
+     {"into": lambda T: below(T[:3, :3].T @ skew(T[:3, 3]), T)}),
+    ("p-before-R", "in X [p] stands on the wrong side of R^T: p is in world axes, so "
+     "-R^T [p]", {"into": lambda T: below(-skew(T[:3, 3]) @ T[:3, :3].T, T)}),
+    ("p-before-R", "in X [p] stands on the wrong side of R^T: p is in world axes, so "
+     "-R^T [p]", {"into": lambda T: below(skew(T[:3, 3]) @ T[:3, :3].T, T)}),
+    ("twist-starts-anew", "each link's V is its own joint's alone; those before it "
+     "carry it along", {"carried": 0.0}),
+    ("acceleration-starts-anew", "each link's A is the base's and its own joint's; "
+     "those before it carry it along", {"passed_on": 0.0}),
+    ("bracket-without-qd", "ad(V) S is not multiplied by qd", {"per_speed": True}),
+    ("acceleration-not-turned", "V is turned into the link, A is not", {"both": False}),
+    ("twist-too-late", "V is used before the link's own S qd is added: it is the link "
+     "before's", {"late": True}),
 ):  # fmt: skip
-    row.wrong(slug, says, "the Y so")(lambda *args, other=other: walk(*args, **other))
+    row.wrong(slug, says, "the Y so")(partial(walk, **other))
 
 
 @row.wrong

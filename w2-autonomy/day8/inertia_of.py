@@ -27,6 +27,8 @@ def _(phi):
       entries of I as they stand in it => the right one with -Ixy, -Ixz, -Iyz
     row-by-row: the six are read as Ixx, Ixy, Iyy, Ixz, Iyz, Izz, which is the order of
       other software; here the diagonal comes first => I in that order
+    products-in-another-order: the last three are read as Ixy, Iyz, Ixz; here Ixz comes
+      before Iyz => the right one with those two swapped
     first-moment-times-m: phi[1:4] is multiplied by m; it is m c already, which keeps
       all of it linear => the right one with m [h] for [h]
     corners-swapped: the corners are swapped: [h] stands at the upper right, [h]^T at
@@ -36,6 +38,7 @@ def _(phi):
     changed = {
         "products-negative": [m, *h, *phi[4:7], *-phi[7:]],
         "row-by-row": phi[[0, 1, 2, 3, 4, 6, 9, 5, 7, 8]],
+        "products-in-another-order": phi[[0, 1, 2, 3, 4, 5, 6, 7, 9, 8]],
         "first-moment-times-m": [m, *(m * phi[1:4]), *phi[4:]],
         "corners-swapped": [m, *-phi[1:4], *phi[4:]],
     }

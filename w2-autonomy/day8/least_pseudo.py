@@ -4,6 +4,7 @@ import numpy as np
 
 from labkit.judge import Row, Scalar
 from robo47.identification import inertia_of
+from robo47.screws import skew
 
 from .states import bodies, real_bodies
 
@@ -23,6 +24,13 @@ def pseudo(phi, spread=lambda I: np.trace(I) / 2 * np.eye(3) - I, h=1.0):  # noq
     first = h * phi[1:4, None]
     corner = spread(inertia_of(phi)[:3, :3])
     return np.block([[corner, first], [first.T, phi[0]]])
+
+
+def moved(phi, I):  # noqa: E741
+    """Return the upper left of I about the centre of mass."""
+    C = skew(phi[1:4])
+    about = I - C @ C.T / phi[0]
+    return np.trace(about) / 2 * np.eye(3) - about
 
 
 for slug, says, redone, code in (
@@ -50,9 +58,19 @@ for slug, says, redone, code in (
     ("trace-in-thirds", "the trace is divided by 3; r.r is counted twice in it, so by "
      "2", "with tr(I) / 3", lambda phi: np.linalg.eigvalsh(
          pseudo(phi, lambda I: np.trace(I) / 3 * np.eye(3) - I))[0]),  # noqa: E741
-    ("first-moment-once", "h stands in the upper half only; what asks for a symmetric "
-     "matrix reads the lower one", "with h above only", lambda phi: np.linalg.eigvalsh(
+    ("first-moment-once", "h counts for nothing: it is missing, or stands in the upper "
+     "half only, and what asks for a symmetric matrix reads the lower one", "without h",
+     lambda phi: np.linalg.eigvalsh(
          np.triu(pseudo(phi)) + np.triu(pseudo(phi, h=0.0), 1).T)[0]),
+    ("about-the-centre", "I is moved to the centre of mass first; m r r^T is summed "
+     "about the origin, where I is", "with I about the centre",
+     lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: moved(phi, I)))[0]),  # noqa: E741
+    ("of-the-inertia", "this is the least eigenvalue of the 6x6 inertia; the 4x4 "
+     "matrix has tr(I)/2 1 - I and h", "that of the 6x6 inertia",
+     lambda phi: np.linalg.eigvalsh(inertia_of(phi))[0]),
+    ("unsorted", "numpy.linalg.eigvals returns the eigenvalues in no order, so its "
+     "first is any of them", "the first of numpy.linalg.eigvals",
+     lambda phi: np.linalg.eigvals(pseudo(phi))[0].real),
     ("largest", "this is the largest eigenvalue", "the largest",
      lambda phi: np.linalg.eigvalsh(pseudo(phi))[-1]),
 ):  # fmt: skip

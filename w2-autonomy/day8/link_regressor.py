@@ -34,11 +34,18 @@ def _(V, A):
     acceleration-in-the-velocity-product: the velocity product has G A; what is carried
       along is the momentum, G V => G A - ad(V)^T G A
     arguments-swapped: V and A are swapped => G V - ad(A)^T G A
+    unit-vector-not-reset: the ones of the columns before are not taken away again:
+      column k is the wrench of the first k numbers together => columns added up
+    gravity-added: 9.81 is added to A; what falls is in A already, as a base that
+      accelerates upwards => the right one with A + (0, 0, 0, 0, 0, 9.81)
+    reshaped: (10, 6) is reshaped to (6, 10), which only counts the numbers off anew;
+      columns become rows by .T => the right one with its numbers so
     force-first: the rows are (force; moment); the moment's three come first
     """
     X = ad(V)
     G = inertia_of(np.eye(10))
     forces, momenta = (G @ A).T, (G @ V).T
+    right = link_regressor(V, A)
     return {
         "ad-not-transposed": forces - X @ momenta,
         "ad-not-transposed-plus": forces + X @ momenta,
@@ -46,7 +53,10 @@ def _(V, A):
         "velocity-product-forgotten": forces,
         "acceleration-in-the-velocity-product": forces - X.T @ forces,
         "arguments-swapped": link_regressor(A, V),
-        "force-first": link_regressor(V, A)[SWAP],
+        "unit-vector-not-reset": np.cumsum(right, axis=1),
+        "gravity-added": link_regressor(V, A + UP),
+        "reshaped": right.T.reshape(6, 10),
+        "force-first": right[SWAP],
     }
 
 

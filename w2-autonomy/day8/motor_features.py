@@ -3,8 +3,33 @@
 import numpy as np
 
 from labkit.judge import Matrix, Row
+from labkit.judge.ask import Case
+from labkit.judge.mistake import Finding
 
-row = Row(Matrix((7, 21)), at_edge=lambda qd, qdd: bool(qd.all()))  # 0: a sign jumps
+
+def slow(case: Case) -> Finding | None:
+    """Say that dry friction grows with the speed, where that is all that is wrong."""
+    pairs = [(case.S, case.T)]
+    if case.further:
+        pairs.append((case.further.S[0], case.further.T[0]))
+    for S, T in pairs:
+        if np.abs(S - T)[..., :14].max() > 1e-6:
+            return None
+        size = np.abs(S[..., 14:])
+        same_sign = (S * T)[..., 14:] >= 0
+        if not (same_sign & (size <= np.abs(T[..., 14:]))).all():
+            return None
+    says = "A joint that moves slowly gets less dry friction than a fast one, or none. "
+    says += "It has one size, whatever the speed: the sign says which way it works."
+    return Finding("slow-left-out", says)
+
+
+BLOCKS = ("the rotors", "viscous friction", "dry friction")
+row = Row(
+    Matrix((7, 21), blocks=BLOCKS),
+    at_edge=lambda qd, qdd: bool(qd.all()),  # 0: a sign jumps
+    unnamed=slow,
+)
 FIRST = np.eye(7)[0]
 
 
@@ -13,6 +38,7 @@ def _(rng):
     # The middle of a range is asked, too, and 0 is where a sign jumps.
     qd, qdd = rng.numbers(-2, 3, 6, 7), rng.numbers(-9, 9, 6, 7)
     qd[[0, 1, 2], [2, 5, 3]] = 0.0, 0.01, 1e-4  # a joint at rest; two that hardly move
+    qd[[3, 4, 5], [0, 4, 6]] = 0.0
     return [(0.5 * FIRST, 2.0 * FIRST), *zip(qd, qdd, strict=True)]
 
 
@@ -33,6 +59,12 @@ for slug, says, redone, blocks in (
     ("sign-at-rest-negative", "a joint at rest is given a direction, backwards; "
      "sign(0) is 0", "-1 where qd is 0",
      lambda qd, qdd: (qdd, qd, np.where(qd > 0.0, 1.0, -1.0))),
+    ("sign-at-rest-of-qdd", "a joint at rest is given the direction of its "
+     "acceleration; sign(0) is 0", "sign(qdd) where qd is 0",
+     lambda qd, qdd: (qdd, qd, np.where(qd == 0.0, np.sign(qdd), np.sign(qd)))),
+    ("slow-left-out", "a joint that moves slowly gets no dry friction; it has one "
+     "size, whatever the speed", "0 where |qd| is under 0.1",
+     lambda qd, qdd: (qdd, qd, np.sign(qd) * (np.abs(qd) >= 0.1))),
     ("dry-forgotten", "dry friction is missing: its seven columns are 0",
      "the last block empty", lambda qd, qdd: (qdd, qd, 0 * qd)),
     ("friction-drives", "friction has a minus; the motors give this torque against it",

@@ -6,9 +6,14 @@ from labkit.judge import Row, Vector
 from labkit.judge.argument_mistakes import TRANSPOSED, Change
 from robo47.screws import skew
 
-from .states import DOWN, SWAP, hands
+from .states import DOWN, SWAP, alike, hands
 
 row = Row(Vector((4,), names=("m", "m cx", "m cy", "m cz")), near=1e-6)
+row.same(
+    "return np.linalg.lstsq(rows.reshape(-1, 4), extra.ravel(), rcond=None)[0] => "
+    "return np.linalg.lstsq(rows.reshape(-2, 4), extra.ravel(), rcond=None)[0]",
+    "NumPy takes any negative number for the one that it works out",
+)
 
 
 @row.inputs
@@ -18,6 +23,7 @@ def _(rng):
     slide[:, 5, 0], extra[:, 0] = 1.0, 9.81
     return [
         (slide, np.array([np.eye(3)] * 5), extra, DOWN),
+        alike(rng),
         *hands(rng),
         *hands(rng, 4, 2),
     ]
@@ -31,9 +37,9 @@ def rows(J_site, R_site, g, moment=-1.0, order=slice(None)):
     return -np.swapaxes(J_site, 1, 2) @ W[:, order]
 
 
-def solved(Y, extra):
+def solved(Y, extra, rcond=None):
     """Return m and m c."""
-    return np.linalg.lstsq(Y.reshape(-1, 4), extra.reshape(-1), rcond=None)[0]
+    return np.linalg.lstsq(Y.reshape(-1, 4), extra.reshape(-1), rcond=rcond)[0]
 
 
 @row.wrongs
@@ -41,17 +47,38 @@ def _(J_site, R_site, extra, g):
     """load-drives: the sign is that of what the load does to the arm; the motors hold
       against it => the right one with +J^T
     moment-sign: the moment has the wrong sign: c x m g is -[g] m c, and its centre
-      comes out on the other side => with +[g] R
+      comes out on the other side => the right one with +[g] R
     force-first: the wrench is (force; moment); J has its angular rows first
     R-forgotten: R is not in it: m c is taken to stand in world axes all along
     holds-averaged: the holds are averaged before they are solved: seven rows are left
       of all, and what the poses tell apart is gone; stack them
     first-hold-only: only the first hold is used; one pose does not show all four
     R-of-the-first-hold: the first hold's R is used for all; each pose has its own
+    R-of-the-last-hold: the last hold's R is used for all; each pose has its own
+    last-hold-only: only the last hold is used: what the loop made of the others is
+      overwritten; stack them
+    last-hold-missing: the last hold does not count: the loop ends one too early
+    first-hold-missing: the first hold does not count: the loop starts one too late
+    extra-by-joint: extra is read joint by joint, and the rows are stacked hold by hold:
+      each pair is of two different torques => the right one with extra
+      in that order
+    reshaped: J_site is reshaped to (k, 7, 6), which only counts the numbers off anew;
+      the transpose swaps the last two axes => the right one with J
+      reshaped
+    wrenches-first: each hold's torques are turned into a wrench, and the wrenches are
+      fitted; what the motors measured are torques, so stack their rows => the fit to
+      wrenches
+    cut-too-high: small singular values are left out: what holds that are much alike
+      show of m c is left out with them => the right one, cut
+    cut-too-high 2: small singular values are left out: what holds that are much alike
+      show of m c is left out with them => the right one, cut
+    cut-too-high 3: small singular values are left out: what holds that are much alike
+      show of m c is left out with them => the right one, cut
     solutions-averaged: each hold is solved alone, and the mean taken; one pose does not
       show all four, so stack them
     g-turned-after-the-cross: R stands on the left of [g]: m c is turned into the world
-      first, so [g] R => with R [g]
+      first, so [g] R => the right one with
+      R [g]
     centre-for-first-moment: the last three are c; asked for is m c, which is what is
       linear => m, then c
     """
@@ -59,6 +86,7 @@ def _(J_site, R_site, extra, g):
     left = Y.copy()
     left[..., 1:] = np.swapaxes(J_site[:, :3], 1, 2) @ R_site @ skew(g)
     right = solved(Y, extra)
+    as_wrenches = np.linalg.pinv(np.swapaxes(J_site, 1, 2))
     return {
         "load-drives": -right,
         "moment-sign": solved(rows(J_site, R_site, g, moment=1.0), extra),
@@ -67,6 +95,18 @@ def _(J_site, R_site, extra, g):
         "holds-averaged": solved(Y.mean(axis=0), extra.mean(axis=0)),
         "first-hold-only": solved(Y[0], extra[0]),
         "R-of-the-first-hold": solved(rows(J_site, 0 * R_site + R_site[0], g), extra),
+        "R-of-the-last-hold": solved(rows(J_site, 0 * R_site + R_site[-1], g), extra),
+        "last-hold-only": solved(Y[-1], extra[-1]),
+        "last-hold-missing": solved(Y[:-1], extra[:-1]),
+        "first-hold-missing": solved(Y[1:], extra[1:]),
+        "extra-by-joint": solved(Y, extra.T),
+        "reshaped": solved(
+            rows(np.swapaxes(J_site.reshape(-1, 7, 6), 1, 2), R_site, g), extra
+        ),
+        "wrenches-first": solved(as_wrenches @ Y, as_wrenches @ extra[..., None]),
+        "cut-too-high": solved(Y, extra, 0.3),
+        "cut-too-high 2": solved(Y, extra, 0.1),
+        "cut-too-high 3": solved(Y, extra, 0.01),
         "solutions-averaged": np.mean(
             [solved(one, tau) for one, tau in zip(Y, extra, strict=True)], axis=0
         ),

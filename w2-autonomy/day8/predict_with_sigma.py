@@ -3,20 +3,24 @@
 import numpy as np
 
 from labkit.judge import Row, Vector
+from labkit.judge.argument_mistakes import Change
 from robo47.identification import predict_with_sigma
 
-from .fit import parts, scaled
-from .states import CUT, regressors, uneven
+from .fit import asked, parts, scaled
+from .states import CUT, hidden
 
 row = Row(tuple(Vector((None,), "N m", called=x) for x in ("the torque", "sigma")))
+row.at_least_0(rtol="a tolerance")
 CASE = np.ones((4, 1)), np.array([1.0, 3.0, 1.0, 3.0]), np.ones((1, 1)), 1e-9
 row.reached_by("fit", "in fit, ")
 
 
 @row.inputs
 def _(rng):
-    drawn = []
-    for Y in [uneven(rng, 5.0), uneven(rng, 8.0), *regressors(rng)]:
+    exact = hidden(rng)
+    new = rng.numbers(-1, 1, 5, 6)
+    drawn = [(exact, scaled(rng, exact), new, 1e-9)]
+    for Y in asked(rng):
         new = rng.numbers(-1, 1, 5, 6) * np.linalg.norm(Y, 2)
         drawn.append((Y, scaled(rng, Y), new, CUT))
     return [CASE, *drawn]
@@ -36,22 +40,36 @@ def _(Y, tau, Y_new, rtol):
       times the noise
     noise-added: the noise of a new measurement is added; sigma is that of the
       prediction => the root of sigma^2 + noise^2
-    mean-taken-off: the mean of what is left is taken off first; it is noise as well,
-      and the rank has counted it already
+    mean-taken-off: the mean of what is left is taken off first, as a standard deviation
+      does; it is a part of the noise
     variance: this is the variance; sigma is its root => sigma squared
     noise-left-out: the noise is missing: this is how much a fit amplifies it
     noise-for-sigma: this is the noise for every row; a motion that was never shown is
       less sure => the noise
+    not-divided-by-s: sigma lacks the singular values: what the motion shows little of
+      is as sure as the rest => sigma with 1 for s
+    times-s: sigma is multiplied by the singular values; the fit divides by them, and so
+      does sigma => sigma with s for 1 / s
+    sigma-by-s-squared: sigma is divided by s twice: (Y^T Y)^-1 is V S^-2 V^T, and the
+      root of y^T (Y^T Y)^-1 y has one S^-1 => sigma with s^2 for s
+    sigma-with-V: numpy.linalg.svd returns V^T; in sigma it is taken for V => sigma with
+      V for V^T
+    sigma-cut-not-squared: in sigma the cut is made on Y^T Y, whose values are squares,
+      and is not squared => sigma with the pseudo-inverse of Y^T Y cut at rtol
+    sizes-added: the sizes of the row's entries are added up; independent noise adds up
+      by squares, so it is the row's length => sigma with the sum of sizes
     sigma-not-cut: the fit leaves small singular values out, sigma does not, as by Y^T Y
       inverted => the right torque, sigma with nothing cut
     """
     torque, sigma = predict_with_sigma(Y, tau, Y_new, rtol)
-    U, s, _ = parts(Y, rtol)
+    U, s, Vt = parts(Y, rtol)
     n, p = Y.shape
     left = n - len(s)
     rest = tau - U @ (U.T @ tau)
     noise = np.linalg.norm(rest) / np.sqrt(left)
     _, every, along = parts(Y, 0.0)
+    back = np.linalg.pinv(Y.T @ Y, rcond=rtol)
+    seen = Y_new @ Vt.T
     sigmas = {
         "n-for-n-rank": sigma * np.sqrt(left / n),
         "columns-for-rank": sigma * np.sqrt(left / (n - p)),
@@ -63,9 +81,25 @@ def _(Y, tau, Y_new, rtol):
         "variance": sigma**2,
         "noise-left-out": sigma / noise,
         "noise-for-sigma": noise + 0 * sigma,
+        "not-divided-by-s": noise * np.linalg.norm(seen, axis=1),
+        "times-s": noise * np.linalg.norm(seen * s, axis=1),
+        "sigma-by-s-squared": noise * np.linalg.norm(seen / s**2, axis=1),
+        "sigma-with-V": noise * np.linalg.norm(Y_new @ along[:, : len(s)] / s, axis=1),
+        "sigma-cut-not-squared": noise
+        * np.sqrt(np.einsum("ij,jk,ik->i", Y_new, back, Y_new)),
+        "sizes-added": noise * np.abs(seen / s).sum(axis=1),
         "sigma-not-cut": noise * np.linalg.norm(Y_new @ along.T / every, axis=1),
     }
     return {slug: (torque, one) for slug, one in sigmas.items()}
+
+
+NOT_USED = Change(
+    "rtol-not-used",
+    "the cut is a fixed one; rtol is an argument, and the lab asks with another one",
+    lambda rtol: 1e-9,
+    "the right one with 1e-9 for rtol",
+)
+row.of_argument("rtol", NOT_USED)
 
 
 @row.wrong("answers-swapped", "the two answers are swapped: the torque comes first")

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from robo47 import panda, se3
+from robo47 import identification, panda, se3
 
 WRENCH = ("moment x", "moment y", "moment z", "force x", "force y", "force z")
 NUMBERS = ("m", "m cx", "m cy", "m cz", "Ixx", "Iyy", "Izz", "Ixy", "Ixz", "Iyz")
@@ -68,9 +68,48 @@ def uneven(rng, fifth, rows=20):
     return U * s @ V.T
 
 
+def spread(rng, n=4, rows=20):
+    """Return matrices, (rows, 6), whose values lie anywhere, but not near CUT.
+
+    What cuts elsewhere cuts another number of them sooner or later.
+    """
+    found = []
+    for _ in range(n):
+        s = np.append(1.0, 10.0 ** rng.uniform(-3, 0, 5))
+        s = np.where(np.abs(np.log(s / CUT)) < 0.2, 1.5 * s, s)
+        U = np.linalg.qr(rng.normal(size=(rows, 6)))[0]
+        V = np.linalg.qr(rng.normal(size=(6, 6)))[0]
+        found.append(100.0 * U * np.sort(s)[::-1] @ V.T)
+    return found
+
+
+def stairs(rng, rows=20):
+    """Return a matrix, (rows, 6), with values between the cuts that people make.
+
+    Of CUT 4 count, at 0.05 or at the root of CUT others, at CUT times rows others.
+    """
+    s = 100.0 * np.array([1.0, 0.07, 0.056, 0.006, 0.003, 0.001])
+    U = np.linalg.qr(rng.normal(size=(rows, 6)))[0]
+    V = np.linalg.qr(rng.normal(size=(6, 6)))[0]
+    return U * s @ V.T
+
+
 def hidden(rng, rows=40):
     """Return a matrix, (rows, 6), of rank 4 but for rounding."""
     return rng.normal(size=(rows, 4)) @ rng.normal(size=(4, 6))
+
+
+def alike(rng, k=3, turn=2e-3):
+    """Return holds that hardly differ: a hand that turns a little, and a known load.
+
+    A part of m c shows in the turn alone, so its singular value is that small.
+    """
+    R = se3.quat_to_R(rng.normal(size=4))
+    turns = se3.quat_to_R(np.insert(turn * rng.normal(size=(k, 3)), 0, 1.0, axis=1))
+    J = rng.numbers(-1, 1, k, 6, 7)
+    load = rng.numbers(1, 2, 4)
+    rows = identification.load_regressor(J, R @ turns, DOWN)
+    return J, R @ turns, rows @ load, DOWN
 
 
 def hands(rng, n=6, k=5):

@@ -1,24 +1,19 @@
 """Day 8: the numbers in the guide's sentences, every reason in it, and the tab."""
 
 import copy
-import io
 import re
-from contextlib import redirect_stdout
-from unittest.mock import patch
 
 import numpy as np
 import pytest
 from compare import assert_same
 
-from conftest import ROOT, load_script
+from conftest import ROOT, load_script, printed_by, sentences
 from robo47 import identification, panda, simulate
 from robo47.errors import Robo47Error
 
 import day8_mujoco
 
-GUIDE = (ROOT / "w2-autonomy/docs/day8-lab.md").read_text("utf-8")
-OWN = re.sub(r"<!-- run.*?<!-- end -->", "", GUIDE, flags=re.S)
-SENTENCES = " ".join(OWN.replace("*", "").split())
+SENTENCES = sentences(8)
 lab = load_script(ROOT / "w2-autonomy/src/day8_identification.py")
 model = panda.load("panda_nohand", drive="torque")
 arm = panda.arm(model)
@@ -45,17 +40,10 @@ def data():
 
 @pytest.fixture(scope="module")
 def printed():
-    """Return what the lab prints, 80 columns wide at most."""
+    """Return what the lab prints."""
     told = {"how many of 70 numbers show: links": "43",
             "sigma of the load, g: each from both sides": "20"}  # fmt: skip
-    with (
-        patch("sys.argv", ["lab", "--no-log"]),
-        patch("labkit.lesson.lab.predictions", lambda worksheet: told),
-        redirect_stdout(io.StringIO()) as out,
-    ):
-        assert lab.main() == 0
-    assert all(len(line) <= 80 for line in out.getvalue().splitlines())
-    return out.getvalue()
+    return printed_by(lab, told)
 
 
 def fitted(data, name, noise, rtol=lab.RTOL, known=0.0):
@@ -143,7 +131,7 @@ def test_the_fit_that_fools_is_wrong_without_noise_too_and_by_what_it_cut(
     row = r"cut, in metres +44 +883 +[\d.]+ +[\d.]+ +([\d.]+) +(\d+)%"
     sigma, inside = re.search(row, printed).groups()
     off = fitted(data, "swing", noises(lab.NOISE_SEED)[0], lab.CUT)[1]
-    assert f"wrong by {off:.1f} N m and says that it is sure to 1.8" in SENTENCES
+    assert f"wrong by {off:.1f} N m and claims to be sure to within 1.8" in SENTENCES
     assert f"sigma = {float(sigma):.1f} N m. It is {off:.1f} N m off" in SENTENCES
     assert f"only {inside} %" in SENTENCES
     exact = fitted(data, "swing", 0.0, lab.CUT)[1]
@@ -173,6 +161,49 @@ def test_the_unit_of_length_moves_a_fit_that_was_cut_and_no_other(data):
     near = [fitted(data, "swing", noise, cut, known)[1] for cut in (1e-2, 1e-3)]
     assert f"then {near[0]:.2f} N m off" in SENTENCES
     assert f"with 1e-3 it is {near[1]:.2f}" in SENTENCES
+
+
+def test_rows_of_the_same_motion_do_not_tell_which_cut_is_wrong_elsewhere(data):
+    Y, tau, fast = data["swing"]
+    known = day8_mujoco.numbers(arm)
+    noise = noises(lab.NOISE_SEED)[0]
+    Y, tau = Y[fast], (tau + noise)[fast] - Y[fast] @ known
+    fifths = np.array_split(np.random.default_rng(0).permutation(len(tau)), 5)
+
+    def left_out(cut):
+        off = []
+        for out in fifths:
+            rest = np.setdiff1d(np.arange(len(tau)), out)
+            off.append(Y[out] @ identification.fit(Y[rest], tau[rest], cut) - tau[out])
+        return lab.rms(np.concatenate(off))
+
+    near = [left_out(cut) for cut in (1e-2, 1e-3, 1e-4)]
+    far = [fitted(data, "swing", noise, cut, known)[1] for cut in (1e-2, 1e-3, 1e-4)]
+    words = "is {:.3f} N m off with 1e-2, {:.3f} with 1e-3 and {:.3f} with 1e-4"
+    assert words.format(*near) in SENTENCES
+    assert f"elsewhere says {far[2]:.2f}" in SENTENCES
+    assert near[2] < near[0] < 2 * near[2] < far[0] < far[1] < far[2]
+
+
+def test_numbers_in_the_sizes_that_one_expects_have_no_unit_of_length(data):
+    Y, tau, fast = data["swing"]
+    Y_new, truth, new = data["elsewhere"]
+    known = day8_mujoco.numbers(arm)
+    tau = (tau + noises(lab.NOISE_SEED)[0])[fast] - Y[fast] @ known
+    of_a_link = np.repeat([0.4, 0.03, 0.02], [1, 3, 6])
+    size = np.append(np.tile(of_a_link, 7), [0.5] * 21)
+    off = []
+    for per_metre in (1.0, 100.0):
+        unit = lab.lengths(per_metre)
+        for cut in (1e-2, 1e-3):
+            phi = identification.fit(Y[fast] / unit * (size * unit), tau, cut)
+            phi *= size
+            off.append(lab.rms((Y_new @ (known + phi) - truth)[new]))
+    assert off[:2] == pytest.approx(off[2:], rel=1e-6)
+    words = "{:.2f} N m with 1e-2, {:.2f} with 1e-3"
+    assert words.format(*off) in SENTENCES
+    divided = identification.fit(Y[fast] / size, tau, 1e-2) / size
+    assert lab.rms((Y_new @ (known + divided) - truth)[new]) > 3 * off[0]
 
 
 def test_one_frequency_and_a_small_reach_are_why_the_swing_shows_little():

@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from conftest import ROOT, load_script
+from conftest import ROOT, load_script, sentences
 from labkit.judge.row import rows_of
 from labkit.lesson.day import find_day
 from robo47 import identification, panda
@@ -16,8 +16,7 @@ import day8_mujoco
 
 DAY = find_day(8)
 GUIDE = (ROOT / "w2-autonomy/docs/day8-lab.md").read_text("utf-8")
-OWN = re.sub(r"<!-- run.*?<!-- end -->", "", GUIDE, flags=re.S)
-SENTENCES = " ".join(OWN.replace("*", "").split())
+SENTENCES = sentences(8)
 lab = load_script(ROOT / "w2-autonomy/src/day8_identification.py")
 model = panda.load("panda_nohand", drive="torque")
 arm = panda.arm(model)
@@ -159,7 +158,7 @@ def test_what_mistakes_cost_in_motion_and_at_rest():
         for value, words in zip(cost[slug], written, strict=True):
             assert f"{value:.{len(words.partition('.')[2])}f}" == words
     unseen = sum(rest < 1e-9 < moving for moving, rest in cost.values())
-    assert f"shows nothing of {unseen} of the {len(cost)} mistakes" in SENTENCES
+    assert f"reveals nothing about {unseen} of the {len(cost)} mistakes" in SENTENCES
 
 
 def test_mujoco_refuses_what_no_body_can_have():

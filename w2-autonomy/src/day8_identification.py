@@ -259,7 +259,8 @@ def judged(name: str, Y, tau, Y_new, truth, rtol: float) -> tuple[float, float]:
     rank, condition = identifiable(Y, rtol)
     condition = float(f"{condition:.3g}")
     phi = fit(Y, tau, rtol)
-    torque, sigma = predict_with_sigma(Y, tau, Y_new, rtol)
+    with np.errstate(divide="ignore"):  # as many rows as numbers: sigma is inf
+        torque, sigma = predict_with_sigma(Y, tau, Y_new, rtol)
     off = rms(torque - truth)
     inside = np.mean(np.abs(torque - truth) < 1.96 * sigma)
     digits = 2 if condition < 1e6 else -3  # above, rounding reaches the last ones

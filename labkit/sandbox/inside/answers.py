@@ -18,6 +18,7 @@ KEPT_OUTPUT, MOST_OUTPUT = 2_000, 2_000_000  # characters of what a call printed
 KEPT_TEXT = 2_000  # characters of an exception's text
 FLOOD = "it prints more than 2 MB in a call"
 EFFORT = 10_000  # for telling whether two arrays really overlap
+_MAY_CHANGE = {"array", "tuple", "list", "rows"}  # of arguments, as they are packed
 # As they are before student code.
 _exactly: Any = np.shares_memory
 _roughly: Any = np.may_share_memory
@@ -92,11 +93,11 @@ class Answers:
         return reply
 
     def _argument(self, packed: Any) -> Any:
-        if "model" in packed:
+        if packed and "model" in packed:
             return self.robots[packed["model"]]()
-        if "path" in packed:
+        if packed and "path" in packed:
             return [tuple(pair) for pair in packed["path"]]
-        return packed["number"] if "number" in packed else wire.unpack_value(packed)
+        return wire.unpack_value(packed)
 
     def _shares(self, value: Any, args: list[Any], names: list[str]) -> list[str]:
         """Return what an answer shares its memory with."""
@@ -152,11 +153,11 @@ def _names(function: Any, count: int) -> list[str]:
     return [known[i] if i < len(known) else f"{i + 1}" for i in range(count)]
 
 
-def _differs(arg: Any, packed: dict[str, Any]) -> bool:
+def _differs(arg: Any, packed: dict[str, Any] | None) -> bool:
     """Return whether an argument is no longer what was packed."""
-    if "path" in packed:
+    if packed and "path" in packed:
         return arg != [tuple(pair) for pair in packed["path"]]
-    if "array" not in packed and "tuple" not in packed:
+    if not packed or not packed.keys() & _MAY_CHANGE:
         return False
     try:
         return bool(wire.pack_value(arg) != packed)
@@ -169,7 +170,9 @@ def _arrays_of(value: Any) -> list[np.ndarray]:
     if isinstance(value, np.ndarray):
         return [value]
     if isinstance(value, (tuple, list)):
-        return [item for item in value if isinstance(item, np.ndarray)]
+        inner = [item for item in value if isinstance(item, (tuple, list))]
+        items = (item for some in (value, *inner) for item in some)
+        return [item for item in items if isinstance(item, np.ndarray)]
     parts = getattr(value, "__dict__", {}).values()  # a model's
     return [item for item in parts if isinstance(item, np.ndarray)]
 

@@ -1,4 +1,4 @@
-# task 6.4: off
+# task 6.4: entries-empty
 # Only the elbow joint may turn.
 import numpy as np
 

@@ -1,0 +1,121 @@
+"""What a function returns, result by result, as its row says.
+
+A row's kind is one kind, or a tuple of them, one for each result; a result may be such
+a tuple again. Flat, the results are the parts that are compared: arrays of numbers, in
+which a truth value is 0 or 1, and None is NaN.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from labkit.judge.kinds import Kind
+from labkit.judge.mistake import Finding
+from robo47.errors import Robo47Error
+
+Kinds = Kind | tuple[Any, ...]  # one of an answer, or of each of its results
+
+
+def checked(kind: Any, deep: int = 2) -> Kinds:
+    """Return the kind of an answer, where it is one.
+
+    Raises:
+        Robo47Error: it is none; says what to write.
+    """
+    if isinstance(kind, Kind):
+        return kind
+    if isinstance(kind, tuple) and deep and len(kind) > 1:
+        return tuple(checked(one, deep - 1) for one in kind)
+    remedy = "a kind of labkit.judge, such as Vector((3,)), or a tuple of several"
+    if isinstance(kind, type) and issubclass(kind, Kind):
+        remedy = f"{kind.__name__}(...), with its arguments"
+    elif isinstance(kind, tuple):
+        remedy = "the kind itself where there is one result, and tuples nested once"
+    raise Robo47Error(f"{kind!r} is no kind of an answer; expected is {remedy}")
+
+
+def flat_kinds(kind: Kinds) -> tuple[Kind, ...]:
+    """Return the kinds of an answer's parts."""
+    if isinstance(kind, Kind):
+        return (kind,)
+    return tuple(one for inner in kind for one in flat_kinds(inner))
+
+
+def places(kind: Kinds, so_far: str = "") -> tuple[str, ...]:
+    """Return where each part stands in an answer: "", or "[0]", "[1][0]" and so on."""
+    if isinstance(kind, Kind):
+        return (so_far,)
+    inner = (places(one, f"{so_far}[{i}]") for i, one in enumerate(kind))
+    return tuple(place for some in inner for place in some)
+
+
+def split(kind: Kinds, value: Any) -> tuple[Any, ...] | Finding:
+    """Return an answer's parts as they came, or what it is instead."""
+    if isinstance(kind, Kind):
+        return (value,)
+    if isinstance(value, np.ndarray) and value.ndim:  # a result in each row
+        value = tuple(value)
+    if not isinstance(value, tuple | list) or len(value) != len(kind):
+        expected = ", ".join(_expected(one) for one in kind)
+        says = f"expected are {len(kind)} results: {expected}"
+        several = isinstance(value, tuple | list)
+        got = f"{len(value)} results" if several else "one array"
+        got = repr(value) if isinstance(value, str | None) else got
+        return Finding("parts", f"It returns {got}; {says}.")
+    parts: tuple[Any, ...] = ()
+    for one, item in zip(kind, value, strict=True):
+        if isinstance(found := split(one, item), Finding):
+            return found
+        parts += found
+    return parts
+
+
+def numbers(kind: Kinds, value: Any) -> Any:
+    """Return a right or a mistaken answer as numbers: an array, or a tuple of them.
+
+    Raises:
+        ValueError: it has not the parts that its kind has.
+    """
+    if isinstance(kind, Kind):
+        return kind.numbers(value)
+    parts = split(kind, value)
+    if isinstance(parts, Finding):
+        raise ValueError(parts.message)
+    pairs = zip(flat_kinds(kind), parts, strict=True)
+    return tuple(one.numbers(part) for one, part in pairs)
+
+
+def read(kind: Kinds, values: Sequence[Any]) -> list[list[Any]] | Finding:
+    """Return a student's answers, checked: a list of arrays per part."""
+    rows = [split(kind, value) for value in values]
+    kinds = flat_kinds(kind)
+    found = []
+    for row in rows:
+        if isinstance(row, Finding):
+            return row
+    for one, column in zip(kinds, zip(*rows, strict=True), strict=True):
+        part = one.read(column)
+        if isinstance(part, Finding):
+            called = f"{one.called or 'One result'}: " if len(kinds) > 1 else ""
+            return Finding(part.slug, called + part.message)
+        found.append(part)
+    return found
+
+
+def as_sent(kind: Kinds, parts: Sequence[Any]) -> Any:
+    """Return an answer of such parts as the function returns it."""
+    left = iter(parts)
+
+    def one(inner: Kinds) -> Any:
+        if isinstance(inner, Kind):
+            return inner.sent(next(left))
+        return tuple(map(one, inner))
+
+    return one(kind)
+
+
+def _expected(kind: Kinds) -> str:
+    if isinstance(kind, Kind):
+        return kind.expected
+    return f"a tuple of {len(kind)}"

@@ -1,0 +1,83 @@
+"""What does not fit in a row, told to its author when it is written."""
+
+import traceback
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from labkit.base.exchange import Exchange, Question
+from labkit.judge import fits
+from labkit.judge.answers import InTurn
+from labkit.judge.ask import Ask, right_answers
+from labkit.judge.mistake import Finding
+from labkit.judge.other_kinds import Mask
+from labkit.judge.results import Kinds, read
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+EACH = 6  # questions of each truth value, at least
+
+
+def stops_with(error: BaseException) -> str:
+    """Return what an author's function stops with, where, and what it has to do."""
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    where = f"{shown(Path(last.filename))}, line {last.lineno}"
+    says = f"stops with {type(error).__name__}: {error} ({where}). It has to take all "
+    return f"{says}that @row.inputs yields"
+
+
+def faults(ask: Ask, seconds: float) -> Iterator[str]:
+    """Yield what the questions of a row cannot show, or have no time for.
+
+    Args:
+        ask: the row, whose truth has an answer to each of them.
+        seconds: for all calls of the function.
+    """
+    if says := fits.too_long(ask.main, ask.cost, seconds):
+        yield says
+    if ask.truth is None:
+        return
+    calls = [*ask.main, *ask.edges]
+    right = right_answers(ask, [Exchange(Question("", "", call)) for call in calls])
+    for kind, answers in zip(ask.kinds, right, strict=True):
+        if isinstance(kind, Mask) and kind.shape == ():
+            yes = int(np.sum(answers == 1.0))
+            if min(yes, len(answers) - yes) < EACH:
+                what = kind.called or "its answer"
+                yield (
+                    f"{what} is True in {yes} of the {len(answers)} calls that are "
+                    f"always asked, edges among them; ask {EACH} of each at least, or "
+                    "who always says the same is right too often"
+                )
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Answered(InTurn):
+    """The truth: where it has no answer to a question, its author is told."""
+
+    asked: InTurn  # the same function; its answers are read here
+    kind: Kinds
+    fault: Callable[[str], Robo47Error]  # what is said of its row
+
+    def each(self, columns: Sequence[Any]) -> list[Any]:
+        """Return the right answers one by one, read as their kind says.
+
+        Raises:
+            Robo47Error: it stops, or returns what its kind does not take.
+        """
+        try:
+            answers = self.asked.each(columns)
+        except ValueError as error:
+            says = f"truth {stops_with(error.__cause__ or error)}"
+            raise self.fault(says) from None
+        found = read(self.kind, answers)
+        if isinstance(found, Finding):
+            says = found.message.replace("It returns", "truth returns")
+            says = says.replace("; expected", ", and its kind").replace(
+                "expected are", "its kind is"
+            )
+            raise self.fault(says.rstrip("."))
+        return [self.numbers(answer) for answer in answers]

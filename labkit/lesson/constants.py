@@ -1,0 +1,274 @@
+"""What a guide's numbers hang on: each constant turned by two, measured, explained.
+
+A day's `constants.py` lists them. A number is a function whose arguments are all the
+constants that it could depend on; their defaults are what the lab uses:
+
+    numbers = Numbers(stiffness="the springs have {} N m/rad", step="a step of {} s")
+
+    @numbers.add(
+        "joint 4 hangs low by", "{:.1f} mrad",
+        stiffness=times(0.5, "a spring twice as stiff holds the same torque at half"),
+        step=same("nothing moves any more when it is read"),
+    )
+    def sag(stiffness=LAB.KP, step=0.002):
+        return ...
+
+Each argument is doubled, the others stay; what cannot be doubled says `to=` what it is
+turned. Where the number does not do what its effect says, that is a fault.
+"""
+
+import inspect
+import re
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from types import ModuleType
+from typing import Any, TypeVar
+
+from labkit.lesson.day import Day
+from robo47.errors import Robo47Error
+from robo47.paths import shown
+
+# What a guide asks for where it shows the table of a day.
+TABLE_OF = "python scripts/constants.py {} | table"
+ROUNDING = 1e-8  # what is smaller is no number of anybody's
+Computed = TypeVar("Computed", bound=Callable[..., float])
+
+
+@dataclass(frozen=True)
+class Effect:
+    """What a constant that is turned must do to a number, and why."""
+
+    least: float  # of the new number over the old
+    most: float
+    says: str  # in words, for the table; "" where the new number says it
+    why: str
+    to: Any = None  # the constant's other value; None is twice the one it has
+
+    @property
+    def moves(self) -> bool:
+        """Whether the number must change."""
+        return not self.least <= 1.0 <= self.most
+
+    @property
+    def expected(self) -> str:
+        """What it must do, in words."""
+        if self.least == self.most == 1.0:
+            return "it stays"
+        return self.says or f"× {self.least:g} to × {self.most:g}"
+
+
+def same(why: str, *, to: Any = None) -> Effect:
+    """Say that a number stays as it is printed.
+
+    Args:
+        why: it stays, in one sentence without a capital or a full stop.
+        to: what the constant is turned to, where it is not doubled.
+    """
+    return Effect(1.0, 1.0, "", why, to)
+
+
+def times(factor: float, why: str, *, within: float = 0.02, to: Any = None) -> Effect:
+    """Say that a number is multiplied by a factor, which the sentence derives.
+
+    Args:
+        factor: 0.25 is a quarter; 0 where the number is gone.
+        why: as in `same`.
+        within: how exact that is, as a share of the factor (of the number at 0).
+        to: as in `same`.
+    """
+    off = within * (abs(factor) or 1.0)
+    says = "about the same" if factor == 1.0 else f"× {factor:.3g}"
+    return Effect(factor - off, factor + off, says, why, to)
+
+
+def between(least: float, most: float, why: str, *, to: Any = None) -> Effect:
+    """Say that a number moves, to so many times what it was: known from a run only.
+
+    A range with 1 inside is a number that may move: another draw of the same kind.
+
+    Args:
+        least: of the new number over the old.
+        most: of the same.
+        why: as in `same`.
+        to: as in `same`.
+    """
+    return Effect(least, most, "", why, to)
+
+
+@dataclass(frozen=True)
+class Turn:
+    """One constant turned: what the number is then."""
+
+    name: str  # of the argument
+    constant: str  # in words, with both values
+    then: float
+    effect: Effect
+
+
+@dataclass(frozen=True)
+class Number:
+    """One number of a guide."""
+
+    name: str  # in words
+    form: str  # how it is printed: "{:.1f} mm"
+    compute: Callable[..., float]
+    effects: dict[str, Effect]
+
+    def printed(self, value: float) -> str:
+        """Return a value as it is printed, in few enough digits for any processor."""
+        value = float(value)
+        return "rounding" if 0.0 < abs(value) < ROUNDING else self.form.format(value)
+
+    def as_told(self, turn: Turn, now: float) -> bool:
+        """Return whether a constant did what its effect says."""
+        if turn.effect.least == turn.effect.most == 1.0:
+            return self.printed(turn.then) == self.printed(now)
+        if not now:  # of which every multiple is 0
+            return not turn.effect.moves
+        low, high = sorted([turn.effect.least * now, turn.effect.most * now])
+        return bool(low <= turn.then <= high)
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A number as it is, and as it becomes."""
+
+    number: Number
+    now: float
+    turns: tuple[Turn, ...]
+
+
+class Numbers:
+    """The numbers of a day, in the order of its guide."""
+
+    def __init__(self, **constants: str) -> None:
+        """Begin a list.
+
+        Args:
+            constants: each constant in words, with {} for its value.
+        """
+        self.constants = constants
+        self.all: list[Number] = []
+
+    def add(
+        self, name: str, form: str, **effects: Effect
+    ) -> Callable[[Computed], Computed]:
+        """Return a decorator that adds a number.
+
+        Args:
+            name: what it is, in words that a reader of the guide understands.
+            form: how it is printed, with its unit: "{:.1f} mm".
+            effects: of each argument of the function that computes it.
+
+        Raises:
+            Robo47Error: an argument has no effect or no words, or the other way round.
+        """
+
+        def added(compute: Computed) -> Computed:
+            arguments = inspect.signature(compute).parameters
+            for what, known in (("effect", effects), ("words", self.constants)):
+                if missing := [one for one in arguments if one not in known]:
+                    raise Robo47Error(f"{name!r}: no {what} of {missing[0]}")
+            if unknown := [one for one in effects if one not in arguments]:
+                raise Robo47Error(f"{name!r}: its function takes no {unknown[0]}")
+            self.all.append(Number(name, form, compute, effects))
+            return compute
+
+        return added
+
+    def measured(self) -> Iterator[Measured]:
+        """Yield each number, computed once as it is and once for each constant."""
+        for number in self.all:
+            now = number.compute()
+            turns = (self._turned(number, name) for name in number.effects)
+            yield Measured(number, now, tuple(turns))
+
+    def _turned(self, number: Number, name: str) -> Turn:
+        effect = number.effects[name]
+        old = inspect.signature(number.compute).parameters[name].default
+        new = 2 * old if effect.to is None else effect.to
+        words = self.constants[name].format(f"{_short(old)} → {_short(new)}")
+        return Turn(name, words, number.compute(**{name: new}), effect)
+
+
+def _short(value: Any) -> str:
+    """Return a constant as one reads it: 0.002, 1e-10, RK4."""
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def numbers_of(day: Day) -> Numbers:
+    """Return the list of a day.
+
+    Raises:
+        Robo47Error: it has none, or one that does not load.
+    """
+    found = getattr(day.module("constants"), "numbers", None)
+    if not isinstance(found, Numbers) or not found.all:
+        raise Robo47Error(f"{shown(day.own / 'constants.py')} lists no numbers")
+    return found
+
+
+def faults(found: Iterable[Measured]) -> Iterator[str]:
+    """Yield each constant that does not do to a number what the list says."""
+    for one in found:
+        number = one.number
+        for turn in one.turns:
+            if number.as_told(turn, one.now):
+                continue
+            ratio = f" (× {turn.then / one.now:.3g})" if one.now else ""
+            yield (
+                f"{number.name!r} is {number.printed(one.now)}, and "
+                f"{number.printed(turn.then)}{ratio} with {turn.constant}; the list "
+                f"says {turn.effect.expected}, since {turn.effect.why}"
+            )
+
+
+def table(found: Iterable[Measured]) -> str:
+    """Return what was measured as a table of a guide."""
+    lines = ["| number | constant | then | why |", "|---|---|---|---|"]
+    for one in found:
+        number = one.number
+        now = f"{number.name}: **{number.printed(one.now)}**"
+        if {number.printed(turn.then) for turn in one.turns} == {
+            number.printed(one.now)
+        }:
+            now += " (hangs on none of these)"
+        for turn in one.turns:
+            then = number.printed(turn.then)
+            if then == number.printed(one.now):
+                then = "the same"
+            elif turn.effect.says:
+                then += f", {turn.effect.says}"
+            cells = now, turn.constant, then, turn.effect.why
+            lines.append("| " + " | ".join(c.replace("|", r"\|") for c in cells) + " |")
+            now = ""
+    return "\n".join(lines) + "\n"
+
+
+def unprinted(found: Iterable[Measured], day: Day) -> Iterator[str]:
+    """Yield each number that the guide does not print, outside its table, as it is."""
+    block = re.escape(f"<!-- run: {TABLE_OF.format(day.number)} -->")
+    guide = (day.folder / day.guide).read_text("utf-8")
+    text = re.sub(f"{block}.*?<!-- end -->", "", guide, flags=re.DOTALL)
+    for one in found:
+        printed = one.number.printed(one.now)
+        digits = re.search(r"\d[\d,]*(\.\d+)?", printed)  # rounding has none
+        if digits and not re.search(rf"(?<![\d.,]){re.escape(digits[0])}(?!\d)", text):
+            yield f"{one.number.name!r} is {printed}; {day.guide} does not print it"
+
+
+@contextmanager
+def turned(module: ModuleType, **values: Any) -> Iterator[None]:
+    """Give a module's constants other values for a while.
+
+    Args:
+        module: a lab, or what it imports.
+        values: by name; each must be there.
+    """
+    before = {name: getattr(module, name) for name in values}
+    vars(module).update(values)
+    try:
+        yield
+    finally:
+        vars(module).update(before)

@@ -1,0 +1,3 @@
+import kit
+
+kit.run("constants")  # labkit/commands/constants.py

@@ -1,0 +1,123 @@
+"""Mistakes that stop or change a shape; tolerances; edges of indices and truths."""
+
+import itertools
+
+import numpy as np
+import pytest
+from judged import alike, moved, redone
+from toyrows import row_of, told
+
+from labkit.judge import Matrix, Scalar
+from labkit.judge.answers import capitalised
+from labkit.judge.draw import Edges
+
+
+class TestAMistakeThatStopsOrReshapes:
+    """A weight that is transposed stops where it is not square."""
+
+    def row(self):
+        def inputs(rng):
+            return [
+                (rng.numbers(-2, 2, n, k), rng.numbers(-2, 2, k, m))
+                for n, k, m in ((2, 3, 3), (3, 2, 4), (2, 2, 2), (4, 3, 3), (1, 2, 3))
+            ]
+
+        row = row_of(Matrix((None, None)), lambda X, W: X @ W, inputs)
+        row.wrong("transposed", "W is (k, m): rows of X meet its rows", "with W^T")(
+            lambda X, W: X @ W.T
+        )
+        row.wrong("by-one-row", "the last row is missing", "all rows but the last")(
+            lambda X, W: (X @ W)[:-1]
+        )
+        row.wrong("by-division", "it is divided by how many of three rows are over")(
+            lambda X, W: X @ W + 0 * (1 // (len(X) % 3))
+        )
+        return row
+
+    def test_is_named_where_it_stops_at_some_questions(self):
+        def function(X, W):
+            if W.shape[0] != W.shape[1]:
+                raise FloatingPointError("cannot be multiplied")
+            return X @ W.T
+
+        verdict = told(self.row(), function)
+        assert verdict.mistake == "transposed"
+        assert "in 2 of 5 calls. The other answers are wrong, too." in verdict.message
+        assert "W is (k, m)" in verdict.message
+
+    def test_is_named_where_it_is_right_at_all_others(self):
+        def function(X, W):
+            return X @ W + 0 * (1 // (len(X) % 3))
+
+        verdict = told(self.row(), function)
+        assert verdict.mistake == "by-division"
+        assert "It stops with ZeroDivisionError" in verdict.message
+        assert "stops in the same 1 of 5 calls.)" in verdict.message
+        other = told(self.row(), lambda X, W: X @ W if len(W) == 3 else 1 / 0)
+        assert other.mistake == "raises"
+
+    def test_is_named_where_it_changes_the_shape(self):
+        verdict = told(self.row(), lambda X, W: (X @ W)[:-1])
+        assert verdict.mistake == "by-one-row"
+        assert "It returns shape (1, 3) where (2, 3) is right, in" in verdict.message
+        assert "All rows but the last gives your arrays exactly" in verdict.message
+
+    def test_is_taken_by_the_catalogues_tests(self):
+        ask = self.row().ask
+        found = redone(ask)
+        assert [mistake.slug for mistake, _ in found] == [
+            "transposed",
+            "by-one-row",
+            "by-division",
+        ]
+        assert not any(alike(a[1], b[1]) for a, b in itertools.combinations(found, 2))
+        assert alike(found[0][1], found[0][1])
+
+
+class TestATolerance:
+    def row(self, **more):
+        inputs = [(float(x),) for x in (1.0, 20.0, 300.0, 5.0)]
+        return row_of(Scalar(), lambda x: 2.0 * x, lambda rng: inputs, **more)
+
+    def test_may_be_a_share_of_the_answer(self):
+        def off(x):
+            return 2.0 * x * 1.009
+
+        assert told(self.row(), off).status == "wrong"
+        assert told(self.row(rtol=0.01), off).status == "passed"
+        assert told(self.row(rtol=0.005), off).status == "wrong"
+
+    def test_is_told_where_it_is_measured(self):
+        verdict = told(self.row(rtol=0.005), lambda x: 2.1 * x)
+        assert "beyond 0.005 of the largest" in verdict.measured[0]
+
+
+def test_edges_of_a_whole_number_are_the_first_and_the_last():
+    rng = Edges(5)
+    drawn = {int(rng.integers(2, 8)) for _ in range(40)}
+    assert drawn == {2, 4, 7}
+    assert {bool(rng.integers(2)) for _ in range(20)} == {True, False}
+    assert set(rng.integers(0, 5, 40, endpoint=True).tolist()) == {0, 2, 5}
+
+
+def test_a_truth_value_and_an_index_are_no_edge_that_moves():
+    for column in (np.array([True, False]), np.array([1, 2])):
+        assert moved(column, 1e-12) is column
+    several = np.empty(3, dtype=object)
+    several[:] = [np.ones(2), np.array([True]), 0.5]
+    near = moved(several, 0.25)
+    assert near[0].tolist() == [1.25, 1.25]
+    assert near[1].tolist() == [True]
+    assert near[2] == 0.75
+
+
+@pytest.mark.parametrize(
+    ("clause", "sentence"),
+    [
+        ("dY is cut at 0", "dY is cut at 0"),
+        ("the weights are cut", "The weights are cut"),
+        ("qd is 0", "qd is 0"),
+    ],
+)
+def test_a_sentence_that_begins_with_a_symbol_keeps_it(clause, sentence):
+    assert capitalised(clause) == sentence

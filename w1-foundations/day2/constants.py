@@ -1,0 +1,169 @@
+"""What Day 2's numbers hang on: each constant turned by two, measured, explained."""
+
+import numpy as np
+
+from labkit.lesson.constants import Numbers, between, same, times
+from labkit.lesson.day import find_day
+from labkit.lesson.lab_module import lab_of
+from robo47 import panda, se3, verify
+
+from .roulette import distances
+
+LAB = lab_of(find_day(2))
+
+numbers = Numbers(
+    metre="the unit of length, every pos in the file: × {}",
+    seed="SEED: {}",
+    n="random configurations: {}",
+    times_v="the wrong v is the right one times {}",
+    raised="the base is raised by {} m",
+    q="the screws are those of {} times the ready pose",
+    tilt="the tool is tilted by {} rad",
+    about_z="the tool is turned about its z by {} rad",
+    flange="d of Franka's eighth row: {} m",
+)
+
+
+def parts(metre=1.0, raised=0.0, q=0.0):
+    """Return the screws and the home pose, by hand."""
+    model = panda.load("panda_nohand")
+    model.body_pos[:] *= metre
+    model.body_pos[1, 2] += raised  # of link0, on the world
+    seen = LAB.mujoco_sees(model, q * LAB.READY_Q[None])
+    return LAB.joint_screws(seen.T_links[0]), seen.T_ee[0]
+
+
+def random_q(n, seed):
+    """Return the configurations of the guide's last column."""
+    return verify.random_q(panda.load("panda_nohand"), n, seed)
+
+
+def apart(wrong, right, q, fk=LAB.fk_space):
+    """Return how far off the hand is with wrong screws or M, mm, median over q."""
+    off = [fk(*wrong, x)[:3, 3] - LAB.fk_space(*right, x)[:3, 3] for x in q]
+    return 1000 * np.median(np.linalg.norm(off, axis=1))
+
+
+@numbers.add(
+    "third number of v of joint4's screw", "{:.4f} m",
+    metre=times(2.0, "v is omega x point, a length for each radian"),
+    raised=same("the axis is horizontal: only its height above the origin grows",
+                to=0.333),
+)  # fmt: skip
+def joint4(metre=1.0, raised=0.0):
+    """Return it."""
+    return parts(metre, raised)[0][3, 5]
+
+
+@numbers.add(
+    "first number of v of joint4's screw", "{:.4f} m",
+    metre=times(2.0, "v is omega x point, a length for each radian"),
+    raised=times(0.982 / 0.649, "v is of the point at the origin: it hangs on where "
+                 "that is", to=0.333),
+)  # fmt: skip
+def joint4_first(metre=1.0, raised=0.0):
+    """Return it."""
+    return parts(metre, raised)[0][3, 3]
+
+
+@numbers.add(
+    "off at random with v forgotten", "{:.1f} mm",
+    metre=times(2.0, "all of it is lengths"),
+    times_v=times(2.0, "the place is linear in v: with its sign wrong it is twice as "
+                  "far off as without it", to=-1.0),
+    seed=between(0.7, 1.4, "other configurations", to=48),
+    n=between(0.7, 1.4, "more configurations"),
+)  # fmt: skip
+def forgotten(metre=1.0, times_v=0.0, seed=LAB.SEED, n=20):
+    """Return the median."""
+    screws, M = parts(metre)
+    wrong = screws * np.repeat([1.0, times_v], 3)
+    return apart((wrong, M), (screws, M), random_q(n, seed))
+
+
+@numbers.add(
+    "off at random with (v; omega)", "{:.1f} mm",
+    metre=between(2.2, 8.0, "more than twice: metres are taken for a part of a turn"),
+    seed=between(0.7, 1.4, "other configurations", to=48),
+)  # fmt: skip
+def halves(metre=1.0, seed=LAB.SEED):
+    """Return the median."""
+    screws, M = parts(metre)
+    wrong = np.roll(screws, 3, axis=1)
+    return apart((wrong, M), (screws, M), random_q(20, seed))
+
+
+@numbers.add(
+    "off with M of the ready pose", "{:.1f} mm",
+    metre=times(2.0, "it is a length"),
+    seed=same("M stands on the right: the error turns with the arm, as long as it is",
+              to=48),
+    n=same("it is as far off everywhere"),
+)  # fmt: skip
+def wrong_M(metre=1.0, seed=LAB.SEED, n=20):
+    """Return the median."""
+    screws, M = parts(metre)
+    M_ready = LAB.fk_space(screws, M, LAB.READY_Q)
+    return apart((screws, M_ready), (screws, M), random_q(n, seed))
+
+
+@numbers.add(
+    "off with Ad(M) for Ad(inverse of M)", "{:.0f} mm",
+    metre=times(2.0, "only v is wrong, a length"),
+    seed=between(0.5, 2.0, "other configurations", to=48),
+    tilt=between(4.0, 6.0, "M's rotation is not symmetric then, and omega is wrong too",
+                 to=0.3),
+    about_z=between(0.4, 1.6, "M's rotation stays symmetric, and omega right; v is "
+                    "another", to=0.3),
+)  # fmt: skip
+def wrong_adjoint(metre=1.0, seed=LAB.SEED, tilt=0.0, about_z=0.0):
+    """Return the median."""
+    screws, M = parts(metre)
+    turn = LAB.exp_rotation(np.eye(3)[0], tilt) @ LAB.exp_rotation(
+        np.eye(3)[2], about_z
+    )
+    M = M @ se3.make_T(turn, np.zeros(3))
+    B = screws @ LAB.adjoint(M).T
+    return apart((B, M), (screws, M), random_q(20, seed), LAB.fk_body)
+
+
+def reading(name, metre, seed, n=20, flange=0.107):
+    """Return how far off a reading of Franka's table is, median, mm."""
+    table = LAB.FRANKA_DH.copy()
+    table[7, 2] = flange
+    table[:, 1:] *= metre
+    return 1000 * np.median(distances(table, random_q(n, seed))[name])
+
+
+@numbers.add(
+    "flange off with the other convention's formula", "{:.0f} mm",
+    metre=times(2.0, "it is a length"),
+    seed=between(0.7, 1.4, "other configurations", to=48),
+    n=between(0.7, 1.4, "more configurations"),
+)  # fmt: skip
+def convention(metre=1.0, seed=47, n=20):
+    """Return the median."""
+    return reading("the other convention's formula", metre, seed, n)
+
+
+@numbers.add(
+    "flange off without the eighth row", "{:.0f} mm",
+    metre=times(2.0, "it is a length"),
+    seed=same("the last row is missing, and its length is the same everywhere", to=48),
+    n=same("it is as far off everywhere"),
+    flange=times(2.0, "it is that row's d"),
+)  # fmt: skip
+def without_flange(metre=1.0, seed=47, n=20, flange=0.107):
+    """Return the median."""
+    return reading("without the eighth row", metre, seed, n, flange)
+
+
+@numbers.add(
+    "rank of the seven screws of q = 0", "{:.0f}",
+    metre=same("a rank has no unit"),
+    raised=same("the same seven lines, seen from another origin", to=0.333),
+    q=between(1.2, 1.2, "only at 0 are joints 1, 3 and 5 one line", to=1.0),
+)  # fmt: skip
+def rank(metre=1.0, raised=0.0, q=0.0):
+    """Return it."""
+    return np.linalg.matrix_rank(parts(metre, raised, q)[0], tol=1e-9)

@@ -1,0 +1,178 @@
+"""What Day 3's numbers hang on: each constant turned by two, measured, explained.
+
+The wild numbers of the plain pseudo-inverse out of reach are not among them: they are
+chaotic, and the guide says so.
+"""
+
+from functools import cache
+
+import numpy as np
+
+from labkit.lesson.constants import Numbers, between, same, times, turned
+from labkit.lesson.day import find_day
+from labkit.lesson.lab_module import lab_of
+from robo47 import panda, verify
+from robo47.screws import fk_space
+
+LAB = lab_of(find_day(3))
+DAY = LAB.day3_mujoco
+READY = LAB.READY_Q
+MODEL = panda.load("panda_nohand")
+
+numbers = Numbers(
+    metre="the unit of length, all lengths of the arm: × {}",
+    units="units of length in a metre: {}",
+    force="the hand pushes with {} N",
+    base="turn of joint 1: {} rad",
+    seed="SEED: {}",
+    n="configurations: {}",
+    targets="FAR, targets: {}",
+    limits="joint limits: {} times as wide",
+    damping="DAMPING: {}",
+    gain="GAIN: {} 1/s",
+    dt="DT: {} s",
+    lap="LAP: {} s",
+    radius="radius: {} m",
+)
+
+
+@cache
+def arm(metre=1.0):
+    """Return screws and home pose, of an arm that is so many times as large."""
+    model = panda.load("panda_nohand")
+    model.body_pos[:] *= metre
+    model.site_pos[:] *= metre
+    return panda.screws(model), panda.home_pose(model)
+
+
+def site(q, metre=1.0):
+    """Return J_site at q."""
+    screws, M = arm(metre)
+    p = fk_space(screws, M, q)[:3, 3]
+    return LAB.site_jacobian(LAB.space_jacobian(screws, q), p)
+
+
+@numbers.add(
+    "joint 2's torque, pushing down with 10 N", "{:.2f} N m",
+    force=times(2.0, "force times lever arm"),
+    metre=times(2.0, "force times lever arm"),
+    base=same("joint 1 turns hand and axis alike", to=1.0),
+)  # fmt: skip
+def pushing(force=10.0, metre=1.0, base=0.0):
+    """Return it."""
+    q = READY + base * np.eye(7)[0]
+    screws, M = arm(metre)
+    p = fk_space(screws, M, q)[:3, 3]
+    J = LAB.space_jacobian(screws, q)
+    return LAB.joint_torques(J, p, force / 10 * LAB.DOWN)[1]
+
+
+@numbers.add(
+    "manipulability in millimetres, over that in metres", "{:.0e}",
+    units=times(8.0, "three rows of J are lengths: the cube of the unit", to=2000.0),
+    seed=same("whatever the configuration", to=48),
+)  # fmt: skip
+def scaled(units=1000.0, seed=LAB.SEED):
+    """Return the ratio at a random configuration."""
+    J = site(verify.random_q(MODEL, 1, seed)[0])
+    rows = np.repeat([1.0, units], 3)[:, None]
+    return LAB.manipulability(rows * J) / LAB.manipulability(J)
+
+
+@numbers.add(
+    "pairs whose least singular values change their order", "{:.0f} %",
+    units=between(1.02, 1.5, "the farther from metres, the more", to=20.0),
+    seed=between(0.8, 1.25, "other configurations", to=48),
+    n=between(0.8, 1.25, "more configurations"),
+)  # fmt: skip
+def swapped(units=10.0, seed=LAB.SEED, n=300):
+    """Return how many of all pairs of configurations."""
+    J = np.array([site(q) for q in verify.random_q(MODEL, n, seed)])
+    rows = np.repeat([1.0, units], 3)[:, None]
+    least = [np.linalg.svd(x, compute_uv=False)[:, -1] for x in (J, rows * J)]
+    i, j = np.triu_indices(n, 1)
+    before, after = (np.sign(x[i] - x[j]) for x in least)
+    return 100 * np.mean(before != after)
+
+
+@numbers.add(
+    "far targets that are reached from ready, of 20", "{:.0f}",
+    seed=between(0.7, 1.4, "other targets", to=48),
+    limits=between(1.0, 1.5, "many a valley ends at a limit"),
+)  # fmt: skip
+def from_ready(seed=LAB.SEED, limits=1.0):
+    """Return how many."""
+    goals = fk_space(*arm(), verify.random_q(MODEL, LAB.TRIALS, seed)[: LAB.FAR])
+    wide = MODEL.jnt_range.mean(axis=1, keepdims=True)
+    wide = wide + limits * (MODEL.jnt_range - wide)
+    found = [LAB.solve_ik(*arm(), T, READY, wide) for T in goals]
+    return np.sum(DAY.miss(arm(), np.array(found), goals) < 1e-6)
+
+
+@cache
+def drawn(radius, damping, gain, dt, lap, metre=1.0):
+    """Return what draw_circle does: mm off, joint speeds, angles."""
+    with turned(DAY, LAP=lap):
+        times_ = np.arange(0.0, lap, dt)
+        path, q = DAY.circle(arm(metre), MODEL.jnt_range, radius, times_)
+    with turned(LAB, DT=dt, GAIN=gain):
+        return LAB.draw_circle(arm(metre), path, q, damping)
+
+
+@numbers.add(
+    "off the larger circle, with damping", "{:.2f} mm",
+    damping=between(1.1, 2.5, "then the worst place is the bottom, which is in reach"),
+    gain=between(0.9, 1.1, "a gain does not reach what is out of reach"),
+    dt=between(0.95, 1.05, "the damping is slower than either step"),
+    lap=between(0.85, 1.0, "more time against the damping; out of reach stays so"),
+    radius=between(0.2, 0.5, "2 cm less, and all of it is in reach", to=0.36),
+)  # fmt: skip
+def off(damping=LAB.DAMPING, gain=LAB.GAIN, dt=LAB.DT, lap=DAY.LAP, radius=LAB.RADIUS):
+    """Return the worst."""
+    return drawn(radius, damping, gain, dt, lap)[0].max()
+
+
+@numbers.add(
+    "off it at the bottom", "{:.1f} mm",
+    damping=between(2.0, 4.5, "its square counts: up to four times"),
+    gain=between(0.4, 0.9, "an error is corrected twice as fast"),
+    dt=between(0.9, 1.1, "the damping is slower than either step"),
+)  # fmt: skip
+def bottom(damping=LAB.DAMPING, gain=LAB.GAIN, dt=LAB.DT):
+    """Return the worst of the second half, all of it in reach."""
+    off = drawn(LAB.RADIUS, damping, gain, dt, DAY.LAP)[0]
+    return off[len(off) // 2 :].max()
+
+
+@numbers.add(
+    "fastest joint on it, in parts of its limit", "{:.4f}",
+    lap=between(0.4, 0.7, "half the speed of the hand"),
+    damping=between(0.5, 1.0, "damping holds the joints back"),
+    dt=between(0.95, 1.05, "the damping is slower than either step"),
+)  # fmt: skip
+def fastest(lap=DAY.LAP, damping=LAB.DAMPING, dt=LAB.DT):
+    """Return the share."""
+    speeds = drawn(LAB.RADIUS, damping, LAB.GAIN, dt, lap)[1]
+    return (speeds / LAB.SPEED).max()
+
+
+@numbers.add(
+    "off the smaller circle, without damping", "{:.1f} mm",
+    dt=between(1.7, 4.5, "a step goes straight on where the circle bends"),
+    gain=between(0.4, 0.7, "an error is corrected twice as fast"),
+    lap=between(0.2, 0.6, "steps of half the length"),
+)  # fmt: skip
+def plain(dt=LAB.DT, gain=LAB.GAIN, lap=DAY.LAP):
+    """Return the worst."""
+    return drawn(LAB.EASY, 0.0, gain, dt, lap)[0].max()
+
+
+@numbers.add(
+    "the same with damping", "{:.1f} mm",
+    damping=between(2.0, 4.5, "its square counts: up to four times"),
+    dt=between(0.9, 1.1, "it is the damping's, not the steps'"),
+    gain=between(0.4, 0.9, "an error is corrected twice as fast"),
+)  # fmt: skip
+def damped(damping=LAB.DAMPING, dt=LAB.DT, gain=LAB.GAIN):
+    """Return the worst."""
+    return drawn(LAB.EASY, damping, gain, dt, DAY.LAP)[0].max()

@@ -1,0 +1,235 @@
+"""What Day 4's numbers hang on: each constant turned by two, measured, explained."""
+
+import mujoco
+import numpy as np
+
+from labkit.lesson.constants import Numbers, between, same, times, turned
+from labkit.lesson.day import find_day
+from labkit.lesson.lab_module import lab_of
+from robo47 import panda, simulate
+
+LAB = lab_of(find_day(4))
+DAY = LAB.day4_mujoco
+READY = LAB.READY_Q
+
+numbers = Numbers(
+    metre="the unit of length, all lengths of the arm: × {}",
+    masses="masses and inertias of the links: × {}",
+    armature="armature: × {}",
+    damping="damping: × {}",
+    gravity="gravity: × {}",
+    tipped="the base is tipped to the side by {} rad",
+    seed="SEED: {}",
+    fastest="FASTEST: {} rad/s",
+    hardest="HARDEST: {} rad/s²",
+    speed="every joint's speed: {} rad/s",
+    difference="step of the differences: {} rad",
+    step="time step: {} s",
+    missing="missing share of gravity_torque: {}",
+    seconds="after {} s",
+    push="PUSH: {} N",
+    rate="RATE: {} Hz",
+)
+
+
+def arm(metre=1.0, masses=1.0, armature=1.0, damping=1.0, gravity=1.0, step=0.002):
+    """Return the arm with other numbers in its file: the model, and what reads it."""
+    model = panda.load("panda_nohand", drive="torque")
+    for lengths in (model.body_pos, model.body_ipos, model.site_pos):
+        lengths[:] *= metre
+    model.body_mass[:] *= masses
+    model.body_inertia[:] *= masses * metre**2
+    model.dof_armature[:] *= armature
+    model.dof_damping[:] *= damping
+    model.opt.gravity[:] *= gravity
+    model.opt.timestep = step
+    mujoco.mj_setConst(model, mujoco.MjData(model))
+    return model, panda.arm(model)
+
+
+def inertias(known, now):
+    """Return every link's 6x6 inertia, by the lab's own functions."""
+    links = known.masses, known.coms, known.inertias
+    return LAB.link_inertias(now.T_links, *links)
+
+
+def held(known, q=READY):
+    """Return the torques that hold the arm."""
+    now = known.at(q)
+    given = now.J_space, known.masses, now.coms_world, known.gravity
+    return LAB.gravity_torque(*given)
+
+
+@numbers.add(
+    "M of joint 2 at ready", "{:.3f} kg m²",
+    masses=times((1.545 - 0.1) / 1.545 + 1.0, "twice, but for the rotor's 0.1"),
+    armature=times(1.645 / 1.545, "0.1 more"),
+    metre=times((4 * 1.445 + 0.1) / 1.545, "four times, but for the rotor's 0.1"),
+    damping=same("M is what resists an acceleration, not a speed"),
+    gravity=same("M is what resists an acceleration, weight or not"),
+)  # fmt: skip
+def mass(masses=1.0, armature=1.0, metre=1.0, damping=1.0, gravity=1.0):
+    """Return the entry."""
+    _, known = arm(metre, masses, armature, damping, gravity)
+    now = known.at(READY)
+    return LAB.mass_matrix(now.J_space, inertias(known, now), known.armature)[1, 1]
+
+
+@numbers.add(
+    "M with m [c] of the wrong sign, off by", "{:.3f} kg m²",
+    masses=times(2.0, "it is the mass matrix of another arm, minus ours"),
+    metre=times(4.0, "kg m²"),
+    armature=same("both arms have the same rotors"),
+    seed=between(0.8, 1.25, "other configurations; the worst of 100 is kept", to=48),
+)  # fmt: skip
+def wrong_sign(masses=1.0, metre=1.0, armature=1.0, seed=LAB.SEED):
+    """Return the worst entry of 100 configurations."""
+    model, known = arm(metre, masses, armature)
+    flip = np.diag([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
+    off = []
+    for q in DAY.motions(model, LAB.TRIALS, seed, 1.0, 1.0).q:
+        now = known.at(q)
+        G = inertias(known, now)
+        both = [LAB.mass_matrix(now.J_space, x, known.armature)
+                for x in (G, flip @ G @ flip)]  # fmt: skip
+        off.append(np.abs(both[0] - both[1]).max())
+    return max(off)
+
+
+@numbers.add(
+    "gravity_torque of joint 4 at ready", "{:.3f} N m",
+    gravity=times(2.0, "m g times the lever arms"),
+    masses=times(2.0, "m g times the lever arms"),
+    metre=times(2.0, "m g times the lever arms"),
+    armature=same("a rotor's weight is in its link already"),
+    damping=same("nothing moves"),
+)  # fmt: skip
+def weight(gravity=1.0, masses=1.0, metre=1.0, armature=1.0, damping=1.0):
+    """Return what joint 4 holds."""
+    return held(arm(metre, masses, armature, damping, gravity)[1])[3]
+
+
+@numbers.add(
+    "what joint 1 holds when the base is tipped by 0.1 rad", "{:.1f} N m",
+    tipped=times(2.0, "sin 0.2 for sin 0.1"),
+    gravity=times(2.0, "m g times the lever arms"),
+)  # fmt: skip
+def tipped(tipped=0.1, gravity=1.0):
+    """Return joint 1's torque."""
+    model, _ = arm(gravity=gravity)
+    size = np.linalg.norm(model.opt.gravity)
+    model.opt.gravity[:] = -size * np.array([0.0, np.sin(tipped), np.cos(tipped)])
+    return abs(held(panda.arm(model))[0])
+
+
+@numbers.add(
+    "torque without armature and damping, off by", "{:.2f} N m",
+    armature=between(1.1, 1.5, "0.1 qdd is up to 1 N m of it"),
+    damping=between(1.5, 1.9, "1.0 qd is up to 2 N m of it"),
+    fastest=between(1.5, 1.9, "1.0 qd is up to 2 N m of it"),
+    hardest=between(1.1, 1.5, "0.1 qdd is up to 1 N m of it"),
+    masses=same("it is not the links'"),
+    gravity=same("it is not the links'"),
+)  # fmt: skip
+def forgotten(armature=1.0, damping=1.0, fastest=LAB.FASTEST, hardest=LAB.HARDEST,
+              masses=1.0, gravity=1.0):  # fmt: skip
+    """Return how far inverse_dynamics alone is from MuJoCo's."""
+    model, known = arm(1.0, masses, armature, damping, gravity)
+    now = DAY.motions(model, LAB.TRIALS, LAB.SEED, fastest, hardest)
+    own = []
+    for q, qd, qdd in zip(now.q, now.qd, now.qdd, strict=True):
+        at = known.at(q)
+        given = at.J_space, inertias(known, at), qd, qdd, known.gravity
+        own.append(LAB.inverse_dynamics(*given))
+    return np.abs(own - LAB.mujoco_inverse(model, now)).max()
+
+
+@numbers.add(
+    "symmetric part of Mdot - 2 C, of the second C", "{:.2f} kg m²/s",
+    speed=times(2.0, "both are linear in the speeds"),
+    metre=times(4.0, "kg m² for each second"),
+    masses=times(2.0, "M is linear in the masses"),
+    armature=same("a rotor's inertia does not change with q"),
+    difference=same("the differences are good to ten digits"),
+)  # fmt: skip
+def not_skew(speed=1.0, metre=1.0, masses=1.0, armature=1.0, difference=1e-5):
+    """Return the largest entry."""
+    _, known = arm(metre, masses, armature)
+    qd = speed * np.ones(7)
+    ways = difference * np.eye(7)
+    dM = np.array([known.at(READY + s).M - known.at(READY - s).M for s in ways])
+    dM /= 2 * difference
+    Mdot = np.tensordot(qd, dM, 1)
+    S = Mdot - 2 * (Mdot - dM @ qd / 2)
+    return abs(S + S.T).max() / 2
+
+
+@numbers.add(
+    "next velocity with M alone, off by", "{:.3f} rad/s",
+    step=times(4.0, "a step of h changes the speed by h, and the brake by h of that",
+               within=0.1),
+    damping=between(1.8, 2.4, "h D is what M alone leaves out"),
+)  # fmt: skip
+def with_M_alone(step=0.002, damping=1.0):
+    """Return the worst of 100 motions, with the lab's torques."""
+    model, _ = arm(damping=damping, step=step)
+    now = DAY.motions(model, LAB.TRIALS, LAB.SEED, LAB.FASTEST, LAB.HARDEST)
+    share = np.random.default_rng(LAB.TRIALS).uniform(-0.5, 0.5, now.q.shape)
+    tau = share * simulate.limits(model)[1]
+    qdd, after = LAB.mujoco_forward(model, now, tau)
+    return np.abs(now.qd + step * qdd - after).max()
+
+
+def way(missing, seconds, gravity=1.0, damping=1.0, rate=LAB.RATE, step=0.002):
+    """Return the hand's way on a share of gravity_torque, mm."""
+    model, known = arm(gravity=gravity, damping=damping, step=step)
+    with turned(LAB, RATE=rate):
+        path = LAB.let_go(model, known, 1.0 - missing, (seconds, 0 * LAB.PUSH))
+    return 1000 * np.linalg.norm(path[-1])
+
+
+@numbers.add(
+    "way of the hand on 99 % of gravity_torque in 2 s", "{:.0f} mm",
+    missing=between(1.8, 2.3, "twice the push"),
+    seconds=between(2.0, 5.0, "it still gathers speed", to=4.0),
+    gravity=between(1.8, 2.3, "1 % of twice the weight"),
+    damping=between(0.5, 0.8, "what slows it down"),
+    rate=times(1.0, "so slow that a torque may be held for 20 ms"),
+    step=times(1.0, "so slow a motion is exact at any step", to=0.001),
+)  # fmt: skip
+def sinks(missing=0.01, seconds=2.0, gravity=1.0, damping=1.0, rate=LAB.RATE,
+          step=0.002):  # fmt: skip
+    """Return it."""
+    return way(missing, seconds, gravity, damping, rate, step)
+
+
+@numbers.add(
+    "way of the hand on 0 % in 0.5 s", "{:.0f} mm",
+    gravity=between(0.95, 1.05, "it falls sooner; joints reach their limits as before"),
+    damping=between(0.95, 1.05, "it falls later: joints reach their limits as before"),
+    step=times(1.0, "but for the blow at a joint's limit", to=0.001, within=0.03),
+)  # fmt: skip
+def falls(gravity=1.0, damping=1.0, step=0.002):
+    """Return it."""
+    return way(1.0, 0.5, gravity, damping, step=step)
+
+
+@numbers.add(
+    "speed of the hand 4.5 s after the push", "{:.3f} m/s",
+    damping=between(3.5, 5.0, "half the brake leaves far more than twice the speed",
+                    to=0.5),
+    push=between(1.5, 3.0, "twice the speed to begin with"),
+    seconds=between(0.05, 0.5, "damping takes a share of it in every second"),
+    gravity=between(0.5, 0.8, "it is made up for 20 ms too late, which brakes too"),
+    masses=between(1.5, 6.0, "half the speed, and less of it lost in a second"),
+    rate=between(1.05, 1.25, "gravity is made up for 10 ms too late, not 20"),
+    step=times(1.0, "a glide is exact at any step", within=0.05, to=0.001),
+)  # fmt: skip
+def glides(damping=1.0, push=10.0, seconds=4.5, gravity=1.0, masses=1.0, rate=LAB.RATE,
+           step=0.002):  # fmt: skip
+    """Return it."""
+    model, known = arm(1.0, masses, 1.0, damping, gravity, step)
+    force = np.array([0.0, push, 0.0])
+    with turned(LAB, RATE=rate):
+        path = LAB.let_go(model, known, 1.0, (0.5, force), (seconds, 0 * force))
+    return np.linalg.norm(path[-1] - path[-2]) * rate

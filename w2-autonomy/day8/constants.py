@@ -1,0 +1,310 @@
+"""What Day 8's numbers hang on: each constant turned by two, measured, explained.
+
+Everything is computed by the lab's own functions; nothing has noise unless it says so.
+"""
+
+from copy import copy
+from functools import cache
+
+import mujoco
+import numpy as np
+
+from labkit.lesson.constants import Numbers, between, same, times, turned
+from labkit.lesson.day import find_day
+from labkit.lesson.lab_module import lab_of
+from robo47 import identification, panda
+
+LAB = lab_of(find_day(8))
+DAY = LAB.day8_mujoco
+MODEL = panda.load("panda_nohand", drive="torque")
+ARM = panda.arm(MODEL)
+
+numbers = Numbers(
+    reach="the pendulum's reach: {} rad",
+    second="share of a second sine: {}",
+    rtol="RTOL: {}",
+    cut="CUT: {}",
+    metre="units of length in a metre: {}",
+    n="samples: {}",
+    seed="seed of the states: {}",
+    speed="speeds of the states: × {}",
+    swing="REACH of the swing: × {}",
+    noise="NOISE: {} N m",
+    noise_seed="NOISE_SEED: {}",
+    slow="SLOW: {} rad/s",
+    masses="MASS, how far the robot's are off: {}",
+    friction="dry friction: × {}",
+    wait="WAIT: {} s",
+    timeconst="solref[0] of the friction: {} s",
+    dmin="solimp[0] of the friction: {}",
+    dmax="solimp[1] of the friction: {}",
+    springs="OMEGA of the springs that hold it: {} rad/s",
+    step="time step: {} s",
+    poses="poses: {}",
+    qdd="acceleration: {} rad/s²",
+    dry="dry friction: {} N m",
+)
+
+
+@numbers.add(
+    "condition of the pendulum, one sine of 0.1 rad", "{:,.0f}",
+    reach=times(1 / 8, "q'' + q = 0, and sin q differs from q by q³/6", within=0.1),
+    second=between(0, 0.001, "another frequency: q'' = -q is gone", to=0.2),
+    rtol=same("nothing is cut: all five show"),
+)  # fmt: skip
+def pendulum(reach=0.1, second=0.0, rtol=LAB.RTOL):
+    """Return how unevenly the swing shows the five numbers."""
+    return LAB.identifiable(LAB.pendulum(reach, second), rtol)[1]
+
+
+def regressor(motion):
+    """Return Y, (n, 7, 91), as the lab's: by the library, which is quicker."""
+    with turned(LAB, arm_regressor=identification.arm_regressor):
+        return LAB.regressor(ARM, motion)
+
+
+@cache
+def anywhere(seed, n, speed):
+    """Return random states, and their Y, (n, 7, 91)."""
+    at = DAY.anywhere(MODEL, seed, n)
+    at = at._replace(qd=speed * at.qd)
+    return at, regressor(at)
+
+
+@numbers.add(
+    "combinations of the 70 numbers that show", "{:.0f}",
+    n=same("nine random states show all that can be known"),
+    seed=same("what hides is the arm's own: its axes, not the states", to=48),
+    speed=same("the same axes"),
+    metre=same("a column that is scaled stays as independent as it was"),
+    rtol=same("the others are rounding, 1e-14 and less"),
+)  # fmt: skip
+def links_show(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB.RTOL):
+    """Return the rank."""
+    Y = anywhere(seed, n, speed)[1][..., :70].reshape(-1, 70)
+    return LAB.identifiable(Y / LAB.lengths(metre)[:70], rtol)[0]
+
+
+@numbers.add(
+    "condition of random states, with motors", "{:.0f}",
+    n=between(0.8, 1.1, "more states of the same kind"),
+    seed=between(0.7, 1.4, "other states of the same kind", to=48),
+    speed=between(1.05, 2.0, "the worst shown, viscous friction, grows like the speed, "
+                  "and a part of the best, inertia, like its square"),
+    metre=between(0.3, 0.8, "the best shown is inertia and m c, whose columns shrink; "
+                  "the worst is friction, and has no length in it"),
+    rtol=same("nothing lies between 1e-14 and 1 / 230"),
+)  # fmt: skip
+def condition(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB.RTOL):
+    """Return how unevenly 100 random states show what they show."""
+    Y = anywhere(seed, n, speed)[1].reshape(-1, 91)
+    return LAB.identifiable(Y / LAB.lengths(metre), rtol)[1]
+
+
+@numbers.add(
+    "condition of Day 5's swing", "{:,.0f}",
+    swing=between(1 / 200, 1 / 100, "as the pendulum's 1/8, but some differences are "
+                  "smaller still: a seventh power of the reach, not a third"),
+    metre=between(3.0, 10.0, "columns in kg m² shrink to 1/100: the unit is in it",
+                  to=10.0),
+    rtol=same("nothing lies near it: what hides is rounding"),
+)  # fmt: skip
+def swing_condition(swing=1.0, metre=1.0, rtol=LAB.RTOL):
+    """Return how unevenly the swing shows the numbers, to three digits."""
+    motion, Y = swung(swing)
+    fast = np.abs(motion.qd) > LAB.SLOW
+    return float(f"{LAB.identifiable(Y[fast] / LAB.lengths(metre), rtol)[1]:.3g}")
+
+
+@cache
+def swung(reach):
+    """Return the swing and its Y."""
+    with turned(DAY, REACH=reach * DAY.REACH):
+        motion = DAY.swing()
+    return motion, regressor(motion)
+
+
+@cache
+def excited(n):
+    """Return the excitation and its Y."""
+    motion = DAY.excitation(MODEL, LAB.ROBOT_SEED, n)
+    return motion, regressor(motion)
+
+
+@cache
+def robot(masses=DAY.MASS, friction=1.0, load=0.0):
+    """Return the robot that nobody knows, with what hangs on its hand."""
+    edit = DAY.load(load, LAB.AT) if load else None
+    model = panda.load("panda_nohand", drive="torque", edit=edit)
+    with turned(DAY, MASS=masses):
+        model = DAY.changed(model, LAB.ROBOT_SEED)
+    model.dof_frictionloss[:] *= friction
+    mujoco.mj_setConst(model, mujoco.MjData(model))
+    return model
+
+
+def off_elsewhere(moved, drawn, secret, rtol, metre=1.0, slow=LAB.SLOW):
+    """Return how far a fit is off at the lab's random states, in N m.
+
+    Args:
+        moved: a motion and its Y.
+        drawn: the noise of its torques.
+        secret: the robot.
+        rtol: of the fit.
+        metre: units of length to a metre.
+        slow: slower rows are left out.
+    """
+    motion, Y = moved
+    at, Y_new = anywhere(LAB.ROBOT_SEED, LAB.TRIALS, 1.0)
+    new = np.abs(at.qd) > LAB.SLOW
+    fast = np.abs(motion.qd) > slow
+    unit = LAB.lengths(metre)
+    tau = LAB.mujoco_torques(secret, motion) + drawn
+    phi = LAB.fit(Y[fast] / unit, tau[fast], rtol)
+    return LAB.rms(Y_new[new] / unit @ phi - LAB.mujoco_torques(secret, at)[new])
+
+
+@numbers.add(
+    "the swing's fit, cut, in metres, off elsewhere", "{:.2f} N m",
+    cut=between(0.9, 1.1, "some more values are cut; most of the harm was done"),
+    metre=between(0.2, 0.4, "columns in kg m² shrink to 1/100, and others are cut",
+                  to=10.0),
+    noise=between(0.9, 1.3, "without any it is 4.8: what was cut off is not noise"),
+    noise_seed=between(0.7, 1.3, "another noise on top of the same cut", to=48),
+    swing=between(0.8, 1.0, "more combinations are above the cut, and the others are "
+                  "still taken for 0"),
+    masses=between(0.8, 1.2, "what was cut off is taken for 0, not for the file's"),
+)  # fmt: skip
+def cut_fit(cut=LAB.CUT, metre=1.0, noise=LAB.NOISE, noise_seed=LAB.NOISE_SEED,
+            swing=1.0, masses=DAY.MASS):  # fmt: skip
+    """Return what the cut fit to the swing is off."""
+    drawn = noise * np.random.default_rng(noise_seed).normal(size=(200, 7))
+    return off_elsewhere(swung(swing), drawn, robot(masses), cut, metre)
+
+
+@numbers.add(
+    "the excitation's fit, off elsewhere", "{:.2f} N m",
+    noise=times(2.0, "its error is all noise, and the fit is linear"),
+    n=between(0.55, 0.85, "twice the samples: 1/√2, and other noise", to=400),
+    noise_seed=between(0.5, 1.5, "another noise", to=48),
+    metre=same("where nothing is cut the unit drops out"),
+    rtol=same("nothing lies near it"),
+    slow=between(0.8, 1.2, "fewer rows, none of them wrong"),
+    masses=same("the fit does not know how far the robot is from its file"),
+    friction=same("dry friction is a column of Y"),
+)  # fmt: skip
+def excited_fit(
+    noise=LAB.NOISE, n=200, noise_seed=LAB.NOISE_SEED, metre=1.0, rtol=LAB.RTOL,
+    slow=LAB.SLOW, masses=DAY.MASS, friction=1.0,
+):  # fmt: skip
+    """Return what the fit to the excitation is off."""
+    rng = np.random.default_rng(noise_seed)
+    rng.normal(size=(200, 7))  # the lab's swing has these
+    drawn = noise * rng.normal(size=(n, 7))
+    secret = robot(masses, friction)
+    return off_elsewhere(excited(n), drawn, secret, rtol, metre, slow)
+
+
+@numbers.add(
+    "the model file's own numbers, off elsewhere", "{:.2f} N m",
+    masses=between(1.05, 2.0, "what the masses are off by is twice as much"),
+    friction=between(1.05, 2.0, "the file has no dry friction at all"),
+    noise=same("nothing is fitted, and the truth has no noise"),
+)  # fmt: skip
+def file_off(masses=DAY.MASS, friction=1.0, noise=LAB.NOISE):
+    """Return what the model file is off."""
+    at, Y = anywhere(LAB.ROBOT_SEED, LAB.TRIALS, 1.0)
+    new = np.abs(at.qd) > LAB.SLOW
+    truth = LAB.mujoco_torques(robot(masses, friction), at)
+    return LAB.rms((Y @ DAY.numbers(ARM) - truth)[new])
+
+
+@numbers.add(
+    "b, of the sign of MuJoCo's dry friction", "{:.0f} 1/s",
+    timeconst=times(0.5, "b = 2 / (dmax timeconst)"),
+    dmax=times(1 / 0.95, "b = 2 / (dmax timeconst)", to=0.9025),
+    dmin=same("b has the largest impedance in it, not that at rest", to=0.45),
+    qdd=same("twice the acceleration turns the sign at twice the speed"),
+    dry=same("how large it is does not say which way it points"),
+)  # fmt: skip
+def sign_rule(timeconst=0.02, dmax=0.95, dmin=0.9, qdd=5.0, dry=0.5):
+    """Return the acceleration over the speed at which dry friction turns its sign."""
+    model = panda.load("panda_nohand", drive="torque")
+    model.dof_solref[0] = timeconst, 1.0
+    model.dof_solimp[0, :2] = dmin, dmax
+    low, high = 0.0, 1.0  # rad/s, backwards
+    for _ in range(30):
+        middle = (low + high) / 2
+        given = [_torque(model, -middle, qdd, loss) for loss in (0.0, dry)]
+        low, high = (middle, high) if given[1] > given[0] else (low, middle)
+    return qdd / high
+
+
+def _torque(model, qd, qdd, dry):
+    """Return joint 1's torque at ready, with some dry friction."""
+    model.dof_frictionloss[0] = dry
+    data = mujoco.MjData(model)
+    data.qpos[:] = panda.READY_Q
+    data.qvel[0] = qd
+    data.qacc[0] = qdd
+    mujoco.mj_inverse(model, data)  # fills qfrc_inverse
+    return data.qfrc_inverse[0]
+
+
+@cache
+def held(load, side, i, wait, friction, timeconst, dmin, step, springs):
+    """Return q at rest and the springs' torque at one of the poses, (7,) each."""
+    model = copy(robot(friction=friction, load=load))
+    model.dof_solref[:7, 0] = timeconst
+    model.dof_solimp[:7, :2] = dmin, max(dmin, 0.95)
+    model.opt.timestep = step
+    # The lab's five, and more of the same draw.
+    away = np.random.default_rng(47).uniform(-0.5, 0.5, (10, 7))
+    with turned(DAY, OMEGA=springs):
+        return DAY._hold(model, ARM, panda.READY_Q + away[i], side, wait)
+
+
+def holds(load, side, n, *how):
+    """Return q at rest and the springs' torques at n poses, (n, 7) each."""
+    return np.swapaxes([held(load, side, i, *how) for i in range(n)], 0, 1)
+
+
+@numbers.add(
+    "too many from either side, without noise", "{:.0f} g",
+    wait=between(0.0, 0.2, "dry friction creeps: after 4 s hardly any is left"),
+    timeconst=between(0.0, 0.2, "b is half, so it creeps twice as fast"),
+    dmin=between(6.0, 10.0, "it hardly creeps at all", to=0.999),
+    friction=times(2.0, "of twice the friction twice as much is left", within=0.1),
+    springs=between(-0.2, 0.2, "it creeps until the springs give nothing; they pull "
+                    "four times as hard"),
+    step=times(1.0, "how it creeps is no matter of steps", within=0.05, to=0.001),
+)  # fmt: skip
+def either_side(
+    wait=LAB.WAIT, friction=1.0, timeconst=0.02, dmin=0.9, step=0.002, springs=DAY.OMEGA
+):
+    """Return what is found too much: down without the load, up with it."""
+    how = 5, wait, friction, timeconst, dmin, step, springs
+    q, full = holds(LAB.LOAD, -1.0, *how)
+    load, _ = LAB.weighed(ARM, q, full - holds(0.0, 1.0, *how)[1])
+    return 1000 * (load[0] - LAB.LOAD)
+
+
+@numbers.add(
+    "sigma of the load, each from both sides", "{:.0f} g",
+    noise=times(2.0, "what no load explains is noise, and hardly any friction",
+                within=0.05),
+    noise_seed=between(0.7, 1.4, "it is estimated from 35 torques", to=48),
+    poses=between(0.6, 0.85, "twice the poses: 1/√2, and other poses"),
+)  # fmt: skip
+def load_sigma(noise=LAB.NOISE, noise_seed=LAB.NOISE_SEED, poses=5):
+    """Return the sigma of the mass that the lab finds."""
+    rng = np.random.default_rng(noise_seed)
+    rng.normal(size=(600, 7))  # the lab's three motions have these
+    off = noise * rng.normal(size=(2, 2, poses, 7))  # empty and loaded, by side
+    how = poses, LAB.WAIT, 1.0, 0.02, 0.9, 0.002, DAY.OMEGA
+    empty, full = (
+        [holds(m, side, *how) for side in (1.0, -1.0)] for m in (0, LAB.LOAD)
+    )
+    extra = np.mean([f[1] - e[1] for f, e in zip(full, empty, strict=True)], axis=0)
+    extra += (off[1] - off[0]).mean(axis=0)
+    return 1000 * LAB.weighed(ARM, (full[0][0] + full[1][0]) / 2, extra)[1][0]
