@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Matrix, Row
-from labkit.judge.ask import rounded
+from labkit.judge import Matrix, Row, rounded
 
 from .seen import K, cameras
 

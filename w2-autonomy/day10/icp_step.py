@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labkit.judge import Pose, Row
-from labkit.judge.ask import rounded
+from labkit.judge import Pose, Row, rounded
 from robo47.camera import kabsch, moved
 
 row = Row(Pose())

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from labkit.judge.ask import rounded
+from labkit.judge import rounded
 from robo47 import camera, se3
 from robo47.camera import camera_matrix, moved
 from robo47.checks import Array

@@ -1,23 +1,19 @@
 """Day 10: the numbers in the guide's sentences, and every reason in it."""
 
-import io
 import re
-from contextlib import redirect_stdout
 from unittest.mock import patch
 
 import mujoco
 import numpy as np
 import pytest
 
-from conftest import ROOT, load_script
+from conftest import ROOT, load_script, printed_by, sentences
 from robo47 import camera, eye, panda, se3
 from robo47.screws import skew
 
 import day10_mujoco
 
-GUIDE = (ROOT / "w2-autonomy/docs/day10-lab.md").read_text("utf-8")
-OWN = re.sub(r"<!-- run.*?<!-- end -->", "", GUIDE, flags=re.S)
-SENTENCES = " ".join(OWN.replace("*", "").split())
+SENTENCES = sentences(10)
 lab = load_script(ROOT / "w2-autonomy/src/day10_camera.py")
 model, data = day10_mujoco.table()
 mujoco.mj_forward(model, data)
@@ -69,18 +65,11 @@ def fitted(
 
 @pytest.fixture(scope="module")
 def printed():
-    """Return what the lab prints, 80 columns wide at most."""
+    """Return what the lab prints."""
     told = {"half a pixel, both ways, on the table, mm": "2.3",
             "mm off along the view, 240 px": "8",
             "numbers of X that joint 7 alone leaves free": "2"}  # fmt: skip
-    with (
-        patch("sys.argv", ["lab", "--no-log"]),
-        patch("labkit.lesson.lab.predictions", lambda worksheet: told),
-        redirect_stdout(io.StringIO()) as out,
-    ):
-        assert lab.main() == 0
-    assert all(len(line) <= 80 for line in out.getvalue().splitlines())
-    return out.getvalue()
+    return printed_by(lab, told)
 
 
 @pytest.fixture(scope="module")
@@ -153,7 +142,7 @@ def test_what_each_mistake_of_step_1_looks_like_over_the_image():
     }
     for name, pixels in wrong.items():
         off = np.linalg.norm(pixels - right, axis=1)
-        cells = re.search(rf"\| {name} \| ([\d.]+) \| ([\d.]+) \|", GUIDE).groups()
+        cells = re.search(rf"\| {name} \| ([\d.]+) \| ([\d.]+) \|", SENTENCES).groups()
         for cell, value in zip(cells, (off.min(), off.max()), strict=True):
             digits = len(cell.partition(".")[2])
             assert f"{value:.{digits}f}" == cell
