@@ -9,7 +9,17 @@ from robo47.rotation_log import log_rotation
 from .kabsch import rigid
 from .seen import motions
 
-row = Row(Pose())
+
+def two_axes(A, B):
+    """Return whether motions turn about two axes, none by nearly half a turn."""
+    a = log_rotation(A[:, :3, :3])
+    b = log_rotation(B[:, :3, :3])
+    least = min(np.linalg.svd(x, compute_uv=False)[1] for x in (a, b))
+    most = max(np.linalg.norm(x, axis=1).max() for x in (a, b))
+    return bool(least > 0.1 and most < np.pi - 0.1)
+
+
+row = Row(Pose(), at_edge=two_axes)
 
 
 @row.inputs

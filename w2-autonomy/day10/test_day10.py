@@ -119,7 +119,7 @@ def test_k_is_a_triangle_and_the_docstrings_point_is_at_125():
 def test_half_a_pixel_is_z_over_f_and_grows_with_the_distance(printed):
     far = np.linalg.norm(day10_mujoco.TO - day10_mujoco.AT)
     assert f"hangs {far:.3f} m from the middle" in SENTENCES
-    assert f"z / f = 955 / 290 = {1000 * far / F:.1f} mm: 2.3 mm" in SENTENCES
+    assert f"z / f = 955 / 290 = {1000 * far / F:.1f} mm: 2.33 mm" in SENTENCES
     assert "half a pixel, both ways, is 2.3 mm" in printed
     for z in (far, 2 * far):
         pixels = np.array([[160.0, 120.0], [160.5, 120.5]])
@@ -146,6 +146,7 @@ def test_what_each_mistake_of_step_1_looks_like_over_the_image():
         for cell, value in zip(cells, (off.min(), off.max()), strict=True):
             digits = len(cell.partition(".")[2])
             assert f"{value:.{digits}f}" == cell
+    assert f"0.707 / f = {np.degrees(np.sqrt(0.5) / F):.2f} degrees" in SENTENCES
     growing = np.linalg.norm(wrong["f from the width"] - right, axis=1)
     away = np.linalg.norm(from_middle, axis=1)
     assert growing == pytest.approx(away / 3)  # zero in the middle, growing outwards
@@ -302,7 +303,7 @@ def test_the_mean_of_the_points_is_off_because_far_sides_are_not_seen():
         cloud = lab.depth_cloud(m, d, *eye.camera(m, d, "eye"))
         cloud = cloud[cloud[:, 2] > day10_mujoco.TABLE + lab.ABOVE]
         off.append(1000 * np.linalg.norm(cloud.mean(axis=0)[:2] - T[:2, 3]))
-    assert f"The mean of the points is {off[0]:.0f} mm off" in SENTENCES
+    assert f"of a cube at the table's middle is {off[0]:.1f} mm off" in SENTENCES
     assert off[1] < 0.1
     assert "the mean is right to 0.1 mm" in SENTENCES
 
