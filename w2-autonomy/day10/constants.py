@@ -1,0 +1,139 @@
+"""What Day 10's numbers hang on: each constant turned by two, measured, explained.
+
+Everything is computed by the lab's own functions; nothing has noise unless it says so.
+"""
+
+import mujoco
+import numpy as np
+
+from labkit.lesson.constants import Numbers, between, same, times, turned
+from labkit.lesson.day import find_day
+from labkit.lesson.lab_module import lab_of
+from robo47 import eye, panda, se3
+from robo47.screws import skew
+
+LAB = lab_of(find_day(10))
+DAY = LAB.day10_mujoco
+DISTANCE = float(np.linalg.norm(DAY.AT - DAY.TO))
+
+numbers = Numbers(
+    half="pixels added, both ways: {}",
+    fovy="angle of view: {}°",
+    size="pixels in a row: × {}",
+    distance="from the eye to the middle of the table: × {}",
+    z="NEAR: {} m",
+    noise="NOISE: {} px",
+    wide="the cube's width: × {}",
+    joint_6="joint 6 turns by up to {}°",
+    looks="LOOKS: {}",
+    seed="SEED of the looks: {}",
+    reach="how far joint 7 turns: × {}",
+    turn="the other X, turned: {} rad",
+    slide="the other X, slid: {} m",
+    above="ABOVE the table: {} m",
+    overhead="how far aside the eye hangs: × {}",
+)
+
+
+def seen(fovy, size, distance, overhead=1.0):
+    """Return the table seen from further off, by other pixels: model, data, K, pose."""
+    way = (DAY.AT - DAY.TO) * [overhead, overhead, 1.0]
+    at = DAY.TO + distance * DISTANCE * way / np.linalg.norm(way)
+    wide, high = round(size * DAY.WIDTH), round(size * DAY.HEIGHT)
+    with turned(DAY, AT=at, FOVY=fovy, WIDTH=wide, HEIGHT=high):
+        model, data = DAY.table()
+    mujoco.mj_forward(model, data)  # fills cam_xpos and cam_xmat
+    return model, data, *eye.camera(model, data, "eye")
+
+
+@numbers.add(
+    "half a pixel, both ways, at the table's middle", "{:.2f} mm",
+    half=times(2.0, "it is linear in the pixel"),
+    fovy=times(2.414, "f = height / 2 / tan(fovy / 2): tan 45° is 2.414 tan 22.5°"),
+    size=times(0.5, "twice the pixels in the same angle: f is twice as large"),
+    distance=times(2.0, "a pixel is z / f"),
+)  # fmt: skip
+def half_pixel(half=0.5, fovy=DAY.FOVY, size=1.0, distance=1.0):
+    """Return how far a point moves for so many pixels."""
+    _, _, K, T = seen(fovy, size, distance)
+    pixels = K[:2, 2] + np.array([[0.0, 0.0], [half, half]])
+    here, there = LAB.back_project(K, T, pixels, np.full(2, distance * DISTANCE))
+    return 1000 * np.linalg.norm(there - here)
+
+
+@numbers.add(
+    "sigma along the view, 240 px", "{:.1f} mm",
+    z=times(4.0, "a pixel of width is z² / (f w)"),
+    noise=times(2.0, "a covariance is sigma² times what the view says"),
+    wide=times(0.5, "a pixel of width is z² / (f w)"),
+    size=times(0.5, "f is twice as large"),
+)  # fmt: skip
+def along(z=LAB.NEAR, noise=LAB.NOISE, wide=1.0, size=1.0):
+    """Return the sigma of the cube's depth."""
+    T, corners, K = held(z, wide, size)
+    J = LAB.projection_jacobian(K, corners @ T[:3, :3].T + T[:3, 3])
+    C = LAB.pose_covariance(J, noise)
+    at_cube = np.hstack([-skew(T[:3, 3]), np.eye(3)])
+    return 1000 * np.sqrt((at_cube @ C @ at_cube.T)[2, 2])
+
+
+def held(z, wide, size):
+    """Return step 4's cube at a depth, its corners, and K."""
+    way = np.array([0.05, 0.02, 0.8]) / 0.8
+    T = se3.make_T(se3.Rz(0.3) @ se3.Rx(2.3), z * way)
+    K = LAB.camera_matrix(np.deg2rad(DAY.FOVY), size * DAY.WIDTH, size * DAY.HEIGHT)
+    return T, wide * DAY.CORNERS, K
+
+
+def looked(joint_6, looks, seed, reach):
+    """Return looks by joint 7, and by joint 6 a little."""
+    away = np.random.default_rng(seed).uniform(-0.5, 0.5, (looks, 7))
+    q = reach * away * np.eye(7)[6]
+    q[:, 5] = np.radians(joint_6) * np.linspace(-1, 1, looks)
+    return DAY.looks(DAY.handheld(), panda.READY_Q + q)
+
+
+@numbers.add(
+    "numbers of X that joint 7 alone leaves free", "{:.0f}",
+    joint_6=times(0.0, "a second axis, by however little, shows the rest", to=1.0),
+    looks=same("more looks about one axis say the same again"),
+    seed=same("which angles they are does not matter", to=11),
+    reach=same("nor how large"),
+)  # fmt: skip
+def left_free(joint_6=0.0, looks=LAB.LOOKS, seed=LAB.SEED, reach=1.0):
+    """Return how many."""
+    return LAB.free(LAB.motions(looked(joint_6, looks, seed, reach))[0])
+
+
+@numbers.add(
+    "the table beside its place, by another X with residual 0", "{:.0f} mm",
+    turn=between(1.6, 2.0, "a point far from the axis moves along a chord"),
+    slide=between(1.0, 1.3, "50 mm more along the axis, at a right angle to the chord"),
+    looks=same("joint 7 turns about the very axis that X is turned about"),
+    seed=same("which angles they are does not matter", to=11),
+    reach=same("nor how large"),
+)  # fmt: skip
+def aside(turn=LAB.FREE[2], slide=LAB.FREE[5], looks=LAB.LOOKS, seed=LAB.SEED, reach=1):
+    """Return how far the table's middle seems to be from where it is."""
+    some = looked(0.0, looks, seed, reach)
+    X = LAB.moved(DAY.ON_HAND, np.array([0, 0, turn, 0, 0, slide]))
+    return 1000 * np.linalg.norm(LAB.said(*some, X)[0] - DAY.TO)
+
+
+@numbers.add(
+    "the mean of the cube's points beside its middle", "{:.1f} mm",
+    overhead=between(0.0, 0.05, "from straight above all sides are hidden alike",
+                     to=0.001),
+    size=between(0.8, 1.25, "more points on the same two or three sides"),
+    above=between(0.8, 1.0, "fewer points of the sides that are seen"),
+    distance=between(0.8, 1.25, "the same sides from further off, in fewer points"),
+)  # fmt: skip
+def mean_off(overhead=1.0, size=1.0, above=LAB.ABOVE, distance=1.0):
+    """Return how far, in the plane of the table."""
+    model, data, K, T = seen(DAY.FOVY, size, distance, overhead)
+    T_world_cube = se3.make_T(se3.Rz(0.3), (*DAY.TO[:2], DAY.CUBE_HEIGHT))
+    DAY.place(model, data, T_world_cube)
+    with turned(DAY, WIDTH=round(size * DAY.WIDTH), HEIGHT=round(size * DAY.HEIGHT)):
+        cloud = LAB.depth_cloud(model, data, K, T)
+    cloud = cloud[cloud[:, 2] > DAY.TABLE + above]
+    return 1000 * np.linalg.norm(cloud.mean(axis=0)[:2] - DAY.TO[:2])

@@ -1,0 +1,101 @@
+"""The picture of Day 10, made with the lab's own functions; drawn by `make figures`.
+
+shown   the depth image, the cloud that it makes, and fits in their 95 % ellipse
+"""
+
+import day10_camera as lab
+import mujoco
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from labkit.figures import chart
+from labkit.figures.chart import BLUE, INK, RED
+from robo47 import eye, se3
+from robo47.screws import skew
+
+import day10_mujoco
+
+FITS = 150
+CHI2_2 = 5.991  # of two numbers: 95 % are within
+
+
+@chart.picture(height=7.5)
+def shown(figure: Figure) -> None:
+    """Draw a depth image, the points above the table, and how far fits are off."""
+    above, below = figure.subplots(2, 2, height_ratios=(1.5, 1.0))
+    model, data = day10_mujoco.table()
+    T_world_cube = day10_mujoco.cubes(1, lab.SEED + 1)[0]
+    day10_mujoco.place(model, data, T_world_cube)
+    mujoco.mj_forward(model, data)  # fills cam_xpos, cam_xmat, and what rays meet
+    K, T_world_cam = eye.camera(model, data, "eye")
+    _image(above[0], eye.depth(model, data, "eye"))
+    corners = day10_mujoco.CORNERS @ T_world_cube[:3, :3].T + T_world_cube[:3, 3]
+    pixels = lab.project(K, se3.inverse(T_world_cam), corners)
+    above[0].plot(*pixels.T, "o", ms=3, color=RED, label="project: its corners")
+    above[0].legend(loc="lower left", facecolor="white", framealpha=0.8, frameon=True)
+    cloud = lab.depth_cloud(model, data, K, T_world_cam)
+    _cloud(above[1], cloud[cloud[:, 2] > day10_mujoco.TABLE + lab.ABOVE], T_world_cube)
+    T = se3.make_T(se3.Rz(0.3) @ se3.Rx(2.3), (0.05, 0.02, lab.NEAR))
+    for axes, distance in zip(below, (lab.NEAR, 2 * lab.NEAR), strict=True):
+        T[:3, 3] *= distance / T[2, 3]
+        _ellipse(axes, K, T)
+
+
+def _image(axes: Axes, depth: np.ndarray) -> None:
+    """Draw the depth image, dark is near."""
+    height, width = depth.shape
+    seen = np.where(np.isfinite(depth), depth, np.nan)
+    edge = (0, width, height, 0)  # (0, 0) is the picture's corner, as in the lab
+    axes.imshow(seen, cmap="viridis_r", extent=edge)
+    axes.set(title="Depth: what is seen", xlabel="u, px", ylabel="v, px")
+    axes.set(xlim=(130, 190), ylim=(140, 80))  # the cube is small in it
+
+
+def _cloud(axes: Axes, cloud: np.ndarray, T_world_cube: np.ndarray) -> None:
+    """Draw the cube's points from above, its outline, their mean."""
+    x, y = 1000 * cloud[:, :2].T
+    half = 1000 * day10_mujoco.CORNERS[-1, 0]
+    square = half * np.array([[-1, 1, 1, -1, -1], [-1, -1, 1, 1, -1]])
+    turned = T_world_cube[:2, :2] @ square + 1000 * T_world_cube[:2, 3:]
+    axes.plot(x, y, ".", ms=3, color=BLUE, label="seen")
+    axes.plot(*turned, "-", color=INK, linewidth=1.5, label="the cube")
+    axes.plot(x.mean(), y.mean(), "s", ms=8, color=RED, label="mean of the points")
+    axes.set(title="The cloud, from above", xlabel="x, mm", ylabel="y, mm")
+    axes.legend(loc="lower center")
+    middle = x.mean() - 6, y.mean() - 16
+    axes.set(xlim=(middle[0] - 45, middle[0] + 45), aspect="equal")
+    axes.set(ylim=(middle[1] - 45, middle[1] + 45))
+    axes.grid()
+
+
+def _ellipse(axes: Axes, K: np.ndarray, T: np.ndarray) -> None:
+    """Draw where fits with noise put the cube, and the ellipse they were told."""
+    corners = day10_mujoco.CORNERS
+    exact = lab.project(K, T, corners)
+    J = lab.projection_jacobian(K, corners @ T[:3, :3].T + T[:3, 3])
+    at_cube = np.hstack([-skew(T[:3, 3]), np.eye(3)])
+    C = at_cube @ lab.pose_covariance(J, lab.NOISE) @ at_cube.T
+    rng = np.random.default_rng(lab.NOISE_SEED)
+    seen = exact + lab.NOISE * rng.normal(size=(FITS, *exact.shape))
+    places = np.array([lab.refine_pose(K, T, corners, one)[:3, 3] for one in seen])
+    off = 1000 * (places - T[:3, 3])[:, [2, 0]]
+    turn = np.linspace(0, 2 * np.pi, 200)
+    circle = np.sqrt(CHI2_2) * np.array([np.cos(turn), np.sin(turn)])
+    across = 1000 * np.linalg.cholesky(C[np.ix_([2, 0], [2, 0])]) @ circle
+    axes.plot(*across, "-", linewidth=1.2, color=RED, label="95 % ellipse")
+    axes.plot(*off.T, ".", ms=2.5, color=BLUE, label="fits")
+    axes.set(
+        title=f"Off, {T[2, 3]:.1f} m away",
+        xlabel="along the view, mm",
+        ylabel="across, mm",
+        xlim=(-110, 110),
+        ylim=(-40, 80),
+        aspect="equal",
+    )
+    axes.legend(loc="upper right")
+    axes.grid()
+
+
+FIGURES = {"shown": shown}
+SMALL = ("shown", 0.09, 0.1, 0.42)  # its left, top and width, in parts of its width

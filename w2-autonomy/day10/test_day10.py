@@ -1,0 +1,325 @@
+"""Day 10: the numbers in the guide's sentences, and every reason in it."""
+
+import re
+from unittest.mock import patch
+
+import mujoco
+import numpy as np
+import pytest
+
+from conftest import ROOT, load_script, printed_by, sentences
+from robo47 import camera, eye, panda, se3
+from robo47.screws import skew
+
+import day10_mujoco
+
+SENTENCES = sentences(10)
+lab = load_script(ROOT / "w2-autonomy/src/day10_camera.py")
+model, data = day10_mujoco.table()
+mujoco.mj_forward(model, data)
+K, T_world_cam = eye.camera(model, data, "eye")
+T_cam_world = se3.inverse(T_world_cam)
+CORNERS = day10_mujoco.CORNERS
+F = K[0, 0]
+
+
+def held(z=lab.NEAR, wide=1.0):
+    """Return the lab's cube of step 4 at a depth, and its corners."""
+    way = np.array([0.05, 0.02, lab.NEAR]) / lab.NEAR
+    return se3.make_T(se3.Rz(0.3) @ se3.Rx(2.3), z * way), wide * CORNERS
+
+
+def in_camera(T, points):
+    """Return points in the camera's axes."""
+    return points @ T[:3, :3].T + T[:3, 3]
+
+
+def sigmas(T, corners, slopes=camera.projection_jacobian):
+    """Return sigma of the cube's place, mm, (3,), and of the twist's v, mm, (3,)."""
+    C = camera.pose_covariance(slopes(K, in_camera(T, corners)), lab.NOISE)
+    at_cube = np.hstack([-skew(T[:3, 3]), np.eye(3)])
+    both = (np.diag(at_cube @ C @ at_cube.T), np.diag(C)[3:])
+    return tuple(1000 * np.sqrt(one) for one in both)
+
+
+def one_z_too_few(K, p):
+    """Return J with 1 / z for 1 / z^2 in its third column."""
+    x, y, z = p.T
+    zero = 0 * z
+    rows = F / z * np.array([[1 + zero, zero, -x], [zero, 1 + zero, -y]])
+    by_point = np.moveaxis(rows, 2, 0)
+    return np.concatenate([-by_point @ skew(p), by_point], axis=2)
+
+
+def fitted(
+    T, points, pixels, *, slopes=camera.projection_jacobian, move=camera.moved, n=10
+):
+    """Return a fit by other slopes or steps; also behind the camera."""
+    for _ in range(n):
+        p = in_camera(T, points)
+        off = pixels - (p @ K.T)[:, :2] / p[:, 2:]
+        J = slopes(K, p).reshape(-1, 6)
+        T = move(T, np.linalg.lstsq(J, off.ravel(), rcond=None)[0])
+    return T
+
+
+@pytest.fixture(scope="module")
+def printed():
+    """Return what the lab prints."""
+    told = {"half a pixel, both ways, on the table, mm": "2.3",
+            "mm off along the view, 240 px": "8",
+            "numbers of X that joint 7 alone leaves free": "2"}  # fmt: skip
+    return printed_by(lab, told)
+
+
+@pytest.fixture(scope="module")
+def looks():
+    """Return the lab's looks by all joints, by joint 7 alone, and the fresh ones."""
+    away = np.random.default_rng(lab.SEED).uniform(-0.5, 0.5, (2, lab.LOOKS, 7))
+    arm = day10_mujoco.handheld()
+    seven = away[0] * np.eye(7)[6]
+    all_of = [away[0], seven, away[1]]
+    return [day10_mujoco.looks(arm, panda.READY_Q + q) for q in all_of]
+
+
+def test_three_predictions_of_the_worksheet_stand_beside_what_is_measured(printed):
+    sheet = (ROOT / "w2-autonomy/docs/day10.md").read_text("utf-8")
+    for yours, found in (("2.3", "2.3"), ("8", "8.9"), ("2", "2")):
+        row = rf"you predicted {yours}, measured ([\d.]+):\s+([^\n]+)"
+        measured, name = re.search(row, printed).groups()
+        assert round(float(measured), len(found) - 2 if "." in found else 0) == float(
+            found
+        )
+        assert f"| {name}" in sheet
+
+
+def test_what_the_opening_promises_is_what_the_lab_prints(printed):
+    off = [float(x) for x in re.findall(r"points: ([\d.]+) mm beside", printed)]
+    mean = re.findall(r"their mean: ([\d.]+) mm", printed)
+    assert f"to {max(off)} mm, where the mean of all points" in SENTENCES
+    assert f"is {max(mean)} mm off" in SENTENCES
+    aside = re.search(r"middle is (\d+) mm beside", printed)[1]
+    assert f"with the table {aside} mm beside its place" in SENTENCES
+    alone = re.search(r"joint 7 alone +0\.00 +2 +(\S+)\n", printed)[1]
+    assert float(alone) < 1e-15
+
+
+def test_k_is_a_triangle_and_the_docstrings_point_is_at_125():
+    known = camera.camera_matrix(np.pi / 2, 200, 100)
+    assert np.allclose(known, [[50, 0, 100], [0, 50, 50], [0, 0, 1]])
+    found = camera.project(known, np.eye(4), [[1.0, 0, 2]])[0]
+    assert found == pytest.approx([125, 50])
+    J = camera.projection_jacobian(known, [[0.0, 0, 2]])[0]
+    assert J[:, 3] == pytest.approx([25, 0])
+    assert J[:, 1] == pytest.approx([50, 0])
+    assert J[:, 5] == pytest.approx(0)  # in the middle depth does not show
+    assert f"f = {F:.0f} px" in SENTENCES
+
+
+def test_half_a_pixel_is_z_over_f_and_grows_with_the_distance(printed):
+    far = np.linalg.norm(day10_mujoco.TO - day10_mujoco.AT)
+    assert f"hangs {far:.3f} m from the middle" in SENTENCES
+    assert f"z / f = 955 / 290 = {1000 * far / F:.1f} mm: 2.33 mm" in SENTENCES
+    assert "half a pixel, both ways, is 2.3 mm" in printed
+    for z in (far, 2 * far):
+        pixels = np.array([[160.0, 120.0], [160.5, 120.5]])
+        a, b = camera.back_project(K, T_world_cam, pixels, np.full(2, z))
+        assert np.linalg.norm(b - a) == pytest.approx(z / F * np.sqrt(0.5))
+
+
+def test_what_each_mistake_of_step_1_looks_like_over_the_image():
+    places = day10_mujoco.cubes(lab.TRIALS, lab.SEED)
+    points = np.concatenate([in_camera(T_cam_world @ T, CORNERS) for T in places])
+    right = camera.project(K, np.eye(4), points)
+    centre = K[:2, 2]
+    from_middle = right - centre
+    wrong = {
+        r"\(width - 1\) / 2 for the centre, as in OpenCV": right - 0.5,
+        "the centre's two numbers swapped": from_middle + centre[::-1],
+        "no centre": from_middle,
+        "f from the width": from_middle * 320 / 240 + centre,
+        "y taken upwards": from_middle * [1, -1] + centre,
+    }
+    for name, pixels in wrong.items():
+        off = np.linalg.norm(pixels - right, axis=1)
+        cells = re.search(rf"\| {name} \| ([\d.]+) \| ([\d.]+) \|", SENTENCES).groups()
+        for cell, value in zip(cells, (off.min(), off.max()), strict=True):
+            digits = len(cell.partition(".")[2])
+            assert f"{value:.{digits}f}" == cell
+    assert f"0.707 / f = {np.degrees(np.sqrt(0.5) / F):.2f} degrees" in SENTENCES
+    growing = np.linalg.norm(wrong["f from the width"] - right, axis=1)
+    away = np.linalg.norm(from_middle, axis=1)
+    assert growing == pytest.approx(away / 3)  # zero in the middle, growing outwards
+
+
+def test_range_for_depth_is_right_in_the_middle_and_there_alone():
+    day10_mujoco.place(model, data, day10_mujoco.ASIDE)
+    mujoco.mj_forward(model, data)
+    depth = eye.depth(model, data, "eye").ravel()
+    hit = np.isfinite(depth)
+    pixels = eye.middles(day10_mujoco.WIDTH, day10_mujoco.HEIGHT)[hit]
+    assert depth.size == 76_800
+    through = np.column_stack([pixels, np.ones(len(pixels))])
+    length = np.linalg.norm(np.linalg.solve(K, through.T), axis=0)
+    off = 1000 * depth[hit] * (length - 1)  # range is depth times that length
+    away = np.linalg.norm(pixels - K[:2, 2], axis=1)
+    assert f"ray and view are one: {off[np.argmin(away)]:.3f} mm" in SENTENCES
+    at_150 = off[np.abs(away - 150) < 5].mean()
+    assert f"At 150 px from it, it is {at_150:.0f} mm" in SENTENCES
+
+
+def test_the_exponential_on_the_right_never_arrives_and_one_z_too_few_always_does():
+    rng = np.random.default_rng(lab.SEED)
+    left, right, few, off = [], [], [], []
+    for T_world_cube in day10_mujoco.cubes(50, lab.SEED):
+        T = T_cam_world @ T_world_cube
+        pixels = camera.project(K, T, CORNERS)
+        guess = lab.guesses(T, 1, rng)[0]
+        p = in_camera(T, CORNERS)
+        off.append(one_z_too_few(K, p) - camera.projection_jacobian(K, p))
+        left.append(fitted(guess, CORNERS, pixels) - T)
+        few.append(fitted(guess, CORNERS, pixels, slopes=one_z_too_few) - T)
+        with np.errstate(all="ignore"):
+            try:
+                body = fitted(
+                    guess,
+                    CORNERS,
+                    pixels,
+                    move=lambda T, xi: T @ camera.moved(np.eye(4), xi),
+                )
+            except (ValueError, np.linalg.LinAlgError):
+                body = np.full((4, 4), np.inf)
+        right.append(body - T)
+    worst = [np.abs(one).max(axis=(1, 2)) for one in (left, right, few)]
+    assert [np.sum(one < 1e-8) for one in worst] == [50, 0, 50]
+    assert "0 of 50 fits arrive" in SENTENCES
+    assert "50 of 50 fits still arrive" in SENTENCES
+    assert worst[0].max() < 1e-14
+    assert f"by up to {np.abs(off).max():.0f} px" in SENTENCES
+    most = f"{worst[2].max():.0e}".replace("e-0", "e-")
+    assert f"to {most} in place of" in SENTENCES
+
+
+def test_with_noise_the_wrong_jacobian_fits_as_well_and_its_covariance_is_wrong():
+    T, corners = held()
+    exact = camera.project(K, T, corners)
+    rng = np.random.default_rng(lab.NOISE_SEED)
+    both = []
+    for pixels in exact + lab.NOISE * rng.normal(size=(100, 8, 2)):
+        right = fitted(T, corners, pixels)
+        wrong = fitted(T, corners, pixels, slopes=one_z_too_few, n=30)
+        both.append([right[2, 3] - T[2, 3], wrong[2, 3] - T[2, 3]])
+    right, wrong = 1000 * np.sqrt(np.mean(np.square(both), axis=0))
+    assert right == pytest.approx(wrong, rel=0.02)
+    told = sigmas(T, corners, one_z_too_few)[0][2]
+    assert f"says {told:.1f} mm along the view for {sigmas(T, corners)[0][2]:.1f}" in (
+        SENTENCES
+    )
+    assert f"{right:.1f} mm along the view either way" in SENTENCES
+
+
+def test_the_ellipse_along_the_view_grows_with_z_squared_over_f_w():
+    near = sigmas(*held())
+    far = sigmas(*held(2 * lab.NEAR))
+    large = sigmas(*held(wide=2.0))
+    assert f"At 1.6 m it is {far[0][2]:.1f} mm along the view" in SENTENCES
+    assert far[0][2] / near[0][2] == pytest.approx(4, rel=0.01)
+    assert f"With 80 mm it is {large[0][2]:.1f}" in SENTENCES
+    assert near[0][2] / large[0][2] == pytest.approx(2, rel=0.01)
+    assert 2 < far[0][0] / near[0][0] < 4
+    assert f"are {near[0][0]:.1f} mm across the view and {near[0][2]:.1f} mm along" in (
+        SENTENCES
+    )
+    words = f"is told {near[1][0]:.1f} mm across the view, where it is {near[0][0]:.1f}"
+    assert words in SENTENCES
+    width = 1000 * lab.NEAR**2 / F / 0.04
+    assert f"= {width:.0f} mm along" in SENTENCES
+    assert f"z / f = {1000 * lab.NEAR / F:.1f} mm across it" in SENTENCES
+    assert f"f w / z = {F * 0.04 / lab.NEAR:.1f} px wide" in SENTENCES
+
+
+def test_joint_7_alone_leaves_two_numbers_free_and_the_residual_knows_nothing(looks):
+    many, seven, fresh = looks
+    assert [lab.free(lab.motions(one)[0]) for one in (many, seven)] == [0, 2]
+    A, B = lab.motions(seven)
+    for turn, slide in ((0.5, 0.0), (0.0, 0.05), (0.5, 0.05), (1.0, 0.05)):
+        xi = np.array([0, 0, turn, 0, 0, slide])
+        X = camera.moved(day10_mujoco.ON_HAND, xi)
+        assert np.abs(A @ X - X @ B).max() < 2e-15
+        assert lab.wanders(*seven, X) < 1e-11
+        assert lab.wanders(*fresh, X) > 30
+    for axis in np.delete(np.eye(6), [2, 5], axis=0):  # no other twist is free
+        X = camera.moved(day10_mujoco.ON_HAND, 0.05 * axis)
+        assert np.abs(A @ X - X @ B).max() > 1e-3
+
+
+def test_the_target_that_stands_still_stands_beside_its_place(looks, printed):
+    _, seven, fresh = looks
+    X = camera.moved(day10_mujoco.ON_HAND, lab.FREE)
+    assert lab.wanders(*seven, X) < 1e-11
+    assert f"it wanders by {lab.wanders(*fresh, X):.0f} mm" in SENTENCES
+    beside = 1000 * np.linalg.norm(lab.said(*seven, X) - day10_mujoco.TO, axis=1)
+    assert np.ptp(beside) < 1e-11
+    assert f"it stands {beside[0]:.0f} mm beside" in SENTENCES
+    assert "is 29° and 59 mm wrong" in SENTENCES
+    row = re.search(r"another X +0\.00 +2 +\S+ +([\d.]+) +([\d.]+)", printed).groups()
+    assert [round(float(x)) for x in row] == [29, 59]
+
+
+def test_a_little_of_joint_6_frees_nothing_and_is_not_enough_with_noise(looks):
+    away = np.random.default_rng(lab.SEED).uniform(-0.5, 0.5, (2, lab.LOOKS, 7))
+    arm = day10_mujoco.handheld()
+    typical, residual = [], []
+    for degrees in (1, 5, 20):
+        q = away[0] * np.eye(7)[6]
+        q[:, 5] = np.radians(degrees) * np.linspace(-1, 1, lab.LOOKS)
+        some = day10_mujoco.looks(arm, panda.READY_Q + q)
+        A, B = lab.motions(some)
+        assert lab.free(A) == 0
+        exact = camera.hand_eye(A, B)
+        assert 1000 * np.abs(exact - day10_mujoco.ON_HAND).max() < 1e-11
+        rng = np.random.default_rng(lab.NOISE_SEED)
+        off = []
+        for _ in range(20):
+            A, B = lab.motions((some[0], lab.jittered(some[1], rng)))
+            X = camera.hand_eye(A, B)
+            off.append(1000 * np.linalg.norm((X - day10_mujoco.ON_HAND)[:3, 3]))
+            residual.append(np.abs(A @ X - X @ B).max())
+        typical.append(np.median(off))
+    one, five, twenty = typical
+    assert f"{one:.0f} mm, typically; with 5 degrees {five:.0f} mm" in SENTENCES
+    assert f"with 20 degrees {twenty:.1f} mm" in SENTENCES
+    assert 2e-3 < np.median(residual) < 4e-3
+
+
+def test_the_mean_of_the_points_is_off_because_far_sides_are_not_seen():
+    T = se3.make_T(se3.Rz(0.3), (0.5, 0.0, day10_mujoco.CUBE_HEIGHT))
+    off = []
+    for at in (day10_mujoco.AT, (0.5001, 0.0, 1.15)):
+        with patch.object(day10_mujoco, "AT", np.array(at)):
+            m, d = day10_mujoco.table()
+        day10_mujoco.place(m, d, T)
+        mujoco.mj_forward(m, d)
+        cloud = lab.depth_cloud(m, d, *eye.camera(m, d, "eye"))
+        cloud = cloud[cloud[:, 2] > day10_mujoco.TABLE + lab.ABOVE]
+        off.append(1000 * np.linalg.norm(cloud.mean(axis=0)[:2] - T[:2, 3]))
+    assert f"of a cube at the table's middle is {off[0]:.1f} mm off" in SENTENCES
+    assert off[1] < 0.1
+    assert "the mean is right to 0.1 mm" in SENTENCES
+
+
+def test_three_yaws_are_needed_since_the_nearest_points_find_the_next_hollow():
+    worst = []
+    for starts in (lab.STARTS, (0.0,)):
+        off = []
+        with patch.object(lab, "STARTS", starts):
+            for T_world_cube in day10_mujoco.cubes(20, lab.SEED + 1):
+                day10_mujoco.place(model, data, T_world_cube)
+                cloud = lab.depth_cloud(model, data, K, T_world_cam)
+                cloud = cloud[cloud[:, 2] > day10_mujoco.TABLE + lab.ABOVE]
+                R = T_world_cube[:3, :3].T @ lab.found(cloud)[:3, :3]
+                yaw = np.degrees(np.arctan2(R[1, 0], R[0, 0]))
+                off.append(abs((yaw + 45) % 90 - 45))  # a cube has four of them
+        worst.append(max(off))
+    three, one = worst
+    assert f"up to {one:.0f} degrees wrong; from three {three:.0f} at most" in SENTENCES

@@ -1,0 +1,471 @@
+"""Day 10: a camera divides by depth; all else is Day 3 again.
+
+    make day10                      in the clone: sets all up, then runs this
+    python src/day10_camera.py      in w2-autonomy/, once that is done
+
+Camera axes x right, y down, z forward. Pixel (0, 0) is the image's corner, (0.5, 0.5)
+the middle of its first pixel. Twists (omega; v). Metres, radians, pixels.
+"""
+
+import kit  # noqa: F401 (goes on in the kit's own Python)
+import mujoco
+import numpy as np
+
+from robo47 import camera as library
+from robo47 import cli, eye, panda, se3
+from robo47.lesson.lab import Lab
+from robo47.rotation_log import log_pose, log_rotation
+from robo47.screws import adjoint, exp_screw, skew
+
+import day10_mujoco
+
+SEED = 10  # of where the cube stands, and of guesses
+NOISE_SEED = 47  # of the noise alone
+NOISE = 0.3  # px, of each corner that is found in a picture
+TRIALS = 20  # cubes that are seen without noise
+NOISY = 50  # fits with noise, at each height
+CHI2_95 = 12.592  # of six numbers: 95 % of all twists are within
+NEAR = 0.8  # m, from the eye to the cube whose pose is fitted
+HEIGHTS = (480, 240, 120)  # px, of the pictures it is fitted to; 4 : 3
+TURN = 0.17  # rad that a guess is turned wrong
+SLIDE = 0.05  # m that it stands beside
+STEPS = 10  # of a fit
+LOOKS = 8  # poses of the arm from which the eye on its hand looks
+JITTER = 0.001  # rad and m: noise of each look, per axis
+FREE = np.array([0, 0, 0.5, 0, 0, 0.05])  # twist about joint 7's axis: another X
+ABOVE = 0.006  # m above the table: lower points are the table's
+STARTS = (-0.5, 0.0, 0.5)  # rad: yaws from which a cloud is fitted
+ICP_STEPS = 15
+DEMO = 3  # cubes that are found by their depth alone
+
+
+def rms(x: np.ndarray) -> float:
+    """Return the root of the mean square."""
+    return np.sqrt(np.mean(np.square(x)))
+
+
+def camera_matrix(fovy: float, width: float, height: float) -> np.ndarray:
+    """Return K, (3, 3), of a camera that sees fovy rad from top to bottom.
+
+    pi / 2 with 200 x 100 pixels: focal length 50, centre (100, 50).
+    """
+    # region 10.1
+    f = height / 2 / np.tan(fovy / 2)
+    return np.array([[f, 0, width / 2], [0, f, height / 2], [0, 0, 1]])
+    # endregion 10.1
+
+
+def project(K: np.ndarray, T_cam_world: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Return the pixels, (n, 2), at which points of the world, (n, 3), are seen.
+
+    With 10.1's K and T the identity (1, 0, 2) is seen at (125, 50).
+    """
+    # region 10.2
+    p = points @ T_cam_world[:3, :3].T + T_cam_world[:3, 3]
+    seen = p @ K.T  # (u z, v z, z)
+    return seen[:, :2] / seen[:, 2:]
+    # endregion 10.2
+
+
+def back_project(
+    K: np.ndarray, T_world_cam: np.ndarray, pixels: np.ndarray, depth: np.ndarray
+) -> np.ndarray:
+    """Return the points, (n, 3), seen at pixels, (n, 2); depth, (n,), is along z.
+
+    With 10.1's K and T the identity (125, 50) at depth 2 is (1, 0, 2).
+    """
+    # region 10.3
+    through = np.column_stack([pixels, np.ones(len(pixels))])
+    p = depth[:, None] * np.linalg.solve(K, through.T).T
+    return p @ T_world_cam[:3, :3].T + T_world_cam[:3, 3]
+    # endregion 10.3
+
+
+def projection_jacobian(K: np.ndarray, p_cam: np.ndarray) -> np.ndarray:
+    """Return pixels per twist of what is seen, (n, 2, 6), at points p_cam, (n, 3).
+
+    With 10.1's K at (0, 0, 2): v = (1, 0, 0) gives 25 px, omega = (0, 1, 0) gives 50.
+    """
+    # region 10.4
+    f = K[0, 0]
+    x, y, z = p_cam.T
+    zero = np.zeros(len(p_cam))
+    one = np.ones(len(p_cam))
+    by_point = f / z * np.array([[one, zero, -x / z], [zero, one, -y / z]])
+    by_point = np.moveaxis(by_point, 2, 0)  # (n, 2, 3)
+    return np.concatenate([-by_point @ skew(p_cam), by_point], axis=2)
+    # endregion 10.4
+
+
+def kabsch(A: np.ndarray, B: np.ndarray) -> np.ndarray:
+    """Return T, (4, 4), that takes the points A best to B, (n, 3) each.
+
+    B = A + (1, 0, 0): a move by that.
+    """
+    # region 10.5
+    a = A.mean(axis=0)
+    b = B.mean(axis=0)
+    U, _, Vt = np.linalg.svd((B - b).T @ (A - a))
+    R = U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt
+    return se3.make_T(R, b - R @ a)
+    # endregion 10.5
+
+
+def moved(T: np.ndarray, xi: np.ndarray) -> np.ndarray:
+    """Return exp([xi]) T, (4, 4), for a twist times time xi, (6,), of any length.
+
+    xi = (0, 0, 0, 1, 0, 0) moves by a metre along x, (0, 0, 0, 0, 0, 0) not at all.
+    """
+    # region 10.6
+    angle = np.linalg.norm(xi[:3])
+    theta = angle if angle > 0 else np.linalg.norm(xi[3:])
+    return exp_screw(xi / theta, theta) @ T if theta > 0 else T.copy()
+    # endregion 10.6
+
+
+def refine_pose(
+    K: np.ndarray, T_guess: np.ndarray, points: np.ndarray, pixels: np.ndarray
+) -> np.ndarray:
+    """Return the pose, (4, 4), at which points, (n, 3), are seen at pixels, (n, 2).
+
+    Ten steps from T_guess, which maps the thing's coordinates to the camera's. A guess
+    that is right stays.
+    """
+    # region 10.6
+    T = T_guess
+    for _ in range(STEPS):
+        p_cam = points @ T[:3, :3].T + T[:3, 3]
+        J = projection_jacobian(K, p_cam).reshape(-1, 6)
+        off = (pixels - project(K, T, points)).ravel()
+        T = moved(T, np.linalg.lstsq(J, off, rcond=None)[0])
+    return T
+    # endregion 10.6
+
+
+def pose_covariance(J: np.ndarray, sigma: float) -> np.ndarray:
+    """Return the covariance, (6, 6), of a pose fitted to pixels with noise sigma.
+
+    J, (n, 2, 6), is 10.4's at that pose. Three J that are the identity's halves, (3, 2,
+    6), with sigma 2: four times the identity.
+    """
+    # region 10.7
+    J = J.reshape(-1, 6)
+    return sigma**2 * np.linalg.inv(J.T @ J)
+    # endregion 10.7
+
+
+def hand_eye(A: np.ndarray, B: np.ndarray) -> np.ndarray:
+    """Return X, (4, 4), with A X = X B for the motions A and B, (k, 4, 4) each.
+
+    B = A: the identity.
+    """
+    # region 10.8
+    a = np.array([log_rotation(T[:3, :3]) for T in A])
+    b = np.array([log_rotation(T[:3, :3]) for T in B])
+    U, _, Vt = np.linalg.svd(a.T @ b)
+    R = U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt
+    C = (A[:, :3, :3] - np.eye(3)).reshape(-1, 3)
+    d = (B[:, :3, 3] @ R.T - A[:, :3, 3]).ravel()
+    return se3.make_T(R, np.linalg.lstsq(C, d, rcond=None)[0])
+    # endregion 10.8
+
+
+def icp_step(T: np.ndarray, source: np.ndarray, target: np.ndarray) -> np.ndarray:
+    """Return a better T, (4, 4), of the points source, (n, 3), to target, (m, 3).
+
+    Each, moved by T, is paired with the nearest of target. Of a cloud to itself: 1.
+    """
+    # region 10.9
+    now = source @ T[:3, :3].T + T[:3, 3]
+    away = np.sum((now[:, None] - target) ** 2, axis=2)
+    return kabsch(source, target[np.argmin(away, axis=1)])
+    # endregion 10.9
+
+
+def guesses(T: np.ndarray, n: int, rng: np.random.Generator) -> np.ndarray:
+    """Return n poses beside T, turned by about TURN and SLIDE away, (n, 4, 4)."""
+    size = np.repeat([TURN, SLIDE], 3) / np.sqrt(3)
+    off = [library.moved(np.eye(4), xi) for xi in size * rng.normal(size=(n, 6))]
+    turned = np.array(off)[:, :3, :3] @ T[:3, :3]
+    return se3.make_T(turned, np.array(off)[:, :3, 3] + T[:3, 3])
+
+
+def jittered(T: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """Return poses, (k, 4, 4), measured with noise: JITTER rad, JITTER m an axis."""
+    xi = JITTER * rng.normal(size=(len(T), 6))
+    return T @ np.array([library.moved(np.eye(4), one) for one in xi])
+
+
+def given_to_fits(rng: np.random.Generator) -> dict[str, list[tuple]]:
+    """Return what your fits are asked, by function: MuJoCo knows no fits."""
+    A = rng.normal(size=(9, 3))
+    B = A + rng.normal(scale=0.1, size=A.shape)
+    J = rng.normal(size=(8, 2, 6))
+    T = guesses(np.eye(4), 1, rng)[0]
+    hand = guesses(day10_mujoco.ON_HAND, 5, rng)  # motions, and the eye's, with noise
+    seen = jittered(hand, rng)
+    flat = np.array([1.0, 1.0, 0.0])
+    mirror = np.array([1.0, 1.0, -1.0])
+    return {
+        "kabsch": [(A, B), (flat * A, flat * B), (A, mirror * A)],
+        "moved": [(T, rng.normal(size=6)), (T, 2.0 * np.eye(6)[4]), (T, np.zeros(6))],
+        "pose_covariance": [(J, NOISE)],
+        "hand_eye": [(hand, seen)],
+        "icp_step": [(T, A, B)],
+    }
+
+
+def off_library(name: str, own, given: list[tuple]) -> np.ndarray:
+    """Return how far your function is from robo47's of that name."""
+    truth = getattr(library, name)
+    return np.array([own(*some) - truth(*some) for some in given])
+
+
+def looked_at(model, data, T_world_cube: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Return where MuJoCo sees a cube's corners, px, (8, 2), and where they are, m."""
+    day10_mujoco.place(model, data, T_world_cube)
+    mujoco.mj_forward(model, data)  # fills sensordata: what camprojection sees
+    corners = day10_mujoco.CORNERS @ T_world_cube[:3, :3].T + T_world_cube[:3, 3]
+    return day10_mujoco.corners_seen(model, data), corners
+
+
+def slopes(model, data, T_cam_cube: np.ndarray, T_world_cam: np.ndarray) -> np.ndarray:
+    """Return what MuJoCo's pixels change per twist of the cube, (8, 2, 6).
+
+    By central differences: about 1e-9 of an entry is lost.
+    """
+    h = 1e-6
+    columns = []
+    for xi in h * np.eye(6):
+        there = T_world_cam @ library.moved(T_cam_cube, xi)
+        back = T_world_cam @ library.moved(T_cam_cube, -xi)
+        ahead, _ = looked_at(model, data, there)
+        behind, _ = looked_at(model, data, back)
+        columns.append((ahead - behind) / (2 * h))
+    return np.stack(columns, axis=-1)
+
+
+def fit_with_noise(height: int, T: np.ndarray, rng) -> tuple[np.ndarray, float]:
+    """Fit a cube at T to noisy corners; print how far off it is, and was told to be.
+
+    Return which fits lie in their 95 % ellipse, (NOISY,), and mm off along the view.
+    """
+    K = camera_matrix(np.deg2rad(day10_mujoco.FOVY), height * 4 / 3, height)
+    corners = day10_mujoco.CORNERS
+    exact = project(K, T, corners)
+    p_cam = corners @ T[:3, :3].T + T[:3, 3]
+    C = pose_covariance(projection_jacobian(K, p_cam), NOISE)
+    at_cube = np.hstack([-skew(T[:3, 3]), np.eye(3)])  # its velocity, omega x p + v
+    sigma = 1000 * np.sqrt(np.diag(at_cube @ C @ at_cube.T))
+    seen = exact + NOISE * rng.normal(size=(NOISY, *exact.shape))
+    fits = np.array([refine_pose(K, T, corners, pixels) for pixels in seen])
+    xi = np.array([log_pose(fit @ se3.inverse(T)) for fit in fits])
+    inside = np.einsum("ni,ij,nj->n", xi, np.linalg.inv(C), xi) < CHI2_95
+    off = 1000 * np.array([rms(x) for x in (fits[:, :3, 3] - T[:3, 3]).T])
+    print(f"  {height:6}{sigma[0]:12.2f}{off[0]:10.2f}{sigma[2]:14.1f}{off[2]:10.1f}"
+          f"{np.mean(inside):9.0%}")  # fmt: skip
+    return inside, off[2]
+
+
+def said(hands: np.ndarray, eyes: np.ndarray, X: np.ndarray) -> np.ndarray:
+    """Return where the table's middle seems to be, (k, 3), if the eye sits at X.
+
+    It stands still: what each look says of it is hand, X, and what the eye saw.
+    """
+    middle = np.append(day10_mujoco.TO, 1.0)
+    return (hands @ X @ se3.inverse(eyes) @ middle)[:, :3]
+
+
+def wanders(hands: np.ndarray, eyes: np.ndarray, X: np.ndarray) -> float:
+    """Return by how much the table's middle seems to move between looks, mm."""
+    points = said(hands, eyes, X)
+    return 1000 * np.linalg.norm(points - points[0], axis=1).max()
+
+
+def motions(looks) -> tuple[np.ndarray, np.ndarray]:
+    """Return A and B, (k - 1, 4, 4): how hand and eye moved from the first look."""
+    hands, eyes = (se3.inverse(T[0]) @ T[1:] for T in looks)
+    return hands, eyes
+
+
+def free(A: np.ndarray) -> int:
+    """Return how many of X's six numbers the motions A, (k, 4, 4), leave open.
+
+    A twist xi of X is not seen where A exp([xi]) = exp([xi]) A, that is Ad(A) xi = xi.
+    """
+    seen = (adjoint(A) - np.eye(6)).reshape(-1, 6)
+    return 6 - np.linalg.matrix_rank(seen, tol=1e-9)
+
+
+def judged(name: str, looks, fresh, X: np.ndarray, known: bool = True) -> None:
+    """Print how good X looks at these looks, and how good it is."""
+    A, B = motions(looks)
+    residual = np.abs(A @ X - X @ B).max()
+    turns = [log_rotation(T[:3, :3]) for T in A]
+    second = np.linalg.svd(turns, compute_uv=False)[1]
+    text = f"  {name:25}{second:6.2f}{free(A):6}{residual:10.0e}"
+    if known:
+        at = day10_mujoco.ON_HAND
+        turned = np.degrees(np.linalg.norm(log_rotation(X[:3, :3] @ at[:3, :3].T)))
+        beside = 1000 * np.linalg.norm(X[:3, 3] - at[:3, 3])
+        text += f"{turned:7.2f}{beside:7.2f}{wanders(*looks, X):7.2f}"
+        text += f"{wanders(*fresh, X):7.1f}"
+    print(text)
+
+
+def calibrate(rng: np.random.Generator) -> tuple[np.ndarray, int]:
+    """Find where on the hand the eye sits, by all joints and by joint 7 alone.
+
+    Return how far the first is from where MuJoCo's camera sits, (4, 4), and how many
+    numbers the second leaves free.
+    """
+    model = day10_mujoco.handheld()
+    away = rng.uniform(-0.5, 0.5, (2, LOOKS, 7))
+    # mujoco.mj_forward fills site_xpos, site_xmat, cam_xpos and cam_xmat of each look.
+    many = day10_mujoco.looks(model, panda.READY_Q + away[0])
+    few = day10_mujoco.looks(model, panda.READY_Q + away[0] * np.eye(7)[6])
+    fresh = day10_mujoco.looks(model, panda.READY_Q + away[1])
+    noisy = (many[0], jittered(many[1], rng))
+    another = library.moved(day10_mujoco.ON_HAND, FREE)
+    X = hand_eye(*motions(many))
+    print("                            second  left                off   wanders, mm")
+    print(
+        "  turned                      axis  free  residual   deg    mm   here  there"
+    )
+    judged("all joints", many, fresh, X)
+    judged("all joints, 1 mrad, 1 mm", noisy, fresh, hand_eye(*motions(noisy)))
+    # Which of many X this is only rounding decides, so it is not shown ...
+    judged("joint 7 alone", few, fresh, hand_eye(*motions(few)), known=False)
+    judged("joint 7 alone, another X", few, fresh, another)  # ... but one of them is.
+    aside = 1000 * np.linalg.norm(said(*few, another)[0] - day10_mujoco.TO)
+    print(f"  with the last, the table's middle is {aside:.0f} mm beside its place")
+    return X - day10_mujoco.ON_HAND, free(motions(few)[0])
+
+
+def found(cloud: np.ndarray) -> np.ndarray:
+    """Return `T_world_cube` of the cube that a cloud of points, (n, 3), belongs to."""
+    faces = day10_mujoco.faces()
+    fits = []
+    for yaw in STARTS:
+        middle = np.append(cloud[:, :2].mean(axis=0), day10_mujoco.CUBE_HEIGHT)
+        T = se3.inverse(se3.make_T(se3.Rz(yaw), middle))
+        for _ in range(ICP_STEPS):
+            T = icp_step(T, cloud, faces)
+        now = cloud @ T[:3, :3].T + T[:3, 3]
+        beside = np.linalg.norm(now[:, None] - faces, axis=2).min(axis=1)
+        fits.append((rms(beside), T))
+    _, best = min(fits, key=lambda fit: fit[0])
+    return se3.inverse(best)
+
+
+def depth_cloud(model, data, K: np.ndarray, T_world_cam: np.ndarray, half: float = 0):
+    """Return the points that the eye sees, (n, 3), in the world.
+
+    With `half` pixels added, both ways, they are where they are not.
+    """
+    mujoco.mj_forward(model, data)  # fills geom_xpos: what rays meet
+    far = eye.depth(model, data, "eye").ravel()  # mujoco.mj_multiRay, a ray a pixel
+    hit = np.isfinite(far)
+    pixels = eye.middles(day10_mujoco.WIDTH, day10_mujoco.HEIGHT)
+    return back_project(K, T_world_cam, pixels[hit] + half, far[hit])
+
+
+def see_the_cube(model, data, K: np.ndarray, T_world_cam: np.ndarray) -> list[float]:
+    """Find Day 7's cube by its depth image; return how far off each is, mm."""
+    off = []
+    for T_world_cube in day10_mujoco.cubes(DEMO, SEED + 1):
+        day10_mujoco.place(model, data, T_world_cube)
+        cloud = depth_cloud(model, data, K, T_world_cam)
+        cloud = cloud[cloud[:, 2] > day10_mujoco.TABLE + ABOVE]
+        beside = 1000 * np.linalg.norm((found(cloud) - T_world_cube)[:2, 3])
+        mean = 1000 * np.linalg.norm(cloud.mean(axis=0)[:2] - T_world_cube[:2, 3])
+        print(f"  {len(cloud)} points: {beside:.1f} mm beside its place; "
+              f"their mean: {mean:.1f} mm")  # fmt: skip
+        off.append(beside)
+    return off
+
+
+def off_mujoco(model, data, K: np.ndarray, T_world_cam, rng) -> dict[str, list]:
+    """Return how far your slopes and fits are from what MuJoCo sees, by cube."""
+    T_cam_world = se3.inverse(T_world_cam)
+    off: dict[str, list] = {"J": [], "pose": []}
+    for T_world_cube in day10_mujoco.cubes(TRIALS, SEED):
+        T = T_cam_world @ T_world_cube
+        p_cam = day10_mujoco.CORNERS @ T[:3, :3].T + T[:3, 3]
+        truth = slopes(model, data, T, T_world_cam)
+        off["J"].append(projection_jacobian(K, p_cam) - truth)
+        pixels, _ = looked_at(model, data, T_world_cube)
+        guess = guesses(T, 1, rng)[0]
+        off["pose"].append(refine_pose(K, guess, day10_mujoco.CORNERS, pixels) - T)
+    return off
+
+
+def main() -> int:
+    """Run the lab from top to bottom; return 0 when every check passed."""
+    lab = Lab(__file__, __doc__)
+    rng = np.random.default_rng(SEED)
+    model, data = day10_mujoco.table()
+    mujoco.mj_forward(model, data)  # fills cam_xpos and cam_xmat
+    K_file, T_world_cam = eye.camera(model, data, "eye")
+    print(panda.describe("panda_nohand"))
+
+    lab.step("1. Where a point is seen")
+    K = camera_matrix(np.deg2rad(day10_mujoco.FOVY), *model.cam_resolution[0])
+    lab.show("K", K, 3)
+    lab.check("|K - that of MuJoCo's camera|, px", K - K_file)
+    off = []
+    for T_world_cube in day10_mujoco.cubes(TRIALS, SEED):
+        pixels, corners = looked_at(model, data, T_world_cube)
+        off.append(project(K, se3.inverse(T_world_cam), corners) - pixels)
+    lab.record("project", off, label="|project - MuJoCo's camprojection|, px",
+               seed=SEED)  # fmt: skip
+
+    lab.step("2. A depth image is a cloud of points")
+    day10_mujoco.place(model, data, day10_mujoco.ASIDE)
+    cloud = depth_cloud(model, data, K, T_world_cam)
+    flat = day10_mujoco.on_top(cloud)
+    off = cloud[flat, 2] - day10_mujoco.TABLE
+    lab.check("|height of the table's points - the table's|, m", off)
+    shifted = depth_cloud(model, data, K, T_world_cam, half=0.5)
+    half = 1000 * rms(np.linalg.norm(shifted - cloud, axis=1)[flat])
+    print(f"  {len(cloud)} points; half a pixel, both ways, is {half:.1f} mm")
+    lab.measured("half a pixel, both ways, on the table, mm", half)
+
+    lab.step("3. Pixels per twist, poses from pixels")
+    off = off_mujoco(model, data, K, T_world_cam, rng)
+    lab.check("|J - slopes of MuJoCo's pixels|, px", off["J"], 1e-4)
+    lab.check("|refine_pose - MuJoCo's pose|", off["pose"])
+    given = given_to_fits(rng)
+    yours = {"kabsch": kabsch, "moved": moved, "pose_covariance": pose_covariance,
+             "hand_eye": hand_eye}  # fmt: skip
+    for name, own in yours.items():
+        lab.check(f"{name} - the library's", off_library(name, own, given[name]))
+
+    lab.step(f"4. The same with {NOISE} px of noise, {NEAR} m away, mm")
+    print("            across the view      along the view")
+    print("  height  predicted  measured     predicted  measured  inside")
+    noise = np.random.default_rng(NOISE_SEED)
+    T = se3.make_T(se3.Rz(0.3) @ se3.Rx(2.3), (0.05, 0.02, NEAR))
+    noisy = {height: fit_with_noise(height, T, noise) for height in HEIGHTS}
+    inside = np.mean([one for one, _ in noisy.values()])
+    lab.record("pose", inside, metric="inside_95", label="inside 95 %, all three",
+               seed=NOISE_SEED)  # fmt: skip
+    lab.measured("mm off along the view, 240 px", noisy[day10_mujoco.HEIGHT][1])
+
+    lab.step("5. An eye on the hand: where does it sit?")
+    off, unseen = calibrate(np.random.default_rng(SEED))
+    lab.record("hand_eye", off, label="|hand_eye - where MuJoCo's camera sits|",
+               seed=SEED)  # fmt: skip
+    lab.measured("numbers of X that joint 7 alone leaves free", unseen)
+
+    lab.step("6. Side quest: Day 7's cube, seen and not told")
+    with lab.side_quest():
+        off = off_library("icp_step", icp_step, given["icp_step"])
+        lab.check("icp_step - the library's", off)
+        off = see_the_cube(model, data, K, T_world_cam)
+        lab.record("cube_seen", off, label="the cube, seen, mm off", seed=SEED + 1)
+    return lab.finish()
+
+
+if __name__ == "__main__":
+    cli.run(main)
