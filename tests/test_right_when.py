@@ -117,3 +117,9 @@ def test_a_rotation_is_not_doubled():
     ones, right = lambda R, v: np.ones(3), lambda R, v: R @ v
     says = told_of_doubling(ones, right, calls, ["R", "v"])
     assert says == "With v doubled, your answer stays the same; it must not."
+
+
+def test_answers_of_unlike_length_are_no_reason_to_stop():
+    calls = [(np.arange(1.0, n), float(n)) for n in (3, 5, 8, 4)]
+    says = told(lambda x, a: x + a, lambda x, a: x * a, calls, ["x", "a"])
+    assert "a is 1" not in says

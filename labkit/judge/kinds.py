@@ -215,7 +215,8 @@ class Vector(Kind):
         off = np.abs(S - T).max(axis=0) > RIGHT * self.scale
         counted = [f"[{i}], counted from 0" for i in range(len(off))]
         empty = np.flatnonzero(off & ~S.any(axis=0))
-        if len(S) > 1 and 0 < len(empty) < len(off):
+        same = None not in self.shape  # else the shorter are filled up with 0
+        if same and len(S) > 1 and 0 < len(empty) < len(off):
             where = capitalised(listed([(self.names or counted)[i] for i in empty]))
             says = f"{where} {'are' if len(empty) > 1 else 'is'} 0 every time. It is "
             return Finding("entries-empty", f"{says}off by up to {self.apart(S, T)}.")

@@ -3,6 +3,7 @@
 import numpy as np
 
 from labkit.judge import Pose, Row
+from robo47 import se3
 from robo47.camera import hand_eye
 from robo47.rotation_log import log_rotation
 
@@ -24,7 +25,9 @@ row = Row(Pose(), at_edge=two_axes)
 
 @row.inputs
 def _(rng):
-    A = rng.poses(3)
+    # Turns of 1 rad about x, y and z: half turns, as edges are, have two axes each.
+    turns_1 = np.array([se3.Rx(1.0), se3.Ry(1.0), se3.Rz(1.0)])
+    A = se3.make_T(turns_1, rng.numbers(-1, 1, 3, 3))
     return [(A, A), *motions(rng)]
 
 
