@@ -232,23 +232,7 @@ def sign_rule(timeconst=0.02, dmax=0.95, dmin=0.9, qdd=5.0, dry=0.5):
     model = panda.load("panda_nohand", drive="torque")
     model.dof_solref[0] = timeconst, 1.0
     model.dof_solimp[0, :2] = dmin, dmax
-    low, high = 0.0, 1.0  # rad/s, backwards
-    for _ in range(30):
-        middle = (low + high) / 2
-        given = [_torque(model, -middle, qdd, loss) for loss in (0.0, dry)]
-        low, high = (middle, high) if given[1] > given[0] else (low, middle)
-    return qdd / high
-
-
-def _torque(model, qd, qdd, dry):
-    """Return joint 1's torque at ready, with some dry friction."""
-    model.dof_frictionloss[0] = dry
-    data = mujoco.MjData(model)
-    data.qpos[:] = panda.READY_Q
-    data.qvel[0] = qd
-    data.qacc[0] = qdd
-    mujoco.mj_inverse(model, data)  # fills qfrc_inverse
-    return data.qfrc_inverse[0]
+    return qdd / DAY.turning_speed(model, qdd, dry)
 
 
 @cache

@@ -22,6 +22,7 @@ ROBOT_SEED = 47  # of the robot that nobody knows: another one is another robot
 NOISE_SEED = 47  # of the noise alone
 NOISE = 0.1  # N m, of each measured torque; 0 is no sensor of this world
 TRIALS = 100  # random states, elsewhere, that a fit is judged on
+HARD = 5.0  # rad/s^2, at which dry friction is looked at
 SLOW = 0.1  # rad/s: below it dry friction need not have the sign of the speed
 RTOL = 1e-9  # of the largest singular value: smaller ones count as nothing
 CUT = 1e-3  # the same, where a motion shows little
@@ -363,6 +364,9 @@ def main() -> int:
 
     lab.step("4. A robot that nobody knows: fits to its torques, N m")
     robot = day8_mujoco.changed(model, ROBOT_SEED)
+    # MuJoCo's dry friction changes its sign late; mujoco.mj_inverse says how late.
+    turns = day8_mujoco.turning_speed(model, HARD)
+    lab.measured("up to which speed dry friction has the wrong sign, rad/s", turns)
     # All are judged at states that no fit has seen, in rows that are fast enough ...
     new = np.abs(elsewhere.qd) > SLOW
     Y_new = Y_elsewhere[new]

@@ -135,6 +135,37 @@ def load(mass: float, com: ArrayLike) -> Edit:
     return edit
 
 
+def turning_speed(model: mujoco.MjModel, qdd: float, dry: float = 0.5) -> float:
+    """Return up to which speed, rad/s, MuJoCo's dry friction pushes the wrong way.
+
+    Joint 1 turns back at ready and speeds up forwards by qdd: below that speed
+    mj_inverse asks for more torque with dry friction than without.
+
+    Args:
+        model: of the arm; it stays as it is.
+        qdd: acceleration, rad/s^2, above 0.
+        dry: friction of joint 1, N m.
+    """
+    model = copy.copy(model)
+
+    def torque(qd: float, loss: float) -> float:
+        model.dof_frictionloss[0] = loss
+        data = simulate.start(model, READY_Q)
+        data.qvel[0] = qd
+        data.qacc[0] = qdd
+        mujoco.mj_inverse(model, data)  # fills qfrc_inverse
+        return float(data.qfrc_inverse[0])
+
+    low, high = 0.0, 1.0
+    for _ in range(30):
+        middle = (low + high) / 2
+        if torque(-middle, dry) > torque(-middle, 0.0):
+            low = middle
+        else:
+            high = middle
+    return high
+
+
 def excitation(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
     """Return a motion that shows much: random harmonics, as far and fast as allowed.
 
