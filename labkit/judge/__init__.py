@@ -31,7 +31,7 @@ What is special about a day stands in the day's own folder.
 
 from labkit.judge.ask import Ask, Case, HeldOut, Robot, Slip
 from labkit.judge.draw import Draw, rounded
-from labkit.judge.kinds import Pose, Rotation, Scalar, Vector
+from labkit.judge.kinds import Scalar, Vector
 from labkit.judge.matrix_kinds import Covariance, Jacobian, Matrix, Symmetric
 from labkit.judge.mistake import Finding, Mistake, Verdict
 from labkit.judge.other_kinds import (
@@ -45,4 +45,5 @@ from labkit.judge.other_kinds import (
     Word,
     Wrench,
 )
+from labkit.judge.rigid_kinds import Pose, Rotation
 from labkit.judge.row import Row

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from labkit.judge.answers import difference, matches
-from labkit.judge.kinds import Pose
 from labkit.judge.matrices import rigid_inverse
 from labkit.judge.mistake import Finding
+from labkit.judge.rigid_kinds import Pose
 from robo47.checks import Array
 
 STEADY = 1e-5  # how far a constant may wander: a student's float32

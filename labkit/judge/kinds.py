@@ -1,7 +1,7 @@
 """Kinds of answers: the words for what is expected, and for what is wrong with it.
 
 The kind decides the words, not the shape: (2, 3) may be two points or a Jacobian. This
-module has numbers, vectors, rotations and poses; the others have all else. Arrays of
+module has numbers and vectors; the others have all else. Arrays of
 answers are stacked, (n, *shape); S is the student's, T the right one.
 """
 
@@ -12,24 +12,15 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from labkit.judge.answer_mistakes import OF_A_ROTATION, general, of_a_pose
+from labkit.judge.answer_mistakes import general
 from labkit.judge.answers import (
     MATCHES,
-    RIGID,
     capitalised,
-    degrees,
-    difference,
     gap,
     listed,
     matches,
-    millimetres,
-    rigid,
-    say_degrees,
     say_factor,
-    say_mm,
-    say_range,
 )
-from labkit.judge.matrices import split
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
 from robo47.errors import Robo47Error
@@ -292,128 +283,3 @@ def few_told(where: str, wrong: Array, off: str) -> Finding:
         return Finding("few-entries-off", f"{says} only: up to {off} off.")
     says = f"All entries are right but {where}: up to {off} off. Look there for a wrong"
     return Finding("few-entries-off", f"{says} sign, letter or factor.")
-
-
-@dataclass(frozen=True)
-class Rotation(Kind):
-    """A rotation matrix, (3, 3)."""
-
-    shape: tuple[int, ...] = (3, 3)
-    expected = "a 3x3 matrix"
-    misfits: ClassVar = {
-        (2, 2): "it is a rotation in space, so z is there too",
-        (4, 4): "only the rotation is asked for",
-    }
-
-    def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return OF_A_ROTATION
-
-    def apart(self, S: Array, T: Array) -> str:  # noqa: D102
-        if rigid(S) and rigid(T):
-            return say_degrees(degrees(S, T))
-        return super().apart(S, T)
-
-    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        return few_entries(self, S, T) or rotation_wrong(S, T)
-
-    def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
-        det = np.linalg.det(S)
-        lines = [
-            f"R R^T - I: {_skew(S):.2g}; det R: {det.min():.4g} to {det.max():.4g}"
-        ]
-        if not _skew(S) > RIGID:
-            lines.append(f"R off by {say_range(degrees(S, T), say_degrees)}")
-        return tuple(lines)
-
-
-@dataclass(frozen=True)
-class Pose(Kind):
-    """A rigid transform, (4, 4)."""
-
-    shape: tuple[int, ...] = (4, 4)
-    # What its rotation does when it is transposed.
-    wrong_way: str = "turns the other way"
-    expected = "a 4x4 matrix"
-    misfits: ClassVar = {
-        (3, 4): "the bottom row (0, 0, 0, 1) is missing",
-        (3, 3): "this is the rotation alone",
-    }
-
-    def general(self) -> Sequence[Mistake]:  # noqa: D102
-        return of_a_pose(self.wrong_way)
-
-    def apart(self, S: Array, T: Array) -> str:  # noqa: D102
-        if not (rigid(S) and rigid(T)):
-            return super().apart(S, T)
-        (R_S, t_S), (R_T, t_T) = split(S), split(T)
-        parts = say_mm(millimetres(t_S, t_T)), say_degrees(degrees(R_S, R_T))
-        return " and ".join(p for p in parts if p != "0") or "0"
-
-    def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        if found := few_entries(self, S, T, 3):
-            return found
-        (R, t), (R_true, t_true) = split(S), split(T)
-        if (off := _bottom(S)).max() > NEAR:
-            row = ", ".join(f"{x:z.3g}" for x in S[np.argmax(off), 3])
-            says = f"The bottom row is ({row}), not (0, 0, 0, 1), so this is no pose."
-            return Finding("bottom-row", says)
-        t_off = say_mm(millimetres(t, t_true))
-        if difference(R, R_true).max() <= RIGHT and t_off != "0":
-            says = "R is right everywhere; the translation is not: up to"
-            return Finding("translation-off", f"{says} {t_off} off.")
-        slug, message = rotation_wrong(R, R_true)
-        if t_off == "0":
-            return Finding(slug, f"The translation is right. {message}")
-        slug = "pose-off" if slug == "rotation-off" else slug
-        return Finding(slug, f"{message} The translation is up to {t_off} off too.")
-
-    def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
-        (R, t), (R_T, t_T) = split(S), split(T)
-        moved = say_range(millimetres(t, t_T), say_mm)
-        return (
-            *Rotation().measured(R, R_T),
-            f"t off by {moved}; bottom row by {_bottom(S).max():.2g}",
-        )
-
-
-def rotation_wrong(S: Array, T: Array) -> Finding:
-    """Return what is wrong with rotations, (n, 3, 3)."""
-    if (off := _skew(S)) > RIGID:
-        det = np.linalg.det(S)
-        worst = f"{np.round(det[np.argmax(np.abs(det - 1.0))], 6):z.3g}"
-        size = "" if worst == "1" else f"; det R is {worst}, not 1"
-        return Finding(
-            "not-orthonormal",
-            "R is no rotation: its columns are not unit vectors at right angles. "
-            f"(R R^T differs from I by {off:.2g}{size}.)",
-        )
-    X = np.abs(T.mT @ S)
-    if matches(X, np.broadcast_to(np.round(X[0]), X.shape)):
-        return Finding(
-            "axes-mixed-up",
-            "R's columns are the right axes, but swapped or with the wrong sign. "
-            f"(det R is {np.linalg.det(S[0]):z.0f}.)",
-        )
-    if mirrored := np.sum(np.linalg.det(S) < 0.0):
-        return Finding(
-            "left-handed",
-            f"R is a left-handed frame, a mirror image, for {mirrored} of {len(S)} "
-            "inputs. (det R is -1.)",
-        )
-    off_by = degrees(S, T)
-    often = ", the same amount every time" if np.ptp(off_by) < 1e-3 else ""
-    return Finding(
-        "rotation-off",
-        "R is a rotation, but not the right one: "
-        f"{'' if often else 'up to '}{say_degrees(off_by)} off{often}.",
-    )
-
-
-def _skew(R: Array) -> float:
-    """Return how far R, (n, 3, 3), is from orthonormal: the largest of R R^T - I."""
-    return float(np.abs(R @ R.mT - np.eye(3)).max())
-
-
-def _bottom(S: Array) -> Array:
-    """Return how far each bottom row of S, (n, 4, 4), is from that of a pose, (n,)."""
-    return np.abs(S[:, 3] - [0.0, 0.0, 0.0, 1.0]).max(axis=1)
