@@ -153,7 +153,7 @@ def exp_screw(S: ArrayLike, theta: ArrayLike) -> Array:
     KK = K @ K
     angle = theta[..., None, None]
     s = np.sin(angle)
-    c = 1.0 - np.cos(angle)
+    c = 2.0 * np.sin(0.5 * angle) ** 2  # 1 - cos, which has no digits at small angles
     R = np.eye(3) + s * K + c * KK
     out = np.zeros((*R.shape[:-2], 4, 4))
     out[..., :3, :3] = R
