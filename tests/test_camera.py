@@ -30,6 +30,13 @@ SCENE = """
 """
 
 
+@pytest.fixture(autouse=True)
+def seeded():
+    """Let every test draw the same, whichever ran before it."""
+    global rng
+    rng = np.random.default_rng(10)
+
+
 @pytest.fixture(scope="module")
 def scene():
     """Return a model with a camera, and its state."""
