@@ -150,7 +150,8 @@ def turning_speed(model: mujoco.MjModel, qdd: float, dry: float = 0.5) -> float:
 
     def torque(qd: float, loss: float) -> float:
         model.dof_frictionloss[0] = loss
-        data = simulate.start(model, READY_Q)
+        data = mujoco.MjData(model)
+        data.qpos[:] = READY_Q
         data.qvel[0] = qd
         data.qacc[0] = qdd
         mujoco.mj_inverse(model, data)  # fills qfrc_inverse
