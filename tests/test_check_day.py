@@ -84,7 +84,7 @@ class TestStart:
 
     @pytest.mark.parametrize(
         ("arguments", "says"),
-        [((9,), "no day 9 yet"), (("--reset", "1.9"), "no task 1.9")],
+        [((44,), "no day 44 yet"), (("--reset", "1.9"), "no task 1.9")],
     )
     def test_says_what_there_is_where_there_is_no_such_thing(
         self, run_in, arguments, says

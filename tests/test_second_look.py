@@ -130,7 +130,7 @@ class TestTheLabWithAFilesFunctions:
         path = [(f"b{i}", arm.model.joint(i).name) for i in range(7)]
 
         def end():
-            own = behind_wall(DAY, DAY.source, sandbox, lab, Budget())
+            own = behind_wall(DAY, DAY.source, sandbox, lab, Budget(60.0))
             return own["compose_fk"](arm.model, data.qpos.copy(), path)[:3, 3]
 
         with pytest.raises(EnoughAsked):  # it has the Panda's seven joints

@@ -169,6 +169,7 @@ def _left(day: Day, number: int, own: list[Path]) -> Iterator[str]:
 
 
 def _skipped(path: Path) -> bool:
-    """Return whether a file is somebody's own, or fetched."""
-    skipped = {WORK, "node_modules", "toyday", "data", ".venv"}
-    return bool(skipped & set(path.parts)) or path.name == "CHANGELOG.md"
+    """Return whether a file is somebody's own, fetched, or the tests' own material."""
+    skipped = {WORK, "node_modules", ".venv"}
+    material = ROOT / "tests" in path.parents[1:]
+    return material or bool(skipped & set(path.parts)) or path.name == "CHANGELOG.md"

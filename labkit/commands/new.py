@@ -3,7 +3,7 @@
     make new DAY=8 WEEK=w2-autonomy NAME=identification
     python3 scripts/new_day.py 8 w2-autonomy identification
     make new DAY=12 FROM=9                    day 9 becomes day 12
-    make new DAY=12 FROM=9 WEEK=w3-x NAME=imitation    there, and under this name
+    make new DAY=12 FROM=9 WEEK=w3-x NAME=imitation   there, so called
 
 A week that is not there yet gets its own files too. Nothing is overwritten. What to do
 next: docs/teaching.md.

@@ -146,7 +146,7 @@ def _of_a_matrix(x: Array) -> Iterator[Neutral]:
         yield Neutral(
             "{} is diagonal",
             diagonal,
-            lambda v: not (v - np.diag(np.diag(v))).any(),
+            lambda v: len(v) == v.shape[1] and not (v - np.diag(np.diag(v))).any(),
             tuple(scaled(diagonal, s) for s in _SEVERAL[1:]),
         )
         yield Neutral("{} is the identity", np.eye(len(x)), _is_identity)

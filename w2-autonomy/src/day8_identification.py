@@ -226,13 +226,14 @@ def off_library() -> dict[str, np.ndarray]:
     J_site = rng.normal(size=(5, 6, 7))
     R_site = np.linalg.qr(rng.normal(size=(5, 3, 3)))[0]
     extra = rng.normal(size=(5, 7))
+    alike = R_site[0] @ se3.Rx(0.002 * np.arange(5))  # holds that hardly differ
     g = np.array([1.0, -2.0, -9.0])  # an arm may hang on a wall
     given = {
         "motor_features": [(speeds, rng.normal(size=5))],
         "identifiable": [(Y, 4e-3), (Y_wide, 4e-3), (Y[:, :4] / 1e3, 1e-9)],
         "fit": [(Y, tau, 4e-3), (Y_wide, tau, 4e-3)],
         "predict_with_sigma": [(Y, tau, Y_new, 4e-3), (Y_wide, tau, Y_new, 4e-3)],
-        "payload_from_holds": [(J_site, R_site, extra, g)],
+        "payload_from_holds": [(J_site, R, extra, g) for R in (R_site, alike)],
     }
     own = {"motor_features": motor_features, "identifiable": identifiable, "fit": fit,
            "predict_with_sigma": predict_with_sigma,
