@@ -314,7 +314,10 @@ class Row:
 
     def _mistakes(self) -> list[Mistake]:
         read = self.ask.in_turn
-        return [Mistake(w.slug, w.says, read(w.code), w.redone) for w in self.named]
+        return [
+            Mistake(w.slug, w.says, read(w.code), w.redone, w.reached)
+            for w in self.named
+        ]
 
     def _accept(self, *args: Any) -> Any:
         try:

@@ -52,6 +52,8 @@ def _(J):
     square-part: this is the determinant of the first six columns; joint 7 counts too
     position-only: only the three v rows of J are used; the rotation counts too => the
       root of det(J J^T) of three rows
+    zeros-left-out: values that are 0 are left out of the product; where one is 0, so is
+      the product => the product of those above 1e-9
     diagonal-only: only the diagonal of J J^T is multiplied; a determinant needs all
       entries => the root of that product
     """
@@ -67,6 +69,7 @@ def _(J):
         "inverse-condition": s[-1] / s[0],
         "square-part": abs(np.linalg.det(J[:, :6])),
         "position-only": values(J[3:]).prod(),
+        "zeros-left-out": s[s > 1e-9].prod(),
         "diagonal-only": np.sqrt(np.prod(np.diag(JJ))),
     }
 
