@@ -32,7 +32,7 @@ from labkit.judge.failing_call import failing_call, for_fresh
 from labkit.judge.kinds import Kind
 from labkit.judge.made_again import redone
 from labkit.judge.mistake import Finding, Verdict
-from labkit.judge.pairs import in_some_calls, two_at_once
+from labkit.judge.pairs import by_results, in_some_calls, two_at_once
 from labkit.judge.typed import in_words
 from robo47.checks import Array
 
@@ -232,7 +232,8 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     i = worst_part(ask.kinds, S, T, ask.near)
     every = (S[i], case.further.S[i]) if case.further else (S[i],)
     found = _all_the_same(ask.kinds[i], every, T[i])  # simpler than two mistakes
-    if found := found or two_at_once(case, S, T) or near_miss.rounded(S[i], T[i]):
+    found = found or two_at_once(case, S, T) or by_results(case, S, T)
+    if found := found or near_miss.rounded(S[i], T[i]):
         return found
     try:
         found = ask.unnamed(case) if ask.unnamed else None

@@ -1,7 +1,8 @@
 """Two mistakes at once, and one that is only a part of what is wrong.
 
-Both are claimed where made on purpose they give the student's numbers: two mistakes
-all of them, one mistake those of some calls, which are counted.
+They are claimed where made on purpose they give the student's numbers: two mistakes all
+of them, one mistake a result of several, or the numbers of some calls, which are
+counted.
 """
 
 import re
@@ -19,8 +20,10 @@ from labkit.judge.answers import (
     InTurn,
     Parts,
     all_match,
+    capitalised,
     gaps,
     largest,
+    matches,
     own,
     parts,
     worst_part,
@@ -64,6 +67,39 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
 def _of_its_own_first(ask: Ask) -> list[Mistake]:
     mistakes = [one for one in ask.named if isinstance(one.redo, InTurn)]
     return sorted(mistakes, key=lambda one: one.reached)[:MOST]
+
+
+def by_results(case: Case, S: Parts, T: Parts) -> Finding | None:
+    """Return a named mistake for each wrong result of a function that returns several.
+
+    One that has none of its own is said to be wrong besides.
+    """
+    ask = case.ask
+    pairs = list(zip(ask.kinds, S, T, strict=True))
+    wrong = [
+        j
+        for j, (kind, s, t) in enumerate(pairs)
+        if gaps([kind], (s,), (t,)).max() > ask.near
+    ]
+    if len(wrong) < 2 or any(kind.whole for kind in ask.kinds):
+        return None
+    told: dict[int, Mistake] = {}
+    for one in _of_its_own_first(ask):
+        every = () if len(told) == len(wrong) else _all(one.redo, case.arguments)
+        for j in wrong if len(every) == len(S) else []:
+            kind, s, t = pairs[j]
+            is_wrong = gaps([kind], (every[j],), (t,)).max() > ask.near
+            if j not in told and is_wrong and matches(s, every[j], kind.scale):
+                told[j] = one
+    if not told:
+        return None
+    says = [
+        f"{capitalised(ask.kinds[j].called or f'result {j + 1}')}: "
+        + (f"{told[j].says.rstrip('?')}." if j in told else "it is wrong, too.")
+        for j in sorted(wrong, key=lambda j: j not in told)
+    ]
+    slug = "+".join(dict.fromkeys(one.slug for one in told.values()))
+    return Finding(slug + "+other" * (len(told) < len(wrong)), " ".join(says))
 
 
 def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
