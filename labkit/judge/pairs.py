@@ -26,6 +26,7 @@ from labkit.judge.answers import (
     matches,
     own,
     parts,
+    rigid,
     worst_part,
 )
 from labkit.judge.ask import Ask, Case, as_plain
@@ -57,10 +58,12 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
     answers = {}
     for k, one in enumerate(mistakes):
         answer = _answer(one.redo, case.arguments, i)
-        if _alike(ask, answer, _nth(T, i)) is False:
+        wrong = _alike(ask, answer, _nth(T, i)) is False
+        if wrong and not _handed_back(answer, case.arguments, i):
             answers[k] = answer
     pairs = _Pairs(case, S, T, i, mistakes, answers)
-    found = pairs.added() or pairs.finished() or pairs.in_turn()
+    found = pairs.of_its_kind() or pairs.added() or pairs.finished()
+    found = found or pairs.in_turn()
     return _both_told(ask, found, S, T) if found else None
 
 
@@ -122,7 +125,9 @@ def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
             continue
         given = _given_by(ask, S, _all(one.redo, case.arguments))
         n = int(np.sum(given[wrong])) if _differ(S, wrong[given[wrong]]) else 0
-        if n >= least and (most is None or n > most[0]):
+        # Made every time, it shows nowhere that is right.
+        always = given[ask.gaps(S, T) <= ask.near].all()
+        if always and least <= n < len(wrong) and (most is None or n > most[0]):
             most = n, one
     if most is None:
         return None
@@ -185,6 +190,8 @@ class _Pairs:
             if first.slug == second.slug:
                 continue
             pair = self.answers[a], self.answers[b]
+            if any(map(self._is_another_pose, pair)):
+                continue
             for combined in (_sum, _product):
                 if not self._is_this_one(combined(*pair, its)):
                     continue
@@ -194,23 +201,38 @@ class _Pairs:
                     return first, second
         return None
 
+    def _is_another_pose(self, answer: Parts) -> bool:
+        """Return whether both R and t are wrong: that is no term of a sum."""
+        its = self.T[0][self.i]
+        if len(answer) != 1 or answer[0].shape[1:] != (4, 4) or not rigid(its[None]):
+            return False
+        off = np.abs(answer[0][0] - its)
+        return bool(off[:3, :3].max() > MATCHES and off[:3, 3].max() > MATCHES)
+
+    def of_its_kind(self) -> Sequence[Mistake] | None:
+        """Return two mistakes that any function of this kind can have."""
+        if len(self.case.ask.kinds) != 1:
+            return None
+        general = list(self.case.ask.kinds[0].general())
+        its = _nth(self.T, self.i)
+        for first, change in combinations(general, 2):
+            if self._is_this_one(_changed(change, _changed(first, its))):
+                every = _changed(change, _changed(first, self.T))
+                if _alike(self.case.ask, every, self.S):
+                    return first, change
+        return None
+
     def finished(self) -> Sequence[Mistake] | None:
         """Return a mistake and another that is made with its finished answer."""
         if len(self.case.ask.kinds) != 1:
             return None
-        general = [*self.case.ask.kinds[0].general(), *self._of_the_answer]
-        its = _nth(self.T, self.i)
-        for n, change in enumerate(general):
+        general = self.case.ask.kinds[0].general()
+        for change in [*general, *self._of_the_answer]:
             for k, answer in self.answers.items():
                 if self._is_this_one(_changed(change, answer)):
                     every = self._every(self.mistakes[k].redo)
                     if _alike(self.case.ask, _changed(change, every), self.S):
                         return self.mistakes[k], change
-            for first in general[:n]:
-                if self._is_this_one(_changed(change, _changed(first, its))):
-                    every = _changed(change, _changed(first, self.T))
-                    if _alike(self.case.ask, every, self.S):
-                        return first, change
         return None
 
     def in_turn(self) -> Sequence[Mistake] | None:
@@ -283,6 +305,17 @@ class _Pairs:
 
     def _is_this_one(self, answer: Parts) -> bool:
         return bool(_alike(self.case.ask, answer, _nth(self.S, self.i)))
+
+
+def _handed_back(answer: Parts, arguments: tuple[Any, ...], i: int) -> bool:
+    """Return whether an answer is an argument as it came: nothing was made of it."""
+    columns = [c for c in arguments if isinstance(c, np.ndarray)]
+    return any(
+        np.shape(c[i]) == part.shape[1:] and np.allclose(part[0], c[i])
+        for part in answer
+        for c in columns
+        if np.size(c[i]) > 1
+    )
 
 
 def _after(
