@@ -53,7 +53,16 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
     ask = case.ask
     if any(kind.whole for kind in ask.kinds):
         return None
-    i = int(np.argmax(gaps(ask.kinds, S, T)))
+    gap = ask.gaps(S, T)
+    # Drawn inputs come last, and hide less; what is furthest off is tried besides.
+    tried = dict.fromkeys([int(np.flatnonzero(gap > 0)[-1]), int(np.argmax(gap))])
+    found = (_two_of(case, S, T, i) for i in tried)
+    return next((_both_told(ask, pair, S, T) for pair in found if pair), None)
+
+
+def _two_of(case: Case, S: Parts, T: Parts, i: int) -> Sequence[Mistake] | None:
+    """Return two mistakes that together give all answers, found at the i-th call."""
+    ask = case.ask
     mistakes = _of_its_own_first(ask)
     answers = {}
     for k, one in enumerate(mistakes):
@@ -63,8 +72,7 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
             answers[k] = answer
     pairs = _Pairs(case, S, T, i, mistakes, answers)
     found = pairs.of_its_kind() or pairs.added() or pairs.finished()
-    found = found or pairs.in_turn()
-    return _both_told(ask, found, S, T) if found else None
+    return found or pairs.in_turn()
 
 
 def _of_its_own_first(ask: Ask) -> list[Mistake]:
