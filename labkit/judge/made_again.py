@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from labkit.judge.answers import (
+    MATCHES,
     InTurn,
     Parts,
     all_match,
@@ -181,7 +182,7 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
     mistakes = [one for one in ask.named if isinstance(one.redo, InTurn)][:MOST]
     answers = {}
     for k, one in enumerate(mistakes):
-        answer = _answer(one, case.arguments, i)
+        answer = _answer(one, case.arguments, i, T)
         if _alike(ask, answer, _nth(T, i)) is False:
             answers[k] = answer
     pairs = _Pairs(case, S, T, i, mistakes, answers)
@@ -216,6 +217,8 @@ class _Pairs:
                 if not self._is_this_one(combined(*pair, its)):
                     continue
                 one, other = (_all(x, self.case.arguments) for x in (first, second))
+                if combined is _product and _one_factor(one, other, self.T):
+                    continue
                 if _alike(self.case.ask, combined(one, other, self.T), self.S):
                     return first, second
         return None
@@ -242,7 +245,7 @@ class _Pairs:
     def in_turn(self) -> Pair | None:
         """Return a mistake made with an argument and one after it, or two options."""
         for pair in _that_combine(self.mistakes):
-            if self._is_this_one(_answer(pair, self.case.arguments, self.i)):
+            if self._is_this_one(_answer(pair, self.case.arguments, self.i, self.T)):
                 every = _all(pair, self.case.arguments)
                 if _alike(self.case.ask, every, self.S):
                     return pair
@@ -283,10 +286,19 @@ def _together(one: Any, other: Any) -> Callable[..., Any]:
     return partial(one, **other.keywords)
 
 
-def _answer(one: Mistake | Pair, arguments: tuple[Any, ...], i: int) -> Parts:
-    """Return the answer to one question with a mistake, or with two; () for none."""
+def _answer(
+    one: Mistake | Pair, arguments: tuple[Any, ...], i: int, like: Parts
+) -> Parts:
+    """Return the answer to one question with a mistake, or with two; () for none.
+
+    It is filled up with 0 to the size of `like`, as answers of several sizes are.
+    """
     column = [c[[i]] if isinstance(c, np.ndarray) else c for c in arguments]
-    return _nth(_all(one, tuple(column)), 0)
+    answer = _nth(_all(one, tuple(column)), 0)
+    pairs = list(zip(answer, like, strict=False))
+    if any(x.ndim != its.ndim for x, its in pairs):
+        return answer
+    return tuple(as_one([x[0], np.zeros(its.shape[1:])])[:1] for x, its in pairs)
 
 
 def _all(one: Mistake | Pair, arguments: tuple[Any, ...]) -> Parts:
@@ -327,6 +339,22 @@ def _product(a: Parts, b: Parts, right: Parts) -> Parts:
     if any(len({x.shape for x in trio}) > 1 for trio in trios):
         return ()
     return tuple(np.where(z == 0, 0.0, x * y / np.where(z, z, 1)) for x, y, z in trios)
+
+
+def _one_factor(a: Parts, b: Parts, right: Parts) -> bool:
+    """Return whether two wrong factors are powers of one, "squared" and "not cubed".
+
+    They are two ways in which one term is wrong, and it cannot be wrong in both.
+    """
+    one, other, its = (np.concatenate([np.ravel(x) for x in p]) for p in (a, b, right))
+    if not one.shape == other.shape == its.shape:
+        return False
+    told = (one * its > 0) & (other * its > 0)
+    x, y = (np.log(some[told] / its[told]) for some in (one, other))
+    if not len(x) or min(np.ptp(x), np.ptp(y)) < MATCHES:
+        return False  # a number that is the same everywhere is no power of a term
+    power = (x @ y) / (x @ x)
+    return bool(np.abs(y - power * x).max() <= MATCHES * np.abs(y).max())
 
 
 def _alike(ask: Ask, a: Parts, b: Parts) -> bool | None:
