@@ -199,7 +199,7 @@ class Experiments:
         resized = [
             tuple(scaled(x, size, self._fixed(k, x)) for k, x in enumerate(call))
             for size in SIZES
-            for call in some[-(-(-TRIED // len(SIZES))) :]
+            for call in some[-(TRIED // len(SIZES) + 1) :]
         ]
         return [*known, *resized]
 

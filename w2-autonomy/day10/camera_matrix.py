@@ -24,7 +24,7 @@ def matrix(fx, fy, cx, cy):
     return np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1.0]])
 
 
-@row.wrongs
+@row.wrongs(hidden={"whole-division": "the lab's images have even sides"})
 def _(fovy, width, height):
     """whole-angle: the tangent is that of the whole angle; half of the picture is seen
       under half of the angle => with tan(fovy)

@@ -56,12 +56,13 @@ def depth(p, power):
 def with_the_centre(K, p):
     """Return K[:2] times the slopes of (x / z, y / z, z)."""
     D = by_point(K, p) / K[0, 0]
-    last = np.zeros((len(p), 1, 3)) + [0, 0, 1]
+    last = np.tile([0.0, 0.0, 1.0], (len(p), 1, 1))
     return K[:2] @ np.concatenate([D, last], axis=1)
 
 
 def with_one_name(of, other):
     """Return d(pixel)/dp where both rows use the same coordinate."""
+
     def wrong(K, p):
         D = by_point(K, p)
         D[:, of, 2] = D[:, other, 2]

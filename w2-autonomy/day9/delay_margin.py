@@ -51,7 +51,7 @@ for slug, says, redone, other in (
      {"w": lambda kp, kd: np.sqrt((kd**2 + np.sqrt(kd**4 + kp**2)) / 2)}),
     ("kp-not-squared", "kp is not squared in the root", "with 4 kp",
      {"w": lambda kp, kd: np.sqrt((kd**2 + np.sqrt(kd**4 + 4 * kp)) / 2)}),
-    ("kd-squared-for-fourth", "kd is squared in the root; its fourth power stands there",
+    ("kd-squared-for-fourth", "kd is squared in the root; there it is kd^4",
      "with kd^2 in the root",
      {"w": lambda kp, kd: np.sqrt((kd**2 + np.sqrt(kd**2 + 4 * kp**2)) / 2)}),
     ("kd-not-squared", "kd stands before the root as it is; it is kd^2",
