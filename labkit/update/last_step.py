@@ -125,16 +125,17 @@ def _stands(name: str, names: set[str]) -> bool:
     path = ROOT / name
     if not path.is_dir() or path.is_symlink():
         return os.path.lexists(path)
-    below = (one for one in path.rglob("*") if not one.is_dir() or one.is_symlink())
+    below = (one for one in path.rglob("*") if _is_file(one))
     return any(one.relative_to(ROOT).as_posix() not in names for one in below)
 
 
 def _move(worktree: Path, names: Iterable[str]) -> None:
     """Give the clone a worktree's files of these names, or take its own away."""
-    new = [name for name in names if os.path.lexists(worktree / name)]
+    new = [name for name in names if _is_file(worktree / name)]
     for path in (ROOT / name for name in set(names) - set(new)):
-        path.unlink(missing_ok=True)
-        _remove_empty(path.parent)
+        if _is_file(path):
+            path.unlink()
+            _remove_empty(path.parent)
     for name in new:
         source, path = worktree / name, ROOT / name
         if PurePosixPath(name).match(f"w*/{WORK}/day*.py") and path.is_file():
@@ -146,6 +147,10 @@ def _move(worktree: Path, names: Iterable[str]) -> None:
             path.rmdir()
         path.parent.mkdir(parents=True, exist_ok=True)
         source.replace(path)
+
+
+def _is_file(path: Path) -> bool:
+    return path.is_symlink() or path.is_file()
 
 
 def _remove_empty(folder: Path) -> None:
