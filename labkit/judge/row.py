@@ -315,7 +315,10 @@ class Row:
 
     def _mistakes(self) -> list[Mistake]:
         read = self.ask.in_turn
-        return [Mistake(w.slug, w.says, read(w.code), w.redone) for w in self.named]
+        return [
+            Mistake(w.slug, w.says, read(w.code), w.redone, w.reached)
+            for w in self.named
+        ]
 
     def _inputs(self, rng: Draw) -> list[tuple[Any, ...]]:
         """Return what the file's generator yields; where it stops, say where."""
