@@ -94,13 +94,17 @@ def by_results(case: Case, S: Parts, T: Parts) -> Finding | None:
     ]
     if len(wrong) < 2 or any(kind.whole for kind in ask.kinds):
         return None
+    i = int(np.argmax(ask.gaps(S, T)))
     told: dict[int, Mistake] = {}
     for one in _of_its_own_first(ask):
-        every = () if len(told) == len(wrong) else _all(one.redo, case.arguments)
-        for j in wrong if len(every) == len(S) else []:
+        answer = _answer(one.redo, case.arguments, i)
+        for j in [j for j in wrong if j not in told and len(answer) == len(S)]:
             kind, s, t = pairs[j]
+            if not matches(s[i : i + 1], answer[j], kind.scale):
+                continue
+            every = _all(one.redo, case.arguments)
             is_wrong = gaps([kind], (every[j],), (t,)).max() > ask.near
-            if j not in told and is_wrong and matches(s, every[j], kind.scale):
+            if is_wrong and matches(s, every[j], kind.scale):
                 told[j] = one
     if not told:
         return None
