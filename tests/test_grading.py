@@ -217,7 +217,7 @@ class TestTheGrader:
         grader = Grader()
         package = Package(1, "", Handin({SCRIPT: SOLVED.encode()}))
         with pytest.raises(FaultError, match="took more than 0 s"):
-            grader.grade(package, seconds=0.001)
+            grader.grade(package, beyond=-129.999)
         assert not grader.alive
         assert not Path(grader.folder).exists()
         grader = Grader()

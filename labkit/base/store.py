@@ -89,7 +89,7 @@ def alone(name: str, root: Path = ROOT) -> Iterator[None]:
             path.parent.mkdir(exist_ok=True)
             fd = stack.enter_context(path.open("ab")).fileno()
             if not try_lock(fd):
-                says = "setup: another run is at it in this folder; waiting ..."
+                says = f"{name}: another run is at it in this folder; waiting ..."
                 print(says, flush=True)
             while not try_lock(fd):
                 time.sleep(0.2)

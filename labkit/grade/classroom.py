@@ -128,6 +128,7 @@ class Classroom:
             student,
             result,
             commit=given.commit,
+            branch=package.branch,
             minutes=minutes,
             note=self.notes.get(student.folder, ""),
             fault=fault,

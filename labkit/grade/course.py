@@ -18,6 +18,7 @@ class Graded:
     result: Result  # the grade; without its text, where a class is held
     _: KW_ONLY
     commit: str = ""  # the hash of the last commit, or ""
+    branch: str = ""  # that the clone stands on, or ""
     # From there to the deadline, by the student's own clock, negative past it; None
     # without a commit.
     minutes: int | None = None

@@ -60,6 +60,7 @@ class Package:
     problem: str = ""  # why there is nothing to grade; "" where there is
     seed: int = 0  # of the fresh inputs, the same for everybody
     version: str = ""  # of the kit that collected it, in words
+    branch: str = ""  # that the clone stands on
     late: int = 0  # how many commits came after the deadline
 
     @property
@@ -116,6 +117,7 @@ def collect(
         commit_item=check_commit(day, handin, history),
         commit=history.commit,
         committed=history.committed,
+        branch=history.branch,
         late=late,
     )
 

@@ -72,6 +72,7 @@ def nameless(class_: Sequence[Graded], seed: int) -> list[Graded]:
         result = replace(graded.result, tasks=tuple(marks), error="", refused=())
         student = Student(code, code, Path())
         bare = replace(graded, student=student, result=result, commit="", note="")
+        bare = replace(bare, branch="")
         found.append(bare)
     return sorted(found, key=lambda graded: graded.student.name)
 
@@ -94,6 +95,7 @@ def _row(graded: Graded) -> dict[str, Cell]:
         "late_days": days,
         "commits_after_deadline": graded.late,
         "commit_hash": graded.commit[:10],
+        "branch": plain(graded.branch),
         "kit": result.kit,
         "seed": result.seed if result.kit else None,
         "refused": plain("; ".join(result.refused)),

@@ -108,7 +108,8 @@ def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
     wrong = case.ask.gaps(S, T) > case.ask.near
     if not wrong.any():
         return found
-    named = diagnose(case, S, T)
+    # One answer alone may be that of many mistakes.
+    named = diagnose(case, S, T) if wrong.sum() > 1 else None
     other = named or what_is_wrong(case, S, T)
     some = f"Of the {len(wrong)} other answers {wrong.sum()} are wrong, too."
     also = "The other answers are wrong, too." if wrong.all() else some

@@ -20,6 +20,7 @@ from labkit.judge.answers import (
     InTurn,
     Parts,
     all_match,
+    as_one,
     capitalised,
     gaps,
     largest,
@@ -66,7 +67,7 @@ def _two_of(case: Case, S: Parts, T: Parts, i: int) -> Sequence[Mistake] | None:
     mistakes = _of_its_own_first(ask)
     answers = {}
     for k, one in enumerate(mistakes):
-        answer = _answer(one.redo, case.arguments, i)
+        answer = _answer(one.redo, case.arguments, i, T)
         wrong = _alike(ask, answer, _nth(T, i)) is False
         if wrong and not _handed_back(answer, case.arguments, i):
             answers[k] = answer
@@ -131,7 +132,7 @@ def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
     few = wrong[np.unique(np.linspace(0, len(wrong) - 1, FEW).astype(int))]
     most: tuple[int, Mistake] | None = None
     for one in _of_its_own_first(ask):
-        hits = [_alike(ask, _answer(one.redo, case.arguments, i), _nth(S, i))
+        hits = [_alike(ask, _answer(one.redo, case.arguments, i, T), _nth(S, i))
                 for i in few]  # fmt: skip
         if sum(map(bool, hits)) < 2:
             continue
@@ -209,6 +210,8 @@ class _Pairs:
                     continue
                 one = self._every(first.redo)
                 other = self._every(second.redo)
+                if combined is _product and _one_factor(one, other, self.T):
+                    continue
                 if _alike(self.case.ask, combined(one, other, self.T), self.S):
                     return first, second
         return None
@@ -250,7 +253,7 @@ class _Pairs:
     def in_turn(self) -> Sequence[Mistake] | None:
         """Return a mistake made with arguments and one after it, or two options."""
         for pair in self._that_combine():
-            if self._is_this_one(_answer(pair.redo, self.case.arguments, self.i)):
+            if self._is_this_one(self._answer(pair.redo)):
                 every = self._every(pair.redo)
                 if _alike(self.case.ask, every, self.S):
                     return pair.first, pair.second
@@ -288,10 +291,13 @@ class _Pairs:
                 for c in self.case.arguments]  # fmt: skip
         for change in moves.of_arguments(tuple(map(own, call))):
             asked = self.case.ask.in_turn(partial(_after, truth.function, change))
-            answer = _answer(asked, self.case.arguments, self.i)
+            answer = self._answer(asked)
             for k in self._that_give(answer, partial(self._every, asked)):
                 found.setdefault(k, change)
         return found
+
+    def _answer(self, redo: Callable[..., Any]) -> Parts:
+        return _answer(redo, self.case.arguments, self.i, self.T)
 
     def _every(self, redo: Callable[..., Any]) -> Parts:
         return _all(redo, self.case.arguments)
@@ -348,10 +354,19 @@ def _options(one: Any, other: Any) -> bool:
     return one.func is other.func and not one.keywords.keys() & other.keywords.keys()
 
 
-def _answer(redo: Callable[..., Any], arguments: tuple[Any, ...], i: int) -> Parts:
-    """Return the answer to one question with a mistake, or with two; () for none."""
+def _answer(
+    redo: Callable[..., Any], arguments: tuple[Any, ...], i: int, like: Parts
+) -> Parts:
+    """Return the answer to one question with a mistake, or with two; () for none.
+
+    It is filled up with 0 to the size of `like`, as answers of several sizes are.
+    """
     column = [c[[i]] if isinstance(c, np.ndarray) else c for c in arguments]
-    return _nth(_all(redo, tuple(column)), 0)
+    answer = _nth(_all(redo, tuple(column)), 0)
+    pairs = list(zip(answer, like, strict=False))
+    if any(x.ndim != its.ndim for x, its in pairs):
+        return answer
+    return tuple(as_one([x[0], np.zeros(its.shape[1:])])[:1] for x, its in pairs)
 
 
 def _all(redo: Callable[..., Any], arguments: tuple[Any, ...]) -> Parts:
@@ -388,6 +403,22 @@ def _product(a: Parts, b: Parts, right: Parts) -> Parts:
     if any(len({x.shape for x in trio}) > 1 for trio in trios):
         return ()
     return tuple(np.where(z == 0, 0.0, x * y / np.where(z, z, 1)) for x, y, z in trios)
+
+
+def _one_factor(a: Parts, b: Parts, right: Parts) -> bool:
+    """Return whether two wrong factors are powers of one, "squared" and "not cubed".
+
+    They are two ways in which one term is wrong, and it cannot be wrong in both.
+    """
+    one, other, its = (np.concatenate([np.ravel(x) for x in p]) for p in (a, b, right))
+    if not one.shape == other.shape == its.shape:
+        return False
+    told = (one * its > 0) & (other * its > 0)
+    x, y = (np.log(some[told] / its[told]) for some in (one, other))
+    if not len(x) or min(np.ptp(x), np.ptp(y)) < MATCHES:
+        return False  # a number that is the same everywhere is no power of a term
+    power = (x @ y) / (x @ x)
+    return bool(np.abs(y - power * x).max() <= MATCHES * np.abs(y).max())
 
 
 def _alike(ask: Ask, a: Parts, b: Parts) -> bool | None:

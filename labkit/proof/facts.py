@@ -17,7 +17,7 @@ from labkit.lesson.day import Day
 from labkit.lesson.writers import marks_of, writers_of
 from labkit.report.series import series_of
 from labkit.report.week_facts import DayFacts
-from labkit.sandbox.sandbox import Sandbox
+from labkit.sandbox.sandbox import Sandbox, deadline_of
 from robo47.errors import Robo47Error
 
 
@@ -62,10 +62,12 @@ def facts_of(
     states = {task.id: "the kit's own file" for task in day.tasks}
     ran = Rehearsed("", {})
     if writers.kits.isdisjoint(marks_of(script)):
-        results = check_tasks(day, folder / day.script, sandbox)
+        whole = deadline_of(day)
+        asked = (day, folder / day.script, sandbox)
+        results = check_tasks(*asked, deadline=whole)
         states = {result.task.id: in_words(result.verdict) for result in results}
         if required_pass(results):
-            ran = rehearse(day, folder / day.script, sandbox)
+            ran = rehearse(*asked, whole)
     if own:
         history = read_history(student.path, wanted_names(day, handin), own=True)
         item = check_commit(day, handin, history)

@@ -33,6 +33,7 @@ def printed():
     return printed_by(lab, told)
 
 
+@pytest.mark.kit
 def test_what_the_arm_weighs_is_in_both_holds_only_where_springs_are_stiff():
     secret = [
         day8_mujoco.without_friction(day8_mujoco.changed(one, lab.ROBOT_SEED))
@@ -58,6 +59,7 @@ def grams(robots, wait, noise=0.0, seed=0):
     )
 
 
+@pytest.mark.kit
 def test_the_grams_of_one_from_either_side_are_how_long_mujocos_friction_creeps():
     robots = [day8_mujoco.changed(one, lab.ROBOT_SEED) for one in (model, hung)]
     for wait in (1, 2, 4, 8):
@@ -93,6 +95,7 @@ def test_poses_that_turn_about_gravity_hide_a_part_of_the_centre():
     assert "comes out as (20, -30, 0) mm" in SENTENCES
 
 
+@pytest.mark.kit
 def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
     lines = re.findall(r"^  [a-z ]+?((?: +-?\d+\.\d){5}) +(-?\d+)$", printed, re.M)
     rows = [[*map(float, numbers.split()), int(up)] for numbers, up in lines]
