@@ -56,7 +56,9 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
         return None
     gap = ask.gaps(S, T)
     # Drawn inputs come last, and hide less; what is furthest off is tried besides.
-    tried = dict.fromkeys([int(np.flatnonzero(gap > 0)[-1]), int(np.argmax(gap))])
+    furthest = int(np.argmax(gap))
+    wrong = np.flatnonzero(gap > ask.near)
+    tried = dict.fromkeys([int(wrong[-1]) if len(wrong) else furthest, furthest])
     found = (_two_of(case, S, T, i) for i in tried)
     return next((_both_told(ask, pair, S, T) for pair in found if pair), None)
 
@@ -98,7 +100,7 @@ def by_results(case: Case, S: Parts, T: Parts) -> Finding | None:
     i = int(np.argmax(ask.gaps(S, T)))
     told: dict[int, Mistake] = {}
     for one in _of_its_own_first(ask):
-        answer = _answer(one.redo, case.arguments, i)
+        answer = _answer(one.redo, case.arguments, i, T)
         for j in [j for j in wrong if j not in told and len(answer) == len(S)]:
             kind, s, t = pairs[j]
             if not matches(s[i : i + 1], answer[j], kind.scale):
