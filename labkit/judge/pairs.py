@@ -41,7 +41,7 @@ _BUT = re.compile(
 MOST = 80  # mistakes of a function that are tried two at a time
 QUICK = 2e-3  # seconds of a call that a row may say, for its arguments to be changed
 FEW = 6  # wrong calls at which one mistake is tried, before all of them
-SOME = 3  # calls that it has to explain, at least, and a quarter of the wrong ones
+SOME = 3  # calls whose numbers it has to give, at least, and half of the wrong ones
 
 
 def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
@@ -121,14 +121,14 @@ def by_results(case: Case, S: Parts, T: Parts) -> Finding | None:
 
 
 def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
-    """Return the named mistake that gives the numbers of most wrong calls, or None.
+    """Return the named mistake that gives the numbers of half of the wrong calls.
 
-    Of those that are left over something else is wrong. Numbers that are 0, or all the
-    same, prove no mistake.
+    It is said of these alone: another one may give the same numbers there. Numbers that
+    are 0, or all the same, prove no mistake.
     """
     ask = case.ask
     wrong = np.flatnonzero(ask.gaps(S, T) > ask.near)
-    least = max(SOME, len(wrong) // 4)
+    least = max(SOME, -(-len(wrong) // 2))
     if any(kind.whole for kind in ask.kinds) or len(wrong) <= least:
         return None
     few = wrong[np.unique(np.linspace(0, len(wrong) - 1, FEW).astype(int))]
@@ -148,8 +148,8 @@ def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
         return None
     n, one = most
     says = (
-        f"One mistake gives your numbers in {n} of your {len(wrong)} wrong answers: "
-        f"{one.says.rstrip('?')}. In the other {len(wrong) - n} more is wrong."
+        f"In {n} of your {len(wrong)} wrong answers the numbers are those of one "
+        f"mistake: {one.says.rstrip('?')}. The other {len(wrong) - n} are not."
     )
     return Finding(f"{one.slug}+other", says)
 
