@@ -140,8 +140,8 @@ for slug, says, other in (
 
 @row.wrong
 def added_up_in_the_links(J, T, qd, qdd, g):
-    """each joint's screw is turned into its own link and added to V and A there; those of
-    the link before are in other axes, so add up in the world's => the Y so"""
+    """each joint's screw is turned into its own link and added to V and A there; those
+    of the link before are in other axes, so add up in the world's => the Y so"""
     V = np.zeros(6)
     A = np.append(np.zeros(3), -g)
     Y = np.zeros((7, 70))
