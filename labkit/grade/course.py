@@ -24,6 +24,7 @@ class Graded:
     minutes: int | None = None
     note: str = ""  # what this run has to add to the result's error, as a failed pull
     fault: bool = False  # whether this machine failed; the next run grades them
+    hidden: tuple[str, ...] = ()  # what passes and does not show in the file's text
     late: int | None = None  # how many commits came after the deadline; None without
 
     @property

@@ -37,7 +37,11 @@ _ALIKE = (
     "verdict: friends who learn together and a good book also write alike. The "
     "starter's text and what much of the class writes are left out; names do not "
     "count. The number is that of the two most similar; beside the kit's solution, "
-    "the share of one's own code that stands in it."
+    "the share of one's own code that stands in it, or of its functions in one's own."
+)
+_HIDDEN = (
+    "In an ordinary file each function that a task asks for has its def. Here tasks "
+    "pass without one, or beside what runs a text as code: look at the file, and ask."
 )
 _REFUSED = "A task needs nothing but its arguments. Most of these are accidents: ask."
 
@@ -52,6 +56,7 @@ def render(course: Course) -> str:
         _standings(course),
         *(_people(course, state) for state in STATES),
         _alike(course),
+        _hidden(course),
         _refused(course),
         _everyone(course),
         style=STYLE,
@@ -228,6 +233,16 @@ def _alike(course: Course) -> str:
     more = len(course.alike) - MOST
     rest = f'<p class="muted">and {more:,} more</p>' if more > 0 else ""
     return _listed("Similar submissions", len(course.alike), rows, _ALIKE, rest)
+
+
+def _hidden(course: Course) -> str:
+    """Return who passes with what does not show in their file."""
+    some = [graded for graded in course.class_ if graded.hidden]
+    rows = [
+        _entry(f"<b>{_name(graded)}</b>", "; ".join(graded.hidden))
+        for graded in some[:MOST]
+    ]
+    return _listed("Passes, and does not show in the file", len(some), rows, _HIDDEN)
 
 
 def _refused(course: Course) -> str:
