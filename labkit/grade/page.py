@@ -9,7 +9,7 @@ from urllib.parse import quote
 from labkit.base import html
 from labkit.base.text import count, visible
 from labkit.grade.charts import STATUS, STYLE, Row, chart, legend
-from labkit.grade.course import Course, Graded, by_student, percent
+from labkit.grade.course import UNKNOWN, Course, Graded, by_student, percent
 from labkit.grade.result import Mark
 from labkit.grade.sheet import printable
 
@@ -213,7 +213,7 @@ def _name(graded: Graded) -> str:
 
 def _ago(graded: Graded) -> str:
     if graded.minutes is None:
-        return "no commit"
+        return "last commit: a time that cannot be" if graded.commit else "no commit"
     size = abs(graded.minutes)
     units = (("d", 1440), ("h", 60), ("min", 1))
     unit, length = next((u for u in units if size >= 2 * u[1]), units[-1])
@@ -276,7 +276,9 @@ def _line(graded: Graded) -> str:
         tip = escape(f"{mark.id}: {mark.mistake or word}")
         cells.append(f'<td class="mark {role}" title="{tip}">{sign}</td>')
     when = "–" if late is None else "in time"
-    if late:
+    if late == UNKNOWN:
+        when = UNKNOWN
+    elif late:
         when = '<span class="fail">late</span>'
     cells.append(f'<td class="mark">{when}</td>')
     return f"<tr><td>{_name(graded)}</td>{''.join(cells)}</tr>"
