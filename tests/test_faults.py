@@ -26,6 +26,7 @@ from labkit.grade.package import Package, collect, fingerprint
 from labkit.grade.roster import Student
 from labkit.handin import handin
 from labkit.handin.deliverables import check_deliverables
+from labkit.lesson import own_files
 from labkit.sandbox import process, sandbox
 from labkit.sandbox.process import Process
 from labkit.sandbox.sandbox import Sandbox

@@ -77,7 +77,7 @@ def _open(root: Path, name: str) -> int | None:
     """Return a descriptor of a file, or None where there is no such file.
 
     Each part of the path is opened from the one before, so one that is swapped for a
-    link meanwhile leads nowhere. (Windows opens nothing from a folder: by names, there.)
+    link meanwhile leads nowhere. (Windows opens nothing from a folder.)
     """
     *folders, last = name.split("/")
     path, at = str(root), None
