@@ -112,14 +112,16 @@ def capsule_box(
     R = T_world_box[:3, :3]
     start = R.T @ (a0 - T_world_box[:3, 3])
     way = R.T @ (a1 - a0)
-    low, high = 0.0, 1.0
+    low = 0.0
+    high = 1.0
     for _ in range(60):  # of one valley, the part that has its bottom
-        left, right = high - 0.618 * (high - low), low + 0.618 * (high - low)
+        left = high - 0.618 * (high - low)
+        right = low + 0.618 * (high - low)
         if box_sdf(start + left * way, half) < box_sdf(start + right * way, half):
             high = right
         else:
             low = left
-    return min(box_sdf(start + s * way, half) for s in (0.0, low, 1.0)) - r
+    return min(box_sdf(start + s * way, half) for s in (low, high)) - r
     # endregion 11.4
 
 
