@@ -163,11 +163,11 @@ def overlaps(A: np.ndarray, B: np.ndarray) -> bool:
 
 
 def reaches(offsets: np.ndarray, far: np.ndarray) -> np.ndarray:
-    """Return how far from each joint anything behind it can ever be, (7,).
+    """Return how far from each joint anything behind it can ever be, (n,).
 
-    offsets[i] is from link i's origin to the next one's, far[i] to the farthest point
-    of link i's own capsules, (7,) each; the last link has no next: its offset counts
-    not. reaches((1, 1, 0), (0.5, 0.5, 0.5)) -> (2.5, 1.5, 0.5)
+    offsets[i], (n,), is from link i's origin to the next one's, far[i], (n,), to the
+    farthest point of link i's own capsules; the last link has no next: its offset does
+    not count. reaches((1, 1, 0), (0.5, 0.5, 0.5)) -> (2.5, 1.5, 0.5)
     """
     # region 11.7
     reach = np.array(far)
