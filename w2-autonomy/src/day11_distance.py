@@ -47,6 +47,8 @@ GAIN = 4.0  # 1/s
 MARGIN = 0.01  # m that are to be left
 PULL = 4.0  # 1/s: how fast the pen is pulled back to its way
 DAMPING = 0.05
+SWEEPS = 8  # rounds over several pairs
+RUSH = 1.0  # m/s, straight at something
 
 
 def segment_segment(
@@ -391,17 +393,22 @@ def farthest(model, data, q: np.ndarray) -> np.ndarray:
     return most
 
 
-def nearest(ends: np.ndarray, post: tuple) -> tuple[int, float, np.ndarray]:
-    """Return which capsule is nearest to a post, how far, m, and the points, (2, 3)."""
+def slopes_of(
+    J: np.ndarray, ends: np.ndarray, post: tuple, pairs: int
+) -> list[tuple[np.ndarray, float, int]]:
+    """Return slope, distance (m) and capsule of the pairs nearest to a post."""
     b0, b1, r = np.array(post[0]), np.array(post[1]), post[2]
     far = [capsule_distance(*some, ra, b0, b1, r)
            for some, ra in zip(ends, day11_mujoco.RADII, strict=True)]  # fmt: skip
-    i = int(np.argmin(far))
-    return i, far[i], segment_segment(*ends[i], b0, b1)
+    found = []
+    for k in np.argsort(far)[:pairs]:
+        p, o = segment_segment(*ends[k], b0, b1)
+        found.append((distance_gradient(J, p, o, day11_mujoco.LINK[k]), far[k], int(k)))
+    return found
 
 
-def through(post: tuple, slow: Callable) -> tuple[float, float]:
-    """Drive the pen along its way, qd as `slow` lets it.
+def through(post: tuple, slow: Callable, pairs: int = 1) -> tuple[float, float]:
+    """Drive the pen along its way, qd as `slow` lets it for the pairs that are nearest.
 
     Return the least distance on the way, by MuJoCo, and how far from its target the pen
     ends, both in mm.
@@ -415,19 +422,33 @@ def through(post: tuple, slow: Callable) -> tuple[float, float]:
         data.qpos[:] = q
         mujoco.mj_kinematics(model, data)  # fills geom_xpos and geom_xmat
         ends = day11_mujoco.axes(model, data)
-        k, d, (p, o) = nearest(ends, post)
-        pair = model.geom(f"arm{k}").id, model.geom("world0").id
+        J = space_jacobian(screws, q)
+        near = slopes_of(J, ends, post, pairs)
+        pair = model.geom(f"arm{near[0][2]}").id, model.geom("world0").id
         least = min(least, mujoco.mj_geomDistance(model, data, *pair, FAR, np.zeros(6)))
         tip = ends[-1, 1]
         share = min(i * DT / TIME, 1.0)
-        told = (end - start) / TIME * (share < 1)
-        goal = start + share * (end - start)
-        J = space_jacobian(screws, q)
-        v = told + PULL * (goal - tip)
+        v = (end - start) / TIME * (share < 1)
+        v = v + PULL * (start + share * (end - start) - tip)
         qd = dls_step(site_jacobian(J, tip)[3:], v, DAMPING)
-        slope = distance_gradient(J, p, o, day11_mujoco.LINK[k])
-        q = q + DT * slow(qd, slope, d - MARGIN, GAIN)
+        for slope, d, _ in near * (SWEEPS if pairs > 1 else 1):
+            qd = slow(qd, slope, d - MARGIN, GAIN)
+        q = q + DT * qd
     return 1000 * least, 1000 * float(np.linalg.norm(tip - end))
+
+
+def left_of_it(slow: Callable, gain: float = GAIN, dt: float = DT) -> float:
+    """Return which share of ASIDE is left after 1 s straight at it, at RUSH."""
+    screws = panda.screws(panda.load("panda_nohand"))
+    q = panda.READY_Q.copy()
+    goal = day11_mujoco.pen(q)[1] + ASIDE * np.eye(3)[1]
+    for _ in range(round(1.0 / dt)):
+        J = space_jacobian(screws, q)
+        tip = day11_mujoco.pen(q)[1]
+        far = np.linalg.norm(goal - tip)
+        qd = dls_step(site_jacobian(J, tip)[3:], RUSH * (goal - tip) / far, DAMPING)
+        q = q + dt * slow(qd, distance_gradient(J, tip, goal, 7), far, gain)
+    return float(np.linalg.norm(goal - day11_mujoco.pen(q)[1])) / ASIDE
 
 
 def main() -> int:
@@ -511,6 +532,8 @@ def main() -> int:
         lab.check(
             "slowed - the library's", off_library("slowed", slowed, given["slowed"])
         )
+        share = left_of_it(slowed)
+        print(f"  straight at it: after 1 s {share:.4f} of the distance is left")
         deep, beside = through(POST, lambda qd, *_: qd)
         print(f"  as told: {deep:.1f} mm, ends {beside:.1f} mm beside its target")
         least, beside = through(POST, slowed)
