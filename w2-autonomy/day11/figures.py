@@ -27,24 +27,39 @@ def looks(figure: Figure) -> None:
     s = np.linspace(0.0, 1.0, FINE)
     d = 1000 * lab.pen_from(edge, s)
     dots = np.linspace(0.0, 1.0, POINTS + 2)
-    above.plot(dots, 1000 * lab.pen_from(edge, dots), "o", color=RED,
-               label=f"{POINTS} points: all free")  # fmt: skip
+    seen = 1000 * lab.pen_from(edge, dots)
     arm = shapes.Shape(panda.load("panda_nohand"), day11_mujoco.CAPSULES)
     reach = lab.reaches(*arm.lengths)
-    _, looked = lab.walk(edge, reach)
+    free, looked = lab.walk(edge, reach)
     at = np.array(looked)
     far = 1000 * lab.pen_from(edge, at)
     speed = 1000 * float(np.abs(edge.dq) @ reach)
-    for x, y in zip(at[:-1], far[:-1], strict=True):
-        end = min(x + max(y, 0.0) / speed, 1.0)
-        below.fill_between([x, end], [y, y - speed * (end - x)], color=BLUE, alpha=0.15)
-    below.plot(
-        at, far, "v", color=BLUE, label=f"the bound: {len(at)} looks, it touches"
-    )
-    for axes in (above, below):
+    for axes in (above, _close_up(above, s, d)):
+        axes.plot(dots, seen, "o", color=RED, clip_on=True,
+                  label=f"{POINTS} points: all free")  # fmt: skip
         _curve(axes, s, d)
+    for axes in (below, _close_up(below, s, d)):
+        for x, y in zip(at, far, strict=True):
+            end = min(x + max(y, 0.0) / speed, 1.0)
+            cone = [y, y - speed * (end - x)]
+            axes.fill_between([x, end], cone, color=BLUE, alpha=0.2, linewidth=0)
+        told = "free" if free else "it touches"
+        axes.plot(at, far, "v", color=BLUE, label=f"the bound: {len(at)} looks, {told}")
+        _curve(axes, s, d)
+    for axes in (above, below):
+        axes.set(ylabel="distance, mm", ylim=(-40, 1.05 * d.max()), xlim=(-0.01, 1.01))
+        axes.legend(loc="upper right")
     above.set(title="Pen and wire: looked at by points, and by promises")
     below.set(xlabel="s, share of the way")
+
+
+def _close_up(axes: Axes, s: np.ndarray, d: np.ndarray) -> Axes:
+    """Return axes that show where it touches, larger."""
+    inset = axes.inset_axes((0.4, 0.47, 0.28, 0.38))
+    middle = s[np.argmin(d)]
+    inset.set(xlim=(middle - 0.06, middle + 0.06), ylim=(-15, 60))
+    inset.set_facecolor("white")
+    return inset
 
 
 def missed_edge() -> day11_mujoco.Edge:
@@ -68,10 +83,8 @@ def _curve(axes: Axes, s: np.ndarray, d: np.ndarray) -> None:
     """Draw the distance itself, and where it touches."""
     axes.plot(s, d, "-", color=INK, linewidth=1.5, zorder=1)
     axes.axhline(0.0, color=GREY, linewidth=1.2)
-    axes.set(ylabel="distance, mm", ylim=(-40, 1.05 * d.max()), xlim=(-0.01, 1.01))
-    axes.legend(loc="upper right")
     axes.grid()
 
 
 FIGURES = {"looks": looks}
-SMALL = ("looks", 0.1, 0.53, 0.5)  # its left, top and width, in parts of its width
+SMALL = ("looks", 0.42, 0.545, 0.27)  # its left, top and width, in parts of its width

@@ -84,11 +84,7 @@ def ends_only(a0, a1, b0, b1, way=min):
     return way(found, key=lambda pair: np.linalg.norm(pair[0] - pair[1]))
 
 
-@row.wrongs(
-    hidden={
-        "points-swapped": "the first is told by its own check",
-    }
-)
+@row.wrongs
 def _(a0, a1, b0, b1):
     """not-clamped: s and t are those of the lines: they are not cut to 0..1, so the
       points may lie beyond the ends

@@ -212,8 +212,8 @@ def slowed(
 def off_library(name: str, own: Callable, given: list[tuple]) -> float:
     """Return how far your function is at most from robo47's of that name."""
     truth = getattr(library, name)
-    off = [np.abs(np.subtract(own(*one), truth(*one), dtype=float)) for one in given]
-    return max(float(one.max()) for one in off)
+    off = [np.subtract(own(*one), truth(*one), dtype=float) for one in given]
+    return float(np.max([np.abs(one).max() for one in off]))  # NaN, if one is NaN
 
 
 def given_to(rng: np.random.Generator) -> dict[str, list[tuple]]:
@@ -262,31 +262,33 @@ def off_capsules(model, data, q: np.ndarray) -> tuple[list, list, int]:
     return apart, points, inside
 
 
-def off_boxes(model, data, q: np.ndarray, rng) -> tuple[list, list, int]:
+def off_boxes(model, data, q: np.ndarray, rng) -> tuple[list, list, list]:
     """Return how far a ball and the arm are off MuJoCo's distance from two boxes.
 
     The ball is asked inside the boxes, too; the arm only where it is outside: MuJoCo's
-    depth is the way out of the whole capsule. Return also how many were left out.
+    depth is the way out of the whole capsule. There, last, it is robo47's.
     """
-    ball, arm, inside = [], [], 0
+    ball, arm, inside = [], [], []
     fromto = np.zeros(6)
     for one in q:
         data.qpos[:] = one
         for j, (T, half) in enumerate(day11_mujoco.BOXES, len(day11_mujoco.RODS)):
             box = model.geom(f"world{j}").id
-            p = np.array(half) * rng.uniform(-2, 2, 3)
+            half = np.array(half)
+            p = half * rng.uniform(-2, 2, 3)
             data.mocap_pos[0] = T[:3, :3] @ p + T[:3, 3]
             mujoco.mj_kinematics(model, data)  # fills geom_xpos and geom_xmat
-            round_one = model.geom("ball")
-            truth = mujoco.mj_geomDistance(model, data, round_one.id, box, FAR, fromto)
-            ball.append(box_sdf(p, np.array(half)) - round_one.size[0] - truth)
+            small = model.geom("ball")
+            truth = mujoco.mj_geomDistance(model, data, small.id, box, FAR, fromto)
+            ball.append(box_sdf(p, half) - small.size[0] - truth)
             for i, (a0, a1) in enumerate(day11_mujoco.axes(model, data)):
                 geom = model.geom(f"arm{i}").id
+                asked = a0, a1, day11_mujoco.RADII[i], T, half
                 truth = mujoco.mj_geomDistance(model, data, geom, box, FAR, fromto)
-                inside += truth < 0
                 if truth > 0:
-                    r = day11_mujoco.RADII[i]
-                    arm.append(capsule_box(a0, a1, r, T, np.array(half)) - truth)
+                    arm.append(capsule_box(*asked) - truth)
+                else:
+                    inside.append(capsule_box(*asked) - library.capsule_box(*asked))
     return ball, arm, inside
 
 
@@ -462,17 +464,20 @@ def main() -> int:
     print(panda.describe("panda_nohand"))
 
     lab.step("1. Two capsules")
-    apart, points, inside = off_capsules(model, data, q)
-    print(f"  {len(apart)} pairs of the arm's capsules and rods; {inside} overlap")
+    apart, points, deep = off_capsules(model, data, q)
+    print(f"  {len(apart)} pairs of the arm's capsules and rods; {deep} overlap")
     lab.record("distance", apart, label="|capsule_distance - mj_geomDistance|, m",
                seed=SEED)  # fmt: skip
     lab.check("|closest points - MuJoCo's|, m", points)
 
     lab.step("2. A capsule and a box")
-    ball, sides, left_out = off_boxes(model, data, q, rng)
+    ball, sides, inside = off_boxes(model, data, q, rng)
     lab.check("|box_sdf - MuJoCo's ball|, m, inside too", ball)
     lab.check("|capsule_box - mj_geomDistance|, m, outside", sides)
-    print(f"  {len(sides)} pairs; {left_out} overlap, where MuJoCo's depth is another")
+    print(
+        f"  {len(sides)} pairs; {len(inside)} overlap, where MuJoCo's depth is another"
+    )
+    lab.check("capsule_box - the library's, inside", inside)
 
     lab.step("3. How fast it changes")
     off = off_slopes(model, data, q[: TRIALS // 5 + 1])
@@ -534,8 +539,8 @@ def main() -> int:
         )
         share = left_of_it(slowed)
         print(f"  straight at it: after 1 s {share:.4f} of the distance is left")
-        deep, beside = through(POST, lambda qd, *_: qd)
-        print(f"  as told: {deep:.1f} mm, ends {beside:.1f} mm beside its target")
+        least, beside = through(POST, lambda qd, *_: qd)
+        print(f"  as told: {least:.1f} mm, ends {beside:.1f} mm beside its target")
         least, beside = through(POST, slowed)
         print(f"  slowed: {least:.1f} mm, ends {beside:.1f} mm beside its target")
         lab.record("post", least, metric="least_mm", label="least distance, mm")
