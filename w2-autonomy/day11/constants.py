@@ -39,7 +39,7 @@ numbers = Numbers(
 
 
 @numbers.add(
-    "share of places at which 10 points miss the wire", "{:.2f}",
+    "share of places at which 10 points miss the wire", "{:.3f}",
     points=between(0.0, 0.25, "gaps of 15 mm, a contact of 14", to=20),
     wire=between(0.6, 0.85, "the contact is 2 (5 + 4) = 18 mm of a gap of 28"),
     turn=between(1.3, 1.65, "twice the gap, the same contact: 0.50 becomes 0.75"),
@@ -118,11 +118,11 @@ def looks(bound=1.0, near=LAB.NEAR, seed=LAB.SEED, thin=LAB.THIN):
 
 
 @numbers.add(
-    "left of the distance after 1 s straight at it", "{:.3f}",
+    "left of the distance after 1 s straight at it", "{:.4f}",
     gain=times(7.4, "e^-2 for e^-4: e² times as much", within=0.06, to=2.0),
     dt=between(0.85, 1.0, "0.92 to the 50th is less than 0.96 to the 100th"),
     aside=between(0.9, 1.1, "the same share of half the distance", to=0.1),
-    rush=same("what is too fast is taken off, however much it is"),
+    rush=between(0.9, 1.1, "what is too fast is taken off, however much it is"),
 )  # fmt: skip
 def left(gain=LAB.GAIN, dt=LAB.DT, aside=LAB.ASIDE, rush=LAB.RUSH):
     """Return which share."""

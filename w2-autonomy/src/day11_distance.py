@@ -82,7 +82,7 @@ def capsule_distance(
 ) -> float:  # fmt: skip
     """Return how far two capsules are apart, below 0 where they overlap.
 
-    11.1's case with the radii 0.25 and 0.5: 0.25.
+    capsule_distance((-1, 0, 0), (1, 0, 0), 0.25, (0, -1, 1), (0, 1, 1), 0.5) -> 0.25
     """
     # region 11.2
     p, o = segment_segment(a0, a1, b0, b1)
@@ -93,8 +93,9 @@ def capsule_distance(
 def box_sdf(p: np.ndarray, half: np.ndarray) -> float:
     """Return how far a point, (3,), is from a box about the origin; inside below 0.
 
-    half, (3,), is half of its sides: for 1, 1, 1 box_sdf((2, 0, 0), (1, 1, 1)) -> 1;
-    (0, 0, 0) is 1 deep and (0.5, 0.2, 0) is 0.5 deep.
+    half, (3,), is half of its sides.
+    box_sdf((2, 0, 0), (1, 1, 1)) -> 1
+    box_sdf((0, 0, 0), (1, 1, 1)) -> -1
     """
     # region 11.3
     beyond = np.abs(p) - half
@@ -107,8 +108,8 @@ def capsule_box(
 ) -> float:
     """Return how far a capsule is from a box, wherever that stands.
 
-    It is the least of 11.3 along the axis, less r. (-2, 0, 2) to (2, 0, 2), r = 0.1 and
-    a box at the origin, half 1, 1, 1: 0.9.
+    It is the least of `box_sdf` along the axis, less r. From (-2, 0, 2) to (2, 0, 2) with
+    r = 0.1, and a box at the origin, half 1, 1, 1: 0.9.
     """
     # region 11.4
     R = T_world_box[:3, :3]
@@ -182,9 +183,9 @@ def reaches(offsets: np.ndarray, far: np.ndarray) -> np.ndarray:
 def next_check(s: float, distance: float, dq: np.ndarray, reach: np.ndarray) -> float:
     """Return where along q + s dq the arm may first touch something, at most 1.
 
-    The distance is the arm's at s; dq, (7,), the whole way; reach, (7,), 11.7's. Where
-    the distance is 0 or below: s. Else, where nothing moves: 1. At s = 0.25 and 0.1 m,
-    for dq 1 and reach 0.5 everywhere: 0.278571.
+    The distance is the arm's at s; dq, (7,), the whole way; reach, (7,), of `reaches`.
+    Where the distance is 0 or below: s. Else, where nothing moves: 1. At s = 0.25 and
+    0.1 m, for dq 1 and reach 0.5 everywhere: 0.278571.
     """
     # region 11.8
     if distance <= 0:
