@@ -11,7 +11,7 @@ ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 # Without DAY= a script takes the day that you worked on last.
 ON_DAY = $(if $(DAY),--day $(DAY))
 # A command of a day does not take WEEK= in silence.
-OF_A_DAY = start check hint borrow run view figures notebook docs author constants
+OF_A_DAY = start watch check hint borrow run view figures notebook docs author constants
 ifeq ($(origin WEEK),command line)
   ifneq ($(filter $(OF_A_DAY),$(MAKECMDGOALS)),)
     $(error make $(firstword $(MAKECMDGOALS)) takes DAY=2, no WEEK=)
@@ -27,7 +27,7 @@ VIEW := $(if $(findstring --screenshot,$(ARGS)),figures,view)
 RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/dev/null),figures,core)
 
 .DEFAULT_GOAL := help
-.PHONY: update edition start check hint borrow run doctor bench kernels test-matrix setup robot view grade
+.PHONY: update edition start watch check hint borrow run doctor bench kernels test-matrix setup robot view grade
 .PHONY: capstone proof fresh help test soak report lint docs site oracle figures notebook
 .PHONY: new author gaps constants
 
@@ -61,8 +61,11 @@ view: .venv/.ready-$(VIEW) $(ROBOT) ## the arm and the proof; ARGS=--web, --scre
 start: .venv/.ready-core ## write your copy of a day's lab; RESET=1.4 empties a task
 	@$(PY) scripts/start_day.py $(DAY) $(if $(RESET),--reset $(RESET)) $(ARGS)
 
-check: .venv/.ready-core $(ROBOT) ## check your day, or TASK=1.4 alone; ARGS=--watch
+check: .venv/.ready-core $(ROBOT) ## check your day, or TASK=1.4 alone
 	@$(PY) scripts/check_day.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS) $(NOT_YET)
+
+watch: .venv/.ready-core $(ROBOT) ## one loop: save, read the verdict, go on; keys for the rest
+	@$(PY) scripts/watch_day.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS) $(NOT_YET)
 
 hint: .venv/.ready-core $(ROBOT) ## the next hint, for TASK=1.4 or for what is next
 	@$(PY) scripts/hint.py $(TASK) $(ON_DAY) $(ARGS) $(NOT_YET)
