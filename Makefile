@@ -11,7 +11,7 @@ ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 # Without DAY= a script takes the day that you worked on last.
 ON_DAY = $(if $(DAY),--day $(DAY))
 # A command of a day does not take WEEK= in silence.
-OF_A_DAY = start watch check hint borrow run view figures notebook docs author constants
+OF_A_DAY = start watch hunt check hint borrow run view figures notebook docs author constants
 ifeq ($(origin WEEK),command line)
   ifneq ($(filter $(OF_A_DAY),$(MAKECMDGOALS)),)
     $(error make $(firstword $(MAKECMDGOALS)) takes DAY=2, no WEEK=)
@@ -27,7 +27,7 @@ VIEW := $(if $(findstring --screenshot,$(ARGS)),figures,view)
 RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/dev/null),figures,core)
 
 .DEFAULT_GOAL := help
-.PHONY: update edition start watch check hint borrow run doctor bench kernels test-matrix setup robot view grade
+.PHONY: update edition start watch hunt check hint borrow run doctor bench kernels test-matrix setup robot view grade
 .PHONY: capstone proof fresh help test soak report lint docs site oracle figures notebook
 .PHONY: new author gaps constants
 
@@ -66,6 +66,9 @@ check: .venv/.ready-core $(ROBOT) ## check your day, or TASK=1.4 alone
 
 watch: .venv/.ready-core $(ROBOT) ## one loop: save, read the verdict, go on; keys for the rest
 	@$(PY) scripts/watch_day.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS) $(NOT_YET)
+
+hunt: .venv/.ready-core $(ROBOT) ## find the bug: a right lab with one mistake; LEVEL=2 SEED=7
+	@$(PY) scripts/hunt_bug.py $(DAY) $(if $(LEVEL),--level $(LEVEL)) $(if $(SEED),--seed $(SEED)) $(ARGS) $(NOT_YET)
 
 hint: .venv/.ready-core $(ROBOT) ## the next hint, for TASK=1.4 or for what is next
 	@$(PY) scripts/hint.py $(TASK) $(ON_DAY) $(ARGS) $(NOT_YET)
