@@ -20,6 +20,8 @@ CAPSTONE = '''"""{name} of week {week}, by functions of which one is wrong.
     make hunt                 say which function you suspect
 """
 
+from __future__ import annotations
+
 import kit  # noqa: F401 (goes on in the kit's own Python)
 import numpy as np
 {imports}

@@ -4,6 +4,8 @@
     make hunt                 say which function you suspect
 """
 
+from __future__ import annotations
+
 import kit  # noqa: F401 (goes on in the kit's own Python)
 import numpy as np
 from labkit.hunt.hunted import hunted
