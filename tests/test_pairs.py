@@ -142,3 +142,13 @@ def test_the_rank_of_what_is_hidden_is_not_a_cut():
         return Y.shape[1] - rank, condition
 
     assert "that are hidden" in told(8, "8.5", identifiable=identifiable)
+
+
+def test_a_result_that_is_right_is_said_to_be():
+    def identifiable(Y, rtol):
+        rank, _ = right(8, "identifiable")(Y, rtol)
+        s = np.linalg.svd(Y, compute_uv=False)
+        return rank, s[0] / np.mean(s[:rank])
+
+    says = told(8, "8.5", identifiable=identifiable)
+    assert says.startswith("The rank is right. The condition: ")

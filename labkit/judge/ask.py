@@ -209,6 +209,10 @@ class Ask:
         """Return per call how far an answer is off, beyond what `rtol` allows."""
         return gaps(self.kinds, S, T, self.rtol)
 
+    def gaps_of(self, j: int, s: Array, t: Array) -> Array:
+        """Return per call how far the j-th result is off, likewise."""
+        return gaps(self.kinds[j : j + 1], (s,), (t,), self.rtol)
+
     @cached_property
     def cost(self) -> float:
         """Seconds of a call, as the row says, or as its truth takes here."""

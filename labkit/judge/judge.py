@@ -15,6 +15,7 @@ from labkit.judge.answers import (
     as_one,
     capitalised,
     difference,
+    listed,
     plain,
     worst_part,
 )
@@ -313,7 +314,26 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
             it = capitalised(kind.called) if called else "It"
             where += f" {it} is right for {np.sum(~wrong)} of {len(wrong)} inputs"
             where += f"{_first(wrong, case.given, 'but not for')}."
-    return Finding(found.slug, f"{called}{found.message}{where}")
+    right = _right_results(case, S, T)
+    called = capitalised(called) if right else called
+    return Finding(found.slug, f"{right}{called}{found.message}{where}")
+
+
+def _right_results(case: Case, S: Parts, T: Parts) -> str:
+    """Return which results of several are right, of fresh inputs as well, or ""."""
+    sets = [(S, T)]
+    if case.further:
+        sets.append((case.further.S, case.further.T))
+    names = [
+        kind.called
+        for j, kind in enumerate(case.ask.kinds)
+        if kind.called
+        and all(case.ask.gaps_of(j, s[j], t[j]).max() <= case.ask.near for s, t in sets)
+    ]
+    if len(S) < 2 or not names:
+        return ""
+    verb = "is" if len(names) == 1 else "are"
+    return f"{capitalised(listed(names))} {verb} right. "
 
 
 def _nothing_there(case: Case, S: Parts) -> Finding | None:
