@@ -110,6 +110,7 @@ class Case:
     # Per question of `Ask.probe` its arguments and the answer, or None.
     probes: Sequence[tuple[tuple[Any, ...], Any]] = ()
     further: "Further | None" = None  # what a sentence must hold for as well
+    names: Sequence[str] = ()  # of the arguments, for sentences
 
 
 @dataclass(frozen=True)

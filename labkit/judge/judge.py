@@ -33,7 +33,12 @@ from labkit.judge.failing_call import failing_call, for_fresh
 from labkit.judge.kinds import Kind
 from labkit.judge.made_again import redone
 from labkit.judge.mistake import Finding, Verdict
-from labkit.judge.pairs import by_results, in_some_calls, two_at_once
+from labkit.judge.pairs import (
+    by_results,
+    in_some_calls,
+    of_other_arguments,
+    two_at_once,
+)
 from labkit.judge.typed import in_words
 from robo47.checks import Array
 
@@ -203,7 +208,15 @@ def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
         for probe, reply in answered
     ]
     given = [in_words(exchange.question, names) for exchange in asked.main]
-    return Case(asked.ask, stacked(asked.main), plain(S), plain(T), given, probes)
+    return Case(
+        asked.ask,
+        stacked(asked.main),
+        plain(S),
+        plain(T),
+        given,
+        probes,
+        names=names,
+    )
 
 
 def _measured(case: Case, S: Parts, T: Parts, gap: Array) -> tuple[str, ...]:
@@ -234,7 +247,8 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     i = worst_part(ask.kinds, S, T, ask.near)
     every = (S[i], case.further.S[i]) if case.further else (S[i],)
     found = _all_the_same(ask.kinds[i], every, T[i])  # simpler than two mistakes
-    found = found or two_at_once(case, S, T) or by_results(case, S, T)
+    found = found or of_other_arguments(case, S, T) or two_at_once(case, S, T)
+    found = found or by_results(case, S, T)
     if found := found or near_miss.rounded(S[i], T[i]):
         return found
     try:
