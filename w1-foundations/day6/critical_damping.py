@@ -55,8 +55,8 @@ def _(K, Lambda):
     factor-two: there is a 2 too many: the two orders are the 2 already
     factor-two-missing: half of it is missing: the two orders are added, not averaged
     K-not-rooted: K is used as it is; its square root belongs there
-    root-on-both-sides: the root of K stands between two roots of Lambda: that grows with
-      the mass, where a damping grows with its root => 2 sqrt(Lambda) sqrt(K)
+    root-on-both-sides: the root of K stands between two roots of Lambda: that grows
+      with the mass, where a damping grows with its root => 2 sqrt(Lambda) sqrt(K)
       sqrt(Lambda)
     root-of-the-product: this is 2 sqrt(K Lambda), entry by entry => 2 sqrt(abs(K
       Lambda))
