@@ -330,7 +330,18 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
             where += f"{_first(wrong, case.given, 'but not for')}."
     right = _right_results(case, S, T)
     called = capitalised(called) if right else called
-    return Finding(found.slug, f"{right}{called}{found.message}{where}")
+    says = f"{right}{called}{found.message}{where}{_wrong_too(case, S, T, i)}"
+    return Finding(found.slug, says)
+
+
+def _wrong_too(case: Case, S: Parts, T: Parts, i: int) -> str:
+    """Return which results but the i-th are wrong, and in how many calls, or ""."""
+    says = ""
+    for j, kind in enumerate(case.ask.kinds):
+        n = int(np.sum(case.ask.gaps_of(j, S[j], T[j]) > case.ask.near))
+        if j != i and n and kind.called:
+            says += f" {capitalised(kind.called)} is wrong, too, in {n} of {len(S[j])}."
+    return says
 
 
 def _right_results(case: Case, S: Parts, T: Parts) -> str:
