@@ -88,7 +88,7 @@ def part_off(kind: Matrix, S: Array, T: Array) -> Finding | None:
     alone = np.ndim(kind.scale) == 0
     if alone and (found := one_factor(kind, S[:, wrong], T[:, wrong])):
         times = found.message.removeprefix("It ").partition(",")[0]
-        off = f"what stands there {times}"
+        off = f"what is wrong there {times}"
     return Finding("part-off", f"{says}: {off}.")
 
 
