@@ -30,6 +30,7 @@ _BUT = re.compile(
     r"^(?:[^;:]*?\b(?:is|are) right(?: except that|, but|;)"
     r"|right [^;,:]*[;,](?: but)?) "
 )
+EXACT = 1e-8  # of many pairs one comes near by chance, so two must give more digits
 MOST = 80  # mistakes of a function that are tried two at a time
 
 
@@ -183,7 +184,7 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
     answers = {}
     for k, one in enumerate(mistakes):
         answer = _answer(one, case.arguments, i, T)
-        if _alike(ask, answer, _nth(T, i)) is False:
+        if _alike(ask, answer, _nth(T, i), MATCHES) is False:
             answers[k] = answer
     pairs = _Pairs(case, S, T, i, mistakes, answers)
     found = pairs.added() or pairs.finished() or pairs.in_turn()
@@ -357,11 +358,11 @@ def _one_factor(a: Parts, b: Parts, right: Parts) -> bool:
     return bool(np.abs(y - power * x).max() <= MATCHES * np.abs(y).max())
 
 
-def _alike(ask: Ask, a: Parts, b: Parts) -> bool | None:
+def _alike(ask: Ask, a: Parts, b: Parts, within: float = EXACT) -> bool | None:
     """Return whether two answers match; None where there is none."""
     if len(a) != len(b):
         return None
-    return all_match(ask.kinds, a, b)
+    return all_match(ask.kinds, a, b, within)
 
 
 def _both_told(ask: Ask, pair: Pair, S: Parts, T: Parts) -> Finding:
