@@ -52,6 +52,9 @@ for slug, says, redone, other in (
      {"felt": lambda i: slice(i + 1, None)}),
     ("last-link-left-out", "the last link's momentum is left out: the loop ends one "
      "too early", "with k < 7", {"felt": lambda i: slice(i, -1)}),
+    ("last-link-only", "only the last link's momentum is taken: is out[i] written "
+     "anew for each k, where it is added up?", "with k = 7",
+     {"felt": lambda i: slice(-1, None)}),
     ("earlier-links", "the momenta of the links up to i are added; those from i on "
      "turn", "with k <= i", {"felt": lambda i: slice(0, i + 1)}),
     ("all-links", "the momenta of all links are added; those before i stay where they "
@@ -88,14 +91,22 @@ def _(J_space, G, qd):
       energy changes with the angle
     minus-C-qd: this is minus C qd, the Coriolis torque; asked for is C^T qd
     inverse-order: the answer is backwards: joint1 comes first
+    each-its-own-twist: it is the twist of link k that turns, for each k; asked for is
+      that of link i, which the links after it take along => with ad(S_i) V_k
     times-qd: it is multiplied by qd: that is a power
     """
     C = dynamics.coriolis_matrix(J_space, G, qd)
     right = energy_slope(J_space, G, qd)
+    S = J_space.T
+    V = np.cumsum(S * qd[:, None], axis=0)
+    momenta = (G @ V[:, :, None])[:, :, 0]
     return {
         "C-qd": C @ qd,
         "minus-C-qd": -C @ qd,
         "inverse-order": right[::-1].copy(),
+        "each-its-own-twist": -np.array(
+            [np.sum(momenta[i:] * (V[i:] @ ad(S[i]).T)) for i in range(len(S))]
+        ),
         "times-qd": right * qd,
     }
 

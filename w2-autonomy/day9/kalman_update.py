@@ -39,6 +39,9 @@ def _(x, P, z, H, R):
     R-squared: R is squared: it is a variance already => with R R
     R-subtracted: R is subtracted in S; the reading's noise adds to what is not known =>
       with S = H P H^T - R
+    R-diagonal: only R's diagonal is in S; readings may be wrong together => with R's
+      diagonal
+    P-left-out: S is H H^T + R; P stands between => with S = H H^T + R
     R-inverted: R's inverse is added: that belongs to the information form => with R^-1
     S-not-inverted: K lacks S^-1: it is P H^T => with K = P H^T
     S-multiplied: K is P H^T S; it is divided by S => with K = P H^T S
@@ -67,6 +70,8 @@ def _(x, P, z, H, R):
       surprise => with z - H x of the new x
     nis-with-new-P: the NIS is weighed by the S of the new P; the surprise came before
       it => with H P H^T + R of the new P
+    nis-all-after: the NIS is made of the new x and the new P; it is that of the
+      surprise, which came before both => with the new x and P
     nis-diagonal: the NIS takes the diagonal of S alone; surprises may go together
     nis-per-number: the NIS is divided by m; its mean is m, not 1
     nis-multiplied: the NIS is y . S y; it is divided by S
@@ -111,6 +116,7 @@ def _(x, P, z, H, R):
         "nis-not-weighed": y @ y,
         "nis-after": after @ inverse @ after,
         "nis-with-new-P": y @ np.linalg.solve(H @ new_P @ H.T + R, y),
+        "nis-all-after": after @ np.linalg.solve(H @ new_P @ H.T + R, after),
         "nis-diagonal": y @ (y / np.diag(S)),
         "nis-per-number": nis / len(z),
         "nis-multiplied": y @ S @ y,
@@ -121,6 +127,8 @@ def _(x, P, z, H, R):
         "R-rooted": with_S(S - R + np.sqrt(np.abs(R))),
         "R-squared": with_S(S - R + R @ R),
         "R-subtracted": with_S(S - 2 * R),
+        "R-diagonal": with_S(S - R + np.diag(np.diag(R))),
+        "P-left-out": with_S(H @ H.T + R),
         "R-inverted": with_S(S - R + np.linalg.inv(R)),
         "S-not-inverted": with_K(P @ H.T),
         "S-multiplied": with_K(P @ H.T @ S),

@@ -38,6 +38,10 @@ for slug, says, redone, other in (
     ("multiplied-for-divided", "c is 2 / 9 times n m: 2 / 9 * n * m divides by 9 "
      "alone; write 2 / (9 * n * m)", "with 2 / 9 * n * m",
      {"c": lambda n, m: 2 / 9 * n * m}),
+    ("m-above", "c is 2 / 9 / n times m: 2 / 9 / n * m divides by n alone; write 2 / "
+     "(9 * n * m)", "with 2 / 9 / n * m", {"c": lambda n, m: 2 / 9 / n * m}),
+    ("added-for-multiplied", "c has n + m; n NIS are a sum of n m squares",
+     "with c = 2 / (9 (n + m))", {"c": lambda n, m: 2 / (9 * (n + m))}),
     ("whole-division", "c is 0: // cuts off the fraction of 2 / (9 n m)", "with c = 0",
      {"c": lambda n, m: 2 // (9 * n * m)}),
     ("c-not-rooted", "1.96 is multiplied with c, a variance; sigma is its root",
@@ -63,6 +67,8 @@ for slug, says, redone, other in (
      "that all have the same digits", "with 1.959964", {"z": 1.959964}),
     ("m-not-multiplied", "m is missing in front: the mean NIS of a true filter is m",
      "the right one / m", {"front": lambda n, m: 1.0}),
+    ("m-cubed", "m is cubed as well; it stands before the cube", "with m^3 in front",
+     {"front": lambda n, m: m**3}),
     ("sum-for-mean", "this is for the sum of n NIS; their mean is asked for", "times n",
      {"front": lambda n, m: n * m}),
     ("n-for-m", "n stands in front; it is m", "with n in front",
