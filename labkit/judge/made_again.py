@@ -335,9 +335,11 @@ def _sum(a: Parts, b: Parts, right: Parts) -> Parts:
 
 
 def _product(a: Parts, b: Parts, right: Parts) -> Parts:
-    """Return what two wrong factors make together."""
+    """Return what two wrong factors make together; () where 0 would hide one."""
     trios = list(zip(a, b, right, strict=False))
     if any(len({x.shape for x in trio}) > 1 for trio in trios):
+        return ()
+    if any(((z == 0) & ((x != 0) | (y != 0))).any() for x, y, z in trios):
         return ()
     return tuple(np.where(z == 0, 0.0, x * y / np.where(z, z, 1)) for x, y, z in trios)
 

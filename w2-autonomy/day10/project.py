@@ -114,6 +114,8 @@ for slug, says, redone, other in (
      "well", "rounded", {"told": np.round}),
     ("whole-pixels", "the pixels are cut to whole numbers; (125.3, 50.7) is a place in "
      "the image as well", "cut off", {"told": np.trunc}),
+    ("whole-pixels", "the pixels are rounded down; (125.3, 50.7) is a place in the "
+     "image as well", "rounded down", {"told": np.floor}),
     ("row-column", "the answer is (row, column); u, to the right, comes first",
      "(v, u)", {"told": lambda pixels: pixels[:, ::-1]}),
     ("middle-of-a-pixel", "half a pixel is taken off; (0, 0) is the image's corner, "

@@ -114,6 +114,12 @@ for slug, says, redone, other in (
     ("v-of-y-sign", "the slope of v with y has the wrong sign; y and v both point down",
      "with -f / z there", {"pixel": lambda K, p: by_point(K, p)
                            * [[1, 1, 1], [1, -1, 1]]}),
+    ("one-depth-sign", "the slope of u with z has the wrong sign: it is -f x / z^2",
+     "with +x / z^2 in u", {"pixel": lambda K, p: by_point(K, p)
+                            * [[1, 1, -1], [1, 1, 1]]}),
+    ("one-depth-sign", "the slope of v with z has the wrong sign: it is -f y / z^2",
+     "with +y / z^2 in v", {"pixel": lambda K, p: by_point(K, p)
+                            * [[1, 1, 1], [1, 1, -1]]}),
     ("range-for-depth", "it is divided by the point's distance; a camera divides by z",
      "with the length of p", {"pixel": lambda K, p: by_point(
          K, np.column_stack([p[:, :2], np.linalg.norm(p, axis=1)]))}),

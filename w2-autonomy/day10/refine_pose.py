@@ -70,14 +70,15 @@ def placed(T, points):
 
 def steps(
     K, T_guess, points, pixels, *, n=10, solve=least_squares, move=moved, held=False,
-    sign=1.0, at=placed, since=lambda T, guess: T, told=lambda T: T,
+    sign=1.0, at=placed, stale=False, since=lambda T, guess: T, told=lambda T: T,
 ):  # fmt: skip
     """Return T after steps that may be wrong; NaN where they run away."""
     T = T_guess
-    J = None
+    J = off = None
     for _ in range(n):
         p = placed(T, points)
-        off = pixels - (p @ K.T)[:, :2] / p[:, 2:]
+        if off is None or not stale:
+            off = pixels - (p @ K.T)[:, :2] / p[:, 2:]
         if J is None or not held:
             J = slopes(K, at(T, points))
         T = move(since(T, T_guess), sign * solve(J, off))
@@ -103,6 +104,11 @@ for slug, says, redone, other in (
      {"at": lambda T, points: points}),
     ("J-not-moved", "the Jacobian is taken at points that are turned, but not moved, "
      "by T", "with J at R p", {"at": lambda T, points: points @ T[:3, :3].T}),
+    ("error-of-the-guess", "the error is that of the guess in all steps; each step "
+     "needs what is left", "with the guess's error", {"stale": True}),
+    ("twist-halves-swapped", "the step is taken for (v; omega); J's columns have omega "
+     "first", "with its halves swapped",
+     {"move": lambda T, xi: moved(T, np.roll(xi, 3))}),
     ("body-twist", "each step stands on T's right; J's twists are in the camera's "
      "axes, so the exponential stands on the left", "T exp([xi])",
      {"move": on_the_right}),

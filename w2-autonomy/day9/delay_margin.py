@@ -71,6 +71,9 @@ for slug, says, redone, other in (
     ("kd-not-squared", "kd stands before the root as it is; it is kd^2",
      "with kd + sqrt(...)",
      {"w": lambda kp, kd: np.sqrt((kd + np.sqrt(kd**4 + 4 * kp**2)) / 2)}),
+    ("neither-squared", "kd, kd^2 and kp stand where kd^2, kd^4 and kp^2 are right: it "
+     "is a quadratic in w^2", "with (kd + sqrt(kd^2 + 4 kp)) / 2",
+     {"w": lambda kp, kd: np.sqrt((kd + np.sqrt(kd**2 + 4 * kp)) / 2)}),
     ("inverted", "kp stands above, kd w below: that is the angle to the damper's axis; "
      "the damper's share is above", "with atan(kp / (kd w))",
      {"angle": lambda kp, kd, w: np.arctan(kp / (kd * w))}),

@@ -27,13 +27,14 @@ def slope(
     J_space, G, qd, *, factor=-1.0, felt=lambda i: slice(i, None),
     turned=lambda S, V: ad(S) @ V, at=lambda V, i: V[i], carries=lambda V, i: V,
     twists=lambda S, qd: np.cumsum(S * qd[:, None], axis=0),
+    momentum=lambda G, V: (G @ V[:, :, None])[:, :, 0],
 ):  # fmt: skip
     """Return the slope with other parts: whose momentum, and which twist turns how."""
     S = J_space.T
     V = twists(S, qd)
     found = []
     for i in range(len(S)):
-        momenta = (G @ carries(V, i)[:, :, None])[:, :, 0]
+        momenta = momentum(G, carries(V, i))
         turns = turned(S[i], at(V, i))
         found.append(factor * momenta[felt(i)].sum(axis=0) @ turns)
     return np.array(found)
@@ -69,6 +70,13 @@ for slug, says, redone, other in (
     ("outer-twists", "the twists are added up from the tip; link i is moved by the "
      "joints up to i", "with V_i of the joints from i on",
      {"twists": lambda S, qd: np.cumsum((S * qd[:, None])[::-1], axis=0)[::-1]}),
+    ("twists-in-reverse", "the twists are added up from the tip and read in that "
+     "order: V_1 is then what joint 7 gives", "with joint 7 first",
+     {"twists": lambda S, qd: np.cumsum((S * qd[:, None])[::-1], axis=0)}),
+    ("no-inertia", "twists are added up, without G; momentum is G V", "with G = 1",
+     {"momentum": lambda G, V: V}),
+    ("inertia-twice", "G stands twice; momentum is G V", "with G G V",
+     {"momentum": lambda G, V: (G @ G @ V[:, :, None])[:, :, 0]}),
     ("summed-down-the-columns", "the six numbers of a twist are added up; a twist is "
      "the sum of the joints' own", "with the sum along the other axis",
      {"twists": lambda S, qd: np.cumsum(S * qd[:, None], axis=1)}),

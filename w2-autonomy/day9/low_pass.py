@@ -44,7 +44,7 @@ for slug, says, redone, other in (
      "at low cutoffs", "with alpha = dt / (dt + RC)", {"alpha": lambda x: x / (1 + x)}),
     ("share-turned-round", "alpha and 1 - alpha are swapped: the old answer gets the "
      "new sample's weight", "with e^(-2 pi cutoff dt) for alpha",
-     {"alpha": lambda x: np.exp(-x)}),
+     {"step": lambda y, now, before, a: now + a * (y - now)}),
     ("euler-share", "alpha is 2 pi cutoff dt, a step of Euler's; over 1 it would "
      "overshoot", "with alpha = 2 pi cutoff dt", {"alpha": lambda x: x}),
     ("no-2-pi", "the cutoff is in Hz, and a time constant is 1 / (2 pi cutoff)",

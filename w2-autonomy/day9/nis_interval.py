@@ -81,6 +81,8 @@ for slug, says, redone, other in (
 def _(n, m):
     """normal: m +- 1.96 sqrt(2 m / n) takes the mean NIS itself for normal; it is
       skewed, and its cube root is nearly normal => m +- 1.96 sqrt(2 m / n)
+    one-over-n: m +- 1.96 / sqrt(n) is the interval of a mean of normal numbers; the
+      spread of a NIS is no 1 => m +- 1.96 / sqrt(n)
     high-first: the two are in the other order: low, then high
     cube-inside: each part is cubed alone; it is the cube of the sum => m ((1 - c)^3 -+
       (1.96 sigma)^3)
@@ -90,6 +92,7 @@ def _(n, m):
     cubes = np.array([-1, 1]) * (1.96 * np.sqrt(c)) ** 3
     return {
         "normal": np.array([m - half, m + half]),
+        "one-over-n": m + np.array([-1.96, 1.96]) / np.sqrt(n),
         "high-first": nis_interval(n, m)[::-1].copy(),
         "cube-inside": m * ((1 - c) ** 3 + cubes),
     }

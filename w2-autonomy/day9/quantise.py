@@ -44,6 +44,9 @@ for slug, says, redone, other in (
     ("middle-of-a-count", "it is rounded down, and half a count is added; the nearest "
      "count itself is asked for", "with floor and a half",
      {"whole": lambda k: np.floor(k) + 0.5}),
+    ("middle-of-a-count", "it is rounded down, and half a count is taken off; the "
+     "nearest count itself is asked for", "with floor less a half",
+     {"whole": lambda k: np.floor(k) - 0.5}),
     ("not-rounded", "nothing is rounded to whole counts", "without rounding",
      {"whole": lambda k: k}),
     ("one-count-fewer", "a turn is divided by counts - 1; the last count of a turn is "

@@ -59,8 +59,8 @@ for slug, says, redone, other in (
      "divided", "times n / (n - 1)", {"share": lambda n: n / (n - 1)}),
     ("variance-for-sum", "the sum of products is divided by a mean of squares; sums "
      "are divided", "times n", {"share": lambda n: n}),
-    ("mean-by-sum", "the mean of products is divided by the sum of squares; sums are "
-     "divided", "divided by n - 1", {"share": lambda n: 1 / (n - 1)}),
+    ("mean-by-sum", "a mean of products stands above; it is their sum",
+     "divided by n - 1", {"share": lambda n: 1 / (n - 1)}),
     ("divided-by-n", "it is divided by n as well", "divided by n",
      {"share": lambda n: 1 / n}),
     ("lag-two", "each is compared with the last but one", "with y_k y_(k+2)",
