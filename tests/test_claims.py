@@ -187,9 +187,9 @@ def test_two_mistakes_in_answers_of_several_sizes_are_both_told():
 
 
 def test_two_mistakes_that_only_come_near_are_not_told():
-    # Counts over 2 pi: beside 1e4 of them the missing fraction is nothing.
+    # Counts that are hardly rounded: beside 1e4 of them a fraction is nothing.
     def quantise(q, counts):
-        return np.rint(q * counts) / (2 * np.pi)
+        return np.rint(3 * q * counts) / (6 * np.pi)
 
     assert "Two things" not in told(9, "9.1", quantise=quantise)
 

@@ -36,8 +36,8 @@ for slug, says, redone, other in (
      {"change": lambda q: np.append(np.diff(q), np.diff(q)[-1])}),
     ("central", "it is the mean of before and after, as by np.gradient; the sample "
      "after is not there yet", "np.gradient", {"change": np.gradient}),
-    ("central", "it is the mean of before and after, as by np.gradient, 0 at first; the "
-     "sample after is not there yet", "np.gradient, 0 at first",
+    ("central", "it is the mean of before and after, as by np.gradient, 0 at first; "
+     "the sample after is not there yet", "np.gradient, 0 at first",
      {"change": lambda q: np.append(0.0, np.gradient(q)[1:])}),
     ("from-zero", "before the first sample there is a 0: the first speed is q_0 / dt; "
      "it is 0, since nothing is known before", "with q_(-1) = 0",
