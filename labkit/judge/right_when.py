@@ -68,7 +68,7 @@ def right_when(
         names,
         mine,
         _answers_of(ask.truth),
-        max(ask.near, ask.rtol),
+        max(ask.tolerance, ask.rtol),
         more,
         _verdicts(asked),
     )
@@ -85,7 +85,7 @@ def _verdicts(asked: Asked) -> list[bool]:
             continue
         T = right_answers(asked.ask, [one])
         off = asked.ask.gaps(S, T).max()
-        found.append(bool(off <= asked.ask.near))
+        found.append(bool(off <= asked.ask.tolerance))
     return found
 
 
