@@ -72,12 +72,17 @@ def replace(path: Path, content: bytes, sync: bool = False) -> None:
     With `sync` after a power cut, too, which takes the disk its time.
     """
     new = path.with_name(path.name + ".new")
-    with new.open("wb") as file:
-        file.write(content)
-        if sync:
-            file.flush()
-            os.fsync(file.fileno())
-    new.replace(path)
+    try:
+        with new.open("wb") as file:
+            file.write(content)
+            if sync:
+                file.flush()
+                os.fsync(file.fileno())
+        new.replace(path)
+    except OSError as error:  # half a file helps nobody, and a full disk says no name
+        with contextlib.suppress(OSError):
+            new.unlink()
+        raise OSError(error.errno, error.strerror, str(path)) from None
 
 
 @contextlib.contextmanager
