@@ -191,6 +191,17 @@ def test_a_students_file_in_the_repository_is_told(kit):
     assert f"git holds {WEEK}/work/day46_trial.py" in " ".join(done.stdout.split())
 
 
+def test_answers_of_the_library_that_no_test_is_about_are_told(kit):
+    name = "_".join(["un", "tested"])  # else this file would be about it
+    (kit / "robo47" / f"{name}.py").write_text('"""Answers."""\n')
+    change(
+        kit / WEEK / "day46" / "day.toml", "# library = [", f'library = ["{name}"] # ['
+    )
+    done = run_copy(kit, AUTHOR, "46", "--fast")
+    (kit / "robo47" / f"{name}.py").unlink()
+    assert f"no test is about robo47/{name}.py" in " ".join(done.stdout.split())
+
+
 def test_a_function_that_another_day_has_is_told(kit):
     change(kit / WEEK / "day46" / "day.toml", '["reach"]', '["skew"]')
     done = run_copy(kit, AUTHOR, "46", "--fast")

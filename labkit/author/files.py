@@ -39,6 +39,7 @@ def faults_of(day: Day) -> Iterator[str]:
         _links,
         _worksheet,
         _pictures,
+        _library,
         _committed,
     )
     for part in parts:
@@ -174,3 +175,16 @@ def _pictures(day: Day) -> Iterator[str]:
     file = day.own / "figures.py"
     if day.draw and f'"{day.draw}"' not in (file.read_text() if file.is_file() else ""):
         yield f"{shown(file)}: FIGURES has no {day.draw!r}, which day.toml draws"
+
+
+def _library(day: Day) -> Iterator[str]:
+    """Yield the modules of the day's answers that no file of tests is about."""
+    tests = [path.read_text("utf-8") for path in (ROOT / "tests").glob("test_*.py")]
+    for module in day.library:
+        name = module.rpartition(".")[2]
+        file = f"robo47/{module.replace('.', '/')}.py"
+        if not any(re.search(rf"\b{name}\b", text) for text in tests):
+            yield (
+                f"no test is about {file}, which students are judged by. Hold it "
+                f"against what somebody else wrote, in tests/test_{name}.py"
+            )
