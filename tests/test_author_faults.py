@@ -7,7 +7,7 @@ import pytest
 
 from conftest import ROOT, SKIPPED, kit_folders, run_copy
 from labkit.author import docstring, hints, seen
-from labkit.author.moved import _left, renumbered
+from labkit.author.moved import OUTPUTS, renumbered
 from labkit.judge.row import rows_of
 from labkit.lesson.day import all_days, find_day
 
@@ -184,9 +184,9 @@ class TestADayThatMoves:
                 assert "46." not in file.read_text(), file
 
     def test_tells_no_line_that_is_made_anew(self):
-        left = list(_left(find_day(8), 12, []))
-        assert any(one.startswith("w2-autonomy/README.md, line") for one in left)
-        assert not any(one.startswith("docs/library.md") for one in left)
+        for made in ("days: w*", "functions: by day", "run: make help"):
+            text = f"Day 8 <!-- {made} -->\nDay 8\n<!-- end -->"
+            assert OUTPUTS.sub("", text) == "Day 8 "
 
     def test_takes_the_sentences_of_its_tests_along(self):
         day = find_day(8)
