@@ -1,7 +1,7 @@
 """Capstone of week 1, by functions of which one is wrong.
 
-    make hunt ARGS=--run      do it
-    make hunt                 say which function you suspect
+make hunt ARGS=--run      do it
+make hunt                 say which function you suspect
 """
 
 from __future__ import annotations
@@ -56,7 +56,9 @@ def fk_space(screws: np.ndarray, M_home: np.ndarray, q: np.ndarray) -> np.ndarra
 
     At q = 0 it is M_home: 0.088 m in front of the base and 0.926 m up.
     """
-    return hunted("fk_space", screws, M_home, q)  # closed: suspect it? Write it anew here
+    return hunted(
+        "fk_space", screws, M_home, q
+    )  # closed: suspect it? Write it anew here
 
 
 def space_jacobian(screws: np.ndarray, q: np.ndarray) -> np.ndarray:
@@ -96,7 +98,9 @@ def solve_ik(
     A start whose error is under 1e-8 comes back, as a copy; out of reach, return the q
     whose error was the shortest.
     """
-    return hunted("solve_ik", screws, M_home, T_goal, q_start, limits)  # closed: suspect it? Write it anew here
+    return hunted(
+        "solve_ik", screws, M_home, T_goal, q_start, limits
+    )  # closed: suspect it? Write it anew here
 
 
 def manipulability(J: np.ndarray) -> float:
@@ -115,7 +119,9 @@ def link_inertias(
     T_links (7, 4, 4) are T_world_link; coms (7, 3) and inertias (7, 3, 3) stand in the
     links' own axes. With every T the identity it is spatial_inertia of each.
     """
-    return hunted("link_inertias", T_links, masses, coms, inertias)  # closed: suspect it? Write it anew here
+    return hunted(
+        "link_inertias", T_links, masses, coms, inertias
+    )  # closed: suspect it? Write it anew here
 
 
 def mass_matrix(J_space: np.ndarray, G: np.ndarray, armature: np.ndarray) -> np.ndarray:
@@ -123,7 +129,9 @@ def mass_matrix(J_space: np.ndarray, G: np.ndarray, armature: np.ndarray) -> np.
 
     One hinge about z, with 2 kg at 1 m: its entry is 2 + armature.
     """
-    return hunted("mass_matrix", J_space, G, armature)  # closed: suspect it? Write it anew here
+    return hunted(
+        "mass_matrix", J_space, G, armature
+    )  # closed: suspect it? Write it anew here
 
 
 def gravity_torque(
@@ -133,7 +141,9 @@ def gravity_torque(
 
     One hinge about +y, with 1 kg at (1, 0, 0): -9.81 N m.
     """
-    return hunted("gravity_torque", J_space, masses, coms_world, g)  # closed: suspect it? Write it anew here
+    return hunted(
+        "gravity_torque", J_space, masses, coms_world, g
+    )  # closed: suspect it? Write it anew here
 
 
 def bias_torque(
@@ -143,7 +153,9 @@ def bias_torque(
 
     At qd = 0 it is gravity_torque.
     """
-    return hunted("bias_torque", J_space, G, qd, g)  # closed: suspect it? Write it anew here
+    return hunted(
+        "bias_torque", J_space, G, qd, g
+    )  # closed: suspect it? Write it anew here
 
 
 def pd_torque(e: np.ndarray, ed: np.ndarray, kp: Gain, kd: Gain) -> np.ndarray:
@@ -166,7 +178,9 @@ def gravity_pd(
     e: np.ndarray, ed: np.ndarray, kp: Gain, kd: Gain, g_at_q: np.ndarray
 ) -> np.ndarray:
     """Return the torque of springs that do not sag, (7,). Without error it is g."""
-    return hunted("gravity_pd", e, ed, kp, kd, g_at_q)  # closed: suspect it? Write it anew here
+    return hunted(
+        "gravity_pd", e, ed, kp, kd, g_at_q
+    )  # closed: suspect it? Write it anew here
 
 
 def computed_torque(
@@ -177,7 +191,9 @@ def computed_torque(
 
     At rest, without an error or an acceleration to reach, it is bias.
     """
-    return hunted("computed_torque", M, bias, damping, qd, e, ed, qdd_ref, kp, kd)  # closed: suspect it? Write it anew here
+    return hunted(
+        "computed_torque", M, bias, damping, qd, e, ed, qdd_ref, kp, kd
+    )  # closed: suspect it? Write it anew here
 
 
 def saturate(tau: np.ndarray, limits: np.ndarray) -> np.ndarray:
@@ -210,7 +226,9 @@ def osc_torque(
 
     drift is what site_bias gives; where acc is the same, they are bias.
     """
-    return hunted("osc_torque", J_site, Lambda, bias, drift, acc)  # closed: suspect it? Write it anew here
+    return hunted(
+        "osc_torque", J_site, Lambda, bias, drift, acc
+    )  # closed: suspect it? Write it anew here
 
 
 def null_torque(
@@ -222,7 +240,9 @@ def null_torque(
     six of seven joints, and M and Lambda are identities, seven ones become six 0 and
     one 1.
     """
-    return hunted("null_torque", J_site, M, Lambda, tau)  # closed: suspect it? Write it anew here
+    return hunted(
+        "null_torque", J_site, M, Lambda, tau
+    )  # closed: suspect it? Write it anew here
 
 
 def spring_wrench(
@@ -233,7 +253,9 @@ def spring_wrench(
     e and V_err, (6,), are the target's minus the hand's; K and D are (6, 6). 25 mm away
     from a spring of 400 N/m it is 10 N.
     """
-    return hunted("spring_wrench", e, V_err, K, D)  # closed: suspect it? Write it anew here
+    return hunted(
+        "spring_wrench", e, V_err, K, D
+    )  # closed: suspect it? Write it anew here
 
 
 def set_point_for_force(force: float, k: float, surface: float) -> float:
@@ -241,7 +263,9 @@ def set_point_for_force(force: float, k: float, surface: float) -> float:
 
     For 20 N at 400 N/m on a surface at 0.42 m it is 0.37 m.
     """
-    return hunted("set_point_for_force", force, k, surface)  # closed: suspect it? Write it anew here
+    return hunted(
+        "set_point_for_force", force, k, surface
+    )  # closed: suspect it? Write it anew here
 
 
 def critical_damping(K: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
@@ -250,7 +274,9 @@ def critical_damping(K: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
     It is made of the matrix square roots of Lambda and of K's diagonal matrix. With
     every K = 4 and Lambda the identity it is 4 I.
     """
-    return hunted("critical_damping", K, Lambda)  # closed: suspect it? Write it anew here
+    return hunted(
+        "critical_damping", K, Lambda
+    )  # closed: suspect it? Write it anew here
 
 
 def impedance_torque(
@@ -261,7 +287,9 @@ def impedance_torque(
 
     At rest, with wrench and tau_null 0, they are bias. damping, (7,), is the joints'.
     """
-    return hunted("impedance_torque", J_site, wrench, bias, damping, qd, tau_null)  # closed: suspect it? Write it anew here
+    return hunted(
+        "impedance_torque", J_site, wrench, bias, damping, qd, tau_null
+    )  # closed: suspect it? Write it anew here
 
 
 def quintic_scaling(t: float, duration: float) -> np.ndarray:
@@ -270,7 +298,9 @@ def quintic_scaling(t: float, duration: float) -> np.ndarray:
     duration is in seconds. At 0.6 of 2 s: 0.16308, 0.6615, 1.26. Before 0 and after
     the duration it stands still.
     """
-    return hunted("quintic_scaling", t, duration)  # closed: suspect it? Write it anew here
+    return hunted(
+        "quintic_scaling", t, duration
+    )  # closed: suspect it? Write it anew here
 
 
 def quintic_duration(dq: np.ndarray, v_max: np.ndarray, a_max: np.ndarray) -> float:
@@ -279,7 +309,9 @@ def quintic_duration(dq: np.ndarray, v_max: np.ndarray, a_max: np.ndarray) -> fl
     All are (7,); dq has either sign. 1 rad at 1.875 rad/s and any acceleration: 1 s.
     Where no joint moves: 0.
     """
-    return hunted("quintic_duration", dq, v_max, a_max)  # closed: suspect it? Write it anew here
+    return hunted(
+        "quintic_duration", dq, v_max, a_max
+    )  # closed: suspect it? Write it anew here
 
 
 def joint_move(q0: np.ndarray, q1: np.ndarray, t: float, duration: float) -> np.ndarray:
@@ -288,7 +320,9 @@ def joint_move(q0: np.ndarray, q1: np.ndarray, t: float, duration: float) -> np.
     After half the duration it is half way, at 1.875 (q1 - q0) / duration. Angles past
     pi stay as they are.
     """
-    return hunted("joint_move", q0, q1, t, duration)  # closed: suspect it? Write it anew here
+    return hunted(
+        "joint_move", q0, q1, t, duration
+    )  # closed: suspect it? Write it anew here
 
 
 def straight_pose(T0: np.ndarray, T1: np.ndarray, s: float) -> np.ndarray:
@@ -306,7 +340,9 @@ def grasp_pose(T_world_cube: np.ndarray, above: float) -> np.ndarray:
     The cube stands upright. It looks the same after a quarter turn: at a yaw of 80
     degrees the tool turns by -10. At yaw 0 its x is the world's.
     """
-    return hunted("grasp_pose", T_world_cube, above)  # closed: suspect it? Write it anew here
+    return hunted(
+        "grasp_pose", T_world_cube, above
+    )  # closed: suspect it? Write it anew here
 
 
 def carry(
@@ -320,7 +356,9 @@ def carry(
     xy has the other sign than a textbook's product of inertia. Two points of 1 kg, 2 m
     apart along x: 2; (1, 0, 0); 0, 2, 2, 0, 0, 0.
     """
-    return hunted("carry", m1, c1, I1, m2, c2, I2)  # closed: suspect it? Write it anew here
+    return hunted(
+        "carry", m1, c1, I1, m2, c2, I2
+    )  # closed: suspect it? Write it anew here
 
 
 def heaviest_cube(grip: float, mu: float, acceleration: float) -> float:
@@ -329,7 +367,9 @@ def heaviest_cube(grip: float, mu: float, acceleration: float) -> float:
     Each presses with `grip` newtons; the acceleration is positive upwards. 0.9247 N,
     mu 1, no acceleration: 0.189 kg.
     """
-    return hunted("heaviest_cube", grip, mu, acceleration)  # closed: suspect it? Write it anew here
+    return hunted(
+        "heaviest_cube", grip, mu, acceleration
+    )  # closed: suspect it? Write it anew here
 
 
 def main() -> int:

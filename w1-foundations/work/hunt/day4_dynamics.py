@@ -34,7 +34,9 @@ def spatial_inertia(m: float, c: np.ndarray, inertia: np.ndarray) -> np.ndarray:
     inertia, (3, 3), is about c, in world axes. For 2 kg at (0, 0, 1) with inertia 0
     the diagonal is (2, 2, 0, 2, 2, 2).
     """
-    return hunted("spatial_inertia", m, c, inertia)  # closed: suspect it? Write it anew here
+    return hunted(
+        "spatial_inertia", m, c, inertia
+    )  # closed: suspect it? Write it anew here
 
 
 def link_inertias(
@@ -45,7 +47,9 @@ def link_inertias(
     T_links (7, 4, 4) are T_world_link; coms (7, 3) and inertias (7, 3, 3) stand in the
     links' own axes. With every T the identity it is spatial_inertia of each.
     """
-    return hunted("link_inertias", T_links, masses, coms, inertias)  # closed: suspect it? Write it anew here
+    return hunted(
+        "link_inertias", T_links, masses, coms, inertias
+    )  # closed: suspect it? Write it anew here
 
 
 def mass_matrix(J_space: np.ndarray, G: np.ndarray, armature: np.ndarray) -> np.ndarray:
@@ -70,7 +74,9 @@ def gravity_torque(
 
     One hinge about +y, with 1 kg at (1, 0, 0): -9.81 N m.
     """
-    return hunted("gravity_torque", J_space, masses, coms_world, g)  # closed: suspect it? Write it anew here
+    return hunted(
+        "gravity_torque", J_space, masses, coms_world, g
+    )  # closed: suspect it? Write it anew here
 
 
 def ad(V: np.ndarray) -> np.ndarray:
@@ -92,7 +98,9 @@ def inverse_dynamics(
 
     The pendulum of task 4.4 with qdd = 1: -8.81 N m.
     """
-    return hunted("inverse_dynamics", J_space, G, qd, qdd, g)  # closed: suspect it? Write it anew here
+    return hunted(
+        "inverse_dynamics", J_space, G, qd, qdd, g
+    )  # closed: suspect it? Write it anew here
 
 
 def bias_torque(
@@ -102,7 +110,9 @@ def bias_torque(
 
     At qd = 0 it is gravity_torque.
     """
-    return hunted("bias_torque", J_space, G, qd, g)  # closed: suspect it? Write it anew here
+    return hunted(
+        "bias_torque", J_space, G, qd, g
+    )  # closed: suspect it? Write it anew here
 
 
 def forward_dynamics(
@@ -113,7 +123,9 @@ def forward_dynamics(
 
     With tau = bias and qd = 0 nothing accelerates.
     """
-    return hunted("forward_dynamics", M, bias, damping, qd, tau)  # closed: suspect it? Write it anew here
+    return hunted(
+        "forward_dynamics", M, bias, damping, qd, tau
+    )  # closed: suspect it? Write it anew here
 
 
 def energy(
@@ -124,7 +136,9 @@ def energy(
 
     One hinge with M = 2 and qd = 3: 9 J.
     """
-    return hunted("energy", M, qd, masses, coms_world, g)  # closed: suspect it? Write it anew here
+    return hunted(
+        "energy", M, qd, masses, coms_world, g
+    )  # closed: suspect it? Write it anew here
 
 
 def let_go(model, arm, share: float, *phases: tuple) -> np.ndarray:
