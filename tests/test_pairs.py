@@ -37,22 +37,30 @@ def test_two_answers_in_the_other_order_that_both_lack_a_term():
     assert "own is not added; in the wrong order" in says
 
 
-def test_one_mistake_of_two_is_told_with_the_answers_that_it_gives():
-    def trapezoid(t, L, v, a):
-        top = min(v, np.sqrt(L * a / 2))
-        ramp = top / a
-        left = L / top + ramp - t
-        if t <= 0 or left <= 0:
-            return np.array([0.0 if t <= 0 else L, 0.0, 0.0])
-        if t < ramp:
-            return np.array([a * t**2, a * t, a])
-        if left > ramp:
-            return np.array([top * (t - ramp / 2), top, 0.0])
-        return np.array([L - a * left**2, a * left, -a])
+def test_one_mistake_that_gives_half_of_the_wrong_numbers_is_told_with_how_many():
+    def fit(Y, tau, rtol):
+        U, s, Vt = np.linalg.svd(Y, full_matrices=False)
+        kept = s > rtol
+        return Vt[kept].T @ (U[:, kept].T @ tau * s[kept])
 
-    says = told(7, "7.4", trapezoid=trapezoid)
-    assert "in 6 of your 13 wrong answers: the way of a ramp is a t^2 / 2" in says
-    assert "In the other 7 more is wrong." in says
+    says = told(8, "8.6", fit=fit)
+    assert "In 8 of your 14 wrong answers the numbers are those of one mistake" in says
+    assert "it is multiplied by the singular values" in says
+    assert "The other 6 are not." in says
+
+
+def test_a_mistake_that_gives_few_of_the_wrong_numbers_is_not_told():
+    def manipulability(J):
+        return np.linalg.svd(J, compute_uv=False)[:5].prod()
+
+    assert "left out" not in told(3, "3.8", manipulability=manipulability)
+
+
+def test_dry_friction_that_works_one_way_is_not_that_of_slow_joints():
+    def motor_features(qd, qdd):
+        return np.hstack([np.diag(qdd), np.diag(qd), np.diag((qd > 0) * 1.0)])
+
+    assert "slowly" not in told(8, "8.4", motor_features=motor_features)
 
 
 def test_a_mistake_that_would_show_where_all_is_right_is_no_part_of_it():

@@ -41,7 +41,7 @@ _BUT = re.compile(
 MOST = 80  # mistakes of a function that are tried two at a time
 QUICK = 2e-3  # seconds of a call that a row may say, for its arguments to be changed
 FEW = 6  # wrong calls at which one mistake is tried, before all of them
-SOME = 3  # calls that it has to explain, at least, and a quarter of the wrong ones
+SOME = 3  # calls whose numbers it has to give, at least, and half of the wrong ones
 
 
 def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
@@ -56,7 +56,9 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
         return None
     gap = ask.gaps(S, T)
     # Drawn inputs come last, and hide less; what is furthest off is tried besides.
-    tried = dict.fromkeys([int(np.flatnonzero(gap > 0)[-1]), int(np.argmax(gap))])
+    furthest = int(np.argmax(gap))
+    wrong = np.flatnonzero(gap > ask.near)
+    tried = dict.fromkeys([int(wrong[-1]) if len(wrong) else furthest, furthest])
     found = (_two_of(case, S, T, i) for i in tried)
     return next((_both_told(ask, pair, S, T) for pair in found if pair), None)
 
@@ -95,13 +97,17 @@ def by_results(case: Case, S: Parts, T: Parts) -> Finding | None:
     ]
     if len(wrong) < 2 or any(kind.whole for kind in ask.kinds):
         return None
+    i = int(np.argmax(ask.gaps(S, T)))
     told: dict[int, Mistake] = {}
     for one in _of_its_own_first(ask):
-        every = () if len(told) == len(wrong) else _all(one.redo, case.arguments)
-        for j in wrong if len(every) == len(S) else []:
+        answer = _answer(one.redo, case.arguments, i, T)
+        for j in [j for j in wrong if j not in told and len(answer) == len(S)]:
             kind, s, t = pairs[j]
+            if not matches(s[i : i + 1], answer[j], kind.scale):
+                continue
+            every = _all(one.redo, case.arguments)
             is_wrong = gaps([kind], (every[j],), (t,)).max() > ask.near
-            if j not in told and is_wrong and matches(s, every[j], kind.scale):
+            if is_wrong and matches(s, every[j], kind.scale):
                 told[j] = one
     if not told:
         return None
@@ -115,14 +121,14 @@ def by_results(case: Case, S: Parts, T: Parts) -> Finding | None:
 
 
 def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
-    """Return the named mistake that gives the numbers of most wrong calls, or None.
+    """Return the named mistake that gives the numbers of half of the wrong calls.
 
-    Of those that are left over something else is wrong. Numbers that are 0, or all the
-    same, prove no mistake.
+    It is said of these alone: another one may give the same numbers there. Numbers that
+    are 0, or all the same, prove no mistake.
     """
     ask = case.ask
     wrong = np.flatnonzero(ask.gaps(S, T) > ask.near)
-    least = max(SOME, len(wrong) // 4)
+    least = max(SOME, -(-len(wrong) // 2))
     if any(kind.whole for kind in ask.kinds) or len(wrong) <= least:
         return None
     few = wrong[np.unique(np.linspace(0, len(wrong) - 1, FEW).astype(int))]
@@ -142,8 +148,8 @@ def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
         return None
     n, one = most
     says = (
-        f"One mistake gives your numbers in {n} of your {len(wrong)} wrong answers: "
-        f"{one.says.rstrip('?')}. In the other {len(wrong) - n} more is wrong."
+        f"In {n} of your {len(wrong)} wrong answers the numbers are those of one "
+        f"mistake: {one.says.rstrip('?')}. The other {len(wrong) - n} are not."
     )
     return Finding(f"{one.slug}+other", says)
 

@@ -6,9 +6,11 @@ from unittest.mock import patch
 import mujoco
 import numpy as np
 import pytest
+from catalogue import run_as_lab
 from compare import assert_same
 
 from conftest import ROOT, load_script, printed_by, sentences
+from labkit.lesson.day import find_day
 from robo47 import identification, panda, verify
 
 import day8_mujoco
@@ -163,3 +165,13 @@ def library_rows(now, qd, qdd):
     given = now.J_space, now.T_links, qd, qdd, arm.gravity
     motors = identification.motor_features(qd, qdd)
     return np.hstack([identification.arm_regressor(*given), motors])
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize(
+    "knobs",
+    [{"NOISE": 0.0}, {"NOISE": 0.0, "WAIT": 8.0}, {"NOISE_SEED": 8}, {"ROBOT_SEED": 5}],
+    ids=str,
+)
+def test_a_right_lab_passes_with_the_knobs_that_the_exercises_turn(knobs):
+    assert run_as_lab(find_day(8), lambda lab: vars(lab).update(knobs)) == 0

@@ -164,7 +164,8 @@ def test_what_mistakes_cost_in_motion_and_at_rest():
         for value, words in zip(cost[slug], written, strict=True):
             assert f"{value:.{len(words.partition('.')[2])}f}" == words
     unseen = sum(rest < 1e-9 < moving for moving, rest in cost.values())
-    assert f"reveals nothing about {unseen} of the {len(cost)} mistakes" in SENTENCES
+    assert 0.3 < unseen / len(cost) < 0.4
+    assert "reveals nothing about a third of the mistakes" in SENTENCES
 
 
 def test_mujoco_refuses_what_no_body_can_have():
