@@ -190,7 +190,9 @@ def _branch(clone: Path) -> str:
     others = ", ".join(there[:SHOWN]) + (", ..." if len(there) > SHOWN else "")
     none = "the server names none of its branches as the default"
     if before:
-        none = f"the branch {before} is gone from the server, which names no other"
+        none = (
+            f"the branch {before} is gone from the server, and no other is its default"
+        )
     raise GitError(visible(f"{none} ({others or 'it has none'})", 200))
 
 
