@@ -775,6 +775,9 @@ class TestWhatDoesNotShow:
             f"x = '\\''; y = '''\n{RZ}'''",
             f"# {RZ.splitlines()[0]}\nRz = other",
             "from elsewhere import Rz",
+            f"{RZ}from elsewhere import Rz",
+            f"{RZ}from elsewhere import *",
+            f"{RZ}Rz = elsewhere.Rz",
             "class A:\n    def Rz(theta): pass\nRz = A.Rz",
             "",
         ],
@@ -786,6 +789,7 @@ class TestWhatDoesNotShow:
         "texts",
         [
             [RZ],
+            [f"from math import *\n{RZ}import numpy\nx = 1\nRzz = 2"],
             ["from mine import Rz", RZ],
             ["Rz = lambda theta: 1"],
             [f'"""A lab."""\n\n@wraps\n{RZ}'],
