@@ -108,7 +108,7 @@ def capsule_box(
 ) -> float:
     """Return how far a capsule is from a box, wherever that stands.
 
-    It is the least of `box_sdf` along the axis, less r. From (-2, 0, 2) to (2, 0, 2) with
+    The least of `box_sdf` along the axis, less r. From (-2, 0, 2) to (2, 0, 2), with
     r = 0.1, and a box at the origin, half 1, 1, 1: 0.9.
     """
     # region 11.4
