@@ -40,6 +40,8 @@ def _(p, half):
       nearest face alone
     farthest-face-inside: inside it is the way to the farthest face; the nearest one is
       the largest of |p| - half => with min
+    farthest-face-inside 2: what is added to the length is the way to the farthest face;
+      it is the largest of |p| - half, where that is below 0 => with min
     to-the-middle-inside: inside it is minus how far the middle is
     to-the-middle: this is how far the middle is: the box has no size
     box-as-a-ball: the box is taken for a ball => |p| less the length of half
@@ -81,6 +83,7 @@ def _(p, half):
         "inside-added-outside": np.linalg.norm(beyond) if inside == 0 else inside,
         "inside-by-the-norm": length if inside == 0 else -np.linalg.norm(beyond),
         "farthest-face-inside": length if inside == 0 else beyond.min(),
+        "farthest-face-inside 2": length + min(beyond.min(), 0.0),
         "to-the-middle-inside": length if inside == 0 else -far,
         "to-the-middle": far,
         "box-as-a-ball": far - np.linalg.norm(half),
