@@ -52,8 +52,8 @@ def _(p, half):
       half
     abs-forgotten: a point on the side below 0 is not folded over: it is |p| - half =>
       with p - half
-    abs-forgotten-zero-inside: a point on the side below 0 is not folded over, and inside
-      it is 0 => the norm of what of p - half is above 0
+    abs-forgotten-zero-inside: a point on the side below 0 is not folded over, and
+      inside it is 0 => the norm of what of p - half is above 0
     not-rooted: this is the square of the length outside
     nearest-corner: this is how far the nearest corner is; a face may be nearer
     largest-half: all sides are the largest => with half.max()
