@@ -275,7 +275,7 @@ def test_a_test_with_the_wire_always_halfway_is_blind(printed):
         middle = day11_mujoco.whips(lab.WHIPS, lab.THIN, seed, middle=True)
         assert [lab.missed_by_points(middle, k) for k in (3, 10)] == [0, 60]
     assert min(abs(k / 11 - 0.5) for k in range(12)) == pytest.approx(1 / 22)
-    assert f"some {1050 / 22:.0f} mm of a metre" in SENTENCES
+    assert f"That is {1050 / 22:.0f} mm of 1.05 m" in SENTENCES
 
 
 @pytest.mark.kit
