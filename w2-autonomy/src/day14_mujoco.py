@@ -5,6 +5,8 @@ pads are closed by springs, 200 N/m. No arm, so that an episode takes millisecon
 Metres, radians, newtons, kilograms; world axes, z up, the floor at 0.
 """
 
+import contextlib
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import mujoco
@@ -22,8 +24,8 @@ GRIP_TIME = 0.004  # s, two steps: the stiffest contacts that MuJoCo allows
 ABOVE = 0.08  # m, where the hand starts
 DOWN = 0.2  # s: the hand is at its height, the pads begin to close ...
 CLOSED = 0.45  # ... s: they are closed, the hand begins to rise ...
-UP = 0.75  # ... s: it is up ...
-END = 1.0  # ... s, and has held the cube for a while
+RISE = 0.3  # s until it is up ...
+HOLD = 0.25  # ... s that it holds the cube there
 TICK = 5  # steps between two orders to hand and pads: 10 ms
 WARNINGS = (
     mujoco.mjtWarning.mjWARN_BADQPOS,
@@ -114,37 +116,60 @@ def start(model, data, cube: Cube, action: Array) -> None:
         data.joint(finger).qpos[0] = OPEN
 
 
-def way(t: float, action: Array, opening: float) -> tuple[float, float]:
+def way(t: float, action: Array, opening: float, rise: float) -> tuple[float, float]:
     """Return what hand and pads are told at a time: height and opening, m."""
     if t < DOWN:
         return action[3] + ABOVE * (1.0 - eased(t / DOWN)), OPEN
-    closing = eased(min((t - DOWN) / (CLOSED - DOWN) / 0.8, 1.0))
-    risen = eased(min(max((t - CLOSED) / (UP - CLOSED), 0.0), 1.0))
+    closing = eased((t - DOWN) / (0.8 * (CLOSED - DOWN)))
+    risen = eased((t - CLOSED) / rise)
     return action[3] + action[5] * risen, OPEN + (opening - OPEN) * closing
 
 
 def eased(s: float) -> float:
-    """Return a way from 0 to 1 that starts and ends at rest."""
+    """Return a way from 0 to 1 that starts and ends at rest; it stays there."""
+    s = min(max(s, 0.0), 1.0)
     return s * s * (3.0 - 2.0 * s)
+
+
+def at_pads(model, data) -> list[int]:
+    """Return which contacts are those of a pad and the cube, as of the last step."""
+    cube = model.geom("cube").id
+    pads = {model.geom("left").id, model.geom("right").id}
+    pairs = [{int(one.geom1), int(one.geom2)} for one in data.contact]
+    return [i for i, pair in enumerate(pairs) if cube in pair and pair & pads]
+
+
+def on_the_floor(model, data) -> bool:
+    """Return whether the floor touches the cube, as of the last step."""
+    floor = model.geom("floor").id
+    return any(floor in (one.geom1, one.geom2) for one in data.contact)
 
 
 def felt(model, data) -> Felt:
     """Return what the pads do to the cube, as of the last step."""
     cube = model.geom("cube").id
-    pads = [model.geom(name).id for name in ("left", "right")]
-    rows = []
+    rows = np.zeros((0, 10))
     wrench = np.zeros(6)
-    for i, contact in enumerate(data.contact):
-        pair = {int(contact.geom1), int(contact.geom2)}
-        if cube not in pair or not pair & set(pads):
-            continue
+    for i in at_pads(model, data):
+        contact = data.contact[i]
         mujoco.mj_contactForce(model, data, i, wrench)  # in the contact's axes
         axes = contact.frame.reshape(3, 3)  # row 0: the normal, from geom1 to geom2
-        sign = 1.0 if contact.geom2 == cube else -1.0
-        force = sign * axes.T @ wrench[:3]
-        rows.append([*contact.pos, *force, *(sign * axes[0]), contact.friction[0]])
-    table = np.array(rows).reshape(-1, 10)
-    return Felt(table[:, :3], table[:, 3:6], table[:, 6:9], table[:, 9])
+        axes = axes if contact.geom2 == cube else -axes
+        force = axes.T @ wrench[:3]
+        row = [*contact.pos, *force, *axes[0], contact.friction[0]]
+        rows = np.vstack([rows, row])
+    return Felt(rows[:, :3], rows[:, 3:6], rows[:, 6:9], rows[:, 9])
+
+
+@contextlib.contextmanager
+def silent() -> Iterator[None]:
+    """Let MuJoCo write no MUJOCO_LOG.TXT: what its warnings count is looked at below."""
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(lambda text: None)
+    try:
+        yield
+    finally:
+        mujoco.set_mju_user_warning(before)
 
 
 def exploded(data) -> bool:
@@ -157,24 +182,41 @@ def height(data) -> float:
     return np.nan if exploded(data) else data.body("cube").xpos[2] - HALF
 
 
-def lift(model, data, cube: Cube, action: Array, touch=None) -> float:
-    """Return how high a cube is at the end of an episode, m.
+def lift(
+    model,
+    data,
+    cube: Cube,
+    action: Array,
+    touch: Callable[[float, Felt], float] | None = None,
+    rise: float = RISE,
+) -> float:
+    """Return how high a cube is at the end of an episode, m; NaN where it exploded.
 
     `touch` takes the opening and what is felt, and returns the next opening; it is
     asked every 10 ms from when the pads are closed.
     """
+    if not np.isfinite(action).all():
+        return np.nan
+    with silent():
+        for _ in episode(model, data, cube, action, touch, rise):
+            if exploded(data):
+                break
+    return height(data)
+
+
+def episode(
+    model, data, cube: Cube, action: Array, touch=None, rise: float = RISE
+) -> Iterator[float]:
+    """Run an episode; yield the pads' opening, m, every 10 ms."""
     start(model, data, cube, action)
     opening = action[4]
-    for i in range(round(END / STEP / TICK)):
+    for i in range(round((CLOSED + rise + HOLD) / STEP / TICK)):
         t = i * STEP * TICK
         if touch and t >= CLOSED:
             opening = touch(opening, felt(model, data))
-        up, wide = way(t, action, opening)
-        data.ctrl[:] = up, wide, wide
+        data.ctrl[:] = np.repeat(way(t, action, opening, rise), (1, 2))
         mujoco.mj_step(model, data, TICK)
-        if exploded(data):
-            break
-    return height(data)
+        yield opening
 
 
 def cubes(n: int, rng, mu: tuple[float, float]) -> list[Cube]:
