@@ -4,7 +4,7 @@ theta = (shift x, shift y, turn, height, opening, lift), (6,): where the hand go
 beside a cube, in the *cube's* axes, how high it grasps, how far each finger is told to
 close (less than the cube's half width: it presses), how far it lifts. Conventions:
 
-- What is random is an argument: a camera's noise, a search's samples. No function draws.
+- What is random is an argument: a camera's noise, a search's samples.
 - A policy is judged by cubes that it has not been trained on, with an interval.
 - Metres, radians, float64.
 

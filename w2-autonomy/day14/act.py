@@ -32,11 +32,11 @@ def turned(angle, x, y):
 
 @row.wrongs
 def _(theta, seen):
-    """world-axes: the shift is in the world's axes; it is in the cube's, so it turns with
-      the yaw that was seen => with x + dx, y + dy
+    """world-axes: the shift is in the world's axes; it is in the cube's, so it turns
+      with the yaw that was seen => with x + dx, y + dy
     turned-back: the shift is turned the other way => with R^T for R
-    turned-with-the-hand: the shift is turned by the hand's yaw, the turn included; it is
-      in the axes of the cube => turned by yaw + turn
+    turned-with-the-hand: the shift is turned by the hand's yaw, the turn included; it
+      is in the axes of the cube => turned by yaw + turn
     not-clipped: theta is not clipped to LOW and HIGH
     clipped-after: the finished six numbers are clipped; theta is, before it is used
     clipped-below-only: theta is clipped to LOW alone
@@ -58,7 +58,7 @@ def _(theta, seen):
     x, y, yaw = seen
 
     def done(p, shift, angle=None):
-        at = [x, y] + np.asarray(shift)
+        at = np.array([x, y]) + shift
         return np.array([*at, yaw + p[2] if angle is None else angle, *p[3:]])
 
     def from_clipped(p):
@@ -83,13 +83,21 @@ def _(theta, seen):
         "turn-not-added": done(t, shift, yaw),
         "turn-alone": done(t, shift, t[2]),
         "turn-taken-off": done(t, shift, yaw - t[2]),
-        "shift-forgotten": done(t, [0, 0]),
+        "shift-forgotten": done(t, np.zeros(2)),
         "shift-alone": alone,
         "shift-taken-off": done(t, -shift),
         "x-shift-only": done(t, turned(yaw, t[0], 0)),
         "opening-and-height-swapped": right[[0, 1, 2, 4, 3, 5]],
         "lift-from-the-floor": lifted,
     }
+
+
+row.same(
+    "shift = se3.Rz(yaw)[:2, :2] @ theta[:2] => "
+    "shift = se3.Rz(yaw)[:4, :2] @ theta[:2]",
+    "only its first two numbers are used",
+)
+row.same("first theta = np.clip(theta, -1, 1)", "LOW and HIGH are narrower")
 
 
 @row.right  # By complex numbers.

@@ -78,14 +78,12 @@ def _(mean, std, noise, scores, elite):
     best = order[:elite]
     right = cem_step(mean, std, noise, scores, elite)
     filled = np.where(np.isnan(scores), -np.inf, scores)
-    turned = np.argsort(filled, kind="stable")[::-1][:elite]
     nan_first = np.argsort(scores, kind="stable")[::-1][:elite]
     nan_best = np.argsort(np.where(np.isnan(scores), -np.inf, -scores), kind="stable")
     lasts = np.lexsort((-np.arange(n), -filled))[:elite]
     rank = np.arange(elite, 0, -1.0)[:, None]
     by_score = filled[best][:, None]
     raw = mean + noise
-    finite = scores[best][:, None]
 
     def weighed(w):
         middle = (w * samples[best]).sum(axis=0) / w.sum()
@@ -103,7 +101,9 @@ def _(mean, std, noise, scores, elite):
         "variance": (right[0], right[1] ** 2),
         "n-minus-one": lambda: (
             right[0],
-            samples[best].std(axis=0, ddof=1) if elite > 1 else np.full(len(mean), np.nan),
+            samples[best].std(axis=0, ddof=1)
+            if elite > 1
+            else np.full(len(mean), np.nan),
         ),
         "about-the-old-mean": (right[0], about),
         "one-spread-for-all": (right[0], np.full(len(mean), samples[best].std())),
@@ -122,7 +122,10 @@ def _(mean, std, noise, scores, elite):
         "median": (np.median(samples[best], axis=0), right[1]),
         "halves-swapped": right[::-1],
         "spread-of-all": (right[0], samples.std(axis=0)),
-    } | ({} if np.isfinite(finite).all() else {})
+    }
+
+
+row.at_least_0(std="a spread", elite="a number of samples")
 
 
 @row.right  # Best first by a list sort, which keeps the order of equals.

@@ -43,6 +43,7 @@ def _(rng):
     yield around(0.3, 5, 0.7, three()), np.ones(15)
     yield 1e5 * around(0.8, K, 0.7, three()), 900 * np.ones(12)
     yield W, np.repeat([1.0, 1, 3, 3], K)
+    yield W, 1e-4 * ones
     # No proof.
     yield line(0.5), np.ones(8)
     yield 1e9 * line(0.7), np.ones(8)
@@ -64,7 +65,7 @@ def _(rng):
     mixed[1] += 0.5 * sums[6]
     mixed[6] -= 0.5 * sums[1]
     yield W, mixed
-    raised = AROUND + [[0, 0, 0.01], [0, 0, 0], [0, 0, 0], [0, 0, 0]]
+    raised = AROUND + np.outer([1, 0, 0, 0], [0, 0, 0.01])
     yield pushes(raised, inwards(AROUND), 0.5, K), ones
     # Columns of other lengths: the same cones, and weights that make up for it.
     for i in range(4):
@@ -92,8 +93,8 @@ def _(W, weights):
       np.allclose(W @ weights, 0); it is 1e-9 of what is added up
     balance-roughly: what may be left is a thousandth of what is added up; it is 1e-9
     balance-roughly 2: what may be left is 1e-4 of what is added up; it is 1e-9
-    rank-absolute: a singular value counts above 1e-9, whatever the unit; it counts above
-      1e-9 of the largest
+    rank-absolute: a singular value counts above 1e-9, whatever the unit; it counts
+      above 1e-9 of the largest
     rank-by-rounding: a singular value counts above rounding, as by
       np.linalg.matrix_rank(W); it counts above 1e-9 of the largest
     weights-not-used: the columns are added up as they are; each has its weight
@@ -138,6 +139,28 @@ def _(W, weights):
         "always-true": True,
         "always-false": False,
     }
+
+
+row.at_least_0(answer="True or False")
+row.same(
+    "all_of_it = np.abs(W) @ np.abs(weights) => all_of_it = np.abs(W) @ weights",
+    "with a weight below 0 it is False anyway",
+)
+row.same(
+    "first weights = np.maximum(weights, 0)", "a weight of 0 is no more of a proof"
+)
+row.same(
+    "if np.linalg.matrix_rank(W, rtol=1e-09) < 6: => "
+    "if np.linalg.matrix_rank(W, rtol=2e-09) < 6:",
+    "what is asked is rounding, or far above it",
+)
+_LEFT = "return bool(np.all(weights > 0) and np.all(left <= {}))"
+for _more in ("0.5 * (1e-09 * all_of_it)", "10.0 * (1e-09 * all_of_it)",
+              "2e-09 * all_of_it"):  # fmt: skip
+    row.same(
+        f"{_LEFT.format('1e-09 * all_of_it')} => {_LEFT.format(_more)}",
+        "what is left over is rounding, or far more",
+    )
 
 
 @row.right  # W scaled first, and the terms of each row summed.

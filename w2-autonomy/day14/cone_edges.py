@@ -8,7 +8,7 @@ from .touched import UP
 
 
 def apart(normal, mu, k):
-    """Return whether a normal has length 1, and which axis is least along it is sure."""
+    """Return whether a normal has length 1, and its least axis is sure."""
     size = np.sort(np.abs(normal))
     tie = size[1] - size[0] < 1e-6 and size[1] > 1e-12
     return bool(abs(np.linalg.norm(normal) - 1) < 1e-9 and not tie and mu >= 0)
@@ -51,13 +51,13 @@ def _(normal, mu, k):
     last-of-equals: of axes that are equally little along n it takes the last; the first
       was asked for
     largest-axis: it takes the axis that is most along n; the least was asked for
-    signed-least: it takes the axis whose entry of n is the least, sign and all; the size
-      counts
+    signed-least: it takes the axis whose entry of n is the least, sign and all; the
+      size counts
     not-unit: a is not divided by its length, so the edges lie on an ellipse
     axis-x-n: a is axis x n; n x axis was asked for, so the edges begin opposite
     other-way-round: it goes round the other way: b is n x a
-    last-is-first: the last edge is the first again: t goes from 0 to 2 pi with both ends
-      => with t = 2 pi i / (k - 1)
+    last-is-first: the last edge is the first again: t goes from 0 to 2 pi with both
+      ends => with t = 2 pi i / (k - 1)
     half-steps: the edges begin half a step on: t = 2 pi i / k
     length-1: the edges have length 1; they press with 1, so they are longer => divided
       by their length

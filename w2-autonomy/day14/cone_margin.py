@@ -25,15 +25,15 @@ def _(rng):
 
 @row.wrongs
 def _(force, normal, mu):
-    """normal-not-removed: |f_t| is the length of the whole force; what presses has to be
-      taken out first => with |f| for |f_t|
+    """normal-not-removed: |f_t| is the length of the whole force; what presses has to
+      be taken out first => with |f| for |f_t|
     sign: the sign is the other one: a contact that holds has a margin above 0
     pyramid: |f_t| is its largest part; a cone has its length => with the largest of
       |f_t|'s parts
     one-norm: |f_t| is the sum of its parts' sizes; a cone has its length
     along-squared: |f_t| is squared: it is newtons squared => with f_t . f_t
-    force-length-for-press: what presses is the length of the force; it is the part along
-      the normal => with |f| for f_n
+    force-length-for-press: what presses is the length of the force; it is the part
+      along the normal => with |f| for f_n
     normal-is-z: the normal is taken for (0, 0, 1); each contact has its own
     normal-is-z 2: the normal is taken for (0, 0, 1); each contact has its own
     pull-counts: a pull counts as a press; a finger that pulls lets go => with |f_n|
@@ -48,8 +48,8 @@ def _(force, normal, mu):
     margin-of-the-first: all have the first contact's margin; each has its own
     first-mu: the first contact's friction is used for all
     first-normal: the first contact's normal is used for all
-    over-the-cone: it is the distance from the cone's surface, divided by sqrt(1 + mu^2);
-      asked is mu f_n - |f_t|
+    over-the-cone: it is the distance from the cone's surface, divided by sqrt(1 +
+      mu^2); asked is mu f_n - |f_t|
     limited-at-0: a margin below 0 becomes 0; it says how far outside a force is
     what-presses: it is mu f_n alone: what friction could hold
     what-slips: it is |f_t| alone

@@ -66,8 +66,8 @@ def _(T_seen, noise):
     noise-not-on-the-yaw: the yaw has no noise
     noise-on-the-yaw-alone: the place has no noise
     noise-taken-off: the noise is taken off; it comes on top
-    noise-in-the-cubes-axes: the noise is turned into the cube's axes; it is the camera's,
-      x and y
+    noise-in-the-cubes-axes: the noise is turned into the cube's axes; it is the
+      camera's, x and y
     x-and-y-swapped: x and y are swapped
     yaw-first: the yaw comes first; asked is (x, y, yaw)
     degrees: the yaw is in degrees

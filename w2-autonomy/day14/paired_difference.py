@@ -16,14 +16,15 @@ def _(rng):
         both = rng.uniform(size=n)
         yield both < p, np.where(rng.uniform(size=n) < 0.6, both, both[::-1]) < q
     for n in (5, 12, 30):
-        yield rng.numbers(0, 1, n), rng.numbers(-1, 1, n)
+        yield rng.numbers(-1, 1, n), rng.numbers(-1, 1, n)
 
 
 @row.wrongs
 def _(first, second):
-    """unpaired: the variances of the two are added, as if the cubes were others; sigma is
-      that of the differences
-    unpaired-rates: sigma is that of two shares, p (1 - p) / n each; the cubes are the same
+    """unpaired: the variances of the two are added, as if the cubes were others; sigma
+      is that of the differences
+    unpaired-rates: sigma is that of two shares, p (1 - p) / n each; the cubes are the
+      same
     sign: it is the second less the first
     size-only: the mean has lost its sign
     without-root-n: the sigma is not divided by sqrt(n): it is that of one cube

@@ -1,4 +1,4 @@
-"""14.1 `reflex(opening, force, normal, mu, share, step)`: its questions and mistakes."""
+"""14.1 `reflex(opening, force, normal, mu, share, step)`: its questions."""
 
 import numpy as np
 
@@ -26,12 +26,12 @@ row = Row(Scalar(unit="m", scale=0.01), at_edge=apart)
 def near(rng, n, share, by, size=1.0):
     """Return n contacts, the one that slips most `by` beside the line, of its press."""
     normal = rng.units(n)
-    mu = rng.numbers(0.3, 1, n)
+    mu = rng.numbers(0.3, 1.4, n)
     press = size * rng.numbers(2, 6, n)
     left = np.full(n, share + 0.3)
     left[rng.integers(n)] = share + by
-    aside = np.cross(normal, np.roll(normal, 1, axis=1))
-    aside = aside / np.linalg.norm(aside, axis=1)[:, None]
+    aside = np.cross(normal, rng.units(n))
+    aside = aside / np.maximum(np.linalg.norm(aside, axis=1), 1e-9)[:, None]
     along = (1 - left) * mu * press
     return press[:, None] * normal + along[:, None] * aside, normal, mu
 
@@ -58,6 +58,8 @@ def _(rng):
         (0.6, 0.05, 1.0),
         (0.05, -0.5, 1.0),
         (0.05, 0.05, 100.0),
+        (0.4, -0.02, 1.0),
+        (0.4, 0.02, 1.0),
     ):
         opening = float(rng.numbers(-0.01, 0.02))
         yield opening, *near(rng, 4, share, by, size), share, 0.002
@@ -87,8 +89,8 @@ def _(opening, force, normal, mu, share, step):
     in-proportion: it closes by a part of the opening; a step is in metres
     a-step-a-contact: it closes by a step for each contact that slips; by one in all
     sum-of-margins: all margins are added up; one that nearly slips is enough
-    mean-of-margins: the mean margin is compared with the mean of mu f_n; one that nearly
-      slips is enough
+    mean-of-margins: the mean margin is compared with the mean of mu f_n; one that
+      nearly slips is enough
     first-contact: it looks at the first contact alone
     last-contact: it looks at the last contact alone
     """

@@ -34,8 +34,8 @@ def _(heights, target, cap):
     infinity-passes: minus infinity is worth 0; what is no finite number is worth -1
     success-only: it is 1 at the target and 0 below; half of the way is worth half
     success-only 2: it is 1 above the target and 0 below; half of the way is worth half
-    not-divided: the height is not divided by the target, so a cube at the target is worth
-      so many metres
+    not-divided: the height is not divided by the target, so a cube at the target is
+      worth so many metres
     not-limited: more than the target is worth more than 1
     below-the-floor: what is below the floor is worth less than 0
     thrown-is-zero: what was thrown or lost is worth 0, as on the floor; it is -1

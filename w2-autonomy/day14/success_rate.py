@@ -25,9 +25,10 @@ def wilson(k, n, z=1.96, moved=True, inside=True, divided=True):
 
 @row.wrongs
 def _(success):
-    """plain: the interval is the plain one, p +- 1.96 sqrt(p (1 - p) / n), which says that
-      8 of 8 is sure; Day 12's is wilson's
-    plain-to-0-and-1: the interval is the plain one, cut at 0 and 1; Day 12's is wilson's
+    """plain: the interval is the plain one, p +- 1.96 sqrt(p (1 - p) / n), which says
+      that 8 of 8 is sure; Day 12's is wilson's
+    plain-to-0-and-1: the interval is the plain one, cut at 0 and 1; Day 12's is
+      wilson's
     middle-for-rate: the rate is the middle of the interval; it is the share that was
       counted
     order: the interval comes first, the rate last
@@ -63,6 +64,9 @@ def _(success):
         "per-cent": 100 * right,
         "one-of-n": np.array([p, *wilson(1, n)]),
     }
+
+
+row.at_least_0(success="True or False", answer="a share is")
 
 
 @row.right  # As the roots of the quadratic.

@@ -39,7 +39,9 @@ def inwards(points) -> Array:
 
 def around(mu: float, k: int, turn: float = 0.0, points=AROUND) -> Array:
     """Return the wrenches of contacts around a thing that is turned about z."""
-    R = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], UP])
+    R = np.array(
+        [[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], UP]
+    )
     turned = points @ R.T
     return pushes(turned, inwards(turned), mu, k)
 

@@ -1,7 +1,7 @@
 """What Day 14 asks of MuJoCo: a hand with two pads, a cube, and what each pad feels.
 
-The hand floats: it is put over a place, turned, goes down and up by a servo, and its two
-pads are closed by springs, 200 N/m. No arm, so that an episode takes milliseconds.
+The hand floats: it is put over a place, turned, goes down and up by a servo, and its
+two pads are closed by springs, 200 N/m. No arm: an episode takes milliseconds.
 Metres, radians, newtons, kilograms; world axes, z up, the floor at 0.
 """
 
@@ -163,7 +163,7 @@ def felt(model, data) -> Felt:
 
 @contextlib.contextmanager
 def silent() -> Iterator[None]:
-    """Let MuJoCo write no MUJOCO_LOG.TXT: what its warnings count is looked at below."""
+    """Let MuJoCo write no MUJOCO_LOG.TXT: its warnings are counted, see below."""
     before = mujoco.get_mju_user_warning()
     mujoco.set_mju_user_warning(lambda text: None)
     try:
@@ -173,7 +173,7 @@ def silent() -> Iterator[None]:
 
 
 def exploded(data) -> bool:
-    """Return whether MuJoCo gave up: it then begins again from the start, in silence."""
+    """Return whether MuJoCo gave up: in silence it begins again from the start."""
     return any(data.warning[one].number for one in WARNINGS)
 
 
