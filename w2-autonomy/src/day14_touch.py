@@ -319,7 +319,7 @@ def given_to_functions(rng: np.random.Generator) -> dict[str, list[tuple]]:
     poses = [se3.make_T(se3.Rz(yaw), (0.4, -0.1, 0.02)) for yaw in yaws]
     thetas = START + 3 * SPREAD * rng.normal(size=(12, 6))
     seen = [policy.observe(*some) for some in zip(poses, noise, strict=True)]
-    heights = np.array([0.01, 0.05, 0.2, 0.9, np.nan, -0.01, np.inf, 0.3, 0.04])
+    heights = np.array([0.01, 0.2, 0.9, np.nan, -0.01, np.inf, -np.inf, 0.3])
     samples = rng.normal(size=(9, 6))
     scores = np.array([0.2, 1, np.nan, 0.5, 1, -1, 1, np.nan, 0.5])
     return {
@@ -339,28 +339,37 @@ def given_to_functions(rng: np.random.Generator) -> dict[str, list[tuple]]:
         "reward": [(heights, TARGET, CAP), (heights, 0.1, 0.15)],
         "cem_step": [(START, SPREAD, samples, scores, n) for n in (2, 4, 5)],
         "success_rate": [(np.arange(n) < k,) for k, n in ((8, 8), (97, 100), (0, 60))],
-        "paired_difference": [(np.arange(100) < 80, np.arange(100) % 4 < 1)],
+        "paired_difference": [
+            (np.arange(100) < 80, np.arange(100) % 4 < 1),
+            (np.arange(100) < 20, np.arange(100) % 9 < 7),
+        ],
     }
 
 
 def proofs() -> list[tuple[np.ndarray, np.ndarray]]:
     """Return grasps and weights that prove something, and some that do not."""
-    W = wrenches("four around", 0.5, grasp.cone_edges, grasp.grasp_matrix)
-    line = wrenches("two, opposite", 0.5, grasp.cone_edges, grasp.grasp_matrix)
-    face = wrenches("three on top", 0.5, grasp.cone_edges, grasp.grasp_matrix)
+    right = (grasp.cone_edges, grasp.grasp_matrix)
+    W, line, face = (wrenches(name, 0.5, *right) for name in
+                     ("four around", "two, opposite", "three on top"))  # fmt: skip
     even = np.ones(W.shape[1])
-    one = even - 1e-5 * np.eye(len(even))[0]  # a little more than rounding is left
-    ahead = W[:, :EDGES].mean(axis=1)  # a cone's edges beside its opposite one's
-    last = np.append(np.zeros(EDGES), even[EDGES:])
-    some = [(unit * W, size * even) for unit in (1e-4, 1, 1e5) for size in (1, 1e3)]
-    some += [(unit * W, one) for unit in (1e-4, 1, 1e5)]
-    some += [(line, even[: line.shape[1]]), (face, even[: face.shape[1]])]
-    some += [
-        (W, -even),
-        (W, 0 * even),
-        (np.column_stack([W, ahead]), np.append(even, 0)),
-    ]
-    return [*some, (W, last)]
+    one = np.eye(len(even))
+    ahead = W[:, :EDGES].mean(axis=1)  # between a cone's edges
+    raised = W.copy()  # its first contact, by 10 mm: forces balance, moments do not
+    raised[:3, :EDGES] += np.cross([0, 0, 0.01], W[3:, :EDGES].T).T
+    nearly = line.copy()  # it hardly turns about the line
+    nearly[1] = 1e-12 * np.tile([1, -1], EDGES)
+    sums = W.sum(axis=0)
+    mixed = even + 0.5 * (sums[6] * one[1] - sums[1] * one[6])  # adds up to nothing
+    two = even[: line.shape[1]]
+    top = even[: face.shape[1]]
+    alike = np.repeat([1.0, 1, 2], EDGES)  # moments balance, forces do not
+    sizes = [(1e-11, 1), (1e-4, 1), (1, 1), (1, 1e3), (1e5, 1), (1e5, 1e3)]
+    proved = [(unit * W, size * even) for unit, size in sizes]
+    left = [(unit * W, even - 1e-5 * one[0]) for unit in (1e-4, 1, 1e5)]
+    low = [(line, two), (1e9 * line, two), (nearly, two), (face, top), (face, alike)]
+    wrong = [(W, -even), (W, 0 * even), (W, even - one[0]), (W, mixed), (raised, even)]
+    beside = [(np.column_stack([W, ahead]), np.append(even, 0))]
+    return proved + left + low + wrong + beside
 
 
 def tried(model, data, theta, cubes, noise, touch=None) -> np.ndarray:
@@ -468,10 +477,9 @@ def feeling(model, data, theta, cubes, noise) -> tuple[np.ndarray, np.ndarray]:
     return held(np.array(heights)), np.array(ends)
 
 
-def same_as(lab: Lab, library, own: list, given: dict[str, list[tuple]]) -> None:
+def same_as(lab: Lab, library, given: dict[str, list[tuple]], **own) -> None:
     """Check your functions against robo47's of the same names."""
-    for function in own:
-        name = function.__name__
+    for name, function in own.items():
         off = off_library(library, name, function, given[name])
         lab.check(f"|{name} - the library's|", off)
 
@@ -524,7 +532,7 @@ def main() -> int:
         off.extend(cone_margin(felt.force, felt.normal, felt.mu) - theirs)
         left.append(moved_by(model, data, felt))
     lab.record("cone", off, label="|margin - by mj_contactForce|, N", seed=SEED)
-    same_as(lab, grasp, [reflex], given)
+    same_as(lab, grasp, given, reflex=reflex)
 
     lab.step("2. What fingers do together")
     left = [one for one in left if one is not None]
@@ -537,11 +545,12 @@ def main() -> int:
         lab.measured(f"the heaviest cube, mu {mu}, {squeeze} N, g", grams)
 
     lab.step("3. Is this a proof?")
-    same_as(lab, grasp, [cone_edges, closes], given)
+    same_as(lab, grasp, given, cone_edges=cone_edges, closes=closes)
     lab.check("closes - whether all wrenches are made", try_grasps())
 
     lab.step("4. Six numbers")
-    same_as(lab, policy, [observe, act, reward, cem_step, success_rate], given)
+    same_as(lab, policy, given, observe=observe, act=act, reward=reward,
+            cem_step=cem_step, success_rate=success_rate)  # fmt: skip
     off = [beside_the_cube(model, data, cube) for cube in unseen(ROUGH)[0][:LIFTS]]
     lab.record("policy", off, label="|act - where MuJoCo has the hand|",
                seed=CUBES_SEED)  # fmt: skip
@@ -566,7 +575,7 @@ def main() -> int:
 
     lab.step("8. Side quest: which of the two is better")
     with lab.side_quest():
-        same_as(lab, policy, [paired_difference], given)
+        same_as(lab, policy, given, paired_difference=paired_difference)
         apart, sigma = paired_difference(feels, slippery)
         lab.record("slippery_gain", np.round(apart - 1.96 * sigma, 1), metric="low_end",
                    label="what feeling gains, at least", seed=SEED)  # fmt: skip
