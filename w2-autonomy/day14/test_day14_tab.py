@@ -32,7 +32,7 @@ def test_right_functions_have_the_librarys_margin_and_a_cone_about_the_force():
     assert yours == right
     assert tab.own.says()[1] == "good"
     times, least = tab.plot.show.call_args[0]
-    assert len(times) == np.shape(least)[1] > 40
+    assert len(times) == np.shape(least)[1] > 15
     rise = tab.cones.points[:, 1] - tab.cones.points[:, 0]
     flat = np.linalg.norm(rise[:, [0, 2]], axis=1) / np.abs(rise[:, 1])
     assert np.allclose(flat, tab.mu, atol=1e-4)
