@@ -47,6 +47,8 @@ def of_best(samples, best):
 @row.wrongs
 def _(mean, std, noise, scores, elite):
     """nan-first: a NaN counts as the best: argsort puts it last, and [::-1] first
+    nan-first 2: a NaN counts as the best, and of equals any may be kept: argsort puts
+      it last, and [::-1] first
     ties-last-first: of equals the last are kept; the first were asked for
     ties-last-first 2: of equals the last are kept: [::-1] turns them round, too
     worst: the elite are the worst
@@ -65,6 +67,9 @@ def _(mean, std, noise, scores, elite):
     elite-one-less: one less than the elite is kept
     weighted: the elite are weighted by their rank; each counts the same
     weighted 2: the elite are weighted by their scores; each counts the same
+    weighted 3: the mean is weighted by the scores; each of the elite counts the same
+    spread-of-noise: the spread is that of the elite's noise; the samples have it times
+      std
     best-for-the-mean: the mean is the best sample; it is that of the elite
     std-added: the new spread comes on top of the old one
     std-times: the spread is that of the elite's noise, times the spread twice
@@ -93,6 +98,7 @@ def _(mean, std, noise, scores, elite):
     about = np.sqrt(np.mean((samples[best] - mean) ** 2, axis=0))
     return {
         "nan-first": of_best(samples, nan_best[:elite]),
+        "nan-first 2": of_best(samples, np.argsort(scores)[::-1][:elite]),
         "ties-last-first": of_best(samples, lasts),
         "ties-last-first 2": of_best(samples, nan_first),
         "worst": of_best(samples, np.argsort(scores, kind="stable")[:elite]),
@@ -116,6 +122,8 @@ def _(mean, std, noise, scores, elite):
         "elite-one-less": lambda: of_best(samples, order[: max(elite - 1, 1)]),
         "weighted": weighed(rank),
         "weighted 2": lambda: weighed(by_score),
+        "weighted 3": lambda: (weighed(np.nan_to_num(by_score) + 1e-9)[0], right[1]),
+        "spread-of-noise": (right[0], noise[best].std(axis=0)),
         "best-for-the-mean": (samples[best[0]], right[1]),
         "std-added": (right[0], std + right[1]),
         "std-times": (right[0], std * right[1]),

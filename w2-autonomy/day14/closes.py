@@ -44,6 +44,7 @@ def _(rng):
     yield 1e5 * around(0.8, K, 0.7, three()), 900 * np.ones(12)
     yield W, np.repeat([1.0, 1, 3, 3], K)
     yield W, 1e-4 * ones
+    yield np.round(100 * W), ones  # whole numbers, of which nothing is left at all
     # No proof.
     yield line(0.5), np.ones(8)
     yield 1e9 * line(0.7), np.ones(8)
@@ -95,6 +96,10 @@ def _(W, weights):
     balance-roughly 2: what may be left is 1e-4 of what is added up; it is 1e-9
     rank-absolute: a singular value counts above 1e-9, whatever the unit; it counts
       above 1e-9 of the largest
+    determinant: the rank is asked of det(W W^T), in the sixth power of the unit; ask
+      the singular values, as a share of the largest
+    sign-of-what-is-left: W w is compared without its size, so any negative sum will do
+    nothing-may-be-left: W w has to be 0 to the last digit; rounding leaves some 1e-16
     rank-by-rounding: a singular value counts above rounding, as by
       np.linalg.matrix_rank(W); it counts above 1e-9 of the largest
     weights-not-used: the columns are added up as they are; each has its weight
@@ -128,6 +133,11 @@ def _(W, weights):
         "balance-roughly": bool(full and above and np.all(left <= 1e-3 * all_of_it)),
         "balance-roughly 2": bool(full and above and np.all(left <= 1e-4 * all_of_it)),
         "rank-absolute": bool(len(s) == 6 and s[-1] > 1e-9 and balanced and above),
+        "determinant": bool(np.linalg.det(W @ W.T) >= 1e-9 and balanced and above),
+        "sign-of-what-is-left": bool(
+            full and above and np.all(W @ weights <= BALANCE * all_of_it)
+        ),
+        "nothing-may-be-left": bool(full and above and np.all(left == 0)),
         "rank-by-rounding": bool(np.linalg.matrix_rank(W) == 6 and balanced and above),
         "weights-not-used": bool(full and above and plain.all()),
         "forces-only": bool(full and above and holds[3:].all()),

@@ -58,6 +58,10 @@ def _(normal, mu, k):
     other-way-round: it goes round the other way: b is n x a
     last-is-first: the last edge is the first again: t goes from 0 to 2 pi with both
       ends => with t = 2 pi i / (k - 1)
+    degrees: the turn is 360, but sine and cosine take radians, 2 pi
+    from-one: the edges are counted from 1; the first, i = 0, is at a
+    mu-on-the-normal: mu stands before n, not before what goes round it => mu n + (cos t
+      a + sin t b)
     half-steps: the edges begin half a step on: t = 2 pi i / k
     length-1: the edges have length 1; they press with 1, so they are longer => divided
       by their length
@@ -96,6 +100,11 @@ def _(normal, mu, k):
         "axis-x-n": edges(normal, mu, k, a=-a),
         "other-way-round": edges(normal, mu, k, b=-b),
         "last-is-first": turned,
+        "degrees": edges(normal, mu, k, t=360 * np.arange(k) / k),
+        "from-one": edges(normal, mu, k, t=2 * np.pi * np.arange(1, k + 1) / k),
+        "mu-on-the-normal": lambda: (
+            mu * normal + (aside / mu if mu else edges(normal, 1.0, k) - normal)
+        ),
         "half-steps": edges(normal, mu, k, t=t + np.pi / k),
         "length-1": right / np.linalg.norm(right, axis=1)[:, None],
         "mu-is-an-angle": edges(normal, np.tan(mu), k),

@@ -34,6 +34,16 @@ def _(force, normal, mu):
     along-squared: |f_t| is squared: it is newtons squared => with f_t . f_t
     force-length-for-press: what presses is the length of the force; it is the part
       along the normal => with |f| for f_n
+    force-length-for-press 2: what presses is the length of the force, in |f_t|, too; it
+      is the part along the normal
+    pull-counts 2: a pull counts as a press, in |f_t|, too; a finger that pulls lets go
+    one-length-for-all: |f_t| is one number for all contacts; each has its own: say
+      axis=1
+    mu-is-an-angle: mu is taken for the cone's angle; it is its tangent already => with
+      tan(mu) for mu
+    added-along: what presses is added, not taken out, to find f_t => with f + f_n n
+    normal-is-z 3: what presses is the force's z; it is the part along each contact's
+      normal
     normal-is-z: the normal is taken for (0, 0, 1); each contact has its own
     normal-is-z 2: the normal is taken for (0, 0, 1); each contact has its own
     pull-counts: a pull counts as a press; a finger that pulls lets go => with |f_n|
@@ -41,6 +51,7 @@ def _(force, normal, mu):
       of 0 at least
     ratio: it is mu less the ratio of f_t and f_n; the margin is in newtons
     ratio 2: it is mu f_n over |f_t|; the margin is in newtons
+    ratio 3: it is |f_t| over mu f_n; the margin is in newtons
     without-mu: it is f_n - |f_t|; friction allows mu times what presses
     mu-divides: it is f_n / mu - |f_t|; friction allows mu times what presses
     mu-times-along: mu stands before |f_t|, not before f_n => f_n - mu |f_t|
@@ -67,12 +78,23 @@ def _(force, normal, mu):
         "one-norm": mu * press - np.abs(along).sum(axis=1),
         "along-squared": mu * press - f_t**2,
         "force-length-for-press": mu * size - f_t,
+        "force-length-for-press 2": mu * size
+        - np.linalg.norm(force - size[:, None] * normal, axis=1),
+        "pull-counts 2": mu * np.abs(press)
+        - np.linalg.norm(force - np.abs(press)[:, None] * normal, axis=1),
+        "one-length-for-all": mu * press - np.linalg.norm(along),
+        "mu-is-an-angle": np.tan(mu) * press - f_t,
+        "added-along": mu * press
+        - np.linalg.norm(force + press[:, None] * normal, axis=1),
+        "normal-is-z 3": mu * force[:, 2]
+        - np.linalg.norm(force - force[:, 2:] * normal, axis=1),
         "normal-is-z": mu * force[:, 2] - np.linalg.norm(force[:, :2], axis=1),
         "normal-is-z 2": mu * force[:, 2] - f_t,
         "pull-counts": mu * np.abs(press) - f_t,
         "pull-limited": mu * np.maximum(press, 0) - f_t,
         "ratio": lambda: mu - f_t / press,
         "ratio 2": lambda: mu * press / f_t,
+        "ratio 3": lambda: f_t / (mu * press),
         "without-mu": press - f_t,
         "mu-divides": press / mu - f_t,
         "mu-times-along": press - mu * f_t,

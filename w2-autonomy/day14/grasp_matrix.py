@@ -33,6 +33,8 @@ def _(points, centre):
     centre-added: the arm is p + c; it goes from the centre to the point, p - c
     halves-swapped: it is (force; moment); a wrench is (moment; force) => with the upper
       and the lower three rows swapped
+    arm-on-the-diagonal: p - c stands on the diagonal; a cross product has it beside the
+      diagonal, as skew writes it
     added-up: there is one block for all points; each point has three columns of its own
     components-together: the columns are all x, all y, all z; those of a point stand
       together
@@ -59,6 +61,7 @@ def _(points, centre):
         "moment-sign": made(-arms),
         "centre-added": made(points + centre),
         "halves-swapped": np.vstack([right[3:], right[:3]]),
+        "arm-on-the-diagonal": stacked([np.vstack([np.diag(a), one]) for a in arms]),
         "added-up": lambda: np.vstack([skew(arms.sum(axis=0)), one]),
         "components-together": right.reshape(6, *pad[:2]).swapaxes(1, 2).reshape(6, -1),
         "moments-only": made(arms, 0 * one),

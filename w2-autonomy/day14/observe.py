@@ -69,6 +69,7 @@ def _(T_seen, noise):
     noise-in-the-cubes-axes: the noise is turned into the cube's axes; it is the
       camera's, x and y
     x-and-y-swapped: x and y are swapped
+    x-and-y-swapped 2: x and y of the place are swapped
     yaw-first: the yaw comes first; asked is (x, y, yaw)
     degrees: the yaw is in degrees
     place-from-the-last-row: x and y are taken from T's last row; they stand in its last
@@ -105,6 +106,7 @@ def _(T_seen, noise):
         "noise-taken-off": seen(fold(yaw - noise[2]), at - noise[:2]),
         "noise-in-the-cubes-axes": seen(fold(full), at + R[:2, :2] @ noise[:2]),
         "x-and-y-swapped": right[[1, 0, 2]],
+        "x-and-y-swapped 2": seen(fold(full), at[::-1] + noise[:2]),
         "yaw-first": right[[2, 0, 1]],
         "degrees": right * [1, 1, np.degrees(1)],
         "place-from-the-last-row": seen(fold(full), T_seen[3, :2] + noise[:2]),

@@ -4,7 +4,7 @@ import numpy as np
 
 from labkit.judge import Row, Scalar
 from robo47.grasp import cone_margin
-from robo47.policy import LOW
+from robo47.policy import HIGH, LOW
 
 from .touched import UP, contacts
 
@@ -44,6 +44,8 @@ def _(rng):
     yield -0.019, *case, 0.2, 0.002
     pull = np.array([[0.0, 0, 5], [0, 0, -1]]), np.tile(UP, (2, 1)), np.array([0.6] * 2)
     yield 0.01, *pull, 0.2, 0.002
+    exactly = np.array([[2.0, 0, 8]]), UP[None], np.array([0.5])  # half is left
+    yield 0.01, *exactly, 0.5, 0.002
     still = np.array([[0.0, 0, 5], [0.1, 0, 4]]), np.tile(UP, (2, 1)), np.full(2, 0.6)
     yield 0.012, *still, 0.3, 0.003
     yield -0.018, *still, 0.3, 0.003
@@ -63,8 +65,10 @@ def _(rng):
     ):
         opening = float(rng.numbers(-0.01, 0.02))
         yield opening, *near(rng, 4, share, by, size), share, 0.002
-    for n in (2, 4, 6):
+    for n in (2, 4, 6, 3, 5, 3):
         opening = float(rng.numbers(-0.015, 0.02))
+        if n in (3, 4):
+            opening = float(rng.numbers(-0.019, -0.018))
         yield opening, *contacts(rng, n), float(rng.numbers(0.1, 0.5)), 0.003
 
 
@@ -72,6 +76,13 @@ def _(rng):
 def _(opening, force, normal, mu, share, step):
     """opens: it opens by a step; a cube that nearly slips has to be squeezed more
     all-must-slip: it closes only when all contacts nearly slip; one is enough
+    at-the-line: a margin that is as large as its share closes, too; only a smaller one
+      does
+    one-minus-the-share: the margin is compared with 1 - share of mu f_n; share is what
+      is to be left
+    high-for-low: it stops at HIGH[4], so it opens; the limit is LOW[4]
+    smaller-for-larger: it takes the smaller of the two, so that it ends at LOW[4] or
+      beyond => with min for max
     always: it closes every time, slipping or not
     never: it never closes
     share-without-mu: the margin is compared with a share of f_n; asked is one of mu f_n
@@ -104,6 +115,10 @@ def _(opening, force, normal, mu, share, step):
     return {
         "opens": opening + step if slips.any() else opening,
         "all-must-slip": closed(slips.all()),
+        "at-the-line": closed(np.any(margin <= share * mu * press)),
+        "one-minus-the-share": closed(np.any(margin < (1 - share) * mu * press)),
+        "high-for-low": max(opening - step, HIGH[4]) if slips.any() else opening,
+        "smaller-for-larger": min(opening - step, LOW[4]) if slips.any() else opening,
         "always": closed(True),
         "never": opening,
         "share-without-mu": closed(np.any(margin < share * press)),

@@ -17,6 +17,7 @@ def _(rng):
     yield np.array([0.01, 0.02, 0.03, 0.04]), 0.05, 0.3
     yield np.array([0.3, 0.02, 0.04]), 0.05, 0.3  # as high as the cap is not above it
     yield np.array([np.inf, 0.03, -np.inf, np.nan, 0.31]), 0.04, 0.3
+    yield np.array([-0.7, 0.06, 0.02]), 0.1, 0.25
     yield np.array([-0.2, -0.01, 0.0, 0.07]), 0.1, 0.25
     for n in (3, 5, 8, 8):
         heights = rng.numbers(-0.03, 0.5, n)
@@ -29,6 +30,10 @@ def _(rng):
 @row.wrongs
 def _(heights, target, cap):
     """no-cap: what is above the cap is worth 1; it was thrown, so it is worth -1
+    no-cap 2: what is above the cap is worth 1; it was thrown, so it is worth -1
+    size-against-the-cap: the height's size is compared with the cap; what is far below
+      the floor was not thrown, and is worth 0
+    below-the-floor-is-lost: what is below the floor counts as lost; it is worth 0
     nan-passes: a NaN stays a NaN: no comparison with it is True, so ask np.isfinite
     nan-is-zero: a NaN is worth 0; a simulation that was lost is worth -1
     infinity-passes: minus infinity is worth 0; what is no finite number is worth -1
@@ -59,6 +64,9 @@ def _(heights, target, cap):
     low = np.isneginf(h)
     return {
         "no-cap": lost(share, ~np.isfinite(h) & ~np.isposinf(h)),
+        "no-cap 2": lost(share, ~np.isfinite(h)),
+        "size-against-the-cap": lost(share, ~(np.isfinite(h) & (np.abs(h) <= cap))),
+        "below-the-floor-is-lost": lost(share, ~good | (h < 0)),
         "nan-passes": np.where(np.isnan(h), np.nan, right),
         "nan-is-zero": np.where(np.isnan(h), 0.0, right),
         "infinity-passes": np.where(low, 0.0, right),
