@@ -54,6 +54,7 @@ def _(rng):
     yield np.array([0.0, 0]), np.array([2.0, 0]), np.array([[1, 0.001, 0.01]])
     yield np.array([0.0, 0]), np.array([9.0, 0]), np.array([[2, 1.5, 2.0]])  # large
     yield np.array([0.0, 0]), np.array([9.0, 0]), np.array([[2, 2.5, 2.0]])
+    yield np.array([0.0, 0]), np.array([1.1, 0]), np.array([[0.5, 0, 0.2]])
     two = np.array([[5.0, 5, 1], [1, 0, 0.5]])
     yield np.array([0.0, 0]), np.array([2.0, 0]), two
     yield np.array([0.0, 0]), np.array([2.0, 0]), two[::-1]

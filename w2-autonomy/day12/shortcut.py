@@ -161,9 +161,6 @@ def _(path, world, pairs):
     }
 
 
-row.reached_by("disc_edge_free", "the edges: ")
-
-
 @row.right  # A list, cut in place.
 def _(path, world, pairs):
     points = list(path)

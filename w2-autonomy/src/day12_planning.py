@@ -99,11 +99,12 @@ def extend(
 def rrt_connect(
     start: np.ndarray, goal: np.ndarray, world, samples: np.ndarray, step: float
 ) -> np.ndarray:
-    """Return a way from start to goal, (m, k); (0, k) if the samples find none.
+    """Return a way, (m, k), from start, (k,), to goal, (k,); (0, k) if there is none.
 
     Sample 0, 2, 4, ... grows the start's tree by one edge, 1, 3, ... the goal's. If
     that edge is free, the other tree then grows towards the new node, edge after edge,
-    until one is not free, or it stands at that very node: there the way is found.
+    until one is not free, or it stands at that very node: there the way is found. After
+    the last sample, (n, k) in all, there is none.
     With (0, 0), (2.5, 0), no disc, one sample (0, 2) and step 1:
     ((0, 0), (0, 1), (0.643, 0.7428), (1.5715, 0.3714), (2.5, 0)).
     """
@@ -179,9 +180,9 @@ def path_dynamics(
     coriolis: np.ndarray,
     gravity: np.ndarray,
 ) -> np.ndarray:
-    """Return a, b and g of a path's point, (3, 7): tau = a sdd + b sd^2 + g, N m.
+    """Return a, b and g of a path's point, (3, k): tau = a sdd + b sd^2 + g, N m.
 
-    M is (7, 7), dq = dq/ds and ddq = d2q/ds2; coriolis is that torque at qd = dq.
+    M is (k, k), dq = dq/ds and ddq = d2q/ds2, (k,); coriolis is that torque at qd = dq.
     path_dynamics(((2,),), (3,), (1,), (5,), (7,)) -> ((6,), (7,), (7,))
     """
     # region 12.7
@@ -194,7 +195,7 @@ def accel_range(
 ) -> np.ndarray:
     """Return the least and the greatest sdd, (2,), that all torques allow at sd.
 
-    a, b, g and limits, N m, are (7,). If none is allowed the least is above the
+    a, b, g and limits, N m, are (k,). If none is allowed the least is above the
     greatest. A joint with a = 0 limits nothing; (inf, -inf) if it cannot hold.
     accel_range((1, 2), (0, 0), (0, 1), (4, 5), 0) -> (-3, 2)
     """
@@ -214,7 +215,7 @@ def fastest_along(
 ) -> np.ndarray:
     """Return sd^2, (N + 1,), of the fastest motion along a path, from rest to rest.
 
-    A, B and G, (N + 1, 7), are 12.7's at N + 1 even points, x_max, (N + 1,), is the
+    A, B and G, (N + 1, k), are 12.7's at N + 1 even points; x_max, (N + 1,), is the
     most that the motors' speeds allow there. Zeros if gravity alone is above a limit.
     M 2, dq 1, limit 8, N 4, x_max 9: (0, 2, 4, 2, 0); with gravity 4: (0, 1, 2, 3, 0).
     """
