@@ -221,3 +221,11 @@ def _(a, b, discs):
     t = np.clip((discs[:, :2] - a) @ d / max(d @ d, 1e-12), 0, 1)
     off = discs[:, :2] - a - t[:, None] * d
     return not ((off**2).sum(axis=1) <= discs[:, 2] ** 2).any()
+
+
+row.same(
+    "part = to_centres @ along / max(along @ along, 1e-300) => "
+    "part = to_centres @ along / max(along @ along, 2e-300)",
+    "it only keeps 0 / 0 away",
+)
+row.at_least_0(answer="a truth value")

@@ -40,7 +40,9 @@ def _(rng):
     # Two joints leave no sdd at a point above sd^2 = 0.4, and much before and after.
     two = np.ones((7, 2))
     steep = 20.0 * np.eye(7)[3][:, None] * [1.0, -1.0]
-    yield 2 * two, steep, 0 * two, np.array([8.0, 8]), 9 * seven[:, 0]
+    yield 2 * two, steep, 2 * two, np.array([8.0, 8]), 9 * seven[:, 0]
+    # Above 0.57 the one joint is slowed so much there that it would have to turn back.
+    yield 2 * seven, steep[:, :1], 0 * seven, eight, 9 * seven[:, 0]
     for n, k, fast in (
         (6, 2, 9.0),
         (8, 2, 1.6),
@@ -238,3 +240,18 @@ def _(A, B, G, limits, x_max):
 
 
 row.at_least_0(limits="of torques, both ways", x_max="a square", answer="a square")
+
+STEP = "return low <= high and x + two_ds * low <= after and (x + two_ds * high >= 0.0)"
+row.same(
+    "for i in range(len(A) - 1): => for i in range(len(A) - 2):",
+    "the last sd^2 is 0 anyhow",
+)
+for change in (
+    "for _ in range(60 * (good < bad)): => for _ in range(120 * (good < bad)):",
+    "for _ in range(60 * (good < bad)): => for _ in range(60 * (good < 0.5 * bad)):",
+    "for _ in range(60 * (good < bad)): => for _ in range(60 * (good < 10.0 * bad)):",
+):
+    row.same(change, "60 halvings leave the last digit; the count is 60 or none")
+for how in ("np.clip(({}), -1, 1)", "({}).astype(np.float32)"):
+    row.same(f"return {how.format('np.zeros(len(A))')}", "zeros")
+    row.same(f"return {how.format(STEP[7:])}", "a truth value")

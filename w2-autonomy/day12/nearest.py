@@ -91,3 +91,6 @@ def _(tree, q):
 @row.right  # Without differences.
 def _(tree, q):
     return int(np.argmin(np.hypot.reduce(np.abs(tree - q), axis=1)))
+
+
+row.at_least_0(answer="an index")

@@ -47,6 +47,9 @@ def _(rng):
     around = np.linspace(0, 2 * np.pi, 12, endpoint=False)
     ring = np.column_stack([2.5 + np.cos(around), np.sin(around), np.full(12, 0.4)])
     yield start, goal, np.round(ring, 3), rng.numbers(-1, 4, 16, 2), 0.83
+    # All of it below and left of the origin.
+    yield -start, -goal, post * [-1, 1, 1], np.array([[0.5, -0.3], [-2.8, -0.7],
+        [-0.9, -1.7], [-2, -2]]), 0.7  # fmt: skip
     yield from ways_asked(rng)
 
 
@@ -156,3 +159,15 @@ def _(start, goal, world, samples, step):
 
 
 row.at_least_0(step="a length")
+
+row.same("while i > 0: => while i > 0.001 + 0:", "i is a whole number")
+for change in ("[[1], [0]]", "[[0], [1]]"):
+    row.same(f"parents = [[0], [0]] => parents = {change}", "a root's is never read")
+row.same(
+    "mine, other = (k % 2, 1 - k % 2) => mine, other = (k % 2, 1 - k % 4)",
+    "-1 and -2 count from the end of two: they are 1 and 0",
+)
+for what in ("np.empty((0, len(start)))", "free"):
+    for how in ("np.abs(({}))", "np.maximum(({}), 0)", "np.clip(({}), -1, 1)"):
+        row.same(f"return {how.format(what)}", "nothing, or a truth value")
+row.same("return (np.empty((0, len(start)))).astype(np.float32)", "it is empty")

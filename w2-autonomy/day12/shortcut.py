@@ -173,3 +173,9 @@ def _(path, world, pairs):
 
 
 row.at_least_0(pairs="parts of a path")
+
+row.same(
+    "if j - i > 1 and edge_free(path[i], path[j], world): => "
+    "if j - i > 0.5 * 1 and edge_free(path[i], path[j], world):",
+    "between neighbours there is nothing to cut",
+)
