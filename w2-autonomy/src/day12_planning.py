@@ -480,44 +480,55 @@ def torque_share(needed, limits, start, end, x: np.ndarray, at: tuple) -> float:
     return largest
 
 
-def bang_bang(gravity: float) -> float:
-    """Return the seconds of one joint, M 2, limit 8, over 1 rad, by 12.9."""
+def bang_bang(fastest, gravity: float) -> float:
+    """Return the seconds of one joint, M 2, limit 8, over 1 rad."""
     one = np.ones((POINTS + 1, 1))
     M = np.array([[2.0]])
     nothing = np.zeros(1)
     a, b, g = path_dynamics(M, np.ones(1), nothing, nothing, np.array([gravity]))
-    x = fastest_along(a * one, b * one, g * one, np.array([8.0]), 99.0 * one[:, 0])
+    x = fastest(a * one, b * one, g * one, np.array([8.0]), 99.0 * one[:, 0])
     return seconds(x)
 
 
-def time_the_move(lab: Lab, arm, needed, limits: np.ndarray) -> None:
-    """Time Day 7's move with all of the torque and with less; check it with MuJoCo."""
+def time_the_move(lab: Lab, arm, limits: np.ndarray) -> None:
+    """Time one joint and Day 7's move with the library's 12.9, from your a, b and g."""
+    alone = bang_bang(library.fastest_along, 0.0)
+    print(f"  the library's fastest_along, one joint: {alone:.4f} s; against "
+          f"gravity {bang_bang(library.fastest_along, 4.0):.4f} s")  # fmt: skip
+    lab.measured("one joint over 1 rad, s", alone)
+    A, B, G, most = along(arm, panda.READY_Q, TO, POINTS)
+    print(f"  Day 7's move as a quintic: {quintic((panda.READY_Q, TO)):.3f} s")
+    times = []
+    for share in (1.0, 0.5, 0.4, 0.39, 0.38):
+        x = library.fastest_along(A, B, G, share * limits, most)
+        times.append(seconds(x))
+        told = f"{times[-1]:.3f} s" if x.any() else "it cannot hold itself up"
+        print(f"    the fastest, with {share:4.0%} of the torque: {told}")
+    lab.measured("with half of the torque, s", times[1])
+
+
+def judge_the_move(lab: Lab, arm, inverse, limits: np.ndarray) -> None:
+    """Time Day 7's move with your 12.9, and ask MuJoCo for its torques."""
     start = panda.READY_Q
     A, B, G, most = along(arm, start, TO, POINTS)
     x = fastest_along(A, B, G, limits, most)
-    at = torque_share(needed, limits, start, TO, x, (0.0,))
+    at = torque_share(inverse, limits, start, TO, x, (0.0,))
     lab.record("torque", at, metric="share", label="torque share at the points")
-    at = torque_share(needed, limits, start, TO, x, (0.5, 1.0))
+    at = torque_share(inverse, limits, start, TO, x, (0.5, 1.0))
     lab.record("torque", at, metric="share_between", label="torque share between them")
     lab.check("speed share", np.sqrt(np.max(x / most)), 1.0 + 1e-9)
     lab.check("sd at both ends", x[[0, -1]])
-    print(f"  with all of the torque {seconds(x):.4f} s; {'least share that holds':s}: "
-          f"{np.max(np.abs(G) / limits):.3f}")  # fmt: skip
-    for share in (0.5, 0.4, 0.39, 0.38):
-        x = fastest_along(A, B, G, share * limits, most)
-        print(f"  with {share:.2f} of it {seconds(x):6.3f} s")
-    half = seconds(fastest_along(A, B, G, 0.5 * limits, most))
-    lab.measured("half of the torque, s", half)
+    print(f"  Day 7's move: {seconds(x):.3f} s")
 
 
 def time_the_ways(arm, limits: np.ndarray, ways: list[np.ndarray]) -> None:
-    """Time legs of ways, at rest at each corner, beside Day 7's quintic."""
+    """Time the legs of ways, at rest at each corner, beside Day 7's quintic."""
     for seed, way in enumerate(ways[:3]):
         legs = list(itertools.pairwise(way))
         fast = [along(arm, *leg, LEG) for leg in legs]
         times = [seconds(fastest_along(*some[:3], limits, some[3])) for some in fast]
         slow = [quintic(leg) for leg in legs]
-        print(f"  seed {seed}: {len(legs)} legs, {sum(times):.2f} s; "
+        print(f"  over the wall, seed {seed}: {len(legs)} legs, {sum(times):.2f} s; "
               f"as quintics {sum(slow):.2f} s")  # fmt: skip
 
 
@@ -576,21 +587,15 @@ def main() -> int:
     lab.check("|a sdd + b sd^2 + g - MuJoCo's torque|, N m", off)
     off = off_library(accel_range, timing["accel_range"])
     lab.check("accel_range - the library's", off)
-    path = along(arm, panda.READY_Q, TO, POINTS)
-    x = library.fastest_along(*path[:3], limits, path[3])
-    print(f"  Day 7's move as a quintic {quintic((panda.READY_Q, TO)):.3f} s; "
-          f"the library's fastest {seconds(x):.3f} s")  # fmt: skip
+    time_the_move(lab, arm, limits)
 
     lab.step("5. Side quest: as fast as the torques allow")
     with lab.side_quest():
         off = off_library(fastest_along, timing["fastest_along"])
         lab.check("fastest_along - the library's", off)
-        alone = bang_bang(0.0)
-        lab.record("bang_bang", alone - 1.0, metric="off_s",
+        lab.record("bang_bang", bang_bang(fastest_along, 0.0) - 1.0, metric="off_s",
                    label="one joint, off 2 sqrt(d / a) = 1 s")  # fmt: skip
-        lab.measured("bang-bang, s", alone)
-        print(f"  with gravity 4 {bang_bang(4.0):.4f} s")
-        time_the_move(lab, arm, inverse, limits)
+        judge_the_move(lab, arm, inverse, limits)
         time_the_ways(arm, limits, cut)
     return lab.finish()
 
