@@ -122,8 +122,8 @@ def _(a, b, g, limits, sd):
 
 @row.wrong
 def zero_divides(a, b, g, limits, sd):
-    """a joint with a = 0 is divided by 0: it limits nothing, if it holds => without that
-    case"""
+    """a joint with a = 0 is divided by 0: it limits nothing, if it holds => without
+    that case"""
     with np.errstate(all="ignore"):
         ends = np.sort((np.array([-limits, limits]) - b * sd**2 - g) / a, axis=0)
     return np.array([ends[0].max(), ends[1].min()])

@@ -54,6 +54,7 @@ def _(rng):
     yield np.array([0.0, 0]), np.array([2.0, 0]), np.array([[1, 0.001, 0.01]])
     yield np.array([0.0, 0]), np.array([9.0, 0]), np.array([[2, 1.5, 2.0]])  # large
     yield np.array([0.0, 0]), np.array([9.0, 0]), np.array([[2, 2.5, 2.0]])
+    yield np.array([0.0, 0]), np.array([1.1, 0]), np.array([[0.5, 0, 0.2]])
     two = np.array([[5.0, 5, 1], [1, 0, 0.5]])
     yield np.array([0.0, 0]), np.array([2.0, 0]), two
     yield np.array([0.0, 0]), np.array([2.0, 0]), two[::-1]
@@ -220,3 +221,11 @@ def _(a, b, discs):
     t = np.clip((discs[:, :2] - a) @ d / max(d @ d, 1e-12), 0, 1)
     off = discs[:, :2] - a - t[:, None] * d
     return not ((off**2).sum(axis=1) <= discs[:, 2] ** 2).any()
+
+
+row.same(
+    "part = to_centres @ along / max(along @ along, 1e-300) => "
+    "part = to_centres @ along / max(along @ along, 2e-300)",
+    "it only keeps 0 / 0 away",
+)
+row.at_least_0(answer="a truth value")

@@ -48,6 +48,7 @@ def _(rng):
     yield np.array([[0.0, 0], [1, 0]]), np.array([1.0, 2]), 0.5, DISC
     yield np.array([[0.0, 0], [1, 0]]), np.array([1.0, 2]), 0.4, DISC
     yield np.array([[0.0, 0]]), np.array([0.0, 0.3]), 0.5, NONE
+    yield np.array([[1.0, 1], [3, 0]]), np.array([1.0, 3]), 1.5, DISC  # out of a disc
     # Between two free ends: a thin disc.
     thin = np.array([[0.25, 0, 0.02]])
     yield np.array([[2.0, 2], [0, 0]]), np.array([0.4, 0]), 0.5, thin
@@ -77,8 +78,8 @@ def _(tree, sample, step, world):
     hit-for-free: True and False are swapped: it says whether the edge is hit
     stays-where-blocked: where the edge is not free the node itself comes back; where it
       would have grown to is asked for
-    index-of-the-new: the index is the one that the new point will have; asked for is the
-      node it grows from
+    index-of-the-new: the index is the one that the new point will have; it is that of
+      the node it grows from
     away: it grows away from the sample: steer takes the node, then the sample
     from-the-sample: it is steered from the sample to the node; the tree grows from the
       node
@@ -115,11 +116,6 @@ def _(tree, sample, step, world):
         "from-the-sample": (i, back, check(sample, back)),
         "farthest": (far, at_far, check(tree[far], at_far)),
     }
-
-
-row.reached_by("nearest", "the node: ", hidden={"last-of-equals": "no tree has equals"})
-row.reached_by("steer", "the new point: ", hidden={"stays-when-near": ""})
-row.reached_by("disc_edge_free", "the edge: ")
 
 
 @row.right  # With the library's pieces, checked by hand.

@@ -37,6 +37,12 @@ def _(rng):
     dip = np.array([9.0, 9, 0.4, 9, 9, 9, 9])  # the motors are slow there
     seven = np.ones((7, 1))
     yield 2 * seven, 0.5 * seven, seven, eight, dip
+    # Two joints leave no sdd at a point above sd^2 = 0.4, and much before and after.
+    two = np.ones((7, 2))
+    steep = 20.0 * np.eye(7)[3][:, None] * [1.0, -1.0]
+    yield 2 * two, steep, 2 * two, np.array([8.0, 8]), 9 * seven[:, 0]
+    # Above 0.57 the one joint is slowed so much there that it would have to turn back.
+    yield 2 * seven, steep[:, :1], 0 * seven, eight, 9 * seven[:, 0]
     for n, k, fast in (
         (6, 2, 9.0),
         (8, 2, 1.6),
@@ -120,19 +126,19 @@ def bobrow(A, B, G, limits, x_max):
 
 @row.wrongs
 def _(A, B, G, limits, x_max):
-    """no-braking: there is no pass backwards: it goes as fast as it can, and cannot stop
-      at the end => the pass forwards alone, up to x_max
+    """no-braking: there is no pass backwards: it goes as fast as it can, and cannot
+      stop at the end => the pass forwards alone, up to x_max
     no-braking 2: there is no pass backwards: it goes as fast as it can, and is stopped
       at the end in no time => the pass forwards alone, with 0 at the end
     end-not-at-rest: the pass backwards starts with x_max at the end; it starts with 0
-    start-not-at-rest: it begins with the greatest sd^2 from which it can stop; it begins
-      at rest
+    start-not-at-rest: it begins with the greatest sd^2 from which it can stop; it
+      begins at rest
     backward-pass-only: there is no pass forwards: it begins in motion => the pass
       backwards alone
     backward-pass-only 2: there is no pass forwards: it jumps from rest to the greatest
       sd^2 => the pass backwards alone, with 0 at the start
-    smaller-of-two-passes: each pass is made by itself, and the smaller of both is taken;
-      forwards, it has to go on from what the other one leaves
+    smaller-of-two-passes: each pass is made by itself, and the smaller of both is
+      taken; forwards, it has to go on from what the other one leaves
     ds-for-2-ds: sd^2 grows by 2 ds u in a step; here it is ds u
     four-ds: sd^2 grows by 2 ds u in a step; here it is 4 ds u
     points-for-steps: ds is 1 / (N + 1): N + 1 points have N steps
@@ -143,11 +149,11 @@ def _(A, B, G, limits, x_max):
     gravity-forgotten: gravity is left out of what the torques allow
     coriolis-forgotten: B is left out of what the torques allow
     cannot-stand-goes: where gravity alone is too much at a point the arm cannot hold
-      there: zeros are asked for => without that case
+      there; zeros are asked for => without that case
     few-bisections: an interval that is halved so seldom is still wide => 10 times
     few-bisections 2: an interval that is halved so seldom is still wide => 20 times
-    limits-of-the-next-point: the limits of a step are read at its end; they are those of
-      its first point
+    limits-of-the-next-point: the limits of a step are read at its end; they are those
+      of its first point
     bobrow: backwards the limits are read at the point that comes after; a step's are
       those of its first point
     root: this is sd; its square is asked for
@@ -203,9 +209,6 @@ def _(A, B, G, limits, x_max):
     }
 
 
-row.reached_by("accel_range", "in what the joints allow, ")
-
-
 @row.right  # Where straight lines cross, for bisection.
 def _(A, B, G, limits, x_max):
     n = len(A) - 1
@@ -222,10 +225,10 @@ def _(A, B, G, limits, x_max):
         high = np.append((limits[moves] - rest) / size, K[i + 1] * n / 2)
         slope = np.append(slope / size, n / 2)
         top = x_max[i]
-        for l, m in zip(low, slope, strict=True):
+        for least, m in zip(low, slope, strict=True):
             for h, k in zip(high, slope, strict=True):
-                if k - m > 1e-12:  # l - m x <= h - k x
-                    top = min(top, (h - l) / (k - m))
+                if k - m > 1e-12:  # least - m x <= h - k x
+                    top = min(top, (h - least) / (k - m))
         for r, m, lim in zip(g[~moves], b[~moves], limits[~moves], strict=True):
             if m:
                 top = min(top, (lim - np.sign(m) * r) / abs(m))
@@ -237,3 +240,18 @@ def _(A, B, G, limits, x_max):
 
 
 row.at_least_0(limits="of torques, both ways", x_max="a square", answer="a square")
+
+STEP = "return low <= high and x + two_ds * low <= after and (x + two_ds * high >= 0.0)"
+row.same(
+    "for i in range(len(A) - 1): => for i in range(len(A) - 2):",
+    "the last sd^2 is 0 anyhow",
+)
+for change in (
+    "for _ in range(60 * (good < bad)): => for _ in range(120 * (good < bad)):",
+    "for _ in range(60 * (good < bad)): => for _ in range(60 * (good < 0.5 * bad)):",
+    "for _ in range(60 * (good < bad)): => for _ in range(60 * (good < 10.0 * bad)):",
+):
+    row.same(change, "60 halvings leave the last digit; the count is 60 or none")
+for how in ("np.clip(({}), -1, 1)", "({}).astype(np.float32)"):
+    row.same(f"return {how.format('np.zeros(len(A))')}", "zeros")
+    row.same(f"return {how.format(STEP[7:])}", "a truth value")

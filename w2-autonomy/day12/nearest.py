@@ -42,8 +42,8 @@ def _(tree, q):
       cancel; square them first
     last-of-equals: of equally near nodes this is the last one; asked for is the first,
       as argmin has it
-    largest-coordinate: nodes are compared by their largest difference in one coordinate;
-      the distance is the root of the sum of squares
+    largest-coordinate: nodes are compared by their largest difference in one
+      coordinate; the distance is the root of the sum of squares
     sum-of-sizes: nodes are compared by the sum of the differences' sizes; the distance
       is the root of the sum of squares
     from-the-origin: this is the node nearest to the origin: q is not used
@@ -91,3 +91,6 @@ def _(tree, q):
 @row.right  # Without differences.
 def _(tree, q):
     return int(np.argmin(np.hypot.reduce(np.abs(tree - q), axis=1)))
+
+
+row.at_least_0(answer="an index")

@@ -47,6 +47,9 @@ def _(rng):
     around = np.linspace(0, 2 * np.pi, 12, endpoint=False)
     ring = np.column_stack([2.5 + np.cos(around), np.sin(around), np.full(12, 0.4)])
     yield start, goal, np.round(ring, 3), rng.numbers(-1, 4, 16, 2), 0.83
+    # All of it below and left of the origin.
+    yield -start, -goal, post * [-1, 1, 1], np.array([[0.5, -0.3], [-2.8, -0.7],
+        [-0.9, -1.7], [-2, -2]]), 0.7  # fmt: skip
     yield from ways_asked(rng)
 
 
@@ -57,28 +60,29 @@ def _other(**how):
 
 @row.wrongs
 def _(start, goal, world, samples, step):
-    """swap-when-it-grew: yours is another planner: valid, and not the one asked for. The
-      trees change places only after a sample that made one grow; here sample 0, 2, 4
-      is the start's whatever became of it
+    """swap-when-it-grew: yours is another planner: valid, and not the one asked for.
+      The trees change places only after a sample that made one grow; here sample 0, 2,
+      4 is the start's whatever became of it
     swap-when-it-failed: yours is another planner: valid, and not the one asked for. The
       trees change places only after a blocked sample; here they take turns
     trees-not-swapped: yours is another planner: valid, and not the one asked for. All
       samples grow the start's tree; 1, 3, 5 are the goal's
-    goal-first: yours is another planner: valid, and not the one asked for. Sample 0 grows
-      the goal's tree; it is the start's
+    goal-first: yours is another planner: valid, and not the one asked for. Sample 0
+      grows the goal's tree; it is the start's
     connect-one-step: yours is another planner: valid, and not the one asked for. The
       other tree grows by one edge; it goes on, edge after edge, until it is blocked or
       stands at the new node
-    connect-to-the-sample: yours is another planner: valid, and not the one asked for. The
-      other tree grows towards the sample; it grows towards the new node
-    greedy-samples: yours is another planner: valid, and not the one asked for. Towards the
-      sample, too, the tree grows edge after edge; one edge is asked for
+    connect-to-the-sample: yours is another planner: valid, and not the one asked for.
+      The other tree grows towards the sample; it grows towards the new node
+    greedy-samples: yours is another planner: valid, and not the one asked for. Towards
+      the sample, too, the tree grows edge after edge; one edge is asked for
     one-tree: yours is another planner: valid, and not the one asked for. Only the
       start's tree grows, and the goal is tried from each new node; two trees grow here
     connect-in-one-jump: the other tree joins by one edge, however long; it grows by
       steps
-    parent-is-the-newest: the parent of a node is the one that was added before it; it
-      is the node it grew from, the index that extend returns
+    parent-is-the-newest: every node of both trees stands in the way: the parent of a
+      node is the one it grew from, the index that extend returns, and not the one
+      before
     not-turned-round: the start's branch is read from the newest node to the root, and
       so comes first backwards; turn it round
     goal-to-start: the way runs from the goal to the start
@@ -95,8 +99,6 @@ def _(start, goal, world, samples, step):
     last-sample-left-out: the last sample is not used
     straight-tried-first: yours is another planner: it tries start and goal by one edge
       before any sample; without samples no way is asked for
-    nodes-for-a-way: these are all nodes of both trees, in the order in which they came;
-      a way follows the parents
     """
     given = (start, goal, world, samples, step)
     right = rrt_connect(*given)
@@ -127,30 +129,7 @@ def _(start, goal, world, samples, step):
         "first-sample-left-out": rrt_connect(start, goal, world, samples[1:], step),
         "last-sample-left-out": rrt_connect(start, goal, world, samples[:-1], step),
         "straight-tried-first": np.array([start, goal]) if straight else right,
-        "nodes-for-a-way": _all_nodes(*given),
     }
-
-
-def _all_nodes(start, goal, world, samples, step):
-    """Return the start's nodes and then the goal's, without the one they share."""
-    trees = [[start], [goal]]
-    for k, sample in enumerate(samples):
-        one, other = trees[k % 2], trees[1 - k % 2]
-        _, q, free = extend(np.array(one), sample, step, world)
-        if not free:
-            continue
-        one.append(q)
-        while True:
-            _, p, free = extend(np.array(other), q, step, world)
-            if not free:
-                break
-            other.append(p)
-            if np.array_equal(p, q):
-                return np.array(trees[0] + trees[1][-2::-1])
-    return np.empty((0, 2))
-
-
-row.reached_by("extend", "in its trees, ")
 
 
 @row.right  # A branch is kept with each node, and the trees change places.
@@ -180,3 +159,15 @@ def _(start, goal, world, samples, step):
 
 
 row.at_least_0(step="a length")
+
+row.same("while i > 0: => while i > 0.001 + 0:", "i is a whole number")
+for change in ("[[1], [0]]", "[[0], [1]]"):
+    row.same(f"parents = [[0], [0]] => parents = {change}", "a root's is never read")
+row.same(
+    "mine, other = (k % 2, 1 - k % 2) => mine, other = (k % 2, 1 - k % 4)",
+    "-1 and -2 count from the end of two: they are 1 and 0",
+)
+for what in ("np.empty((0, len(start)))", "free"):
+    for how in ("np.abs(({}))", "np.maximum(({}), 0)", "np.clip(({}), -1, 1)"):
+        row.same(f"return {how.format(what)}", "nothing, or a truth value")
+row.same("return (np.empty((0, len(start)))).astype(np.float32)", "it is empty")

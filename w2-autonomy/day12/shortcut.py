@@ -161,9 +161,6 @@ def _(path, world, pairs):
     }
 
 
-row.reached_by("disc_edge_free", "the edges: ")
-
-
 @row.right  # A list, cut in place.
 def _(path, world, pairs):
     points = list(path)
@@ -176,3 +173,9 @@ def _(path, world, pairs):
 
 
 row.at_least_0(pairs="parts of a path")
+
+row.same(
+    "if j - i > 1 and edge_free(path[i], path[j], world): => "
+    "if j - i > 0.5 * 1 and edge_free(path[i], path[j], world):",
+    "between neighbours there is nothing to cut",
+)

@@ -1,5 +1,7 @@
 """What Day 12 asks about: discs in the plane, trees, ways; and planners that differ."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from labkit.judge import Finding, rounded
@@ -14,7 +16,7 @@ RIGHT = (np.array([1.1, 0.9]), np.array([0.9, 1.05]))
 
 
 def usual(rng):
-    """Return a generator that never draws edges: what is drawn until it fits needs it."""
+    """Return a generator that draws no edges, for what is drawn until it fits."""
     return Draw(int(rng.integers(2**31)))
 
 
@@ -24,7 +26,7 @@ def discs(rng, m, least=0.1, most=0.4):
 
 
 def gap(a, b, some):
-    """Return how far the edge from a to b is from the nearest disc; less than 0 in it."""
+    """Return how far an edge is from the nearest disc; less than 0 in it."""
     along = b - a
     part = (some[:, :2] - a) @ along / max(along @ along, 1e-300)
     foot = a + np.clip(part, 0, 1)[:, None] * along
@@ -61,8 +63,8 @@ def ways_asked(rng):
     rng = usual(rng)
     found = []
     for m, n, step, wanted in (
-        (3, 6, 0.37, True), (5, 30, 0.37, True), (7, 40, 0.23, True), (6, 40, 0.41, True),
-        (9, 60, 0.31, True), (5, 8, 0.23, False),
+        (3, 6, 0.37, True), (5, 30, 0.37, True), (7, 40, 0.23, True),
+        (6, 40, 0.41, True), (9, 60, 0.31, True), (5, 8, 0.23, False),
     ):  # fmt: skip
         while True:
             start, goal = LEFT[rng.integers(2)], RIGHT[rng.integers(2)]
@@ -169,7 +171,7 @@ def fault(way, start, goal, world, step):
     longest = np.linalg.norm(np.diff(way, axis=0), axis=1).max(initial=0.0)
     if longest > step * (1 + 1e-9):
         return f"has an edge of length {longest:.3f}, where a step is {step:g}"
-    for i, (a, b) in enumerate(zip(way[:-1], way[1:], strict=True)):
+    for i, (a, b) in enumerate(pairwise(way)):
         if gap(a, b, world) < -CLEAR:
             return f"has an edge that is not free, from way point {i} to {i + 1}"
     return ""

@@ -7,6 +7,7 @@ from robo47.planning import wilson
 
 row = Row(
     Vector((2,), names=("the low end", "the high end")),
+    near=1e-7,  # 1.959964 for 1.96 is 4e-6 away
     at_edge=lambda successes, n: 0 <= successes <= n,
 )
 
@@ -42,11 +43,12 @@ def interval(k, n, z=1.96, centre=True, widen=True, divide=True, root=np.sqrt):
 @row.wrongs
 def _(successes, n):
     """wald: p +- z sqrt(p (1 - p) / n) takes the noise at k / n for that at the true
-      share: of all or of none it has no width at all => p +- 1.96 sqrt(p (1 - p) / n)
+      share, so of all or of none it has no width at all => p +- 1.96
+      sqrt(p (1 - p) / n)
     wald-cut: p +- z sqrt(p (1 - p) / n), cut to 0..1, takes the noise at k / n for that
       at the true share: of all or of none it has no width at all
-    centre-not-moved: the middle is k / n; the roots lie about a point nearer to one half
-      => without z^2 / (2 n) in the middle
+    centre-not-moved: the middle is k / n; the roots lie about a point nearer to one
+      half => without z^2 / (2 n) in the middle
     width-without-z2: z^2 / (4 n^2) is missing under the root
     not-divided: the division by 1 + z^2 / n is missing
     middle-not-divided: only the width is divided by 1 + z^2 / n; the middle is, too
@@ -66,24 +68,14 @@ def _(successes, n):
     failures: these are the shares of failures: the interval of n - k
     high-first: the two are in the other order: low, then high
     middle-and-width: this is the middle and the half width; the two ends are asked for
-    rule-of-three: with no success at all the high end is 3 / n: that is another interval
+    rule-of-three: with no success at all the high end is 3 / n: that is another
+      interval
     plus-four: p is (k + 2) / (n + 4), then Wald's interval: near, and another one
     half-width: the width is half of what it is
     """
-    k = successes
+    k, trials = successes, n
+    n = n or 1  # of no trial see below
     right = wilson(k, n)
-    if n == 0:
-        sure = np.array([0.0, 1.0])
-        keys = ("wald wald-cut centre-not-moved width-without-z2 not-divided "
-                "middle-not-divided width-not-divided root-n-forgotten not-rooted ninety "
-                "one-sigma ninety-nine more-digits z-for-z2 two-n four-forgotten n-for-n2 "
-                "successes-for-p failures rule-of-three plus-four").split()  # fmt: skip
-        return {
-            **dict.fromkeys(keys, sure),
-            "high-first": sure[::-1],
-            "middle-and-width": np.array([0.5, 0.5]),
-            "half-width": np.array([0.25, 0.75]),
-        }
     z, p = 1.96, k / n
     middle, around = right.mean(), (right[1] - right[0]) / 2
     below = 1 + z**2 / n
@@ -95,7 +87,7 @@ def _(successes, n):
     def with_root(under, centre=p + z**2 / (2 * n)):
         return (centre + two * z * np.sqrt(under)) / below
 
-    return {
+    table = {
         "wald": wald,
         "wald-cut": np.clip(wald, 0, 1),
         "centre-not-moved": interval(k, n, centre=False),
@@ -121,6 +113,14 @@ def _(successes, n):
         "plus-four": q + two * z * np.sqrt(q * (1 - q) / (n + 4)),
         "half-width": middle + two * around / 2,
     }
+    if trials == 0:
+        sure = np.array([0.0, 1.0])
+        table = dict.fromkeys(table, sure) | {
+            "high-first": sure[::-1],
+            "middle-and-width": np.array([0.5, 0.5]),
+            "half-width": np.array([0.25, 0.75]),
+        }
+    return table
 
 
 @row.wrong

@@ -37,11 +37,11 @@ class Wall:
         middle = se3.make_T(np.eye(3), (np.mean(WALL), 0.0, high))
         above = se3.make_T(np.eye(3), (0.0, 0.0, roof + 0.02))
         half = (np.diff(WALL)[0] / 2.0, 0.02, high)
-        boxes = [(middle, half), (above, (1.2, 1.2, 0.02))]
+        self.boxes = [(middle, half), (above, (1.2, 1.2, 0.02))]
 
         def edit(spec: mujoco.MjSpec) -> None:
             shapes.add_arm(spec)
-            shapes.World.of(boxes=boxes).add_to(spec)
+            shapes.World.of(boxes=self.boxes).add_to(spec)
 
         self.model = panda.load("panda_nohand", edit=edit)
         self.model.dof_damping[:] = 0.0  # the plan of a motion leaves it out
@@ -50,9 +50,11 @@ class Wall:
         self.reach = arm.reach  # Day 11's: m, from each joint to the farthest behind it
         geoms = [(self.model.geom(f"arm{i}").id, one.link)
                  for i, one in enumerate(arm.capsules)]  # fmt: skip
-        around = [self.model.geom(f"world{i}").id for i in range(len(boxes))]
+        around = [self.model.geom(f"world{i}").id for i in range(len(self.boxes))]
         self.pairs = [(a, b) for a, _ in geoms for b in around]
-        self.seen = [(a, b) for a, link in geoms if link not in forget for b in around]
+        # Links 1 and 2 end 0.22 m from the base's axis and 0.56 m above the ground.
+        looked = [a for a, link in geoms if link > 2 and link not in forget]
+        self.seen = [(a, b) for a in looked for b in around]
         self.looks = 0
         self._known: dict[bytes, bool] = {}
 
