@@ -29,6 +29,7 @@ from robo47.checks import Array
 from robo47.dynamics import gravity_torque
 
 STEPS = 100  # of `box_qp`, at most; a box of seven takes about ten
+ROUNDING = 1e-14  # of an entry's size: who leaves by less may stay
 
 
 def gravity_slope(
@@ -204,7 +205,7 @@ def box_qp(
             continue
         leaves = np.abs(x - np.clip(x - (H @ x + g), lo, hi))
         first = int(np.argmax(leaves))
-        if not held[first]:
+        if not held[first] or leaves[first] <= ROUNDING * (1.0 + np.abs(x).max()):
             break
         held[first] = False
     return x
