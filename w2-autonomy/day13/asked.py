@@ -41,6 +41,7 @@ def problem(rng, n, held):
     H = definite(rng, n)
     x = np.round(rng.numbers(-1, 1, n), 1)
     price = rng.numbers(0.5, 3, n) * -np.sign(held)
+    price[0] = price[0] / 10_000  # a limit that nearly lets go
     lo = np.where(held < 0, x, np.round(x - rng.numbers(0.3, 1, n), 3))
     hi = np.where(held > 0, x, np.round(x + rng.numbers(0.3, 1, n), 3))
     return H, np.round(price - H @ x, 6), lo, hi, x
@@ -56,12 +57,12 @@ def problems(rng, n=8):
     return found
 
 
-def boxed(rng, n=8):
+def boxed(rng, n=10):
     """Return H, g, lo, hi and somewhere to start: a corner, inside, or outside."""
     found = []
     for k in range(n):
-        size = [3, 4, 5, 2][k % 4]
-        lo = rng.numbers(-1, 0, size)
+        size = [3, 4, 5, 5][k % 4]
+        lo = rng.numbers(-2.5, 0, size)
         hi = np.round(lo + rng.numbers(0.2, 1.5, size), 3)
         if k == 1:
             hi[0] = lo[0]  # one that is fixed
@@ -69,7 +70,7 @@ def boxed(rng, n=8):
             lo, hi = lo - 30, hi + 30
         start = [rng.numbers(-3, 3, size), lo, np.zeros(size), hi][k % 4]
         g = rng.numbers(-4, 4, size)
-        found.append((definite(rng, size), g, lo, hi, start.copy()))
+        found.append((definite(rng, size, 0.2), g, lo, hi, start.copy()))
     return found
 
 

@@ -152,6 +152,17 @@ def _(H, g, lo, hi, x):
     }
 
 
+EARLY = "who would leave by less is where it should be"
+ANYWHERE = "the best point is the same from any start"
+row.same("for _ in range(100): => for _ in range(200):", "five entries take ten steps")
+row.same("if leaves.max() < 1e-12: => if leaves.max() < 0.5 * 1e-12:", EARLY)
+row.same("if leaves.max() < 1e-12: => if leaves.max() < 10.0 * 1e-12:", EARLY)
+row.same("if leaves.max() < 1e-12: => if leaves.max() < 2e-12:", EARLY)
+row.same("first x = np.abs(x)", ANYWHERE)
+row.same("first x = np.maximum(x, 0)", ANYWHERE)
+row.same("first x = np.clip(x, -1, 1)", ANYWHERE)
+
+
 @row.right  # All 3^n sets of limits that may hold.
 def _(H, g, lo, hi, x):
     best = None

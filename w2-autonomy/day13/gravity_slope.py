@@ -120,6 +120,9 @@ def _(J_space, masses, coms, g):
     }
 
 
+row.at_least_0(masses="a mass")
+
+
 @row.right  # The second derivative of the height energy, a pair of joints at a time.
 def _(J_space, masses, coms, g):
     n = len(masses)

@@ -86,6 +86,9 @@ def _(H, g, lo, hi, x):
     }
 
 
+row.at_least_0(answer="a size")
+
+
 @row.right  # An entry at a time.
 def _(H, g, lo, hi, x):
     worst = 0.0

@@ -67,6 +67,17 @@ def _(H, g, lo, hi, x):
     }
 
 
+BEST = "at the best x a free entry's slope is 0, and a held one's has the right sign"
+HELD = "held = (x <= lo) & (slope > 0) | (x >= hi) & (slope < 0) => held = "
+row.same(HELD + "(x <= lo) & (slope > -0.001 + 0) | (x >= hi) & (slope < 0)", BEST)
+row.same(HELD + "(x <= lo) & (slope > 0) | (x >= hi) & (slope < 0.001 + 0)", BEST)
+row.same(HELD + "(x <= lo) & (slope > 0) | (x >= hi) & (slope < 1)", BEST)
+row.same("first lo = np.abs(lo)", BEST)
+row.same("first lo = np.maximum(lo, 0)", BEST)
+row.same("first lo = np.clip(lo, -1, 1)", BEST)
+row.same("first hi = np.clip(hi, -1, 1)", BEST)
+
+
 @row.right  # At the best x the free ones' slopes are 0 anyway.
 def _(H, g, lo, hi, x):
     return H @ x + g

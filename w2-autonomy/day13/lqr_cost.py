@@ -42,6 +42,9 @@ def _(P, x):
     }
 
 
+row.at_least_0(answer="a sum of squares")
+
+
 @row.right  # Entry by entry.
 def _(P, x):
     return sum(P[i, j] * a * b for i, a in enumerate(x) for j, b in enumerate(x))

@@ -24,11 +24,14 @@ def _(rng):
     drawn = []
     for k, q in enumerate(rng.configurations(8)):
         J = np.round(ARM.at(q).J_site, 3)
-        low, high = rng.numbers(0.05, 0.6, 2, 7)
+        low, high = rng.numbers(0.05, 0.6, 2, 7)  # dq_lo is -low
         if k % 4 == 1:
             low, high = low + 30, high + 30
         if k == 2:
             low[3] = high[3] = 0  # a joint that stays
+        if k == 3:  # joints beyond their range come back
+            low[1], high[4] = -0.03, -0.2
+            low[4] = 2
         weights = one if k % 4 == 0 else rng.numbers(0.2, 2, 6)
         damping = [0.1, 0.5, 0.3][k % 3]
         drawn.append((J, rng.numbers(-1, 1, 6), weights, damping, -low, high))

@@ -47,10 +47,10 @@ ROUNDS = 3  # of iLQR
 def gravity_slope(
     J_space: np.ndarray, masses: np.ndarray, coms: np.ndarray, g: np.ndarray
 ) -> np.ndarray:
-    """Return how gravity's torque changes when a joint turns, (7, 7), N m/rad.
+    """Return how gravity's torque changes when a joint turns, (n, n), N m/rad.
 
-    masses (7,), coms (7, 3) in the world, g the vector (0, 0, -9.81). One hinge about
-    +y with 2 kg 1 m above it: -19.62; 1 m below: 19.62.
+    J_space (6, n), masses (n,), coms (n, 3) in the world, g a vector as (0, 0, -9.81).
+    One hinge about +y with 2 kg 1 m above it: -19.62; 1 m below: 19.62.
     """
     # region 13.1
     slope = np.zeros((len(masses), len(masses)))
@@ -65,9 +65,9 @@ def gravity_slope(
 def linearise(
     M: np.ndarray, slope: np.ndarray, damping: np.ndarray, h: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return A, (14, 14), and B, (14, 7): MuJoCo's next x is A x + B u, near rest.
+    """Return A, (2 n, 2 n), and B, (2 n, n): MuJoCo's next x is A x + B u, near rest.
 
-    damping, (7,), N m s/rad, acts on the new speed; h is the time step. One joint with
+    damping, (n,), N m s/rad, acts on the new speed; h is the time step. One joint with
     M 1, slope 10, damping 1, h 0.1: A = [[10, 1], [-10, 10]] / 11, B = (0.1, 1) / 11.
     """
     # region 13.2
@@ -114,7 +114,8 @@ def kkt_residual(
     g = (-2, -10), the box -1 to 1: 0 at (0.5, 1), 2 at (-1, 1), 1 at (0, 0).
     """
     # region 13.4
-    return np.abs(x - np.clip(x - (H @ x + g), lo, hi)).max()
+    there = np.clip(x - (H @ x + g), lo, hi)
+    return np.abs(x - there).max()
     # endregion 13.4
 
 
