@@ -23,6 +23,14 @@ def arm() -> mujoco.MjModel:
     return panda.load("panda_nohand", drive="torque")
 
 
+def on_a_wall() -> mujoco.MjModel:
+    """Return a Panda that is mounted aslant, with other damping in each joint."""
+    model = arm()
+    model.opt.gravity[:] = (6.0, -2.0, -7.0)
+    model.dof_damping[:] = np.linspace(0.5, 3.0, 7)
+    return model
+
+
 def at(
     model: mujoco.MjModel, q0: Array, x: Array, u: Array | float = 0.0
 ) -> mujoco.MjData:
