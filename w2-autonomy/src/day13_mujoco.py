@@ -16,6 +16,10 @@ LAP = 6.0  # s
 # From here the elbow meets no joint limit on the way.
 START_Q = np.array([0.5, -1.3, 0.0, -2.4, -0.5, 1.7, 1.2])
 SUBSTEPS = 5  # of the simulator, in a step of a motion: 10 ms
+EFFORT = 1e-3  # what a motion costs a step, per (N m)^2, ...
+BRISK = 1e-2  # ... per (rad/s)^2, ...
+FAR = 1_000.0  # ... and at its end, per rad^2 from the goal ...
+FAST = 10.0  # ... and per (rad/s)^2; half of all that
 
 
 def arm() -> mujoco.MjModel:
@@ -45,14 +49,9 @@ def at(
 class Reach:
     """The arm at q0, its inputs, and what they cost: a motion of T steps.
 
-    A step costs half of `effort` |u|^2 + `speed` |qd|^2, the end half of `far`
-    |q - goal|^2 + `fast` |qd|^2.
+    A step costs half of EFFORT |u|^2 + BRISK |qd|^2, the end half of FAR |q - goal|^2 +
+    FAST |qd|^2.
     """
-
-    effort = 1e-3
-    speed = 1e-2
-    far = 1_000.0
-    fast = 10.0
 
     def __init__(self, model: mujoco.MjModel, q0: Array, goal: Array) -> None:
         """Know where it starts and where it should end, (7,) each."""
@@ -60,9 +59,9 @@ class Reach:
         self.q0 = q0
         self.goal = np.append(goal - q0, np.zeros(7))
         self.hold = simulate.start(model, q0).qfrc_bias.copy()
-        self.lxx = self.speed * np.diag(np.repeat([0.0, 1.0], 7))
-        self.luu = self.effort * np.eye(7)
-        self.Vxx = np.diag(np.repeat([self.far, self.fast], 7))
+        self.lxx = BRISK * np.diag(np.repeat([0.0, 1.0], 7))
+        self.luu = EFFORT * np.eye(7)
+        self.Vxx = np.diag(np.repeat([FAR, FAST], 7))
 
     def rolled(self, u: Array, x: Array, k: Array, K: Array) -> tuple[Array, Array]:
         """Return states, (T + 1, 14), and inputs, (T, 7): u + k + K (what x is off)."""

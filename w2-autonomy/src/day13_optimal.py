@@ -473,15 +473,13 @@ def reach(model: mujoco.MjModel, rounds: int = ROUNDS) -> list[tuple[float, ...]
     found = [(task.cost(x, u), 0.0, 0.0)]
     for _ in range(rounds):
         k, K, drop = ilqr_backward(*task.expanded(x, u), 0.0)
-        alpha = 1.0
-        while alpha > 1e-3:
+        for alpha in 0.5 ** np.arange(10):
             there = task.rolled(u, x, alpha * k, K)
             expected = expected_drop(drop, alpha)
             ratio = accept_ratio(found[-1][0], task.cost(*there), expected)
             if ratio > 0.1:
+                x, u = there
                 break
-            alpha = alpha / 2
-        x, u = there
         found.append((task.cost(x, u), expected, ratio))
     return found
 
@@ -553,7 +551,7 @@ def main() -> int:
     asked = [(model, READY_Q), *((model, q) for q in poses[1::2])]
     asked += [(day13_mujoco.on_a_wall(), q) for q in poses[::2]]
     off = [at_rest(one, q, h)[0] - mujoco_gravity(one, q) for one, q in asked]
-    lab.check("|gravity_slope - that of MuJoCo's qfrc_bias|, N m/rad", off)
+    lab.check("|gravity_slope - that of qfrc_bias|, N m/rad", off)
     off = []
     for one, q in [*asked[:3], *asked[-3:]]:
         ours = np.hstack(at_rest(one, q, h)[1:])
@@ -610,7 +608,7 @@ def main() -> int:
         for H, g, lo, hi, _ in some:
             x = mujoco_box(H, g, lo, hi)
             off.append(limit_prices(H, g, lo, hi, x) - mujoco_prices(H, g, lo, hi, x))
-        lab.check("|limit_prices - differences of MuJoCo's least costs|", off, 1e-6)
+        lab.check("|limit_prices - slopes of mju_boxQP's cost|", off, 1e-6)
     return lab.finish()
 
 
