@@ -119,6 +119,7 @@ def test_by_hand_one_hinge_one_joint_one_box():
     assert saved == pytest.approx(0.075, rel=0.01)
 
 
+@pytest.mark.kit
 def test_the_formula_of_the_stiffness_has_no_step_and_the_gap_halves_with_it():
     first = []
     for h in (0.004, 0.002, 0.001, 0.0005):
