@@ -76,7 +76,7 @@ def stiffness(
 
 
 @numbers.add(
-    "cost over promise, stretched, less 1", "{:.4f}",
+    "one side of the promise, folded, off by", "{:.2f} %",
     size=times(2.0, "the cubic term over the quadratic one: linear in the size",
                within=0.05),
     both=same("cost and promise both double"),
@@ -93,7 +93,7 @@ def other_side(
     model, P, K = held(h, q, r, speed, steps, g)
     costs = {"Q_COST": both * LAB.Q_COST, "R_COST": r}
     with turned(LAB, SECONDS=seconds, **costs):
-        return LAB.kept(model, P, K, size)[0] - 1
+        return 100 * (LAB.kept(model, P, K, size)[1] - 1)
 
 
 def circle(step, dt, gain, lap, limit):
@@ -123,7 +123,7 @@ def best(
 
 
 @numbers.add(
-    "off the circle, clipped", "{:.1f} mm",
+    "off the circle, clipped", "{:.0f} mm",
     damping=between(0.2, 0.9, "less is asked near the end of the reach, and less cut"),
     dt=between(1.1, 2.0, "a joint that is cut off is wrong for longer"),
     gain=between(1.1, 2.0, "more is asked, so more is cut"),

@@ -136,7 +136,7 @@ def test_the_formula_of_the_stiffness_has_no_step_and_the_gap_halves_with_it():
 
 def test_one_side_is_off_by_a_cubic_term_and_the_mean_of_both_is_not():
     near, far = (lab.kept(MODEL, P, K, size) for size in (0.01, 0.1))
-    assert f"off by {100 * (near[1] - 1):.1f} % at 10 mrad" in SENTENCES
+    assert f"off by {100 * (near[1] - 1):.2f} % at 10 mrad" in SENTENCES
     assert (far[1] - 1) / (near[1] - 1) == pytest.approx(10, rel=0.05)
     assert (near[1] - 1) / (1 - near[0]) == pytest.approx(1, rel=0.02)
     assert f"off by {near.mean() - 1:.0e}".replace("e-0", "e-") in SENTENCES

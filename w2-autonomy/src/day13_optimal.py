@@ -141,7 +141,7 @@ def box_qp(
 ) -> np.ndarray:
     """Return the x, (n,), in the box for which x . H x / 2 + g . x is least.
 
-    x is where to start, also outside. That of 13.4: (0.5, 1); without the box (-2, 6).
+    x is where to start, also outside. That of `kkt_residual`: (0.5, 1); without the box (-2, 6).
     """
     # region 13.5
     x = np.clip(x, lo, hi)
@@ -208,7 +208,7 @@ def ilqr_backward(
 
 
 def expected_drop(drop: np.ndarray, alpha: float) -> float:
-    """Return what a step of alpha k should save; drop, (2,), is 13.7's.
+    """Return what a step of alpha k should save; drop, (2,), is `ilqr_backward`'s.
 
     expected_drop([-4, 2], 0.5) -> 1.5
     """
@@ -232,7 +232,7 @@ def limit_prices(
 ) -> np.ndarray:
     """Return d(least cost) / d(limit), (n,), at the best x: 0 where no limit holds it.
 
-    That of 13.4, where x is (0.5, 1): (0, -7.5).
+    That of `kkt_residual`, where x is (0.5, 1): (0, -7.5).
     """
     # region 13.9
     slope = H @ x + g
