@@ -145,7 +145,7 @@ def test_one_side_is_off_by_a_cubic_term_and_the_mean_of_both_is_not():
     kept, _ = costs(*wrong)
     assert f"off by {100 * (kept - 1):.1f} %, " in SENTENCES
     one_side, _ = costs(*wrong, both=False)
-    assert f"{one_side:.3f} on one side" in SENTENCES
+    assert f"({one_side:.3f} on one side)" in SENTENCES
 
 
 def test_it_stabilises_and_is_not_best(printed):
