@@ -74,16 +74,16 @@ class Best(Tab):
         self.set: dict[str, float] = {
             "damping": LAB.DAMPING, "turn": 1.0, "share": 1.0, "radius": LAB.RADIUS,
         }  # fmt: skip
-        page.slider("radius", 0.3, 0.4, LAB.RADIUS, self.sets("radius"), unit="m")
-        page.slider("damping", 0.002, 0.05, LAB.DAMPING, self.sets("damping"))
-        page.slider("a turn weighs", 0.001, 1.0, 1.0, self.sets("turn"))
-        page.slider("of the speed", 0.3, 1.0, 1.0, self.sets("share"))
+        self.slider("radius, m", 0.3, 0.4, "radius", 0.005)
+        self.slider("damping", 0.002, 0.05, "damping", 0.001)
+        self.slider("a turn weighs", 0.01, 1.0, "turn", 0.01)
+        self.slider("share of the speed", 0.3, 1.0, "share", 0.05)
         page.buttons([DRAW, AGAIN], self.press)
         self.numbers = page.html()
         title = "what your step asks, in parts of the speed limit"
         self.speeds = page.bars(JOINTS, 1.0, "", title, "up")
-        title = "what each limit costs, by your limit_prices, mm² per mrad"
-        self.costs = page.bars(JOINTS, 0.1, "", title, "scale")
+        title = "your limit_prices, the most so far, mm² per mrad"
+        self.costs = page.bars(JOINTS, 0.2, "", title, "scale")
         self.loop = page.animate(self.step, 1 / LAB.DT, work=self.draw)
         page.hide_arm()
         named = {f"{name}, {'dls_step' if name == 'clipped' else 'qp_ik'}": colour
@@ -94,6 +94,13 @@ class Best(Tab):
         self.goal = page.draw.curve(start, "orange", 2.0)
         self.lines = [page.draw.curve(start, colour) for colour in COLOURS.values()]
         self.again()
+
+    def slider(
+        self, text: str, low: float, high: float, name: str, step: float
+    ) -> None:
+        """Add a slider of one of the settings."""
+        to = self.sets(name)
+        self.page.slider(text, low, high, self.set[name], to, unit="", step=step)
 
     def sets(self, name: str) -> Callable[[float], None]:
         """Return what a slider does: all arms go back to the start."""
@@ -112,6 +119,7 @@ class Best(Tab):
         self.circle, q = day13_mujoco.circle(*of)
         self.pens = {name: Pen(self.arm, q) for name in COLOURS}
         self.speed, self.price = np.zeros(7), np.zeros(7)
+        self.last: tuple[Array, ...] = ()  # what limit_prices is asked next
         points = self.circle[:, :3, 3]
         self.goal.points = joined([*points, points[0]])
         self.show()
@@ -144,10 +152,11 @@ class Best(Tab):
         weights = np.repeat([self.set["turn"], 1.0], 3)
         damping = self.set["damping"]
         clipped, own, best = (self.asked(pen) for pen in self.pens.values())
-        dq = self.own.qp_ik(own.J, own.e, weights, damping, own.low, own.high)
+        asked = ("qp_ik", own.J, own.e, weights, damping, own.low, own.high)
+        priced = [("limit_prices", *self.last)] if self.last else []  # one way there
+        dq, *prices = self.own.many(asked, *priced)
         H = own.J.T @ (weights[:, None] * own.J) + damping**2 * np.eye(7)
-        g = -own.J.T @ (weights * own.e)
-        prices = self.own.limit_prices(H, g, own.low, own.high, dq)
+        self.last = (H, -own.J.T @ (weights * own.e), own.low, own.high, dq)
         right = optimal.qp_ik(best.J, best.e, weights, damping, best.low, best.high)
         plain = np.clip(dls_step(clipped.J, clipped.e, damping), *clipped[2:])
         T_now = self.circle[self.steps]
@@ -155,7 +164,8 @@ class Best(Tab):
             pen.go(step, T_now)
         self.speed = np.abs(dq) / (LAB.SPEED * LAB.DT * self.set["share"])
         # m^2 per rad are 1,000 mm^2 per mrad; box_qp's cost is half of a square.
-        self.price = 2_000 * np.abs(prices)
+        for one in prices:
+            self.price = np.maximum(self.price, 2_000 * np.abs(one))
         self.steps += 1
 
     def show(self) -> None:

@@ -45,13 +45,13 @@ def test_right_functions_draw_what_the_lab_draws_and_the_library_beside_it():
 
 @pytest.mark.kit
 def test_the_joint_that_pays_is_the_elbow():
-    tab = looked(vars(lab), 0)
-    paid = np.zeros(7)
-    for _ in range(TOP):
+    tab = looked(vars(lab), 60)  # before that no limit meets
+    assert not tab.price.any()
+    for _ in range(30):
         tab.draw()
-        paid += tab.price
-    assert np.argmax(paid) == 3
-    assert paid[3] > 0.9 * paid.sum()
+    assert np.argmax(tab.price) == 3
+    assert 0.02 < tab.price[3] < 1
+    assert tab.price[3] > 0.9 * tab.price.sum()
     assert tab.costs.show.called
 
 

@@ -141,7 +141,8 @@ def box_qp(
 ) -> np.ndarray:
     """Return the x, (n,), in the box for which x . H x / 2 + g . x is least.
 
-    x is where to start, also outside. That of `kkt_residual`: (0.5, 1); without the box (-2, 6).
+    x is where to start, also outside. `kkt_residual`'s case: (0.5, 1), where without
+    the box it is (-2, 6).
     """
     # region 13.5
     x = np.clip(x, lo, hi)
