@@ -20,7 +20,6 @@ class Watch:
         residual: N m, (7,), of the last sample.
         worst: the largest of any joint and sample so far, N m.
         link: which link felt something over the threshold first, 1 to 7; 0 for none.
-        since: when that was, seconds on its own clock.
     """
 
     def __init__(self, fns: Any, damping: Array, dt: float):
@@ -30,8 +29,6 @@ class Watch:
         self.dt = dt
         self.worst = 0.0
         self.link = 0
-        self.since = 0.0
-        self.now = 0.0
         self.begin()
 
     def begin(self) -> None:
@@ -49,11 +46,10 @@ class Watch:
             self.residual, self.integral = self.fns.observer_step(
                 self.residual, self.integral, p, *self.known, GAIN, self.dt
             )
-            self.now += self.dt
         self.worst = max(self.worst, float(np.abs(self.residual).max()))
         link = int(self.fns.pushed_link(self.residual, THRESHOLD))
         if link and not self.link:
-            self.link, self.since = link, self.now
+            self.link = link
         return link
 
     def commanded(self, tau: Array, slope: Array, gravity: Array, qd: Array) -> None:
