@@ -178,4 +178,4 @@ def test_a_film_of_it_has_table_wall_and_cube(right):
     assert len(film.blocks(film.qpos[0])) == 3
     assert set(film.moments) <= {name for name, _ in film.phases}
     assert film.model().nq == film.qpos.shape[1]
-    assert scenes.CUBE_HALF == film.blocks(film.qpos[0])[2].half[0]
+    assert film.blocks(film.qpos[0])[2].half[0] == scenes.CUBE_HALF

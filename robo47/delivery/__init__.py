@@ -105,7 +105,7 @@ def deliver(
 
 
 def attempt(fns: Any, seed: int | None = None, **options: Any) -> Result:
-    """Deliver the cube that `make capstone` has, then once more, pushed; or a random one.
+    """Deliver the cube of `make capstone`, then once more, pushed; or a random one.
 
     Args:
         fns: as for `deliver`.

@@ -52,8 +52,8 @@ def told(result: Result) -> Told:
         came=f"{came} behind a wall, {result.place_mm:.1f} mm from its mark."
         if not result.stopped
         else f"The arm stops: {result.stopped}.",
-        way=f"It keeps {result.clearance_mm:.0f} mm from wall and table, and carries the"
-        f" cube at {result.speed:.1f} of its speed, as the weight allows.",
+        way=f"It keeps {result.clearance_mm:.0f} mm from wall and table, and carries"
+        f" the cube at {result.speed:.1f} of its speed, as the weight allows.",
     )
 
 
