@@ -71,7 +71,7 @@ def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
             S = odd_answers.named(asked, S)
         return Verdict("wrong", *_beside(S, asked, names))
     if found := replies_read.of_another_size(asked):
-        return Verdict("wrong", *odd_answers.named(asked, found))
+        return Verdict("wrong", *_of_another_size(asked, S, names, found))
     if found := replies_read.kept_state(asked, source):
         return Verdict("wrong", *found)
     judge_these = _judge_accepted if asked.ask.accept else _judge_values
@@ -95,6 +95,17 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     if off > ask.tolerance:
         return Verdict("close", *_near_miss(asked, case, S, T, off), measured)
     return _judge_right(asked, S, measured)
+
+
+def _of_another_size(
+    asked: Asked, S: Parts, names: Sequence[str], found: Finding
+) -> Finding:
+    """Return what answers of wrong sizes come from; the row may know more of them."""
+    named = odd_answers.named(asked, found)
+    if named is not found or not asked.ask.unnamed:
+        return named
+    T = right_answers(asked.ask, asked.main)
+    return asked.ask.unnamed(_case(asked, S, T, names)) or found
 
 
 def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
@@ -260,7 +271,10 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
 
 def _not_finite(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return that some answers are NaN, and what is wrong with the others."""
-    good = np.all([np.isfinite(s).reshape(len(s), -1).all(axis=1) for s in S], axis=0)
+    # An infinity may be right: only what is none of the right one is said to be odd.
+    pairs = zip(S, T, strict=True)
+    there = [(np.isfinite(s) | (s == t)).reshape(len(s), -1) for s, t in pairs]
+    good = np.all([one.all(axis=1) for one in there], axis=0)
     if good.all():
         return None
     says = f"NaN or infinity comes out for {np.sum(~good)} of {len(good)} inputs"

@@ -29,8 +29,11 @@ class Matrix(Kind):
 
     @property
     def expected(self) -> str:  # noqa: D102
-        m, n = (n or "any" for n in self.shape)
-        return f"a {m}x{n} matrix"
+        m, n = self.shape
+        if m and n:
+            return f"a {m}x{n} matrix"
+        given = f"{m} rows" if m else f"{n} columns" if n else ""
+        return "a matrix" + (f" of {given}" if given else "")
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         square = self.shape[0] == self.shape[1] is not None

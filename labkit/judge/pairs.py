@@ -38,6 +38,7 @@ _BUT = re.compile(
     r"^(?:[^;:]*?\b(?:is|are) right(?: except that|, but|;)"
     r"|right [^;,:]*[;,](?: but)?) "
 )
+EXACT = 1e-8  # of many pairs one comes near by chance, so two must give more digits
 MOST = 80  # mistakes of a function that are tried two at a time
 QUICK = 2e-3  # seconds of a call that a row may say, for its arguments to be changed
 FEW = 6  # wrong calls at which one mistake is tried, before all of them
@@ -254,7 +255,7 @@ class _Pairs:
                 other = self._every(second.redo)
                 if combined is _product and _one_factor(one, other, self.T):
                     continue
-                if _alike(self.case.ask, combined(one, other, self.T), self.S):
+                if _exactly(self.case.ask, combined(one, other, self.T), self.S):
                     return first, second
         return None
 
@@ -275,7 +276,7 @@ class _Pairs:
         for first, change in combinations(general, 2):
             if self._is_this_one(_changed(change, _changed(first, its))):
                 every = _changed(change, _changed(first, self.T))
-                if _alike(self.case.ask, every, self.S):
+                if _exactly(self.case.ask, every, self.S):
                     return first, change
         return None
 
@@ -288,7 +289,7 @@ class _Pairs:
             for k, answer in self.answers.items():
                 if self._is_this_one(_changed(change, answer)):
                     every = self._every(self.mistakes[k].redo)
-                    if _alike(self.case.ask, _changed(change, every), self.S):
+                    if _exactly(self.case.ask, _changed(change, every), self.S):
                         return self.mistakes[k], change
         return None
 
@@ -297,7 +298,7 @@ class _Pairs:
         for pair in self._that_combine():
             if self._is_this_one(self._answer(pair.redo)):
                 every = self._every(pair.redo)
-                if _alike(self.case.ask, every, self.S):
+                if _exactly(self.case.ask, every, self.S):
                     return pair.first, pair.second
         return None
 
@@ -362,7 +363,7 @@ class _Pairs:
         return found
 
     def _is_this_one(self, answer: Parts) -> bool:
-        return bool(_alike(self.case.ask, answer, _nth(self.S, self.i)))
+        return _exactly(self.case.ask, answer, _nth(self.S, self.i))
 
 
 def _handed_back(answer: Parts, arguments: tuple[Any, ...], i: int) -> bool:
@@ -438,9 +439,11 @@ def _sum(a: Parts, b: Parts, right: Parts) -> Parts:
 
 
 def _product(a: Parts, b: Parts, right: Parts) -> Parts:
-    """Return what two wrong factors make together."""
+    """Return what two wrong factors make together; () where 0 would hide one."""
     trios = list(zip(a, b, right, strict=False))
     if any(len({x.shape for x in trio}) > 1 for trio in trios):
+        return ()
+    if any(((z == 0) & ((x != 0) | (y != 0))).any() for x, y, z in trios):
         return ()
     return tuple(np.where(z == 0, 0.0, x * y / np.where(z, z, 1)) for x, y, z in trios)
 
@@ -466,6 +469,11 @@ def _alike(ask: Ask, a: Parts, b: Parts) -> bool | None:
     if len(a) != len(b):
         return None
     return all_match(ask.kinds, a, b)
+
+
+def _exactly(ask: Ask, a: Parts, b: Parts) -> bool:
+    """Return whether two answers match in all the digits that rounding leaves."""
+    return all_match(ask.kinds, a, b, EXACT)
 
 
 def _both_told(ask: Ask, pair: Sequence[Mistake], S: Parts, T: Parts) -> Finding:
