@@ -51,8 +51,9 @@ def of_other_arguments(case: Case, S: Parts, T: Parts) -> Finding | None:
     Such as two exchanged, or one of the other sign: a slip that needs no name.
     """
     ask = case.ask
-    truth: Any = ask.truth
-    if ask.seconds > QUICK or any(kind.whole for kind in ask.kinds):
+    truth = ask.truth
+    whole = any(kind.whole for kind in ask.kinds)
+    if whole or ask.seconds > QUICK or not isinstance(truth, InTurn):
         return None
     i = _tried(ask, S, T)[0]
     for move in _moves(case, i):
@@ -326,9 +327,9 @@ class _Pairs:
     def _of_arguments(self) -> dict[int, Callable[..., Any]]:
         """Which mistakes are the right answer to other arguments."""
         found: dict[int, Callable[..., Any]] = {}
-        if self.case.ask.seconds > QUICK:
+        truth = self.case.ask.truth
+        if self.case.ask.seconds > QUICK or not isinstance(truth, InTurn):
             return found
-        truth: Any = self.case.ask.truth
         for _, _, change in _moves(self.case, self.i):
             asked = self.case.ask.in_turn(partial(_after, truth.function, change))
             answer = self._answer(asked)
