@@ -46,6 +46,7 @@ class Kind:
     none: str = field(default="", kw_only=True)
     single: ClassVar[bool] = False  # whether it has no shape
     whole: ClassVar[bool] = False  # whether equal numbers prove little: counts, choices
+    gap: ClassVar[str] = "off by up to"  # said before how far answers are apart
     empty = True  # whether an answer that is all 0 looks like one that was never filled
     # Mistakes made with a finished answer, by their names in `answer_mistakes`.
     usual: ClassVar[tuple[str, ...]] = ("all-signs", "whole-numbers")
@@ -178,7 +179,7 @@ class Kind:
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:
         """Return lines for --explain."""
-        return (f"off by up to {self.apart(S, T)}",)
+        return (f"{self.gap} {self.apart(S, T)}",)
 
 
 @dataclass(frozen=True)

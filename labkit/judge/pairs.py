@@ -45,6 +45,50 @@ FEW = 6  # wrong calls at which one mistake is tried, before all of them
 SOME = 3  # calls whose numbers it has to give, at least, and half of the wrong ones
 
 
+def of_other_arguments(case: Case, S: Parts, T: Parts) -> Finding | None:
+    """Return that the answers are the right ones to other arguments, or None.
+
+    Such as two exchanged, or one of the other sign: a slip that needs no name.
+    """
+    ask = case.ask
+    truth: Any = ask.truth
+    if ask.seconds > QUICK or any(kind.whole for kind in ask.kinds):
+        return None
+    i = _tried(ask, S, T)[0]
+    for move in _moves(case, i):
+        asked = ask.in_turn(partial(_after, truth.function, move.change))
+        if not _alike(ask, _answer(asked, case.arguments, i, T), _nth(S, i)):
+            continue
+        if _alike(ask, _all(asked, case.arguments), S):
+            k = worst_part(ask.kinds, S, T, ask.near)
+            off = f"Off by up to {ask.kinds[k].apart(S[k], T[k])}"
+            says = f"It is the right answer to other arguments: with {move.says}."
+            how = f"({off}; that gives your numbers exactly.)"
+            return Finding(f"argument-{move.slug}", f"{says} {how}")
+    return None
+
+
+def _tried(ask: Ask, S: Parts, T: Parts) -> list[int]:
+    """Return the calls that pairs are tried at.
+
+    Drawn inputs come last, and hide less; what is furthest off is tried besides.
+    """
+    gap = ask.gaps(S, T)
+    furthest = int(np.argmax(gap))
+    wrong = np.flatnonzero(gap > ask.near)
+    return list(dict.fromkeys([int(wrong[-1]) if len(wrong) else furthest, furthest]))
+
+
+def _moves(case: Case, i: int) -> Iterator[moves.Move]:
+    """Yield what may be done to the arguments, as those of the i-th call are."""
+    columns = case.arguments
+    call = [as_plain(c[i]) if isinstance(c, np.ndarray) else c for c in columns]
+    names = case.names
+    if len(names) != len(call):
+        names = [f"argument {k + 1}" for k in range(len(call))]
+    yield from moves.of_arguments(tuple(map(own, call)), names)
+
+
 def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return two named mistakes that together give the student's answers, or None.
 
@@ -55,12 +99,7 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
     ask = case.ask
     if any(kind.whole for kind in ask.kinds):
         return None
-    gap = ask.gaps(S, T)
-    # Drawn inputs come last, and hide less; what is furthest off is tried besides.
-    furthest = int(np.argmax(gap))
-    wrong = np.flatnonzero(gap > ask.near)
-    tried = dict.fromkeys([int(wrong[-1]) if len(wrong) else furthest, furthest])
-    found = (_two_of(case, S, T, i) for i in tried)
+    found = (_two_of(case, S, T, i) for i in _tried(ask, S, T))
     return next((_both_told(ask, pair, S, T) for pair in found if pair), None)
 
 
@@ -290,9 +329,7 @@ class _Pairs:
         if self.case.ask.seconds > QUICK:
             return found
         truth: Any = self.case.ask.truth
-        call = [as_plain(c[self.i]) if isinstance(c, np.ndarray) else c
-                for c in self.case.arguments]  # fmt: skip
-        for change in moves.of_arguments(tuple(map(own, call))):
+        for _, _, change in _moves(self.case, self.i):
             asked = self.case.ask.in_turn(partial(_after, truth.function, change))
             answer = self._answer(asked)
             for k in self._that_give(answer, partial(self._every, asked)):
