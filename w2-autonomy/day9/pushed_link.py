@@ -70,7 +70,6 @@ def _(residual, threshold):
     last-joint-decides: it is 7 if joint 7 feels it, else 0: a loop overwrites what it
       found
     last-joint-left-out: joint 7 is left out: the loop ends one too early
-    first-joint-left-out: joint 1 is left out: the loop begins one too late
     sign-lost-first-or-1: only a residual above the threshold counts, and it is the
       first such joint, or 1 where none is; a push may turn a joint backwards, and asked
       for is the last
@@ -120,7 +119,6 @@ def _(residual, threshold):
         "largest-signed": int(np.argmax(residual)) + 1,
         "last-joint-decides": 7 * int(over[-1]),
         "last-joint-left-out": last(over[:-1]),
-        "first-joint-left-out": last(over & (np.arange(7) > 0)),
         "sign-lost-first-or-1": int(np.argmax(up)) + 1,
         "squared": last(residual**2 > threshold),
         "numbers-added": int(np.sum(np.flatnonzero(over) + 1)),
