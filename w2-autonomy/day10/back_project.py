@@ -73,6 +73,9 @@ for slug, says, redone, other in (
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, -1, 1]}),
     ("x-left", "x is taken to the left; here it points right, as u does", "with -x",
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, 1, 1]}),
+    ("f-multiplied", "the pixel from the centre is multiplied by f; it is divided",
+     "with (u - cx) f", {"ray": lambda K, h, d: (h - K[:, 2] * [1, 1, 0])
+                         * [K[0, 0], K[1, 1], 1]}),
     ("f-forgotten", "f is missing: pixels from the centre are no metres",
      "with (u - cx, v - cy, 1)", {"ray": lambda K, h, d: h - K[:, 2] * [1, 1, 0]}),
     ("y-up", "y is taken upwards; here it points down, as v does", "with -y",

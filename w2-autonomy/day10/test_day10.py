@@ -9,6 +9,7 @@ import pytest
 
 from conftest import ROOT, load_script, printed_by, sentences
 from robo47 import camera, eye, panda, se3
+from robo47.rotation_log import log_rotation
 from robo47.screws import skew
 
 import day10_mujoco
@@ -325,3 +326,33 @@ def test_three_yaws_are_needed_since_the_nearest_points_find_the_next_hollow():
         worst.append(max(off))
     three, one = worst
     assert f"up to {one:.0f} degrees wrong; from three {three:.0f} at most" in SENTENCES
+
+
+def mirrored(second: float) -> float:
+    """Return in which share of calibrations U V^T is a mirror image.
+
+    Args:
+        second: how far the axes stand out of one plane: 0 for two joints.
+    """
+    rng = np.random.default_rng(3)
+    found = []
+
+    def measured(T):
+        noise = 1e-3 * rng.normal(size=(len(T), 6))
+        return T @ np.array([camera.moved(np.eye(4), xi) for xi in noise])
+
+    for _ in range(100):
+        turns = rng.normal(size=(8, 6)) * [1, 1, second, 0, 0, 0]
+        A = np.array([camera.moved(np.eye(4), xi) for xi in turns])
+        X = se3.make_T(se3.quat_to_R(rng.normal(size=4)), np.zeros(3))
+        pair = measured(A), measured(se3.inverse(X) @ A @ X)
+        a, b = (log_rotation(some[:, :3, :3]) for some in pair)
+        found.append(np.linalg.det(a.T @ b) < 0)
+    return float(np.mean(found))
+
+
+@pytest.mark.kit
+def test_axes_in_one_plane_are_as_likely_a_mirror_as_not_and_others_are_none():
+    assert "as likely a mirror as not" in SENTENCES
+    assert 0.4 < mirrored(0.0) < 0.6
+    assert mirrored(1.0) == 0.0

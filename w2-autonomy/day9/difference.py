@@ -34,6 +34,9 @@ for slug, says, redone, other in (
     ("forward", "each speed is made with the sample after it, which is not there yet; "
      "the last one is repeated", "(q_(k+1) - q_k) / dt, the last one twice",
      {"change": lambda q: np.append(np.diff(q), np.diff(q)[-1])}),
+    ("forward", "each speed is made with the sample after it, which is not there yet; "
+     "after the last one there is a 0", "(q_(k+1) - q_k) / dt, with q_n = 0",
+     {"change": lambda q: np.diff(q, append=0.0)}),
     ("central", "it is the mean of before and after, as by np.gradient; the sample "
      "after is not there yet", "np.gradient", {"change": np.gradient}),
     ("central", "it is the mean of before and after, as by np.gradient, 0 at first; "

@@ -77,6 +77,12 @@ for slug, says, redone, other in (
      {"momentum": lambda G, V: V}),
     ("inertia-twice", "G stands twice; momentum is G V", "with G G V",
      {"momentum": lambda G, V: (G @ G @ V[:, :, None])[:, :, 0]}),
+    ("twists-one-late", "V_i lacks joint i's own speed: it is added after it is used",
+     "with V_(i-1)", {"twists": lambda S, qd: np.cumsum(S * qd[:, None], axis=0)
+                      - S * qd[:, None]}),
+    ("one-late-for-all", "all links from i on are given the twist that comes to link "
+     "i, without joint i's speed; each has its own, V_k", "with G_k V_(i-1)",
+     {"carries": lambda V, i: V * 0 + (V[i - 1] if i else 0)}),
     ("summed-down-the-columns", "the six numbers of a twist are added up; a twist is "
      "the sum of the joints' own", "with the sum along the other axis",
      {"twists": lambda S, qd: np.cumsum(S * qd[:, None], axis=1)}),

@@ -69,6 +69,10 @@ def _(residual, threshold):
       left out
     last-joint-decides: it is 7 if joint 7 feels it, else 0: a loop overwrites what it
       found
+    last-joint-left-out: joint 7 is left out: the loop ends one too early
+    sign-lost-first-or-1: only a residual above the threshold counts, and it is the
+      first such joint, or 1 where none is; a push may turn a joint backwards, and asked
+      for is the last
     squared: the square of a residual is compared with its threshold
     numbers-added: the numbers of all joints that feel it are added up; asked for is the
       last one
@@ -114,6 +118,8 @@ def _(residual, threshold):
         "largest-of-none": int(np.argmax(size)) + 1,
         "largest-signed": int(np.argmax(residual)) + 1,
         "last-joint-decides": 7 * int(over[-1]),
+        "last-joint-left-out": last(over[:-1]),
+        "sign-lost-first-or-1": int(np.argmax(up)) + 1,
         "squared": last(residual**2 > threshold),
         "numbers-added": int(np.sum(np.flatnonzero(over) + 1)),
         "sum-over": last(size.sum() > threshold),
