@@ -448,6 +448,20 @@ def test_nothing_is_written_through_a_link_of_the_students(kit, student, tmp_pat
     assert "notes/f7.md" in done.stderr
 
 
+@pytest.mark.skipif(os.name == "nt", reason="Windows asks for rights to link")
+def test_a_lab_that_is_a_link_is_not_written_through(kit, student, tmp_path):
+    mid_term(kit)
+    real = tmp_path / "lab.py"
+    (student / WORK).rename(real)
+    (student / WORK).symlink_to(real)
+    before = real.read_bytes()
+    done = update(student)
+    mine = (student / WORK).read_bytes()
+    (student / WORK).unlink()
+    assert done.returncode == 0, done.stderr
+    assert real.read_bytes() == mine == before
+
+
 def test_a_lock_of_somebody_elses_git_is_named_and_left(kit, student):
     mid_term(kit)
     lock = student / ".git" / "index.lock"

@@ -26,7 +26,7 @@ AMID = "It stopped amid its last step. Once more, which puts it right: make upda
 
 def state() -> str:
     """Return what an update that ends now leaves behind."""
-    return AMID if store.path_of(NOTE).exists() else UNCHANGED
+    return AMID if store.path_of(NOTE).is_file() else UNCHANGED
 
 
 def take(worktree: Path, own: str) -> None:
@@ -90,7 +90,8 @@ def heal() -> None:
                 _move(worktree, moved)
         if head in (now, to):
             ask("reset", "-q")
-    store.path_of(NOTE).unlink(missing_ok=True)  # else the student went on from there
+    with contextlib.suppress(FileNotFoundError, NotADirectoryError):
+        store.path_of(NOTE).unlink()  # else the student went on from there
 
 
 def in_the_way(names: Iterable[str], own: str, to: str) -> list[str]:
