@@ -375,6 +375,35 @@ def test_a_run_that_ends_in_its_last_step_is_put_right_by_the_next(
     assert "not committed" in (student / SHEET).read_text("utf-8")
 
 
+@pytest.mark.parametrize("note", ["[1]", "{", '{"now": "HEAD", "own": "-x", "to": 5}',
+    '{"now": "%s", "own": "%s", "to": "deadbeef"}'])  # fmt: skip
+def test_a_note_that_means_nothing_is_left_behind(kit, student, note):
+    mid_term(kit)
+    head = git(student, "rev-parse", "HEAD")
+    (student / ".robo47").mkdir(exist_ok=True)
+    text = note % (head, head) if "%" in note else note
+    (student / ".robo47" / "update.json").write_text(text)
+    assert update(student).returncode == 0
+    whole(student)
+
+
+def test_what_is_edited_while_it_merges_is_told_and_kept(kit, student):
+    mid_term(kit)
+    code = (
+        "import sys; sys.argv = ['update.py']\n"
+        "from labkit.base import cli\nfrom labkit.commands import update\n"
+        "from labkit.update import last_step\ntake = last_step.take\n"
+        "def later(*a):\n"
+        f"    open({str(student / SHEET)!r}, 'a').write('meanwhile\\n')\n"
+        "    take(*a)\n"
+        "last_step.take = later\ncli.run(update.main)\n"
+    )
+    done = run_copy(student, "-c", code)
+    assert f"changed meanwhile: {SHEET}" in done.stderr
+    assert update(student).returncode == 0
+    assert "meanwhile" in (student / SHEET).read_text("utf-8")
+
+
 def test_what_is_edited_after_a_run_that_ended_is_not_put_back(kit, student):
     mid_term(kit)
     assert run_copy(student, "-c", ENDS.format(what="move", at=6)).returncode == 9
