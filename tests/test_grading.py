@@ -444,6 +444,13 @@ class TestTheJournal:
         journal = opened(47)
         assert (journal.reference, journal.odd) == (47, 1)
 
+    @pytest.mark.parametrize("now", [-5, 0, 10**11])
+    def test_knows_its_seed_again_whatever_the_clock_says(self, opened, now):
+        first = opened(now)
+        seed = first.seed
+        again = opened(1_788_000_000)
+        assert (again.seed, again.odd) == (seed, 0)
+
     def test_results_come_back_as_they_were(self):
         one = replace(ungraded(DAY, "why"), refused=("open a file",))
         assert from_json(asdict(one), DAY) == Result(**{**vars(one)})
