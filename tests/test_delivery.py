@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from conftest import ROOT
 from robo47 import delivery, panda, scenes, shapes
 from robo47.delivery import phases, scene
 from robo47.delivery.ways import MARGIN
@@ -44,6 +45,22 @@ def test_a_cube_of_150_g_is_seen_weighed_slowed_and_delivered(right):
 def test_a_push_is_felt_one_or_two_samples_later(right):
     assert right.pushed_link >= 4
     assert 0.0 < right.noticed_ms < 25.0
+
+
+@pytest.mark.kit
+def test_what_the_week_predicts_on_paper_is_what_its_page_says(right):
+    page = " ".join((ROOT / "w2-autonomy/README.md").read_text("utf-8").split())
+    wt = phases.SCALE * 0.4
+    scale = 80.0 * (1.0 - (1.0 - wt) * np.exp(-wt))
+    assert f"and {scale:.1f} g after 0.4 s" in page
+    assert f"= {LIGHT * 9.81 * 0.5:.2f} N m" in page
+    closed = right.qpos[np.searchsorted(right.t, dict(right.phases)["lift"]), 7]
+    grip = 50.0 * closed
+    assert f"press with {grip:.2f} N each" in page
+    heavy = 2.0 * grip / 0.15 - 9.81
+    assert (
+        f"{2.0 * grip / LIGHT - 9.81:.1f} m/s² for 80 g, {heavy:.1f} m/s² for" in page
+    )
 
 
 @pytest.mark.kit

@@ -23,7 +23,7 @@ WALL = (0.45, 0.55, 0.70, 1.0)
 
 def row(name: str, result: Result) -> str:
     """Return one line of the table; the place only where it went home."""
-    line = f"{name:26}{result.seen_mm:7.1f}{result.grams:9.1f}{result.speed:7.1f}"
+    line = f"{name:26}{result.seen_mm:7.1f}{result.grams:z9.1f}{result.speed:7.1f}"
     line += f"{result.clearance_mm:8.1f}{result.residual:7.2f}"
     return line + ("   stops" if result.stopped else f"{result.place_mm:8.1f}")
 

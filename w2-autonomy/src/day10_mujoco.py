@@ -119,4 +119,3 @@ def faces(n: int = 7) -> Array:
             np.column_stack([-out, u, v]),
         ]
     )
-
