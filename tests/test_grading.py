@@ -188,7 +188,7 @@ def test_the_drawn_questions_are_the_same_for_everybody(monkeypatch):
     """Else the same code gets two grades; and nobody can know the teacher's seed."""
     seeds = []
 
-    def noted(day, *_, seed):
+    def noted(day, *_, seed, **__):
         seeds.append(seed)
         return [TaskResult(task, Verdict("passed")) for task in day.tasks]
 
@@ -443,6 +443,13 @@ class TestTheJournal:
         (tmp_path / "j").write_text(head)
         journal = opened(47)
         assert (journal.reference, journal.odd) == (47, 1)
+
+    @pytest.mark.parametrize("now", [-5, 0, 10**11])
+    def test_knows_its_seed_again_whatever_the_clock_says(self, opened, now):
+        first = opened(now)
+        seed = first.seed
+        again = opened(1_788_000_000)
+        assert (again.seed, again.odd) == (seed, 0)
 
     def test_results_come_back_as_they_were(self):
         one = replace(ungraded(DAY, "why"), refused=("open a file",))
