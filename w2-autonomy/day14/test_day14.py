@@ -123,6 +123,7 @@ def test_a_held_cube_presses_with_2_n_a_contact_and_the_whole_force_seems_to_sli
     assert np.abs(moment[:3]).max() < 1e-9
 
 
+@pytest.mark.kit
 def test_the_heaviest_cube_hangs_on_the_time_of_its_lift():
     for seconds, grams in ((1.0, 120), (2.0, 121), (0.3, 112)):
         with patch.object(lab, "SLOW", seconds):
