@@ -81,6 +81,8 @@ def test_what_8_of_8_and_60_of_60_and_0_of_60_say():
     high = policy.success_rate(np.zeros(60))[2]
     assert f"says above {low8:.2f}" in SENTENCES
     assert f"below {high:.2f}; 60 of 60 above {low60:.2f}" in SENTENCES
+    assert f"an interval from {low60:.3f} on" in SENTENCES
+    assert f"asks for {lab.needed(0.05)} cubes, not 384" in SENTENCES
     both = [policy.success_rate(np.arange(60) < k)[1:] for k in (16, 55)]
     words = "{:.2f} to {:.2f} and {:.2f} to {:.2f} do not overlap"
     assert words.format(*both[0], *both[1]) in SENTENCES

@@ -100,7 +100,7 @@ def grasp_matrix(points: np.ndarray, centre: np.ndarray) -> np.ndarray:
 
     (moment; force) about the centre, (3,); the columns of a point stand together.
     Points (0, 0.02, 0) and (0, -0.02, 0) about 0, both pushing 1 N up: (0, 0, 0, 0, 0,
-    2); one up and one down: (0.04, 0, 0, 0, 0, 0).
+    2); one up and one down: a moment about x alone.
     """
     # region 14.2
     blocks = [np.vstack([skew(p - centre), np.eye(3)]) for p in points]
@@ -202,7 +202,7 @@ def cem_step(
 def success_rate(success: np.ndarray) -> np.ndarray:
     """Return the rate of True in success, (n,), and its 95 % interval: (3,).
 
-    The interval is Day 12's wilson. 8 of 8: (1, 0.67559, 1).
+    The interval is Day 12's wilson. success_rate(np.ones(8)) -> (1, 0.67559, 1)
     """
     # region 14.8
     won = int(np.sum(success))
