@@ -202,7 +202,7 @@ def cem_step(
 def success_rate(success: np.ndarray) -> np.ndarray:
     """Return the rate of True in success, (n,), and its 95 % interval: (3,).
 
-    The interval is Day 12's wilson. success_rate(np.ones(8)) -> (1, 0.67559, 1)
+    The interval is Day 12's wilson. success_rate(np.ones(8)) -> (1, 0.675584, 1)
     """
     # region 14.8
     won = int(np.sum(success))
