@@ -319,7 +319,7 @@ def given_to_functions(rng: np.random.Generator) -> dict[str, list[tuple]]:
     poses = [se3.make_T(se3.Rz(yaw), (0.4, -0.1, 0.02)) for yaw in yaws]
     thetas = START + 3 * SPREAD * rng.normal(size=(12, 6))
     seen = [policy.observe(*some) for some in zip(poses, noise, strict=True)]
-    heights = np.array([0.01, 0.2, 0.9, np.nan, -0.01, np.inf, -np.inf, 0.3])
+    heights = np.array([0.01, 0.2, 0.9, np.nan, -0.5, np.inf, -np.inf, 0.3])
     samples = rng.normal(size=(9, 6))
     scores = np.array([0.2, 1, np.nan, 0.5, 1, -1, 1, np.nan, 0.5])
     return {
