@@ -24,7 +24,7 @@ LAB = lab_of(find_day(14))  # its seeds, its start, what is held
 AGAIN, ROUND, TRY, NEW = "lift again", "learn a round", "try 20 cubes", "start over"
 TRIED = 20
 ROUND_CONE = 12  # edges of a cone that is drawn
-LONG = 0.012  # m of an arrow, for 1 N
+LONG = 0.008  # m of an arrow, for 1 N
 SIZE = (240, 360)  # px of the dots' picture
 FRICTION, GRAMS = (0.1, 1.0), (0.0, 300.0)  # its ends
 BLUE, RED, BLACK, PAPER = (0, 114, 178), (213, 94, 0), (33, 37, 41), (250, 250, 250)
@@ -82,8 +82,8 @@ class Touch(Tab):
         self.plot = page.plot(curves, y="least margin, N", height=130)
         page.buttons([AGAIN, ROUND, TRY, NEW], self.press)
         self.bars = page.bars(
-            list(LAB.NUMBERS), np.ones(6), "of its most",
-            "theta; marks: and its spread", "both",
+            [name.partition(",")[0] for name in LAB.NUMBERS], np.ones(6), "",
+            "theta, as a share of its limit; marks: one spread more", "both",
         )  # fmt: skip
         self.learned = page.html()
         self.image = page.image(self.dots([]), "friction to the right, mass upwards")
@@ -162,7 +162,7 @@ class Touch(Tab):
         off = np.abs(np.subtract(*least)).max(initial=0.0)
         good = off < 1e-6
         lines = [
-            (f"after 1 s the cube is {said}: {1000 * lifted.height:.0f} mm up", "held",
+            (f"after 1 s the cube is {said}: {1000 * lifted.height:z.0f} mm up", "held",
              ""),
             (f"each pad presses with {lifted.newtons:.1f} N; "
              f"{weight(lifted):.1f} N would do", "press", ""),

@@ -81,6 +81,8 @@ def test_what_8_of_8_and_60_of_60_and_0_of_60_say():
     high = policy.success_rate(np.zeros(60))[2]
     assert f"says above {low8:.2f}" in SENTENCES
     assert f"below {high:.2f}; 60 of 60 above {low60:.2f}" in SENTENCES
+    assert f"an interval from {low60:.3f} on" in SENTENCES
+    assert f"asks for {lab.needed(0.05)} cubes, not 384" in SENTENCES
     both = [policy.success_rate(np.arange(60) < k)[1:] for k in (16, 55)]
     words = "{:.2f} to {:.2f} and {:.2f} to {:.2f} do not overlap"
     assert words.format(*both[0], *both[1]) in SENTENCES
@@ -123,6 +125,7 @@ def test_a_held_cube_presses_with_2_n_a_contact_and_the_whole_force_seems_to_sli
     assert np.abs(moment[:3]).max() < 1e-9
 
 
+@pytest.mark.kit
 def test_the_heaviest_cube_hangs_on_the_time_of_its_lift():
     for seconds, grams in ((1.0, 120), (2.0, 121), (0.3, 112)):
         with patch.object(lab, "SLOW", seconds):

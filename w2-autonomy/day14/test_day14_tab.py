@@ -4,6 +4,7 @@ import importlib.util
 import re
 
 import numpy as np
+import pytest
 
 from conftest import ROOT, load_script, need, paper
 from labkit.lesson.day import find_day
@@ -72,6 +73,7 @@ def test_with_a_reflex_the_cube_is_held_and_one_that_opens_drops_it():
     assert tab.own.says()[1] == "bad"
 
 
+@pytest.mark.kit
 def test_a_round_is_the_students_and_dots_come_in_on_theta_s_line():
     module = DAY.module("inspector")
     tab = looked(vars(lab))

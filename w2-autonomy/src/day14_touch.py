@@ -100,7 +100,7 @@ def grasp_matrix(points: np.ndarray, centre: np.ndarray) -> np.ndarray:
 
     (moment; force) about the centre, (3,); the columns of a point stand together.
     Points (0, 0.02, 0) and (0, -0.02, 0) about 0, both pushing 1 N up: (0, 0, 0, 0, 0,
-    2); one up and one down: (0.04, 0, 0, 0, 0, 0).
+    2); one up and one down: a moment about x alone.
     """
     # region 14.2
     blocks = [np.vstack([skew(p - centre), np.eye(3)]) for p in points]
@@ -202,7 +202,7 @@ def cem_step(
 def success_rate(success: np.ndarray) -> np.ndarray:
     """Return the rate of True in success, (n,), and its 95 % interval: (3,).
 
-    The interval is Day 12's wilson. 8 of 8: (1, 0.67559, 1).
+    The interval is Day 12's wilson. success_rate(np.ones(8)) -> (1, 0.675584, 1)
     """
     # region 14.8
     won = int(np.sum(success))
@@ -319,7 +319,7 @@ def given_to_functions(rng: np.random.Generator) -> dict[str, list[tuple]]:
     poses = [se3.make_T(se3.Rz(yaw), (0.4, -0.1, 0.02)) for yaw in yaws]
     thetas = START + 3 * SPREAD * rng.normal(size=(12, 6))
     seen = [policy.observe(*some) for some in zip(poses, noise, strict=True)]
-    heights = np.array([0.01, 0.2, 0.9, np.nan, -0.01, np.inf, -np.inf, 0.3])
+    heights = np.array([0.01, 0.2, 0.9, np.nan, -0.5, np.inf, -np.inf, 0.3])
     samples = rng.normal(size=(9, 6))
     scores = np.array([0.2, 1, np.nan, 0.5, 1, -1, 1, np.nan, 0.5])
     return {
