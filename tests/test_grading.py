@@ -252,9 +252,13 @@ class TestTheGrader:
             (folder / "x.py").write_text("")
         for folder in (old, commit, other):
             os.utime(folder, (1_000_000_000, 1_000_000_000))
+        at_work = tmp_path / f"robo47-grader-{os.getpid()}_a"  # and the clock jumped
+        at_work.mkdir()
+        os.utime(at_work, (5, 5))
         with engine.local(1):
             assert [*map(Path.exists, (old, commit))] == [False, False]
             assert [*map(Path.exists, (new, other))] == [True, True]
+            assert at_work.exists() is sys.platform.startswith("linux")
 
     def test_shows_what_was_refused_though_the_code_caught_it(self):
         curious = "try: open('/etc/shadow')\n    except OSError: pass"
@@ -771,6 +775,9 @@ class TestWhatDoesNotShow:
             f"x = '\\''; y = '''\n{RZ}'''",
             f"# {RZ.splitlines()[0]}\nRz = other",
             "from elsewhere import Rz",
+            f"{RZ}from elsewhere import Rz",
+            f"{RZ}from elsewhere import *",
+            f"{RZ}Rz = elsewhere.Rz",
             "class A:\n    def Rz(theta): pass\nRz = A.Rz",
             "",
         ],
@@ -782,6 +789,7 @@ class TestWhatDoesNotShow:
         "texts",
         [
             [RZ],
+            [f"from math import *\n{RZ}import numpy\nx = 1\nRzz = 2"],
             ["from mine import Rz", RZ],
             ["Rz = lambda theta: 1"],
             [f'"""A lab."""\n\n@wraps\n{RZ}'],

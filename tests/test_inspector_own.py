@@ -135,3 +135,13 @@ def test_what_an_answer_says_cannot_become_part_of_the_page():
     shown = words.judged(str(said.value), "whose", "bad")
     assert "<img" not in shown
     assert "&lt;img" in shown
+
+
+def test_a_way_may_have_any_number_of_rows_and_no_other_width():
+    library = {"way": lambda: np.zeros((3, 2))}
+    own = Own(Answers({"way": lambda: np.ones((5, 2))}), library, any_rows={"way"})
+    assert own.way().shape == (5, 2)
+    assert own.says() == ("YOUR way", "good")
+    own = Own(Answers({"way": lambda: np.ones((5, 3))}), library, any_rows={"way"})
+    with pytest.raises(NoAnswerError, match=r"returned shape \(5, 3\)"):
+        own.way()

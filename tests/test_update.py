@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import sys
 from shutil import copytree, ignore_patterns
 
 import pytest
@@ -476,6 +477,29 @@ def test_a_file_may_become_a_folder_and_a_folder_a_file(kit, student):
     assert (student / "one" / "y").read_text() == "y"
     assert (student / "two").read_text() == "a file"
     assert git(student, "status", "-s") == ""
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="needs a limit")
+@pytest.mark.parametrize("most", [0, 500, 5_000, 50_000])
+def test_a_full_disk_changes_nothing_and_the_next_run_is_whole(kit, student, most):
+    """No file may be larger: what a full disk is for whoever writes one."""
+    mid_term(kit)
+    (kit / "large.txt").write_text("x" * 60_000)
+    commit(kit, "a large file")
+    before = state(student)
+    code = (
+        "import resource, sys; sys.argv = ['update.py']\n"
+        f"resource.setrlimit(resource.RLIMIT_FSIZE, ({most}, {most}))\n"
+        "from labkit.base import cli\nfrom labkit.commands import update\n"
+        "cli.run(update.main)\n"
+    )
+    done = run_copy(student, "-c", code)
+    assert done.returncode == 2, done.stdout
+    assert "Nothing of yours has changed." in done.stderr
+    assert "Traceback" not in done.stderr
+    assert state(student) == before
+    assert update(student).returncode == 0
+    whole(student)
 
 
 def test_work_that_is_not_committed_stays_so_where_nothing_is_new(kit, student):

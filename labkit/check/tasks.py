@@ -1,6 +1,7 @@
 """From a student's file to one result per task."""
 
 import contextlib
+import re
 import secrets
 import tokenize
 from collections.abc import Sequence
@@ -20,6 +21,7 @@ from labkit.lesson.added_code import kits_functions, kits_own, old_names
 from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
 from labkit.lesson.slips import arguments, renamed, unfinished
+from labkit.lesson.starter import function_lines
 from labkit.sandbox.messages import library_of, robots_of
 from labkit.sandbox.sandbox import Sandbox, deadline_of
 
@@ -241,7 +243,8 @@ def _of_function(day: Day, task: Task, asked: Asked, source: str) -> Verdict:
     both = [*asked.main, *asked.fresh]
     for one, reply in zip(both, replies(both), strict=True):
         if reply.given:
-            return too_slow(day, function, one.question.args, reply)
+            slow = too_slow(day, function, one.question.args, reply)
+            return _with_slip(asked, slow, source)
         if early := no_answer(reply, function, task.id):
             slip = early.mistake == "unwritten" and unfinished(source, function)
             if early.mistake == "missing" and (near := renamed(source, function)):
@@ -260,6 +263,19 @@ def _of_function(day: Day, task: Task, asked: Asked, source: str) -> Verdict:
         if refused:
             return refusal(refused[0], None)
     return _changed_arguments(function, came, verdict)
+
+
+def _with_slip(asked: Asked, verdict: Verdict, source: str) -> Verdict:
+    """Return a verdict on a call without an end, with what the row says of such loops."""
+    if verdict.mistake != "stopped":
+        return verdict
+    code = "\n".join(function_lines(source, asked.function)[2])
+    for slip in asked.ask.slips:
+        if re.search(slip.error, "stopped") and re.search(slip.source, code):
+            return replace(
+                verdict, mistake=slip.slug, message=f"{verdict.message} {slip.says}"
+            )
+    return verdict
 
 
 def _not_utf8(script: Path) -> str:

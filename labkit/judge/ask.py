@@ -89,10 +89,12 @@ class HeldOut:
 
 @dataclass(frozen=True)
 class Slip:
-    """A slip that ends in an exception whose own text does not help."""
+    """A slip that ends in an exception whose own text does not help, or never ends."""
 
-    error: str  # regular expression that the "Type: text" of the exception matches
-    source: str  # one that the student's file matches
+    # Regular expression that the "Type: text" of the exception matches, or the word
+    # "stopped", of a call without an end.
+    error: str
+    source: str  # one that the student's file matches; of "stopped" the function alone
     slug: str  # its name
     says: str  # what to say, a sentence or two
 
@@ -110,6 +112,7 @@ class Case:
     # Per question of `Ask.probe` its arguments and the answer, or None.
     probes: Sequence[tuple[tuple[Any, ...], Any]] = ()
     further: "Further | None" = None  # what a sentence must hold for as well
+    names: Sequence[str] = ()  # of the arguments, for sentences
 
 
 @dataclass(frozen=True)
@@ -153,7 +156,8 @@ class Ask:
     # Inputs of further questions, whose replies only help to say where a wrong answer
     # goes wrong; they may be errors.
     probe: Inputs | None = None
-    # Says where an answer that no named mistake gives goes wrong.
+    # Says where an answer that no named mistake gives goes wrong, of another size too:
+    # S and T of the case are filled up with zeros then.
     unnamed: Callable[[Case], Finding | None] | None = None
     # Says why an answer is right to some digits only.
     near_miss: Callable[[Case], Finding | None] | None = None
@@ -208,6 +212,10 @@ class Ask:
     def gaps(self, S: Parts, T: Parts) -> Array:
         """Return per call how far an answer is off, beyond what `rtol` allows."""
         return gaps(self.kinds, S, T, self.rtol)
+
+    def gaps_of(self, j: int, s: Array, t: Array) -> Array:
+        """Return per call how far the j-th result is off, likewise."""
+        return gaps(self.kinds[j : j + 1], (s,), (t,), self.rtol)
 
     @cached_property
     def cost(self) -> float:
