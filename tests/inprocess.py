@@ -37,7 +37,9 @@ class InProcess:
         self.added = ""
         self.most = NUMBERS
 
-    def run(self, script, exchanges, library, needs=None, added="", limits=None):
+    def run(
+        self, script, exchanges, library, needs=None, added="", limits=None, _=None
+    ):
         """Ask every question, load the file anew, and ask again from the end.
 
         A way is a function of this process, which is not loaded anew: of what it might
@@ -56,7 +58,7 @@ class InProcess:
                 again = self._ask(second, exchange.question, [])
             exchange.reply = twice(exchange.reply, again)
 
-    def session(self, script, robots, library, added="", limits=None, brief=False):
+    def session(self, script, robots, library, added="", limits=None, **_):
         """Return something to ask, as `Sandbox.session` does."""
         self.added = added
         self.module = self._load(script)

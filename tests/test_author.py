@@ -45,6 +45,15 @@ def test_a_new_day_is_all_as_it_must_be(kit):
     assert f"**[Day 46: Trial]({GUIDE})**" in (kit / "README.md").read_text()
 
 
+def test_what_the_skeleton_says_for_the_author_is_told_and_a_worksheet_is_written(kit):
+    (kit / WEEK / "docs" / "day46.md").unlink()
+    done = run_copy(kit, "scripts/author_day.py", "46", "--fast")
+    assert done.returncode == 0, done.stdout
+    says = " ".join(done.stdout.split())
+    assert "wrote w9-trial/docs/day46.md, yours to fill in" in says
+    assert 'docs/day46.md still has the skeleton\'s "What do you want to ask?"' in says
+
+
 def test_its_starter_is_to_do_and_its_lab_passes(kit):
     done = run_copy(kit, "scripts/run_day.py", "46", "--kit", "--no-log")
     assert done.returncode == 0

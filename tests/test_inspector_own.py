@@ -39,6 +39,12 @@ def test_what_is_not_written_is_the_librarys_and_is_called_that():
     assert own.says()[0].startswith("YOUR double: the same as the library's; besides")
 
 
+def test_a_name_that_the_tab_did_not_give_is_told():
+    _, own = own_of({})
+    with pytest.raises(AttributeError, match="given has no ask"):
+        own.ask([("double", ONE)])
+
+
 def test_without_a_file_all_is_the_librarys():
     student = Answers({})
     student.there = False

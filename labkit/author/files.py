@@ -18,6 +18,16 @@ from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import find_regions
 from robo47.paths import ROOT, shown
 
+# What `make new` writes for somebody to write over.
+SKELETON = (
+    "what its lab shows, in a line of the week's table",
+    "What the student can do tonight that they could not do this morning.",
+    "What you would have liked to hear, and the step that people miss.",
+    "What do you want to ask?",
+    "what this week is about",
+    "What this week is about.",
+)
+
 
 def faults_of(day: Day) -> Iterator[str]:
     """Yield what is missing or does not fit between a day's files, with its remedy."""
@@ -34,6 +44,26 @@ def faults_of(day: Day) -> Iterator[str]:
     )
     for part in parts:
         yield from part(day)
+
+
+def write_worksheet(day: Day) -> bool:
+    """Write a worksheet where there is none; return whether that was so."""
+    path = day.folder / day.worksheet
+    if not day.worksheet or path.is_file():
+        return False
+    path.write_text(worksheet_of(day), "utf-8", newline="\n")
+    return True
+
+
+def unwritten(day: Day) -> Iterator[str]:
+    """Yield the sentences of the skeleton that stand where the author's belong."""
+    week = day.folder / "week.toml", day.folder / "README.md"
+    papers = day.folder / day.guide, day.folder / day.worksheet, day.own / "day.toml"
+    for path in (*papers, *week):
+        text = " ".join(path.read_text("utf-8").split()) if path.is_file() else ""
+        for sentence in SKELETON:
+            if sentence in text:
+                yield f'{shown(path)} still has the skeleton\'s "{sentence}"'
 
 
 def _regions(day: Day) -> Iterator[str]:
@@ -130,14 +160,10 @@ def _committed(day: Day) -> Iterator[str]:
 
 
 def _worksheet(day: Day) -> Iterator[str]:
-    """Yield the sections that a worksheet lacks; write one where there is none."""
+    """Yield the sections that a worksheet lacks."""
     if not day.worksheet:
         return
     path = day.folder / day.worksheet
-    if not path.is_file():
-        path.write_text(worksheet_of(day), "utf-8", newline="\n")
-        yield f"{shown(path)} was not there: written from day.toml, yours to fill in"
-        return
     there = split_sections(path.read_text("utf-8"))
     for name in split_sections(worksheet_of(day)):
         asked = [one for one in there if one.startswith(name.partition(":")[0])]

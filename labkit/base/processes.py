@@ -54,6 +54,7 @@ class Child:
     def __init__(self, module: str, *arguments: str, **options: Any) -> None:
         """Start `python -m module`, with options of `subprocess.Popen`."""
         self.late = False  # ended for taking too long
+        self.ran = 0.0  # seconds that it had a processor, when it was ended for that
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 (closed by close)
         pipes: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
         command = [sys.executable, "-m", module, *arguments]
@@ -72,6 +73,7 @@ class Child:
 
         def stop() -> None:
             self.late = True
+            self.ran, _ = scheduled(self.process)
             end(self.process)
 
         timer = threading.Timer(seconds, stop)

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from labkit.base.deadline import Deadline
 from labkit.base.exchange import Exchange, LoadError, Reply
 from labkit.check.slow import too_slow
 from labkit.judge.ask import Asked, asked_of, replies
@@ -22,7 +23,7 @@ from labkit.lesson.day import Day, Task
 from labkit.lesson.slips import arguments, renamed, unfinished
 from labkit.lesson.starter import function_lines
 from labkit.sandbox.messages import library_of, robots_of
-from labkit.sandbox.sandbox import Sandbox
+from labkit.sandbox.sandbox import Sandbox, deadline_of
 
 FRESH_ONLY = ("looked-up", "some-inputs")  # found by inputs that a seed draws
 
@@ -54,6 +55,7 @@ def check_tasks(
     sandbox: Sandbox,
     only: str | None = None,
     seed: int | None = None,
+    deadline: Deadline | None = None,
 ) -> list[TaskResult]:
     """Check the tasks of a day.
 
@@ -64,6 +66,7 @@ def check_tasks(
         only: one task's id; where it is wrong, what it needs is asked as well.
         seed: of the fresh inputs, for a grade that can be repeated; it must not be
             known to the student.
+        deadline: of the submission, second looks included; None is a new one.
 
     Returns:
         One result per task, in the manifest's order.
@@ -76,7 +79,7 @@ def check_tasks(
         verdict = Verdict("todo", "does-not-load", why)
         return [TaskResult(task, verdict) for task in wanted]
     seed = secrets.randbits(32) if seed is None else seed
-    check = _Check(day, script, sandbox, seed)
+    check = _Check(day, script, sandbox, seed, deadline or deadline_of(day))
     try:
         results = check.ask(wanted)
         if only and results[wanted[0].id].verdict.status not in ("passed", "todo"):
@@ -94,12 +97,15 @@ def check_tasks(
 class _Check:
     """One check of a student's file."""
 
-    def __init__(self, day: Day, script: Path, sandbox: Sandbox, seed: int) -> None:
+    def __init__(
+        self, day: Day, script: Path, sandbox: Sandbox, seed: int, deadline: Deadline
+    ) -> None:
         """Take what `check_tasks` takes."""
         self.day = day
         self.script = script
         self.sandbox = sandbox
         self.seed = seed
+        self.deadline = deadline
         there = script.is_file()  # the sandbox refuses what is none
         self.source = script.read_text("utf-8", errors="replace") if there else ""
         self.borrowed = borrowed_tasks(day, self.source)
@@ -129,6 +135,7 @@ class _Check:
                 {task.id: self.day.needs(task.id) for task in tasks},
                 self.added if added is None else added,
                 self.day.limits,
+                self.deadline,
             )
         return {task.id: self._result(task) for task in tasks}
 
@@ -153,7 +160,7 @@ class _Check:
         """
         result = results[task.id]
         added = self.added
-        if result.verdict.follows:
+        if result.verdict.follows and not self.deadline.over:
             needed = [self.day.task(id) for id in self.day.needs(task.id)]
             broken = [one for one in needed if not results[one.id].passed]
             if kits := kits_functions(self.day, broken):
@@ -162,7 +169,7 @@ class _Check:
                 if again.passed:
                     follow = [o for o in broken if not results[o.id].verdict.follows]
                     return replace(result, verdict=_inherited(follow or broken))
-                result = again
+                result = result if self.deadline.over else again
         verdict = result.verdict
         if verdict.call:
             typed = f'make check TASK={task.id} ARGS="--seed {self.seed}"'
@@ -170,7 +177,7 @@ class _Check:
             verdict = replace(verdict, measured=(*verdict.measured, says))
             if verdict.mistake in FRESH_ONLY:
                 verdict = replace(verdict, message=f"{verdict.message} {says}")
-        if verdict.wrong_calls:
+        if verdict.wrong_calls and not self.deadline.over:
             verdict = self._with_experiments(task, verdict, added)
         return replace(result, verdict=verdict)
 
@@ -186,6 +193,7 @@ class _Check:
             added,
             self.day.limits,
             brief=True,
+            deadline=self.deadline,
         )
         with contextlib.closing(session):
             names = arguments(self.source, asked.function)

@@ -17,7 +17,7 @@ from labkit.base import cli
 from labkit.lesson.day import all_days
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.sealed import seal
-from labkit.update.merge import NOBODY, ask
+from labkit.update.git import NOBODY, ask
 from robo47 import __version__
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown

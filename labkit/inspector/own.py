@@ -54,6 +54,8 @@ class Own:
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
         """Return a function of the student's by its name."""
+        if name not in self._library:
+            raise AttributeError(f"what page.own(...) was given has no {name}")
         return lambda *args: self.many((name, *args))[0]
 
     def many(self, *calls: Call) -> list[Any]:

@@ -5,6 +5,7 @@ function of the manifest. Inputs are drawn from a `Draw`, or from `Edges`.
 """
 
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import chain
@@ -16,7 +17,7 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Path, Question, Reply
 from labkit.judge import fits
-from labkit.judge.answers import InTurn, Parts, gaps, parts
+from labkit.judge.answers import InTurn, Parts, gaps, own, parts
 from labkit.judge.draw import Draw, Edges
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
@@ -164,6 +165,8 @@ class Ask:
     # Whether a call with edge values has one right answer; None is yes.
     at_edge: Callable[..., bool] | None = None
     seconds: float = 0.0  # that a call of the reference takes; 0: it is measured here
+    # Returns the lab's own function, or None: a truth that is faster says too little.
+    reference: Callable[[], Callable[..., Any] | None] = lambda: None
 
     def __post_init__(self) -> None:
         """Refuse a row that has neither or both of truth and accept.
@@ -217,6 +220,25 @@ class Ask:
             return self.seconds
         last = stacked([Exchange(Question("", "", self.main[-1]))])
         return fits.measured(lambda: truth(*last))
+
+    @cached_property
+    def labs_cost(self) -> float:
+        """Seconds of a call of the lab's own function here, unless the row says it."""
+        lab = None if self.seconds else self.reference()
+        if lab is None:
+            return self.cost
+        plain = [as_plain(arg) for arg in self.main[-1]]
+        with suppress(NotImplementedError):  # a lab that is not written yet
+            return max(self.cost, fits.measured(lambda: lab(*map(own, plain))))
+        return self.cost
+
+    def cost_in(self, seconds: float) -> float:
+        """Return what a call costs; a task with more seconds asks the lab's own, too.
+
+        Args:
+            seconds: for all calls of the task.
+        """
+        return self.labs_cost if seconds > SECONDS else self.cost
 
     @cached_property
     def drawn(self) -> int:
@@ -287,7 +309,8 @@ def asked_of(
         ask.known.clear()
         more = [ask.probe or (lambda rng: []), *(held.inputs for held in ask.held_out)]
         further = [draw(Draw(SEED)) for draw in more]
-        beside = fits.fitting(ask.main, ask.edges, ask.anew(seed), ask.cost, seconds)
+        cost = ask.cost_in(seconds)
+        beside = fits.fitting(ask.main, ask.edges, ask.anew(seed), cost, seconds)
         ask.known[key] = [
             [Question(task, function, tuple(args)) for args in calls]
             for calls in (ask.main, beside, *further)

@@ -30,8 +30,9 @@ from labkit.judge.ask import (
 )
 from labkit.judge.failing_call import failing_call, for_fresh
 from labkit.judge.kinds import Kind
-from labkit.judge.made_again import redone, two_at_once
+from labkit.judge.made_again import redone
 from labkit.judge.mistake import Finding, Verdict
+from labkit.judge.pairs import by_results, in_some_calls, two_at_once
 from labkit.judge.typed import in_words
 from robo47.checks import Array
 
@@ -118,7 +119,8 @@ def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
     wrong = case.ask.gaps(S, T) > case.ask.near
     if not wrong.any():
         return found
-    named = diagnose(case, S, T)
+    # One answer alone may be that of many mistakes.
+    named = diagnose(case, S, T) if wrong.sum() > 1 else None
     other = named or what_is_wrong(case, S, T)
     some = f"Of the {len(wrong)} other answers {wrong.sum()} are wrong, too."
     also = "The other answers are wrong, too." if wrong.all() else some
@@ -233,7 +235,7 @@ def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
 
 
 def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
-    """Return the first of: a named mistake, no answer, always one, two mistakes."""
+    """Return the first of: a named mistake, no answer, always one, two, one in part."""
     ask = case.ask
     found = redone(ask, case.arguments, S, T, case.further)
     found = found or _nothing_there(case, S) or _none_or_not(case, S, T)
@@ -242,12 +244,14 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     i = worst_part(ask.kinds, S, T, ask.near)
     every = (S[i], case.further.S[i]) if case.further else (S[i],)
     found = _all_the_same(ask.kinds[i], every, T[i])  # simpler than two mistakes
-    if found := found or two_at_once(case, S, T) or near_miss.rounded(S[i], T[i]):
+    found = found or two_at_once(case, S, T) or by_results(case, S, T)
+    if found := found or near_miss.rounded(S[i], T[i]):
         return found
     try:
-        return ask.unnamed(case) if ask.unnamed else None
+        found = ask.unnamed(case) if ask.unnamed else None
     except np.linalg.LinAlgError:  # of a singular answer
-        return None
+        found = None
+    return found or in_some_calls(case, S, T)
 
 
 def _not_finite(case: Case, S: Parts, T: Parts) -> Finding | None:

@@ -26,11 +26,22 @@ def _(J, sigma):
     noise-divided: it is divided by sigma^2; more noise makes it less sure
     mean-over-points: it is multiplied by the number of pixels, or J^T J is a mean over
       them; each further pixel makes the pose surer => the right one times 2 n
+    divided-by-points: it is divided by the number of points; J^T J adds them up
+      already => the right one / n
+    divided-by-points 2: it is divided by the number of pixels; J^T J adds them up
+      already => the right one / (2 n)
+    reshaped-across: J is reshaped to (6, 2 n), which only counts its numbers off anew;
+      it has a row per number of a pixel, (2 n, 6) => with J.reshape(6, -1)
+    u-alone: only the rows of u are used; v shows as much
+    sigma-for-variance 2: these are roots of the entries: a covariance has squares,
+      rad^2 => with np.sqrt, which has no root of what is below 0
     halves-swapped: the blocks are those of (v; omega); here omega comes first
     diagonal-only: only the diagonal is there; how the six go together is lost
     diagonal-inverted: each entry of J^T J's diagonal is inverted alone => with 1 / the
       diagonal
     """
+    u = J[:, 0]
+    across = J.reshape(6, -1)
     J = J.reshape(-1, 6)
     N = J.T @ J
     C = sigma**2 * np.linalg.inv(N)
@@ -42,6 +53,11 @@ def _(J, sigma):
         "sigma-forgotten": C / sigma**2,
         "noise-divided": C / sigma**4,
         "mean-over-points": C * len(J),
+        "divided-by-points": C / (len(J) / 2),
+        "divided-by-points 2": C / len(J),
+        "reshaped-across": lambda: sigma**2 * np.linalg.inv(across @ across.T),
+        "u-alone": lambda: sigma**2 * np.linalg.inv(u.T @ u),
+        "sigma-for-variance 2": np.sqrt(C),
         "halves-swapped": C[HALF][:, HALF],
         "diagonal-only": np.diag(np.diag(C)),
         "diagonal-inverted": np.diag(sigma**2 / np.diag(N)),

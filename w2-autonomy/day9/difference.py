@@ -33,6 +33,11 @@ def _(q, dt):
     sign: it is the sample before minus this one; the speed is positive where q grows
     two-samples: it is the change over two samples, divided by one dt
     half-speed: it is divided by 2 dt, as a central difference is
+    mean-of-two: it is the change over two samples, divided by 2 dt: that is the speed
+      of a sample ago => (q_k - q_(k-2)) / (2 dt)
+    since-the-start: it is the mean speed since the first sample; the sample before is
+      enough => (q_k - q_0) / (k dt)
+    last-left-out: the last speed is 0: the loop ends one too early
     """
     right = difference(q, dt)
     return {
@@ -46,6 +51,9 @@ def _(q, dt):
         "sign": -right,
         "two-samples": np.append([0.0, 0.0], q[2:] - q[:-2]) / dt,
         "half-speed": right / 2,
+        "mean-of-two": np.append([0.0, 0.0], q[2:] - q[:-2]) / (2 * dt),
+        "since-the-start": (q - q[0]) / (dt * np.maximum(np.arange(len(q)), 1)),
+        "last-left-out": np.append(right[:-1], 0.0),
     }
 
 

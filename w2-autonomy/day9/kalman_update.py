@@ -37,6 +37,8 @@ def _(x, P, z, H, R):
     only-R: S is R alone: what is not known of the state is left out => with S = R
     R-rooted: R is rooted: it is a variance already => with sqrt(R)
     R-squared: R is squared: it is a variance already => with R R
+    R-subtracted: R is subtracted in S; the reading's noise adds to what is not known =>
+      with S = H P H^T - R
     R-inverted: R's inverse is added: that belongs to the information form => with R^-1
     S-not-inverted: K lacks S^-1: it is P H^T => with K = P H^T
     S-multiplied: K is P H^T S; it is divided by S => with K = P H^T S
@@ -48,6 +50,8 @@ def _(x, P, z, H, R):
     P-with-R: K R K^T is subtracted; it is K S K^T
     P-without-S: K K^T is subtracted; S stands between => P - K K^T
     P-I-minus-K-H: it is I - K H; P is what it is multiplied with
+    P-minus-K-H: K H is subtracted; it is K H P, which is K S K^T
+    P-joseph-short: it is (I - K H) P (I - K H)^T; Joseph's form has K R K^T besides
     x-not-updated: x is handed on as it was
     x-only-where-read: only entries of x that are read are corrected; the others go
       along with them by P => x, with the others as they were
@@ -61,6 +65,8 @@ def _(x, P, z, H, R):
     nis-not-weighed: the NIS is y . y: it is divided by S, and has no unit
     nis-after: the NIS is that of what is left after the update; it is that of the
       surprise => with z - H x of the new x
+    nis-with-new-P: the NIS is weighed by the S of the new P; the surprise came before
+      it => with H P H^T + R of the new P
     nis-diagonal: the NIS takes the diagonal of S alone; surprises may go together
     nis-per-number: the NIS is divided by m; its mean is m, not 1
     nis-multiplied: the NIS is y . S y; it is divided by S
@@ -88,6 +94,8 @@ def _(x, P, z, H, R):
         "P-with-R": P - K @ R @ K.T,
         "P-without-S": P - K @ K.T,
         "P-I-minus-K-H": left,
+        "P-minus-K-H": P - K @ H,
+        "P-joseph-short": left @ P @ left.T,
     }
     xs = {
         "surprise-sign": x - K @ y,
@@ -102,6 +110,7 @@ def _(x, P, z, H, R):
         "nis-rooted": np.sqrt(nis),
         "nis-not-weighed": y @ y,
         "nis-after": after @ inverse @ after,
+        "nis-with-new-P": y @ np.linalg.solve(H @ new_P @ H.T + R, y),
         "nis-diagonal": y @ (y / np.diag(S)),
         "nis-per-number": nis / len(z),
         "nis-multiplied": y @ S @ y,
@@ -111,6 +120,7 @@ def _(x, P, z, H, R):
         "only-R": with_S(R),
         "R-rooted": with_S(S - R + np.sqrt(np.abs(R))),
         "R-squared": with_S(S - R + R @ R),
+        "R-subtracted": with_S(S - 2 * R),
         "R-inverted": with_S(S - R + np.linalg.inv(R)),
         "S-not-inverted": with_K(P @ H.T),
         "S-multiplied": with_K(P @ H.T @ S),

@@ -1,0 +1,12 @@
+"""A lab that starts with `import kit` runs in the kit's own Python, whoever starts it.
+
+`make start` puts a copy beside your own script: keep it there.
+"""
+
+import os
+
+_folder = os.path.dirname(os.path.abspath(__file__))
+_script = os.path.join(_folder, os.pardir, os.pardir, "scripts", "kit.py")
+if os.path.exists(_script):  # a copy outside the clone, as a checker's, needs no help
+    with open(_script) as _file:
+        exec(compile(_file.read(), _script, "exec"), {"__file__": _script})
