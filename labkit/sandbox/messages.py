@@ -124,6 +124,10 @@ def robots_of(questions: Iterable[Question]) -> Robots:
     return list(robots.values())
 
 
+class StaysError(Robo47Error):
+    """A question holds something that cannot travel to the sandbox."""
+
+
 def pack(
     questions: Sequence[Question], models: Sequence[dict[str, Any]]
 ) -> list[dict[str, Any]]:
@@ -140,7 +144,7 @@ def pack(
         packed |= zip(plain, map(wire.pack_value, plain.values()), strict=True)
     except wire.UnsendableError as error:
         asked = ", ".join(sorted({one.function for one in questions}))
-        raise Robo47Error(f"a question to {asked} holds {error}") from None
+        raise StaysError(f"a question to {asked} holds {error}") from None
     return [
         {"function": one.function, "args": [packed[id(arg)] for arg in one.args]}
         for one in questions

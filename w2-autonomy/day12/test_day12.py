@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from conftest import ROOT, load_script, printed_by, sentences
+from labkit.check.lab_run import rehearse
 from labkit.check.tasks import check_tasks
 from labkit.lesson.day import find_day
 from labkit.sandbox.sandbox import Sandbox
@@ -317,3 +318,11 @@ def test_edges_of_a_way_are_free_and_a_step_long_at_most():
     for a, b in pairwise(way):
         assert np.linalg.norm(b - a) <= lab.STEP * (1 + 1e-12)
         assert wall.edge_free(a, b)
+
+
+@pytest.mark.kit
+def test_behind_the_wall_the_lab_is_run_though_no_world_of_the_arm_travels():
+    with Sandbox() as sandbox:
+        fault, numbers, unfinished = rehearse(DAY, DAY.source, sandbox)
+    assert (fault, unfinished) == ("", "")
+    assert numbers["planned", "low_160"] == pytest.approx(0.9398, abs=1e-4)
