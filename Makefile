@@ -11,7 +11,7 @@ ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 # Without DAY= a script takes the day that you worked on last.
 ON_DAY = $(if $(DAY),--day $(DAY))
 # A command of a day does not take WEEK= in silence.
-OF_A_DAY = start check hint borrow run view figures notebook docs author constants
+OF_A_DAY = start watch hunt check hint borrow run view figures notebook docs author constants
 ifeq ($(origin WEEK),command line)
   ifneq ($(filter $(OF_A_DAY),$(MAKECMDGOALS)),)
     $(error make $(firstword $(MAKECMDGOALS)) takes DAY=2, no WEEK=)
@@ -27,15 +27,22 @@ VIEW := $(if $(findstring --screenshot,$(ARGS)),figures,view)
 RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/dev/null),figures,core)
 
 .DEFAULT_GOAL := help
-.PHONY: update edition start check hint borrow run doctor bench kernels test-matrix setup robot view grade
+.PHONY: update edition start watch hunt check hint borrow run doctor bench kernels test-matrix setup robot view grade
 .PHONY: capstone proof fresh help test soak report lint docs site oracle figures notebook
 .PHONY: new author gaps constants
 
-help: ## this list
+help: ## these verbs; ALL=1 lists those of teachers and authors too
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
+	@echo
+	@sed -n 's/^\([a-z0-9%-]*\):.*##\([0-9]\) \(.*\)/\2  make \1|\3/p' Makefile | sort \
+	  | cut -c2- | awk -F'|' '{printf "%-18s %s\n", $$1, $$2}'
+ifdef ALL
 	@echo
 	@sed -n 's/^\([a-z0-9%-]*\):.*## \(.*\)/  make \1|\2/p' Makefile | sed 's/%/1/' \
 	  | awk -F'|' '{printf "%-18s %s\n", $$1, $$2}'
+else
+	@echo "  make help ALL=1    all others: the capstone, grading, writing a day"
+endif
 	@echo
 	@echo "DAY=2 names a day, WEEK=1 a week; without it: the one you worked on last."
 	@echo "ARGS='...' passes options on: make day1 ARGS=--no-log"
@@ -46,34 +53,40 @@ day%: .venv/.ready-core $(ROBOT) ## set up, run the kit's Day 1 lab, verify it, 
 week%: .venv/.ready-core $(ROBOT) ## run every lab of week 1: its numbers in one table
 	@$(PY) scripts/run_week.py $* $(ARGS) $(NOT_YET)
 
-capstone: .venv/.ready-$(if $(findstring .,$(ARGS)),figures,core) $(ROBOT) ## pick the cube up with your functions of the week; ARGS=--all
+capstone: .venv/.ready-$(if $(findstring .,$(ARGS)),figures,core) $(ROBOT) ## the week at work with your functions; ARGS=--all
 	@$(PY) scripts/capstone.py $(ON_WEEK) $(ARGS) $(NOT_YET)
 
-proof: .venv/.ready-view $(ROBOT) ## a page to show: your numbers, the pick in 3D, one file
+proof: .venv/.ready-view $(ROBOT) ## a page to show: your numbers, the capstone in 3D, one file
 	@$(PY) scripts/proof.py $(if $(WEEK),--week $(WEEK)) $(ON_DAY) $(ARGS) $(NOT_YET)
 
 fresh: .venv/.ready-core $(ROBOT) ## does a clone of your last commit give your numbers?
 	@$(PY) scripts/fresh.py $(ON_WEEK) $(ARGS) $(NOT_YET)
 
-view: .venv/.ready-$(VIEW) $(ROBOT) ## the arm and the proof; ARGS=--web, --screenshot
+view: .venv/.ready-$(VIEW) $(ROBOT) ##6 the arm and the proof; ARGS=--web, --screenshot
 	@$(PY) scripts/view_panda.py $(DAY) $(ARGS)
 
-start: .venv/.ready-core ## write your copy of a day's lab; RESET=1.4 empties a task
+start: .venv/.ready-core ##0 write your copy of a day's lab; RESET=1.4 empties a task
 	@$(PY) scripts/start_day.py $(DAY) $(if $(RESET),--reset $(RESET)) $(ARGS)
 
-check: .venv/.ready-core $(ROBOT) ## check your day, or TASK=1.4 alone; ARGS=--watch
+check: .venv/.ready-core $(ROBOT) ##2 check your day, or TASK=1.4 alone
 	@$(PY) scripts/check_day.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS) $(NOT_YET)
 
-hint: .venv/.ready-core $(ROBOT) ## the next hint, for TASK=1.4 or for what is next
+watch: .venv/.ready-core $(ROBOT) ##1 one loop: save, read the verdict, go on; keys for the rest
+	@$(PY) scripts/watch_day.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS) $(NOT_YET)
+
+hunt: .venv/.ready-core $(ROBOT) ##8 find the bug: a right lab with one mistake; LEVEL=2 SEED=7
+	@$(PY) scripts/hunt_bug.py $(DAY) $(if $(LEVEL),--level $(LEVEL)) $(if $(SEED),--seed $(SEED)) $(ARGS) $(NOT_YET)
+
+hint: .venv/.ready-core $(ROBOT) ##3 the next hint, for TASK=1.4 or for what is next
 	@$(PY) scripts/hint.py $(TASK) $(ON_DAY) $(ARGS) $(NOT_YET)
 
-borrow: .venv/.ready-core $(ROBOT) ## stuck? go on with the kit's function of TASK=1.4
+borrow: .venv/.ready-core $(ROBOT) ##4 stuck? go on with the kit's function of TASK=1.4
 	@$(PY) scripts/borrow.py $(TASK) $(ON_DAY) $(ARGS)
 
-run: .venv/.ready-$(RUN) $(ROBOT) ## run your own copy of the lab, log its numbers
+run: .venv/.ready-$(RUN) $(ROBOT) ##5 run your own copy of the lab, log its numbers
 	@$(PY) scripts/run_day.py $(DAY) $(ARGS) $(NOT_YET)
 
-update: .venv/.ready-core ## the kit's newest version, your work kept; FROM=https://...
+update: .venv/.ready-core ##9 the kit's newest version, your work kept; FROM=https://...
 	@$(PY) scripts/update.py $(if $(FROM),--from $(FROM)) $(if $(TO),--to $(TO)) $(ARGS)
 
 doctor: ## what this machine has and lacks; paste it when asking
@@ -92,7 +105,7 @@ test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 soak: .venv/.ready-test ## the long tests: a log of gigabytes, a class of 200
 	@$(PY) -m pytest -m soak -s $(ARGS)
 
-report: .venv/.ready-core ## metrics/report.html from the log; WEEK=1 its page alone
+report: .venv/.ready-core ##7 metrics/report.html from the log; WEEK=1 its page alone
 	@$(PY) scripts/report_metrics.py $(if $(WEEK),--week $(WEEK)) $(ON_DAY) $(ARGS)
 
 kernels: .venv/.ready-test $(ROBOT) ## the tests of numbers as on other processors

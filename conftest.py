@@ -98,7 +98,7 @@ def paper(model, q, functions=None):
     page = MagicMock(model=model, q=np.array(q, dtype=float))
     student = Answers(functions or {})
     student.there = functions is not None
-    page.own.side_effect = lambda library, free=(): Own(student, library, free)
+    page.own.side_effect = lambda library, **how: Own(student, library, **how)
     page.job.side_effect = lambda work, done: done(work())
     for name in ("curve", "arrows", "lines", "label", "ghost"):
         getattr(page.draw, name).side_effect = lambda *_, **__: MagicMock()

@@ -98,6 +98,17 @@ class Chain:
         end.mark(self.frame)
         return plan
 
+    @cached_property
+    def plan_of_links(self) -> Plan:
+        """The same, with the frame of every link that a joint moves."""
+        plan = Plan(self.nq)
+        end = Cursor(plan)
+        for link in self.links:
+            _add_link(end, link)
+            if link.joints:
+                end.mark(link.name)
+        return plan
+
 
 def chain_to(model: mujoco.MjModel, frame: str) -> Chain:
     """Return the chain from the world to a frame, a copy of what the model says.
@@ -141,6 +152,23 @@ def fk(chain: Chain, qpos: ArrayLike) -> Array:
         ValueError: wrong shape, a non-finite number, or a quaternion of length 0.
     """
     return evaluate(chain.plan, _configurations(qpos, chain.nq))[chain.frame]
+
+
+def fk_links(chain: Chain, qpos: ArrayLike) -> Array:
+    """Return the pose of every link on a chain that a joint moves, from the base on.
+
+    Args:
+        chain: from `chain_to`.
+        qpos: configurations as MuJoCo orders them, (..., nq): radians and metres.
+
+    Returns:
+        T_world_link, (..., links, 4, 4).
+
+    Raises:
+        ValueError: as `fk`.
+    """
+    poses = evaluate(chain.plan_of_links, _configurations(qpos, chain.nq))
+    return np.stack([*poses.values()], axis=-3)
 
 
 def fk_all(model: mujoco.MjModel, qpos: ArrayLike) -> dict[str, Array]:

@@ -37,7 +37,9 @@ class InProcess:
         self.added = ""
         self.most = NUMBERS
 
-    def run(self, script, exchanges, library, needs=None, added="", limits=None):
+    def run(
+        self, script, exchanges, library, needs=None, added="", limits=None, _=None
+    ):
         """Ask every question, load the file anew, and ask again from the end.
 
         A way is a function of this process, which is not loaded anew: of what it might
@@ -56,7 +58,7 @@ class InProcess:
                 again = self._ask(second, exchange.question, [])
             exchange.reply = twice(exchange.reply, again)
 
-    def session(self, script, robots, library, added="", limits=None, brief=False):
+    def session(self, script, robots, library, added="", limits=None, **_):
         """Return something to ask, as `Sandbox.session` does."""
         self.added = added
         self.module = self._load(script)
@@ -107,7 +109,7 @@ class InProcess:
         changed = [
             i
             for i, (arg, was) in enumerate(zip(args, question.args, strict=True))
-            if isinstance(was, np.ndarray) and not np.array_equal(arg, was)
+            if isinstance(was, np.ndarray) and not _same(arg, was)
         ]
         shares, handed = _shares(value, kept, args)
         names = list(inspect.signature(function).parameters) if changed + handed else ()
@@ -124,6 +126,11 @@ class InProcess:
         if isinstance(arg, Path):
             return list(arg.pairs)
         return arg.copy() if isinstance(arg, np.ndarray) else arg
+
+
+def _same(arg, was):
+    """Return whether an array is what it was, NaN where it had one."""
+    return np.array_equal(arg, was, equal_nan=was.dtype.kind == "f")
 
 
 @functools.cache

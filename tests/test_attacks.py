@@ -602,7 +602,9 @@ class TestAForgedMessage:
 def test_the_teachers_guide_tells_the_limits_that_hold():
     guide = " ".join((ROOT / "docs" / "teaching.md").read_text("utf-8").split())
     for says in (
-        f"{sandbox.RUN_SECONDS:.0f} s of one processor, {Limits().memory:.0f} GB of",
+        f"{sandbox.RUN_SECONDS:.0f} s of one processor and "
+        f"{DAY.lab_seconds:.0f} s of its lab",
+        f"{Limits().memory:.0f} GB of memory",
         f"{process.MOST_BYTES // 10**6} MB of replies",
         f"{git.SECONDS:.0f} s of git's",
         f"{pull.SECONDS} s and {git.LARGEST_GIT // 10**9} GB of disk",

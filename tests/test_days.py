@@ -7,10 +7,12 @@ import pytest
 from catalogue import run_as_lab
 
 from conftest import ROOT, days, kits_worksheet
+from labkit.base import git
 from labkit.handin.worksheet import split_sections
 from labkit.judge.row import rows_of
 from labkit.lesson.lab import predictions
 from labkit.lesson.starter import find_regions, make_starter
+from labkit.lesson.week import WORK, weeks
 from labkit.sandbox.messages import library_of
 
 DAYS = days()
@@ -18,6 +20,7 @@ each_day = pytest.mark.parametrize("day", DAYS, ids=lambda day: f"day{day.number
 
 
 @each_day
+@pytest.mark.kit
 class TestManifest:
     def test_the_script_has_exactly_the_tasks_of_the_manifest(self, day):
         regions = find_regions(day.source.read_text("utf-8"), day.script)
@@ -119,6 +122,7 @@ class TestScript:
             task.id: ("passed", "") for task in day.tasks
         }
 
+    @pytest.mark.kit
     def test_the_starter_has_every_task_to_do(self, day, tmp_path):
         path = tmp_path / day.script
         text = make_starter(day.source.read_text("utf-8"), day.script, day.number)
@@ -130,6 +134,7 @@ class TestScript:
     def test_the_complete_lab_passes(self, day):
         assert run_as_lab(day) == 0
 
+    @pytest.mark.kit
     def test_a_mistake_in_a_docstring_is_ours_so_each_task_has_one(self, day):
         text = day.source.read_text("utf-8")
         for task in day.tasks:
@@ -143,6 +148,7 @@ def code_of(path):
     return text.split('"""', 2)[-1] if path.parent.name == "commands" else text
 
 
+@pytest.mark.kit
 def test_the_machine_names_no_day():
     words = re.compile(r"\bday\d+\b|day\d+_|compose_fk|link4_to_world")
     named = [
@@ -152,3 +158,15 @@ def test_the_machine_names_no_day():
         if words.search(line.replace("make day1", ""))  # the first command
     ]
     assert named == []
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize("week", weeks(), ids=lambda week: week.folder.name)
+def test_the_kit_holds_no_file_of_a_student(week):
+    """A clone would begin with it, and `make start` would not write the starter."""
+    try:
+        place = f"{week.folder.name}/{WORK}"
+        held = git.run("ls-files", "--", place, folder=ROOT, seconds=git.SECONDS)
+    except git.GitError:
+        pytest.skip("no git repository")
+    assert held.stdout == ""

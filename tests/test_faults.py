@@ -26,6 +26,7 @@ from labkit.grade.package import Package, collect, fingerprint
 from labkit.grade.roster import Student
 from labkit.handin import handin
 from labkit.handin.deliverables import check_deliverables
+from labkit.lesson import own_files
 from labkit.sandbox import process, sandbox
 from labkit.sandbox.process import Process
 from labkit.sandbox.sandbox import Sandbox
@@ -455,14 +456,14 @@ class TestGit:
 def test_a_disk_that_fails_is_no_file_of_the_students(tmp_path, monkeypatch, number):
     (tmp_path / WEEK / "work").mkdir(parents=True)
     (tmp_path / SCRIPT).write_text(FINE)
-    real = Path.lstat
+    real = os.stat
 
-    def fails(self):
-        if self.name == DAY.script:
+    def fails(path, **how):
+        if os.path.basename(path) == DAY.script and "dir_fd" in how:
             raise OSError(number, os.strerror(number))
-        return real(self)
+        return real(path, **how)
 
-    monkeypatch.setattr(Path, "lstat", fails)
+    monkeypatch.setattr(os, "stat", fails)
     with pytest.raises(OSError, match=os.strerror(number)):
         handin.read_handin(DAY, tmp_path)
     with pytest.raises(FaultError, match=f"{os.strerror(number)}. Nothing was judged"):
@@ -475,6 +476,36 @@ def test_a_name_that_no_file_can_have_is_no_fault(tmp_path):
     (tmp_path / "loop").symlink_to(tmp_path / "loop")
     with pytest.raises(handin.UnreadError, match="behind a link"):
         handin.read(tmp_path, "loop/x", 9)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows asks for rights to link")
+@pytest.mark.parametrize("which", ["folder", "file", "pipe"])
+def test_what_is_swapped_while_it_is_read_leads_nowhere(tmp_path, monkeypatch, which):
+    """The other's file is put in place after each look, as a racing student would."""
+    for who in ("mine", "other"):
+        (tmp_path / who / "w" / "work").mkdir(parents=True)
+        (tmp_path / who / "w" / "work" / "x.py").write_text(who)
+    part = tmp_path / "mine" / "w" / ("work" if which == "folder" else "work/x.py")
+    real = os.stat
+
+    def looked(path, **how):
+        found = real(path, **how)
+        if path == part.name and not part.is_symlink():
+            part.rename(tmp_path / "away")
+            if which == "pipe":
+                os.mkfifo(part)
+            else:
+                part.symlink_to(
+                    tmp_path / "other" / part.relative_to(tmp_path / "mine")
+                )
+        return found
+
+    monkeypatch.setattr(os, "stat", looked)
+    try:
+        found = own_files.read(tmp_path / "mine", "w/work/x.py", 100)
+    except own_files.UnreadError as error:
+        found = str(error)
+    assert found in (None, own_files.BEHIND_A_LINK, "is no file")
 
 
 def test_a_link_is_said_to_be_one_wherever_it_leads(tmp_path):

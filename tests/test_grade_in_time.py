@@ -5,6 +5,7 @@ import shutil
 import subprocess
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from make_class import DAY, DEADLINE, WEEK, commit, put
@@ -12,15 +13,17 @@ from make_class import DAY, DEADLINE, WEEK, commit, put
 from conftest import need
 from labkit.base.git import before
 from labkit.commands import grade as command
+from labkit.commands import proof
 from labkit.grade import package as packages
-from labkit.grade import sheet
+from labkit.grade import page, sheet
 from labkit.grade.course import Course, Graded, percent
 from labkit.grade.journal import Journal
 from labkit.grade.package import collect, read_in_time
 from labkit.grade.pull import pull_all
-from labkit.grade.result import Mark, Result, counted
+from labkit.grade.result import Mark, Result, counted, ungraded
 from labkit.grade.roster import Student
 from labkit.handin.deliverables import item_names
+from labkit.lesson.day import all_days
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
@@ -60,6 +63,73 @@ def test_a_broken_commit_after_the_deadline_counts_for_nothing(clone):
     assert (text, package.commit, package.late) == ("good = 1", good, 2)
     assert package.committed == DEADLINE - HOUR
     assert collected(clone, None)[1] == "broken(("  # without a deadline the last one
+
+
+def test_a_page_to_show_is_of_the_commit_that_was_graded(clone, tmp_path, monkeypatch):
+    """Under a deadline and with the best of all results."""
+    good = save(clone, "good = 1", DEADLINE - HOUR)
+    late = save(clone, "late = 1", DEADLINE + HOUR)
+    (clone / SCRIPT).write_text("not committed = 1")
+    mia = Student("Mia", "mia", clone, file="mia")
+    for commit_, text in ((good, b"good = 1"), (late, b"not committed = 1")):
+        one = collect(mia, DAY, at=commit_)
+        assert (one.commit, one.handin.files[SCRIPT]) == (commit_, text)
+    asked = []
+
+    def run(words, **_):
+        asked.extend(words)
+        return subprocess.CompletedProcess(words, 0, "", "")
+
+    monkeypatch.setattr(command.processes, "run", run)
+    graded = [Course(DAY, [Graded(mia, result(8), commit=good)])]
+    command.prove([mia], DAY.week.number, tmp_path / "proof", 1, graded)
+    assert asked[-2:] == ["--graded", f"1:{good}"]
+    assert proof.graded(asked[-1]) == {1: good}
+    seen = []
+
+    def facts_of(day, *_, at, **__):
+        seen.append((day.number, at))
+        return SimpleNamespace(own=(), functions=1)
+
+    monkeypatch.setattr(proof, "facts_of", facts_of)
+    days = all_days()[:3]
+    found = {1: good, 2: late}
+    assert len([*proof.run_days(days, mia, tmp_path, None, False, found)]) == 3
+    assert seen == [(1, good), (2, late), (3, late)]  # a capstone's other days
+
+
+@pytest.mark.parametrize("text", ["1:..", "1:HEAD", "x:360fd61", "1:--all", "1"])
+def test_a_graded_commit_is_a_hash(text):
+    with pytest.raises(ValueError, match=r"."):
+        proof.graded(text)
+
+
+@pytest.mark.parametrize("what", ["year 5138", "no git", "a link"])
+def test_a_time_that_nobody_knows_is_said_to_be_unknown(clone, what):
+    save(clone, "x = 1", DEADLINE)
+    if what == "year 5138":
+        text = git(clone, "cat-file", "commit", "HEAD") + "\n"
+        (clone / "text").write_text(text.replace(f"{DEADLINE} ", "99999999999 "))
+        odd = git(clone, "hash-object", "-t", "commit", "-w", "text")
+        git(clone, "update-ref", "HEAD", odd)
+    if what == "no git":
+        shutil.rmtree(clone / ".git")
+    if what == "a link":
+        (clone / ".git").rename(clone / "elsewhere")
+        (clone / ".git").symlink_to("elsewhere")
+    package = collected(clone)[0]
+    assert package.committed is None
+    mia = Student("Mia", "mia", clone)
+    one = Graded(mia, result(8), commit=package.commit, late=package.late)
+    assert one.late_by == ("unknown", "unknown")
+    head, row = sheet.as_csv([one]).decode("utf-8-sig").splitlines()
+    cells = dict(zip(head.split(","), row.split(","), strict=True))
+    assert cells["late_minutes"] == cells["late_days"] == "unknown"
+    since = cells["minutes_since_commit_own_clock"]
+    assert since == ("unknown" if package.commit else "")
+    assert ">unknown</td>" in page.render(Course(DAY, [one], deadline=True))
+    assert replace(one, late=None).late_by == (None, None)  # there is no deadline
+    assert replace(one, result=ungraded(DAY, "")).late_by == (None, None)
 
 
 @pytest.mark.parametrize(("when", "late"), [(DEADLINE, 0), (DEADLINE + 5400, 1)])

@@ -46,6 +46,7 @@ from labkit.handin.deliverables import check_deliverables, item_names
 from labkit.handin.handin import Handin
 from labkit.judge import Verdict
 from labkit.lesson.day import all_days, find_day
+from labkit.lesson.starter import starter_of
 from robo47.errors import FaultError, Robo47Error
 from robo47.paths import ROOT
 
@@ -217,7 +218,7 @@ class TestTheGrader:
         grader = Grader()
         package = Package(1, "", Handin({SCRIPT: SOLVED.encode()}))
         with pytest.raises(FaultError, match="took more than 0 s"):
-            grader.grade(package, seconds=0.001)
+            grader.grade(package, beyond=-129.999)
         assert not grader.alive
         assert not Path(grader.folder).exists()
         grader = Grader()
@@ -251,9 +252,13 @@ class TestTheGrader:
             (folder / "x.py").write_text("")
         for folder in (old, commit, other):
             os.utime(folder, (1_000_000_000, 1_000_000_000))
+        at_work = tmp_path / f"robo47-grader-{os.getpid()}_a"  # and the clock jumped
+        at_work.mkdir()
+        os.utime(at_work, (5, 5))
         with engine.local(1):
             assert [*map(Path.exists, (old, commit))] == [False, False]
             assert [*map(Path.exists, (new, other))] == [True, True]
+            assert at_work.exists() is sys.platform.startswith("linux")
 
     def test_shows_what_was_refused_though_the_code_caught_it(self):
         curious = "try: open('/etc/shadow')\n    except OSError: pass"
@@ -718,9 +723,111 @@ class TestSimilarity:
         (group,) = similar.like_the_kit({"a": [own, copy], "b": [own]}, kit)
         assert (group.keys, group.with_kit) == (("a",), True)
 
+    @pytest.mark.parametrize("hide", ["more", "pass", "helper", "names"])
+    def test_knows_the_kits_functions_beside_whatever_else(self, hide):
+        text = SOLVED
+        if hide == "more":
+            text += "".join(
+                f"\n\ndef f{i}(a, b):\n    return a[{i}] ** {i} - np.tan(b * {i}) / a\n"
+                for i in range(60)
+            )
+        if hide == "pass":
+            assigned = r"(?m)^((?:    )+\w+ = [^#\n]+[^,(\[{\n])$"
+            text = re.sub(assigned, r"\1; pass; unused = 0", text)
+            assert text.count("; pass") > 9
+        if hide == "names":
+            text = renamed(text)
+        kit, parts = classroom._runs_of_kit(DAY), classroom._runs_of_functions(DAY)
+        files = [similar.runs_of(text.encode(), STARTER)]
+        if hide == "helper":
+            files.insert(0, similar.runs_of(b"from copied import *", STARTER))
+        (group,) = similar.like_the_kit({"a": files}, kit, parts)
+        assert (group.keys, group.with_kit) == (("a",), True)
+
+    def test_calls_no_ordinary_right_answer_a_copy_function_by_function(self):
+        for day in all_days():
+            parts = classroom._runs_of_functions(day)
+            assert sum(len(part) > 0 for part in parts) > 6
+            for path in (day.own / "submissions").glob("*/*.py"):
+                own = [similar.runs_of(path.read_bytes(), starter_of(day))]
+                assert similar.like_the_kit({"a": own}, own[0][:0], parts) == [], path
+
     @pytest.mark.parametrize("source", [b"\xff\0" * 999, b'"""' * 9999, b" " * 900_000])
     def test_takes_any_bytes_in_reasonable_time(self, source):
         similar.runs_of(source, STARTER)
+        similar.functions_of(source.decode("utf-8", "replace"))
+
+    @pytest.mark.parametrize("quote", ['"""', "'''", '"', "\\"])
+    def test_takes_texts_without_an_end_in_reasonable_time(self, quote):
+        for text in (f"\\{quote}" * 30_000, f"{quote}\\" * 30_000, f"a{quote}" * 9999):
+            similar.functions_of(text)
+
+
+RZ = "def Rz(theta):\n    return 1\n"
+
+
+class TestWhatDoesNotShow:
+    @pytest.mark.parametrize(
+        "text",
+        [
+            f"exec('''{RZ}''')",
+            f'x = """\n{RZ}"""\nexec(x)',
+            f"x = '\\''; y = '''\n{RZ}'''",
+            f"# {RZ.splitlines()[0]}\nRz = other",
+            "from elsewhere import Rz",
+            f"{RZ}from elsewhere import Rz",
+            f"{RZ}from elsewhere import *",
+            f"{RZ}Rz = elsewhere.Rz",
+            "class A:\n    def Rz(theta): pass\nRz = A.Rz",
+            "",
+        ],
+    )
+    def test_is_a_function_that_stands_in_no_file(self, text):
+        assert "no function Rz" in similar.hidden([text], [("Rz",)])
+
+    @pytest.mark.parametrize(
+        "texts",
+        [
+            [RZ],
+            [f"from math import *\n{RZ}import numpy\nx = 1\nRzz = 2"],
+            ["from mine import Rz", RZ],
+            ["Rz = lambda theta: 1"],
+            [f'"""A lab."""\n\n@wraps\n{RZ}'],
+            [RZ.replace("Rz", "\uff32\uff5a")],  # Python reads it as Rz
+            [f"x = (1,\n2)\n{RZ}"],
+        ],
+    )
+    def test_is_nothing_of_an_ordinary_file(self, texts):
+        assert similar.hidden(texts, [("Rz",)]) == []
+
+    def test_is_not_asked_of_what_does_not_pass(self):
+        assert similar.hidden(["exec(x)"], []) == []
+
+    def test_may_go_by_an_older_name(self):
+        assert similar.hidden([RZ], [("turned", "Rz")]) == []
+
+    @pytest.mark.parametrize(
+        "text", ["exec(x)", "\uff45xec(x)", "builtins.exec", "__builtins__[y]"]
+    )
+    def test_is_a_text_that_runs_as_code(self, text):
+        (says,) = similar.hidden([f"{RZ}\n{text}"], [("Rz",)])[:1]
+        assert says.startswith("a text can run as code: ")
+
+    def test_is_told_on_the_page_by_name_and_escaped(self):
+        one = replace(graded(*["passed"] * 8, name="Mia"), hidden=("no function <Rz>",))
+        text = page.render(Course(DAY, [one]))
+        assert "Passes, and does not show in the file" in text
+        assert "no function &lt;Rz&gt;" in text
+
+    def test_is_nothing_of_the_kits_own_lab_on_any_day(self):
+        for day in all_days():
+            done = [Mark(task.id, "passed") for task in day.tasks]
+            files = {
+                f"work/{name}": day.source.with_name(name).read_bytes()
+                for name in (day.source.name, "kit.py")
+            }
+            package = Package(day.number, "", Handin(files))
+            assert classroom._hidden(package, day, Result(tuple(done), ())) == []
 
 
 def graded(*statuses: str, name: str = "", mistakes: dict[int, str] | None = None):

@@ -39,6 +39,12 @@ def test_what_is_not_written_is_the_librarys_and_is_called_that():
     assert own.says()[0].startswith("YOUR double: the same as the library's; besides")
 
 
+def test_a_name_that_the_tab_did_not_give_is_told():
+    _, own = own_of({})
+    with pytest.raises(AttributeError, match="given has no ask"):
+        own.ask([("double", ONE)])
+
+
 def test_without_a_file_all_is_the_librarys():
     student = Answers({})
     student.there = False
@@ -129,3 +135,13 @@ def test_what_an_answer_says_cannot_become_part_of_the_page():
     shown = words.judged(str(said.value), "whose", "bad")
     assert "<img" not in shown
     assert "&lt;img" in shown
+
+
+def test_a_way_may_have_any_number_of_rows_and_no_other_width():
+    library = {"way": lambda: np.zeros((3, 2))}
+    own = Own(Answers({"way": lambda: np.ones((5, 2))}), library, any_rows={"way"})
+    assert own.way().shape == (5, 2)
+    assert own.says() == ("YOUR way", "good")
+    own = Own(Answers({"way": lambda: np.ones((5, 3))}), library, any_rows={"way"})
+    with pytest.raises(NoAnswerError, match=r"returned shape \(5, 3\)"):
+        own.way()

@@ -7,7 +7,7 @@ import pytest
 from judged import alike, moved, redone
 from toyrows import row_of, told
 
-from labkit.judge import Matrix, Scalar
+from labkit.judge import Finding, Matrix, Scalar, Vector
 from labkit.judge.answers import capitalised
 from labkit.judge.draw import Edges
 
@@ -61,6 +61,34 @@ class TestAMistakeThatStopsOrReshapes:
         assert verdict.mistake == "by-one-row"
         assert "It returns shape (1, 3) where (2, 3) is right, in" in verdict.message
         assert "All rows but the last gives your arrays exactly" in verdict.message
+
+    def test_may_be_known_to_its_row_where_no_name_gives_it(self):
+        def unnamed(case):
+            rows = [int(one.any(axis=1).sum()) for one in case.S]
+            return Finding("fewer", f"Your rows that are not 0: {rows[0]}.")
+
+        row = row_of(
+            Matrix((None, 2)),
+            lambda n: np.ones((int(n), 2)),
+            lambda rng: [(3,), (4,), (5,)],
+            unnamed=unnamed,
+        )
+        verdict = told(row, lambda n: np.ones((2, 2)))
+        assert (verdict.mistake, verdict.message) == (
+            "fewer", "Your rows that are not 0: 2.",
+        )  # fmt: skip
+
+    def test_is_no_infinity_that_is_right(self):
+        row = row_of(
+            Vector((2,)),
+            lambda x: np.array([np.inf if x > 0 else 1.0, x]),
+            lambda rng: [(1.0,), (-1.0,), (-2.0,)],
+        )
+        assert told(row, lambda x: row.truth(x)).status == "passed"
+        verdict = told(row, lambda x: row.truth(x) + np.array([0.0, 1.0]))
+        assert "infinity" not in verdict.message
+        verdict = told(row, lambda x: np.array([np.inf, x]))
+        assert "NaN or infinity comes out for 2 of 3" in verdict.message
 
     def test_is_taken_by_the_catalogues_tests(self):
         ask = self.row().ask

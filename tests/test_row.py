@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from labkit.judge import Ask, HeldOut, Scalar
+from labkit.judge import Ask, Draw, HeldOut, Scalar
 from labkit.judge import argument_mistakes as kinds
 from labkit.judge.mistake import REDONE
 from labkit.judge.row import Row
+from labkit.lesson.day import find_day
 from robo47.errors import Robo47Error
 
 
@@ -128,3 +129,19 @@ def test_a_row_of_many_right_answers_refuses_a_question_that_asks_for_one():
     with pytest.raises(Robo47Error, match='"x" asks for the right answer'):
         ask()
     assert ask(mistaken=lambda x: 2 * x).held_out[0].slug == "x"
+
+
+def test_inputs_that_stop_are_told_with_the_line_of_the_file_that_leads_there():
+    row = Row(Scalar(), truth=lambda x: x)
+    row.inputs(lambda rng: [(rng.uniform(0.0, "a"),)])
+    row.bind(find_day(1), "Rz")
+    with pytest.raises(Robo47Error) as told:
+        row.ask.main  # noqa: B018
+    says = str(told.value)
+    assert says.startswith("w1-foundations/day1/Rz.py: its inputs function stops with ")
+    assert "(tests/test_row.py, line " in says
+
+
+def test_a_shape_of_drawn_numbers_may_be_one_tuple():
+    one, other = (Draw(1).numbers(0.0, 1.0, *shape) for shape in ((2, 3), ((2, 3),)))
+    assert (one == other).all()

@@ -1,6 +1,7 @@
 """Time: questions that fit, a slow function and a loop, a lab not run to its end."""
 
 import itertools
+import time
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -59,6 +60,12 @@ class TestQuestions:
         few = asked_of("1.1", "f", row(seconds=2.0), 1, 60.0)
         assert len(few.exchanges) == 5
         assert len(quick.exchanges) > 30
+
+    def test_are_fewer_where_the_labs_own_is_slower_than_the_truth(self):
+        row = Row(Scalar(), truth=lambda x: 2.0 * x)
+        row.inputs(lambda rng: [(x,) for x in rng.uniform(-1, 1, 3)])
+        slow_lab = replace(row.ask, reference=lambda: lambda x: time.sleep(0.05))
+        assert slow_lab.cost_in(10.0) < 0.01 < slow_lab.cost_in(60.0)
 
     def test_cost_what_the_reference_takes_at_its_quickest(self):
         clock, times = Clock(), iter([5.0, 0.7, 0.3, 9.0])

@@ -1,6 +1,9 @@
 """`make update`: a mid-term kit on a student's clone, and nothing of theirs is lost."""
 
+import os
+import shutil
 import subprocess
+import sys
 from shutil import copytree, ignore_patterns
 
 import pytest
@@ -209,14 +212,14 @@ def test_without_a_network_everything_is_as_it_was(kit, student):
     assert state(student) == before
 
 
-@pytest.mark.parametrize("at", ["merge.merge", "renew_labs", "merge.take"])
+@pytest.mark.parametrize("at", ["merge.merge", "renew_labs", "last_step.take"])
 def test_a_run_that_is_killed_leaves_the_clone_for_the_next_one(kit, student, at):
     mid_term(kit)
     before = state(student)
     code = (
         "import os, sys; sys.argv = ['update.py']\n"
         "from labkit.commands import update\n"
-        "from labkit.update import merge\n"
+        "from labkit.update import last_step, merge\n"
         f"def die(*_): os._exit(9)\n{'update.' + at} = die\n"
         "update.main()\n"
     )
@@ -305,3 +308,202 @@ def test_a_lab_is_renewed_from_the_version_that_it_was_begun_with():
     assert "PATH = [" in found
     assert '"mine"' in found
     assert renewed(DAY, text, [], now) == text
+
+
+# One run of an update that ends at a moment, by its number: before git is asked for
+# the n-th time, or before the n-th file moves.
+ENDS = """
+import os, sys
+sys.argv = ["update.py"]
+from pathlib import Path
+from labkit.base import git
+from labkit.commands import update
+from labkit.update import last_step
+what, at = {what!r}, {at}
+def ends(function):
+    def counted(*a, **k):
+        global at
+        at -= 1
+        if at == 0:
+            os._exit(9)
+        return function(*a, **k)
+    return counted
+if what == "git":
+    take = last_step.take
+    def taken(*a):
+        git.run = ends(git.run)
+        take(*a)
+    last_step.take = taken
+else:
+    Path.replace = ends(Path.replace)
+update.main()
+"""
+
+
+def whole(student):
+    """Assert that a clone has the newer kit and all that was the student's."""
+    text = (student / WEEK / "work" / NEW).read_text("utf-8")
+    for words in ("TRIALS = 500 ", "half(2)", "my inverse", "DEGREES = "):
+        assert text.count(words) == 1, words
+    assert "A pose says where" in (student / SHEET).read_text("utf-8")
+    rows = (student / "metrics" / "metrics.csv").read_text("utf-8").splitlines()
+    assert rows.count(ROW) == rows.count("2026-09-01,kits,1,theirs") == 1
+    assert not (student / WORK).exists()
+    assert git(student, "status", "-s") == ""
+    log = git(student, "log", "--format=%s")
+    assert log.count("My work before the update") <= 1
+    memory = {path.name for path in (student / ".robo47").iterdir()}
+    assert not {name for name in memory if name.startswith("update-")}
+    assert "update.json" not in memory
+    git(student, "fsck", "--strict")
+
+
+@pytest.mark.parametrize(
+    ("what", "at"),
+    [("git", n) for n in (1, 8, 11, 12, 13, 14)] + [("move", n) for n in (1, 2, 4, 6)],
+)
+def test_a_run_that_ends_in_its_last_step_is_put_right_by_the_next(
+    kit, student, what, at
+):
+    mid_term(kit)
+    edit(student / SHEET, ("*(your drawing)*", "not committed"))
+    assert run_copy(student, "-c", ENDS.format(what=what, at=at)).returncode == 9
+    assert "not committed" in (student / SHEET).read_text("utf-8")
+    done = update(student)
+    assert done.returncode == 0, done.stderr
+    whole(student)
+    assert "not committed" in (student / SHEET).read_text("utf-8")
+
+
+def test_what_is_edited_after_a_run_that_ended_is_not_put_back(kit, student):
+    mid_term(kit)
+    assert run_copy(student, "-c", ENDS.format(what="move", at=6)).returncode == 9
+    edit(student / SHEET, ("A pose says where", "A pose says where and when;"))
+    assert update(student).returncode == 0
+    assert "where and when;" in (student / SHEET).read_text("utf-8")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a shell script stands in for git")
+@pytest.mark.parametrize("command", ["read-tree", "update-ref", "worktree", "merge"])
+def test_a_git_that_is_killed_changes_nothing_and_the_next_run_is_whole(
+    kit, student, tmp_path, command
+):
+    mid_term(kit)
+    before = state(student)
+    real, shim = shutil.which("git"), tmp_path / "git"
+    lock = "touch .git/index.lock .git/HEAD.lock; " if "-" in command else ""
+    shim.write_text(
+        f'#!/bin/sh\ncase " $* " in *" {command} "*) [ "$GIT_INDEX_FILE" ] || '
+        f'{{ {lock}kill -9 $$; }};; esac\nexec {real} "$@"\n'
+    )
+    shim.chmod(0o755)
+    path = f"{tmp_path}:{os.environ['PATH']}"
+    for _ in range(2):  # a second try adds nothing
+        done = update(student, PATH=path)
+        assert done.returncode == 2
+        assert "git was killed. Nothing of yours has changed." in done.stderr
+        assert state(student) == before
+    assert update(student).returncode == 0
+    whole(student)
+
+
+@pytest.mark.parametrize("ignored", [True, False])
+@pytest.mark.parametrize("name", ["notes/f7.md", "notes", "metrics/mine.md"])
+def test_a_file_of_the_students_is_never_written_over(kit, student, ignored, name):
+    with open(kit / ".gitignore", "a") as file:
+        file.write(f"/{name}\n" if ignored else "\n")
+    commit(kit, "what is ignored")
+    assert update(student).returncode == 0
+    new = kit / ("notes/f7.md" if name == "notes" else name)
+    new.parent.mkdir(exist_ok=True)
+    new.write_text("kit")
+    git(kit, "add", "-f", new.relative_to(kit).as_posix())
+    git(kit, "commit", "-qm", "a file more")
+    mine = student / name
+    mine.parent.mkdir(exist_ok=True)
+    mine.write_text("MINE")
+    before = state(student)
+    for _ in range(2):
+        done = update(student)
+        assert done.returncode == 2
+        assert f"{new.relative_to(kit).as_posix()}. Move or rename" in done.stderr
+        assert "Nothing of yours has changed." in done.stderr
+        assert state(student) == before
+    mine.write_text("kit")
+    if name == "notes":
+        mine.rename(student / "notes of mine")
+    assert update(student).returncode == 0
+    assert (student / new.relative_to(kit)).read_text() == "kit"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows asks for rights to link")
+def test_nothing_is_written_through_a_link_of_the_students(kit, student, tmp_path):
+    (kit / "notes").mkdir()
+    (kit / "notes" / "f7.md").write_text("kit")
+    commit(kit, "notes")
+    (student / "notes").symlink_to(tmp_path)
+    done = update(student)
+    (student / "notes").unlink()
+    assert (done.returncode, list(tmp_path.iterdir())) == (2, [])
+    assert "notes/f7.md" in done.stderr
+
+
+def test_a_lock_of_somebody_elses_git_is_named_and_left(kit, student):
+    mid_term(kit)
+    lock = student / ".git" / "index.lock"
+    lock.touch()
+    done = update(student)
+    assert "index.lock is there" in done.stderr
+    assert lock.exists()
+    lock.unlink()
+    assert update(student).returncode == 0
+    whole(student)
+
+
+def test_a_file_may_become_a_folder_and_a_folder_a_file(kit, student):
+    (kit / "one").write_text("a file")
+    (kit / "two" / "deep").mkdir(parents=True)
+    (kit / "two" / "deep" / "x").write_text("x")
+    commit(kit, "first")
+    assert update(student).returncode == 0
+    (kit / "one").unlink()
+    shutil.rmtree(kit / "two")
+    (kit / "one").mkdir()
+    (kit / "one" / "y").write_text("y")
+    (kit / "two").write_text("a file")
+    commit(kit, "then")
+    done = update(student)
+    assert done.returncode == 0, done.stderr
+    assert (student / "one" / "y").read_text() == "y"
+    assert (student / "two").read_text() == "a file"
+    assert git(student, "status", "-s") == ""
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="needs a limit")
+@pytest.mark.parametrize("most", [0, 500, 5_000, 50_000])
+def test_a_full_disk_changes_nothing_and_the_next_run_is_whole(kit, student, most):
+    """No file may be larger: what a full disk is for whoever writes one."""
+    mid_term(kit)
+    (kit / "large.txt").write_text("x" * 60_000)
+    commit(kit, "a large file")
+    before = state(student)
+    code = (
+        "import resource, sys; sys.argv = ['update.py']\n"
+        f"resource.setrlimit(resource.RLIMIT_FSIZE, ({most}, {most}))\n"
+        "from labkit.base import cli\nfrom labkit.commands import update\n"
+        "cli.run(update.main)\n"
+    )
+    done = run_copy(student, "-c", code)
+    assert done.returncode == 2, done.stdout
+    assert "Nothing of yours has changed." in done.stderr
+    assert "Traceback" not in done.stderr
+    assert state(student) == before
+    assert update(student).returncode == 0
+    whole(student)
+
+
+def test_work_that_is_not_committed_stays_so_where_nothing_is_new(kit, student):
+    edit(student / SHEET, ("*(your drawing)*", "not committed"))
+    before = state(student)
+    assert "nothing has changed" in update(student).stdout
+    assert state(student) == before

@@ -140,6 +140,10 @@ ATTACKS = {
         spec = importlib.util.spec_from_file_location('dyn', {kit!r})
         spec.loader.exec_module(importlib.util.module_from_spec(spec))""",
     "make a world of its own": "libc('unshare', 0x10000000)",
+    "be another user": "os.setuid(1)",
+    "be in no group": "os.setgroups([])",
+    "hang the terminal up": "libc('vhangup')",
+    "lock memory": "libc('mlockall', 1)",
     "mount something": "libc('mount', b'none', {folder!r}.encode(), b'tmpfs', 0, 0)",
     "use the other way to the kernel": "libc('syscall', 425, 8, 0)",
     "use the terminal": "open('/dev/tty', 'w')",

@@ -21,7 +21,10 @@ from labkit.judge.ask import as_plain
 from labkit.judge.row import Row
 
 _SHAPE = re.compile(r"\(((?:\d+|[a-z])(?:, (?:\d+|[a-z]))*,?)\)")
-_NAMES = {"np": np, "pi": np.pi, "sqrt": np.sqrt, "True": True, "False": False}
+_PLAIN = ("pi", "sqrt", "exp", "log", "sin", "cos", "tan", "nan", "inf")
+_NAMES = {"np": np, "True": True, "False": False, "None": None} | {
+    name: getattr(np, name) for name in _PLAIN
+}
 FIRST = 3  # questions that a docstring in words may be about
 EXACT = 1e-9  # of a number without decimals, relative
 

@@ -18,6 +18,15 @@ from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import find_regions
 from robo47.paths import ROOT, shown
 
+# What `make new` writes for somebody to write over, by the file's ending.
+SKELETON = {
+    "day.toml": ("what its lab shows, in a line",),
+    "-lab.md": ("What the student can do tonight", "What you would have liked to hear"),
+    ".md": ("What do you want to ask?",),
+    "week.toml": ("what this week is about",),
+    "README.md": ("What this week is about.",),
+}
+
 
 def faults_of(day: Day) -> Iterator[str]:
     """Yield what is missing or does not fit between a day's files, with its remedy."""
@@ -30,10 +39,31 @@ def faults_of(day: Day) -> Iterator[str]:
         _links,
         _worksheet,
         _pictures,
+        _library,
         _committed,
     )
     for part in parts:
         yield from part(day)
+
+
+def write_worksheet(day: Day) -> bool:
+    """Write a worksheet where there is none; return whether that was so."""
+    path = day.folder / day.worksheet
+    if not day.worksheet or path.is_file():
+        return False
+    path.write_text(worksheet_of(day), "utf-8", newline="\n")
+    return True
+
+
+def unwritten(day: Day) -> Iterator[str]:
+    """Yield the files in which the skeleton's words stand for the author's."""
+    own = day.own / "day.toml", day.folder / day.guide, day.folder / day.worksheet
+    for path in (*own, day.folder / "week.toml", day.folder / "README.md"):
+        text = " ".join(path.read_text("utf-8").split()) if path.is_file() else ""
+        for ending, words in SKELETON.items():
+            left = [one for one in words if path.name.endswith(ending) and one in text]
+            for one in left:
+                yield f'{shown(path)} has the skeleton\'s "{one}" still'
 
 
 def _regions(day: Day) -> Iterator[str]:
@@ -130,14 +160,10 @@ def _committed(day: Day) -> Iterator[str]:
 
 
 def _worksheet(day: Day) -> Iterator[str]:
-    """Yield the sections that a worksheet lacks; write one where there is none."""
+    """Yield the sections that a worksheet lacks."""
     if not day.worksheet:
         return
     path = day.folder / day.worksheet
-    if not path.is_file():
-        path.write_text(worksheet_of(day), "utf-8", newline="\n")
-        yield f"{shown(path)} was not there: written from day.toml, yours to fill in"
-        return
     there = split_sections(path.read_text("utf-8"))
     for name in split_sections(worksheet_of(day)):
         asked = [one for one in there if one.startswith(name.partition(":")[0])]
@@ -149,3 +175,16 @@ def _pictures(day: Day) -> Iterator[str]:
     file = day.own / "figures.py"
     if day.draw and f'"{day.draw}"' not in (file.read_text() if file.is_file() else ""):
         yield f"{shown(file)}: FIGURES has no {day.draw!r}, which day.toml draws"
+
+
+def _library(day: Day) -> Iterator[str]:
+    """Yield the modules of the day's answers that no file of tests is about."""
+    tests = [path.read_text("utf-8") for path in (ROOT / "tests").glob("test_*.py")]
+    for module in day.library:
+        name = module.rpartition(".")[2]
+        file = f"robo47/{module.replace('.', '/')}.py"
+        if not any(re.search(rf"\b{name}\b", text) for text in tests):
+            yield (
+                f"no test is about {file}, which students are judged by. Hold it "
+                f"against what somebody else wrote, in tests/test_{name}.py"
+            )

@@ -79,7 +79,11 @@ def _limits() -> Iterator[tuple[str, str, str]]:
             f"{task['seconds']:g}; a third of it for one",
             f"`seconds` of the task, to {most['seconds']:g}",
         ),
-        ("seconds for a student's file, all tasks", f"{sandbox.RUN_SECONDS:g}", "–"),
+        (
+            "seconds for a student's file, all tasks and second looks",
+            f"{sandbox.RUN_SECONDS:g}, and the lab's",
+            "–",
+        ),
         ("memory, GB", f"{task['memory']:g}", f"`memory`, to {most['memory']:g}"),
         (
             "numbers in an answer",

@@ -33,6 +33,7 @@ LARGEST_TREE = 200_000_000  # bytes of a commit's files; the kit has 6 MB
 LARGEST_OUTPUT = 20_000_000  # bytes that git may say
 LARGEST_CONFIG = 100_000  # bytes of a repository's configuration
 LARGEST_COMMIT = 100_000  # bytes; git takes two hundred times as much to parse one
+HEAD_OF, LARGEST_NAME = "ref: refs/heads/", 300  # of a HEAD that names a branch
 YEAR_2100 = 4_102_444_800
 SEEN = "refs/robo47/"  # where heads are kept that a later push took back
 _ELSEWHERE = ("commondir", "objects/info/alternates")  # where more objects are
@@ -55,6 +56,7 @@ class History:
     # The time that its author gave it, seconds since 1970, or None.
     committed: int | None = None
     author: str = ""  # the name that its author gave; anybody can type any
+    branch: str = ""  # that HEAD names; "" where it names none
     # Hash of each wanted file in it, by path.
     blobs: Mapping[str, str] = field(default_factory=dict)
 
@@ -101,7 +103,21 @@ def read_history(
     blobs = {name: facts.split()[2] for facts, _, name in entries if name}
     author, _ = _signed(text, "author")
     _, committed = _signed(text, "committer")
-    return History(True, commit, committed, author, blobs)
+    return History(True, commit, committed, author, _branch_of(git), blobs)
+
+
+def branch_of(clone: Path) -> str:
+    """Return the branch that a clone's HEAD names; "" where it names none."""
+    return _branch_of(_repository(clone))
+
+
+def _branch_of(git: Path | None) -> str:
+    try:
+        with open(git / "HEAD" if git else os.devnull, "rb") as file:
+            text = file.read(LARGEST_NAME).decode("utf-8", "replace").strip()
+    except OSError:
+        return ""
+    return text.removeprefix(HEAD_OF) if text.startswith(HEAD_OF) else ""
 
 
 def user_name(clone: Path) -> str:

@@ -54,6 +54,7 @@ class Child:
     def __init__(self, module: str, *arguments: str, **options: Any) -> None:
         """Start `python -m module`, with options of `subprocess.Popen`."""
         self.late = False  # ended for taking too long
+        self.ran = 0.0  # seconds that it had a processor, when it was ended for that
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 (closed by close)
         pipes: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
         command = [sys.executable, "-m", module, *arguments]
@@ -72,6 +73,7 @@ class Child:
 
         def stop() -> None:
             self.late = True
+            self.ran, _ = scheduled(self.process)
             end(self.process)
 
         timer = threading.Timer(seconds, stop)
@@ -181,12 +183,17 @@ def limit_files(process: subprocess.Popen[bytes], largest: int) -> None:
 
 
 def sweep(prefix: str, seconds: float) -> None:
-    """Remove a killed run's temporary folders, of a prefix, untouched for `seconds`."""
+    """Remove a killed run's temporary folders, of a prefix, untouched for `seconds`.
+
+    Of a process that is still there they stay: a clock may jump by years.
+    """
     for folder in Path(tempfile.gettempdir()).glob(f"{prefix}*"):
         with contextlib.suppress(OSError):
             facts = folder.lstat()
             own = not hasattr(os, "getuid") or facts.st_uid == os.getuid()
-            if own and time.time() - facts.st_mtime > seconds:
+            of = folder.name.removeprefix(prefix).partition("_")[0]
+            there = of.isdecimal() and os.path.exists(f"/proc/{of}")
+            if own and not there and time.time() - facts.st_mtime > seconds:
                 shutil.rmtree(folder, ignore_errors=True)
 
 

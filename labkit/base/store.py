@@ -72,12 +72,17 @@ def replace(path: Path, content: bytes, sync: bool = False) -> None:
     With `sync` after a power cut, too, which takes the disk its time.
     """
     new = path.with_name(path.name + ".new")
-    with new.open("wb") as file:
-        file.write(content)
-        if sync:
-            file.flush()
-            os.fsync(file.fileno())
-    new.replace(path)
+    try:
+        with new.open("wb") as file:
+            file.write(content)
+            if sync:
+                file.flush()
+                os.fsync(file.fileno())
+        new.replace(path)
+    except OSError as error:  # half a file helps nobody, and a full disk says no name
+        with contextlib.suppress(OSError):
+            new.unlink()
+        raise OSError(error.errno, error.strerror, str(path)) from None
 
 
 @contextlib.contextmanager
@@ -89,7 +94,7 @@ def alone(name: str, root: Path = ROOT) -> Iterator[None]:
             path.parent.mkdir(exist_ok=True)
             fd = stack.enter_context(path.open("ab")).fileno()
             if not try_lock(fd):
-                says = "setup: another run is at it in this folder; waiting ..."
+                says = f"{name}: another run is at it in this folder; waiting ..."
                 print(says, flush=True)
             while not try_lock(fd):
                 time.sleep(0.2)

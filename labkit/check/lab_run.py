@@ -19,13 +19,16 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 
+from labkit.base.deadline import Deadline
 from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
 from labkit.check.slow import (
     Budget,
     EnoughAsked,
+    RunsOn,
     kits_functions,
     not_to_its_end,
+    runs_on,
     too_slow,
 )
 from labkit.handin.handin import Item
@@ -40,7 +43,13 @@ from labkit.lesson.lab_module import load_lab
 from labkit.lesson.metric import Metric
 from labkit.sandbox.messages import PANDA, library_of
 from labkit.sandbox.process import ENDLESS
-from labkit.sandbox.sandbox import CALL_SECONDS, Sandbox, Session
+from labkit.sandbox.sandbox import (
+    CALL_SECONDS,
+    TOO_LONG,
+    Sandbox,
+    Session,
+    deadline_of,
+)
 
 ROBOTS = (PANDA, Robot("panda"))  # those that labs hand to a function
 # Of a model, what makes it another robot.
@@ -105,9 +114,11 @@ class Rehearsed(NamedTuple):
     unfinished: str = ""  # that it was not run to its end, "" where it was
 
 
-def check_lab(day: Day, script: Path, sandbox: Sandbox) -> list[Item]:
+def check_lab(
+    day: Day, script: Path, sandbox: Sandbox, deadline: Deadline | None = None
+) -> list[Item]:
     """Return what a check says of the lab: nothing where it passes to its end."""
-    fault, _, unfinished = rehearse(day, script, sandbox)
+    fault, _, unfinished = rehearse(day, script, sandbox, deadline)
     see = f"\nSee it: make run DAY={day.number}"
     if fault:
         says = f"All tasks pass, but the lab fails with your functions: {fault}."
@@ -115,19 +126,23 @@ def check_lab(day: Day, script: Path, sandbox: Sandbox) -> list[Item]:
     return [Item("lab", "unfinished", f"{unfinished}{see}")] if unfinished else []
 
 
-def rehearse(day: Day, script: Path, sandbox: Sandbox) -> Rehearsed:
+def rehearse(
+    day: Day, script: Path, sandbox: Sandbox, deadline: Deadline | None = None
+) -> Rehearsed:
     """Run the lab with a file's functions, each behind the sandbox's wall.
 
     Args:
         day: from its manifest; where its complete lab is not there, nothing is said.
         script: the student's file; all its tasks pass.
         sandbox: where its functions run.
+        deadline: of the submission, whose tasks were asked; None is one of its own.
     """
     if not day.source.is_file():
         return Rehearsed("", {})
     lab = load_lab(day.source)
     run = _Run(day)
-    budget = Budget(day.lab_seconds, kits_functions(day))
+    whole = deadline or deadline_of(day)
+    budget = Budget(day.lab_seconds, kits_functions(day), whole=whole)
     vars(lab).update(behind_wall(day, script, sandbox, lab, budget))
     counts = [k for k in ("TRIALS", "LIBRARY_TRIALS") if hasattr(lab, k)]
     vars(lab).update(dict.fromkeys(counts, TRIALS))
@@ -138,14 +153,20 @@ def rehearse(day: Day, script: Path, sandbox: Sandbox) -> Rehearsed:
             contextlib.redirect_stdout(io.StringIO()),
             warnings.catch_warnings(action="ignore"),
             np.errstate(all="ignore"),
+            budget.bounded(),
         ):
-            lab.main()
-    except EnoughAsked:
-        unfinished = not_to_its_end(run.title, budget)
+            try:
+                lab.main()
+            except EnoughAsked:
+                unfinished = not_to_its_end(run.title, budget)
+    except RunsOn:
+        fault = runs_on(run.title, budget)
     except FirstFailure as failure:
         fault = str(failure)
     except Exception as error:  # what a wrong number leads to, in the kit's own code
         fault = f"it stops with {type(error).__name__}: {error}"
+    if unfinished and whole.over:
+        fault, unfinished = TOO_LONG, ""
     return Rehearsed(fault, run.numbers, unfinished)
 
 
@@ -162,7 +183,9 @@ def behind_wall(
     added = old_names(day, script.read_text("utf-8", "replace"))
     library = library_of(day)
     robots = (*ROBOTS, *_own_robots(day))
-    session = sandbox.session(script, robots, library, added, day.limits, brief=True)
+    session = sandbox.session(
+        script, robots, library, added, day.limits, brief=True, deadline=budget.whole
+    )
     budget.watch(session)
     return {
         name: _asked(session, day, robots, task, getattr(lab, name), budget)

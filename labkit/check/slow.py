@@ -4,15 +4,19 @@ A lab's run has seconds, `[limits] lab_seconds` of its day.toml, and no count of
 what it waits for a processor does not count. Where they are up, the kit's own functions
 are timed here, with the same arguments: if the student's are about as fast, the machine
 is slow or the lab is long, and it goes on, up to `MORE` times as long. What was not run
-to its end is said.
+to its end is said. Where the kit's own part of it takes longer than all of a lab may,
+with what a function returned, that function is why.
 """
 
+import contextlib
+import ctypes
+import threading
 import time
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Protocol
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
 
-from labkit.base import processes
+from labkit.base.deadline import Deadline
 from labkit.base.exchange import Question, Reply
 from labkit.base.text import count
 from labkit.judge.answers import own
@@ -24,6 +28,8 @@ from labkit.lesson.lab_module import load_lab
 MORE = 3.0  # times as long, where the student's functions are not what is slow
 FAST = 3.0  # times what the kit's own take: about as fast as those
 LITTLE = 0.1  # of all seconds: too little to slow a lab down
+ONE_CALL = 20.0  # seconds that a call of a task may take, at the most
+POLL = 0.5  # seconds
 EMPTY = 50  # questions that ask for nothing, to learn what asking takes
 NOTHING = "no function has this name"
 # How many times what the kit's own takes, or the longest call that came back, is long
@@ -37,24 +43,19 @@ class EnoughAsked(Exception):  # noqa: N818 (it ends a run; nothing went wrong h
     """As many seconds went by as a lab's run may take."""
 
 
-class Asked(Protocol):
-    """A process that answers: a `Session`."""
-
-    def used(self) -> tuple[float, float]:
-        """Return for how many seconds it had a processor, and waited for one."""
-
-    def ask(self, questions: Sequence[Question], /) -> object:
-        """Ask it."""
+class RunsOn(BaseException):
+    """The kit's own part of a lab runs on and on; no lab catches this."""
 
 
-class Budget:
-    """Seconds that are left, and what they went for."""
+class Budget(Deadline):
+    """Seconds that are left of a lab's run, and what they went for."""
 
     def __init__(
         self,
         seconds: float,
         kits: Callable[[], Functions] = dict,
         clock: Callable[[], float] = time.monotonic,
+        whole: Deadline | None = None,
     ) -> None:
         """Start the clock.
 
@@ -63,21 +64,16 @@ class Budget:
                 for a processor does not count.
             kits: makes the kit's own functions, to time them.
             clock: in seconds.
+            whole: what the submission has left, in which it must be.
         """
-        self.seconds = seconds
+        super().__init__(whole.within(seconds) if whole else seconds, clock)
+        self.whole = whole
         self._kits = kits
-        self._clock = clock
-        self._began = clock()
-        self._asked: list[Asked] = []
-        self._before = processes.waited()
-        self._waited = 0.0  # by all of us, when last looked
+        self.stretch = ONE_CALL + seconds
+        self._since = 0.0  # when a function was last called
         self.calls = Counter[str]()
-        self._last: dict[str, tuple[Any, ...]] = {}  # arguments
+        self._last: dict[str, tuple[Any, ...]] = {}  # arguments, the latest call last
         self._kits_own: dict[str, float] | None = None  # seconds a call
-
-    def watch(self, asked: Asked) -> None:
-        """Count what another process takes, too."""
-        self._asked.append(asked)
 
     def spend(self, name: str, args: tuple[Any, ...]) -> None:
         """Take a call.
@@ -85,13 +81,42 @@ class Budget:
         Raises:
             EnoughAsked: no time is left.
         """
-        if self._left() < 0.0:
-            theirs = sum(one.used()[1] for one in self._asked)
-            self._waited = processes.waited() - self._before + theirs
-            if self._left() < 0.0 and not self._goes_on():
-                raise EnoughAsked
+        if self.over and not self._goes_on():
+            raise EnoughAsked
+        self._since = self.used
         self.calls[name] += 1
+        self._last.pop(name, None)
         self._last[name] = args
+
+    @property
+    def latest(self) -> str:
+        """The function that was called last."""
+        return next(reversed(self._last), "none")
+
+    @contextlib.contextmanager
+    def bounded(self) -> Iterator[None]:
+        """Raise RunsOn here as soon as the kit's own code has run on for too long.
+
+        It may be in a simulation of as many seconds as a function returned.
+        """
+        here = ctypes.c_ulong(threading.get_ident())
+        raise_in = ctypes.pythonapi.PyThreadState_SetAsyncExc
+        done = threading.Event()
+
+        def watch() -> None:
+            while not done.wait(POLL):
+                self._look()
+                if self.used - self._since > self.stretch:
+                    raise_in(here, ctypes.py_object(RunsOn))
+
+        watcher = threading.Thread(target=watch, daemon=True)
+        watcher.start()
+        try:
+            yield
+        finally:
+            done.set()
+            watcher.join()
+            raise_in(here, None)  # what came too late to be raised
 
     def told(self) -> str:
         """Return what the time went for, as a sentence's end."""
@@ -100,24 +125,24 @@ class Budget:
         says = f"{self.seconds:.3g} s went by, with {calls} of the tasks' functions"
         return f"{says}; {kits}"
 
-    def _left(self) -> float:
-        return self.seconds - (self._clock() - self._began - self._waited)
-
     def _goes_on(self) -> bool:
         """Return whether the functions are fast and it goes on, which it may once."""
         if self._kits_own is not None:
             return False
         asking = self._asking() * self.calls.total()
-        theirs = sum(one.used()[0] for one in self._asked) - asking
+        theirs = sum(one.used()[0] for one in self._working) - asking
         if theirs > FAST * self._kits_took() + LITTLE * self.seconds:
             return False
-        self.seconds = max(self.seconds, min(MORE * self.seconds, MOST_LAB))
+        most = min(MORE * self.seconds, MOST_LAB)
+        if self.whole:
+            most = min(most, self.used + self.whole.within(most))
+        self.seconds = max(self.seconds, most)
         return True
 
     def _asking(self) -> float:
         """Return how long a process works at a question that asks for nothing."""
         nothing = [Question("", NOTHING, ())] * EMPTY
-        for one in self._asked[:1]:
+        for one in self._working[:1]:
             before = one.used()[0]
             one.ask(nothing)
             return (one.used()[0] - before) / EMPTY
@@ -168,6 +193,15 @@ def not_to_its_end(title: str, budget: Budget) -> str:
     return (
         f"The lab was not run to its end here: {budget.told()}. It stopped{where}; "
         "what comes after that was not looked at."
+    )
+
+
+def runs_on(title: str, budget: Budget) -> str:
+    """Return that the kit's own part of a lab was stopped, as a sentence's middle."""
+    where = f'at "{title}", ' if title else ""
+    return (
+        f"{where}the lab runs on and on with what your functions return: it was "
+        f"stopped {budget.stretch:.0f} s after it called {budget.latest}"
     )
 
 

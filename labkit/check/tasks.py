@@ -1,12 +1,14 @@
 """From a student's file to one result per task."""
 
 import contextlib
+import re
 import secrets
 import tokenize
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from labkit.base.deadline import Deadline
 from labkit.base.exchange import Exchange, LoadError, Reply
 from labkit.check.slow import too_slow
 from labkit.judge.ask import Asked, asked_of, replies
@@ -19,8 +21,9 @@ from labkit.lesson.added_code import kits_functions, kits_own, old_names
 from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
 from labkit.lesson.slips import arguments, renamed, unfinished
+from labkit.lesson.starter import function_lines
 from labkit.sandbox.messages import library_of, robots_of
-from labkit.sandbox.sandbox import Sandbox
+from labkit.sandbox.sandbox import Sandbox, deadline_of
 
 FRESH_ONLY = ("looked-up", "some-inputs")  # found by inputs that a seed draws
 
@@ -52,6 +55,7 @@ def check_tasks(
     sandbox: Sandbox,
     only: str | None = None,
     seed: int | None = None,
+    deadline: Deadline | None = None,
 ) -> list[TaskResult]:
     """Check the tasks of a day.
 
@@ -62,6 +66,7 @@ def check_tasks(
         only: one task's id; where it is wrong, what it needs is asked as well.
         seed: of the fresh inputs, for a grade that can be repeated; it must not be
             known to the student.
+        deadline: of the submission, second looks included; None is a new one.
 
     Returns:
         One result per task, in the manifest's order.
@@ -74,7 +79,7 @@ def check_tasks(
         verdict = Verdict("todo", "does-not-load", why)
         return [TaskResult(task, verdict) for task in wanted]
     seed = secrets.randbits(32) if seed is None else seed
-    check = _Check(day, script, sandbox, seed)
+    check = _Check(day, script, sandbox, seed, deadline or deadline_of(day))
     try:
         results = check.ask(wanted)
         if only and results[wanted[0].id].verdict.status not in ("passed", "todo"):
@@ -92,12 +97,15 @@ def check_tasks(
 class _Check:
     """One check of a student's file."""
 
-    def __init__(self, day: Day, script: Path, sandbox: Sandbox, seed: int) -> None:
+    def __init__(
+        self, day: Day, script: Path, sandbox: Sandbox, seed: int, deadline: Deadline
+    ) -> None:
         """Take what `check_tasks` takes."""
         self.day = day
         self.script = script
         self.sandbox = sandbox
         self.seed = seed
+        self.deadline = deadline
         there = script.is_file()  # the sandbox refuses what is none
         self.source = script.read_text("utf-8", errors="replace") if there else ""
         self.borrowed = borrowed_tasks(day, self.source)
@@ -127,6 +135,7 @@ class _Check:
                 {task.id: self.day.needs(task.id) for task in tasks},
                 self.added if added is None else added,
                 self.day.limits,
+                self.deadline,
             )
         return {task.id: self._result(task) for task in tasks}
 
@@ -151,7 +160,7 @@ class _Check:
         """
         result = results[task.id]
         added = self.added
-        if result.verdict.follows:
+        if result.verdict.follows and not self.deadline.over:
             needed = [self.day.task(id) for id in self.day.needs(task.id)]
             broken = [one for one in needed if not results[one.id].passed]
             if kits := kits_functions(self.day, broken):
@@ -160,7 +169,7 @@ class _Check:
                 if again.passed:
                     follow = [o for o in broken if not results[o.id].verdict.follows]
                     return replace(result, verdict=_inherited(follow or broken))
-                result = again
+                result = result if self.deadline.over else again
         verdict = result.verdict
         if verdict.call:
             typed = f'make check TASK={task.id} ARGS="--seed {self.seed}"'
@@ -168,7 +177,7 @@ class _Check:
             verdict = replace(verdict, measured=(*verdict.measured, says))
             if verdict.mistake in FRESH_ONLY:
                 verdict = replace(verdict, message=f"{verdict.message} {says}")
-        if verdict.wrong_calls:
+        if verdict.wrong_calls and not self.deadline.over:
             verdict = self._with_experiments(task, verdict, added)
         return replace(result, verdict=verdict)
 
@@ -184,6 +193,7 @@ class _Check:
             added,
             self.day.limits,
             brief=True,
+            deadline=self.deadline,
         )
         with contextlib.closing(session):
             names = arguments(self.source, asked.function)
@@ -233,7 +243,8 @@ def _of_function(day: Day, task: Task, asked: Asked, source: str) -> Verdict:
     both = [*asked.main, *asked.fresh]
     for one, reply in zip(both, replies(both), strict=True):
         if reply.given:
-            return too_slow(day, function, one.question.args, reply)
+            slow = too_slow(day, function, one.question.args, reply)
+            return _with_slip(asked, slow, source)
         if early := no_answer(reply, function, task.id):
             slip = early.mistake == "unwritten" and unfinished(source, function)
             if early.mistake == "missing" and (near := renamed(source, function)):
@@ -252,6 +263,19 @@ def _of_function(day: Day, task: Task, asked: Asked, source: str) -> Verdict:
         if refused:
             return refusal(refused[0], None)
     return _changed_arguments(function, came, verdict)
+
+
+def _with_slip(asked: Asked, verdict: Verdict, source: str) -> Verdict:
+    """Return a verdict on an endless call, with what the row says of such loops."""
+    if verdict.mistake != "stopped":
+        return verdict
+    code = "\n".join(function_lines(source, asked.function)[2])
+    for slip in asked.ask.slips:
+        if re.search(slip.error, "stopped") and re.search(slip.source, code):
+            return replace(
+                verdict, mistake=slip.slug, message=f"{verdict.message} {slip.says}"
+            )
+    return verdict
 
 
 def _not_utf8(script: Path) -> str:

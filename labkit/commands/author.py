@@ -110,6 +110,12 @@ def _remedy(test: str) -> str:
     return f". To do: {known[0]}" if known else ""
 
 
+def fitting(day: Day) -> Iterator[str]:
+    """Yield what does not fit between a day's files; print what is still to write."""
+    yield from files.faults_of(day)
+    NOTES.extend(files.unwritten(day))
+
+
 def docstrings(day: Day) -> Iterator[str]:
     """Yield what docstrings say and is not so; print what is worth a look."""
     for name, row in rows_of(day).items():
@@ -162,7 +168,7 @@ def style(day: Day) -> Iterator[str]:
 
 
 PARTS = {
-    "files": files.faults_of,
+    "files": fitting,
     "docstrings": docstrings,
     "catalogue": catalogue,
     "student": student.faults_of,
@@ -223,6 +229,8 @@ def main() -> int:
     number = options.day or max(day_numbers(), default=1)
     day = find_day(number)
     print(f"Day {number}: {day.title}, in {shown(day.own)}/")
+    if files.write_worksheet(day):
+        print(f"wrote {shown(day.folder / day.worksheet)}, yours to fill in")
     wrong = []
     for name in PARTS:
         skipped = options.fast and name == "tests"

@@ -2,7 +2,7 @@
 
     python3 scripts/check_day.py 1              the whole day (make check DAY=1)
     python3 scripts/check_day.py --task 1.4     one task (make check TASK=1.4)
-    python3 scripts/check_day.py 1 --watch      again at each save, until Ctrl-C
+    python3 scripts/check_day.py 1 --watch      at each save, task by task: make watch
     python3 scripts/check_day.py 1 --explain    what was measured and printed
     python3 scripts/check_day.py 1 --json       for tools
 
@@ -12,13 +12,12 @@ Exit code: 0 all passed, 1 something to fix, 2 the checker could not run.
 
 import argparse
 import atexit
-import contextlib
 import gc
 import json
 import os
 import secrets
 import sys
-import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -29,16 +28,14 @@ from labkit.lesson.day import Day, chosen_day
 from labkit.sandbox.process import Process
 from robo47 import __version__
 from robo47.errors import Robo47Error
-from robo47.paths import METRICS_CSV, ROOT, shown
+from robo47.paths import ROOT, shown
 
 if TYPE_CHECKING:
     from labkit.check.report import Report
 
-POLL_SECONDS = 0.3  # polling sees saves on WSL and network mounts, where events do not
 
-
-def parse() -> argparse.Namespace:
-    """Read the command line."""
+def parse(arguments: Sequence[str] | None = None) -> argparse.Namespace:
+    """Read the command line, or what is given instead."""
     parser = cli.parser(__doc__)
     parser.add_argument(
         "day", type=cli.day, nargs="?", help="default: the one worked on last"
@@ -51,7 +48,7 @@ def parse() -> argparse.Namespace:
     parser.add_argument(
         "--seed", type=int, metavar="N", help="of the inputs drawn anew; default: any"
     )
-    return parser.parse_args()
+    return parser.parse_args(arguments)
 
 
 def check(day: Day, options: argparse.Namespace) -> int:
@@ -98,41 +95,16 @@ def _printed(found: "Report", options: argparse.Namespace, seed: int) -> str:
     return as_text(found, explain=options.explain, colour=colour)
 
 
-def watch(day: Day, options: argparse.Namespace) -> int:
-    """Check at every save, until Ctrl-C or until everything passes."""
-    script = options.file or day.work
-    seen: object = None
-    while True:
-        while (state := stamps(day, script)) == seen:
-            time.sleep(POLL_SECONDS)
-        seen = state
-        if sys.stdout.isatty():
-            print("\x1b[2J\x1b[H", end="")
-        try:
-            if check(day, options) == cli.EXIT_OK:
-                return cli.EXIT_OK
-        except Robo47Error as error:  # a file may be away while an editor saves it
-            cli.complain(f"error: {error}")
-        print(f"\n{time.strftime('%H:%M:%S')}  watching; Ctrl-C ends it\n", flush=True)
-
-
-def stamps(day: Day, script: Path) -> dict[str, tuple[int, int]]:
-    """Return time and size of every file whose change calls for a new check."""
-    week = day.folder
-    files = {script, week / day.figure, week / day.worksheet, METRICS_CSV}
-    files |= {*script.parent.glob("*.py"), ROOT / ".git" / "index"}
-    found = {}
-    for path in files:
-        with contextlib.suppress(OSError):
-            status = path.stat()
-            found[str(path)] = (status.st_mtime_ns, status.st_size)
-    return found
-
-
 def main() -> int:
     """Check a day, once or at every save."""
     os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn: no window library
     atexit.register(gc.freeze)  # nor are NumPy and MuJoCo looked through once more
     options = parse()
     day = chosen_day(options.day, options.task)
-    return watch(day, options) if options.watch else check(day, options)
+    if not options.watch:
+        return check(day, options)
+    from labkit.commands.watch import watch
+
+    if not options.file:
+        require_begun(day)
+    return watch(day, options.task, options.file)

@@ -181,7 +181,8 @@ def _by_nature(asked: Asked, row: Row, change: str) -> bool:
         values = dict(zip(row.arguments, columns, strict=False))
         values["answer"] = right_answers(row.ask, asked.main) if row.ask.truth else ()
         some = [x for x in values.get(where, ()) if isinstance(x, float | np.ndarray)]
-        return bool(some) and all(np.max(np.abs(x)) <= 1 + 1e-12 for x in some)
+        largest = (np.max(np.abs(x), initial=0.0) for x in some)  # some hold nothing
+        return bool(some) and all(x <= 1 + 1e-12 for x in largest)
     signs = ("np.abs(", "np.maximum(")
     return where in row.positive and (how or change[7:]).startswith(signs)
 

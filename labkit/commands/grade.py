@@ -28,6 +28,7 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
@@ -200,7 +201,7 @@ def main() -> int:
         for week in numbers:
             place = out.parent / "proof"
             place = place / f"week{week}" if len(numbers) > 1 else place
-            prove(students, week, place, options.processes)
+            prove(students, week, place, options.processes, courses)
     failed = tell(courses, notes, out)
     return cli.EXIT_FAILED if failed else cli.EXIT_OK
 
@@ -305,24 +306,45 @@ def standings(course: Course) -> str:
     return f"{count(len(course.class_), 'student')}: {', '.join(words)}"
 
 
-def prove(students: list[Student], week: int, folder: Path, at_once: int) -> None:
-    """Write each student's page to show; say who has none, and why."""
+def prove(
+    students: list[Student],
+    week: int,
+    folder: Path,
+    at_once: int,
+    courses: Sequence[Course] = (),
+) -> None:
+    """Write each student's page to show; say who has none, and why.
+
+    Args:
+        students: from the roster.
+        week: its number.
+        folder: where the pages go.
+        at_once: how many are made at a time.
+        courses: the days that were graded: a page shows the commits that were.
+    """
     folder.mkdir(parents=True, exist_ok=True)
+    graded: dict[str, list[str]] = {student.folder: [] for student in students}
+    for course in courses:
+        for one in course.class_:
+            if course.day.week.number == week and one.commit:
+                graded[one.student.folder].append(f"{course.day.number}:{one.commit}")
     with ThreadPoolExecutor(at_once) as pool:
-        whys = list(pool.map(partial(write_proof, week, folder), students))
+        write = partial(write_proof, week, folder)
+        whys = list(pool.map(write, students, graded.values()))
     without = [both for both in zip(students, whys, strict=True) if both[1]]
     print(f"pages to show: {len(students) - len(without):,} in {shown(folder)}")
     for student, why in without:
         print(cli.wrapped(f"{student.name}: {why}", "  "))
 
 
-def write_proof(week: int, folder: Path, student: Student) -> str:
+def write_proof(week: int, folder: Path, student: Student, graded: list[str]) -> str:
     """Write a student's page in a process of its own; return why there is none."""
     if student.problem:
         return student.problem
     command = [sys.executable, str(ROOT / "scripts" / "proof.py"), "--week", str(week)]
     command += ["--of", str(student.path), f"--name={student.name}"]
     command += ["--out", str(folder / f"{student.file}.html")]
+    command += ["--graded", ",".join(graded)] if graded else []
     promised = {**os.environ, "ROBO47_WALL": wall().name}
     try:
         done = processes.run(command, env=promised, timeout=PROOF_SECONDS)

@@ -1,4 +1,4 @@
-"""Write a page to show: a week's numbers, whose functions, the pick in 3D.
+"""Write a page to show: a week's numbers, whose functions, its capstone in 3D.
 
     make proof                            of your week: metrics/proof-week1.html
     make proof WEEK=1                     of this week
@@ -7,15 +7,17 @@
                                           of a student's clone, for a teacher
 
 Every function is checked and every finished lab is run again now, in the sandbox; the
-arm picks the cube up with the functions that pass. One file, opened from disk;
+week's capstone is tried with the functions that pass. One file, opened from disk;
 metrics/proof.html leads to those of all weeks.
 """
 
 import importlib.util
+import re
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from types import MappingProxyType
 
 from labkit.base import cli, git, store
 from labkit.base.git import GitError, read_history
@@ -43,6 +45,7 @@ def main() -> int:
     add("--day", type=cli.day, metavar="N", help="the week of this day")
     add("--of", type=Path, metavar="CLONE", help="a student's clone, not your own")
     add("--name", default="", help="the student's; default: as git knows them")
+    add("--graded", type=graded, default={}, metavar="N:COMMIT,...", help="of each day")
     add("--out", type=Path, metavar="FILE", help="default: metrics/proof-weekN.html")
     options = parser.parse_args()
     if importlib.util.find_spec("viser") is None:
@@ -56,7 +59,8 @@ def main() -> int:
         raise Robo47Error(f"{folder} is no folder; choose another place with --out")
     begun = time.monotonic()
     try:
-        proof = found(week, options.of or ROOT, options.name, own=not options.of)
+        clone, own = options.of or ROOT, not options.of
+        proof = found(week, clone, options.name, own=own, graded=options.graded)
     except (OSError, GitError) as error:
         raise Robo47Error(f"{error}") from None
     write(out, door.with_facts(page.render(proof), page.in_short(proof)))
@@ -70,7 +74,24 @@ def main() -> int:
     return cli.EXIT_OK
 
 
-def found(week: Week, clone: Path, name: str = "", *, own: bool = False) -> page.Proof:
+def graded(text: str) -> dict[int, str]:
+    """Return the commit of each day of "1:360fd61...,2:360fd61..."."""
+    found = dict[int, str]()
+    for number, _, commit in (pair.partition(":") for pair in text.split(",")):
+        if not re.fullmatch("[0-9a-f]{7,64}", commit):
+            raise ValueError(text)
+        found[int(number)] = commit
+    return found
+
+
+def found(
+    week: Week,
+    clone: Path,
+    name: str = "",
+    *,
+    own: bool = False,
+    graded: Mapping[int, str] = MappingProxyType({}),
+) -> page.Proof:
     """Check a week's days in somebody's clone, run its labs and the capstone.
 
     Args:
@@ -79,6 +100,7 @@ def found(week: Week, clone: Path, name: str = "", *, own: bool = False) -> page
         name: the student's; by default as git knows them: by user.name in their own
             clone, by the author of the last commit of their work in another.
         own: it is the reader's, which may be a linked worktree.
+        graded: the commit of each day that was; of others the last of these.
     """
     days = days_of(week)
     history = read_history(clone, (), own=own)
@@ -87,7 +109,7 @@ def found(week: Week, clone: Path, name: str = "", *, own: bool = False) -> page
     student = Student(name, clone.name, clone)
     with Sandbox() as sandbox, TemporaryDirectory(prefix="robo47-grade-") as top:
         place = Path(top).resolve()
-        known = list(run_days(days, student, place, sandbox, own))
+        known = list(run_days(days, student, place, sandbox, own, graded))
         if all("not begun" in one.states.values() for one in known):
             raise Robo47Error("nothing is begun that could be shown: make start DAY=1")
         tried = NO_CAPSTONE
@@ -95,16 +117,23 @@ def found(week: Week, clone: Path, name: str = "", *, own: bool = False) -> page
             capstone = capstone_of(week)
             # It may stand on the functions of other weeks as well.
             others = [find_day(n) for n in capstone.USES if n not in week.days]
-            whole = [*known, *run_days(others, student, place, sandbox, own)]
+            whole = [*known, *run_days(others, student, place, sandbox, own, graded)]
             folders = [place / str(one.day.number) for one in whole]
             with cli.busy(capstone.NAME):
                 tried = attempt(capstone, whole, folders, sandbox)
     fresh = store.read(FRESH) if own else {}
-    return page.Proof(name, own, history.commit, known, tried, fresh)
+    ran = dict.fromkeys(one.commit for one in known if one.commit and not own)
+    commit = ", ".join(ran) or history.commit
+    return page.Proof(name, own, commit, known, tried, fresh)
 
 
 def run_days(
-    days: Sequence[Day], student: Student, place: Path, sandbox: Sandbox, own: bool
+    days: Sequence[Day],
+    student: Student,
+    place: Path,
+    sandbox: Sandbox,
+    own: bool,
+    graded: Mapping[int, str],
 ) -> Iterator[RunDay]:
     """Yield how each day stands; its files stay in a folder of its number.
 
@@ -114,12 +143,15 @@ def run_days(
         place: an empty folder, in which each day gets one.
         sandbox: where the functions run.
         own: it is the reader's own clone.
+        graded: the commits, as those of `found`.
     """
+    last = ([*graded.values()] or [""])[-1]
     for day in days:
         folder = place / str(day.number)
         folder.mkdir()
         with cli.busy(f"day {day.number}"):
-            found = facts_of(day, student, folder, sandbox, own=own)
+            at = graded.get(day.number, last)
+            found = facts_of(day, student, folder, sandbox, own=own, at=at)
         theirs = f"{len(found.own)} of {found.functions} functions theirs"
         print(f"  day {day.number}: {theirs}", flush=True)
         yield found

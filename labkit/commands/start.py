@@ -10,7 +10,7 @@ A file that is there is never overwritten, and a reset keeps your old text besid
 from itertools import count
 from pathlib import Path
 
-from labkit.base import cli
+from labkit.base import cli, store
 from labkit.lesson import last_day
 from labkit.lesson.day import Day, chosen_day, find_task
 from labkit.lesson.lab_module import read_script
@@ -27,14 +27,12 @@ def start(day: Day) -> int:
     starter = starter_of(day)
     work.parent.mkdir(parents=True, exist_ok=True)
     copy_kit(day)
-    try:
-        with work.open("x", encoding="utf-8") as file:
-            file.write(starter)
-    except FileExistsError:
+    if work.exists():
         print(f"{shown(work)} is there already and stays as it is.")
         print(f"To begin one task anew: make start RESET={first.id} (with its number);")
         print(f"all of it: move that file away, then make start DAY={day.number}")
         return cli.EXIT_OK
+    store.replace(work, starter.encode())
     print(f"Day {day.number}: {day.title}, about {day.minutes} minutes.")
     print(f"Your copy of the lab: {shown(work)}")
     print(f"It has {len(day.tasks)} tasks, from {first.id} ({first.functions[0]}) on.")
@@ -65,7 +63,7 @@ def copy_kit(day: Day) -> None:
     for original in (day.source.with_name("kit.py"), day.folder / "Makefile"):
         copy = day.work.with_name(original.name)
         if original.is_file() and not copy.exists():
-            copy.write_bytes(original.read_bytes())
+            store.replace(copy, original.read_bytes())
 
 
 def reset(task_id: str) -> int:
@@ -85,8 +83,9 @@ def rewrite(work: Path, text: str, why: str) -> Path:
     """Write a lab anew with its own line ends; return where it is as it was."""
     before = work.read_bytes()
     kept = free_name(work, why)
-    kept.write_bytes(before)
-    work.write_text(text, "utf-8", newline="\r\n" if b"\r\n" in before else "\n")
+    end = "\r\n" if b"\r\n" in before else "\n"
+    store.replace(kept, before)
+    store.replace(work, text.replace("\n", end).encode())
     return kept
 
 

@@ -6,19 +6,22 @@
 
 Your work is committed first, rows and worksheets are merged line by line, and your
 labs get what is new around your functions, helpers and constants; a copy of each as
-it was stays beside it. Without a network, or interrupted, nothing has changed.
+it was stays beside it. Without a network nothing has changed; interrupted anywhere,
+the next run puts it right. A file of yours is never written over.
 """
 
+import contextlib
 import json
 import os
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from labkit.base import cli, processes
+from labkit.base import cli, processes, store
 from labkit.commands.start import free_name
-from labkit.update import merge
-from labkit.update.merge import ask
+from labkit.update import git, last_step, merge
+from labkit.update.git import ask, beside, sweep
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
@@ -33,25 +36,38 @@ def main() -> int:
     options = parser.parse_args()
     if not (ROOT / ".git").exists():
         raise Robo47Error("this folder is no git repository; clone the kit instead")
+    with store.alone("update"):
+        try:
+            last_step.heal()
+            sweep()
+            update(options.place, options.to)
+        except (Robo47Error, OSError) as error:
+            raise Robo47Error(f"{error}. {last_step.state()}") from None
+    return cli.EXIT_OK
+
+
+def update(kit: str | None, to: str | None) -> None:
+    """Fetch, merge and take over; until the last step nothing of the student's moves.
+
+    Args:
+        kit: where it is; None is where it was.
+        to: a tag; None is the newest commit.
+    """
     with cli.busy("fetching"):
-        place, commit = merge.fetch(options.place, options.to)
-    merge.save_own()
-    own = ask("rev-parse", "HEAD")
-    with cli.busy("merging"), merge.beside(own) as worktree:
+        place, commit = merge.fetch(kit, to)
+    own = merge.saved_own()
+    copies = list[Path]()
+    with cli.busy("merging"), beside(own) as worktree:
         taken = merge.merge(worktree, commit)
         found = renew_labs(worktree, own, commit)
         if ask("status", "--porcelain", at=worktree):
             ask("add", "-A", at=worktree)
-            merge.commit("My labs on the newer kit", worktree)
-        copies = keep_copies(found["days"])
-        try:
-            merge.take(worktree, place)
-        except Robo47Error:
-            for copy in copies:
-                copy.unlink()
-            raise
+            git.commit("My labs on the newer kit", worktree)
+        if ask("rev-parse", "HEAD", at=worktree) != own:
+            with kept_copies(found["days"]) as copies:
+                last_step.take(worktree, own)
+    merge.remember(place)
     tell(found, copies, taken, own)
-    return cli.EXIT_OK
 
 
 def renew_labs(worktree: Path, own: str, target: str) -> dict[str, Any]:
@@ -61,20 +77,30 @@ def renew_labs(worktree: Path, own: str, target: str) -> dict[str, Any]:
     done = processes.run(command, env=environment, cwd=worktree)
     if done.returncode:
         why = done.stderr.strip().splitlines()[-1:] or ["it ended early"]
-        raise Robo47Error(f"the newer kit stops: {why[0]}. {merge.UNCHANGED}")
+        raise Robo47Error(f"the newer kit stops: {why[0]}")
     found: dict[str, Any] = json.loads(done.stdout)
     return found
 
 
-def keep_copies(days: list[dict[str, Any]]) -> list[Path]:
-    """Keep each lab that changes as it was; return where."""
-    copies = []
-    for day in days:
-        if day.get("changed"):
+@contextlib.contextmanager
+def kept_copies(days: list[dict[str, Any]]) -> Iterator[list[Path]]:
+    """Keep each lab that changes as it was, and yield where; none if that fails."""
+    copies = list[Path]()
+    new = list[Path]()  # a run that was killed may have left the same one
+    try:
+        for day in (day for day in days if day.get("changed")):
             work = ROOT / Path(day["lab"]).with_name(day["was"])
-            copies.append(free_name(work, "update"))
-            copies[-1].write_bytes(work.read_bytes())
-    return copies
+            there = work.parent.glob(f"{work.stem}.before-update-*.txt")
+            same = (one for one in there if one.read_bytes() == work.read_bytes())
+            copies.append(next(same, None) or free_name(work, "update"))
+            if not copies[-1].exists():
+                new.append(copies[-1])
+                new[-1].write_bytes(work.read_bytes())
+        yield copies
+    except BaseException:
+        for copy in new:
+            copy.unlink(missing_ok=True)
+        raise
 
 
 def tell(found: dict[str, Any], copies: list[Path], taken: list[str], own: str) -> None:

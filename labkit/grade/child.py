@@ -28,7 +28,7 @@ from labkit.handin.deliverables import check_files
 from labkit.handin.handin import Item
 from labkit.judge import Verdict
 from labkit.lesson.day import Day, find_day
-from labkit.sandbox.sandbox import Sandbox
+from labkit.sandbox.sandbox import Sandbox, deadline_of
 from robo47.errors import FaultError
 
 MEMORY = 6 * 1024**3  # bytes of addresses: MuJoCo and NumPy take a third of it
@@ -111,8 +111,10 @@ def _run(
     unpack(package, folder)
     with Sandbox() as sandbox:
         script = folder / day.script
-        results = check_tasks(day, script, sandbox, seed=package.seed)
-        lab = check_lab(day, script, sandbox) if required_pass(results) else []
+        whole = deadline_of(day)
+        asked = (day, script, sandbox)
+        results = check_tasks(*asked, seed=package.seed, deadline=whole)
+        lab = check_lab(*asked, whole) if required_pass(results) else []
     return results, lab
 
 

@@ -78,7 +78,9 @@ class Classroom:
             text = f"{one.name}\n\n{found.result.text}"
             write(feedback / f"{one.file}.txt", printable(text).encode("utf-8"))
             # without the text, so that a week takes the memory of a day
-            graded[one.folder] = replace(found, result=replace(found.result, text=""))
+            result = replace(found.result, text="")
+            unseen = tuple(_hidden(package, self.day, result))
+            graded[one.folder] = replace(found, result=result, hidden=unseen)
             bar.update()
 
         def changed() -> Iterator[tuple[Student, Package]]:
@@ -128,6 +130,7 @@ class Classroom:
             student,
             result,
             commit=given.commit,
+            branch=package.branch,
             minutes=minutes,
             note=self.notes.get(student.folder, ""),
             fault=fault,
@@ -137,7 +140,8 @@ class Classroom:
     def _course(
         self, everybody: Sequence[Graded], runs: Mapping[str, list[Runs]], now: int
     ) -> Course:
-        alike = similar.like_the_kit(runs, _runs_of_kit(self.day))
+        kit = _runs_of_kit(self.day)
+        alike = similar.like_the_kit(runs, kit, _runs_of_functions(self.day))
         alike += similar.similar_groups({f: r[0] for f, r in runs.items() if r})
         journal = self.journal
         odd = ""
@@ -189,6 +193,26 @@ def _runs_of_kit(day: Day) -> Runs:
     files = [day.source, *(file_of(f"robo47.{name}") for name in day.library)]
     texts = "\n".join(map(read_script, files))
     return similar.runs_of(texts.encode(), starter_of(day))
+
+
+def _runs_of_functions(day: Day) -> list[Runs]:
+    """Return the runs of each function of a day's solution."""
+    functions = similar.functions_of(read_script(day.source))
+    names = (name for task in day.tasks for name in task.functions)
+    texts = (functions.get(name, "") for name in names)
+    starter = starter_of(day)
+    return [similar.runs_of(text.encode(), starter) for text in texts]
+
+
+def _hidden(package: Package, day: Day, result: Result) -> list[str]:
+    """Return what passes and cannot be seen in a submission."""
+    kits = day.source.with_name("kit.py").read_bytes()
+    own = [data for data in package.modules().values() if data != kits]
+    passed = {mark.id for mark in result.tasks if mark.passed}
+    tasks = [task for task in day.tasks if task.id in passed]
+    was = {now: was for task in tasks for was, now in task.renamed}
+    names = [(f, was.get(f, f)) for task in tasks for f in task.functions]
+    return similar.hidden([text.decode("utf-8", "replace") for text in own], names)
 
 
 def _runs(package: Package, day: Day, starter: str) -> list[Runs]:

@@ -9,6 +9,8 @@ from labkit.grade.roster import Student
 from labkit.grade.similar import Group
 from labkit.lesson.day import Day
 
+UNKNOWN = "unknown"
+
 
 @dataclass(frozen=True)
 class Graded:
@@ -18,11 +20,13 @@ class Graded:
     result: Result  # the grade; without its text, where a class is held
     _: KW_ONLY
     commit: str = ""  # the hash of the last commit, or ""
+    branch: str = ""  # that the clone stands on, or ""
     # From there to the deadline, by the student's own clock, negative past it; None
     # without a commit.
     minutes: int | None = None
     note: str = ""  # what this run has to add to the result's error, as a failed pull
     fault: bool = False  # whether this machine failed; the next run grades them
+    hidden: tuple[str, ...] = ()  # what passes and does not show in the file's text
     late: int | None = None  # how many commits came after the deadline; None without
 
     @property
@@ -45,10 +49,15 @@ class Graded:
         return "under way" if any(task.passed for task in tasks) else "not started"
 
     @property
-    def late_by(self) -> tuple[int | None, int | None]:
-        """Minutes and begun days from the deadline to the commit that counts."""
-        if self.late is None or self.minutes is None:
+    def late_by(self) -> tuple[int | str | None, int | str | None]:
+        """Minutes and begun days from the deadline to the commit that counts.
+
+        UNKNOWN where it has no time that can be, or no commit is there to be read.
+        """
+        if self.late is None or self.state == UNGRADED:
             return None, None
+        if self.minutes is None:
+            return UNKNOWN, UNKNOWN
         minutes = max(0, -self.minutes)
         return minutes, -(-minutes // (24 * 60))
 

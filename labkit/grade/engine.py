@@ -24,18 +24,19 @@ from concurrent.futures import (
     ThreadPoolExecutor,
     wait,
 )
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from labkit.base.processes import Child, sweep
+from labkit.base.processes import Child, scheduled, sweep
 from labkit.base.text import visible
 from labkit.grade.package import FOLDER as COMMIT_FOLDER
 from labkit.grade.package import Package, fingerprint
-from labkit.grade.result import Result, from_json
+from labkit.grade.result import Result, from_json, kept_busy
 from labkit.grade.roster import Student
 from labkit.lesson.day import find_day
 from labkit.sandbox.process import wall
+from labkit.sandbox.sandbox import deadline_of
 from robo47.errors import FaultError, Robo47Error
 from robo47.paths import ROOT
 
@@ -43,9 +44,9 @@ PER_WORKER = 2  # packages under way for each worker: one graded, one waiting
 REACHING = 10.0  # seconds for a Dask scheduler to answer
 PATIENCE = 60.0  # seconds without any worker before giving up
 SILENCE = 900.0  # seconds without any result before giving up on what is under way
-# For one package. The sandbox stops a file after 100 s of its own, so only a machine
-# under load gets here.
-SECONDS = 360.0
+# For one package, beyond its own deadline. The checker keeps that one, so only what it
+# cannot interrupt gets here, or a machine under load.
+BEYOND = 230.0
 LEFT_BEHIND = 86_400  # seconds after which a folder of ours belongs to nobody
 FOLDER = "robo47-grader-"
 
@@ -57,7 +58,7 @@ class Grader(Child):
         """Start the process, behind the wall that was promised, in a new folder."""
         # The wall that was promised, or none of this: not what stands at that moment.
         promised = {"ROBO47_WALL": wall().name, "PYTHONPATH": str(ROOT)}
-        self.folder = tempfile.mkdtemp(prefix=FOLDER)
+        self.folder = tempfile.mkdtemp(prefix=f"{FOLDER}{os.getpid()}_")
         temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), self.folder)
         environment = {**os.environ, **temporary, **promised}
         try:  # in its folder, since MuJoCo writes its warnings there
@@ -68,16 +69,20 @@ class Grader(Child):
             shutil.rmtree(self.folder, ignore_errors=True)
             raise
 
-    def grade(self, package: Package, seconds: float = SECONDS) -> dict[str, Any]:
+    def grade(self, package: Package, beyond: float = BEYOND) -> dict[str, Any]:
         """Return a package's result as JSON, which `result.from_json` reads.
 
         Args:
             package: one submission.
-            seconds: after so many the process is ended.
+            beyond: so many seconds after its deadline the process is ended. If it was
+                at work most of the time, the submission kept it busy.
 
         Raises:
             FaultError: grading ended early, or the machine failed.
         """
+        day = find_day(package.day)
+        seconds = deadline_of(day).seconds + beyond
+        before, _ = scheduled(self.process)
         with self.within(seconds):
             self.send(pickle.dumps(package))
             answer = self.process.stdout.readline()
@@ -88,6 +93,8 @@ class Grader(Child):
             return found
         self.close()
         why = f"it took more than {seconds:.0f} s" if self.late else "it was killed"
+        if self.late and self.ran - before > seconds / 2:
+            return asdict(kept_busy(day, f"{why} of the checker's own work"))
         raise FaultError(f"grading it was stopped: {why}")
 
     def close(self) -> None:

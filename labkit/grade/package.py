@@ -60,6 +60,7 @@ class Package:
     problem: str = ""  # why there is nothing to grade; "" where there is
     seed: int = 0  # of the fresh inputs, the same for everybody
     version: str = ""  # of the kit that collected it, in words
+    branch: str = ""  # that the clone stands on
     late: int = 0  # how many commits came after the deadline
 
     @property
@@ -88,7 +89,11 @@ class Package:
 
 
 def collect(
-    student: Student, day: Day, seed: int = 0, deadline: int | None = None
+    student: Student,
+    day: Day,
+    seed: int = 0,
+    deadline: int | None = None,
+    at: str = "",
 ) -> Package:
     """Return what a student hands in.
 
@@ -97,6 +102,7 @@ def collect(
         day: from the kit's manifest.
         seed: of the fresh inputs.
         deadline: seconds since 1970, or None.
+        at: the commit that counts, whatever the deadline.
 
     Raises:
         OSError, GitError: this machine failed.
@@ -108,7 +114,7 @@ def collect(
         problem = "there is no such folder"
     if problem:
         return replace(package, problem=problem)
-    handin, history, late = read_in_time(day, student.path, deadline)
+    handin, history, late = read_in_time(day, student.path, deadline, at)
     day = day.named_as(lambda name: name in handin.files)
     return replace(
         package,
@@ -116,12 +122,13 @@ def collect(
         commit_item=check_commit(day, handin, history),
         commit=history.commit,
         committed=history.committed,
+        branch=history.branch,
         late=late,
     )
 
 
 def read_in_time(
-    day: Day, clone: Path, deadline: int | None
+    day: Day, clone: Path, deadline: int | None, at: str = ""
 ) -> tuple[Handin, History, int]:
     """Return what a student hands in, its commit, and how many commits came too late.
 
@@ -132,6 +139,7 @@ def read_in_time(
         day: from the kit's manifest.
         clone: the student's folder.
         deadline: seconds since 1970, or None.
+        at: the commit that counts; the folder as it is, where that is its last one.
 
     Raises:
         OSError, GitError: this machine failed.
@@ -139,9 +147,11 @@ def read_in_time(
     handin = read_handin(_as_there(day, clone), clone)
     history = read_history(clone, wanted_names(day, handin))
     is_late = history.committed is None or history.committed > (deadline or 0)
-    if deadline is None or not history.commit or not is_late:
+    if at == history.commit or not history.commit:
         return handin, history, 0
-    commit, late = before(clone, deadline)
+    if not at and (deadline is None or not is_late):
+        return handin, history, 0
+    commit, late = (at, 0) if at else before(clone, deadline or 0)
     if not commit:
         return handin, history, late
     with tempfile.TemporaryDirectory(prefix=FOLDER) as folder:

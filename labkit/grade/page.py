@@ -9,7 +9,7 @@ from urllib.parse import quote
 from labkit.base import html
 from labkit.base.text import count, visible
 from labkit.grade.charts import STATUS, STYLE, Row, chart, legend
-from labkit.grade.course import Course, Graded, by_student, percent
+from labkit.grade.course import UNKNOWN, Course, Graded, by_student, percent
 from labkit.grade.result import Mark
 from labkit.grade.sheet import printable
 
@@ -37,7 +37,11 @@ _ALIKE = (
     "verdict: friends who learn together and a good book also write alike. The "
     "starter's text and what much of the class writes are left out; names do not "
     "count. The number is that of the two most similar; beside the kit's solution, "
-    "the share of one's own code that stands in it."
+    "the share of one's own code that stands in it, or of its functions in one's own."
+)
+_HIDDEN = (
+    "In an ordinary file each function that a task asks for has its def. Here tasks "
+    "pass without one, or beside what runs a text as code: look at the file, and ask."
 )
 _REFUSED = "A task needs nothing but its arguments. Most of these are accidents: ask."
 
@@ -52,6 +56,7 @@ def render(course: Course) -> str:
         _standings(course),
         *(_people(course, state) for state in STATES),
         _alike(course),
+        _hidden(course),
         _refused(course),
         _everyone(course),
         style=STYLE,
@@ -208,7 +213,7 @@ def _name(graded: Graded) -> str:
 
 def _ago(graded: Graded) -> str:
     if graded.minutes is None:
-        return "no commit"
+        return "last commit: a time that cannot be" if graded.commit else "no commit"
     size = abs(graded.minutes)
     units = (("d", 1440), ("h", 60), ("min", 1))
     unit, length = next((u for u in units if size >= 2 * u[1]), units[-1])
@@ -228,6 +233,16 @@ def _alike(course: Course) -> str:
     more = len(course.alike) - MOST
     rest = f'<p class="muted">and {more:,} more</p>' if more > 0 else ""
     return _listed("Similar submissions", len(course.alike), rows, _ALIKE, rest)
+
+
+def _hidden(course: Course) -> str:
+    """Return who passes with what does not show in their file."""
+    some = [graded for graded in course.class_ if graded.hidden]
+    rows = [
+        _entry(f"<b>{_name(graded)}</b>", "; ".join(graded.hidden))
+        for graded in some[:MOST]
+    ]
+    return _listed("Passes, and does not show in the file", len(some), rows, _HIDDEN)
 
 
 def _refused(course: Course) -> str:
@@ -261,7 +276,9 @@ def _line(graded: Graded) -> str:
         tip = escape(f"{mark.id}: {mark.mistake or word}")
         cells.append(f'<td class="mark {role}" title="{tip}">{sign}</td>')
     when = "–" if late is None else "in time"
-    if late:
+    if late == UNKNOWN:
+        when = UNKNOWN
+    elif late:
         when = '<span class="fail">late</span>'
     cells.append(f'<td class="mark">{when}</td>')
     return f"<tr><td>{_name(graded)}</td>{''.join(cells)}</tr>"

@@ -4,17 +4,21 @@ A clone that came as an archive brings its own git configuration, which may name
 programs to run: it is graded and never pulled. Which clones are ours stands in a file
 beside them, with what their configuration was. A new one is made under another name,
 noted there, and renamed last: a run that is killed leaves nothing that the next one
-does not heal. What a commit may write is `labkit.base.git`'s to say.
+does not heal. What a commit may write is `labkit.base.git`'s to say. Which branch is
+taken is the server's to say, by name, and the clone's HEAD has that name.
 """
 
 import hashlib
 import json
 import os
+import re
 import shutil
+import subprocess
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
+from typing import Any
 
 from labkit.base import git
 from labkit.base.git import GitError
@@ -25,6 +29,9 @@ from labkit.grade.roster import Student
 AT_ONCE = 8
 SECONDS = 300
 OURS = ".robo47-clones.json"  # beside the clones
+HEADS = "refs/heads/"
+SHOWN = 5  # branches that are named
+_NAME = re.compile(r"[^\0-\x20~^:?*\[\\\x7f]+")  # what git calls a branch
 _SAFE = (
     "core.fsmonitor=false",
     f"core.hooksPath={os.devnull}",
@@ -76,16 +83,29 @@ def pull(student: Student, known: str | None) -> tuple[str | None, str]:
     if path.exists():
         if known is None or known != _mark(path):
             return known, _NOT_OURS
-        return known, _update(path)
+        return known, _problem(_update, path)
     if not student.url:
         return known, "there is no such folder, and the roster has no git URL"
     new = _beside(path)
     shutil.rmtree(new, ignore_errors=True)  # of a run that was killed
-    bare = ("clone", "-q", "--no-checkout", "--", student.url, new.name)
-    problem = _git(path.parent, *bare) or _take(new, "HEAD", "reset", "-q", "--hard")
-    if problem:
+    if problem := _problem(_clone, new, student.url):
         shutil.rmtree(new, ignore_errors=True)
-    return (known, problem) if problem else (_mark(new), "")
+        return known, problem
+    return _mark(new), ""
+
+
+def _problem(work: Callable[..., None], *arguments: Any) -> str:
+    """Do it; return what went wrong, or ""."""
+    try:
+        work(*arguments)
+    except (GitError, OSError) as error:
+        return str(error)
+    return ""
+
+
+def _clone(new: Path, url: str) -> None:
+    _git(new.parent, "clone", "-q", "--no-checkout", "--", url, new.name)
+    _update(new)
 
 
 def _beside(path: Path) -> Path:
@@ -103,32 +123,82 @@ def _move_in(path: Path) -> str:
     return ""
 
 
-def _update(clone: Path) -> str:
-    """Update our own clone, also after a forced push; return what went wrong, or "".
+def _update(clone: Path) -> None:
+    """Update our own clone, also after a forced push.
 
     What was there before stays: it may be the last work before the deadline.
+
+    Raises:
+        GitError, OSError: what went wrong.
     """
-    problem = _git(clone, "fetch", "-q", "--force", "--no-recurse-submodules")
-    (clone / ".git" / "index.lock").unlink(missing_ok=True)  # of a run that was killed
-    asked = ("rev-parse", "-q", "--verify")
-    had, has = (not _git(clone, *asked, name) for name in ("HEAD", "FETCH_HEAD"))
-    if not problem and not had and not has:
-        return ""  # nothing was pushed yet
-    kept = ("merge-base", "--is-ancestor", "HEAD", "FETCH_HEAD")
-    if not problem and had and _git(clone, *kept):
-        problem = _git(clone, "update-ref", f"{git.SEEN}{time.time_ns()}", "HEAD")
-    return problem or _take(clone, "FETCH_HEAD", "reset", "-q", "--hard", "FETCH_HEAD")
-
-
-def _take(clone: Path, commit: str, *how: str) -> str:
-    """Check out a commit of a sane size, as it is; return what went wrong, or ""."""
+    _clear(clone / ".git")
+    name = _branch(clone)
+    if not name:
+        return
+    how = ("-q", "--force", "--no-tags", "--no-recurse-submodules", "--refmap=")
+    _git(clone, "fetch", *how, "origin", f"{HEADS}{name}")
+    commit = _git(clone, "rev-parse", "FETCH_HEAD^{commit}").strip()
+    if too_much := git.too_much(clone, commit):
+        raise GitError(too_much)
+    before = git.branch_of(clone)
+    if _is(clone, "rev-parse", "-q", "--verify", "HEAD") and (
+        before != name or not _is(clone, "merge-base", "--is-ancestor", "HEAD", commit)
+    ):
+        _git(clone, "update-ref", f"{git.SEEN}{time.time_ns()}", "HEAD")
+    if before != name:
+        _git(clone, "symbolic-ref", "HEAD", f"{HEADS}{name}")
+        if before:  # git has no branch "a" beside a branch "a/b"
+            _git(clone, "update-ref", "-d", f"{HEADS}{before}")
     info = clone / ".git" / "info"
-    try:
-        info.mkdir(exist_ok=True)
-        replace(info / "attributes", _AS_IT_IS)
-        return git.too_much(clone, commit) or _git(clone, *how)
-    except (GitError, OSError) as error:
-        return str(error)
+    info.mkdir(exist_ok=True)
+    replace(info / "attributes", _AS_IT_IS)
+    whole = _is(clone, "ls-files", "--", ".git")  # it reads the index
+    if not whole:  # the power was cut
+        (clone / ".git" / "index").unlink(missing_ok=True)
+    _git(clone, "reset", "-q", "--hard", commit)
+    if not whole:  # what the new commit has no longer
+        _git(clone, "clean", "-q", "-ffdx")
+
+
+def _clear(folder: Path) -> None:
+    """Remove what a git that was killed leaves in our clone: locks, half a pack."""
+    left = [*folder.glob("*.lock"), *(folder / "refs").rglob("*.lock")]
+    for path in [*left, *(folder / "objects" / "pack").glob("tmp_*")]:
+        path.unlink(missing_ok=True)
+
+
+def _branch(clone: Path) -> str:
+    """Return which branch is graded; "" where nothing was pushed yet.
+
+    It is the server's default one. Where the server names none that is there, it is
+    the one that was taken before, or the only one; never one that is guessed.
+
+    Raises:
+        GitError: there is none such, or the server does not answer.
+    """
+    told = _git(clone, "ls-remote", "--symref", "origin", "HEAD", f"{HEADS}*")
+    default = ""
+    there = []
+    for what, _, name in (line.partition("\t") for line in told.splitlines()):
+        if name == "HEAD" and what.startswith(f"ref: {HEADS}"):
+            default = what.removeprefix(f"ref: {HEADS}")
+        elif name.startswith(HEADS) and _NAME.fullmatch(name):
+            there.append(name.removeprefix(HEADS))
+    before = ""
+    if _is(clone, "rev-parse", "-q", "--verify", "HEAD"):
+        before = git.branch_of(clone)
+    for name in (default, before):
+        if name in there:
+            return name
+    if not before and len(there) < 2:
+        return there[0] if there else ""
+    others = ", ".join(there[:SHOWN]) + (", ..." if len(there) > SHOWN else "")
+    none = "the server names none of its branches as the default"
+    if before:
+        none = (
+            f"the branch {before} is gone from the server, and no other is its default"
+        )
+    raise GitError(visible(f"{none} ({others or 'it has none'})", 200))
 
 
 def _mark(clone: Path) -> str | None:
@@ -154,21 +224,32 @@ def _read(marks: Path) -> dict[str, str | None]:
 
 
 def _git(folder: Path, *arguments: str) -> str:
-    """Run git; return the first line of what it complains of, or ""."""
-    settings = [word for setting in _SAFE for word in ("-c", setting)]
-    try:
-        done = git.run(
-            *settings,
-            *arguments,
-            folder=folder,
-            seconds=SECONDS,
-            largest=git.LARGEST_GIT,
-            GIT_ALLOC_LIMIT=git.LARGEST_OBJECT,
-            GIT_LFS_SKIP_SMUDGE="1",
-        )
-    except GitError as error:
-        return str(error)
+    """Return what git prints.
+
+    Raises:
+        GitError: with the first line of what it complains of.
+    """
+    done = _run(folder, *arguments)
     if done.returncode == 0:
-        return ""
+        return str(done.stdout)
     lines = [ln for ln in done.stderr.splitlines() if ln.strip()]
-    return visible(lines[0], 200) if lines else f"git ended with {done.returncode}"
+    why = visible(lines[0], 200) if lines else f"git ended with {done.returncode}"
+    raise GitError(why)
+
+
+def _is(folder: Path, *arguments: str) -> bool:
+    """Return whether git says yes."""
+    return bool(_run(folder, *arguments).returncode == 0)
+
+
+def _run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[Any]:
+    settings = [word for setting in _SAFE for word in ("-c", setting)]
+    return git.run(
+        *settings,
+        *arguments,
+        folder=folder,
+        seconds=SECONDS,
+        largest=git.LARGEST_GIT,
+        GIT_ALLOC_LIMIT=git.LARGEST_OBJECT,
+        GIT_LFS_SKIP_SMUDGE="1",
+    )

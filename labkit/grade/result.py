@@ -130,3 +130,17 @@ def ungraded(day: Day, why: str) -> Result:
         f"Day {day.number}: {day.title}\n\nThis could not be graded: {why}\n",
         why,
     )
+
+
+def kept_busy(day: Day, why: str) -> Result:
+    """Return the result of a submission that nobody could look at to its end.
+
+    Args:
+        day: from the manifest.
+        why: as for `ungraded`; it is the submission's fault, so it counts.
+    """
+    says = f"the check of this file was stopped: {why}"
+    bare = ungraded(day, says)
+    tasks = (Mark(id, "wrong", "too-slow", says) for id in counted(day))
+    items = (Mark(name, "todo") for name in item_names(day))
+    return replace(bare, tasks=tuple(tasks), items=tuple(items))

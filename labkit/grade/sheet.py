@@ -16,7 +16,7 @@ from pathlib import Path
 
 from labkit.base import store
 from labkit.base.text import visible
-from labkit.grade.course import Course, Graded, by_student, percent
+from labkit.grade.course import UNKNOWN, Course, Graded, by_student, percent
 from labkit.grade.result import Mark
 from labkit.grade.roster import Student
 from robo47.errors import Robo47Error
@@ -72,6 +72,7 @@ def nameless(class_: Sequence[Graded], seed: int) -> list[Graded]:
         result = replace(graded.result, tasks=tuple(marks), error="", refused=())
         student = Student(code, code, Path())
         bare = replace(graded, student=student, result=result, commit="", note="")
+        bare = replace(bare, branch="")
         found.append(bare)
     return sorted(found, key=lambda graded: graded.student.name)
 
@@ -80,6 +81,7 @@ def _row(graded: Graded) -> dict[str, Cell]:
     result = graded.result
     mistake = graded.result.first_mistake or Mark("", "")
     minutes, days = graded.late_by
+    no_time = graded.commit and graded.minutes is None
     return {
         **_who(graded.student),
         "percent": percent(graded),
@@ -89,11 +91,12 @@ def _row(graded: Graded) -> dict[str, Cell]:
         **{item.id: item.status for item in result.items},
         "first_mistake": plain(f"{mistake.id} {mistake.mistake}"),
         "what_it_says": plain(mistake.message),
-        "minutes_since_commit_own_clock": graded.minutes,
+        "minutes_since_commit_own_clock": UNKNOWN if no_time else graded.minutes,
         "late_minutes": minutes,
         "late_days": days,
         "commits_after_deadline": graded.late,
         "commit_hash": graded.commit[:10],
+        "branch": plain(graded.branch),
         "kit": result.kit,
         "seed": result.seed if result.kit else None,
         "refused": plain("; ".join(result.refused)),

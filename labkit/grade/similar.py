@@ -4,15 +4,20 @@ A submission becomes the set of its runs of LENGTH tokens, with names made
 equal, so that renaming hides nothing. What the starter gives, and what much of
 the class writes (there are few ways to type a rotation about z), counts for nobody; the
 rest is compared. After Schleimer, Wilkerson and Aiken, "Winnowing", SIGMOD 2003.
+The kit's own solution is looked for function by function, so that what else a file
+holds hides nothing; and a task that passes while its function stands nowhere is told.
+
+Nothing here parses a submission as Python: a text can end the parser.
 """
 
 import builtins
 import keyword
 import re
+import unicodedata
 import zlib
 from array import array
 from collections import Counter, defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import TypeAlias
@@ -27,11 +32,17 @@ KITS = 0.8  # share of one's own runs that are in the kit's; right answers have 
 Runs: TypeAlias = "array[int]"  # hashes, as `runs_of` gives them
 _TOKEN = re.compile(
     r"(?P<comment>#[^\n]*)"
-    r"|(?P<text>\"\"\".*?\"\"\"|'''.*?'''|\"[^\"\n]*\"|'[^'\n]*')"
+    r"|(?P<text>\"\"\"(?:\\.|[^\\])*?(?:\"\"\"|\\?\Z)"
+    r"|'''(?:\\.|[^\\])*?(?:'''|\\?\Z)"
+    r"|\"(?:\\.|[^\"\\\n])*\"?|'(?:\\.|[^'\\\n])*'?)"  # a text without an end, too
     r"|(?P<name>\.?[^\W\d]\w*)"
     r"|(?P<other>\d[\w.]*|\S)",
     re.DOTALL,
 )
+_PADDING = (";", "pass")  # may stand anywhere and does nothing
+# What runs a text as code, or leads to what does.
+_RUNS_TEXT = {"exec", "eval", "compile", "__import__", "__builtins__", "builtins"}
+_RUNS_TEXT |= {"importlib", "marshal"}
 _KEPT = frozenset(keyword.kwlist) | frozenset(dir(builtins))
 
 
@@ -65,7 +76,7 @@ def tokens(text: str) -> list[str]:
     found = []
     for match in _TOKEN.finditer(text):
         token = match[0]
-        if match.lastgroup == "comment":
+        if match.lastgroup == "comment" or token in _PADDING:
             continue
         if match.lastgroup == "text":
             token = "''"
@@ -75,16 +86,79 @@ def tokens(text: str) -> list[str]:
     return found
 
 
-def like_the_kit(runs: Mapping[str, Sequence[Runs]], kit: Runs) -> list[Group]:
+def functions_of(text: str) -> dict[str, str]:
+    """Return a script's functions at the left margin, by name, as texts.
+
+    Args:
+        text: Python, or anything else. What stands in a text of its own is none.
+    """
+    found: dict[str, str] = {}
+    begun = list(_margin(text))
+    ends = [*(at for at, _ in begun[1:]), len(text)]
+    for (at, words), end in zip(begun, ends, strict=False):
+        if words[:1] == ["def"] or words[1:3] == ["=", "lambda"]:
+            name = "".join(words[1:2] if words[0] == "def" else words[:1])
+            found[name] = found.get(name, "") + text[at:end]
+        elif words[:1] in (["from"], ["import"]):  # may take a function's place
+            taken = [match[0] for match in _TOKEN.finditer(text, at, end)]
+            found = (
+                {} if "*" in taken else {n: found[n] for n in found if n not in taken}
+            )
+        elif words[1:2] == ["="]:
+            found.pop(words[0], None)
+    return found
+
+
+def _margin(text: str) -> Iterator[tuple[int, list[str]]]:
+    """Yield where something begins at the left margin, and its first three tokens."""
+    at, words = -1, list[str]()
+    for match in _TOKEN.finditer(text):
+        if match.lastgroup == "comment":
+            continue
+        at_margin = text[match.start() - 1 : match.start()] in ("\n", "\r", "")
+        if at_margin and match[0] not in ")]}":
+            if at >= 0:
+                yield at, words
+            at, words = match.start(), []
+        if len(words) < 3:
+            words.append(unicodedata.normalize("NFKC", match[0]))
+    if at >= 0:
+        yield at, words
+
+
+def hidden(texts: Sequence[str], names: Sequence[tuple[str, ...]]) -> list[str]:
+    """Return what a submission's text does not show, in words.
+
+    Args:
+        texts: of its files.
+        names: of each function that passes, and what it may be called as well.
+    """
+    there = {name for text in texts for name in functions_of(text)}
+    found = [f"no function {some[0]}" for some in names if there.isdisjoint(some)]
+    words = (match[0] for text in texts for match in _TOKEN.finditer(text))
+    plain = {unicodedata.normalize("NFKC", word).lstrip(".") for word in words}
+    runs = sorted(_RUNS_TEXT & plain) if names else []
+    return [*found, *(f"a text can run as code: {word}" for word in runs)]
+
+
+def like_the_kit(
+    runs: Mapping[str, Sequence[Runs]],
+    kit: Runs,
+    functions: Sequence[Runs] = (),
+) -> list[Group]:
     """Return whose files have what the kit's own solution has, the most alike first.
 
     However many copy it, so not by what much of the class writes.
 
     Args:
         runs: of each of a submission's files.
-        kit: of the solution.
+        kit: of the solution, and of the library that has it.
+        functions: of each function of the solution: what else a file has, beside
+            those that stand in it, is not looked at.
     """
     solution = set(kit)
+    parts = [set(one) for one in functions]
+    whole = max(1, sum(map(len, parts)))
     groups = []
     for key, files in runs.items():
         shares = [
@@ -92,8 +166,11 @@ def like_the_kit(runs: Mapping[str, Sequence[Runs]], kit: Runs) -> list[Group]:
             for own in files
             if len(own) >= FEWEST
         ]
-        if shares and max(shares) >= KITS:
-            groups.append(Group((key,), max(shares), with_kit=True))
+        share = max(shares, default=0.0)
+        everything = set[int]().union(*files)
+        by_parts = sum(len(part & everything) for part in parts) / whole
+        if share >= KITS or by_parts >= ALIKE:
+            groups.append(Group((key,), max(share, by_parts), with_kit=True))
     return sorted(groups, key=lambda g: (-g.share, g.keys))
 
 

@@ -37,10 +37,16 @@ class Own:
     """The functions of one day's file, and how they compare with the library's."""
 
     def __init__(
-        self, student: Student, library: Any, free: Collection[str] = ()
+        self,
+        student: Student,
+        library: Any,
+        free: Collection[str] = (),
+        any_rows: Collection[str] = (),
     ) -> None:
         """Ask nobody yet, see `Page.own`."""
-        self._free, self._student = free, student
+        self._free = {*free, *any_rows}
+        self._any_rows = any_rows
+        self._student = student
         self._library = library if isinstance(library, Mapping) else vars(library)
         self.version = 0
         self._apart: dict[str, float] = {}
@@ -48,6 +54,8 @@ class Own:
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
         """Return a function of the student's by its name."""
+        if name not in self._library:
+            raise AttributeError(f"what page.own(...) was given has no {name}")
         return lambda *args: self.many((name, *args))[0]
 
     def many(self, *calls: Call) -> list[Any]:
@@ -85,13 +93,15 @@ class Own:
             raise NoAnswerError(f"YOUR {problem}")
         ours = _parts(right)
         theirs = _parts(reply.value)
-        if [np.shape(x) for x in ours] != [np.shape(x) for x in theirs]:
+        leave = int(name in self._any_rows)  # the first size
+        if [np.shape(x)[leave:] for x in ours] != [np.shape(x)[leave:] for x in theirs]:
             got = " and ".join(f"shape {np.shape(x)}" for x in theirs) or "nothing"
             raise NoAnswerError(f"YOUR {name} returned {got}")
         if not all(np.isfinite(x).all() for x in theirs):
             raise NoAnswerError(f"YOUR {name} returned NaN, or a number without end")
         for mine, truth in zip(theirs, ours, strict=True):
-            off = float(np.abs(mine - truth).max(initial=0.0))
+            apart = np.zeros(1) if leave else np.abs(mine - truth)
+            off = float(apart.max(initial=0.0))
             scale = 1.0 + float(np.abs(truth).max(initial=0.0))
             before = self._apart.get(name, 0.0)
             judged = name not in self._free and off > SAME * scale

@@ -121,7 +121,9 @@ class Page:
 
     # The student's functions, and what takes time
 
-    def own(self, library: Any, free: Collection[str] = ()) -> Own:
+    def own(
+        self, library: Any, free: Collection[str] = (), any_rows: Collection[str] = ()
+    ) -> Own:
         """Return the student's functions; a line of the panel says how they compare.
 
         They wait for the sandbox: call them in `job`, or in the `work` of `animate`.
@@ -129,9 +131,11 @@ class Page:
         Args:
             library: the module with the functions of the same names, or {name: it}.
             free: names of functions that have more than one right answer.
+            any_rows: of those whose answers may have any number of rows, such as ways;
+                the tab itself says how they compare.
         """
         self._whose = self.html()
-        self._own = Own(self.host.student, library, free)
+        self._own = Own(self.host.student, library, free, any_rows)
         return self._own
 
     def jobs_apart(self) -> Jobs:

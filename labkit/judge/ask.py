@@ -5,6 +5,7 @@ function of the manifest. Inputs are drawn from a `Draw`, or from `Edges`.
 """
 
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import chain
@@ -16,7 +17,7 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Path, Question, Reply
 from labkit.judge import fits
-from labkit.judge.answers import InTurn, Parts, gaps, parts
+from labkit.judge.answers import InTurn, Parts, gaps, own, parts
 from labkit.judge.draw import Draw, Edges
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
@@ -88,10 +89,12 @@ class HeldOut:
 
 @dataclass(frozen=True)
 class Slip:
-    """A slip that ends in an exception whose own text does not help."""
+    """A slip that ends in an exception whose own text does not help, or never ends."""
 
-    error: str  # regular expression that the "Type: text" of the exception matches
-    source: str  # one that the student's file matches
+    # Regular expression that the "Type: text" of the exception matches, or the word
+    # "stopped", of a call without an end.
+    error: str
+    source: str  # one that the student's file matches; of "stopped" the function alone
     slug: str  # its name
     says: str  # what to say, a sentence or two
 
@@ -109,6 +112,7 @@ class Case:
     # Per question of `Ask.probe` its arguments and the answer, or None.
     probes: Sequence[tuple[tuple[Any, ...], Any]] = ()
     further: "Further | None" = None  # what a sentence must hold for as well
+    names: Sequence[str] = ()  # of the arguments, for sentences
 
 
 @dataclass(frozen=True)
@@ -152,7 +156,8 @@ class Ask:
     # Inputs of further questions, whose replies only help to say where a wrong answer
     # goes wrong; they may be errors.
     probe: Inputs | None = None
-    # Says where an answer that no named mistake gives goes wrong.
+    # Says where an answer that no named mistake gives goes wrong, of another size too:
+    # S and T of the case are filled up with zeros then.
     unnamed: Callable[[Case], Finding | None] | None = None
     # Says why an answer is right to some digits only.
     near_miss: Callable[[Case], Finding | None] | None = None
@@ -161,6 +166,8 @@ class Ask:
     # Whether a call with edge values has one right answer; None is yes.
     at_edge: Callable[..., bool] | None = None
     seconds: float = 0.0  # that a call of the reference takes; 0: it is measured here
+    # Returns the lab's own function, or None: a truth that is faster says too little.
+    reference: Callable[[], Callable[..., Any] | None] = lambda: None
 
     def __post_init__(self) -> None:
         """Refuse a row that has neither or both of truth and accept.
@@ -206,6 +213,10 @@ class Ask:
         """Return per call how far an answer is off, beyond what `rtol` allows."""
         return gaps(self.kinds, S, T, self.rtol)
 
+    def gaps_of(self, j: int, s: Array, t: Array) -> Array:
+        """Return per call how far the j-th result is off, likewise."""
+        return gaps(self.kinds[j : j + 1], (s,), (t,), self.rtol)
+
     @cached_property
     def cost(self) -> float:
         """Seconds of a call, as the row says, or as its truth takes here."""
@@ -214,6 +225,25 @@ class Ask:
             return self.seconds
         last = stacked([Exchange(Question("", "", self.main[-1]))])
         return fits.measured(lambda: truth(*last))
+
+    @cached_property
+    def labs_cost(self) -> float:
+        """Seconds of a call of the lab's own function here, unless the row says it."""
+        lab = None if self.seconds else self.reference()
+        if lab is None:
+            return self.cost
+        plain = [as_plain(arg) for arg in self.main[-1]]
+        with suppress(NotImplementedError):  # a lab that is not written yet
+            return max(self.cost, fits.measured(lambda: lab(*map(own, plain))))
+        return self.cost
+
+    def cost_in(self, seconds: float) -> float:
+        """Return what a call costs; a task with more seconds asks the lab's own, too.
+
+        Args:
+            seconds: for all calls of the task.
+        """
+        return self.labs_cost if seconds > SECONDS else self.cost
 
     @cached_property
     def drawn(self) -> int:
@@ -284,7 +314,8 @@ def asked_of(
         ask.known.clear()
         more = [ask.probe or (lambda rng: []), *(held.inputs for held in ask.held_out)]
         further = [draw(Draw(SEED)) for draw in more]
-        beside = fits.fitting(ask.main, ask.edges, ask.anew(seed), ask.cost, seconds)
+        cost = ask.cost_in(seconds)
+        beside = fits.fitting(ask.main, ask.edges, ask.anew(seed), cost, seconds)
         ask.known[key] = [
             [Question(task, function, tuple(args)) for args in calls]
             for calls in (ask.main, beside, *further)

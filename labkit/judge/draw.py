@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from functools import cache
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -29,8 +30,10 @@ class Draw(np.random.Generator):
         """Take the seed; the numbers are those of `np.random.default_rng(seed)`."""
         super().__init__(np.random.PCG64(seed))
 
-    def numbers(self, low: float, high: float, *shape: int) -> Array:
-        """Return uniform numbers, (*shape,)."""
+    def numbers(self, low: float, high: float, *shape: Any) -> Array:
+        """Return uniform numbers, (*shape,), which may be given as one tuple, too."""
+        if len(shape) == 1 and isinstance(shape[0], tuple):
+            (shape,) = shape
         return rounded(self.uniform(low, high, shape))
 
     def units(self, n: int) -> Array:

@@ -15,6 +15,7 @@ from labkit.judge.answers import (
     as_one,
     capitalised,
     difference,
+    listed,
     plain,
     worst_part,
 )
@@ -30,8 +31,14 @@ from labkit.judge.ask import (
 )
 from labkit.judge.failing_call import failing_call, for_fresh
 from labkit.judge.kinds import Kind
-from labkit.judge.made_again import redone, two_at_once
+from labkit.judge.made_again import redone
 from labkit.judge.mistake import Finding, Verdict
+from labkit.judge.pairs import (
+    by_results,
+    in_some_calls,
+    of_other_arguments,
+    two_at_once,
+)
 from labkit.judge.typed import in_words
 from robo47.checks import Array
 
@@ -64,7 +71,7 @@ def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
             S = odd_answers.named(asked, S)
         return Verdict("wrong", *_beside(S, asked, names))
     if found := replies_read.of_another_size(asked):
-        return Verdict("wrong", *odd_answers.named(asked, found))
+        return Verdict("wrong", *_of_another_size(asked, S, names, found))
     if found := replies_read.kept_state(asked, source):
         return Verdict("wrong", *found)
     judge_these = _judge_accepted if asked.ask.accept else _judge_values
@@ -90,6 +97,17 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     return _judge_right(asked, S, measured)
 
 
+def _of_another_size(
+    asked: Asked, S: Parts, names: Sequence[str], found: Finding
+) -> Finding:
+    """Return what answers of wrong sizes come from; the row may know more of them."""
+    named = odd_answers.named(asked, found)
+    if named is not found or not asked.ask.unnamed:
+        return named
+    T = right_answers(asked.ask, asked.main)
+    return asked.ask.unnamed(_case(asked, S, T, names)) or found
+
+
 def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     """Return why some answers cannot be judged, and what is wrong with the others."""
     good = [e for e in asked.main if e.reply and e.reply.value is not None]
@@ -107,7 +125,8 @@ def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
     wrong = case.ask.gaps(S, T) > case.ask.near
     if not wrong.any():
         return found
-    named = diagnose(case, S, T)
+    # One answer alone may be that of many mistakes.
+    named = diagnose(case, S, T) if wrong.sum() > 1 else None
     other = named or what_is_wrong(case, S, T)
     some = f"Of the {len(wrong)} other answers {wrong.sum()} are wrong, too."
     also = "The other answers are wrong, too." if wrong.all() else some
@@ -200,7 +219,15 @@ def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
         for probe, reply in answered
     ]
     given = [in_words(exchange.question, names) for exchange in asked.main]
-    return Case(asked.ask, stacked(asked.main), plain(S), plain(T), given, probes)
+    return Case(
+        asked.ask,
+        stacked(asked.main),
+        plain(S),
+        plain(T),
+        given,
+        probes,
+        names=names,
+    )
 
 
 def _measured(case: Case, S: Parts, T: Parts, gap: Array) -> tuple[str, ...]:
@@ -222,7 +249,7 @@ def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
 
 
 def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
-    """Return the first of: a named mistake, no answer, always one, two mistakes."""
+    """Return the first of: a named mistake, no answer, always one, two, one in part."""
     ask = case.ask
     found = redone(ask, case.arguments, S, T, case.further)
     found = found or _nothing_there(case, S) or _none_or_not(case, S, T)
@@ -231,17 +258,23 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     i = worst_part(ask.kinds, S, T, ask.near)
     every = (S[i], case.further.S[i]) if case.further else (S[i],)
     found = _all_the_same(ask.kinds[i], every, T[i])  # simpler than two mistakes
-    if found := found or two_at_once(case, S, T) or near_miss.rounded(S[i], T[i]):
+    found = found or of_other_arguments(case, S, T) or two_at_once(case, S, T)
+    found = found or by_results(case, S, T)
+    if found := found or near_miss.rounded(S[i], T[i]):
         return found
     try:
-        return ask.unnamed(case) if ask.unnamed else None
+        found = ask.unnamed(case) if ask.unnamed else None
     except np.linalg.LinAlgError:  # of a singular answer
-        return None
+        found = None
+    return found or in_some_calls(case, S, T)
 
 
 def _not_finite(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return that some answers are NaN, and what is wrong with the others."""
-    good = np.all([np.isfinite(s).reshape(len(s), -1).all(axis=1) for s in S], axis=0)
+    # An infinity may be right: only what is none of the right one is said to be odd.
+    pairs = zip(S, T, strict=True)
+    there = [(np.isfinite(s) | (s == t)).reshape(len(s), -1) for s, t in pairs]
+    good = np.all([one.all(axis=1) for one in there], axis=0)
     if good.all():
         return None
     says = f"NaN or infinity comes out for {np.sum(~good)} of {len(good)} inputs"
@@ -309,7 +342,37 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
             it = capitalised(kind.called) if called else "It"
             where += f" {it} is right for {np.sum(~wrong)} of {len(wrong)} inputs"
             where += f"{_first(wrong, case.given, 'but not for')}."
-    return Finding(found.slug, f"{called}{found.message}{where}")
+    right = _right_results(case, S, T)
+    called = capitalised(called) if right else called
+    says = f"{right}{called}{found.message}{where}{_wrong_too(case, S, T, i)}"
+    return Finding(found.slug, says)
+
+
+def _wrong_too(case: Case, S: Parts, T: Parts, i: int) -> str:
+    """Return which results but the i-th are wrong, and in how many calls, or ""."""
+    says = ""
+    for j, kind in enumerate(case.ask.kinds):
+        n = int(np.sum(case.ask.gaps_of(j, S[j], T[j]) > case.ask.near))
+        if j != i and n and kind.called:
+            says += f" {capitalised(kind.called)} is wrong, too, in {n} of {len(S[j])}."
+    return says
+
+
+def _right_results(case: Case, S: Parts, T: Parts) -> str:
+    """Return which results of several are right, of fresh inputs as well, or ""."""
+    sets = [(S, T)]
+    if case.further:
+        sets.append((case.further.S, case.further.T))
+    names = [
+        kind.called
+        for j, kind in enumerate(case.ask.kinds)
+        if kind.called
+        and all(case.ask.gaps_of(j, s[j], t[j]).max() <= case.ask.near for s, t in sets)
+    ]
+    if len(S) < 2 or not names:
+        return ""
+    verb = "is" if len(names) == 1 else "are"
+    return f"{capitalised(listed(names))} {verb} right. "
 
 
 def _nothing_there(case: Case, S: Parts) -> Finding | None:

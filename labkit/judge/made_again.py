@@ -1,10 +1,7 @@
 """A named mistake made again: it is claimed where that gives the student's numbers."""
 
-import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from functools import partial
-from itertools import combinations, permutations
+from collections.abc import Callable, Sequence
+from itertools import permutations
 from typing import Any
 
 import numpy as np
@@ -21,15 +18,8 @@ from labkit.judge.answers import (
     parts,
     worst_part,
 )
-from labkit.judge.ask import Ask, Case, Further
+from labkit.judge.ask import Ask, Further
 from labkit.judge.mistake import Finding, Mistake
-
-# What one mistake alone leaves right, two need not: "all is right except that ...".
-_BUT = re.compile(
-    r"^(?:[^;:]*?\b(?:is|are) right(?: except that|, but|;)"
-    r"|right [^;,:]*[;,](?: but)?) "
-)
-MOST = 80  # mistakes of a function that are tried two at a time
 
 
 def _named(
@@ -54,7 +44,7 @@ def _named(
                 i = worst_part(kinds, S, T, near)
                 how = mistake.redone
                 if np.isfinite(S[i]).all():  # of a NaN nobody says how far it is off
-                    how = f"off by up to {kinds[i].apart(S[i], T[i])}; {how}"
+                    how = f"{kinds[i].gap} {kinds[i].apart(S[i], T[i])}; {how}"
                 says += f" ({capitalised(how)} gives your numbers exactly.)"
             return Finding(mistake.slug, says)
     return None
@@ -165,181 +155,3 @@ def _of_whole_numbers(
         says = f"Two mistakes give these numbers. Either: {either.message} Or: "
         return Finding(either.slug, says + other.message)
     return next(iter(found.values())) if len(found) == 1 else None
-
-
-def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
-    """Return two named mistakes that together give the student's answers, or None.
-
-    Two terms that are wrong add up: what both make is the one answer and the other's
-    difference from the right one. A mistake made with an argument comes before another,
-    and one made with the finished answer after it.
-    """
-    ask = case.ask
-    if any(kind.whole for kind in ask.kinds):
-        return None
-    i = int(np.argmax(gaps(ask.kinds, S, T)))
-    mistakes = [one for one in ask.named if isinstance(one.redo, InTurn)][:MOST]
-    answers = {}
-    for k, one in enumerate(mistakes):
-        answer = _answer(one, case.arguments, i)
-        if _alike(ask, answer, _nth(T, i)) is False:
-            answers[k] = answer
-    pairs = _Pairs(case, S, T, i, mistakes, answers)
-    found = pairs.added() or pairs.finished() or pairs.in_turn()
-    return _both_told(ask, found, S, T) if found else None
-
-
-Pair = tuple[Mistake, Mistake]
-
-
-@dataclass(frozen=True)
-class _Pairs:
-    """Pairs of mistakes beside a student's answers: one call's first, then all."""
-
-    case: Case
-    S: Parts  # the student's
-    T: Parts  # the right ones
-    i: int  # the call that is furthest off
-    mistakes: Sequence[Mistake]
-    answers: Mapping[int, Parts]  # to that call, of those that are wrong there
-
-    def added(self) -> Pair | None:
-        """Return two mistakes whose differences, or factors, come together."""
-        its = _nth(self.T, self.i)
-        for a, b in combinations(self.answers, 2):
-            first = self.mistakes[a]
-            second = self.mistakes[b]
-            if first.slug == second.slug:
-                continue
-            pair = self.answers[a], self.answers[b]
-            for combined in (_sum, _product):
-                if not self._is_this_one(combined(*pair, its)):
-                    continue
-                one, other = (_all(x, self.case.arguments) for x in (first, second))
-                if _alike(self.case.ask, combined(one, other, self.T), self.S):
-                    return first, second
-        return None
-
-    def finished(self) -> Pair | None:
-        """Return a mistake and another that is made with its finished answer."""
-        if len(self.case.ask.kinds) != 1:
-            return None
-        general = list(self.case.ask.kinds[0].general())
-        its = _nth(self.T, self.i)
-        for n, change in enumerate(general):
-            for k, answer in self.answers.items():
-                if self._is_this_one(_changed(change, answer)):
-                    every = _all(self.mistakes[k], self.case.arguments)
-                    if _alike(self.case.ask, _changed(change, every), self.S):
-                        return self.mistakes[k], change
-            for first in general[:n]:
-                if self._is_this_one(_changed(change, _changed(first, its))):
-                    every = _changed(change, _changed(first, self.T))
-                    if _alike(self.case.ask, every, self.S):
-                        return first, change
-        return None
-
-    def in_turn(self) -> Pair | None:
-        """Return a mistake made with an argument and one after it, or two options."""
-        for pair in _that_combine(self.mistakes):
-            if self._is_this_one(_answer(pair, self.case.arguments, self.i)):
-                every = _all(pair, self.case.arguments)
-                if _alike(self.case.ask, every, self.S):
-                    return pair
-        return None
-
-    def _is_this_one(self, answer: Parts) -> bool:
-        return bool(_alike(self.case.ask, answer, _nth(self.S, self.i)))
-
-
-def _that_combine(mistakes: Sequence[Mistake]) -> Iterator[Pair]:
-    """Yield pairs that can be made together.
-
-    The first is made with an argument, or both are one function's with other options,
-    as `partial` gives them.
-    """
-    for i, first in enumerate(mistakes):
-        one: Any = first.redo
-        for k, second in enumerate(mistakes):
-            other: Any = second.redo
-            given = hasattr(one.function, "given")
-            if first.slug != second.slug and (
-                given or (i < k and _options(one.function, other.function))
-            ):
-                yield first, second
-
-
-def _options(one: Any, other: Any) -> bool:
-    """Return whether two are the same function with different options."""
-    if not (isinstance(one, partial) and isinstance(other, partial)):
-        return False
-    return one.func is other.func and not one.keywords.keys() & other.keywords.keys()
-
-
-def _together(one: Any, other: Any) -> Callable[..., Any]:
-    """Return a function with two mistakes."""
-    if hasattr(one, "given"):
-        return lambda *args: other(*one.given(*args))
-    return partial(one, **other.keywords)
-
-
-def _answer(one: Mistake | Pair, arguments: tuple[Any, ...], i: int) -> Parts:
-    """Return the answer to one question with a mistake, or with two; () for none."""
-    column = [c[[i]] if isinstance(c, np.ndarray) else c for c in arguments]
-    return _nth(_all(one, tuple(column)), 0)
-
-
-def _all(one: Mistake | Pair, arguments: tuple[Any, ...]) -> Parts:
-    try:
-        if isinstance(one, Mistake):
-            return parts(one.redo(*arguments))
-        first: Any = one[0].redo
-        second: Any = one[1].redo
-        function = _together(first.function, second.function)
-        return parts(InTurn(function)(*arguments))
-    except (ValueError, np.linalg.LinAlgError):
-        return ()
-
-
-def _changed(change: Mistake, answer: Parts) -> Parts:
-    """Return an answer with a mistake that is made when it is finished."""
-    try:
-        return parts(change.redo(answer[0])) if answer else ()
-    except (ValueError, np.linalg.LinAlgError):
-        return ()
-
-
-def _nth(some: Parts, i: int) -> Parts:
-    return tuple(part[i : i + 1] for part in some)
-
-
-def _sum(a: Parts, b: Parts, right: Parts) -> Parts:
-    """Return what two wrong terms make together."""
-    trios = list(zip(a, b, right, strict=False))
-    if any(len({x.shape for x in trio}) > 1 for trio in trios):
-        return ()
-    return tuple(x + y - z for x, y, z in trios)
-
-
-def _product(a: Parts, b: Parts, right: Parts) -> Parts:
-    """Return what two wrong factors make together."""
-    trios = list(zip(a, b, right, strict=False))
-    if any(len({x.shape for x in trio}) > 1 for trio in trios):
-        return ()
-    return tuple(np.where(z == 0, 0.0, x * y / np.where(z, z, 1)) for x, y, z in trios)
-
-
-def _alike(ask: Ask, a: Parts, b: Parts) -> bool | None:
-    """Return whether two answers match; None where there is none."""
-    if len(a) != len(b):
-        return None
-    return all_match(ask.kinds, a, b)
-
-
-def _both_told(ask: Ask, pair: Pair, S: Parts, T: Parts) -> Finding:
-    i = worst_part(ask.kinds, S, T, ask.near)
-    says = "; ".join(_BUT.sub("", one.says.rstrip("?")) for one in pair)
-    off = f"Off by up to {ask.kinds[i].apart(S[i], T[i])}"
-    how = f"{off}; both together give your numbers exactly"
-    slug = "+".join(one.slug for one in pair)
-    return Finding(slug, f"Two things at once: {says}. ({how}.)")

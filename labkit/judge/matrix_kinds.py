@@ -1,7 +1,9 @@
 """Kinds of answers that are matrices: Jacobians, mass matrices and others."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
+from itertools import permutations
 from typing import Any
 
 import numpy as np
@@ -11,6 +13,8 @@ from labkit.judge.answers import difference, gap, listed
 from labkit.judge.kinds import NEAR, RIGHT, Kind, few_entries, one_factor
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
+
+MOST_BLOCKS = 4  # of columns, up to which their other orders are tried
 
 
 @dataclass(frozen=True)
@@ -25,13 +29,33 @@ class Matrix(Kind):
 
     @property
     def expected(self) -> str:  # noqa: D102
-        m, n = (n or "any" for n in self.shape)
-        return f"a {m}x{n} matrix"
+        m, n = self.shape
+        if m and n:
+            return f"a {m}x{n} matrix"
+        given = f"{m} rows" if m else f"{n} columns" if n else ""
+        return "a matrix" + (f" of {given}" if given else "")
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         square = self.shape[0] == self.shape[1] is not None
         turned = "transposed" if square else "reshaped"
-        return general(*[turned] * (None not in self.shape), *self.usual)
+        found = general(*[turned] * (None not in self.shape), *self.usual)
+        return [*found, *self._blocks_in_other_orders()]
+
+    def _blocks_in_other_orders(self) -> Iterator[Mistake]:
+        """Yield that the columns' blocks stand in another order, where they are few."""
+        if not 1 < len(self.blocks) <= MOST_BLOCKS:
+            return
+        right = tuple(range(len(self.blocks)))
+        for order in permutations(right):
+            if order != right:
+                names = ", ".join(self.blocks[i] for i in order)
+                yield Mistake(
+                    "blocks-in-another-order",
+                    f"the blocks are in another order: {names}; the right one is "
+                    f"{', '.join(self.blocks)}",
+                    partial(_in_blocks, order=order),
+                    "the right one with its blocks in that order",
+                )
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
         if got == self.shape[::-1] != self.shape:
@@ -45,6 +69,12 @@ class Matrix(Kind):
             or part_off(self, S, T)
             or Finding("off", f"It is off by up to {self.apart(S, T)}.")
         )
+
+
+def _in_blocks(answers: Array, order: Sequence[int]) -> Array:
+    """Return answers, (n, rows, columns), with their blocks of columns in an order."""
+    each = np.split(answers, len(order), axis=-1)
+    return np.concatenate([each[i] for i in order], axis=-1)
 
 
 def part_off(kind: Matrix, S: Array, T: Array) -> Finding | None:
@@ -61,7 +91,7 @@ def part_off(kind: Matrix, S: Array, T: Array) -> Finding | None:
     alone = np.ndim(kind.scale) == 0
     if alone and (found := one_factor(kind, S[:, wrong], T[:, wrong])):
         times = found.message.removeprefix("It ").partition(",")[0]
-        off = f"what stands there {times}"
+        off = f"what is wrong there {times}"
     return Finding("part-off", f"{says}: {off}.")
 
 

@@ -50,6 +50,7 @@ class Mistake:
     redo: Callable[..., Any]
     # What to call that answer, as in "0 from its transpose".
     redone: str = REDONE
+    reached: bool = False  # whether it is one of a smaller function that this one calls
 
 
 def told(text: str) -> Iterator[tuple[str, str, str]]:

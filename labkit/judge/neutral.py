@@ -9,7 +9,9 @@ import numpy as np
 from labkit.judge.answers import rigid
 from robo47.checks import Array
 
-SIZES = (-1.0, 5.0, -0.2)  # that another input has, in units of what was asked
+# That another input has, in units of what was asked. The last is far smaller: what is
+# right wherever 1 - e^(-x) is 1 to all digits, say, is not right there.
+SIZES = (-1.0, 5.0, -0.2, 0.01)
 _SEVERAL = (1.0, -1.0, 5.0, -0.2, 0.2, -5.0)
 
 
@@ -42,8 +44,14 @@ def neutrals(x: Any) -> Iterator[Neutral]:
         yield from _of_a_matrix(x)
 
 
-def scaled(x: Any, size: float) -> Any:
-    """Return an argument of another size: a number or plain array; others stay."""
+def scaled(x: Any, size: float, fixed: Any = False) -> Any:
+    """Return an argument of another size: a number or plain array; others stay.
+
+    Args:
+        x: the argument.
+        size: by which it grows.
+        fixed: of which entries it does not, such as the 1 in a camera's matrix.
+    """
     if isinstance(x, float):
         return x * size
     if not isinstance(x, np.ndarray) or x.dtype.kind != "f":
@@ -52,8 +60,8 @@ def scaled(x: Any, size: float) -> Any:
     if x.shape[-2:] in ((3, 3), (4, 4)) and rigid(x.reshape(-1, *x.shape[-2:])):
         return x
     if square and np.array_equal(x, x.T) and (np.diag(x) > 0).all():
-        return x * abs(size)  # a mass matrix stays one
-    return x * size
+        size = abs(size)  # a mass matrix stays one
+    return np.where(fixed, x, x * size)
 
 
 def _of_a_vector(x: Array) -> Iterator[Neutral]:

@@ -27,6 +27,7 @@ QUESTIONS = 4  # per experiment; three of them at least must agree
 AGREE = 3
 TRIED = 30  # inputs that a sentence is held against, at least
 NOTHING = 1e-12  # a right answer as small as this says nothing
+ROUNDING = 1e-9  # what sums of larger numbers may leave of a small answer
 COMMON = 0.5  # the share of other wrong functions that may be right there as well
 OTHERS = 12  # of them are asked
 Call = tuple[Any, ...]  # its arguments
@@ -67,7 +68,7 @@ def right_when(
         names,
         mine,
         _answers_of(ask.truth),
-        max(ask.near, ask.rtol),
+        max(ask.tolerance, ask.rtol),
         more,
         _verdicts(asked),
     )
@@ -84,7 +85,7 @@ def _verdicts(asked: Asked) -> list[bool]:
             continue
         T = right_answers(asked.ask, [one])
         off = asked.ask.gaps(S, T).max()
-        found.append(bool(off <= asked.ask.near))
+        found.append(bool(off <= asked.ask.tolerance))
     return found
 
 
@@ -149,6 +150,7 @@ class Experiments:
             k: _with(some, k, [2.0 * call[k] for call in some])
             for k in range(len(self.names))
             if all(_may_be_doubled(call[k]) for call in self.calls)
+            and not any(np.any(self._fixed(k, call[k])) for call in self.calls)
             and all(isinstance(call[k], float | np.ndarray) for call in some)
         }
         before, *after = self._each([some, *doubled.values()])
@@ -195,11 +197,24 @@ class Experiments:
         known = [c for c in self.known if [np.shape(x) for x in c] == shapes][-TRIED:]
         some = [*known, *self.calls]
         resized = [
-            tuple(scaled(x, size) for x in call)
+            tuple(scaled(x, size, self._fixed(k, x)) for k, x in enumerate(call))
             for size in SIZES
-            for call in some[-(TRIED // len(SIZES)) :]
+            for call in some[-(TRIED // len(SIZES) + 1) :]
         ]
         return [*known, *resized]
+
+    def _fixed(self, k: int, x: Any) -> Any:
+        """Return which entries of a matrix no question changes, such as K's last 1.
+
+        They say what kind of matrix it is; with another one there it is none.
+        """
+        shape = np.shape(x)
+        if len(shape) != 2:
+            return False
+        alike = [c[k] for c in (*self.known, *self.calls) if np.shape(c[k]) == shape]
+        stacked = np.array(alike, dtype=float)
+        same = (stacked == stacked[0]).all(axis=0) & (stacked[0] != 0)
+        return same if len(alike) >= AGREE and not same.all() else False
 
     def _claims(self) -> Iterator[Claim]:
         """Yield that an argument is neutral, in every way that all calls have."""
@@ -267,7 +282,8 @@ class Experiments:
             if mine is None or mine.shape != right.shape:
                 return False
             size = float(np.abs(right).max(initial=0.0))
-            if not np.abs(mine - right).max(initial=0.0) <= self.near * max(1.0, size):
+            off = np.abs(mine - right).max(initial=0.0)
+            if not off <= max(self.near * size, ROUNDING):
                 return False
             agree += size > NOTHING
             first = right if first is None else first

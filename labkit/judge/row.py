@@ -28,9 +28,10 @@ from typing import Any
 from labkit.judge.answers import AtOnce, InTurn, entry_of, once
 from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, Inputs
+from labkit.judge.draw import Draw
 from labkit.judge.mistake import REDONE, Mistake, told
 from labkit.judge.results import checked, numbers
-from labkit.judge.written import Answered, stops_with
+from labkit.judge.written import Answered, stop, stops_with
 from labkit.lesson.day import Day
 from labkit.lesson.lab_module import lab_of
 from robo47.errors import Robo47Error
@@ -294,7 +295,7 @@ class Row:
         """What the judge asks."""
         if "inputs" not in self.more:
             raise Robo47Error(f"{self.function}.py has no @row.inputs")
-        more = dict(self.more)
+        more = {**self.more, "inputs": self._inputs, "reference": self._reference}
         if "accept" in more:
             more["accept"] = self._accept
         else:
@@ -314,7 +315,23 @@ class Row:
 
     def _mistakes(self) -> list[Mistake]:
         read = self.ask.in_turn
-        return [Mistake(w.slug, w.says, read(w.code), w.redone) for w in self.named]
+        return [
+            Mistake(w.slug, w.says, read(w.code), w.redone, w.reached)
+            for w in self.named
+        ]
+
+    def _inputs(self, rng: Draw) -> list[tuple[Any, ...]]:
+        """Return what the file's generator yields; where it stops, say where."""
+        try:
+            return [tuple(call) for call in self.more["inputs"](rng)]
+        except Robo47Error:
+            raise
+        except Exception as error:
+            raise self._fault(f"inputs function {stop(error)}") from None
+
+    def _reference(self) -> Code | None:
+        there = hasattr(self, "_day") and self._day.source.is_file()
+        return getattr(self.lab, self.function, None) if there else None
 
     def _accept(self, *args: Any) -> Any:
         try:

@@ -1,5 +1,6 @@
 """What does not fit in a row, told to its author when it is written."""
 
+import sys
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -16,17 +17,29 @@ from labkit.judge.mistake import Finding
 from labkit.judge.other_kinds import Mask
 from labkit.judge.results import Kinds, read
 from robo47.errors import Robo47Error
-from robo47.paths import shown
+from robo47.paths import ROOT, shown
 
 EACH = 6  # questions of each truth value, at least
 
 
+def stop(error: BaseException) -> str:
+    """Return what an author's code stops with, and its own line that led there."""
+    frames = traceback.extract_tb(error.__traceback__)
+    machine = ROOT / "labkit", Path(sys.prefix), Path(np.__file__).parent
+    own = [
+        frame
+        for frame in frames
+        if Path(frame.filename).is_file()  # NumPy's compiled frames name none
+        and not any(Path(frame.filename).is_relative_to(one) for one in machine)
+    ]
+    last = (own or frames)[-1]
+    where = f"{shown(Path(last.filename))}, line {last.lineno}"
+    return f"stops with {type(error).__name__}: {error} ({where})"
+
+
 def stops_with(error: BaseException) -> str:
     """Return what an author's function stops with, where, and what it has to do."""
-    last = traceback.extract_tb(error.__traceback__)[-1]
-    where = f"{shown(Path(last.filename))}, line {last.lineno}"
-    says = f"stops with {type(error).__name__}: {error} ({where}). It has to take all "
-    return f"{says}that @row.inputs yields"
+    return f"{stop(error)}. It has to take all that @row.inputs yields"
 
 
 def faults(ask: Ask, seconds: float) -> Iterator[str]:
@@ -36,7 +49,7 @@ def faults(ask: Ask, seconds: float) -> Iterator[str]:
         ask: the row, whose truth has an answer to each of them.
         seconds: for all calls of the function.
     """
-    if says := fits.too_long(ask.main, ask.cost, seconds):
+    if says := fits.too_long(ask.main, ask.cost_in(seconds), seconds):
         yield says
     if ask.truth is None:
         return

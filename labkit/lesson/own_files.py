@@ -1,6 +1,7 @@
 """A student's files, read without trusting the folder: it may be a stranger's.
 
-Links are not followed, only regular files are read, and none beyond its limit.
+Links are not followed, also not those that take a file's place meanwhile, only regular
+files are read, and none beyond its limit.
 """
 
 import errno
@@ -19,6 +20,12 @@ HELPERS = 50  # modules beside the script
 LISTED = 10_000  # entries of work/ that are looked at
 NO_NAME = (errno.ENAMETOOLONG, errno.EINVAL, errno.ELOOP)  # of a file, on this system
 
+BEHIND_A_LINK = "is behind a link; hand in the file itself"
+_FROM_FOLDERS = os.open in os.supports_dir_fd
+_NO_LINK = getattr(os, "O_NOFOLLOW", 0)
+_FOLDER = getattr(os, "O_DIRECTORY", 0) | getattr(os, "O_PATH", os.O_RDONLY)
+_FILE = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+
 
 class UnreadError(Exception):
     """A file is there but not for reading; its text completes "FILE ..."."""
@@ -36,17 +43,15 @@ def read(root: Path, name: str, limit: int) -> bytes | None:
         UnreadError: it is a link, no regular file, too large, or not for us.
         OSError: the machine's own trouble.
     """
-    size = size_of(root, name)
-    if size is None:
+    opened = _open(root, name)
+    if opened is None:
         return None
-    if size > limit:
-        most = f"{limit // MB} MB" if limit >= MB else f"{limit // 1000} kB"
-        raise UnreadError(f"has {size / MB:,.1f} MB; at most {most} is looked at")
-    try:
-        with root.joinpath(name).open("rb") as file:
-            return file.read(limit)
-    except PermissionError as error:
-        raise UnreadError(f"cannot be read: {error.strerror}") from None
+    with open(opened, "rb") as file:
+        size = _size(opened)
+        if size > limit:
+            most = f"{limit // MB} MB" if limit >= MB else f"{limit // 1000} kB"
+            raise UnreadError(f"has {size / MB:,.1f} MB; at most {most} is looked at")
+        return file.read(limit)
 
 
 def size_of(root: Path, name: str) -> int | None:
@@ -54,24 +59,56 @@ def size_of(root: Path, name: str) -> int | None:
 
     Arguments and errors are those of `read`.
     """
-    path = root
+    opened = _open(root, name)
+    if opened is None:
+        return None
+    with open(opened, "rb"):
+        return _size(opened)
+
+
+def _size(opened: int) -> int:
+    status = os.fstat(opened)  # of what was opened, whatever has its name now
+    if not stat.S_ISREG(status.st_mode):
+        raise UnreadError("is no file")
+    return status.st_size
+
+
+def _open(root: Path, name: str) -> int | None:
+    """Return a descriptor of a file, or None where there is no such file.
+
+    Each part of the path is opened from the one before, so one that is swapped for a
+    link meanwhile leads nowhere. (Windows opens nothing from a folder.)
+    """
+    *folders, last = name.split("/")
+    if ".." in folders:
+        return None
+    path, at = str(root), None
     try:
-        for part in name.split("/"):
-            path /= part
-            status = path.lstat()
+        at = os.open(path, _FOLDER) if _FROM_FOLDERS else None
+        for part in (*folders, last):
+            path = part if _FROM_FOLDERS else os.path.join(path, part)
+            status = os.stat(path, dir_fd=at, follow_symlinks=False)
             if stat.S_ISLNK(status.st_mode):
-                raise UnreadError("is behind a link; hand in the file itself")
+                raise UnreadError(BEHIND_A_LINK)
+            if _FROM_FOLDERS and part is not last:
+                at, before = os.open(path, _FOLDER | _NO_LINK, dir_fd=at), at
+                os.close(before)  # type: ignore[arg-type]
+        if not stat.S_ISREG(status.st_mode):  # a pipe or a device is not even opened
+            raise UnreadError("is no file")
+        return os.open(path, _FILE | _NO_LINK, dir_fd=at)
     except PermissionError as error:
         raise UnreadError(f"cannot be read: {error.strerror}") from None
     except (FileNotFoundError, NotADirectoryError, ValueError):  # ValueError: a NUL
         return None
     except OSError as error:
+        if error.errno == errno.ELOOP:  # it was none a moment ago
+            raise UnreadError(BEHIND_A_LINK) from None
         if error.errno in NO_NAME:
             return None
         raise
-    if not stat.S_ISREG(status.st_mode):
-        raise UnreadError("is no file")
-    return status.st_size
+    finally:
+        if at is not None:
+            os.close(at)
 
 
 def helpers_of(root: Path, script: str, source: bytes) -> dict[str, bytes]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from labkit.base.text import visible
 from labkit.check.lab_run import FirstFailure, behind_wall
-from labkit.check.slow import Budget, EnoughAsked
+from labkit.check.slow import Budget, EnoughAsked, RunsOn
 from labkit.lesson.lab_module import lab_of
 from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox
@@ -64,12 +64,12 @@ def attempt(
     if not yours:
         return Attempt(capstone, None, "", 0, len(names))
     try:
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"), budget.bounded():
             result = capstone.attempt(fns)
         if np.isfinite(capstone.film(result).qpos).all():
             return Attempt(capstone, result, "", yours, len(names))
         why = "the arm flew off"
-    except EnoughAsked:
+    except (EnoughAsked, RunsOn):
         why = "it took too long"
     except (FirstFailure, Exception) as error:  # what a strange answer leads to
         why = visible(error, 300)

@@ -17,7 +17,7 @@ from labkit.lesson.day import Day
 from labkit.lesson.writers import marks_of, writers_of
 from labkit.report.series import series_of
 from labkit.report.week_facts import DayFacts
-from labkit.sandbox.sandbox import Sandbox
+from labkit.sandbox.sandbox import Sandbox, deadline_of
 from robo47.errors import Robo47Error
 
 
@@ -31,10 +31,17 @@ class RunDay(DayFacts):
     unfinished: str = ""  # that the lab was not run to its end, "" where it was
     # What the commit lacks of what is in the folder; "" where it has all.
     left: str = ""
+    commit: str = ""  # that ran, "" where none is known
 
 
 def facts_of(
-    day: Day, student: Student, folder: Path, sandbox: Sandbox, *, own: bool = False
+    day: Day,
+    student: Student,
+    folder: Path,
+    sandbox: Sandbox,
+    *,
+    own: bool = False,
+    at: str = "",
 ) -> RunDay:
     """Return how a day stands; its files are left in an empty folder for the capstone.
 
@@ -44,11 +51,12 @@ def facts_of(
         folder: the empty one.
         sandbox: where the functions run.
         own: it is the reader's own clone, of which git may be asked for more.
+        at: the commit that was graded; by default the folder as it is.
 
     Raises:
         OSError, GitError, FaultError: this machine failed.
     """
-    package = collect(student, day)
+    package = collect(student, day, at=at)
     unpack(package, folder)
     handin, item = package.handin, package.commit_item
     script = handin.files.get(day.files["script"])
@@ -58,17 +66,21 @@ def facts_of(
     except Robo47Error:  # no log that can be read
         numbers = series_of(day, [], writers)
     if script is None:
-        return RunDay(day, {task.id: "not begun" for task in day.tasks}, numbers)
+        begun = {task.id: "not begun" for task in day.tasks}
+        return RunDay(day, begun, numbers, commit=package.commit)
     states = {task.id: "the kit's own file" for task in day.tasks}
     ran = Rehearsed("", {})
     if writers.kits.isdisjoint(marks_of(script)):
-        results = check_tasks(day, folder / day.script, sandbox)
+        whole = deadline_of(day)
+        asked = (day, folder / day.script, sandbox)
+        results = check_tasks(*asked, deadline=whole)
         states = {result.task.id: in_words(result.verdict) for result in results}
         if required_pass(results):
-            ran = rehearse(day, folder / day.script, sandbox)
+            ran = rehearse(*asked, whole)
     if own:
         history = read_history(student.path, wanted_names(day, handin), own=True)
         item = check_commit(day, handin, history)
     left = "" if item.passed else visible(item.message.partition("\n")[0], 300)
     fault, unfinished = visible(ran.fault, 300), visible(ran.unfinished, 300)
-    return RunDay(day, states, numbers, ran.numbers, fault, unfinished, left)
+    commit = package.commit
+    return RunDay(day, states, numbers, ran.numbers, fault, unfinished, left, commit)

@@ -54,7 +54,7 @@ class Proof:
 
     name: str  # whose, as one harmless line
     own: bool  # the reader's own, and not a student's
-    commit: str  # the hash of the last one, "" without one
+    commit: str  # the hash of the last one, or of those that ran; "" without one
     days: Sequence[RunDay]  # of a week, in order
     attempt: Attempt  # at the capstone
     # What `make fresh` found last: commit, date, how many numbers are wrong and how
@@ -249,7 +249,8 @@ def _code(names: Sequence[str]) -> str:
 def _commit(proof: Proof) -> str:
     if not proof.commit:
         return html.section("The commit", "<p>Nothing is committed.</p>")
-    words = [f"<p>The last commit: <code>{escape(proof.commit)}</code>.</p>"]
+    which = "The last commit" if proof.own else "What ran is of commit"
+    words = [f"<p>{which}: <code>{escape(proof.commit)}</code>.</p>"]
     left = [one for one in proof.days if one.left]
     words += [f"<p>Day {one.day.number}: {escape(one.left)}</p>" for one in left] or [
         "<p>It holds all files of the days that were begun, as they ran here.</p>"

@@ -156,6 +156,10 @@ class Process:
         self.answers += 1
         return message
 
+    def used(self) -> tuple[float, float]:
+        """Return for how many seconds it had a processor, and waited for one."""
+        return processes.scheduled(self.process)
+
     def close(self) -> None:
         """End the process."""
         processes.end(self.process)
@@ -208,7 +212,7 @@ class Process:
     def _others(self, most: float) -> float:
         """Return for how much of the last seconds others had the processor."""
         before = self._waits
-        self._waits = processes.scheduled(self.process)[1]
+        self._waits = self.used()[1]
         waited = min(self._waits - before, most)  # what is long past is over
         self.waited += waited
         return waited

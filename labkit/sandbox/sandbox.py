@@ -13,6 +13,7 @@ of time do not count what a process waits for a processor.
 """
 
 import contextlib
+import math
 import time
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -21,7 +22,7 @@ from operator import methodcaller
 from pathlib import Path
 from typing import Any
 
-from labkit.base import processes
+from labkit.base.deadline import Deadline
 from labkit.base.exchange import (
     CHANNEL,
     MOST,
@@ -32,17 +33,27 @@ from labkit.base.exchange import (
     Reply,
     stopped,
 )
-from labkit.lesson.day import Limits
+from labkit.lesson.day import Day, Limits
 from labkit.sandbox import messages
 from labkit.sandbox.messages import USUAL, Robots
 from labkit.sandbox.process import ENDLESS, Process
 from robo47.errors import FaultError
 
 CALL_SECONDS, TASK_SECONDS = 3.0, 10.0  # for one call, for all calls of a task
-RUN_SECONDS = 100.0  # for the whole file: all tasks together, however often begun anew
-TOO_LONG = "all tasks together take far too long"
+RUN_SECONDS = 100.0  # for a submission, however often it is begun anew; and its lab's
+TOO_LONG = "all that it was asked together takes far too long"
 CPU, SESSION_CPU = 120, 7200  # seconds of a processor
 _SAME = ("file", "code", "beside", "library", "memory", "numbers")  # of a request
+
+
+def deadline_of(day: Day) -> Deadline:
+    """Return what a submission has for a day: one clock, from its tasks to its lab."""
+    return Deadline(RUN_SECONDS + _more(day.limits) + day.lab_seconds)
+
+
+def _more(limits: Limits) -> float:
+    """Return for how many seconds tasks ask beyond the usual."""
+    return sum(max(0.0, s - TASK_SECONDS) for s in limits.seconds.values())
 
 
 class Sandbox:
@@ -75,6 +86,7 @@ class Sandbox:
         needs: Mapping[str, Iterable[str]] | None = None,
         added: str = "",
         limits: Limits = USUAL,
+        deadline: Deadline | None = None,
     ) -> None:
         """Ask a student's file, each question twice: in order, then in reverse order.
 
@@ -89,6 +101,7 @@ class Sandbox:
                 "waits".
             added: code of the kit's, as if it stood at the end of the file.
             limits: what it may take.
+            deadline: of the submission; None is one for this run alone.
 
         Raises:
             LoadError: the file does not load.
@@ -96,22 +109,22 @@ class Sandbox:
             Robo47Error: there is no such file, or it is no script.
         """
         robots = messages.robots_of([exchange.question for exchange in exchanges])
-        more = sum(max(0.0, s - TASK_SECONDS) for s in limits.seconds.values())
+        more = _more(limits)
         request = messages.request(
             script, robots, library, added, limits, keep=True, cpu_seconds=CPU + more
         )
-        deadline = time.monotonic() + RUN_SECONDS + more
+        deadline = deadline or Deadline(RUN_SECONDS + more)
         killed = False
         while left := [exchange for exchange in exchanges if exchange.reply is None]:
             rounds = _Rounds(left, deadline, limits)
-            if time.monotonic() > deadline:
+            if deadline.over:
                 for exchange in left:
                     exchange.reply = stopped(TOO_LONG)
                 break
             process = self._again(request) or self._take(limits.extras)
+            deadline.watch(process)
             with contextlib.ExitStack() as ends:
                 ends.callback(process.close)
-                before = process.waited
                 try:
                     if not process.told:
                         process.load(request)
@@ -119,7 +132,6 @@ class Sandbox:
                 except LoadError:
                     if killed or not process.killed:
                         raise
-                deadline += process.waited - before
                 if process.killed and not killed:  # by whom? The same again tells
                     killed = True
                     continue
@@ -137,6 +149,7 @@ class Sandbox:
         limits: Limits = USUAL,
         *,
         brief: bool = False,
+        deadline: Deadline | None = None,
     ) -> "Session":
         """Return a student's file, loaded, for many rounds of questions.
 
@@ -145,6 +158,7 @@ class Sandbox:
             robots: those that questions will hold.
             brief: it takes a process that has the file where there is one. One that is
                 not has a new one, and the next is made ready for the next save.
+            deadline: of the submission; None is none, for a page.
 
         Raises:
             LoadError: the file does not load.
@@ -161,7 +175,7 @@ class Sandbox:
             raise
         alive = [session for session in self._sessions if session.alive]
         back = self._keep if brief else methodcaller("close")
-        session = Session(process, limits, back)
+        session = Session(process, limits, back, deadline or Deadline(math.inf))
         self._sessions = [*alive, session]
         if not brief:
             with contextlib.suppress(FaultError):
@@ -212,10 +226,16 @@ class Session:
     """
 
     def __init__(
-        self, process: Process, limits: Limits, back: Callable[[Process], None]
+        self,
+        process: Process,
+        limits: Limits,
+        back: Callable[[Process], None],
+        deadline: Deadline,
     ) -> None:
         """Take a process that has loaded the file, and who gets it back at the end."""
         self._process, self._limits, self._back = process, limits, back
+        self._deadline = deadline
+        deadline.watch(process)
         self._ended: Reply | None = None
 
     @property
@@ -240,9 +260,9 @@ class Session:
             self._process.ask(messages.pack(questions, self._process.told["models"]))
         while len(came) < len(questions) and self._ended is None:
             try:
-                came.append(self._process.next(seconds))
+                came.append(self._process.next(self._deadline.within(seconds)))
             except (EndedError, FaultError) as error:
-                self._end(str(error))
+                self._end(TOO_LONG if self._deadline.over else str(error))
         replies = messages.read(came, self._limits.numbers)
         if len(replies) < len(came):
             self._end(CHANNEL)
@@ -251,7 +271,7 @@ class Session:
 
     def used(self) -> tuple[float, float]:
         """Return for how many seconds it had a processor, and waited for one."""
-        return processes.scheduled(self._process.process)
+        return self._process.used()
 
     def close(self) -> None:
         """End it."""
@@ -267,7 +287,9 @@ class Session:
 class _Rounds:
     """Questions asked in order, then in reverse order of the file loaded anew."""
 
-    def __init__(self, left: list[Exchange], deadline: float, limits: Limits) -> None:
+    def __init__(
+        self, left: list[Exchange], deadline: Deadline, limits: Limits
+    ) -> None:
         self.left = left
         self.deadline = deadline
         self.numbers = limits.numbers
@@ -302,11 +324,11 @@ class _Rounds:
             task = exchange.question.task
             started = time.monotonic()
             waited = process.waited
-            left = self.deadline + waited - started
+            seconds = min(self.call[task], self.spare[task])
             try:
-                came.append(process.next(min(self.call[task], self.spare[task], left)))
+                came.append(process.next(self.deadline.within(seconds)))
             except EndedError as error:
-                late = time.monotonic() > self.deadline + process.waited
+                late = self.deadline.over
                 why = stopped(TOO_LONG) if late else self._timed(task, error.reply)
                 self.ended = exchange, why
                 break

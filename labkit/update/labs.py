@@ -14,7 +14,7 @@ from labkit.lesson.day import Day, all_days
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.merge import renewed
 from labkit.lesson.sealed import opened
-from labkit.update.merge import ask
+from labkit.update.git import ask
 from robo47.paths import ROOT
 
 MOST = 100  # versions of a lab to look through for the one that was begun with

@@ -1,55 +1,19 @@
 """The kit's commits and the student's made one, in a worktree beside the clone."""
 
-import contextlib
-import os
 import shutil
-from collections.abc import Iterator
 from pathlib import Path
 
-from labkit.base import git, store
+from labkit.base import git
 from labkit.lesson.day import all_days
 from labkit.lesson.merge import keep_both, merged
 from labkit.lesson.week import WORK
+from labkit.update.git import NOBODY, SECONDS, as_whom, ask, commit, own_index
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
-SECONDS = 300.0
 LOG = "metrics/metrics.csv"
 REMOTES = ("kit", "upstream", "origin")  # where the kit is, the first that is there
-NOBODY = ("-c", "user.name=robo47", "-c", "user.email=robo47@localhost")
-UNCHANGED = "Nothing of yours has changed."
-
-
-def ask(*arguments: str, at: Path = ROOT, may_fail: bool = False) -> str:
-    """Return what git prints.
-
-    Args:
-        arguments: after `git`.
-        at: the folder.
-        may_fail: return "" where git fails.
-
-    Raises:
-        Robo47Error: git fails; the first line of what it says.
-    """
-    try:
-        done = git.run(*arguments, folder=at, seconds=SECONDS, largest=git.LARGEST_GIT)
-    except git.GitError as error:
-        raise Robo47Error(f"{error}. {UNCHANGED}") from None
-    if done.returncode == 0:
-        return done.stdout.rstrip("\n")
-    if may_fail:
-        return ""
-    lines = [line for line in done.stderr.splitlines() if line.strip()]
-    why = lines[0] if lines else f"git {arguments[0]} ended with {done.returncode}"
-    raise Robo47Error(f"{why}. {UNCHANGED}")
-
-
-def commit(message: str, at: Path) -> None:
-    """Commit what is staged; a student without a name in git has one for this."""
-    named = ask("config", "user.name", at=at, may_fail=True)
-    as_whom = () if named else NOBODY
-    how = ("commit", "-q", "--no-verify", "--no-gpg-sign", "-m", message)
-    ask(*as_whom, *how, at=at)
+STALLED = ("-c", "http.lowSpeedLimit=1000", "-c", "http.lowSpeedTime=30")
 
 
 def fetch(place: str | None, to: str | None) -> tuple[str, str]:
@@ -70,12 +34,14 @@ def fetch(place: str | None, to: str | None) -> tuple[str, str]:
         raise Robo47Error("where is the kit? Say it once: make update FROM=https://...")
     deep = ask("rev-parse", "--is-shallow-repository") == "true"
     more = ("--unshallow",) if deep else ()
-    ask("fetch", "-q", "--tags", *more, found, to or "HEAD")
+    ask(*STALLED, "fetch", "-q", "--tags", *more, found, to or "HEAD")
     return found, ask("rev-parse", "FETCH_HEAD^{commit}")
 
 
-def save_own() -> None:
-    """Commit what the student has not: it is merged as it is now.
+def saved_own() -> str:
+    """Return a commit with what the student has now, to be merged as it is.
+
+    Their branch and their index stay as they are: HEAD, where that has it all.
 
     Raises:
         Robo47Error: a merge of theirs waits to be finished.
@@ -84,27 +50,19 @@ def save_own() -> None:
         raise Robo47Error("a merge is not finished. Finish it, then: make update")
     handed_in = {name for day in all_days() for name in day.files.values()}
     there = [name for name in sorted(handed_in) if (ROOT / name).is_file()]
-    ask("add", "-u")
-    ask("add", "--", *there, may_fail=True)
-    if ask("diff", "--cached", "--name-only"):
-        commit("My work before the update", ROOT)
-
-
-@contextlib.contextmanager
-def beside(head: str) -> Iterator[Path]:
-    """Yield a worktree at a commit; one of a run that was killed is removed."""
-    place = store.path_of("update")
-
-    def clear() -> None:
-        shutil.rmtree(place, ignore_errors=True)
-        ask("worktree", "prune")
-
-    clear()
-    ask("worktree", "add", "-q", "--detach", str(place), head)
-    try:
-        yield place
-    finally:
-        clear()
+    with own_index() as index:
+        own = ROOT / ask("rev-parse", "--git-path", "index")
+        try:
+            shutil.copyfile(own, index)
+        except OSError as error:
+            raise Robo47Error(f"{own}: {error.strerror}") from None
+        ask("add", "-u", index=index)
+        ask("add", "--", *there, may_fail=True, index=index)
+        tree = ask("write-tree", index=index)
+    if tree == ask("rev-parse", "HEAD^{tree}"):
+        return ask("rev-parse", "HEAD")
+    says = ("-p", "HEAD", "-m", "My work before the update", tree)
+    return ask(*as_whom(ROOT), "commit-tree", *says)
 
 
 def merge(worktree: Path, target: str) -> list[str]:
@@ -121,9 +79,7 @@ def merge(worktree: Path, target: str) -> list[str]:
     own = ask("rev-parse", "HEAD", at=worktree)
     base = ask("merge-base", own, target, at=worktree, may_fail=True)
     if not base:
-        raise Robo47Error(
-            f"that is another repository: no commit is in both. {UNCHANGED}"
-        )
+        raise Robo47Error("that is another repository: no commit is in both")
     how = ("merge", "-q", "--no-ff", "--no-commit", target)
     ask(*NOBODY, *how, at=worktree, may_fail=True)
     mine = {LOG, *(name for day in all_days() for name in day.files.values())}
@@ -141,8 +97,8 @@ def merge(worktree: Path, target: str) -> list[str]:
     ask("add", "-A", at=worktree)
     if ask("rev-parse", "-q", "--verify", "MERGE_HEAD", at=worktree, may_fail=True):
         commit(f"Update to the kit's {target[:7]}", worktree)
-    elif ask("merge-base", "--is-ancestor", target, "HEAD", at=worktree):
-        raise Robo47Error(f"git could not merge. {UNCHANGED}")
+    elif base != target:
+        raise Robo47Error("git could not merge")
     return taken
 
 
@@ -185,18 +141,8 @@ def _keep_rows(worktree: Path, own: str) -> None:
         path.write_text("\n".join([*now, *lost]) + "\n", "utf-8", newline="\n")
 
 
-def take(worktree: Path, place: str) -> None:
-    """Bring the clone to what the worktree has, in one step, and remember the place.
-
-    Raises:
-        Robo47Error: a file in the clone is in the way; says which.
-    """
-    head = ask("rev-parse", "HEAD", at=worktree)
-    labs = {path: path.stat() for path in ROOT.glob(f"w*/{WORK}/day*.py")}
-    ask("merge", "-q", "--ff-only", head)
-    for path, was in labs.items():
-        if path.is_file():  # what the kit merged is no edit of the student's
-            os.utime(path, ns=(was.st_atime_ns, was.st_mtime_ns))
-    if place not in REMOTES and place not in ask("remote").split():
-        known = "kit" in ask("remote").split()
-        ask("remote", *(("set-url",) if known else ("add",)), "kit", place)
+def remember(place: str) -> None:
+    """Remember where the kit is, where the clone has no name for it."""
+    known = ask("remote").split()
+    if place not in REMOTES and place not in known:
+        ask("remote", "set-url" if "kit" in known else "add", "kit", place)

@@ -151,6 +151,7 @@ def test_the_twin_stands_in_and_the_first_line_says_so(monkeypatch, twin, capsys
     assert "the kit's embedded twin" in capsys.readouterr().out.splitlines()[0]
 
 
+@pytest.mark.kit
 @pytest.mark.parametrize(
     ("text", "words"),
     [

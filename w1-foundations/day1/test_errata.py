@@ -37,6 +37,7 @@ def test_every_row_names_a_test_of_this_file():
         assert name in globals(), row
 
 
+@pytest.mark.kit
 @pytest.mark.meshes
 def test_the_handouts_script_crashes_on_the_real_scene(real_panda):
     scene = mujoco.MjModel.from_xml_path(str(real_panda / "scene.xml"))

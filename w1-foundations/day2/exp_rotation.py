@@ -66,6 +66,10 @@ def _(axis, theta):
     cosine-before-identity: before the identity stands the cosine; that goes with axis
       axis^T, and I itself with K K => the formula with cos I
     theta-for-sine: before K stands theta; it has to be its sine
+    half-angle-not-squared: before K K stands 2 sin(theta / 2); 1 - cos is twice the
+      square of that sine => the formula with 2 sin(theta / 2)
+    half-angle-without-2: before K K stands the square of sin(theta / 2); 1 - cos is
+      twice that => the formula without the 2
     """
     c, s = np.cos(theta), np.sin(theta)
     factors = {
@@ -82,6 +86,8 @@ def _(axis, theta):
         "second-order-only": (1, theta, theta**2 / 2),
         "cosine-before-identity": (c, s, 1 - c),
         "theta-for-sine": (1, theta, 1 - c),
+        "half-angle-not-squared": (1, s, 2 * np.sin(theta / 2)),
+        "half-angle-without-2": (1, s, np.sin(theta / 2) ** 2),
     }
     return {slug: partial(formula, axis, *f) for slug, f in factors.items()}
 
@@ -96,6 +102,8 @@ def _(axis, theta):
     dyad-without-factor: before axis axis^T the factor 1 - cos is missing: at theta = 0
       it turns already => cos I + sin K + axis axis^T
     always-about-z: it turns about z, whatever the axis is => Rz(theta)
+    theta-in-the-bracket: theta is in [axis] already, and sine and cosine take it once
+      more; K is made of the axis alone => the formula with [axis theta]
     """
     K = skew(axis)
     dyad = np.outer(axis, axis)
@@ -106,6 +114,7 @@ def _(axis, theta):
         "bracket-of-a-dyad": I + s * K + (1 - c) * dyad,
         "dyad-without-factor": c * I + s * K + dyad,
         "always-about-z": lambda: se3.Rz(theta),
+        "theta-in-the-bracket": I + theta * s * K + theta**2 * (1 - c) * K @ K,
     }
 
 

@@ -42,6 +42,8 @@ def _(axis, point):
     product-by-entries 2: v is omega times the point entry by entry; a cross product
       mixes the entries => (omega; omega * point)
     omega-reversed: v is right, but omega is -axis => the right one with omega negated
+    axis-added: the axis is added to v: that screw moves along itself as it turns, and a
+      hinge does not => the right one with v + omega
     """
     right = screw_axis(axis, point)
     v = np.cross(point, axis)
@@ -58,6 +60,7 @@ def _(axis, point):
         "product-by-entries": np.append(axis, -axis * point),
         "product-by-entries 2": np.append(axis, axis * point),
         "omega-reversed": np.append(-axis, v),
+        "axis-added": np.append(axis, v + axis),
     }
 
 

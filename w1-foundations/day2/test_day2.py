@@ -51,6 +51,7 @@ def test_franka_s_table_in_the_lab_is_the_one_in_the_questions():
 # --- the lab ---
 
 
+@pytest.mark.kit
 def test_the_lab_runs_in_80_columns_and_logs_two_rows(run, tmp_path):
     log = tmp_path / "metrics.csv"
     done = run(SCRIPT, ROBO47_METRICS=log)
@@ -176,6 +177,7 @@ def test_the_cube_of_a_bracket_is_its_negative_for_length_1_only():
     assert np.abs(8 * K @ K @ K + 2 * K).max() > 1  # of twice that length
 
 
+@pytest.mark.kit
 def test_how_many_named_mistakes_are_exact_at_zero(arm):
     S, M, q = arm
     truth = screws.fk_space(S, M, q)
@@ -250,6 +252,7 @@ def test_the_lost_motion_at_zero_is_the_turn_about_x(arm):
     assert_same(S[[0, 2, 4]], np.tile(S[0], (3, 1)), 0.0)
 
 
+@pytest.mark.kit
 def test_the_picture_shows_lines_and_lengths_and_no_answer(monkeypatch):
     need(importlib.util.find_spec("matplotlib") is not None, "matplotlib: make figures")
     monkeypatch.syspath_prepend(str(DAY.source.parent))
@@ -283,6 +286,7 @@ ONE_BY_ONE = {
 }
 
 
+@pytest.mark.kit
 @pytest.mark.parametrize("says", ONE_BY_ONE)
 def test_joints_are_asked_for_one_at_a_time_both_ways(says):
     instead = {"fk_space": ONE_BY_ONE[says]}
@@ -295,6 +299,7 @@ def test_joints_are_asked_for_one_at_a_time_both_ways(says):
 # --- the inspector's tab, without a browser ---
 
 
+@pytest.mark.kit
 def test_the_tab_applies_one_exponential_at_a_time():
     for module in ("viser", "labkit.inspector.tab"):
         need(importlib.util.find_spec(module) is not None, f"{module}: make view")

@@ -57,6 +57,9 @@ def _(J, e, damping):
     damping-fixed: the damping is 0.05 whatever the argument says
     damping-added-to-the-values: the damping is added to each singular value s, 1 / (s +
       damping); the formula makes s / (s^2 + damping^2) of it
+    damping-as-a-cut: the damping is the pseudo-inverse's rcond, which leaves small
+      values out; damping keeps all, and weighs the small ones less => the step of
+      pinv(J, damping)
     singular-value-missing: the weights are 1 / (s^2 + damping^2) for the singular
       values s: J^T in front puts one more s above
     """
@@ -79,6 +82,7 @@ def _(J, e, damping):
         "damping-squared-twice": with_added(damping**4 * I6),
         "damping-fixed": with_added(0.05**2 * I6),
         "damping-added-to-the-values": Vt.T @ (along / (s + damping)),
+        "damping-as-a-cut": pinv(J, damping) @ e,
         "singular-value-missing": Vt.T @ (along / (s**2 + damping**2)),
     }
 

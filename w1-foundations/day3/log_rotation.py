@@ -41,10 +41,10 @@ def _(rng):
 
     Two axes leave a column of R + R^T empty, to the last digit: the cosine is exact.
     """
-    small = [1e-9, 1e-7, 1e-6, 5e-6, 1e-5, 1e-3, 0.3]
+    small = [1e-9, 1e-7, 1e-6, 5e-6, 1e-5, 9e-4, 0.3]
     by_pi = np.pi - np.array([1e-2, 1e-4, 1e-6, 1e-8])
     drawn = rng.uniform(0.2, 3.0, 5)
-    first = [0.01, 0.05, 0.1]
+    first = [0.009, 0.049, 0.099]  # just below where people put a limit
     turns = np.array([*small, *by_pi, 2.0, *drawn, *first])
     R = exp_rotation(rng.units(len(turns)), turns)
     R = [*R[-3:], *R[:-3]]

@@ -52,6 +52,8 @@ def _(J):
     square-part: this is the determinant of the first six columns; joint 7 counts too
     position-only: only the three v rows of J are used; the rotation counts too => the
       root of det(J J^T) of three rows
+    zeros-left-out: values that are 0 are left out of the product; where one is 0, so is
+      the product => the product of those above 1e-9
     diagonal-only: only the diagonal of J J^T is multiplied; a determinant needs all
       entries => the root of that product
     """
@@ -67,6 +69,7 @@ def _(J):
         "inverse-condition": s[-1] / s[0],
         "square-part": abs(np.linalg.det(J[:, :6])),
         "position-only": values(J[3:]).prod(),
+        "zeros-left-out": s[s > 1e-9].prod(),
         "diagonal-only": np.sqrt(np.prod(np.diag(JJ))),
     }
 
@@ -82,6 +85,18 @@ for determinant, called in (
         f"the root of {called}, with its NaN,",
         hidden="rounding at q = 0 differs",
     )(lambda J, determinant=determinant: np.sqrt(determinant(J @ J.T)))
+
+
+# det(J J^T) is no less than 0 but for its rounding, so either way is right: 6e-10 off.
+@row.right
+def _(J):
+    return np.sqrt(max(np.linalg.det(J @ J.T), 0.0))
+
+
+@row.right
+def _(J):
+    return np.sqrt(abs(np.linalg.det(J @ J.T)))
+
 
 row.at_least_0(answer="a product of singular values")
 row.same(

@@ -5,7 +5,7 @@ from itertools import accumulate
 import numpy as np
 
 from labkit.judge import Jacobian, Row
-from labkit.judge.argument_mistakes import BACKWARDS, DEGREES, RADIANS_TWICE
+from labkit.judge.argument_mistakes import BACKWARDS, DEGREES, ONE_OFF, RADIANS_TWICE
 from robo47 import panda
 from robo47 import screws as day2
 from robo47.jacobian import space_jacobian
@@ -91,7 +91,7 @@ def _(screws, q):
     return {**found, "columns-reversed": lambda: space_jacobian(screws, q)[:, ::-1]}
 
 
-row.of_argument("q", BACKWARDS, DEGREES, RADIANS_TWICE)
+row.of_argument("q", BACKWARDS, DEGREES, RADIANS_TWICE, *ONE_OFF)
 
 
 @row.wrongs

@@ -239,6 +239,7 @@ def test_what_pushing_down_costs_joint_2_grows_with_the_hands_distance(arm):
     assert lab.joint_torques(J, farther, lab.DOWN)[1] == pytest.approx(tau + 1.0)
 
 
+@pytest.mark.kit
 def test_the_two_ellipses_have_inverse_axes_and_the_picture_is_the_labs(monkeypatch):
     need(importlib.util.find_spec("matplotlib") is not None, "matplotlib: make figures")
     monkeypatch.syspath_prepend(str(DAY.source.parent))

@@ -193,6 +193,7 @@ def tab_with(functions=None, name="Jacobian"):
     return getattr(DAY.module("inspector"), name)(page)
 
 
+@pytest.mark.kit
 def test_the_tab_shows_ones_own_columns_and_the_wrong_ones_in_red():
     J = site_jacobian(panda.READY_Q)
     tab = tab_with(vars(lab))
@@ -244,6 +245,7 @@ def test_without_a_file_the_library_is_at_work_and_is_called_that():
     assert theirs in says
 
 
+@pytest.mark.kit
 @pytest.mark.parametrize("radius", [lab.EASY, lab.RADIUS])
 def test_the_circles_tab_draws_what_the_lab_draws(radius):
     shown = tab_with(vars(lab), "Circle")

@@ -37,10 +37,13 @@ def _(M, qd, masses, coms_world, g):
       with qd.qd / 2
     masses-forgotten: the potential energy takes no masses => the answer with 1 kg each
     every-mass-everywhere: every link's centre is multiplied by the whole arm's mass
+    distance-for-height: the potential energy takes each centre's distance from the
+      origin for its height; only the way along g counts => the answer with |c| |g|
     order-swapped: potential energy comes first; kinetic was asked for first
     """
     K, U = energy(M, qd, masses, coms_world, g)
     all_at_once = -coms_world.sum(axis=0) @ g  # of 1 kg at each centre
+    far = np.linalg.norm(coms_world, axis=1)
     both = {
         "half-forgotten": (2 * K, U),
         "potential-sign": (K, -U),
@@ -49,6 +52,7 @@ def _(M, qd, masses, coms_world, g):
         "mass-matrix-forgotten": (0.5 * qd @ qd, U),
         "masses-forgotten": (K, all_at_once),
         "every-mass-everywhere": (K, masses.sum() * all_at_once),
+        "distance-for-height": (K, masses @ far * np.sqrt(g @ g)),
         "order-swapped": (U, K),
     }
     return {slug: np.array(one) for slug, one in both.items()}

@@ -11,6 +11,8 @@ from conftest import ROOT, load_script, need, paper
 from labkit.lesson.day import find_day
 from robo47 import panda
 
+pytestmark = pytest.mark.kit
+
 lab = load_script(ROOT / "w1-foundations/src/day4_dynamics.py")
 
 

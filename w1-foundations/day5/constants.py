@@ -178,7 +178,7 @@ def fed(rate=LAB.RATE, gravity=1.0):
     servo_kd=between(1.7, 1.9, "kd / kp times the speed, which lasts for no 0.2 s"),
     reach=times(2.0, "kd / kp times the speed", within=0.1),
     seconds=times(0.5, "kd / kp times the speed", within=0.1),
-    step=times(1.0, "a lag is no matter of steps", to=0.001),
+    step=times(1.0, "a lag does not depend on the step", to=0.001),
 )  # fmt: skip
 def servos(servo_kd=1.0, reach=1.0, seconds=2.0, step=0.002):
     """Return how far the servos are off the swing."""

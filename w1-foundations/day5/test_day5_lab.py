@@ -1,9 +1,13 @@
 """Day 5's lab as a person runs it."""
 
+import pytest
+
 from conftest import ROOT, kits_worksheet, load_script
 from labkit.lesson.day import find_day
 from labkit.lesson.lab import predictions
 from labkit.log import read_rows
+
+pytestmark = pytest.mark.kit
 
 SCRIPT = "w1-foundations/src/day5_control.py"
 lab = load_script(ROOT / SCRIPT)

@@ -9,6 +9,8 @@ from conftest import ROOT, load_script, need, paper
 from labkit.lesson.day import find_day
 from robo47 import panda
 
+pytestmark = pytest.mark.kit
+
 SCRIPT = "w1-foundations/src/day5_control.py"
 
 lab = load_script(ROOT / SCRIPT)

@@ -63,7 +63,7 @@ def arm(metre=1.0, masses=1.0, armature=1.0, damping=1.0, gravity=1.0, step=0.00
     masses=between(1.8, 1.9, "twice, but for the rotors' eighth"),
     armature=between(1.1, 1.2, "the rotors' eighth is twice as heavy"),
     metre=between(0.85, 0.95, "a rotor behind twice the lever feels a quarter of it"),
-    gravity=same("a mass is no weight"),
+    gravity=same("a mass is not a weight"),
     damping=same("it is asked at rest"),
 )  # fmt: skip
 def apparent(masses=1.0, armature=1.0, metre=1.0, gravity=1.0, damping=1.0):

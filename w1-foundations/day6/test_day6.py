@@ -98,6 +98,7 @@ def overshoot(motors, e, size=0.03, times=1.0, D=lab.critical_damping):
 MIXED = np.array([0.17, -0.77, 0.35, 0.39, 0.25, 0.2])
 
 
+@pytest.mark.kit
 def test_modes_that_do_not_swing_overshoot_along_a_mixed_direction(motors):
     words = str(tuple(MIXED.tolist()))
     assert f"e = {words}" in SENTENCES
@@ -108,6 +109,7 @@ def test_modes_that_do_not_swing_overshoot_along_a_mixed_direction(motors):
             assert overshoot(motors, axis, D=D) < 0.05
 
 
+@pytest.mark.kit
 @pytest.mark.parametrize(
     "turned", [{"times": 2.0}, {"size": 0.01}, {"times": 0.5}], ids=str
 )
@@ -210,6 +212,7 @@ def test_each_mistake_costs_on_the_circle_what_the_guide_says(motors, name):
         assert f"{value:.{decimals}f}" == written
 
 
+@pytest.mark.kit
 def test_a_kinematic_projector_draws_the_circle_but_its_torque_is_felt(motors):
     model, arm = motors
     mm, _ = circled(motors, null_torque=lab.kinematic)
@@ -293,6 +296,7 @@ def test_a_sign_makes_the_soft_hand_fly_away_and_a_pseudo_inverse_does_not(
     assert "`V_err` or `acc`; on the circle also $J^+$ for $J^T$" in SENTENCES
 
 
+@pytest.mark.kit
 def test_a_position_read_after_a_step_is_one_step_old(motors):
     model, arm = motors
     data = simulate.start(model, lab.READY_Q)
@@ -354,6 +358,7 @@ def test_the_elbow_gives_way_as_the_guide_says(motors, monkeypatch, gains, elbow
     assert f"{elbow} mm" in GUIDE.replace("\n", " ")
 
 
+@pytest.mark.kit
 def test_the_guides_code_releases_the_hand(capsys, monkeypatch):
     monkeypatch.syspath_prepend(str(ROOT / "w1-foundations/src"))
     blocks = GUIDE.split("```python\n")[1:]

@@ -151,6 +151,7 @@ def time_constant(solref):
     return change
 
 
+@pytest.mark.kit
 def test_the_peak_grows_with_the_speed_and_with_a_harder_contact():
     peaks = [press_soft(speed=speed).max() for speed in (0.05, 0.1, 0.2)]
     assert peaks == told("speed: #, # and # N at 0.05")

@@ -90,6 +90,8 @@ def _(m1, c1, I1, m2, c2, I2):
       centres too; d d^T has to come off => the answer without d d^T
     only-the-dyad: d d^T alone is what comes off; d.d I is missing
     dyad-sign: d d^T has to come off, not to be added => the answer with + d d^T
+    products-not-moved: the products of inertia are moved by nothing; d d^T has entries
+      beside its diagonal, too => the answer with the diagonal of d d^T
     distance-not-squared: the theorem takes the distance squared => the answer with |d|
     """
     c = centre(m1, c1, m2, c2)
@@ -98,6 +100,7 @@ def _(m1, c1, I1, m2, c2, I2):
         "along-the-way-too": lambda d: d @ d * np.eye(3),
         "only-the-dyad": lambda d: np.outer(d, d),
         "dyad-sign": lambda d: d @ d * np.eye(3) + np.outer(d, d),
+        "products-not-moved": lambda d: d @ d * np.eye(3) - np.diag(d * d),
         "distance-not-squared": lambda d: np.sqrt(d @ d) * np.eye(3) - np.outer(d, d),
     }
     return {

@@ -43,6 +43,12 @@ def nlerp(R0, R1, s):
     return se3.quat_to_R((1 - s) * a + s * (b if a @ b >= 0 else -b))
 
 
+def nearest(M):
+    """Return the rotation that is nearest to a matrix, by its singular vectors."""
+    U, _, Vt = np.linalg.svd(M)
+    return U @ Vt
+
+
 def line(T0, T1, s, turn):
     """Return the pose at s of the straight line, turned by a function's rotation."""
     T = np.eye(4)
@@ -55,6 +61,8 @@ def line(T0, T1, s, turn):
 def _(T0, T1, s):
     """by-entries: R's entries go straight from the one to the other; on the way they
       are no rotation => the mean of the entries
+    entries-made-a-rotation: R's entries go straight, and the nearest rotation is taken:
+      the same turn, but not at one rate => the rotation nearest to the mean
     nlerp: the quaternions go straight and are normalised: the same turn, but not at one
       rate => the normalised mean of the quaternions
     turn-in-world-axes: the turn is written in world axes, R1 R0^T, but stands on the
@@ -78,6 +86,7 @@ def _(T0, T1, s):
     w0 = log_rotation(R0)
     turns = {
         "by-entries": lambda: R0 + s * (R1 - R0),
+        "entries-made-a-rotation": lambda: nearest(R0 + s * (R1 - R0)),
         "nlerp": lambda: nlerp(R0, R1, s),
         "turn-in-world-axes": lambda: R0 @ exp(s * log_rotation(R1 @ R0.T)),
         "turn-on-the-left": lambda: exp(s * log_rotation(R0.T @ R1)) @ R0,

@@ -187,6 +187,7 @@ def test_the_origin_of_a_screw_motion_leaves_the_straight_line():
     assert says("but its origin runs along an arc")
 
 
+@pytest.mark.kit
 def test_a_jump_of_acceleration_has_a_jerk_that_doubles_with_the_rate():
     T = 0.995
     at_250 = {n: followed(*w)[1] for n, w in lab.profiles(T).items()}

@@ -156,6 +156,7 @@ def test_the_arm_stays_off_where_a_value_is_wrong(monkeypatch, capsys):
     assert simulate.SPEED_LIMITS is lab.V_MAX
 
 
+@pytest.mark.kit
 def test_the_code_of_the_72_yaws_finds_the_17_that_fail(capsys, monkeypatch):
     monkeypatch.syspath_prepend(str((ROOT / SCRIPT).parent))
     code = paper_code("len(fails)")

@@ -4,11 +4,14 @@ import importlib.util
 from unittest.mock import MagicMock
 
 import numpy as np
+import pytest
 from compare import assert_same
 
 from conftest import ROOT, load_script, need, paper
 from labkit.lesson.day import find_day
 from robo47 import panda
+
+pytestmark = pytest.mark.kit
 
 SCRIPT = "w1-foundations/src/day7_trajectory.py"
 DAY = find_day(7)

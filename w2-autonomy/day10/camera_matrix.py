@@ -24,7 +24,7 @@ def matrix(fx, fy, cx, cy):
     return np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1.0]])
 
 
-@row.wrongs
+@row.wrongs(hidden={"whole-division": "the lab's images have even sides"})
 def _(fovy, width, height):
     """whole-angle: the tangent is that of the whole angle; half of the picture is seen
       under half of the angle => with tan(fovy)
@@ -46,6 +46,8 @@ def _(fovy, width, height):
     centre-at-0: the centre is 0; a point straight ahead is seen in the middle
     centre-whole: the centre is the width and the height; the middle is half of both
     y-up: the second f is negative; v grows downwards, and so does y => with -f
+    whole-division: // cuts off the half of an odd number of pixels: the middle of 353
+      pixels is at 176.5 => with //
     last-entry-0: the last entry is 0; K (x, y, z) has to keep z for the division
     centre-in-the-last-row: the centre stands in the last row; it is a column
     """
@@ -68,6 +70,9 @@ def _(fovy, width, height):
         "centre-at-0": matrix(f, f, 0, 0),
         "centre-whole": matrix(f, f, width, height),
         "y-up": matrix(f, -f, cx, cy),
+        "whole-division": matrix(
+            *[height // 2 / np.tan(fovy / 2)] * 2, width // 2, height // 2
+        ),
         "last-entry-0": right - np.diag([0, 0, 1.0]),
         "centre-in-the-last-row": right.T,
     }

@@ -1,5 +1,7 @@
 """10.5 `kabsch(A, B)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Pose, Row, rounded
@@ -26,14 +28,6 @@ def _(rng):
     ]
 
 
-def turned(A, B, d=None, about=True):
-    """Return U, Vt and the centres; without det where d is None."""
-    a = A.mean(axis=0) * about
-    b = B.mean(axis=0) * about
-    U, _, Vt = np.linalg.svd((B - b).T @ (A - a))
-    return U, Vt, A.mean(axis=0), B.mean(axis=0)
-
-
 def rigid(R, t):
     """Return a 4x4 matrix, also of what is no rotation."""
     T = np.eye(4)
@@ -42,43 +36,91 @@ def rigid(R, t):
     return T
 
 
+def proper(U, Vt):
+    """Return the rotation that an svd leads to: the smallest direction turned round."""
+    return U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt
+
+
+def fitted(
+    A, B, *, centre=lambda X: X.mean(axis=0), rotation=proper, scale=lambda s, A: 1.0,
+    shift=lambda R, a, b: b - R @ a,
+):  # fmt: skip
+    """Return the motion with other parts: about which centre, by which R, moved how."""
+    around = A - centre(A)
+    U, s, Vt = np.linalg.svd((B - centre(B)).T @ around)
+    R = scale(s * [1, 1, np.linalg.det(U @ Vt)], around) * rotation(U, Vt)
+    return rigid(R, shift(R, A.mean(axis=0), B.mean(axis=0)))
+
+
+def all_turned(U, Vt):
+    """Return the rotation with every sign turned where it is a mirror image."""
+    return U @ Vt * np.sign(np.linalg.det(U @ Vt))
+
+
+for slug, says, redone, other in (
+    ("mirror", "the sign of the determinant is not looked at: where noise or a "
+     "mirrored cloud wants it, U V^T is a mirror image", "U V^T as it is",
+     {"rotation": lambda U, Vt: U @ Vt}),
+    ("mirror-turned-round", "the mirror is made a rotation by another sign for all of "
+     "it; only the direction of the smallest singular value turns round",
+     "with -R there", {"rotation": all_turned}),
+    ("largest-turned-round", "the mirror is made a rotation by turning the direction "
+     "of the largest singular value round; the smallest is the cheapest",
+     "with diag(det, 1, 1)", {"rotation": lambda U, Vt: U @ np.diag(
+         [np.linalg.det(U @ Vt), 1, 1]) @ Vt}),
+    ("middle-turned-round", "the mirror is made a rotation by turning the direction of "
+     "the middle singular value round; the smallest is the cheapest",
+     "with diag(1, det, 1)", {"rotation": lambda U, Vt: U @ np.diag(
+         [1, np.linalg.det(U @ Vt), 1]) @ Vt}),
+    ("column-turned-round", "the mirror is made a rotation by turning the third column "
+     "of V^T round; its rows are the directions", "with V^T's column",
+     {"rotation": lambda U, Vt: U @ Vt @ np.diag([1, 1, np.linalg.det(U @ Vt)])}),
+    ("row-of-U-turned-round", "the mirror is made a rotation by turning the third row "
+     "of U round; its columns are the directions", "with U's row",
+     {"rotation": lambda U, Vt: np.diag([1, 1, np.linalg.det(U @ Vt)]) @ U @ Vt}),
+    ("always-turned-round", "the third direction is turned round every time; it is "
+     "only where U V^T is a mirror image", "with diag(1, 1, -1)",
+     {"rotation": lambda U, Vt: U @ np.diag([1, 1, -1]) @ Vt}),
+    ("R-transposed", "the rotation is the other way round: it is U V^T of B^T A, not "
+     "A^T B", "with R^T", {"rotation": lambda U, Vt: proper(U, Vt).T}),
+    ("U-V", "numpy's svd returns V^T already", "with U V", {"rotation": lambda U, Vt:
+     U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt.T}),
+    ("not-centred", "the clouds are not moved to their centres before the svd",
+     "with the points as they are", {"centre": lambda X: np.zeros(3)}),
+    ("one-number-for-the-centre", "the centre is the mean of all numbers of a cloud; "
+     "each coordinate has its own: axis=0", "with .mean() of all numbers",
+     {"centre": lambda X: X.mean() + np.zeros(3)}),
+    ("about-the-first", "the clouds are moved to their first points; their noise stays "
+     "in, and the centres' does not", "with A[0] and B[0]", {"centre": lambda X: X[0]}),
+    ("scaled", "R is multiplied by a scale; a motion changes no lengths",
+     "with a scale", {"scale": lambda s, A: s.sum() / np.sum(A * A)}),
+    ("t-without-R", "the translation is the difference of the centres; A's centre is "
+     "turned first, so it is b - R a", "with b - a", {"shift": lambda R, a, b: b - a}),
+    ("t-with-R-transposed", "the translation is b - R^T a; it is b - R a",
+     "with b - R^T a", {"shift": lambda R, a, b: b - R.T @ a}),
+    ("t-turned-too", "the translation is R (b - a); only a is turned: b - R a",
+     "with R (b - a)", {"shift": lambda R, a, b: R @ (b - a)}),
+    ("t-added", "the translation is b + R a; it is b - R a", "with b + R a",
+     {"shift": lambda R, a, b: b + R @ a}),
+    ("t-sign", "the translation is a - R b; it is b - R a", "with a - R b",
+     {"shift": lambda R, a, b: a - R @ b}),
+):  # fmt: skip
+    row.wrong(slug, says, redone)(partial(fitted, **other))
+
+
 @row.wrongs
 def _(A, B):
-    """mirror: the sign of the determinant is not looked at: where noise or a mirrored
-      cloud wants it, U V^T is a mirror image => U V^T as it is
-    mirror-turned-round: the mirror is made a rotation by another sign for all of it;
-      only the direction of the smallest singular value turns round => with -R there
-    other-way: this is the motion from B to A => kabsch(B, A)
-    R-transposed: the rotation is the other way round: it comes from B^T A, not A^T B =>
-      with R^T
-    U-V: numpy's svd returns V^T already => with U V
-    t-without-R: the translation is the difference of the centres; A's centre is turned
-      first, so it is b - R a => with b - a
-    t-sign: the translation is a - R b; it is b - R a
+    """other-way: this is the motion from B to A => kabsch(B, A)
     t-of-the-first: the translation fits the first point alone; its noise stays in
       => with b_0 - R a_0
-    not-centred: the clouds are not moved to their centres before the svd
     affine: this is the best 3x3 matrix, by lstsq, and no rotation => the affine fit
     """
-    U, Vt, a, b = turned(A, B)
-    flip = np.diag([1, 1, np.linalg.det(U @ Vt)])
-    R = U @ flip @ Vt
-    U0, Vt0, _, _ = turned(A, B, about=False)
-    raw = U0 @ np.diag([1, 1, np.linalg.det(U0 @ Vt0)]) @ Vt0
+    R = kabsch(A, B)[:3, :3]
     one = np.hstack([A, np.ones((len(A), 1))])
     M = np.linalg.lstsq(one, B, rcond=None)[0].T
-    bare = U @ Vt
-    round_ = bare * np.sign(np.linalg.det(bare))
     return {
-        "mirror": rigid(bare, b - bare @ a),
-        "mirror-turned-round": rigid(round_, b - round_ @ a),
         "other-way": kabsch(B, A),
-        "R-transposed": rigid(R.T, b - R.T @ a),
-        "U-V": rigid(U @ flip @ Vt.T, b - U @ flip @ Vt.T @ a),
-        "t-without-R": rigid(R, b - a),
-        "t-sign": rigid(R, a - R @ b),
         "t-of-the-first": rigid(R, B[0] - R @ A[0]),
-        "not-centred": rigid(raw, b - raw @ a),
         "affine": rigid(M[:, :3], M[:, 3]),
     }
 

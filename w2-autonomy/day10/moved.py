@@ -3,6 +3,7 @@
 import numpy as np
 
 from labkit.judge import Pose, Row, rounded
+from labkit.judge.argument_mistakes import Change
 from robo47.camera import moved
 from robo47.screws import skew
 
@@ -36,13 +37,14 @@ def _(T, xi):
     apart: R is turned and t moved by v, each alone; a turn about the origin moves what
       stands beside it, too => exp([omega]) R and t + v
     first-order: this is T + [xi] T: no rotation any more => (1 + [xi]) T
-    xi-sign: it moves the other way, by -xi => exp([-xi]) T
-    halves-swapped: xi is read as (v; omega); here omega comes first
     t-not-turned: the rotation turns R alone; T's translation is turned with it => R
       turned, and t + the exponential's own translation
     v-as-translation: the exponential's translation is v; along a screw it is G(theta) v
       => with v in its place
     length-lost: xi is made a unit screw, and the angle is 1 => exp of xi / |omega|
+    slides-left-out: where nothing turns, T comes back as it was; a slide has no angle,
+      but a length => T where omega is 0
+    identity-where-still: where nothing moves, it is the identity; T stays where it is
     turns-only: v is not used
     slides-only: omega is not used
     """
@@ -62,14 +64,36 @@ def _(T, xi):
         "on-the-right": T @ E,
         "apart": apart,
         "first-order": T + W @ T,
-        "xi-sign": exp_of(-xi) @ T,
-        "halves-swapped": exp_of(xi[HALF]) @ T,
         "t-not-turned": beside,
         "v-as-translation": plain @ T,
         "length-lost": exp_of(xi / w) @ T,
+        "slides-left-out": E @ T if xi[:3].any() else T,
+        "identity-where-still": E @ T if xi.any() else E,
         "turns-only": exp_of(np.append(xi[:3], np.zeros(3))) @ T,
         "slides-only": exp_of(np.append(np.zeros(3), xi[3:])) @ T,
     }
+
+
+row.of_argument(
+    "xi",
+    Change("xi-sign", "it moves the other way, by -xi", np.negative, "exp([-xi]) T"),
+    Change(
+        "halves-swapped",
+        "xi is read as (v; omega); here omega comes first",
+        lambda xi: xi[HALF],
+    ),
+    Change(
+        "in-degrees",
+        "the angle is converted to degrees; an exponential takes radians",
+        np.rad2deg,
+        "with an angle in degrees",
+    ),
+    Change(
+        "unit-screw",
+        "xi is divided by its whole length; the angle is that of omega alone",
+        lambda xi: xi / (np.linalg.norm(xi) or 1.0),
+    ),
+)
 
 
 @row.right  # By halves: exp(xi) = exp(xi / 1024)^1024, with a series of 12 terms.

@@ -1,5 +1,7 @@
 """10.4 `projection_jacobian(K, p_cam)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Row
@@ -32,45 +34,115 @@ def by_twist(p, sign=-1.0):
     return np.concatenate([sign * skew(p), np.tile(np.eye(3), (len(p), 1, 1))], axis=2)
 
 
-@row.wrongs
-def _(K, p_cam):
-    """depth-column-forgotten: the third column of d(pixel)/dp is 0: a point that comes
-      nearer moves outwards, by -f x / z^2 => without -x / z^2
-    depth-column-sign: the third column of d(pixel)/dp has the wrong sign: the slope of
-      x / z with z is -x / z^2 => with +x / z^2
-    one-z-too-few: the third column of d(pixel)/dp is divided by z once; the slope of
-      1 / z is -1 / z^2 => with -x / z
-    f-forgotten: f is missing: these are slopes of x / z, in no unit
-    not-divided: d(pixel)/dp is not divided by z
-    halves-swapped: the columns are (v; omega); here omega comes first
-    camera-moves: all signs are turned: these are the pixels of a camera that moves;
-      here what is seen moves => the right one with the other sign
-    rotation-sign: the rotation's columns have the wrong sign: omega x p is -[p] omega
-      => with +[p]
-    rotation-forgotten: the rotation's columns are 0; a turn about the camera's origin
-      moves what is seen, too
-    v-forgotten: the columns of v are 0; v moves every point
-    rows-swapped: the rows of u and v are swapped
-    y-up: the row of v has the wrong sign; y and v point down here
-    """
-    D = by_point(K, p_cam)
-    flat = D * [1, 1, 0]
-    z = p_cam[:, 2, None, None]
-    right = D @ by_twist(p_cam)
-    return {
-        "depth-column-forgotten": flat @ by_twist(p_cam),
-        "depth-column-sign": (2 * flat - D) @ by_twist(p_cam),
-        "one-z-too-few": (flat + (D - flat) * z) @ by_twist(p_cam),
-        "f-forgotten": right / K[0, 0],
-        "not-divided": right * z,
-        "halves-swapped": right[..., HALF],
-        "camera-moves": -right,
-        "rotation-sign": D @ by_twist(p_cam, 1.0),
-        "rotation-forgotten": right * [0, 0, 0, 1, 1, 1],
-        "v-forgotten": right * [1, 1, 1, 0, 0, 0],
-        "rows-swapped": right[:, ::-1],
-        "y-up": right * [[1], [-1]],
-    }
+def slopes(
+    K, p_cam, *, pixel=by_point, twist=by_twist, told=lambda J: J
+):  # fmt: skip
+    """Return the Jacobian with other parts."""
+    return told(pixel(K, p_cam) @ twist(p_cam))
+
+
+def third(change):
+    """Return d(pixel)/dp with another third column: a factor, of z."""
+    return lambda K, p: by_point(K, p) * np.dstack([
+        np.ones((len(p), 1, 2)), np.reshape(change(p[:, 2]) + 0 * p[:, 2], (-1, 1, 1))
+    ])  # fmt: skip
+
+
+def depth(p, power):
+    """Return z to a power, (n, 1, 1)."""
+    return p[:, 2, None, None] ** power
+
+
+def with_the_centre(K, p):
+    """Return K[:2] times the slopes of (x / z, y / z, z)."""
+    D = by_point(K, p) / K[0, 0]
+    last = np.tile([0.0, 0.0, 1.0], (len(p), 1, 1))
+    return K[:2] @ np.concatenate([D, last], axis=1)
+
+
+def of_the_pixel(K, p):
+    """Return d(pixel)/dp with u and v for x and y."""
+    D = by_point(K, p)
+    D[:, :, 2] = -K[0, 0] * ((p @ K.T)[:, :2] / p[:, 2:]) / p[:, 2:] ** 2
+    return D
+
+
+def with_one_name(of, other):
+    """Return d(pixel)/dp where both rows use the same coordinate."""
+
+    def wrong(K, p):
+        D = by_point(K, p)
+        D[:, of, 2] = D[:, other, 2]
+        return D
+
+    return wrong
+
+
+for slug, says, redone, other in (
+    ("depth-column-forgotten", "the third column of d(pixel)/dp is 0: a point that "
+     "comes nearer moves outwards, by -f x / z^2", "without -x / z^2",
+     {"pixel": third(lambda z: 0.0)}),
+    ("depth-column-sign", "the third column of d(pixel)/dp has the wrong sign: the "
+     "slope of x / z with z is -x / z^2", "with +x / z^2",
+     {"pixel": third(lambda z: -1.0)}),
+    ("one-z-too-few", "the third column of d(pixel)/dp is divided by z once; the slope "
+     "of 1 / z is -1 / z^2", "with -x / z", {"pixel": third(lambda z: z)}),
+    ("two-z-too-few", "the third column of d(pixel)/dp is not divided by z; the slope "
+     "of 1 / z is -1 / z^2", "with -x", {"pixel": third(lambda z: z * z)}),
+    ("one-z-too-many", "the third column of d(pixel)/dp is divided by z three times; "
+     "the slope of 1 / z is -1 / z^2", "with -x / z^3",
+     {"pixel": third(lambda z: 1 / z)}),
+    ("f-forgotten", "f is missing: these are slopes of x / z, in no unit", "without f",
+     {"pixel": lambda K, p: by_point(K, p) / K[0, 0]}),
+    ("not-divided", "d(pixel)/dp is not divided by z", "times z",
+     {"pixel": lambda K, p: by_point(K, p) * depth(p, 1)}),
+    ("divided-once-more", "all of d(pixel)/dp is divided by z once more; only its "
+     "third column is", "divided by z",
+     {"pixel": lambda K, p: by_point(K, p) / depth(p, 1)}),
+    ("centre-in-the-slope", "the centre is in the third column; it is added to the "
+     "pixel, so no slope has it", "with the centre in the third column",
+     {"pixel": with_the_centre}),
+    ("x-for-y", "the row of v has x in its third column; it is -y / z^2", "with x",
+     {"pixel": with_one_name(1, 0)}),
+    ("y-for-x", "the row of u has y in its third column; it is -x / z^2", "with y",
+     {"pixel": with_one_name(0, 1)}),
+    ("first-columns-not-divided", "d(pixel)/dp's first two columns are not divided "
+     "by z; only the third is", "with f for f / z", {"pixel": lambda K, p: by_point(
+         K, p) * np.where([True, True, False], depth(p, 1), 1.0)}),
+    ("pixels-for-x-and-y", "the third column has the pixel's own u and v; it has "
+     "x and y", "with -u / z", {"pixel": of_the_pixel}),
+    ("v-of-y-sign", "the slope of v with y has the wrong sign; y and v both point down",
+     "with -f / z there", {"pixel": lambda K, p: by_point(K, p)
+                           * [[1, 1, 1], [1, -1, 1]]}),
+    ("one-depth-sign", "the slope of u with z has the wrong sign: it is -f x / z^2",
+     "with +x / z^2 in u", {"pixel": lambda K, p: by_point(K, p)
+                            * [[1, 1, -1], [1, 1, 1]]}),
+    ("one-depth-sign", "the slope of v with z has the wrong sign: it is -f y / z^2",
+     "with +y / z^2 in v", {"pixel": lambda K, p: by_point(K, p)
+                            * [[1, 1, 1], [1, 1, -1]]}),
+    ("range-for-depth", "it is divided by the point's distance; a camera divides by z",
+     "with the length of p", {"pixel": lambda K, p: by_point(
+         K, np.column_stack([p[:, :2], np.linalg.norm(p, axis=1)]))}),
+    ("halves-swapped", "the columns are (v; omega); here omega comes first",
+     "[1, -[p]]", {"told": lambda J: J[..., HALF]}),
+    ("rotation-sign", "the rotation's columns have the wrong sign: omega x p is -[p] "
+     "omega", "with +[p]", {"twist": lambda p: by_twist(p, 1.0)}),
+    ("rotation-forgotten", "the rotation's columns are 0; a turn about the camera's "
+     "origin moves what is seen, too", "[0, 1]",
+     {"twist": lambda p: by_twist(p) * [0, 0, 0, 1, 1, 1]}),
+    ("v-forgotten", "the columns of v are 0; v moves every point", "[-[p], 0]",
+     {"twist": lambda p: by_twist(p) * [1, 1, 1, 0, 0, 0]}),
+    ("v-sign", "the columns of v have the wrong sign: what is seen moves with v",
+     "[-[p], -1]", {"twist": lambda p: by_twist(p) * [1, 1, 1, -1, -1, -1]}),
+    ("camera-moves", "all signs are turned: these are the pixels of a camera that "
+     "moves; here what is seen moves", "the right one with the other sign",
+     {"told": np.negative}),
+    ("rows-swapped", "the rows of u and v are swapped", "(v, u)",
+     {"told": lambda J: J[:, ::-1]}),
+    ("y-up", "the row of v has the wrong sign; y and v point down here", "with -v",
+     {"told": lambda J: J * [[1], [-1]]}),
+):  # fmt: skip
+    row.wrong(slug, says, redone)(partial(slopes, **other))
 
 
 row.at_least_0(K="f and the centre are")

@@ -1,9 +1,11 @@
 """10.6 `refine_pose(K, T_guess, points, pixels)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Pose, Row
-from robo47.camera import moved, project, projection_jacobian, refine_pose
+from robo47.camera import moved, project, projection_jacobian
 from robo47.screws import skew
 
 from .projection_jacobian import by_point, by_twist
@@ -30,6 +32,16 @@ def mixed(J, off):
     return least_squares(np.concatenate([J[:, 0], J[:, 1]]), off)
 
 
+def mixed_off(J, off):
+    """Return what they give where it is the error that has all u before all v."""
+    return least_squares(J, off.T)
+
+
+def downhill(J, off):
+    """Return J^T r."""
+    return J.reshape(-1, 6).T @ off.ravel()
+
+
 def apart(T, xi):
     """Return T with R turned and t moved, each alone."""
     T = T.copy()
@@ -51,16 +63,26 @@ def on_the_right(T, xi):
     return T @ moved(np.eye(4), xi)
 
 
-def steps(K, T, points, pixels, *, n=10, solve=least_squares, move=moved, held=False):
+def placed(T, points):
+    """Return points of the thing in the camera's axes."""
+    return points @ T[:3, :3].T + T[:3, 3]
+
+
+def steps(
+    K, T_guess, points, pixels, *, n=10, solve=least_squares, move=moved, held=False,
+    sign=1.0, at=placed, stale=False, since=lambda T, guess: T, told=lambda T: T,
+):  # fmt: skip
     """Return T after steps that may be wrong; NaN where they run away."""
-    J = None
+    T = T_guess
+    J = off = None
     for _ in range(n):
-        p = points @ T[:3, :3].T + T[:3, 3]
-        off = pixels - (p @ K.T)[:, :2] / p[:, 2:]
+        p = placed(T, points)
+        if off is None or not stale:
+            off = pixels - (p @ K.T)[:, :2] / p[:, 2:]
         if J is None or not held:
-            J = slopes(K, p)
-        T = move(T, solve(J, off))
-    return T
+            J = slopes(K, at(T, points))
+        T = move(since(T, T_guess), sign * solve(J, off))
+    return told(T)
 
 
 def slopes(K, p):
@@ -68,37 +90,53 @@ def slopes(K, p):
     return by_point(K, p) @ by_twist(p)
 
 
+for slug, says, redone, other in (
+    ("one-step", "this is the pose after one step; ten were asked for", "one step",
+     {"n": 1}),
+    ("two-steps", "it stops after two steps; ten were asked for", "two steps",
+     {"n": 2}),
+    ("three-steps", "it stops after three steps; ten were asked for", "three steps",
+     {"n": 3}),
+    ("J-of-the-guess", "the Jacobian is that of the guess in all steps; it changes "
+     "with the pose", "with J at the guess alone", {"held": True}),
+    ("J-of-the-thing", "the Jacobian is taken at the points in the thing's own axes; "
+     "it needs them in the camera's, moved by T", "with J at `points`",
+     {"at": lambda T, points: points}),
+    ("J-not-moved", "the Jacobian is taken at points that are turned, but not moved, "
+     "by T", "with J at R p", {"at": lambda T, points: points @ T[:3, :3].T}),
+    ("error-of-the-guess", "the error is that of the guess in all steps; each step "
+     "needs what is left", "with the guess's error", {"stale": True}),
+    ("twist-halves-swapped", "the step is taken for (v; omega); J's columns have omega "
+     "first", "with its halves swapped",
+     {"move": lambda T, xi: moved(T, np.roll(xi, 3))}),
+    ("body-twist", "each step stands on T's right; J's twists are in the camera's "
+     "axes, so the exponential stands on the left", "T exp([xi])",
+     {"move": on_the_right}),
+    ("first-order", "each step is T + [xi] T, and R no rotation any more",
+     "(1 + [xi]) T", {"move": first_order}),
+    ("gradient", "each step is J^T r, the steepest way, and no least squares",
+     "with J^T r", {"solve": downhill}),
+    ("each-from-the-guess", "each step moves the guess; it moves the pose that the "
+     "last step gave", "with the guess moved",
+     {"since": lambda T, guess: guess}),
+    ("inverse", "this is the camera seen from the thing, T's inverse", "its inverse",
+     {"told": np.linalg.inv}),
+    ("half-steps", "each step is halved: after ten a thousandth of the way is left",
+     "with xi / 2", {"sign": 0.5}),
+    ("residual-sign", "the error is predicted less seen, so each step goes the wrong "
+     "way", "with -r", {"sign": -1.0}),
+    ("rows-mixed", "J has all u above all v, but the error has u and v in turn",
+     "with J's rows in another order", {"solve": mixed}),
+    ("error-mixed", "the error has all u above all v, but J has u and v in turn",
+     "with the error in another order", {"solve": mixed_off}),
+):  # fmt: skip
+    row.wrong(slug, says, redone)(partial(steps, **other))
+
+
 @row.wrongs
 def _(K, T_guess, points, pixels):
-    """one-step: this is the pose after one step; ten were asked for
-    J-of-the-guess: the Jacobian is that of the guess in all steps; it changes with the
-      pose => with J at the guess alone
-    guess-returned: this is the guess itself
-    body-twist: each step stands on T's right; J's twists are in the camera's axes, so
-      the exponential stands on the left => T exp([xi])
-    first-order: each step is T + [xi] T, and R no rotation any more => (1 + [xi]) T
-    gradient: each step is J^T r, the steepest way, and no least squares => with J^T r
-    residual-sign: the error is predicted less seen, so each step goes the wrong way
-      => with -r
-    rows-mixed: J has all u above all v, but the error has u and v in turn
-      => with J's rows in another order
-    two-steps: it stops after two steps; ten were asked for
-    inverse: this is the camera seen from the thing, T's inverse
-    """
-    given = (K, T_guess, points, pixels)
-    right = refine_pose(*given)
-    return {
-        "one-step": steps(*given, n=1),
-        "J-of-the-guess": steps(*given, held=True),
-        "guess-returned": T_guess,
-        "body-twist": steps(*given, move=on_the_right),
-        "first-order": steps(*given, move=first_order),
-        "gradient": steps(*given, solve=lambda J, r: J.reshape(-1, 6).T @ r.ravel()),
-        "residual-sign": steps(*given, solve=lambda J, r: -least_squares(J, r)),
-        "rows-mixed": steps(*given, solve=mixed),
-        "two-steps": steps(*given, n=2),
-        "inverse": np.linalg.inv(right),
-    }
+    """guess-returned: this is the guess itself"""
+    return {"guess-returned": T_guess}
 
 
 row.at_least_0(K="f and the centre are")

@@ -200,6 +200,7 @@ def test_the_exponential_on_the_right_never_arrives_and_one_z_too_few_always_doe
     assert f"to {most} in place of" in SENTENCES
 
 
+@pytest.mark.kit
 def test_with_noise_the_wrong_jacobian_fits_as_well_and_its_covariance_is_wrong():
     T, corners = held()
     exact = camera.project(K, T, corners)
@@ -308,6 +309,7 @@ def test_the_mean_of_the_points_is_off_because_far_sides_are_not_seen():
     assert "the mean is right to 0.1 mm" in SENTENCES
 
 
+@pytest.mark.kit
 def test_three_yaws_are_needed_since_the_nearest_points_find_the_next_hollow():
     worst = []
     for starts in (lab.STARTS, (0.0,)):

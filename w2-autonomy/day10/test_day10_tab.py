@@ -4,10 +4,13 @@ import importlib.util
 import re
 
 import numpy as np
+import pytest
 
 from conftest import ROOT, load_script, need, paper
 from labkit.lesson.day import find_day
 from robo47 import panda
+
+pytestmark = pytest.mark.kit
 
 DAY = find_day(10)
 lab = load_script(ROOT / "w2-autonomy/src/day10_camera.py")

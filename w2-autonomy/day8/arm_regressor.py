@@ -139,6 +139,22 @@ for slug, says, other in (
 
 
 @row.wrong
+def added_up_in_the_links(J, T, qd, qdd, g):
+    """each joint's screw is turned into its own link and added to V and A there; those
+    of the link before are in other axes, so add up in the world's => the Y so"""
+    V = np.zeros(6)
+    A = np.append(np.zeros(3), -g)
+    Y = np.zeros((7, 70))
+    for i, S in enumerate(J.T):
+        X = adjoint(inverse(T[i]))
+        V = V + X @ S * qd[i]
+        A = A + X @ S * qdd[i] + ad(V) @ X @ S * qd[i]
+        costs = X.T @ link_regressor(V, A)
+        Y[: i + 1, 10 * i : 10 * i + 10] = J[:, : i + 1].T @ costs
+    return Y
+
+
+@row.wrong
 def grouped_by_number(J_space, T_links, qd, qdd, g):
     """the columns are grouped by number, all masses first; they are grouped by link,
     ten each => the right one with its columns in that order"""

@@ -261,7 +261,7 @@ def holds(load, side, n, *how):
     friction=times(2.0, "of twice the friction twice as much is left", within=0.1),
     springs=between(-0.2, 0.2, "it creeps until the springs give nothing; they pull "
                     "four times as hard"),
-    step=times(1.0, "how it creeps is no matter of steps", within=0.05, to=0.001),
+    step=times(1.0, "creep does not depend on the step", within=0.05, to=0.001),
 )  # fmt: skip
 def either_side(
     wait=LAB.WAIT, friction=1.0, timeconst=0.02, dmin=0.9, step=0.002, springs=DAY.OMEGA

@@ -131,6 +131,8 @@ def _(Y, tau, rtol):
       not squared => the right one with rtol's square root
     ridge: something is added to the diagonal of Y^T Y: every parameter is pulled
       towards 0, also what the motion shows => (Y^T Y + 1)^-1 Y^T tau
+    mean-taken-off: the mean of tau is taken off first, as in statistics; no torque is
+      lost so => the fit to what is left
     times-s: it is multiplied by the singular values; Y = U S V^T is undone by dividing,
       and Y^T tau alone is no solution => V S U^T tau
     first-columns: only the first columns are fitted, as many as the rank; which ones
@@ -151,6 +153,7 @@ def _(Y, tau, rtol):
         "cut-not-squared": fit(Y, tau, np.sqrt(rtol)),
         "ridge": np.linalg.solve(Y.T @ Y + np.eye(p), Y.T @ tau),
         "times-s": Vt.T @ (s * (U.T @ tau)),
+        "mean-taken-off": fit(Y, tau - tau.mean(), rtol),
         "first-columns": np.pad(first, (0, p - len(s))),
     }
 

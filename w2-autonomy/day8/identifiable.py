@@ -12,6 +12,12 @@ from .states import CUT, hidden, regressors, spread, stairs, uneven
 def of_what_counts(case: Case) -> Finding | None:
     """Say which values count, where the condition is that of some of Y's values."""
     ranks, conditions = case.S
+    if np.allclose(conditions, case.T[1], rtol=1e-6):
+        off = np.sum(ranks != case.T[0])
+        says = (
+            f"The condition is right; the rank is not, in {off} of {len(ranks)} calls."
+        )
+        return Finding("rank-off", f"{says} It is the number of values that count.")
     more = fewer = other = dust = 0
     for Y, n, right, condition in zip(
         case.arguments[0], ranks, case.T[0], conditions, strict=True
@@ -98,9 +104,15 @@ for slug, says, redone, told in (
     ("cut-not-squared", "these are eigenvalues of Y^T Y, squares of singular values; "
      "the cut has to be squared, too", "the right one with rtol's square root",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), s[0] / s[n - 1])),
+    ("hidden-for-shown", "the rank is the number of combinations that are hidden; it "
+     "is that of those that show", "the number of columns less the rank",
+     lambda s, rtol: (len(s) - (n := np.sum(s > rtol * s[0])), s[0] / s[n - 1])),
     ("condition-squared", "the condition is that of Y^T Y, the square of the one of Y",
      "its square",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), (s[0] / s[n - 1]) ** 2)),
+    ("condition-rooted", "the condition is the root of the quotient; singular values "
+     "are lengths already, and no root is left to take", "its root",
+     lambda s, rtol: (n := np.sum(s > rtol * s[0]), np.sqrt(s[0] / s[n - 1]))),
     ("condition-inverted", "the condition is upside down: it is 1 or more",
      "smallest over largest",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), s[n - 1] / s[0])),

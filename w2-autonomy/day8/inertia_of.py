@@ -27,6 +27,8 @@ def _(phi):
       entries of I as they stand in it => the right one with -Ixy, -Ixz, -Iyz
     row-by-row: the six are read as Ixx, Ixy, Iyy, Ixz, Iyz, Izz, which is the order of
       other software; here the diagonal comes first => I in that order
+    triangle-by-rows: the six are read as Ixx, Ixy, Ixz, Iyy, Iyz, Izz; here the
+      diagonal comes first => I in that order
     products-in-another-order: the last three are read as Ixy, Iyz, Ixz; here Ixz comes
       before Iyz => the right one with those two swapped
     first-moment-times-m: phi[1:4] is multiplied by m; it is m c already, which keeps
@@ -38,6 +40,7 @@ def _(phi):
     changed = {
         "products-negative": [m, *h, *phi[4:7], *-phi[7:]],
         "row-by-row": phi[[0, 1, 2, 3, 4, 6, 9, 5, 7, 8]],
+        "triangle-by-rows": phi[[0, 1, 2, 3, 4, 7, 9, 5, 6, 8]],
         "products-in-another-order": phi[[0, 1, 2, 3, 4, 5, 6, 7, 9, 8]],
         "first-moment-times-m": [m, *(m * phi[1:4]), *phi[4:]],
         "corners-swapped": [m, *-phi[1:4], *phi[4:]],
@@ -50,6 +53,12 @@ def _(phi):
     """lower-half-zero: the products stand above the diagonal of I only; I is symmetric
     inertia-about-the-centre: m [c] [c]^T is added to I; phi has I about the origin,
       with that in it already => the right one with I + m [c] [c]^T
+    steiner-without-m: [h] [h]^T is added to I; phi has I about the origin, with all of
+      that in it already => the right one with I + [h] [h]^T
+    corner-not-transposed: [h] stands in both corners; the lower left one is [h]^T =>
+      the right one with [h] twice
+    corner-negated: [h]^T stands in both corners; the upper right one is [h] => the
+      right one with [h]^T twice
     velocity-first: the blocks are in the order (v; omega); here omega comes first
     """
     G = right(phi)
@@ -59,6 +68,9 @@ def _(phi):
     return {
         "lower-half-zero": G - np.pad(below, (0, 3)),
         "inertia-about-the-centre": G + np.pad(moved, (0, 3)),
+        "steiner-without-m": G + np.pad(C @ C.T, (0, 3)),
+        "corner-not-transposed": G + np.kron([[0.0, 0.0], [1.0, 0.0]], 2.0 * C),
+        "corner-negated": G + np.kron([[0.0, 1.0], [0.0, 0.0]], -2.0 * C),
         "velocity-first": G[np.ix_(SWAP, SWAP)],
     }
 

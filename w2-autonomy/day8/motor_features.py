@@ -9,16 +9,20 @@ from labkit.judge.mistake import Finding
 
 def slow(case: Case) -> Finding | None:
     """Say that dry friction grows with the speed, where that is all that is wrong."""
-    pairs = [(case.S, case.T)]
+    trios = [(case.arguments[0], case.S, case.T)]
     if case.further:
-        pairs.append((case.further.S[0], case.further.T[0]))
-    for S, T in pairs:
+        more = case.further
+        trios.append((more.arguments[0], more.S[0], more.T[0]))
+    for qd, S, T in trios:
         if np.abs(S - T)[..., :14].max() > 1e-6:
             return None
         size = np.abs(S[..., 14:])
         same_sign = (S * T)[..., 14:] >= 0
         if not (same_sign & (size <= np.abs(T[..., 14:]))).all():
             return None
+        own = np.diagonal(size, axis1=1, axis2=2).ravel()  # of each joint its own
+        if (np.diff(own[np.argsort(np.abs(qd).ravel())]) < -1e-9).any():
+            return None  # a faster one has less
     says = "A joint that moves slowly gets less dry friction than a fast one, or none. "
     says += "It has one size, whatever the speed: the sign says which way it works."
     return Finding("slow-left-out", says)
@@ -65,6 +69,9 @@ for slug, says, redone, blocks in (
     ("slow-left-out", "a joint that moves slowly gets no dry friction; it has one "
      "size, whatever the speed", "0 where |qd| is under 0.1",
      lambda qd, qdd: (qdd, qd, np.sign(qd) * (np.abs(qd) >= 0.1))),
+    ("dry-one-way", "dry friction works one way only: it is 0 where qd is negative, "
+     "and has to be -1 there", "1 where qd is positive, and else 0",
+     lambda qd, qdd: (qdd, qd, np.maximum(np.sign(qd), 0.0))),
     ("dry-forgotten", "dry friction is missing: its seven columns are 0",
      "the last block empty", lambda qd, qdd: (qdd, qd, 0 * qd)),
     ("friction-drives", "friction has a minus; the motors give this torque against it",

@@ -120,7 +120,13 @@ TYPED_IN = Change(
     "9.81 downwards is typed in; gravity is the argument g",
     lambda g: DOWN,
 )
-row.of_argument("g", TYPED_IN)
+DOWNWARDS = Change(
+    "gravity-always-down",
+    "only the size of g is used, and it is taken to point down; an arm may hang on a "
+    "wall",
+    lambda g: np.array([0.0, 0.0, -np.linalg.norm(g)]),
+)
+row.of_argument("g", TYPED_IN, DOWNWARDS)
 row.of_argument("R_site", TRANSPOSED.called("R-transposed"))
 
 

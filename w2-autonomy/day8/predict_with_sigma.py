@@ -42,6 +42,8 @@ def _(Y, tau, Y_new, rtol):
       prediction => the root of sigma^2 + noise^2
     mean-taken-off: the mean of what is left is taken off first, as a standard deviation
       does; it is a part of the noise
+    rank-taken-off-last: r.r is divided by n, and the rank is taken off that; n - rank
+      needs brackets => sigma with r.r / n - rank
     variance: this is the variance; sigma is its root => sigma squared
     noise-left-out: the noise is missing: this is how much a fit amplifies it
     noise-for-sigma: this is the noise for every row; a motion that was never shown is
@@ -78,6 +80,7 @@ def _(Y, tau, Y_new, rtol):
         "noise-squared": sigma * noise,
         "noise-added": np.hypot(sigma, noise),
         "mean-taken-off": sigma * np.std(rest, ddof=len(s)) / noise,
+        "rank-taken-off-last": sigma * np.sqrt(rest @ rest / n - len(s)) / noise,
         "variance": sigma**2,
         "noise-left-out": sigma / noise,
         "noise-for-sigma": noise + 0 * sigma,

@@ -92,6 +92,7 @@ def test_without_a_cut_the_rank_is_near_91_and_parameters_are_huge(data):
     assert "a rank near 91, and parameters of 1e12 | nothing was cut" in SENTENCES
 
 
+@pytest.mark.kit
 def test_two_predictions_of_the_worksheet_stand_beside_what_is_measured(printed):
     sheet = (ROOT / "w2-autonomy/docs/day8.md").read_text("utf-8")
     assert "you predicted 43, measured 43: how many of 70 numbers show" in printed
@@ -125,6 +126,7 @@ def test_the_smaller_residual_is_luck_and_says_nothing_of_elsewhere(data):
     assert f"In {smaller} of 8 the swing's is the smaller one" in SENTENCES
 
 
+@pytest.mark.kit
 def test_the_fit_that_fools_is_wrong_without_noise_too_and_by_what_it_cut(
     data, printed
 ):
@@ -206,6 +208,7 @@ def test_numbers_in_the_sizes_that_one_expects_have_no_unit_of_length(data):
     assert lab.rms((Y_new @ (known + divided) - truth)[new]) > 3 * off[0]
 
 
+@pytest.mark.kit
 def test_one_frequency_and_a_small_reach_are_why_the_swing_shows_little():
     t = np.arange(200) * 0.05
     w = np.pi
@@ -228,6 +231,7 @@ def test_one_frequency_and_a_small_reach_are_why_the_swing_shows_little():
     assert one[0] / one[1] == pytest.approx(27, rel=0.02)  # the reach cubed
 
 
+@pytest.mark.kit
 def test_a_second_sine_and_own_beginnings_bring_the_condition_down():
     def condition(far, begin):
         motion = day8_mujoco.harmonics(robot, lab.OFTEN, far, begin)

@@ -6,9 +6,11 @@ from unittest.mock import patch
 import mujoco
 import numpy as np
 import pytest
+from catalogue import run_as_lab
 from compare import assert_same
 
 from conftest import ROOT, load_script, printed_by, sentences
+from labkit.lesson.day import find_day
 from robo47 import identification, panda, verify
 
 import day8_mujoco
@@ -33,6 +35,7 @@ def printed():
     return printed_by(lab, told)
 
 
+@pytest.mark.kit
 def test_what_the_arm_weighs_is_in_both_holds_only_where_springs_are_stiff():
     secret = [
         day8_mujoco.without_friction(day8_mujoco.changed(one, lab.ROBOT_SEED))
@@ -58,6 +61,7 @@ def grams(robots, wait, noise=0.0, seed=0):
     )
 
 
+@pytest.mark.kit
 def test_the_grams_of_one_from_either_side_are_how_long_mujocos_friction_creeps():
     robots = [day8_mujoco.changed(one, lab.ROBOT_SEED) for one in (model, hung)]
     for wait in (1, 2, 4, 8):
@@ -93,6 +97,7 @@ def test_poses_that_turn_about_gravity_hide_a_part_of_the_centre():
     assert "comes out as (20, -30, 0) mm" in SENTENCES
 
 
+@pytest.mark.kit
 def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
     lines = re.findall(r"^  [a-z ]+?((?: +-?\d+\.\d){5}) +(-?\d+)$", printed, re.M)
     rows = [[*map(float, numbers.split()), int(up)] for numbers, up in lines]
@@ -113,3 +118,60 @@ def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
     assert abs(day8_mujoco.rises(loaded, arm, still, LOAD)) < 1e-3
     least = re.search(r"links found: (\S+)", printed)[1]
     assert f"It is {least}: there is no such arm" in SENTENCES
+
+
+@pytest.mark.kit
+def test_what_makes_the_hand_sink_is_turned_alone_the_grams_and_the_centre():
+    robot, loaded = (day8_mujoco.changed(one, lab.ROBOT_SEED) for one in (model, hung))
+    rng = np.random.default_rng(lab.NOISE_SEED)
+    rng.normal(size=day8_mujoco.swing().q.shape)  # in the lab's order
+    motion = day8_mujoco.excitation(robot, lab.ROBOT_SEED)
+    noise = lab.NOISE * rng.normal(size=motion.q.shape)
+    rng.normal(size=motion.q.shape)
+    fast = np.abs(motion.qd) > lab.SLOW
+    Y = [
+        library_rows(arm.at(q), qd, qdd)
+        for q, qd, qdd in zip(motion.q, motion.qd, motion.qdd, strict=True)
+    ]
+    tau = lab.mujoco_torques(robot, motion) + noise
+    phi = identification.fit(np.array(Y)[fast], tau[fast], lab.RTOL)
+    found = lab.weighings(robot, loaded, arm, rng)
+
+    def rises(load):
+        def still(now):
+            return library_rows(now, np.zeros(7), np.zeros(7))[:, :70] @ phi[:70]
+
+        return 1000 * day8_mujoco.rises(loaded, arm, still, load)
+
+    def alone(name):
+        m, *h = found[name][0]
+        grams_alone = rises(m * np.append(1.0, lab.AT))
+        centre_alone = rises(lab.LOAD * np.append(1.0, np.array(h) / m))
+        return grams_alone, centre_alone, rises(found[name][0])
+
+    grams_alone, centre_alone, both = alone("each from both sides")
+    assert f"at the true centre, the hand sinks by {-grams_alone:.1f} mm" in SENTENCES
+    assert f"told 500 g at its centre, by {-centre_alone:.1f}." in SENTENCES
+    # Two errors that add up: the fit's own gravity, which is in all three, but once.
+    assert grams_alone + centre_alone - rises(LOAD) == pytest.approx(both, abs=1.0)
+    grams_alone, centre_alone, both = alone("one from either side")
+    assert f"the grams alone do nearly all of the {both:.0f} mm" in SENTENCES
+    assert grams_alone == pytest.approx(both, abs=2.0)
+    assert centre_alone == pytest.approx(rises(LOAD), abs=2.0)
+
+
+def library_rows(now, qd, qdd):
+    """Return Y, (7, 91), by the library, which is quicker than the lab."""
+    given = now.J_space, now.T_links, qd, qdd, arm.gravity
+    motors = identification.motor_features(qd, qdd)
+    return np.hstack([identification.arm_regressor(*given), motors])
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize(
+    "knobs",
+    [{"NOISE": 0.0}, {"NOISE": 0.0, "WAIT": 8.0}, {"NOISE_SEED": 8}, {"ROBOT_SEED": 5}],
+    ids=str,
+)
+def test_a_right_lab_passes_with_the_knobs_that_the_exercises_turn(knobs):
+    assert run_as_lab(find_day(8), lambda lab: vars(lab).update(knobs)) == 0

@@ -136,29 +136,36 @@ def test_a_unit_vector_divided_by_its_mass_is_nan_in_nine_of_ten_columns():
     assert "Code that divides by m gives NaN in nine of the ten columns" in SENTENCES
 
 
-def costs(code, motion):
-    """Return the largest wrong torque of an arm_regressor at some states, N m."""
-    off = []
+def costs(ways, motion):
+    """Return the largest wrong torque of each arm_regressor at some states, N m."""
+    phi = day8_mujoco.numbers(arm)[:70]
+    most = dict.fromkeys(ways, 0.0)
     for q, qd, qdd in zip(*motion, strict=True):
         now = arm.at(q)
         given = now.J_space, now.T_links, qd, qdd, arm.gravity
-        off.append(code(*given) - identification.arm_regressor(*given))
-    return np.abs(off @ day8_mujoco.numbers(arm)[:70]).max()
+        right = identification.arm_regressor(*given)
+        for slug, code in ways.items():
+            off = np.abs((code(*given) - right) @ phi).max()
+            most[slug] = max(most[slug], off)
+    return most
 
 
+@pytest.mark.kit
 def test_what_mistakes_cost_in_motion_and_at_rest():
     still = np.zeros((1, 7))
     at_rest = day8_mujoco.Motion(panda.READY_Q[None], still, still)
-    motions = day8_mujoco.anywhere(model, lab.ROBOT_SEED, 20), at_rest
     ways = {way.slug: way.code for way in rows_of(DAY)["arm_regressor"].named}
-    cost = {slug: [costs(code, m) for m in motions] for slug, code in ways.items()}
+    moving = costs(ways, day8_mujoco.anywhere(model, lab.ROBOT_SEED, 20))
+    rest = costs(ways, at_rest)
+    cost = {slug: [moving[slug], rest[slug]] for slug in ways}
     rows = re.findall(r"^\| ([a-z-]+) \| ([\d.]+) \| ([\d.]+) \|$", GUIDE, re.M)
     assert len(rows) == 6
     for slug, *written in rows:
         for value, words in zip(cost[slug], written, strict=True):
             assert f"{value:.{len(words.partition('.')[2])}f}" == words
     unseen = sum(rest < 1e-9 < moving for moving, rest in cost.values())
-    assert f"reveals nothing about {unseen} of the {len(cost)} mistakes" in SENTENCES
+    assert 0.3 < unseen / len(cost) < 0.4
+    assert "reveals nothing about a third of the mistakes" in SENTENCES
 
 
 def test_mujoco_refuses_what_no_body_can_have():

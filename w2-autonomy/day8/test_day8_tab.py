@@ -4,11 +4,14 @@ import importlib.util
 import re
 
 import numpy as np
+import pytest
 from compare import assert_same
 
 from conftest import ROOT, load_script, need, paper
 from labkit.lesson.day import find_day
 from robo47 import panda
+
+pytestmark = pytest.mark.kit
 
 DAY = find_day(8)
 lab = load_script(ROOT / "w2-autonomy/src/day8_identification.py")

@@ -61,6 +61,7 @@ def largest(residual):
     return float(np.abs(residual).max())
 
 
+@pytest.mark.kit
 def test_three_predictions_of_the_worksheet_stand_beside_what_is_measured(printed):
     sheet = (ROOT / "w2-autonomy/docs/day9.md").read_text("utf-8")
     for row, said in {
@@ -137,6 +138,7 @@ def test_noise_and_lag_of_a_low_pass_are_those_of_the_guides_two_formulas(swing)
         assert lab.rms((late - qd)[lab.SETTLED :]) == pytest.approx(lag, rel=0.01)
 
 
+@pytest.mark.kit
 def test_it_is_not_rounding_but_the_motion_that_spoils_the_nis_of_the_swing(swing):
     q, qd = swing.q[:, lab.JOINT], swing.qd[:, lab.JOINT]
     R = (2 * np.pi / 2**16) ** 2 / 12
@@ -168,6 +170,7 @@ def test_it_is_not_rounding_but_the_motion_that_spoils_the_nis_of_the_swing(swin
     assert min(off) == off[1] < best
 
 
+@pytest.mark.kit
 def test_whiteness_tells_the_filter_that_nis_lets_pass():
     true, other = [], []
     low, high = estimation.nis_interval(1950, 1)
@@ -196,6 +199,7 @@ def test_the_filter_that_never_grows_unsure_falls_asleep():
     assert inside.mean() < 0.1
 
 
+@pytest.mark.kit
 def test_what_is_left_in_free_motion_is_the_sample_and_not_the_gain(swing):
     left = {}
     for gain in (10.0, 50.0, 200.0):
@@ -211,6 +215,7 @@ def test_what_is_left_in_free_motion_is_the_sample_and_not_the_gain(swing):
     assert half == pytest.approx(left[50.0] / 2, rel=0.01)
 
 
+@pytest.mark.kit
 def test_at_rest_every_slope_finds_the_push_and_in_motion_one(held, swing):
     at_rest = [lab.felt(arm, held, share) for share in (1, 0, -1)]
     for other in at_rest[1:]:
@@ -236,6 +241,7 @@ def test_the_residual_is_at_63_per_cent_after_one_over_the_gain(held):
     assert not np.abs(pushed).max() < 1e6  # over 2 / dt it blows up
 
 
+@pytest.mark.kit
 def test_what_the_observer_takes_for_a_push(swing):
     hung = panda.load(
         "panda_nohand", drive="torque", edit=day8_mujoco.load(0.5, [0.0, 0, 0.06])
@@ -275,6 +281,7 @@ def test_joint_7_does_not_feel_a_push_whose_line_meets_its_axis():
     assert largest(sideways) < lab.THRESHOLD
 
 
+@pytest.mark.kit
 def test_the_gripped_sentences_of_the_idea_are_what_is_printed(printed):
     assert "noticed, ms: 4 (limit 10)" in printed
     assert re.search(r"q / 10 and R x 10 .* yes +0\.868", printed)

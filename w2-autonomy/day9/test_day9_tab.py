@@ -11,6 +11,8 @@ from conftest import ROOT, load_script, need, paper
 from labkit.lesson.day import find_day
 from robo47 import panda
 
+pytestmark = pytest.mark.kit
+
 DAY = find_day(9)
 lab = load_script(ROOT / "w2-autonomy/src/day9_estimation.py")
 

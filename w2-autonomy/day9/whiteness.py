@@ -1,5 +1,7 @@
 """9.7 `whiteness(y)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Row, Scalar
@@ -16,46 +18,81 @@ def _(rng):
     return [(np.array([1.0, -1.0, 1.0, -1.0]),), *((y,) for y in [*drawn, *slow])]
 
 
+def centred(y):
+    """Return y without its mean."""
+    return y - y.mean()
+
+
+def correlation(
+    y, *, above=centred, below=centred, pairs=lambda d: d[1:] @ d[:-1],
+    squares=lambda d: d @ d, share=lambda n: 1.0, told=lambda r: r,
+):  # fmt: skip
+    """Return the correlation with other parts."""
+    return told(share(len(y)) * pairs(above(y)) / squares(below(y)))
+
+
+AS_IT_IS = {"above": lambda y: y}
+for slug, says, redone, other in (
+    ("mean-not-taken-off", "the mean is not taken off: an offset alone makes "
+     "neighbours look alike", "with y as it is", {**AS_IT_IS, "below": lambda y: y}),
+    ("mean-left-in-the-products", "the mean is taken off in the squares, but not in "
+     "the products", "with y as it is above", AS_IT_IS),
+    ("mean-left-in-the-squares", "the mean is taken off in the products, but not in "
+     "the squares", "with y as it is below", {"below": lambda y: y}),
+    ("not-normalised", "it is not divided by the sum of squares: it has y's unit "
+     "squared", "the sum of products", {"squares": lambda d: 1.0}),
+    ("by-sigma", "it is divided by the root of the sum of squares; its square drops "
+     "the unit", "with the root below", {"squares": lambda d: np.sqrt(d @ d)}),
+    ("squares-of-the-first", "it is divided by the squares of the first n - 1 alone",
+     "without the last below", {"squares": lambda d: d[:-1] @ d[:-1]}),
+    ("squares-of-the-last", "it is divided by the squares of the last n - 1 alone",
+     "without the first below", {"squares": lambda d: d[1:] @ d[1:]}),
+    ("two-sizes", "each of the two rows has a size of its own; the sum of all squares "
+     "is below", "with the root of both rows' squares",
+     {"squares": lambda d: np.sqrt((d[1:] @ d[1:]) * (d[:-1] @ d[:-1]))}),
+    ("by-n-sigma", "it is divided by sigma, and by n - 1 for n; its square drops the "
+     "unit", "the mean of products over sigma", {"squares": lambda d: np.sqrt(
+         d @ d / len(d)), "share": lambda n: 1 / (n - 1)}),
+    ("median-for-mean", "the median is taken off; it is the mean", "with the median",
+     {"above": lambda y: y - np.median(y), "below": lambda y: y - np.median(y)}),
+    ("mean-of-products", "n - 1 products and n squares are each averaged; the sums are "
+     "divided", "times n / (n - 1)", {"share": lambda n: n / (n - 1)}),
+    ("variance-for-sum", "the sum of products is divided by a mean of squares; sums "
+     "are divided", "times n", {"share": lambda n: n}),
+    ("mean-by-sum", "a mean of products stands above; it is their sum",
+     "divided by n - 1", {"share": lambda n: 1 / (n - 1)}),
+    ("divided-by-n", "it is divided by n as well", "divided by n",
+     {"share": lambda n: 1 / n}),
+    ("lag-two", "each is compared with the last but one", "with y_k y_(k+2)",
+     {"pairs": lambda d: d[2:] @ d[:-2]}),
+    ("lag-zero", "each is compared with itself: that is 1", "1",
+     {"pairs": lambda d: d @ d}),
+    ("round-the-corner", "the last is compared with the first, as by np.roll",
+     "with np.roll", {"pairs": lambda d: d @ np.roll(d, 1)}),
+    ("size-only", "its sign is lost: surprises that alternate are below 0", "its size",
+     {"told": abs}),
+    ("squared", "it is squared", "its square", {"told": np.square}),
+    ("sign", "its sign is the other one", "its negative", {"told": np.negative}),
+    ("one-minus", "it is 1 minus that: white noise is 0", "1 minus it",
+     {"told": lambda r: 1 - r}),
+):  # fmt: skip
+    row.wrong(slug, says, redone)(partial(correlation, **other))
+
+
 @row.wrongs
 def _(y):
-    """mean-not-taken-off: the mean is not taken off: an offset alone makes neighbours
-      look alike => with y as it is
-    not-normalised: it is not divided by the sum of squares: it has y's unit squared
-    by-sigma: it is divided by the root of the sum of squares; its square drops the unit
-    mean-of-products: n - 1 products and n squares are each averaged; the sums are
-      divided => times n / (n - 1)
-    two-means: each of the two rows has a mean and a size of its own, as np.corrcoef
+    """two-means: each of the two rows has a mean and a size of its own, as np.corrcoef
       does => np.corrcoef(y[1:], y[:-1])[0, 1]
-    squares-of-the-first: it is divided by the squares of the first n - 1 alone
-    lag-two: each is compared with the last but one
-    lag-zero: each is compared with itself: that is 1
-    round-the-corner: the last is compared with the first, as by np.roll
-    size-only: its sign is lost: surprises that alternate are below 0
-    squared: it is squared
-    sign: its sign is the other one
-    one-minus: it is 1 minus that: white noise is 0
     of-the-changes: it is that of the changes of y, not of y
+    changes-squared: it is the sum of squared changes over the sum of squares: 2 for
+      white noise => Durbin and Watson's number
     """
-    d = y - y.mean()
-    right = whiteness(y)
-    products = d[1:] @ d[:-1]
-    table = {
-        "mean-not-taken-off": y[1:] @ y[:-1] / (y @ y),
-        "not-normalised": products,
-        "by-sigma": products / np.sqrt(d @ d),
-        "mean-of-products": right * len(y) / (len(y) - 1),
+    d = centred(y)
+    return {
         "two-means": lambda: np.corrcoef(y[1:], y[:-1])[0, 1],
-        "squares-of-the-first": products / (d[:-1] @ d[:-1]),
-        "lag-two": d[2:] @ d[:-2] / (d @ d),
-        "lag-zero": 1.0,
-        "round-the-corner": d @ np.roll(d, 1) / (d @ d),
-        "size-only": abs(right),
-        "squared": right**2,
-        "sign": -right,
-        "one-minus": 1 - right,
         "of-the-changes": lambda: whiteness(np.diff(y)),
+        "changes-squared": np.sum(np.diff(y) ** 2) / (d @ d),
     }
-    return table
 
 
 @row.right  # By np.correlate.

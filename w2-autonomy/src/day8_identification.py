@@ -264,7 +264,8 @@ def judged(name: str, Y, tau, Y_new, truth, rtol: float) -> tuple[float, float]:
     with np.errstate(divide="ignore"):  # as many rows as numbers: sigma is inf
         torque, sigma = predict_with_sigma(Y, tau, Y_new, rtol)
     off = rms(torque - truth)
-    inside = np.mean(np.abs(torque - truth) < 1.96 * sigma)
+    # Without noise both are rounding, of which no sigma tells.
+    inside = np.mean(np.abs(torque - truth) < 1.96 * sigma + 1e-9)
     digits = 2 if condition < 1e6 else -3  # above, rounding reaches the last ones
     print(f"  {name:22}{rank:3}{condition:13,.0f}{rms(tau - Y @ phi):9.4f}"
           f"{round(off, digits):10,.{max(digits, 0)}f}"

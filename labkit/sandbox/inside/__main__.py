@@ -30,7 +30,7 @@ def main() -> None:
 
     if fences:
         limits.die_with_parent()
-        limits.leave_network()  # before NumPy: a process with threads may not
+        limits.stop_being_root()  # before NumPy: a process with threads may not
     import answers
     import audit
     import imports

@@ -1,9 +1,9 @@
-"""Linux's own fence around a process: what it may read, and that it reaches no other.
+"""Linux's own fence around a process: what it may read.
 
 The kernel enforces it, whatever a program does in Python or below; nothing that the
 process starts escapes it, and nothing may be started at all. Source: <linux/landlock.h>
-and landlock(7). Signals and abstract sockets are closed since version 6 (Linux 6.12),
-TCP since 4 (6.7); sockets that have a path in the file system are not.
+and landlock(7). What it could close besides (TCP, signals, abstract sockets, in newer
+kernels) the filter of system calls refuses everywhere: `seccomp`.
 """
 
 import ctypes
@@ -15,19 +15,13 @@ _PATH_BENEATH, _GET_VERSION, _NO_NEW_PRIVS = 1, 1, 38
 _READ_FILE, _READ_DIR = 1 << 2, 1 << 3
 _FILES = (1 << 13) - 1  # the rights that the first version of Landlock knows
 _SINCE = {2: 1 << 13, 3: 1 << 14, 5: 1 << 15}  # refer, truncate, ioctl on devices
-_TCP, _TCP_SINCE = 0b11, 4  # bind and connect
-_SCOPES, _SCOPES_SINCE = 0b11, 6  # abstract unix sockets and signals
 # The C library loads what a late import needs from here.
 _SYSTEM = ("/lib", "/lib64", "/usr/lib", "/usr/lib64")
 _PACKAGES = ("site-packages", "dist-packages", "python")  # not the libraries of others
 
 
 class _Ruleset(ctypes.Structure):
-    _fields_ = [
-        ("files", ctypes.c_uint64),
-        ("network", ctypes.c_uint64),
-        ("scopes", ctypes.c_uint64),
-    ]
+    _fields_ = [("files", ctypes.c_uint64)]
 
 
 class _Beneath(ctypes.Structure):
@@ -62,15 +56,8 @@ def fence(readable: list[str]) -> bool:
         return False
     libc = ctypes.CDLL(None, use_errno=True)
     rights = _FILES | sum(right for since, right in _SINCE.items() if known >= since)
-    attributes = _Ruleset(
-        rights,
-        _TCP if known >= _TCP_SINCE else 0,
-        _SCOPES if known >= _SCOPES_SINCE else 0,
-    )
-    size = 8 if known < _TCP_SINCE else 16 if known < _SCOPES_SINCE else 24
-    rules = libc.syscall(
-        _CREATE_RULESET, ctypes.byref(attributes), ctypes.c_size_t(size), 0
-    )
+    size = ctypes.c_size_t(ctypes.sizeof(_Ruleset))
+    rules = libc.syscall(_CREATE_RULESET, ctypes.byref(_Ruleset(rights)), size, 0)
     if rules < 0:
         return False
     _allow(libc, rules, os.devnull, _READ_FILE | 1 << 1)

@@ -1,0 +1,306 @@
+"""Work through a day in one loop: save, read the verdict, go on.
+
+    make watch                     the day worked on last
+    make watch DAY=4
+    make watch TASK=4.5            one task alone
+
+It shows the next open task and where it stands in your file. At each save that task is
+checked; when it passes, the next one is shown. Then all others are asked again, for a
+change may have reached them: until that is known, they are shown in brackets.
+
+Keys: h hint, r run the lab, v view, b borrow, l list, c check all, q quit. Without a
+keyboard (a pipe, an editor's window) it watches all the same; Ctrl-C ends it.
+Exit code: 0 all passed, 1 something is left, 2 it could not run.
+"""
+
+import contextlib
+import os
+import re
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from labkit.base import cli
+from labkit.base.keys import Keys
+from labkit.commands.start import require_begun
+from labkit.lesson.day import Day, Task, chosen_day, days_of
+from labkit.lesson.starter import function_lines
+from labkit.sandbox.process import Process
+from robo47.errors import Robo47Error
+from robo47.paths import METRICS_CSV, ROOT, shown
+
+POLL_SECONDS = 0.15  # polling sees saves on WSL and network mounts, where events do not
+BAR = 20  # places
+KEYS = "h hint  r run  v view  b borrow  l list  c check all  q quit"
+
+
+class Loop:
+    """A day that is being worked on.
+
+    Attributes:
+        states: how tasks stand, by id: "passed", "wrong", "to do" ...
+        sure: whether that was asked of the file as it is.
+    """
+
+    def __init__(self, day: Day, only: str | None, file: Path | None = None) -> None:
+        """Take the day as it was last checked.
+
+        Args:
+            day: from the manifest.
+            only: one task's id, where the others do not matter.
+            file: instead of the student's file in work/.
+        """
+        from labkit.check import memory
+
+        self.day = day
+        self.only = day.task(only) if only else None
+        self.script = file or day.work
+        self.states = {} if file else memory.known(day)
+        self.sure = len(self.states) == len(day.tasks)
+        self.warm: Process | None = Process()
+
+    def open(self) -> list[Task]:
+        """Return the tasks that do not pass, those that count first."""
+        asked = [self.only] if self.only else sorted(self.day.tasks, key=_optional)
+        return [task for task in asked if self.states.get(task.id) != "passed"]
+
+    def check(self, only: Task | None) -> bool:
+        """Check one task and print what it says, or all; return whether they pass."""
+        from labkit.check import memory
+        from labkit.check.report import Report, as_text
+        from labkit.check.tasks import check_tasks
+        from labkit.sandbox.sandbox import Sandbox
+
+        key = memory.key_of(self.day)
+        warm, self.warm = self.warm, None
+        with Sandbox(warm) as sandbox:
+            id = only.id if only else None
+            results = check_tasks(self.day, self.script, sandbox, id)
+        self.warm = Process()  # it gets ready while the student types
+        found = {result.task.id: memory.in_words(result.verdict) for result in results}
+        if self.script == self.day.work:
+            memory.note(results)
+            memory.remember(key, results)
+        self.states |= found
+        if only:
+            report = Report(self.day, results)
+            print(_without_next(as_text(report, colour=cli.wants_colour(sys.stdout))))
+        return all(state == "passed" for state in found.values())
+
+    def close(self) -> None:
+        """End the process that waits."""
+        if self.warm:
+            self.warm.close()
+
+    def head(self) -> str:
+        """Return how far the day and the week are, in a line each."""
+        tasks = [task for task in self.day.tasks if not task.optional]
+        passed = sum(self.states.get(task.id) == "passed" for task in tasks)
+        day = f"Day {self.day.number}"
+        lines = [f"{day}: {self.day.title}", "", _bar(day, passed, len(tasks))]
+        in_week = [passed, len(tasks)]
+        for other in days_of(self.day.week):
+            if other.number != self.day.number:
+                for i, count in enumerate(_counted(other)):
+                    in_week[i] += count
+        lines.append(_bar(f"Week {self.day.week.number}", *in_week))
+        if not self.sure:
+            lines.append("  (as they were before your last save; asking again ...)")
+        return "\n".join(lines)
+
+    def listed(self) -> str:
+        """Return a line per task: its name and how it stands."""
+        lines = []
+        for task in self.day.tasks:
+            state = self.states.get(task.id, "not asked yet")
+            state = state if self.sure else f"({state})"
+            side = " (side quest)" if task.optional else ""
+            lines.append(f"  {task.id}  {', '.join(task.functions) + side:40} {state}")
+        return "\n".join(lines)
+
+    def shown(self, task: Task) -> str:
+        """Return a task: its name, where it stands, and what it is to return."""
+        text = self.script.read_text("utf-8", errors="replace")
+        lines = [f"Next: {task.id}  {task.title}"]
+        for name in task.functions:
+            at, _, body = function_lines(text, name)
+            where = f"{shown(self.script)}:{at + 1}" if at >= 0 else "not in your file"
+            lines.append(f"  {name}  {where}")
+            if said := re.search(r'"""(.+?)("""|$)', "\n".join(body), re.MULTILINE):
+                lines.append(cli.wrapped(f"    {said[1]}", "    "))
+        return "\n".join(lines)
+
+
+def watch(day: Day, only: str | None, file: Path | None = None) -> int:
+    """Check at every save until everything passes, somebody quits or Ctrl-C.
+
+    Args:
+        day, only, file: as `Loop` takes them.
+    """
+    loop = Loop(day, only, file)
+    with contextlib.closing(loop), Keys() as keys:
+        seen = stamps(day, loop.script)
+        first = True
+        while True:
+            if first or (now := stamps(day, loop.script)) != seen:
+                seen = seen if first else now
+                first = False
+                if _saved(loop, keys):
+                    return cli.EXIT_OK
+                seen_again = stamps(day, loop.script)
+                if seen_again != seen:
+                    continue
+            key = keys.wait(POLL_SECONDS)
+            if key == "q":
+                return cli.EXIT_FAILED if loop.open() else cli.EXIT_OK
+            if key:
+                pressed(key, loop, keys)
+
+
+def _saved(loop: Loop, keys: Keys) -> bool:
+    """Ask what is next, then the rest; return whether all is done."""
+    _clear()
+    loop.sure = False
+    print(loop.head(), flush=True)
+    try:
+        done = _go_on(loop)
+        if not done and not loop.only:
+            loop.check(None)
+            loop.sure = True
+    except Robo47Error as error:  # a file may be away while an editor saves it
+        cli.complain(f"error: {error}")
+        return False
+    if done:
+        return True
+    if loop.open():
+        if loop.sure:
+            print("\n" + "\n".join(loop.head().splitlines()[2:]))
+        print(f"\n{loop.shown(loop.open()[0])}")
+    asked = KEYS if keys.there else "Ctrl-C ends it"
+    print(f"\n{time.strftime('%H:%M:%S')}  watching; {asked}\n", flush=True)
+    return False
+
+
+def _go_on(loop: Loop) -> bool:
+    """Check the next open task, where it passes the one after; say if all is done."""
+    tried: set[str] = set()
+    while left := [task for task in loop.open() if task.id not in tried]:
+        task = left[0]
+        tried.add(task.id)
+        print(flush=True)
+        if not loop.check(task):
+            return False
+        if loop.only:
+            return True
+    return _whole_day(loop)
+
+
+def _whole_day(loop: Loop) -> bool:
+    """Check the whole day, lab and handing in; return whether it passes."""
+    from labkit.commands import check
+
+    print()
+    options = check.parse([str(loop.day.number), *_file(loop)])
+    return check.check(loop.day, options) == cli.EXIT_OK
+
+
+def _file(loop: Loop) -> list[str]:
+    own = loop.script == loop.day.work
+    return [] if own else ["--file", str(loop.script)]
+
+
+def pressed(key: str, loop: Loop, keys: Keys) -> None:
+    """Do what a key stands for."""
+    left = loop.open()
+    task = left[0].id if left else ""
+    day = str(loop.day.number)
+    commands = {
+        "h": ["hint.py", task or "--day", *([] if task else [day])],
+        "r": ["run_day.py", day],
+        "v": ["view_panda.py", day],
+        "b": ["borrow.py", task],
+        "c": ["check_day.py", day],
+    }
+    if key == "l":
+        print(f"{loop.head()}\n\n{loop.listed()}\n", flush=True)
+    elif key in commands and (key != "b" or task):
+        print(f"make {_verb(key, day, task)}\n", flush=True)
+        _run(keys, commands[key], view=key == "v")
+        print(f"\n{KEYS}\n", flush=True)
+    else:
+        print(KEYS, flush=True)
+
+
+def _verb(key: str, day: str, task: str) -> str:
+    """Return what a key's command is called where one types it."""
+    words = {"h": "hint", "r": "run", "v": "view", "b": "borrow", "c": "check"}
+    return f"{words[key]} " + (f"TASK={task}" if key in "hb" and task else f"DAY={day}")
+
+
+def _run(keys: Keys, command: list[str], *, view: bool) -> None:
+    """Run one of the kit's scripts, with the terminal for itself; Ctrl-C ends it."""
+    scripts = ROOT / "scripts"
+    name, *rest = command
+    with keys.away(), contextlib.suppress(KeyboardInterrupt):
+        if view:
+            subprocess.run([sys.executable, scripts / "setup_env.py", "view"])
+        subprocess.run([sys.executable, scripts / name, *rest], check=False)
+
+
+def stamps(day: Day, script: Path) -> dict[str, tuple[int, int]]:
+    """Return time and size of every file whose change calls for a new check."""
+    week = day.folder
+    files = {script, week / day.figure, week / day.worksheet, METRICS_CSV}
+    files |= {*script.parent.glob("*.py"), ROOT / ".git" / "index"}
+    found = {}
+    for path in files:
+        with contextlib.suppress(OSError):
+            status = path.stat()
+            found[str(path)] = (status.st_mtime_ns, status.st_size)
+    return found
+
+
+def _counted(day: Day) -> Iterator[int]:
+    """Yield how many tasks of another day are known to pass, and how many there are."""
+    from labkit.check import memory
+
+    tasks = [task for task in day.tasks if not task.optional]
+    states = memory.known(day)
+    yield sum(states.get(task.id) == "passed" for task in tasks)
+    yield len(tasks)
+
+
+def _bar(name: str, passed: int, count: int) -> str:
+    full = BAR * passed // count if count else 0
+    bar = "#" * full + "." * (BAR - full)
+    return f"  {name:8} [{bar}] {passed} of {count} tasks"
+
+
+def _without_next(text: str) -> str:
+    """Return a check's text without head and end: the loop has its own."""
+    return "\n\n".join(text.split("\n\n")[1:-1])
+
+
+def _optional(task: Task) -> bool:
+    return task.optional
+
+
+def _clear() -> None:
+    if sys.stdout.isatty() and os.environ.get("TERM") != "dumb":
+        print("\x1b[2J\x1b[H", end="")
+
+
+def main() -> int:
+    """Watch a day."""
+    os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn: no window library
+    parser = cli.parser(__doc__)
+    parser.add_argument(
+        "day", type=cli.day, nargs="?", help="default: the one worked on last"
+    )
+    parser.add_argument("--task", help="this task alone, such as 1.4")
+    options = parser.parse_args()
+    day = chosen_day(options.day, options.task)
+    require_begun(day)
+    return watch(day, options.task)

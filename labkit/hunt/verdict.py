@@ -1,0 +1,72 @@
+"""Is it the function that was written anew, and does the repair pass?"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+
+from labkit.hunt.case import Case
+from labkit.hunt.script import opened
+from labkit.judge.mistake import Verdict
+from labkit.lesson.day import Day, days_of
+from labkit.lesson.lab_module import read_script
+from labkit.lesson.starter import function_lines
+
+
+class Repaired(NamedTuple):
+    """A function that was written anew."""
+
+    function: str
+    guilty: bool  # whether the mistake is in it
+    verdict: Verdict  # on what is written now
+
+
+def repairs(case: Case) -> list[Repaired]:
+    """Return what is said of each function that somebody wrote anew."""
+    text = case.script.read_text("utf-8-sig", errors="replace")
+    guilty = {one.function for one in case.quarries}
+    found = []
+    for day in _days(case):
+        names = [name for task in day.tasks for name in task.functions]
+        own = opened(text, names)
+        for name, verdict in _verdicts(day, own).items():
+            found.append(Repaired(name, name in guilty, verdict))
+    return found
+
+
+def is_found(case: Case, repaired: list[Repaired]) -> bool:
+    """Return whether all that was wrong, and nothing else, was repaired."""
+    guilty = {one.function for one in case.quarries}
+    right = {r.function for r in repaired if r.guilty and r.verdict.status == "passed"}
+    return right == guilty and all(one.guilty for one in repaired)
+
+
+def _days(case: Case) -> list[Day]:
+    day = case.of_day
+    if case.level != 2:
+        return [day]
+    return [other for other in days_of(day.week) if other.number <= day.number]
+
+
+def _verdicts(day: Day, own: Mapping[str, str]) -> dict[str, Verdict]:
+    """Return the checker's verdict on functions put into the kit's right lab."""
+    from labkit.check.tasks import check_tasks
+    from labkit.sandbox.sandbox import Sandbox
+
+    if not own:
+        return {}
+    text = read_script(day.source)
+    lines = text.splitlines()
+    for name, code in own.items():
+        start, end, _ = function_lines("\n".join(lines), name)
+        lines[start:end] = code.splitlines()
+    found = {}
+    with TemporaryDirectory() as folder:
+        script = Path(folder) / day.source.name
+        script.write_text("\n".join(lines) + "\n", "utf-8")
+        for name in own:
+            task = next(task for task in day.tasks if name in task.functions)
+            with Sandbox() as sandbox:
+                (result,) = check_tasks(day, script, sandbox, task.id)
+            found[name] = result.verdict
+    return found

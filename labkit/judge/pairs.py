@@ -1,0 +1,484 @@
+"""Two mistakes at once, and one that is only a part of what is wrong.
+
+They are claimed where made on purpose they give the student's numbers: two mistakes all
+of them, one mistake a result of several, or the numbers of some calls, which are
+counted.
+"""
+
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from labkit.judge import moves
+from labkit.judge.answers import (
+    MATCHES,
+    InTurn,
+    Parts,
+    all_match,
+    as_one,
+    capitalised,
+    gaps,
+    largest,
+    matches,
+    own,
+    parts,
+    rigid,
+    worst_part,
+)
+from labkit.judge.ask import Ask, Case, as_plain
+from labkit.judge.mistake import Finding, Mistake
+
+# What one mistake alone leaves right, two need not: "all is right except that ...".
+_BUT = re.compile(
+    r"^(?:[^;:]*?\b(?:is|are) right(?: except that|, but|;)"
+    r"|right [^;,:]*[;,](?: but)?) "
+)
+EXACT = 1e-8  # of many pairs one comes near by chance, so two must give more digits
+MOST = 80  # mistakes of a function that are tried two at a time
+QUICK = 2e-3  # seconds of a call that a row may say, for its arguments to be changed
+FEW = 6  # wrong calls at which one mistake is tried, before all of them
+SOME = 3  # calls whose numbers it has to give, at least, and half of the wrong ones
+
+
+def of_other_arguments(case: Case, S: Parts, T: Parts) -> Finding | None:
+    """Return that the answers are the right ones to other arguments, or None.
+
+    Such as two exchanged, or one of the other sign: a slip that needs no name.
+    """
+    ask = case.ask
+    truth: Any = ask.truth
+    if ask.seconds > QUICK or any(kind.whole for kind in ask.kinds):
+        return None
+    i = _tried(ask, S, T)[0]
+    for move in _moves(case, i):
+        asked = ask.in_turn(partial(_after, truth.function, move.change))
+        if not _alike(ask, _answer(asked, case.arguments, i, T), _nth(S, i)):
+            continue
+        if _alike(ask, _all(asked, case.arguments), S):
+            k = worst_part(ask.kinds, S, T, ask.near)
+            off = f"Off by up to {ask.kinds[k].apart(S[k], T[k])}"
+            says = f"It is the right answer to other arguments: with {move.says}."
+            how = f"({off}; that gives your numbers exactly.)"
+            return Finding(f"argument-{move.slug}", f"{says} {how}")
+    return None
+
+
+def _tried(ask: Ask, S: Parts, T: Parts) -> list[int]:
+    """Return the calls that pairs are tried at.
+
+    Drawn inputs come last, and hide less; what is furthest off is tried besides.
+    """
+    gap = ask.gaps(S, T)
+    furthest = int(np.argmax(gap))
+    wrong = np.flatnonzero(gap > ask.near)
+    return list(dict.fromkeys([int(wrong[-1]) if len(wrong) else furthest, furthest]))
+
+
+def _moves(case: Case, i: int) -> Iterator[moves.Move]:
+    """Yield what may be done to the arguments, as those of the i-th call are."""
+    columns = case.arguments
+    call = [as_plain(c[i]) if isinstance(c, np.ndarray) else c for c in columns]
+    names = case.names
+    if len(names) != len(call):
+        names = [f"argument {k + 1}" for k in range(len(call))]
+    yield from moves.of_arguments(tuple(map(own, call)), names)
+
+
+def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
+    """Return two named mistakes that together give the student's answers, or None.
+
+    Two terms that are wrong add up: what both make is the one answer and the other's
+    difference from the right one. A mistake made with an argument comes before another,
+    and one made with the finished answer after it.
+    """
+    ask = case.ask
+    if any(kind.whole for kind in ask.kinds):
+        return None
+    found = (_two_of(case, S, T, i) for i in _tried(ask, S, T))
+    return next((_both_told(ask, pair, S, T) for pair in found if pair), None)
+
+
+def _two_of(case: Case, S: Parts, T: Parts, i: int) -> Sequence[Mistake] | None:
+    """Return two mistakes that together give all answers, found at the i-th call."""
+    ask = case.ask
+    mistakes = _of_its_own_first(ask)
+    answers = {}
+    for k, one in enumerate(mistakes):
+        answer = _answer(one.redo, case.arguments, i, T)
+        wrong = _alike(ask, answer, _nth(T, i)) is False
+        if wrong and not _handed_back(answer, case.arguments, i):
+            answers[k] = answer
+    pairs = _Pairs(case, S, T, i, mistakes, answers)
+    found = pairs.of_its_kind() or pairs.added() or pairs.finished()
+    return found or pairs.in_turn()
+
+
+def _of_its_own_first(ask: Ask) -> list[Mistake]:
+    mistakes = [one for one in ask.named if isinstance(one.redo, InTurn)]
+    return sorted(mistakes, key=lambda one: one.reached)[:MOST]
+
+
+def by_results(case: Case, S: Parts, T: Parts) -> Finding | None:
+    """Return a named mistake for each wrong result of a function that returns several.
+
+    One that has none of its own is said to be wrong besides.
+    """
+    ask = case.ask
+    pairs = list(zip(ask.kinds, S, T, strict=True))
+    wrong = [
+        j
+        for j, (kind, s, t) in enumerate(pairs)
+        if gaps([kind], (s,), (t,)).max() > ask.near
+    ]
+    if len(wrong) < 2 or any(kind.whole for kind in ask.kinds):
+        return None
+    i = int(np.argmax(ask.gaps(S, T)))
+    told: dict[int, Mistake] = {}
+    for one in _of_its_own_first(ask):
+        answer = _answer(one.redo, case.arguments, i, T)
+        for j in [j for j in wrong if j not in told and len(answer) == len(S)]:
+            kind, s, t = pairs[j]
+            if not matches(s[i : i + 1], answer[j], kind.scale):
+                continue
+            every = _all(one.redo, case.arguments)
+            is_wrong = gaps([kind], (every[j],), (t,)).max() > ask.near
+            if is_wrong and matches(s, every[j], kind.scale):
+                told[j] = one
+    if not told:
+        return None
+    says = [
+        f"{capitalised(ask.kinds[j].called or f'result {j + 1}')}: "
+        + (f"{told[j].says.rstrip('?')}." if j in told else "it is wrong, too.")
+        for j in sorted(wrong, key=lambda j: j not in told)
+    ]
+    slug = "+".join(dict.fromkeys(one.slug for one in told.values()))
+    return Finding(slug + "+other" * (len(told) < len(wrong)), " ".join(says))
+
+
+def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
+    """Return the named mistake that gives the numbers of half of the wrong calls.
+
+    It is said of these alone: another one may give the same numbers there. Numbers that
+    are 0, or all the same, prove no mistake.
+    """
+    ask = case.ask
+    wrong = np.flatnonzero(ask.gaps(S, T) > ask.near)
+    least = max(SOME, -(-len(wrong) // 2))
+    if any(kind.whole for kind in ask.kinds) or len(wrong) <= least:
+        return None
+    few = wrong[np.unique(np.linspace(0, len(wrong) - 1, FEW).astype(int))]
+    most: tuple[int, Mistake] | None = None
+    for one in _of_its_own_first(ask):
+        hits = [_alike(ask, _answer(one.redo, case.arguments, i, T), _nth(S, i))
+                for i in few]  # fmt: skip
+        if sum(map(bool, hits)) < 2:
+            continue
+        given = _given_by(ask, S, _all(one.redo, case.arguments))
+        n = int(np.sum(given[wrong])) if _differ(S, wrong[given[wrong]]) else 0
+        # Made every time, it shows nowhere that is right.
+        always = given[ask.gaps(S, T) <= ask.near].all()
+        if always and least <= n < len(wrong) and (most is None or n > most[0]):
+            most = n, one
+    if most is None:
+        return None
+    n, one = most
+    says = (
+        f"In {n} of your {len(wrong)} wrong answers the numbers are those of one "
+        f"mistake: {one.says.rstrip('?')}. The other {len(wrong) - n} are not."
+    )
+    return Finding(f"{one.slug}+other", says)
+
+
+def _given_by(ask: Ask, S: Parts, again: Parts) -> Any:
+    """Return of each call whether a mistake gives its answer, within rounding."""
+    if len(again) != len(S) or any(
+        a.shape != s.shape for a, s in zip(again, S, strict=False)
+    ):
+        return np.zeros(len(S[0]), bool)
+    alike = []
+    for s, a, kind in zip(S, again, ask.kinds, strict=True):
+        off = gaps([kind], (s,), (a,))
+        size = np.array([largest(x, kind.scale) for x in s])
+        alike.append(off <= MATCHES * np.maximum(1.0, size))
+    return np.all(alike, axis=0)
+
+
+def _differ(S: Parts, which: Any) -> bool:
+    """Return whether answers to some calls are not all the same, nor 0."""
+    some = [s[which].reshape(len(which), -1) for s in S]
+    flat = np.concatenate(some, axis=1)
+    flat = flat[flat.any(axis=1)]
+    return len(flat) >= SOME and bool(np.ptp(flat, axis=0).max() > 1e-6)
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two mistakes, and the answers that both make together."""
+
+    first: Mistake
+    second: Mistake
+    redo: InTurn
+
+
+@dataclass(frozen=True)
+class _Pairs:
+    """Pairs of mistakes beside a student's answers: one call's first, then all."""
+
+    case: Case
+    S: Parts  # the student's
+    T: Parts  # the right ones
+    i: int  # the call that is furthest off
+    mistakes: Sequence[Mistake]
+    answers: Mapping[int, Parts]  # to that call, of those that are wrong there
+
+    def added(self) -> Sequence[Mistake] | None:
+        """Return two mistakes whose differences, or factors, come together."""
+        its = _nth(self.T, self.i)
+        for a, b in combinations(self.answers, 2):
+            first = self.mistakes[a]
+            second = self.mistakes[b]
+            if first.slug == second.slug:
+                continue
+            pair = self.answers[a], self.answers[b]
+            if any(map(self._is_another_pose, pair)):
+                continue
+            for combined in (_sum, _product):
+                if not self._is_this_one(combined(*pair, its)):
+                    continue
+                one = self._every(first.redo)
+                other = self._every(second.redo)
+                if combined is _product and _one_factor(one, other, self.T):
+                    continue
+                if _exactly(self.case.ask, combined(one, other, self.T), self.S):
+                    return first, second
+        return None
+
+    def _is_another_pose(self, answer: Parts) -> bool:
+        """Return whether both R and t are wrong: that is no term of a sum."""
+        its = self.T[0][self.i]
+        if len(answer) != 1 or answer[0].shape[1:] != (4, 4) or not rigid(its[None]):
+            return False
+        off = np.abs(answer[0][0] - its)
+        return bool(off[:3, :3].max() > MATCHES and off[:3, 3].max() > MATCHES)
+
+    def of_its_kind(self) -> Sequence[Mistake] | None:
+        """Return two mistakes that any function of this kind can have."""
+        if len(self.case.ask.kinds) != 1:
+            return None
+        general = list(self.case.ask.kinds[0].general())
+        its = _nth(self.T, self.i)
+        for first, change in combinations(general, 2):
+            if self._is_this_one(_changed(change, _changed(first, its))):
+                every = _changed(change, _changed(first, self.T))
+                if _exactly(self.case.ask, every, self.S):
+                    return first, change
+        return None
+
+    def finished(self) -> Sequence[Mistake] | None:
+        """Return a mistake and another that is made with its finished answer."""
+        if len(self.case.ask.kinds) != 1:
+            return None
+        general = self.case.ask.kinds[0].general()
+        for change in [*general, *self._of_the_answer]:
+            for k, answer in self.answers.items():
+                if self._is_this_one(_changed(change, answer)):
+                    every = self._every(self.mistakes[k].redo)
+                    if _exactly(self.case.ask, _changed(change, every), self.S):
+                        return self.mistakes[k], change
+        return None
+
+    def in_turn(self) -> Sequence[Mistake] | None:
+        """Return a mistake made with arguments and one after it, or two options."""
+        for pair in self._that_combine():
+            if self._is_this_one(self._answer(pair.redo)):
+                every = self._every(pair.redo)
+                if _exactly(self.case.ask, every, self.S):
+                    return pair.first, pair.second
+        return None
+
+    def _that_combine(self) -> Iterator[Pair]:
+        """Yield pairs that can be made together.
+
+        The first is made with arguments, or both are one function's with other options,
+        as `partial` gives them.
+        """
+        for i, first in enumerate(self.mistakes):
+            one: Any = first.redo
+            given = getattr(one.function, "given", None) or self._of_arguments.get(i)
+            for k, second in enumerate(self.mistakes):
+                other: Any = second.redo
+                if first.slug == second.slug:
+                    continue
+                both: Callable[..., Any] | None = None
+                if given:
+                    both = partial(_after, other.function, given)
+                elif i < k and _options(one.function, other.function):
+                    both = partial(one.function, **other.function.keywords)
+                if both:
+                    yield Pair(first, second, self.case.ask.in_turn(both))
+
+    @cached_property
+    def _of_arguments(self) -> dict[int, Callable[..., Any]]:
+        """Which mistakes are the right answer to other arguments."""
+        found: dict[int, Callable[..., Any]] = {}
+        if self.case.ask.seconds > QUICK:
+            return found
+        truth: Any = self.case.ask.truth
+        for _, _, change in _moves(self.case, self.i):
+            asked = self.case.ask.in_turn(partial(_after, truth.function, change))
+            answer = self._answer(asked)
+            for k in self._that_give(answer, partial(self._every, asked)):
+                found.setdefault(k, change)
+        return found
+
+    def _answer(self, redo: Callable[..., Any]) -> Parts:
+        return _answer(redo, self.case.arguments, self.i, self.T)
+
+    def _every(self, redo: Callable[..., Any]) -> Parts:
+        return _all(redo, self.case.arguments)
+
+    def _that_give(self, answer: Parts, every: Callable[[], Parts]) -> Iterator[int]:
+        """Yield the first mistake that gives an answer at one call, and at all."""
+        for k, its in self.answers.items():
+            if answer and _alike(self.case.ask, answer, its):
+                if _alike(self.case.ask, every(), self._every(self.mistakes[k].redo)):
+                    yield k
+                return
+
+    @cached_property
+    def _of_the_answer(self) -> list[Mistake]:
+        """Mistakes that are a change of the right answer, as such changes."""
+        its = _nth(self.T, self.i)[0]
+        found = []
+        for change in moves.of_answer(its[0]):
+            answer = (np.asarray(change(its)),)
+            for k in self._that_give(answer, partial(_as_answer, change, self.T[0])):
+                found.append(replace(self.mistakes[k], redo=change))
+        return found
+
+    def _is_this_one(self, answer: Parts) -> bool:
+        return _exactly(self.case.ask, answer, _nth(self.S, self.i))
+
+
+def _handed_back(answer: Parts, arguments: tuple[Any, ...], i: int) -> bool:
+    """Return whether an answer is an argument as it came: nothing was made of it."""
+    columns = [c for c in arguments if isinstance(c, np.ndarray)]
+    return any(
+        np.shape(c[i]) == part.shape[1:] and np.allclose(part[0], c[i])
+        for part in answer
+        for c in columns
+        if np.size(c[i]) > 1
+    )
+
+
+def _after(
+    function: Callable[..., Any], change: Callable[..., tuple[Any, ...]], *args: Any
+) -> Any:
+    """Return the answer to changed arguments."""
+    return function(*change(*args))
+
+
+def _as_answer(change: Callable[[Any], Any], T: Any) -> Parts:
+    return (np.asarray(change(T)),)
+
+
+def _options(one: Any, other: Any) -> bool:
+    """Return whether two are the same function with different options."""
+    if not (isinstance(one, partial) and isinstance(other, partial)):
+        return False
+    return one.func is other.func and not one.keywords.keys() & other.keywords.keys()
+
+
+def _answer(
+    redo: Callable[..., Any], arguments: tuple[Any, ...], i: int, like: Parts
+) -> Parts:
+    """Return the answer to one question with a mistake, or with two; () for none.
+
+    It is filled up with 0 to the size of `like`, as answers of several sizes are.
+    """
+    column = [c[[i]] if isinstance(c, np.ndarray) else c for c in arguments]
+    answer = _nth(_all(redo, tuple(column)), 0)
+    pairs = list(zip(answer, like, strict=False))
+    if any(x.ndim != its.ndim for x, its in pairs):
+        return answer
+    return tuple(as_one([x[0], np.zeros(its.shape[1:])])[:1] for x, its in pairs)
+
+
+def _all(redo: Callable[..., Any], arguments: tuple[Any, ...]) -> Parts:
+    try:
+        with np.errstate(all="ignore"):
+            return parts(redo(*arguments))
+    except (ValueError, np.linalg.LinAlgError):
+        return ()
+
+
+def _changed(change: Mistake, answer: Parts) -> Parts:
+    """Return an answer with a mistake that is made when it is finished."""
+    try:
+        return parts(change.redo(answer[0])) if answer else ()
+    except (ValueError, np.linalg.LinAlgError):
+        return ()
+
+
+def _nth(some: Parts, i: int) -> Parts:
+    return tuple(part[i : i + 1] for part in some)
+
+
+def _sum(a: Parts, b: Parts, right: Parts) -> Parts:
+    """Return what two wrong terms make together."""
+    trios = list(zip(a, b, right, strict=False))
+    if any(len({x.shape for x in trio}) > 1 for trio in trios):
+        return ()
+    return tuple(x + y - z for x, y, z in trios)
+
+
+def _product(a: Parts, b: Parts, right: Parts) -> Parts:
+    """Return what two wrong factors make together; () where 0 would hide one."""
+    trios = list(zip(a, b, right, strict=False))
+    if any(len({x.shape for x in trio}) > 1 for trio in trios):
+        return ()
+    if any(((z == 0) & ((x != 0) | (y != 0))).any() for x, y, z in trios):
+        return ()
+    return tuple(np.where(z == 0, 0.0, x * y / np.where(z, z, 1)) for x, y, z in trios)
+
+
+def _one_factor(a: Parts, b: Parts, right: Parts) -> bool:
+    """Return whether two wrong factors are powers of one, "squared" and "not cubed".
+
+    They are two ways in which one term is wrong, and it cannot be wrong in both.
+    """
+    one, other, its = (np.concatenate([np.ravel(x) for x in p]) for p in (a, b, right))
+    if not one.shape == other.shape == its.shape:
+        return False
+    told = (one * its > 0) & (other * its > 0)
+    x, y = (np.log(some[told] / its[told]) for some in (one, other))
+    if not len(x) or min(np.ptp(x), np.ptp(y)) < MATCHES:
+        return False  # a number that is the same everywhere is no power of a term
+    power = (x @ y) / (x @ x)
+    return bool(np.abs(y - power * x).max() <= MATCHES * np.abs(y).max())
+
+
+def _alike(ask: Ask, a: Parts, b: Parts) -> bool | None:
+    """Return whether two answers match; None where there is none."""
+    if len(a) != len(b):
+        return None
+    return all_match(ask.kinds, a, b)
+
+
+def _exactly(ask: Ask, a: Parts, b: Parts) -> bool:
+    """Return whether two answers match in all the digits that rounding leaves."""
+    return all_match(ask.kinds, a, b, EXACT)
+
+
+def _both_told(ask: Ask, pair: Sequence[Mistake], S: Parts, T: Parts) -> Finding:
+    i = worst_part(ask.kinds, S, T, ask.near)
+    says = "; ".join(_BUT.sub("", one.says.rstrip("?")) for one in pair)
+    off = f"Off by up to {ask.kinds[i].apart(S[i], T[i])}"
+    how = f"{off}; both together give your numbers exactly"
+    slug = "+".join(one.slug for one in pair)
+    return Finding(slug, f"Two things at once: {says}. ({how}.)")

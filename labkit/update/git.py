@@ -1,0 +1,103 @@
+"""What an update asks of git, and the worktree beside the clone that it works in."""
+
+import contextlib
+import shutil
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from labkit.base import git, store
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT
+
+SECONDS = 300.0
+PREFIX = "update-"  # of a worktree's folder in `.robo47/`
+NOBODY = ("-c", "user.name=robo47", "-c", "user.email=robo47@localhost")
+
+
+def ask(
+    *arguments: str,
+    at: Path = ROOT,
+    may_fail: bool = False,
+    index: Path | None = None,
+) -> str:
+    """Return what git prints.
+
+    Args:
+        arguments: after `git`.
+        at: the folder.
+        may_fail: return "" where git fails.
+        index: instead of the clone's own.
+
+    Raises:
+        Robo47Error: git fails; what it says, with the files that it names.
+    """
+    more: dict[str, Any] = {"GIT_INDEX_FILE": str(index)} if index else {}
+    try:
+        done = git.run(
+            *arguments, folder=at, seconds=SECONDS, largest=git.LARGEST_GIT, **more
+        )
+    except git.GitError as error:
+        raise Robo47Error(f"{error}") from None
+    if done.returncode == 0:
+        return str(done.stdout.rstrip("\n"))
+    if may_fail:
+        return ""
+    lines = " ".join(done.stderr.split())[:300].rstrip(".")
+    raise Robo47Error(lines or f"git {arguments[0]} ended with {done.returncode}")
+
+
+def as_whom(at: Path) -> tuple[str, ...]:
+    """Return options of git's: a student without a name in git has one for this."""
+    return () if ask("config", "user.name", at=at, may_fail=True) else NOBODY
+
+
+def commit(message: str, at: Path) -> None:
+    """Commit what is staged."""
+    how = ("commit", "-q", "--no-verify", "--no-gpg-sign", "-m", message)
+    ask(*as_whom(at), *how, at=at)
+
+
+@contextlib.contextmanager
+def own_index() -> Iterator[Path]:
+    """Yield where an index may be, besides the clone's own; it goes with the block."""
+    index = store.path_of("update.index")
+    index.parent.mkdir(exist_ok=True)
+    try:
+        yield index
+    finally:
+        for path in (index, index.with_name(f"{index.name}.lock")):
+            path.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def beside(head: str) -> Iterator[Path]:
+    """Yield a worktree at a commit, under a name that no run before had.
+
+    A git that outlives a killed run for a moment has its own.
+    """
+    memory = store.path_of("")
+    memory.mkdir(exist_ok=True)
+    place = Path(tempfile.mkdtemp(prefix=PREFIX, dir=memory))
+    try:
+        ask("worktree", "add", "-q", "--detach", str(place), head)
+        yield place
+    finally:
+        with contextlib.suppress(Robo47Error):  # it is away, or goes at the next run
+            remove(place)
+
+
+def remove(place: Path) -> None:
+    """Take a worktree away, and what git remembers of it."""
+    ask("worktree", "remove", "-f", "-f", str(place), may_fail=True)
+    shutil.rmtree(place, ignore_errors=True)
+    ask("worktree", "prune")
+
+
+def sweep() -> None:
+    """Take away what runs left behind that were killed."""
+    with own_index():
+        pass
+    for place in store.path_of("").glob(f"{PREFIX}*/"):
+        remove(place)

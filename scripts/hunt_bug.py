@@ -1,0 +1,3 @@
+import kit
+
+kit.run("hunt")  # labkit/commands/hunt.py

@@ -1,0 +1,3 @@
+import kit
+
+kit.run("watch")  # labkit/commands/watch.py

@@ -1,0 +1,170 @@
+"""Two mistakes at once, and one that is only a part of what is wrong."""
+
+import numpy as np
+import pytest
+from test_claims import right, told
+
+pytestmark = pytest.mark.kit
+
+
+def test_a_mistake_with_an_argument_is_made_before_any_other():
+    def spring_wrench(e, V_err, K, D):
+        return np.diag(K) * e - np.diag(D) * V_err
+
+    says = told(6, "6.5", spring_wrench=spring_wrench)
+    assert "Two things at once: the damper drives the hand on" in says
+    assert "only the diagonals of K and D are used" in says
+
+
+def test_a_reversed_chain_and_a_factor_on_the_wrong_side_are_told_together():
+    def fk_space(screws, M, q):
+        T = M
+        for S, theta in zip(screws[::-1], q[::-1], strict=True):
+            T = T @ right(2, "exp_screw")(S, theta)
+        return T
+
+    says = told(2, "2.6", fk_space=fk_space)
+    assert "in the reverse order" in says
+    assert "M stands on the left" in says
+
+
+def test_two_answers_in_the_other_order_that_both_lack_a_term():
+    def predict_order(T_world_ee, T_extra):
+        R, R_extra = T_world_ee[:3, :3], T_extra[:3, :3]
+        return R_extra @ T_world_ee[:3, 3], R @ T_extra[:3, 3]
+
+    says = told(1, "1.7", predict_order=predict_order)
+    assert "own is not added; in the wrong order" in says
+
+
+def test_one_mistake_that_gives_half_of_the_wrong_numbers_is_told_with_how_many():
+    def fit(Y, tau, rtol):
+        U, s, Vt = np.linalg.svd(Y, full_matrices=False)
+        kept = s > rtol
+        return Vt[kept].T @ (U[:, kept].T @ tau * s[kept])
+
+    says = told(8, "8.6", fit=fit)
+    assert "In 8 of your 14 wrong answers the numbers are those of one mistake" in says
+    assert "it is multiplied by the singular values" in says
+    assert "The other 6 are not." in says
+
+
+def test_a_mistake_that_gives_few_of_the_wrong_numbers_is_not_told():
+    def manipulability(J):
+        return np.linalg.svd(J, compute_uv=False)[:5].prod()
+
+    assert "left out" not in told(3, "3.8", manipulability=manipulability)
+
+
+def test_dry_friction_that_works_one_way_is_not_that_of_slow_joints():
+    def motor_features(qd, qdd):
+        return np.hstack([np.diag(qdd), np.diag(qd), np.diag((qd > 0) * 1.0)])
+
+    assert "slowly" not in told(8, "8.4", motor_features=motor_features)
+
+
+def test_a_mistake_that_would_show_where_all_is_right_is_no_part_of_it():
+    def Rz(theta):
+        c = np.cos(theta)
+        s = np.sqrt(1 - c * c)
+        return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
+
+    says = told(1, "1.2", Rz=Rz)
+    assert "turns the wrong way" not in says
+    assert "right for theta between 0 and pi" in says
+
+
+def test_each_wrong_result_of_several_has_its_own_mistake():
+    def pid_step(e, ed, integral, kp, kd, ki, dt, clamp):
+        integral = integral + e * dt
+        return kp * e + kd * ed + np.clip(ki * integral, -clamp, clamp), integral
+
+    says = told(5, "5.7", pid_step=pid_step)
+    assert "The acceleration: ki times the integral is clamped" in says
+    assert "The integral: the integral has no bound" in says
+
+
+def test_an_argument_handed_back_is_not_one_of_two_mistakes():
+    def inverse(T):
+        found = right(1, "inverse")(T)
+        found[:3] *= -1.0
+        return found
+
+    says = told(1, "1.3", inverse=inverse)
+    assert "comes back" not in says
+    assert "Every number is right but for its sign" in says
+
+
+def test_of_a_pose_one_mistake_is_in_R_and_the_other_in_t():
+    def link_T(pos, quat):
+        return right(1, "make_T")(right(1, "quat_to_R")(quat).T, -pos)
+
+    says = told(1, "1.5", link_T=link_T)
+    assert "R is transposed" in says
+    assert "the translation has the wrong sign" in says
+
+
+def test_blocks_of_columns_in_another_order_are_named_by_what_they_are():
+    def motor_features(qd, qdd):
+        return np.hstack([np.diag(qd), np.diag(np.sign(qd)), np.diag(qdd)])
+
+    says = told(8, "8.4", motor_features=motor_features)
+    assert "in another order: viscous friction, dry friction, the rotors" in says
+
+
+def test_what_is_said_to_be_right_is_right_to_the_last_digit_that_counts():
+    def exp_rotation(axis, theta):
+        K = right(2, "skew")(axis)
+        R = np.eye(3)
+        term = np.eye(3)
+        for n in range(1, 9):  # off by 4e-6 at a third of pi
+            term = term @ K * theta / n
+            R = R + term
+        return R
+
+    says = told(2, "2.2", exp_rotation=exp_rotation)
+    assert "right for theta between -pi / 6 and pi / 6" in says
+
+
+def test_a_condition_that_no_cut_gives_is_told_nothing_of_a_cut():
+    def identifiable(Y, rtol):
+        rank, condition = right(8, "identifiable")(Y, rtol)
+        return rank, condition**9 * 1e9
+
+    says = told(8, "8.5", identifiable=identifiable)
+    assert "rtol" not in says
+    assert "values" not in says
+
+
+def test_the_rank_of_what_is_hidden_is_not_a_cut():
+    def identifiable(Y, rtol):
+        rank, condition = right(8, "identifiable")(Y, rtol)
+        return Y.shape[1] - rank, condition
+
+    assert "that are hidden" in told(8, "8.5", identifiable=identifiable)
+
+
+def test_a_result_that_is_right_is_said_to_be():
+    def identifiable(Y, rtol):
+        rank, _ = right(8, "identifiable")(Y, rtol)
+        s = np.linalg.svd(Y, compute_uv=False)
+        return rank, s[0] / np.mean(s[:rank])
+
+    says = told(8, "8.5", identifiable=identifiable)
+    assert says.startswith("The rank is right. The condition: ")
+
+
+def test_two_arguments_exchanged_need_no_name():
+    def arm_regressor(J_space, T_links, qd, qdd, g):
+        return right(8, "arm_regressor")(J_space, T_links, qdd, qd, g)
+
+    says = told(8, "8.3", arm_regressor=arm_regressor)
+    assert "right answer to other arguments: with qd and qdd exchanged." in says
+
+
+def test_two_entries_of_an_argument_exchanged_need_no_name():
+    def quat_to_R(quat):
+        return right(1, "quat_to_R")(quat[[0, 1, 3, 2]])
+
+    says = told(1, "1.4", quat_to_R=quat_to_R)
+    assert "with quat[2] and quat[3] exchanged" in says

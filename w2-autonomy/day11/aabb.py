@@ -1,0 +1,68 @@
+"""11.6 `aabb(a0, a1, r)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row
+
+row = Row(Matrix((2, 3), "m", rows=("least", "greatest"), columns=("x", "y", "z")))
+
+
+@row.inputs
+def _(rng):
+    case = (np.array([0.0, 1, 0]), np.array([1.0, 0, 0]), 0.5)
+    drawn = [
+        (*rng.numbers(-1, 1, 2, 3), float(rng.numbers(0.05, 0.4))) for _ in range(6)
+    ]
+    a = rng.numbers(-1, 1, 3)
+    return [case, (a, a, 0.3), *drawn]
+
+
+@row.wrongs
+def _(a0, a1, r):
+    """radius-forgotten: the radius is missing: this box holds the axis alone
+    radius-on-one-side: the radius is added on one side only => the least corner without
+    radius-on-one-side 2: the radius is taken off on one side only => the greatest
+      corner without
+    radius-inwards: the radius is taken inwards: the least corner lies r lower
+    radius-added-to-both: the radius is added to both corners
+    diameter: it is wider by the diameter on each side => with 2 r
+    half-the-radius: it is wider by half the radius on each side
+    corners-not-sorted: a0 and a1 are taken for the least and the greatest corner: each
+      may be the lesser in one of x, y, z => a0 - r, a1 + r
+    corners-of-all: one number serves all three: the least of x, y and z together
+    swapped: the greatest corner comes first
+    centre-and-half: these are its middle and half its sides
+    corner-and-size: these are its least corner and its whole sides
+    as-a-ball: this is the box of a ball around the middle that holds the capsule
+    """
+    low = np.minimum(a0, a1)
+    high = np.maximum(a0, a1)
+    middle = (a0 + a1) / 2
+    ball = np.linalg.norm(a1 - a0) / 2 + r
+    return {
+        "radius-forgotten": np.array([low, high]),
+        "radius-on-one-side": np.array([low, high + r]),
+        "radius-on-one-side 2": np.array([low - r, high]),
+        "radius-inwards": np.array([low + r, high - r]),
+        "radius-added-to-both": np.array([low + r, high + r]),
+        "diameter": np.array([low - 2 * r, high + 2 * r]),
+        "half-the-radius": np.array([low - r / 2, high + r / 2]),
+        "corners-not-sorted": np.array([a0 - r, a1 + r]),
+        "corners-of-all": np.array(
+            [np.full(3, low.min() - r), np.full(3, high.max() + r)]
+        ),
+        "swapped": np.array([high + r, low - r]),
+        "centre-and-half": np.array([middle, (high - low) / 2 + r]),
+        "corner-and-size": np.array([low - r, high - low + 2 * r]),
+        "as-a-ball": np.array([middle - ball, middle + ball]),
+    }
+
+
+row.at_least_0(r="a radius")
+
+
+@row.right  # By the middle and half the way.
+def _(a0, a1, r):
+    middle = (a0 + a1) / 2
+    half = np.abs(a1 - a0) / 2 + r
+    return np.array([middle - half, middle + half])

@@ -1,0 +1,115 @@
+"""11.3 `box_sdf(p, half)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Scalar, rounded
+
+row = Row(Scalar(unit="m"))
+
+
+@row.inputs
+def _(rng):
+    one = np.ones(3)
+    worked = [((2.0, 0, 0), one), ((0.0, 0, 0), one), ((2.0, 2, 0), one),
+              ((0.5, 0.2, 0), one)]  # fmt: skip
+    drawn = []
+    # Beyond how many faces: a face, an edge, a corner, none.
+    for beyond in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (0, 1, 1), (1, 0, 1),
+                   (1, 1, 1), (1, 1, 1), (0, 0, 0), (0, 0, 0), (0, 0, 0)):  # fmt: skip
+        half = rng.numbers(0.3, 1.2, 3)
+        inside = rng.uniform(0.1, 0.8, 3)
+        outside = rng.uniform(1.3, 2.0, 3)
+        sign = rng.choice([-1.0, 1.0], 3)
+        sign[int(rng.integers(3))] = -1.0  # no corner where all are above 0
+        drawn.append((rounded(half * sign * np.where(beyond, outside, inside)), half))
+    return [(np.array(p), half) for p, half in [*worked, *drawn]]
+
+
+@row.wrongs
+def _(p, half):
+    """zero-inside: inside it is 0; there it is minus the way to the nearest face
+    inside-positive: inside it is above 0; there it is to be below
+    sign: its sign is the other one: outside is above 0
+    largest-outside: outside only the face that is farthest beyond counts; beyond an
+      edge or a corner it is the length of all => max(|p| - half)
+    sum-outside: outside the parts beyond the faces are added; they are the sides of a
+      right angle
+    inside-added-outside: what is below 0 counts outside as well: only what is beyond a
+      face does => the norm of |p| - half
+    inside-by-the-norm: inside it is minus the length of all three; it is the way to the
+      nearest face alone
+    farthest-face-inside: inside it is the way to the farthest face; the nearest one is
+      the largest of |p| - half => with min
+    farthest-face-inside 2: what is added to the length is the way to the farthest face;
+      it is the largest of |p| - half, where that is below 0 => with min
+    to-the-middle-inside: inside it is minus how far the middle is
+    to-the-middle: this is how far the middle is: the box has no size
+    box-as-a-ball: the box is taken for a ball => |p| less the length of half
+    box-as-a-ball 2: the box is taken for a ball => |p| less the largest half
+    box-as-a-ball 3: the box is taken for a ball => |p| less the smallest half
+    whole-sides: half is halved again: it is half of the sides already => with half / 2
+    twice-the-sides: half is doubled: the faces stand at plus and minus half => with 2
+      half
+    abs-forgotten: a point on the side below 0 is not folded over: it is |p| - half =>
+      with p - half
+    abs-forgotten-zero-inside: a point on the side below 0 is not folded over, and
+      inside it is 0 => the norm of what of p - half is above 0
+    not-rooted: this is the square of the length outside
+    nearest-corner: this is how far the nearest corner is; a face may be nearer
+    largest-half: all sides are the largest => with half.max()
+    first-half: all sides are the first => with half[0]
+    in-the-plane: z is forgotten
+    cut-at-both: this is p cut to the box, and its length => the norm of the nearest
+      point
+    """
+    beyond = np.abs(p) - half
+    out = np.maximum(beyond, 0.0)
+    length = np.linalg.norm(out)
+    inside = min(beyond.max(), 0.0)
+    far = np.linalg.norm(p)
+
+    def of(p, half):
+        beyond = np.abs(p) - half
+        return np.linalg.norm(np.maximum(beyond, 0.0)) + min(beyond.max(), 0.0)
+
+    def unfolded():
+        beyond = p - half
+        return np.linalg.norm(np.maximum(beyond, 0.0)) + min(beyond.max(), 0.0)
+
+    return {
+        "zero-inside": length,
+        "inside-positive": length - inside,
+        "sign": -(length + inside),
+        "largest-outside": beyond.max(),
+        "sum-outside": out.sum() + inside,
+        "inside-added-outside": np.linalg.norm(beyond) if inside == 0 else inside,
+        "inside-by-the-norm": length if inside == 0 else -np.linalg.norm(beyond),
+        "farthest-face-inside": length if inside == 0 else beyond.min(),
+        "farthest-face-inside 2": length + min(beyond.min(), 0.0),
+        "to-the-middle-inside": length if inside == 0 else -far,
+        "to-the-middle": far,
+        "box-as-a-ball": far - np.linalg.norm(half),
+        "box-as-a-ball 2": far - half.max(),
+        "box-as-a-ball 3": far - half.min(),
+        "whole-sides": of(p, half / 2),
+        "twice-the-sides": of(p, 2 * half),
+        "abs-forgotten": unfolded,
+        "abs-forgotten-zero-inside": np.linalg.norm(np.maximum(p - half, 0.0)),
+        "not-rooted": length**2 + inside,
+        "nearest-corner": np.linalg.norm(np.abs(p) - half),
+        "largest-half": of(p, np.full(3, half.max())),
+        "first-half": of(p, np.full(3, half[0])),
+        "in-the-plane": of(p[:2], half[:2]),
+        "cut-at-both": np.linalg.norm(np.clip(p, -half, half)),
+    }
+
+
+row.at_least_0(half="half of a side")
+row.same("first p = np.abs(p)", "it takes the size anyway")
+
+
+@row.right  # By the nearest point; inside by the six ways out.
+def _(p, half):
+    if np.all(np.abs(p) <= half):
+        return -min(min(half - p), min(half + p))
+    return np.linalg.norm(p - np.clip(p, -half, half))

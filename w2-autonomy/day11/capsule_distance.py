@@ -1,0 +1,106 @@
+"""11.2 `capsule_distance(a0, a1, ra, b0, b1, rb)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Scalar
+from robo47.distance import segment_segment
+
+from . import pairs
+
+row = Row(Scalar(unit="m"))
+
+
+@row.inputs
+def _(rng):
+    case = (np.array([-1.0, 0, 0]), np.array([1.0, 0, 0]), 0.25,
+            np.array([0.0, -1, 1]), np.array([0.0, 1, 1]), 0.5)  # fmt: skip
+    beside = [
+        (a0, a1, 0.25, b0, b1, 0.5)
+        for a0, a1, b0, b1 in pairs.arrays([*pairs.ALONGSIDE, *pairs.POINTS[:3]])
+    ]
+    deep = []
+    for _ in range(3):  # across each other, and so near that they overlap
+        a0, a1, b0, b1 = pairs.segments(rng, "inside")
+        p, o = segment_segment(a0, a1, b0, b1)
+        shift = np.round(0.9 * (p - o), 3)
+        ra, rb = pairs.radii(rng)
+        deep.append((a0, a1, ra, b0 + shift, b1 + shift, rb))
+    drawn = []
+    for one in 2 * pairs.KINDS:
+        a0, a1, b0, b1 = pairs.segments(rng, one)
+        ra, rb = pairs.radii(rng)
+        drawn.append((a0, a1, ra, b0, b1, rb))
+    return [case, *beside, *deep, *drawn]
+
+
+@row.wrongs
+def _(a0, a1, ra, b0, b1, rb):
+    """radii-added: the radii are added; they come nearer by them => with + ra + rb
+    radii-forgotten: the radii are missing: this is how far the axes are apart
+    one-radius: only the first's radius is taken off => without rb
+    one-radius 2: only the second's radius is taken off => without ra
+    as-diameters: half of each radius is taken off, as of a diameter
+    twice-the-radii: twice each radius is taken off
+    radii-differ: the difference of the radii is taken off => with ra - rb
+    radii-differ 2: the difference of the radii is taken off => with |ra - rb|
+    larger-radius: only the larger radius is taken off
+    radii-multiplied: the product of the radii is taken off
+    never-negative: what overlaps is 0 apart here; it is to be below 0 => with max(0, d)
+    sign-lost: its size is right, and what overlaps counts as apart => |d|
+    squared: the axes' distance is not rooted => with its square
+    squared 2: squares are subtracted: |p - o|^2 - (ra + rb)^2
+    sign: its sign is the other one: apart is above 0
+    of-middles: the axes' middles are taken for the closest points
+    of-starts: the first ends are taken for the closest points
+    of-end-pairs: the nearest ends are taken for the closest points
+    largest-part: the largest of |x|, |y| and |z| is taken for the length
+    sum-of-parts: the sum of |x|, |y| and |z| is taken for the length
+    in-the-plane: only x and y are measured: the heights are forgotten
+    """
+    p, o = segment_segment(a0, a1, b0, b1)
+    axes = np.linalg.norm(p - o)
+    d = axes - ra - rb
+    ends = min(np.linalg.norm(x - y) for x in (a0, a1) for y in (b0, b1))
+    return {
+        "radii-added": axes + ra + rb,
+        "radii-forgotten": axes,
+        "one-radius": axes - ra,
+        "one-radius 2": axes - rb,
+        "as-diameters": axes - ra / 2 - rb / 2,
+        "twice-the-radii": axes - 2 * ra - 2 * rb,
+        "radii-differ": axes - (ra - rb),
+        "radii-differ 2": axes - abs(ra - rb),
+        "larger-radius": axes - max(ra, rb),
+        "radii-multiplied": axes - ra * rb,
+        "never-negative": max(0.0, d),
+        "sign-lost": abs(d),
+        "squared": axes**2 - ra - rb,
+        "squared 2": axes**2 - (ra + rb) ** 2,
+        "sign": -d,
+        "of-middles": np.linalg.norm((a0 + a1 - b0 - b1) / 2) - ra - rb,
+        "of-starts": np.linalg.norm(a0 - b0) - ra - rb,
+        "of-end-pairs": ends - ra - rb,
+        "largest-part": np.abs(p - o).max() - ra - rb,
+        "sum-of-parts": np.abs(p - o).sum() - ra - rb,
+        "in-the-plane": np.linalg.norm((p - o)[:2]) - ra - rb,
+    }
+
+
+row.at_least_0(ra="a radius", rb="a radius")
+
+
+@row.right  # By the nearest of the four ends and the pair inside.
+def _(a0, a1, ra, b0, b1, rb):
+    u = a1 - a0
+    v = b1 - b0
+    n = np.cross(u, v)
+    found = []
+    if n @ n > 1e-12 * (u @ u) * (v @ v):
+        s, t, k = np.linalg.solve(np.column_stack([u, -v, n]), b0 - a0)
+        if 0 <= s <= 1 and 0 <= t <= 1:
+            found.append(abs(k) * np.linalg.norm(n))
+    for p, x, way in ((a0, b0, v), (a1, b0, v), (b0, a0, u), (b1, a0, u)):
+        size = way @ way
+        share = np.clip((p - x) @ way / size, 0, 1) if size else 0.0
+        found.append(np.linalg.norm(p - x - share * way))
+    return min(found) - ra - rb

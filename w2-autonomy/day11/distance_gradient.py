@@ -1,0 +1,115 @@
+"""11.5 `distance_gradient(J_space, p, o, link)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+from labkit.judge.argument_mistakes import HALVES_SWAPPED
+from robo47 import panda
+from robo47.jacobian import space_jacobian
+
+JOINTS = tuple(f"joint{i}" for i in range(1, 8))
+row = Row(
+    Vector((7,), "m/rad", names=JOINTS),
+    at_edge=lambda J_space, p, o, link: bool(np.linalg.norm(p - o) > 1e-3),
+)
+row.of_argument("J_space", HALVES_SWAPPED)
+
+
+@row.inputs
+def _(rng):
+    first = np.zeros((6, 7))
+    first[2, 0] = 1.0  # a joint at the origin, about z
+    case = (first, np.array([1.0, 0, 0]), np.array([1.0, 1, 0]), 1)
+    screws = panda.screws(panda.load("panda_nohand"))
+    drawn = []
+    for link, q in zip((7, 1, 4, 2, 6, 3, 7, 5), rng.configurations(8), strict=True):
+        J = np.round(space_jacobian(screws, q), 6)
+        p = rng.numbers(-0.6, 0.6, 3)
+        o = np.round(p + rng.numbers(0.05, 0.4, 3) * rng.choice([-1.0, 1.0], 3), 3)
+        drawn.append((J, p, o, link))
+    return [case, *drawn]
+
+
+@row.wrongs
+def _(J_space, p, o, link):
+    """towards-the-obstacle: its signs are the other way round: the distance grows along
+      p - o => with o - p
+    columns-behind-kept: the joints behind the link move nothing of it: their entries
+      are 0 => with all columns
+    own-joint-left-out: the link's own joint counts, too: link 4 is moved by joint 4 =>
+      with 0 from joint `link` on
+    one-column-too-many: joint `link` + 1 moves what is behind this link => one column
+      more
+    from-the-link-on: what is kept are the link's own joint and those behind it; they
+      are the last to move it => from joint `link` on
+    own-joint-only: every joint before the link moves it, too; this keeps the link's own
+    columns-before-dropped: what is kept are the joints behind the link => 0 before it
+    rotation-forgotten: v alone is the velocity of the point at the world's origin; p's
+      is v + omega x p (a lever p - o is along n, and gives nothing) => n . v
+    rotation-only: v is missing: the velocity of p is v + omega x p => n . omega x p
+    cross-the-other-way: the cross product is the other way round: v + omega x p => with
+      p x omega
+    normal-not-unit: the normal is not of length 1, so all is too large by the distance
+      => with p - o
+    normal-squared: it is divided by the distance squared
+    half: it is half of that, as from the square's slope
+    normal-of-p: the normal points from the world's origin to p; it is from o to p =>
+      with p / |p|
+    normal-of-o: the normal is o's direction from the world's origin
+    only-along-z: only the height counts
+    not-projected: these are the speeds of p, and not how much of each is along n
+    size-only: its sign is lost: some joints come nearer => the absolute values
+    of-the-square: this is the slope of the distance squared, 2 d d'
+    """
+    n = (p - o) / np.linalg.norm(p - o)
+    w, v = J_space[:3].T, J_space[3:].T
+    mask = np.arange(7) < link
+    velocity = v + np.cross(w, p)
+    right = velocity @ n * mask
+    d = np.linalg.norm(p - o)
+    alone = np.zeros(7)
+    alone[link - 1] = right[link - 1]
+
+    def to(x):
+        return x / np.linalg.norm(x)
+
+    return {
+        "towards-the-obstacle": -right,
+        "columns-behind-kept": velocity @ n,
+        "own-joint-left-out": right * (np.arange(7) < link - 1),
+        "one-column-too-many": velocity @ n * (np.arange(7) <= link),
+        "from-the-link-on": velocity @ n * (np.arange(7) >= link - 1),
+        "own-joint-only": alone,
+        "columns-before-dropped": velocity @ n * ~mask,
+        "rotation-forgotten": v @ n * mask,
+        "rotation-only": np.cross(w, p) @ n * mask,
+        "cross-the-other-way": (v - np.cross(w, p)) @ n * mask,
+        "normal-not-unit": right * d,
+        "normal-squared": right / d,
+        "half": right / 2,
+        "normal-of-p": lambda: velocity @ to(p) * mask,
+        "normal-of-o": lambda: velocity @ to(o) * mask,
+        "only-along-z": velocity[:, 2] * np.sign(n[2]) * mask,
+        "not-projected": np.linalg.norm(velocity, axis=1) * mask,
+        "size-only": np.abs(right),
+        "of-the-square": 2 * d * right,
+    }
+
+
+@row.right  # With the lever at o: p - o is along n, so it makes no difference.
+def _(J_space, p, o, link):
+    n = (p - o) / np.linalg.norm(p - o)
+    S = np.block([[-np.array([[0, -o[2], o[1]], [o[2], 0, -o[0]], [-o[1], o[0], 0]]),
+                   np.eye(3)]])  # fmt: skip
+    slope = n @ S @ J_space
+    slope[link:] = 0.0
+    return slope
+
+
+@row.right  # The moment of n about the origin, times omega.
+def _(J_space, p, o, link):
+    n = (p - o) / np.linalg.norm(p - o)
+    return np.append(np.cross(p, n), n) @ J_space * (np.arange(1, 8) <= link)
+
+
+row.at_least_0(link="a count")

@@ -1,0 +1,131 @@
+"""11.8 `next_check(s, distance, dq, reach)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Scalar
+
+row = Row(Scalar())
+
+
+@row.inputs
+def _(rng):
+    half = np.full(7, 0.5)
+    case = (0.25, 0.1, np.ones(7), half)
+    drawn = []
+    for deep in (0.1, 0.2, 0.05, 0.3, 0.15, 0.25):
+        dq = rng.numbers(-1, 1, 7)
+        reach = rng.numbers(0.2, 1.2, 7)
+        drawn.append((float(rng.numbers(0, 0.6)), float(deep * rng.numbers(0.5, 1)),
+                      dq, reach))  # fmt: skip
+    one = np.zeros(7)
+    one[2] = -1.5
+    return [
+        case, (0.4, 0.2, one, rng.numbers(0.2, 1.2, 7)), (0.95, 0.5, half, half),
+        (0.3, 0.1, np.zeros(7), half), (0.3, -0.05, half, half), (0.6, 0.0, half, half),
+        (0.0, 3.0, half, half), (0.5, 0.0005, half, half), (0.5, -0.0005, half, half),
+        (0.1, 0.02, np.full(7, -0.05), half), (0.3, 0.0001, 0.0002 * half, half),
+        *drawn,
+    ]  # fmt: skip
+
+
+@row.wrongs
+def _(s, distance, dq, reach):
+    """no-bound: the distance itself is taken for a share of the way: metres are not s
+      => s + distance
+    signs-kept: the joints' signs are kept, so turns cancel; the farthest point may move
+      by the sum of their sizes => with dq for |dq|
+    signs-kept 2: the sum is taken before the size, so turns cancel => |dq . reach|
+    fastest-joint-only: only the joint that moves most counts; what all do adds up =>
+      the largest |dq_i| reach_i
+    fastest-joint-only 2: only the largest |dq| counts => largest |dq| x largest reach
+    norm-of-dq: the length of dq times the largest reach is no bound: seven turns add up
+    norm-of-products: the length of |dq| reach is taken, not the sum
+    norm-of-products 2: the length of dq times that of reach is taken, not the sum
+    first-reach: every joint is given the first one's reach
+    largest-reach: every joint is given the largest reach: safe, and not the bound that
+      is asked for
+    mean-reach: every joint is given the mean reach
+    reach-forgotten: the reach is missing: a turn is in radians => / sum |dq|
+    dq-forgotten: how far each joint turns is missing => / sum reach
+    of-what-is-left: dq is that of the whole way; it is taken for what is left after s
+      => times 1 - s
+    of-what-is-left 2: dq is divided by what is left after s
+    half-a-step: only half of the free way is gone
+    twice-a-step: twice the free way is gone
+    multiplied: the distance is multiplied by what may move; a fast arm has to be looked
+      at sooner => distance times the sum
+    s-forgotten: this is the step alone; s is to be added
+    not-capped: it may go beyond the end of the way, which is 1
+    standing-still: where nothing moves it divides by 0; the way's end is free: 1
+    standing-still 2: where nothing moves it stays; the way's end is free: 1 => s there
+    goes-back-inside: where it touches it goes back; s itself is asked for => s - |d| /
+      speed
+    goes-on-inside: where it touches it goes on; s itself is asked for => with |d|
+    stops-inside: where it touches it goes to the end
+    stops-inside 2: where it touches it is 0
+    time: this is the number of steps, 1 / step
+    """
+    speed = np.abs(dq) @ reach
+    inside = distance <= 0
+    still = not np.any(dq)
+
+    def gone(step):
+        if inside:
+            return s
+        return 1.0 if still else min(1.0, s + step)
+
+    def by(speed):
+        return lambda: gone(distance / speed if speed > 0 else np.inf)
+
+    def plain():
+        return min(1.0, s + distance / speed) if speed else 1.0
+
+    return {
+        "no-bound": s if inside else min(1.0, s + distance),
+        "signs-kept": by(dq @ reach),
+        "signs-kept 2": by(abs(dq @ reach)),
+        "fastest-joint-only": by((np.abs(dq) * reach).max()),
+        "fastest-joint-only 2": by(np.abs(dq).max() * reach.max()),
+        "norm-of-dq": by(np.linalg.norm(dq) * reach.max()),
+        "norm-of-products": by(np.linalg.norm(dq * reach)),
+        "norm-of-products 2": by(np.linalg.norm(dq) * np.linalg.norm(reach)),
+        "first-reach": by(np.abs(dq).sum() * reach[0]),
+        "largest-reach": by(np.abs(dq).sum() * reach.max()),
+        "mean-reach": by(np.abs(dq).sum() * reach.mean()),
+        "reach-forgotten": by(np.abs(dq).sum()),
+        "dq-forgotten": by(reach.sum()),
+        "of-what-is-left": lambda: gone(distance / speed * (1 - s)),
+        "of-what-is-left 2": lambda: gone(distance / speed / (1 - s)),
+        "half-a-step": lambda: gone(distance / speed / 2),
+        "twice-a-step": lambda: gone(2 * distance / speed),
+        "multiplied": lambda: gone(distance * speed),
+        "s-forgotten": lambda: s if inside else
+        1.0 if still else min(1.0, distance / speed),
+        "not-capped": lambda: s if inside else 1.0 if still else s + distance / speed,
+        "standing-still": lambda: s if inside else min(1.0, s + distance / speed)
+        if speed else np.nan,
+        "standing-still 2": lambda: s if still else gone(distance / speed),
+        "goes-back-inside": plain,
+        "goes-on-inside": lambda: min(1.0, s + abs(distance) / speed) if speed else 1.0,
+        "stops-inside": lambda: 1.0 if inside else gone(distance / speed),
+        "stops-inside 2": lambda: 0.0 if inside else gone(distance / speed),
+        "time": lambda: speed / distance if distance else np.inf,
+    }  # fmt: skip
+
+
+row.same("first dq = np.abs(dq)", "it takes the size anyway")
+STILL = "return min(1.0, s + distance / speed) if speed > {} else 1.0"
+row.same(f"{STILL.format('0')} => {STILL.format('-0.001 + 0')}", "x / 0. is infinite")
+row.same("first distance = np.maximum(distance, 0)", "0 is s as well")
+row.at_least_0(s="a share", reach="a length", answer="a share")
+
+
+@row.right  # By a loop.
+def _(s, distance, dq, reach):
+    if distance <= 0:
+        return s
+    most = 0.0
+    for turn, far in zip(dq, reach, strict=True):
+        most += abs(turn) * far
+    left = 1.0 - s
+    return 1.0 if most * left <= distance else s + distance / most

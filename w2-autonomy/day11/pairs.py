@@ -1,0 +1,94 @@
+"""What Day 11 asks about: segments of every kind, capsules, boxes, lengths of links."""
+
+import numpy as np
+
+from robo47 import distance, se3
+from robo47.checks import Array
+
+KINDS = ("inside", "an end", "two ends")  # where the closest points of two segments lie
+# Parallel, with one closest pair: whole numbers, so that a c - b b is exactly 0.
+PARALLEL = [
+    ((0, 0, 0), (1, 0, 0), (2, 1, 0), (3, 1, 0)),
+    ((0, 0, 0), (2, 0, 0), (5, 0, 0), (3, 0, 0)),
+    ((0, 0, 0), (0, -4, 0), (1, 2, 2), (1, 5, 2)),
+    ((1, 1, 1), (2, 2, 2), (-1, -1, 1), (-3, -3, -1)),
+]
+# Parallel, side by side: many pairs, one distance.
+ALONGSIDE = [
+    ((0, 0, 0), (2, 0, 0), (1, 1, 0), (3, 1, 0)),
+    ((0, 0, 0), (0, 3, 0), (2, 2, 0), (2, 1, 0)),
+]
+# Of which one is a point, or both are.
+POINTS = [
+    ((0, 0, 0), (0, 0, 0), (-1, 1, 0), (2, 1, 0)),
+    ((-1, 1, 0), (2, 1, 0), (0, 0, 0), (0, 0, 0)),
+    ((0, 3, 4), (0, 3, 4), (0, 0, 0), (0, 0, 0)),
+    ((3, 1, 0), (3, 1, 0), (-1, 1, 2), (2, 1, 2)),
+]
+
+
+def arrays(some) -> list[tuple[Array, ...]]:
+    """Return ends as float arrays."""
+    return [tuple(np.array(p, dtype=np.float64) for p in ends) for ends in some]
+
+
+def shares(a0, a1, b0, b1) -> tuple[float, float]:
+    """Return where on two segments their closest points lie, 0 to 1."""
+    p, o = distance.segment_segment(a0, a1, b0, b1)
+    u, v = a1 - a0, b1 - b0
+    return float((p - a0) @ u / (u @ u)), float((o - b0) @ v / (v @ v))
+
+
+def crosses(a0, a1, b0, b1) -> bool:
+    """Return whether neither is a point and their directions differ by 6 degrees."""
+    u, v = a1 - a0, b1 - b0
+    size = np.linalg.norm(u) * np.linalg.norm(v)
+    return bool(np.linalg.norm(np.cross(u, v)) > 0.1 * size)
+
+
+def kind(a0, a1, b0, b1) -> str:
+    """Return whether both points are inside, one at an end, or both; "" if unclear."""
+    if not crosses(a0, a1, b0, b1):
+        return ""
+    at = np.array(shares(a0, a1, b0, b1))
+    if np.any((np.abs(at * (1 - at)) < 0.02) & (at * (1 - at) > 0)):
+        return ""  # hardly inside: rounding, or too small a mistake, would decide
+    return KINDS[int(np.sum(at * (1 - at) == 0))]
+
+
+def segments(rng, wanted: str) -> tuple[Array, ...]:
+    """Return two drawn segments of a kind; edge values may give another one."""
+    for _ in range(300):
+        a0, a1, b0, b1 = rng.numbers(-1, 1, 4, 3)
+        if kind(a0, a1, b0, b1) == wanted:
+            break
+    return a0, a1, b0, b1
+
+
+def radii(rng) -> tuple[float, float]:
+    """Return two drawn radii, m, the larger one of either."""
+    small, large = float(rng.numbers(0.02, 0.1)), float(rng.numbers(0.12, 0.3))
+    return (small, large) if rng.integers(2) else (large, small)
+
+
+def turned(rng) -> Array:
+    """Return a drawn pose, turned, (4, 4)."""
+    return rng.poses(1, 2.0)[0]
+
+
+def moved(rng) -> Array:
+    """Return a drawn pose that is not turned, (4, 4)."""
+    return se3.make_T(np.eye(3), rng.numbers(-2, 2, 3))
+
+
+def around(rng, half: Array, T: Array, deep: bool) -> tuple[Array, Array]:
+    """Return a segment in the world whose nearest point to a box is no end of it."""
+    R, t = T[:3, :3], T[:3, 3]
+    for _ in range(300):
+        a0, a1 = rng.numbers(-1.5, 1.5, 2, 3)
+        far = [
+            distance.box_sdf(a0 + s * (a1 - a0), half) for s in np.linspace(0, 1, 41)
+        ]
+        if 4 < int(np.argmin(far)) < 36 and (min(far) < -0.02) == deep:
+            break
+    return np.round(R @ a0 + t, 4), np.round(R @ a1 + t, 4)

@@ -1,0 +1,127 @@
+"""11.7 `reaches(offsets, far)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+from robo47.distance import reaches
+
+row = Row(Vector((None,), "m"))
+
+
+@row.inputs
+def _(rng):
+    case = (np.array([1.0, 1, 0]), np.full(3, 0.5))
+    drawn = [(rng.numbers(0.05, 0.5, 7), rng.numbers(0.05, 0.4, 7)) for _ in range(3)]
+    long = rng.numbers(0.05, 0.3, 7)
+    long[3] = 2.0  # the middle link is longer than all behind it
+    longer = rng.numbers(0.05, 0.3, 7)
+    longer[1] = 3.0
+    return [case, (rng.numbers(0.05, 0.3, 7), long), (rng.numbers(0.1, 0.3, 7), longer),
+            *drawn]  # fmt: skip
+
+
+@row.wrongs
+def _(offsets, far):
+    """to-the-tip-only: only the last link counts; one before it may have a point that
+      is farther => all offsets, and far of the last
+    own-link-only: only the joint's own link counts; what is behind it is carried along
+      => far
+    next-only: it ends at the next link => the larger of far and offset + far of the
+      next
+    from-the-base: it is how far from the base each link is; it is how far from joint i
+      what is behind it is => offsets before it + far
+    offset-one-late: the offset is the next joint's: offsets[i] is from link i to the
+      next => with offsets[i + 1]
+    offset-of-the-last: the last link's offset is added; nothing is behind it => +
+      offsets of the last
+    far-forgotten: only the offsets are added: the links have a size of their own
+    offsets-forgotten: the offsets are missing: this is the largest far behind it
+    all-summed: the far of all links behind it is added up; only one point is the
+      farthest => offsets and all far
+    largest-far: the largest far of all stands at the end of the offsets; it belongs to
+      its own link
+    least: it is the least; a bound is the largest
+    not-in-a-row: what is behind the next link is forgotten: its reach is meant, not its
+      far
+    euclid: lengths are added as the sides of a right angle; stretched out they are in a
+      row => root of the squares
+    one-for-all: it is the largest of all for every joint
+    backwards: it is from the tip to the base
+    sum-from-the-base: offsets are summed from the base to the joint, and far is added
+    far-of-its-own: the offsets end at the last link, and the far is the joint's own
+      link's => offsets behind it + its own far
+    far-of-its-own 2: the offsets end at the last link, and the far is the joint's own
+      link's => all offsets behind it + its own far
+    forwards: it goes from the base outwards: what is behind a joint is on the other
+      side => the larger of far and the offset before + the reach before
+    far-twice: its own far and that of the farthest are added
+    """
+    n = len(far)
+    right = reaches(offsets, far)
+
+    def behind(i, j):
+        return offsets[i:j].sum()
+
+    last = offsets.copy()
+    late = np.append(offsets[1:], 0.0)
+
+    def with_last():
+        return np.array([max(last[i:n].sum() + far[-1],
+                             *(behind(i, j) + far[j] for j in range(i, n)))
+                         for i in range(n)])  # fmt: skip
+
+    def of(what):
+        return np.array([what(i) for i in range(n)])
+
+    def least():
+        reach = far.copy()
+        for i in range(n - 2, -1, -1):
+            reach[i] = min(far[i], offsets[i] + reach[i + 1])
+        return reach
+
+    def forwards():
+        reach = far.copy()
+        for i in range(1, n):
+            reach[i] = max(far[i], offsets[i - 1] + reach[i - 1])
+        return reach
+
+    def euclid():
+        reach = far.copy()
+        for i in range(n - 2, -1, -1):
+            reach[i] = max(far[i], np.hypot(offsets[i], reach[i + 1]))
+        return reach
+
+    return {
+        "to-the-tip-only": of(lambda i: behind(i, n - 1) + far[-1]),
+        "own-link-only": far.copy(),
+        "next-only": of(lambda i: max(far[i], offsets[i] + far[i + 1])
+                        if i < n - 1 else far[i]),
+        "from-the-base": of(lambda i: behind(0, i) + far[i]),
+        "offset-one-late": reaches(late, far),
+        "offset-of-the-last": with_last,
+        "far-forgotten": of(lambda i: behind(i, n - 1)),
+        "offsets-forgotten": of(lambda i: far[i:].max()),
+        "all-summed": of(lambda i: behind(i, n - 1) + far[i:].sum()),
+        "largest-far": of(lambda i: behind(i, n - 1) + far.max()),
+        "least": least,
+        "not-in-a-row": of(lambda i: far[i] + (offsets[i] if i < n - 1 else 0.0)),
+        "euclid": euclid,
+        "one-for-all": np.full(n, right.max()),
+        "backwards": right[::-1].copy(),
+        "sum-from-the-base": of(lambda i: behind(0, i + 1) + far[i]),
+        "far-of-its-own": of(lambda i: behind(i, n - 1) + far[i]),
+        "far-of-its-own 2": of(lambda i: offsets[i:].sum() + far[i]),
+        "forwards": forwards,
+        "far-twice": of(lambda i: far[i] + right[i]),
+    }  # fmt: skip
+
+
+row.at_least_0(offsets="a length", far="a length", answer="a length")
+
+
+@row.right  # By the definition: the largest over all links behind.
+def _(offsets, far):
+    n = len(far)
+    return np.array(
+        [max(offsets[i:j].sum() + far[j] for j in range(i, n)) for i in range(n)]
+    )

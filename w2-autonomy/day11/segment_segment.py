@@ -1,0 +1,329 @@
+"""11.1 `segment_segment(a0, a1, b0, b1)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Finding, HeldOut, Points, Row
+
+from . import pairs
+
+
+def hardly(case):
+    """Say so where both points lie on their segments and are nearly the closest."""
+    S, T = case.S, case.T
+    ends = np.array(case.arguments).swapaxes(0, 1)  # (n, 4, 3)
+    for i in (0, 1):
+        start, end = ends[:, 2 * i], ends[:, 2 * i + 1]
+        way = np.linalg.norm(end - start, axis=1)
+        beside = np.linalg.norm(S[:, i] - start, axis=1)
+        beside += np.linalg.norm(S[:, i] - end, axis=1) - way
+        if beside.max() > 1e-9:
+            return None
+    far = [np.linalg.norm(X[:, 0] - X[:, 1], axis=1) for X in (S, T)]
+    more = float((far[0] - far[1]).max())
+    if not 0 < more < 0.05:
+        return None
+    return Finding(
+        "nearly-the-closest",
+        f"All points lie on their segments, and are up to {1000 * more:.3g} mm farther "
+        "apart than the closest: are only some points tried, or is a loop not at its "
+        "end?",
+    )
+
+
+# What has more than one closest pair is no question here; 11.2 asks how far such
+# segments are apart.
+row = Row(
+    Points((2, 3), names=("first's point", "second's point")),
+    at_edge=pairs.crosses,
+    unnamed=hardly,
+    held_out=[
+        HeldOut(
+            "parallel-not-handled",
+            "Right, but not for all parallel segments: there a c - b b is 0, and the s "
+            "of the lines is 0 / 0. Any s will do to begin with; t for it, cut, and "
+            "then s for that t, cut.",
+            lambda rng: pairs.arrays(pairs.PARALLEL),
+        ),
+        HeldOut(
+            "point-not-handled",
+            "Right, but not where a segment is a point: its length is 0, and its share "
+            "is 0 / 0. Any share gives that point.",
+            lambda rng: pairs.arrays(pairs.POINTS),
+        ),
+        HeldOut(
+            "size-absolute",
+            "Right in metres, but not in millimetres: a c - b b is in metres to the "
+            "fourth power, a c sin^2. Compare it with a c and not with a number.",
+            lambda rng: [
+                tuple(0.002 * x for x in pairs.segments(rng, one))
+                for one in ("inside", "an end", "inside", "an end")
+            ],
+            near=1e-7,
+        ),
+    ],
+)
+
+
+@row.inputs
+def _(rng):
+    case = ((-1, 0, 0), (1, 0, 0), (0, -1, 1), (0, 1, 1))
+    ends = ((0, 0, 0), (1, 0, 0), (2, 1, 0), (1, 2, 0))
+    drawn = [pairs.segments(rng, one) for one in 6 * pairs.KINDS]
+    return [*pairs.arrays([case, ends]), *drawn]
+
+
+def cut(x):
+    """Return x cut to 0..1."""
+    return np.clip(x, 0.0, 1.0)
+
+
+def bowl(a0, a1, b0, b1, w=None):
+    """Return u, v and the bowl's a, b, c, d, e."""
+    u = a1 - a0
+    v = b1 - b0
+    w = a0 - b0 if w is None else w
+    return u, v, u @ u, u @ v, v @ v, u @ w, v @ w
+
+
+def lines(a, b, c, d, e):
+    """Return s and t of the two lines."""
+    across = a * c - b * b
+    return (b * e - c * d) / across, (a * e - b * d) / across
+
+
+def thrice(a, b, c, d, e, s=None):
+    """Return s and t: s cut, t for it cut, s for that cut."""
+    s = cut(lines(a, b, c, d, e)[0] if s is None else s)
+    t = cut((b * s + e) / c)
+    return cut((b * t - d) / a), t
+
+
+def ends_only(a0, a1, b0, b1, way=min):
+    """Return the nearest of an end of one and its nearest point on the other."""
+    found = []
+    for p, x, y, first in (
+        (a0, b0, b1, True), (a1, b0, b1, True), (b0, a0, a1, False), (b1, a0, a1, False)
+    ):  # fmt: skip
+        q = x + cut((p - x) @ (y - x) / ((y - x) @ (y - x))) * (y - x)
+        found.append(np.array([p, q] if first else [q, p]))
+    return way(found, key=lambda pair: np.linalg.norm(pair[0] - pair[1]))
+
+
+@row.wrongs
+def _(a0, a1, b0, b1):
+    """not-clamped: s and t are those of the lines: they are not cut to 0..1, so the
+      points may lie beyond the ends
+    clamped-apart: s and t of the lines are cut, each for itself; where one is cut the
+      other is not the best any more => both of the lines, cut
+    s-not-again: s is not found again after t was cut; the best s depends on t => s cut,
+      then t for it, cut, and no more
+    s-not-again 2: t is not found again after s was cut; the best t depends on s => t of
+      the lines, cut, and s for it, cut
+    s-not-again 3: t is not found again after s was cut last; the best t depends on s =>
+      t of the lines, cut, s for it, cut, and t left
+    t-not-cut: t is cut nowhere: its point may lie beyond an end
+    s-not-cut: s is cut nowhere: its point may lie beyond an end
+    cut-below-only: they are kept above 0, and not below 1 => with max(x, 0)
+    cut-above-only: they are kept below 1, and not above 0 => with min(x, 1)
+    ends-only: one of the points is always an end; where segments cross, both may lie
+      inside => the nearest end of one to the other
+    end-pairs: both points are ends; the closest ones may lie inside => the nearest ends
+    end-pairs 2: the first's closest end is right only where an end is closest => the
+      first's nearest end and the second's best point
+    w-sign: w points the other way: it is from the second's start to the first's, a0 -
+      b0 => with b0 - a0
+    d-and-e-swapped: d and e are swapped: d = u . w goes with the first
+    numerator-sign: the sign of s is the other one: s = (b e - c d) / (a c - b b) =>
+      with c d - b e
+    b-sign: the sign of b is the other one: the slopes are a s - b t + d and b s - c t +
+      e => with -b
+    b-not-squared: a c - b is divided by; it is a c - b b
+    across-plus: a c + b b is divided by; it is a c - b b, which is 0 where they are
+      parallel
+    across-of-lengths: a c is divided by: that is for segments at a right angle, b = 0
+    b-forgotten: b is missing in t: t = (b s + e) / c => with (s + e) / c
+    t-sign: e enters t with the wrong sign: t = (b s + e) / c => with -e
+    t-by-a: t is divided by a; it is c, the second's length squared => (b s + e) / a
+    d-sign-last: d enters the last s with the wrong sign: s = (b t - d) / a
+    swapped-to-s: t is taken for s and s for t
+    points-swapped: the second's point comes first
+    middles: these are their middles
+    starts: these are their first ends
+    same-share: s and t are the same; each has its own => t = s
+    shares: these are not points: each is s u and t v, without the end it starts from
+    beyond-the-ends: s and t are counted from the starts, and the points from the ends
+      => a1 + s u and b1 + t v
+    t-from-the-end: t is counted from b1; it is from b0
+    s-from-the-end: s is counted from a1; it is from a0
+    unit-directions: u and v are made unit vectors, so s and t are metres, and are cut
+      to 1 all the same => with unit vectors
+    nearest-to-the-middle: the first's point is the nearest to the second's middle, and
+      the second's is that middle
+    sampled: only some points of each are tried, as by linspace; the closest ones lie
+      between them => the best of 11 x 11 points
+    sampled 2: only some points of each are tried, as by linspace; the closest ones lie
+      between them => the best of 101 x 101 points
+    sampled 3: only some points of each are tried, as by linspace; the closest ones lie
+      between them => the best of 21 x 21 points
+    one-round: s starts at 0, and t and s are found in turn only once; that is not the
+      best yet => one round from s = 0
+    one-round 2: s starts at 0.5, and t and s are found in turn only once; that is not
+      the best yet => one round from s = 0.5
+    difference: the one's point less the other's stands in both rows
+    """
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    right = thrice(a, b, c, d, e)
+    plain = lines(a, b, c, d, e)
+
+    def at(s, t):
+        return np.array([a0 + s * u, b0 + t * v])
+
+    def other_w():
+        *_, d2, e2 = bowl(a0, a1, b0, b1, b0 - a0)
+        return at(*thrice(a, b, c, d2, e2))
+
+    def through(across):
+        return at(*thrice(a, b, c, d, e, (b * e - c * d) / across))
+
+    def sampled(n):
+        some = np.linspace(0, 1, n)
+        p = a0 + some[:, None] * u
+        o = b0 + some[:, None] * v
+        far = np.linalg.norm(p[:, None] - o, axis=-1)
+        i, j = np.unravel_index(np.argmin(far), far.shape)
+        return np.array([p[i], o[j]])
+
+    def with_cut(cut):
+        t = cut((b * cut(plain[0]) + e) / c)
+        return at(cut((b * t - d) / a), t)
+
+    def units():
+        x, y = u / np.sqrt(a), v / np.sqrt(c)
+        w = a0 - b0
+        s, t = thrice(1.0, x @ y, 1.0, x @ w, y @ w)
+        return np.array([a0 + s * x, b0 + t * y])
+
+    def one_round(s):
+        t = cut((b * s + e) / c)
+        return at(cut((b * t - d) / a), t)
+
+    s1 = cut(plain[0])
+    t1 = cut((b * s1 + e) / c)
+    t2 = cut(plain[1])
+    first_end = min((a0, a1), key=lambda p: np.linalg.norm(
+        p - b0 - cut((p - b0) @ v / c) * v))  # fmt: skip
+    pairs_of_ends = [np.array([p, o]) for p in (a0, a1) for o in (b0, b1)]
+    middle = (b0 + b1) / 2
+    p, o = at(*right)
+    t_far = (b * s1 + e) / c
+    s2 = cut((b * t2 - d) / a)
+    return {
+        "not-clamped": at(*plain),
+        "clamped-apart": at(s1, t2),
+        "s-not-again": at(s1, t1),
+        "s-not-again 2": at(s2, t2),
+        "s-not-again 3": at(cut((b * cut((b * s2 + e) / c) - d) / a), t2),
+        "t-not-cut": at(cut((b * t_far - d) / a), t_far),
+        "s-not-cut": at((b * cut((b * plain[0] + e) / c) - d) / a,
+                        cut((b * plain[0] + e) / c)),
+        "cut-below-only": with_cut(lambda x: max(x, 0.0)),
+        "cut-above-only": with_cut(lambda x: min(x, 1.0)),
+        "ends-only": ends_only(a0, a1, b0, b1),
+        "end-pairs": min(pairs_of_ends, key=lambda x: np.linalg.norm(x[0] - x[1])),
+        "end-pairs 2": np.array([first_end, b0 + cut((first_end - b0) @ v / c) * v]),
+        "w-sign": other_w,
+        "d-and-e-swapped": at(*thrice(a, b, c, e, d)),
+        "numerator-sign": at(*thrice(a, b, c, d, e, -plain[0])),
+        "b-sign": at(*thrice(a, -b, c, d, e)),
+        "b-not-squared": lambda: through(a * c - b),
+        "across-plus": lambda: through(a * c + b * b),
+        "across-of-lengths": lambda: through(a * c),
+        "b-forgotten": at(cut((b * cut((s1 + e) / c) - d) / a), cut((s1 + e) / c)),
+        "t-sign": at(cut((b * cut((b * s1 - e) / c) - d) / a), cut((b * s1 - e) / c)),
+        "t-by-a": at(cut((b * cut((b * s1 + e) / a) - d) / a), cut((b * s1 + e) / a)),
+        "d-sign-last": at(cut((b * t1 + d) / a), t1),
+        "swapped-to-s": at(right[1], right[0]),
+        "points-swapped": np.array([o, p]),
+        "middles": np.array([(a0 + a1) / 2, middle]),
+        "starts": np.array([a0, b0]),
+        "same-share": at(right[0], right[0]),
+        "shares": np.array([right[0] * u, right[1] * v]),
+        "beyond-the-ends": np.array([p + u, o + v]),
+        "t-from-the-end": np.array([p, b1 - right[1] * v]),
+        "s-from-the-end": np.array([a1 - right[0] * u, o]),
+        "unit-directions": units,
+        "nearest-to-the-middle": np.array(
+            [a0 + cut((middle - a0) @ u / a) * u, middle]),
+        "sampled": lambda: sampled(11),
+        "sampled 2": lambda: sampled(101),
+        "sampled 3": lambda: sampled(21),
+        "one-round": lambda: one_round(0.0),
+        "one-round 2": lambda: one_round(0.5),
+        "difference": np.array([p - o, p - o]),
+    }  # fmt: skip
+
+
+@row.wrong("parallel-not-handled")  # It divides all the same.
+def _(a0, a1, b0, b1):
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    with np.errstate(all="ignore"):
+        s, t = thrice(a, b, c, d, e)
+    return np.array([a0 + s * u, b0 + t * v])
+
+
+@row.wrong("parallel-not-handled", hidden="their distance is right, side by side")
+def _(a0, a1, b0, b1):  # Both begin at their starts there.
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    if a * c - b * b <= 1e-12 * a * c:
+        return np.array([a0, b0 + (cut(e / c) if c else 0.0) * v])
+    s, t = thrice(a, b, c, d, e)
+    return np.array([a0 + s * u, b0 + t * v])
+
+
+@row.wrong("point-not-handled")  # Parallel is asked for, a length of 0 is not.
+def _(a0, a1, b0, b1):
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    with np.errstate(all="ignore"):
+        across = a * c - b * b
+        start = 0.0 if across <= 1e-12 * a * c else (b * e - c * d) / across
+        s, t = thrice(a, b, c, d, e, start)
+    return np.array([a0 + s * u, b0 + t * v])
+
+
+@row.wrong("size-absolute")
+def _(a0, a1, b0, b1):  # 1e-6 metres to the fourth power.
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    across = a * c - b * b
+    s = cut((b * e - c * d) / across) if across > 1e-6 else 0.0
+    t = cut((b * s + e) / c) if c else 0.0
+    s = cut((b * t - d) / a) if a else 0.0
+    return np.array([a0 + s * u, b0 + t * v])
+
+
+@row.right  # The inner pair if it is one, else the nearest of four ends.
+def _(a0, a1, b0, b1):
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    if a * c - b * b > 1e-12 * a * c:
+        s, t = lines(a, b, c, d, e)
+        if 0 <= s <= 1 and 0 <= t <= 1:
+            return np.array([a0 + s * u, b0 + t * v])
+    found = []
+    for p, x, way, first in (
+        (a0, b0, v, True), (a1, b0, v, True), (b0, a0, u, False), (b1, a0, u, False)
+    ):  # fmt: skip
+        size = way @ way
+        q = x + (cut((p - x) @ way / size) if size else 0.0) * way
+        found.append(np.array([p, q] if first else [q, p]))
+    return min(found, key=lambda pair: np.linalg.norm(pair[0] - pair[1]))
+
+
+INNER = "s = np.clip((b * e - c * d) / across, 0, 1) if across > {} else {}"
+GIVEN = INNER.format("1e-12 * a * c", "0.0")
+for bound, start in (
+    ("0.5 * (1e-12 * a * c)", "0.0"), ("10.0 * (1e-12 * a * c)", "0.0"),
+    ("2e-12 * a * c", "0.0"), ("1e-12 * a * c", "1"),
+):  # fmt: skip
+    row.same(f"{GIVEN} => {INNER.format(bound, start)}", "parallel: any s will do")
+for name, over in (("t", "(b * s + e) / c"), ("s", "(b * t - d) / a")):
+    line = f"{name} = np.clip({over}, 0, 1) if {over[-1]} > 0 else "
+    row.same(f"{line}0.0 => {line}1", "a point: any share is it")

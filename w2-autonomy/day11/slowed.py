@@ -1,0 +1,154 @@
+"""11.9 `slowed(qd, slope, distance, gain)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+from robo47.distance import slowed
+
+JOINTS = tuple(f"joint{i}" for i in range(1, 8))
+row = Row(Vector((7,), "rad/s", names=JOINTS))
+
+
+@row.inputs
+def _(rng):
+    e = np.eye(7)[0]
+    case = (-e, e, 0.1, 4.0)
+    drawn = []
+    for fast in (True, True, True, True, False, False):
+        slope = rng.numbers(-0.8, 0.8, 7)
+        qd = rng.numbers(-1, 1, 7)
+        qd[0] = abs(qd[0]) + 0.3
+        slope[0] = 0.9
+        d, gain = float(rng.numbers(0.02, 0.2)), float(rng.numbers(1, 5))
+        towards = qd if (slope @ qd < 0) == fast else -qd
+        drawn.append((towards, slope, d, gain))
+    qd, slope = rng.numbers(-1, 1, 2, 7)
+    inside = (qd, slope, -0.05, 3.0)
+    small = rng.numbers(-0.01, 0.01, 7)
+    far = 0.1 * small / (small @ small)  # towards at 0.1 m/s
+    hardly = [
+        (qd - slope * (slope @ qd + 0.3 + off) / (slope @ slope), slope, 0.1, 3.0)
+        for off in (0.0005, -0.0005)
+    ]  # 0.5 mm/s too fast, and not
+    slow = (0.05 * rng.numbers(-1, 1, 7), slope, 0.2, 5.0)  # towards, and allowed
+    return [case, (rng.numbers(-1, 1, 7), np.zeros(7), 0.1, 4.0),
+            (rng.numbers(-1, 1, 7), np.zeros(7), -0.1, 4.0), inside, slow,
+            (-far, small, 0.01, 2.0), *hardly, *drawn]  # fmt: skip
+
+
+@row.wrongs
+def _(qd, slope, distance, gain):
+    """always: it is changed where nothing has to be: speeds that are allowed stay =>
+      slope . qd made -gain distance everywhere
+    not-divided: it is not divided by slope . slope => qd + slope lack
+    divided-by-the-length: it is divided by the length of slope, not its square
+    pushed-in: it is pushed nearer: the correction has the wrong sign => qd - slope lack
+      / slope^2
+    all-joints-slowed: all joints are slowed alike; only the part along the slope is too
+      fast => qd times a factor
+    all-joints-slowed 2: all joints are slowed alike; only the part along the slope is
+      too fast => qd times bound / speed
+    stops-dead: it stops where it would be too fast; the part that is allowed is lost =>
+      0
+    part-removed: all of the part along the slope is taken away; coming near slowly is
+      allowed => without it
+    sign-of-the-bound: the bound has the wrong sign: it may come nearer at gain distance
+      => slope . qd >= gain distance
+    distance-sign-lost: the distance counts without its sign: where it overlaps the
+      bound is above 0, and drives it out => with |distance|
+    gain-forgotten: the gain is missing in the bound
+    distance-forgotten: the distance is missing in the bound
+    distance-over-gain: the distance is divided by the gain
+    wrong-side: it changes what moves away too fast and leaves what comes near => with >
+    leaving-forbidden: it may not move away faster than that either => cut on both sides
+    joint-by-joint: each joint is kept to the bound by itself; it is their sum that
+      counts
+    joint-by-joint 2: each joint speed is kept above the bound; it is a bound of metres
+      per second, of the sum => np.maximum(qd, -gain distance)
+    largest-joint-only: only the joint with the largest slope is changed; nearest is all
+      of them, along the slope
+    slope-unit: the slope is made a unit vector before the bound: that is another speed
+    only-inside: it is slowed only where it overlaps
+    standing-still: it is 0 / 0 where the slope is 0; then nothing can be changed
+    lack-alone: this is the change alone; qd is to be added
+    """
+    bound = -gain * distance
+    rate = slope @ qd
+    square = slope @ slope
+    lack = bound - rate
+
+    if not square:
+        still = np.full(7, np.nan)
+        named = dict.fromkeys(
+            ("always", "not-divided", "divided-by-the-length", "pushed-in",
+             "part-removed", "sign-of-the-bound", "gain-forgotten",
+             "distance-forgotten", "distance-over-gain", "wrong-side", "slope-unit",
+             "leaving-forbidden", "only-inside", "largest-joint-only"), qd.copy()
+        )  # fmt: skip
+        return {
+            **named,
+            "all-joints-slowed": qd.copy(),
+            "all-joints-slowed 2": qd.copy(),
+            "stops-dead": qd.copy(),
+            "joint-by-joint 2": np.maximum(qd, bound) if lack > 0 else qd.copy(),
+            "distance-sign-lost": qd.copy(),
+            "joint-by-joint": qd.copy(),
+            "standing-still": still if lack > 0 else qd.copy(),
+            "lack-alone": np.zeros(7),
+        }
+
+    def to(bound, push=1.0, when=None):
+        lack = bound - rate
+        if not (lack > 0 if when is None else when):
+            return qd.copy()
+        return qd + push * slope * lack / square
+
+    def scaled():
+        if lack <= 0:
+            return qd.copy()
+        return qd * max(bound / rate, 0.0)
+
+    big = int(np.argmax(np.abs(slope)))
+    one = qd.copy()
+    one[big] += lack / slope[big] if lack > 0 else 0.0
+    alone = slope * qd
+    apart = np.where(alone < bound, bound, alone)
+    unit = slope / np.sqrt(square)
+    return {
+        "always": to(bound, when=True),
+        "not-divided": qd + slope * max(lack, 0.0),
+        "divided-by-the-length": qd + slope * max(lack, 0.0) / np.sqrt(square),
+        "pushed-in": to(bound, -1.0),
+        "all-joints-slowed": scaled(),
+        "all-joints-slowed 2": qd * (bound / rate) if lack > 0 else qd.copy(),
+        "stops-dead": np.zeros(7) if lack > 0 else qd.copy(),
+        "part-removed": qd - slope * rate / square if lack > 0 else qd.copy(),
+        "sign-of-the-bound": to(gain * distance),
+        "distance-sign-lost": to(-gain * abs(distance)),
+        "gain-forgotten": to(-distance),
+        "distance-forgotten": to(-gain),
+        "distance-over-gain": to(-distance / gain),
+        "wrong-side": to(bound, when=lack < 0),
+        "leaving-forbidden": to(bound) if lack > 0 else
+        to(-bound, when=rate > -bound),
+        "joint-by-joint": np.where(slope != 0, apart / np.where(slope, slope, 1), qd),
+        "joint-by-joint 2": np.maximum(qd, bound) if lack > 0 else qd.copy(),
+        "largest-joint-only": one,
+        "slope-unit": qd + unit * max(bound - unit @ qd, 0.0),
+        "only-inside": to(bound) if distance <= 0 else qd.copy(),
+        "standing-still": slowed(qd, slope, distance, gain),
+        "lack-alone": slope * max(lack, 0.0) / square,
+    }  # fmt: skip
+
+
+row.at_least_0(gain="a gain")
+
+
+@row.right  # By its part along the slope.
+def _(qd, slope, distance, gain):
+    size = np.linalg.norm(slope)
+    if size == 0:
+        return qd.copy()
+    n = slope / size
+    along = qd @ n
+    return qd + (max(along, -gain * distance / size) - along) * n

@@ -1,0 +1,130 @@
+"""What Day 12's numbers hang on: each constant turned by two, measured, explained.
+
+Everything is computed by the lab's own functions and the library's `fastest_along`.
+"""
+
+import numpy as np
+
+from labkit.lesson.constants import Numbers, between, same, times, turned
+from labkit.lesson.day import find_day
+from labkit.lesson.lab_module import lab_of
+from robo47 import panda, simulate
+from robo47 import planning as library
+
+LAB = lab_of(find_day(12))
+DAY = LAB.day12_mujoco
+ARM = panda.arm(DAY.Wall().model)
+INVERSE = DAY.torque(DAY.Wall().model)  # without damping
+_, LIMITS = simulate.limits(DAY.Wall().model)
+
+numbers = Numbers(
+    n="SEEDS, all of which find a way: {}",
+    z="z of the interval: {}",
+    inertia="M: {} kg m²",
+    limit="limit: {} N m",
+    way="the way: {} rad",
+    gravity="gravity, against it: {} N m",
+    points="POINTS: {}",
+    share="share of the torque: {}",
+    speed="the motors' speeds: × {}",
+    weight="gravity: × {}",
+    step="STEP: {} rad",
+    roof="ROOF: {} m",
+    margin="MARGIN: {} m",
+    first="the first of 60 seeds: {}",
+    samples="samples: {}",
+)
+
+
+@numbers.add(
+    "least share that 60 of 60 leave", "{:.3f}",
+    n=times(1.0309, "n / (n + z²): 120 / 123.84 for 60 / 63.84", to=120),
+    z=between(0.7, 0.9, "a wider interval: n / (n + 4 z²)"),
+)  # fmt: skip
+def least_share(n=LAB.SEEDS, z=1.96):
+    """Return the low end of Wilson's interval of n of n."""
+    return LAB.wilson(n, n)[0] if z == 1.96 else n / (n + z**2)
+
+
+def alone(inertia=2.0, limit=8.0, way=1.0, gravity=0.0, points=LAB.POINTS):
+    """Return the seconds of one joint."""
+    one = np.ones((points + 1, 1))
+    x = library.fastest_along(
+        inertia * way * one, 0.0 * one, gravity * one, [limit], 1e3 * one[:, 0]
+    )
+    return LAB.seconds(x)
+
+
+@numbers.add(
+    "one joint over 1 rad", "{:.3f} s",
+    inertia=times(2**0.5, "2 √(d M / limit)"),
+    limit=times(0.5**0.5, "2 √(d M / limit)"),
+    way=times(2**0.5, "2 √(d M / limit)"),
+    points=same("u is constant on either half: the steps are exact"),
+)  # fmt: skip
+def one_joint(inertia=2.0, limit=8.0, way=1.0, points=LAB.POINTS):
+    """Return its seconds."""
+    return alone(inertia, limit, way, 0.0, points)
+
+
+@numbers.add(
+    "one joint against gravity 4", "{:.3f} s",
+    inertia=times(2**0.5, "half of both accelerations"),
+    limit=times(0.6325, "up 6 for 2, down 10 for 6: √(2/6 + 2/10) for √(2/2 + 2/6)"),
+    way=times(2**0.5, "the same accelerations, twice as far"),
+    gravity=times(1.309, "up 1 for 2, down 7 for 6", to=6.0),
+)  # fmt: skip
+def heavy_joint(inertia=2.0, limit=8.0, way=1.0, gravity=4.0):
+    """Return its seconds."""
+    return alone(inertia, limit, way, gravity)
+
+
+@numbers.add(
+    "Day 7's move with half of the torque", "{:.3f} s",
+    share=between(0.8, 0.85, "all of it: less time, but the motors' speed stays"),
+    speed=between(0.75, 0.95, "the motors' speed is the limit at 71 % of the points"),
+    weight=between(0.8, 0.9, "without gravity all of the torque moves the arm", to=0.0),
+    points=between(
+        0.99, 1.01, "the corners of the motion fall between other points"
+    ),
+)  # fmt: skip
+def with_half(share=0.5, speed=1.0, weight=1.0, points=LAB.POINTS):
+    """Return its seconds by the library's fastest_along."""
+    A, B, G, most = LAB.along(ARM, panda.READY_Q, LAB.TO, points)
+    x = library.fastest_along(A, B, weight * G, share * LIMITS, speed**2 * most)
+    return LAB.seconds(x)
+
+
+@numbers.add(
+    "torque above its limit at the end of a step", "{:.1%}",
+    points=times(0.5, "the limits change half as much in half a step"),
+    share=between(0.8, 2.0, "half of the torque: other steps, of like size", to=0.5),
+)  # fmt: skip
+def above(points=LAB.POINTS, share=1.0):
+    """Return by what share of a limit the worst torque is above it."""
+    path = LAB.along(ARM, panda.READY_Q, LAB.TO, points)
+    x = library.fastest_along(*path[:3], share * LIMITS, path[3])
+    most = share * LIMITS
+    at = LAB.torque_share(INVERSE, most, panda.READY_Q, LAB.TO, x, (0.5, 1.0))
+    return at - 1.0
+
+
+@numbers.add(
+    "ways over the wall, of 60, with 40 samples", "{:.0f}",
+    step=between(1.3, 1.8, "a tree gets further with each sample"),
+    roof=between(1.4, 2.0, "the way is less narrow", to=1.0),
+    margin=between(0.6, 1.0, "the way is narrower"),
+    first=between(0.7, 1.4, "60 others: 22 to 36 are believable", to=60),
+    samples=between(1.5, 2.0, "twice as many tries"),
+)  # fmt: skip
+def found(step=LAB.STEP, roof=DAY.ROOF, margin=DAY.MARGIN, first=0, samples=40):
+    """Return how many."""
+    wall = DAY.Wall(roof=roof)
+    with turned(DAY, MARGIN=margin):
+        return sum(
+            len(LAB.rrt_connect(
+                DAY.START, DAY.GOAL, wall,
+                DAY.samples(wall.model, LAB.COUNTS[-1], seed)[:samples], step,
+            )) > 0
+            for seed in range(first, first + 60)
+        )  # fmt: skip

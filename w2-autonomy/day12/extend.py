@@ -1,0 +1,129 @@
+"""12.3 `extend(tree, sample, step, world)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Index, Mask, Row, Vector
+from robo47.planning import disc_edge_free, extend, nearest, steer
+
+from .ways import CLEAR, DISC, NONE, clear, discs, second_best, usual
+
+row = Row(
+    (
+        Index(called="the nearest node"),
+        Vector((2,), called="the new point"),
+        Mask(called="whether it is free"),
+    ),
+    at_edge=lambda tree, sample, step, world: definite(tree, sample, step, world),
+)
+
+
+def definite(tree, sample, step, world):
+    """Return whether rounding decides neither the node nor the edge."""
+    i, q, _ = extend(tree, sample, step, world)
+    tie = abs(np.linalg.norm(sample - tree[i]) - step) < CLEAR
+    return second_best(tree, sample) > CLEAR and clear(tree[i], q, world) and not tie
+
+
+def asked(rng, free, far, n=6):
+    """Return a question whose edge is free, or not, to a sample far away, or near."""
+    while True:
+        tree, world = rng.numbers(-1, 1, n, 2), discs(rng, 3)
+        step = (0.313, 0.627)[rng.integers(2)]
+        sample = rng.numbers(-1.5, 1.5, 2)
+        i, _, open_ = extend(tree, sample, step, world)
+        away = np.linalg.norm(sample - tree[i])
+        # Where a step ends in the open and the sample is hit, and the other way round.
+        beyond = disc_edge_free(tree[i], sample, world) is not open_
+        start = disc_edge_free(tree[i], tree[i], world)
+        if not start or bool(away > step) is not far or open_ is not free:
+            continue
+        if (beyond or not far or rng.uniform(0, 1) < 0.3) and definite(
+            tree, sample, step, world
+        ):
+            return tree, sample, step, world
+
+
+@row.inputs
+def _(rng):
+    yield np.array([[0.0, 0], [1, 0]]), np.array([1.0, 2]), 0.5, DISC
+    yield np.array([[0.0, 0], [1, 0]]), np.array([1.0, 2]), 0.4, DISC
+    yield np.array([[0.0, 0]]), np.array([0.0, 0.3]), 0.5, NONE
+    yield np.array([[1.0, 1], [3, 0]]), np.array([1.0, 3]), 1.5, DISC  # out of a disc
+    # Between two free ends: a thin disc.
+    thin = np.array([[0.25, 0, 0.02]])
+    yield np.array([[2.0, 2], [0, 0]]), np.array([0.4, 0]), 0.5, thin
+    yield np.array([[0.0, 0], [3, 0]]), np.array([1.0, 0]), 0.5, thin
+    kinds = [(True, True), (False, True), (True, False), (False, False)]
+    rng = usual(rng)
+    for free, far in kinds[:2] * 5 + kinds[2:] * 2:
+        yield asked(rng, free, far)
+
+
+@row.wrongs
+def _(tree, sample, step, world):
+    """from-the-newest: it grows from the newest node; the nearest one grows
+    from-the-root: it grows from the first node, the root; the nearest one grows
+    sample-itself: the new point is the sample, however far: steer's step is missing
+    sample-itself 2: the new point is the sample, and the edge to it is what is checked:
+      steer's step is missing => with the sample for the new point
+    point-only: only the new point is checked, not the edge that leads to it
+    node-only: only the node is checked, not the edge that leads away from it
+    always-free: no edge is checked: every one is free
+    never-free: no edge is free
+    edge-from-the-root: the edge from the root to the new point is checked; it starts at
+      the nearest node
+    edge-to-the-sample: the edge to the sample is checked; the tree only grows by a step
+    edge-on-from-there: the edge from the new point to the sample is checked; the tree
+      grows by the one before it
+    hit-for-free: True and False are swapped: it says whether the edge is hit
+    stays-where-blocked: where the edge is not free the node itself comes back; where it
+      would have grown to is asked for
+    index-of-the-new: the index is the one that the new point will have; it is that of
+      the node it grows from
+    away: it grows away from the sample: steer takes the node, then the sample
+    from-the-sample: it is steered from the sample to the node; the tree grows from the
+      node
+    farthest: the farthest node grows; the nearest one does
+    """
+    i, q, free = extend(tree, sample, step, world)
+    new, root = len(tree) - 1, tree[0]
+    last = steer(tree[new], sample, step)
+    first = steer(root, sample, step)
+    back = steer(sample, tree[i], step)
+    off = 2 * tree[i] - q
+    far = int(np.argmax(np.sum((tree - sample) ** 2, axis=1)))
+    at_far = steer(tree[far], sample, step)
+
+    def check(a, b):
+        return disc_edge_free(a, b, world)
+
+    return {
+        "from-the-newest": (new, last, check(tree[new], last)),
+        "from-the-root": (0, first, check(root, first)),
+        "sample-itself": (i, sample, free),
+        "sample-itself 2": (i, sample, check(tree[i], sample)),
+        "point-only": (i, q, check(q, q)),
+        "node-only": (i, q, check(tree[i], tree[i])),
+        "always-free": (i, q, True),
+        "never-free": (i, q, False),
+        "edge-from-the-root": (i, q, check(root, q)),
+        "edge-to-the-sample": (i, q, check(tree[i], sample)),
+        "edge-on-from-there": (i, q, check(q, sample)),
+        "hit-for-free": (i, q, not free),
+        "stays-where-blocked": (i, q if free else tree[i], free),
+        "index-of-the-new": (len(tree), q, free),
+        "away": (i, off, check(tree[i], off)),
+        "from-the-sample": (i, back, check(sample, back)),
+        "farthest": (far, at_far, check(tree[far], at_far)),
+    }
+
+
+@row.right  # With the library's pieces, checked by hand.
+def _(tree, sample, step, world):
+    i = nearest(tree, sample)
+    way = sample - tree[i]
+    q = tree[i] + way * min(1.0, step / max(np.linalg.norm(way), 1e-12))
+    return i, q, disc_edge_free(q, tree[i], world)
+
+
+row.at_least_0(step="a length")

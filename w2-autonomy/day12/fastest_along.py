@@ -1,0 +1,257 @@
+"""12.9 `fastest_along(A, B, G, limits, x_max)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector, rounded
+from robo47.planning import accel_range, fastest_along
+
+row = Row(Vector((None,), "1/s^2"), at_edge=lambda *call: False)
+
+
+def path(rng, n, k, heavy=0.5, fast=1.6):
+    """Return what is known of a path with n steps and k joints.
+
+    Args:
+        rng: draws it.
+        n: steps.
+        k: joints.
+        heavy: largest share of a limit that gravity takes.
+        fast: largest x_max.
+    """
+    walk = np.cumsum(rng.normal(size=(2, n + 1, k)), axis=1) / np.sqrt(n)
+    limits = rng.numbers(3, 6, k)
+    G = heavy * limits * rng.uniform(-1, 1, (n + 1, k))
+    x_max = rng.numbers(0.4 * fast, fast, n + 1)
+    return rounded(walk[0] + 1.5), rounded(walk[1]), rounded(G), limits, x_max
+
+
+@row.inputs
+def _(rng):
+    one, eight = np.ones((5, 1)), np.array([8.0])
+    yield 2 * one, 0 * one, 0 * one, eight, 9 * one[:, 0]
+    yield 2 * one, 0 * one, 4 * one, eight, 9 * one[:, 0]
+    yield 2 * one, 0 * one, 0 * one, eight, one[:, 0]
+    yield -2 * one, 0 * one, 4 * one, eight, 9 * one[:, 0]
+    heavy = np.array([0.0, 2, 9, 3, 0])[:, None]
+    yield 2 * one, 0 * one, heavy, eight, 9 * one[:, 0]
+    dip = np.array([9.0, 9, 0.4, 9, 9, 9, 9])  # the motors are slow there
+    seven = np.ones((7, 1))
+    yield 2 * seven, 0.5 * seven, seven, eight, dip
+    # Two joints leave no sdd at a point above sd^2 = 0.4, and much before and after.
+    two = np.ones((7, 2))
+    steep = 20.0 * np.eye(7)[3][:, None] * [1.0, -1.0]
+    yield 2 * two, steep, 2 * two, np.array([8.0, 8]), 9 * seven[:, 0]
+    # Above 0.57 the one joint is slowed so much there that it would have to turn back.
+    yield 2 * seven, steep[:, :1], 0 * seven, eight, 9 * seven[:, 0]
+    for n, k, fast in (
+        (6, 2, 9.0),
+        (8, 2, 1.6),
+        (8, 7, 9.0),
+        (10, 7, 0.9),
+        (12, 7, 2.0),
+    ):
+        yield path(rng, n, k, fast=fast)
+    A, B, G, limits, x_max = path(rng, 8, 7, fast=9.0)
+    yield A, B, G - np.eye(9, 7, -2) * 9, limits, x_max
+    for n, k, fast in ((7, 3, 2.5), (9, 7, 1.1)):
+        yield path(rng, n, k, heavy=0.8, fast=fast)
+
+
+def timed(A, B, G, limits, x_max, two_ds=0.0, sd=np.sqrt, end=0.0, start=0.0, last=True,
+          backwards=True, forwards=True, bisections=60, pull=None, at=0, most=None,
+          ranges=accel_range, stands=True):  # fmt: skip
+    """Time a path in another way.
+
+    Args:
+        A, B, G, limits, x_max: as the function has them.
+        two_ds: by which sdd is multiplied; 0 for 2 / N.
+        sd: from x to what is taken for sd.
+        end, start: sd^2 there.
+        last: whether the motion has to stop at its end.
+        backwards, forwards: which passes are made.
+        bisections: of each step backwards.
+        pull: gravity for the ranges; None is G.
+        at: which end of a step its limits are read at, 0 or 1.
+        most: the greatest x, for x_max.
+        ranges: accel_range.
+        stands: whether it looks if gravity alone is too much.
+    """
+    n = len(A) - 1
+    two_ds = two_ds or 2 / n
+    g = G if pull is None else pull
+    top = x_max if most is None else most
+    if stands and np.any(np.abs(G) > limits):
+        return np.zeros(n + 1)
+
+    def bounds(i, x):
+        return ranges(A[i + at], B[i + at], g[i + at], limits, sd(x))
+
+    def reached(i, x, after):
+        low, high = bounds(i, x)
+        return low <= high and x + two_ds * low <= after and x + two_ds * high >= 0
+
+    K = np.array(top, dtype=float)
+    K[-1] = end if last else top[-1]
+    for i in range(n - 1, -1, -1) if backwards else ():
+        good, bad = 0.0, top[i]
+        if reached(i, bad, K[i + 1]):
+            good = bad
+        for _ in range(bisections * (good < bad)):
+            half = (good + bad) / 2
+            good, bad = (half, bad) if reached(i, half, K[i + 1]) else (good, half)
+        K[i] = good
+    if not forwards:
+        return K
+    x = np.full(n + 1, float(start))
+    for i in range(n):
+        x[i + 1] = max(0.0, min(K[i + 1], x[i] + two_ds * bounds(i, x[i])[1]))
+    return x
+
+
+def bobrow(A, B, G, limits, x_max):
+    """Return it with limits backwards read at the point that is left, not reached."""
+    x = fastest_along(A, B, G, limits, x_max)
+    n = len(A) - 1
+    if not x.any():
+        return x
+    K = np.zeros(n + 1)
+    for i in range(n - 1, -1, -1):
+        low = accel_range(A[i + 1], B[i + 1], G[i + 1], limits, np.sqrt(K[i + 1]))[0]
+        K[i] = max(0.0, min(x_max[i], K[i + 1] - 2 / n * low))
+    for i in range(n):
+        high = accel_range(A[i], B[i], G[i], limits, np.sqrt(x[i]))[1]
+        x[i + 1] = max(0.0, min(K[i + 1], x[i] + 2 / n * high))
+    return x
+
+
+@row.wrongs
+def _(A, B, G, limits, x_max):
+    """no-braking: there is no pass backwards: it goes as fast as it can, and cannot
+      stop at the end => the pass forwards alone, up to x_max
+    no-braking 2: there is no pass backwards: it goes as fast as it can, and is stopped
+      at the end in no time => the pass forwards alone, with 0 at the end
+    end-not-at-rest: the pass backwards starts with x_max at the end; it starts with 0
+    start-not-at-rest: it begins with the greatest sd^2 from which it can stop; it
+      begins at rest
+    backward-pass-only: there is no pass forwards: it begins in motion => the pass
+      backwards alone
+    backward-pass-only 2: there is no pass forwards: it jumps from rest to the greatest
+      sd^2 => the pass backwards alone, with 0 at the start
+    smaller-of-two-passes: each pass is made by itself, and the smaller of both is
+      taken; forwards, it has to go on from what the other one leaves
+    ds-for-2-ds: sd^2 grows by 2 ds u in a step; here it is ds u
+    four-ds: sd^2 grows by 2 ds u in a step; here it is 4 ds u
+    points-for-steps: ds is 1 / (N + 1): N + 1 points have N steps
+    sd-for-sd2: accel_range is given x; it wants sd, its root
+    no-speed-limit: x_max is not used: the motors' speed is no limit
+    speed-limit-forwards-only: x_max is used forwards alone: what comes after was not
+      looked at
+    gravity-forgotten: gravity is left out of what the torques allow
+    coriolis-forgotten: B is left out of what the torques allow
+    cannot-stand-goes: where gravity alone is too much at a point the arm cannot hold
+      there; zeros are asked for => without that case
+    few-bisections: an interval that is halved so seldom is still wide => 10 times
+    few-bisections 2: an interval that is halved so seldom is still wide => 20 times
+    limits-of-the-next-point: the limits of a step are read at its end; they are those
+      of its first point
+    bobrow: backwards the limits are read at the point that comes after; a step's are
+      those of its first point
+    root: this is sd; its square is asked for
+    times: this is when each point is reached, and not sd^2
+    half-the-torque: only half of the torque is used
+    least-for-greatest: forwards it takes the least sdd that is allowed
+    accelerations: this is sdd of each step, and 0
+    """
+    given = (A, B, G, limits, x_max)
+    right = fastest_along(*given)
+    heavy = np.any(np.abs(G) > limits)
+    free = timed(*given, backwards=False, last=False)
+    stopped = np.append(free[:-1], 0.0) if not heavy else right
+    back = timed(*given, forwards=False)
+    alone = np.append(0.0, back[1:]) if not heavy else back
+    wide = np.full(len(A), 1e3)
+    sd = np.sqrt(right)
+    n = len(A) - 1
+    with np.errstate(divide="ignore"):
+        times = np.append(0, np.cumsum(2 / n / np.maximum(sd[1:] + sd[:-1], 1e-9)))
+
+    def least(*args):
+        return accel_range(*args)[[0, 0]]
+
+    two = np.minimum(free, back) if not heavy else right
+    fall = np.append(0.0, np.minimum(timed(*given, most=wide)[1:], x_max[1:]))
+    return {
+        "no-braking": free,
+        "no-braking 2": stopped,
+        "end-not-at-rest": timed(*given, last=False),
+        "start-not-at-rest": timed(*given, start=0.0 if heavy else back[0]),
+        "backward-pass-only": back,
+        "backward-pass-only 2": alone,
+        "smaller-of-two-passes": two,
+        "ds-for-2-ds": timed(*given, two_ds=1 / n),
+        "four-ds": timed(*given, two_ds=4 / n),
+        "points-for-steps": timed(*given, two_ds=2 / (n + 1)),
+        "sd-for-sd2": timed(*given, sd=lambda x: x),
+        "no-speed-limit": timed(*given, most=wide),
+        "speed-limit-forwards-only": fall,
+        "gravity-forgotten": timed(*given, pull=0 * G),
+        "coriolis-forgotten": timed(A, 0 * B, G, limits, x_max),
+        "cannot-stand-goes": timed(*given, stands=False),
+        "few-bisections": timed(*given, bisections=10),
+        "few-bisections 2": timed(*given, bisections=20),
+        "limits-of-the-next-point": timed(*given, at=1),
+        "bobrow": bobrow(*given),
+        "root": sd,
+        "times": times if not heavy else 0 * times,
+        "half-the-torque": fastest_along(A, B, G, limits / 2, x_max),
+        "least-for-greatest": timed(*given, ranges=lambda *x: least(*x)),
+        "accelerations": np.append(np.diff(right) * n / 2, 0.0),
+    }
+
+
+@row.right  # Where straight lines cross, for bisection.
+def _(A, B, G, limits, x_max):
+    n = len(A) - 1
+    x, K = np.zeros(n + 1), np.zeros(n + 1)
+    if np.any(np.abs(G) > limits):
+        return x
+    for i in range(n - 1, -1, -1):
+        a, b, g = A[i], B[i], G[i]
+        moves = a != 0
+        size, sign = np.abs(a[moves]), np.sign(a[moves])
+        rest, slope = (g * 1.0)[moves] * sign, (b * 1.0)[moves] * sign
+        # u between (p - m x) of each joint, and of the next point.
+        low = np.append((-limits[moves] - rest) / size, 0.0)
+        high = np.append((limits[moves] - rest) / size, K[i + 1] * n / 2)
+        slope = np.append(slope / size, n / 2)
+        top = x_max[i]
+        for least, m in zip(low, slope, strict=True):
+            for h, k in zip(high, slope, strict=True):
+                if k - m > 1e-12:  # least - m x <= h - k x
+                    top = min(top, (h - least) / (k - m))
+        for r, m, lim in zip(g[~moves], b[~moves], limits[~moves], strict=True):
+            if m:
+                top = min(top, (lim - np.sign(m) * r) / abs(m))
+        K[i] = max(0.0, top)
+    for i in range(n):
+        high = accel_range(A[i], B[i], G[i], limits, np.sqrt(x[i]))[1]
+        x[i + 1] = max(0.0, min(K[i + 1], x[i] + 2 / n * high))
+    return x
+
+
+row.at_least_0(limits="of torques, both ways", x_max="a square", answer="a square")
+
+STEP = "return low <= high and x + two_ds * low <= after and (x + two_ds * high >= 0.0)"
+row.same(
+    "for i in range(len(A) - 1): => for i in range(len(A) - 2):",
+    "the last sd^2 is 0 anyhow",
+)
+for change in (
+    "for _ in range(60 * (good < bad)): => for _ in range(120 * (good < bad)):",
+    "for _ in range(60 * (good < bad)): => for _ in range(60 * (good < 0.5 * bad)):",
+    "for _ in range(60 * (good < bad)): => for _ in range(60 * (good < 10.0 * bad)):",
+):
+    row.same(change, "60 halvings leave the last digit; the count is 60 or none")
+for how in ("np.clip(({}), -1, 1)", "({}).astype(np.float32)"):
+    row.same(f"return {how.format('np.zeros(len(A))')}", "zeros")
+    row.same(f"return {how.format(STEP[7:])}", "a truth value")

@@ -1,0 +1,121 @@
+"""The picture of Day 12, made with the lab's own functions; drawn by `make figures`.
+
+way     both trees in the plane and the way they found; a path's speed and its torques
+"""
+
+from typing import NamedTuple
+
+import day12_planning as lab
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+
+from labkit.figures import chart
+from labkit.figures.chart import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, RED, SKY
+from robo47 import panda, simulate
+from robo47 import planning as library
+
+import day12_mujoco
+
+SEED = 2  # of the picture's world
+SAMPLES = 150
+
+
+class Seen(NamedTuple):
+    """A world of discs that keeps each edge it was asked about, and what it said."""
+
+    discs: np.ndarray
+    edges: list
+
+    def edge_free(self, a: np.ndarray, b: np.ndarray) -> bool:
+        """Return what the lab's checker says."""
+        free = lab.disc_edge_free(a, b, self.discs)
+        self.edges.append((np.array(a), np.array(b), bool(free)))
+        return free
+
+
+@chart.picture(height=6.4)
+def way(figure: Figure) -> None:
+    """Draw two trees and their way; speed and torques of Day 7's move."""
+    plane, right = figure.subfigures(1, 2, width_ratios=(1.15, 1.0))
+    speed, torques = right.subplots(2, 1, sharex=True)
+    _plane(plane.subplots())
+    arm = panda.arm(day12_mujoco.Wall().model)
+    _, limits = simulate.limits(day12_mujoco.Wall().model)
+    _motion(speed, torques, lab.along(arm, panda.READY_Q, lab.TO, lab.POINTS), limits)
+
+
+def _plane(axes: Axes) -> None:
+    """Draw discs, both trees as the lab's planner asked for them, and the way."""
+    rng = np.random.default_rng(SEED)
+    start, goal, discs = lab.plane_world(rng)
+    samples = rng.uniform(-1.2, 1.2, (SAMPLES, 2))
+    seen = Seen(discs, [])
+    found = lab.rrt_connect(start, goal, seen, samples, lab.EDGE)
+    for x, y, r in discs:
+        axes.add_patch(Circle((x, y), r, color="#ced4da"))
+    for root, colour, name in ((start, BLUE, "the start's tree"),
+                               (goal, ORANGE, "the goal's tree")):  # fmt: skip
+        label = name
+        for a, b in _of_tree(root, seen.edges):
+            axes.plot(*np.array([a, b]).T, color=colour, linewidth=1.1, label=label)
+            label = None
+    if len(found):
+        axes.plot(*found.T, color=INK, linewidth=2.5, label="the way")
+        pairs = rng.uniform(0.0, 1.0, (lab.PAIRS, 2))
+        cut = lab.shortcut(found, discs, pairs)
+        axes.plot(*cut.T, "--", color=RED, label="cut")
+    axes.plot(*start, "o", color=BLUE)
+    axes.plot(*goal, "s", color=ORANGE)
+    axes.set(aspect="equal", xlim=(-1.35, 1.35), ylim=(-1.35, 2.45), title="Two trees")
+    axes.set_yticks([-1, 0, 1])
+    axes.legend(loc="upper left")
+
+
+def _of_tree(root: np.ndarray, edges: list) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Return the free edges that hang on a root."""
+    there = {root.tobytes()}
+    kept = []
+    for a, b, free in edges:
+        if free and a.tobytes() in there:
+            there.add(b.tobytes())
+            kept.append((a, b))
+    return kept
+
+
+def _motion(speed: Axes, torques: Axes, path: tuple, limits: np.ndarray) -> None:
+    """Draw sd^2 with all and half of the torque, and the torques of the second."""
+    A, B, G, most = path
+    s = np.linspace(0.0, 1.0, len(most))
+    x, whose = _fastest(A, B, G, limits, most)
+    half, _ = _fastest(A, B, G, 0.5 * limits, most)
+    speed.plot(s, most, "--", color=GREY, label="the motors' speed")
+    speed.plot(s, x, ":", color=RED, label="all of the torque")
+    speed.plot(s, half, color=INK, label="half of it")
+    speed.set(ylabel="sd², 1/s²", ylim=(0, 1.9 * most.max()), title=whose)
+    speed.legend(loc="upper left")
+    u = np.diff(half) * (len(half) - 1) / 2.0
+    tau = A[:-1] * u[:, None] + B[:-1] * half[:-1, None] + G[:-1]
+    share = np.abs(tau) / (0.5 * limits)
+    colours = (BLUE, ORANGE, GREEN, RED, PURPLE, SKY, GREY)
+    for i, (one, colour) in enumerate(zip(share.T, colours, strict=True)):
+        name = f"joint {i + 1}" if one.max() > 0.99 else None
+        torques.plot(s[:-1], one, color=colour, linewidth=1.5, label=name)
+    torques.axhline(1.0, color=INK, linewidth=1.0)
+    torques.set(xlabel="s", ylabel="share of half", ylim=(0, 1.45))
+    torques.legend(loc="upper center", ncols=2)
+    torques.grid()
+    speed.grid()
+
+
+def _fastest(*given: np.ndarray) -> tuple[np.ndarray, str]:
+    """Return the lab's fastest motion, or the library's, and whose it is."""
+    try:
+        return lab.fastest_along(*given), "Day 7's move"
+    except NotImplementedError:  # the side quest
+        return library.fastest_along(*given), "The library's move"
+
+
+FIGURES = {"way": way}
+SMALL = ("way", 0.09, 0.1, 0.42)  # its left, top and width, in parts of its width

@@ -1,0 +1,96 @@
+"""12.1 `nearest(tree, q)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Index, Row
+from robo47.planning import nearest
+
+from .ways import CLEAR, second_best, usual
+
+# Two nodes that are equally near, but for rounding, are nobody's question.
+row = Row(Index(), at_edge=lambda tree, q: second_best(tree, q) > CLEAR)
+
+
+@row.inputs
+def _(rng):
+    yield np.array([[0.0, 0], [2, 0], [1, 1]]), np.array([1.0, 0])
+    corners = np.array([[1.0, 1], [-1, 1], [-1, -1], [1, -1]])
+    yield corners, np.zeros(2)
+    yield corners, np.array([-2.0, 0])
+    yield np.array([[3.0, 4]]), np.zeros(2)
+    yield np.array([[5.0, 0], [0, 0], [2, 0], [2, 0], [0, 0]]), np.array([1.0, 0])
+    # The fourth is nearest, and each of its coordinates is further off than another's.
+    yield np.array([[0.0, 9, 9], [9, 0, 9], [9, 9, 0], [2, 2, 2]]), np.zeros(3)
+    rng = usual(rng)
+    for n, k in ((5, 2), (9, 2), (12, 2), (7, 3), (6, 7), (9, 7), (14, 7), (25, 7)) * 2:
+        while True:
+            tree, q = rng.numbers(-2, 2, n, k), rng.numbers(-2, 2, k)
+            if second_best(tree, q) > CLEAR:
+                break
+        yield tree, q
+
+
+@row.wrongs
+def _(tree, q):
+    """farthest: this is the node that is farthest away; the nearest is asked for
+    newest: this is the last node of the tree, wherever q is
+    one-coordinate: only the first coordinate is compared; all of them count
+    one-coordinate 2: only the last coordinate is compared; all of them count
+    signed-sum: the differences are added with their signs, so that they cancel; add
+      their squares
+    signed-sum 2: the differences are added before they are squared, so that they
+      cancel; square them first
+    last-of-equals: of equally near nodes this is the last one; asked for is the first,
+      as argmin has it
+    largest-coordinate: nodes are compared by their largest difference in one
+      coordinate; the distance is the root of the sum of squares
+    sum-of-sizes: nodes are compared by the sum of the differences' sizes; the distance
+      is the root of the sum of squares
+    from-the-origin: this is the node nearest to the origin: q is not used
+    q-added: q is added to the nodes; the difference is needed
+    most-alike: nodes are compared by their product with q, which also grows with a
+      node's length
+    place-of-the-distance: the nodes are sorted, and this is the place of the first node
+      in that order => the first entry of argsort(argsort(distance))
+    counted-from-the-end: the places are counted from the end
+    smallest-coordinate: nodes are compared by their smallest difference in one
+      coordinate
+    """
+    away = tree - q
+    far = np.sum(away**2, axis=1)
+    n = len(tree)
+    best = nearest(tree, q)
+    return {
+        "farthest": int(np.argmax(far)),
+        "newest": n - 1,
+        "one-coordinate": int(np.argmin(np.abs(away[:, 0]))),
+        "one-coordinate 2": int(np.argmin(np.abs(away[:, -1]))),
+        "signed-sum": int(np.argmin(away.sum(axis=1))),
+        "signed-sum 2": int(np.argmin(away.sum(axis=1) ** 2)),
+        "last-of-equals": n - 1 - int(np.argmin(far[::-1])),
+        "largest-coordinate": int(np.argmin(np.abs(away).max(axis=1))),
+        "sum-of-sizes": int(np.argmin(np.abs(away).sum(axis=1))),
+        "from-the-origin": int(np.argmin(np.sum(tree**2, axis=1))),
+        "q-added": int(np.argmin(np.sum((tree + q) ** 2, axis=1))),
+        "most-alike": int(np.argmax(tree @ q)),
+        "place-of-the-distance": int(np.argsort(np.argsort(far))[0]),
+        "counted-from-the-end": n - 1 - best,
+        "smallest-coordinate": int(np.argmin(np.abs(away).min(axis=1))),
+    }
+
+
+@row.right  # By a loop over norms.
+def _(tree, q):
+    best = 0
+    for i, node in enumerate(tree):
+        if np.linalg.norm(node - q) < np.linalg.norm(tree[best] - q):
+            best = i
+    return best
+
+
+@row.right  # Without differences.
+def _(tree, q):
+    return int(np.argmin(np.hypot.reduce(np.abs(tree - q), axis=1)))
+
+
+row.at_least_0(answer="an index")

@@ -1,0 +1,80 @@
+"""12.7 `path_dynamics(M, dq, ddq, coriolis, gravity)`: its questions and mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row, rounded
+from robo47.planning import path_dynamics
+
+row = Row(Matrix((3, None), "N m", rows=("a", "b", "g")))
+
+
+@row.inputs
+def _(rng):
+    one = np.ones(1)
+    yield 2 * np.eye(1), 3 * one, one, 5 * one, 7 * one
+    straight = np.array([[2.0, 0.5], [0.5, 1]]), np.array([1.0, -2]), np.zeros(2)
+    yield *straight, np.array([0.3, -0.4]), np.array([0.0, 9])
+    for k in (2, 3, 7, 7, 7, 7, 7, 7):
+        half = rng.numbers(-1, 1, k, k)
+        M = rounded(half @ half.T + 0.5 * np.eye(k))
+        yield M, *rng.numbers(-2, 2, 3, k), rng.numbers(-30, 30, k)
+
+
+@row.wrongs
+def _(M, dq, ddq, coriolis, gravity):
+    """ddq-forgotten: M ddq is missing in b: a curved path turns the arm even at a
+      constant sd
+    coriolis-forgotten: the Coriolis torque is missing in b
+    bias-for-coriolis: gravity is added to b as well: it does not grow with sd^2, and
+      stands in g alone
+    gravity-off-coriolis: gravity is taken off in b: `coriolis` holds none
+    m-forgotten: a is dq: the mass matrix is missing
+    m-forgotten 2: b is ddq + c: its mass matrix is missing
+    m-forgotten 3: the mass matrix is missing in a and in b
+    diagonal-only: only the diagonal of the mass matrix is used: joints move each other,
+      too
+    a-and-b-exchanged: a and b are exchanged: sdd comes with dq, sd^2 with ddq
+    g-first: g is the first row: they are a, b and g
+    ddq-in-a: M dq and M ddq are exchanged: qdd = dq sdd + ddq sd^2
+    m-dq-twice: b holds M dq; it is M ddq
+    both-in-a: M ddq is added to a; it belongs to sd^2
+    gravity-sign: gravity is negated: tau holds the arm up, so it is added
+    gravity-forgotten: gravity is missing: the third row is 0
+    coriolis-sign: the Coriolis torque is negated
+    coriolis-times-dq: the Coriolis torque is multiplied with dq; it is that at qd = dq
+      already
+    dq-squared: b has dq^2 for ddq
+    solved: M is inverted: that turns torques into accelerations
+    """
+    right = path_dynamics(M, dq, ddq, coriolis, gravity)
+    a, b, g = right
+    return {
+        "ddq-forgotten": np.array([a, coriolis, g]),
+        "coriolis-forgotten": np.array([a, M @ ddq, g]),
+        "bias-for-coriolis": np.array([a, b + gravity, g]),
+        "gravity-off-coriolis": np.array([a, b - gravity, g]),
+        "m-forgotten": np.array([dq, b, g]),
+        "m-forgotten 2": np.array([a, ddq + coriolis, g]),
+        "m-forgotten 3": np.array([dq, ddq + coriolis, g]),
+        "diagonal-only": np.array(
+            [M.diagonal() * dq, M.diagonal() * ddq + coriolis, g]
+        ),
+        "a-and-b-exchanged": right[[1, 0, 2]],
+        "g-first": right[[2, 0, 1]],
+        "ddq-in-a": np.array([M @ ddq, M @ dq + coriolis, g]),
+        "m-dq-twice": np.array([a, a + coriolis, g]),
+        "both-in-a": np.array([a + M @ ddq, coriolis, g]),
+        "gravity-sign": np.array([a, b, -g]),
+        "gravity-forgotten": np.array([a, b, 0 * g]),
+        "coriolis-sign": np.array([a, M @ ddq - coriolis, g]),
+        "coriolis-times-dq": np.array([a, M @ ddq + coriolis * dq, g]),
+        "dq-squared": np.array([a, M @ dq**2 + coriolis, g]),
+        "solved": np.array(
+            [np.linalg.solve(M, dq), np.linalg.solve(M, ddq) + coriolis, g]
+        ),
+    }
+
+
+@row.right  # Row by row, with M turned over: it is symmetric.
+def _(M, dq, ddq, coriolis, gravity):
+    return np.vstack([dq @ M, ddq @ M + coriolis, gravity])

@@ -1,0 +1,173 @@
+"""12.4 `rrt_connect(start, goal, world, samples, step)`: its questions and mistakes."""
+
+from functools import partial
+
+import numpy as np
+
+from labkit.judge import Row, Slip, Waypoints
+from robo47.planning import extend, rrt_connect
+
+from .ways import NONE, of_a_planner, one_tree, planner, ways_asked
+
+row = Row(
+    Waypoints((None, 2)),
+    unnamed=of_a_planner,
+    at_edge=lambda *call: False,  # trees on a grid are full of ties
+    slips=(
+        Slip(
+            "^stopped",
+            r"\bwhile\b|\bfor\b",
+            "stopped",
+            "A tree that grows towards the *sample* never stands there, if that is "
+            "further than a step: then `until equal` has no end. The other tree grows "
+            "towards the *new node*: compare what it reached with that, and leave the "
+            "loop where an edge is not free.",
+        ),
+    ),
+)
+
+
+@row.inputs
+def _(rng):
+    start, goal = np.zeros(2), np.array([2.5, 0])
+    yield start, goal, NONE, np.array([[0.0, 2]]), 1.0
+    yield start, goal, NONE, np.empty((0, 2)), 1.0
+    # Sample 0 is blocked; sample 1 grows the goal's tree all the same.
+    caged = np.array([[0.0, 0.5, 0.3]])
+    yield start, goal, caged, np.array([[0.0, 2], [2.5, 2]]), 1.0
+    # Free is what sample 0 adds, and the other tree is blocked; sample 1 is the goal's.
+    post = np.array([[1.3, 0, 0.4]])
+    yield (
+        start,
+        goal,
+        post,
+        np.array([[-0.5, 0.3], [2.8, 0.7], [0.9, 1.7], [2, 2]]),
+        0.7,
+    )
+    around = np.linspace(0, 2 * np.pi, 12, endpoint=False)
+    ring = np.column_stack([2.5 + np.cos(around), np.sin(around), np.full(12, 0.4)])
+    yield start, goal, np.round(ring, 3), rng.numbers(-1, 4, 16, 2), 0.83
+    # All of it below and left of the origin.
+    yield -start, -goal, post * [-1, 1, 1], np.array([[0.5, -0.3], [-2.8, -0.7],
+        [-0.9, -1.7], [-2, -2]]), 0.7  # fmt: skip
+    yield from ways_asked(rng)
+
+
+def _other(**how):
+    """Return a planner that differs."""
+    return partial(planner, **how)
+
+
+@row.wrongs
+def _(start, goal, world, samples, step):
+    """swap-when-it-grew: yours is another planner: valid, and not the one asked for.
+      The trees change places only after a sample that made one grow; here sample 0, 2,
+      4 is the start's whatever became of it
+    swap-when-it-failed: yours is another planner: valid, and not the one asked for. The
+      trees change places only after a blocked sample; here they take turns
+    trees-not-swapped: yours is another planner: valid, and not the one asked for. All
+      samples grow the start's tree; 1, 3, 5 are the goal's
+    goal-first: yours is another planner: valid, and not the one asked for. Sample 0
+      grows the goal's tree; it is the start's
+    connect-one-step: yours is another planner: valid, and not the one asked for. The
+      other tree grows by one edge; it goes on, edge after edge, until it is blocked or
+      stands at the new node
+    connect-to-the-sample: yours is another planner: valid, and not the one asked for.
+      The other tree grows towards the sample; it grows towards the new node
+    greedy-samples: yours is another planner: valid, and not the one asked for. Towards
+      the sample, too, the tree grows edge after edge; one edge is asked for
+    one-tree: yours is another planner: valid, and not the one asked for. Only the
+      start's tree grows, and the goal is tried from each new node; two trees grow here
+    connect-in-one-jump: the other tree joins by one edge, however long; it grows by
+      steps
+    parent-is-the-newest: every node of both trees stands in the way: the parent of a
+      node is the one it grew from, the index that extend returns, and not the one
+      before
+    not-turned-round: the start's branch is read from the newest node to the root, and
+      so comes first backwards; turn it round
+    goal-to-start: the way runs from the goal to the start
+    half-the-path: this is the start's branch alone; the goal's belongs to the way
+    half-the-path 2: this is the goal's branch alone; the start's belongs to the way
+    not-checked: nodes are added whether their edge is free or not: extend's third
+      result is not used
+    meeting-point-twice: the node where the trees meet stands in the way twice
+    meeting-point-lost: the node where the trees meet is in neither half
+    goal-lost: the goal is not in the way
+    start-lost: the start is not in the way
+    ends-only: this is start and goal alone
+    first-sample-left-out: the first sample is not used
+    last-sample-left-out: the last sample is not used
+    straight-tried-first: yours is another planner: it tries start and goal by one edge
+      before any sample; without samples no way is asked for
+    """
+    given = (start, goal, world, samples, step)
+    right = rrt_connect(*given)
+    there = len(right) > 0
+    none = right[:0]
+    straight = len(rrt_connect(start, goal, world, np.array([start]), 99.0)) > 0
+    return {
+        "swap-when-it-grew": _other(turn="grew")(*given),
+        "swap-when-it-failed": _other(turn="failed")(*given),
+        "trees-not-swapped": _other(turn="never")(*given),
+        "goal-first": _other(turn="goal")(*given),
+        "connect-one-step": _other(approach="one")(*given),
+        "connect-to-the-sample": _other(approach="sample")(*given),
+        "greedy-samples": _other(mine="connect")(*given),
+        "one-tree": one_tree(*given),
+        "connect-in-one-jump": _other(approach="jump")(*given),
+        "parent-is-the-newest": _other(parent="newest")(*given),
+        "not-turned-round": _other(joined=lambda a, b: a + b[1:])(*given),
+        "goal-to-start": right[::-1],
+        "half-the-path": _other(joined=lambda a, b: a[::-1])(*given),
+        "half-the-path 2": _other(joined=lambda a, b: b)(*given),
+        "not-checked": _other(free=True)(*given),
+        "meeting-point-twice": _other(joined=lambda a, b: a[::-1] + b)(*given),
+        "meeting-point-lost": _other(joined=lambda a, b: [*a[:0:-1], *b[1:]])(*given),
+        "goal-lost": right[:-1],
+        "start-lost": right[1:],
+        "ends-only": np.array([start, goal]) if there else none,
+        "first-sample-left-out": rrt_connect(start, goal, world, samples[1:], step),
+        "last-sample-left-out": rrt_connect(start, goal, world, samples[:-1], step),
+        "straight-tried-first": np.array([start, goal]) if straight else right,
+    }
+
+
+@row.right  # A branch is kept with each node, and the trees change places.
+def _(start, goal, world, samples, step):
+    one = {"nodes": [start], "ways": [[start]]}
+    two = {"nodes": [goal], "ways": [[goal]]}
+    first = True
+
+    def add(tree, target):
+        i, q, free = extend(np.array(tree["nodes"]), target, step, world)
+        if not free:
+            return None
+        tree["nodes"].append(q)
+        tree["ways"].append([*tree["ways"][i], q])
+        return q
+
+    for sample in samples:
+        new = add(one, sample)
+        if new is not None:
+            while (q := add(two, new)) is not None:
+                if np.all(q == new):
+                    a, b = one["ways"][-1], two["ways"][-1]
+                    way = a[:-1] + b[::-1]
+                    return np.array(way if first else way[::-1])
+        one, two, first = two, one, not first
+    return np.zeros((0, 2))
+
+
+row.at_least_0(step="a length")
+
+row.same("while i > 0: => while i > 0.001 + 0:", "i is a whole number")
+for change in ("[[1], [0]]", "[[0], [1]]"):
+    row.same(f"parents = [[0], [0]] => parents = {change}", "a root's is never read")
+row.same(
+    "mine, other = (k % 2, 1 - k % 2) => mine, other = (k % 2, 1 - k % 4)",
+    "-1 and -2 count from the end of two: they are 1 and 0",
+)
+for what in ("np.empty((0, len(start)))", "free"):
+    for how in ("np.abs(({}))", "np.maximum(({}), 0)", "np.clip(({}), -1, 1)"):
+        row.same(f"return {how.format(what)}", "nothing, or a truth value")
+row.same("return (np.empty((0, len(start)))).astype(np.float32)", "it is empty")

@@ -1,0 +1,181 @@
+"""12.5 `shortcut(path, world, pairs)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Waypoints
+from robo47.planning import disc_edge_free, shortcut
+
+from .ways import NONE, Careful, discs, usual
+
+row = Row(Waypoints((None, 2)), at_edge=lambda *call: False)
+
+
+@row.inputs
+def _(rng):
+    path = np.array([[0.0, 0], [0, 1], [1, 1], [2, 1], [2, 0]])
+    post = np.array([[1.0, 0, 0.5]])
+    yield path, post, np.array([[0.1, 0.9], [0, 0.5], [0.3, 0.99]])
+    yield path, post, np.empty((0, 2))
+    yield path, NONE, np.array([[0.9, 0.1]])  # the other way round, and to the end
+    yield path, NONE, np.array([[0.3, 0.35], [0.45, 0.79]])  # neighbours, and the same
+    yield path[:2], NONE, np.array([[0.1, 0.9]])
+    yield path, np.array([[1.0, 0.5, 0.9]]), np.array([[0.1, 0.9], [0, 0.5]])
+    rng = usual(rng)
+    for m, n, p in (
+        (8, 3, 1),
+        (9, 3, 4),
+        (12, 4, 6),
+        (15, 3, 12),
+        (20, 4, 20),
+        (11, 5, 8),
+    ):
+        while True:
+            world = Careful(discs(rng, n, 0.1, 0.3))
+            turn = np.cumsum(rng.uniform(-0.7, 0.7, m))
+            steps = 0.3 * np.column_stack([np.cos(turn), np.sin(turn)])
+            zigzag = np.round(np.cumsum(steps, axis=0) - [1.2, 0], 3)
+            pairs = rng.numbers(0, 0.999, p, 2)
+            found = shortcut(zigzag, world, pairs)
+            if world.clear and len(found) < m and _blocked(zigzag, world.discs, pairs):
+                break
+        yield zigzag, world.discs, pairs
+
+
+def _blocked(path, world, pairs):
+    """Return whether a disc keeps one of several pairs from cutting."""
+    free = len(shortcut(path, NONE, pairs))
+    return len(pairs) == 1 or len(shortcut(path, world, pairs)) > free
+
+
+def cut(path, world, pairs, places=None, least=1, check=disc_edge_free, join=None,
+        fixed=False, first=False, order=sorted):  # fmt: skip
+    """Cut in another way.
+
+    Args:
+        path, world, pairs: as the function has them.
+        places: from a pair and the number of points to two rows.
+        least: rows that are no further apart are left.
+        check: whether an edge is free.
+        join: from path, i and j to what is left.
+        fixed: whether places are those of the path as it was at first.
+        first: whether it ends with the first cut.
+        order: what is done with the two rows.
+    """
+    places = places or (lambda pair, m: [int(u * m) for u in pair])
+    join = join or (lambda path, i, j: np.vstack([path[: i + 1], path[j:]]))
+    m = len(path)
+    for pair in pairs:
+        i, j = order(places(pair, m if fixed else len(path)))
+        i, j = (min(max(k, 0), len(path) - 1) for k in (i, j))
+        if j - i > least and check(path[i], path[j], world):
+            path = join(path, i, j)
+            if first:
+                break
+    return path
+
+
+def _fixed(path, world, pairs):
+    """Return the path cut by rows of the path as it was at first."""
+    there = np.ones(len(path), bool)
+    for pair in pairs:
+        i, j = sorted(int(u * len(path)) for u in pair)
+        if j - i > 1 and disc_edge_free(path[i], path[j], world):
+            there[i + 1 : j] = False
+    return path[there]
+
+
+@row.wrongs
+def _(path, world, pairs):
+    """not-checked: it cuts whether the edge is free or not
+    one-node-short: the point j is cut off as well, so that the edge goes on to the one
+      after it, which nobody checked
+    one-node-short 2: the point i is cut off as well: keep path[: i + 1]
+    one-too-many: the point before j is kept: what lies between them goes
+    end-lost: the end of the path is lost with the first cut
+    first-cut-only: it ends with the first cut; all pairs are tried
+    indices-of-the-first-path: a pair names rows of the path as it was at first; it is
+      the path as it is by then
+    indices-of-the-first-path 2: a pair names rows of the path as it was at first, in
+      the path as it is by then
+    not-sorted: a pair whose first number is the larger is left out: sort the two rows
+    rounded: u m is rounded; int() cuts it off
+    of-m-minus-one: u is multiplied with m - 1; it is int(u m), so that all rows are
+      equally likely
+    neighbours-too: rows that are next to each other count as cut => with j - i > 0
+    two-apart-left: rows that are two apart are left; what lies between them can go
+    hit-for-free: it cuts where the edge is *not* free
+    unchanged: this is the path as it was
+    all-but-the-ends: this is start and end alone
+    only-the-ends-checked: only the two points are checked, not the edge between them
+    middle-checked: only the middle of the edge is checked
+    reversed: the path comes back from its end to its start
+    ends-at-i: this is the path up to i and no more
+    """
+    none = np.empty((0, 2))
+    cut_i = cut(path, world, pairs, join=lambda p, i, j: np.vstack([p[:i], p[j:]]))
+
+    def late(p, i, j):
+        return np.vstack([p[: i + 1], p[j + 1 :]])
+
+    def ends(a, b, world):
+        return disc_edge_free(a, a, world) and disc_edge_free(b, b, world)
+
+    def middle(a, b, world):
+        return disc_edge_free((a + b) / 2, (a + b) / 2, world)
+
+    def hit(a, b, world):
+        return not disc_edge_free(a, b, world)
+
+    def halved(pair, m):
+        return [int(u * (m - 1)) for u in pair]
+
+    return {
+        "not-checked": shortcut(path, none[:, [0, 0, 0]], pairs),
+        "one-node-short": cut(path, world, pairs, join=late),
+        "one-node-short 2": cut_i,
+        "one-too-many": cut(
+            path, world, pairs, join=lambda p, i, j: np.vstack([p[: i + 1], p[j - 1 :]])
+        ),
+        "end-lost": cut(
+            path, world, pairs, join=lambda p, i, j: np.vstack([p[: i + 1], p[j:-1]])
+        ),
+        "first-cut-only": cut(path, world, pairs, first=True),
+        "indices-of-the-first-path": _fixed(path, world, pairs),
+        "indices-of-the-first-path 2": cut(path, world, pairs, fixed=True),
+        "not-sorted": cut(path, world, pairs, order=list),
+        "rounded": cut(
+            path, world, pairs, lambda pair, m: [round(u * m) for u in pair]
+        ),
+        "of-m-minus-one": cut(path, world, pairs, halved),
+        "neighbours-too": cut(
+            path, world, pairs, least=0, join=lambda p, i, j: np.vstack([p[:i], p[j:]])
+        ),
+        "two-apart-left": cut(path, world, pairs, least=2),
+        "hit-for-free": cut(path, world, pairs, check=hit),
+        "unchanged": path,
+        "all-but-the-ends": path[[0, -1]],
+        "only-the-ends-checked": cut(path, world, pairs, check=ends),
+        "middle-checked": cut(path, world, pairs, check=middle),
+        "reversed": shortcut(path, world, pairs)[::-1],
+        "ends-at-i": cut(path, world, pairs, join=lambda p, i, j: p[: i + 1]),
+    }
+
+
+@row.right  # A list, cut in place.
+def _(path, world, pairs):
+    points = list(path)
+    for u, v in pairs:
+        m = len(points)
+        i, j = min(int(u * m), int(v * m)), max(int(u * m), int(v * m))
+        if j > i + 1 and disc_edge_free(points[i], points[j], world):
+            del points[i + 1 : j]
+    return np.array(points)
+
+
+row.at_least_0(pairs="parts of a path")
+
+row.same(
+    "if j - i > 1 and edge_free(path[i], path[j], world): => "
+    "if j - i > 0.5 * 1 and edge_free(path[i], path[j], world):",
+    "between neighbours there is nothing to cut",
+)

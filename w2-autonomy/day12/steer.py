@@ -1,0 +1,110 @@
+"""12.1 `steer(q, target, step)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+from robo47.planning import steer
+
+row = Row(Vector((None,)))
+
+
+@row.inputs
+def _(rng):
+    yield np.zeros(2), np.array([3.0, 4]), 1.0
+    yield np.zeros(2), np.array([0.3, 0.4]), 1.0
+    yield np.array([1.0, 2]), np.array([1.0, 2]), 0.5
+    yield np.array([1.0, 2]), np.array([1.0, -2]), 0.5
+    yield np.array([0.2, 0.1, -0.3]), np.array([0.25, 0.1, -0.3]), 0.5
+    for k, step in ((2, 0.437), (2, 0.137), (3, 0.611), (7, 0.613), (7, 1.237)):
+        yield rng.numbers(-2, 2, k), rng.numbers(-2, 2, k), step  # far, nearly always
+    for k, step in ((2, 0.713), (2, 2.131), (7, 0.613), (7, 3.217)):
+        q = rng.numbers(-2, 2, k)
+        near = rng.numbers(-0.2, 0.2, k)  # 0.53 at most
+        yield q, np.round(q + near, 3), step
+
+
+@row.wrongs
+def _(q, target, step):
+    """overshoots: it goes a whole step even where the target is nearer, and past it; it
+      ends at the target then => a whole step each time
+    no-limit: it goes to the target, however far: the step limits nothing => the target
+    fraction: it goes the share `step` of the way; a step is a length => q + step
+      (target - q)
+    fraction-at-most-all: it goes the share `step` of the way, at most all of it; a step
+      is a length
+    not-unit: far targets are not divided by their distance => q + step (target - q)
+      where the target is far
+    squared: it divides by the square of the distance; its root makes a direction of
+      length 1
+    from-the-target: a step is taken back from the target; it starts at q
+    direction-only: q is missing: this is the step, and not where it ends
+    direction-only 2: q is missing: this is the step, or the whole way where it is
+      shorter
+    away: it goes away from the target: q - target is the other way round
+    stays-when-near: where the target is no further than a step it does not move; it
+      ends at the target then
+    always-q: it never moves
+    largest-coordinate: the distance is taken for the largest difference in one
+      coordinate; it is the root of the sum of squares
+    largest-coordinate 2: each coordinate is cut to a step; the whole way is to be no
+      longer than one
+    sum-of-sizes: the distance is taken for the sum of the differences' sizes; it is the
+      root of the sum of squares
+    unit-step: it goes 1 far; it is `step` => with step 1
+    half-a-step: it goes half a step
+    limit-the-other-way: where the target is far it jumps to it, and where it is near it
+      goes a whole step: the two cases are swapped
+    from-the-origin: it goes from the origin, not from q
+    """
+    way = target - q
+    far = np.linalg.norm(way)
+    unit = way / far if far else np.zeros_like(way)
+    size = np.abs(way).max() or 1.0
+    total = np.abs(way).sum() or 1.0
+    near = far <= step
+    part = min(1.0, step / far) if far else 0.0
+    return {
+        "overshoots": q + step * unit,
+        "no-limit": target,
+        "fraction": q + step * way,
+        "fraction-at-most-all": q + min(step, 1.0) * way,
+        "not-unit": target if near else q + step * way,
+        "squared": target if near else q + step * unit / far,
+        "from-the-target": target if near else target - step * unit,
+        "direction-only": step * unit,
+        "direction-only 2": part * way,
+        "away": q - part * way,
+        "stays-when-near": q if near else q + step * unit,
+        "always-q": q,
+        "largest-coordinate": q + min(1.0, step / size) * way,
+        "largest-coordinate 2": q + np.clip(way, -step, step),
+        "sum-of-sizes": q + min(1.0, step / total) * way,
+        "unit-step": target if far <= 1.0 else q + unit,
+        "half-a-step": target if far <= step / 2 else q + step / 2 * unit,
+        "limit-the-other-way": q + step * unit if near else target,
+        "from-the-origin": steer(np.zeros_like(q), target, step),
+    }
+
+
+@row.wrong(hidden="the lab never steers to where a tree stands")
+def divided_by_nothing(q, target, step):
+    """where the target is q itself the distance is 0, and 0 / 0 is NaN: there is
+    nothing to go, so it stays => without that case"""
+    way = target - q
+    with np.errstate(all="ignore"):
+        return q + min(step, np.linalg.norm(way)) * (way / np.linalg.norm(way))
+
+
+@row.right  # By the share of the way.
+def _(q, target, step):
+    far = np.sqrt(np.sum((target - q) ** 2))
+    return np.array(target) if far <= step else q + (target - q) * (step / far)
+
+
+@row.right  # By clipping.
+def _(q, target, step):
+    far = np.linalg.norm(q - target)
+    return q + (target - q) * min(1.0, step / max(far, 1e-12))
+
+
+row.at_least_0(step="a length")

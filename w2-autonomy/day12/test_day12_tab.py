@@ -1,0 +1,119 @@
+"""Day 12: the tab Way shows what the student's own functions compute."""
+
+import html
+import importlib.util
+import re
+
+import numpy as np
+import pytest
+
+from conftest import ROOT, load_script, need, paper
+from labkit.lesson.day import find_day
+from robo47 import panda, planning
+
+pytestmark = pytest.mark.kit
+
+DAY = find_day(12)
+lab = load_script(ROOT / "w2-autonomy/src/day12_planning.py")
+
+
+def looked(functions):
+    """Return the tab Way of who wrote these functions; None wrote no file."""
+    need(importlib.util.find_spec("viser") is not None, "viser: make view")
+    page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
+    return DAY.module("inspector").Way(page)
+
+
+def said(tab):
+    """Return the panel's text, without its marks."""
+    return html.unescape(re.sub(r"<[^>]+>", " ", tab.text.content))
+
+
+def colours(tab):
+    """Return how many pixels have the colours of both trees and both ways."""
+    module = DAY.module("inspector")
+    shown = tab.image.image
+    some = (module.BLUE, module.ORANGE, module.WHITE, module.RED)
+    return [int((shown == colour).all(axis=2).sum()) for colour in some]
+
+
+def test_right_functions_find_the_librarys_way_with_trees_that_grow():
+    tab = looked(vars(lab))
+    tab.sets("n")(100.0)
+    assert "your way is the library's" in said(tab)
+    assert min(colours(tab)) > 50
+    many = [int(x) for x in re.search(r"(\d+) and (\d+) nodes", said(tab)).groups()]
+    tab.sets("n")(4.0)
+    few = [int(x) for x in re.search(r"(\d+) and (\d+) nodes", said(tab)).groups()]
+    assert sum(few) < sum(many)
+    assert tab.own.says()[1] == "good"
+
+
+def test_a_count_of_draws_has_the_students_interval():
+    tab = looked(vars(lab))
+    k, n, low, high = re.search(
+        r"(\d+) of (\d+) draws find a way: ([\d.]+) to ([\d.]+)", said(tab)
+    ).groups()
+    assert [float(low), float(high)] == pytest.approx(
+        planning.wilson(int(k), int(n)), abs=0.006
+    )
+    half = {"wilson": lambda k, n: np.array([k / n, k / n])}
+    tab = looked({**vars(lab), **half})
+    assert f"{int(k) / 20:.2f} to {int(k) / 20:.2f}" in said(tab)
+    assert tab.own.says()[1] == "bad"
+
+
+def test_another_planners_way_is_drawn_beside_the_librarys():
+    ways = DAY.module("ways")
+    wrong = {"rrt_connect": lambda *given: ways.planner(*given, turn="never")}
+    tab = looked({**vars(lab), **wrong})
+    tab.sets("n")(100.0)
+    right = looked(vars(lab))
+    right.sets("n")(100.0)
+    assert "is another one from point" in said(tab)
+    assert np.any(tab.image.image != right.image.image)
+
+
+def test_an_extend_that_checks_nothing_grows_through_the_discs():
+    def unchecked(tree, sample, step, world):
+        i, q, _ = lab.extend(tree, sample, step, world)
+        return i, q, True
+
+    tab = looked({**vars(lab), "extend": unchecked})
+    seen = tab.ask(*tab.chosen())
+    hit = [
+        not planning.disc_edge_free(a, b, seen.discs)
+        for edges in seen.edges
+        for a, b in edges
+    ]
+    assert any(hit)
+    assert tab.own.says()[1] == "bad"
+
+
+def test_a_wrong_timing_is_played_beside_the_librarys_seconds():
+    tab = looked(vars(lab))
+    tab.press("over the wall")
+    yours, truth = re.search(
+        r"yours ([\d.]+) s, the library.+?s ([\d.]+) s", tab.timed.content
+    ).groups()
+    assert yours == truth
+
+    def slow(*given):
+        return 0.25 * lab.fastest_along(*given)
+
+    tab = looked({**vars(lab), "fastest_along": slow})
+    tab.press("over the wall")
+    twice = re.search(r"yours ([\d.]+) s", tab.timed.content)[1]
+    assert float(twice) == pytest.approx(2 * float(truth), abs=0.02)
+
+
+def test_without_a_file_the_tab_says_that_it_is_the_librarys():
+    tab = looked(None)
+    assert "there is no file yet" in tab.own.says()[0]
+
+
+def test_what_gives_no_answer_leaves_no_numbers():
+    tab = looked(vars(lab))
+    tab.lost()
+    assert said(tab) == ""
+    assert not tab.image.image.any()
