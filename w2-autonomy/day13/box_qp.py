@@ -21,7 +21,10 @@ def _(rng):
     best = [
         (H, g, lo, hi, np.round(x + 0.7, 3)) for H, g, lo, hi, x in problems(rng, 4)
     ]
-    return [(*case, np.zeros(2)), circling, *best, *boxed(rng)]
+    # Where Newton by H's diagonal alone goes to the corners, and short steps arrive.
+    alike = 0.2 * np.eye(3) + 0.8
+    wide = (alike, np.array([1.0, -2, 0.5]), -9 * one, 9 * one, np.zeros(3))
+    return [(*case, np.zeros(2)), circling, wide, *best, *boxed(rng)]
 
 
 def newton(H, g, lo, hi, x, n=50, frees="pushed", full=False):
@@ -51,6 +54,15 @@ def slid(H, g, lo, hi, x, n, by):
     for _ in range(n):
         x = np.clip(x - by * (H @ x + g), lo, hi)
     return x
+
+
+def solved_once_more(H, g, lo, hi, x):
+    """Return the clipped optimum, with the free entries solved anew, and clipped."""
+    x = np.clip(np.linalg.solve(H, -g), lo, hi)
+    free = (x > lo) & (x < hi)
+    right = -(H @ x + g)[free]
+    x[free] += np.linalg.solve(H[np.ix_(free, free)], right)
+    return np.clip(x, lo, hi)
 
 
 def swept(H, g, lo, hi, x, n):
@@ -90,6 +102,8 @@ def _(H, g, lo, hi, x):
     no-limits: the limits are left out => -H^-1 g
     scaled-back: the way to the best point without limits is walked up to the first
       limit; the others should go on from there
+    solved-once-more: the best point without limits is clipped, the others are solved
+      anew, and that is all; then others may meet, or want to leave
     held-for-good: an entry that has met its limit is never let go, though its slope may
       pull it back inside
     held-by-place: whatever stands at a limit is held, whichever way its slope pushes
@@ -106,6 +120,8 @@ def _(H, g, lo, hi, x):
       in circles: stop at the first limit, or halve the step until the cost falls
     diagonal-hessian: each step divides by H's diagonal only => 100 steps of Jacobi
     gradient-steps: this is x after 50 short steps downhill => with 50 steps of 0.01
+    gradient-steps 2: the slope is steep here, and steps of 0.1 of it are too long: the
+      step that H's largest eigenvalue allows is 1 over that => with 1,000 steps of 0.1
     one-sweep: each entry is made best once, in turn; the first do not know what the
       last have done
     ten-sweeps: each entry is made best in turn, ten times; that is not the end yet
@@ -131,6 +147,7 @@ def _(H, g, lo, hi, x):
         "clip-the-optimum": np.clip(free, lo, hi),
         "no-limits": free,
         "scaled-back": start + min(1.0, share.min()) * way,
+        "solved-once-more": solved_once_more(*given),
         "held-for-good": held_for_good(*given),
         "held-by-place": newton(*given, frees="never"),
         "frees-the-wrong-ones": newton(*given, frees="wrong"),
@@ -141,6 +158,7 @@ def _(H, g, lo, hi, x):
         "whole-steps": newton(*given),
         "diagonal-hessian": jacobi,
         "gradient-steps": slid(*given, 50, 0.01),
+        "gradient-steps 2": lambda: slid(*given, 1_000, 0.1),
         "one-sweep": swept(*given, 1),
         "ten-sweeps": swept(*given, 10),
         "g-sign": box_qp(H, -g, lo, hi, x),

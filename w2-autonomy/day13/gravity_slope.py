@@ -36,6 +36,19 @@ def felt(J, masses, coms, turned, carried=np.greater_equal, lever=1.0):
     return slope
 
 
+def screws_stay(J, masses, coms, g):
+    """Return the slope if only centres of mass moved: omega_i x (omega_j x c + v_j)."""
+    omega, v = J[:3].T, J[3:].T
+    n = len(masses)
+    slope = np.zeros((n, n))
+    for i in range(n):
+        for j in range(n):
+            for k in range(max(i, j), n):
+                moved = np.cross(omega[j], coms[k]) + v[j]
+                slope[i, j] -= masses[k] * g @ np.cross(omega[i], moved)
+    return slope
+
+
 def mirrored(full):
     """Return a symmetric matrix with the lower half of another."""
     return np.tril(full) + np.tril(full, -1).T
@@ -81,6 +94,12 @@ def _(J_space, masses, coms, g):
     only-z: of gravity only its z is used; it may point anywhere => with (0, 0, g_z)
     minus-9.81: g is taken for (0, 0, -9.81); it may point anywhere => with that g
     turned-twice: gravity is turned twice, by omega_i and by omega_j
+    v-for-omega: gravity is turned by v_j; the turn of a joint is its omega, the upper
+      three rows of J_space => with g x v_j
+    torque-added: g is added to g x omega_j: the torque itself is in it; only what
+      changes is asked => with g + g x omega_j
+    screws-stay: only the centres of mass move when joint j turns; the screws of the
+      joints after it turn as well => with the screws where they were
     """
     omega = J_space[:3].T
     turned = np.cross(g, omega)
@@ -117,6 +136,9 @@ def _(J_space, masses, coms, g):
         "only-z": mirrored(felt(*given, np.cross(g_z, omega))),
         "minus-9.81": mirrored(felt(*given, np.cross(DOWN, omega))),
         "turned-twice": mirrored(twice),
+        "v-for-omega": mirrored(felt(*given, np.cross(g, J_space[3:].T))),
+        "torque-added": mirrored(felt(*given, g + turned)),
+        "screws-stay": screws_stay(*given, g),
     }
 
 

@@ -27,6 +27,7 @@ def _(rng):
 def backward(
     fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu, *, order=-1, in_k=1, in_K=1, in_V=1,
     in_drop=1, right_fx=False, short=0.0, keep=(), sum_drop=True, quad=0.5, cross=1.0,
+    cross_xx=1.0,
     gain=True,
 ):  # fmt: skip
     """Return k, K and drop of a pass whose parts may be wrong."""
@@ -51,7 +52,7 @@ def backward(
             Vx = Qx + cross * part if gain else Qx
         if "Vxx" not in keep:
             part = Qux.T @ K[t] + K[t].T @ (Qux + V @ K[t])
-            Vxx = Qxx + part if gain else Qxx
+            Vxx = Qxx + cross_xx * part if gain else Qxx
     return k, K, drop
 
 
@@ -81,6 +82,10 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     Vxx-not-passed-on: Vxx stays that of the end; each step has its own => with Vxx of
       the end
     Vx-without-the-gain: Vx is Qx: what the inputs save is missing in it => with Vx = Qx
+    Vxx-without-the-gain: Vxx is Qxx: what the inputs save is missing in it => with Vxx
+      = Qxx
+    V-signs: in Vx and Vxx what the inputs save has the wrong sign => with Qx - Qux^T k
+      and Qxx - Qux^T K
     nothing-saved: Vx and Vxx are Qx and Qxx: what the inputs save is missing => with Vx
       = Qx and Vxx = Qxx
     Vx-sign: in Vx what the inputs save has the wrong sign => with Qx - Qux^T k
@@ -137,6 +142,8 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
         "Vx-not-passed-on": of(keep=("Vx",)),
         "Vxx-not-passed-on": of(keep=("Vxx",)),
         "Vx-without-the-gain": of(cross=0.0),
+        "Vxx-without-the-gain": of(cross_xx=0.0),
+        "V-signs": of(cross=-1.0, cross_xx=-1.0),
         "nothing-saved": of(gain=False),
         "Vx-sign": of(cross=-1.0),
         "drop-last-step": of(sum_drop=False),

@@ -3,6 +3,7 @@
 import numpy as np
 
 from labkit.judge import Row, Scalar
+from robo47.optimal import box_qp
 
 from .asked import boxed, problems
 
@@ -21,6 +22,12 @@ def _(rng):
         for one in boxed(rng)[:4]
     ]
     return [*cases, *inside, *clipped, *problems(rng, 4), *boxed(rng)]
+
+
+def clipped_first(H, g, lo, hi, x):
+    """Return the residual of the nearest point of the box."""
+    x = np.clip(x, lo, hi)
+    return np.abs(x - np.clip(x - (H @ x + g), lo, hi)).max()
 
 
 @row.wrongs
@@ -52,12 +59,24 @@ def _(H, g, lo, hi, x):
     lower-only: only the lower limit clips
     upper-only: only the upper limit clips
     squared: the largest difference is squared
+    distance: that is how far the best point is; the residual needs no solution => the
+      largest distance to the best point
+    newton-push: x is pushed by Newton's step; it is pushed by its slope => with H^-1
+      times the slope
+    jacobi-push: x is pushed by its slope over H's diagonal; it is pushed by its slope
+    clipped-first: x is clipped first, so what is outside counts for nothing => with
+      clip(x) for x
+    slope-that-counts: that is the largest slope that no limit holds; it is not clipped,
+      and how far x may still go does not limit it
     signed-limit: which limit an entry is pushed to is left out: at either one slopes
       count for nothing => the slope, 0 at the limits
     """
     s = H @ x + g
     d = x - np.clip(x - s, lo, hi)
     free = (x > lo) & (x < hi)
+    counted = np.where(
+        x <= lo, np.minimum(s, 0), np.where(x >= hi, np.maximum(s, 0), s)
+    )
 
     def by(slope):
         return np.abs(x - np.clip(x - slope, lo, hi)).max()
@@ -82,6 +101,11 @@ def _(H, g, lo, hi, x):
         "lower-only": np.abs(x - np.maximum(x - s, lo)).max(),
         "upper-only": np.abs(x - np.minimum(x - s, hi)).max(),
         "squared": np.abs(d).max() ** 2,
+        "distance": np.abs(x - box_qp(H, g, lo, hi, x)).max(),
+        "newton-push": by(np.linalg.solve(H, s)),
+        "jacobi-push": by(s / np.diag(H)),
+        "clipped-first": clipped_first(H, g, lo, hi, x),
+        "slope-that-counts": np.abs(counted).max(),
         "signed-limit": np.abs(np.where(free, s, 0.0)).max(),
     }
 

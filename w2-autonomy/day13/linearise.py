@@ -40,6 +40,18 @@ def joined(qq, qv, vq, vv, qu, vu):
     return np.block([[qq, qv], [vq, vv]]), np.vstack([qu, vu])
 
 
+def exact(A, B, h):
+    """Return the exponential's A and B of a step, by its series."""
+    n, m = B.shape
+    both = np.zeros((n + m, n + m))
+    both[:n] = np.hstack([A, B])
+    term = total = np.eye(n + m)
+    for k in range(1, 60):
+        term = term @ (h * both) / k
+        total = total + term
+    return total[:n, :n], total[:n, n:]
+
+
 @row.wrongs
 def _(M, slope, damping, h):
     """slope-sign: gravity's slope has the wrong sign: what holds the arm grows by it,
@@ -62,7 +74,7 @@ def _(M, slope, damping, h):
       + h v
     half-h-squared: the joints move by h v + h^2 a / 2; in MuJoCo the new speed moves
       them for all of h => with the mean of both speeds
-    velocity-kept: in the lower right of A stands 1; the damping brakes: (M + h D)^-1 M
+    velocity-kept: in the right half of A stands 1; the damping brakes: (M + h D)^-1 M
     velocity-kept 2: in the lower right of A stands 1; the damping brakes: (M + h D)^-1
       M
     M-for-inverse: M + h D multiplies; it divides => with M + h D for its inverse
@@ -78,6 +90,19 @@ def _(M, slope, damping, h):
     halves-swapped: positions and velocities are swapped: x is (q - q0, qd)
     A-transposed: A is transposed
     A-diagonal-M: M is taken for its diagonal
+    exponential: these are the exact ones of the motion in continuous time; MuJoCo's
+      step is not => with the exponential of h times the slopes
+    slope-implicit: the slope acts on the new position; in MuJoCo it acts on the old one
+      => with M + h D + h^2 slope
+    damping-not-diagonal: damping is added to every row of M; it belongs on the diagonal
+      => with M + h damping
+    damping-not-divided: the damping is not divided by M, and acts on the old speed
+      => with 1 - h D in the lower right
+    B-not-divided: B is not divided by M + h D: u is a torque, and no acceleration
+    B-halved-above: the upper half of B is h^2 / 2; the new speed moves the joints for
+      all of h
+    upper-right-h: in the upper right of A stands h; the new speed is (M + h D)^-1 M v
+    upper-left-without-1: in the upper left of A the 1 is missing: q+ begins with q
     """
     n = len(damping)
     one = np.eye(n)
@@ -119,6 +144,23 @@ def _(M, slope, damping, h):
         "halves-swapped": (A[np.ix_(flip, flip)], B[flip]),
         "A-transposed": (A.T, B),
         "A-diagonal-M": stepped(np.diag(np.diag(M)), slope, damping, h),
+        "exponential": exact(*rate, h),
+        "slope-implicit": stepped(
+            M, slope, damping, h, inv=np.linalg.inv(M + h * D + h * h * slope)
+        ),
+        "damping-not-diagonal": stepped(*given, inv=np.linalg.inv(M + h * damping)),
+        "damping-not-divided": joined(
+            one - h * h * M_inv @ slope,
+            h * (one - h * D),
+            -h * M_inv @ slope,
+            one - h * D,
+            h * h * M_inv,
+            h * M_inv,
+        ),
+        "B-not-divided": (A, np.vstack([h * h * one, h * one])),
+        "B-halved-above": (A, np.vstack([B[:n] / 2, B[n:]])),
+        "upper-right-h": joined(qq, h * one, vq, vv, B[:n], B[n:]),
+        "upper-left-without-1": joined(qq - one, qv, vq, vv, B[:n], B[n:]),
     }
 
 

@@ -75,6 +75,8 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
     error-sign: the step goes away from the goal: g is -J^T W e => with +J^T W e
     e-halved: the step is half of it: H and g have the same half => with e / 2
     e-doubled: the step is twice of it: H and g have the same half => with 2 e
+    clipped-twice: Day 3's step is clipped, what is left of e is tried once more and
+      clipped again; joints that are held should be left out of it
     translation-only: only the translation is looked at
     rotation-only: only the rotation is looked at
     """
@@ -85,9 +87,12 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
     free = solved(*given, -far, far)
     limit = np.where(free > 0, hi, lo)
     share = np.divide(limit, free, out=np.ones(7), where=np.abs(free) > 1e-12)
+    once = np.clip(free, lo, hi)
+    again = once + solved(J, e - J @ once, weights, d, -far, far)
     down = np.array([0.0, 0, 0, 1, 1, 1])
     return {
         "clip-after": np.clip(free, lo, hi),
+        "clipped-twice": np.clip(again, lo, hi),
         "scaled-back": free * min(1.0, share.min()),
         "not-limited": free,
         "lower-only": solved(*given, lo, far),

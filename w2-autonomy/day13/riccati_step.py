@@ -41,6 +41,10 @@ def _(P, A, B, Q, R):
     no-control: P is what the arm costs that nobody holds => Q + A^T P A
     P-forgotten: A^T (A - B K): P is missing in it
     R-inverted: R's inverse is added in the gain => with R^-1
+    K-R-K-subtracted: K^T R K is subtracted; it is K^T (R + B^T P B) K that is saved
+      => Q + A^T P A - K^T R K
+    K-K-added: K^T K is added for K^T R K: what u costs is R's => with K^T K
+    K-halved: K is half as large => the right P, and K / 2
     P-not-updated: P is returned as it was
     P-added: the old P is added as well
     B-P-B-forgotten: the gain is divided by R alone => R^-1 B^T P A
@@ -80,6 +84,9 @@ def _(P, A, B, Q, R):
         "no-control": (Q + A.T @ P @ A, K),
         "P-forgotten": (Q + A.T @ closed, K),
         "R-inverted": by(np.linalg.solve(np.linalg.inv(R) + B.T @ P @ B, F)),
+        "K-R-K-subtracted": (Q + A.T @ P @ A - K.T @ R @ K, K),
+        "K-K-added": (Q + closed.T @ P @ closed + K.T @ K, K),
+        "K-halved": (right, K / 2),
         "P-not-updated": (P.copy(), K),
         "P-added": (P + right, K),
         "B-P-B-forgotten": by(np.linalg.solve(R, F)),
