@@ -53,10 +53,10 @@ day%: .venv/.ready-core $(ROBOT) ## set up, run the kit's Day 1 lab, verify it, 
 week%: .venv/.ready-core $(ROBOT) ## run every lab of week 1: its numbers in one table
 	@$(PY) scripts/run_week.py $* $(ARGS) $(NOT_YET)
 
-capstone: .venv/.ready-$(if $(findstring .,$(ARGS)),figures,core) $(ROBOT) ## pick the cube up with your functions of the week; ARGS=--all
+capstone: .venv/.ready-$(if $(findstring .,$(ARGS)),figures,core) $(ROBOT) ## the week at work with your functions; ARGS=--all
 	@$(PY) scripts/capstone.py $(ON_WEEK) $(ARGS) $(NOT_YET)
 
-proof: .venv/.ready-view $(ROBOT) ## a page to show: your numbers, the pick in 3D, one file
+proof: .venv/.ready-view $(ROBOT) ## a page to show: your numbers, the capstone in 3D, one file
 	@$(PY) scripts/proof.py $(if $(WEEK),--week $(WEEK)) $(ON_DAY) $(ARGS) $(NOT_YET)
 
 fresh: .venv/.ready-core $(ROBOT) ## does a clone of your last commit give your numbers?

@@ -12,6 +12,8 @@ Array = NDArray[np.float64]
 # How far a matrix may be from rigid and still be taken for a pose. Wide enough for
 # float32 and for quaternions printed with 7 digits, far too narrow for any mistake.
 RIGID_TOL = 1e-6
+_EYE = np.eye(3)
+_LAST_ROW = np.array([0.0, 0.0, 0.0, 1.0])
 
 
 def array(value: ArrayLike, name: str, shape: tuple[int | str, ...]) -> Array:
@@ -128,7 +130,7 @@ def pose(T: ArrayLike, name: str) -> Array:
 
 def rotation_flaw(R: Array, tol: float) -> str | None:
     """Return what keeps R, (..., 3, 3), from being a rotation, or None."""
-    off = np.abs(R @ np.swapaxes(R, -1, -2) - np.eye(3)).max(initial=0.0)
+    off = np.abs(R @ R.mT - _EYE).max(initial=0.0)
     if off > tol:
         return f"R R^T differs from the identity by {off:.3g} (allowed {tol:.0e})"
     if np.any(np.linalg.det(R) < 0.0):
@@ -138,7 +140,7 @@ def rotation_flaw(R: Array, tol: float) -> str | None:
 
 def pose_flaw(T: Array, tol: float) -> str | None:
     """Return what keeps T, (..., 4, 4), from being a pose, or None."""
-    if np.abs(T[..., 3, :] - [0.0, 0.0, 0.0, 1.0]).max(initial=0.0) > tol:
+    if np.abs(T[..., 3, :] - _LAST_ROW).max(initial=0.0) > tol:
         worst = T.reshape(-1, 4, 4)[:, 3]
         row = worst[np.argmax(np.abs(worst - [0, 0, 0, 1]).max(axis=-1))]
         return f"its bottom row is {np.round(row, 6).tolist()}; expected [0, 0, 0, 1]"

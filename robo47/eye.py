@@ -7,7 +7,7 @@ pixels and depth are those of `robo47.camera`. Metres.
 import mujoco
 import numpy as np
 
-from robo47 import se3
+from robo47 import checks, se3
 from robo47.camera import camera_matrix
 from robo47.checks import Array
 from robo47.errors import Robo47Error
@@ -79,6 +79,27 @@ def depth(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> Array:
         *_NORMALS, n, mujoco.mjMAXVAL,
     )  # fmt: skip
     return np.where(hit < 0, np.inf, far).reshape(height, width)
+
+
+def add(body, name: str, at: Array, to: Array, fovy: float, size: tuple[int, int]):
+    """Add a camera to a body of a MjSpec; its picture's top is up.
+
+    Args:
+        body: of a spec, as `spec.worldbody`.
+        name: of the camera.
+        at, to: where it hangs and what it looks at, in the body's axes, metres, (3,);
+            not straight up or down.
+        fovy: angle of view from top to bottom, degrees, as MuJoCo has it.
+        size: width and height of its picture, pixels.
+
+    Returns:
+        The spec's camera.
+    """
+    z = checks.unit(np.subtract(to, at), "to - at")
+    x = checks.unit(np.cross(z, (0.0, 0.0, 1.0)), "the way to the right")
+    R = np.column_stack([x, np.cross(z, x), z])  # ours: y down
+    quat = se3.R_to_quat(R @ FLIP)
+    return body.add_camera(name=name, pos=at, quat=quat, fovy=fovy, resolution=size)
 
 
 def _number(model: mujoco.MjModel, name: str) -> int:

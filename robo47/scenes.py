@@ -7,6 +7,8 @@ nothing but with what is added here (finger pads, tip), so that a contact is the
 that the lesson is about. Metres, radians, kilograms; lengths of boxes are halves.
 """
 
+from collections.abc import Callable
+
 import mujoco
 import numpy as np
 from numpy.typing import ArrayLike
@@ -41,6 +43,7 @@ def table_top(
     mass: float = CUBE_MASS,
     friction: float = FRICTION,
     meshes: bool = False,
+    add: Callable[[mujoco.MjSpec], None] | None = None,
 ) -> mujoco.MjModel:
     """Return the Panda with its hand at a table with a cube on it.
 
@@ -50,6 +53,7 @@ def table_top(
         mass: of the cube in kg, above 0.
         friction: sliding friction of cube and finger pads, at least 0.
         meshes: True keeps the robot's looks, for pictures; it moves in the same way.
+        add: is given the scene before it is compiled, to add more to it.
 
     Returns:
         The model: motors on the arm's seven joints, the hand's own servo (ctrl 0
@@ -81,6 +85,8 @@ def table_top(
         geom.rgba = [0.95, 0.55, 0.15, 1.0]
         for key in spec.keys:  # the cube adds seven numbers to qpos
             key.qpos = [*key.qpos, *pose]
+        if add is not None:
+            add(spec)
 
     return panda.load("panda", drive="torque", meshes=meshes, edit=edit)
 

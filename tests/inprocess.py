@@ -109,7 +109,7 @@ class InProcess:
         changed = [
             i
             for i, (arg, was) in enumerate(zip(args, question.args, strict=True))
-            if isinstance(was, np.ndarray) and not np.array_equal(arg, was)
+            if isinstance(was, np.ndarray) and not _same(arg, was)
         ]
         shares, handed = _shares(value, kept, args)
         names = list(inspect.signature(function).parameters) if changed + handed else ()
@@ -126,6 +126,11 @@ class InProcess:
         if isinstance(arg, Path):
             return list(arg.pairs)
         return arg.copy() if isinstance(arg, np.ndarray) else arg
+
+
+def _same(arg, was):
+    """Return whether an array is what it was, NaN where it had one."""
+    return np.array_equal(arg, was, equal_nan=was.dtype.kind == "f")
 
 
 @functools.cache

@@ -51,7 +51,7 @@ def test_what_the_skeleton_says_for_the_author_is_told_and_a_worksheet_is_writte
     assert done.returncode == 0, done.stdout
     says = " ".join(done.stdout.split())
     assert "wrote w9-trial/docs/day46.md, yours to fill in" in says
-    assert 'docs/day46.md still has the skeleton\'s "What do you want to ask?"' in says
+    assert 'docs/day46.md has the skeleton\'s "What do you want to ask?" still' in says
 
 
 def test_its_starter_is_to_do_and_its_lab_passes(kit):
@@ -189,6 +189,17 @@ def test_a_students_file_in_the_repository_is_told(kit):
     done = run_copy(kit, AUTHOR, "46", "--fast")
     shutil.rmtree(kit / ".git")
     assert f"git holds {WEEK}/work/day46_trial.py" in " ".join(done.stdout.split())
+
+
+def test_answers_of_the_library_that_no_test_is_about_are_told(kit):
+    name = "_".join(["un", "tested"])  # else this file would be about it
+    (kit / "robo47" / f"{name}.py").write_text('"""Answers."""\n')
+    change(
+        kit / WEEK / "day46" / "day.toml", "# library = [", f'library = ["{name}"] # ['
+    )
+    done = run_copy(kit, AUTHOR, "46", "--fast")
+    (kit / "robo47" / f"{name}.py").unlink()
+    assert f"no test is about robo47/{name}.py" in " ".join(done.stdout.split())
 
 
 def test_a_function_that_another_day_has_is_told(kit):

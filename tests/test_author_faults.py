@@ -7,6 +7,7 @@ import pytest
 
 from conftest import ROOT, SKIPPED, kit_folders, run_copy
 from labkit.author import docstring, hints, seen
+from labkit.author.moved import OUTPUTS, renumbered
 from labkit.judge.row import rows_of
 from labkit.lesson.day import all_days, find_day
 
@@ -181,6 +182,17 @@ class TestADayThatMoves:
         for path in (day.own, day.source):
             for file in [path] if path.is_file() else path.rglob("*.py"):
                 assert "46." not in file.read_text(), file
+
+    def test_tells_no_line_that_is_made_anew(self):
+        for made in ("days: w*", "functions: by day", "run: make help"):
+            text = f"Day 8 <!-- {made} -->\nDay 8\n<!-- end -->"
+            assert OUTPUTS.sub("", text) == "Day 8 "
+
+    def test_takes_the_sentences_of_its_tests_along(self):
+        day = find_day(8)
+        text = "SENTENCES = sentences(8)\nDAY = find_day(8)\nsines(8)\n"
+        new = renumbered(text, day, 12, "day12_mine")
+        assert new == "SENTENCES = sentences(12)\nDAY = find_day(12)\nsines(8)\n"
 
     def test_passes_its_own_check(self, moved):
         copy, _ = moved

@@ -139,3 +139,90 @@ def test_the_call_shown_has_a_wrong_entry():
         .split(", and ")
     )
     assert mine != its
+
+
+def test_what_is_right_where_nothing_is_filtered_is_not_right_whenever_dt_is_1():
+    # At 5 Hz and more one second is so long that every filter follows at once.
+    def low_pass(x, dt, cutoff):
+        alpha = 1 - np.exp(-2 * np.pi * cutoff * dt)
+        return x[0] + np.append(0.0, np.cumsum(alpha**2 * np.diff(x)))
+
+    assert "dt is 1" not in told(9, "9.3", low_pass=low_pass)
+
+
+def test_what_is_small_beside_one_is_not_right_for_that():
+    # Of (kd^2 + sqrt(...)) / 2 the first is nothing where kd is 1 and kp is large.
+    def delay_margin(kp, kd):
+        w = np.sqrt(1.1 * kd**2 + np.sqrt(kd**4 + 4 * kp**2) / 2)
+        return np.arctan(kd * w / kp) / w
+
+    assert "kd is 1" not in told(9, "9.2", delay_margin=delay_margin)
+
+
+def test_the_one_in_a_camera_matrix_is_not_doubled():
+    def project(K, T_cam_world, points):
+        p = points @ T_cam_world[:3, :3].T + 2 * T_cam_world[:3, 3]
+        return (p @ K.T)[:, :2] / (p @ K.T)[:, 2:]
+
+    assert "K doubled" not in told(10, "10.2", project=project)
+
+
+def test_two_powers_of_one_term_are_no_two_mistakes():
+    # m u times m u^2 is m u^3 times m: not cubed, and squared, at once.
+    def nis_interval(n, m):
+        return np.array([float(m), m * (1 + 1e-9)])
+
+    assert "Two things" not in told(9, "9.6", nis_interval=nis_interval)
+
+
+def test_two_mistakes_in_answers_of_several_sizes_are_both_told():
+    def kalman_update(x, P, z, H, R):
+        S = H @ P @ H.T + R
+        K = P @ H.T @ np.linalg.inv(S)
+        y = H @ x - z
+        return x + K @ y, P + K @ S @ K.T, y @ np.linalg.solve(S, y)
+
+    says = told(9, "9.5", kalman_update=kalman_update)
+    assert says.startswith("Two things at once: the surprise is H x - z")
+
+
+def test_two_mistakes_that_only_come_near_are_not_told():
+    # Counts that are hardly rounded: beside 1e4 of them a fraction is nothing.
+    def quantise(q, counts):
+        return np.rint(3 * q * counts) / (6 * np.pi)
+
+    assert "Two things" not in told(9, "9.1", quantise=quantise)
+
+
+def test_one_answer_beside_nan_names_no_mistake():
+    # The root of the identity's entries is also sigma for its square.
+    def pose_covariance(J, sigma):
+        C = right(10, "pose_covariance")(J, sigma)
+        return np.sqrt(C) + 0 * np.log(-C * (1 - np.eye(6)) + np.eye(6) * 0.5 + 1e-300)
+
+    says = told(10, "10.7", pose_covariance=pose_covariance)
+    assert "enters as sigma" not in says
+
+
+def test_a_last_entry_of_several_sizes_is_called_so():
+    def difference(q, dt):
+        found = right(9, "difference")(q, dt)
+        found[-1] *= 1.5
+        return found
+
+    says = told(9, "9.1", difference=difference)
+    assert "All entries are right but the last" in says
+
+
+def test_a_mirror_of_axes_in_one_plane_does_not_pass():
+    def hand_eye(A, B):
+        a, b = (right(10, "log_rotation")(some[:, :3, :3]) for some in (A, B))
+        U, _, Vt = np.linalg.svd(a.T @ b)
+        X = np.eye(4)
+        X[:3, :3] = U @ Vt
+        C = (A[:, :3, :3] - np.eye(3)).reshape(-1, 3)
+        d = (B[:, :3, 3] @ X[:3, :3].T - A[:, :3, 3]).ravel()
+        X[:3, 3] = np.linalg.lstsq(C, d, rcond=None)[0]
+        return X
+
+    assert "mirror image" in told(10, "10.8", hand_eye=hand_eye)

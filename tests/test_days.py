@@ -7,10 +7,12 @@ import pytest
 from catalogue import run_as_lab
 
 from conftest import ROOT, days, kits_worksheet
+from labkit.base import git
 from labkit.handin.worksheet import split_sections
 from labkit.judge.row import rows_of
 from labkit.lesson.lab import predictions
 from labkit.lesson.starter import find_regions, make_starter
+from labkit.lesson.week import WORK, weeks
 from labkit.sandbox.messages import library_of
 
 DAYS = days()
@@ -156,3 +158,15 @@ def test_the_machine_names_no_day():
         if words.search(line.replace("make day1", ""))  # the first command
     ]
     assert named == []
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize("week", weeks(), ids=lambda week: week.folder.name)
+def test_the_kit_holds_no_file_of_a_student(week):
+    """A clone would begin with it, and `make start` would not write the starter."""
+    try:
+        place = f"{week.folder.name}/{WORK}"
+        held = git.run("ls-files", "--", place, folder=ROOT, seconds=git.SECONDS)
+    except git.GitError:
+        pytest.skip("no git repository")
+    assert held.stdout == ""

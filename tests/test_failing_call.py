@@ -95,10 +95,15 @@ def test_edges_are_the_ends_of_every_range_and_whole_axes():
     assert axes.any(axis=1).all()
 
 
+# Of trees on a grid rounding would say which node is the nearest, a part of a
+# path is below 1, and at gravity's limit zeros begin from one bit to the next.
+NO_EDGES = {"rrt_connect", "shortcut", "fastest_along"}
+
+
 @pytest.mark.parametrize("day", all_days(), ids=lambda day: f"day {day.number}")
 def test_every_function_with_one_right_answer_is_asked_at_edges(day):
     for name, row in rows_of(day).items():
-        if row.ask.truth is not None:
+        if row.ask.truth is not None and name not in NO_EDGES:
             assert row.ask.edges, name
             fresh = round_of(row.ask).fresh
             assert len(fresh) >= len(row.ask.edges) + 2

@@ -9,10 +9,11 @@ from make_class import DAY
 from test_grade_in_time import result
 
 from conftest import ROOT
+from labkit.grade import page
 from labkit.grade.course import Course, Graded
 from labkit.grade.result import ungraded
 from labkit.grade.roster import find_students
-from labkit.grade.sheet import PLATFORMS, for_platform, known
+from labkit.grade.sheet import PLATFORMS, as_csv, for_platform, known, of_days
 from labkit.lesson.day import find_day
 from robo47.errors import Robo47Error
 
@@ -67,6 +68,37 @@ def test_moodle_finds_everybody_by_number_or_email(tmp_path):
     head, *rows = read(for_platform(MOODLE, class_of(tmp_path), "Day {day}"))
     assert head == ["ID number", "Email address", "Day 1", "Day 2"]
     assert [row[:2] for row in rows] == [[f"0{i}", f"s{i}@x.org"] for i in range(9)]
+
+
+ODD = ["x\u2028y", "x\x0by\x85z", "two\nlines", "x\ry", "a\0b", "\u202egnp.exe", '"'
+       "<script>alert(1)</script>", "\uff1dSUM(A1)", "\t=1+1", "-2+3", "x" * 90_000,
+       "\x1b]0;owned\x07", "Mia,101,mia,,mia", "s0", "../../x", "\ufeff=1"]  # fmt: skip
+
+
+@pytest.mark.parametrize("whose", ["Student", "ID", "Section", "SIS Login ID"])
+def test_a_name_that_students_give_themselves_stays_one_cell(tmp_path, whose):
+    """A platform's export holds names that students chose."""
+    lines = io.StringIO()
+    table = csv.writer(lines)
+    table.writerow(["Student", "ID", "SIS Login ID", "Section", "folder"])
+    for i, odd in enumerate(ODD):
+        row = {"Student": f"n{i}", "ID": i, "SIS Login ID": f"l{i}", "Section": "A"}
+        table.writerow([*{**row, whose: odd}.values(), f"s{i}"])
+    (tmp_path / "roster.csv").write_text(lines.getvalue(), "utf-8", newline="")
+    students = find_students(tmp_path)
+    assert [one.folder for one in students] == [f"s{i}" for i in range(len(ODD))]
+    assert {one.problem for one in students} == {""}
+    course = Course(DAY, [Graded(one, result(8)) for one in students])
+    tables = [as_csv(course.class_), of_days([course])]
+    tables += [for_platform(one, [course], "Day {day}") for one in (CANVAS, MOODLE)]
+    for content in tables:
+        rows = read(content)
+        assert len({len(row) for row in rows}) == 1
+        assert not [c for row in rows for c in row if c[:1] in tuple("=+@\uff1d\t\r-")]
+        assert all(cell.isprintable() for row in rows for cell in row)
+    text = page.render(course) + page.render_days([course])
+    assert "<script>alert" not in text
+    assert not re.search("[\x00\x1b\u202e\u2028]", text)
 
 
 @pytest.mark.parametrize("platform", PLATFORMS.values(), ids=PLATFORMS)

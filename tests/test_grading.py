@@ -188,7 +188,7 @@ def test_the_drawn_questions_are_the_same_for_everybody(monkeypatch):
     """Else the same code gets two grades; and nobody can know the teacher's seed."""
     seeds = []
 
-    def noted(day, *_, seed):
+    def noted(day, *_, seed, **__):
         seeds.append(seed)
         return [TaskResult(task, Verdict("passed")) for task in day.tasks]
 
@@ -252,9 +252,13 @@ class TestTheGrader:
             (folder / "x.py").write_text("")
         for folder in (old, commit, other):
             os.utime(folder, (1_000_000_000, 1_000_000_000))
+        at_work = tmp_path / f"robo47-grader-{os.getpid()}_a"  # and the clock jumped
+        at_work.mkdir()
+        os.utime(at_work, (5, 5))
         with engine.local(1):
             assert [*map(Path.exists, (old, commit))] == [False, False]
             assert [*map(Path.exists, (new, other))] == [True, True]
+            assert at_work.exists() is sys.platform.startswith("linux")
 
     def test_shows_what_was_refused_though_the_code_caught_it(self):
         curious = "try: open('/etc/shadow')\n    except OSError: pass"
@@ -439,6 +443,13 @@ class TestTheJournal:
         (tmp_path / "j").write_text(head)
         journal = opened(47)
         assert (journal.reference, journal.odd) == (47, 1)
+
+    @pytest.mark.parametrize("now", [-5, 0, 10**11])
+    def test_knows_its_seed_again_whatever_the_clock_says(self, opened, now):
+        first = opened(now)
+        seed = first.seed
+        again = opened(1_788_000_000)
+        assert (again.seed, again.odd) == (seed, 0)
 
     def test_results_come_back_as_they_were(self):
         one = replace(ungraded(DAY, "why"), refused=("open a file",))
@@ -771,6 +782,9 @@ class TestWhatDoesNotShow:
             f"x = '\\''; y = '''\n{RZ}'''",
             f"# {RZ.splitlines()[0]}\nRz = other",
             "from elsewhere import Rz",
+            f"{RZ}from elsewhere import Rz",
+            f"{RZ}from elsewhere import *",
+            f"{RZ}Rz = elsewhere.Rz",
             "class A:\n    def Rz(theta): pass\nRz = A.Rz",
             "",
         ],
@@ -782,6 +796,7 @@ class TestWhatDoesNotShow:
         "texts",
         [
             [RZ],
+            [f"from math import *\n{RZ}import numpy\nx = 1\nRzz = 2"],
             ["from mine import Rz", RZ],
             ["Rz = lambda theta: 1"],
             [f'"""A lab."""\n\n@wraps\n{RZ}'],

@@ -19,6 +19,7 @@ FLOORS = [
     "labkit.sandbox",
     "labkit.handin",
     "labkit.check",
+    "labkit.hunt",
     "labkit.report",
     "labkit.figures",
     "labkit.inspector",

@@ -142,3 +142,29 @@ def test_the_rank_of_what_is_hidden_is_not_a_cut():
         return Y.shape[1] - rank, condition
 
     assert "that are hidden" in told(8, "8.5", identifiable=identifiable)
+
+
+def test_a_result_that_is_right_is_said_to_be():
+    def identifiable(Y, rtol):
+        rank, _ = right(8, "identifiable")(Y, rtol)
+        s = np.linalg.svd(Y, compute_uv=False)
+        return rank, s[0] / np.mean(s[:rank])
+
+    says = told(8, "8.5", identifiable=identifiable)
+    assert says.startswith("The rank is right. The condition: ")
+
+
+def test_two_arguments_exchanged_need_no_name():
+    def arm_regressor(J_space, T_links, qd, qdd, g):
+        return right(8, "arm_regressor")(J_space, T_links, qdd, qd, g)
+
+    says = told(8, "8.3", arm_regressor=arm_regressor)
+    assert "right answer to other arguments: with qd and qdd exchanged." in says
+
+
+def test_two_entries_of_an_argument_exchanged_need_no_name():
+    def quat_to_R(quat):
+        return right(1, "quat_to_R")(quat[[0, 1, 3, 2]])
+
+    says = told(1, "1.4", quat_to_R=quat_to_R)
+    assert "with quat[2] and quat[3] exchanged" in says

@@ -165,6 +165,16 @@ def test_a_network_that_is_cut_leaves_the_last_work_and_a_reason(server):
     assert server.pull() == ("", "x = 2", "main")
 
 
+def test_an_index_that_was_cut_is_made_anew_and_keeps_nothing_old(server):
+    server.push("main", "x = 1")
+    server.pull()
+    (server.student.path / "gone.py").write_text("of an older commit")
+    (server.student.path / ".git" / "index").write_bytes(b"half")
+    server.push("main", "x = 2")
+    assert server.pull() == ("", "x = 2", "main")
+    assert not (server.student.path / "gone.py").exists()
+
+
 @pytest.mark.skipif(os.name == "nt", reason="a shell script stands in for git")
 def test_a_git_that_is_killed_while_it_fetches_costs_that_pull_alone(
     server, tmp_path, monkeypatch

@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import sys
 from shutil import copytree, ignore_patterns
 
 import pytest
@@ -374,6 +375,35 @@ def test_a_run_that_ends_in_its_last_step_is_put_right_by_the_next(
     assert "not committed" in (student / SHEET).read_text("utf-8")
 
 
+@pytest.mark.parametrize("note", ["[1]", "{", '{"now": "HEAD", "own": "-x", "to": 5}',
+    '{"now": "%s", "own": "%s", "to": "deadbeef"}'])  # fmt: skip
+def test_a_note_that_means_nothing_is_left_behind(kit, student, note):
+    mid_term(kit)
+    head = git(student, "rev-parse", "HEAD")
+    (student / ".robo47").mkdir(exist_ok=True)
+    text = note % (head, head) if "%" in note else note
+    (student / ".robo47" / "update.json").write_text(text)
+    assert update(student).returncode == 0
+    whole(student)
+
+
+def test_what_is_edited_while_it_merges_is_told_and_kept(kit, student):
+    mid_term(kit)
+    code = (
+        "import sys; sys.argv = ['update.py']\n"
+        "from labkit.base import cli\nfrom labkit.commands import update\n"
+        "from labkit.update import last_step\ntake = last_step.take\n"
+        "def later(*a):\n"
+        f"    open({str(student / SHEET)!r}, 'a').write('meanwhile\\n')\n"
+        "    take(*a)\n"
+        "last_step.take = later\ncli.run(update.main)\n"
+    )
+    done = run_copy(student, "-c", code)
+    assert f"changed meanwhile: {SHEET}" in done.stderr
+    assert update(student).returncode == 0
+    assert "meanwhile" in (student / SHEET).read_text("utf-8")
+
+
 def test_what_is_edited_after_a_run_that_ended_is_not_put_back(kit, student):
     mid_term(kit)
     assert run_copy(student, "-c", ENDS.format(what="move", at=6)).returncode == 9
@@ -447,6 +477,20 @@ def test_nothing_is_written_through_a_link_of_the_students(kit, student, tmp_pat
     assert "notes/f7.md" in done.stderr
 
 
+@pytest.mark.skipif(os.name == "nt", reason="Windows asks for rights to link")
+def test_a_lab_that_is_a_link_is_not_written_through(kit, student, tmp_path):
+    mid_term(kit)
+    real = tmp_path / "lab.py"
+    (student / WORK).rename(real)
+    (student / WORK).symlink_to(real)
+    before = real.read_bytes()
+    done = update(student)
+    mine = (student / WORK).read_bytes()
+    (student / WORK).unlink()
+    assert done.returncode == 0, done.stderr
+    assert real.read_bytes() == mine == before
+
+
 def test_a_lock_of_somebody_elses_git_is_named_and_left(kit, student):
     mid_term(kit)
     lock = student / ".git" / "index.lock"
@@ -476,6 +520,29 @@ def test_a_file_may_become_a_folder_and_a_folder_a_file(kit, student):
     assert (student / "one" / "y").read_text() == "y"
     assert (student / "two").read_text() == "a file"
     assert git(student, "status", "-s") == ""
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="needs a limit")
+@pytest.mark.parametrize("most", [0, 500, 5_000, 50_000])
+def test_a_full_disk_changes_nothing_and_the_next_run_is_whole(kit, student, most):
+    """No file may be larger: what a full disk is for whoever writes one."""
+    mid_term(kit)
+    (kit / "large.txt").write_text("x" * 60_000)
+    commit(kit, "a large file")
+    before = state(student)
+    code = (
+        "import resource, sys; sys.argv = ['update.py']\n"
+        f"resource.setrlimit(resource.RLIMIT_FSIZE, ({most}, {most}))\n"
+        "from labkit.base import cli\nfrom labkit.commands import update\n"
+        "cli.run(update.main)\n"
+    )
+    done = run_copy(student, "-c", code)
+    assert done.returncode == 2, done.stdout
+    assert "Nothing of yours has changed." in done.stderr
+    assert "Traceback" not in done.stderr
+    assert state(student) == before
+    assert update(student).returncode == 0
+    whole(student)
 
 
 def test_work_that_is_not_committed_stays_so_where_nothing_is_new(kit, student):

@@ -18,15 +18,14 @@ from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import find_regions
 from robo47.paths import ROOT, shown
 
-# What `make new` writes for somebody to write over.
-SKELETON = (
-    "what its lab shows, in a line of the week's table",
-    "What the student can do tonight that they could not do this morning.",
-    "What you would have liked to hear, and the step that people miss.",
-    "What do you want to ask?",
-    "what this week is about",
-    "What this week is about.",
-)
+# What `make new` writes for somebody to write over, by the file's ending.
+SKELETON = {
+    "day.toml": ("what its lab shows, in a line",),
+    "-lab.md": ("What the student can do tonight", "What you would have liked to hear"),
+    ".md": ("What do you want to ask?",),
+    "week.toml": ("what this week is about",),
+    "README.md": ("What this week is about.",),
+}
 
 
 def faults_of(day: Day) -> Iterator[str]:
@@ -40,6 +39,7 @@ def faults_of(day: Day) -> Iterator[str]:
         _links,
         _worksheet,
         _pictures,
+        _library,
         _committed,
     )
     for part in parts:
@@ -56,14 +56,14 @@ def write_worksheet(day: Day) -> bool:
 
 
 def unwritten(day: Day) -> Iterator[str]:
-    """Yield the sentences of the skeleton that stand where the author's belong."""
-    week = day.folder / "week.toml", day.folder / "README.md"
-    papers = day.folder / day.guide, day.folder / day.worksheet, day.own / "day.toml"
-    for path in (*papers, *week):
+    """Yield the files in which the skeleton's words stand for the author's."""
+    own = day.own / "day.toml", day.folder / day.guide, day.folder / day.worksheet
+    for path in (*own, day.folder / "week.toml", day.folder / "README.md"):
         text = " ".join(path.read_text("utf-8").split()) if path.is_file() else ""
-        for sentence in SKELETON:
-            if sentence in text:
-                yield f'{shown(path)} still has the skeleton\'s "{sentence}"'
+        for ending, words in SKELETON.items():
+            left = [one for one in words if path.name.endswith(ending) and one in text]
+            for one in left:
+                yield f'{shown(path)} has the skeleton\'s "{one}" still'
 
 
 def _regions(day: Day) -> Iterator[str]:
@@ -175,3 +175,16 @@ def _pictures(day: Day) -> Iterator[str]:
     file = day.own / "figures.py"
     if day.draw and f'"{day.draw}"' not in (file.read_text() if file.is_file() else ""):
         yield f"{shown(file)}: FIGURES has no {day.draw!r}, which day.toml draws"
+
+
+def _library(day: Day) -> Iterator[str]:
+    """Yield the modules of the day's answers that no file of tests is about."""
+    tests = [path.read_text("utf-8") for path in (ROOT / "tests").glob("test_*.py")]
+    for module in day.library:
+        name = module.rpartition(".")[2]
+        file = f"robo47/{module.replace('.', '/')}.py"
+        if not any(re.search(rf"\b{name}\b", text) for text in tests):
+            yield (
+                f"no test is about {file}, which students are judged by. Hold it "
+                f"against what somebody else wrote, in tests/test_{name}.py"
+            )

@@ -16,7 +16,7 @@ from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
 TEXTS = (".py", ".md", ".toml")
-OUTPUTS = re.compile(r"<!-- run: .*?<!-- end -->", re.DOTALL)  # made anew
+OUTPUTS = re.compile(r"<!-- \w+: .*?<!-- end -->", re.DOTALL)  # made anew
 
 
 class Moved(NamedTuple):
@@ -115,7 +115,9 @@ def renumbered(text: str, day: Day, number: int, stem: str) -> str:
     text = re.sub(
         rf"\b((?:lesson_|test_)?[dD]ay ?){n}(?!\d|\.\d)", rf"\g<1>{number}", text
     )
-    calls = r"\bDAY=|\bfind_day\(|^number = |\bload_day\(|\bconstants\.py "
+    calls = (
+        r"\bDAY=|\bfind_day\(|^number = |\bload_day\(|\bsentences\(|\bconstants\.py "
+    )
     text = re.sub(rf"({calls}){n}\b", rf"\g<1>{number}", text, flags=re.MULTILINE)
     ids = "|".join(re.escape(task.id) for task in day.tasks)
     one = rf"(?:{ids})(?!\d)"

@@ -20,7 +20,8 @@ from robo47.paths import METRICS_CSV, shown
 
 WIDTH = 80  # columns that everything the kit prints fits in
 EXIT_OK, EXIT_FAILED, EXIT_CANNOT_RUN = 0, 1, 2
-_REFUSALS = {errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOSPC}
+_FULL = {errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC)}
+_REFUSALS = {errno.EACCES, errno.EPERM, errno.EROFS, *_FULL}
 _PAINT = {"good": "32", "bad": "31", "note": "33"}  # green, red, yellow
 
 
@@ -164,7 +165,7 @@ def run(main: Callable[[], int]) -> None:
         print_nowhere()
         code = EXIT_OK
     except OSError as error:  # the machine's no, not a mistake of ours
-        full = error.errno == errno.ENOSPC and not error.filename  # where we print
+        full = error.errno in _FULL and not error.filename  # where we print
         if not full and (error.errno not in _REFUSALS or not error.filename):
             raise
         if full:

@@ -62,7 +62,7 @@ class Keys:
                 self.__enter__()
 
     def wait(self, seconds: float) -> str:
-        """Return the key that is pressed within some seconds, in small letters, or ""."""
+        """Return the key pressed within some seconds, in small letters, or ""."""
         if not self.there:
             time.sleep(seconds)
             return ""

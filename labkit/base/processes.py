@@ -183,12 +183,17 @@ def limit_files(process: subprocess.Popen[bytes], largest: int) -> None:
 
 
 def sweep(prefix: str, seconds: float) -> None:
-    """Remove a killed run's temporary folders, of a prefix, untouched for `seconds`."""
+    """Remove a killed run's temporary folders, of a prefix, untouched for `seconds`.
+
+    Of a process that is still there they stay: a clock may jump by years.
+    """
     for folder in Path(tempfile.gettempdir()).glob(f"{prefix}*"):
         with contextlib.suppress(OSError):
             facts = folder.lstat()
             own = not hasattr(os, "getuid") or facts.st_uid == os.getuid()
-            if own and time.time() - facts.st_mtime > seconds:
+            of = folder.name.removeprefix(prefix).partition("_")[0]
+            there = of.isdecimal() and os.path.exists(f"/proc/{of}")
+            if own and not there and time.time() - facts.st_mtime > seconds:
                 shutil.rmtree(folder, ignore_errors=True)
 
 

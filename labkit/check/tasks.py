@@ -266,7 +266,7 @@ def _of_function(day: Day, task: Task, asked: Asked, source: str) -> Verdict:
 
 
 def _with_slip(asked: Asked, verdict: Verdict, source: str) -> Verdict:
-    """Return a verdict on a call without an end, with what the row says of it."""
+    """Return a verdict on an endless call, with what the row says of such loops."""
     if verdict.mistake != "stopped":
         return verdict
     code = "\n".join(function_lines(source, asked.function)[2])

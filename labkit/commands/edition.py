@@ -10,6 +10,7 @@ the library still shows.
 
 import re
 import shutil
+import tempfile
 from pathlib import Path
 
 from labkit import log
@@ -49,7 +50,25 @@ def main() -> int:
     parser = cli.parser(__doc__)
     parser.add_argument("out", type=Path, help="a folder outside the clone")
     out = parser.parse_args().out.resolve()
-    empty(out)
+    older = refuse_others(out)
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=out.parent, prefix=".edition-") as folder:
+        write(Path(folder))  # whole, or the disk is full and nothing has changed
+        for name in older:
+            (out / name).unlink(missing_ok=True)
+        for path in Path(folder).rglob("*"):
+            target = out / path.relative_to(folder)
+            if path.is_file():
+                target.parent.mkdir(parents=True, exist_ok=True)
+                path.replace(target)
+    commit(out)
+    print(f"wrote {shown(out)}: push it where students clone it from; {NOTE} says what")
+    print("is left out. After a change of the kit: the same command, and push again.")
+    return cli.EXIT_OK
+
+
+def write(out: Path) -> None:
+    """Write its files."""
     for name in ask("ls-files", "-z").split("\0")[:-1]:
         if not LEFT_OUT.match(name) and (ROOT / name).is_file():
             target = out / name
@@ -64,24 +83,19 @@ def main() -> int:
     (out / "metrics" / "metrics.csv").write_text(header, "utf-8")
     (out / NOTE).write_text(ABOUT.format(version=__version__), "utf-8")
     shorten(out)
-    commit(out)
-    print(f"wrote {shown(out)}: push it where students clone it from; {NOTE} says what")
-    print("is left out. After a change of the kit: the same command, and push again.")
-    return cli.EXIT_OK
 
 
-def empty(out: Path) -> None:
-    """Make room: a new folder, or an older edition, whose history stays."""
+def refuse_others(out: Path) -> list[str]:
+    """Refuse what is neither new nor an older edition; return that one's files."""
     if out.is_relative_to(ROOT):
         raise Robo47Error(f"{shown(out)} is inside the kit; expected a place beside it")
     if not out.exists() or not any(out.iterdir()):
-        return
+        return []
     if not (out / NOTE).is_file() or not (out / ".git").is_dir():
         raise Robo47Error(f"{shown(out)} is there and is no edition; choose another")
     if ask("status", "--porcelain", "--untracked-files=no", at=out):
         raise Robo47Error(f"{shown(out)} has changes; commit or take them back first")
-    for name in ask("ls-files", "-z", at=out).split("\0")[:-1]:
-        (out / name).unlink(missing_ok=True)
+    return ask("ls-files", "-z", at=out).split("\0")[:-1]
 
 
 def shorten(out: Path) -> None:

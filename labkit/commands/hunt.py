@@ -89,7 +89,9 @@ def tell(case: Case) -> None:
     done = f"{count(case.runs, 'run')}, {count(case.checks, 'check')} so far"
     print(f"  {done}")
     for function, expected in case.suspected:
-        print(cli.wrapped(f"  suspected: {function}; expected: {expected or '-'}", "    "))
+        print(
+            cli.wrapped(f"  suspected: {function}; expected: {expected or '-'}", "    ")
+        )
     print()
     print("  make hunt ARGS=--run       its run, the symptoms")
     print("  make hunt                  say whom you suspect, then look")
@@ -182,7 +184,9 @@ def judge(case: Case) -> int:
         return cli.conclude(False, f"{left}{count(case.runs, 'run')} so far")
     print()
     for quarry in case.quarries:
-        print(cli.wrapped(f"The mistake, {quarry.slug}: {quarry.says or 'see --help'}."))
+        print(
+            cli.wrapped(f"The mistake, {quarry.slug}: {quarry.says or 'see --help'}.")
+        )
     write_row(case)
     asked = f"{count(case.runs, 'run')} and {count(case.checks, 'check')}"
     return cli.conclude(True, f"found in {asked}")
@@ -210,7 +214,9 @@ def write_row(case: Case) -> None:
 def give_up(case: Case) -> int:
     """Say which one it was; nothing is logged."""
     for one in case.quarries:
-        print(cli.wrapped(f"{one.function}, {one.slug}: {one.says or 'no words for it'}."))
+        print(
+            cli.wrapped(f"{one.function}, {one.slug}: {one.says or 'no words for it'}.")
+        )
     case.found = True
     case.save()
     print("Another one: make hunt")

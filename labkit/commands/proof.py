@@ -1,4 +1,4 @@
-"""Write a page to show: a week's numbers, whose functions, the pick in 3D.
+"""Write a page to show: a week's numbers, whose functions, its capstone in 3D.
 
     make proof                            of your week: metrics/proof-week1.html
     make proof WEEK=1                     of this week
@@ -7,7 +7,7 @@
                                           of a student's clone, for a teacher
 
 Every function is checked and every finished lab is run again now, in the sandbox; the
-arm picks the cube up with the functions that pass. One file, opened from disk;
+week's capstone is tried with the functions that pass. One file, opened from disk;
 metrics/proof.html leads to those of all weeks.
 """
 

@@ -41,7 +41,10 @@ def main() -> int:
             last_step.heal()
             sweep()
             update(options.place, options.to)
-        except (Robo47Error, OSError) as error:
+        except OSError as error:
+            says = f"{error.filename}: {error.strerror}"
+            raise Robo47Error(f"{says}. {last_step.state()}") from None
+        except Robo47Error as error:
             raise Robo47Error(f"{error}. {last_step.state()}") from None
     return cli.EXIT_OK
 

@@ -67,7 +67,7 @@ class Loop:
         return [task for task in asked if self.states.get(task.id) != "passed"]
 
     def check(self, only: Task | None) -> bool:
-        """Check one task, or all; print what it says; return whether all of it passes."""
+        """Check one task and print what it says, or all; return whether they pass."""
         from labkit.check import memory
         from labkit.check.report import Report, as_text
         from labkit.check.tasks import check_tasks
@@ -160,7 +160,7 @@ def watch(day: Day, only: str | None, file: Path | None = None) -> int:
 
 
 def _saved(loop: Loop, keys: Keys) -> bool:
-    """Ask what is next, go on where it passes, then ask the rest; return if all is done."""
+    """Ask what is next, then the rest; return whether all is done."""
     _clear()
     loop.sure = False
     print(loop.head(), flush=True)
@@ -184,7 +184,7 @@ def _saved(loop: Loop, keys: Keys) -> bool:
 
 
 def _go_on(loop: Loop) -> bool:
-    """Check the next open task, and where it passes the one after; say if all is done."""
+    """Check the next open task, where it passes the one after; say if all is done."""
     tried: set[str] = set()
     while left := [task for task in loop.open() if task.id not in tried]:
         task = left[0]
@@ -198,7 +198,7 @@ def _go_on(loop: Loop) -> bool:
 
 
 def _whole_day(loop: Loop) -> bool:
-    """Check the day with its lab and what is to be handed in; return whether it passes."""
+    """Check the whole day, lab and handing in; return whether it passes."""
     from labkit.commands import check
 
     print()
@@ -279,7 +279,7 @@ def _bar(name: str, passed: int, count: int) -> str:
 
 
 def _without_next(text: str) -> str:
-    """Return a check's text without its head and its last lines: the loop has its own."""
+    """Return a check's text without head and end: the loop has its own."""
     return "\n\n".join(text.split("\n\n")[1:-1])
 
 

@@ -58,7 +58,7 @@ class Grader(Child):
         """Start the process, behind the wall that was promised, in a new folder."""
         # The wall that was promised, or none of this: not what stands at that moment.
         promised = {"ROBO47_WALL": wall().name, "PYTHONPATH": str(ROOT)}
-        self.folder = tempfile.mkdtemp(prefix=FOLDER)
+        self.folder = tempfile.mkdtemp(prefix=f"{FOLDER}{os.getpid()}_")
         temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), self.folder)
         environment = {**os.environ, **temporary, **promised}
         try:  # in its folder, since MuJoCo writes its warnings there

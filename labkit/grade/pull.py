@@ -152,7 +152,12 @@ def _update(clone: Path) -> None:
     info = clone / ".git" / "info"
     info.mkdir(exist_ok=True)
     replace(info / "attributes", _AS_IT_IS)
+    whole = _is(clone, "ls-files", "--", ".git")  # it reads the index
+    if not whole:  # the power was cut
+        (clone / ".git" / "index").unlink(missing_ok=True)
     _git(clone, "reset", "-q", "--hard", commit)
+    if not whole:  # what the new commit has no longer
+        _git(clone, "clean", "-q", "-ffdx")
 
 
 def _clear(folder: Path) -> None:
@@ -190,7 +195,9 @@ def _branch(clone: Path) -> str:
     others = ", ".join(there[:SHOWN]) + (", ..." if len(there) > SHOWN else "")
     none = "the server names none of its branches as the default"
     if before:
-        none = f"the branch {before} is gone from the server, which names no other"
+        none = (
+            f"the branch {before} is gone from the server, and no other is its default"
+        )
     raise GitError(visible(f"{none} ({others or 'it has none'})", 200))
 
 

@@ -5,6 +5,7 @@ Names are data: they are shown, and a file that is named after one is named by u
 
 import csv
 import hashlib
+import io
 import os
 import re
 import unicodedata
@@ -162,7 +163,8 @@ def _rows(path: Path) -> Iterator[tuple[int, dict[str, str]]]:
         ) from None
     head = text.partition("\n")[0]
     delimiter = max(",;\t", key=head.count)  # a spreadsheet writes its country's own
-    rows = csv.reader(text.splitlines(), delimiter=delimiter)
+    # A name may hold what Python takes for the end of a line, and a spreadsheet not.
+    rows = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter)
     try:
         columns = [name.strip().lower() for name in next(rows, [])]
         if "folder" not in columns:

@@ -99,6 +99,13 @@ def functions_of(text: str) -> dict[str, str]:
         if words[:1] == ["def"] or words[1:3] == ["=", "lambda"]:
             name = "".join(words[1:2] if words[0] == "def" else words[:1])
             found[name] = found.get(name, "") + text[at:end]
+        elif words[:1] in (["from"], ["import"]):  # may take a function's place
+            taken = [match[0] for match in _TOKEN.finditer(text, at, end)]
+            found = (
+                {} if "*" in taken else {n: found[n] for n in found if n not in taken}
+            )
+        elif words[1:2] == ["="]:
+            found.pop(words[0], None)
     return found
 
 

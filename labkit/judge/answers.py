@@ -19,8 +19,9 @@ MATCHES = 1e-5  # "this is the mistake": wide enough for a student's float32
 KEPT = 64  # questions whose answers are kept
 RIGID = 1e-5  # how far R R^T may be from I before we call it no rotation
 # Words that are symbols of a formula; those of one letter but "a" are, too.
-SYMBOLS = {"alpha", "beta", "dq", "ed", "kd", "ki", "kp", "mu", "omega", "pi",
-           "qd", "qdd", "sd", "sdd", "tau", "theta", "zeta"}  # fmt: skip
+SYMBOLS = {"alpha", "beta", "dq", "dt", "ed", "fovy", "fx", "kd", "ki", "kp", "mu",
+           "omega", "pi", "qd", "qdd", "sd", "sdd", "tau", "theta", "xi",
+           "zeta"}  # fmt: skip
 
 
 def gap(a: Array, b: Array) -> Array:
@@ -50,18 +51,21 @@ def difference(
     return (apart / scale).reshape(len(a), -1).max(axis=1, initial=0.0)
 
 
-def matches(a: Array, b: Array, scale: float | Array = 1.0) -> bool:
+def matches(
+    a: Array, b: Array, scale: float | Array = 1.0, within: float = MATCHES
+) -> bool:
     """Return whether a is b at every case, within rounding of b's largest entry.
 
     Args:
         a: (n, ...).
         b: the same.
         scale: what an entry is like, where b's are all small; as in `difference`.
+        within: which share of that entry is no difference.
     """
     if a.shape != b.shape:
         return False
     size = largest(b, scale)
-    return bool(difference(a, b, scale).max(initial=0.0) <= MATCHES * max(1.0, size))
+    return bool(difference(a, b, scale).max(initial=0.0) <= within * max(1.0, size))
 
 
 def largest(a: Array, scale: float | Array = 1.0) -> float:
@@ -99,10 +103,14 @@ def gaps(kinds: Sequence[Any], S: Parts, T: Parts, rtol: float = 0.0) -> Array:
     return np.max(each, axis=0)
 
 
-def all_match(kinds: Sequence[Any], S: Parts, T: Parts) -> bool:
+def all_match(
+    kinds: Sequence[Any], S: Parts, T: Parts, within: float = MATCHES
+) -> bool:
     """Return whether answers have as many parts, and each part `matches`."""
     trios = zip(S, T, kinds, strict=False)
-    return len(S) == len(T) and all(matches(s, t, kind.scale) for s, t, kind in trios)
+    return len(S) == len(T) and all(
+        matches(s, t, kind.scale, within) for s, t, kind in trios
+    )
 
 
 def worst_part(kinds: Sequence[Any], S: Parts, T: Parts, near: float) -> int:

@@ -112,6 +112,7 @@ class Case:
     # Per question of `Ask.probe` its arguments and the answer, or None.
     probes: Sequence[tuple[tuple[Any, ...], Any]] = ()
     further: "Further | None" = None  # what a sentence must hold for as well
+    names: Sequence[str] = ()  # of the arguments, for sentences
 
 
 @dataclass(frozen=True)
@@ -211,6 +212,10 @@ class Ask:
     def gaps(self, S: Parts, T: Parts) -> Array:
         """Return per call how far an answer is off, beyond what `rtol` allows."""
         return gaps(self.kinds, S, T, self.rtol)
+
+    def gaps_of(self, j: int, s: Array, t: Array) -> Array:
+        """Return per call how far the j-th result is off, likewise."""
+        return gaps(self.kinds[j : j + 1], (s,), (t,), self.rtol)
 
     @cached_property
     def cost(self) -> float:

@@ -15,6 +15,7 @@ from labkit.judge.answers import (
     as_one,
     capitalised,
     difference,
+    listed,
     plain,
     worst_part,
 )
@@ -32,7 +33,12 @@ from labkit.judge.failing_call import failing_call, for_fresh
 from labkit.judge.kinds import Kind
 from labkit.judge.made_again import redone
 from labkit.judge.mistake import Finding, Verdict
-from labkit.judge.pairs import by_results, in_some_calls, two_at_once
+from labkit.judge.pairs import (
+    by_results,
+    in_some_calls,
+    of_other_arguments,
+    two_at_once,
+)
 from labkit.judge.typed import in_words
 from robo47.checks import Array
 
@@ -213,7 +219,15 @@ def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
         for probe, reply in answered
     ]
     given = [in_words(exchange.question, names) for exchange in asked.main]
-    return Case(asked.ask, stacked(asked.main), plain(S), plain(T), given, probes)
+    return Case(
+        asked.ask,
+        stacked(asked.main),
+        plain(S),
+        plain(T),
+        given,
+        probes,
+        names=names,
+    )
 
 
 def _measured(case: Case, S: Parts, T: Parts, gap: Array) -> tuple[str, ...]:
@@ -244,7 +258,8 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     i = worst_part(ask.kinds, S, T, ask.near)
     every = (S[i], case.further.S[i]) if case.further else (S[i],)
     found = _all_the_same(ask.kinds[i], every, T[i])  # simpler than two mistakes
-    found = found or two_at_once(case, S, T) or by_results(case, S, T)
+    found = found or of_other_arguments(case, S, T) or two_at_once(case, S, T)
+    found = found or by_results(case, S, T)
     if found := found or near_miss.rounded(S[i], T[i]):
         return found
     try:
@@ -327,7 +342,37 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
             it = capitalised(kind.called) if called else "It"
             where += f" {it} is right for {np.sum(~wrong)} of {len(wrong)} inputs"
             where += f"{_first(wrong, case.given, 'but not for')}."
-    return Finding(found.slug, f"{called}{found.message}{where}")
+    right = _right_results(case, S, T)
+    called = capitalised(called) if right else called
+    says = f"{right}{called}{found.message}{where}{_wrong_too(case, S, T, i)}"
+    return Finding(found.slug, says)
+
+
+def _wrong_too(case: Case, S: Parts, T: Parts, i: int) -> str:
+    """Return which results but the i-th are wrong, and in how many calls, or ""."""
+    says = ""
+    for j, kind in enumerate(case.ask.kinds):
+        n = int(np.sum(case.ask.gaps_of(j, S[j], T[j]) > case.ask.near))
+        if j != i and n and kind.called:
+            says += f" {capitalised(kind.called)} is wrong, too, in {n} of {len(S[j])}."
+    return says
+
+
+def _right_results(case: Case, S: Parts, T: Parts) -> str:
+    """Return which results of several are right, of fresh inputs as well, or ""."""
+    sets = [(S, T)]
+    if case.further:
+        sets.append((case.further.S, case.further.T))
+    names = [
+        kind.called
+        for j, kind in enumerate(case.ask.kinds)
+        if kind.called
+        and all(case.ask.gaps_of(j, s[j], t[j]).max() <= case.ask.near for s, t in sets)
+    ]
+    if len(S) < 2 or not names:
+        return ""
+    verb = "is" if len(names) == 1 else "are"
+    return f"{capitalised(listed(names))} {verb} right. "
 
 
 def _nothing_there(case: Case, S: Parts) -> Finding | None:

@@ -46,6 +46,7 @@ class Kind:
     none: str = field(default="", kw_only=True)
     single: ClassVar[bool] = False  # whether it has no shape
     whole: ClassVar[bool] = False  # whether equal numbers prove little: counts, choices
+    gap: ClassVar[str] = "off by up to"  # said before how far answers are apart
     empty = True  # whether an answer that is all 0 looks like one that was never filled
     # Mistakes made with a finished answer, by their names in `answer_mistakes`.
     usual: ClassVar[tuple[str, ...]] = ("all-signs", "whole-numbers")
@@ -178,7 +179,7 @@ class Kind:
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:
         """Return lines for --explain."""
-        return (f"off by up to {self.apart(S, T)}",)
+        return (f"{self.gap} {self.apart(S, T)}",)
 
 
 @dataclass(frozen=True)
@@ -211,7 +212,7 @@ class Vector(Kind):
             where = capitalised(listed([(self.names or counted)[i] for i in empty]))
             says = f"{where} {'are' if len(empty) > 1 else 'is'} 0 every time. It is "
             return Finding("entries-empty", f"{says}off by up to {self.apart(S, T)}.")
-        if not same and _only_the_last(S, T, off):
+        if not same and _only_the_last(np.abs(S - T) > RIGHT * self.scale, S, T):
             says = f"All entries are right but the last: up to {self.apart(S, T)} off."
             return Finding("few-entries-off", says)
         if not 0 < off.sum() <= (max(1, len(off) // 3) if same else 1):
@@ -222,12 +223,14 @@ class Vector(Kind):
         return Finding("few-entries-off", says)
 
 
-def _only_the_last(S: Array, T: Array, off: Array) -> bool:
+def _only_the_last(wrong: Array, S: Array, T: Array) -> bool:
     """Return whether of vectors of several lengths only the last entry is wrong.
 
-    The shorter ones are filled up with 0, (n, m).
+    Args:
+        wrong: which entries are, (n, m).
+        S: the student's; the shorter ones are filled up with 0, (n, m).
+        T: the right ones.
     """
-    wrong = (S != T) & off
     there = (S != 0) | (T != 0)
     last = there.shape[1] - 1 - np.argmax(there[:, ::-1], axis=1)
     several = len(set(last[wrong.any(axis=1)].tolist())) > 1

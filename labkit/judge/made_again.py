@@ -44,7 +44,7 @@ def _named(
                 i = worst_part(kinds, S, T, near)
                 how = mistake.redone
                 if np.isfinite(S[i]).all():  # of a NaN nobody says how far it is off
-                    how = f"off by up to {kinds[i].apart(S[i], T[i])}; {how}"
+                    how = f"{kinds[i].gap} {kinds[i].apart(S[i], T[i])}; {how}"
                 says += f" ({capitalised(how)} gives your numbers exactly.)"
             return Finding(mistake.slug, says)
     return None

@@ -29,8 +29,11 @@ class Matrix(Kind):
 
     @property
     def expected(self) -> str:  # noqa: D102
-        m, n = (n or "any" for n in self.shape)
-        return f"a {m}x{n} matrix"
+        m, n = self.shape
+        if m and n:
+            return f"a {m}x{n} matrix"
+        given = f"{m} rows" if m else f"{n} columns" if n else ""
+        return "a matrix" + (f" of {given}" if given else "")
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         square = self.shape[0] == self.shape[1] is not None
@@ -88,7 +91,7 @@ def part_off(kind: Matrix, S: Array, T: Array) -> Finding | None:
     alone = np.ndim(kind.scale) == 0
     if alone and (found := one_factor(kind, S[:, wrong], T[:, wrong])):
         times = found.message.removeprefix("It ").partition(",")[0]
-        off = f"what stands there {times}"
+        off = f"what is wrong there {times}"
     return Finding("part-off", f"{says}: {off}.")
 
 

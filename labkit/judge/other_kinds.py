@@ -151,6 +151,7 @@ class Word(Kind):
     words: tuple[str, ...] = ()
     single = True
     whole = True
+    gap = "wrong in"
     empty = False
     usual = ()
 
@@ -197,6 +198,7 @@ class Mask(Kind):
     """True or False, one or many. `Mask((8,))`."""
 
     whole = True
+    gap = "wrong in"
     empty = False
     usual = ("inverted",)
 
@@ -211,7 +213,7 @@ class Mask(Kind):
         return found if found.ndim else found.item()
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
-        return f"{np.mean(S != T):.0%} of them"
+        return f"{np.sum(S != T)} of {np.size(T)}"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if (odd := S[(S != 0) & (S != 1)]).size:

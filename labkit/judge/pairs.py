@@ -38,10 +38,56 @@ _BUT = re.compile(
     r"^(?:[^;:]*?\b(?:is|are) right(?: except that|, but|;)"
     r"|right [^;,:]*[;,](?: but)?) "
 )
+EXACT = 1e-8  # of many pairs one comes near by chance, so two must give more digits
 MOST = 80  # mistakes of a function that are tried two at a time
 QUICK = 2e-3  # seconds of a call that a row may say, for its arguments to be changed
 FEW = 6  # wrong calls at which one mistake is tried, before all of them
 SOME = 3  # calls whose numbers it has to give, at least, and half of the wrong ones
+
+
+def of_other_arguments(case: Case, S: Parts, T: Parts) -> Finding | None:
+    """Return that the answers are the right ones to other arguments, or None.
+
+    Such as two exchanged, or one of the other sign: a slip that needs no name.
+    """
+    ask = case.ask
+    truth = ask.truth
+    whole = any(kind.whole for kind in ask.kinds)
+    if whole or ask.seconds > QUICK or not isinstance(truth, InTurn):
+        return None
+    i = _tried(ask, S, T)[0]
+    for move in _moves(case, i):
+        asked = ask.in_turn(partial(_after, truth.function, move.change))
+        if not _alike(ask, _answer(asked, case.arguments, i, T), _nth(S, i)):
+            continue
+        if _alike(ask, _all(asked, case.arguments), S):
+            k = worst_part(ask.kinds, S, T, ask.near)
+            off = f"Off by up to {ask.kinds[k].apart(S[k], T[k])}"
+            says = f"It is the right answer to other arguments: with {move.says}."
+            how = f"({off}; that gives your numbers exactly.)"
+            return Finding(f"argument-{move.slug}", f"{says} {how}")
+    return None
+
+
+def _tried(ask: Ask, S: Parts, T: Parts) -> list[int]:
+    """Return the calls that pairs are tried at.
+
+    Drawn inputs come last, and hide less; what is furthest off is tried besides.
+    """
+    gap = ask.gaps(S, T)
+    furthest = int(np.argmax(gap))
+    wrong = np.flatnonzero(gap > ask.near)
+    return list(dict.fromkeys([int(wrong[-1]) if len(wrong) else furthest, furthest]))
+
+
+def _moves(case: Case, i: int) -> Iterator[moves.Move]:
+    """Yield what may be done to the arguments, as those of the i-th call are."""
+    columns = case.arguments
+    call = [as_plain(c[i]) if isinstance(c, np.ndarray) else c for c in columns]
+    names = case.names
+    if len(names) != len(call):
+        names = [f"argument {k + 1}" for k in range(len(call))]
+    yield from moves.of_arguments(tuple(map(own, call)), names)
 
 
 def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
@@ -54,12 +100,7 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
     ask = case.ask
     if any(kind.whole for kind in ask.kinds):
         return None
-    gap = ask.gaps(S, T)
-    # Drawn inputs come last, and hide less; what is furthest off is tried besides.
-    furthest = int(np.argmax(gap))
-    wrong = np.flatnonzero(gap > ask.near)
-    tried = dict.fromkeys([int(wrong[-1]) if len(wrong) else furthest, furthest])
-    found = (_two_of(case, S, T, i) for i in tried)
+    found = (_two_of(case, S, T, i) for i in _tried(ask, S, T))
     return next((_both_told(ask, pair, S, T) for pair in found if pair), None)
 
 
@@ -214,7 +255,7 @@ class _Pairs:
                 other = self._every(second.redo)
                 if combined is _product and _one_factor(one, other, self.T):
                     continue
-                if _alike(self.case.ask, combined(one, other, self.T), self.S):
+                if _exactly(self.case.ask, combined(one, other, self.T), self.S):
                     return first, second
         return None
 
@@ -235,7 +276,7 @@ class _Pairs:
         for first, change in combinations(general, 2):
             if self._is_this_one(_changed(change, _changed(first, its))):
                 every = _changed(change, _changed(first, self.T))
-                if _alike(self.case.ask, every, self.S):
+                if _exactly(self.case.ask, every, self.S):
                     return first, change
         return None
 
@@ -248,7 +289,7 @@ class _Pairs:
             for k, answer in self.answers.items():
                 if self._is_this_one(_changed(change, answer)):
                     every = self._every(self.mistakes[k].redo)
-                    if _alike(self.case.ask, _changed(change, every), self.S):
+                    if _exactly(self.case.ask, _changed(change, every), self.S):
                         return self.mistakes[k], change
         return None
 
@@ -257,7 +298,7 @@ class _Pairs:
         for pair in self._that_combine():
             if self._is_this_one(self._answer(pair.redo)):
                 every = self._every(pair.redo)
-                if _alike(self.case.ask, every, self.S):
+                if _exactly(self.case.ask, every, self.S):
                     return pair.first, pair.second
         return None
 
@@ -286,12 +327,10 @@ class _Pairs:
     def _of_arguments(self) -> dict[int, Callable[..., Any]]:
         """Which mistakes are the right answer to other arguments."""
         found: dict[int, Callable[..., Any]] = {}
-        if self.case.ask.seconds > QUICK:
+        truth = self.case.ask.truth
+        if self.case.ask.seconds > QUICK or not isinstance(truth, InTurn):
             return found
-        truth: Any = self.case.ask.truth
-        call = [as_plain(c[self.i]) if isinstance(c, np.ndarray) else c
-                for c in self.case.arguments]  # fmt: skip
-        for change in moves.of_arguments(tuple(map(own, call))):
+        for _, _, change in _moves(self.case, self.i):
             asked = self.case.ask.in_turn(partial(_after, truth.function, change))
             answer = self._answer(asked)
             for k in self._that_give(answer, partial(self._every, asked)):
@@ -324,7 +363,7 @@ class _Pairs:
         return found
 
     def _is_this_one(self, answer: Parts) -> bool:
-        return bool(_alike(self.case.ask, answer, _nth(self.S, self.i)))
+        return _exactly(self.case.ask, answer, _nth(self.S, self.i))
 
 
 def _handed_back(answer: Parts, arguments: tuple[Any, ...], i: int) -> bool:
@@ -400,9 +439,11 @@ def _sum(a: Parts, b: Parts, right: Parts) -> Parts:
 
 
 def _product(a: Parts, b: Parts, right: Parts) -> Parts:
-    """Return what two wrong factors make together."""
+    """Return what two wrong factors make together; () where 0 would hide one."""
     trios = list(zip(a, b, right, strict=False))
     if any(len({x.shape for x in trio}) > 1 for trio in trios):
+        return ()
+    if any(((z == 0) & ((x != 0) | (y != 0))).any() for x, y, z in trios):
         return ()
     return tuple(np.where(z == 0, 0.0, x * y / np.where(z, z, 1)) for x, y, z in trios)
 
@@ -428,6 +469,11 @@ def _alike(ask: Ask, a: Parts, b: Parts) -> bool | None:
     if len(a) != len(b):
         return None
     return all_match(ask.kinds, a, b)
+
+
+def _exactly(ask: Ask, a: Parts, b: Parts) -> bool:
+    """Return whether two answers match in all the digits that rounding leaves."""
+    return all_match(ask.kinds, a, b, EXACT)
 
 
 def _both_told(ask: Ask, pair: Sequence[Mistake], S: Parts, T: Parts) -> Finding:

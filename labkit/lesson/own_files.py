@@ -80,6 +80,8 @@ def _open(root: Path, name: str) -> int | None:
     link meanwhile leads nowhere. (Windows opens nothing from a folder.)
     """
     *folders, last = name.split("/")
+    if ".." in folders:
+        return None
     path, at = str(root), None
     try:
         at = os.open(path, _FOLDER) if _FROM_FOLDERS else None

@@ -37,7 +37,7 @@ def renew(day: Day, before: str, target: str) -> dict[str, object] | None:
     """
     begun = day.named_as(lambda name: (ROOT / name).is_file()).work
     lines = news(day, before)
-    if not begun.is_file():
+    if not begun.is_file() or begun.is_symlink():  # a link leads out of this worktree
         return {"day": day.number, "news": lines} if lines else None
     text = begun.read_text("utf-8-sig")
     new = renewed(day, text, versions(day, before, target), read_script(day.source))

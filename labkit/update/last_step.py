@@ -26,7 +26,7 @@ AMID = "It stopped amid its last step. Once more, which puts it right: make upda
 
 def state() -> str:
     """Return what an update that ends now leaves behind."""
-    return AMID if store.path_of(NOTE).exists() else UNCHANGED
+    return AMID if store.path_of(NOTE).is_file() else UNCHANGED
 
 
 def take(worktree: Path, own: str) -> None:
@@ -44,6 +44,8 @@ def take(worktree: Path, own: str) -> None:
     names = _changed(own, to)
     if blocked := in_the_way(names, own, to):
         shown = ", ".join(blocked[:SHOWN]) + (", ..." if blocked[SHOWN:] else "")
+        if ask("ls-tree", "--name-only", own, "--", *blocked[:SHOWN]):
+            raise Robo47Error(f"changed meanwhile: {shown}. Once more: make update")
         raise Robo47Error(
             f"these are yours, and the newer kit has files of these names: {shown}. "
             "Move or rename yours, then: make update"
@@ -80,17 +82,22 @@ def heal() -> None:
     note = store.read(NOTE)
     if note:
         now, own, to = (str(note.get(name)) for name in ("now", "own", "to"))
+        known = ("rev-parse", "-q", "--verify", "--end-of-options")
+        whole = all(
+            ask(*known, f"{one}^{{commit}}", may_fail=True) for one in (own, to)
+        )
         for name in ("index", "HEAD", ask("rev-parse", "--symbolic-full-name", "HEAD")):
             (ROOT / f"{_of_git(name)}.lock").unlink(missing_ok=True)
         head = ask("rev-parse", "HEAD")
-        if head == now != to:
+        if head == now != to and whole:
             names = _changed(own, to)
             moved = [name for name in names if name not in _unlike(to, names)]
             with beside(own) as worktree:
                 _move(worktree, moved)
         if head in (now, to):
             ask("reset", "-q")
-    store.path_of(NOTE).unlink(missing_ok=True)  # else the student went on from there
+    with contextlib.suppress(FileNotFoundError, NotADirectoryError):
+        store.path_of(NOTE).unlink()  # else the student went on from there
 
 
 def in_the_way(names: Iterable[str], own: str, to: str) -> list[str]:

@@ -113,6 +113,7 @@ def _resolve(worktree: Path, name: str, blobs: dict[str, str], own: bool) -> boo
             ask("checkout", "--ours", "--", name, at=worktree, may_fail=True)
         else:
             text = merged(base, ours, theirs, keep_both)
+            (worktree / name).unlink(missing_ok=True)  # a link leads out of there
             (worktree / name).write_text(text, "utf-8", newline="\n")
         return True
     if "3" in blobs:
@@ -135,6 +136,8 @@ def _keep_rows(worktree: Path, own: str) -> None:
     """Put back rows of the log that a merge left out, however it came about."""
     before = ask("show", f"{own}:{LOG}", at=worktree, may_fail=True).splitlines()
     path = worktree / LOG
+    if path.is_symlink():  # it leads out of the worktree
+        return
     now = path.read_text("utf-8").splitlines() if path.is_file() else []
     if lost := [row for row in before if row not in set(now)]:
         path.parent.mkdir(exist_ok=True)

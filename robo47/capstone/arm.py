@@ -34,6 +34,7 @@ class State(NamedTuple):
 
     T: Array  # T_world_tcp
     J_space: Array
+    G: Array
     M: Array
     bias: Array
 
@@ -87,7 +88,7 @@ class Arm:
         G = fns.link_inertias(T_links, *self.inertias)
         M = fns.mass_matrix(J_space, G, self.armature)
         bias = fns.bias_torque(J_space, G, qd, GRAVITY)
-        return State(self.end(q), J_space, M, bias)
+        return State(self.end(q), J_space, G, M, bias)
 
     def gravity(self, q: Array) -> Array:
         """Return the torque that holds the arm at q, (7,)."""

@@ -83,13 +83,14 @@ class Task:
         self.model = model
         self.speed = speed
         self.watch = watch
+        self.push: simulate.Push | None = None  # of whoever disturbs the arm
         self.data = simulate.start(model, READY_Q)
         self.arm = Arm(fns, model)
         self.cube = int(model.jnt_qposadr[model.body("cube").jntadr[0]])
         self.goal = np.array([*goal_xy, scenes.TABLE_HEIGHT + scenes.CUBE_HALF])
         self.T_world_cube = self._cube()
         self.T_tcp_cube = np.eye(4)
-        self.worst = dict.fromkeys(("joint", "line", "hold", "rest"), 0.0)
+        self.worst = dict.fromkeys(("joint", "line", "hold", "rest", "weigh"), 0.0)
         self.manipulability = np.inf
         self.heaviest = 0.0
         self.now = 0.0
@@ -98,8 +99,7 @@ class Task:
 
     def run(self, phase: Phase, rate: float) -> None:
         """Do one phase, from where the arm is measured to be."""
-        q = self.data.qpos[simulate.addresses(self.model)[0]].copy()
-        law, seconds = self._law(phase, q)
+        law, seconds = self._law(phase, self._q())
         seconds = np.ceil(seconds * rate) / rate  # a whole number of control periods
 
         def controller(t: float, q: Array, qd: Array) -> Array:
@@ -109,7 +109,9 @@ class Task:
         self.phases.append((phase.name, self.now))
         world = (self.model, self.data)
         self.arm.worst = self.worst[phase.kind]
-        run = simulate.run(*world, controller, seconds, rate=rate, watch=self._look)
+        run = simulate.run(
+            *world, controller, seconds, rate=rate, push=self.push, watch=self._look
+        )
         self.runs.append(run)
         self.worst[phase.kind] = self.arm.worst
         self.now += seconds
@@ -150,16 +152,27 @@ class Task:
 
     def _grasped(self) -> None:
         """Count the cube as part of the hand, and say what this grip can lift."""
-        model = self.model
         mass = float(self.model.body("cube").mass[0])
-        q = self.data.qpos[simulate.addresses(model)[0]]
-        self.T_tcp_cube = self.arm.hold(mass, scenes.CUBE_HALF, self._cube(), q)
+        self.T_tcp_cube = self._hold(mass, self._cube())
+        lift = trajectory.PEAK_ACCELERATION * HOVER / LINE_SECONDS**2
+        self.heaviest = self._can_lift(lift)
+
+    def _hold(self, mass: float, T_world_cube: Array) -> Array:
+        """Count a cube as part of the hand as it is now; return T_tcp_cube."""
+        return self.arm.hold(mass, scenes.CUBE_HALF, T_world_cube, self._q())
+
+    def _can_lift(self, acceleration: float) -> float:
+        """Return the heaviest cube that this grip holds at an acceleration, kg."""
+        model = self.model
         # A tendon over both fingers pulls with 100 N/m; each gets a half.
         opening = float(self.data.qpos[model.joint("finger_joint1").qposadr[0]])
-        lift = trajectory.PEAK_ACCELERATION * HOVER / LINE_SECONDS**2
         grip = 50.0 * max(opening, 0.0)
         mu = float(model.geom("cube").friction[0])
-        self.heaviest = float(self.fns.heaviest_cube(grip, mu, lift))
+        return float(self.fns.heaviest_cube(grip, mu, acceleration))
+
+    def _q(self) -> Array:
+        """Return the measured configuration, (7,)."""
+        return self.data.qpos[simulate.addresses(self.model)[0]].copy()
 
     def _cube(self) -> Array:
         """Return T_world_cube, (4, 4), from what a camera would see."""

@@ -66,17 +66,18 @@ def box_apart(a0: Array, a1: Array, half: Array) -> Array:
 
 def _least_outside(a0: Array, u: Array, half: Array) -> Array:
     with np.errstate(divide="ignore", invalid="ignore"):
-        faces = np.concatenate([(half - a0) / u, (-half - a0) / u], axis=-1)
-    ends = np.broadcast_to([0.0, 1.0], (*u.shape[:-1], 2))
-    s = np.sort(np.concatenate([np.nan_to_num(faces), ends], -1).clip(0.0, 1.0), -1)
+        s = np.concatenate([(half - a0) / u, (-half - a0) / u, 0.0 * u[..., :2]], -1)
+    s[..., -1] = 1.0
+    s = np.fmin(np.fmax(s, 0.0), 1.0)  # 0 / 0, along a face, becomes 0
+    s.sort(axis=-1)
     p = a0[..., None, :] + s[..., None] * u[..., None, :]
-    out = np.maximum(np.abs(p) - half[..., None, :], 0.0)
-    slope = _dot(out * np.sign(p), u[..., None, :])  # half of that of the square
-    k = np.clip((slope < 0.0).sum(axis=-1), 1, s.shape[-1] - 1)[..., None]
-    left, right = (np.take_along_axis(s, at, -1)[..., 0] for at in (k - 1, k))
-    down, up = (np.take_along_axis(slope, at, -1)[..., 0] for at in (k - 1, k))
-    best = left + (right - left) * _share(-down, up - down)
-    return np.maximum(outside(a0 + best[..., None] * u, half), 0.0)
+    out = p - np.minimum(np.maximum(p, -half[..., None, :]), half[..., None, :])
+    slope = (out @ u[..., None])[..., 0]  # half of that of the square
+    left = s[..., :-1]
+    down = slope[..., :-1]
+    best = left + (s[..., 1:] - left) * _share(-down, slope[..., 1:] - down)
+    p = a0[..., None, :] + best[..., None] * u[..., None, :]
+    return np.maximum(outside(p, half[..., None, :]).min(axis=-1), 0.0)
 
 
 def _deepest(a0: Array, u: Array, half: Array) -> Array:

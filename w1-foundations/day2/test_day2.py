@@ -51,6 +51,7 @@ def test_franka_s_table_in_the_lab_is_the_one_in_the_questions():
 # --- the lab ---
 
 
+@pytest.mark.kit
 def test_the_lab_runs_in_80_columns_and_logs_two_rows(run, tmp_path):
     log = tmp_path / "metrics.csv"
     done = run(SCRIPT, ROBO47_METRICS=log)

@@ -7,6 +7,8 @@ from labkit.lesson.day import find_day
 from labkit.lesson.lab import predictions
 from labkit.log import read_rows
 
+pytestmark = pytest.mark.kit
+
 SCRIPT = "w1-foundations/src/day5_control.py"
 lab = load_script(ROOT / SCRIPT)
 
@@ -27,7 +29,6 @@ def test_the_lab_fits_80_columns_and_logs_its_three_rows(run, tmp_path):
     assert {row["day"] for row in rows.values()} == {5}
 
 
-@pytest.mark.kit
 def test_each_prediction_of_the_worksheet_is_printed_beside_its_measurement(
     monkeypatch, capsys
 ):
@@ -40,7 +41,6 @@ def test_each_prediction_of_the_worksheet_is_printed_beside_its_measurement(
         assert f"you predicted 9, measured {measured}: {number}" in said
 
 
-@pytest.mark.kit
 def test_without_the_side_quest_the_rows_are_logged_all_the_same(
     monkeypatch, tmp_path, capsys
 ):

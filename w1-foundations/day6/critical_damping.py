@@ -55,6 +55,9 @@ def _(K, Lambda):
     factor-two: there is a 2 too many: the two orders are the 2 already
     factor-two-missing: half of it is missing: the two orders are added, not averaged
     K-not-rooted: K is used as it is; its square root belongs there
+    root-on-both-sides: the root of K stands between two roots of Lambda: that grows
+      with the mass, where a damping grows with its root => 2 sqrt(Lambda) sqrt(K)
+      sqrt(Lambda)
     root-of-the-product: this is 2 sqrt(K Lambda), entry by entry => 2 sqrt(abs(K
       Lambda))
     one-order-only 2: the product of the two roots is taken in one order, twice; with
@@ -83,6 +86,7 @@ def _(K, Lambda):
         "factor-two": 2.0 * total(half, k),
         "factor-two-missing": 0.5 * total(half, k),
         "K-not-rooted": total(half, K),
+        "root-on-both-sides": 2.0 * half * k @ half,
         "root-of-the-product": 2.0 * np.sqrt(np.abs(np.diag(K) @ Lambda)),
         "no-roots": total(Lambda, K),
     }

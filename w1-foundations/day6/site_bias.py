@@ -66,6 +66,9 @@ def _(J_space, qd, p):
     coriolis-twice: omega x v counts twice: ad(V) S has it already, and 2 omega x v
       belongs to accelerations measured in the moving frame => the right one with
       another omega x v
+    centripetal-twice: omega x (velocity of p) counts twice, as in Coriolis' 2 omega x
+      v; that belongs to velocities seen in the moving frame => the right one with it
+      twice
     ad-swapped: V and S have changed places, or the twists are summed from the tip:
       ad(S) V is minus ad(V) S, and a joint is carried by those before it
     ad-transposed: ad(V) is transposed: that one is for wrenches, screws take it as it
@@ -84,6 +87,7 @@ def _(J_space, qd, p):
         "velocity-of-origin": {"centre": 0.0},
         "v-forgotten": {"move": 0.0},
         "coriolis-twice": {"move": 2.0},
+        "centripetal-twice": {"centre": 2.0, "move": 2.0},
         "ad-swapped": {"rate": lambda V, S: ad(S) @ V},
         "ad-transposed": {"rate": lambda V, S: ad(V).T @ S},
         "ad-half": {"rate": lambda V, S: (FORWARDS * ad(V)) @ S},

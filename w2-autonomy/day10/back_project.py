@@ -6,6 +6,7 @@ import numpy as np
 
 from labkit.judge import Matrix, Row, rounded
 
+from .project import swapped
 from .seen import K, cameras
 
 row = Row(Matrix((None, 3), unit="m", columns=("x", "y", "z")))
@@ -63,6 +64,18 @@ for slug, says, redone, other in (
     ("centre-added", "the centre is added to the pixel; it is taken off",
      "with (u + cx) / f", {"ray": lambda K, h, d: (h + K[:, 2] * [1, 1, 0])
                            / [K[0, 0], K[1, 1], 1]}),
+    ("centre-swapped", "the centre's two numbers are swapped: cx goes with u",
+     "with (cy, cx)", {"ray": lambda K, h, d: right_ray(swapped(K), h)}),
+    ("K-transposed", "K is transposed before it is inverted, or pixels stand on the "
+     "wrong side", "with K^T", {"ray": lambda K, h, d: h @ K}),
+    ("x-and-y-turned-round", "x and y are turned round: the image is right side up "
+     "here, u grows with x and v with y", "with -x and -y",
+     {"ray": lambda K, h, d: right_ray(K, h) * [-1, -1, 1]}),
+    ("x-left", "x is taken to the left; here it points right, as u does", "with -x",
+     {"ray": lambda K, h, d: right_ray(K, h) * [-1, 1, 1]}),
+    ("f-multiplied", "the pixel from the centre is multiplied by f; it is divided",
+     "with (u - cx) f", {"ray": lambda K, h, d: (h - K[:, 2] * [1, 1, 0])
+                         * [K[0, 0], K[1, 1], 1]}),
     ("f-forgotten", "f is missing: pixels from the centre are no metres",
      "with (u - cx, v - cy, 1)", {"ray": lambda K, h, d: h - K[:, 2] * [1, 1, 0]}),
     ("y-up", "y is taken upwards; here it points down, as v does", "with -y",
@@ -77,6 +90,10 @@ for slug, says, redone, other in (
     ("middle-taken-off", "half a pixel is taken off; (0, 0) is the image's corner, and "
      "the centre in K stands from there", "with pixels - 0.5",
      {"pixel": lambda uv: uv - 0.5}),
+    ("whole-pixels", "the pixels are cut to whole numbers; (125.3, 50.7) is a place in "
+     "the image as well", "with floor", {"pixel": np.floor}),
+    ("whole-pixels", "the pixels are rounded; (125.3, 50.7) is a place in the image as "
+     "well", "rounded", {"pixel": np.round}),
     ("pixels-swapped", "u and v are swapped: u goes with x", "with (v, u)",
      {"pixel": lambda uv: uv[:, ::-1]}),
     ("depth-forgotten", "the depth is missing: these are the points at 1 m",

@@ -58,10 +58,13 @@ def _turned(angle, way, out):
     return moved(np.eye(4), np.append(angle * axis, np.zeros(3)))
 
 
-def turns(A, B, *, centred=False, rotation=proper):
+def turns(A, B, *, centred=False, unit=False, rotation=proper):
     """Return the rotation between two fans of rotation vectors."""
     a = log_rotation(A[:, :3, :3])
     b = log_rotation(B[:, :3, :3])
+    if unit:
+        a = a / np.linalg.norm(a, axis=1)[:, None]
+        b = b / np.linalg.norm(b, axis=1)[:, None]
     if centred:
         a = a - a.mean(axis=0)
         b = b - b.mean(axis=0)
@@ -99,6 +102,9 @@ for slug, says, redone, other in (
     ("centred", "the rotation vectors are moved to their mean; they turn about the "
      "origin, and nothing else moves them", "kabsch on them",
      {"turn": partial(turns, centred=True)}),
+    ("axes-alone", "each rotation vector is made of length 1: small turns, whose axes "
+     "are known worst, then count as much as large ones", "with axes of length 1",
+     {"turn": partial(turns, unit=True)}),
     ("positions-for-rotations", "the rotation is that between the translations of A "
      "and B; it is the one between their rotation vectors", "with it",
      {"turn": between_places}),
@@ -133,6 +139,9 @@ def _(A, B):
     t-left-out: the translation is 0: only the rotation is solved
     t-of-the-mean: each motion is solved alone, and the mean taken; one motion does not
       show the slide along its axis, so stack them => with the mean of pinv (R_A - 1) d
+    centred-the-other-way: the rotation vectors are moved to their mean and turned the
+      other way round; they turn about the origin, and a = R b => kabsch(a, b)
+    halved: the translation is half of what it is
     t-as-if-alike: the translation is the mean of t_A - R t_B, as if the hand did not
       turn; it is (R_A - 1) t that this is => the mean of t_A - R t_B
     t-as-if-alike 2: the translation is the mean of R t_B - t_A, as if the hand did not
@@ -149,6 +158,10 @@ def _(A, B):
         "other-way": hand_eye(B, A),
         "t-left-out": rigid(R, 0 * right[:3, 3]),
         "t-of-the-mean": rigid(R, np.mean(alone, axis=0)),
+        "centred-the-other-way": solved(
+            A, B, turn=lambda A, B: turns(B, A, centred=True)
+        ),
+        "halved": rigid(R, right[:3, 3] / 2),
         "t-as-if-alike": rigid(R, alike),
         "t-as-if-alike 2": rigid(R, -alike),
     }

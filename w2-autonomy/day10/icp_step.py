@@ -29,6 +29,16 @@ def nearest(points, target):
     return target[np.argmin(away, axis=1)]
 
 
+def once_each(away):
+    """Return the nearest that is still free for each point, in turn, (n,)."""
+    away = away.copy()
+    found = []
+    for one in away:
+        found.append(int(np.argmin(one)))
+        away[:, found[-1]] = np.inf
+    return found
+
+
 @row.wrongs
 def _(T, source, target):
     """guess-not-used: each point is paired where it stands; T moves it first
@@ -42,6 +52,9 @@ def _(T, source, target):
       is in the answer already => T times it
     by-sizes-added: the nearest is the one whose differences, without signs, add up to
       the least; near is the length of the difference => with sums of |x - y|
+    nearer-half: only the nearer half of the pairs is fitted; all are
+    each-once: a point of the target is taken once only; several of the source may share
+      the nearest => with pairs that no other has
     farthest: each point is paired with the farthest
     in-the-plane: only x and y say which is nearest
     other-way: this is the motion from target to source
@@ -56,6 +69,8 @@ def _(T, source, target):
     back = source[np.argmin(away, axis=0)]
     beside = ((now[:, None] - target)[..., :2] ** 2).sum(axis=2)
     sizes = np.abs(now[:, None] - target).sum(axis=2)
+    least = away.min(axis=1)
+    near = least < np.median(least)
     step = kabsch(now, best)
     right = kabsch(source, best)
     return {
@@ -65,6 +80,8 @@ def _(T, source, target):
         "step-twice": right @ T,
         "step-twice 2": T @ right,
         "by-sizes-added": kabsch(source, target[np.argmin(sizes, axis=1)]),
+        "nearer-half": lambda: kabsch(source[near], best[near]),
+        "each-once": kabsch(source, target[once_each(away)]),
         "farthest": kabsch(source, target[np.argmax(away, axis=1)]),
         "in-the-plane": kabsch(source, target[np.argmin(beside, axis=1)]),
         "other-way": np.linalg.inv(right),

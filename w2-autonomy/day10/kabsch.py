@@ -72,10 +72,16 @@ for slug, says, redone, other in (
      "the middle singular value round; the smallest is the cheapest",
      "with diag(1, det, 1)", {"rotation": lambda U, Vt: U @ np.diag(
          [1, np.linalg.det(U @ Vt), 1]) @ Vt}),
+    ("column-turned-round", "the mirror is made a rotation by turning the third column "
+     "of V^T round; its rows are the directions", "with V^T's column",
+     {"rotation": lambda U, Vt: U @ Vt @ np.diag([1, 1, np.linalg.det(U @ Vt)])}),
+    ("row-of-U-turned-round", "the mirror is made a rotation by turning the third row "
+     "of U round; its columns are the directions", "with U's row",
+     {"rotation": lambda U, Vt: np.diag([1, 1, np.linalg.det(U @ Vt)]) @ U @ Vt}),
     ("always-turned-round", "the third direction is turned round every time; it is "
      "only where U V^T is a mirror image", "with diag(1, 1, -1)",
      {"rotation": lambda U, Vt: U @ np.diag([1, 1, -1]) @ Vt}),
-    ("R-transposed", "the rotation is the other way round: it comes from B^T A, not "
+    ("R-transposed", "the rotation is the other way round: it is U V^T of B^T A, not "
      "A^T B", "with R^T", {"rotation": lambda U, Vt: proper(U, Vt).T}),
     ("U-V", "numpy's svd returns V^T already", "with U V", {"rotation": lambda U, Vt:
      U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt.T}),

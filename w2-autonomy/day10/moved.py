@@ -83,6 +83,12 @@ row.of_argument(
         lambda xi: xi[HALF],
     ),
     Change(
+        "in-degrees",
+        "the angle is converted to degrees; an exponential takes radians",
+        np.rad2deg,
+        "with an angle in degrees",
+    ),
+    Change(
         "unit-screw",
         "xi is divided by its whole length; the angle is that of omega alone",
         lambda xi: xi / (np.linalg.norm(xi) or 1.0),

@@ -1,5 +1,7 @@
 """10.7 `pose_covariance(J, sigma)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Covariance, Row
@@ -16,51 +18,88 @@ def _(rng):
     return [(first, 2.0), *drawn, (100 * drawn[0][0], 30.0)]
 
 
+def rows_of(J):
+    """Return J with a row for each number of a pixel, (2 n, 6)."""
+    return J.reshape(-1, 6)
+
+
+def covariance(
+    J, sigma, *, noise=np.square, rows=rows_of, share=lambda n: 1.0,
+    turned=np.linalg.inv, told=lambda C: C,
+):  # fmt: skip
+    """Return the covariance with other parts."""
+    J = rows(J)
+    return told(share(len(J)) * noise(sigma) * turned(J.T @ J))
+
+
+def root(C):
+    """Return the roots of the sizes."""
+    return np.sqrt(np.abs(C))
+
+
+for slug, says, redone, other in (
+    ("sigma-not-squared", "the noise enters as sigma; a covariance has its square",
+     "with sigma", {"noise": lambda sigma: sigma}),
+    ("sigma-forgotten", "sigma is not used", "without sigma",
+     {"noise": lambda sigma: 1.0}),
+    ("noise-divided", "it is divided by sigma^2; more noise makes it less sure",
+     "divided by sigma^2", {"noise": lambda sigma: sigma**-2.0}),
+    ("sigma-to-the-fourth", "sigma^2 is squared once more", "with sigma^4",
+     {"noise": lambda sigma: sigma**4}),
+    ("not-inverted", "this is sigma^2 J^T J: the larger J the surer, so it is inverted",
+     "without the inverse", {"turned": lambda N: N}),
+    ("diagonal-inverted", "each entry of J^T J's diagonal is inverted alone",
+     "with 1 / the diagonal", {"turned": lambda N: np.diag(1 / np.diag(N))}),
+    ("entries-inverted", "each entry of J^T J is inverted alone, as by 1 / or ** -1",
+     "with 1 / each entry", {"turned": lambda N: 1 / N}),
+    ("mean-over-points", "it is multiplied by the number of pixels, or J^T J is a mean "
+     "over them; each further pixel makes the pose surer", "the right one times 2 n",
+     {"share": lambda n: n}),
+    ("mean-over-points", "it is multiplied by the number of points, or J^T J is a mean "
+     "over them; each further point makes the pose surer", "the right one times n",
+     {"share": lambda n: n / 2}),
+    ("divided-by-points", "it is divided by the number of points; J^T J adds them up "
+     "already", "the right one / n", {"share": lambda n: 2 / n}),
+    ("divided-by-points", "it is divided by the number of pixels; J^T J adds them up "
+     "already", "the right one / (2 n)", {"share": lambda n: 1 / n}),
+    ("reshaped-across", "J is reshaped to (6, 2 n), which only counts its numbers off "
+     "anew; it has a row per number of a pixel, (2 n, 6)", "with J.reshape(6, -1)",
+     {"rows": lambda J: J.reshape(6, -1).T}),
+    ("u-alone", "only the rows of u are used; v shows as much", "with J[:, 0]",
+     {"rows": lambda J: J[:, 0]}),
+    ("v-alone", "only the rows of v are used; u shows as much", "with J[:, 1]",
+     {"rows": lambda J: J[:, 1]}),
+    ("sigma-for-variance", "these are roots of the entries: a covariance has squares, "
+     "rad^2", "with roots", {"told": root}),
+    ("sigma-for-variance", "these are roots of the entries: a covariance has squares, "
+     "rad^2", "with np.sqrt, which has no root of what is below 0, ",
+     {"told": np.sqrt}),
+    ("halves-swapped", "the blocks are those of (v; omega); here omega comes first",
+     "with its blocks swapped", {"told": lambda C: C[HALF][:, HALF]}),
+    ("diagonal-only", "only the diagonal is there; how the six go together is lost",
+     "its diagonal", {"told": lambda C: np.diag(np.diag(C))}),
+):  # fmt: skip
+    row.wrong(slug, says, redone)(partial(covariance, **other))
+
+
 @row.wrongs
 def _(J, sigma):
-    """sigma-not-squared: the noise enters as sigma; a covariance has its square
-    not-inverted: this is sigma^2 J^T J: the larger J the surer, so it is inverted
-    information: this is the information, J^T J / sigma^2; the covariance is its inverse
-    sigma-for-variance: these are roots of the entries: a covariance has squares, rad^2
-    sigma-forgotten: sigma is not used
-    noise-divided: it is divided by sigma^2; more noise makes it less sure
-    mean-over-points: it is multiplied by the number of pixels, or J^T J is a mean over
-      them; each further pixel makes the pose surer => the right one times 2 n
-    divided-by-points: it is divided by the number of points; J^T J adds them up
-      already => the right one / n
-    divided-by-points 2: it is divided by the number of pixels; J^T J adds them up
-      already => the right one / (2 n)
-    reshaped-across: J is reshaped to (6, 2 n), which only counts its numbers off anew;
-      it has a row per number of a pixel, (2 n, 6) => with J.reshape(6, -1)
-    u-alone: only the rows of u are used; v shows as much
-    sigma-for-variance 2: these are roots of the entries: a covariance has squares,
-      rad^2 => with np.sqrt, which has no root of what is below 0
-    halves-swapped: the blocks are those of (v; omega); here omega comes first
-    diagonal-only: only the diagonal is there; how the six go together is lost
-    diagonal-inverted: each entry of J^T J's diagonal is inverted alone => with 1 / the
-      diagonal
+    """information: this is the information, J^T J / sigma^2; the covariance is its
+      inverse
+    by-what-is-left: it is divided by 2 n - 6, the numbers that are left over; that
+      belongs to a sigma that is not known
+    each-point-alone: each point's covariance is made, and they are added up; what adds
+      up is what the points tell, J^T J
     """
-    u = J[:, 0]
-    across = J.reshape(6, -1)
-    J = J.reshape(-1, 6)
-    N = J.T @ J
-    C = sigma**2 * np.linalg.inv(N)
+    rows = rows_of(J)
+    left = len(rows) - 6
+    alone = [np.linalg.pinv(one.T @ one) for one in J]
     return {
-        "sigma-not-squared": C / sigma,
-        "not-inverted": sigma**2 * N,
-        "information": N / sigma**2,
-        "sigma-for-variance": np.sqrt(np.abs(C)),
-        "sigma-forgotten": C / sigma**2,
-        "noise-divided": C / sigma**4,
-        "mean-over-points": C * len(J),
-        "divided-by-points": C / (len(J) / 2),
-        "divided-by-points 2": C / len(J),
-        "reshaped-across": lambda: sigma**2 * np.linalg.inv(across @ across.T),
-        "u-alone": lambda: sigma**2 * np.linalg.inv(u.T @ u),
-        "sigma-for-variance 2": np.sqrt(C),
-        "halves-swapped": C[HALF][:, HALF],
-        "diagonal-only": np.diag(np.diag(C)),
-        "diagonal-inverted": np.diag(sigma**2 / np.diag(N)),
+        "information": rows.T @ rows / sigma**2,
+        "by-what-is-left": covariance(J, sigma) / left
+        if left
+        else np.full((6, 6), np.inf),
+        "each-point-alone": sigma**2 * np.sum(alone, axis=0),
     }
 
 

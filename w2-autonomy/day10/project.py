@@ -41,6 +41,13 @@ def upright(K, p, f=1.0, centre=1.0):
     return p @ here.T
 
 
+def swapped(K):
+    """Return K with its centre's numbers swapped."""
+    here = K.copy()
+    here[:2, 2] = here[1::-1, 2]
+    return here
+
+
 for slug, says, redone, other in (
     ("T-the-other-way", "T is used the other way, as T_world_cam; it already takes the "
      "world's points to the camera", "with T's inverse",
@@ -70,6 +77,13 @@ for slug, says, redone, other in (
     ("centre-forgotten", "the centre is missing: (0, 0) is the image's corner, and a "
      "point straight ahead is seen in the middle", "without the centre",
      {"times": lambda K, p: upright(K, p, centre=0.0)}),
+    ("centre-taken-off", "the centre is taken off; it is added: a point straight ahead "
+     "is seen there", "with minus the centre",
+     {"times": lambda K, p: upright(K, p, centre=-1.0)}),
+    ("centre-swapped", "the centre's two numbers are swapped: cx goes with u",
+     "with (cy, cx)", {"times": lambda K, p: p @ swapped(K).T}),
+    ("K-inverted", "it is multiplied by K's inverse; that takes pixels back to points",
+     "with K^-1", {"times": lambda K, p: p @ np.linalg.inv(K).T}),
     ("f-forgotten", "f is missing: x / z is no number of pixels", "with f = 1",
      {"times": lambda K, p: upright(K, p, f=0.0)}),
     ("y-up", "y is taken upwards; here it points down, as v does", "with -y",
@@ -88,6 +102,8 @@ for slug, says, redone, other in (
      "its depth, z", "with the length of p",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2] * length(p), length(p)])}),
+    ("first-depth-for-all", "all are divided by the first point's depth; each has its "
+     "own", "with z of the first", {"divided": lambda h, p: h[:, :2] / h[0, 2]}),
     ("divided-by-pixel-length", "it is divided by the length of K T p; its last "
      "entry is the depth", "with the length of K T p",
      {"divided": lambda h, p: h[:, :2] / length(h)}),
@@ -98,6 +114,8 @@ for slug, says, redone, other in (
      "well", "rounded", {"told": np.round}),
     ("whole-pixels", "the pixels are cut to whole numbers; (125.3, 50.7) is a place in "
      "the image as well", "cut off", {"told": np.trunc}),
+    ("whole-pixels", "the pixels are rounded down; (125.3, 50.7) is a place in the "
+     "image as well", "rounded down", {"told": np.floor}),
     ("row-column", "the answer is (row, column); u, to the right, comes first",
      "(v, u)", {"told": lambda pixels: pixels[:, ::-1]}),
     ("middle-of-a-pixel", "half a pixel is taken off; (0, 0) is the image's corner, "

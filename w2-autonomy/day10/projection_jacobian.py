@@ -60,6 +60,13 @@ def with_the_centre(K, p):
     return K[:2] @ np.concatenate([D, last], axis=1)
 
 
+def of_the_pixel(K, p):
+    """Return d(pixel)/dp with u and v for x and y."""
+    D = by_point(K, p)
+    D[:, :, 2] = -K[0, 0] * ((p @ K.T)[:, :2] / p[:, 2:]) / p[:, 2:] ** 2
+    return D
+
+
 def with_one_name(of, other):
     """Return d(pixel)/dp where both rows use the same coordinate."""
 
@@ -99,8 +106,25 @@ for slug, says, redone, other in (
      {"pixel": with_one_name(1, 0)}),
     ("y-for-x", "the row of u has y in its third column; it is -x / z^2", "with y",
      {"pixel": with_one_name(0, 1)}),
+    ("first-columns-not-divided", "d(pixel)/dp's first two columns are not divided "
+     "by z; only the third is", "with f for f / z", {"pixel": lambda K, p: by_point(
+         K, p) * np.where([True, True, False], depth(p, 1), 1.0)}),
+    ("pixels-for-x-and-y", "the third column has the pixel's own u and v; it has "
+     "x and y", "with -u / z", {"pixel": of_the_pixel}),
+    ("v-of-y-sign", "the slope of v with y has the wrong sign; y and v both point down",
+     "with -f / z there", {"pixel": lambda K, p: by_point(K, p)
+                           * [[1, 1, 1], [1, -1, 1]]}),
+    ("one-depth-sign", "the slope of u with z has the wrong sign: it is -f x / z^2",
+     "with +x / z^2 in u", {"pixel": lambda K, p: by_point(K, p)
+                            * [[1, 1, -1], [1, 1, 1]]}),
+    ("one-depth-sign", "the slope of v with z has the wrong sign: it is -f y / z^2",
+     "with +y / z^2 in v", {"pixel": lambda K, p: by_point(K, p)
+                            * [[1, 1, 1], [1, 1, -1]]}),
+    ("range-for-depth", "it is divided by the point's distance; a camera divides by z",
+     "with the length of p", {"pixel": lambda K, p: by_point(
+         K, np.column_stack([p[:, :2], np.linalg.norm(p, axis=1)]))}),
     ("halves-swapped", "the columns are (v; omega); here omega comes first",
-     "[1, -[p]]", {"twist": lambda p: by_twist(p)[..., HALF]}),
+     "[1, -[p]]", {"told": lambda J: J[..., HALF]}),
     ("rotation-sign", "the rotation's columns have the wrong sign: omega x p is -[p] "
      "omega", "with +[p]", {"twist": lambda p: by_twist(p, 1.0)}),
     ("rotation-forgotten", "the rotation's columns are 0; a turn about the camera's "

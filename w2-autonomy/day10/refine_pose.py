@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Pose, Row
-from robo47.camera import moved, project, projection_jacobian, refine_pose
+from robo47.camera import moved, project, projection_jacobian
 from robo47.screws import skew
 
 from .projection_jacobian import by_point, by_twist
@@ -70,18 +70,19 @@ def placed(T, points):
 
 def steps(
     K, T_guess, points, pixels, *, n=10, solve=least_squares, move=moved, held=False,
-    sign=1.0, at=placed,
+    sign=1.0, at=placed, stale=False, since=lambda T, guess: T, told=lambda T: T,
 ):  # fmt: skip
     """Return T after steps that may be wrong; NaN where they run away."""
     T = T_guess
-    J = None
+    J = off = None
     for _ in range(n):
         p = placed(T, points)
-        off = pixels - (p @ K.T)[:, :2] / p[:, 2:]
+        if off is None or not stale:
+            off = pixels - (p @ K.T)[:, :2] / p[:, 2:]
         if J is None or not held:
             J = slopes(K, at(T, points))
-        T = move(T, sign * solve(J, off))
-    return T
+        T = move(since(T, T_guess), sign * solve(J, off))
+    return told(T)
 
 
 def slopes(K, p):
@@ -103,6 +104,11 @@ for slug, says, redone, other in (
      {"at": lambda T, points: points}),
     ("J-not-moved", "the Jacobian is taken at points that are turned, but not moved, "
      "by T", "with J at R p", {"at": lambda T, points: points @ T[:3, :3].T}),
+    ("error-of-the-guess", "the error is that of the guess in all steps; each step "
+     "needs what is left", "with the guess's error", {"stale": True}),
+    ("twist-halves-swapped", "the step is taken for (v; omega); J's columns have omega "
+     "first", "with its halves swapped",
+     {"move": lambda T, xi: moved(T, np.roll(xi, 3))}),
     ("body-twist", "each step stands on T's right; J's twists are in the camera's "
      "axes, so the exponential stands on the left", "T exp([xi])",
      {"move": on_the_right}),
@@ -110,6 +116,11 @@ for slug, says, redone, other in (
      "(1 + [xi]) T", {"move": first_order}),
     ("gradient", "each step is J^T r, the steepest way, and no least squares",
      "with J^T r", {"solve": downhill}),
+    ("each-from-the-guess", "each step moves the guess; it moves the pose that the "
+     "last step gave", "with the guess moved",
+     {"since": lambda T, guess: guess}),
+    ("inverse", "this is the camera seen from the thing, T's inverse", "its inverse",
+     {"told": np.linalg.inv}),
     ("half-steps", "each step is halved: after ten a thousandth of the way is left",
      "with xi / 2", {"sign": 0.5}),
     ("residual-sign", "the error is predicted less seen, so each step goes the wrong "
@@ -124,11 +135,8 @@ for slug, says, redone, other in (
 
 @row.wrongs
 def _(K, T_guess, points, pixels):
-    """guess-returned: this is the guess itself
-    inverse: this is the camera seen from the thing, T's inverse
-    """
-    right = refine_pose(K, T_guess, points, pixels)
-    return {"guess-returned": T_guess, "inverse": np.linalg.inv(right)}
+    """guess-returned: this is the guess itself"""
+    return {"guess-returned": T_guess}
 
 
 row.at_least_0(K="f and the centre are")

@@ -40,6 +40,8 @@ def _(p, half):
       nearest face alone
     farthest-face-inside: inside it is the way to the farthest face; the nearest one is
       the largest of |p| - half => with min
+    farthest-face-inside 2: what is added to the length is the way to the farthest face;
+      it is the largest of |p| - half, where that is below 0 => with min
     to-the-middle-inside: inside it is minus how far the middle is
     to-the-middle: this is how far the middle is: the box has no size
     box-as-a-ball: the box is taken for a ball => |p| less the length of half
@@ -50,6 +52,8 @@ def _(p, half):
       half
     abs-forgotten: a point on the side below 0 is not folded over: it is |p| - half =>
       with p - half
+    abs-forgotten-zero-inside: a point on the side below 0 is not folded over, and
+      inside it is 0 => the norm of what of p - half is above 0
     not-rooted: this is the square of the length outside
     nearest-corner: this is how far the nearest corner is; a face may be nearer
     largest-half: all sides are the largest => with half.max()
@@ -81,6 +85,7 @@ def _(p, half):
         "inside-added-outside": np.linalg.norm(beyond) if inside == 0 else inside,
         "inside-by-the-norm": length if inside == 0 else -np.linalg.norm(beyond),
         "farthest-face-inside": length if inside == 0 else beyond.min(),
+        "farthest-face-inside 2": length + min(beyond.min(), 0.0),
         "to-the-middle-inside": length if inside == 0 else -far,
         "to-the-middle": far,
         "box-as-a-ball": far - np.linalg.norm(half),
@@ -89,6 +94,7 @@ def _(p, half):
         "whole-sides": of(p, half / 2),
         "twice-the-sides": of(p, 2 * half),
         "abs-forgotten": unfolded,
+        "abs-forgotten-zero-inside": np.linalg.norm(np.maximum(p - half, 0.0)),
         "not-rooted": length**2 + inside,
         "nearest-corner": np.linalg.norm(np.abs(p) - half),
         "largest-half": of(p, np.full(3, half.max())),

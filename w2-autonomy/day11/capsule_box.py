@@ -2,13 +2,27 @@
 
 import numpy as np
 
-from labkit.judge import Row, Scalar
+from labkit.judge import Finding, Row, Scalar
 from robo47.distance import box_sdf, capsule_box
 
 from . import pairs
 
+
+def above(case):
+    """Say so where no answer is too small: the axis' nearest point was not found."""
+    more = case.S - case.T
+    if more.min() < -1e-9 or more.max() > 0.2 or (more > 1e-9).all():
+        return None
+    return Finding(
+        "not-the-least",
+        f"No answer is too small, some are up to {1000 * more.max():.3g} mm too large: "
+        "the nearest point of the axis is not found yet. Are only some points asked, "
+        "or is 0.618 taken too few times?",
+    )
+
+
 # Ten sections and less leave some 1e-4: near in method.
-row = Row(Scalar(unit="m"), near=1e-3)
+row = Row(Scalar(unit="m"), near=1e-3, unnamed=above)
 
 
 @row.inputs
@@ -84,12 +98,17 @@ def _(a0, a1, r, T_world_box, half):
     diameter: twice the radius is taken off => - 2 r
     radius-to-the-box: the box is grown by the radius; its edges and corners are round,
       then => with half + r
+    radius-to-the-box 2: the box is grown by the radius; its edges and corners are
+      round, then => with half + r at the right place
+    way-not-turned: the start is taken into the box's axes, and the way along the axis
+      is not => with a1 - a0 as it is
     wrong-half-kept: the wrong part is kept: this finds the farthest point of the axis
     wrong-half-kept 2: the wrong part is kept: this finds the farthest point of the axis
       => the largest of both ends
     bounding-sphere: the box is taken for a ball => with the length of half
     ends-left-out: no end of the axis is asked, and the valley is cut to its inner part
     whole-sides: half is halved again: it is half of the sides already
+    twice-the-sides: half is doubled: the faces stand at plus and minus half
     never-negative: what overlaps is 0 apart here; it is to be below 0 => with max(0, d)
     sign: its sign is the other one: apart is above 0
     outside-only: the axis counts as outside: inside it is below 0 => 0 there, less r
@@ -139,11 +158,18 @@ def _(a0, a1, r, T_world_box, half):
         "radius-added": d + r,
         "diameter": d - 2 * r,
         "radius-to-the-box": lambda: least(R, t, half + r) + r,
+        "radius-to-the-box 2": lambda: along(
+            a0, a1, half + r, golden(at, 60), R, t
+        ).min(),
+        "way-not-turned": lambda: least(
+            np.eye(3), np.zeros(3), half, R.T @ (a0 - t), R.T @ (a0 - t) + way
+        ),
         "wrong-half-kept": lambda: at(golden(at, 60, wrong=True)[0]) - r,
         "wrong-half-kept 2": farthest - r,
         "bounding-sphere": far - np.linalg.norm(half) - r,
         "ends-left-out": lambda: shares(*np.linspace(0.05, 0.95, 19)),
         "whole-sides": lambda: least(R, t, half / 2),
+        "twice-the-sides": lambda: least(R, t, 2 * half),
         "never-negative": max(0.0, d - r),
         "sign": r - d,
         "outside-only": max(0.0, d) - r,

@@ -40,6 +40,8 @@ def _(J_space, p, o, link):
       with 0 from joint `link` on
     one-column-too-many: joint `link` + 1 moves what is behind this link => one column
       more
+    from-the-link-on: what is kept are the link's own joint and those behind it; they
+      are the last to move it => from joint `link` on
     own-joint-only: every joint before the link moves it, too; this keeps the link's own
     columns-before-dropped: what is kept are the joints behind the link => 0 before it
     rotation-forgotten: v alone is the velocity of the point at the world's origin; p's
@@ -76,6 +78,7 @@ def _(J_space, p, o, link):
         "columns-behind-kept": velocity @ n,
         "own-joint-left-out": right * (np.arange(7) < link - 1),
         "one-column-too-many": velocity @ n * (np.arange(7) <= link),
+        "from-the-link-on": velocity @ n * (np.arange(7) >= link - 1),
         "own-joint-only": alone,
         "columns-before-dropped": velocity @ n * ~mask,
         "rotation-forgotten": v @ n * mask,

@@ -70,10 +70,7 @@ def missed_edge() -> day11_mujoco.Edge:
     """
     dots = np.linspace(0.0, 1.0, POINTS + 2)
     for edge in day11_mujoco.whips(lab.WHIPS, lab.THIN, lab.SEED):
-        a, b, r = edge.wire
-        ends = day11_mujoco.pen(edge.q + np.multiply.outer(dots, edge.dq))
-        far = day11_mujoco.segments_apart(ends[:, 0], ends[:, 1], a, b)
-        far = far - r - shapes.PEN.radius
+        far = day11_mujoco.far(edge, dots)
         if far.min() > 0.01 and 0.5 < dots[np.argmin(far)] < 0.75:
             return edge
     raise AssertionError("the lab's seed has no such way")

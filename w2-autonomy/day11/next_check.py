@@ -40,6 +40,8 @@ def _(s, distance, dq, reach):
     fastest-joint-only 2: only the largest |dq| counts => largest |dq| x largest reach
     norm-of-dq: the length of dq times the largest reach is no bound: seven turns add up
     norm-of-products: the length of |dq| reach is taken, not the sum
+    norm-of-products 2: the length of dq times that of reach is taken, not the sum
+    first-reach: every joint is given the first one's reach
     largest-reach: every joint is given the largest reach: safe, and not the bound that
       is asked for
     mean-reach: every joint is given the mean reach
@@ -50,6 +52,8 @@ def _(s, distance, dq, reach):
     of-what-is-left 2: dq is divided by what is left after s
     half-a-step: only half of the free way is gone
     twice-a-step: twice the free way is gone
+    multiplied: the distance is multiplied by what may move; a fast arm has to be looked
+      at sooner => distance times the sum
     s-forgotten: this is the step alone; s is to be added
     not-capped: it may go beyond the end of the way, which is 1
     standing-still: where nothing moves it divides by 0; the way's end is free: 1
@@ -84,6 +88,8 @@ def _(s, distance, dq, reach):
         "fastest-joint-only 2": by(np.abs(dq).max() * reach.max()),
         "norm-of-dq": by(np.linalg.norm(dq) * reach.max()),
         "norm-of-products": by(np.linalg.norm(dq * reach)),
+        "norm-of-products 2": by(np.linalg.norm(dq) * np.linalg.norm(reach)),
+        "first-reach": by(np.abs(dq).sum() * reach[0]),
         "largest-reach": by(np.abs(dq).sum() * reach.max()),
         "mean-reach": by(np.abs(dq).sum() * reach.mean()),
         "reach-forgotten": by(np.abs(dq).sum()),
@@ -92,6 +98,7 @@ def _(s, distance, dq, reach):
         "of-what-is-left 2": lambda: gone(distance / speed / (1 - s)),
         "half-a-step": lambda: gone(distance / speed / 2),
         "twice-a-step": lambda: gone(2 * distance / speed),
+        "multiplied": lambda: gone(distance * speed),
         "s-forgotten": lambda: s if inside else
         1.0 if still else min(1.0, distance / speed),
         "not-capped": lambda: s if inside else 1.0 if still else s + distance / speed,

@@ -42,14 +42,21 @@ def _(A, B):
     one-direction 2: only one of the two comparisons is made: B may lie above A as well
       as below => B[0] <= A[1] alone
     touching-left-out: what only touches counts as apart; it is to overlap => with <
+    touching-left-out 2: what only touches counts as apart on one side; it is to overlap
+      => with one <
+    touching-left-out 3: what only touches counts as apart on one side; it is to overlap
+      => with the other <
     negated: it is the other way round: True is for those that overlap
     first-axis-only: only x is compared
     two-axes-only: z is not compared
     contained: A has to lie inside B, or B in A; it is enough to overlap
+    contained 2: B has to lie inside A; it is enough to overlap
+    contained 3: A has to lie inside B; it is enough to overlap
     a-corner-inside: B's least or greatest corner has to lie in A; boxes may cross
       without
     a-corner-inside 2: B's least corner has to lie in A; it may lie below A's
     middles-inside: A's middle has to lie in B
+    half-of-one: the middles may be as far apart as half of A; half of B counts, too
     always: it is always True
     never: it is always False
     """
@@ -66,13 +73,20 @@ def _(A, B):
         "one-direction": bool(low.all()),
         "one-direction 2": bool(high.all()),
         "touching-left-out": bool(np.all((A[0] < B[1]) & (B[0] < A[1]))),
+        "touching-left-out 2": bool(low.all() and np.all(B[0] < A[1])),
+        "touching-left-out 3": bool(high.all() and np.all(A[0] < B[1])),
         "negated": not both.all(),
         "first-axis-only": bool(both[0]),
         "two-axes-only": bool(both[:2].all()),
         "contained": bool(holds.all() or held.all()),
+        "contained 2": bool(holds.all()),
+        "contained 3": bool(held.all()),
         "a-corner-inside": inside(B[0], A) or inside(B[1], A),
         "a-corner-inside 2": inside(B[0], A),
         "middles-inside": inside(A.mean(axis=0), B),
+        "half-of-one": bool(
+            np.all(np.abs(A.mean(axis=0) - B.mean(axis=0)) <= (A[1] - A[0]) / 2)
+        ),
         "always": True,
         "never": False,
     }

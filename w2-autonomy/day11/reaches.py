@@ -48,6 +48,12 @@ def _(offsets, far):
     one-for-all: it is the largest of all for every joint
     backwards: it is from the tip to the base
     sum-from-the-base: offsets are summed from the base to the joint, and far is added
+    far-of-its-own: the offsets end at the last link, and the far is the joint's own
+      link's => offsets behind it + its own far
+    far-of-its-own 2: the offsets end at the last link, and the far is the joint's own
+      link's => all offsets behind it + its own far
+    forwards: it goes from the base outwards: what is behind a joint is on the other
+      side => the larger of far and the offset before + the reach before
     far-twice: its own far and that of the farthest are added
     """
     n = len(far)
@@ -71,6 +77,12 @@ def _(offsets, far):
         reach = far.copy()
         for i in range(n - 2, -1, -1):
             reach[i] = min(far[i], offsets[i] + reach[i + 1])
+        return reach
+
+    def forwards():
+        reach = far.copy()
+        for i in range(1, n):
+            reach[i] = max(far[i], offsets[i - 1] + reach[i - 1])
         return reach
 
     def euclid():
@@ -97,6 +109,9 @@ def _(offsets, far):
         "one-for-all": np.full(n, right.max()),
         "backwards": right[::-1].copy(),
         "sum-from-the-base": of(lambda i: behind(0, i + 1) + far[i]),
+        "far-of-its-own": of(lambda i: behind(i, n - 1) + far[i]),
+        "far-of-its-own 2": of(lambda i: offsets[i:].sum() + far[i]),
+        "forwards": forwards,
         "far-twice": of(lambda i: far[i] + right[i]),
     }  # fmt: skip
 

@@ -2,15 +2,40 @@
 
 import numpy as np
 
-from labkit.judge import HeldOut, Points, Row
+from labkit.judge import Finding, HeldOut, Points, Row
 
 from . import pairs
+
+
+def hardly(case):
+    """Say so where both points lie on their segments and are nearly the closest."""
+    S, T = case.S, case.T
+    ends = np.array(case.arguments).swapaxes(0, 1)  # (n, 4, 3)
+    for i in (0, 1):
+        start, end = ends[:, 2 * i], ends[:, 2 * i + 1]
+        way = np.linalg.norm(end - start, axis=1)
+        beside = np.linalg.norm(S[:, i] - start, axis=1)
+        beside += np.linalg.norm(S[:, i] - end, axis=1) - way
+        if beside.max() > 1e-9:
+            return None
+    far = [np.linalg.norm(X[:, 0] - X[:, 1], axis=1) for X in (S, T)]
+    more = float((far[0] - far[1]).max())
+    if not 0 < more < 0.05:
+        return None
+    return Finding(
+        "nearly-the-closest",
+        f"All points lie on their segments, and are up to {1000 * more:.3g} mm farther "
+        "apart than the closest: are only some points tried, or is a loop not at its "
+        "end?",
+    )
+
 
 # What has more than one closest pair is no question here; 11.2 asks how far such
 # segments are apart.
 row = Row(
-    Points((2, 3), names=("the first's", "the second's")),
+    Points((2, 3), names=("first's point", "second's point")),
     at_edge=pairs.crosses,
+    unnamed=hardly,
     held_out=[
         HeldOut(
             "parallel-not-handled",
@@ -116,6 +141,7 @@ def _(a0, a1, b0, b1):
     across-plus: a c + b b is divided by; it is a c - b b, which is 0 where they are
       parallel
     across-of-lengths: a c is divided by: that is for segments at a right angle, b = 0
+    b-forgotten: b is missing in t: t = (b s + e) / c => with (s + e) / c
     t-sign: e enters t with the wrong sign: t = (b s + e) / c => with -e
     t-by-a: t is divided by a; it is c, the second's length squared => (b s + e) / a
     d-sign-last: d enters the last s with the wrong sign: s = (b t - d) / a
@@ -125,6 +151,8 @@ def _(a0, a1, b0, b1):
     starts: these are their first ends
     same-share: s and t are the same; each has its own => t = s
     shares: these are not points: each is s u and t v, without the end it starts from
+    beyond-the-ends: s and t are counted from the starts, and the points from the ends
+      => a1 + s u and b1 + t v
     t-from-the-end: t is counted from b1; it is from b0
     s-from-the-end: s is counted from a1; it is from a0
     unit-directions: u and v are made unit vectors, so s and t are metres, and are cut
@@ -210,6 +238,7 @@ def _(a0, a1, b0, b1):
         "b-not-squared": lambda: through(a * c - b),
         "across-plus": lambda: through(a * c + b * b),
         "across-of-lengths": lambda: through(a * c),
+        "b-forgotten": at(cut((b * cut((s1 + e) / c) - d) / a), cut((s1 + e) / c)),
         "t-sign": at(cut((b * cut((b * s1 - e) / c) - d) / a), cut((b * s1 - e) / c)),
         "t-by-a": at(cut((b * cut((b * s1 + e) / a) - d) / a), cut((b * s1 + e) / a)),
         "d-sign-last": at(cut((b * t1 + d) / a), t1),
@@ -219,6 +248,7 @@ def _(a0, a1, b0, b1):
         "starts": np.array([a0, b0]),
         "same-share": at(right[0], right[0]),
         "shares": np.array([right[0] * u, right[1] * v]),
+        "beyond-the-ends": np.array([p + u, o + v]),
         "t-from-the-end": np.array([p, b1 - right[1] * v]),
         "s-from-the-end": np.array([a1 - right[0] * u, o]),
         "unit-directions": units,

@@ -46,12 +46,16 @@ def _(qd, slope, distance, gain):
       / slope^2
     all-joints-slowed: all joints are slowed alike; only the part along the slope is too
       fast => qd times a factor
+    all-joints-slowed 2: all joints are slowed alike; only the part along the slope is
+      too fast => qd times bound / speed
     stops-dead: it stops where it would be too fast; the part that is allowed is lost =>
       0
     part-removed: all of the part along the slope is taken away; coming near slowly is
       allowed => without it
     sign-of-the-bound: the bound has the wrong sign: it may come nearer at gain distance
       => slope . qd >= gain distance
+    distance-sign-lost: the distance counts without its sign: where it overlaps the
+      bound is above 0, and drives it out => with |distance|
     gain-forgotten: the gain is missing in the bound
     distance-forgotten: the distance is missing in the bound
     distance-over-gain: the distance is divided by the gain
@@ -59,6 +63,8 @@ def _(qd, slope, distance, gain):
     leaving-forbidden: it may not move away faster than that either => cut on both sides
     joint-by-joint: each joint is kept to the bound by itself; it is their sum that
       counts
+    joint-by-joint 2: each joint speed is kept above the bound; it is a bound of metres
+      per second, of the sum => np.maximum(qd, -gain distance)
     largest-joint-only: only the joint with the largest slope is changed; nearest is all
       of them, along the slope
     slope-unit: the slope is made a unit vector before the bound: that is another speed
@@ -82,7 +88,10 @@ def _(qd, slope, distance, gain):
         return {
             **named,
             "all-joints-slowed": qd.copy(),
+            "all-joints-slowed 2": qd.copy(),
             "stops-dead": qd.copy(),
+            "joint-by-joint 2": np.maximum(qd, bound) if lack > 0 else qd.copy(),
+            "distance-sign-lost": qd.copy(),
             "joint-by-joint": qd.copy(),
             "standing-still": still if lack > 0 else qd.copy(),
             "lack-alone": np.zeros(7),
@@ -111,9 +120,11 @@ def _(qd, slope, distance, gain):
         "divided-by-the-length": qd + slope * max(lack, 0.0) / np.sqrt(square),
         "pushed-in": to(bound, -1.0),
         "all-joints-slowed": scaled(),
+        "all-joints-slowed 2": qd * (bound / rate) if lack > 0 else qd.copy(),
         "stops-dead": np.zeros(7) if lack > 0 else qd.copy(),
         "part-removed": qd - slope * rate / square if lack > 0 else qd.copy(),
         "sign-of-the-bound": to(gain * distance),
+        "distance-sign-lost": to(-gain * abs(distance)),
         "gain-forgotten": to(-distance),
         "distance-forgotten": to(-gain),
         "distance-over-gain": to(-distance / gain),
@@ -121,6 +132,7 @@ def _(qd, slope, distance, gain):
         "leaving-forbidden": to(bound) if lack > 0 else
         to(-bound, when=rate > -bound),
         "joint-by-joint": np.where(slope != 0, apart / np.where(slope, slope, 1), qd),
+        "joint-by-joint 2": np.maximum(qd, bound) if lack > 0 else qd.copy(),
         "largest-joint-only": one,
         "slope-unit": qd + unit * max(bound - unit @ qd, 0.0),
         "only-inside": to(bound) if distance <= 0 else qd.copy(),

@@ -3,10 +3,13 @@
 import importlib.util
 
 import numpy as np
+import pytest
 
 from conftest import ROOT, load_script, need, paper
 from labkit.lesson.day import find_day
 from robo47 import panda, shapes
+
+pytestmark = pytest.mark.kit
 
 DAY = find_day(11)
 lab = load_script(ROOT / "w2-autonomy/src/day11_distance.py")

@@ -110,6 +110,9 @@ for slug, says, redone, told in (
     ("condition-squared", "the condition is that of Y^T Y, the square of the one of Y",
      "its square",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), (s[0] / s[n - 1]) ** 2)),
+    ("condition-rooted", "the condition is the root of the quotient; singular values "
+     "are lengths already, and no root is left to take", "its root",
+     lambda s, rtol: (n := np.sum(s > rtol * s[0]), np.sqrt(s[0] / s[n - 1]))),
     ("condition-inverted", "the condition is upside down: it is 1 or more",
      "smallest over largest",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), s[n - 1] / s[0])),

@@ -48,6 +48,9 @@ for slug, says, redone, code in (
     ("singular-value", "this is the least singular value, which is never below 0; the "
      "sign is what is asked for", "the least singular value",
      lambda phi: np.linalg.svd(pseudo(phi), compute_uv=False)[-1]),
+    ("nearest-to-zero", "this is the eigenvalue of the least size; the least is the "
+     "most negative one", "the one of the least size",
+     lambda phi: min(np.linalg.eigvalsh(pseudo(phi)), key=abs)),
     ("clipped", "what is above 0 has become 0; of a body it is above 0, and says how "
      "far it is from none", "0 where it is above",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi))[0], 0.0)),

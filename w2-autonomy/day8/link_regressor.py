@@ -13,7 +13,8 @@ REST = np.zeros(6)
 UP = np.array([0, 0, 0, 0, 0, 9.81])
 SPIN = np.eye(6)[2]
 # A unit vector has m or m c, never both: what needs both cannot be told here.
-row.reached_by("inertia_of", "in inertia_of, ", but=["inertia-about-the-centre"])
+BOTH = ["inertia-about-the-centre", "first-moment-times-m"]
+row.reached_by("inertia_of", "in inertia_of, ", but=BOTH)
 
 
 @row.inputs
@@ -40,6 +41,8 @@ def _(V, A):
       accelerates upwards => the right one with A + (0, 0, 0, 0, 0, 9.81)
     reshaped: (10, 6) is reshaped to (6, 10), which only counts the numbers off anew;
       columns become rows by .T => the right one with its numbers so
+    first-moments-empty: the columns of m c are 0: a unit vector of m c has no mass, so
+      nothing may be multiplied or divided by it => the right one without these columns
     force-first: the rows are (force; moment); the moment's three come first
     """
     X = ad(V)
@@ -56,6 +59,7 @@ def _(V, A):
         "unit-vector-not-reset": np.cumsum(right, axis=1),
         "gravity-added": link_regressor(V, A + UP),
         "reshaped": right.T.reshape(6, 10),
+        "first-moments-empty": right * ~np.isin(np.arange(10), [1, 2, 3]),
         "force-first": right[SWAP],
     }
 

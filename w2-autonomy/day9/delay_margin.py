@@ -45,6 +45,20 @@ for slug, says, redone, other in (
     ("half-of-the-root", "only the root is halved in w^2 = (kd^2 + sqrt(...)) / 2, and "
      "kd^2 is not", "with kd^2 + sqrt(...) / 2",
      {"w": lambda kp, kd: np.sqrt(kd**2 + np.sqrt(kd**4 + 4 * kp**2) / 2)}),
+    ("half-of-kd", "only kd^2 is halved in w^2 = (kd^2 + sqrt(...)) / 2, and the root "
+     "is not", "with kd^2 / 2 + sqrt(...)",
+     {"w": lambda kp, kd: np.sqrt(kd**2 / 2 + np.sqrt(kd**4 + 4 * kp**2))}),
+    ("minus-in-the-root", "4 kp^2 is taken off in the root; w^4 - kd^2 w^2 - kp^2 = 0 "
+     "has + there", "with kd^4 - 4 kp^2",
+     {"w": lambda kp, kd: np.sqrt((kd**2 + np.sqrt(abs(kd**4 - 4 * kp**2))) / 2)}),
+    ("other-root", "it is sqrt(...) - kd^2, the size of the negative root of the "
+     "quadratic; w^2 is the positive one", "with sqrt(...) - kd^2",
+     {"w": lambda kp, kd: np.sqrt((np.sqrt(kd**4 + 4 * kp**2) - kd**2) / 2)}),
+    ("root-alone", "kd^2 is missing before the root", "with w^2 = sqrt(...) / 2",
+     {"w": lambda kp, kd: np.sqrt(np.sqrt(kd**4 + 4 * kp**2) / 2)}),
+    ("strengths-added", "w^2 is kp + kd^2; spring and damper push together with "
+     "sqrt(kp^2 + kd^2 w^2), and that is w^2", "with w^2 = kp + kd^2",
+     {"w": lambda kp, kd: np.sqrt(kp + kd**2)}),
     ("two-for-four", "4 kp^2 is 2 kp^2 in the root", "with 2 kp^2",
      {"w": lambda kp, kd: np.sqrt((kd**2 + np.sqrt(kd**4 + 2 * kp**2)) / 2)}),
     ("one-for-four", "4 kp^2 is kp^2 in the root", "with kp^2",
@@ -57,6 +71,9 @@ for slug, says, redone, other in (
     ("kd-not-squared", "kd stands before the root as it is; it is kd^2",
      "with kd + sqrt(...)",
      {"w": lambda kp, kd: np.sqrt((kd + np.sqrt(kd**4 + 4 * kp**2)) / 2)}),
+    ("neither-squared", "kd, kd^2 and kp stand where kd^2, kd^4 and kp^2 are right: it "
+     "is a quadratic in w^2", "with (kd + sqrt(kd^2 + 4 kp)) / 2",
+     {"w": lambda kp, kd: np.sqrt((kd + np.sqrt(kd**2 + 4 * kp)) / 2)}),
     ("inverted", "kp stands above, kd w below: that is the angle to the damper's axis; "
      "the damper's share is above", "with atan(kp / (kd w))",
      {"angle": lambda kp, kd, w: np.arctan(kp / (kd * w))}),

@@ -27,13 +27,14 @@ def slope(
     J_space, G, qd, *, factor=-1.0, felt=lambda i: slice(i, None),
     turned=lambda S, V: ad(S) @ V, at=lambda V, i: V[i], carries=lambda V, i: V,
     twists=lambda S, qd: np.cumsum(S * qd[:, None], axis=0),
+    momentum=lambda G, V: (G @ V[:, :, None])[:, :, 0],
 ):  # fmt: skip
     """Return the slope with other parts: whose momentum, and which twist turns how."""
     S = J_space.T
     V = twists(S, qd)
     found = []
     for i in range(len(S)):
-        momenta = (G @ carries(V, i)[:, :, None])[:, :, 0]
+        momenta = momentum(G, carries(V, i))
         turns = turned(S[i], at(V, i))
         found.append(factor * momenta[felt(i)].sum(axis=0) @ turns)
     return np.array(found)
@@ -52,6 +53,9 @@ for slug, says, redone, other in (
      {"felt": lambda i: slice(i + 1, None)}),
     ("last-link-left-out", "the last link's momentum is left out: the loop ends one "
      "too early", "with k < 7", {"felt": lambda i: slice(i, -1)}),
+    ("last-link-only", "only the last link's momentum is taken: is out[i] written "
+     "anew for each k, where it is added up?", "with k = 7",
+     {"felt": lambda i: slice(-1, None)}),
     ("earlier-links", "the momenta of the links up to i are added; those from i on "
      "turn", "with k <= i", {"felt": lambda i: slice(0, i + 1)}),
     ("all-links", "the momenta of all links are added; those before i stay where they "
@@ -66,6 +70,19 @@ for slug, says, redone, other in (
     ("outer-twists", "the twists are added up from the tip; link i is moved by the "
      "joints up to i", "with V_i of the joints from i on",
      {"twists": lambda S, qd: np.cumsum((S * qd[:, None])[::-1], axis=0)[::-1]}),
+    ("twists-in-reverse", "the twists are added up from the tip and read in that "
+     "order: V_1 is then what joint 7 gives", "with joint 7 first",
+     {"twists": lambda S, qd: np.cumsum((S * qd[:, None])[::-1], axis=0)}),
+    ("no-inertia", "twists are added up, without G; momentum is G V", "with G = 1",
+     {"momentum": lambda G, V: V}),
+    ("inertia-twice", "G stands twice; momentum is G V", "with G G V",
+     {"momentum": lambda G, V: (G @ G @ V[:, :, None])[:, :, 0]}),
+    ("twists-one-late", "V_i lacks joint i's own speed: it is added after it is used",
+     "with V_(i-1)", {"twists": lambda S, qd: np.cumsum(S * qd[:, None], axis=0)
+                      - S * qd[:, None]}),
+    ("one-late-for-all", "all links from i on are given the twist that comes to link "
+     "i, without joint i's speed; each has its own, V_k", "with G_k V_(i-1)",
+     {"carries": lambda V, i: V * 0 + (V[i - 1] if i else 0)}),
     ("summed-down-the-columns", "the six numbers of a twist are added up; a twist is "
      "the sum of the joints' own", "with the sum along the other axis",
      {"twists": lambda S, qd: np.cumsum(S * qd[:, None], axis=1)}),
@@ -88,14 +105,22 @@ def _(J_space, G, qd):
       energy changes with the angle
     minus-C-qd: this is minus C qd, the Coriolis torque; asked for is C^T qd
     inverse-order: the answer is backwards: joint1 comes first
+    each-its-own-twist: it is the twist of link k that turns, for each k; asked for is
+      that of link i, which the links after it take along => with ad(S_i) V_k
     times-qd: it is multiplied by qd: that is a power
     """
     C = dynamics.coriolis_matrix(J_space, G, qd)
     right = energy_slope(J_space, G, qd)
+    S = J_space.T
+    V = np.cumsum(S * qd[:, None], axis=0)
+    momenta = (G @ V[:, :, None])[:, :, 0]
     return {
         "C-qd": C @ qd,
         "minus-C-qd": -C @ qd,
         "inverse-order": right[::-1].copy(),
+        "each-its-own-twist": -np.array(
+            [np.sum(momenta[i:] * (V[i:] @ ad(S[i]).T)) for i in range(len(S))]
+        ),
         "times-qd": right * qd,
     }
 

@@ -44,7 +44,7 @@ for slug, says, redone, other in (
      "at low cutoffs", "with alpha = dt / (dt + RC)", {"alpha": lambda x: x / (1 + x)}),
     ("share-turned-round", "alpha and 1 - alpha are swapped: the old answer gets the "
      "new sample's weight", "with e^(-2 pi cutoff dt) for alpha",
-     {"alpha": lambda x: np.exp(-x)}),
+     {"step": lambda y, now, before, a: now + a * (y - now)}),
     ("euler-share", "alpha is 2 pi cutoff dt, a step of Euler's; over 1 it would "
      "overshoot", "with alpha = 2 pi cutoff dt", {"alpha": lambda x: x}),
     ("no-2-pi", "the cutoff is in Hz, and a time constant is 1 / (2 pi cutoff)",
@@ -61,6 +61,14 @@ for slug, says, redone, other in (
     ("cutoff-divided", "dt is divided by the cutoff; a higher cutoff follows faster, "
      "so it is multiplied", "with 2 pi dt / cutoff",
      {"of": lambda dt, f: 2 * np.pi * dt / f}),
+    ("time-constant-inverted", "the time constant is 2 pi cutoff; it is 1 / (2 pi "
+     "cutoff), so dt is multiplied by 2 pi cutoff", "with dt / (2 pi cutoff)",
+     {"of": lambda dt, f: dt / (2 * np.pi * f)}),
+    ("sign-in-the-exponent", "the exponent has the wrong sign: alpha is then below 0, "
+     "and y runs away from x", "with 1 - e^(2 pi cutoff dt)",
+     {"alpha": lambda x: 1 - np.exp(x)}),
+    ("two-for-e", "2 stands in the place of e", "with 1 - 2^(-2 pi cutoff dt)",
+     {"alpha": lambda x: 1 - 2.0**-x}),
     ("2-pi-divided", "cutoff dt is divided by 2 pi; a turn has 2 pi radians, so it is "
      "multiplied", "with cutoff dt / (2 pi)", {"of": lambda dt, f: f * dt / 2 / np.pi}),
     ("from-zero", "y begins at 0, so the first numbers climb from there; it begins at "
@@ -78,6 +86,10 @@ for slug, says, redone, other in (
      {"step": lambda y, now, before, a: y + a * (now - before)}),
     ("share-added", "alpha x is added to y, of which nothing is taken away",
      "y + alpha x_k", {"step": lambda y, now, before, a: y + a * now}),
+    ("whole-numbers-kept", "y is kept in an array of whole numbers, which cuts each "
+     "step's fraction off", "cut to whole numbers at each step",
+     {"step": lambda y, now, before, a: np.trunc(np.trunc(y) + a * (now - np.trunc(y))),
+      "first": lambda x, a: np.trunc(x[0])}),
     ("away-from-x", "y moves away from the sample: it is y - x that is added",
      "y + alpha (y - x_k)", {"step": lambda y, now, before, a: y + a * (y - now)}),
 ):  # fmt: skip
@@ -92,6 +104,8 @@ def _(x, dt, cutoff):
     what-is-fast: it is x - y, what the filter takes away
     not-filtered: it is x itself => x
     last-left-out: the last is 0: the loop ends one too early
+    last-left-out 2: the last is x itself: the loop ends one too early => with x at the
+      end
     """
     right = low_pass(x, dt, cutoff)
     return {
@@ -100,6 +114,7 @@ def _(x, dt, cutoff):
         "what-is-fast": x - right,
         "not-filtered": x.copy(),
         "last-left-out": np.append(right[:-1], 0.0),
+        "last-left-out 2": np.append(right[:-1], x[-1]),
     }
 
 

@@ -38,6 +38,10 @@ for slug, says, redone, other in (
     ("multiplied-for-divided", "c is 2 / 9 times n m: 2 / 9 * n * m divides by 9 "
      "alone; write 2 / (9 * n * m)", "with 2 / 9 * n * m",
      {"c": lambda n, m: 2 / 9 * n * m}),
+    ("m-above", "c is 2 / 9 / n times m: 2 / 9 / n * m divides by n alone; write 2 / "
+     "(9 * n * m)", "with 2 / 9 / n * m", {"c": lambda n, m: 2 / 9 / n * m}),
+    ("added-for-multiplied", "c has n + m; n NIS are a sum of n m squares",
+     "with c = 2 / (9 (n + m))", {"c": lambda n, m: 2 / (9 * (n + m))}),
     ("whole-division", "c is 0: // cuts off the fraction of 2 / (9 n m)", "with c = 0",
      {"c": lambda n, m: 2 // (9 * n * m)}),
     ("c-not-rooted", "1.96 is multiplied with c, a variance; sigma is its root",
@@ -63,6 +67,8 @@ for slug, says, redone, other in (
      "that all have the same digits", "with 1.959964", {"z": 1.959964}),
     ("m-not-multiplied", "m is missing in front: the mean NIS of a true filter is m",
      "the right one / m", {"front": lambda n, m: 1.0}),
+    ("m-cubed", "m is cubed as well; it stands before the cube", "with m^3 in front",
+     {"front": lambda n, m: m**3}),
     ("sum-for-mean", "this is for the sum of n NIS; their mean is asked for", "times n",
      {"front": lambda n, m: n * m}),
     ("n-for-m", "n stands in front; it is m", "with n in front",
@@ -75,6 +81,8 @@ for slug, says, redone, other in (
 def _(n, m):
     """normal: m +- 1.96 sqrt(2 m / n) takes the mean NIS itself for normal; it is
       skewed, and its cube root is nearly normal => m +- 1.96 sqrt(2 m / n)
+    one-over-n: m +- 1.96 / sqrt(n) is the interval of a mean of normal numbers; the
+      spread of a NIS is no 1 => m +- 1.96 / sqrt(n)
     high-first: the two are in the other order: low, then high
     cube-inside: each part is cubed alone; it is the cube of the sum => m ((1 - c)^3 -+
       (1.96 sigma)^3)
@@ -84,6 +92,7 @@ def _(n, m):
     cubes = np.array([-1, 1]) * (1.96 * np.sqrt(c)) ** 3
     return {
         "normal": np.array([m - half, m + half]),
+        "one-over-n": m + np.array([-1.96, 1.96]) / np.sqrt(n),
         "high-first": nis_interval(n, m)[::-1].copy(),
         "cube-inside": m * ((1 - c) ** 3 + cubes),
     }

@@ -58,6 +58,9 @@ def _(residual, integral, p, tau, slope, gravity, damping, qd, gain, dt):
     integral-not-kept: the integral begins anew at each step; what was known before is
       lost
     integral-not-handed-on: the integral that is returned is the old one
+    integral-sign: what is known is taken off the integral; it is what moves p, so it is
+      added
+    damping-by-size: damping times the size of qd brakes; it is against the motion
     torques-without-dt: only the residual is multiplied by dt; all the torques are
     fed-back-times-gain: the gain multiplies the residual that is fed back, too; it is a
       torque already
@@ -65,6 +68,9 @@ def _(residual, integral, p, tau, slope, gravity, damping, qd, gain, dt):
     low-passed-again: the residual is moved by gain (p - integral) dt; it is gain (p -
       integral) itself, and the integral does the rest
     residual-kept: the old residual is added to the new one
+    residual-taken-off: the old residual is taken off the new one
+    new-residual-fed-back: the residual that is fed back is made of p and the old
+      integral; it is the one that is given
     p-added: p is added to the integral as well
     """
     brake = damping * qd
@@ -100,10 +106,14 @@ def _(residual, integral, p, tau, slope, gravity, damping, qd, gain, dt):
         "integral-of-before": (gain * (p - integral), now),
         "integral-not-kept": with_integral((known + residual) * dt),
         "integral-not-handed-on": (gain * (p - now), integral.copy()),
+        "integral-sign": with_integral(integral - (known + residual) * dt),
+        "damping-by-size": of(brake - damping * np.abs(qd)),
         "torques-without-dt": with_integral(integral + known + residual * dt),
         "fed-back-times-gain": of((gain - 1) * residual),
         "qd-for-damping": of(brake - qd),
         "low-passed-again": (residual + gain * (p - now) * dt, now),
+        "residual-taken-off": (gain * (p - now) - residual, now),
+        "new-residual-fed-back": of(gain * (p - integral) - residual),
         "residual-kept": (residual + gain * (p - now), now),
         "p-added": with_integral(now + p),
     }

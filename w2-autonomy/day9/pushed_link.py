@@ -67,6 +67,16 @@ def _(residual, threshold):
     largest-of-none: it is the joint that feels it most, whether it is over or not
     largest-signed: it is the joint with the largest residual, signs and thresholds
       left out
+    last-joint-decides: it is 7 if joint 7 feels it, else 0: a loop overwrites what it
+      found
+    last-joint-left-out: joint 7 is left out: the loop ends one too early
+    sign-lost-first-or-1: only a residual above the threshold counts, and it is the
+      first such joint, or 1 where none is; a push may turn a joint backwards, and asked
+      for is the last
+    squared: the square of a residual is compared with its threshold
+    numbers-added: the numbers of all joints that feel it are added up; asked for is the
+      last one
+    sum-over: the sum of all sizes decides, and not each joint's own
     sign-lost-from-zero: only a residual above the threshold counts, and joints are
       counted from 0; a push may turn a joint backwards, and joint1 is 1
     sign-lost-first: only a residual above the threshold counts, and the first such
@@ -107,6 +117,12 @@ def _(residual, threshold):
         "first-from-zero": int(np.argmax(over)),
         "largest-of-none": int(np.argmax(size)) + 1,
         "largest-signed": int(np.argmax(residual)) + 1,
+        "last-joint-decides": 7 * int(over[-1]),
+        "last-joint-left-out": last(over[:-1]),
+        "sign-lost-first-or-1": int(np.argmax(up)) + 1,
+        "squared": last(residual**2 > threshold),
+        "numbers-added": int(np.sum(np.flatnonzero(over) + 1)),
+        "sum-over": last(size.sum() > threshold),
         "sign-lost-from-zero": max(last(residual > threshold) - 1, 0),
         "sign-lost-first": int(np.argmax(up)) + 1 if up.any() else 0,
         "sign-lost-how-many": int(up.sum()),

@@ -47,12 +47,20 @@ for slug, says, redone, other in (
      "without the last below", {"squares": lambda d: d[:-1] @ d[:-1]}),
     ("squares-of-the-last", "it is divided by the squares of the last n - 1 alone",
      "without the first below", {"squares": lambda d: d[1:] @ d[1:]}),
+    ("two-sizes", "each of the two rows has a size of its own; the sum of all squares "
+     "is below", "with the root of both rows' squares",
+     {"squares": lambda d: np.sqrt((d[1:] @ d[1:]) * (d[:-1] @ d[:-1]))}),
+    ("by-n-sigma", "it is divided by sigma, and by n - 1 for n; its square drops the "
+     "unit", "the mean of products over sigma", {"squares": lambda d: np.sqrt(
+         d @ d / len(d)), "share": lambda n: 1 / (n - 1)}),
+    ("median-for-mean", "the median is taken off; it is the mean", "with the median",
+     {"above": lambda y: y - np.median(y), "below": lambda y: y - np.median(y)}),
     ("mean-of-products", "n - 1 products and n squares are each averaged; the sums are "
      "divided", "times n / (n - 1)", {"share": lambda n: n / (n - 1)}),
     ("variance-for-sum", "the sum of products is divided by a mean of squares; sums "
      "are divided", "times n", {"share": lambda n: n}),
-    ("mean-by-sum", "the mean of products is divided by the sum of squares; sums are "
-     "divided", "divided by n - 1", {"share": lambda n: 1 / (n - 1)}),
+    ("mean-by-sum", "a mean of products stands above; it is their sum",
+     "divided by n - 1", {"share": lambda n: 1 / (n - 1)}),
     ("divided-by-n", "it is divided by n as well", "divided by n",
      {"share": lambda n: 1 / n}),
     ("lag-two", "each is compared with the last but one", "with y_k y_(k+2)",

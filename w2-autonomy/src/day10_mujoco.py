@@ -35,10 +35,7 @@ def table() -> tuple[mujoco.MjModel, mujoco.MjData]:
     top = (*scenes.TABLE_CENTRE, TABLE - 0.01)
     half = (*scenes.TABLE_HALF, 0.01)
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, pos=top, size=half)
-    spec.worldbody.add_camera(
-        name="eye", pos=AT, quat=_towards(TO - AT), fovy=FOVY,
-        resolution=(WIDTH, HEIGHT),
-    )  # fmt: skip
+    eye.add(spec.worldbody, "eye", AT, TO, FOVY, (WIDTH, HEIGHT))
     cube = spec.worldbody.add_body(name="cube", mocap=True)
     cube.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(scenes.CUBE_HALF,) * 3)
     for i, corner in enumerate(CORNERS):
@@ -122,12 +119,3 @@ def faces(n: int = 7) -> Array:
             np.column_stack([-out, u, v]),
         ]
     )
-
-
-def _towards(way: Array) -> Array:
-    """Return MuJoCo's quaternion of a camera that looks along `way`, its top up."""
-    z = way / np.linalg.norm(way)
-    x = np.cross(z, (0.0, 0.0, 1.0))
-    x = x / np.linalg.norm(x)
-    R = np.column_stack([x, np.cross(z, x), z])  # ours: y down
-    return se3.R_to_quat(R @ eye.FLIP)

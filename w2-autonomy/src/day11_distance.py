@@ -93,9 +93,8 @@ def capsule_distance(
 def box_sdf(p: np.ndarray, half: np.ndarray) -> float:
     """Return how far a point, (3,), is from a box about the origin; inside below 0.
 
-    half, (3,), is half of its sides.
+    half, (3,), is half of its sides; the middle of this box is 1 deep.
     box_sdf((2, 0, 0), (1, 1, 1)) -> 1
-    box_sdf((0, 0, 0), (1, 1, 1)) -> -1
     """
     # region 11.3
     beyond = np.abs(p) - half
@@ -108,7 +107,7 @@ def capsule_box(
 ) -> float:
     """Return how far a capsule is from a box, wherever that stands.
 
-    It is the least of `box_sdf` along the axis, less r. From (-2, 0, 2) to (2, 0, 2) with
+    The least of `box_sdf` along the axis, less r. From (-2, 0, 2) to (2, 0, 2), with
     r = 0.1, and a box at the origin, half 1, 1, 1: 0.9.
     """
     # region 11.4
@@ -230,7 +229,8 @@ def given_to(rng: np.random.Generator) -> dict[str, list[tuple]]:
     return {
         "aabb": [(*some, 0.2) for some in ends],
         "overlaps": [*zip(boxes[::2], boxes[1::2], strict=True),
-                     (touching, touching + np.eye(3)[1])],
+                     (touching, touching + np.eye(3)[1]),
+                     (touching + np.eye(3)[2], touching)],
         "reaches": [*lengths, (np.full(7, 0.2), long)],
         "next_check": [(0.1, 0.3, dq, np.abs(r)) for dq, r in speeds]
         + [(0.9, 1.0, half, half), (0.2, -0.1, half, half), (0.2, 0.1, still, half)],

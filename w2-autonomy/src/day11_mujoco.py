@@ -11,7 +11,6 @@ import numpy as np
 
 from robo47 import panda, se3, shapes
 from robo47.checks import Array
-from robo47.fast.near import segments_apart
 from robo47.jacobian import dls_step, site_jacobian, space_jacobian
 
 CAPSULES = (*shapes.LINKS, shapes.PEN)  # geoms arm0 to arm8; the last is the pen
@@ -31,6 +30,7 @@ BOXES = (
 )
 WORLD = shapes.World.of(RODS, BOXES)
 PEN_UP = 0.10  # m above the pen's end: there a wire crosses it
+FINE = np.linspace(0.0, 1.0, 401)  # places on a way
 # The arm lies flat: joints 1, 4 and 6 turn about the vertical, and whip the pen.
 FLAT = np.array([0.0, np.pi / 2, np.pi / 2, 0.0, 0.0, 0.0, 0.0])
 
@@ -138,20 +138,15 @@ def whips(
             at = end + (shapes.PEN.radius + radius + beside) * along
         up = np.array([0.0, 0.0, 0.2])
         edge = Edge(q, dq, (at - up, at + up, radius))
-        if not beside or least(edge) > 0.5 * beside:
+        if not beside or far(edge, FINE).min() > 0.5 * beside:
             found.append(edge)
     return found
 
 
-def least(edge: Edge, n: int = 400) -> float:
-    """Return the least distance of pen and wire on n + 1 points of a way, m."""
-    ends = pen(edge.q + np.linspace(0.0, 1.0, n + 1)[:, None] * edge.dq)
-    a, b, r = edge.wire
-    return (
-        float(segments_apart(ends[:, 0], ends[:, 1], a, b).min())
-        - r
-        - shapes.PEN.radius
-    )
+def far(edge: Edge, s: Array) -> Array:
+    """Return the library's distance of pen and wire at places of a way, m, (n,)."""
+    q = edge.q + np.multiply.outer(s, edge.dq)
+    return _PEN.clearance(q, shapes.World.of([edge.wire]))
 
 
 def pen_at(point: Array) -> Array:

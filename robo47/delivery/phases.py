@@ -1,0 +1,219 @@
+"""The delivery's phases, one after the other, and what is measured on the way.
+
+What a joint move, a straight line and a grip are is the pick's
+(`robo47.capstone.phases`); new are the way round the wall, the scale and the watch.
+
+Units: metres, radians, seconds, kilograms, N m; poses `T_world_x` are (4, 4).
+"""
+
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+
+from robo47 import scenes, simulate
+from robo47.arm import GRAVITY
+from robo47.capstone.arm import Law
+from robo47.capstone.phases import CLOSED, HOVER, OPEN, Phase, Task
+from robo47.checks import Array
+from robo47.delivery.seeing import cube_seen
+from robo47.delivery.watching import Watch
+from robo47.delivery.ways import Ways
+from robo47.panda import READY_Q
+
+RATE = 100.0  # Hz, of controller and watch
+
+SCALE = 11.0  # rad/s, of the spring that weighs
+WEIGH_SECONDS = 1.2  # the springs take so long to come to rest: see the guide
+SPEEDS = (0.6, 0.5, 0.4, 0.3, 0.2)  # of the joints' limits; the first that may be, is
+INSTANTS = 41  # of a move, at which its acceleration is looked at
+PUSH_AFTER = 0.5  # s after the carry began
+EMPTY = 0.010  # kg: what weighs less is no cube
+
+PHASES = (
+    Phase("reach", "joint", "cube", HOVER, OPEN),
+    Phase("descend", "line", "cube", 0.0, OPEN),
+    Phase("close", "hold", "cube", 0.0, CLOSED),
+    Phase("lift", "line", "cube", HOVER, CLOSED),
+    Phase("weigh", "weigh", "cube", HOVER, CLOSED),
+    Phase("carry", "joint", "goal", HOVER, CLOSED),
+    Phase("put down", "line", "goal", 0.0, CLOSED),
+    Phase("open", "hold", "goal", 0.0, OPEN),
+    Phase("leave", "line", "goal", HOVER, OPEN),
+    Phase("go home", "joint", "", 0.0, OPEN),
+    Phase("rest", "rest", "", 0.0, OPEN),
+)
+
+
+class Asked(NamedTuple):
+    """What an attempt is asked to do otherwise, to see what it changes."""
+
+    mass: float = scenes.CUBE_MASS  # of the cube, kg
+    friction: float = scenes.FRICTION  # of cube and pads
+    wall: bool = True
+    told: bool = False  # where the cube stands, instead of looking
+    noise: float = 0.0  # of the depths, m
+    beside: float = 0.0  # m along x, added to where it was seen
+    weigh: float = WEIGH_SECONDS  # s; 0: it is not weighed and counts as nothing
+    speed: float = 0.0  # of the carry; 0: as the weight allows
+    planned: bool = True  # False: straight from pose to pose
+    hand: bool = True  # False: the planner forgets the hand
+    push: float = 0.0  # N, down on the hand, in the carry
+
+
+class Delivery(Task):
+    """The model, the state of the world and what has been measured so far."""
+
+    def __init__(self, fns: Any, model: mujoco.MjModel, goal_xy: Array, asked: Asked):
+        """Put the arm at the ready and look at the table."""
+        super().__init__(fns, model, goal_xy, SPEEDS[0], None)
+        self.asked = asked
+        self.stood = self.T_world_cube
+        if not asked.told:
+            self.T_world_cube = cube_seen(fns, model, self.data, noise=asked.noise)
+        self.T_world_cube[0, 3] += asked.beside
+        self.seen = self.T_world_cube.copy()
+        self.ways = Ways(fns, model, wall=asked.wall, hand=asked.hand)
+        self.watching = Watch(fns, self.arm.damping, 1.0 / RATE)
+        self.weighed = 0.0
+        self.carried = 0.0  # the speed of the carry, as a fraction of the limits
+        self.driven: list[Array] = []  # configurations of the joint moves
+        self.pushed_at = self.felt_at = np.nan  # seconds of the simulation
+        self.corner = READY_Q  # where the present leg of a joint move ends
+        self.stopped = ""  # why it did not go on
+
+    def run(self, phase: Phase, rate: float = RATE) -> None:
+        """Do one phase, from where the arm is measured to be."""
+        if self.stopped:
+            return
+        if phase.kind == "joint":
+            self._go(phase, rate)
+        elif phase.kind != "weigh":
+            super().run(phase, rate)
+        elif self.asked.weigh:
+            super().run(phase, rate)
+            self._weigh()
+
+    def _go(self, phase: Phase, rate: float) -> None:
+        """Plan a joint move and drive it."""
+        q = self._q()
+        goal = READY_Q
+        if phase.over:
+            goal, reach = self.arm.way_point(self._tool(phase), q)
+            self.manipulability = min(self.manipulability, reach)
+        way = self.ways.find(q, goal) if self.asked.planned else np.array([q, goal])
+        self.speed = SPEEDS[0]
+        if phase.name == "carry":
+            self.carried = self.speed = self._slow_enough(way)
+            if self.stopped:
+                return
+            self._disturb()
+        for self.corner in way[1:]:
+            super().run(phase, rate)
+            self.driven.append(self.runs[-1].q)
+            if self.stopped:
+                return
+        self.push = None
+
+    def _law(self, phase: Phase, q: Array) -> tuple[Law, float]:
+        """Return the control law of a phase, or of one leg of it, and its seconds."""
+        if phase.kind == "weigh":
+            return self._scale(q), self.asked.weigh
+        if phase.kind != "joint":
+            return super()._law(phase, q)
+        seconds = self._seconds(q, self.corner, self.speed)
+        law = self.arm.move(q, self.corner, seconds)
+        return (self._watched(law) if phase.name == "carry" else law), seconds
+
+    def _scale(self, q0: Array) -> Law:
+        """Return a critically damped spring about q0: what it lacks is the load."""
+        kp, kd = (float(k) for k in self.fns.gains(SCALE, 1.0))
+        still = np.zeros(7)
+
+        def torque(t: float, q: Array, qd: Array) -> Array:
+            now = self.arm.at(q, qd)
+            known = now.M, now.bias, self.arm.damping, qd
+            return self.fns.computed_torque(*known, q0 - q, -qd, still, kp, kd)
+
+        return torque
+
+    def _watched(self, law: Law) -> Law:
+        """Return a law that holds still as soon as something unknown is felt."""
+        self.watching.begin()
+
+        def torque(t: float, q: Array, qd: Array) -> Array:
+            now = self.arm.at(q, qd)
+            if not self.stopped and self.watching.feel(now.M, qd):
+                self.felt_at = float(self.data.time)
+                link = self.watching.link
+                self.stopped = f"link {link} felt what nobody commanded"
+                self.hold_still = self.arm.rest(q)
+            tau = self.hold_still(t, q, qd) if self.stopped else law(t, q, qd)
+            tau = self.fns.saturate(tau, self.arm.tau_max)
+            slope = self.fns.energy_slope(now.J_space, now.G, qd)
+            self.watching.commanded(tau, slope, self.arm.gravity(q), qd)
+            return tau
+
+        return torque
+
+    def _grasped(self) -> None:
+        """Take the cube for where it was seen; what it weighs nobody knows yet."""
+        self.T_tcp_cube = self.fns.inverse(self.arm.end(self._q())) @ self.seen
+
+    def _weigh(self) -> None:
+        """Work out what hangs on the hand, and count it as part of it."""
+        fns = self.fns
+        q = self.runs[-1].q[-2]  # where the last torque was commanded
+        now = self.arm.at(q, np.zeros(7))
+        J_site = fns.site_jacobian(now.J_space, now.T[:3, 3])
+        extra = self.runs[-1].tau[-1] - self.arm.gravity(q)
+        holds = J_site[None], now.T[None, :3, :3], extra[None]
+        self.weighed = float(fns.payload_from_holds(*holds, GRAVITY)[0])
+        if self.weighed < EMPTY:
+            self.stopped = "there is nothing in the hand"
+        else:
+            self._hold(self.weighed, now.T @ self.T_tcp_cube)
+
+    def _slow_enough(self, way: Array) -> float:
+        """Return the first of the speeds at which this grip holds what was weighed.
+
+        The hand's acceleration counts as if it were upwards, where it costs the most.
+        """
+        if self.asked.speed:
+            return self.asked.speed
+        for speed in SPEEDS:
+            if self._can_lift(self._acceleration(way, speed)) >= self.weighed:
+                return speed
+        self.stopped = f"{1e3 * self.weighed:.0f} g are too heavy for this grip"
+        return 0.0
+
+    def _acceleration(self, way: Array, speed: float) -> float:
+        """Return the hand's greatest acceleration along a way, m/s2."""
+        most = 0.0
+        for q0, q1 in pairwise(way):
+            T = self._seconds(q0, q1, speed)
+            t = np.linspace(0.0, T, INSTANTS)
+            q = [self.fns.joint_move(q0, q1, now, T)[0] for now in t]
+            at = np.array([self.arm.end(one)[:3, 3] for one in q])
+            change = np.diff(at, 2, axis=0) / (t[1] - t[0]) ** 2
+            most = max(most, float(np.linalg.norm(change, axis=1).max()))
+        return most
+
+    def _seconds(self, q0: Array, q1: Array, speed: float) -> float:
+        v = speed * simulate.SPEED_LIMITS
+        a = speed * simulate.ACC_LIMITS
+        return float(self.fns.quintic_duration(q1 - q0, v, a))
+
+    def _disturb(self) -> None:
+        """Push the hand from now on a little later, if asked to."""
+        if not self.asked.push:
+            return
+        self.pushed_at = float(self.data.time) + PUSH_AFTER
+        push = simulate.push_at("tcp", [0.0, 0.0, 0.0, 0.0, 0.0, -self.asked.push])
+
+        def later(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+            if data.time >= self.pushed_at:
+                push(model, data)
+
+        self.push = later

@@ -1,0 +1,96 @@
+"""What came of a delivery.
+
+Units: metres, radians, seconds, kilograms, N m; in names millimetres and grams.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from robo47.checks import Array
+from robo47.delivery import scene
+from robo47.delivery.phases import Delivery
+from robo47.shapes import Shape, World, capsules_of
+
+NEAREST = 5  # instants of the way at which `capsule_box` has the last word
+
+
+class Result(NamedTuple):
+    """What came of it."""
+
+    place_mm: float  # from the cube's centre to where it was to be, at the end
+    seen_mm: float  # from where the eye saw it to where it stood
+    grams: float  # what it weighed
+    mass: float  # what it weighs, kg: nobody was told
+    speed: float  # of the carry, as a fraction of the joints' limits
+    clearance_mm: float  # least, of the way that was driven
+    residual: float  # largest torque that nobody commanded, of any joint, N m
+    link: int  # which link felt more than it may first; 0: none did
+    pushed_link: int  # the same of a second run, in which somebody pushes
+    noticed_ms: float  # how long after a push it was felt; nan where nobody pushed
+    stopped: str  # why it did not go on; "" where it did
+    seconds: float  # how long the task took in the simulation
+    looks: int  # how often the planner asked for a distance
+    phases: list[tuple[str, float]]  # (name, when it began in seconds), in order
+    t: Array  # time of each control instant, seconds, (N,)
+    qpos: Array  # everything's configuration then, (N, nq): for pictures and replays
+
+    @property
+    def failed(self) -> bool:
+        """Whether it is not delivered, or a number that counts is off."""
+        good = (
+            not self.stopped
+            and self.place_mm < 10.0
+            and self.seen_mm < 3.0
+            and abs(self.grams - 1e3 * self.mass) < 1.0
+            and self.clearance_mm > 0.0
+        )
+        return not good
+
+
+def of(task: Delivery) -> Result:
+    """Return what came of a task, as far as it went."""
+    qpos = np.array([seen for run in task.runs for seen in run.seen])
+    cube = qpos[:, task.cube : task.cube + 3]
+    names = [name for name, _ in task.phases]
+    first = [i for i, name in enumerate(names) if name not in names[:i]]  # of its legs
+    return Result(
+        place_mm=1e3 * float(np.linalg.norm(cube[-1] - task.goal)),
+        seen_mm=1e3 * float(np.linalg.norm((task.seen - task.stood)[:3, 3])),
+        grams=1e3 * task.weighed,
+        mass=task.asked.mass,
+        speed=task.carried,
+        clearance_mm=1e3 * clearance(task),
+        residual=task.watching.worst,
+        link=task.watching.link,
+        pushed_link=task.watching.link if task.asked.push else 0,
+        noticed_ms=1e3 * (task.felt_at - task.pushed_at),
+        stopped=task.stopped,
+        seconds=task.now,
+        looks=task.ways.looks,
+        phases=[task.phases[i] for i in first],
+        t=np.linspace(task.now / len(qpos), task.now, len(qpos)),
+        qpos=qpos,
+    )
+
+
+def clearance(task: Delivery) -> float:
+    """Return the least distance of the whole arm from table and wall, metres.
+
+    Of every control instant of the joint moves, as they were driven. The library finds
+    the nearest instants, `capsule_box` of the functions says how near they are.
+    """
+    shape = Shape(task.model, capsules_of(task.model))
+    world = World.of(boxes=scene.boxes(task.asked.wall))
+    q = np.concatenate(task.driven)
+    apart = shape.apart(q, world).reshape(len(q), -1)
+    nearest = np.argsort(apart.min(axis=1), kind="stable")[:NEAREST]
+    return min(_nearest(task.fns, shape, world, q[i], apart[i]) for i in nearest)
+
+
+def _nearest(fns: Any, shape: Shape, world: World, q: Array, apart: Array) -> float:
+    """Return `capsule_box` of the pair that is nearest at q, metres."""
+    capsule, thing = divmod(int(np.argmin(apart)), len(world.boxes))
+    a0, a1 = shape.ends(q)[capsule]
+    box = world.boxes[thing], world.half[thing]
+    return float(fns.capsule_box(a0, a1, shape.radii[capsule], *box))

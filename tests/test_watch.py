@@ -1,0 +1,146 @@
+"""The loop: from a save to its verdict and to the next task, with keys and without."""
+
+import os
+import select
+import subprocess
+import sys
+import time
+
+import pytest
+from restored import Restored
+from test_check_day import solve
+
+from conftest import copy_kit, environment_of
+from labkit.base.keys import Keys
+from labkit.lesson.day import find_day
+
+pytestmark = pytest.mark.kit
+
+WATCH = "scripts/watch_day.py"
+
+
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory):
+    """Return a copy of the kit that is put back after each test."""
+    return Restored(copy_kit(tmp_path_factory.mktemp("kit") / "clone"))
+
+
+@pytest.fixture
+def clone(copy):
+    return copy.put_back()
+
+
+@pytest.fixture
+def day(clone, run_in):
+    day = find_day(1, clone)
+    assert run_in("scripts/start_day.py", 1).returncode == 0
+    return day
+
+
+def command(*arguments):
+    return [sys.executable, "-u", WATCH, *map(str, arguments)]
+
+
+def until(watcher, words, said):
+    """Read lines until one has these words; return it."""
+    for line in watcher.stdout:
+        said.append(line)
+        if words in line:
+            return line
+    pytest.fail(f"never said {words!r}: {''.join(said)}")
+
+
+class TestTheLoop:
+    def test_goes_on_to_the_next_task_when_one_passes(self, day, clone):
+        said = []
+        with subprocess.Popen(
+            command(1),
+            cwd=clone,
+            env=environment_of(clone),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            text=True,
+        ) as watcher:
+            until(watcher, "watching; Ctrl-C ends it", said)
+            assert any("Next: 1.1" in line for line in said)
+            time.sleep(0.01)  # a file system that stamps coarsely
+            solve(day, day.work, "make_T")
+            until(watcher, "watching; Ctrl-C ends it", said)
+            watcher.terminate()
+        text = "".join(said)
+        assert "make_T" in text.partition("Next: 1.1")[2]
+        assert "1.1  make_T" in text
+        assert "passed" in text
+        second = day.tasks[1]
+        assert f"Next: {second.id}  {second.title}" in text
+        assert f"day1_transforms.py:{_line(day, second.functions[0])}" in text
+        assert all(len(line) <= 81 for line in said)
+
+    def test_says_that_what_it_knows_is_of_before_the_save(self, day, clone):
+        said = []
+        with subprocess.Popen(
+            command(1),
+            cwd=clone,
+            env=environment_of(clone),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            text=True,
+        ) as watcher:
+            until(watcher, "asking again", said)
+            until(watcher, "watching", said)
+            watcher.terminate()
+
+    def test_of_a_day_that_is_not_begun_says_how_to_begin(self, run_in):
+        done = run_in(WATCH, 2)
+        assert done.returncode == 2
+        assert "make start DAY=2" in done.stderr
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a terminal of this kind is POSIX's")
+class TestKeys:
+    def test_are_heeded_on_a_terminal(self, day, clone):
+        import pty
+
+        main, other = pty.openpty()
+        with subprocess.Popen(
+            command(1),
+            cwd=clone,
+            env=environment_of(clone) | {"TERM": "dumb"},
+            stdin=other,
+            stdout=other,
+            stderr=other,
+            close_fds=True,
+        ) as watcher:
+            os.close(other)
+            _read_until(main, "q quit")
+            os.write(main, b"l")
+            assert "1.4  quat_to_R" in _read_until(main, "1.8")
+            os.write(main, b"h")
+            assert "hint 1 of" in _read_until(main, "Re-read")
+            _read_until(main, "q quit")
+            os.write(main, b"q")
+            assert watcher.wait(timeout=30) == 1
+        os.close(main)
+
+    def test_never_come_where_there_is_no_terminal(self, monkeypatch):
+        with open(os.devnull) as nothing:
+            monkeypatch.setattr(sys, "stdin", nothing)
+            with Keys() as keys:
+                assert not keys.there
+                assert keys.wait(0.01) == ""
+
+
+def _line(day, function):
+    lines = day.work.read_text("utf-8").splitlines()
+    at = [i for i, line in enumerate(lines) if line.startswith(f"def {function}(")]
+    return at[0] + 1
+
+
+def _read_until(terminal, words):
+    said = ""
+    limit = time.monotonic() + 60
+    while words not in said and time.monotonic() < limit:
+        if select.select([terminal], [], [], 0.2)[0]:
+            said += os.read(terminal, 4096).decode("utf-8", "replace")
+    assert words in said
+    return said

@@ -1,0 +1,50 @@
+"""13.8 `accept_ratio(before, after, expected)`: its questions and its mistakes."""
+
+from labkit.judge import Row, Scalar
+
+row = Row(Scalar())
+
+
+@row.inputs
+def _(rng):
+    drawn = [tuple(map(float, rng.numbers(0.5, 5, 3))) for _ in range(6)]
+    return [(5.0, 3.5, 2.0), (5.0, 0.5, 3.0), (2.0, 3.0, 4.0), *drawn]
+
+
+@row.wrongs
+def _(before, after, expected):
+    """upside-down: what was expected is divided by what was saved => upside down
+    sign: the sign is the other way: what fell was saved => with after - before
+    of-the-cost: it is divided by the cost before; it is what was expected that divides
+    expected-cost: expected is taken for a cost; it is a saving => with before -
+      expected
+    not-divided: that is what was saved; its share of what was expected is asked
+    difference: that is what was saved less what was expected
+    after-over-expected: what is left is divided by what was expected; what was saved is
+      asked
+    sizes: its sign is lost: a step that did harm has a ratio below 0 => its size
+    at-most-1: it is clipped at 1; more than was expected may be saved
+    never-below-0: it is clipped at 0; a step that did harm has a ratio below 0
+    """
+    saved = before - after
+    ratio = saved / expected
+    return {
+        "upside-down": expected / saved,
+        "sign": -ratio,
+        "of-the-cost": saved / before,
+        "expected-cost": saved / (before - expected),
+        "not-divided": saved,
+        "difference": saved - expected,
+        "after-over-expected": after / expected,
+        "sizes": abs(ratio),
+        "at-most-1": min(ratio, 1.0),
+        "never-below-0": max(ratio, 0.0),
+    }
+
+
+row.at_least_0(before="a cost", after="a cost", expected="a saving")
+
+
+@row.right  # As one less a share.
+def _(before, after, expected):
+    return 1 - (expected - before + after) / expected

@@ -1,0 +1,221 @@
+"""13.5 `box_qp(H, g, lo, hi, x)`: its questions and its mistakes."""
+
+import itertools
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+from robo47.optimal import box_qp
+
+from .asked import boxed, problems
+
+row = Row(Vector((None,)))
+
+
+@row.inputs
+def _(rng):
+    one = np.ones(3)
+    case = (np.array([[2.0, 1], [1, 2]]), np.array([-2.0, -10]), -one[:2], one[:2])
+    H = np.array([[23.0, 15, 21], [15, 14, 13], [21, 13, 23]])
+    circling = (H, np.array([9.0, -2, 6]), -one, one, np.array([0.0, 0, -1]))
+    best = [
+        (H, g, lo, hi, np.round(x + 0.7, 3)) for H, g, lo, hi, x in problems(rng, 4)
+    ]
+    # Where Newton by H's diagonal alone goes to the corners, and short steps arrive.
+    alike = 0.2 * np.eye(3) + 0.8
+    wide = (alike, np.array([1.0, -2, 0.5]), -9 * one, 9 * one, np.zeros(3))
+    return [(*case, np.zeros(2)), circling, wide, *best, *boxed(rng)]
+
+
+def newton(H, g, lo, hi, x, n=50, frees="pushed", full=False):
+    """Return x after Newton's steps on the free entries, each clipped."""
+    x = np.clip(x, lo, hi)
+    for _ in range(n):
+        slope = H @ x + g
+        below, above = x <= lo, x >= hi
+        held = (below & (slope > 0)) | (above & (slope < 0))
+        if frees == "wrong":
+            held = (below & (slope < 0)) | (above & (slope > 0))
+        if frees == "never":
+            held = below | above
+        free = ~held
+        step = np.zeros(len(x))
+        if full:
+            step = np.where(free, np.linalg.solve(H, -slope), 0.0)
+        else:
+            step[free] = np.linalg.solve(H[np.ix_(free, free)], -slope[free])
+        x = np.clip(x + step, lo, hi)
+    return x
+
+
+def slid(H, g, lo, hi, x, n, by):
+    """Return x after n steps downhill, each clipped."""
+    x = np.clip(x, lo, hi)
+    for _ in range(n):
+        x = np.clip(x - by * (H @ x + g), lo, hi)
+    return x
+
+
+def solved_once_more(H, g, lo, hi, x):
+    """Return the clipped optimum, with the free entries solved anew, and clipped."""
+    x = np.clip(np.linalg.solve(H, -g), lo, hi)
+    free = (x > lo) & (x < hi)
+    right = -(H @ x + g)[free]
+    x[free] += np.linalg.solve(H[np.ix_(free, free)], right)
+    return np.clip(x, lo, hi)
+
+
+def swept(H, g, lo, hi, x, n):
+    """Return x after n sweeps, each entry best in its turn."""
+    x = np.clip(x, lo, hi).astype(float)
+    for _ in range(n):
+        for i in range(len(x)):
+            x[i] = np.clip(x[i] - (H[i] @ x + g[i]) / H[i, i], lo[i], hi[i])
+    return x
+
+
+def held_for_good(H, g, lo, hi, x, own=True):
+    """Return x where an entry that met a limit is never let go."""
+    x = np.clip(x, lo, hi)
+    held = lo == hi
+    for _ in range(len(x) + 1):
+        free = ~held
+        right = -(H @ x + g)[free] if own else -g[free]
+        step = np.zeros(len(x))
+        step[free] = np.linalg.solve(H[np.ix_(free, free)], right)
+        if not own:
+            step[free] -= x[free]
+        room = np.where(step > 0, hi - x, lo - x)
+        share = np.divide(room, step, out=np.full_like(x, np.inf), where=step != 0)
+        met = np.argmin(share)
+        x = np.clip(x + min(share[met], 1.0) * step, lo, hi)
+        if share[met] >= 1:
+            break
+        held[met] = True
+    return x
+
+
+@row.wrongs
+def _(H, g, lo, hi, x):
+    """clip-the-optimum: the best point without limits, clipped; where one entry is held
+      the others should move on => clip(-H^-1 g)
+    no-limits: the limits are left out => -H^-1 g
+    scaled-back: the way to the best point without limits is walked up to the first
+      limit; the others should go on from there
+    solved-once-more: the best point without limits is clipped, the others are solved
+      anew, and that is all; then others may meet, or want to leave
+    held-for-good: an entry that has met its limit is never let go, though its slope may
+      pull it back inside
+    held-by-place: whatever stands at a limit is held, whichever way its slope pushes
+      => with all entries at limits held
+    frees-the-wrong-ones: held are those at a limit whose slope pulls them inside; it is
+      those that it pushes out
+    held-left-out: what the held entries add to the slope of the free ones is left out
+      => with -H_ff^-1 g_f
+    one-step: this is x after one Newton step, clipped
+    two-steps: this is x after two Newton steps, clipped
+    full-hessian: each step is solved with all of H, and the free entries are kept; the
+      held ones do not move, so their rows and columns fall out => with all of H
+    whole-steps: each step on the free entries is taken whole and clipped; that may go
+      in circles: stop at the first limit, or halve the step until the cost falls
+    diagonal-hessian: each step divides by H's diagonal only => 100 steps of Jacobi
+    gradient-steps: this is x after 50 short steps downhill => with 50 steps of 0.01
+    gradient-steps 2: the slope is steep here, and steps of 0.1 of it are too long: the
+      step that H's largest eigenvalue allows is 1 over that => with 1,000 steps of 0.1
+    one-sweep: each entry is made best once, in turn; the first do not know what the
+      last have done
+    ten-sweeps: each entry is made best in turn, ten times; that is not the end yet
+    g-sign: g has the wrong sign => with -g
+    half-missing: the cost has a half before x . H x, so its slope is H x => with 2 H
+    lower-only: only the lower limits are kept
+    upper-only: only the upper limits are kept
+    start-returned: this is the start, clipped
+    H-of-the-diagonal: of H only the diagonal is used: entries pull at each other
+      => with H's diagonal
+    """
+    given = (H, g, lo, hi, x)
+    free = np.linalg.solve(H, -g)
+    far = 1e6 * np.ones(len(x))
+    jacobi = np.clip(x, lo, hi)
+    for _ in range(100):
+        jacobi = np.clip(jacobi - (H @ jacobi + g) / np.diag(H), lo, hi)
+    start = np.clip(x, lo, hi)
+    way = free - start
+    room = np.where(way > 0, hi - start, lo - start)
+    share = np.divide(room, way, out=np.ones(len(x)), where=way != 0)
+    return {
+        "clip-the-optimum": np.clip(free, lo, hi),
+        "no-limits": free,
+        "scaled-back": start + min(1.0, share.min()) * way,
+        "solved-once-more": solved_once_more(*given),
+        "held-for-good": held_for_good(*given),
+        "held-by-place": newton(*given, frees="never"),
+        "frees-the-wrong-ones": newton(*given, frees="wrong"),
+        "held-left-out": held_for_good(*given, own=False),
+        "one-step": newton(*given, n=1),
+        "two-steps": newton(*given, n=2),
+        "full-hessian": newton(*given, full=True),
+        "whole-steps": newton(*given),
+        "diagonal-hessian": jacobi,
+        "gradient-steps": slid(*given, 50, 0.01),
+        "gradient-steps 2": lambda: slid(*given, 1_000, 0.1),
+        "one-sweep": swept(*given, 1),
+        "ten-sweeps": swept(*given, 10),
+        "g-sign": box_qp(H, -g, lo, hi, x),
+        "half-missing": box_qp(2 * H, g, lo, hi, x),
+        "lower-only": box_qp(H, g, lo, far, x),
+        "upper-only": box_qp(H, g, -far, hi, x),
+        "start-returned": start,
+        "H-of-the-diagonal": box_qp(np.diag(np.diag(H)), g, lo, hi, x),
+    }
+
+
+EARLY = "who would leave by less is where it should be"
+ANYWHERE = "the best point is the same from any start"
+row.same("for _ in range(100): => for _ in range(200):", "five entries take ten steps")
+row.same("if leaves.max() < 1e-12: => if leaves.max() < 0.5 * 1e-12:", EARLY)
+row.same("if leaves.max() < 1e-12: => if leaves.max() < 10.0 * 1e-12:", EARLY)
+row.same("if leaves.max() < 1e-12: => if leaves.max() < 2e-12:", EARLY)
+row.same("first x = np.abs(x)", ANYWHERE)
+row.same("first x = np.maximum(x, 0)", ANYWHERE)
+row.same("first x = np.clip(x, -1, 1)", ANYWHERE)
+
+
+@row.right  # All 3^n sets of limits that may hold.
+def _(H, g, lo, hi, x):
+    best = None
+    least = np.inf
+    for where in itertools.product((-1, 0, 1), repeat=len(g)):
+        side = np.array(where)
+        there = np.where(side < 0, lo, hi).astype(float)
+        free = side == 0
+        right = -(g + H[:, ~free] @ there[~free])[free]
+        there[free] = np.linalg.solve(H[np.ix_(free, free)], right)
+        cost = there @ H @ there / 2 + g @ there
+        inside = np.all(there >= lo - 1e-12) and np.all(there <= hi + 1e-12)
+        if inside and cost < least:
+            best = there
+            least = cost
+    return best
+
+
+@row.right  # Each entry best in its turn, two thousand times.
+def _(H, g, lo, hi, x):
+    x = np.clip(x, lo, hi).astype(float)
+    for _ in range(2_000):
+        before = x.copy()
+        for i in range(len(x)):
+            there = x[i] - (H[i] @ x + g[i]) / H[i, i]
+            x[i] = min(max(there, lo[i]), hi[i])
+        if np.array_equal(before, x):
+            break
+    return x
+
+
+@row.right  # Downhill, with the step that the largest eigenvalue allows.
+def _(H, g, lo, hi, x):
+    x = np.clip(x, lo, hi)
+    short = 1 / np.linalg.eigvalsh(H)[-1]
+    for _ in range(4_000):
+        x = np.clip(x - short * (H @ x + g), lo, hi)
+    return x

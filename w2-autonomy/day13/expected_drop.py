@@ -1,0 +1,59 @@
+"""13.8 `expected_drop(drop, alpha)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Scalar
+
+row = Row(Scalar())
+
+
+@row.inputs
+def _(rng):
+    one = np.array([-4.0, 2.0])
+    drawn = []
+    for k in range(6):
+        first, second = rng.numbers(0.5, 4, 2)
+        alpha = float([rng.numbers(0.1, 0.9), 1.0][k % 2])
+        drawn.append((np.array([-first, second]), alpha))
+    return [(one, 0.5), (one, 1.0), *drawn]
+
+
+@row.wrongs
+def _(drop, alpha):
+    """alpha-not-squared: the second part grows with alpha squared => with alpha in both
+    alpha-squared-in-both: the first part grows with alpha => with alpha^2 in both
+    alpha-forgotten: alpha is missing: that is what the whole step should save => with
+      alpha 1
+    alpha-in-the-first-only: alpha is missing in the second part
+    first-order: the second part is missing => without drop[1]
+    second-part-only: the first part is missing => without drop[0]
+    sign: the sign is the other way: a drop is what is saved, above 0 when all is well
+      => the change of the cost
+    second-sign: the second part is subtracted from what is saved; only what the first
+      part says is saved, and the second takes some of it back
+      => with alpha^2 drop[1] added
+    half-again: the second part is halved once more; it has its half already
+    alphas-swapped: alpha squared belongs to the second part => with alpha and its
+      square swapped
+    """
+    first, second = drop
+    return {
+        "alpha-not-squared": -alpha * (first + second),
+        "alpha-squared-in-both": -(alpha**2) * (first + second),
+        "alpha-forgotten": -(first + second),
+        "alpha-in-the-first-only": -(alpha * first + second),
+        "first-order": -alpha * first,
+        "second-part-only": -(alpha**2) * second,
+        "sign": alpha * first + alpha**2 * second,
+        "second-sign": -alpha * first + alpha**2 * second,
+        "half-again": -(alpha * first + alpha**2 * second / 2),
+        "alphas-swapped": -(alpha**2 * first + alpha * second),
+    }
+
+
+row.at_least_0(alpha="a share")
+
+
+@row.right  # Horner's way.
+def _(drop, alpha):
+    return -alpha * (drop[0] + alpha * drop[1])

@@ -1,0 +1,158 @@
+"""13.1 `gravity_slope(J_space, masses, coms, g)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Symmetric
+
+from .asked import hinges
+
+row = Row(Symmetric((None, None), "N m/rad", scale=10.0))
+DOWN = np.array([0.0, 0.0, -9.81])
+
+
+@row.inputs
+def _(rng):
+    one = np.array([[0.0, 1, 0, 0, 0, 0]]).T
+    two = np.array([[0.0, 1, 0, 0, 0, 0], [0, 1, 0, -1, 0, 0]]).T
+    up = np.array([[0.0, 0, 1]])
+    return [
+        (one, np.array([2.0]), up, DOWN),
+        (one, np.array([2.0]), -up, DOWN),
+        (two, np.array([0.5, 1.0]), np.vstack([up / 2, 2 * up]), DOWN),
+        *hinges(rng),
+    ]
+
+
+def felt(J, masses, coms, turned, carried=np.greater_equal, lever=1.0):
+    """Return column j: what each joint feels of the weights in g's place turned[j]."""
+    omega, v = J[:3].T, J[3:].T
+    n = len(masses)
+    slope = np.zeros((n, n))
+    for i in range(n):
+        for k in range(n):
+            if carried(k, i):
+                moved = v[i] + lever * np.cross(omega[i], coms[k])
+                slope[i] -= masses[k] * turned @ moved
+    return slope
+
+
+def screws_stay(J, masses, coms, g):
+    """Return the slope if only centres of mass moved: omega_i x (omega_j x c + v_j)."""
+    omega, v = J[:3].T, J[3:].T
+    n = len(masses)
+    slope = np.zeros((n, n))
+    for i in range(n):
+        for j in range(n):
+            for k in range(max(i, j), n):
+                moved = np.cross(omega[j], coms[k]) + v[j]
+                slope[i, j] -= masses[k] * g @ np.cross(omega[i], moved)
+    return slope
+
+
+def mirrored(full):
+    """Return a symmetric matrix with the lower half of another."""
+    return np.tril(full) + np.tril(full, -1).T
+
+
+@row.wrongs
+def _(J_space, masses, coms, g):
+    """sign: the sign is the other way: seen from an arm that has turned, gravity turns
+      back, so it is g x omega, not omega x g => with omega x g
+    gravity-not-turned: g itself stands for g x omega: that is the torque, in each
+      column, and not how it changes => with g in all columns
+    gravity-not-turned 2: g itself stands for g x omega, above the diagonal too
+    g-times-omega: g and omega are multiplied entry by entry; it is g x omega => with *
+      for x
+    link-i-only: joint i is given the weight of link i alone; it carries all after it,
+      too => without the links after i
+    only-links-after: joint i is given the links after i; link i turns with it as well
+      => without link i
+    all-links: joint i is given all links; those before it stay where they are => with
+      the links before i
+    no-lever: the centres of mass are left out: v is the velocity of the world's origin,
+      a centre has v + omega x c => with v alone
+    lever-sign: the lever has the wrong sign: a centre moves with v + omega x c => with
+      v - omega x c
+    halves-swapped: omega and v are taken for each other: J_space has omega above
+      => with the halves swapped
+    upper-half-zero: all above the diagonal is 0; the matrix is symmetric => its lower
+      half
+    lower-half-zero: all below the diagonal is 0; the matrix is symmetric => its upper
+      half
+    not-symmetrised: the formula is used above the diagonal too; there joint j moves
+      less than joint i carries, and only i >= j holds: mirror the rest => with the
+      formula in both halves
+    averaged: both halves are averaged; only the lower one is right: mirror it => the
+      mean of both halves
+    other-half: the half above the diagonal is taken and mirrored: there joint i is the
+      earlier one, and g x omega_j holds for i >= j => with the upper half mirrored
+    diagonal-doubled: the diagonal is twice as large: it is in both of the triangles
+      that are added => with its diagonal doubled
+    diagonal-only: all beside the diagonal is 0; joints feel each other's turns
+    mass-forgotten: the masses are missing: each link counts as 1 kg => with masses 1
+    first-mass: all links have the first one's mass
+    only-z: of gravity only its z is used; it may point anywhere => with (0, 0, g_z)
+    minus-9.81: g is taken for (0, 0, -9.81); it may point anywhere => with that g
+    turned-twice: gravity is turned twice, by omega_i and by omega_j
+    v-for-omega: gravity is turned by v_j; the turn of a joint is its omega, the upper
+      three rows of J_space => with g x v_j
+    torque-added: g is added to g x omega_j: the torque itself is in it; only what
+      changes is asked => with g + g x omega_j
+    screws-stay: only the centres of mass move when joint j turns; the screws of the
+      joints after it turn as well => with the screws where they were
+    """
+    omega = J_space[:3].T
+    turned = np.cross(g, omega)
+    given = J_space, masses, coms
+    full = felt(*given, turned)
+    right = mirrored(full)
+    swapped = np.vstack([J_space[3:], J_space[:3]])
+    twice = np.array([
+        felt(*given, np.cross(np.cross(g, o), omega))[:, j] for j, o in enumerate(omega)
+    ]).T  # fmt: skip
+    g_z = np.array([0.0, 0.0, g[2]])
+    return {
+        "sign": -right,
+        "gravity-not-turned": mirrored(felt(*given, np.tile(g, (len(masses), 1)))),
+        "gravity-not-turned 2": felt(*given, np.tile(g, (len(masses), 1))),
+        "g-times-omega": mirrored(felt(*given, g * omega)),
+        "link-i-only": mirrored(felt(*given, turned, np.equal)),
+        "only-links-after": mirrored(felt(*given, turned, np.greater)),
+        "all-links": mirrored(felt(*given, turned, lambda k, i: True)),
+        "no-lever": mirrored(felt(*given, turned, lever=0.0)),
+        "lever-sign": mirrored(felt(*given, turned, lever=-1.0)),
+        "halves-swapped": mirrored(
+            felt(swapped, masses, coms, np.cross(g, swapped[:3].T))
+        ),
+        "upper-half-zero": np.tril(right),
+        "lower-half-zero": np.triu(right),
+        "not-symmetrised": full,
+        "averaged": (full + full.T) / 2,
+        "other-half": mirrored(full.T),
+        "diagonal-doubled": right + np.diag(np.diag(right)),
+        "diagonal-only": np.diag(np.diag(right)),
+        "mass-forgotten": mirrored(felt(J_space, 0 * masses + 1, coms, turned)),
+        "first-mass": mirrored(felt(J_space, 0 * masses + masses[0], coms, turned)),
+        "only-z": mirrored(felt(*given, np.cross(g_z, omega))),
+        "minus-9.81": mirrored(felt(*given, np.cross(DOWN, omega))),
+        "turned-twice": mirrored(twice),
+        "v-for-omega": mirrored(felt(*given, np.cross(g, J_space[3:].T))),
+        "torque-added": mirrored(felt(*given, g + turned)),
+        "screws-stay": screws_stay(*given, g),
+    }
+
+
+row.at_least_0(masses="a mass")
+
+
+@row.right  # The second derivative of the height energy, a pair of joints at a time.
+def _(J_space, masses, coms, g):
+    n = len(masses)
+    slope = np.zeros((n, n))
+    for i in range(n):
+        for j in range(n):
+            first, last = min(i, j), max(i, j)
+            for k in range(last, n):
+                moved = J_space[3:, last] + np.cross(J_space[:3, last], coms[k])
+                slope[i, j] -= masses[k] * g @ np.cross(J_space[:3, first], moved)
+    return slope

@@ -1,0 +1,186 @@
+"""13.7 `ilqr_backward(fx, fu, lx, lu, ..., Vx, Vxx, mu)`: questions and mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row, Vector
+from labkit.judge.kinds import Kind
+from robo47.optimal import ilqr_backward
+
+from .asked import motions
+
+row = Row((
+    Matrix((None, None), called="k"),
+    Kind((None, None, None), called="K"),
+    Vector((2,), called="the drop"),
+))  # fmt: skip
+
+
+@row.inputs
+def _(rng):
+    one = np.ones((2, 1, 1))
+    zero = np.zeros((2, 1))
+    end = np.ones(1), np.ones((1, 1)), 0.0
+    case = (one, one, zero, zero, one, one, 0 * one, *end)
+    return [case, *motions(rng)]
+
+
+def backward(
+    fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu, *, order=-1, in_k=1, in_K=1, in_V=1,
+    in_drop=1, right_fx=False, short=0.0, keep=(), sum_drop=True, quad=0.5, cross=1.0,
+    cross_xx=1.0,
+    gain=True,
+):  # fmt: skip
+    """Return k, K and drop of a pass whose parts may be wrong."""
+    T, n, m = fu.shape
+    k, K, drop = np.zeros((T, m)), np.zeros((T, m, n)), np.zeros(2)
+    for t in range(T)[::order]:
+        F = fx[t] if not right_fx else fx[t].T
+        Qx = lx[t] + F.T @ Vx
+        Qu = lu[t] + fu[t].T @ Vx
+        Qxx = lxx[t] + F.T @ Vxx @ F
+        bare = luu[t] + fu[t].T @ Vxx @ fu[t]
+        Qux = lux[t] + fu[t].T @ Vxx @ F
+        more = mu * np.eye(m)
+        k[t] = -np.linalg.solve(bare + in_k * more, Qu)
+        K[t] = -np.linalg.solve(bare + in_K * more, Qux)
+        V = bare + in_V * more
+        now = np.array([k[t] @ Qu, quad * k[t] @ (bare + in_drop * more) @ k[t]])
+        drop = drop + now if sum_drop else now
+        sign = 1.0 - short
+        if "Vx" not in keep:
+            part = sign * Qux.T @ k[t] + K[t].T @ (Qu + V @ k[t])
+            Vx = Qx + cross * part if gain else Qx
+        if "Vxx" not in keep:
+            part = Qux.T @ K[t] + K[t].T @ (Qux + V @ K[t])
+            Vxx = Qxx + cross_xx * part if gain else Qxx
+    return k, K, drop
+
+
+@row.wrongs
+def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
+    """lu-forgotten: lu is missing in Qu: what torque costs already does not pull it
+      down => with lu 0
+    lx-forgotten: lx is missing in Qx: what the steps cost is not handed on => with lx 0
+    lux-forgotten: lux is missing in Qux => with lux 0
+    lux-sign: lux has the wrong sign in Qux => with -lux
+    lxx-forgotten: lxx is missing in Qxx => with lxx 0
+    luu-forgotten: luu is missing in Quu => with luu 0
+    mu-forgotten: mu is missing => with mu 0
+    mu-in-k-only: mu is missing in K => with mu in k alone
+    mu-in-k-only 2: mu is missing in K => with mu in all but K
+    mu-not-in-V: Vx and Vxx are made with a Quu that has no mu in it; the gains have it
+      => with mu in the gains alone
+    mu-not-in-V 2: Vx, Vxx and the drop are made with a Quu that has no mu in it; the
+      gains have it
+    mu-not-in-the-drop: the drop is made with a Quu that has no mu in it
+    mu-on-Vxx: mu is added to Vxx; it belongs to Quu => with fu^T (Vxx + mu) fu
+    mu-on-Vxx 2: mu is added to Vxx in Quu; it belongs to Quu itself
+    mu-on-all-entries: mu is added to all of Quu; it belongs on its diagonal => with Quu
+      + mu in every entry
+    Vx-not-passed-on: Vx stays that of the end; each step has its own => with Vx of the
+      end
+    Vxx-not-passed-on: Vxx stays that of the end; each step has its own => with Vxx of
+      the end
+    Vx-without-the-gain: Vx is Qx: what the inputs save is missing in it => with Vx = Qx
+    Vxx-without-the-gain: Vxx is Qxx: what the inputs save is missing in it => with Vxx
+      = Qxx
+    V-signs: in Vx and Vxx what the inputs save has the wrong sign => with Qx - Qux^T k
+      and Qxx - Qux^T K
+    nothing-saved: Vx and Vxx are Qx and Qxx: what the inputs save is missing => with Vx
+      = Qx and Vxx = Qxx
+    Vx-sign: in Vx what the inputs save has the wrong sign => with Qx - Qux^T k
+    drop-last-step: the drop is that of one step; they add up => with the drop of the
+      first step
+    no-half: the half before k . Quu k is missing: the drop's second entry is twice as
+      large => the right ones, and k . Quu k
+    drop-signs: the drop's signs are turned round: it is what the cost changes by => the
+      right ones, and -drop
+    drop-swapped: the drop's two entries are swapped
+    drop-added: the drop's two entries are added in each of them
+    drop-quadratic-sign: the drop's second entry has the wrong sign
+    gain-signs: k and K have the other sign: each u changes by k + K dx => with -k, -K
+    k-sign: k has the other sign => with -k
+    K-sign: K has the other sign: here u changes by +K dx => with -K
+    forwards: it goes from the first step to the last; what follows is known at the end
+    fx-not-transposed: fx stands where fx^T should, and the other way round => with fx^T
+      for fx
+    first-slopes: all steps have the first one's fx and fu
+    last-slopes: all steps have the last one's fx and fu
+    K-reversed: k and K come in the order in which they are made: the last step first
+    end-forgotten: what the end costs is missing: it begins with Vx = 0 and Vxx = 0
+    Vx-forgotten: the slope of what the end costs is missing => with Vx 0 at the end
+    """
+    given = (fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu)
+    _, n, m = fu.shape
+    k, K, drop = ilqr_backward(*given)
+
+    def of(**more):
+        names = ("fx", "fu", "lx", "lu", "lxx", "luu", "lux", "Vx", "Vxx", "mu")
+        parts = dict(zip(names, given, strict=True))
+        changed = {name: one for name, one in more.items() if name in parts}
+        rest = {name: one for name, one in more.items() if name not in parts}
+        return backward(*(parts | changed).values(), **rest)
+
+    on_V = of(mu=0.0, luu=luu + mu * np.swapaxes(fu, 1, 2) @ fu,
+              lux=lux + mu * np.swapaxes(fu, 1, 2) @ fx)  # fmt: skip
+    return {
+        "lu-forgotten": of(lu=0 * lu),
+        "lx-forgotten": of(lx=0 * lx),
+        "lux-forgotten": of(lux=0 * lux),
+        "lux-sign": of(lux=-lux),
+        "lxx-forgotten": of(lxx=0 * lxx),
+        "luu-forgotten": of(luu=0 * luu + 1e-300) if mu or m <= n else (k, K, drop),
+        "mu-forgotten": of(mu=0.0),
+        "mu-in-k-only": of(in_K=0, in_V=0, in_drop=0),
+        "mu-in-k-only 2": of(in_K=0),
+        "mu-not-in-V": of(in_V=0),
+        "mu-not-in-V 2": of(in_V=0, in_drop=0),
+        "mu-not-in-the-drop": of(in_drop=0),
+        "mu-on-Vxx": on_V,
+        "mu-on-Vxx 2": of(mu=0.0, luu=luu + mu * np.swapaxes(fu, 1, 2) @ fu),
+        "mu-on-all-entries": of(luu=luu + mu, mu=0.0),
+        "Vx-not-passed-on": of(keep=("Vx",)),
+        "Vxx-not-passed-on": of(keep=("Vxx",)),
+        "Vx-without-the-gain": of(cross=0.0),
+        "Vxx-without-the-gain": of(cross_xx=0.0),
+        "V-signs": of(cross=-1.0, cross_xx=-1.0),
+        "nothing-saved": of(gain=False),
+        "Vx-sign": of(cross=-1.0),
+        "drop-last-step": of(sum_drop=False),
+        "no-half": of(quad=1.0),
+        "drop-signs": (k, K, -drop),
+        "drop-swapped": (k, K, drop[::-1].copy()),
+        "drop-added": (k, K, drop.sum() * np.ones(2)),
+        "drop-quadratic-sign": (k, K, drop * [1, -1]),
+        "gain-signs": (-k, -K, drop),
+        "k-sign": (-k, K, drop),
+        "K-sign": (k, -K, drop),
+        "forwards": of(order=1),
+        "fx-not-transposed": of(right_fx=True),
+        "first-slopes": of(fx=0 * fx + fx[:1], fu=0 * fu + fu[:1]),
+        "last-slopes": of(fx=0 * fx + fx[-1:], fu=0 * fu + fu[-1:]),
+        "K-reversed": (k[::-1].copy(), K[::-1].copy(), drop),
+        "end-forgotten": of(Vx=0 * Vx, Vxx=0 * Vxx),
+        "Vx-forgotten": of(Vx=0 * Vx),
+    }
+
+
+row.at_least_0(mu="it is a damping")
+
+
+@row.right  # The short forms, one gain for both.
+def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
+    ks, Ks, drop = [], [], np.zeros(2)
+    parts = zip(fx, fu, lx, lu, lxx, luu, lux, strict=True)
+    for A, B, a, b, Q, R, N in list(parts)[::-1]:
+        S = R + B.T @ Vxx @ B + mu * np.eye(len(b))
+        F = N + B.T @ Vxx @ A
+        c = b + B.T @ Vx
+        inverse = np.linalg.inv(S)
+        k, K = -inverse @ c, -inverse @ F
+        drop = drop + np.array([k @ c, -k @ c / 2])
+        Vx = a + A.T @ Vx + F.T @ k
+        Vxx = Q + A.T @ Vxx @ A + F.T @ K
+        ks.insert(0, k)
+        Ks.insert(0, K)
+    return np.array(ks), np.array(Ks), drop

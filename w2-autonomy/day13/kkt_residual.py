@@ -1,0 +1,123 @@
+"""13.4 `kkt_residual(H, g, lo, hi, x)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Scalar
+from robo47.optimal import box_qp
+
+from .asked import boxed, problems
+
+row = Row(Scalar())
+
+
+@row.inputs
+def _(rng):
+    H = np.array([[2.0, 1], [1, 2]])
+    g = np.array([-2.0, -10])
+    one = np.ones(2)
+    cases = [(H, g, -one, one, np.array(x)) for x in ([0.5, 1.0], [-1.0, 1], [0.0, 0])]
+    inside = [(*one[:4], np.round((one[2] + one[3]) / 2, 3)) for one in boxed(rng)[:4]]
+    clipped = [
+        (*one[:4], np.clip(np.linalg.solve(one[0], -one[1]).round(3), *one[2:4]))
+        for one in boxed(rng)[:4]
+    ]
+    return [*cases, *inside, *clipped, *problems(rng, 4), *boxed(rng)]
+
+
+def clipped_first(H, g, lo, hi, x):
+    """Return the residual of the nearest point of the box."""
+    x = np.clip(x, lo, hi)
+    return np.abs(x - np.clip(x - (H @ x + g), lo, hi)).max()
+
+
+@row.wrongs
+def _(H, g, lo, hi, x):
+    """gradient-only: that is the largest slope; where a limit holds x, a slope is no
+      fault => the largest of |H x + g|
+    box-only: that is how far x is outside the box: it is 0 for every x inside => the
+      largest of |x - clip(x)|
+    g-forgotten: g is missing in the slope => with H x for the slope
+    H-forgotten: H is missing in the slope => with g for the slope
+    slope-sign: x is pushed uphill: the slope is subtracted => with clip(x + slope)
+    slope-halved: the slope of x . H x / 2 is H x, without the half => with H x / 2 + g
+    slope-doubled: the cost has a half before x . H x, so its slope has no 2 => with 2 H
+      x + g
+    norm: the differences are squared and added; the largest is asked => their length
+    summed: the differences are added; the largest is asked => the sum of their sizes
+    mean: that is their mean; the largest is asked => the mean of their sizes
+    no-abs: the largest difference, but with its sign: one that is below 0 does not show
+      => the largest of x - clip(x - slope)
+    no-abs-the-other-way: the largest difference, but with its sign: one that is above 0
+      does not show => the largest of clip(x - slope) - x
+    least: that is the smallest of the differences
+    clip-the-slope: the slope is clipped to the box; it is x that has limits => the
+      largest of |clip(slope)|
+    not-compared: that is where x comes back; how far from x is asked => the largest of
+      |clip(x - slope)|
+    free-only: only entries between their limits count; one at a limit that wants away
+      is not best => the largest slope of the free ones
+    lower-only: only the lower limit clips
+    upper-only: only the upper limit clips
+    squared: the largest difference is squared
+    distance: that is how far the best point is; the residual needs no solution => the
+      largest distance to the best point
+    newton-push: x is pushed by Newton's step; it is pushed by its slope => with H^-1
+      times the slope
+    jacobi-push: x is pushed by its slope over H's diagonal; it is pushed by its slope
+    clipped-first: x is clipped first, so what is outside counts for nothing => with
+      clip(x) for x
+    slope-that-counts: that is the largest slope that no limit holds; it is not clipped,
+      and how far x may still go does not limit it
+    signed-limit: which limit an entry is pushed to is left out: at either one slopes
+      count for nothing => the slope, 0 at the limits
+    """
+    s = H @ x + g
+    d = x - np.clip(x - s, lo, hi)
+    free = (x > lo) & (x < hi)
+    counted = np.where(
+        x <= lo, np.minimum(s, 0), np.where(x >= hi, np.maximum(s, 0), s)
+    )
+
+    def by(slope):
+        return np.abs(x - np.clip(x - slope, lo, hi)).max()
+
+    return {
+        "gradient-only": np.abs(s).max(),
+        "box-only": np.abs(x - np.clip(x, lo, hi)).max(),
+        "g-forgotten": by(H @ x),
+        "H-forgotten": by(g),
+        "slope-sign": by(-s),
+        "slope-halved": by(H @ x / 2 + g),
+        "slope-doubled": by(2 * H @ x + g),
+        "norm": np.linalg.norm(d),
+        "summed": np.abs(d).sum(),
+        "mean": np.abs(d).mean(),
+        "no-abs": d.max(),
+        "no-abs-the-other-way": (-d).max(),
+        "least": np.abs(d).min(),
+        "clip-the-slope": np.abs(np.clip(s, lo, hi)).max(),
+        "not-compared": np.abs(np.clip(x - s, lo, hi)).max(),
+        "free-only": np.abs(np.where(free, d, 0.0)).max(),
+        "lower-only": np.abs(x - np.maximum(x - s, lo)).max(),
+        "upper-only": np.abs(x - np.minimum(x - s, hi)).max(),
+        "squared": np.abs(d).max() ** 2,
+        "distance": np.abs(x - box_qp(H, g, lo, hi, x)).max(),
+        "newton-push": by(np.linalg.solve(H, s)),
+        "jacobi-push": by(s / np.diag(H)),
+        "clipped-first": clipped_first(H, g, lo, hi, x),
+        "slope-that-counts": np.abs(counted).max(),
+        "signed-limit": np.abs(np.where(free, s, 0.0)).max(),
+    }
+
+
+row.at_least_0(answer="a size")
+
+
+@row.right  # An entry at a time.
+def _(H, g, lo, hi, x):
+    worst = 0.0
+    for i in range(len(x)):
+        there = x[i] - H[i] @ x - g[i]
+        there = min(max(there, lo[i]), hi[i])
+        worst = max(worst, abs(there - x[i]))
+    return worst

@@ -1,0 +1,83 @@
+"""13.9 `limit_prices(H, g, lo, hi, x)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+
+from .asked import problems
+
+row = Row(Vector((None,)))
+
+
+@row.inputs
+def _(rng):
+    one = np.ones(2)
+    H = np.array([[2.0, 1], [1, 2]])
+    case = (H, np.array([-2.0, -10]), -one, one, np.array([0.5, 1.0]))
+    return [case, *problems(rng, 9)]
+
+
+@row.wrongs
+def _(H, g, lo, hi, x):
+    """sign: the signs are turned round: a limit that moves along the slope costs more
+      => the right one with the other sign
+    absolute: the signs are lost: an upper limit that moves up saves => its sizes
+    upper-only: only upper limits have a price
+    lower-only: only lower limits have a price
+    slopes-of-the-free: the prices are those of the entries that no limit holds => the
+      slopes of the others
+    g-forgotten: g is missing in the slope => with H x
+    g-forgotten 2: g is missing in the slope => H x
+    H-forgotten: H is missing in the slope => with g
+    H-forgotten 2: H is missing in the slope => g
+    H-halved: the slope of x . H x / 2 is H x => with H x / 2 + g
+    H-doubled: the slope of x . H x / 2 is H x => with 2 H x + g
+    divided-by-H: it is divided by H's diagonal: that is how far the entry would go, and
+      no cost
+    how-far: this is how far x would move without its limits; what the cost changes by
+      is asked
+    one-each: a limit that holds has a price of its own, not 1 => its sign
+    halved: it is half of it
+    """
+    slope = H @ x + g
+    low = (x <= lo) & (slope > 0)
+    high = (x >= hi) & (slope < 0)
+    held = low | high
+    right = np.where(held, slope, 0.0)
+
+    def at(s):
+        return np.where(held, s, 0.0)
+
+    return {
+        "sign": -right,
+        "absolute": np.abs(right),
+        "upper-only": np.where(high, slope, 0.0),
+        "lower-only": np.where(low, slope, 0.0),
+        "slopes-of-the-free": np.where(held, 0.0, slope),
+        "g-forgotten": at(H @ x),
+        "g-forgotten 2": H @ x,
+        "H-forgotten": at(g),
+        "H-forgotten 2": g.copy(),
+        "H-halved": at(H @ x / 2 + g),
+        "H-doubled": at(2 * H @ x + g),
+        "divided-by-H": right / np.diag(H),
+        "how-far": x - np.linalg.solve(H, -g),
+        "one-each": np.sign(right),
+        "halved": right / 2,
+    }
+
+
+BEST = "at the best x a free entry's slope is 0, and a held one's has the right sign"
+HELD = "held = (x <= lo) & (slope > 0) | (x >= hi) & (slope < 0) => held = "
+row.same(HELD + "(x <= lo) & (slope > -0.001 + 0) | (x >= hi) & (slope < 0)", BEST)
+row.same(HELD + "(x <= lo) & (slope > 0) | (x >= hi) & (slope < 0.001 + 0)", BEST)
+row.same(HELD + "(x <= lo) & (slope > 0) | (x >= hi) & (slope < 1)", BEST)
+row.same("first lo = np.abs(lo)", BEST)
+row.same("first lo = np.maximum(lo, 0)", BEST)
+row.same("first lo = np.clip(lo, -1, 1)", BEST)
+row.same("first hi = np.clip(hi, -1, 1)", BEST)
+
+
+@row.right  # At the best x the free ones' slopes are 0 anyway.
+def _(H, g, lo, hi, x):
+    return H @ x + g

@@ -1,0 +1,132 @@
+"""13.6 `qp_ik(J, e, weights, damping, dq_lo, dq_hi)`: its questions, its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+from robo47.optimal import box_qp
+
+from .asked import ARM
+
+row = Row(Vector((7,), "rad", names=tuple(f"joint{i}" for i in range(1, 8))))
+HALF = np.roll(np.arange(6), 3)
+
+
+@row.inputs
+def _(rng):
+    J = np.zeros((6, 7))
+    J[3, :2] = J[4, 2] = 1
+    e = np.array([0, 0, 0, 1, 0.5, 0])
+    one = np.ones(6)
+    wide = 9 * np.ones(7)
+    tight = wide.copy()
+    tight[0] = 0.3
+    cases = [(J, e, one, 0.1, -limit, limit) for limit in (wide, tight)]
+    drawn = []
+    for k, q in enumerate(rng.configurations(8)):
+        J = np.round(ARM.at(q).J_site, 3)
+        low, high = rng.numbers(0.05, 0.6, 2, 7)  # dq_lo is -low
+        if k % 4 == 1:
+            low, high = low + 30, high + 30
+        if k == 2:
+            low[3] = high[3] = 0  # a joint that stays
+        if k == 3:  # joints beyond their range come back
+            low[1], high[4] = -0.03, -0.2
+            low[4] = 2
+        weights = one if k % 4 == 0 else rng.numbers(0.2, 2, 6)
+        damping = [0.1, 0.5, 0.3][k % 3]
+        drawn.append((J, rng.numbers(-1, 1, 6), weights, damping, -low, high))
+    return [*cases, *drawn]
+
+
+def solved(J, e, weights, damp, lo, hi, right=None):
+    """Return the best step with weights and a damping already squared."""
+    right = weights if right is None else right
+    H = J.T @ (weights[:, None] * J) + damp * np.eye(7)
+    return box_qp(H, -J.T @ (right * e), lo, hi, np.zeros(7))
+
+
+@row.wrongs
+def _(J, e, weights, damping, dq_lo, dq_hi):
+    """clip-after: Day 3's step, clipped; where one joint is held the others should take
+      over => with the limits after the step
+    scaled-back: all joints are slowed by one factor until each is within its limits;
+      that gives up what the others could still do
+    not-limited: the limits are left out
+    lower-only: only the lower limits are kept
+    upper-only: only the upper limits are kept
+    limits-mirrored: the lower limit is taken to be minus the upper one => with -dq_hi
+    damping-not-squared: the damping is added as it is; it is squared => with damping
+      for its square
+    damping-halved: the damping is halved; both parts of the cost have the same half
+      => with damping^2 / 2
+    damping-doubled: the damping is doubled; both parts of the cost have the same half
+      => with 2 damping^2
+    weights-squared: the weights are squared: they stand in the cost as they are => with
+      W^2
+    weights-rooted: the weights are rooted: they stand in the cost as they are => with
+      their roots
+    weights-forgotten: the weights are missing => with weights 1
+    weights-in-H-only: the weights are missing before e => with J^T e
+    weights-in-g-only: the weights are missing in H => with J^T J
+    weights-swapped: the weights of turns and translations are swapped: omega is above
+      => with the weights' halves swapped
+    weights-inverted: a weight is divided by; it multiplies => with 1 / weights
+    e-halves-swapped: e's halves are swapped: omega is above => with e's halves swapped
+    error-sign: the step goes away from the goal: g is -J^T W e => with +J^T W e
+    e-halved: the step is half of it: H and g have the same half => with e / 2
+    e-doubled: the step is twice of it: H and g have the same half => with 2 e
+    clipped-twice: Day 3's step is clipped, what is left of e is tried once more and
+      clipped again; joints that are held should be left out of it
+    translation-only: only the translation is looked at
+    rotation-only: only the rotation is looked at
+    """
+    d = damping**2
+    lo, hi = dq_lo, dq_hi
+    given = (J, e, weights, d)
+    far = 1e6 * np.ones(7)
+    free = solved(*given, -far, far)
+    limit = np.where(free > 0, hi, lo)
+    share = np.divide(limit, free, out=np.ones(7), where=np.abs(free) > 1e-12)
+    once = np.clip(free, lo, hi)
+    again = once + solved(J, e - J @ once, weights, d, -far, far)
+    down = np.array([0.0, 0, 0, 1, 1, 1])
+    return {
+        "clip-after": np.clip(free, lo, hi),
+        "clipped-twice": np.clip(again, lo, hi),
+        "scaled-back": free * min(1.0, share.min()),
+        "not-limited": free,
+        "lower-only": solved(*given, lo, far),
+        "upper-only": solved(*given, -far, hi),
+        "limits-mirrored": solved(*given, -np.abs(hi), np.abs(hi)),
+        "damping-not-squared": solved(J, e, weights, damping, lo, hi),
+        "damping-halved": solved(J, e, weights, d / 2, lo, hi),
+        "damping-doubled": solved(J, e, weights, 2 * d, lo, hi),
+        "weights-squared": solved(J, e, weights**2, d, lo, hi),
+        "weights-rooted": solved(J, e, np.sqrt(weights), d, lo, hi),
+        "weights-forgotten": solved(J, e, np.ones(6), d, lo, hi),
+        "weights-in-H-only": solved(*given, lo, hi, np.ones(6)),
+        "weights-in-g-only": solved(J, e, np.ones(6), d, lo, hi, weights),
+        "weights-swapped": solved(J, e, weights[HALF], d, lo, hi),
+        "weights-inverted": solved(J, e, 1 / weights, d, lo, hi),
+        "e-halves-swapped": solved(J, e[HALF], weights, d, lo, hi),
+        "error-sign": solved(J, -e, weights, d, lo, hi),
+        "e-halved": solved(J, e / 2, weights, d, lo, hi),
+        "e-doubled": solved(J, 2 * e, weights, d, lo, hi),
+        "translation-only": solved(J, e, weights * down, d, lo, hi),
+        "rotation-only": solved(J, e, weights * (1 - down), d, lo, hi),
+    }
+
+
+# What is left out is named above: a start at 0 makes it one thing with these.
+SAME = ("clip-the-optimum", "no-limits", "full-hessian", "g-sign", "half-missing")
+row.reached_by("box_qp", but=(*SAME, "lower-only", "upper-only"))
+row.at_least_0(weights="a weight is", damping="it is squared")
+
+
+@row.right  # Seven more rows, and each joint best in its turn.
+def _(J, e, weights, damping, dq_lo, dq_hi):
+    root = np.sqrt(weights)
+    rows = np.vstack([root[:, None] * J, damping * np.eye(7)])
+    right = np.concatenate([root * e, np.zeros(7)])
+    H, g = rows.T @ rows, -rows.T @ right
+    return box_qp(H, g, dq_lo, dq_hi, np.clip(np.linalg.solve(H, -g), dq_lo, dq_hi))

@@ -1,0 +1,151 @@
+"""14.7 `cem_step(mean, std, noise, scores, elite)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+from robo47.policy import cem_step
+
+row = Row((Vector((None,), called="the mean"), Vector((None,), called="the spread")))
+
+
+@row.inputs
+def _(rng):
+    noise = np.array([[0.0, 0], [1, 1], [-1, 2], [3, 3]])
+    one, two = np.array([1.0, 0]), np.array([2.0, 1])
+    yield one, two, noise, np.array([1, 5, 5, np.nan]), 2
+    for n, d, elite, kind in (
+        (6, 2, 2, "finite"),
+        (8, 3, 3, "finite"),
+        (8, 3, 1, "finite"),
+        (8, 2, 3, "nan"),
+        (10, 3, 4, "nan"),
+        (9, 2, 2, "equal"),
+        (9, 3, 3, "equal"),
+        (12, 6, 3, "all"),
+        (12, 4, 4, "all"),
+    ):
+        scores = rng.numbers(-1, 1, n)
+        if kind in ("nan", "all"):
+            scores[rng.choice(n, 2, replace=False)] = np.nan
+        if kind in ("equal", "all"):
+            best = rng.choice(np.flatnonzero(np.isfinite(scores)), elite + 2, False)
+            scores[best] = 1.0
+        yield (
+            rng.numbers(-1, 1, d),
+            rng.numbers(0.2, 2, d),
+            rng.numbers(-2, 2, n, d),
+            scores,
+            elite,
+        )
+
+
+def of_best(samples, best):
+    """Return mean and spread of some samples."""
+    return samples[best].mean(axis=0), samples[best].std(axis=0)
+
+
+@row.wrongs
+def _(mean, std, noise, scores, elite):
+    """nan-first: a NaN counts as the best: argsort puts it last, and [::-1] first
+    nan-first 2: a NaN counts as the best, and of equals any may be kept: argsort puts
+      it last, and [::-1] first
+    ties-last-first: of equals the last are kept; the first were asked for
+    ties-last-first 2: of equals the last are kept: [::-1] turns them round, too
+    worst: the elite are the worst
+    std-kept: the spread stays as it was; it is that of the elite
+    mean-kept: the mean stays as it was; it is that of the elite
+    variance: the spread is the variance, that is squared
+    n-minus-one: the spread is over n - 1; it is over the number of the elite
+    about-the-old-mean: the spread is about the old mean; it is about the elite's own
+    one-spread-for-all: one spread for all numbers; each has its own
+    mean-forgotten: the samples are std noise; the mean is missing
+    std-forgotten: the samples are mean + noise; each number has its own std
+    noise-kept: mean and spread are those of the noise, not of the samples
+    all-elite: all samples are averaged; only the elite are
+    elite-one: only the best one is kept
+    elite-one-more: one more than the elite is kept
+    elite-one-less: one less than the elite is kept
+    weighted: the elite are weighted by their rank; each counts the same
+    weighted 2: the elite are weighted by their scores; each counts the same
+    weighted 3: the mean is weighted by the scores; each of the elite counts the same
+    spread-of-noise: the spread is that of the elite's noise; the samples have it times
+      std
+    best-for-the-mean: the mean is the best sample; it is that of the elite
+    std-added: the new spread comes on top of the old one
+    std-times: the spread is that of the elite's noise, times the spread twice
+    median: it takes the median for the mean
+    halves-swapped: spread and mean are swapped
+    spread-of-all: the spread is that of all samples
+    """
+    samples = mean + std * noise
+    n = len(scores)
+    order = np.argsort(-scores, kind="stable")
+    best = order[:elite]
+    right = cem_step(mean, std, noise, scores, elite)
+    filled = np.where(np.isnan(scores), -np.inf, scores)
+    nan_first = np.argsort(scores, kind="stable")[::-1][:elite]
+    nan_best = np.argsort(np.where(np.isnan(scores), -np.inf, -scores), kind="stable")
+    lasts = np.lexsort((-np.arange(n), -filled))[:elite]
+    rank = np.arange(elite, 0, -1.0)[:, None]
+    by_score = filled[best][:, None]
+    raw = mean + noise
+
+    def weighed(w):
+        middle = (w * samples[best]).sum(axis=0) / w.sum()
+        away = (w * (samples[best] - middle) ** 2).sum(axis=0) / w.sum()
+        return middle, np.sqrt(np.abs(away))
+
+    about = np.sqrt(np.mean((samples[best] - mean) ** 2, axis=0))
+    return {
+        "nan-first": of_best(samples, nan_best[:elite]),
+        "nan-first 2": of_best(samples, np.argsort(scores)[::-1][:elite]),
+        "ties-last-first": of_best(samples, lasts),
+        "ties-last-first 2": of_best(samples, nan_first),
+        "worst": of_best(samples, np.argsort(scores, kind="stable")[:elite]),
+        "std-kept": (right[0], std),
+        "mean-kept": (mean, right[1]),
+        "variance": (right[0], right[1] ** 2),
+        "n-minus-one": lambda: (
+            right[0],
+            samples[best].std(axis=0, ddof=1)
+            if elite > 1
+            else np.full(len(mean), np.nan),
+        ),
+        "about-the-old-mean": (right[0], about),
+        "one-spread-for-all": (right[0], np.full(len(mean), samples[best].std())),
+        "mean-forgotten": of_best(std * noise, best),
+        "std-forgotten": of_best(raw, best),
+        "noise-kept": of_best(noise, best),
+        "all-elite": of_best(samples, order),
+        "elite-one": of_best(samples, order[:1]),
+        "elite-one-more": of_best(samples, order[: elite + 1]),
+        "elite-one-less": lambda: of_best(samples, order[: max(elite - 1, 1)]),
+        "weighted": weighed(rank),
+        "weighted 2": lambda: weighed(by_score),
+        "weighted 3": lambda: (weighed(np.nan_to_num(by_score) + 1e-9)[0], right[1]),
+        "spread-of-noise": (right[0], noise[best].std(axis=0)),
+        "best-for-the-mean": (samples[best[0]], right[1]),
+        "std-added": (right[0], std + right[1]),
+        "std-times": (right[0], std * right[1]),
+        "median": (np.median(samples[best], axis=0), right[1]),
+        "halves-swapped": right[::-1],
+        "spread-of-all": (right[0], samples.std(axis=0)),
+    }
+
+
+row.at_least_0(std="a spread", elite="a number of samples")
+
+
+@row.right  # Best first by a list sort, which keeps the order of equals.
+def _(mean, std, noise, scores, elite):
+    order = sorted(range(len(scores)), key=lambda i: (np.isnan(scores[i]), -scores[i]))
+    kept = np.array([mean + std * noise[i] for i in order[:elite]])
+    middle = kept.sum(axis=0) / elite
+    return middle, np.sqrt(((kept - middle) ** 2).sum(axis=0) / elite)
+
+
+@row.right  # A NaN made the smallest number.
+def _(mean, std, noise, scores, elite):
+    worth = np.nan_to_num(scores, nan=-np.inf)
+    best = np.argsort(-worth, kind="stable")[:elite]
+    return mean + std * noise[best].mean(axis=0), std * noise[best].std(axis=0)

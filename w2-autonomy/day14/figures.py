@@ -1,0 +1,100 @@
+"""The picture of Day 14, made with the lab's own functions; drawn by `make figures`.
+
+touched   two cubes between the pads with their cones; what a learned policy holds
+"""
+
+import day14_touch as lab
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from labkit.figures import chart
+from labkit.figures.chart import BLUE, INK, RED
+
+import day14_mujoco
+
+MASS = 0.15  # kg, of both cubes on the left
+GRIPS = (0.9, 0.25)  # their friction
+WHEN = 0.03  # s after the hand has begun to rise
+CUBES = 150
+NEWTON = 7.0  # mm of an arrow, for 1 N
+
+
+@chart.picture(height=9.0)
+def touched(figure: Figure) -> None:
+    """Draw two grasps, their forces and cones, and all cubes of another try."""
+    grid = figure.add_gridspec(2, 2, height_ratios=(1.1, 1.2))
+    held, slips = (figure.add_subplot(grid[0, i]) for i in (0, 1))
+    tries = figure.add_subplot(grid[1, :])
+    model, data = day14_mujoco.hand()
+    theta = lab.learn(model, data, lab.SEED)
+    for axes, mu in zip((held, slips), GRIPS, strict=True):
+        _grip(axes, model, data, theta, mu)
+    _tried(tries, model, data, theta)
+
+
+def _grip(axes: Axes, model, data, theta: np.ndarray, mu: float) -> None:
+    """Draw a cube between the pads from the front, its forces, and each one's cone."""
+    cube = day14_mujoco.Cube(0.0, 0.0, 0.0, MASS, mu)
+    action = theta * [0, 0, 0, 1, 1, 1]
+    episode = day14_mujoco.episode(model, data, cube, action)
+    ticks = round((day14_mujoco.CLOSED + WHEN) / day14_mujoco.STEP / day14_mujoco.TICK)
+    for _ in range(ticks):
+        next(episode)
+    felt = day14_mujoco.felt(model, data)
+    margin = lab.cone_margin(felt.force, felt.normal, felt.mu)
+    most = mu * np.sum(felt.force * felt.normal, axis=1)
+    slips = bool((margin < 0.02 * most).any())
+    colour = RED if slips else BLUE
+    y, z = 1000 * data.body("cube").xpos[1:]
+    axes.add_patch(Rectangle((y - 20, z - 20), 40, 40, facecolor="0.9", edgecolor=INK))
+    for side in (1, -1):
+        some = felt.points[:, 1] * side > 0
+        if not some.any():  # it has left that pad
+            continue
+        at = 1000 * felt.points[some].mean(axis=0)
+        force = NEWTON * felt.force[some].sum(axis=0)
+        normal = felt.normal[some][0]
+        high = 1000 * data.geom("left" if side > 0 else "right").xpos[2]
+        axes.add_patch(
+            Rectangle((at[1] - 4 + 4 * side, high - 8.5), 8, 17, facecolor="0.6")
+        )
+        edges = lab.cone_edges(normal, mu, 36)[:, 1:] * (force @ normal) * 1.6
+        for edge in (edges[edges[:, 1].argmin()], edges[edges[:, 1].argmax()]):
+            axes.plot(*np.transpose([at[1:], at[1:] + edge]), color=INK, linewidth=0.9)
+        axes.annotate(
+            "",
+            xy=at[1:] + force[1:],
+            xytext=at[1:],
+            arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 1.8},
+        )
+    says = "it slips" if slips else "held"
+    axes.set(title=f"Friction {mu}: {says}", xlabel="y, mm", aspect="equal")
+    axes.set(xlim=(-34, 34), ylim=(z - 34, z + 34))
+    axes.text(0, z - 31, f"least margin {margin.min():.2f} N", ha="center")
+
+
+def _tried(axes: Axes, model, data, theta: np.ndarray) -> None:
+    """Draw which cubes are held, over mass and friction, and the line from theta."""
+    rng = np.random.default_rng(lab.CUBES_SEED)
+    cubes = day14_mujoco.cubes(CUBES, rng, (0.2, 1.0))
+    noise = lab.NOISE * rng.normal(size=(CUBES, 3))
+    good = lab.held(lab.tried(model, data, theta, cubes, noise))
+    mu = np.array([cube.mu for cube in cubes])
+    grams = 1000 * np.array([cube.mass for cube in cubes])
+    axes.plot(mu[good], grams[good], "o", ms=4, color=BLUE, label="held")
+    axes.plot(mu[~good], grams[~good], "x", ms=5, color=RED, label="not held")
+    line = np.array([0.2, 1.0])
+    heaviest = 2000 * line * lab.squeezed(theta) / lab.G
+    axes.plot(line, heaviest, "-", color=INK, linewidth=1.2, label="m = 2 mu F / g")
+    axes.axvspan(*lab.ROUGH, color="0.92", zorder=0)
+    axes.text(0.95, 8, "learned\nhere", ha="center", va="bottom", fontsize=chart.SMALL)
+    axes.set(title="The learned policy", xlabel="friction", ylabel="mass, g")
+    axes.set(ylim=(0, 265), xlim=(0.19, 1.01))
+    axes.legend(loc="lower left", ncols=3, columnspacing=1.0, handletextpad=0.4)
+    axes.grid()
+
+
+FIGURES = {"touched": touched}
+SMALL = ("touched", 0.0, 0.02, 0.34)  # its left, top and width, in parts of its width

@@ -1,0 +1,130 @@
+"""14.5 `observe(T_seen, noise)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+from robo47 import se3
+
+QUARTER = np.pi / 2
+
+
+def off_the_fold(T_seen, noise):
+    """Return whether the yaw is not where the fold is."""
+    yaw = np.arctan2(T_seen[1, 0], T_seen[0, 0]) + np.array([0, noise[2]])
+    beside = np.abs((yaw + np.pi / 4 + 1) % QUARTER - 1) < 1e-6
+    return not beside.any()
+
+
+row = Row(Vector((3,), "m, rad", names=("x", "y", "yaw")), at_edge=off_the_fold)
+
+
+def pose(yaw, x, y):
+    """Return the pose of an upright cube."""
+    return se3.make_T(se3.Rz(yaw), (x, y, 0.02))
+
+
+@row.inputs
+def _(rng):
+    yield pose(1.0, 0.4, 0.1), np.zeros(3)
+    # within the fold; over it by the noise alone; further round, both ways
+    for yaw, turn in (
+        (0.3, -0.05),
+        (-0.5, 0.02),
+        (0.77, 0.04),
+        (-0.77, -0.03),
+        (0.8, -0.05),
+        (-2.4, 0.07),
+        (2.4, -0.02),
+        (3.1, 0.06),
+    ):
+        x, y = rng.numbers(-0.3, 0.6, 2)
+        yield pose(yaw, x, y), np.append(rng.numbers(-0.01, 0.01, 2), turn)
+    for yaw in rng.numbers(-3.1, 3.1, 8):
+        x, y = rng.numbers(-0.3, 0.6, 2)
+        yield pose(yaw, x, y), rng.numbers(-0.05, 0.05, 3)
+
+
+def fold(yaw, period=QUARTER):
+    """Return an angle folded about 0."""
+    return (yaw + period / 2) % period - period / 2
+
+
+@row.wrongs
+def _(T_seen, noise):
+    """not-folded: the yaw is not folded; a cube looks the same four times a turn
+    folded-to-0-to-90: the yaw is folded into [0, pi/2); asked is [-pi/4, pi/4)
+    folded-by-pi: the yaw is folded by pi; a cube looks the same after pi/2
+    folded-by-pi-over-4: the yaw is folded by pi/4; a cube looks the same after pi/2
+    folded-once: pi/2 is taken off or added once at most; a cube may be turned further
+    noise-after-the-fold: the yaw is folded before the noise comes in; then it may lie
+      beyond the fold
+    fmod: it takes np.fmod, which is negative for what is negative; % is not
+    transposed: the rotation is transposed: the yaw has the other sign => with R^T
+    arccosine: the yaw is arccos(R[0, 0]), which knows no sign
+    arcsine: the yaw is arcsin(R[1, 0]), which ends at a quarter turn to either side
+    noise-forgotten: there is no noise in it
+    noise-not-on-the-yaw: the yaw has no noise
+    noise-on-the-yaw-alone: the place has no noise
+    noise-taken-off: the noise is taken off; it comes on top
+    noise-in-the-cubes-axes: the noise is turned into the cube's axes; it is the
+      camera's, x and y
+    x-and-y-swapped: x and y are swapped
+    x-and-y-swapped 2: x and y of the place are swapped
+    yaw-first: the yaw comes first; asked is (x, y, yaw)
+    degrees: the yaw is in degrees
+    place-from-the-last-row: x and y are taken from T's last row; they stand in its last
+      column
+    """
+    at = T_seen[:2, 3]
+    R = T_seen[:3, :3]
+    yaw = np.arctan2(R[1, 0], R[0, 0])
+    full = yaw + noise[2]
+
+    def seen(angle, place=None):
+        return np.append(at + noise[:2] if place is None else place, angle)
+
+    once = full
+    if once >= np.pi / 4:
+        once = once - QUARTER
+    elif once < -np.pi / 4:
+        once = once + QUARTER
+    right = seen(fold(full))
+    return {
+        "not-folded": seen(full),
+        "folded-to-0-to-90": seen(full % QUARTER),
+        "folded-by-pi": seen(fold(full, np.pi)),
+        "folded-by-pi-over-4": seen(fold(full, np.pi / 4)),
+        "folded-once": seen(once),
+        "noise-after-the-fold": seen(fold(yaw) + noise[2]),
+        "fmod": seen(np.fmod(full + np.pi / 4, QUARTER) - np.pi / 4),
+        "transposed": seen(fold(-yaw + noise[2])),
+        "arccosine": seen(fold(np.arccos(np.clip(R[0, 0], -1, 1)) + noise[2])),
+        "arcsine": seen(fold(np.arcsin(np.clip(R[1, 0], -1, 1)) + noise[2])),
+        "noise-forgotten": seen(fold(yaw), at),
+        "noise-not-on-the-yaw": seen(fold(yaw)),
+        "noise-on-the-yaw-alone": seen(fold(full), at),
+        "noise-taken-off": seen(fold(yaw - noise[2]), at - noise[:2]),
+        "noise-in-the-cubes-axes": seen(fold(full), at + R[:2, :2] @ noise[:2]),
+        "x-and-y-swapped": right[[1, 0, 2]],
+        "x-and-y-swapped 2": seen(fold(full), at[::-1] + noise[:2]),
+        "yaw-first": right[[2, 0, 1]],
+        "degrees": right * [1, 1, np.degrees(1)],
+        "place-from-the-last-row": seen(fold(full), T_seen[3, :2] + noise[:2]),
+    }
+
+
+@row.right  # arctan for arctan2: what it loses is a half turn, and the fold is by less.
+def _(T_seen, noise):
+    with np.errstate(divide="ignore"):
+        yaw = np.arctan(T_seen[1, 0] / T_seen[0, 0]) + noise[2]
+    while yaw >= np.pi / 4:
+        yaw -= np.pi / 2
+    while yaw < -np.pi / 4:
+        yaw += np.pi / 2
+    return np.array([T_seen[0, 3] + noise[0], T_seen[1, 3] + noise[1], yaw])
+
+
+@row.right  # By the nearest quarter.
+def _(T_seen, noise):
+    yaw = np.arctan2(T_seen[1, 0], T_seen[0, 0]) + noise[2]
+    return np.append(T_seen[:2, 3] + noise[:2], yaw - QUARTER * np.round(yaw / QUARTER))

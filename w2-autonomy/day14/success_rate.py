@@ -1,0 +1,87 @@
+"""14.8 `success_rate(success)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+
+row = Row(Vector((3,), names=("the rate", "the lower end", "the upper end")))
+
+
+@row.inputs
+def _(rng):
+    yield (np.ones(8, bool),)
+    yield (np.arange(100) >= 3,)
+    yield (np.zeros(60, bool),)
+    for n, share in ((1, 0.9), (5, 0.4), (20, 0.5), (60, 0.2), (60, 0.8), (200, 0.6)):
+        yield (rng.uniform(size=n) < share,)
+
+
+def wilson(k, n, z=1.96, moved=True, inside=True, divided=True):
+    """Return Wilson's interval, where one of its parts may be missing."""
+    middle = k + z**2 / 2 if moved else k
+    around = z * np.sqrt(k * (n - k) / n + (z**2 / 4 if inside else 0))
+    return np.array([middle - around, middle + around]) / (n + z**2 if divided else n)
+
+
+@row.wrongs
+def _(success):
+    """plain: the interval is the plain one, p +- 1.96 sqrt(p (1 - p) / n), which says
+      that 8 of 8 is sure; Day 12's is wilson's
+    plain-to-0-and-1: the interval is the plain one, cut at 0 and 1; Day 12's is
+      wilson's
+    middle-for-rate: the rate is the middle of the interval; it is the share that was
+      counted
+    order: the interval comes first, the rate last
+    ends-swapped: the upper end comes before the lower one
+    count: it returns how many, not which share
+    half-width: it returns how far the interval goes to either side, not its ends
+    failures: failures are counted for successes
+    one-sided: 1.645 is taken for 1.96: 90 % of all rates are within
+    ninety-nine: 2.576 is taken for 1.96: 99 % of all rates are within
+    n-less-one: it is divided by n - 1
+    per-cent: the three are in per cent
+    one-of-n: the interval is that of one of n, however many there were
+    """
+    won = np.asarray(success, float)
+    n = len(won)
+    k = won.sum()
+    p = k / n
+    low, high = wilson(k, n)
+    plain = 1.96 * np.sqrt(p * (1 - p) / n)
+    right = np.array([p, low, high])
+    return {
+        "plain": np.array([p, p - plain, p + plain]),
+        "plain-to-0-and-1": np.array([p, max(p - plain, 0), min(p + plain, 1)]),
+        "middle-for-rate": np.array([(low + high) / 2, low, high]),
+        "order": np.array([low, high, p]),
+        "ends-swapped": np.array([p, high, low]),
+        "count": np.array([k, low, high]),
+        "half-width": np.array([p, p - low, high - p]),
+        "failures": np.array([1 - p, *wilson(n - k, n)]),
+        "one-sided": np.array([p, *wilson(k, n, 1.645)]),
+        "ninety-nine": np.array([p, *wilson(k, n, 2.576)]),
+        "n-less-one": lambda: right * n / (n - 1) if n > 1 else np.full(3, np.nan),
+        "per-cent": 100 * right,
+        "one-of-n": np.array([p, *wilson(1, n)]),
+    }
+
+
+row.at_least_0(success="True or False", answer="a share is")
+
+
+@row.right  # As the roots of the quadratic.
+def _(success):
+    n = len(success)
+    p = np.mean(success)
+    z2 = 1.96**2
+    a, b, c = 1 + z2 / n, -(2 * p + z2 / n), p**2
+    root = np.sqrt(max(b * b - 4 * a * c, 0.0))
+    return np.array([p, (-b - root) / (2 * a), (-b + root) / (2 * a)])
+
+
+@row.right  # Day 12's own, and np.count_nonzero.
+def _(success):
+    from robo47.planning import wilson as of_day_12
+
+    k = np.count_nonzero(success)
+    return np.append(k / success.size, of_day_12(k, success.size))

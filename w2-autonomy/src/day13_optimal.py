@@ -1,0 +1,625 @@
+"""Day 13: what is best, and how to tell. Everything works; only the promise tells.
+
+    make day13                       in the clone: sets all up, then runs this
+    python src/day13_optimal.py      in w2-autonomy/, once that is done
+
+A state is x = (q - q0, qd); u is added to the torque that holds q0. Twists (omega; v),
+world axes, J_space (6, 7). Radians, metres, kilograms, newtons, seconds.
+"""
+
+from itertools import pairwise
+
+import kit  # noqa: F401 (goes on in the kit's own Python)
+import mujoco
+import numpy as np
+
+from robo47 import cli, panda, simulate
+from robo47 import optimal as library
+from robo47.dynamics import gravity_torque
+from robo47.jacobian import dls_step, pose_error
+from robo47.lesson.lab import Lab
+from robo47.verify import random_q
+
+import day13_mujoco
+
+READY_Q = panda.READY_Q  # the handout's home_q: where the arm is held, rad
+SEED = 13  # of poses, boxes and costs; the same at every run
+TRIALS = 20  # poses at which gravity's slope is asked
+BOXES = 40  # quadratics in boxes
+# One more, in which steps that are clipped and not halved go in circles.
+CIRCLING = (
+    np.array([[23.0, 15, 21], [15, 14, 13], [21, 13, 23]]), np.array([9.0, -2, 6]),
+    -np.ones(3), np.ones(3), np.array([0.0, 0, -1]),
+)  # fmt: skip
+Q_COST = np.repeat([100.0, 1.0], 7)  # per s: of rad^2, and of (rad/s)^2
+R_COST = 0.01  # per s: of (N m)^2
+STEPS = 1_500  # of Riccati; after 500 the gain is good, and the promise not yet
+SECONDS = 6.0  # that the arm is held in the simulator
+WAY = np.array([0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0])  # joints 2 and 4: it folds
+SIZES = (0.001, 0.01, 0.1, 0.3)  # rad along it
+JUDGED = 0.01  # rad: the size at which the promise is judged
+RADIUS = 0.38  # m, of Day 3's circle; all of 0.36 is in reach
+DT = 0.02  # s, of a step along it
+GAIN = 10.0  # 1/s: how fast an error on it is corrected
+DAMPING = 0.005  # of its steps
+SPEED = simulate.SPEED_LIMITS  # rad/s
+# Where the arm reaches, rad from ready, and in how many steps of 10 ms.
+TO = np.array([0.8, 0.5, -0.5, 0.6, 0.5, -0.5, 0.5])
+MOTION = 60
+ROUNDS = 3  # of iLQR
+
+
+def gravity_slope(
+    J_space: np.ndarray, masses: np.ndarray, coms: np.ndarray, g: np.ndarray
+) -> np.ndarray:
+    """Return how gravity's torque changes when a joint turns, (n, n), N m/rad.
+
+    J_space (6, n), masses (n,), coms (n, 3) in the world, g a vector as (0, 0, -9.81).
+    One hinge about +y with 2 kg 1 m above it: -19.62; 1 m below: 19.62.
+    """
+    # region 13.1
+    slope = np.zeros((len(masses), len(masses)))
+    for j, omega in enumerate(J_space[:3].T):
+        tau = gravity_torque(J_space, masses, coms, np.cross(g, omega))  # Day 4's
+        slope[j:, j] = tau[j:]
+        slope[j, j:] = tau[j:]
+    return slope
+    # endregion 13.1
+
+
+def linearise(
+    M: np.ndarray, slope: np.ndarray, damping: np.ndarray, h: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return A, (2 n, 2 n), and B, (2 n, n): MuJoCo's next x is A x + B u, near rest.
+
+    damping, (n,), N m s/rad, acts on the new speed; h is the time step. One joint with
+    M 1, slope 10, damping 1, h 0.1: A = [[10, 1], [-10, 10]] / 11, B = (0.1, 1) / 11.
+    """
+    # region 13.2
+    now = np.eye(len(damping))
+    inverse = np.linalg.inv(M + h * np.diag(damping))
+    by_q = -h * inverse @ slope  # what the new speed makes of q, of v and of u
+    by_v = inverse @ M
+    by_u = h * inverse
+    A = np.block([[now + h * by_q, h * by_v], [by_q, by_v]])
+    return A, np.vstack([h * by_u, by_u])
+    # endregion 13.2
+
+
+def riccati_step(
+    P: np.ndarray, A: np.ndarray, B: np.ndarray, Q: np.ndarray, R: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return P one step earlier, (n, n), and that step's gain K, (m, n): u = -K x.
+
+    Each step costs x . Q x + u . R u. A = [[1, 1], [0, 1]], B = (0; 1) and all else 1:
+    P = [[2, 1], [1, 2.5]], K = (0, 0.5).
+    """
+    # region 13.3
+    K = np.linalg.solve(R + B.T @ P @ B, B.T @ P @ A)
+    return Q + A.T @ P @ (A - B @ K), K
+    # endregion 13.3
+
+
+def lqr_cost(P: np.ndarray, x: np.ndarray) -> float:
+    """Return what P promises that a start at x, (n,), will cost.
+
+    lqr_cost([[2, 1], [1, 2.5]], [1, 2]) -> 16
+    """
+    # region 13.3
+    return x @ P @ x
+    # endregion 13.3
+
+
+def kkt_residual(
+    H: np.ndarray, g: np.ndarray, lo: np.ndarray, hi: np.ndarray, x: np.ndarray
+) -> float:
+    """Return how far x is from the least of x . H x / 2 + g . x in the box lo, hi.
+
+    Push x by minus its slope, clip: the largest difference to x. H = [[2, 1], [1, 2]],
+    g = (-2, -10), the box -1 to 1: 0 at (0.5, 1), 2 at (-1, 1), 1 at (0, 0).
+    """
+    # region 13.4
+    there = np.clip(x - (H @ x + g), lo, hi)
+    return np.abs(x - there).max()
+    # endregion 13.4
+
+
+def first_limit(
+    x: np.ndarray, step: np.ndarray, lo: np.ndarray, hi: np.ndarray
+) -> tuple[np.ndarray, int | None]:
+    """Return x + step and None, or x at the first limit on the way and which it is.
+
+    (0, 0) by (-2, 6) in the box -1 to 1: (-1/3, 1) and 1.
+    """
+    room = np.where(step > 0, hi - x, lo - x)
+    share = np.divide(room, step, out=np.full_like(x, np.inf), where=step != 0)
+    met = int(np.argmin(share))
+    if share[met] >= 1:
+        return x + step, None
+    there = x + share[met] * step
+    there[met] = hi[met] if step[met] > 0 else lo[met]  # no rounding beside it
+    return there, met
+
+
+def box_qp(
+    H: np.ndarray, g: np.ndarray, lo: np.ndarray, hi: np.ndarray, x: np.ndarray
+) -> np.ndarray:
+    """Return the x, (n,), in the box for which x . H x / 2 + g . x is least.
+
+    x is where to start, also outside. `kkt_residual`'s case: (0.5, 1), where without
+    the box it is (-2, 6).
+    """
+    # region 13.5
+    x = np.clip(x, lo, hi)
+    held = lo == hi
+    for _ in range(100):
+        free = ~held
+        step = np.zeros(len(x))
+        step[free] = np.linalg.solve(H[np.ix_(free, free)], -(H @ x + g)[free])
+        x, met = first_limit(x, step, lo, hi)
+        if met is not None:
+            held[met] = True
+            continue
+        leaves = np.abs(x - np.clip(x - (H @ x + g), lo, hi))  # 13.4's
+        if leaves.max() < 1e-12:
+            break
+        held[np.argmax(leaves)] = False
+    return x
+    # endregion 13.5
+
+
+def qp_ik(
+    J: np.ndarray, e: np.ndarray, weights: np.ndarray, damping: float,
+    dq_lo: np.ndarray, dq_hi: np.ndarray,
+) -> np.ndarray:  # fmt: skip
+    """Return the dq, (7,), within limits, that costs least, for J (6, 7) and e (6,).
+
+    (J dq - e) . W (J dq - e) + damping^2 |dq|^2, with weights, (6,), in W. Joints 1 and
+    2 both move the hand along x, 3 along y; e is 1 and 0.5, damping 0.1, all weights 1:
+    (0.4975, 0.4975, 0.4950), and (0.3, 0.6931, 0.4950) with joint 1 within 0.3.
+    """
+    # region 13.6
+    H = J.T @ (weights[:, None] * J) + damping**2 * np.eye(J.shape[1])
+    return box_qp(H, -J.T @ (weights * e), dq_lo, dq_hi, np.zeros(J.shape[1]))
+    # endregion 13.6
+
+
+def ilqr_backward(
+    fx: np.ndarray, fu: np.ndarray, lx: np.ndarray, lu: np.ndarray, lxx: np.ndarray,
+    luu: np.ndarray, lux: np.ndarray, Vx: np.ndarray, Vxx: np.ndarray, mu: float,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:  # fmt: skip
+    """Return k (T, m), K (T, m, n), drop (2,): each u should change by k + K dx.
+
+    fx (T, n, n) and lx (T, n) are slopes of steps and costs, lux (T, m, n) second ones;
+    Vx (n,) and Vxx (n, n) are the end's. mu is added to Quu's diagonal, everywhere.
+    drop sums k . Qu and k . Quu k / 2. x + u twice, (x^2 + u^2) / 2, from x = u = 0, at
+    the end x + x^2 / 2, mu 0: k -0.2, -0.5; K -0.6, -0.5; drop (-0.6, 0.3).
+    """
+    # region 13.7
+    T, n, m = fu.shape
+    k, K, drop = np.zeros((T, m)), np.zeros((T, m, n)), np.zeros(2)
+    for t in reversed(range(T)):
+        Qx = lx[t] + fx[t].T @ Vx
+        Qu = lu[t] + fu[t].T @ Vx
+        Qxx = lxx[t] + fx[t].T @ Vxx @ fx[t]
+        Quu = luu[t] + fu[t].T @ Vxx @ fu[t] + mu * np.eye(m)
+        Qux = lux[t] + fu[t].T @ Vxx @ fx[t]
+        k[t] = -np.linalg.solve(Quu, Qu)
+        K[t] = -np.linalg.solve(Quu, Qux)
+        drop += k[t] @ Qu, k[t] @ Quu @ k[t] / 2
+        Vx = Qx + K[t].T @ (Qu + Quu @ k[t]) + Qux.T @ k[t]
+        Vxx = Qxx + K[t].T @ (Qux + Quu @ K[t]) + Qux.T @ K[t]
+    return k, K, drop
+    # endregion 13.7
+
+
+def expected_drop(drop: np.ndarray, alpha: float) -> float:
+    """Return what a step of alpha k should save; drop, (2,), is `ilqr_backward`'s.
+
+    expected_drop([-4, 2], 0.5) -> 1.5
+    """
+    # region 13.8
+    return -(alpha * drop[0] + alpha**2 * drop[1])
+    # endregion 13.8
+
+
+def accept_ratio(before: float, after: float, expected: float) -> float:
+    """Return what was saved, as a share of what was expected.
+
+    accept_ratio(5, 3.5, 2) -> 0.75
+    """
+    # region 13.8
+    return (before - after) / expected
+    # endregion 13.8
+
+
+def limit_prices(
+    H: np.ndarray, g: np.ndarray, lo: np.ndarray, hi: np.ndarray, x: np.ndarray
+) -> np.ndarray:
+    """Return d(least cost) / d(limit), (n,), at the best x: 0 where no limit holds it.
+
+    That of `kkt_residual`, where x is (0.5, 1): (0, -7.5).
+    """
+    # region 13.9
+    slope = H @ x + g
+    held = ((x <= lo) & (slope > 0)) | ((x >= hi) & (slope < 0))
+    return np.where(held, slope, 0.0)
+    # endregion 13.9
+
+
+def at_rest(model: mujoco.MjModel, q: np.ndarray, h: float) -> tuple[np.ndarray, ...]:
+    """Return your slope of gravity at q, and your A and B."""
+    arm = panda.arm(model)
+    now = arm.at(q)
+    slope = gravity_slope(now.J_space, arm.masses, now.coms_world, arm.gravity)
+    return slope, *linearise(now.M, slope, arm.damping, h)
+
+
+def mujoco_gravity(model: mujoco.MjModel, q: np.ndarray) -> np.ndarray:
+    """Return the slope of MuJoCo's torque of gravity at q, (7, 7), by differences."""
+    data = mujoco.MjData(model)
+
+    def slope(h: float) -> np.ndarray:
+        columns = []
+        for step in h * np.eye(7):
+            ends = []
+            for data.qpos[:] in (q + step, q - step):
+                mujoco.mj_forward(model, data)  # fills qfrc_bias
+                ends.append(data.qfrc_bias.copy())
+            columns.append((ends[0] - ends[1]) / (2 * h))
+        return np.column_stack(columns)
+
+    return (4 * slope(1e-3) - slope(2e-3)) / 3  # Richardson: what is left is h^4
+
+
+def mujoco_step(model: mujoco.MjModel, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return MuJoCo's own A and B where the arm is held at q."""
+    data = day13_mujoco.at(model, q, np.zeros(14))
+    A, B = np.zeros((14, 14)), np.zeros((14, 7))
+    mujoco.mjd_transitionFD(model, data, 1e-6, True, A, B, None, None)  # fills A, B
+    return A, B
+
+
+def total(parts: tuple, inputs: np.ndarray, x: np.ndarray) -> float:
+    """Return what a motion from x costs that is as linear as `ilqr_backward` has it."""
+    *steps, Vx, Vxx = parts
+    cost = 0.0
+    for fx, fu, lx, lu, lxx, luu, lux, u in zip(*steps, inputs, strict=True):
+        cost += lx @ x + lu @ u + x @ lxx @ x / 2 + u @ luu @ u / 2 + u @ lux @ x
+        x = fx @ x + fu @ u
+    return cost + Vx @ x + x @ Vxx @ x / 2
+
+
+def least(parts: tuple, x: np.ndarray) -> tuple[np.ndarray, float]:
+    """Return the best inputs from x on, (T, m), and their cost: one solve for all."""
+    shape = parts[3].shape
+
+    def of(u: np.ndarray) -> float:
+        return total(parts, u.reshape(shape), x)
+
+    units = np.eye(shape[0] * shape[1])
+    zero = of(0 * units[0])
+    alone = np.array([of(one) for one in units])
+    both = np.array([[of(one + other) for other in units] for one in units])
+    second = both - alone - alone[:, None] + zero  # exact, since it is a quadratic
+    slope = alone - zero - np.diag(second) / 2
+    best = np.linalg.solve(second, -slope).reshape(shape)
+    return best, total(parts, best, x)
+
+
+def definite(n: int, rng: np.random.Generator) -> np.ndarray:
+    """Return a symmetric matrix, (n, n), all of whose eigenvalues are above 0."""
+    C = rng.normal(size=(n, n))
+    return C @ C.T + np.eye(n)
+
+
+def motion(T: int, n: int, m: int, rng: np.random.Generator) -> tuple:
+    """Return what `ilqr_backward` takes, fx to Vxx, of a motion of T random steps."""
+    both = np.array([definite(n + m, rng) for _ in range(T)])
+    return (
+        rng.normal(size=(T, n, n)), rng.normal(size=(T, n, m)),
+        rng.normal(size=(T, n)), rng.normal(size=(T, m)),
+        both[:, :n, :n], both[:, n:, n:], both[:, n:, :n],
+        rng.normal(size=n), definite(n, rng),
+    )  # fmt: skip
+
+
+def off_one_solve(parts: tuple, mu: float, x: np.ndarray) -> dict[str, float]:
+    """Return how far your backward pass is from one solve for all inputs."""
+    fx, fu, lx, lu, lxx, luu, *rest = parts
+    dear = (fx, fu, lx, lu, lxx, luu + mu * np.eye(luu.shape[1]), *rest)
+    k, K, drop = ilqr_backward(*parts, mu)
+    off = {"inputs": 0.0, "drop": 0.0, "ratio": 0.0}
+    for alpha in (1.0, 0.5):
+        now = 0 * x
+        inputs = []
+        for A, B, more, gain in zip(fx, fu, k, K, strict=True):
+            inputs.append(alpha * more + gain @ now)
+            now = A @ now + B @ inputs[-1]
+        cost = total(dear, np.array(inputs), 0 * x)
+        expected = expected_drop(drop, alpha)
+        off["drop"] = max(off["drop"], abs(cost + expected))
+        for share in (1.0, 0.5, 2.0, -1.0):  # where another saving was expected
+            ratio = share * accept_ratio(0.0, cost, share * expected)
+            off["ratio"] = max(off["ratio"], abs(ratio - 1))
+    best, _ = least(dear, x)
+    now = x
+    for A, B, more, gain, right in zip(fx, fu, k, K, best, strict=True):
+        u = more + gain @ now
+        off["inputs"] = max(off["inputs"], np.abs(u - right).max())
+        now = A @ now + B @ u
+    return off
+
+
+def off_one_riccati(rng: np.random.Generator) -> tuple[float, float]:
+    """Return how far three steps of Riccati are from one solve: promise, and gain."""
+    A, B, *_ = (one[0] for one in motion(1, 3, 2, rng))
+    P, Q, R = definite(3, rng), definite(3, rng), definite(2, rng)
+    many = [np.tile(one, (3, 1, 1)) for one in (A, B, 2 * Q, 2 * R, np.zeros((2, 3)))]
+    none = np.zeros((3, 3)), np.zeros((3, 2))
+    parts = (*many[:2], *none, *many[2:], np.zeros(3), 2 * P)
+    for _ in range(3):
+        P, K = riccati_step(P, A, B, Q, R)
+    x = rng.normal(size=3)
+    best, cost = least(parts, x)
+    return abs(lqr_cost(P, x) - cost), np.abs(best[0] + K @ x).max()
+
+
+def promise(A: np.ndarray, B: np.ndarray, h: float, r: float = R_COST) -> tuple:
+    """Return P and K of the arm that is held for ever; costs are per second."""
+    Q, R = h * np.diag(Q_COST), h * r * np.eye(B.shape[1])
+    P = Q
+    for _ in range(STEPS):
+        P, K = riccati_step(P, A, B, Q, R)
+    return P, K
+
+
+def paid(model: mujoco.MjModel, K: np.ndarray, x: np.ndarray) -> float:
+    """Return what MuJoCo's arm costs that starts at x and is held at ready by -K x."""
+    data = day13_mujoco.at(model, READY_Q, x)
+    hold = data.ctrl.copy()
+    h = model.opt.timestep
+    cost = 0.0
+    for _ in range(round(SECONDS / h)):
+        x = np.append(data.qpos - READY_Q, data.qvel)
+        u = -K @ x
+        cost += h * (Q_COST @ x**2 + R_COST * u @ u)
+        data.ctrl[:] = hold + u
+        mujoco.mj_step(model, data)
+    return cost
+
+
+def kept(
+    model: mujoco.MjModel, P: np.ndarray, K: np.ndarray, size: float
+) -> np.ndarray:
+    """Return cost over promise of both sides of the rest point, (2,)."""
+    x = size * np.append(WAY, np.zeros(7))
+    return np.array([paid(model, K, one) / lqr_cost(P, one) for one in (x, -x)])
+
+
+def boxes(n: int, rng: np.random.Generator) -> list[tuple[np.ndarray, ...]]:
+    """Return quadratics in boxes, H, g, lo, hi, and where to start."""
+    found = []
+    for _ in range(n):
+        lo = rng.uniform(-1, 0.5, 5)
+        hi = lo + rng.choice([0.1, 0.3, 1.0, 9.0], 5)
+        start = 3 * rng.normal(size=5)
+        found.append((definite(5, rng), 5 * rng.normal(size=5), lo, hi, start))
+    return found
+
+
+def mujoco_box(
+    H: np.ndarray, g: np.ndarray, lo: np.ndarray, hi: np.ndarray
+) -> np.ndarray:
+    """Return MuJoCo's best point of a box, (n,)."""
+    n = len(g)
+    x, factor, free = np.zeros(n), np.zeros((n, n + 7)), np.zeros(n, np.int32)
+    mujoco.mju_boxQP(x, factor, free, H, g, lo, hi)  # fills x
+    return x
+
+
+def mujoco_prices(
+    H: np.ndarray, g: np.ndarray, lo: np.ndarray, hi: np.ndarray, x: np.ndarray
+) -> np.ndarray:
+    """Return d(least cost) / d(limit), (n,), by moving each limit that x stands at."""
+    move = 1e-5
+
+    def least_cost(low: np.ndarray, high: np.ndarray) -> float:
+        best = mujoco_box(H, g, low, high)  # mujoco.mju_boxQP
+        return best @ H @ best / 2 + g @ best
+
+    prices = np.zeros(len(x))
+    for i, step in enumerate(move * np.eye(len(x))):
+        below, above = step * (x[i] == lo[i]), step * (x[i] == hi[i])
+        there = least_cost(lo + below, hi + above)
+        back = least_cost(lo - below, hi - above)
+        prices[i] = (there - back) / (2 * move)
+    return prices
+
+
+def limits(model: mujoco.MjModel, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return how far each joint may turn in a step: its speed, and its range."""
+    low, high = model.jnt_range.T
+    return np.maximum(-SPEED * DT, low - q), np.minimum(SPEED * DT, high - q)
+
+
+def draw_circle(model: mujoco.MjModel, step, radius: float = RADIUS) -> tuple:
+    """Draw Day 3's circle with step(J, e, lo, hi) -> dq.
+
+    Return how far off the hand is, mm, (n,), speeds in parts of their limits, (n, 7),
+    and rad beyond the range of a joint at worst.
+    """
+    arm = panda.arm(model)
+    path, q = day13_mujoco.circle(model, radius, np.arange(0.0, day13_mujoco.LAP, DT))
+    off, speeds, beyond = [], [], 0.0
+    for T_now, T_next in pairwise(path):  # poses, DT apart
+        now = arm.at(q)
+        T = now.T_world_ee
+        e = pose_error(T_now, T_next) + DT * GAIN * pose_error(T, T_now)
+        dq = step(now.J_site, e, *limits(model, q))
+        off.append(1000 * np.linalg.norm(T_now[:3, 3] - T[:3, 3]))
+        speeds.append(np.abs(dq) / (SPEED * DT))
+        q = q + dq
+        low, high = model.jnt_range.T
+        beyond = max(beyond, (low - q).max(), (q - high).max())
+    return np.array(off), np.array(speeds), beyond
+
+
+def best_step(turn: float = 1.0):
+    """Return your step with limits, where a turn weighs so much, for `draw_circle`."""
+    weights = np.repeat([turn, 1.0], 3)
+    return lambda J, e, lo, hi: qp_ik(J, e, weights, DAMPING, lo, hi)
+
+
+def reach(model: mujoco.MjModel, rounds: int = ROUNDS) -> list[tuple[float, ...]]:
+    """Return cost, what was expected and the ratio of each round of iLQR."""
+    task = day13_mujoco.Reach(model, READY_Q, READY_Q + TO)
+    u = np.zeros((MOTION, 7))
+    x, u = task.rolled(u, np.zeros((MOTION + 1, 14)), u, np.zeros((MOTION, 7, 14)))
+    found = [(task.cost(x, u), 0.0, 0.0)]
+    for _ in range(rounds):
+        k, K, drop = ilqr_backward(*task.expanded(x, u), 0.0)
+        for alpha in 0.5 ** np.arange(10):
+            there = task.rolled(u, x, alpha * k, K)
+            expected = expected_drop(drop, alpha)
+            ratio = accept_ratio(found[-1][0], task.cost(*there), expected)
+            if ratio > 0.1:
+                x, u = there
+                break
+        found.append((task.cost(x, u), expected, ratio))
+    return found
+
+
+def said(model: mujoco.MjModel, name: str, P: np.ndarray, K: np.ndarray, best: float):
+    """Print what a gain costs, as a share of its own promise and of the best's cost."""
+    x = JUDGED * np.append(WAY, np.zeros(7))
+    both = (paid(model, K, x) + paid(model, K, -x)) / 2
+    print(f"  {name:28}{both / lqr_cost(P, x):9.3f}{both / best:11.3f}")
+
+
+def hold(lab: Lab, model: mujoco.MjModel) -> None:
+    """Hold the arm at ready, and see what it costs."""
+    h = model.opt.timestep
+    slope, A, B = at_rest(model, READY_Q, h)
+    P, K = promise(A, B, h)
+    stiff = np.diag(K[:, :7])
+    print(f"  stiffness of joints 1 and 2: {stiff[0]:.1f} and {stiff[1]:.1f} N m/rad")
+    lab.measured("stiffness of joint 2, N m/rad", stiff[1])
+    print("  cost / promise      one side   the other    mean of both")
+    sides = {size: kept(model, P, K, size) for size in SIZES}
+    for size, both in sides.items():
+        print(f"  {1000 * size:5.0f} mrad {both[1]:18.4f}{both[0]:12.4f}"
+              f"{np.mean(both):16.5f}")  # fmt: skip
+    lab.measured("cost / promise of the other side, 0.1 rad", sides[0.1][0])
+    lab.record("promise_off", np.mean(sides[JUDGED]) - 1, metric="max_abs",
+               label=f"|mean of both sides - 1|, {1000 * JUDGED:.0f} mrad")  # fmt: skip
+    x = JUDGED * np.append(WAY, np.zeros(7))
+    best = lqr_cost(P, x)
+    print("  held by                     cost / own promise   / the best")
+    said(model, "K", P, K, best)
+    none = linearise(panda.arm(model).at(READY_Q).M, 0 * slope, model.dof_damping, h)
+    said(model, "K without gravity's slope", *promise(*none, h), best)
+    said(model, "K, as if torque cost 10 R", *promise(A, B, h, 10 * R_COST), best)
+    said(model, "K / 2", P, K / 2, best)
+
+
+def circles(lab: Lab, model: mujoco.MjModel) -> None:
+    """Draw the circle within limits: clipped afterwards, and best."""
+
+    def clipped(J: np.ndarray, e: np.ndarray, lo: np.ndarray, hi: np.ndarray):
+        return np.clip(dls_step(J, e, DAMPING), lo, hi)  # Day 3's
+
+    print("                             mm off  of the speed  rad beyond")
+    print("                            at most         limit   its range")
+    ways = {"Day 3's step, clipped": clipped, "qp_ik": best_step(),
+            "qp_ik, a turn weighs 0.1": best_step(0.1),
+            "qp_ik, a turn weighs 0.01": best_step(0.01)}  # fmt: skip
+    for name, step in ways.items():
+        off, share, beyond = draw_circle(model, step)
+        print(f"  {name:27}{off.max():6.2f}{share.max():14.2f}{beyond:z12.3f}")
+        if name == "qp_ik":
+            lab.record("circle_best", off, metric="max_mm", label="mm off the circle")
+            lab.record("circle_best", share, metric="speed_share",
+                       label="fastest joint, of its limit")  # fmt: skip
+            lab.measured("mm off a circle of 0.38 m, at most", off.max())
+
+
+def main() -> int:
+    """Run the lab from top to bottom; return 0 when every check passed."""
+    lab = Lab(__file__, __doc__)
+    rng = np.random.default_rng(SEED)
+    model = day13_mujoco.arm()
+    h = model.opt.timestep
+    print(panda.describe("panda_nohand"))
+
+    lab.step("1. Gravity's slope, and one step of MuJoCo")
+    poses = random_q(model, TRIALS, SEED)
+    asked = [(model, READY_Q), *((model, q) for q in poses[1::2])]
+    asked += [(day13_mujoco.on_a_wall(), q) for q in poses[::2]]
+    off = [at_rest(one, q, h)[0] - mujoco_gravity(one, q) for one, q in asked]
+    lab.check("|gravity_slope - that of qfrc_bias|, N m/rad", off)
+    off = []
+    for one, q in [*asked[:3], *asked[-3:]]:
+        ours = np.hstack(at_rest(one, q, h)[1:])
+        off.append(ours - np.hstack(mujoco_step(one, q)))
+    lab.record("linearise", off, label="|A, B - MuJoCo's mjd_transitionFD|", seed=SEED)
+
+    lab.step("2. What it costs to hold the arm, and what was promised")
+    off = np.max([off_one_riccati(rng) for _ in range(5)], axis=0)
+    lab.check("promise after 3 steps - one solve for all inputs", off[0])
+    lab.check("gain after 3 steps - that of the one solve", off[1])
+    hold(lab, model)
+
+    lab.step("3. The best in a box")
+    some = [CIRCLING, *boxes(BOXES, rng)]
+    best = [box_qp(*one) for one in some]
+    off = [
+        np.abs(x - mujoco_box(*one[:4])).max()
+        for x, one in zip(best, some, strict=True)
+    ]
+    lab.check("|box_qp - MuJoCo's mju_boxQP|", off)
+    off = [kkt_residual(*one[:4], mujoco_box(*one[:4])) for one in some]
+    lab.record("kkt", off, label="kkt_residual of MuJoCo's best", seed=SEED)
+    off = [kkt_residual(*one) - library.kkt_residual(*one) for one in some]
+    lab.check("kkt_residual elsewhere - the library's", off)
+
+    lab.step(f"4. A circle of {RADIUS} m within limits")
+    off = []
+    for q in poses:
+        J = panda.arm(model).at(q).J_site
+        e, weights = rng.normal(size=6), rng.uniform(0.2, 2.0, 6)
+        low, high = rng.uniform(0.05, 0.5, (2, 7))
+        # The same as one plain sum of squares, with 7 more rows.
+        rows = np.vstack([np.sqrt(weights)[:, None] * J, 0.1 * np.eye(7)])
+        right = np.append(np.sqrt(weights) * e, np.zeros(7))
+        truth = mujoco_box(rows.T @ rows, -rows.T @ right, -low, high)
+        off.append(qp_ik(J, e, weights, 0.1, -low, high) - truth)
+    lab.check("|qp_ik - mju_boxQP with 7 more rows|", off)
+    circles(lab, model)
+
+    lab.step("5. A motion that costs least: iLQR")
+    for mu in (0.0, 0.5):
+        off = off_one_solve(motion(4, 3, 2, rng), mu, rng.normal(size=3))
+        for name, one in off.items():
+            lab.check(f"mu {mu}: {name} - of one solve for all inputs", one)
+    rounds = reach(model)
+    print("  round       cost    expected to save   ratio")
+    for i, (cost, expected, ratio) in enumerate(rounds):
+        print(f"  {i:5}{cost:11.4g}" + (f"{expected:20.4g}{ratio:8.2f}" if i else ""))
+    fell = 1 - rounds[-1][0] / rounds[0][0]
+    print(f"  the cost fell by {fell:.1%}")
+    lab.record("ilqr", rounds[2][2] - 1, metric="second_ratio_off",
+               label="|ratio of the second round - 1|")  # fmt: skip
+
+    lab.step("6. Side quest: what a limit costs")
+    with lab.side_quest():
+        off = []
+        for H, g, lo, hi, _ in some[1:]:
+            x = mujoco_box(H, g, lo, hi)
+            off.append(limit_prices(H, g, lo, hi, x) - mujoco_prices(H, g, lo, hi, x))
+        lab.check("|limit_prices - slopes of mju_boxQP's cost|", off, 1e-6)
+    return lab.finish()
+
+
+if __name__ == "__main__":
+    cli.run(main)

@@ -1,0 +1,227 @@
+"""What Day 14 asks of MuJoCo: a hand with two pads, a cube, and what each pad feels.
+
+The hand floats: it is put over a place, turned, goes down and up by a servo, and its
+two pads are closed by springs, 200 N/m. No arm: an episode takes milliseconds.
+Metres, radians, newtons, kilograms; world axes, z up, the floor at 0.
+"""
+
+import contextlib
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+from robo47 import se3
+from robo47.checks import Array
+
+HALF = 0.02  # m: the cube is 40 mm wide
+PAD_HALF = (0.0085, 0.004, 0.0085)  # m, the Panda's own finger pads
+OPEN = 0.04  # m, of each pad's face from the middle, before it closes
+SPRING = 200.0  # N/m of each finger: it presses with SPRING (HALF - opening)
+STEP = 0.002  # s of simulated time
+GRIP_TIME = 0.004  # s, two steps: the stiffest contacts that MuJoCo allows
+ABOVE = 0.08  # m, where the hand starts
+DOWN = 0.2  # s: the hand is at its height, the pads begin to close ...
+CLOSED = 0.45  # ... s: they are closed, the hand begins to rise ...
+RISE = 0.3  # s until it is up ...
+HOLD = 0.25  # ... s that it holds the cube there
+TICK = 5  # steps between two orders to hand and pads: 10 ms
+WARNINGS = (
+    mujoco.mjtWarning.mjWARN_BADQPOS,
+    mujoco.mjtWarning.mjWARN_BADQVEL,
+    mujoco.mjtWarning.mjWARN_BADQACC,
+)
+
+
+class Cube(NamedTuple):
+    """A cube on the floor, and what it is like."""
+
+    x: float  # m
+    y: float
+    yaw: float  # rad
+    mass: float  # kg
+    mu: float  # friction of its sides
+
+
+class Felt(NamedTuple):
+    """What the pads do to the cube, contact by contact."""
+
+    points: Array  # m, (n, 3)
+    force: Array  # N on the cube, (n, 3)
+    normal: Array  # out of the pad into the cube, (n, 3)
+    mu: Array  # (n,)
+
+
+def hand() -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """Return a hand over a floor with a cube: bodies `hand` and `cube`."""
+    spec = mujoco.MjSpec()
+    spec.option.timestep = STEP
+    spec.option.impratio = 10.0  # or the cube creeps through the pads
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    box = mujoco.mjtGeom.mjGEOM_BOX
+    floor = spec.worldbody.add_geom(
+        name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=(1, 1, 0.1)
+    )
+    floor.contype, floor.conaffinity = 1, 0
+    palm = spec.worldbody.add_body(name="hand", gravcomp=1)
+    slide = mujoco.mjtJoint.mjJNT_SLIDE
+    palm.add_joint(name="height", type=slide, axis=(0, 0, 1))
+    palm.mass, palm.inertia, palm.explicitinertial = 0.5, (1e-3,) * 3, True
+    servo(spec, "height", 5000.0)
+    for name, side in (("left", 1), ("right", -1)):
+        finger = palm.add_body(name=name, gravcomp=1)
+        finger.add_joint(name=name, type=slide, axis=(0, side, 0))
+        pad = finger.add_geom(
+            name=name, type=box, size=PAD_HALF, pos=(0, side * PAD_HALF[1], 0)
+        )
+        pad.mass = 0.05
+        pad.contype, pad.conaffinity = 1, 0
+        servo(spec, name, SPRING)
+    cube = spec.worldbody.add_body(name="cube", pos=(0, 0, HALF))
+    cube.add_freejoint(name="cube")
+    geom = cube.add_geom(name="cube", type=box, size=(HALF,) * 3)
+    geom.contype, geom.conaffinity = 0, 1
+    geom.priority = 1  # friction and stiffness of a contact are the cube's
+    geom.condim = 3
+    geom.solref[0] = GRIP_TIME
+    geom.mass = 0.1
+    model = spec.compile()
+    return model, mujoco.MjData(model)
+
+
+def servo(spec, joint: str, stiffness: float) -> None:
+    """Add a spring with critical damping that pulls a joint to its ctrl."""
+    one = spec.add_actuator(name=joint, target=joint)
+    one.trntype = mujoco.mjtTrn.mjTRN_JOINT
+    one.set_to_position(kp=stiffness, dampratio=1)
+
+
+def start(model, data, cube: Cube, action: Array) -> None:
+    """Put the cube on the floor and the open hand above the place that it goes to."""
+    mujoco.mj_resetData(model, data)  # also the warnings' counters
+    body = model.body("cube").id
+    model.body_mass[body] = cube.mass
+    model.body_inertia[body] = cube.mass * (2 * HALF) ** 2 / 6
+    model.geom("cube").friction[0] = cube.mu
+    hand = model.body("hand").id
+    model.body_pos[hand, :2] = action[:2]
+    model.body_quat[hand] = se3.R_to_quat(se3.Rz(action[2]))
+    mujoco.mj_setConst(model, data)  # what follows from masses and places
+    data.joint("cube").qpos[:3] = cube.x, cube.y, HALF
+    data.joint("cube").qpos[3:] = se3.R_to_quat(se3.Rz(cube.yaw))
+    data.joint("height").qpos[0] = action[3] + ABOVE
+    for finger in ("left", "right"):
+        data.joint(finger).qpos[0] = OPEN
+
+
+def way(t: float, action: Array, opening: float, rise: float) -> tuple[float, float]:
+    """Return what hand and pads are told at a time: height and opening, m."""
+    if t < DOWN:
+        return action[3] + ABOVE * (1.0 - eased(t / DOWN)), OPEN
+    closing = eased((t - DOWN) / (0.8 * (CLOSED - DOWN)))
+    risen = eased((t - CLOSED) / rise)
+    return action[3] + action[5] * risen, OPEN + (opening - OPEN) * closing
+
+
+def eased(s: float) -> float:
+    """Return a way from 0 to 1 that starts and ends at rest; it stays there."""
+    s = min(max(s, 0.0), 1.0)
+    return s * s * (3.0 - 2.0 * s)
+
+
+def at_pads(model, data) -> list[int]:
+    """Return which contacts are those of a pad and the cube, as of the last step."""
+    cube = model.geom("cube").id
+    pads = {model.geom("left").id, model.geom("right").id}
+    pairs = [{int(one.geom1), int(one.geom2)} for one in data.contact]
+    return [i for i, pair in enumerate(pairs) if cube in pair and pair & pads]
+
+
+def on_the_floor(model, data) -> bool:
+    """Return whether the floor touches the cube, as of the last step."""
+    floor = model.geom("floor").id
+    return any(floor in (one.geom1, one.geom2) for one in data.contact)
+
+
+def felt(model, data) -> Felt:
+    """Return what the pads do to the cube, as of the last step."""
+    cube = model.geom("cube").id
+    rows = np.zeros((0, 10))
+    wrench = np.zeros(6)
+    for i in at_pads(model, data):
+        contact = data.contact[i]
+        mujoco.mj_contactForce(model, data, i, wrench)  # in the contact's axes
+        axes = contact.frame.reshape(3, 3)  # row 0: the normal, from geom1 to geom2
+        axes = axes if contact.geom2 == cube else -axes
+        force = axes.T @ wrench[:3]
+        row = [*contact.pos, *force, *axes[0], contact.friction[0]]
+        rows = np.vstack([rows, row])
+    return Felt(rows[:, :3], rows[:, 3:6], rows[:, 6:9], rows[:, 9])
+
+
+@contextlib.contextmanager
+def silent() -> Iterator[None]:
+    """Let MuJoCo write no MUJOCO_LOG.TXT: its warnings are counted, see below."""
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(lambda text: None)
+    try:
+        yield
+    finally:
+        mujoco.set_mju_user_warning(before)
+
+
+def exploded(data) -> bool:
+    """Return whether MuJoCo gave up: in silence it begins again from the start."""
+    return any(data.warning[one].number for one in WARNINGS)
+
+
+def height(data) -> float:
+    """Return how high the cube's bottom is above the floor, m; NaN if it exploded."""
+    return np.nan if exploded(data) else data.body("cube").xpos[2] - HALF
+
+
+def lift(
+    model,
+    data,
+    cube: Cube,
+    action: Array,
+    touch: Callable[[float, Felt], float] | None = None,
+    rise: float = RISE,
+) -> float:
+    """Return how high a cube is at the end of an episode, m; NaN where it exploded.
+
+    `touch` takes the opening and what is felt, and returns the next opening; it is
+    asked every 10 ms from when the pads are closed.
+    """
+    if not np.isfinite(action).all():
+        return np.nan
+    with silent():
+        for _ in episode(model, data, cube, action, touch, rise):
+            if exploded(data):
+                break
+    return height(data)
+
+
+def episode(
+    model, data, cube: Cube, action: Array, touch=None, rise: float = RISE
+) -> Iterator[float]:
+    """Run an episode; yield the pads' opening, m, every 10 ms."""
+    start(model, data, cube, action)
+    opening = action[4]
+    for i in range(round((CLOSED + rise + HOLD) / STEP / TICK)):
+        t = i * STEP * TICK
+        if touch and t >= CLOSED:
+            opening = touch(opening, felt(model, data))
+        data.ctrl[:] = np.repeat(way(t, action, opening, rise), (1, 2))
+        mujoco.mj_step(model, data, TICK)
+        yield opening
+
+
+def cubes(n: int, rng, mu: tuple[float, float]) -> list[Cube]:
+    """Return n cubes, anywhere, of 50 to 250 g, with friction between two numbers."""
+    xy = rng.uniform(-0.1, 0.1, (n, 2))
+    yaw = rng.uniform(-np.pi, np.pi, n)
+    mass = rng.uniform(0.05, 0.25, n)
+    return [Cube(*row) for row in np.column_stack([xy, yaw, mass, rng.uniform(*mu, n)])]
