@@ -305,8 +305,14 @@ def given_to_plane(rng: np.random.Generator) -> dict[str, list[tuple]]:
     some["disc_edge_free"] = [(a, b, discs) for a, b in ends]
     one = np.array([[0.0, 0.5, 0.5]])
     point = np.array([0.0, 0.6])
+    away = np.array([0.0, 2.0])
     side = np.array([-1.0, 0.0]), np.array([1.0, 0.0])  # they touch it
-    some["disc_edge_free"] += [(*side, one), (point, point, one), (*side, one[:0])]
+    some["disc_edge_free"] += [
+        (*side, one),
+        (*side, one[:0]),
+        (point, point, one),
+        (away, away, one),
+    ]
     nodes = rng.uniform(-1.0, 1.0, (8, 2))
     far = rng.uniform(-1.0, 1.0, (2 * TRIALS, 2))
     some["extend"] = [(nodes, sample, 0.3, discs) for sample in far]
