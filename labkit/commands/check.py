@@ -2,7 +2,7 @@
 
     python3 scripts/check_day.py 1              the whole day (make check DAY=1)
     python3 scripts/check_day.py --task 1.4     one task (make check TASK=1.4)
-    python3 scripts/check_day.py 1 --watch      at each save, task by task: make watch
+    python3 scripts/check_day.py 1 --watch      make watch: at each save
     python3 scripts/check_day.py 1 --explain    what was measured and printed
     python3 scripts/check_day.py 1 --json       for tools
 
