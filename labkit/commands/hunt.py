@@ -1,7 +1,7 @@
 """Find the bug: a right lab with one mistake put in, in work/hunt/.
 
     make hunt DAY=4               begin; with a hunt begun: go on with it
-    make hunt DAY=4 LEVEL=2       one function of the week; its capstone shows it
+    make hunt DAY=4 LEVEL=2       one of the week; only its capstone is seen
     make hunt DAY=4 LEVEL=3       two functions of the day are wrong
     make hunt DAY=4 SEED=7        the same mistake for a whole class
     make hunt ARGS=--run          run the hunted lab
