@@ -93,7 +93,8 @@ def refuse_others(out: Path) -> list[str]:
         return []
     if not (out / NOTE).is_file() or not (out / ".git").is_dir():
         raise Robo47Error(f"{shown(out)} is there and is no edition; choose another")
-    if ask("status", "--porcelain", "--untracked-files=no", at=out):
+    looks = "--no-optional-locks", "status"  # on a full disk git would leave a lock
+    if ask(*looks, "--porcelain", "--untracked-files=no", at=out):
         raise Robo47Error(f"{shown(out)} has changes; commit or take them back first")
     return ask("ls-files", "-z", at=out).split("\0")[:-1]
 
