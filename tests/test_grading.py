@@ -6,8 +6,8 @@ import io
 import os
 import re
 import shutil
-import subprocess
 import signal
+import subprocess
 import sys
 import tempfile
 import time
