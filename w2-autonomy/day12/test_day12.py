@@ -77,6 +77,7 @@ def printed():
     return printed_by(lab, told)
 
 
+@pytest.mark.kit
 def test_three_predictions_of_the_worksheet_stand_beside_what_is_measured(printed):
     sheet = (ROOT / "w2-autonomy/docs/day12.md").read_text("utf-8")
     for yours, found in (("0.94", "0.9398"), ("1", "1"), ("0.813", "0.703")):

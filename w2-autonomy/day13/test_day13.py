@@ -54,6 +54,7 @@ def printed():
     return printed_by(lab, dict.fromkeys(asked, "1"))
 
 
+@pytest.mark.kit
 def test_the_three_predictions_are_answered_and_measured(printed):
     sheet = (DAY.folder / DAY.worksheet).read_text("utf-8")
     slope = SLOPE[1, 1]

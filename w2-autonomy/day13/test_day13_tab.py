@@ -10,6 +10,8 @@ from conftest import ROOT, load_script, need, paper
 from labkit.lesson.day import find_day
 from robo47 import panda
 
+pytestmark = pytest.mark.kit
+
 DAY = find_day(13)
 lab = load_script(ROOT / "w2-autonomy/src/day13_optimal.py")
 TOP = 80  # steps: the top of the circle is passed
