@@ -300,7 +300,8 @@ def test_without_webgl_pictures_and_numbers_stay(browse):
     assert page.locator("p.film").count() == 0
     page = browse("arm.html#mistake=turns-backwards")
     page.wait_for_function("window.arm", timeout=60_000)
-    assert "no 3D" in page.inner_text("#stage")
+    says = "document.querySelector('#stage').innerText.includes('no 3D')"
+    page.wait_for_function(says, timeout=60_000)
     assert "off by" in page.inner_text("#off")
 
 
