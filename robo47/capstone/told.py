@@ -3,6 +3,7 @@
 Units: metres and seconds, in sentences millimetres and milliradians.
 """
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -31,18 +32,12 @@ def row(name: str, result: Result) -> str:
 
 def told(result: Result) -> Told:
     """Return what is said of a result besides."""
-    phases = [
-        f"  {begins:5.2f} s  {name:9} {ends - begins:5.2f} s"
-        for (name, begins), (_, ends) in pairwise(
-            [*result.phases, ("", result.seconds)]
-        )
-    ]
     lift = [
         f"lifted {1000 * result.lift:.0f} mm; this grip can lift, as predicted,",
         f"  {result.heaviest:.3f} kg; the cube has {scenes.CUBE_MASS:.3f} kg",
     ]
     return Told(
-        before=phases,
+        before=phase_lines(result.phases, result.seconds),
         after=lift,
         number=f"{result.place_mm:.1f} mm",
         of="from the cube to its mark",
@@ -51,6 +46,19 @@ def told(result: Result) -> Told:
         way=f"On its way no joint is more than {result.joint_mrad:.2f} mrad off, the"
         f" hand {result.line_mm:.1f} mm from its lines.",
     )
+
+
+def phase_lines(phases: Sequence[tuple[str, float]], seconds: float) -> list[str]:
+    """Return a line per phase: when it begins and how long it takes.
+
+    Args:
+        phases: (name, when it began in seconds), in order.
+        seconds: when the last one ended.
+    """
+    return [
+        f"  {begins:5.2f} s  {name:9} {ends - begins:5.2f} s"
+        for (name, begins), (_, ends) in pairwise([*phases, ("", seconds)])
+    ]
 
 
 def film_of(result: Result, cube_xy: tuple[float, float], yaw: float) -> Film:

@@ -3,13 +3,11 @@
 Units: metres and seconds, in sentences millimetres, grams and milliseconds.
 """
 
-from itertools import pairwise
-
 import numpy as np
 
 from robo47 import scenes, se3
 from robo47.attempt import Block, Film, Told
-from robo47.capstone.told import ARM, CUBE, TABLE
+from robo47.capstone.told import ARM, CUBE, TABLE, phase_lines
 from robo47.checks import Array
 from robo47.delivery import scene
 from robo47.delivery.result import Result
@@ -30,11 +28,6 @@ def row(name: str, result: Result) -> str:
 
 def told(result: Result) -> Told:
     """Return what is said of a result besides."""
-    ends = [*result.phases, ("", result.seconds)]
-    phases = [
-        f"  {begins:5.2f} s  {name:9} {ends - begins:5.2f} s"
-        for (name, begins), (_, ends) in pairwise(ends)
-    ]
     after = [f"the planner asked for {result.looks:,} distances"]
     if result.stopped:
         after.append(f"it stopped: {result.stopped}")
@@ -45,7 +38,7 @@ def told(result: Result) -> Told:
         )
     came = "The arm finds a cube that nobody told it about, weighs it and puts it down"
     return Told(
-        before=phases,
+        before=phase_lines(result.phases, result.seconds),
         after=after,
         number=f"{result.grams:.1f} g",
         of="what the cube weighs, by the arm's own motors",
