@@ -7,8 +7,9 @@ import json
 import re
 import shutil
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -51,12 +52,15 @@ SETTINGS: dict[str, Any] = {
     "napoleon_attr_annotations": False,  # and, as elsewhere, without types
     "default_role": "code",  # `q` in a docstring
 }
+# A dot that is an accent is set into its letter at a screen's size: q with a dot reads q.
+_MELTS = ' accent="true"'
+_MARKUP = (":", "..", "- ", "* ")  # what an indented paragraph belongs to
 # docutils puts the index of an accented letter below it: q with a dot and an i.
 _BELOW = re.compile(
     r"<munderover>\s*(<mi>[^<]*</mi>)(.*?)(<mo[^>]*>[˙¨]</mo>)\s*</munderover>",
     re.DOTALL,
 )
-_BESIDE = r'<msub><mover accent="true">\1\3</mover>\2</msub>'
+_BESIDE = r"<msub><mover>\1\3</mover>\2</msub>"
 
 
 def build(out: Path) -> None:
@@ -119,7 +123,8 @@ def _static(into: Path) -> Path:
 
 def mathml(formula: str, as_block: bool = False) -> str:
     """Return a formula of LaTeX as MathML."""
-    return _BELOW.sub(_BESIDE, tex2mathml(formula, as_block=as_block))
+    made = _BELOW.sub(_BESIDE, tex2mathml(formula, as_block=as_block))
+    return made.replace(_MELTS, "")
 
 
 def write(page: Any, node: Any, as_block: bool = False) -> None:
@@ -129,9 +134,21 @@ def write(page: Any, node: Any, as_block: bool = False) -> None:
 
 
 def plain(*docstring: Any) -> None:
-    """Keep the bars of a docstring's |x| from being taken for markup."""
+    """Keep the bars of a docstring's |x|, and its equations, from becoming markup."""
     lines = docstring[-1]
-    lines[:] = [line.replace("|", r"\|") for line in lines]
+    lines[:] = _as_they_stand([line.rstrip() for line in lines])
+
+
+def _as_they_stand(lines: list[str]) -> Iterator[str]:
+    """Yield a docstring where what is indented after a gap keeps its lines."""
+    above, alone = "", False  # the last line at the margin; in an equation now?
+    for before, line in pairwise(["", *lines]):
+        if line and not line[0].isspace():
+            above, alone = line, False
+        elif line and not before and not alone and not above.startswith(_MARKUP):
+            alone = True
+            yield from (".. code-block:: text", "")
+        yield line if alone else line.replace("|", r"\|")
 
 
 def fields(*member: Any) -> bool | None:
