@@ -20,7 +20,7 @@ from sphinx.application import Sphinx
 from labkit.base import processes
 from labkit.inspector.recording import Recording
 from labkit.lesson.day import all_days
-from labkit.site import formulas, links, notebooks, pages
+from labkit.site import formulas, links, meshes, notebooks, pages, robot, typed
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, TWIN_XML
 
@@ -32,7 +32,10 @@ SETTINGS: dict[str, Any] = {
     "html_title": "robo47",
     "html_theme": "furo",
     "html_css_files": ["style.css"],
-    "html_js_files": [("film.js", {"defer": "defer"})],
+    "html_js_files": [
+        ("film.js", {"defer": "defer"}),
+        ("live.js", {"type": "module"}),
+    ],
     "html_favicon": str(SOURCES / "icon.svg"),
     "html_copy_source": False,
     "html_show_sphinx": False,
@@ -104,17 +107,22 @@ def films() -> dict[str, Callable[[], Recording]]:
 def _static(into: Path) -> Path:
     """Return a folder, made with the style and all that the arm's page loads."""
     (into / pages.FILMS).mkdir(parents=True)
-    for path in (SOURCES / "style.css", SOURCES / "film.js", TWIN_XML, WASM):
+    plain = [SOURCES / name for name in ("style.css", "film.js", "live.js")]
+    for path in (*plain, TWIN_XML, WASM):
         shutil.copy(path, into)
     for name, make in films().items():
         path = into / pages.FILMS / f"{name}.html"
         path.write_text(make().page(name.replace("_", " ")), "utf-8")
         if path.stat().st_size > LARGEST_FILM:
             raise Robo47Error(f"the film {name} has {path.stat().st_size:,} bytes")
-    (into / "ghosts.json").write_text(
-        json.dumps(formulas.tables(), separators=(",", ":")), "utf-8"
-    )
-    command = ["npm", "run", "--silent", "build", "--", f"--outfile={into}/arm.js"]
+    read = {
+        "ghosts.json": {**formulas.tables(), "typed": typed.table()},
+        "panda.json": robot.numbers(),
+    }
+    for name, what in read.items():
+        (into / name).write_text(json.dumps(what, separators=(",", ":")), "utf-8")
+    meshes.write(into / "panda.bin")
+    command = ["npm", "run", "--silent", "build", "--", f"--outdir={into}"]
     done = processes.run(command, cwd=SOURCES)
     if done.returncode:
         raise Robo47Error(f"arm.js was not built: {done.stderr.strip()[-500:]}")
