@@ -70,7 +70,7 @@ const shapes = looks(meshes);
 const real = stage.arm(shapes);
 const red = stage.arm(shapes, { red: true });
 const hand = stage.frame(0.2, "ee");
-const redHand = stage.frame(0.2, "ee of the red arm");
+const redHand = stage.frame(0.2);
 const frames = LINKS.slice(0, -1).map((name) => stage.frame(0.11, name, false));
 
 /** Draws; whether all of it is in the picture. */

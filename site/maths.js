@@ -72,3 +72,30 @@ export function rigid(T) {
   const [x, y, z] = [0, 1, 2].map((k) => axis(T, k));
   return largest(cross(x, y), z) < 1e-9 && Math.abs(dot(x, x) - 1) < 1e-9;
 }
+
+/** The three rows of a pose. */
+export const rows3 = (T) => [0, 4, 8].map((i) => T.slice(i, i + 4));
+
+/** Eigenvalues of a symmetric 3x3, largest first, and their unit vectors (Jacobi's turns). */
+export function symmetric(given) {
+  const A = given.map((row) => [...row]);
+  const V = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]; // rows become the vectors
+  for (let sweep = 0; sweep < 12; sweep++)
+    for (const [p, r] of [[0, 1], [0, 2], [1, 2]]) {
+      if (Math.abs(A[p][r]) < 1e-300) continue;
+      const angle = Math.atan2(2 * A[p][r], A[p][p] - A[r][r]) / 2;
+      const [c, s] = [Math.cos(angle), Math.sin(angle)];
+      for (const M of [A, V]) {
+        const [a, b] = [M[p], M[r]];
+        M[p] = a.map((x, i) => c * x + s * b[i]);
+        M[r] = a.map((x, i) => c * b[i] - s * x);
+      }
+      for (const row of A) {
+        const [a, b] = [row[p], row[r]];
+        row[p] = c * a + s * b;
+        row[r] = c * b - s * a;
+      }
+    }
+  const order = [0, 1, 2].sort((a, b) => A[b][b] - A[a][a]);
+  return { values: order.map((i) => A[i][i]), vectors: order.map((i) => V[i]) };
+}

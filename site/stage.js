@@ -4,7 +4,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
 import { largest } from "./maths.js";
 
-const RED = 0xc8281e;
+const RED = 0xdf2f22;
 const AXES = [0xcc2222, 0x1e8e2e, 0x2255dd]; // x, y, z
 const SHARP = 0.6; // radians: where an edge stays one
 const SAME = 1e-6; // an arm's link that is off by less is not painted red
@@ -120,7 +120,7 @@ export class Stage {
       const paint = red ? new THREE.Color(RED) : new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace);
       if (!red && r + g + b > 2.9) paint.multiplyScalar(0.86);
       const material = new THREE.MeshStandardMaterial({ color: paint, roughness: 0.55 });
-      if (red || faint) see(material, red ? 0.62 : 0.35);
+      if (red || faint) see(material, red ? 0.75 : 0.35);
       const mesh = new THREE.Mesh(geometry, material);
       mesh.renderOrder = red ? 3 : 0;
       if (red || faint) bodies[body].add(this.depth(geometry, mesh.renderOrder - 1, red));

@@ -25,6 +25,8 @@ DOCUMENTS = (
 PICTURES = {".png", ".jpg", ".gif", ".svg"}
 LINK = re.compile(r"(?<=\]\()(?!https?:|#|mailto:)([^)#\s]+)(?=[)#])")
 PICTURE = re.compile(r"^!\[[^\]]*\]\([^)\s]*?(\w+)\.\w+\)$", re.MULTILINE)
+LIVE = re.compile(r"^<!-- live: (\w+) -->$", re.MULTILINE)  # a figure of site/figures.js
+FIGURE = '```{raw} html\n<figure class="live" data-figure="\\1"></figure>\n```'
 FILMS = "films"  # their folder among the site's static files
 LANGUAGE = {".py": "python", ".toml": "toml"}
 HOME = Path("README.md")
@@ -65,7 +67,7 @@ def lay_out(folder: Path, filmed: Collection[str], ran: Sequence[Day]) -> None:
     pages = {p.relative_to(ROOT) for each in DOCUMENTS for p in ROOT.glob(each)}
     for page in pages:
         text = _with_films((ROOT / page).read_text("utf-8"), page, filmed)
-        text = _with_notebook(text, notebooks.get(page))
+        text = LIVE.sub(FIGURE, _with_notebook(text, notebooks.get(page)))
         name = Path("index.md") if page == HOME else page
         _write(folder / name, _linked(text, page, pages, folder))
     with (folder / "index.md").open("a", encoding="utf-8") as home:
