@@ -9,6 +9,7 @@ GIF for what shows nothing else, WebP for a third of the size.
 import io
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -43,6 +44,13 @@ AT_THE_TABLE = Camera(
 ARM = 9  # numbers of qpos: seven joints and two fingers; others follow
 Caption = tuple[str, bool | None]  # words; whether they are good news, None for neither
 Shot = tuple[Scene, Caption]
+
+
+class Frame(NamedTuple):
+    """A picture of a clip, and how long it is seen."""
+
+    picture: Image.Image
+    seconds: float
 
 
 def there_and_back(start: Array, end: Array, count: int) -> Array:
@@ -111,6 +119,24 @@ def save_clip(
         some = [frame.resize((width, height), lanczos) for frame in some]
 
 
+def save_frames(frames: Iterable[Frame], path: Path, largest: int = LARGEST) -> str:
+    """Write a clip of frames that are seen for different times; say so in a line.
+
+    Raises:
+        Robo47Error: it is larger than `largest` bytes, or no .gif or .webp.
+    """
+    kind = kind_of(path)
+    pictures, seconds = zip(*frames, strict=True)
+    made = _encoded(pictures, kind, [round(1000 * s) for s in seconds])
+    if len(made) > largest:
+        raise Robo47Error(f"{path.name} has {len(made):,} bytes, over {largest:,}")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(made)
+    width, height = pictures[0].size
+    told = f"{width} x {height}, {sum(seconds):.1f} s, {len(made) / 1e3:.0f} kB"
+    return f"{shown(path.absolute())}  {told}"
+
+
 def kind_of(path: Path) -> str:
     """Return "gif" or "webp"; a Robo47Error refuses another ending."""
     kind = path.suffix.lower().lstrip(".")
@@ -119,8 +145,8 @@ def kind_of(path: Path) -> str:
     return kind
 
 
-def _encoded(frames: Sequence[Image.Image], kind: str, each: int) -> bytes:
-    """Return a clip's bytes, `each` milliseconds a frame."""
+def _encoded(frames: Sequence[Image.Image], kind: str, each: int | list[int]) -> bytes:
+    """Return a clip's bytes; each frame, or all of them, by milliseconds."""
     buffer = io.BytesIO()
     if kind == "gif":  # one palette, no dither: what stands still costs nothing; a
         # small cube keeps its colour
