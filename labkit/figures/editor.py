@@ -1,6 +1,6 @@
 """Frames of a clip in which a line is typed, an arm answers, and the checker speaks.
 
-    page = Page(code=("def f(q):", "    return -q"), arm=picture, says=("1.2  f  WRONG",))
+    page = Page(("def f(q):", "    return -q"), picture, "make check TASK=1.2")
     draw(page, WIDE)    # a PIL image: code and words on the left, the arm on the right
 
 Dark, like an editor: a picture that looks right on a light page and on a dark one.

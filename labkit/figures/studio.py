@@ -37,6 +37,7 @@ DARK = Room((0.106, 0.122, 0.141), (0.15, 0.17, 0.19), (0.24, 0.27, 0.30))
 # Metres behind what the camera looks at: there the floor begins to fade into the sky,
 # and there it is gone. Nearer, the robot and its ghosts would fade, too.
 FADES, GONE = 1.2, 3.2
+NOTCH = 0.5  # metres, of the camera's distance: a renderer for each
 GHOST_COLOUR = np.array([0.36, 0.52, 0.78, 0.36], dtype=np.float32)
 WRONG_COLOUR = np.array([0.85, 0.16, 0.16, 0.5], dtype=np.float32)
 VISIBLE = (0, 2)  # geom groups: the twin's shapes, the Menagerie's (3 is collision)
@@ -82,9 +83,14 @@ def _add_sky_and_floor(spec: mujoco.MjSpec, room: Room) -> None:
 
 @lru_cache(maxsize=2)
 def renderer_for(
-    size: tuple[int, int], fast: bool, robot: str = "", dark: bool = False
+    size: tuple[int, int], fast: bool, robot: str, dark: bool, far: float
 ) -> mujoco.Renderer:
-    """Return a renderer, kept for the next picture of the same kind."""
+    """Return a renderer, kept for the next picture of the same kind.
+
+    Args:
+        size, fast, robot, dark: as a scene has them.
+        far: from the camera to what it looks at, metres.
+    """
     lit = partial(light_up, room=DARK if dark else LIGHT)
     if robot:
         spec = mujoco.MjSpec.from_file(robot)
@@ -92,6 +98,9 @@ def renderer_for(
         model = spec.compile()
     else:
         model = panda.load("panda", meshes=True, edit=lit)
+    look = model.vis.map  # read once, by the renderer
+    look.fogstart = (far + FADES) / model.stat.extent
+    look.fogend = (far + GONE) / model.stat.extent
     model.vis.global_.offwidth, model.vis.global_.offheight = size
     model.vis.global_.fovy = np.degrees(FOVY)
     model.vis.quality.offsamples = 0 if fast else 8
@@ -101,11 +110,9 @@ def renderer_for(
 
 def draw(scene: Scene) -> Array:
     """Return the picture of a scene, (height, width, 3), bytes."""
-    renderer = renderer_for(scene.size, scene.fast, scene.robot, scene.dark)
+    far = np.ceil(scene.camera.distance / NOTCH) * NOTCH
+    renderer = renderer_for(scene.size, scene.fast, scene.robot, scene.dark, far)
     model = renderer.model
-    look = model.vis.map
-    look.fogstart = (scene.camera.distance + FADES) / model.stat.extent
-    look.fogend = (scene.camera.distance + GONE) / model.stat.extent
     data = mujoco.MjData(model)
     data.qpos[:] = scene.qpos
     mujoco.mj_forward(model, data)  # lights and cameras too; before it all is black

@@ -2,9 +2,9 @@
 
     make figures DAY=1 ARGS=--clips    figures/day1_mistake.webp, and for a phone
 
-The red arm is the lab's `compose_fk` with the wrong `joint_T`, put where each link's own
-shapes are; the words are what `make check` prints of the two files. Between both ends
-the angles go from q to -q, so that one sees what moves where.
+The red arm is the real one's shapes, where the lab's `compose_fk` with the wrong
+`joint_T` has each link; the words are what `make check` prints of both files. Between
+the ends the angles go from q to -q, so that one sees what moves where.
 """
 
 import re
