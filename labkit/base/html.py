@@ -64,7 +64,14 @@ _OBEYED = re.compile(
 )
 
 
-def page(title: str, about: str, *parts: str, style: str = "", policy: str = "") -> str:
+def page(
+    title: str,
+    about: str,
+    *parts: str,
+    style: str = "",
+    policy: str = "",
+    meta: str = "",
+) -> str:
     """Return a whole page: no script runs in it even if escaping failed somewhere.
 
     Args:
@@ -73,9 +80,11 @@ def page(title: str, about: str, *parts: str, style: str = "", policy: str = "")
         parts: the rest.
         style: CSS of this page besides what all have.
         policy: what this page may load besides, "; script-src ...".
+        meta: tags of its head besides.
     """
     whole = [
         _HEAD % policy,
+        meta,
         f"<title>{title}</title><style>{STYLE}{style}</style></head><body>",
         f'<h1>{title}</h1><p class="muted">{about}</p>',
         *parts,

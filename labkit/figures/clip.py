@@ -166,7 +166,7 @@ def film_clip(film: Film, path: Path) -> str:
     kind_of(path)
     rows = np.linspace(0, len(film.qpos) - 1, FRAMES).astype(int)
     shots = (
-        (_scene(film, row, PICK_SIZE, fast=True), phase(film, row)) for row in rows
+        (scene_of(film, row, PICK_SIZE, fast=True), phase(film, row)) for row in rows
     )
     size = save_clip(drawn(shots), path, seconds=film.seconds)
     return f"{shown(path.absolute())}  {size / 1e3:.0f} kB"
@@ -176,7 +176,7 @@ def film_picture(film: Film, path: Path) -> str:
     """Write a PNG: the arm at the film's moments, side by side; say so in a line."""
     begins = dict(film.phases)
     rows = np.searchsorted(film.t, [begins[name] for name in film.moments])
-    whole = [client.draw(_scene(film, row, PICTURE_SIZE)) for row in rows]
+    whole = [client.draw(scene_of(film, row, PICTURE_SIZE)) for row in rows]
     quarter = PICTURE_SIZE[0] // 4
     middles = [part[:, quarter:-quarter] for part in whole]
     sheet = Image.fromarray(np.hstack(middles))
@@ -194,8 +194,22 @@ def phase(film: Film, row: int) -> Caption:
     return f"{name}, {t:.1f} s", None
 
 
-def _scene(film: Film, row: int, size: tuple[int, int], fast: bool = False) -> Scene:
-    """Return the arm at an instant, and what stands around it."""
+def scene_of(
+    film: Film,
+    row: int,
+    size: tuple[int, int],
+    *,
+    fast: bool = False,
+    dark: bool = False,
+) -> Scene:
+    """Return the arm at an instant, and what stands around it.
+
+    Args:
+        film: of an attempt.
+        row: of its instants.
+        size, fast, dark: as a scene has them.
+    """
     qpos = film.qpos[row]
     boxes = tuple(Box(*block) for block in film.blocks(qpos))
-    return Scene(qpos[:ARM], size, AT_THE_TABLE, fast=fast, boxes=boxes)
+    arm = qpos[:ARM]
+    return Scene(arm, size, AT_THE_TABLE, fast=fast, boxes=boxes, dark=dark)

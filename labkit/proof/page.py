@@ -14,6 +14,7 @@ import robo47
 from labkit.base import html
 from labkit.base.text import count, number_of
 from labkit.check.lab_run import TRIALS
+from labkit.proof import card
 from labkit.proof.capstone import Attempt, recorded
 from labkit.proof.facts import RunDay
 from labkit.report.series import Series
@@ -62,8 +63,12 @@ class Proof:
     fresh: dict[str, Any] = field(default_factory=dict)
 
 
-def render(proof: Proof) -> str:
+def render(proof: Proof, card_name: str = "") -> str:
     """Return the whole page.
+
+    Args:
+        proof: what it says.
+        card_name: of the picture to share, a file beside it; "" without one.
 
     The film is put in last and by a name that nobody could know before: no text from
     outside can stand in its place, and no script runs but with its number.
@@ -86,6 +91,7 @@ def render(proof: Proof) -> str:
         html.section("What this does not prove", f"<ul>{not_proved}</ul>"),
         style=STYLE,
         policy=ALLOWED.format(nonce=nonce),
+        meta=card.meta(card_name, in_short(proof)) if card_name else "",
     )
     told = proof.attempt
     if told.capstone is None or told.result is None:
