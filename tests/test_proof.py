@@ -140,7 +140,7 @@ def hostile():
 def test_nothing_from_outside_becomes_a_tag():
     text = page.render(hostile(), "card.png")
     assert '<meta property="og:image" content="card.png">' in text
-    assert f'content="{html.escape(EVIL)}: Week 1: Foundations">' in text
+    assert f'content="{html.escape(EVIL)}: Week 1: foundations">' in text
     seen = Seen(text)
     assert "script" not in seen.tags
     assert not [name for name in seen.attributes if name.startswith("on")]
@@ -167,6 +167,9 @@ def test_the_card_to_share_has_its_size_and_its_words_with_a_picture_or_without(
     green = (np.abs(drawn - card.GOOD).max(axis=2) < 10).any(axis=1)
     assert green[450:520].any()  # the pick's number; the functions are not all theirs
     assert not green[:420].any()
+    partly = proof.attempt._replace(yours=9)
+    drawn = np.asarray(card.draw(page.in_short(proof), partly)).astype(int)
+    assert not (np.abs(drawn - card.GOOD).max(axis=2) < 10).any()
 
 
 def test_a_name_on_the_card_has_the_letters_of_its_font():

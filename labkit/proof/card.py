@@ -49,7 +49,9 @@ def draw(facts: Mapping[str, Any], tried: Attempt) -> Image.Image:
         film = tried.capstone.film(tried.result)
         told = tried.capstone.told(tried.result)
         words = f"{tried.capstone.NAME}: {told.of}"
-        rows.append((told.number, words, not tried.result.failed))
+        alone = tried.yours == tried.total
+        whose = "" if alone else f", by {tried.yours} of its {tried.total} functions"
+        rows.append((told.number, words + whose, alone and not tried.result.failed))
     sheet = Image.new("RGB", SIZE, PAPER)
     if (picture := _arm(film)) is not None:
         seen = Image.new("L", ARM, 255)

@@ -173,7 +173,9 @@ def _capstone_in_short(attempt: Attempt) -> str:
     if attempt.capstone is None or attempt.result is None:
         return ""
     told = attempt.capstone.told(attempt.result)
-    return f"{attempt.capstone.NAME}: {told.number} {told.of}"
+    words = f"{attempt.capstone.NAME}: {told.number} {told.of}"
+    whose = f", by {attempt.yours} of its {attempt.total} functions"
+    return words if attempt.yours == attempt.total else words + whose
 
 
 def _capstone(attempt: Attempt, place: str) -> str:
