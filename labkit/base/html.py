@@ -36,10 +36,9 @@ p { margin: 4px 0; } .jumps { margin-top: 14px; } .muted { color: var(--muted); 
   font-size: 13px; font-weight: 600; white-space: nowrap; }
 .pass { color: var(--pass); } .fail { color: var(--fail); }
 .open, .none { color: var(--muted); }
-dl { display: grid; grid-template-columns: repeat(4, auto); gap: 0 12px;
-  margin: 12px 0 8px; justify-content: space-between; }
-dt { grid-row: 1; color: var(--muted); font-size: 12px; }
-dd { grid-row: 2; margin: 0; font-weight: 600; white-space: nowrap; }
+dl { display: flex; flex-wrap: wrap; gap: 6px 14px; margin: 12px 0 8px;
+  justify-content: space-between; } dl, dt, dd { white-space: nowrap; }
+dt { color: var(--muted); font-size: 12px; } dd { margin: 0; font-weight: 600; }
 svg { display: block; width: 100%; height: auto; font-size: 11px; }
 details { margin-top: 6px; } summary { cursor: pointer; color: var(--muted);
   font-size: 13px; }

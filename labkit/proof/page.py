@@ -17,7 +17,7 @@ from labkit.check.lab_run import TRIALS
 from labkit.proof import card
 from labkit.proof.capstone import Attempt, recorded
 from labkit.proof.facts import RunDay
-from labkit.report.series import Series
+from labkit.report.series import Series, cell_of, with_unit
 
 # What viser's player needs of the page's policy. Its workers compile what they run.
 ALLOWED = (
@@ -141,7 +141,7 @@ def _again(one: RunDay, number: Series) -> tuple[str, str]:
     value = one.again.get((wanted.check, wanted.metric))
     if value is None:
         return "none", "–"
-    return "pass" if wanted.passes(value) else "fail", number_of(value)
+    return "pass" if wanted.passes(value) else "fail", with_unit(value, wanted)
 
 
 def _fresh(proof: Proof) -> tuple[str, str]:
@@ -226,7 +226,7 @@ def _number(one: RunDay, number: Series) -> str:
     again, value = _again(one, number)
     return (
         f"<tr><td>{one.day.number}</td>"
-        f"<td class=wide>{escape(one.day.name_of(number.wanted))}<br>"
+        f"<td class=wide>{cell_of(one.day, number.wanted)}<br>"
         f'<small class="{role}">{logged}{worth}</small></td>'
         f'<td class="n {again}">{value}</td><td>{escape(number.wanted.limit)}</td></tr>'
     )
