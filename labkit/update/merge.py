@@ -133,7 +133,7 @@ def _text(worktree: Path, blob: str) -> str | None:
 
 
 def _content(worktree: Path, blob: str) -> bytes:
-    """Return a blob's content, b"" where there is none: an editor may save any bytes."""
+    """Return a blob's content; b"" where there is none."""
     done = git.run("show", blob, folder=worktree, seconds=SECONDS, text=False)
     content: bytes = done.stdout
     return content
