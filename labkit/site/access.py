@@ -1,4 +1,4 @@
-"""Pages for those who do not see or point: names for what others made without one."""
+"""What is mended in built pages: names for those who do not see, fewer bytes for all."""
 
 import re
 from pathlib import Path
@@ -40,8 +40,14 @@ def mend(site: Path, films: str) -> None:
 
 
 def page(text: str) -> str:
-    """Return a page of the theme whose captions have a level and whose boxes a label."""
-    return _BOX.sub(r"<label>\1\2</label>", _CAPTION.sub(_LEVEL, text))
+    """Return a page of the theme as it should be.
+
+    Captions have a level, boxes a label; pictures after the first are fetched when the
+    page is scrolled near them.
+    """
+    text = _BOX.sub(r"<label>\1\2</label>", _CAPTION.sub(_LEVEL, text))
+    before, first, after = text.partition("<img ")
+    return before + first + after.replace("<img ", '<img loading="lazy" ')
 
 
 def film(text: str) -> str:

@@ -33,6 +33,7 @@ SETTINGS: dict[str, Any] = {
     "html_theme": "furo",
     "html_css_files": ["style.css"],
     "html_js_files": [("page.js", {"type": "module"})],
+    "html_search_scorer": str(SOURCES / "search.js"),
     "html_favicon": str(SOURCES / "icon.svg"),
     "html_copy_source": False,
     "html_show_sphinx": False,
