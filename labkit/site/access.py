@@ -1,4 +1,4 @@
-"""What is mended in built pages: names for those who do not see, fewer bytes for all."""
+"""What is mended in built pages: names for who does not see, fewer bytes for all."""
 
 import re
 from pathlib import Path
@@ -8,7 +8,8 @@ _CAPTION = re.compile(r'<p class="caption" role="heading">')
 _LEVEL = '<p class="caption" role="heading" aria-level="2">'
 # A worksheet's box has its words beside it, and not as its label.
 _BOX = re.compile(
-    r'(<input class="task-list-item-checkbox"[^>]*>)(.*?)(?=</p>|</li>|\n<ul)', re.DOTALL
+    r'(<input class="task-list-item-checkbox"[^>]*>)(.*?)(?=</p>|</li>|\n<ul)',
+    re.DOTALL,
 )
 # viser's player in a film: the parts without a name, and theirs.
 _NAMELESS = {
@@ -22,7 +23,8 @@ _NAMELESS = {
 _NAMER = """<script>
 new MutationObserver(() => {
   for (const [part, name] of Object.entries(NAMES))
-    for (const one of document.querySelectorAll(part)) one.setAttribute("aria-label", name);
+    for (const one of document.querySelectorAll(part))
+      one.setAttribute("aria-label", name);
 }).observe(document, { childList: true, subtree: true });
 </script>"""
 
@@ -52,4 +54,6 @@ def page(text: str) -> str:
 
 def film(text: str) -> str:
     """Return a film's page whose controls have names."""
-    return text.replace("</head>", _NAMER.replace("NAMES", str(_NAMELESS)) + "</head>", 1)
+    return text.replace(
+        "</head>", _NAMER.replace("NAMES", str(_NAMELESS)) + "</head>", 1
+    )

@@ -53,7 +53,7 @@ SETTINGS: dict[str, Any] = {
     "napoleon_attr_annotations": False,  # and, as elsewhere, without types
     "default_role": "code",  # `q` in a docstring
 }
-# A dot that is an accent is set into its letter at a screen's size: q with a dot reads q.
+# As an accent, a dot is set into its letter at a screen's size: q with a dot reads q.
 _MELTS = ' accent="true"'
 _MARKUP = (":", "..", "- ", "* ")  # what an indented paragraph belongs to
 # docutils puts the index of an accented letter below it: q with a dot and an i.
