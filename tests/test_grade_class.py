@@ -505,7 +505,7 @@ def test_the_page_asks_for_nothing_from_outside_and_holds_no_markup(graded):
     links = re.findall(r'href="([^"]*)"', graded.page)
     assert len(links) >= len(KINDS)
     for link in links:  # to the students' own files, and nowhere else
-        assert re.fullmatch(r"feedback/[^/:]*\.txt", link)
+        assert re.fullmatch(r"#alike|feedback/[^/:]*\.txt", link)
         assert (graded.out / unquote(link)).is_file()
     assert "&lt;img src=x onerror=alert(1)&gt;" in graded.page
 
