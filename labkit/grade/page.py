@@ -40,7 +40,7 @@ _ALIKE = (
     "count. The number is that of the two most similar; beside the kit's solution, "
     "the share of one's own code that stands in it, or of its functions in one's own."
 )
-_GROUPS = '<a href="#alike">groups that write alike</a>: where to look, no verdict'
+_GROUPS = '<a href="#alike">groups alike</a>: no verdict'
 _HIDDEN = (
     "In an ordinary file each function that a task asks for has its def. Here tasks "
     "pass without one, or beside what runs a text as code: look at the file, and ask."
@@ -89,7 +89,7 @@ def _tiles(course: Course) -> str:
         ("broken", number["does not load"], "do not load"),
         ("none", number["not started"], "not started"),
         ("limit" if number["ungraded"] else "none", number["ungraded"], "not graded"),
-        ("", len(course.alike), _GROUPS if course.alike else "groups that write alike"),
+        ("", len(course.alike), _GROUPS if course.alike else "groups alike"),
     ]
     return html.tiles((role, f"{number:,}", label) for role, number, label in tiles)
 

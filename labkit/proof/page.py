@@ -17,7 +17,7 @@ from labkit.check.lab_run import TRIALS
 from labkit.proof import card
 from labkit.proof.capstone import Attempt, recorded
 from labkit.proof.facts import RunDay
-from labkit.report.series import Series, cell_of, with_unit
+from labkit.report.series import Series, cell_of, limit_of, with_unit
 
 # What viser's player needs of the page's policy. Its workers compile what they run.
 ALLOWED = (
@@ -228,7 +228,7 @@ def _number(one: RunDay, number: Series) -> str:
         f"<tr><td>{one.day.number}</td>"
         f"<td class=wide>{cell_of(one.day, number.wanted)}<br>"
         f'<small class="{role}">{logged}{worth}</small></td>'
-        f'<td class="n {again}">{value}</td><td>{escape(number.wanted.limit)}</td></tr>'
+        f'<td class="n {again}">{value}</td><td>{limit_of(number.wanted)}</td></tr>'
     )
 
 

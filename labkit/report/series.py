@@ -151,6 +151,11 @@ def with_unit(value: float | None, wanted: Metric) -> str:
     return escape(f"{number_of(value)} {wanted.unit}".strip())
 
 
+def limit_of(wanted: Metric) -> str:
+    """Return what a number must be, as pages print it: "under 20 mm"."""
+    return escape(f"{wanted.limit} {wanted.unit}".strip())
+
+
 def value_of(row: Row) -> float | None:
     """Return a row's number."""
     value = row["value"]

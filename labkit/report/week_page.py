@@ -8,7 +8,7 @@ from labkit.base.text import number_of
 from labkit.check.memory import Met
 from labkit.lesson.day import Day
 from labkit.report.page import STATUS, links
-from labkit.report.series import Series, cell_of, with_unit
+from labkit.report.series import Series, cell_of, limit_of, with_unit
 from labkit.report.unnamed import in_words
 from labkit.report.week_facts import OwnDay
 
@@ -113,7 +113,7 @@ def _number(one: OwnDay, number: Series, *, first: bool, kits: bool) -> str:
         f"<td class=wide>{cell_of(one.day, number.wanted)}</td>"
         f"<td class=n>{with_unit(number.latest, number.wanted)}</td>"
         f'<td class="{role}">{mark}</td>'
-        f"<td>{escape(number.wanted.limit)}</td>"
+        f"<td>{limit_of(number.wanted)}</td>"
         f"<td class=n>{_value(number.worst)}</td>{kit}</tr>"
     )
 
