@@ -424,6 +424,8 @@ class TestTheJournal:
             ('"id": "commit"', '"id": "poem"'),
             ('"text": "', '"text": 5, "x": "'),
             ('"error": "why"', '"error": ["why"]'),
+            ('"error": "why"', '"error": "\\ud800"'),  # nothing that is written
+            ('"refused": []', '"refused": [' + '"",' * 200_000 + '""]'),
             ('"package": "', '"package": null, "x": "'),
             ('"day": 1', '"day": 7'),
             ('"result": {', '"result": ' + "[" * 100_000 + "{"),

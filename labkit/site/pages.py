@@ -29,6 +29,8 @@ BY_WIDTH = re.compile(
 )
 LINK = re.compile(r"(?<=\]\()(?!https?:|#|mailto:)([^)#\s]+)(?=[)#])")
 PICTURE = re.compile(r"^!\[[^\]]*\]\([^)\s]*?(\w+)\.\w+\)$", re.MULTILINE)
+LIVE = re.compile(r"^<!-- live: (\w+) -->$", re.MULTILINE)  # a figure of site/figures.js
+FIGURE = '```{raw} html\n<figure class="live" data-figure="\\1"></figure>\n```'
 FILMS = "films"  # their folder among the site's static files
 LANGUAGE = {".py": "python", ".toml": "toml"}
 HOME = Path("README.md")
@@ -71,7 +73,7 @@ def lay_out(folder: Path, filmed: Collection[str], ran: Sequence[Day]) -> None:
     for page in pages:
         text = BY_WIDTH.sub(r"![\2](\1)", (ROOT / page).read_text("utf-8"))
         text = _with_films(text, page, filmed)
-        text = _with_notebook(text, notebooks.get(page))
+        text = LIVE.sub(FIGURE, _with_notebook(text, notebooks.get(page)))
         name = Path("index.md") if page == HOME else page
         _write(folder / name, _linked(text, page, pages, folder))
     with (folder / "index.md").open("a", encoding="utf-8") as home:
