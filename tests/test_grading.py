@@ -340,7 +340,7 @@ class TestTheEngine:
     def test_believes_no_worker_that_lies(self, answer):
         assert "is no result of the day" in self.told(answer=answer)
 
-    @pytest.mark.parametrize("fact", [{"seed": 10**5000}, {"kit": "=1\n\ud800"}])
+    @pytest.mark.parametrize("fact", [{"seed": 10**5000}, {"kit": "=1\n"}])
     def test_takes_kit_and_seed_from_no_worker(self, fact):
         answer = asdict(replace(ungraded(DAY, ""), **fact))
         liar = engine.Engine(Stubborn(answer=answer), lambda: 1)
