@@ -8,7 +8,7 @@ from labkit.base.text import number_of
 from labkit.check.memory import Met
 from labkit.lesson.day import Day
 from labkit.report.page import STATUS, links
-from labkit.report.series import Series
+from labkit.report.series import Series, cell_of, with_unit
 from labkit.report.week_facts import OwnDay
 
 STYLE = """
@@ -114,8 +114,8 @@ def _number(one: OwnDay, number: Series, *, first: bool, kits: bool) -> str:
     kit = f"<td class=n>{_value(number.kit)}</td>" if kits else ""
     return (
         f"<tr{' class=first' if first else ''}><td class=day>{day}</td>"
-        f"<td>{escape(one.day.name_of(number.wanted))}</td>"
-        f'<td class=n>{_value(number.latest)}</td><td class="{role}">{mark}</td>'
+        f"<td class=wide>{cell_of(one.day, number.wanted)}</td>"
+        f'<td class=n>{with_unit(number.latest, number.wanted)}</td><td class="{role}">{mark}</td>'
         f"<td>{escape(number.wanted.limit)}</td>"
         f"<td class=n>{_value(number.worst)}</td>{kit}</tr>"
     )

@@ -22,12 +22,19 @@ DOCUMENTS = (
     "metrics/README.md",
     "bench/README.md",
 )
-PICTURES = {".png", ".jpg", ".gif", ".svg"}
+PICTURES = {".png", ".jpg", ".gif", ".svg", ".webp"}
+# HTML that GitHub shows, with another picture on a phone: a page here has the first.
+BY_WIDTH = re.compile(
+    r'<picture>.*?<img src="([^"]+)"[^>]* alt="([^"]*)"[^>]*>\s*</picture>', re.DOTALL
+)
 LINK = re.compile(r"(?<=\]\()(?!https?:|#|mailto:)([^)#\s]+)(?=[)#])")
 PICTURE = re.compile(r"^!\[[^\]]*\]\([^)\s]*?(\w+)\.\w+\)$", re.MULTILINE)
+LIVE = re.compile(r"^<!-- live: (\w+) -->$", re.MULTILINE)  # a figure of site/figures.js
+FIGURE = '```{raw} html\n<figure class="live" data-figure="\\1"></figure>\n```'
 FILMS = "films"  # their folder among the site's static files
 LANGUAGE = {".py": "python", ".toml": "toml"}
 HOME = Path("README.md")
+ARM = Path("site", "arm.md")
 REFERENCE = """\
 # robo47.{0}
 
@@ -64,15 +71,16 @@ def lay_out(folder: Path, filmed: Collection[str], ran: Sequence[Day]) -> None:
     notebooks = {Path(day.folder.name, day.guide): day for day in ran}
     pages = {p.relative_to(ROOT) for each in DOCUMENTS for p in ROOT.glob(each)}
     for page in pages:
-        text = _with_films((ROOT / page).read_text("utf-8"), page, filmed)
-        text = _with_notebook(text, notebooks.get(page))
+        text = BY_WIDTH.sub(r"![\2](\1)", (ROOT / page).read_text("utf-8"))
+        text = _with_films(text, page, filmed)
+        text = LIVE.sub(FIGURE, _with_notebook(text, notebooks.get(page)))
         name = Path("index.md") if page == HOME else page
         _write(folder / name, _linked(text, page, pages, folder))
     with (folder / "index.md").open("a", encoding="utf-8") as home:
         for caption, names in _contents(pages):
             above = f":caption: {caption}" if caption else ""
             home.write(CONTENTS.format(above, "\n".join(names)))
-    shutil.copy(ROOT / "site" / "arm.md", folder / "arm.md")
+    shutil.copy(ROOT / ARM, folder / ARM.name)
     for module in (module for _, modules in _modules() for module in modules):
         _write(folder / "library" / f"{module}.md", REFERENCE.format(module))
 
@@ -85,6 +93,8 @@ def _linked(text: str, page: Path, pages: set[Path], folder: Path) -> str:
         name = target.relative_to(ROOT)
         if name in pages or not target.is_file():
             return found[1]  # Sphinx says what leads nowhere
+        if name == ARM:  # a page at the site's top
+            return "../" * (len(page.parts) - 1) + name.name
         copy = folder / name
         if target.suffix in PICTURES:
             copy.parent.mkdir(parents=True, exist_ok=True)
