@@ -55,7 +55,8 @@ def saved_own() -> str:
         try:
             shutil.copyfile(own, index)
         except OSError as error:
-            raise Robo47Error(f"{own}: {error.strerror}") from None
+            says = f"{error.filename}: {error.strerror}"
+            raise Robo47Error(says) from None
         ask("add", "-u", index=index)
         ask("add", "--", *there, may_fail=True, index=index)
         tree = ask("write-tree", index=index)
