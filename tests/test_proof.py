@@ -129,7 +129,12 @@ def hostile():
     one = facts.RunDay(day, states, numbers, {}, EVIL, EVIL)
     fresh = {"commit": EVIL, "wrong": 0, "missing": 2, "date": EVIL}
     return page.Proof(
-        EVIL, False, EVIL, [one], Attempt(capstone, None, EVIL, 3, 35), fresh
+        EVIL,
+        False,
+        EVIL,
+        [one],
+        Attempt(capstone, None, EVIL, frozenset({"make_T"})),
+        fresh,
     )
 
 
@@ -148,7 +153,7 @@ def filmed():
     """Return a hostile page with a film that ends after half a second."""
     result = capstone.pick(capstone.library())._replace(seconds=0.5)
     return page.render(
-        replace(hostile(), attempt=Attempt(capstone, result, "", 35, 35))
+        replace(hostile(), attempt=Attempt(capstone, result, "", frozenset({"make_T"})))
     )
 
 
@@ -195,7 +200,7 @@ def test_an_arm_that_stops_is_told_and_not_filmed():
     known = facts.RunDay(day, {task.id: "passed"}, [])
     found = attempt(capstone, [known], [day.source.parent], Failing())
     says = "make_T did not return: it hangs"
-    assert found == Attempt(capstone, None, says, 1, found.total)
+    assert found == Attempt(capstone, None, says, frozenset({"make_T"}))
 
 
 def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path, capsys):
