@@ -159,7 +159,7 @@ def _capstone_tiles(attempt: Attempt) -> list[tuple[str, str, str]]:
     if attempt.result is None:
         return [("none", "–", attempt.capstone.NAME)]
     told = attempt.capstone.told(attempt.result)
-    role = "pass" if attempt.yours == attempt.total else ""
+    role = "pass" if len(attempt.theirs) == attempt.total else ""
     return [("fail" if attempt.result.failed else role, told.number, told.of)]
 
 

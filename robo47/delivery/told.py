@@ -3,8 +3,6 @@
 Units: metres and seconds, in sentences millimetres, grams and milliseconds.
 """
 
-import numpy as np
-
 from robo47 import scenes, se3
 from robo47.attempt import Block, Film, Told
 from robo47.capstone.told import ARM, CUBE, TABLE, phase_lines
