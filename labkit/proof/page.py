@@ -28,7 +28,7 @@ STYLE = """
 body { max-width: 980px; } td.n, th.n { text-align: right; }
 td.wide { white-space: normal; min-width: 140px; }
 iframe { display: block; width: 100%; height: min(70vh, 560px); border: 0; }
-.film { padding: 0; overflow: hidden; } li { margin: 4px 0; }
+.film { padding: 0; overflow: hidden; margin-bottom: 12px; } li { margin: 4px 0; }
 @media (max-width: 500px) { th, td { padding-right: 8px; } .card { padding: 10px; }
   .film { padding: 0; } iframe { height: 420px; } }
 """

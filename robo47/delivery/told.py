@@ -3,7 +3,7 @@
 Units: metres and seconds, in sentences millimetres, grams and milliseconds.
 """
 
-from robo47 import scenes, se3
+from robo47 import eye, scenes, se3
 from robo47.attempt import Block, Film, Told
 from robo47.capstone.told import ARM, CUBE, TABLE, phase_lines
 from robo47.checks import Array
@@ -16,6 +16,8 @@ HEAD = f"""
 {"":26}{"mm":>7}{"g":>9}{"of max":>7}{"mm":>8}{"N m":>7}{"mm":>8}"""
 MOMENTS = ("close", "weigh", "carry", "open")  # phases whose beginnings a picture shows
 WALL = (0.45, 0.55, 0.70, 1.0)
+EYE = (0.15, 0.15, 0.18, 1.0)
+EYE_HALF = (0.03, 0.02, 0.05)  # m, long along its view
 
 
 def row(name: str, result: Result) -> str:
@@ -54,9 +56,9 @@ def figures(result: Result) -> list[tuple[str, str, str]]:
     known = 1e3 * result.mass
     found = [
         ("seen, from where the cube stood", f"{result.seen_mm:.1f} mm", "< 3 mm"),
-        ("weighed", f"{result.grams:z.1f} g", f"{known:.0f} g, to 1 g"),
+        ("weighed", f"{result.grams:z.1f} g", f"{known:.0f} ± 1 g"),
         ("clearance of the way as driven", f"{result.clearance_mm:.1f} mm", "> 0 mm"),
-        ("speed of the carry", f"{result.speed:.1f} of the joints' limits", ""),
+        ("speed of the carry, of the joints' limits", f"{result.speed:.1f}", ""),
         (
             "torque felt in the carry that nobody commanded",
             f"{result.residual:.2f} N m",
@@ -67,9 +69,10 @@ def figures(result: Result) -> list[tuple[str, str, str]]:
         place = f"{result.place_mm:.1f} mm"
         found.append(("put down, from its mark", place, "< 10 mm"))
     if result.pushed:
-        felt = f"{result.noticed_ms:.0f} ms, by link {result.pushed_link}"
-        felt = felt if result.noticed_ms > 0.0 else "not felt"
-        found.append(("a push of 10 N in a second carry, felt after", felt, "felt"))
+        after = "a push of 10 N in a second carry, felt after"
+        felt = result.noticed_ms > 0.0
+        value = f"{result.noticed_ms:.0f} ms" if felt else "not felt"
+        found.append((after, value, "felt"))
     return found
 
 
@@ -94,10 +97,11 @@ def film_of(result: Result, cube_xy: tuple[float, float], yaw: float) -> Film:
 
 
 def _blocks(qpos: Array) -> list[Block]:
-    """Return table and wall, and the cube where a configuration, (16,), has it."""
+    """Return table, wall and eye, and the cube where a configuration, (16,), has it."""
     cube = se3.make_T(se3.quat_to_R(qpos[ARM + 3 : ARM + 7]), qpos[ARM : ARM + 3])
     still = zip(scene.boxes(), (TABLE, WALL), strict=True)
     return [
         *[Block(T, tuple(half), colour) for (T, half), colour in still],
+        Block(eye.looking(scene.EYE_AT, scene.EYE_TO), EYE_HALF, EYE),
         Block(cube, (scenes.CUBE_HALF,) * 3, CUBE),
     ]
