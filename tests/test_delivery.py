@@ -91,6 +91,15 @@ class TestTheScale:
         assert abs(result.grams) < 1.0
         assert result.stopped == "there is nothing in the hand"
 
+    def test_of_the_wrong_sign_is_asked_about_and_not_the_hand(self):
+        def negative(*given):
+            return -FNS.payload_from_holds(*given)
+
+        result = cube(but(payload_from_holds=negative))
+        assert (
+            result.stopped == "it weighs -80 g: is payload_from_holds (task 8.8) right?"
+        )
+
     def test_sees_twice_the_weight_where_g_is_halved(self):
         def halved(J_site, R_site, extra, g):
             return FNS.payload_from_holds(J_site, R_site, extra, 0.5 * g)
@@ -176,6 +185,13 @@ class TestTheEye:
         assert result.seen_mm > 9.0
         assert not result.stopped
         assert result.failed
+
+    def test_whose_angle_is_doubled_is_asked_about_and_not_the_place(self):
+        def wide(fovy, *size):
+            return FNS.camera_matrix(2.0 * fovy, *size)
+
+        with pytest.raises(Robo47Error, match=r"inside table .* \(task 10.1\)"):
+            cube(but(camera_matrix=wide))
 
     def test_says_where_it_sees_no_cube(self):
         def behind(K, T_world_cam, pixels, depths):

@@ -92,7 +92,7 @@ def predicted(week: Week) -> dict[str, str]:
         rows = predictions(text)
         found |= {visible(name).lower(): visible(says) for name, says in rows.items()}
         if rows_asked(text) and len(rows) < PREDICTED:
-            print(f"predicted: {len(rows)} of {PREDICTED}, in {shown(path)}")
+            print(f"your predictions: {len(rows)} of {PREDICTED} in {shown(path)}")
     return found
 
 
