@@ -33,7 +33,7 @@ from labkit.judge.failing_call import failing_call, for_fresh
 from labkit.judge.kinds import Kind
 from labkit.judge.made_again import redone
 from labkit.judge.mistake import Finding, Verdict
-from labkit.judge.one_slip import one_slip
+from labkit.judge.one_slip import one_slip, slip_beside, two_slips
 from labkit.judge.pairs import (
     by_results,
     in_some_calls,
@@ -260,8 +260,8 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     every = (S[i], case.further.S[i]) if case.further else (S[i],)
     found = _all_the_same(ask.kinds[i], every, T[i])  # simpler than two mistakes
     found = found or one_slip(case, S, T) or of_other_arguments(case, S, T)
-    found = found or two_at_once(case, S, T)
-    found = found or by_results(case, S, T)
+    found = found or two_at_once(case, S, T) or slip_beside(case, S, T)
+    found = found or by_results(case, S, T) or two_slips(case, S, T)
     if found := found or near_miss.rounded(S[i], T[i]):
         return found
     try:

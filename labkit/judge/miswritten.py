@@ -14,7 +14,8 @@ from typing import Any, NamedTuple
 SHORT = 44  # characters of a body that are shown, at most
 FEW = 7  # entries of a list, of which any two are exchanged
 MOST = 1500  # slips of one function
-Change = tuple[str, Callable[[], str]]  # its kind, and what reads it
+Place = tuple[int, int, int, int]  # line and column, and those of the end
+Change = tuple[str, Place, Callable[[], str]]  # kind and place, and what reads it
 NUMBERED = (ast.List, ast.Tuple)
 TWINS = [
     ("sin", "cos"), ("argmin", "argmax"), ("min", "max"), ("minimum", "maximum"),
@@ -26,17 +27,19 @@ TWINS = [
 # What a slip is called, and what is said of it.
 SAYS = {
     "sign": "one sign is the other way round",
-    "operation": "one operation is another",
+    "negated": "one sign is the other way round",
     "left-out": "something is left out",
-    "number": "one number is another",
+    "operation": "one operation stands for another",
+    "number": "one number stands for another",
+    "factor": "a factor of two is missing, or too many",
     "name": "one name stands for another",
-    "squared": "something is squared that should not be",
     "order": "two things have changed places",
-    "function": "one function is another",
     "transpose": "one transpose is too many, or missing",
-    "index": "one index or range is another",
-    "comparison": "one comparison is another",
-    "line": "one line is another, or stands elsewhere",
+    "index": "one index or range stands for another",
+    "squared": "something is squared that should not be",
+    "function": "one function stands for another",
+    "comparison": "one comparison stands for another",
+    "line": "one line is missing, is another or stands elsewhere",
 }
 
 
@@ -45,6 +48,7 @@ class Miswritten(NamedTuple):
 
     kind: str  # one of `SAYS`
     at: int  # which of all slips, for `reads`
+    place: Place  # in the text
     code: Callable[..., Any]
 
 
@@ -63,19 +67,50 @@ def miswritten(function: ast.FunctionDef, names: dict[str, Any]) -> list[Miswrit
     space = dict(names)
     found = []
     function.decorator_list.clear()
-    for at, (kind, _) in enumerate(islice(_changes(function), MOST)):
+    for at, (kind, place, _) in enumerate(islice(_changes(function), MOST)):
         if code := _compiled(function, space):
-            found.append(Miswritten(kind, at, code))
-    ranks = list(SAYS)
-    return sorted(found, key=lambda one: ranks.index(one.kind))
+            found.append(Miswritten(kind, at, place, code))
+    return sorted(found, key=rank)
 
 
-def reads(function: ast.FunctionDef, slip: Miswritten) -> str:
-    """Return how the place of a slip reads, "theta + s"; "" where that is long."""
+def rank(slip: Miswritten) -> int:
+    """Return how often a slip of this kind is made: 0 is most often."""
+    return list(SAYS).index(slip.kind)
+
+
+def besides(
+    function: ast.FunctionDef, names: dict[str, Any], slip: Miswritten
+) -> list[Miswritten]:
+    """Return the functions with a slip and with another one each, by the other."""
     changes = islice(_changes(function), slip.at, None)
-    _, shown = next(changes)
-    text = shown()
+    next(changes)
+    others = miswritten(function, names)
     del changes  # it puts the place back
+    return [one for one in others if not overlap(one, slip)]
+
+
+def overlap(one: Miswritten, other: Miswritten) -> bool:
+    """Return whether one slip lies within the place of the other."""
+    a, b = one.place, other.place
+    return not (a[2:] <= b[:2] or b[2:] <= a[:2])
+
+
+def reads(
+    function: ast.FunctionDef, slip: Miswritten, after: Miswritten | None = None
+) -> str:
+    """Return how the place of a slip reads, "theta + s"; "" where that is long.
+
+    Args:
+        function: as it stands in a file.
+        slip: one of its slips.
+        after: the slip beside which that is one.
+    """
+    before = islice(_changes(function), after.at, None) if after else iter(())
+    next(before, None)
+    changes = islice(_changes(function), slip.at, None)
+    *_, shown = next(changes)
+    text = shown()
+    del changes, before  # they put the places back
     return text
 
 
@@ -124,13 +159,26 @@ def _changes(function: ast.FunctionDef) -> Iterator[Change]:
     places = list(_places(function))
     above = {id(place.node): place for place in places}
     for place in places:
+        around = above.get(id(place.parent))
+        index = "slice" in (place.field, around and around.field)
         for kind, new in _instead(place, names):
+            kind = "index" if index else kind
             place.put(ast.fix_missing_locations(ast.copy_location(new, place.node)))
             try:
-                yield kind, partial(_shown, new, place, above)
+                yield kind, _where(_spot(place.node, kind)), partial(_shown, new, place, above)
             finally:
                 place.put(place.node)
     yield from _of_lines(function)
+
+
+def _spot(node: ast.expr, kind: str) -> ast.expr:
+    """Return what a slip is about: of a sum's sign the term behind it."""
+    return node.right if kind == "sign" and isinstance(node, ast.BinOp) else node
+
+
+def _where(node: ast.expr | ast.stmt) -> Place:
+    end = node.end_lineno, node.end_col_offset
+    return node.lineno, node.col_offset, end[0] or 0, end[1] or 0
 
 
 def _names(function: ast.FunctionDef) -> list[str]:
@@ -166,7 +214,7 @@ def _instead(place: _Place, names: Sequence[str]) -> Iterator[tuple[str, ast.exp
     elif isinstance(node, ast.Attribute) and node.attr in ("T", "mT"):
         yield "transpose", node.value
     elif isinstance(node, ast.Call):
-        yield from _of_call(node)
+        yield from _of_call(node, names)
     elif isinstance(node, ast.Subscript):
         yield from _of_subscript(node)
     elif isinstance(node, ast.Compare) and len(node.ops) == 1:
@@ -179,7 +227,7 @@ def _instead(place: _Place, names: Sequence[str]) -> Iterator[tuple[str, ast.exp
     inside = isinstance(place.parent, (*NUMBERED, ast.Call, ast.Return, ast.keyword))
     if inside and place.field != "func" and not isinstance(node, NUMBERED):
         if not isinstance(node, ast.Constant | ast.UnaryOp | ast.Name):
-            yield "sign", ast.UnaryOp(ast.USub(), node)
+            yield "negated", ast.UnaryOp(ast.USub(), node)
 
 
 def _of_operation(node: ast.BinOp) -> Iterator[tuple[str, ast.expr]]:
@@ -207,9 +255,9 @@ def _of_operation(node: ast.BinOp) -> Iterator[tuple[str, ast.expr]]:
         yield "operation", other(ast.Div())
         yield "left-out", left
         yield "left-out", right
-        yield "sign", minus(node)
-        yield "operation", other(ast.MatMult())
-        yield "operation", other(ast.Add())
+        yield "negated", minus(node)
+        for op in (ast.MatMult(), ast.Add(), ast.Pow()):
+            yield "operation", other(op)
     elif isinstance(node.op, ast.Div):
         yield "operation", other(ast.Mult())
         yield "left-out", left
@@ -219,14 +267,21 @@ def _of_operation(node: ast.BinOp) -> Iterator[tuple[str, ast.expr]]:
         yield "order", other(ast.MatMult(), right, left)
         yield "left-out", left
         yield "left-out", right
-        yield "sign", minus(node)
+        yield "negated", minus(node)
     elif isinstance(node.op, ast.Pow):
         yield "left-out", left
+        yield "operation", other(ast.Mult())
+        yield from _of_a_factor(node)
+
+
+def _of_a_factor(node: ast.expr) -> Iterator[tuple[str, ast.expr]]:
+    for factor in (2.0, 0.5):
+        yield "factor", ast.BinOp(ast.Constant(factor), ast.Mult(), node)
 
 
 def _of_number(node: ast.Constant, place: _Place) -> Iterator[tuple[str, ast.expr]]:
     value: Any = node.value
-    kind = "index" if isinstance(place.parent, ast.Subscript | ast.Slice) else "number"
+    kind = "index" if isinstance(place.parent, ast.Slice) else "number"
     whole = type(value) is int
     halved = [] if whole and value % 2 else [type(value)(value / 2)]
     some = [2 * value, *halved, -value, value + 1, value - 1, type(value)(0)]
@@ -242,17 +297,20 @@ def _of_name(
 ) -> Iterator[tuple[str, ast.expr]]:
     if node.id not in names or place.field == "func":
         return
-    yield "sign", ast.UnaryOp(ast.USub(), node)
+    yield "negated", ast.UnaryOp(ast.USub(), node)
     for name in names:
         if name != node.id:
             yield "name", ast.Name(name, ast.Load())
     if not isinstance(place.parent, ast.Attribute | ast.Subscript):
         yield "squared", ast.BinOp(node, ast.Pow(), ast.Constant(2))
+        yield from _of_a_factor(node)
         yield "left-out", ast.Constant(1)
         yield "transpose", ast.Attribute(node, "T", ast.Load())
 
 
-def _of_call(node: ast.Call) -> Iterator[tuple[str, ast.expr]]:
+def _of_call(
+    node: ast.Call, names: Sequence[str]
+) -> Iterator[tuple[str, ast.expr]]:
     function = node.func
     name = getattr(function, "attr", getattr(function, "id", ""))
     of_numpy = isinstance(function, ast.Attribute) and _is_module(function.value)
@@ -271,6 +329,12 @@ def _of_call(node: ast.Call) -> Iterator[tuple[str, ast.expr]]:
             yield "function", ast.Call(again, node.args, node.keywords)
     if name == "solve" and len(node.args) == 2:
         yield "operation", ast.BinOp(node.args[0], ast.MatMult(), node.args[1])
+    if name == "inv":
+        yield "operation", ast.BinOp(ast.Constant(1.0), ast.Div(), node.args[0])
+    if name in ("ones", "zeros"):
+        yield from (("name", ast.Name(one, ast.Load())) for one in names)
+    if node.args and name not in ("range", "len", "zip", "int", "enumerate"):
+        yield from _of_a_factor(node)
 
 
 def _is_module(node: ast.expr) -> bool:
@@ -329,7 +393,7 @@ def _of_line(body: list[ast.stmt], at: int, line: ast.stmt) -> Iterator[Change]:
             ast.fix_missing_locations(ast.copy_location(new, line))
         body[:] = some
         try:
-            yield "line", partial(_line_shown, some, at, line)
+            yield "line", _where(line), partial(_line_shown, some, at, line)
         finally:
             body[:] = before
 

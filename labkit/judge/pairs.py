@@ -107,7 +107,7 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
 def _two_of(case: Case, S: Parts, T: Parts, i: int) -> Sequence[Mistake] | None:
     """Return two mistakes that together give all answers, found at the i-th call."""
     ask = case.ask
-    mistakes = _of_its_own_first(ask)
+    mistakes = of_its_own_first(ask)
     answers = {}
     for k, one in enumerate(mistakes):
         answer = answer_to(one.redo, case.arguments, i, T)
@@ -119,7 +119,7 @@ def _two_of(case: Case, S: Parts, T: Parts, i: int) -> Sequence[Mistake] | None:
     return found or pairs.in_turn()
 
 
-def _of_its_own_first(ask: Ask) -> list[Mistake]:
+def of_its_own_first(ask: Ask) -> list[Mistake]:
     mistakes = [one for one in ask.named if isinstance(one.redo, InTurn)]
     return sorted(mistakes, key=lambda one: one.reached)[:MOST]
 
@@ -140,7 +140,7 @@ def by_results(case: Case, S: Parts, T: Parts) -> Finding | None:
         return None
     i = int(np.argmax(ask.gaps(S, T)))
     told: dict[int, Mistake] = {}
-    for one in _of_its_own_first(ask):
+    for one in of_its_own_first(ask):
         answer = answer_to(one.redo, case.arguments, i, T)
         for j in [j for j in wrong if j not in told and len(answer) == len(S)]:
             kind, s, t = pairs[j]
@@ -174,7 +174,7 @@ def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
         return None
     few = wrong[np.unique(np.linspace(0, len(wrong) - 1, FEW).astype(int))]
     most: tuple[int, Mistake] | None = None
-    for one in _of_its_own_first(ask):
+    for one in of_its_own_first(ask):
         hits = [_alike(ask, answer_to(one.redo, case.arguments, i, T), nth(S, i))
                 for i in few]  # fmt: skip
         if sum(map(bool, hits)) < 2:
