@@ -197,6 +197,9 @@ def _shown(new: ast.expr, place: _Place, above: dict[int, _Place]) -> str:
             break
         text = wider
         around = above.get(id(around.parent))
+    if len(text) > SHORT and isinstance(new, ast.BinOp):
+        end = ast.BinOp(ast.Name("...", ast.Load()), new.op, new.right)
+        text = ast.unparse(end)
     return text if len(text) <= SHORT else ""
 
 

@@ -188,9 +188,10 @@ def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
     if most is None:
         return None
     n, one = most
+    rest = "one is not" if len(wrong) == n + 1 else f"{len(wrong) - n} are not"
     says = (
         f"In {n} of your {len(wrong)} wrong answers the numbers are those of one "
-        f"mistake: {one.says.rstrip('?')}. The other {len(wrong) - n} are not."
+        f"mistake: {one.says.rstrip('?')}. The other {rest}."
     )
     return Finding(f"{one.slug}+other", says)
 
