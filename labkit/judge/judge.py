@@ -115,11 +115,13 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     S = replies_read.read(good, asked.ask) if good else found
     if isinstance(S, Finding) or asked.ask.accept:
         return found
+    named = odd_answers.stops_alike(asked, found)
+    if named is not found:
+        return named
     T = right_answers(asked.ask, good)
     rest = replace(asked, main=good, probes=[])
     case = replace(_case(rest, S, T, names), further=_further(asked))
-    both = _both(found, case, S, T)
-    return odd_answers.stops_alike(asked, found) if both is found else both
+    return _both(found, case, S, T)
 
 
 def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:

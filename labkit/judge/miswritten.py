@@ -165,7 +165,11 @@ def _changes(function: ast.FunctionDef) -> Iterator[Change]:
             kind = "index" if index else kind
             place.put(ast.fix_missing_locations(ast.copy_location(new, place.node)))
             try:
-                yield kind, _where(_spot(place.node, kind)), partial(_shown, new, place, above)
+                yield (
+                    kind,
+                    _where(_spot(place.node, kind)),
+                    partial(_shown, new, place, above),
+                )
             finally:
                 place.put(place.node)
     yield from _of_lines(function)
@@ -227,10 +231,22 @@ def _instead(place: _Place, names: Sequence[str]) -> Iterator[tuple[str, ast.exp
         yield "left-out", node.orelse
     elif isinstance(node, NUMBERED) and len(node.elts) > 1:
         yield from _of_a_list(node)
+    if isinstance(node, ast.Subscript | ast.Call):
+        yield from _of_a_part(node, place)
     inside = isinstance(place.parent, (*NUMBERED, ast.Call, ast.Return, ast.keyword))
-    if inside and place.field != "func" and not isinstance(node, NUMBERED):
-        if not isinstance(node, ast.Constant | ast.UnaryOp | ast.Name):
-            yield "negated", ast.UnaryOp(ast.USub(), node)
+    plain = isinstance(node, (*NUMBERED, ast.Constant, ast.UnaryOp, ast.Name))
+    if inside and place.field != "func" and not plain:
+        yield "negated", ast.UnaryOp(ast.USub(), node)
+
+
+def _of_a_part(node: ast.expr, place: _Place) -> Iterator[tuple[str, ast.expr]]:
+    """Yield slips of an entry, or of a function's answer, within a product."""
+    if isinstance(place.parent, ast.BinOp):
+        yield "squared", ast.BinOp(node, ast.Pow(), ast.Constant(2))
+        if isinstance(place.parent.op, ast.MatMult):
+            yield "transpose", ast.Attribute(node, "T", ast.Load())
+        if isinstance(node, ast.Subscript):
+            yield from _of_a_factor(node)
 
 
 def _of_operation(node: ast.BinOp) -> Iterator[tuple[str, ast.expr]]:
@@ -311,9 +327,7 @@ def _of_name(
         yield "transpose", ast.Attribute(node, "T", ast.Load())
 
 
-def _of_call(
-    node: ast.Call, names: Sequence[str]
-) -> Iterator[tuple[str, ast.expr]]:
+def _of_call(node: ast.Call, names: Sequence[str]) -> Iterator[tuple[str, ast.expr]]:
     function = node.func
     name = getattr(function, "attr", getattr(function, "id", ""))
     of_numpy = isinstance(function, ast.Attribute) and _is_module(function.value)

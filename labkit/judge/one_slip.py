@@ -43,9 +43,9 @@ def one_slip(case: Case, S: Parts, T: Parts) -> Finding | None:
     mine = nth(S, i)
     for one in case.ask.miswritten:
         redo = case.ask.in_turn(one.code)
-        if exactly(case.ask, answer_to(redo, case.arguments, i, T), mine):
-            if _gives_all(case, partial(answers_to, redo), S):
-                return _told(case, [_of(case, one)], S, T)
+        here = exactly(case.ask, answer_to(redo, case.arguments, i, T), mine)
+        if here and _gives_all(case, partial(answers_to, redo), S):
+            return _told(case, [_of(case, one)], S, T)
     return None
 
 

@@ -120,6 +120,7 @@ def _two_of(case: Case, S: Parts, T: Parts, i: int) -> Sequence[Mistake] | None:
 
 
 def of_its_own_first(ask: Ask) -> list[Mistake]:
+    """Return the mistakes that are tried two at a time, a function's own first."""
     mistakes = [one for one in ask.named if isinstance(one.redo, InTurn)]
     return sorted(mistakes, key=lambda one: one.reached)[:MOST]
 
@@ -412,6 +413,7 @@ def answer_to(
 
 
 def answers_to(redo: Callable[..., Any], arguments: tuple[Any, ...]) -> Parts:
+    """Return the answers to all questions with a mistake; () where it has none."""
     try:
         with np.errstate(all="ignore"):
             return parts(redo(*arguments))
@@ -428,6 +430,7 @@ def _changed(change: Mistake, answer: Parts) -> Parts:
 
 
 def nth(some: Parts, i: int) -> Parts:
+    """Return the answer to one question, as a set of one."""
     return tuple(part[i : i + 1] for part in some)
 
 

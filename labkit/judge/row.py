@@ -339,7 +339,7 @@ class Row:
         if self._reference() is None:
             return None
         found = definition(read_script(self._day.source), self.function)
-        return found and (found, vars(self.lab))
+        return (found, vars(self.lab)) if found else None
 
     def _accept(self, *args: Any) -> Any:
         try:
