@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from labkit.judge.answers import InTurn, Parts, capitalised, worst_part
-from labkit.judge.ask import Case
+from labkit.judge.ask import SLIPPING, Case
 from labkit.judge.mistake import Finding
 from labkit.judge.miswritten import SAYS, Miswritten, besides, overlap, rank, reads
 from labkit.judge.pairs import (
@@ -26,7 +26,7 @@ from labkit.judge.pairs import (
 )
 from robo47.checks import Array
 
-FEW = 6  # wrong calls at which the first of two slips is looked for
+FEW = 3  # wrong calls at which the first of two slips is looked for
 LIKELY = 3  # first slips beside which all others are tried
 MOST = 400  # pairs that add up at one call, of which some do at all
 NAMED = 1.5  # a named mistake comes after two signs, and before the other slips
@@ -98,8 +98,11 @@ def two_slips(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return two slips of which the second works on what the first made, or None.
 
     The first is one that gives more of the student's numbers than the right ones do.
+    Of a slow function they are not looked for.
     """
     if not _may_slip(case) or not (body := case.ask.body()):
+        return None
+    if len(case.ask.miswritten) * case.ask.labs_cost * (FEW + LIKELY) > SLIPPING:
         return None
     i = tried(case.ask, S, T)[0]
     mine = nth(S, i)
