@@ -58,13 +58,17 @@ def test_a_second_slip_is_never_in_the_place_of_the_first():
 
 
 def test_a_loop_that_may_never_end_has_no_slips():
-    assert not of("sign", "def f(x):\n    while x < 3:\n        x = x + 1\n    return x\n")
+    assert not of(
+        "sign", "def f(x):\n    while x < 3:\n        x = x + 1\n    return x\n"
+    )
 
 
 def test_a_slip_is_told_by_its_kind_and_by_how_it_reads():
+    move, skew = right(2, "exp_screw"), right(2, "skew")
+
     def exp_screw(S, theta):
-        T = right(2, "exp_screw")(S, theta)
-        K = right(2, "skew")(S[:3])
+        T = move(S, theta)
+        K = skew(S[:3])
         T[:3, 3] += 2 * np.sin(theta) * K @ K @ S[3:]
         return T
 
@@ -74,10 +78,12 @@ def test_a_slip_is_told_by_its_kind_and_by_how_it_reads():
 
 
 def test_two_slips_whose_parts_add_up_are_told_together():
+    bias = right(6, "site_bias")
+
     def site_bias(J_space, qd, p):
-        a = right(6, "site_bias")(J_space, qd, p)
+        a = bias(J_space, qd, p)
         V = J_space @ qd
-        flat = right(6, "site_bias")(J_space, qd, 0 * p)
+        flat = bias(J_space, qd, 0 * p)
         at_0 = flat[3:] - np.cross(V[:3], V[3:])
         return np.append(a[:3], 2 * at_0 - a[3:])
 
@@ -87,8 +93,10 @@ def test_two_slips_whose_parts_add_up_are_told_together():
 
 
 def test_a_slip_that_the_fresh_questions_do_not_show_is_not_told():
+    turn = right(1, "quat_to_R")
+
     def quat_to_R(quat):
-        R = right(1, "quat_to_R")(quat)
+        R = turn(quat)
         R[0, 2] += 1e-3 * (abs(quat[0]) > 0.9)
         return R
 
@@ -96,9 +104,11 @@ def test_a_slip_that_the_fresh_questions_do_not_show_is_not_told():
 
 
 def test_a_whenever_holds_for_arguments_of_other_sizes_as_well():
+    solve = right(10, "hand_eye")
+
     def hand_eye(A, B):
-        X = right(10, "hand_eye")(A, B)
-        X[:3, 3] = right(10, "hand_eye")(A[:2], B[:2])[:3, 3]
+        X = solve(A, B)
+        X[:3, 3] = solve(A[:2], B[:2])[:3, 3]
         return X
 
     assert "whenever" not in told(10, "10.8", hand_eye=hand_eye)

@@ -264,13 +264,25 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     found = found or one_slip(case, S, T) or of_other_arguments(case, S, T)
     found = found or two_at_once(case, S, T) or slip_beside(case, S, T)
     found = found or by_results(case, S, T) or two_slips(case, S, T)
+    if found and found.slug.startswith("slip-"):
+        return _with_its_place(case, found)
     if found := found or near_miss.rounded(S[i], T[i]):
         return found
+    return _unnamed(case) or in_some_calls(case, S, T)
+
+
+def _unnamed(case: Case) -> Finding | None:
+    """Return what the row says of answers that no named mistake gives."""
     try:
-        found = ask.unnamed(case) if ask.unnamed else None
+        return case.ask.unnamed(case) if case.ask.unnamed else None
     except np.linalg.LinAlgError:  # of a singular answer
-        found = None
-    return found or in_some_calls(case, S, T)
+        return None
+
+
+def _with_its_place(case: Case, slip: Finding) -> Finding:
+    """Return a slip, and before it where the row says that answers go wrong."""
+    where = _unnamed(case)
+    return Finding(where.slug, f"{where.message} {slip.message}") if where else slip
 
 
 def _not_finite(case: Case, S: Parts, T: Parts) -> Finding | None:

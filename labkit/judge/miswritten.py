@@ -6,6 +6,7 @@ function has one is found by making each in the lab's own.
 """
 
 import ast
+import copy
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import combinations, islice
@@ -37,6 +38,8 @@ SAYS = {
     "transpose": "one transpose is too many, or missing",
     "index": "one index or range stands for another",
     "squared": "something is squared that should not be",
+    "exchanged": "two names have changed places",
+    "scaled": "something is multiplied, or divided, by what does not belong there",
     "function": "one function stands for another",
     "comparison": "one comparison stands for another",
     "line": "one line is missing, is another or stands elsewhere",
@@ -201,9 +204,13 @@ def _shown(new: ast.expr, place: _Place, above: dict[int, _Place]) -> str:
             break
         text = wider
         around = above.get(id(around.parent))
+    dots = ast.Name("...", ast.Load())
     if len(text) > SHORT and isinstance(new, ast.BinOp):
-        end = ast.BinOp(ast.Name("...", ast.Load()), new.op, new.right)
-        text = ast.unparse(end)
+        text = ast.unparse(ast.BinOp(dots, new.op, new.right))
+    elif text.isidentifier() and isinstance(place.parent, ast.BinOp):
+        left = place.field == "left"
+        pair = (new, dots) if left else (dots, new)
+        text = ast.unparse(ast.BinOp(pair[0], place.parent.op, pair[1]))
     return text if len(text) <= SHORT else ""
 
 
@@ -233,10 +240,44 @@ def _instead(place: _Place, names: Sequence[str]) -> Iterator[tuple[str, ast.exp
         yield from _of_a_list(node)
     if isinstance(node, ast.Subscript | ast.Call):
         yield from _of_a_part(node, place)
+    if isinstance(place.parent, ast.stmt) and not isinstance(place.parent, ast.If):
+        yield from _of_a_whole(node, names)
     inside = isinstance(place.parent, (*NUMBERED, ast.Call, ast.Return, ast.keyword))
     plain = isinstance(node, (*NUMBERED, ast.Constant, ast.UnaryOp, ast.Name))
     if inside and place.field != "func" and not plain:
         yield "negated", ast.UnaryOp(ast.USub(), node)
+
+
+def _of_a_whole(node: ast.expr, names: Sequence[str]) -> Iterator[tuple[str, ast.expr]]:
+    """Yield slips of all that stands in a line."""
+    there = {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}
+    for pair in combinations([name for name in names if name in there], 2):
+        yield "exchanged", _Exchanged(*pair).visit(copy.deepcopy(node))
+    for at, one in enumerate(_results(node)):
+        for name in names:
+            for op in (ast.Mult(), ast.Div()):
+                new: ast.expr = ast.BinOp(one, op, ast.Name(name, ast.Load()))
+                if one is not node:
+                    some = _results(node)
+                    new = ast.Tuple([*some[:at], new, *some[at + 1 :]], ast.Load())
+                yield "scaled", new
+
+
+def _results(node: ast.expr) -> list[ast.expr]:
+    return node.elts if isinstance(node, ast.Tuple) else [node]
+
+
+class _Exchanged(ast.NodeTransformer):
+    """Two names in each other's places."""
+
+    def __init__(self, one: str, other: str) -> None:
+        """Begin with two names."""
+        self.other = {one: other, other: one}
+
+    def visit_Name(self, node: ast.Name) -> ast.Name:
+        """Return the other name of the two."""
+        node.id = self.other.get(node.id, node.id)
+        return node
 
 
 def _of_a_part(node: ast.expr, place: _Place) -> Iterator[tuple[str, ast.expr]]:
