@@ -79,6 +79,9 @@ class Answers:
     def __init__(self, functions):
         self.functions, self.day = functions, SimpleNamespace(tasks=())
 
+    def saved(self):
+        return False
+
     def ask(self, questions):
         return [
             Reply(self.functions[one.function](*one.args))

@@ -144,7 +144,9 @@ class Chain(Tab):
         whole = len(done) == len(steps) or steps[self.at + 1].link != this.link
         says = says_of(this, self.at + 1, len(steps), whole)
         if whole:  # every factor of this link is in: MuJoCo has that pose, too
-            says += words.verdict(self.page.arm.difference(this.link, this.after))
+            says += words.verdict(
+                self.page.arm.difference(this.link, this.after), "the library"
+            )
         self.product.content = says
         for i, slider in self.sliders.items():
             slider.visible = self.page.arm.joints[i] == this.joint
@@ -177,6 +179,9 @@ class Standing:
     tasks: tuple[TaskResult, ...] = ()  # in the day's order; () while nothing is known
 
 
+ASKING = Standing("make check: asking ...", "asking")
+
+
 def standing(results: Sequence[TaskResult]) -> Standing:
     """Return the tasks, in the day's order, with one line about all of them."""
     first = results[0].verdict if results else Verdict("passed")
@@ -187,14 +192,14 @@ def standing(results: Sequence[TaskResult]) -> Standing:
     passed = sum(result.passed for result in results)
     says = f"make check: {passed} of {len(results)} tasks pass"
     if passed == len(results):
-        return Standing(f"✓ {says}", "good", tuple(results))
+        return Standing(says, "good", tuple(results))
     wrong = [r for r in results if r.verdict.status not in ("passed", "todo")]
     if not wrong:
         after = next(r.task for r in results if not r.passed)
         says = f"{says}; next is {after.id} {after.title}"
         return Standing(says, "quiet", tuple(results))
     why = f"{wrong[0].task.id}: {wrong[0].verdict.message}"
-    return Standing(f"✗ {says}. {why}", "bad", tuple(results))
+    return Standing(f"{says}. {why}", "bad", tuple(results))
 
 
 class Tasks(Tab):

@@ -108,6 +108,12 @@ class Own:
             self._apart[name] = max(before, off if judged else 0.0)
         return _as_drawn(reply.value)
 
+    def fresh(self) -> bool:
+        """Return whether the file that was asked last is the one that is there."""
+        student = self._student
+        now = student.version if student.there else -1
+        return self.version == now and not student.saved()
+
     def says(self) -> tuple[str, str]:
         """Return whose functions were at work, and how they compare; its kind."""
         wrong = [f"{name} by {x:.3g}" for name, x in self._apart.items() if x]

@@ -73,6 +73,7 @@ class Page:
         self.running: list[Animation | Jobs] = []  # what ends with the tab
         self.jobs = self.jobs_apart()
         self._own: Own | None = None
+        self._whose: viser.GuiHtmlHandle | None = None
 
     # The arm
 
@@ -135,6 +136,7 @@ class Page:
                 the tab itself says how they compare.
         """
         self._whose = self.html()
+        self.asking()
         self._own = Own(self.host.student, library, free, any_rows)
         return self._own
 
@@ -173,7 +175,9 @@ class Page:
 
     def _ended(self, error: Exception | None) -> None:
         """Say what stopped a job or a loop, and how the student's functions compare."""
-        if isinstance(error, NoAnswerError):
+        if self._own is not None and not self._own.fresh():
+            self.asking()  # what an older file answered is no news
+        elif isinstance(error, NoAnswerError):
             self._show_whose(str(error), "bad")
             self.host.lose()
         elif error is not None:
@@ -182,8 +186,14 @@ class Page:
             self._show_whose(*self._own.says())
         self.host.schedule()
 
+    def asking(self) -> None:
+        """Say that the student's functions are asked, and that no answer is known."""
+        if self._whose is not None:
+            self._show_whose("asking YOUR functions ...", "asking")
+
     def _show_whose(self, text: str, kind: str) -> None:
-        self._whose.content = words.judged(text, "whose", kind)
+        if self._whose is not None:
+            self._whose.content = words.judged(text, "whose", kind)
 
     # The widgets
 
