@@ -75,12 +75,14 @@ class Inspector:
         self.asks, self.checks = Jobs(), Jobs()
         self.lay_out(server.gui, about)
         self.scene, self.pointed = ArmScene(server, arm), Pointed(server, arm)
-        tabs: list[type[Tab]] = [Joints, Chain, *day.tabs, Tasks]
-        self.kinds = {kind.title: kind for kind in tabs}
+        # The day's own come first, and the first of them is open.
+        self.kinds = {kind.title: kind for kind in day.tabs}
+        for kind in (Joints, Chain, Tasks):
+            self.kinds.setdefault(kind.title, kind)
         self.kind: type[Tab] = Joints  # of the open tab
         self.tab: Tab  # the open one; a bare one where it failed to open
         self.page: Page | None = None  # what it made its widgets with
-        self.open_tab(Joints.title)
+        self.open_tab(next(iter(self.kinds)))
         self.listen(self.frame, lambda _: self.light_frame())
         self.listen(self.solid, lambda _: self.look())
         self.update()
@@ -239,6 +241,8 @@ class Inspector:
             self.tab = Tab(page)
             self.guarded(lambda: setattr(self, "tab", kind(page)))
             self.tell(self.q)
+            if self.version:  # else when the file has been opened
+                self.guarded(self.tab.begin)
         self.schedule()
 
     def leave(self) -> None:
@@ -319,6 +323,7 @@ class Inspector:
         if self.unchecked:
             self.unchecked = False
             self.tell(self.arm.q)  # whatever the open tab asks is asked again
+            self.guarded(self.tab.begin)
             self.schedule()
             if self.student.there:
                 self.checks.want(self.check, partial(self.judge, self.version))

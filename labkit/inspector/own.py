@@ -42,8 +42,10 @@ class Own:
         library: Any,
         free: Collection[str] = (),
         any_rows: Collection[str] = (),
+        units: Mapping[str, str] | None = None,
     ) -> None:
         """Ask nobody yet, see `Page.own`."""
+        self._units = units or {}
         self._free = {*free, *any_rows}
         self._any_rows = any_rows
         self._student = student
@@ -116,7 +118,11 @@ class Own:
 
     def says(self) -> tuple[str, str]:
         """Return whose functions were at work, and how they compare; its kind."""
-        wrong = [f"{name} by {x:.3g}" for name, x in self._apart.items() if x]
+        wrong = [
+            f"{name} by {x:.3g} {self._units.get(name, '')}".strip()
+            for name, x in self._apart.items()
+            if x
+        ]
         if wrong:
             return f"YOUR functions. Off the library's: {', '.join(wrong)}", "bad"
         lent = self._lent
@@ -124,9 +130,11 @@ class Own:
         theirs = f"the library's {', '.join(lent)} ({why})" if lent else ""
         if not self._apart:
             return f"At work: {theirs}" if theirs else "", "quiet"
-        names = ", ".join(self._apart)
-        judged = any(name not in self._free for name in self._apart)
-        text = f"YOUR {names}" + (": the same as the library's" if judged else "")
+        free = ", ".join(name for name in self._apart if name in self._free)
+        judged = ", ".join(name for name in self._apart if name not in self._free)
+        text = f"YOUR {judged}: the same as the library's" if judged else ""
+        if free:  # the tab itself says how far these are right
+            text = f"{text}; at work: {free}" if text else f"YOUR {free} at work"
         return f"{text}; besides {theirs}" if theirs else text, "good"
 
 

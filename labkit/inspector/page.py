@@ -123,7 +123,11 @@ class Page:
     # The student's functions, and what takes time
 
     def own(
-        self, library: Any, free: Collection[str] = (), any_rows: Collection[str] = ()
+        self,
+        library: Any,
+        free: Collection[str] = (),
+        any_rows: Collection[str] = (),
+        units: Mapping[str, str] | None = None,
     ) -> Own:
         """Return the student's functions; a line of the panel says how they compare.
 
@@ -134,10 +138,11 @@ class Page:
             free: names of functions that have more than one right answer.
             any_rows: of those whose answers may have any number of rows, such as ways;
                 the tab itself says how they compare.
+            units: of what the functions return, {name: unit}; none for plain numbers.
         """
         self._whose = self.html()
         self.asking()
-        self._own = Own(self.host.student, library, free, any_rows)
+        self._own = Own(self.host.student, library, free, any_rows, units)
         return self._own
 
     def jobs_apart(self) -> Jobs:
