@@ -132,8 +132,10 @@ class Desk:
         self.solid, self.legend = Paper(self.log, "solid"), Paper(self.log, "legend")
         self.simple, self.standing = True, Standing("")
         self.loops: list[Loop] = []
-        self.problem: Exception | None = None
-        with patch.multiple(page_module, Animation=self.loop, Jobs=Now):
+        self.problem: Exception | None = None  # what stopped a job or a loop
+        self.lost = 0  # how long the log was when no answer came last
+        self.tab: Any = None
+        with patch.multiple(page_module, Animation=self.loop, Jobs=self.jobs):
             self.page = page_module.Page(self, Sketch(self.log, "draw"))
             self.tab = kind(self.page)
         self.tab.on_move(self.q)
@@ -143,6 +145,15 @@ class Desk:
         """Make an animation."""
         self.loops.append(Loop(*given))
         return self.loops[-1]
+
+    def jobs(self, ended: Any) -> Now:
+        """Make a queue, which keeps what stopped a job."""
+
+        def told(error: Exception | None) -> None:
+            self.problem = error or self.problem
+            ended(error)
+
+        return Now(told)
 
     def listen(self, widget: Any, then: Any) -> Any:
         """Return a widget that nobody changes."""
@@ -158,7 +169,9 @@ class Desk:
 
     def lose(self) -> None:
         """Tell the tab that there is no answer."""
-        self.tab.lost()
+        if self.tab is not None:
+            self.tab.lost()
+        self.lost = len(self.log)
 
     def settle(self) -> None:
         """Have the arm be where it was moved to."""
@@ -178,6 +191,7 @@ class Desk:
                     loop.running = loop.step(k / loop.hz) is not False
                 except Exception as error:
                     loop.running = False
+                    self.problem = error
                     loop.changed(error)
                 self.settle()
 

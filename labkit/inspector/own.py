@@ -118,8 +118,9 @@ class Own:
 
     def says(self) -> tuple[str, str]:
         """Return whose functions were at work, and how they compare; its kind."""
+        units = self._units
         wrong = [
-            f"{name} by {x:.3g} {self._units.get(name, '')}".strip()
+            f"{name} by {x:.3g} {units.get(name, '')}".rstrip()
             for name, x in self._apart.items()
             if x
         ]

@@ -282,7 +282,8 @@ class Page:
             unit: behind the numbers.
             title: above.
             kind: "both" from zero to both sides; "up" from the left, for what is never
-                negative; "scale" too, and its end is no limit: nothing turns red.
+                negative; "scale" too, and its end is no limit: nothing turns red;
+                "signed" is a scale to both sides.
         """
         full = np.broadcast_to(np.asarray(limits, dtype=float), (len(labels),))
         return Bars(self.html(), labels, full, unit, title, kind)

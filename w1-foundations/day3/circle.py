@@ -64,7 +64,7 @@ class Circle(Tab):
         super().__init__(page)
         self.arm = panda.arm(page.model)
         self.limits = page.model.jnt_range[:7]
-        units = {"pose_error": "rad or m", "dls_step": "rad/s"}
+        units = {"pose_error": "(rad or m)", "dls_step": "rad/s"}
         self.own = page.own(jacobian, units=units)
         page.slider("radius", 0.3, 0.4, RADIUS, self.turn, unit="m", step=0.005)
         page.buttons([DRAW, AGAIN], self.press)

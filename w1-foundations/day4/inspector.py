@@ -29,7 +29,7 @@ LENGTH = 0.02  # metres of an arrow per newton
 SAME = 1e-6  # kg m2 of an entry of M
 UNITS = {
     "gravity_torque": "N m", "mass_matrix": "kg m2",
-    "link_inertias": "kg, kg m or kg m2",
+    "link_inertias": "(kg, kg m or kg m2)",
 }  # fmt: skip
 
 

@@ -29,8 +29,8 @@ HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
 CHATTER = 0.2  # of the torques: so often a motor goes from limit to limit
 UNITS = {
     **dict.fromkeys(("pd_torque", "gravity_pd", "computed_torque", "saturate"), "N m"),
-    "gains": "1/s2 or 1/s", "error_response": "of the first error",
-    "stiffest_omega": "rad/s", "pid_step": "rad/s2 or rad s",
+    "gains": "(1/s2 or 1/s)", "error_response": "of the first error",
+    "stiffest_omega": "rad/s", "pid_step": "(rad/s2 or rad s)",
 }  # fmt: skip
 Law = Callable[..., Array]
 
@@ -111,8 +111,9 @@ class Control(Tab):
         self.kp_kd = np.zeros(2)
         self.limits = simulate.limits(self.models[0])[1]
         steps = simulate.steps_per_period(self.models[0], RATE)
-        self.held = float(self.models[0].opt.timestep), steps
-        self.stiffest = np.inf
+        h = float(self.models[0].opt.timestep)
+        self.breaks_at = float(control.stiffest_omega(h, steps))
+        self.stiffest = np.nan  # the student's, of a step of 4 ms
         self.own = page.own(control, units=UNITS)
         self.ghost = page.draw.ghost("blue")
         page.choice("controller", list(LAWS), self.choose)
@@ -141,20 +142,22 @@ class Control(Tab):
     def say_stiffest(self, stiffest: float) -> None:
         """Say from which omega on the loop breaks, by the student's function."""
         self.stiffest = stiffest
-        right = float(control.stiffest_omega(*self.held))
-        broken = self.omega > right and self.law not in (springs, with_gravity)
-        says = f"a torque every 4 ms: your stiffest_omega is {stiffest:.0f} rad/s"
+        right = float(control.stiffest_omega(1.0 / RATE))
+        broken = self.omega > self.breaks_at and self.law not in (springs, with_gravity)
         wrong = abs(stiffest - right) > SAME * right
+        says = (
+            f"a loop with a torque every 4 ms breaks at {int(self.breaks_at)} rad/s; "
+            f"your stiffest_omega of one step of 4 ms says {stiffest:.0f}"
+        )
         if wrong:
             says += f", the library's {right:.0f}"
-        says += "; your omega is stiffer" if broken else ""
         kind = "bad" if broken or wrong else ""
         self.breaks.content = words.line(says, "stiffest", kind)
 
     def on_move(self, q: Array) -> None:
         """Ask from which omega on the loop breaks, once for a file."""
         if self.asked_of != self.own.version or not self.own.fresh():
-            self.page.job(lambda: self.own.stiffest_omega(*self.held), self.heard)
+            self.page.job(lambda: self.own.stiffest_omega(1.0 / RATE), self.heard)
 
     def heard(self, stiffest: Array) -> None:
         """Keep the student's stiffest omega."""

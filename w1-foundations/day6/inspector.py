@@ -28,8 +28,8 @@ PRESS = 20.0  # N, on the table
 MOST = 60.0  # N, where the bar of the table's force ends
 LONG = 0.04  # metres of the ellipsoid's half axis per root of a kilogram
 UNITS = {
-    "task_inertia": "kg, kg m or kg m2", "critical_damping": "N s/m or N m s/rad",
-    "null_torque": "N m", "spring_wrench": "N or N m", "impedance_torque": "N m",
+    "task_inertia": "(kg, kg m or kg m2)", "critical_damping": "(N s/m or N m s/rad)",
+    "null_torque": "N m", "spring_wrench": "(N or N m)", "impedance_torque": "N m",
 }  # fmt: skip
 AGAIN, LET_GO, READY = "start / stop", "let go", "press the table"
 

@@ -25,10 +25,11 @@ GOAL_Q = np.array([0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6])  # the lab's
 QUINTIC, TRAPEZOID = "quintic", "trapezoid"
 PLAY, PICK, STOP = "play / stop", "pick it", "stop"
 ARM = slice(0, 7)
+LATE = 1e-9  # of the time
 COUNT = 60  # instants that the student's functions are asked for
 TODAY, ALL = "of today", "of all days"
-UNITS = {"quintic_duration": "s", "joint_move": "rad, rad/s or rad/s2",
-         "trapezoid": "of the way, or per s or s2", "heaviest_cube": "kg",
+UNITS = {"quintic_duration": "s", "joint_move": "(rad, rad/s or rad/s2)",
+         "trapezoid": "(of the way, or per s or s2)", "heaviest_cube": "kg",
          "grasp_pose": "in one entry", "straight_pose": "in one entry",
          "carry": "in one entry"}  # fmt: skip
 
@@ -101,7 +102,9 @@ class Plan(Tab):
             return T, moves[:, 0], moves[:, 1]
         top, ramp = self._top(dq)
         T = 1.0 / top + ramp
-        calls = [("trapezoid", float(t), 1.0, top, top / ramp) for t in s * T]
+        # A little late: the acceleration jumps at the start and at the end.
+        late = np.clip(s, LATE, 1.0 + LATE) * T
+        calls = [("trapezoid", float(t), 1.0, top, top / ramp) for t in late]
         part = np.array(self.own.many(*calls))
         return T, q0 + dq * part[:, :1], dq * part[:, 1:2]
 
@@ -230,7 +233,10 @@ class Pick(Tab):
         if i < len(done.t) - 1:
             return True
         kind = "bad" if done.failed else "good"
-        self.page.say(f"placed {done.place_mm:.1f} mm from its goal{self.mine}", kind)
+        self.page.say(
+            f"placed {done.place_mm:.1f} mm from its goal; the grip can lift "
+            f"{done.heaviest:.2f} kg, by heaviest_cube{self.mine}", kind
+        )  # fmt: skip
         return False
 
 
