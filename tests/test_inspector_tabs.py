@@ -16,12 +16,15 @@ pytest.importorskip("viser", reason="the extra view")
 from tabs_on_paper import Desk, Paper, same
 
 from conftest import load_script
+from labkit.base.exchange import Path
 from labkit.inspector import words
+from labkit.inspector.arm import Arm
 from labkit.inspector.common_tabs import Joints
 from labkit.inspector.ghost import compare
 from labkit.inspector.own import NoAnswerError
 from labkit.inspector.tab import day_tabs
 from labkit.lesson.day import day_numbers, find_day
+from robo47 import panda
 
 pytestmark = pytest.mark.kit
 
@@ -32,7 +35,10 @@ SHOWN = {
     (3, "Jacobian"): "space_jacobian site_jacobian manipulability null_step solve_ik",
     (3, "Circle"): "pose_error dls_step",
     (4, "Forces"): "link_inertias mass_matrix gravity_torque",
-    (5, "Control"): "pd_torque gains error_response gravity_pd computed_torque pid_step "
+    (
+        5,
+        "Control",
+    ): "pd_torque gains error_response gravity_pd computed_torque pid_step "
     "saturate stiffest_omega",
     (6, "Touch"): "task_inertia null_torque spring_wrench critical_damping "
     "impedance_torque",
@@ -73,17 +79,24 @@ DONE = {
     (7, "Pick"): [lambda tab: tab.done and tab.replay(99.0)],
     (9, "Feel"): [push],
     (11, "Near"): [lambda tab: tab.press("push, slowed")],
+    (13, "Best"): [lambda tab: (tab.sets("share")(0.3), tab.press("draw"))],
     (14, "Touch"): [
         lambda tab: tab.sets("feels")(True), lambda tab: tab.press("learn a round"),
         lambda tab: tab.press("try 20 cubes"),
     ],
 }  # fmt: skip
-PICTURES = {(13, "Best"): 90}  # of a loop that is played; else 8
+PICTURES = 8  # of a loop that is played
 SIGNS = {  # where a sign in front of everything is no mistake
     "path_dynamics": lambda rows: rows * [[1], [1], [-1]],
+    "extend": lambda found: (found[0], found[1] * [-1, 1], found[2]),
     "projection_jacobian": lambda J: J * [-1, -1, -1, 1, 1, 1],
 }
-BOTH = [(*tab, name) for tab, names in SHOWN.items() for name in names.split()]
+BOTH = [
+    (*tab, name)
+    for tab, names in SHOWN.items()
+    for name in names.split()
+    if tab != (7, "Pick") or name not in SHOWN[7, "Plan"]  # a pick takes a second
+]
 
 
 def negative(value):
@@ -111,13 +124,12 @@ def looked(number, title, functions):
     drawn = lambda page, *_: Paper(page.host.log, "robot")  # noqa: E731
     with patch.object(module, "Robot", drawn, create=True):
         desk = Desk(number, kind, functions)
-    pictures = PICTURES.get((number, title), 8)
     desk.tab.begin()
-    desk.play(pictures)
+    desk.play(PICTURES)
     for action in DONE.get((number, title), ()):
         action(desk.tab)
         desk.settle()
-        desk.play(pictures)
+        desk.play(PICTURES)
     return desk
 
 
@@ -165,6 +177,12 @@ def test_the_same_functions_show_the_same():
         assert same(again.log, right(number, title).log)
 
 
+def test_a_pick_ends_with_how_far_off_the_cube_stands():
+    shown = right(7, "Pick").seen
+    assert "placed 0.9 mm from its goal" in shown
+    assert "carry" in str(right(7, "Pick").tab.done.phases)
+
+
 def stops(*given):
     """Stop as a typing mistake does."""
     raise ZeroDivisionError
@@ -175,30 +193,39 @@ def no_number(*given):
     return np.full(3, np.nan)
 
 
-@pytest.mark.parametrize("wrong", [stops, no_number])
-@pytest.mark.parametrize(("number", "title"), SHOWN)
-def test_a_tab_without_answers_shows_no_green(number, title, wrong):
-    names = SHOWN[number, title].split()
-    desk = looked(number, title, {**lab(number), **dict.fromkeys(names, wrong)})
+@pytest.mark.parametrize(
+    ("number", "title"), [tab for tab in SHOWN if tab[1] != "Pick"]
+)
+def test_a_tab_without_answers_shows_no_green(number, title):
+    desk = looked(number, title, lab(number))
+    wrong = stops if number % 2 else no_number
+    desk.save({**lab(number), **dict.fromkeys(SHOWN[number, title].split(), wrong)})
+    desk.play(2)
     assert isinstance(desk.problem, NoAnswerError)
-    assert "r47-good" not in str(desk.log)
-    after = desk.log[desk.lost :]
-    assert "library" not in str(after)
+    assert "r47-good" not in desk.seen
+    desk.save(lab(number))
+    desk.play(PICTURES)
+    assert desk.problem is None
+    assert desk.whose[1] == "good"
+    assert "r47-bad" not in desk.seen
 
 
 @pytest.mark.parametrize("number", [1, 2])
 def test_a_sign_in_the_chain_changes_the_tab_joints(number):
-    desk = Desk(number, kind_of(number, "Order" if number == 1 else "Screws"), {})
+    arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
     ghost = day_tabs(find_day(number)).ghost
-    asked = ghost.questions(desk.arm.model, desk.q)
+    asked = [
+        [list(one.pairs) if isinstance(one, Path) else one for one in given]
+        for given in ghost.questions(arm.model, arm.q)
+    ]
     shown = []
     for sign in (1, -1):
         poses = {
             name: sign * lab(number)[ghost.function](*args)
             for name, args in zip(ghost.frames, asked, strict=True)
         }
-        seen = compare(ghost, poses, "", desk.arm.poses_at(desk.q))
-        shown.append((seen.sentence, words.proof(desk.arm, "ee", seen, True)))
+        seen = compare(ghost, poses, "", arm.poses_at(arm.q))
+        shown.append((seen.sentence, words.proof(arm, "ee", seen, True)))
     (right, proof), (wrong, proof_wrong) = shown
     assert "agrees" in right
     assert "off by" in wrong

@@ -166,7 +166,11 @@ def says_of(this: Step, number: int, of: int, whole: bool) -> str:
     product = f"T_world_{this.link}" + ("" if whole else " with its joint still at 0")
     marked, mark = this.moves, "moves"
     if this.off is not None and this.off.any():
-        about, marked, mark = "marked is what the library's has otherwise", this.off, "off"
+        about, marked, mark = (
+            "marked is what the library's has otherwise",
+            this.off,
+            "off",
+        )
     return (
         words.line(f"factor {number} of {of}, {this.name}: {about}", "step")
         + words.matrix("so far", this.before, "before")

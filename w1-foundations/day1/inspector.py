@@ -149,7 +149,10 @@ class Order(Tab):
         }
         self.page.matrix(self.result, f"T_extra on the {name}", T)
         self.page.say(says[self.side])
-        off = [np.linalg.norm(p_right - right[:3, 3]), np.linalg.norm(p_left - left[:3, 3])]
+        off = [
+            np.linalg.norm(p_right - right[:3, 3]),
+            np.linalg.norm(p_left - left[:3, 3]),
+        ]
         told = " and ".join(f"{1000 * mm:.1f} mm" for mm in off)
         kind = "good" if max(off) < AGREES else "bad"
         text = f"your predict_order is {told} off, for right and left"

@@ -133,7 +133,9 @@ class Jacobian(Tab):
         metres, rad = se3.pose_distance(hand, T_goal)
         out = bool(np.any((q < self.limits[:, 0]) | (q > self.limits[:, 1])))
         kind = "good" if np.hypot(metres, rad) < REACHED and not out else "bad"
-        says = f"the hand is {1000 * metres:.2f} mm and {rad:.4f} rad short of the target"
+        says = (
+            f"the hand is {1000 * metres:.2f} mm and {rad:.4f} rad short of the target"
+        )
         says += "; OUT OF LIMITS" if out else ""
         self.numbers.content = words.line(says, "reached", kind)
 
