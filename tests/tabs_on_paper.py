@@ -1,7 +1,7 @@
-"""A tab without a server: all that it says and draws, kept in the order in which it came.
+"""A tab without a server: all that it says and draws, in the order in which it came.
 
-The page is the inspector's own; under it stands paper instead of viser. Jobs are done at
-once, loops are played by `play`. What is asked of the student is answered by functions.
+The page is the inspector's own; under it stands paper instead of viser. Jobs are done
+at once, loops are played by `play`. What is asked of the student functions answer.
 """
 
 from types import SimpleNamespace
@@ -13,10 +13,8 @@ import numpy as np
 from conftest import Answers
 from labkit.base.exchange import Reply
 from labkit.inspector import page as page_module
-from labkit.inspector import words
 from labkit.inspector.arm import Arm
 from labkit.inspector.common_tabs import Standing
-from labkit.inspector.ghost import compare
 from labkit.lesson.day import find_day
 from robo47 import panda
 
@@ -40,7 +38,8 @@ class Paper:
             return SimpleNamespace(uuid="000000")
         if name in ("position", "wxyz", "handle", "ball", "bodies", "value"):
             vars(self)[name] = {
-                "position": np.zeros(3), "wxyz": np.eye(4)[0], "bodies": {}, "value": "",
+                "position": np.zeros(3), "wxyz": np.eye(4)[0], "bodies": {},
+                "value": "",
             }.get(name, Paper(self.log, f"{self.name}.{name}"))  # fmt: skip
             return vars(self)[name]
         return lambda *args, **named: self.called(name, args, named)

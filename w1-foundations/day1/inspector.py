@@ -1,4 +1,4 @@
-"""Day 1 in the inspector: the student's `compose_fk` as a ghost; the tabs Chain and Order.
+"""Day 1 in the inspector: `compose_fk` as a ghost, and the tabs Chain and Order.
 
 Chain multiplies the student's own `link_T` and `joint_T`, factor by factor. Order makes
 T_extra of their `make_T` and `Rz`, and draws lines to where their `predict_order` puts

@@ -102,8 +102,8 @@ class Screws(Tab):
         self.spin(False)
         page.light(END, {END})
         page.legend({
-            "your arm, as far as it is applied": "purple", "the screw at work": "orange",
-            "your others": "grey", "YOURS, wrong": "red", "the library's": "black",
+            "your arm, as far as it is applied": "purple",
+            "the screw at work": "orange", "your others": "grey", "YOURS, wrong": "red", "the library's": "black",
         })  # fmt: skip
 
     def _ends(self, i: int) -> Array:
@@ -146,9 +146,9 @@ class Screws(Tab):
         return JOINTS - max(int(np.ceil(self.done)), 1)
 
     def on_move(self, q: Array) -> None:
-        """Ask for the arm with some exponentials applied, and the last one's numbers."""
-        done = self.done
-        self.page.job(lambda: (q, done, self.ask(q, self.at_work, done)), self.answered)
+        """Ask for the arm with some exponentials applied, and for the last one."""
+        done, i = self.done, self.at_work
+        self.page.job(lambda: (q, done, self.ask(q, i, done)), self.answered)
 
     def ask(self, q: Array, i: int, done: float) -> Part:
         """Return what the student's functions make of it; it waits for them."""

@@ -22,9 +22,9 @@ COLUMN, BALL = 0.35, 0.2  # metres drawn for 1 m/s per rad/s
 SAME, SHORT = 1e-7, 0.01  # of a column; metres of an arrow that is not drawn
 REACHED = 1e-3  # radians and metres together
 UNITS = {
-    "space_jacobian": "(rad/s or m/s per rad/s)", "site_jacobian": "(rad/s or m/s per rad/s)",
+    **dict.fromkeys(("space_jacobian", "site_jacobian"), "(rad/s or m/s per rad/s)"),
     "null_step": "rad/s",
-}  # fmt: skip
+}
 PART, MOST = 20, 0.25  # steps of the elbow; radians that its slider goes at once
 
 

@@ -1,8 +1,9 @@
 """Day 4 in the inspector: the tab Forces.
 
 A ball at each link's centre of mass; the student's own torques as bars, with marks
-where they should be; their own M, of their own link_inertias, as coloured cells; and the arm in a real simulation:
-let go, floating on their own gravity torque, or pushed. A wrong sign falls.
+where they should be; their own M, of their own link_inertias, as coloured cells; and
+the arm in a real simulation: let go, floating on their own gravity torque, or pushed. A
+wrong sign falls.
 """
 
 from functools import partial
