@@ -103,7 +103,8 @@ class Screws(Tab):
         page.light(END, {END})
         page.legend({
             "your arm, as far as it is applied": "purple",
-            "the screw at work": "orange", "your others": "grey", "YOURS, wrong": "red", "the library's": "black",
+            "the screw at work": "orange", "your others": "grey",
+            "YOURS, wrong": "red", "the library's": "black",
         })  # fmt: skip
 
     def _ends(self, i: int) -> Array:
