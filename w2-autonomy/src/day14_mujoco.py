@@ -19,14 +19,14 @@ HALF = 0.02  # m: the cube is 40 mm wide
 PAD_HALF = (0.0085, 0.004, 0.0085)  # m, the Panda's own finger pads
 OPEN = 0.04  # m, of each pad's face from the middle, before it closes
 SPRING = 200.0  # N/m of each finger: it presses with SPRING (HALF - opening)
-STEP = 0.002  # s of simulated time
-GRIP_TIME = 0.004  # s, two steps: the stiffest contacts that MuJoCo allows
+STEP = 0.01 / 3  # s of simulated time
+GRIP_TIME = 2 * STEP  # s: the stiffest contacts that MuJoCo allows
 ABOVE = 0.08  # m, where the hand starts
-DOWN = 0.2  # s: the hand is at its height, the pads begin to close ...
-CLOSED = 0.45  # ... s: they are closed, the hand begins to rise ...
+DOWN = 0.15  # s: the hand is at its height, the pads begin to close ...
+CLOSED = 0.4  # ... s: they are closed, the hand begins to rise ...
 RISE = 0.3  # s until it is up ...
-HOLD = 0.25  # ... s that it holds the cube there
-TICK = 5  # steps between two orders to hand and pads: 10 ms
+HOLD = 0.1  # ... s that it holds the cube there: what slips has slipped by then
+TICK = 3  # steps between two orders to hand and pads: 10 ms
 WARNINGS = (
     mujoco.mjtWarning.mjWARN_BADQPOS,
     mujoco.mjtWarning.mjWARN_BADQVEL,
@@ -116,18 +116,20 @@ def start(model, data, cube: Cube, action: Array) -> None:
         data.joint(finger).qpos[0] = OPEN
 
 
-def way(t: float, action: Array, opening: float, rise: float) -> tuple[float, float]:
-    """Return what hand and pads are told at a time: height and opening, m."""
-    if t < DOWN:
-        return action[3] + ABOVE * (1.0 - eased(t / DOWN)), OPEN
-    closing = eased((t - DOWN) / (0.8 * (CLOSED - DOWN)))
-    risen = eased((t - CLOSED) / rise)
-    return action[3] + action[5] * risen, OPEN + (opening - OPEN) * closing
+def way(action: Array, rise: float) -> tuple[Array, Array]:
+    """Return what is told every 10 ms: the height, m, and how far the pads close, 0..1.
+
+    Both (n,), from the start of an episode to its end.
+    """
+    t = STEP * TICK * np.arange(round((CLOSED + rise + HOLD) / STEP / TICK))
+    down = ABOVE * (1.0 - eased(t / DOWN))
+    up = action[5] * eased((t - CLOSED) / rise)
+    return action[3] + down + up, eased((t - DOWN) / (0.8 * (CLOSED - DOWN)))
 
 
-def eased(s: float) -> float:
+def eased(s: Array) -> Array:
     """Return a way from 0 to 1 that starts and ends at rest; it stays there."""
-    s = min(max(s, 0.0), 1.0)
+    s = np.clip(s, 0.0, 1.0)
     return s * s * (3.0 - 2.0 * s)
 
 
@@ -203,11 +205,10 @@ def episode(
     """Run an episode; yield the pads' opening, m, every 10 ms."""
     start(model, data, cube, action)
     opening = action[4]
-    for i in range(round((CLOSED + rise + HOLD) / STEP / TICK)):
-        t = i * STEP * TICK
-        if touch and t >= CLOSED:
+    for i, (told, closing) in enumerate(zip(*way(action, rise), strict=True)):
+        if touch and i * STEP * TICK >= CLOSED:
             opening = touch(opening, felt(model, data))
-        told, pads = way(t, action, opening, rise)
+        pads = OPEN + (opening - OPEN) * closing
         data.ctrl[:] = told, pads, pads
         mujoco.mj_step(model, data, TICK)
         yield opening
