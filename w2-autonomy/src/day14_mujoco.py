@@ -22,8 +22,8 @@ SPRING = 200.0  # N/m of each finger: it presses with SPRING (HALF - opening)
 STEP = 0.01 / 3  # s of simulated time
 GRIP_TIME = 2 * STEP  # s: the stiffest contacts that MuJoCo allows
 ABOVE = 0.08  # m, where the hand starts
-DOWN = 0.15  # s: the hand is at its height, the pads begin to close ...
-CLOSED = 0.4  # ... s: they are closed, the hand begins to rise ...
+DOWN = 0.1  # s: the hand is at its height, the pads begin to close ...
+CLOSED = 0.35  # ... s: they are closed, the hand begins to rise ...
 RISE = 0.3  # s until it is up ...
 HOLD = 0.1  # ... s that it holds the cube there: what slips has slipped by then
 TICK = 3  # steps between two orders to hand and pads: 10 ms
@@ -116,7 +116,7 @@ def start(model, data, cube: Cube, action: Array) -> None:
         data.joint(finger).qpos[0] = OPEN
 
 
-def way(action: Array, rise: float) -> tuple[Array, Array]:
+def way(action: Array, rise: float) -> tuple[np.ndarray, np.ndarray]:
     """Return what is told every 10 ms: the height, m, and how far the pads close, 0..1.
 
     Both (n,), from the start of an episode to its end.
@@ -127,13 +127,13 @@ def way(action: Array, rise: float) -> tuple[Array, Array]:
     return action[3] + down + up, eased((t - DOWN) / (0.8 * (CLOSED - DOWN)))
 
 
-def eased(s: Array) -> Array:
+def eased(s: np.ndarray) -> np.ndarray:
     """Return a way from 0 to 1 that starts and ends at rest; it stays there."""
     s = np.clip(s, 0.0, 1.0)
     return s * s * (3.0 - 2.0 * s)
 
 
-def at_pads(model, data) -> Array:
+def at_pads(model, data) -> np.ndarray:
     """Return which contacts are those of a pad and the cube, as of the last step."""
     geoms = data.contact.geom  # (n, 2): the cube is in every one, it meets all else
     return np.flatnonzero((geoms != model.geom("floor").id).all(axis=1))
