@@ -17,6 +17,7 @@ Exit code: 0 found or nothing to judge, 1 not yet, 2 it could not run.
 """
 
 import argparse
+import contextlib
 import secrets
 import sys
 from pathlib import Path
@@ -94,14 +95,15 @@ def _keep(script: Path) -> None:
         script.replace(script.with_suffix(".before.txt"))
 
 
-def leave(case: Case) -> None:
-    """Note that another hunt is begun before this one is over."""
-    if not case.runs + case.checks:
-        return  # nobody had looked yet
-    end(case, tally.LEFT)
-    level = f" LEVEL={case.level}" if case.level != 1 else ""
-    again = f"make hunt DAY={case.day}{level} SEED={case.seed}"
-    print(f"Left: the hunt of day {case.day}. Anew: {again}\n")
+def leave(day: Day) -> None:
+    """Note that a hunt of this week that is not over makes room for another."""
+    with contextlib.suppress(Robo47Error):  # a broken file: nothing is known of it
+        case = cases.read(cases.folder_of(day))
+        if case and not case.ended and case.runs + case.checks:
+            end(case, tally.LEFT)
+            level = f" LEVEL={case.level}" if case.level != 1 else ""
+            again = f"make hunt DAY={case.day}{level} SEED={case.seed}"
+            print(f"Left: the hunt of day {case.day}. Anew: {again}\n")
 
 
 def end(case: Case, how: str, innocent: tuple[str, ...] = ()) -> None:
@@ -227,18 +229,19 @@ def give_up(case: Case) -> int:
     return conclude(False, f"{how}; {count(case.runs, 'run')}")
 
 
-def chosen(options: argparse.Namespace) -> tuple[Case | None, Day | None]:
-    """Return the hunt that goes on, or None, and the day of one to begin, or None."""
-    day = None if options.day is None else chosen_day(options.day)
+def going_on(options: argparse.Namespace) -> Case | None:
+    """Return the hunt that a command line means; None where one is to begin."""
     if options.anew:
-        return None, day or chosen_day(None)
-    case = cases.read(cases.folder_of(day)) if day else cases.latest()
+        return None
+    given = options.day is not None
+    case = cases.read(cases.folder_of(chosen_day(options.day))) if given else None
+    case = case if given else cases.latest()
+    if case is None or case.ended:
+        return None
     asked = (options.day, options.level, options.seed)
-    if case and not case.ended:
-        now = (case.day, case.level, case.seed)
-        if all(a in (None, b) for a, b in zip(asked, now, strict=True)):
-            return case, None
-    return case, day or chosen_day(None)
+    now = (case.day, case.level, case.seed)
+    same = all(a in (None, b) for a, b in zip(asked, now, strict=True))
+    return case if same else None
 
 
 def go_on(case: Case, options: argparse.Namespace) -> int:
@@ -275,17 +278,14 @@ def main() -> int:
     options = parse()
     if options.write_seen:
         return write_seen(chosen_day(options.day))
-    case, day = chosen(options)
-    if case and not day:
+    if case := going_on(options):
         return go_on(case, options)
-    assert day is not None
-    if any(
-        (options.run, options.call, options.suspect, options.judge, options.give_up)
-    ):
+    doing = (options.run, options.call, options.suspect, options.judge, options.give_up)
+    if any(doing):
         raise Robo47Error("no such hunt is begun: make hunt DAY=4 begins one")
+    day = chosen_day(options.day)
     new = draw(day, options)
-    if case and not case.ended:
-        leave(case)
+    leave(day)
     begin(new)
     tell(new)
     return cli.EXIT_OK

@@ -12,6 +12,7 @@ from itertools import zip_longest
 from typing import Any
 
 from labkit.base import cli
+from labkit.base.text import count
 from labkit.hunt.case import Case
 
 LEFT, RIGHT = 32, 42  # columns of what was expected and of what the run says
@@ -77,8 +78,7 @@ def beside(expected: str, lines: list[str]) -> str:
         says += textwrap.wrap(f"FAIL  {check}", RIGHT, subsequent_indent="      ")
     if len(failing) > SHOWN:
         says.append(f"and {len(failing) - SHOWN} more FAIL")
-    passing = len(found) - len(failing)
-    says += [f"{passing} others PASS" if failing else f"all {passing} PASS"]
+    says.append(f"{count(len(found) - len(failing), 'check')} PASS")
     if not found:  # a capstone: its two rows are the last lines
         says = ["its rows above: these functions,", "and below them the right ones"]
     hoped = textwrap.wrap(expected or "(nothing said)", LEFT)
