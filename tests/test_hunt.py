@@ -15,6 +15,8 @@ from labkit.hunt.script import closed_capstone, closed_lab, is_closed, opened
 from labkit.judge.row import rows_of
 from labkit.lesson.day import all_days, days_of, find_day
 from labkit.lesson.starter import function_lines, put_back
+from labkit.report.page import render
+from labkit.report.series import Report
 from robo47.errors import Robo47Error
 
 HUNT = "scripts/hunt_bug.py"
@@ -85,6 +87,8 @@ def test_rows_of_hunts_add_up_to_found_and_named():
         assert rows[-1]["n_failures"] == len({"ad", "energy"} - {name})
         assert (name in rows[-1]["notes"]) == (end != tally.LEFT)
     assert tally.tally(rows) == "found 1 of 4 in 10 runs, named 1 more"
+    page = render(Report([], hunts=[{**row, "date": "2026-11-27"} for row in rows]), "")
+    assert "<p>found 1 of 4 in 10 runs, named 1 more</p>" in page
     assert tally.tally([{"check": "fk_by_hand", "notes": "found", "value": 1.0}]) == ""
 
 

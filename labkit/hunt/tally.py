@@ -1,10 +1,14 @@
 """The log's rows of hunts, and what they add up to: "found 5 of 6 in 14 runs"."""
 
+from __future__ import annotations  # a report reads rows without a catalogue
+
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from labkit.base.text import count
-from labkit.hunt.case import Case
+
+if TYPE_CHECKING:
+    from labkit.hunt.case import Case
 
 CHECK = "hunt"  # of a row in the log
 METRIC = "runs"

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
+from labkit.hunt.tally import ending
 from labkit.lesson.day import Day
 from labkit.lesson.metric import Metric
 from labkit.lesson.writers import Writers, mark_of
@@ -111,6 +112,7 @@ class Report:
     series: list[Series]
     look: list[Line] = field(default_factory=list)  # lines that need one
     rows: int = 0
+    hunts: list[Row] = field(default_factory=list)  # bug hunts that ended
 
     def count(self, status: str) -> int:
         """Return how many series have that status."""
@@ -178,6 +180,9 @@ def collect(
             if check not in ("", row["check"]):
                 continue
             report.rows += 1
+            if ending(row):
+                report.hunts.append(row)
+                continue
             key = _key(row, asked)
             if key not in found:
                 found[key] = Series(key[0], Metric(*key[1:]))
