@@ -10,7 +10,7 @@ from restored import Restored
 from conftest import copy_kit
 from labkit import log as metrics
 from labkit.hunt import case as cases
-from labkit.hunt import experiment, quarry, tally, written
+from labkit.hunt import experiment, quarry, tally
 from labkit.hunt.script import closed_capstone, closed_lab, is_closed, opened
 from labkit.judge.row import rows_of
 from labkit.lesson.day import all_days, days_of, find_day
