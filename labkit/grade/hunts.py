@@ -57,6 +57,7 @@ class Hunter:
     innocent: Sequence[str] = ()  # right functions that were written anew
     odd: Sequence[str] = ()  # what contradicts the script
     said: str = ""  # what the checker says of a repair that is not right
+    wrong: int = 0  # functions that were right, and suspected or written anew
 
 
 @dataclass(frozen=True)
@@ -131,18 +132,20 @@ def _hunter(
     told = said.suspected[:MOST]
     suspected = [(visible(f, 60), visible(text, WORDS)) for f, text in told]
     named = case.guilty <= {function for function, _ in suspected}
+    anew = [r.function for r in repaired]
     state = FOUND if named else REPAIRED
     state = state if found else NAMED if named else NOT_FOUND
-    wrong = [r for r in repaired if r.guilty and r.verdict.status != "passed"]
+    bad = [r for r in repaired if r.guilty and r.verdict.status != "passed"]
     return Hunter(
         student,
         state,
         runs=said.runs,
         checks=said.checks,
         suspected=suspected,
-        innocent=[r.function for r in repaired if not r.guilty],
+        innocent=[name for name in anew if name not in case.guilty],
         odd=list(_odd(case, said, _rows(hunt, files.log), found)),
-        said=" ".join(f"{r.function}: {r.verdict.message}" for r in wrong),
+        said=" ".join(f"{r.function}: {r.verdict.message}" for r in bad),
+        wrong=len(({f for f, _ in suspected} | {*anew}) - case.guilty),
     )
 
 
@@ -186,6 +189,7 @@ def columns(hunters: Sequence[Hunter]) -> list[dict[str, str | int | None]]:
             "state": one.state,
             "runs they say": one.runs,
             "checks they say": one.checks,
+            "wrong suspicions": one.wrong,
             "suspected": ", ".join(function for function, _ in one.suspected),
             "written anew for nothing": ", ".join(one.innocent),
             "look at": "; ".join(one.odd),

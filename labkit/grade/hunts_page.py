@@ -28,6 +28,7 @@ ROLES = {
     NO_HUNT: "none",
     UNGRADED: "dark",
 }
+HEAD = ("name", "how it stands", "runs", "checks", "wrong", "suspected", "besides")
 ABOUT = (
     "Judged here, by the committed script. Whom they suspected and how many runs they "
     "took is their own word: a file that anybody can edit."
@@ -116,10 +117,7 @@ def _odd(hunters: Sequence[Hunter]) -> str:
 
 
 def _everyone(hunters: Sequence[Hunter]) -> str:
-    head = "".join(
-        f"<th>{name}</th>"
-        for name in ("name", "how it stands", "runs", "checks", "suspected", "besides")
-    )
+    head = "".join(f"<th>{name}</th>" for name in HEAD)
     rows = []
     for one in hunters:
         besides = one.why or one.said
@@ -130,6 +128,7 @@ def _everyone(hunters: Sequence[Hunter]) -> str:
             f'<span class="{ROLES[one.state]}">{one.state}</span>',
             str(one.runs or "–"),
             str(one.checks or "–"),
+            str(one.wrong or "–"),
             escape(", ".join(function for function, _ in one.suspected) or "–"),
             escape(besides),
         )
