@@ -4,11 +4,14 @@ import ast
 import json
 import re
 
+import make_hunters
 import pytest
 from restored import Restored
 
 from conftest import copy_kit
 from labkit import log as metrics
+from labkit.grade import hunts, hunts_page
+from labkit.grade.roster import find_students
 from labkit.hunt import case as cases
 from labkit.hunt import experiment, quarry, tally
 from labkit.hunt.script import closed_capstone, closed_lab, is_closed, opened
@@ -215,3 +218,31 @@ class TestTheCommand:
         assert done.returncode == 2
         assert says in done.stderr
         assert "Traceback" not in done.stderr
+
+
+@pytest.mark.kit
+def test_a_class_is_graded_by_its_scripts_and_not_by_its_word(tmp_path):
+    make_hunters.make(tmp_path)
+    hunt = hunts.Hunt(make_hunters.DAY, make_hunters.LEVEL, make_hunters.SEED)
+    class_ = list(hunts.grade(hunt, find_students(tmp_path)))
+    assert {one.student.name: one.state for one in class_} == {
+        "another-seed": hunts.NO_HUNT,
+        "broken": hunts.UNGRADED,
+        "found-0": hunts.FOUND,
+        "found-second-0": hunts.FOUND,
+        "gave-up-0": hunts.NOT_FOUND,
+        "log-edited-0": hunts.NOT_FOUND,
+        "marks-edited-0": hunts.NOT_FOUND,
+        "named-only-0": hunts.NAMED,
+        "no-git": hunts.NO_HUNT,
+        "nothing": hunts.NO_HUNT,
+        "repaired-only-0": hunts.REPAIRED,
+        "runs-edited-0": hunts.FOUND,
+    }
+    odd = {one.student.name: one.odd for one in class_ if one.odd}
+    assert set(odd) == {"log-edited-0", "marks-edited-0", "runs-edited-0"}
+    assert odd["runs-edited-0"] == ["the log says 1 runs, hunt.json 4"]
+    page = hunts_page.render(hunt, class_)
+    assert "the committed script does not repair it" in page
+    late = list(hunts.grade(hunt, find_students(tmp_path), deadline=1_000_000_000))
+    assert {one.state for one in late} == {hunts.NO_HUNT}

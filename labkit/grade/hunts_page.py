@@ -130,7 +130,7 @@ def _everyone(hunters: Sequence[Hunter]) -> str:
             str(one.checks or "–"),
             str(one.wrong or "–"),
             escape(", ".join(function for function, _ in one.suspected) or "–"),
-            escape(besides),
         )
-        rows.append(f"<tr>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>")
+        inner = "".join(f"<td>{cell}</td>" for cell in cells)
+        rows.append(f"<tr>{inner}<td class=note>{escape(besides)}</td></tr>")
     return html.section("Everyone", html.table(head, rows, "card scroll all"))
