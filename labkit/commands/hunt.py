@@ -116,7 +116,8 @@ def end(case: Case, how: str, innocent: tuple[str, ...] = ()) -> None:
 
 def tell(case: Case) -> None:
     """Say how a hunt stands, and what one can do."""
-    print(f"Day {case.day}, level {case.level}: {LEVELS[case.level]}. Seed {case.seed}")
+    head = f"Day {case.day}, level {case.level}: {LEVELS[case.level]}. Seed {case.seed}"
+    print(cli.wrapped(head, "  "))
     print(f"  {shown(case.script)}")
     done = f"{count(case.runs, 'run')}, {count(case.checks, 'check')} so far"
     print(f"  {done}")

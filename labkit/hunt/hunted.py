@@ -81,6 +81,8 @@ class Hunted:
     def _function(self, name: str, script: Mapping[str, Any]) -> Any:
         if not self._labs:
             self._begin(script)
+        if name not in self._owner:
+            raise Robo47Error(f"this kit has no {name}: make hunt ARGS=--anew")
         return vars(self._labs[self._owner[name]])[name]
 
     def _begin(self, script: Mapping[str, Any]) -> None:
