@@ -340,7 +340,7 @@ class TestTheEngine:
     def test_believes_no_worker_that_lies(self, answer):
         assert "is no result of the day" in self.told(answer=answer)
 
-    @pytest.mark.parametrize("fact", [{"seed": 10**5000}, {"kit": "=1\n\ud800"}])
+    @pytest.mark.parametrize("fact", [{"seed": 10**5000}, {"kit": "=1\n"}])
     def test_takes_kit_and_seed_from_no_worker(self, fact):
         answer = asdict(replace(ungraded(DAY, ""), **fact))
         liar = engine.Engine(Stubborn(answer=answer), lambda: 1)
@@ -818,7 +818,16 @@ class TestWhatDoesNotShow:
         assert similar.hidden([RZ], [("turned", "Rz")]) == []
 
     @pytest.mark.parametrize(
-        "text", ["exec(x)", "\uff45xec(x)", "builtins.exec", "__builtins__[y]"]
+        "text",
+        [
+            "exec(x)",
+            "\uff45xec(x)",
+            "builtins.exec",
+            "__builtins__[y]",
+            "getattr(print, '__self__')",
+            "class E:\n    def __reduce__(self): return x",
+            "code.InteractiveInterpreter().runsource(x)",
+        ],
     )
     def test_is_a_text_that_runs_as_code(self, text):
         (says,) = similar.hidden([f"{RZ}\n{text}"], [("Rz",)])[:1]
@@ -951,6 +960,8 @@ def test_bars_fill_their_line_and_escape_their_words():
             "read as (x, y, z, w) – here w is first",
         ),
         ("; =1+1", "– =1+1"),
+        ("＝1+1", "'＝1+1"),
+        ("﹦1+1", "'﹦1+1"),
         ("\ud800", "\\ud800"),
         ("Zoë", "Zoë"),
     ],

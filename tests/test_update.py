@@ -505,6 +505,26 @@ def test_what_it_says_of_the_clone_is_true_where_it_stops(kit, student):
     whole(student)
 
 
+def test_a_folder_that_may_not_be_written_is_named_and_not_ours_beside_it(kit, student):
+    mid_term(kit)
+    before = state(student)
+    code = (
+        "import sys; sys.argv = ['update.py']\nfrom pathlib import Path\n"
+        "from labkit.base import cli\nfrom labkit.commands import update\n"
+        "replace = Path.replace\n"
+        "def no(self, to):\n"
+        "    if to.name != 'day1.md' or '.robo47' not in str(self):\n"
+        "        return replace(self, to)\n"
+        "    Path.replace = replace\n"
+        "    raise PermissionError(13, 'Permission denied', str(self), None, str(to))\n"
+        "Path.replace = no\ncli.run(update.main)\n"
+    )
+    done = run_copy(student, "-c", code)
+    assert f"student/{SHEET} cannot be written: Permission denied" in done.stderr
+    assert "Nothing of yours has changed." in done.stderr
+    assert state(student) == before
+
+
 @pytest.mark.skipif(os.name == "nt", reason="a shell script stands in for a hook")
 def test_a_hook_of_the_students_stops_no_update(kit, student):
     """Git LFS brings such a one, which fails where LFS is not installed."""

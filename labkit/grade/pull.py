@@ -253,5 +253,4 @@ def _run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[Any]:
         seconds=SECONDS,
         largest=git.LARGEST_GIT,
         GIT_ALLOC_LIMIT=git.LARGEST_OBJECT,
-        GIT_LFS_SKIP_SMUDGE="1",
     )

@@ -18,7 +18,6 @@ import time
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from operator import methodcaller
 from pathlib import Path
 from typing import Any
 
@@ -174,7 +173,7 @@ class Sandbox:
             process.close()
             raise
         alive = [session for session in self._sessions if session.alive]
-        back = self._keep if brief else methodcaller("close")
+        back = self._keep if brief else Process.close
         session = Session(process, limits, back, deadline or Deadline(math.inf))
         self._sessions = [*alive, session]
         if not brief:
@@ -199,8 +198,7 @@ class Sandbox:
         same = all(had[name] == request[name] for name in _SAME)
         if same and request["added"].startswith(had["added"]):  # it forgets no code
             more = [model for model in request["models"] if model not in had["models"]]
-            told = {"added": request["added"], "keep": request["keep"], "models": more}
-            process.ask([{"function": "", "args": [], "again": told}])
+            process.ask([_anew(request["added"], request["keep"], more)])
             with contextlib.suppress(EndedError, FaultError):
                 process.next(LOAD_SECONDS)
                 process.told = {**request, "models": had["models"] + more}
@@ -308,8 +306,7 @@ class _Rounds:
         """Ask all of them in both rounds, or until the process ends."""
         questions = [exchange.question for exchange in self.left]
         calls = messages.pack(questions, process.told["models"])
-        anew = {"function": "", "args": [], "anew": True}  # what the file kept is gone
-        process.ask([*calls, anew, *reversed(calls)])
+        process.ask([*calls, _anew(process.told["added"]), *reversed(calls)])
         self._listen(process, self.left, self.first)
         if not self.ended:
             self._reload(process)
@@ -375,6 +372,12 @@ class _Rounds:
                 exchange.reply = twice(once, once) if once else why
             elif exchange.question.task in waiting:
                 exchange.reply = Reply(error=f"task {culprit}", kind="waits")
+
+
+def _anew(added: str, keep: bool = True, models: Sequence[Any] = ()) -> dict[str, Any]:
+    """Return a call that loads the file anew: what it kept is gone, and its answers."""
+    told = {"added": added, "keep": keep, "models": models}
+    return {"function": "", "args": [], "anew": told}
 
 
 def _next(process: Process, seconds: float, deadline: Deadline) -> dict[str, Any]:

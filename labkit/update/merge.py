@@ -55,14 +55,15 @@ def saved_own() -> str:
         try:
             shutil.copyfile(own, index)
         except OSError as error:
-            raise Robo47Error(f"{own}: {error.strerror}") from None
+            says = f"{error.filename}: {error.strerror}"
+            raise Robo47Error(says) from None
         ask("add", "-u", index=index)
         ask("add", "--", *there, may_fail=True, index=index)
         tree = ask("write-tree", index=index)
     if tree == ask("rev-parse", "HEAD^{tree}"):
         return ask("rev-parse", "HEAD")
-    says = ("-p", "HEAD", "-m", "My work before the update", tree)
-    return ask(*as_whom(ROOT), "commit-tree", *says)
+    commit = ("commit-tree", "-p", "HEAD", "-m", "My work before the update", tree)
+    return ask(*as_whom(ROOT), *commit)
 
 
 def merge(worktree: Path, target: str) -> list[str]:
