@@ -31,13 +31,13 @@ class Figure {
     this.side = element.appendChild(made("div", "side"));
     this.stage = new Stage(picture, { letters: 0.06, zoom: false });
     picture.setAttribute("role", "img");
-    picture.setAttribute("aria-label", this.says);
+    picture.setAttribute("aria-label", this.constructor.says);
     this.arm = this.stage.arm(shapes);
     this.told = this.side.appendChild(made("p", "told"));
     this.begin();
     this.numbers = this.side.appendChild(made("pre"));
     this.numbers.tabIndex = 0;
-    this.side.append(made("p", "hint", this.hint));
+    this.side.append(made("p", "hint", this.constructor.hint));
     element.figure = this;
     this.show();
   }
@@ -95,8 +95,8 @@ function marked(line, words, from, to) {
 
 /** Day 1: a link's place, a joint's turn, and so on; the product, factor by factor. */
 class Product extends Figure {
-  says = "The Panda, and the frame that the factors so far lead to";
-  hint = "Each factor moves the frame one step: L to the next link, J turns it about its z.";
+  static says = "The Panda, and the frame that the factors so far lead to";
+  static hint = "Each factor moves the frame one step: L to the next link, J turns it about its z.";
   begin() {
     this.words = ["L0", ...this.links.slice(0, -1).flatMap((_, i) => [`L${i + 1}`, `J(q${i + 1})`]), "L_end"];
     this.count = 7;
@@ -148,8 +148,8 @@ function swap(n, many) {
 
 /** Day 2: seven lines that stand still; turned about from the last one to the first. */
 class Screws extends Figure {
-  says = "The Panda, and the seven axes of its joints as they lie at zero";
-  hint = "The lines never move: the last joint turns first, and everything beyond it goes along.";
+  static says = "The Panda, and the seven axes of its joints as they lie at zero";
+  static hint = "The lines never move: the last joint turns first, and everything beyond it goes along.";
   begin() {
     this.from = 4;
     this.zero = chain(this.links, this.q.map(() => 0));
@@ -172,7 +172,8 @@ class Screws extends Figure {
     stick.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), new THREE.Vector3(...omega));
     stick.position.set(...through);
     stick.renderOrder = 7;
-    this.stage.scene.add(stick);
+    this.stage.scene.add(this.stage.mark(stick, 0.25));
+    stick.updateMatrix();
     return stick;
   }
 
@@ -215,8 +216,8 @@ class Screws extends Figure {
 
 /** Day 3: all velocities of the hand that joint speeds of length 1 can give. */
 class Ellipse extends Figure {
-  says = "The Panda, and at its end the ellipsoid of velocities";
-  hint = "Stretch the arm (q4 to the right, q2 and q6 with it): it grows flat, and forces grow long.";
+  static says = "The Panda, and at its end the ellipsoid of velocities";
+  static hint = "Stretch the arm (q4 to the right, q2 and q6 with it): it grows flat, and forces grow long.";
   begin() {
     this.forces = false;
     this.ball = new THREE.Mesh(
@@ -224,7 +225,7 @@ class Ellipse extends Figure {
       new THREE.MeshStandardMaterial({ color: 0x1971c2, transparent: true, opacity: 0.5, depthWrite: false }),
     );
     this.ball.renderOrder = 4;
-    this.stage.moving(this.ball);
+    this.stage.mark(this.stage.moving(this.ball), 0.3);
     this.joints(2, 4, 6);
     this.box("forces instead of velocities", (on) => (this.forces = on));
   }
@@ -242,6 +243,7 @@ class Ellipse extends Figure {
     const long = half.map((x) => (this.forces ? Math.min(0.08 / Math.max(x, 1e-9), 3) : 0.3 * x));
     const columns = vectors.map((v, k) => v.map((x) => x * Math.max(long[k], 0.002)));
     this.stage.put(this.ball, pose([0, 1, 2].flatMap((i) => columns.map((c) => c[i])), place(poses.ee)));
+    this.ball.userData.radius = Math.min(Math.max(...long), 0.6);
     this.ball.material.color.set(this.forces ? 0xd9480f : 0x1971c2);
     this.told.textContent = this.forces ? "half-lengths: 1 / singular values" : "half-lengths: singular values";
     const [unit, shown] = this.forces ? ["N", half.map((x) => 1 / x)] : ["m/s", half];
@@ -253,8 +255,8 @@ class Ellipse extends Figure {
 
 /** Day 4: what holds the arm still, joint by joint. */
 class Gravity extends Figure {
-  says = "The Panda, and at each link's centre of mass its weight as an arrow";
-  hint = "Each arrow is a link's weight. Its torque about a joint: weight times lever arm.";
+  static says = "The Panda, and at each link's centre of mass its weight as an arrow";
+  static hint = "Each arrow is a link's weight. Its torque about a joint: weight times lever arm.";
   begin() {
     this.arrows = this.links.slice(0, -1).map(({ mass }) => {
       const down = new THREE.Vector3(0, 0, -1);

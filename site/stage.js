@@ -70,6 +70,7 @@ export class Stage {
     this.camera.up.set(0, 0, 1);
     this.camera.position.set(1.75, -1.65, 1.15);
     this.skins = [];
+    this.marks = [];
     this.byHand = false; // whether somebody chose how near the camera is
     this.renderer = this.started();
     this.orbit = new OrbitControls(this.camera, this.renderer?.domElement ?? element);
@@ -158,7 +159,7 @@ export class Stage {
 
   /** A frame: three arrows with their letters, and a name. */
   frame(length, name = "", letters = true) {
-    const made = this.moving(new THREE.Group());
+    const made = this.mark(this.moving(new THREE.Group()), 1.25 * length);
     AXES.forEach((color, k) => {
       const material = new THREE.MeshBasicMaterial({ color, depthTest: false, transparent: true });
       const stick = new THREE.Mesh(new THREE.CylinderGeometry(0.0045, 0.0045, length, 10), material);
@@ -180,13 +181,27 @@ export class Stage {
     return made;
   }
 
+  /** A thing with a radius, which the picture has to hold beside the arms. */
+  mark(thing, radius) {
+    thing.userData.radius = radius;
+    this.marks.push(thing);
+    return thing;
+  }
+
   put(thing, T) {
     thing.visible = Boolean(T);
     if (T) put(thing, T);
   }
 
-  /** Balls around all that is seen of some arms, in the world. */
+  /** Balls around all that is seen, in the world. */
   balls() {
+    const marks = this.marks.filter((thing) => thing.visible);
+    const around = ({ matrix, userData }) =>
+      new THREE.Sphere(new THREE.Vector3().setFromMatrixPosition(matrix), userData.radius);
+    return [...marks.map(around), ...this.links()];
+  }
+
+  links() {
     return this.skins.flatMap((skin) =>
       skin.shapes
         .filter(({ body }) => skin.bodies[body].visible)

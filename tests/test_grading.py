@@ -879,6 +879,22 @@ class TestTheOverview:
         ((mark, who),) = Course(DAY, class_).mistakes()
         assert (mark.mistake, mark.id, who) == ("shape", "1.1", ["a", "b"])
 
+    def test_leads_with_what_can_be_explained_in_bars_of_the_whole_class(self):
+        passed = ["passed"] * 7
+        stops = [graded("wrong", *passed, name=n, mistakes={0: "raises"}) for n in "ab"]
+        named = graded("wrong", *passed, name="c", mistakes={0: "sign"})
+        class_ = [*stops, named, graded(*["passed"] * 8, name="d")]
+        found = Course(DAY, class_).mistakes()
+        assert [(mark.mistake, len(who)) for mark, who in found] == [
+            ("sign", 1),
+            ("raises", 2),
+        ]
+        text = page.render(Course(DAY, class_))
+        first, second = re.findall(r'width="([\d.]+)%"[^>]*var\(--line\)', text)
+        assert (first, second) == ("25.00", "50.00")
+        assert ">1 of 4 students</text>" in text
+        assert ">1.1  it stopped with an error</text>" in text
+
     @pytest.mark.parametrize(
         ("statuses", "state"),
         [

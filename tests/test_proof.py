@@ -133,7 +133,12 @@ def hostile():
     one = facts.RunDay(day, states, numbers, {}, EVIL, EVIL)
     fresh = {"commit": EVIL, "wrong": 0, "missing": 2, "date": EVIL}
     return page.Proof(
-        EVIL, False, EVIL, [one], Attempt(capstone, None, EVIL, 3, 35), fresh
+        EVIL,
+        False,
+        EVIL,
+        [one],
+        Attempt(capstone, None, EVIL, frozenset({"make_T"})),
+        fresh,
     )
 
 
@@ -183,7 +188,7 @@ def filmed():
     """Return a hostile page with a film that ends after half a second."""
     result = capstone.pick(capstone.library())._replace(seconds=0.5)
     return page.render(
-        replace(hostile(), attempt=Attempt(capstone, result, "", 35, 35))
+        replace(hostile(), attempt=Attempt(capstone, result, "", frozenset({"make_T"})))
     )
 
 
@@ -230,7 +235,46 @@ def test_an_arm_that_stops_is_told_and_not_filmed():
     known = facts.RunDay(day, {task.id: "passed"}, [])
     found = attempt(capstone, [known], [day.source.parent], Failing())
     says = "make_T did not return: it hangs"
-    assert found == Attempt(capstone, None, says, 1, found.total)
+    assert found == Attempt(capstone, None, says, frozenset({"make_T"}))
+
+
+class World:
+    """What answers questions itself: the sandbox cannot be sent it."""
+
+    def free(self, q):
+        return True
+
+
+def test_a_whole_picture_travels_and_what_stays_here_is_called_the_kits(sandbox):
+    """320 x 240 pixels are more numbers than a task's answer may have."""
+    n = 320 * 240
+    uses = {10: ("back_project",), 12: ("shortcut",)}
+
+    def tried(fns, seed=None):
+        cloud = fns.back_project(np.eye(3), np.eye(4), np.zeros((n, 2)), np.ones(n))
+        fns.shortcut(np.zeros((2, 7)), World(), np.zeros((0, 2)))
+        return cloud
+
+    some = SimpleNamespace(
+        USES=uses,
+        library=SimpleNamespace,
+        attempt=tried,
+        film=lambda result: SimpleNamespace(qpos=result),
+    )
+    known = []
+    for number in uses:
+        day = find_day(number)
+        own = {t.id: "passed" for t in day.tasks if {*t.functions} & {*uses[number]}}
+        known.append(facts.RunDay(day, own, []))
+    places = [one.day.source.parent for one in known]
+    found = attempt(some, known, places, sandbox)
+    assert found.stopped == ""
+    assert found.result.shape == (n, 3)
+    assert found.theirs == {"back_project", "shortcut"}
+    assert found.stayed == {"shortcut"}
+    assert (found.yours, found.total) == (1, 2)
+    words = Seen(page._by(uses, found)).words
+    assert "shortcut: theirs pass." in words
 
 
 def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path, capsys):

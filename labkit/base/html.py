@@ -92,9 +92,10 @@ def page(
     return _OBEYED.sub(" ", "\n".join(whole))
 
 
-def section(heading: str, *parts: str) -> str:
-    """Return a section under its heading."""
-    return f"<section><h2>{heading}</h2>{''.join(parts)}</section>"
+def section(heading: str, *parts: str, id: str = "") -> str:
+    """Return a section under its heading; `id` is what a link leads to."""
+    name = f' id="{id}"' if id else ""
+    return f"<section{name}><h2>{heading}</h2>{''.join(parts)}</section>"
 
 
 def tiles(cells: Iterable[tuple[str, str, str]]) -> str:

@@ -73,6 +73,7 @@ class Budget(Deadline):
         self.stretch = ONE_CALL + seconds
         self._since = 0.0  # when a function was last called
         self.calls = Counter[str]()
+        self.stayed = set[str]()  # whose call could not travel: the kit's own took it
         self._last: dict[str, tuple[Any, ...]] = {}  # arguments, the latest call last
         self._kits_own: dict[str, float] | None = None  # seconds a call
 

@@ -18,7 +18,7 @@ from labkit.figures.sheet import Colour
 
 SHARP = 2  # pixels of the picture for one of the page
 ARM = (452, 360)  # pixels of the page
-COLUMNS = 39  # letters of a line
+COLUMNS = 38  # letters of a line
 FONT, LINE, EDGE = 18, 25, 18  # pixels: letters, from line to line, and the margin
 PAPER, PANEL = (27, 31, 36), (36, 41, 47)
 INK, FAINT, CURSOR = (230, 234, 238), (152, 163, 174), (120, 170, 245)
@@ -36,7 +36,7 @@ class Layout(NamedTuple):
 
 
 WIDE = Layout((900, 360), (0, 0, 448, 86), (448, 0), (EDGE, 106))
-TALL = Layout((452, 650), (0, 0, 452, 86), (0, 86), (EDGE, 460))
+TALL = Layout((452, 700), (0, 0, 452, 86), (0, 86), (EDGE, 460))
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,11 @@ class Page:
 
 
 def draw(page: Page, layout: Layout) -> Image.Image:
-    """Return the picture of a moment."""
+    """Return the picture of a moment.
+
+    Raises:
+        ValueError: the checker says more than there is room for.
+    """
     width, height = (SHARP * n for n in layout.size)
     sheet = Image.new("RGB", (width, height), PAPER)
     pen = ImageDraw.Draw(sheet)
@@ -61,7 +65,10 @@ def draw(page: Page, layout: Layout) -> Image.Image:
     _code(pen, page, layout.code)
     x, y = layout.says
     _write(pen, x, y, f"$ {page.command}", FAINT)
-    for i, (words, colour) in enumerate(_lines(page.says)):
+    lines = _lines(page.says)
+    if y + (len(lines) + 1) * LINE > layout.size[1]:
+        raise ValueError(f"{len(lines)} lines of the checker's are cut")
+    for i, (words, colour) in enumerate(lines):
         _write(pen, x, y + (i + 1) * LINE, words, colour)
     return sheet
 

@@ -51,6 +51,15 @@ def of_days(courses: Sequence[Course]) -> bytes:
     return _csv([rows[0], *(row.values() for row in rows)])
 
 
+def table(rows: Sequence[dict[str, Cell]]) -> bytes:
+    """Return a table of rows that have the same columns; words in it are plain."""
+    cells = [
+        [plain(cell) if isinstance(cell, str) else cell for cell in row.values()]
+        for row in rows
+    ]
+    return _csv([rows[0], *cells])
+
+
 def _csv(rows: Iterable[Iterable[Cell]]) -> bytes:
     """Return rows of cells as CSV, a cell that is None as an empty one."""
     text = io.StringIO()

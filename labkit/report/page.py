@@ -6,6 +6,7 @@ from itertools import groupby
 
 from labkit.base import html
 from labkit.base.text import count
+from labkit.hunt.tally import tally
 from labkit.log.rows import Row
 from labkit.log.scan import Line
 from labkit.report import plot
@@ -61,6 +62,7 @@ def render(
         *([] if report.rows else [NOTHING]),
         _jumps(report),
         *(_day(day, series, checked.get(day or 0, "")) for day, series in days),
+        _hunts(report.hunts),
         _look(report.look),
     )
 
@@ -103,6 +105,34 @@ def _day(day: int | None, series: Iterable[Series], checked: str) -> str:
         f'<section id="{day}"><h2>{_title(day)}</h2>{about}'
         f'<div class="cards">{cards}</div></section>'
     )
+
+
+def _hunts(rows: Sequence[Row]) -> str:
+    """Return what came of the bug hunts; "" where nobody hunted."""
+    if not rows:
+        return ""
+    names = {
+        "date": "date",
+        "day": "day",
+        "level": "method",
+        "seed": "seed",
+        "runs": "value",
+        "checks": "n_trials",
+        "wrong": "n_failures",
+        "how it ended": "notes",
+    }
+    head = "".join(f"<th>{name}</th>" for name in names)
+    body = []
+    for row in rows[-LISTED:]:
+        cells = (escape(_hunted(row[name])) for name in names.values())
+        body.append(f"<tr>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>")
+    table = html.folded("Hunt by hunt", html.table(head, body, "scroll"))
+    return html.section("Bug hunts", f"<p>{escape(tally(rows))}</p>", table)
+
+
+def _hunted(cell: object) -> str:
+    text = f"{cell:g}" if isinstance(cell, float) else str(cell)
+    return _clipped(text.removeprefix("level "))
 
 
 def _card(series: Series) -> str:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from html import escape
 
 from labkit.base.text import number_of
+from labkit.hunt.tally import ending
 from labkit.lesson.day import Day
 from labkit.lesson.metric import Metric
 from labkit.lesson.writers import Writers, mark_of
@@ -113,6 +114,7 @@ class Report:
     series: list[Series]
     look: list[Line] = field(default_factory=list)  # lines that need one
     rows: int = 0
+    hunts: list[Row] = field(default_factory=list)  # bug hunts that ended
 
     def count(self, status: str) -> int:
         """Return how many series have that status."""
@@ -149,6 +151,11 @@ def with_unit(value: float | None, wanted: Metric) -> str:
     if value is None:
         return "–"
     return escape(f"{number_of(value)} {wanted.unit}".strip())
+
+
+def limit_of(wanted: Metric) -> str:
+    """Return what a number must be, as pages print it: "under 20 mm"."""
+    return escape(f"{wanted.limit} {wanted.unit}".strip())
 
 
 def value_of(row: Row) -> float | None:
@@ -195,6 +202,9 @@ def collect(
             if check not in ("", row["check"]):
                 continue
             report.rows += 1
+            if ending(row):
+                report.hunts.append(row)
+                continue
             key = _key(row, asked)
             if key not in found:
                 found[key] = Series(key[0], Metric(*key[1:]))

@@ -20,7 +20,7 @@ from sphinx.application import Sphinx
 from labkit.base import processes
 from labkit.inspector.recording import Recording
 from labkit.lesson.day import all_days
-from labkit.site import formulas, links, meshes, notebooks, pages, robot, typed
+from labkit.site import access, formulas, links, meshes, notebooks, pages, robot, typed
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, TWIN_XML
 
@@ -32,10 +32,7 @@ SETTINGS: dict[str, Any] = {
     "html_title": "robo47",
     "html_theme": "furo",
     "html_css_files": ["style.css"],
-    "html_js_files": [
-        ("film.js", {"defer": "defer"}),
-        ("live.js", {"type": "module"}),
-    ],
+    "html_js_files": [("page.js", {"type": "module"})],
     "html_favicon": str(SOURCES / "icon.svg"),
     "html_copy_source": False,
     "html_show_sphinx": False,
@@ -94,6 +91,7 @@ def build(out: Path) -> None:
         site.build()
     if site.statuscode:
         raise Robo47Error("the site has warnings, above; each is an error")
+    access.mend(out, pages.FILMS)
     if wrong := links.faults(out):
         raise Robo47Error("links that lead nowhere:\n  " + "\n  ".join(wrong))
 
@@ -107,12 +105,11 @@ def films() -> dict[str, Callable[[], Recording]]:
 def _static(into: Path) -> Path:
     """Return a folder, made with the style and all that the arm's page loads."""
     (into / pages.FILMS).mkdir(parents=True)
-    plain = [SOURCES / name for name in ("style.css", "film.js", "live.js")]
-    for path in (*plain, TWIN_XML, WASM):
+    for path in (SOURCES / "style.css", SOURCES / "page.js", TWIN_XML, WASM):
         shutil.copy(path, into)
     for name, make in films().items():
         path = into / pages.FILMS / f"{name}.html"
-        path.write_text(make().page(name.replace("_", " ")), "utf-8")
+        path.write_text(access.film(make().page(name.replace("_", " "))), "utf-8")
         if path.stat().st_size > LARGEST_FILM:
             raise Robo47Error(f"the film {name} has {path.stat().st_size:,} bytes")
     read = {

@@ -61,8 +61,8 @@ def saved_own() -> str:
         tree = ask("write-tree", index=index)
     if tree == ask("rev-parse", "HEAD^{tree}"):
         return ask("rev-parse", "HEAD")
-    says = ("-p", "HEAD", "-m", "My work before the update", tree)
-    return ask(*as_whom(ROOT), "commit-tree", *says)
+    commit = ("commit-tree", "-p", "HEAD", "-m", "My work before the update", tree)
+    return ask(*as_whom(ROOT), *commit)
 
 
 def merge(worktree: Path, target: str) -> list[str]:
