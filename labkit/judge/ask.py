@@ -34,7 +34,7 @@ SEED = 47  # of the questions that are the same at every check
 # How many inputs are drawn anew, and as many edge values: a rare bug is found sooner.
 FRESH, CHEAP_FRESH, CHEAP = 8, 32, 16  # few numbers cost little
 SECONDS = 10.0  # for all calls of a function, where its task does not say
-SLIPPING = 0.8  # seconds for which one slip after the other is made
+SLIPPING = 1.5  # seconds for which one slip after the other is made
 KNOWN = 20  # right answers of a function's that are kept: a class is asked the same
 
 

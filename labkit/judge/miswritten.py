@@ -36,6 +36,7 @@ SAYS = {
     "name": "one name stands for another",
     "order": "two things have changed places",
     "transpose": "one transpose is too many, or missing",
+    "inverse": "one inverse is too many, or missing",
     "index": "one index or range stands for another",
     "squared": "something is squared that should not be",
     "exchanged": "two names have changed places",
@@ -286,6 +287,7 @@ def _of_a_part(node: ast.expr, place: _Place) -> Iterator[tuple[str, ast.expr]]:
         yield "squared", ast.BinOp(node, ast.Pow(), ast.Constant(2))
         if isinstance(place.parent.op, ast.MatMult):
             yield "transpose", ast.Attribute(node, "T", ast.Load())
+            yield "inverse", _inverse(node)
         if isinstance(node, ast.Subscript):
             yield from _of_a_factor(node)
 
@@ -366,6 +368,13 @@ def _of_name(
         yield from _of_a_factor(node)
         yield "left-out", ast.Constant(1)
         yield "transpose", ast.Attribute(node, "T", ast.Load())
+        if isinstance(getattr(place.parent, "op", None), ast.MatMult):
+            yield "inverse", _inverse(node)
+
+
+def _inverse(node: ast.expr) -> ast.expr:
+    linalg = ast.Attribute(ast.Name("np", ast.Load()), "linalg", ast.Load())
+    return ast.Call(ast.Attribute(linalg, "inv", ast.Load()), [node], [])
 
 
 def _of_call(node: ast.Call, names: Sequence[str]) -> Iterator[tuple[str, ast.expr]]:
