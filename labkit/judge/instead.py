@@ -60,6 +60,8 @@ def instead(place: Place, names: Sequence[str]) -> Iterator[tuple[str, ast.expr]
         yield from _of_a_list(node)
     if isinstance(node, ast.Subscript | ast.Call):
         yield from _of_a_part(node, place)
+    if isinstance(node, ast.BinOp):
+        yield from _of_brackets(node)
     if isinstance(node, ast.BinOp) and _is_a_square(node):
         for name in names:
             one = ast.Name(name, ast.Load())
@@ -70,6 +72,21 @@ def instead(place: Place, names: Sequence[str]) -> Iterator[tuple[str, ast.expr]
     plain = isinstance(node, (*NUMBERED, ast.Constant, ast.UnaryOp, ast.Name))
     if inside and place.field != "func" and not plain:
         yield "negated", ast.UnaryOp(ast.USub(), node)
+
+
+def _of_brackets(node: ast.BinOp) -> Iterator[tuple[str, ast.expr]]:
+    """Yield a b + c for a (b + c), and the other way round."""
+    adds, times = (ast.Add, ast.Sub), (ast.Mult, ast.MatMult, ast.Div)
+    inside = adds if isinstance(node.op, times) else times
+    left, right = node.left, node.right
+    if not isinstance(node.op, adds + times):
+        return
+    if isinstance(right, ast.BinOp) and isinstance(right.op, inside):
+        one = ast.BinOp(left, node.op, right.left)
+        yield "bracket", ast.BinOp(one, right.op, right.right)
+    if isinstance(left, ast.BinOp) and isinstance(left.op, inside):
+        one = ast.BinOp(left.right, node.op, right)
+        yield "bracket", ast.BinOp(left.left, left.op, one)
 
 
 def _is_a_square(node: ast.BinOp) -> bool:

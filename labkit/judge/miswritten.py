@@ -27,6 +27,7 @@ SAYS = {
     "factor": "a factor of two is missing, or too many",
     "name": "one name stands for another",
     "order": "two things have changed places",
+    "bracket": "a bracket begins or ends elsewhere",
     "transpose": "one transpose is too many, or missing",
     "inverse": "one inverse is too many, or missing",
     "index": "one index or range stands for another",
