@@ -190,6 +190,8 @@ def _shown(new: ast.expr, place: Place, above: dict[int, Place]) -> str:
         left = place.field == "left"
         pair = (new, dots) if left else (dots, new)
         text = ast.unparse(ast.BinOp(pair[0], place.parent.op, pair[1]))
+    if isinstance(place.parent, ast.Assign):
+        text = f"{ast.unparse(place.parent.targets[0])} = {text}"
     return text if len(text) <= SHORT else ""
 
 
