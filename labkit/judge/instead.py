@@ -72,6 +72,8 @@ def instead(place: Place, names: Sequence[str]) -> Iterator[tuple[str, ast.expr]
     plain = isinstance(node, (*NUMBERED, ast.Constant, ast.UnaryOp, ast.Name))
     if inside and place.field != "func" and not plain:
         yield "negated", ast.UnaryOp(ast.USub(), node)
+    if inside and isinstance(node, ast.Name | ast.BinOp) and place.field != "func":
+        yield "left-out", ast.BinOp(ast.Constant(0), ast.Mult(), node)
 
 
 def _of_brackets(node: ast.BinOp) -> Iterator[tuple[str, ast.expr]]:
