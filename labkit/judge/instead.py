@@ -241,6 +241,10 @@ def _of_call(node: ast.Call, names: Sequence[str]) -> Iterator[tuple[str, ast.ex
             twin = pair[1 - pair.index(name)]
             again = ast.Attribute(function.value, twin, ast.Load())
             yield "function", ast.Call(again, node.args, node.keywords)
+    if name in ("mean", "sum", "median") and isinstance(function, ast.Attribute):
+        whole = node.args[0] if of_numpy and node.args else function.value
+        for end in (0, -1):
+            yield "function", ast.Subscript(whole, ast.Constant(end), ast.Load())
     if name == "solve" and len(node.args) == 2:
         yield "operation", ast.BinOp(node.args[0], ast.MatMult(), node.args[1])
     if name == "inv":
