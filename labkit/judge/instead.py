@@ -62,6 +62,11 @@ def instead(place: Place, names: Sequence[str]) -> Iterator[tuple[str, ast.expr]
         yield from _of_a_part(node, place)
     if isinstance(node, ast.BinOp):
         yield from _of_brackets(node)
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
+        size = ast.Attribute(ast.Name("np", ast.Load()), "abs", ast.Load())
+        yield "sign-lost", ast.Call(size, [node], [])
+    if isinstance(node, ast.BinOp) and isinstance(place.parent, NUMBERED):
+        yield from _names_exchanged(node, names)
     if isinstance(node, ast.BinOp) and _is_a_square(node):
         for name in names:
             one = ast.Name(name, ast.Load())
@@ -96,11 +101,17 @@ def _is_a_square(node: ast.BinOp) -> bool:
     return named and ast.unparse(node.left) == ast.unparse(node.right)
 
 
-def _of_a_whole(node: ast.expr, names: Sequence[str]) -> Iterator[tuple[str, ast.expr]]:
-    """Yield slips of all that stands in a line."""
+def _names_exchanged(
+    node: ast.expr, names: Sequence[str]
+) -> Iterator[tuple[str, ast.expr]]:
     there = {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}
     for pair in combinations([name for name in names if name in there], 2):
         yield "exchanged", _Exchanged(*pair).visit(copy.deepcopy(node))
+
+
+def _of_a_whole(node: ast.expr, names: Sequence[str]) -> Iterator[tuple[str, ast.expr]]:
+    """Yield slips of all that stands in a line."""
+    yield from _names_exchanged(node, names)
     for at, one in enumerate(_results(node)):
         for name in names:
             for op in (ast.Mult(), ast.Div()):

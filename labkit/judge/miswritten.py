@@ -22,6 +22,7 @@ SAYS = {
     "sign": "one sign is the other way round",
     "negated": "one sign is the other way round",
     "left-out": "something is left out",
+    "sign-lost": "one sign is lost: what is negative counts as positive",
     "operation": "one operation stands for another",
     "number": "one number stands for another",
     "factor": "a factor of two is missing, or too many",
