@@ -177,6 +177,10 @@ def _of(memory: dict[str, Any], key: str) -> dict[str, str]:
 
 
 def _sentence(message: str) -> str:
-    """Return the first sentence of a message, at most 200 characters of it."""
-    first = re.split(r"(?<=[.:;]) (?=[A-Z])|\n", message, maxsplit=1)[0]
+    """Return the first sentence of a message, at most 200 characters of it.
+
+    A function's name before it, "sigma: ", is no sentence, and what stands in
+    parentheses behind it is of that one check.
+    """
+    first = re.split(r"(?<=[.]) (?=[A-Z(])|\n", message, maxsplit=1)[0]
     return first if len(first) <= 200 else first[:199] + "…"

@@ -149,14 +149,28 @@ def _mistakes(facts: Sequence[OwnDay]) -> str:
 
 def _mistake(day: Day, met: Met) -> str:
     role, mark = _MOODS.get(met.now, ("none", "•"))
-    name = escape(_GENERAL.get(met.mistake, met.mistake.replace("-", " ")))
-    says = met.says and f"<br><span class=muted>{escape(met.says)}</span>"
-    names = ", ".join(f for t in day.tasks if t.id == met.task for f in t.functions)
+    what, name = label_of(day, met)
+    name = name and f"<br><span class=muted>{escape(name)}</span>"
     return (
         f"<tr><td class=day>{escape(met.task)}</td>"
-        f"<td class=wide>{escape(names)}: {name}{says}</td>"
+        f"<td class=wide>{escape(what)}{name}</td>"
         f"<td class={role}>{mark} {met.now}</td></tr>"
     )
+
+
+def label_of(day: Day, met: Met) -> tuple[str, str]:
+    """Return what was wrong in a mistake that was met, and its name below that.
+
+    It is what the checker said where that was kept, of which function it says; a name
+    such as "n-for-n-rank" alone says little.
+    """
+    functions = [f for t in day.tasks if t.id == met.task for f in t.functions]
+    name = met.mistake.replace("+", " and ").replace("-", " ")
+    name = _GENERAL.get(met.mistake, name)
+    if " " not in met.says:  # an older kit kept "sigma:" of some
+        return f"{', '.join(functions)}: {name}", ""
+    own = any(met.says.startswith(f"{function}: ") for function in functions)
+    return met.says if own else f"{', '.join(functions)}: {met.says}", name
 
 
 def _counts(one: OwnDay) -> str:
