@@ -116,11 +116,14 @@ class Loop:
     def listed(self) -> str:
         """Return a line per task: its name and how it stands."""
         lines = []
+        wide = max(len(task.id) for task in self.day.tasks)
         for task in self.day.tasks:
             state = self.states.get(task.id, "not asked yet")
             state = state if self.sure else f"({state})"
             side = " (side quest)" if task.optional else ""
-            lines.append(f"  {task.id:5} {', '.join(task.functions) + side:40} {state}")
+            lines.append(
+                f"  {task.id:{wide}}  {', '.join(task.functions) + side:40} {state}"
+            )
         return "\n".join(lines)
 
     def shown(self, task: Task) -> str:

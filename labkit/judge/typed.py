@@ -12,7 +12,6 @@ import numpy as np
 
 from labkit.base.exchange import Question
 
-
 DUST = 4  # last bits that a sum or a product may leave
 
 
