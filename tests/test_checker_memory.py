@@ -5,8 +5,6 @@ from types import SimpleNamespace
 from labkit.base import store
 from labkit.check import memory
 from labkit.judge import Verdict
-from labkit.lesson.day import find_day
-from labkit.report.week_page import label_of
 
 
 def results(**tasks):
@@ -49,23 +47,6 @@ def test_still_there_is_what_the_last_check_of_the_file_as_it_is_found(tmp_path)
     ]
 
 
-def test_of_what_was_said_a_whole_sentence_is_kept_and_shown(tmp_path):
-    day = find_day(8)
-    (task,) = [task for task in day.tasks if "predict_with_sigma" in task.functions]
-    says = "sigma: It is with n: the rank was forgotten. (Off by up to 3.)"
-    key = f"t{task.id.replace('.', '_')}"
-    memory.note(results(**{key: ("wrong", "n-for-n-rank", says)}), tmp_path)
-    (met,) = memory.mistakes_met(memory.journal(tmp_path), {})
-    kept = "sigma: It is with n: the rank was forgotten."
-    assert met.says == kept
-    named = f"{', '.join(task.functions)}: "
-    assert label_of(day, met) == (named + kept, "n for n rank")
-    older = met._replace(says="sigma:", mistake="one+the-other")
-    assert label_of(day, older) == (f"{named}one and the other", "")
-    of = met._replace(says=f"{task.functions[0]}: It is twice.")
-    assert label_of(day, of)[0] == of.says
-
-
 def test_what_follows_from_another_task_is_no_mistake_of_its_own(tmp_path):
     first, then = ("wrong", "a"), ("wrong", "b", "its words", (), "1.1")
     memory.note(results(t1_1=first, t1_2=then), tmp_path)
@@ -90,3 +71,9 @@ def test_a_folder_that_cannot_be_written_costs_the_memory_alone(tmp_path):
     (tmp_path / ".robo47").write_text("a file in the way")
     memory.note(results(t1_1=("wrong", "a")), tmp_path)
     assert memory.journal(tmp_path) == []
+
+
+def test_what_was_said_of_a_mistake_is_a_sentence_and_not_the_results_name():
+    assert memory._sentence("sigma: Off by 2. Look again.") == "sigma: Off by 2."
+    assert memory._sentence("It is wrong. (Off by 3.)") == "It is wrong. (Off by 3.)"
+    assert memory._sentence("It is wrong. Off by 3.") == "It is wrong."

@@ -403,7 +403,7 @@ def test_make_report_writes_the_weeks_page_from_what_was_done(run_in, kit, done)
     text = (kit / "metrics" / "report-week1.html").read_text("utf-8")
     assert "8 of 8" in text
     assert "make check DAY=1" not in text
-    assert "<span class=muted>t not negated</span>" in text
+    assert "inverse: t not negated<br>" in text
     assert "<td class=pass>✓ left behind" in text
     diary = retro_of(done).read_bytes()
     assert b"Named mistakes met: 1; left behind: 1." in diary

@@ -20,12 +20,16 @@ from typing import Any
 from tqdm import tqdm
 
 from labkit.base import cli
+from labkit.base.text import visible
 from labkit.check import own_functions
 from labkit.lesson.day import chosen_week
+from labkit.lesson.predicted import predictions, rows_asked
 from labkit.lesson.week import Week
 from robo47.errors import Robo47Error
+from robo47.paths import shown
 
 RANDOM = 20
+PREDICTED = 3  # rows of the table of mistakes, before it is shown
 
 
 def chosen(week: Week, kit_only: bool) -> Any:
@@ -80,19 +84,36 @@ def random_ones(capstone: ModuleType, fns: Any) -> int:
     return verdict(capstone, failed, RANDOM)
 
 
-def ablations(capstone: ModuleType, fns: Any) -> int:
-    """Show what a mistake does: most of them still arrive.
+def predicted(week: Week) -> dict[str, str]:
+    """Return what the student's retrospective predicts, by a row's name."""
+    found: dict[str, str] = {}
+    for path in sorted((week.folder / "docs").glob("RETRO_*.md")):
+        text = path.read_text("utf-8", "replace")
+        rows = predictions(text)
+        found |= {visible(name).lower(): visible(says) for name, says in rows.items()}
+        if rows_asked(text) and len(rows) < PREDICTED:
+            print(f"your predictions: {len(rows)} of {PREDICTED} in {shown(path)}")
+    return found
+
+
+def ablations(capstone: ModuleType, fns: Any, week: Week) -> int:
+    """Show what a mistake does, below it what was predicted: most still arrive.
 
     Raises:
         Robo47Error: this capstone has none.
     """
     if not hasattr(capstone, "ablations"):
         raise Robo47Error(f"{capstone.NAME} has no table of mistakes")
+    said = predicted(week)
     print(capstone.HEAD)
     for name, (changed, options) in capstone.ablations(fns).items():
         result = attempted(capstone, changed, **options)
         print(capstone.row(name, result), flush=True)
+        if name.lower() in said:
+            print(f"  you predicted: {said.pop(name.lower())}")
     print(capstone.MORAL)
+    for name, says in said.items():
+        print(cli.wrapped(f"you predicted {says} of {name!r}: no row has that name"))
     return cli.EXIT_OK
 
 
@@ -133,5 +154,5 @@ def main() -> int:
     if options.all:
         return random_ones(capstone, fns)
     if options.ablations:
-        return ablations(capstone, fns)
+        return ablations(capstone, fns, week)
     return one(capstone, fns, options.clip, options.picture)

@@ -80,8 +80,9 @@ class Hunt:
             GitError: git is not there, or takes too long.
         """
         moment = int(time.time()) + 86_400 if deadline is None else deadline
-        commit, _ = before(student.path, moment)
         folder = folder_of(self.day)
+        own = folder.parent.relative_to(ROOT).as_posix() + "/"
+        commit, _ = before(student.path, moment, own)
         paths = (folder / FILE, script_of(self.day, self.level), METRICS_CSV)
         names = [path.relative_to(ROOT).as_posix() for path in paths]
         there = files_of(student.path, commit, *names) if commit else {}

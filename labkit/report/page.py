@@ -139,8 +139,9 @@ def _card(series: Series) -> str:
     mark, words = STATUS[series.status]
     best = "best" if series.bounds else "lowest"
     limits = ", ".join(f"{sign} {bound:g}" for sign, bound in series.bounds)
+    unit = f" {escape(series.wanted.unit)}" if series.rows else ""
     facts = [
-        ("latest", plot.number(series.latest)),
+        ("latest", plot.number(series.latest) + unit),
         (best, plot.number(series.best)),
         ("runs", f"{len(series.rows):,}"),
         ("threshold", escape(limits or "–")),
@@ -150,18 +151,26 @@ def _card(series: Series) -> str:
     judged = series.status in ("pass", "fail")
     role = {"latest": f' class="{series.status}"'} if judged else {}
     terms = "".join(
-        f"<dt>{name}</dt><dd{role.get(name, '')}>{value}</dd>" for name, value in facts
+        f"<div><dt>{name}</dt><dd{role.get(name, '')}>{value}</dd></div>"
+        for name, value in facts
     )
     failed = failures_of(series.rows[-1]) if series.rows else ""
     failed = failed and f'<p class="fail">{failed}</p>'
-    check, metric = map(_text, (series.wanted.check, series.wanted.metric))
     return (
-        f'<article class="card"><div class="top"><div><h3>{check}</h3>'
-        f'<span class="muted">{metric}</span></div>'
+        f'<article class="card"><div class="top"><div>{_named(series)}</div>'
         f'<span class="badge {series.status}">{mark} {words}</span></div>'
         f"<dl>{terms}</dl>{failed}{plot.draw(series)}"
         f"{_recent(series.rows)}{_recent(series.kits, ' of the kit')}</article>"
     )
+
+
+def _named(series: Series) -> str:
+    """Return what a number is called: a sentence where it has one, and its names."""
+    check, metric = map(_text, (series.wanted.check, series.wanted.metric))
+    if says := series.wanted.says:
+        name = f'<span class="muted">{check}, {metric}</span>'
+        return f"<h3>{escape(says)}</h3>{name}"
+    return f'<h3>{check}</h3><span class="muted">{metric}</span>'
 
 
 def _text(cell: object) -> str:
