@@ -127,6 +127,20 @@ def tell(case: Case) -> None:
     print(DO)
 
 
+def known(case: Case, function: str) -> list[str]:
+    """Return the functions that are written anew; refuse a name of none.
+
+    Raises:
+        Robo47Error: the hunted script has no such function.
+    """
+    days = cases.days_hunted(case.of_day, case.level)
+    shut, written = closed_names(case.script, days)
+    if function not in shut + written:
+        names = ", ".join(shut + written)
+        raise Robo47Error(f"{function!r} is no function of this hunt: {names}")
+    return written
+
+
 def suspect(case: Case, function: str, expected: str) -> None:
     """Keep a suspicion and what it lets one expect; run, and show both side by side.
 
@@ -145,7 +159,7 @@ def suspect(case: Case, function: str, expected: str) -> None:
     print(f"\nYou suspect {function}.")
     print(experiment.beside(expected, lines))
     where = f"write {function} anew in {shown(case.script)}, and: "
-    where = "it is written anew already: " if function in written else where
+    where = "it is written anew already: " if written else where
     print(cli.wrapped(f"\nDoes it fit? Then {where}make hunt ARGS=--judge"))
 
 
@@ -161,6 +175,7 @@ def ask(case: Case) -> int:
         if not function:
             experiment.run(case)
             return cli.EXIT_OK
+        known(case, function)
         expected = typed(EXPECT)
     except EOFError:
         print()
