@@ -147,13 +147,7 @@ def suspect(case: Case, function: str, expected: str) -> None:
     Raises:
         Robo47Error: the hunted script has no such function.
     """
-    shut, written = closed_names(
-        case.script, cases.days_hunted(case.of_day, case.level)
-    )
-    if function not in shut + written:
-        raise Robo47Error(
-            f"{function!r} is no function of this hunt: {', '.join(shut + written)}"
-        )
+    written = function in known(case, function)
     case.suspected.append([function, expected])
     lines = experiment.run(case)
     print(f"\nYou suspect {function}.")

@@ -46,6 +46,8 @@ def run(case: Case) -> list[str]:
         for line in process.stdout or ():
             lines.append(line.rstrip("\n"))
             print(painted(lines[-1]), flush=True)
+    if process.returncode not in (cli.EXIT_OK, cli.EXIT_FAILED):
+        lines.append("  FAIL  it stops before its end")  # it said why itself
     return lines
 
 
