@@ -103,6 +103,17 @@ def test_what_was_expected_stands_beside_the_run_in_80_columns():
     assert "the torque of joint 4 is twice" in told.splitlines()[1]
     assert "FAIL  long" in told.splitlines()[1]
     assert told.endswith("1 check PASS")
+    rows = ["  place  joints", "these functions  398.4", "  cut", "right ones  0.9"]
+    told = experiment.beside("", rows).splitlines()
+    assert told[1].split() == [
+        "(nothing",
+        "said)",
+        "these",
+        "functions",
+        "398.4",
+        "cut",
+    ]
+    assert told[2].split() == ["right", "ones", "0.9"]
 
 
 @pytest.mark.kit
