@@ -21,6 +21,7 @@ import contextlib
 import secrets
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from labkit import log
 from labkit.base import cli
@@ -35,6 +36,9 @@ from labkit.lesson.day import Day, chosen_day
 from labkit.lesson.starter import require_kits
 from robo47.errors import Robo47Error
 from robo47.paths import shown
+
+if TYPE_CHECKING:
+    from labkit.hunt.verdict import Repaired
 
 HOW = "A call, such as ad([0, 0, 1, 0, 0, 0]), is made; Enter alone runs all of it."
 SUSPECT = "Which function do you suspect? "
@@ -196,13 +200,7 @@ def judge(case: Case) -> int:
         )
     case.checks += 1
     for one in repaired:
-        if not one.guilty:
-            says = "not it; it was right as it was."
-        elif one.verdict.status == "passed":
-            says = "that is it, and yours is right."
-        else:
-            says = f"that is it, but yours is not right yet. {one.verdict.message}"
-        print(cli.wrapped(f"{one.function}: {says}"))
+        print(cli.wrapped(f"{one.function}: {told(one)}"))
     if not is_found(case, repaired):
         case.save()
         missing = len(case.quarries) - sum(one.guilty for one in repaired)
@@ -214,6 +212,15 @@ def judge(case: Case) -> int:
     end(case, tally.FOUND, tuple(r.function for r in repaired if not r.guilty))
     asked = f"{count(case.runs, 'run')} and {count(case.checks, 'check')}"
     return conclude(True, f"found in {asked}")
+
+
+def told(one: "Repaired") -> str:
+    """Return what is said of a function that was written anew."""
+    if not one.guilty:
+        return "not it; it was right as it was."
+    if one.verdict.status == "passed":
+        return "that is it, and yours is right."
+    return f"that is it, but yours is not right yet. {one.verdict.message}"
 
 
 def reveal(case: Case) -> None:
