@@ -91,22 +91,24 @@ function draw(truth, poses) {
 function show() {
   const truth = chain(panda.links, q);
   const { poses, says, right } = other();
-  const inside = draw(truth, poses);
+  const drawn = poses && Object.values(poses).every(rigid) ? poses : null;
+  const inside = draw(truth, drawn);
   const row = (i) => truth.ee.slice(4 * i, 4 * i + 4).map((x) => fixed(x, 6).padStart(9));
   by("pose").textContent = `T_world_ee\n${[0, 1, 2].map((i) => row(i).join(" ")).join("\n")}`;
   by("says").textContent = says;
   by("says").className = says && !right ? "wrong" : "right";
-  by("off").textContent = poses ? away(poses.ee, truth.ee, inside) : "";
+  by("off").textContent = poses ? away(poses.ee, truth.ee, drawn, inside) : "";
   written();
   const asked = oracle ? oracle(q) : null;
   if (asked) by("state").textContent = agreed(asked, truth.ee);
   window.arm = { q: [...q], truth: asked?.ee ?? truth.ee, poses, mujoco: asked?.version };
 }
 
-function away(T, truth, inside) {
+function away(T, truth, drawn, inside) {
   const [mm, degrees] = apart(T, truth);
-  const turned = rigid(T) ? ` and ${degrees.toFixed(1)} degrees` : "";
-  const where = inside ? "" : " It is outside the picture.";
+  const turned = drawn ? ` and ${degrees.toFixed(1)} degrees` : "";
+  const shape = " Not drawn: R is no rotation, so the arm would change its shape.";
+  const where = drawn ? (inside ? "" : " It is outside the picture.") : shape;
   return `Here the hand is off by ${mm.toFixed(0)} mm${turned}.${where}`;
 }
 

@@ -83,6 +83,8 @@ class Figure {
   }
 }
 
+const small = (n) => String.fromCodePoint(0x2080 + n); // an index
+
 const matrixText = (name, T) =>
   `${name}\n${rows3(T).map((row) => row.map((x) => fixed(x, 3).padStart(7)).join("")).join("\n")}`;
 
@@ -98,7 +100,11 @@ class Product extends Figure {
   static says = "The Panda, and the frame that the factors so far lead to";
   static hint = "Each factor moves the frame one step: L to the next link, J turns it about its z.";
   begin() {
-    this.words = ["L0", ...this.links.slice(0, -1).flatMap((_, i) => [`L${i + 1}`, `J(q${i + 1})`]), "L_end"];
+    this.words = [
+      `L${small(0)}`,
+      ...this.links.slice(0, -1).flatMap((_, i) => [`L${small(i + 1)}`, `J(q${small(i + 1)})`]),
+      "L_attachment",
+    ];
     this.count = 7;
     this.swapped = false;
     this.red = this.stage.arm(this.shapes, { red: true });
@@ -159,7 +165,7 @@ class Screws extends Figure {
     });
     this.lines = this.screws.map(({ omega, through }) => this.line(omega, through));
     this.hand = this.stage.frame(0.2);
-    this.words = [...this.screws.map((_, i) => `e^[S${i + 1}]q${i + 1}`), "M"];
+    this.words = [...this.screws.map((_, i) => `e^[S${small(i + 1)}]q${small(i + 1)}`), "M"];
     this.slider("back to joint", [1, 8], this.from, (n) => (this.from = n), 1);
     this.joints(2, 4, 6);
   }

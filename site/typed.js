@@ -252,6 +252,7 @@ function unnamed(off, table) {
   return (
     `None of the ${table.named.length} mistakes that this page knows gives these numbers. ` +
     `At q = ${Number(table.questions[worst].toFixed(3))} an entry is off by ` +
-    `${off[worst].toPrecision(2)}; right at ${right} of ${off.length} angles.`
+    `${off[worst].toPrecision(2)}; right at ${right} of ${off.length} angles. ` +
+    "(The checker looks further, for two mistakes at once.)"
   );
 }

@@ -1,4 +1,4 @@
-"""Pages for those who do not see or point: names for what others made without one."""
+"""What is mended in built pages: names for who does not see, fewer bytes for all."""
 
 import re
 from pathlib import Path
@@ -8,7 +8,8 @@ _CAPTION = re.compile(r'<p class="caption" role="heading">')
 _LEVEL = '<p class="caption" role="heading" aria-level="2">'
 # A worksheet's box has its words beside it, and not as its label.
 _BOX = re.compile(
-    r'(<input class="task-list-item-checkbox"[^>]*>)(.*?)(?=</p>|</li>|\n<ul)', re.DOTALL
+    r'(<input class="task-list-item-checkbox"[^>]*>)(.*?)(?=</p>|</li>|\n<ul)',
+    re.DOTALL,
 )
 # viser's player in a film: the parts without a name, and theirs.
 _NAMELESS = {
@@ -22,7 +23,8 @@ _NAMELESS = {
 _NAMER = """<script>
 new MutationObserver(() => {
   for (const [part, name] of Object.entries(NAMES))
-    for (const one of document.querySelectorAll(part)) one.setAttribute("aria-label", name);
+    for (const one of document.querySelectorAll(part))
+      one.setAttribute("aria-label", name);
 }).observe(document, { childList: true, subtree: true });
 </script>"""
 
@@ -40,10 +42,18 @@ def mend(site: Path, films: str) -> None:
 
 
 def page(text: str) -> str:
-    """Return a page of the theme whose captions have a level and whose boxes a label."""
-    return _BOX.sub(r"<label>\1\2</label>", _CAPTION.sub(_LEVEL, text))
+    """Return a page of the theme as it should be.
+
+    Captions have a level, boxes a label; pictures after the first are fetched when the
+    page is scrolled near them.
+    """
+    text = _BOX.sub(r"<label>\1\2</label>", _CAPTION.sub(_LEVEL, text))
+    before, first, after = text.partition("<img ")
+    return before + first + after.replace("<img ", '<img loading="lazy" ')
 
 
 def film(text: str) -> str:
     """Return a film's page whose controls have names."""
-    return text.replace("</head>", _NAMER.replace("NAMES", str(_NAMELESS)) + "</head>", 1)
+    return text.replace(
+        "</head>", _NAMER.replace("NAMES", str(_NAMELESS)) + "</head>", 1
+    )

@@ -33,6 +33,7 @@ SETTINGS: dict[str, Any] = {
     "html_theme": "furo",
     "html_css_files": ["style.css"],
     "html_js_files": [("page.js", {"type": "module"})],
+    "html_search_scorer": str(SOURCES / "search.js"),
     "html_favicon": str(SOURCES / "icon.svg"),
     "html_copy_source": False,
     "html_show_sphinx": False,
@@ -52,7 +53,7 @@ SETTINGS: dict[str, Any] = {
     "napoleon_attr_annotations": False,  # and, as elsewhere, without types
     "default_role": "code",  # `q` in a docstring
 }
-# A dot that is an accent is set into its letter at a screen's size: q with a dot reads q.
+# As an accent, a dot is set into its letter at a screen's size: q with a dot reads q.
 _MELTS = ' accent="true"'
 _MARKUP = (":", "..", "- ", "* ")  # what an indented paragraph belongs to
 # docutils puts the index of an accented letter below it: q with a dot and an i.

@@ -28,7 +28,7 @@ T_EE_HAND = se3.make_T(se3.Rz(np.pi), np.zeros(3))
 
 
 def arm() -> list[Shape]:
-    """Return the Panda's shapes, each in the frame of its link; the hand's in the end's."""
+    """Return the Panda's shapes, each in its link's frame; the hand's in the end's."""
     model = panda.load("panda", meshes=True)
     moves = {"hand": T_EE_HAND}
     for name, joint in FINGERS.items():
@@ -46,7 +46,7 @@ def _moved(shape: Shape, T: Array | None) -> Shape:
 
 
 def _whole(shape: Shape) -> Shape:
-    """Return a shape whose triangles share their corners; the page finds sharp edges."""
+    """Return a shape whose triangles share corners; the page finds the sharp edges."""
     mesh = trimesh.Trimesh(shape.vertices, shape.faces, process=False)
     mesh.merge_vertices(merge_norm=True)
     return shape._replace(vertices=mesh.vertices, faces=mesh.faces)
@@ -69,7 +69,7 @@ def write(path: Path) -> None:
 
 
 def _write_raw(work: Path, made: list[Shape]) -> None:
-    """Write shapes for `site/meshes.mjs`: their corners and faces, and a list of them."""
+    """Write shapes for `site/meshes.mjs`: corners and faces, and a list of them."""
     with (work / "arm.raw").open("wb") as file:
         for shape in made:
             file.write(shape.vertices.astype("<f4").tobytes())

@@ -29,14 +29,20 @@ BY_WIDTH = re.compile(
 )
 LINK = re.compile(r"(?<=\]\()(?!https?:|#|mailto:)([^)#\s]+)(?=[)#])")
 PICTURE = re.compile(r"^!\[[^\]]*\]\([^)\s]*?(\w+)\.\w+\)$", re.MULTILINE)
-LIVE = re.compile(r"^<!-- live: (\w+) -->$", re.MULTILINE)  # a figure of site/figures.js
+LIVE = re.compile(
+    r"^<!-- live: (\w+) -->$", re.MULTILINE
+)  # a figure of site/figures.js
 FIGURE = '```{raw} html\n<figure class="live" data-figure="\\1"></figure>\n```'
 FILMS = "films"  # their folder among the site's static files
 # The README says where the arm's page is; here it is a click away, above all pictures.
 ELSEWHERE = re.compile(r"^\*\*Try it now.*?\n\n", re.MULTILINE | re.DOTALL)
 FIRST = re.compile(r"\A(# [^\n]+\n\n.+?\n\n)", re.DOTALL)  # title and paragraph
-TRY = r"\1**[Try it now, nothing to install](arm.md)**: type a mistake, see the arm.\n\n"
-VERB = re.compile(r"^([a-z-]+)%?:.*?##(\d?) (.+)$", re.MULTILINE)  # as `make help` reads it
+TRY = (
+    r"\1**[Try it now, nothing to install](arm.md)**: type a mistake, see the arm.\n\n"
+)
+VERB = re.compile(
+    r"^([a-z-]+)%?:.*?##(\d?) (.+)$", re.MULTILINE
+)  # as `make help` reads it
 COMMANDS = """\
 # What to type: the commands
 
@@ -64,7 +70,10 @@ CONTENTS = """
 ```
 """
 MODULES = (
-    ("Poses and chains", ("se3", "kinematics", "screws", "dh", "rotation_log", "orientation")),
+    (
+        "Poses and chains",
+        ("se3", "kinematics", "screws", "dh", "rotation_log", "orientation"),
+    ),
     ("Velocities and forces", ("jacobian", "fast.jacobians", "fast.ik", "dynamics")),
     ("Control and motion", ("control", "task_space", "trajectory")),
     ("The robot and its world", ("panda", "scenes", "simulate", "verify", "arm")),
@@ -164,7 +173,9 @@ def _commands(makefile: str) -> str:
     """Return a page with a heading per command of `make`, so that a search finds it."""
     found = VERB.findall(makefile)
     verbs = sorted(found, key=lambda verb: (verb[1] == "", verb[1]))
-    parts = [f"## make {name}\n\n{says[0].upper()}{says[1:]}.\n" for name, _, says in verbs]
+    parts = [
+        f"## make {name}\n\n{says[0].upper()}{says[1:]}.\n" for name, _, says in verbs
+    ]
     return COMMANDS + "\n".join(parts)
 
 
