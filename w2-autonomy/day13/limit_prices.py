@@ -24,8 +24,10 @@ def _(H, g, lo, hi, x):
     absolute: the signs are lost: an upper limit that moves up saves => its sizes
     upper-only: only upper limits have a price
     lower-only: only lower limits have a price
-    slopes-of-the-free: the prices are those of the entries that no limit holds => the
-      slopes of the others
+    no-price: every price is 0, as it is where no limit holds; where one holds it is the
+      slope => the slopes of the entries that no limit holds
+    largest-only: only the largest price is there; each limit that holds has one
+    times-x: the slope is multiplied by x; the limit moves by 1, not by x
     g-forgotten: g is missing in the slope => with H x
     g-forgotten 2: g is missing in the slope => H x
     H-forgotten: H is missing in the slope => with g
@@ -53,7 +55,9 @@ def _(H, g, lo, hi, x):
         "absolute": np.abs(right),
         "upper-only": np.where(high, slope, 0.0),
         "lower-only": np.where(low, slope, 0.0),
-        "slopes-of-the-free": np.where(held, 0.0, slope),
+        "no-price": np.where(held, 0.0, slope),
+        "largest-only": np.where(np.abs(right) == np.abs(right).max(), right, 0.0),
+        "times-x": at(slope * x),
         "g-forgotten": at(H @ x),
         "g-forgotten 2": H @ x,
         "H-forgotten": at(g),

@@ -23,6 +23,8 @@ def _(P, x):
     P-forgotten: x . x: P is missing
     diagonal-of-P: of P only the diagonal is used => with P's diagonal
     P-squared: P is multiplied twice: |P x|^2
+    length-of-P-x: that is the length of P x; x stands on both sides of P
+    doubled: it is twice as large
     P-inverted: P is inverted
     summed: the entries of P x are added; they are multiplied by those of x
     P-rooted: P is rooted first => with the root of each entry's size
@@ -35,6 +37,8 @@ def _(P, x):
         "P-forgotten": x @ x,
         "diagonal-of-P": np.diag(P) @ x**2,
         "P-squared": (P @ x) @ (P @ x),
+        "length-of-P-x": np.linalg.norm(P @ x),
+        "doubled": 2 * right,
         "P-inverted": x @ np.linalg.solve(P, x),
         "summed": np.sum(P @ x),
         "P-rooted": x @ np.sqrt(np.abs(P)) @ x,

@@ -34,7 +34,10 @@ def _(P, A, B, Q, R):
       and -K
     plus-BK: the arm is driven by +K x in P: it is A - B K => with A + B K
     A-not-transposed: A stands where A^T should in P => A P (A - B K)
-    A-not-transposed-in-K: the gain is B^T P without its A => (R + B^T P B)^-1 B^T P
+    A-missing-in-K: the gain is B^T P without its A => (R + B^T P B)^-1 B^T P
+    A-P-AT: A P A^T stands where A^T P A should: that is how a covariance goes on, and
+      no cost => Q + A P A^T - A P B K
+    Q-for-P: the gain is made with Q where P should stand => with K of Q
     Q-forgotten: Q is missing in P => P without Q
     Q-in-the-gain: Q is added to P in the gain; what this step costs does not depend on
       its u through Q => with P + Q in K
@@ -78,7 +81,9 @@ def _(P, A, B, Q, R):
         "gain-sign": (right, -K),
         "plus-BK": (Q + A.T @ P @ (A + B @ K), K),
         "A-not-transposed": (Q + A @ P @ closed, K),
-        "A-not-transposed-in-K": by(np.linalg.solve(S, B.T @ P)),
+        "A-missing-in-K": by(np.linalg.solve(S, B.T @ P)),
+        "A-P-AT": (Q + A @ P @ A.T - A @ P @ B @ K, K),
+        "Q-for-P": by(np.linalg.solve(R + B.T @ Q @ B, B.T @ Q @ A)),
         "Q-forgotten": (right - Q, K),
         "Q-in-the-gain": by(np.linalg.solve(R + B.T @ (P + Q) @ B, B.T @ (P + Q) @ A)),
         "no-control": (Q + A.T @ P @ A, K),
