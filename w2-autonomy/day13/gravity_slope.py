@@ -105,6 +105,14 @@ def _(J_space, masses, coms, g):
     minus-9.81 2: g's length is taken, straight down; it may point anywhere => with (0,
       0, -|g|)
     length-1: g is divided by its length: only where it points is left => with g / |g|
+    axis-before: gravity is turned about the axis of the joint before; joint j's turn is
+      its own axis
+    axes-summed: gravity is turned about the sum of all axes up to joint j; it is
+      joint j alone that turns
+    g-along-omega: g's part along omega stands for g x omega
+    total-mass: each link counts with the mass of all
+    differences: a difference of two torques is divided by the turn, and the turn is
+      large: what is asked is the slope => with a turn of 0.05
     last-axis: gravity is turned about the last joint's axis in every column; each
       joint has its own
     z-axis: gravity is turned about z in every column; each joint has its own axis
@@ -127,6 +135,7 @@ def _(J_space, masses, coms, g):
     ]).T  # fmt: skip
     g_z = np.array([0.0, 0.0, g[2]])
     length = np.linalg.norm(g)
+    at = np.arange(len(masses))
     straight = np.array([0.0, 0.0, -length])
     last = np.zeros_like(right)
     last[-1, -1] = right[-1, -1]
@@ -161,6 +170,11 @@ def _(J_space, masses, coms, g):
         "minus-9.81": mirrored(felt(*given, np.cross(DOWN, omega))),
         "minus-9.81 2": mirrored(felt(*given, np.cross(straight, omega))),
         "length-1": right / length,
+        "axis-before": mirrored(felt(*given, turned[np.maximum(at - 1, 0)])),
+        "axes-summed": mirrored(felt(*given, np.cumsum(turned, axis=0))),
+        "g-along-omega": mirrored(felt(*given, (omega @ g)[:, None] * omega)),
+        "total-mass": mirrored(felt(J_space, 0 * masses + masses.sum(), coms, turned)),
+        "differences": mirrored(felt(*given, turned + 0.025 * np.cross(turned, omega))),
         "last-axis": mirrored(felt(*given, np.cross(g, 0 * omega + omega[-1]))),
         "z-axis": mirrored(felt(*given, np.cross(g, 0 * omega + [0, 0, 1]))),
         "turned-twice": mirrored(twice),

@@ -29,6 +29,7 @@ def backward(
     in_drop=1, right_fx=False, short=0.0, keep=(), sum_drop=True, quad=0.5, cross=1.0,
     cross_xx=1.0, gain=True, first=1.0, quu_x=1.0, quu_xx=1.0, signs=(-1.0, -1.0),
     turned_in_Qx=False, but=(), solve=np.linalg.solve,
+    lux_in_K=True, Vx_in_k=True, mu_by=1.0,
 ):  # fmt: skip
     """Return k, K and drop of a pass whose parts may be wrong."""
     T, n, m = fu.shape
@@ -43,8 +44,11 @@ def backward(
         bare = luu[t] + fu[t].T @ Vxx @ fu[t]
         Qux = lux[t] + fu[t].T @ Vxx @ F
         more = mu * np.eye(m)
-        k[t] = signs[0] * solve(bare + in_k * more, Qu)
-        K[t] = signs[1] * solve(bare + in_K * more, Qux)
+        pulls = Qu if Vx_in_k else lu[t]
+        bends = Qux if lux_in_K else Qux - lux[t]
+        k[t] = signs[0] * solve(bare + in_k * more, pulls)
+        K[t] = signs[1] * solve(bare + in_K * more, bends)
+        mu = mu * mu_by
         V = bare + in_V * more
         now = np.array(
             [first * k[t] @ Qu, quad * k[t] @ (bare + in_drop * more) @ k[t]]
@@ -139,6 +143,14 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     fx-not-transposed: fx stands where fx^T should, and the other way round => with fx^T
       for fx
     fx-not-transposed 2: fx stands where fx^T should in Qx => with fx Vx
+    first-slopes 3: all steps have the first one's fu
+    lux-not-in-K: lux is missing in K, and only there
+    Vx-not-in-k: k is made with lu alone; what follows has its Vx in it
+    mu-halved-each-step: mu is halved from step to step; it is the same everywhere
+    lxx-halved: lxx is halved; it is a second slope as it is
+    luu-halved: luu is halved; it is a second slope as it is
+    drop-mean: the drop is divided by the number of steps; they add up
+    drop-halved: both of the drop's entries are halved
     first-slopes 2: all steps have the first one's fx
     last-lu: all steps have the last one's lu
     first-lu: all steps have the first one's lu
@@ -212,6 +224,14 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
         "forwards": of(order=1),
         "fx-not-transposed": of(right_fx=True),
         "fx-not-transposed 2": of(turned_in_Qx=True),
+        "first-slopes 3": of(fu=0 * fu + fu[:1]),
+        "lux-not-in-K": of(lux_in_K=False),
+        "Vx-not-in-k": of(Vx_in_k=False),
+        "mu-halved-each-step": of(mu_by=0.5),
+        "lxx-halved": of(lxx=lxx / 2),
+        "luu-halved": of(luu=luu / 2),
+        "drop-mean": (k, K, drop / len(fx)),
+        "drop-halved": (k, K, drop / 2),
         "first-slopes 2": of(fx=0 * fx + fx[:1]),
         "last-lu": of(lu=0 * lu + lu[-1:]),
         "first-lu": of(lu=0 * lu + lu[:1]),

@@ -58,6 +58,14 @@ def _(H, g, lo, hi, x):
       is not best => the largest slope of the free ones
     lower-only: only the lower limit clips
     upper-only: only the upper limit clips
+    clip-the-push: the push is clipped to the box; it is where it leads that has limits
+      => the largest of |clip(-slope)|
+    cost-gap: that is how much the cost falls by a push; how far x moves is asked
+    first-only: only the first difference is looked at
+    last-only: only the last difference is looked at
+    share-of-x: it is divided by the largest entry of x, where that is above 1
+    squares-summed: the squares of the differences are added; the largest difference is
+      asked
     squared: the largest difference is squared
     distance: that is how far the best point is; the residual needs no solution => the
       largest distance to the best point
@@ -85,6 +93,7 @@ def _(H, g, lo, hi, x):
     """
     s = H @ x + g
     d = x - np.clip(x - s, lo, hi)
+    there = x - d
     free = (x > lo) & (x < hi)
     stays = ((x <= lo) & (s > 0)) | ((x >= hi) & (s < 0))
     counted = np.where(
@@ -113,6 +122,12 @@ def _(H, g, lo, hi, x):
         "free-only": np.abs(np.where(free, d, 0.0)).max(),
         "lower-only": np.abs(x - np.maximum(x - s, lo)).max(),
         "upper-only": np.abs(x - np.minimum(x - s, hi)).max(),
+        "clip-the-push": np.abs(np.clip(-s, lo, hi)).max(),
+        "cost-gap": abs(x @ H @ x / 2 + g @ x - there @ H @ there / 2 - g @ there),
+        "first-only": abs(d[0]),
+        "last-only": abs(d[-1]),
+        "share-of-x": np.abs(d).max() / max(1.0, np.abs(x).max()),
+        "squares-summed": np.sum(d**2),
         "squared": np.abs(d).max() ** 2,
         "distance": np.abs(x - box_qp(H, g, lo, hi, x)).max(),
         "newton-push": by(np.linalg.solve(H, s)),

@@ -27,6 +27,12 @@ def _(H, g, lo, hi, x):
     no-price: every price is 0, as it is where no limit holds; where one holds it is the
       slope => the slopes of the entries that no limit holds
     largest-only: only the largest price is there; each limit that holds has one
+    first-limit-only: only the first limit that holds has its price; each of them has
+      one
+    times-the-width: the slope is multiplied by the width of the box; the limit moves by
+      1
+    doubled: it is twice as large
+    lower-sign: a lower limit's price has the wrong sign => with minus the lower ones
     times-x: the slope is multiplied by x; the limit moves by 1, not by x
     g-forgotten: g is missing in the slope => with H x
     g-forgotten 2: g is missing in the slope => H x
@@ -57,6 +63,10 @@ def _(H, g, lo, hi, x):
         "lower-only": np.where(low, slope, 0.0),
         "no-price": np.where(held, 0.0, slope),
         "largest-only": np.where(np.abs(right) == np.abs(right).max(), right, 0.0),
+        "first-limit-only": np.where(np.cumsum(held) == 1, right, 0.0),
+        "times-the-width": at(slope * (hi - lo)),
+        "doubled": 2 * right,
+        "lower-sign": np.where(low, -right, right),
         "times-x": at(slope * x),
         "g-forgotten": at(H @ x),
         "g-forgotten 2": H @ x,

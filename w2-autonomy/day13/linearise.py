@@ -109,6 +109,11 @@ def _(M, slope, damping, h):
     damping-not-divided: the damping is not divided by M, and acts on the old speed
       => with 1 - h D in the lower right
     B-not-divided: B is not divided by M + h D: u is a torque, and no acceleration
+    B-halved-below: the lower half of B is halved; a torque acts for all of h
+    h-twice-in-B: h is multiplied twice: (M + h D)^-1 h u is the change of the speed
+    diagonal-of-the-slope: of the slope only the diagonal is used => with its diagonal
+    slope-halved-above: in the upper left of A the slope is halved: the new speed moves
+      the joints for all of h
     B-halved-above: the upper half of B is h^2 / 2; the new speed moves the joints for
       all of h
     upper-right-h: in the upper right of A stands h; the new speed is (M + h D)^-1 M v
@@ -183,6 +188,10 @@ def _(M, slope, damping, h):
             h * M_inv,
         ),
         "B-not-divided": (A, np.vstack([h * h * one, h * one])),
+        "B-halved-below": (A, np.vstack([B[:n], B[n:] / 2])),
+        "h-twice-in-B": (A, h * B),
+        "diagonal-of-the-slope": stepped(M, np.diag(np.diag(slope)), damping, h),
+        "slope-halved-above": joined(one + h * vq / 2, qv, vq, vv, B[:n], B[n:]),
         "B-halved-above": (A, np.vstack([B[:n] / 2, B[n:]])),
         "upper-right-h": joined(qq, h * one, vq, vv, B[:n], B[n:]),
         "upper-without-h": joined(one + vq, vv, vq, vv, B[:n], B[n:]),

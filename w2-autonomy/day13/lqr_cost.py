@@ -28,7 +28,10 @@ def _(P, x):
     P-inverted: P is inverted
     summed: the entries of P x are added; they are multiplied by those of x
     P-rooted: P is rooted first => with the root of each entry's size
-    upper-half: of P only the upper half is used
+    P-by-squares: P is multiplied by the squares of x and summed; P's other entries
+      belong to products
+    trace: P is taken for its trace
+    one-half-of-P: of P only the upper half is used, or only the lower one
     """
     right = x @ P @ x
     return {
@@ -42,7 +45,9 @@ def _(P, x):
         "P-inverted": x @ np.linalg.solve(P, x),
         "summed": np.sum(P @ x),
         "P-rooted": x @ np.sqrt(np.abs(P)) @ x,
-        "upper-half": x @ np.triu(P) @ x,
+        "P-by-squares": np.sum(P @ x**2),
+        "trace": np.trace(P) * (x @ x),
+        "one-half-of-P": x @ np.triu(P) @ x,
     }
 
 

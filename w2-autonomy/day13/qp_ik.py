@@ -87,6 +87,12 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
     e-doubled: the step is twice of it: H and g have the same half => with 2 e
     clipped-twice: Day 3's step is clipped, what is left of e is tried once more and
       clipped again; joints that are held should be left out of it
+    mean-weight-in-g: before e stands the mean of the weights; each row has its own
+    first-weight: all rows have the first one's weight
+    damping-cubed: the damping is to the third power; it is squared
+    damping-weighted: the mean weight multiplies the damping, too
+    stands-still-allowed: the limits are widened until they have 0 between them; a joint
+      beyond its range has to come back => with 0 within all limits
     translation-only: only the translation is looked at
     rotation-only: only the rotation is looked at
     """
@@ -127,6 +133,11 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
         "error-sign": solved(J, -e, weights, d, lo, hi),
         "e-halved": solved(J, e / 2, weights, d, lo, hi),
         "e-doubled": solved(J, 2 * e, weights, d, lo, hi),
+        "mean-weight-in-g": solved(*given, lo, hi, 0 * weights + weights.mean()),
+        "first-weight": solved(J, e, 0 * weights + weights[0], d, lo, hi),
+        "damping-cubed": solved(J, e, weights, damping**3, lo, hi),
+        "damping-weighted": solved(J, e, weights, weights.mean() * d, lo, hi),
+        "stands-still-allowed": solved(*given, np.minimum(lo, 0), np.maximum(hi, 0)),
         "translation-only": solved(J, e, weights * down, d, lo, hi),
         "rotation-only": solved(J, e, weights * (1 - down), d, lo, hi),
     }

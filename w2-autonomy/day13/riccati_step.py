@@ -46,6 +46,8 @@ def _(P, A, B, Q, R):
     R-inverted: R's inverse is added in the gain => with R^-1
     K-R-K-subtracted: K^T R K is subtracted; it is K^T (R + B^T P B) K that is saved
       => Q + A^T P A - K^T R K
+    K-K-subtracted: K^T K is subtracted; it is K^T (R + B^T P B) K that is saved
+      => Q + A^T P A - K^T K
     K-K-added: K^T K is added for K^T R K: what u costs is R's => with K^T K
     K-halved: K is half as large => the right P, and K / 2
     P-not-updated: P is returned as it was
@@ -90,6 +92,7 @@ def _(P, A, B, Q, R):
         "P-forgotten": (Q + A.T @ closed, K),
         "R-inverted": by(np.linalg.solve(np.linalg.inv(R) + B.T @ P @ B, F)),
         "K-R-K-subtracted": (Q + A.T @ P @ A - K.T @ R @ K, K),
+        "K-K-subtracted": (Q + A.T @ P @ A - K.T @ K, K),
         "K-K-added": (Q + closed.T @ P @ closed + K.T @ K, K),
         "K-halved": (right, K / 2),
         "P-not-updated": (P.copy(), K),
