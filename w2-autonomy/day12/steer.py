@@ -41,6 +41,8 @@ def _(q, target, step):
     direction-only 2: q is missing: this is the step, or the whole way where it is
       shorter
     away: it goes away from the target: q - target is the other way round
+    away 2: where the target is far it goes away from it: q - target is the other way
+      round
     stays-when-near: where the target is no further than a step it does not move; it
       ends at the target then
     always-q: it never moves
@@ -74,6 +76,7 @@ def _(q, target, step):
         "direction-only": step * unit,
         "direction-only 2": part * way,
         "away": q - part * way,
+        "away 2": target if near else q - step * unit,
         "stays-when-near": q if near else q + step * unit,
         "always-q": q,
         "largest-coordinate": q + min(1.0, step / size) * way,
