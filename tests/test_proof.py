@@ -1,6 +1,7 @@
 """A page to show: what is theirs, run again, and nothing from outside gets a say."""
 
 import functools
+import html
 import subprocess
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -14,18 +15,21 @@ pytest.importorskip("viser", reason="the extra view")
 from labkit.base.exchange import Reply
 from labkit.commands import grade
 from labkit.commands import proof as command
+from labkit.figures import client
 from labkit.grade.roster import Student
 from labkit.lesson.day import find_day
 from labkit.lesson.week import find_week
 from labkit.lesson.writers import Writers, file_mark
-from labkit.proof import facts, page
+from labkit.proof import card, facts, page
 from labkit.proof.capstone import Attempt, attempt
 from labkit.report.series import Series
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import capstone
+from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
 
+EVERY = frozenset().union(*capstone.USES.values())
 EVIL = "<script>document.title='evil'</script>\"' onload=alert(1) {film}"
 
 
@@ -140,13 +144,44 @@ def hostile():
 
 
 def test_nothing_from_outside_becomes_a_tag():
-    text = page.render(hostile())
+    text = page.render(hostile(), "card.png")
+    assert '<meta property="og:image" content="card.png">' in text
+    assert f'content="{html.escape(EVIL)}: Week 1: foundations">' in text
     seen = Seen(text)
     assert "script" not in seen.tags
     assert not [name for name in seen.attributes if name.startswith("on")]
     for what in ("Whose functions", "a fresh clone", "What this does not prove"):
         assert what in seen.words
     assert seen.words.count("<script>") >= 7
+
+
+@pytest.mark.parametrize("draws", [True, False])
+def test_the_card_to_share_has_its_size_and_its_words_with_a_picture_or_without(
+    monkeypatch, draws
+):
+    def draw(scene):
+        if not draws:
+            raise Robo47Error("nothing draws here")
+        return np.full((*scene.size[::-1], 3), 200, dtype=np.uint8)
+
+    monkeypatch.setattr(client, "draw", draw)
+    result = capstone.pick(capstone.library())
+    proof = replace(hostile(), attempt=Attempt(capstone, result, "", EVERY))
+    drawn = np.asarray(card.draw(page.in_short(proof), proof.attempt)).astype(int)
+    assert drawn.shape == (630, 1200, 3)
+    assert (drawn[300:500, 1000] == 200).all() == draws
+    green = (np.abs(drawn - card.GOOD).max(axis=2) < 10).any(axis=1)
+    assert green[450:520].any()  # the pick's number; the functions are not all theirs
+    assert not green[:420].any()
+    partly = proof.attempt._replace(yours=9)
+    drawn = np.asarray(card.draw(page.in_short(proof), partly)).astype(int)
+    assert not (np.abs(drawn - card.GOOD).max(axis=2) < 10).any()
+
+
+def test_a_name_on_the_card_has_the_letters_of_its_font():
+    assert card._known("Ada Lovelace") == "Ada Lovelace"
+    assert card._known("Zoë") in ("Zoë", "Zoe")
+    assert card._known("\uffff") == ""
 
 
 @functools.cache

@@ -20,6 +20,7 @@ from pathlib import Path
 from labkit.base import cli
 from labkit.base.text import count
 from labkit.check import memory
+from labkit.hunt.tally import tally
 from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
 from labkit.lesson.week import Week, weeks
 from labkit.lesson.writers import Writers, writers_of
@@ -63,6 +64,8 @@ def main() -> int:
         f" {report.count('fail')} failing,"
         f" {report.count('none') + report.count('kit')} not run yet"
     )
+    if hunts := tally(report.hunts):
+        print(f"bug hunts: {hunts}")
     if mine:
         tell(report, days_of(asked_week) if asked_week else days)
     if look := len(report.look):

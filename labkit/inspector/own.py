@@ -42,8 +42,10 @@ class Own:
         library: Any,
         free: Collection[str] = (),
         any_rows: Collection[str] = (),
+        units: Mapping[str, str] | None = None,
     ) -> None:
         """Ask nobody yet, see `Page.own`."""
+        self._units = units or {}
         self._free = {*free, *any_rows}
         self._any_rows = any_rows
         self._student = student
@@ -108,9 +110,20 @@ class Own:
             self._apart[name] = max(before, off if judged else 0.0)
         return _as_drawn(reply.value)
 
+    def fresh(self) -> bool:
+        """Return whether the file that was asked last is the one that is there."""
+        student = self._student
+        now = student.version if student.there else -1
+        return self.version == now and not student.saved()
+
     def says(self) -> tuple[str, str]:
         """Return whose functions were at work, and how they compare; its kind."""
-        wrong = [f"{name} by {x:.3g}" for name, x in self._apart.items() if x]
+        units = self._units
+        wrong = [
+            f"{name} by {x:.3g} {units.get(name, '')}".rstrip()
+            for name, x in self._apart.items()
+            if x
+        ]
         if wrong:
             return f"YOUR functions. Off the library's: {', '.join(wrong)}", "bad"
         lent = self._lent
@@ -118,9 +131,11 @@ class Own:
         theirs = f"the library's {', '.join(lent)} ({why})" if lent else ""
         if not self._apart:
             return f"At work: {theirs}" if theirs else "", "quiet"
-        names = ", ".join(self._apart)
-        judged = any(name not in self._free for name in self._apart)
-        text = f"YOUR {names}" + (": the same as the library's" if judged else "")
+        free = ", ".join(name for name in self._apart if name in self._free)
+        judged = ", ".join(name for name in self._apart if name not in self._free)
+        text = f"YOUR {judged}: the same as the library's" if judged else ""
+        if free:  # the tab itself says how far these are right
+            text = f"{text}; at work: {free}" if text else f"YOUR {free} at work"
         return f"{text}; besides {theirs}" if theirs else text, "good"
 
 

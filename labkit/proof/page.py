@@ -14,9 +14,10 @@ import robo47
 from labkit.base import html
 from labkit.base.text import count, number_of
 from labkit.check.lab_run import TRIALS
+from labkit.proof import card
 from labkit.proof.capstone import Attempt, recorded
 from labkit.proof.facts import RunDay
-from labkit.report.series import Series
+from labkit.report.series import Series, cell_of, limit_of, with_unit
 from robo47.attempt import Told
 
 # What viser's player needs of the page's policy. Its workers compile what they run.
@@ -63,8 +64,12 @@ class Proof:
     fresh: dict[str, Any] = field(default_factory=dict)
 
 
-def render(proof: Proof) -> str:
+def render(proof: Proof, card_name: str = "") -> str:
     """Return the whole page.
+
+    Args:
+        proof: what it says.
+        card_name: of the picture to share, a file beside it; "" without one.
 
     The film is put in last and by a name that nobody could know before: no text from
     outside can stand in its place, and no script runs but with its number.
@@ -87,6 +92,7 @@ def render(proof: Proof) -> str:
         html.section("What this does not prove", f"<ul>{not_proved}</ul>"),
         style=STYLE,
         policy=ALLOWED.format(nonce=nonce),
+        meta=card.meta(card_name, in_short(proof)) if card_name else "",
     )
     told = proof.attempt
     if told.capstone is None or told.result is None:
@@ -136,7 +142,7 @@ def _again(one: RunDay, number: Series) -> tuple[str, str]:
     value = one.again.get((wanted.check, wanted.metric))
     if value is None:
         return "none", "–"
-    return "pass" if wanted.passes(value) else "fail", number_of(value)
+    return "pass" if wanted.passes(value) else "fail", with_unit(value, wanted)
 
 
 def _fresh(proof: Proof) -> tuple[str, str]:
@@ -168,7 +174,9 @@ def _capstone_in_short(attempt: Attempt) -> str:
     if attempt.capstone is None or attempt.result is None:
         return ""
     told = attempt.capstone.told(attempt.result)
-    return f"{attempt.capstone.NAME}: {told.number} {told.of}"
+    words = f"{attempt.capstone.NAME}: {told.number} {told.of}"
+    whose = f", by {attempt.yours} of its {attempt.total} functions"
+    return words if attempt.yours == attempt.total else words + whose
 
 
 def _capstone(attempt: Attempt, place: str) -> str:
@@ -252,9 +260,9 @@ def _number(one: RunDay, number: Series) -> str:
     again, value = _again(one, number)
     return (
         f"<tr><td>{one.day.number}</td>"
-        f"<td class=wide>{escape(one.day.name_of(number.wanted))}<br>"
+        f"<td class=wide>{cell_of(one.day, number.wanted)}<br>"
         f'<small class="{role}">{logged}{worth}</small></td>'
-        f'<td class="n {again}">{value}</td><td>{escape(number.wanted.limit)}</td></tr>'
+        f'<td class="n {again}">{value}</td><td>{limit_of(number.wanted)}</td></tr>'
     )
 
 

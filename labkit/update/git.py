@@ -1,6 +1,7 @@
 """What an update asks of git, and the worktree beside the clone that it works in."""
 
 import contextlib
+import os
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -13,6 +14,7 @@ from robo47.paths import ROOT
 
 SECONDS = 300.0
 PREFIX = "update-"  # of a worktree's folder in `.robo47/`
+NO_HOOKS = ("-c", f"core.hooksPath={os.devnull}")  # they see no checkout of ours
 NOBODY = ("-c", "user.name=robo47", "-c", "user.email=robo47@localhost")
 
 
@@ -34,10 +36,9 @@ def ask(
         Robo47Error: git fails; what it says, with the files that it names.
     """
     more: dict[str, Any] = {"GIT_INDEX_FILE": str(index)} if index else {}
+    more |= {"seconds": SECONDS, "largest": git.LARGEST_GIT}
     try:
-        done = git.run(
-            *arguments, folder=at, seconds=SECONDS, largest=git.LARGEST_GIT, **more
-        )
+        done = git.run(*NO_HOOKS, *arguments, folder=at, **more)
     except git.GitError as error:
         raise Robo47Error(f"{error}") from None
     if done.returncode == 0:
@@ -55,7 +56,7 @@ def as_whom(at: Path) -> tuple[str, ...]:
 
 def commit(message: str, at: Path) -> None:
     """Commit what is staged."""
-    how = ("commit", "-q", "--no-verify", "--no-gpg-sign", "-m", message)
+    how = ("commit", "-q", "--no-gpg-sign", "-m", message)
     ask(*as_whom(at), *how, at=at)
 
 

@@ -67,7 +67,7 @@ def take(worktree: Path, own: str) -> None:
         with contextlib.suppress(Robo47Error, OSError):  # then the next run does it
             heal()
         if isinstance(error, OSError):
-            where = error.filename or "a file"
+            where = error.filename2 or error.filename or "a file"
             raise Robo47Error(f"{where} cannot be written: {error.strerror}") from None
         raise
     store.path_of(NOTE).unlink()
