@@ -15,7 +15,7 @@ from viser import _messages
 from labkit.inspector import serve
 from labkit.inspector.app import Inspector
 from labkit.inspector.arm import Arm
-from labkit.inspector.common_tabs import Standing
+from labkit.inspector.common_tabs import Joints, Standing
 from labkit.inspector.ghost import Ghost, compare, nothing
 from labkit.inspector.guard import LocalServer
 from labkit.inspector.robot import Robot
@@ -130,7 +130,7 @@ def show(server):
 
 @pytest.fixture
 def page(show):
-    return show(DayTabs(GHOST, [Noisy, Broken]))
+    return show(DayTabs(GHOST, [Joints, Noisy, Broken]))
 
 
 BROWSER = 7  # the number of one that is connected
@@ -502,6 +502,21 @@ def test_a_tab_that_was_closed_hears_of_no_move(page, say):
     settle(page)
     assert page.arm.q[0] == 0.1  # the arm itself has moved
     np.testing.assert_array_equal(Noisy.last.q, heard)
+
+
+@pytest.mark.parametrize("number", day_numbers())
+def test_a_day_opens_in_a_tab_of_its_own_and_a_begin_plays_it(show, number):
+    day = day_tabs(find_day(number))
+    page = show(day)
+    assert page.kind is day.tabs[0]
+    begun = []
+    page.tab.begin = lambda: begun.append(page.kind.title)
+    on_loop(page.server, lambda: page.hear(page.student.version, nothing("")))
+    assert not begun  # a move is no save
+    page.unchecked = True
+    page.check = lambda: Standing("")
+    on_loop(page.server, lambda: page.hear(page.student.version, nothing("")))
+    assert begun == [page.kind.title]
 
 
 @pytest.mark.parametrize("number", day_numbers())

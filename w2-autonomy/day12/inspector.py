@@ -2,8 +2,8 @@
 
 In the plane: discs, both trees as the student's own `extend` grows them, sample by
 sample, the way of their `rrt_connect` on the library's, and what their `shortcut`
-leaves of it. Twenty other draws of as many samples are counted, and their `wilson` says what
-that count is worth. In the scene: a way over the lab's wall, played as their
+leaves of it. Twenty other draws of as many samples are counted, and their `wilson` says
+what that count is worth. In the scene: a way over the lab's wall, played as their
 `path_dynamics` and `fastest_along` time it.
 """
 
