@@ -47,7 +47,7 @@ def test_a_wrong_pose_is_reported_as_different(arm):
     wrong[0, 3] += 1e-6
     assert arm.difference(END, wrong) == pytest.approx(1e-6, rel=1e-6)
     assert "THEY DIFFER" in words.verdict(arm.difference(END, wrong), "yours")
-    assert "they agree" in words.verdict(AGREES / 2)
+    assert "they agree" in words.verdict(AGREES / 2, "yours")
     assert "THEY DIFFER" in words.verdict(float("nan"))
 
 

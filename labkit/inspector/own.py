@@ -106,7 +106,7 @@ class Own:
         ]
 
     def _keep(self, version: int, told: Told) -> None:
-        """Keep what was noted of a file; two threads may ask, one of them an old one."""
+        """Keep what was noted of a file; another thread may ask another file."""
         before = self._told.setdefault(version, Told({}, {}))
         before.lent.update(told.lent)
         for name, off in told.apart.items():
