@@ -115,6 +115,17 @@ def test_what_an_old_file_answers_late_is_not_held_against_the_new_one():
     assert own.says()[1] == "good"
 
 
+def test_who_gave_no_answer_is_not_green_because_another_one_does():
+    student, own = own_of({"double": lambda x: None, "both": lambda x: (x, -x)})
+    with pytest.raises(NoAnswerError):
+        own.double(ONE)
+    own.both(ONE)
+    assert own.says() == ("YOUR double returned nothing", "bad")
+    student.functions["double"] = lambda x: 2.0 * x  # as of another x
+    own.double(ONE)
+    assert own.says()[1] == "good"
+
+
 def test_a_function_with_many_right_answers_is_not_compared():
     _, own = own_of({"any_root": lambda x: -np.sqrt(x)}, free=("any_root",))
     assert own.any_root(4.0) == -2.0

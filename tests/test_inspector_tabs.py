@@ -124,8 +124,9 @@ def looked(number, title, functions):
     drawn = lambda page, *_: Paper(page.host.log, "robot")  # noqa: E731
     with patch.object(module, "Robot", drawn, create=True):
         desk = Desk(number, kind, functions)
-    desk.tab.begin()
+    desk.begin()
     desk.play(PICTURES)
+    desk.opened = set(desk.asked)
     for action in DONE.get((number, title), ()):
         action(desk.tab)
         desk.settle()
@@ -203,8 +204,11 @@ def test_a_tab_without_answers_shows_no_green(number, title):
     desk.play(2)
     assert isinstance(desk.problem, NoAnswerError)
     assert "r47-good" not in desk.seen
+    assert desk.whose[1] == "bad"
+    desk.asked.clear()
     desk.save(lab(number))
     desk.play(PICTURES)
+    assert desk.asked >= desk.opened  # a save has all asked again that opening asks
     assert desk.problem is None
     assert desk.whose[1] == "good"
     assert "r47-bad" not in desk.seen

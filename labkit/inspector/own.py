@@ -40,6 +40,7 @@ class Told(NamedTuple):
 
     apart: dict[str, float]  # how far from the library's, by function; 0 for the same
     lent: dict[str, str]  # what the library answered instead, and why
+    none: dict[str, str]  # what gave no answer when it was asked last, and why
 
 
 class Own:
@@ -73,7 +74,7 @@ class Own:
         Where one of them gave none NoAnswerError is raised.
         """
         version = self.version  # a file that comes meanwhile is another one
-        told = Told({}, {})
+        told = Told({}, {}, {})
         try:
             return self._answers(calls, version, told)
         except NoAnswerError as error:
@@ -100,15 +101,22 @@ class Own:
         replies = student.ask(questions)
         if student.problem:
             raise NoAnswerError(f"YOUR {student.problem}")
-        return [
-            self._answer(name, reply, truth, told)
-            for (name, *_), reply, truth in zip(calls, replies, right, strict=True)
-        ]
+        answers = []
+        for (name, *_), reply, truth in zip(calls, replies, right, strict=True):
+            try:
+                answers.append(self._answer(name, reply, truth, told))
+            except NoAnswerError as error:
+                told.none[name] = str(error)
+                raise
+        return answers
 
     def _keep(self, version: int, told: Told) -> None:
         """Keep what was noted of a file; another thread may ask another file."""
-        before = self._told.setdefault(version, Told({}, {}))
+        before = self._told.setdefault(version, Told({}, {}, {}))
         before.lent.update(told.lent)
+        for name in {*told.apart, *told.lent}:
+            before.none.pop(name, None)
+        before.none.update(told.none)
         for name, off in told.apart.items():
             before.apart[name] = max(before.apart.get(name, 0.0), off)
 
@@ -142,7 +150,9 @@ class Own:
     def says(self) -> tuple[str, str]:
         """Return whose functions were at work, and how they compare; its kind."""
         units = self._units
-        apart, lent = self._told.get(self.version, Told({}, {}))
+        apart, lent, none = self._told.get(self.version, Told({}, {}, {}))
+        if none:
+            return next(iter(none.values())), "bad"
         wrong = [
             f"{name} by {x:.3g} {units.get(name, '')}".rstrip()
             for name, x in apart.items()

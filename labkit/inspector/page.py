@@ -186,6 +186,7 @@ class Page:
             self.asking()  # what an older file answered is no news
         elif isinstance(error, NoAnswerError):
             self._show_whose(str(error), "bad")
+            self.say("")
             self.host.lose()
         elif error is not None:
             self.say(f"stopped: {type(error).__name__}: {error}", "bad")
