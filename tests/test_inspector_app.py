@@ -545,6 +545,15 @@ def test_what_a_day_brings_and_is_no_tab_is_refused(monkeypatch, brings, says):
         day_tabs(find_day(1))
 
 
+def test_what_is_no_pose_is_drawn_as_the_nearest_one():
+    from labkit.inspector.meshes import place
+
+    node = SimpleNamespace()
+    place(node, -np.eye(4))  # a mirror image, as a sign makes one
+    assert np.linalg.norm(node.wxyz) == pytest.approx(1.0)
+    np.testing.assert_array_equal(node.position, np.zeros(3))
+
+
 def test_an_image_of_depths_goes_from_black_to_white():
     from labkit.inspector.instruments import as_bytes
 
