@@ -91,13 +91,25 @@ class Loop:
 
 
 class Now:
-    """Jobs that are done at once."""
+    """Jobs that are done at once; those of one moment not before it is over."""
 
     def __init__(self, ended: Any) -> None:
         self.ended = ended
+        self.waits = False  # for the end of the moment
+        self.next: tuple[Any, Any] | None = None
 
     def want(self, work: Any, done: Any) -> None:
-        """Do it."""
+        """Do it, unless another one comes before that."""
+        self.next = work, done
+        if not self.waits:
+            self.go()
+
+    def go(self) -> None:
+        """Do the newest."""
+        self.waits = False
+        if self.next is None:
+            return
+        (work, done), self.next = self.next, None
         try:
             done(work())
         except Exception as error:
@@ -116,6 +128,7 @@ class Desk:
         """Open a tab of a day for who wrote these functions."""
         self.log: list[tuple[str, Any]] = []
         self.asked: set[str] = set()
+        self.opened: set[str] = set()  # what opening it asks
         self.arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
         self.q = self.arm.q.copy()
         self.student = Answers(functions)
@@ -126,6 +139,7 @@ class Desk:
         self.solid, self.legend = Paper(self.log, "solid"), Paper(self.log, "legend")
         self.simple, self.standing = True, Standing("")
         self.loops: list[Loop] = []
+        self.queues: list[Now] = []
         self.problem: Exception | None = None  # what stopped a job or a loop
         self.lost = 0  # how long the log was when no answer came last
         self.tab: Any = None
@@ -158,7 +172,8 @@ class Desk:
             self.problem = error or self.problem
             ended(error)
 
-        return Now(told)
+        self.queues.append(Now(told))
+        return self.queues[-1]
 
     def listen(self, widget: Any, then: Any) -> Any:
         """Return a widget that nobody changes."""
@@ -206,8 +221,16 @@ class Desk:
         self.student.version += 1
         self.problem = None
         self.page.asking()
+        self.begin()
+
+    def begin(self) -> None:
+        """Do at one moment what the page does when it was opened, and at a save."""
+        for queue in self.queues:
+            queue.waits = True
         self.tab.on_move(self.q)
         self.tab.begin()
+        for queue in self.queues:
+            queue.go()
 
     @property
     def seen(self) -> str:

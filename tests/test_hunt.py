@@ -13,11 +13,12 @@ from labkit import log as metrics
 from labkit.grade import hunts, hunts_page
 from labkit.grade.roster import find_students
 from labkit.hunt import case as cases
-from labkit.hunt import experiment, quarry, tally
+from labkit.hunt import experiment, quarry, tally, written
 from labkit.hunt.script import closed_capstone, closed_lab, is_closed, opened
 from labkit.judge.row import rows_of
 from labkit.lesson.day import all_days, days_of, find_day
 from labkit.lesson.starter import function_lines, put_back
+from labkit.lesson.week import weeks
 from labkit.report.page import render
 from labkit.report.series import Report
 from robo47.errors import Robo47Error
@@ -102,6 +103,10 @@ def test_what_was_expected_stands_beside_the_run_in_80_columns():
     assert "the torque of joint 4 is twice" in told.splitlines()[1]
     assert "FAIL  long" in told.splitlines()[1]
     assert told.endswith("1 check PASS")
+    rows = ["  place  joints", "these functions  398.4", "  cut", "right ones  0.9"]
+    told = experiment.beside("", rows).splitlines()
+    assert " ".join(told[1].split()) == "(nothing said) these functions 398.4 cut"
+    assert told[2].strip() == "right ones 0.9"
 
 
 @pytest.mark.kit
@@ -110,6 +115,17 @@ def test_nine_in_ten_of_all_mistakes_can_be_hunted():
         ways = [w for row in rows_of(day).values() for w in row.ways]
         wrong = [w for w in ways if w.status == "wrong" and not w.reached]
         assert len(quarry.quarries(day)) >= 0.9 * len(wrong), day.number
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize(
+    "week", [w for w in weeks() if w.capstone], ids=lambda w: w.name
+)
+def test_what_a_capstone_shows_is_in_the_catalogue(week):
+    last = find_day(week.days[-1])
+    pool = {(one.function, one.slug) for one in quarry.asked_by(last)}
+    assert written.showing(week) <= pool
+    assert len(quarry.pool_of(last, 2)) > len(pool) / 4
 
 
 @pytest.mark.kit

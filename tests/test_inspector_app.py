@@ -15,7 +15,7 @@ from viser import _messages
 from labkit.inspector import serve
 from labkit.inspector.app import Inspector
 from labkit.inspector.arm import Arm
-from labkit.inspector.common_tabs import Standing
+from labkit.inspector.common_tabs import Joints, Standing
 from labkit.inspector.ghost import Ghost, compare, nothing
 from labkit.inspector.guard import LocalServer
 from labkit.inspector.robot import Robot
@@ -130,7 +130,7 @@ def show(server):
 
 @pytest.fixture
 def page(show):
-    return show(DayTabs(GHOST, [Noisy, Broken]))
+    return show(DayTabs(GHOST, [Joints, Noisy, Broken]))
 
 
 BROWSER = 7  # the number of one that is connected
@@ -505,6 +505,21 @@ def test_a_tab_that_was_closed_hears_of_no_move(page, say):
 
 
 @pytest.mark.parametrize("number", day_numbers())
+def test_a_day_opens_in_a_tab_of_its_own_and_a_begin_plays_it(show, number):
+    day = day_tabs(find_day(number))
+    page = show(day)
+    assert page.kind is day.tabs[0]
+    begun = []
+    page.tab.begin = lambda: begun.append(page.kind.title)
+    on_loop(page.server, lambda: page.hear(page.student.version, nothing("")))
+    assert not begun  # a move is no save
+    page.unchecked = True
+    page.check = lambda: Standing("")
+    on_loop(page.server, lambda: page.hear(page.student.version, nothing("")))
+    assert begun == [page.kind.title]
+
+
+@pytest.mark.parametrize("number", day_numbers())
 def test_every_tab_of_every_day_opens_moves_and_closes(show, number):
     page = show(day_tabs(find_day(number)))
     page.simple = True
@@ -528,6 +543,15 @@ def test_what_a_day_brings_and_is_no_tab_is_refused(monkeypatch, brings, says):
     monkeypatch.setattr(Day, "module", lambda *_: SimpleNamespace(**brings))
     with pytest.raises(Robo47Error, match=says):
         day_tabs(find_day(1))
+
+
+def test_what_is_no_pose_is_drawn_as_the_nearest_one():
+    from labkit.inspector.meshes import place
+
+    node = SimpleNamespace()
+    place(node, -np.eye(4))  # a mirror image, as a sign makes one
+    assert np.linalg.norm(node.wxyz) == pytest.approx(1.0)
+    np.testing.assert_array_equal(node.position, np.zeros(3))
 
 
 def test_an_image_of_depths_goes_from_black_to_white():

@@ -117,16 +117,17 @@ def kind_of(number, title):
     return next(tab for tab in day_tabs(find_day(number)).tabs if tab.title == title)
 
 
-def looked(number, title, functions):
+def looked(number, title, functions, used=True):
     """Return a tab of who wrote these functions, played, and used as a person does."""
     kind = kind_of(number, title)
     module = sys.modules[kind.__module__]
     drawn = lambda page, *_: Paper(page.host.log, "robot")  # noqa: E731
     with patch.object(module, "Robot", drawn, create=True):
         desk = Desk(number, kind, functions)
-    desk.tab.begin()
+    desk.begin()
     desk.play(PICTURES)
-    for action in DONE.get((number, title), ()):
+    desk.opened = set(desk.asked)
+    for action in DONE.get((number, title), ()) if used else ():
         action(desk.tab)
         desk.settle()
         desk.play(PICTURES)
@@ -197,14 +198,17 @@ def no_number(*given):
     ("number", "title"), [tab for tab in SHOWN if tab[1] != "Pick"]
 )
 def test_a_tab_without_answers_shows_no_green(number, title):
-    desk = looked(number, title, lab(number))
+    desk = looked(number, title, lab(number), used=False)
     wrong = stops if number % 2 else no_number
     desk.save({**lab(number), **dict.fromkeys(SHOWN[number, title].split(), wrong)})
     desk.play(2)
     assert isinstance(desk.problem, NoAnswerError)
     assert "r47-good" not in desk.seen
+    assert desk.whose[1] == "bad"
+    desk.asked.clear()
     desk.save(lab(number))
     desk.play(PICTURES)
+    assert desk.asked >= desk.opened  # a save has all asked again that opening asks
     assert desk.problem is None
     assert desk.whose[1] == "good"
     assert "r47-bad" not in desk.seen

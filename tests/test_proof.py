@@ -29,6 +29,7 @@ from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
 
+EVERY = frozenset().union(*capstone.USES.values())
 EVIL = "<script>document.title='evil'</script>\"' onload=alert(1) {film}"
 
 
@@ -165,7 +166,7 @@ def test_the_card_to_share_has_its_size_and_its_words_with_a_picture_or_without(
 
     monkeypatch.setattr(client, "draw", draw)
     result = capstone.pick(capstone.library())
-    proof = replace(hostile(), attempt=Attempt(capstone, result, "", 35, 35))
+    proof = replace(hostile(), attempt=Attempt(capstone, result, "", EVERY))
     drawn = np.asarray(card.draw(page.in_short(proof), proof.attempt)).astype(int)
     assert drawn.shape == (630, 1200, 3)
     assert (drawn[300:500, 1000] == 200).all() == draws

@@ -21,6 +21,7 @@ import contextlib
 import secrets
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from labkit import log
 from labkit.base import cli
@@ -35,6 +36,9 @@ from labkit.lesson.day import Day, chosen_day
 from labkit.lesson.starter import require_kits
 from robo47.errors import Robo47Error
 from robo47.paths import shown
+
+if TYPE_CHECKING:
+    from labkit.hunt.verdict import Repaired
 
 HOW = "A call, such as ad([0, 0, 1, 0, 0, 0]), is made; Enter alone runs all of it."
 SUSPECT = "Which function do you suspect? "
@@ -127,25 +131,33 @@ def tell(case: Case) -> None:
     print(DO)
 
 
+def known(case: Case, function: str) -> list[str]:
+    """Return the functions that are written anew; refuse a name of none.
+
+    Raises:
+        Robo47Error: the hunted script has no such function.
+    """
+    days = cases.days_hunted(case.of_day, case.level)
+    shut, written = closed_names(case.script, days)
+    if function not in shut + written:
+        names = ", ".join(shut + written)
+        raise Robo47Error(f"{function!r} is no function of this hunt: {names}")
+    return written
+
+
 def suspect(case: Case, function: str, expected: str) -> None:
     """Keep a suspicion and what it lets one expect; run, and show both side by side.
 
     Raises:
         Robo47Error: the hunted script has no such function.
     """
-    shut, written = closed_names(
-        case.script, cases.days_hunted(case.of_day, case.level)
-    )
-    if function not in shut + written:
-        raise Robo47Error(
-            f"{function!r} is no function of this hunt: {', '.join(shut + written)}"
-        )
+    written = function in known(case, function)
     case.suspected.append([function, expected])
     lines = experiment.run(case)
     print(f"\nYou suspect {function}.")
     print(experiment.beside(expected, lines))
     where = f"write {function} anew in {shown(case.script)}, and: "
-    where = "it is written anew already: " if function in written else where
+    where = "it is written anew already: " if written else where
     print(cli.wrapped(f"\nDoes it fit? Then {where}make hunt ARGS=--judge"))
 
 
@@ -161,6 +173,7 @@ def ask(case: Case) -> int:
         if not function:
             experiment.run(case)
             return cli.EXIT_OK
+        known(case, function)
         expected = typed(EXPECT)
     except EOFError:
         print()
@@ -187,13 +200,7 @@ def judge(case: Case) -> int:
         )
     case.checks += 1
     for one in repaired:
-        if not one.guilty:
-            says = "not it; it was right as it was."
-        elif one.verdict.status == "passed":
-            says = "that is it, and yours is right."
-        else:
-            says = f"that is it, but yours is not right yet. {one.verdict.message}"
-        print(cli.wrapped(f"{one.function}: {says}"))
+        print(cli.wrapped(f"{one.function}: {told(one)}"))
     if not is_found(case, repaired):
         case.save()
         missing = len(case.quarries) - sum(one.guilty for one in repaired)
@@ -205,6 +212,15 @@ def judge(case: Case) -> int:
     end(case, tally.FOUND, tuple(r.function for r in repaired if not r.guilty))
     asked = f"{count(case.runs, 'run')} and {count(case.checks, 'check')}"
     return conclude(True, f"found in {asked}")
+
+
+def told(one: "Repaired") -> str:
+    """Return what is said of a function that was written anew."""
+    if not one.guilty:
+        return "not it; it was right as it was."
+    if one.verdict.status == "passed":
+        return "that is it, and yours is right."
+    return f"that is it, but yours is not right yet. {one.verdict.message}"
 
 
 def reveal(case: Case) -> None:

@@ -29,7 +29,7 @@ from labkit.fresh import FRESH
 from labkit.grade.roster import Student
 from labkit.lesson.day import Day, chosen_week, days_of, find_day
 from labkit.lesson.week import WORK, Week
-from labkit.proof import card, door, page
+from labkit.proof import door, page
 from labkit.proof.capstone import NO_CAPSTONE, attempt
 from labkit.proof.facts import RunDay, facts_of
 from labkit.sandbox.sandbox import Sandbox
@@ -66,12 +66,7 @@ def main() -> int:
     except (OSError, GitError) as error:
         raise Robo47Error(f"{error}") from None
     facts = page.in_short(proof)
-    shared = out.with_suffix(".png") if own else None
-    if shared:
-        with cli.busy("its card"):
-            picture = io.BytesIO()
-            card.draw(facts, proof.attempt).save(picture, "PNG", optimize=True)
-        write(shared, picture.getvalue())
+    shared = draw_card(out.with_suffix(".png"), proof) if own else None
     text = page.render(proof, shared.name if shared else "")
     write(out, door.with_facts(text, facts).encode("utf-8", "replace"))
     size = out.stat().st_size / 1e6
@@ -84,6 +79,17 @@ def main() -> int:
         write(every, door.render(door.pages_beside(every.parent)).encode())
         print(f"wrote {shown(every.absolute())}, which leads to the pages of all weeks")
     return cli.EXIT_OK
+
+
+def draw_card(path: Path, proof: page.Proof) -> Path:
+    """Write the picture to share; return where it is."""
+    from labkit.proof import card  # Pillow comes with viser
+
+    with cli.busy("its card"):
+        picture = io.BytesIO()
+        card.draw(page.in_short(proof), proof.attempt).save(picture, "PNG")
+    write(path, picture.getvalue())
+    return path
 
 
 def graded(text: str) -> dict[int, str]:

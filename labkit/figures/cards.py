@@ -18,8 +18,8 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 from PIL import Image, ImageDraw, ImageFont
 
-from labkit.figures import chart, client
-from labkit.figures.portrait import LINKS, link_frames, with_fingers
+from labkit.figures import chart, client, portrait
+from labkit.figures.portrait import link_frames, with_fingers
 from labkit.figures.scene import Box, Camera, Ghost, Scene
 from robo47 import se3
 
@@ -48,11 +48,7 @@ def arm(
 def elsewhere(q: ArrayLike, other: ArrayLike) -> tuple[Ghost, ...]:
     """Return the blue ghost of the arm at another configuration than q, (7,) both."""
     here, there = (link_frames(with_fingers(x)) for x in (q, other))
-    return tuple(
-        Ghost(link, there[link] @ se3.inverse(T), alone=link != "link7")
-        for link, T in here.items()
-        if link in LINKS and np.abs(there[link] - T).max() > 1e-9
-    )
+    return portrait.ghosts(here, there)
 
 
 def rod(start: ArrayLike, end: ArrayLike, colour: Paint, thick: float = 0.008) -> Box:

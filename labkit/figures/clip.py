@@ -17,10 +17,9 @@ from PIL import Image
 from tqdm import tqdm
 
 from labkit.figures import client
-from labkit.figures.portrait import LINKS, link_frames, with_fingers
-from labkit.figures.scene import Box, Camera, Ghost, Scene
+from labkit.figures.portrait import ghosts, link_frames, with_fingers
+from labkit.figures.scene import Box, Camera, Scene
 from labkit.figures.sheet import INK, with_line
-from robo47 import se3
 from robo47.attempt import Film
 from robo47.checks import Array
 from robo47.errors import Robo47Error
@@ -68,13 +67,8 @@ def arm_scene(q: ArrayLike, other: Mapping[str, Array] | None = None) -> Scene:
             link7 carries the hand along.
     """
     full = with_fingers(q)
-    true = link_frames(full)
-    ghosts = tuple(
-        Ghost(link, T @ se3.inverse(true[link]), alone=link != "link7", wrong=True)
-        for link, T in (other or {}).items()
-        if link in LINKS
-    )
-    return Scene(full, SIZE, CAMERA, ghosts, fast=True)
+    red = ghosts(link_frames(full), other or {}, wrong=True)
+    return Scene(full, SIZE, CAMERA, red, fast=True)
 
 
 def drawn(shots: Iterable[Shot]) -> list[Image.Image]:

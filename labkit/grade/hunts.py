@@ -116,38 +116,45 @@ def _hunter(
     hunt: Hunt, student: Student, files: Files, known: dict[bytes, list[Repaired]]
 ) -> Hunter:
     """Return how a student's hunt stands; scripts that are alike are judged once."""
-    if not files.case:
-        return Hunter(student, NO_HUNT, "no hunt is committed")
-    try:
-        said = parsed(files.case)
-    except (ValueError, TypeError, RecursionError):
-        return Hunter(student, UNGRADED, f"{FILE} is broken")
-    if (said.day, said.level, said.seed) != (hunt.day.number, hunt.level, hunt.seed):
-        what = f"a hunt of day {said.day}, level {said.level}, seed {said.seed}"
-        return Hunter(student, NO_HUNT, f"{what} is committed")
+    said, state, why = _said(hunt, files)
+    if said is None:
+        return Hunter(student, state, why)
     case = hunt.case
     if files.script not in known:
         known[files.script] = judged(case, files.script)
     repaired = known[files.script]
+    anew = [one.function for one in repaired]
     found = is_found(case, repaired)
     told = said.suspected[:MOST]
     suspected = [(visible(f, 60), visible(text, WORDS)) for f, text in told]
-    named = case.guilty <= {function for function, _ in suspected}
-    anew = [r.function for r in repaired]
-    state = FOUND if named else REPAIRED
-    state = state if found else NAMED if named else NOT_FOUND
+    names = {function for function, _ in suspected}
+    named = case.guilty <= names
     bad = [r for r in repaired if r.guilty and r.verdict.status != "passed"]
     return Hunter(
         student,
-        state,
+        (FOUND if named else REPAIRED) if found else NAMED if named else NOT_FOUND,
         runs=said.runs,
         checks=said.checks,
         suspected=suspected,
         innocent=[name for name in anew if name not in case.guilty],
         odd=list(_odd(case, said, _rows(hunt, files.log), found)),
         said=" ".join(f"{r.function}: {r.verdict.message}" for r in bad),
-        wrong=len(({f for f, _ in suspected} | {*anew}) - case.guilty),
+        wrong=len((names | {*anew}) - case.guilty),
     )
+
+
+def _said(hunt: Hunt, files: Files) -> tuple[Case | None, str, str]:
+    """Return a student's own word on the hunt; None, a state and why without one."""
+    if not files.case:
+        return None, NO_HUNT, "no hunt is committed"
+    try:
+        said = parsed(files.case)
+    except (ValueError, TypeError, RecursionError):
+        return None, UNGRADED, f"{FILE} is broken"
+    if (said.day, said.level, said.seed) != (hunt.day.number, hunt.level, hunt.seed):
+        what = f"a hunt of day {said.day}, level {said.level}, seed {said.seed}"
+        return None, NO_HUNT, f"{what} is committed"
+    return said, "", ""
 
 
 def _odd(

@@ -327,6 +327,7 @@ def render_days(courses: Sequence[Course]) -> str:
 def _days(courses: Sequence[Course]) -> str:
     bars = []
     mistakes = ""
+    without = []
     for course in courses:
         counts = course.counts
         size = len(course.class_)
@@ -337,8 +338,14 @@ def _days(courses: Sequence[Course]) -> str:
             f"{escape(mark.id)} <b>{escape(_name_of(mark.mistake))}</b> ({len(who)})"
             for mark, who in course.mistakes()[:COMMON]
         )
-        head = f'<div class="head">{_link(course, "Day ")}</div>'
-        mistakes += f"<li>{head}<p>{common or 'none'}</p></li>"
+        if common:
+            head = f'<div class="head">{_link(course, "Day ")}</div>'
+            mistakes += f"<li>{head}<p>{common}</p></li>"
+        else:
+            without.append(_link(course))
+    if without:
+        head = '<div class="head">Days without one</div>'
+        mistakes += f"<li>{head}<p>{', '.join(without)}</p></li>"
     marks = legend((role, escape(where)) for where, role in ROLES.items())
     about = "students by how they stand, day by day"
     return html.section(

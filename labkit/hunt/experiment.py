@@ -46,6 +46,8 @@ def run(case: Case) -> list[str]:
         for line in process.stdout or ():
             lines.append(line.rstrip("\n"))
             print(painted(lines[-1]), flush=True)
+    if process.returncode not in (cli.EXIT_OK, cli.EXIT_FAILED):
+        lines.append("  FAIL  it stops before its end")  # it said why itself
     return lines
 
 
@@ -79,9 +81,22 @@ def beside(expected: str, lines: list[str]) -> str:
     if len(failing) > SHOWN:
         says.append(f"and {len(failing) - SHOWN} more FAIL")
     says.append(f"{count(len(found) - len(failing), 'check')} PASS")
-    if not found:  # a capstone: its two rows are the last lines
-        says = ["its rows above: these functions,", "and below them the right ones"]
+    if not found:
+        says = _rows(lines)
     hoped = textwrap.wrap(expected or "(nothing said)", LEFT)
     head = f"  {'you expected':{LEFT}}  the run says"
     rows = zip_longest(hoped, says, fillvalue="")
     return "\n".join([head, *(f"  {a:{LEFT}}  {b}".rstrip() for a, b in rows)])
+
+
+def _rows(lines: list[str]) -> list[str]:
+    """Return the rows of a capstone, below its head: numbers, or why it stopped."""
+    text = " ".join(" ".join(lines).split())
+    _, _, rows = text.partition("these functions")
+    wrong, _, right = rows.rpartition("right ones")
+    row = {"these functions": wrong, "right ones": right}
+    return [
+        line
+        for name, says in row.items()
+        for line in textwrap.wrap(f"{name}{says}", RIGHT, subsequent_indent="  ")
+    ]

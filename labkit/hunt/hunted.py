@@ -65,7 +65,8 @@ class Hunted:
     def __call__(self, name: str, *arguments: Any) -> Any:
         """Call a function by name.
 
-        What stops in the kit's lines is told without them: they are the answer.
+        What stops in the kit's lines is told without them and without its name: they
+        are the answer.
         """
         script = sys._getframe(1).f_globals
         function = self._function(name, script)
@@ -73,10 +74,10 @@ class Hunted:
             return function(*arguments)
         except Exception as error:
             last = traceback.extract_tb(error.__traceback__)[-1]
-            if last.filename != script["__file__"]:
-                error.__cause__ = error.__context__ = None
-                raise error.with_traceback(None) from None
-            raise
+            if last.filename == script["__file__"]:
+                raise
+            kind = type(error).__name__
+            raise Robo47Error(f"a closed function stops: {kind}: {error}") from None
 
     def _function(self, name: str, script: Mapping[str, Any]) -> Any:
         if not self._labs:

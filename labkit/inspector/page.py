@@ -180,10 +180,13 @@ class Page:
 
     def _ended(self, error: Exception | None) -> None:
         """Say what stopped a job or a loop, and how the student's functions compare."""
-        if self._own is not None and not self._own.fresh():
+        own = self._own
+        none = isinstance(error, NoAnswerError) and error.version
+        if own is not None and (not own.fresh() or none not in (False, own.version)):
             self.asking()  # what an older file answered is no news
         elif isinstance(error, NoAnswerError):
             self._show_whose(str(error), "bad")
+            self.say("")
             self.host.lose()
         elif error is not None:
             self.say(f"stopped: {type(error).__name__}: {error}", "bad")

@@ -34,7 +34,8 @@ SEED = 47  # of the questions that are the same at every check
 # How many inputs are drawn anew, and as many edge values: a rare bug is found sooner.
 FRESH, CHEAP_FRESH, CHEAP = 8, 32, 16  # few numbers cost little
 SECONDS = 10.0  # for all calls of a function, where its task does not say
-SLIPPING = 0.8  # seconds for which one slip after the other is made
+SLIPPING = 1.5  # seconds for which one slip after the other is made, ...
+SLIPS = 500  # ... and how many are, however slow the function is
 KNOWN = 20  # right answers of a function's that are kept: a class is asked the same
 
 
@@ -211,10 +212,10 @@ class Ask:
 
     @cached_property
     def miswritten(self) -> list[Miswritten]:
-        """The lab's own function with one slip, each; fewer of a slow one."""
+        """The lab's own function with one slip, each; the fewer of a slow one."""
         if (body := self.body()) is None:
             return []
-        most = int(SLIPPING / max(self.labs_cost, 1e-6))
+        most = max(SLIPS, int(SLIPPING / max(self.labs_cost, 1e-6)))
         return miswritten(*body)[:most]
 
     @cached_property

@@ -33,7 +33,7 @@ from labkit.judge.failing_call import failing_call, for_fresh
 from labkit.judge.kinds import Kind
 from labkit.judge.made_again import redone
 from labkit.judge.mistake import Finding, Verdict
-from labkit.judge.one_slip import one_slip, slip_beside, two_slips
+from labkit.judge.one_slip import Slips
 from labkit.judge.pairs import (
     by_results,
     in_some_calls,
@@ -261,9 +261,10 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     i = worst_part(ask.kinds, S, T, ask.near)
     every = (S[i], case.further.S[i]) if case.further else (S[i],)
     found = _all_the_same(ask.kinds[i], every, T[i])  # simpler than two mistakes
-    found = found or one_slip(case, S, T) or of_other_arguments(case, S, T)
-    found = found or two_at_once(case, S, T) or slip_beside(case, S, T)
-    found = found or by_results(case, S, T) or two_slips(case, S, T)
+    slips = Slips(case, S, T)
+    found = found or slips.one() or of_other_arguments(case, S, T)
+    found = found or two_at_once(case, S, T) or slips.beside()
+    found = found or by_results(case, S, T) or slips.two()
     if found and found.slug.startswith("slip-"):
         return _with_its_place(case, found)
     if found := found or near_miss.rounded(S[i], T[i]):

@@ -6,7 +6,6 @@ It stands beside the page, which names it for whoever shows a link as a card.
 import datetime
 import unicodedata
 from collections.abc import Mapping
-from html import escape
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -17,11 +16,11 @@ from labkit.figures import client, clip
 from labkit.figures.portrait import with_fingers
 from labkit.figures.scene import Camera, Scene
 from labkit.proof.capstone import Attempt
+from labkit.proof.sharing import SIZE
 from robo47 import panda
 from robo47.attempt import Film
 from robo47.errors import Robo47Error
 
-SIZE = (1200, 630)  # pixels, as sites show a card
 ARM = (640, 630)  # pixels, at its right
 FADES = 160  # pixels, of the arm's picture into the paper
 LEFT, WIDTH = 60, 520  # pixels: the words' place
@@ -67,23 +66,6 @@ def draw(facts: Mapping[str, Any], tried: Attempt) -> Image.Image:
     about = f"derived by hand, held against MuJoCo, run on {datetime.date.today()}"
     _write(pen, 578, about, 22, FAINT)
     return sheet
-
-
-def meta(name: str, facts: Mapping[str, Any]) -> str:
-    """Return what a page's head says of its card, which is a file beside it."""
-    told = [f"{facts['functions']} functions", f"{facts['numbers']} numbers, run again"]
-    told += [str(facts["capstone"])] if facts["capstone"] else []
-    words = {
-        "og:type": "website",
-        "og:title": f"{facts['name']}: {facts['heading']}",
-        "og:description": "; ".join(told),
-        "og:image": name,
-        "og:image:width": str(SIZE[0]),
-        "og:image:height": str(SIZE[1]),
-        "og:image:alt": "The arm, and these numbers.",
-    }
-    tags = [f'<meta property="{k}" content="{escape(v)}">' for k, v in words.items()]
-    return "".join([*tags, '<meta name="twitter:card" content="summary_large_image">'])
 
 
 def _arm(film: Film | None) -> Image.Image | None:

@@ -14,7 +14,7 @@ import robo47
 from labkit.base import html
 from labkit.base.text import count, number_of
 from labkit.check.lab_run import TRIALS
-from labkit.proof import card
+from labkit.proof import sharing
 from labkit.proof.capstone import Attempt, recorded
 from labkit.proof.facts import RunDay
 from labkit.report.series import Series, cell_of, limit_of, with_unit
@@ -92,7 +92,7 @@ def render(proof: Proof, card_name: str = "") -> str:
         html.section("What this does not prove", f"<ul>{not_proved}</ul>"),
         style=STYLE,
         policy=ALLOWED.format(nonce=nonce),
-        meta=card.meta(card_name, in_short(proof)) if card_name else "",
+        meta=sharing.meta(card_name, in_short(proof)) if card_name else "",
     )
     told = proof.attempt
     if told.capstone is None or told.result is None:

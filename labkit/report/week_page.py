@@ -35,14 +35,22 @@ _MARKS |= {"none": "○ no row yet", "kit": "○ the kit's file ran"}
 _MOODS = {"left behind": ("pass", "✓"), "still there": ("fail", "✗")}
 
 
-def render(facts: Sequence[OwnDay], heading: str, others: Sequence[int] = ()) -> str:
+def render(
+    facts: Sequence[OwnDay],
+    heading: str,
+    others: Sequence[int] = (),
+    *,
+    whole: bool = True,
+) -> str:
     """Return the whole page.
 
     Args:
         facts: of the week's days, in order.
         heading: one line of plain text on where this comes from.
         others: numbers of the weeks whose pages stand beside this one.
+        whole: whether the page on all runs stands there, too.
     """
+    plots = '<a href="report.html">report.html</a>' if whole else "make report"
     return html.page(
         escape(facts[0].day.week.heading),
         escape(heading) + links(others),
@@ -50,8 +58,7 @@ def render(facts: Sequence[OwnDay], heading: str, others: Sequence[int] = ()) ->
         _numbers(facts),
         _days(facts),
         _mistakes(facts),
-        '<p class="muted last">Every run as a plot: '
-        '<a href="report.html">report.html</a>. '
+        f'<p class="muted last">Every run as a plot: {plots}. '
         "Hints and mistakes are on your machine alone.</p>",
         style=STYLE,
     )

@@ -55,8 +55,7 @@ def saved_own() -> str:
         try:
             shutil.copyfile(own, index)
         except OSError as error:
-            says = f"{error.filename}: {error.strerror}"
-            raise Robo47Error(says) from None
+            raise Robo47Error(f"{error.filename}: {error.strerror}") from None
         ask("add", "-u", index=index)
         ask("add", "--", *there, may_fail=True, index=index)
         tree = ask("write-tree", index=index)

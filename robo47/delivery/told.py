@@ -14,7 +14,7 @@ from robo47.delivery.watching import THRESHOLD
 HEAD = f"""
 {"":26}{"seen":>7}{"weighed":>9}{"speed":>7}{"clear":>8}{"felt":>7}{"place":>8}
 {"":26}{"mm":>7}{"g":>9}{"of max":>7}{"mm":>8}{"N m":>7}{"mm":>8}"""
-MOMENTS = ("close", "weigh", "carry", "open")  # phases whose beginnings a picture shows
+MOMENTS = ("close", "weigh", "put down", "leave")  # of the pictures, as they begin
 WALL = (0.45, 0.55, 0.70, 1.0)
 EYE = (0.15, 0.15, 0.18, 1.0)
 EYE_HALF = (0.03, 0.02, 0.05)  # m, long along its view
@@ -55,19 +55,23 @@ def figures(result: Result) -> list[tuple[str, str, str]]:
     """Return what was measured: (what, how much with its unit, what is allowed)."""
     known = 1e3 * result.mass
     found = [
-        ("seen, from where the cube stood", f"{result.seen_mm:.1f} mm", "< 3 mm"),
+        ("seen, from where the cube stood", f"{result.seen_mm:.1f} mm", "under 3 mm"),
         ("weighed", f"{result.grams:z.1f} g", f"{known:.0f} ± 1 g"),
-        ("clearance of the way as driven", f"{result.clearance_mm:.1f} mm", "> 0 mm"),
+        (
+            "clearance of the way as driven",
+            f"{result.clearance_mm:.1f} mm",
+            "over 0 mm",
+        ),
         ("speed of the carry, of the joints' limits", f"{result.speed:.1f}", ""),
         (
             "torque felt in the carry that nobody commanded",
             f"{result.residual:.2f} N m",
-            f"< {THRESHOLD} N m",
+            f"under {THRESHOLD} N m",
         ),
     ]
     if not result.stopped:
         place = f"{result.place_mm:.1f} mm"
-        found.append(("put down, from its mark", place, "< 10 mm"))
+        found.append(("put down, from its mark", place, "under 10 mm"))
     if result.pushed:
         after = "a push of 10 N in a second carry, felt after"
         felt = result.noticed_ms > 0.0

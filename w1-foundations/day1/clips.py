@@ -22,9 +22,9 @@ from PIL import Image
 from labkit.base import processes
 from labkit.figures import client, editor, portrait
 from labkit.figures.clip import Frame
-from labkit.figures.scene import Camera, Ghost, Scene
+from labkit.figures.scene import Camera, Scene
 from labkit.lesson.day import find_day
-from robo47 import panda, se3
+from robo47 import panda
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
@@ -78,15 +78,10 @@ def page(
 def arm(sign: float) -> Image.Image:
     """Return the Panda at Q, and in red where the lab puts each link with a sign."""
     full = portrait.with_fingers(Q)
-    true = portrait.link_frames(full)
-    ghosts = tuple(
-        Ghost(link, T @ se3.inverse(true[link]), alone=link != "link7", wrong=True)
-        for link, T in links(sign).items()
-        if np.abs(T - true[link]).max() > 1e-9
-    )
+    red = portrait.ghosts(portrait.link_frames(full), links(sign), wrong=True)
     width, height = (editor.SHARP * n for n in editor.ARM)
     return Image.fromarray(
-        client.draw(Scene(full, (width, height), CAMERA, ghosts, dark=True))
+        client.draw(Scene(full, (width, height), CAMERA, red, dark=True))
     )
 
 

@@ -41,6 +41,7 @@ class Jacobian(Tab):
         self.S, self.M = panda.screws(page.model), panda.home_pose(page.model)
         self.limits = page.model.jnt_range[:JOINTS]
         self.own = page.own(jacobian, free=("solve_ik",), units=UNITS)
+        self.going = page.jobs_apart()  # to the target
         self.elbow = page.slider("swing the elbow", -2.0, 2.0, 0.0, self.swing)
         self.at = 0.0  # where the slider was
         page.tick("drag a target", self.drag)
@@ -66,11 +67,10 @@ class Jacobian(Tab):
         })  # fmt: skip
 
     def on_move(self, q: Array) -> None:
-        """Ask for the columns in the configuration."""
+        """Ask for the columns in the configuration, and go to the target."""
+        self.page.job(lambda: self.ask(q[:JOINTS]), self.show)
         if self.shown:
             self.follow(self.target.T)
-        else:
-            self.page.job(lambda: self.ask(q[:JOINTS]), self.show)
 
     def ask(self, q: Array) -> tuple[Array, Array, Array, float]:
         """Return the hand's place, the student's J_site, the library's, and w."""
@@ -121,7 +121,7 @@ class Jacobian(Tab):
     def follow(self, T_goal: Array) -> None:
         """Have the student's own solve_ik take the second arm to the target."""
         q0 = np.clip(self.page.q[:JOINTS], *self.limits.T)
-        self.page.job(
+        self.going.want(
             lambda: self.own.solve_ik(self.S, self.M, T_goal, q0, self.limits),
             lambda q: self.stand(q, T_goal),
         )

@@ -159,7 +159,7 @@ class Forces(Tab):
         """Show no torques and no M."""
         self.page.say("")
         self.bars.clear()
-        self.cells.content = ""
+        self.cells.content = self.clock.content = ""
 
 
 def heat_map(M: Array, wrong: Array | None = None) -> str:

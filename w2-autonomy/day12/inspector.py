@@ -2,8 +2,8 @@
 
 In the plane: discs, both trees as the student's own `extend` grows them, sample by
 sample, the way of their `rrt_connect` on the library's, and what their `shortcut`
-leaves of it. Twenty other draws of as many samples are counted, and their `wilson` says what
-that count is worth. In the scene: a way over the lab's wall, played as their
+leaves of it. Twenty other draws of as many samples are counted, and their `wilson` says
+what that count is worth. In the scene: a way over the lab's wall, played as their
 `path_dynamics` and `fastest_along` time it.
 """
 
@@ -65,6 +65,7 @@ class Way(Tab):
         self.world = 2.0
         self.x = 0.0
         self.y = 0.0
+        self.timing = page.jobs_apart()  # what is timed is no reason to drop a plan
         self.own = page.own(planning, any_rows={"rrt_connect", "shortcut"}, units=UNITS)
         page.slider("samples", 0, MOST, self.n, self.sets("n"), unit="", step=1)
         page.slider("world", 0, 20, self.world, self.sets("world"), unit="", step=1)
@@ -193,7 +194,7 @@ class Way(Tab):
 
     def press(self, name: str) -> None:
         """Time the way over the wall with the student's functions, and play it."""
-        self.page.job(self.time_it, self.play)
+        self.timing.want(self.time_it, self.play)
 
     def time_it(self) -> tuple[Array, Array, float]:
         """Return times, configurations, and the library's seconds; it waits."""

@@ -19,7 +19,7 @@ import day14_mujoco
 
 MASS = 0.15  # kg, of both cubes on the left
 GRIPS = (0.9, 0.25)  # their friction
-WHEN = 0.03  # s after the hand has begun to rise
+WHEN = 0.02  # s after the hand has begun to rise
 CUBES = 150
 NEWTON = 7.0  # mm of an arrow, for 1 N
 
