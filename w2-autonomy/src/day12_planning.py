@@ -51,7 +51,7 @@ def nearest(tree: np.ndarray, q: np.ndarray) -> int:
 def steer(q: np.ndarray, target: np.ndarray, step: float) -> np.ndarray:
     """Return the point, (k,), a step from q on the way to the target, (k,).
 
-    Where that is no further away it is the target itself, to the last bit.
+    Where that is no further away: a copy of the target, the same to the last bit.
     steer((0, 0), (3, 4), 1) -> (0.6, 0.8)
     """
     # region 12.1
