@@ -15,7 +15,7 @@ from viser import _messages
 from labkit.inspector import serve
 from labkit.inspector.app import Inspector
 from labkit.inspector.arm import Arm
-from labkit.inspector.common_tabs import Standing
+from labkit.inspector.common_tabs import Joints, Standing
 from labkit.inspector.ghost import Ghost, compare, nothing
 from labkit.inspector.guard import LocalServer
 from labkit.inspector.robot import Robot
@@ -87,9 +87,17 @@ class File:
 
     def __init__(self):
         self.there, self.version, self.asked = False, 1, []
+        self.new = False
+        self.held = False  # by an answer that does not come
+
+    def saved(self):
+        """Return whether a look would find a save; `save` is one."""
+        return self.new
 
     def look(self):
         """Look for a save."""
+        if self.new and not self.held:
+            self.version, self.new = self.version + 1, False
 
     def see(self, q):
         self.asked.append(q)
@@ -122,7 +130,7 @@ def show(server):
 
 @pytest.fixture
 def page(show):
-    return show(DayTabs(GHOST, [Noisy, Broken]))
+    return show(DayTabs(GHOST, [Joints, Noisy, Broken]))
 
 
 BROWSER = 7  # the number of one that is connected
@@ -346,7 +354,7 @@ def hear(page, poses, problem=""):
     """Have the page hear what a student's function said where the arm is."""
     q = page.arm.q.copy()
     seen = compare(GHOST, poses, problem, page.arm.poses_at(q))
-    on_loop(page.server, lambda: page.hear(seen))
+    on_loop(page.server, lambda: page.hear(page.student.version, seen))
 
 
 def test_the_students_poses_are_judged_in_their_name(page):
@@ -361,7 +369,9 @@ def test_the_students_poses_are_judged_in_their_name(page):
     hear(page, {})
     settle(page)
     assert "✗ YOUR my_fk gave no pose" in contents(page)
-    assert "robo47.kinematics" in contents(page)
+    assert "robo47.kinematics" not in contents(page)  # in the place of theirs
+    assert "yours: no answer" in contents(page)
+    assert "r47-good" not in contents(page)
 
 
 @pytest.fixture
@@ -373,7 +383,7 @@ def watched(page):
         page.student.there = check is not None
         loop = page.server.get_event_loop()
         watching.append(asyncio.run_coroutine_threadsafe(page.watch(check), loop))
-        until(lambda: page.seen.sentence)
+        until(lambda: page.seen.kind != "asking")
         settle(page)
         return page.student
 
@@ -401,17 +411,41 @@ def test_a_page_without_a_file_asks_once_and_rests(page, watched):
 def test_a_save_is_asked_and_checked(page, watched):
     file = watched(lambda: Standing(f"version {page.student.version}"))
     until(lambda: "version 1" in contents(page))
-    file.version = 2
+    file.new = True
     until(lambda: "version 2" in contents(page))
     assert len(file.asked) == 2
 
 
+def test_at_a_save_nothing_green_or_red_stays_until_it_is_known_again(page, watched):
+    green = Standing("all pass", "good")
+    file = watched(lambda: green)
+    hear(page, {name: page.arm.pose(name) for name in GHOST.frames})
+    until(lambda: "all pass" in contents(page))
+    assert "YOUR my_fk agrees" in contents(page)
+    file.held = file.new = True  # the old file's answer does not come
+    until(lambda: "asking" in contents(page))
+    settle(page)
+    shown = contents(page)
+    assert "asking YOUR my_fk ..." in shown
+    assert "make check: asking ..." in shown
+    for old in ("all pass", "my_fk agrees", "r47-good", "r47-bad", "robo47.kinematics"):
+        assert old not in shown
+    late = nothing("what the old file said")
+    on_loop(page.server, lambda: page.hear(file.version, late))
+    on_loop(page.server, lambda: page.judge(file.version, green))
+    settle(page)
+    assert contents(page) == shown
+    file.held = False
+    until(lambda: "all pass" in contents(page))
+    assert "nothing to see" in contents(page)
+
+
 def test_a_checker_that_breaks_is_said(monkeypatch):
-    def broken(*_):
+    def broken(*_, **__):
         raise ValueError("no questions")
 
     monkeypatch.setattr(serve, "check_tasks", broken)
-    found = serve.check(find_day(1))
+    found = serve.Checks(find_day(1)).ask()
     assert (found.headline, found.kind) == ("make check: no questions", "bad")
 
 
@@ -471,6 +505,21 @@ def test_a_tab_that_was_closed_hears_of_no_move(page, say):
 
 
 @pytest.mark.parametrize("number", day_numbers())
+def test_a_day_opens_in_a_tab_of_its_own_and_a_begin_plays_it(show, number):
+    day = day_tabs(find_day(number))
+    page = show(day)
+    assert page.kind is day.tabs[0]
+    begun = []
+    page.tab.begin = lambda: begun.append(page.kind.title)
+    on_loop(page.server, lambda: page.hear(page.student.version, nothing("")))
+    assert not begun  # a move is no save
+    page.unchecked = True
+    page.check = lambda: Standing("")
+    on_loop(page.server, lambda: page.hear(page.student.version, nothing("")))
+    assert begun == [page.kind.title]
+
+
+@pytest.mark.parametrize("number", day_numbers())
 def test_every_tab_of_every_day_opens_moves_and_closes(show, number):
     page = show(day_tabs(find_day(number)))
     page.simple = True
@@ -494,6 +543,15 @@ def test_what_a_day_brings_and_is_no_tab_is_refused(monkeypatch, brings, says):
     monkeypatch.setattr(Day, "module", lambda *_: SimpleNamespace(**brings))
     with pytest.raises(Robo47Error, match=says):
         day_tabs(find_day(1))
+
+
+def test_what_is_no_pose_is_drawn_as_the_nearest_one():
+    from labkit.inspector.meshes import place
+
+    node = SimpleNamespace()
+    place(node, -np.eye(4))  # a mirror image, as a sign makes one
+    assert np.linalg.norm(node.wxyz) == pytest.approx(1.0)
+    np.testing.assert_array_equal(node.position, np.zeros(3))
 
 
 def test_an_image_of_depths_goes_from_black_to_white():

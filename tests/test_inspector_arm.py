@@ -46,9 +46,9 @@ def test_a_wrong_pose_is_reported_as_different(arm):
     wrong = arm.by_library[END].copy()
     wrong[0, 3] += 1e-6
     assert arm.difference(END, wrong) == pytest.approx(1e-6, rel=1e-6)
-    assert "THEY DIFFER" in words.verdict(arm.difference(END, wrong))
-    assert "they agree" in words.verdict(AGREES / 2)
-    assert "THEY DIFFER" in words.verdict(float("nan"))
+    assert "THEY DIFFER" in words.verdict(arm.difference(END, wrong), "yours")
+    assert "they agree" in words.verdict(AGREES / 2, "yours")
+    assert "THEY DIFFER" in words.verdict(float("nan"), "yours")
 
 
 def test_the_steps_lead_from_the_world_to_the_end_effector(arm):

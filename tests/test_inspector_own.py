@@ -23,11 +23,12 @@ def own_of(functions, free=()):
 
 
 def test_an_answer_is_the_students_and_is_compared_with_the_librarys():
-    _, own = own_of({"double": lambda x: 2.0 * x, "both": lambda x: (x, x)})
+    functions = {"double": lambda x: 2.0 * x, "both": lambda x: (x, x)}
+    own = Own(Answers(functions), LIBRARY, units={"both": "N m"})
     np.testing.assert_array_equal(own.double(ONE), 2 * ONE)
     assert own.says() == ("YOUR double: the same as the library's", "good")
     assert own.both(ONE)[1][1] == 4.0  # as wrong as it is
-    assert own.says() == ("YOUR functions. Off the library's: both by 8", "bad")
+    assert own.says() == ("YOUR functions. Off the library's: both by 8 N m", "bad")
 
 
 def test_what_is_not_written_is_the_librarys_and_is_called_that():
@@ -100,10 +101,35 @@ def test_a_save_forgets_what_was_wrong_before():
     assert own.says()[1] == "good"
 
 
+def test_what_an_old_file_answers_late_is_not_held_against_the_new_one():
+    def late(x):
+        student.version, student.functions = 2, {"double": lambda x: 2.0 * x}
+        return -2.0 * x
+
+    student, own = own_of({"double": late})
+    own.double(ONE)  # the file was saved meanwhile
+    assert not own.fresh()
+    assert own.says() == ("", "quiet")
+    own.double(ONE)
+    assert own.fresh()
+    assert own.says()[1] == "good"
+
+
+def test_who_gave_no_answer_is_not_green_because_another_one_does():
+    student, own = own_of({"double": lambda x: None, "both": lambda x: (x, -x)})
+    with pytest.raises(NoAnswerError):
+        own.double(ONE)
+    own.both(ONE)
+    assert own.says() == ("YOUR double returned nothing", "bad")
+    student.functions["double"] = lambda x: 2.0 * x  # as of another x
+    own.double(ONE)
+    assert own.says()[1] == "good"
+
+
 def test_a_function_with_many_right_answers_is_not_compared():
     _, own = own_of({"any_root": lambda x: -np.sqrt(x)}, free=("any_root",))
     assert own.any_root(4.0) == -2.0
-    assert own.says() == ("YOUR any_root", "good")
+    assert own.says() == ("YOUR any_root at work", "good")
 
 
 def test_functions_of_all_days_answer_from_sandboxes(monkeypatch):
@@ -141,7 +167,7 @@ def test_a_way_may_have_any_number_of_rows_and_no_other_width():
     library = {"way": lambda: np.zeros((3, 2))}
     own = Own(Answers({"way": lambda: np.ones((5, 2))}), library, any_rows={"way"})
     assert own.way().shape == (5, 2)
-    assert own.says() == ("YOUR way", "good")
+    assert own.says() == ("YOUR way at work", "good")
     own = Own(Answers({"way": lambda: np.ones((5, 3))}), library, any_rows={"way"})
     with pytest.raises(NoAnswerError, match=r"returned shape \(5, 3\)"):
         own.way()

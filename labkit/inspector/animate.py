@@ -1,6 +1,7 @@
 """Work that takes time: a loop in real time, and jobs; both end with their tab."""
 
 import asyncio
+import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -23,14 +24,16 @@ class Animation:
     work: Callable[[float], Any] | None = None
     task: asyncio.Task[None] | None = None
     slow: float = 1.0  # how many times slower than real time it runs
+    lasts: float = math.inf  # seconds; after them it ends by itself
 
     @property
     def running(self) -> bool:
         """Whether it runs."""
         return self.task is not None
 
-    def start(self) -> None:
+    def start(self, lasts: float = math.inf) -> None:
         """Run from t = 0, unless it runs already; call it from a callback."""
+        self.lasts = lasts
         if self.task is None:
             self.task = asyncio.get_running_loop().create_task(self._run())
             self.changed(None)
@@ -56,7 +59,8 @@ class Animation:
             while True:
                 if self.work is not None:
                     await asyncio.to_thread(self.work, calls * period)
-                if self.step(calls * period) is False:
+                seconds = calls * period
+                if self.step(seconds) is False or seconds > self.lasts:
                     break
                 calls += 1
                 ahead = start + calls * period - time.perf_counter()

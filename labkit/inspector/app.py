@@ -19,9 +19,9 @@ from numpy.typing import ArrayLike
 from labkit.inspector import typed, words
 from labkit.inspector.animate import Jobs
 from labkit.inspector.arm import END, Arm
-from labkit.inspector.common_tabs import Chain, Joints, Standing, Tasks
+from labkit.inspector.common_tabs import ASKING, Chain, Joints, Standing, Tasks
 from labkit.inspector.draw import Sketch
-from labkit.inspector.ghost import Seen
+from labkit.inspector.ghost import Seen, asked
 from labkit.inspector.guard import TITLE
 from labkit.inspector.page import Page, Widget
 from labkit.inspector.scene import GHOST_COLOUR, ArmScene, Pointed
@@ -62,7 +62,7 @@ class Inspector:
         self.arm = arm
         self.day = day
         self.simple = simple
-        self.standing = Standing("")
+        self.standing = ASKING
         self.heard_words = 0
         self.q = arm.q.copy()  # what is wanted
         self.moved = 0.0  # when that was said
@@ -71,16 +71,18 @@ class Inspector:
         self.student = student
         self.version = 0  # of the file that is asked
         self.unchecked = False
-        self.seen = Seen("", "")  # nothing yet
+        self.seen = asked(day.ghost)
         self.asks, self.checks = Jobs(), Jobs()
         self.lay_out(server.gui, about)
         self.scene, self.pointed = ArmScene(server, arm), Pointed(server, arm)
-        tabs: list[type[Tab]] = [Joints, Chain, *day.tabs, Tasks]
-        self.kinds = {kind.title: kind for kind in tabs}
+        # The day's own come first, and the first of them is open.
+        self.kinds = {kind.title: kind for kind in day.tabs}
+        for kind in (Joints, Chain, Tasks):
+            self.kinds.setdefault(kind.title, kind)
         self.kind: type[Tab] = Joints  # of the open tab
         self.tab: Tab  # the open one; a bare one where it failed to open
         self.page: Page | None = None  # what it made its widgets with
-        self.open_tab(Joints.title)
+        self.open_tab(next(iter(self.kinds)))
         self.listen(self.frame, lambda _: self.light_frame())
         self.listen(self.solid, lambda _: self.look())
         self.update()
@@ -158,8 +160,11 @@ class Inspector:
         """Show the numbers, and where the page is."""
         seen, task = self.seen, self.standing
         self.yours.content = words.judged(seen.sentence, "yours", seen.kind)
-        self.tasks.content = words.line(task.headline, "standing", task.kind)
-        proof = "" if self.kind.wide else words.proof(self.arm, self.frame.value, seen)
+        self.tasks.content = words.judged(task.headline, "standing", task.kind)
+        whose = self.day.ghost.frames if self.day.ghost else ()
+        name = self.frame.value
+        proof = words.proof(self.arm, name, seen, name in whose)
+        proof = "" if self.kind.wide else proof
         self.proof.content = proof
         self.limits.content = words.limits(self.arm)
         self.state.content = words.state(self.address, self.heard_words)
@@ -236,6 +241,8 @@ class Inspector:
             self.tab = Tab(page)
             self.guarded(lambda: setattr(self, "tab", kind(page)))
             self.tell(self.q)
+            if self.version:  # else when the file has been opened
+                self.guarded(self.tab.begin)
         self.schedule()
 
     def leave(self) -> None:
@@ -269,10 +276,17 @@ class Inspector:
 
     # The student's file
 
-    async def watch(self, check: Callable[[], Standing]) -> None:
-        """Ask the file for the arm at every move, and the checker at every save."""
-        self.check = check
+    async def watch(
+        self, check: Callable[[], Standing], stop: Callable[[], None] = lambda: None
+    ) -> None:
+        """Ask the file for the arm at every move, and the checker at every save.
+
+        `stop` ends a check that is at work: its file is not there any more.
+        """
+        self.check, self.stop = check, stop
         while True:
+            if self.student.saved():
+                self.forget()  # before the look, which may wait for an old answer
             await asyncio.to_thread(self.student.look)
             if self.version != self.student.version:
                 self.version = self.student.version
@@ -280,33 +294,61 @@ class Inspector:
                 self.ask()  # the checks, which are slower, come after that
             await asyncio.sleep(LOOKS)
 
+    def forget(self) -> None:
+        """Say that all is asked again; what an older file showed is not true of it."""
+        if self.seen.kind != "asking" or self.standing is not ASKING:
+            self.stop()
+            self.seen, self.standing = asked(self.day.ghost), ASKING
+            self.show_seen()
+            self.show_tasks()
+            if self.page is not None:
+                self.page.asking()
+
     def ask(self) -> None:
         """Ask the file, once it is open, where it puts the arm."""
         if self.version:
-            self.asks.want(partial(self.student.see, self.arm.q.copy()), self.hear)
+            see = partial(self.student.see, self.arm.q.copy())
+            self.asks.want(see, partial(self.hear, self.version))
 
-    def hear(self, seen: Seen) -> None:
-        """Show what the student's function said."""
+    def now(self, version: int) -> bool:
+        """Return whether a version of the file is the one that is there."""
+        return version == self.student.version and not self.student.saved()
+
+    def hear(self, version: int, seen: Seen) -> None:
+        """Show what the student's function said, unless it was saved meanwhile."""
+        if not self.now(version):
+            return
         self.seen = seen
-        end = self.day.ghost.frames[-1] if self.day.ghost else END
-        with self.server.atomic():
-            self.scene.show_ghost(seen.drawn, end)
-            self.look()
-            self.show()
+        self.show_seen()
         if self.unchecked:
             self.unchecked = False
             self.tell(self.arm.q)  # whatever the open tab asks is asked again
+            self.guarded(self.tab.begin)
             self.schedule()
             if self.student.there:
-                self.checks.want(self.check, self.judge)
+                self.checks.want(self.check, partial(self.judge, self.version))
+            else:
+                self.judge(self.version, Standing(""))
 
-    def judge(self, found: Standing) -> None:
-        """Show how the tasks stand, unless the file was saved again meanwhile."""
-        if self.checks.next is None:
+    def show_seen(self) -> None:
+        """Show the ghost, and what is said of it."""
+        end = self.day.ghost.frames[-1] if self.day.ghost else END
+        with self.server.atomic():
+            self.scene.show_ghost(self.seen.drawn, end)
+            self.look()
+            self.show()
+
+    def judge(self, version: int, found: Standing) -> None:
+        """Show how a file's tasks stand, unless it was saved again meanwhile."""
+        if self.now(version):
             self.standing = found
-            if isinstance(self.tab, Tasks):
-                self.tab.show(found)
-            self.schedule()
+            self.show_tasks()
+
+    def show_tasks(self) -> None:
+        """Show how the tasks stand, in the open tab too."""
+        if isinstance(self.tab, Tasks):
+            self.tab.show(self.standing)
+        self.schedule()
 
     def close(self) -> None:
         """End whatever runs."""

@@ -31,6 +31,7 @@ class Step(NamedTuple):
     factor: Array
     after: Array  # T_world_link once the link's own joint is in
     moves: NDArray[np.bool_]  # which entries of the factor depend on q
+    off: NDArray[np.bool_] | None = None  # which are wrong, where it is a student's
 
 
 class Arm:

@@ -15,6 +15,7 @@
   }
   function show() {
     scheduled = false;
+    name();
     const node = document.querySelector("[data-r47-state]");
     const state = node && JSON.parse(node.dataset.r47State);
     if (state) document.getElementById("r47-first")?.remove();
@@ -26,6 +27,12 @@
       lastChange = now;
     }
     lastChange ||= now;
+  }
+  // viser's buttons that are a picture alone have no name.
+  function name() {
+    for (const button of document.querySelectorAll("button:not([aria-label], [role])"))
+      if (!button.textContent.trim())
+        button.ariaLabel = button.className.includes("CloseButton") ? "close" : "settings";
   }
   function later() {
     if (!scheduled) { scheduled = true; setTimeout(show, 10); }

@@ -138,17 +138,21 @@ class Chain(Tab):
 
     def on_move(self, q: Array) -> None:
         """Show the factor in the arm's present configuration."""
-        steps = self.page.arm.steps()
+        self.show(self.page.arm.steps(), "the library")
+
+    def show(self, steps: Sequence[Step], whose: str) -> None:
+        """Show the factor among the steps, and whose they are."""
         this = steps[self.at]
         done = steps[: self.at + 1]
         whole = len(done) == len(steps) or steps[self.at + 1].link != this.link
         says = says_of(this, self.at + 1, len(steps), whole)
         if whole:  # every factor of this link is in: MuJoCo has that pose, too
-            says += words.verdict(self.page.arm.difference(this.link, this.after))
+            apart = self.page.arm.difference(this.link, this.after)
+            says += words.verdict(apart, whose)
         self.product.content = says
         for i, slider in self.sliders.items():
             slider.visible = self.page.arm.joints[i] == this.joint
-            slider.value = float(q[i])  # type: ignore[misc]
+            slider.value = float(self.page.arm.q[i])  # type: ignore[misc]
         self.page.light(this.link, {step.link for step in done})
         self.page.host.scene.trace([step.after[:3, 3] for step in done])
 
@@ -160,10 +164,17 @@ def says_of(this: Step, number: int, of: int, whole: bool) -> str:
     else:
         about = f"pos and quat of {this.link} in the file, the same for every q"
     product = f"T_world_{this.link}" + ("" if whole else " with its joint still at 0")
+    marked, mark = this.moves, "moves"
+    if this.off is not None and this.off.any():
+        about, marked, mark = (
+            "marked is what the library's has otherwise",
+            this.off,
+            "off",
+        )
     return (
         words.line(f"factor {number} of {of}, {this.name}: {about}", "step")
         + words.matrix("so far", this.before, "before")
-        + words.matrix(f"@ {this.name}", this.factor, "factor", this.moves, "moves")
+        + words.matrix(f"@ {this.name}", this.factor, "factor", marked, mark)
         + words.matrix(f"= {product}", this.after, "product")
     )
 
@@ -177,6 +188,9 @@ class Standing:
     tasks: tuple[TaskResult, ...] = ()  # in the day's order; () while nothing is known
 
 
+ASKING = Standing("make check: asking ...", "asking")
+
+
 def standing(results: Sequence[TaskResult]) -> Standing:
     """Return the tasks, in the day's order, with one line about all of them."""
     first = results[0].verdict if results else Verdict("passed")
@@ -187,14 +201,14 @@ def standing(results: Sequence[TaskResult]) -> Standing:
     passed = sum(result.passed for result in results)
     says = f"make check: {passed} of {len(results)} tasks pass"
     if passed == len(results):
-        return Standing(f"✓ {says}", "good", tuple(results))
+        return Standing(says, "good", tuple(results))
     wrong = [r for r in results if r.verdict.status not in ("passed", "todo")]
     if not wrong:
         after = next(r.task for r in results if not r.passed)
         says = f"{says}; next is {after.id} {after.title}"
         return Standing(says, "quiet", tuple(results))
     why = f"{wrong[0].task.id}: {wrong[0].verdict.message}"
-    return Standing(f"✗ {says}. {why}", "bad", tuple(results))
+    return Standing(f"{says}. {why}", "bad", tuple(results))
 
 
 class Tasks(Tab):

@@ -21,6 +21,7 @@ from robo47.checks import Array
 ROOT = "/tab"
 FARTHEST = 10.0  # metres; nobody drags a target further away
 APART = 0.07  # metres between two labels
+LETTER = 1.12  # of an axis: where its letter stands
 PLAIN, CHOSEN = 0.10, 0.17  # metres of an axis
 # A frame's axes from end to end, a metre long.
 AXES = np.stack([np.zeros((3, 3)), np.eye(3)], axis=1).astype(np.float32)
@@ -239,14 +240,37 @@ class Triad:
             scene.add_label(f"{path}/{name}", name, anchor="center-center", **small)
             for name in "xyz"
         ]
-        if text:
+        self.text = (
             scene.add_label(f"{path}/name", text, anchor=anchor, **small)
+            if text
+            else None
+        )
+        self.taken = [False] * 4  # of the name and the letters: others stand there
         self.state: tuple[bool, bool] | None = None
         self.show(visible=True, chosen=False)
 
     def place(self, T: Array) -> None:
         """Move it to a pose, (4, 4)."""
         place(self.frame, T)
+
+    def labels_at(self, T: Array) -> Array:
+        """Return where its name and its letters are with the frame at T, (4, 3)."""
+        length = CHOSEN if self.state and self.state[1] else PLAIN
+        return T[:3, 3] + LETTER * length * np.vstack([np.zeros(3), T[:3, :3].T])
+
+    def clear(self, taken: Array, T: Array) -> None:
+        """Take away what would stand on labels at points, (n, 3), with it at T."""
+        apart = np.linalg.norm(self.labels_at(T)[:, None] - taken, axis=2)
+        self.taken = [bool(near) for near in (apart < APART).any(axis=1)]
+        self._write()
+
+    def _write(self) -> None:
+        """Show the name, and letters where it has them."""
+        letters = self.always or (self.state is not None and self.state[1])
+        if self.text is not None:
+            self.text.visible = not self.taken[0]
+        for letter, taken in zip(self.letters, self.taken[1:], strict=True):
+            letter.visible = letters and not taken
 
     def show(self, visible: bool, chosen: bool) -> None:
         """Show or hide it; the chosen one is larger and has letters."""
@@ -259,8 +283,8 @@ class Triad:
         self.arrows.shaft_radius = 0.03 * length
         self.arrows.head_radius, self.arrows.head_length = 0.09 * length, 0.2 * length
         for axis, letter in zip(np.eye(3), self.letters, strict=True):
-            letter.position = 1.12 * length * axis
-            letter.visible = chosen or self.always
+            letter.position = LETTER * length * axis
+        self._write()
 
 
 def joined(points: ArrayLike) -> Points:

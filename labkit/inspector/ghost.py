@@ -42,11 +42,17 @@ class Seen:
     """What the student's function said of a configuration."""
 
     sentence: str  # in the student's name: how it compares, or why there is nothing
-    # "good", "bad", "quiet" where nothing is written or begun, "" where nobody asked.
+    # "good", "bad", "quiet" where nothing is written or begun, "asking" until it is
+    # known, "" where nobody asked.
     kind: str
     poses: Mapping[str, Array] = field(default_factory=dict)  # {short name: (4, 4)}
     truth: Mapping[str, Array] = field(default_factory=dict)  # MuJoCo's of all frames
     drawn: Mapping[str, Array] = field(default_factory=dict)  # rigid, where they differ
+
+
+def asked(ghost: Ghost | None) -> Seen:
+    """Return that nothing is known of a file that was saved a moment ago."""
+    return Seen(f"asking YOUR {ghost.function} ..." if ghost else "", "asking")
 
 
 def nothing(why: str) -> Seen:

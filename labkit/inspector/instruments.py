@@ -38,7 +38,13 @@ class Bars:
         rows = zip(self.labels, given, marks, self.full, strict=True)
         title = f"<b>{escape(self.title)}</b>" if self.title else ""
         made = "".join(self._row(*row) for row in rows)
-        self.handle.content = f'<div class="r47-bars {self.kind}">{title}{made}</div>'
+        kind = "both" if self.both else self.kind
+        self.handle.content = f'<div class="r47-bars {kind}">{title}{made}</div>'
+
+    @property
+    def both(self) -> bool:
+        """Whether they go to both sides."""
+        return self.kind in ("both", "signed")
 
     def clear(self) -> None:
         """Show no numbers."""
@@ -47,10 +53,10 @@ class Bars:
     def _at(self, value: float, full: float) -> float:
         """Return where a value is along its row, per cent."""
         part = float(np.clip(value / full, -1.0, 1.0)) if np.isfinite(value) else 0.0
-        return 50.0 + 50.0 * part if self.kind == "both" else max(100.0 * part, 0.0)
+        return 50.0 + 50.0 * part if self.both else max(100.0 * part, 0.0)
 
     def _row(self, label: str, value: float, wanted: float, full: float) -> str:
-        over = self.kind != "scale" and abs(value) > full * (1 + 1e-6)
+        over = self.kind not in ("scale", "signed") and abs(value) > full * (1 + 1e-6)
         left, right = sorted((self._at(0.0, full), self._at(value, full)))
         red = ' class="over"' if over else ""
         bar = f'<u{red} style="left:{left:.1f}%;width:{right - left:.1f}%"></u>'

@@ -9,6 +9,7 @@ import numpy as np
 import viser
 from numpy.typing import ArrayLike
 
+from labkit.inspector.ghost import nearest_pose
 from labkit.inspector.shapes import Shape
 from robo47 import se3
 from robo47.checks import Array
@@ -20,7 +21,9 @@ NUMBERS = count()
 
 
 def place(node: viser.SceneNodeHandle, T: Array) -> None:
-    """Put a node of the scene at a pose, (4, 4)."""
+    """Put a node of the scene at a pose, (4, 4), or at the one nearest to a wrong T."""
+    if not se3.is_pose(T):
+        T = nearest_pose(T)
     node.wxyz = se3.R_to_quat(T[:3, :3])
     node.position = T[:3, 3]
 

@@ -12,7 +12,7 @@ import contextlib
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import partial
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -32,6 +32,16 @@ Call = tuple[Any, ...]  # a function's name, then its arguments
 class NoAnswerError(Exception):
     """A function of the student's gave no answer; the message says why."""
 
+    version = 0  # of the file that gave none
+
+
+class Told(NamedTuple):
+    """What one file's functions have shown."""
+
+    apart: dict[str, float]  # how far from the library's, by function; 0 for the same
+    lent: dict[str, str]  # what the library answered instead, and why
+    none: dict[str, str]  # what gave no answer when it was asked last, and why
+
 
 class Own:
     """The functions of one day's file, and how they compare with the library's."""
@@ -42,15 +52,15 @@ class Own:
         library: Any,
         free: Collection[str] = (),
         any_rows: Collection[str] = (),
+        units: Mapping[str, str] | None = None,
     ) -> None:
         """Ask nobody yet, see `Page.own`."""
+        self._units = units or {}
         self._free = {*free, *any_rows}
         self._any_rows = any_rows
         self._student = student
         self._library = library if isinstance(library, Mapping) else vars(library)
-        self.version = 0
-        self._apart: dict[str, float] = {}
-        self._lent: dict[str, str] = {}
+        self._told: dict[int, Told] = {}  # by the version that gave the answers
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
         """Return a function of the student's by its name."""
@@ -63,31 +73,57 @@ class Own:
 
         Where one of them gave none NoAnswerError is raised.
         """
+        version = self.version  # a file that comes meanwhile is another one
+        told = Told({}, {}, {})
+        try:
+            return self._answers(calls, version, told)
+        except NoAnswerError as error:
+            error.version = version
+            raise
+        finally:
+            self._keep(version, told)
+
+    @property
+    def version(self) -> int:
+        """Which file is there: another number after each save; -1 for none."""
+        return self._student.version if self._student.there else -1
+
+    def _answers(self, calls: Sequence[Call], version: int, told: Told) -> list[Any]:
+        """Return the answers, having noted how they compare."""
         right = [self._library[name](*args) for name, *args in calls]
         student = self._student
-        version = student.version if student.there else -1
-        if version != self.version:
-            self.version = version
-            self._apart = {}
-            self._lent = {}
         if version < 0:
             looked = student.version
             why = "there is no file yet" if looked else "yours is being opened"
-            self._lent |= {name: why for name, *_ in calls}
+            told.lent.update({name: why for name, *_ in calls})
             return right
         questions = [Question("view", name, tuple(args)) for name, *args in calls]
         replies = student.ask(questions)
         if student.problem:
             raise NoAnswerError(f"YOUR {student.problem}")
-        return [
-            self._answer(name, reply, truth)
-            for (name, *_), reply, truth in zip(calls, replies, right, strict=True)
-        ]
+        answers = []
+        for (name, *_), reply, truth in zip(calls, replies, right, strict=True):
+            try:
+                answers.append(self._answer(name, reply, truth, told))
+            except NoAnswerError as error:
+                told.none[name] = str(error)
+                raise
+        return answers
 
-    def _answer(self, name: str, reply: Any, right: Any) -> Any:
+    def _keep(self, version: int, told: Told) -> None:
+        """Keep what was noted of a file; another thread may ask another file."""
+        before = self._told.setdefault(version, Told({}, {}, {}))
+        before.lent.update(told.lent)
+        for name in {*told.apart, *told.lent}:
+            before.none.pop(name, None)
+        before.none.update(told.none)
+        for name, off in told.apart.items():
+            before.apart[name] = max(before.apart.get(name, 0.0), off)
+
+    def _answer(self, name: str, reply: Any, right: Any, told: Told) -> Any:
         """Return one function's answer, having compared it."""
         if reply.kind in UNWRITTEN:
-            self._lent[name] = "yours is not written yet"
+            told.lent[name] = "yours is not written yet"
             return right
         if problem := describe(self._student.day, name, reply):
             raise NoAnswerError(f"YOUR {problem}")
@@ -103,24 +139,36 @@ class Own:
             apart = np.zeros(1) if leave else np.abs(mine - truth)
             off = float(apart.max(initial=0.0))
             scale = 1.0 + float(np.abs(truth).max(initial=0.0))
-            before = self._apart.get(name, 0.0)
             judged = name not in self._free and off > SAME * scale
-            self._apart[name] = max(before, off if judged else 0.0)
+            told.apart[name] = max(told.apart.get(name, 0.0), off if judged else 0.0)
         return _as_drawn(reply.value)
+
+    def fresh(self) -> bool:
+        """Return whether the file that is there has been asked."""
+        return self.version in self._told and not self._student.saved()
 
     def says(self) -> tuple[str, str]:
         """Return whose functions were at work, and how they compare; its kind."""
-        wrong = [f"{name} by {x:.3g}" for name, x in self._apart.items() if x]
+        units = self._units
+        apart, lent, none = self._told.get(self.version, Told({}, {}, {}))
+        if none:
+            return next(iter(none.values())), "bad"
+        wrong = [
+            f"{name} by {x:.3g} {units.get(name, '')}".rstrip()
+            for name, x in apart.items()
+            if x
+        ]
         if wrong:
             return f"YOUR functions. Off the library's: {', '.join(wrong)}", "bad"
-        lent = self._lent
         why = next(iter(lent.values()), "")
         theirs = f"the library's {', '.join(lent)} ({why})" if lent else ""
-        if not self._apart:
+        if not apart:
             return f"At work: {theirs}" if theirs else "", "quiet"
-        names = ", ".join(self._apart)
-        judged = any(name not in self._free for name in self._apart)
-        text = f"YOUR {names}" + (": the same as the library's" if judged else "")
+        free = ", ".join(name for name in apart if name in self._free)
+        judged = ", ".join(name for name in apart if name not in self._free)
+        text = f"YOUR {judged}: the same as the library's" if judged else ""
+        if free:  # the tab itself says how far these are right
+            text = f"{text}; at work: {free}" if text else f"YOUR {free} at work"
         return f"{text}; besides {theirs}" if theirs else text, "good"
 
 

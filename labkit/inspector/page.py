@@ -73,6 +73,7 @@ class Page:
         self.running: list[Animation | Jobs] = []  # what ends with the tab
         self.jobs = self.jobs_apart()
         self._own: Own | None = None
+        self._whose: viser.GuiHtmlHandle | None = None
 
     # The arm
 
@@ -122,7 +123,11 @@ class Page:
     # The student's functions, and what takes time
 
     def own(
-        self, library: Any, free: Collection[str] = (), any_rows: Collection[str] = ()
+        self,
+        library: Any,
+        free: Collection[str] = (),
+        any_rows: Collection[str] = (),
+        units: Mapping[str, str] | None = None,
     ) -> Own:
         """Return the student's functions; a line of the panel says how they compare.
 
@@ -133,9 +138,11 @@ class Page:
             free: names of functions that have more than one right answer.
             any_rows: of those whose answers may have any number of rows, such as ways;
                 the tab itself says how they compare.
+            units: of what the functions return, {name: unit}; none for plain numbers.
         """
         self._whose = self.html()
-        self._own = Own(self.host.student, library, free, any_rows)
+        self.asking()
+        self._own = Own(self.host.student, library, free, any_rows, units)
         return self._own
 
     def jobs_apart(self) -> Jobs:
@@ -173,8 +180,13 @@ class Page:
 
     def _ended(self, error: Exception | None) -> None:
         """Say what stopped a job or a loop, and how the student's functions compare."""
-        if isinstance(error, NoAnswerError):
+        own = self._own
+        none = isinstance(error, NoAnswerError) and error.version
+        if own is not None and (not own.fresh() or none not in (False, own.version)):
+            self.asking()  # what an older file answered is no news
+        elif isinstance(error, NoAnswerError):
             self._show_whose(str(error), "bad")
+            self.say("")
             self.host.lose()
         elif error is not None:
             self.say(f"stopped: {type(error).__name__}: {error}", "bad")
@@ -182,8 +194,14 @@ class Page:
             self._show_whose(*self._own.says())
         self.host.schedule()
 
+    def asking(self) -> None:
+        """Say that the student's functions are asked, and that no answer is known."""
+        if self._whose is not None:
+            self._show_whose("asking YOUR functions ...", "asking")
+
     def _show_whose(self, text: str, kind: str) -> None:
-        self._whose.content = words.judged(text, "whose", kind)
+        if self._whose is not None:
+            self._whose.content = words.judged(text, "whose", kind)
 
     # The widgets
 
@@ -267,7 +285,8 @@ class Page:
             unit: behind the numbers.
             title: above.
             kind: "both" from zero to both sides; "up" from the left, for what is never
-                negative; "scale" too, and its end is no limit: nothing turns red.
+                negative; "scale" too, and its end is no limit: nothing turns red;
+                "signed" is a scale to both sides.
         """
         full = np.broadcast_to(np.asarray(limits, dtype=float), (len(labels),))
         return Bars(self.html(), labels, full, unit, title, kind)

@@ -22,7 +22,7 @@ from robo47.checks import Array
 View = tuple[tuple[float, float, float], tuple[float, float, float]]
 FOV = 0.72  # vertical, radians
 # For a page that is higher than wide: from further away, the arm above the panel.
-PHONE: View = ((3.0, -2.6, 1.1), (0.2, 0.0, -0.35))
+PHONE: View = ((2.1, -1.82, 0.8), (0.15, 0.0, -0.2))
 CONNECTED = 0.3  # seconds until viser's own first camera has been set
 BACKDROP = (226, 230, 236)
 # Neighbours whose origins coincide (links 1 and 2, 5 and 6) have labels on two sides.
@@ -116,6 +116,11 @@ class ArmScene:
         self.gap.visible = there is not None
         if there is not None:
             self.yours.place(there)
+        taken = self.yours.labels_at(there) if there is not None else np.zeros((0, 3))
+        for name, triad in self.triads.items():
+            triad.clear(taken, self.arm.by_library[name])
+        self.world.clear(taken, np.eye(4))
+        if there is not None:
             self.gap.points = joined([self.arm.pose(end)[:3, 3], there[:3, 3]])
 
     def light(self, chosen: str | None, shown: Collection[str] | None) -> None:

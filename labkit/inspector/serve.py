@@ -28,7 +28,7 @@ from labkit.inspector.shapes import shapes, simple_links
 from labkit.inspector.student import Student
 from labkit.inspector.tab import day_tabs
 from labkit.lesson.day import Day
-from labkit.sandbox.sandbox import Sandbox
+from labkit.sandbox.sandbox import Sandbox, deadline_of
 from robo47.errors import Robo47Error
 
 MEMORY = "view.json"  # where each day's page was
@@ -81,7 +81,8 @@ def serve(
             if back and isinstance(before, str):
                 on_loop(server, partial(page.receive, before))
             print("\n".join(where_to_look(port, server)), flush=True)
-            for work in (page.watch(partial(check, day)), dress(page, dressed)):
+            checks = Checks(day)
+            for work in (page.watch(checks.ask, checks.stop), dress(page, dressed)):
                 loop = server.get_event_loop()
                 ends.callback(asyncio.run_coroutine_threadsafe(work, loop).cancel)
             while True:
@@ -93,13 +94,26 @@ def serve(
     os._exit(cli.EXIT_OK)
 
 
-def check(day: Day) -> Standing:
-    """Return what the checker says of the student's file of a day."""
-    try:
-        with Sandbox() as sandbox:
-            return standing(check_tasks(day, day.work, sandbox))
-    except Exception as error:  # the page goes on, whatever the file is like
-        return Standing(f"make check: {error}", "bad")
+class Checks:
+    """What the checker says of the student's file of a day, save after save."""
+
+    def __init__(self, day: Day) -> None:
+        self.day = day
+        self.deadline = deadline_of(day)
+
+    def ask(self) -> Standing:
+        """Return how the tasks stand; it waits for the checker."""
+        self.deadline = deadline_of(self.day)
+        try:
+            with Sandbox() as sandbox:
+                file, until = self.day.work, self.deadline
+                return standing(check_tasks(self.day, file, sandbox, deadline=until))
+        except Exception as error:  # the page goes on, whatever the file is like
+            return Standing(f"make check: {error}", "bad")
+
+    def stop(self) -> None:
+        """Let the check at work end: nobody waits for what it finds."""
+        self.deadline.seconds = 0.0
 
 
 def remember(day: Day, address: str) -> None:

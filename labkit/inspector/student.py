@@ -49,14 +49,22 @@ class Student:
         """Whether there is a file."""
         return bool(self._stamp)
 
+    def saved(self) -> bool:
+        """Return whether the file was saved since the last look; this never waits."""
+        return self._now() != self._stamp
+
+    def _now(self) -> tuple[int, ...] | None:
+        """Return what another save would change; None where there is no file."""
+        try:
+            status = self.script.stat()
+        except OSError:
+            return None
+        return status.st_mtime_ns, status.st_size
+
     def look(self) -> None:
         """Open the file anew where it was saved since the last look."""
         with self._lock:
-            try:
-                status = self.script.stat()
-                stamp = (status.st_mtime_ns, status.st_size)
-            except OSError:
-                stamp = None
+            stamp = self._now()
             if stamp == self._stamp:
                 return
             self._stamp = stamp

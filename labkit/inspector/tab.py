@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from labkit.inspector.scene import View
 
 FILE = "inspector"
+PLAYS = 6.0  # seconds that a tab plays by itself
 
 
 class Tab:
@@ -31,6 +32,12 @@ class Tab:
 
     def on_move(self, q: Array) -> None:
         """Show the configuration that the arm has now; radians and metres, (nq,)."""
+
+    def begin(self) -> None:
+        """Play what the tab has to show: it was opened, or the file was saved.
+
+        For `PLAYS` seconds, unless it ends by itself: nobody has to press anything.
+        """
 
     def sets(self, name: str) -> Callable[[Any], None]:
         """Return what a widget calls to set an attribute; then all is shown anew."""

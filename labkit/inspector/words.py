@@ -49,13 +49,13 @@ def matrix(
 
 def _entry(value: float, column: str, mark: str) -> str:
     """Return one number, 10 wide; the mark covers the number alone."""
-    text = f"{value:z.6f}"
+    text = f"{value:z.6f}" if np.isfinite(value) else "?"
     space = " " * (10 - len(text))
     return f'{space}<span class="{f"{column} {mark}".strip()}">{text}</span>'
 
 
 def line(text: str, key: str, kind: str = "") -> str:
-    """Return one line of plain text; the kind is "", "good", "bad", or "quiet"."""
+    """Return one line of text; the kind is "", good, bad, quiet or asking."""
     if not text:
         return ""
     style = f" r47-{kind}" if kind else ""
@@ -63,34 +63,47 @@ def line(text: str, key: str, kind: str = "") -> str:
 
 
 def judged(text: str, key: str, kind: str) -> str:
-    """Return a line that stands out, see `line`; good and bad ones with their sign."""
+    """Return a line that stands out, see `line`; good and bad ones with their sign.
+
+    It has room for some lines, however long it is: what stands below is not moved.
+    """
     if not text:
         return ""
     sign = {"good": "✓ ", "bad": "✗ "}.get(kind, "")
     return (
-        f'<div class="r47 r47-said r47-{kind}" data-line="{escape(key)}" role="status">'
-        f"{sign}{escape(text)}</div>"
+        f'<div class="r47 r47-said r47-{kind}" data-line="{escape(key)}" role="status" '
+        f'tabindex="0">{sign}{escape(text)}</div>'
     )
 
 
-def verdict(difference: float, whose: str = "the library") -> str:
-    """Return how far someone's pose is from MuJoCo's, by the largest of any entry."""
+def verdict(difference: float, whose: str) -> str:
+    """Return how far someone's pose is from MuJoCo's, by the largest of any entry.
+
+    The library's is no news, whatever it is: green is only what is the student's.
+    """
     agrees = difference < AGREES
     sign, end = ("✓", "they agree") if agrees else ("✗", "THEY DIFFER")
     text = f"{sign} {whose}: largest difference {difference:.1e}, {end}"
+    if whose != "yours" and agrees:
+        return line(text.removeprefix("✓ "), "difference", "quiet")
     return line(text, "difference", "good" if agrees else "bad")
 
 
-def proof(arm: Arm, name: str, seen: Seen) -> str:
+def proof(arm: Arm, name: str, seen: Seen, asked: bool) -> str:
     """Return a frame's pose from MuJoCo, and from what the student's function said.
 
-    Where that has none the library's stands there, by its name.
+    Where their function is asked for the frame, but has no answer, none stands there;
+    where it is not, or there is none yet, the library's does, by its name.
     """
     truth = matrix(f"T_world_{name}, MuJoCo", arm.pose(name), "mujoco")
+    if asked and name not in seen.poses and seen.kind in ("asking", "bad"):
+        why = "asking ..." if seen.kind == "asking" else "yours: no answer"
+        none = matrix(f"T_world_{name}, YOURS", np.full((4, 4), np.nan), "yours")
+        return truth + none + line(why, "difference", seen.kind)
     if name not in seen.poses:
         library = arm.by_library[name]
         pose = matrix(f"T_world_{name}, robo47.kinematics", library, "library")
-        return truth + pose + verdict(arm.difference(name, library))
+        return truth + pose + verdict(arm.difference(name, library), "the library")
     yours = seen.poses[name]
     apart = np.abs(yours - seen.truth[name])
     pose = matrix(f"T_world_{name}, YOURS", yours, "yours", ~(apart < AGREES))

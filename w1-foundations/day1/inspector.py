@@ -1,10 +1,16 @@
-"""Day 1 in the inspector: the student's `compose_fk` as a ghost, and the tab Order."""
+"""Day 1 in the inspector: `compose_fk` as a ghost, and the tabs Chain and Order.
+
+Chain multiplies the student's own `link_T` and `joint_T`, factor by factor. Order makes
+T_extra of their `make_T` and `Rz`, and draws lines to where their `predict_order` puts
+both ends.
+"""
 
 import mujoco
 import numpy as np
 
 from labkit.base.exchange import Path
-from labkit.inspector.arm import END
+from labkit.inspector import common_tabs, words
+from labkit.inspector.arm import AGREES, END, Step
 from labkit.inspector.ghost import Ghost
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
@@ -13,6 +19,17 @@ from robo47.checks import Array
 
 # From the world outwards: each body, and the joint that turns it.
 LINKS = (("link0", None), *((f"link{i}", f"joint{i}") for i in range(1, 8)))
+# The kit's, under the names of the lab's functions.
+LIBRARY = {
+    "make_T": se3.make_T,
+    "Rz": se3.Rz,
+    "link_T": lambda pos, quat: se3.make_T(se3.quat_to_R(quat), pos),
+    "joint_T": lambda q: se3.make_T(se3.Rz(q), np.zeros(3)),
+    "predict_order": lambda T, E: ((T @ E)[:3, 3], (E @ T)[:3, 3]),
+}
+ENTRY = "in one entry"
+UNITS = {"make_T": ENTRY, "Rz": ENTRY, "link_T": ENTRY, "joint_T": ENTRY,
+         "predict_order": "m"}  # fmt: skip
 BOTH, RIGHT, LEFT = "both", "right: T_world_ee @ T_extra", "left: T_extra @ T_world_ee"
 
 
@@ -32,6 +49,46 @@ GHOST = Ghost(
 )
 
 
+class Chain(common_tabs.Chain):
+    """The product of the student's own factors."""
+
+    def __init__(self, page: Page) -> None:
+        """Ask for every factor at every move."""
+        self.own = page.own(LIBRARY, units=UNITS)
+        super().__init__(page)
+
+    def on_move(self, q: Array) -> None:
+        """Ask for the factors in the arm's present configuration."""
+        self.page.job(self.ask, lambda steps: self.show(steps, "yours"))
+
+    def ask(self) -> list[Step]:
+        """Return the chain's steps with the student's factors."""
+        arm = self.page.arm
+        *_, last = arm.chain.links
+        right = arm.steps()
+        calls = []
+        for step in right:
+            name = last.name.partition(":")[2] if step.link == END else step.link
+            body = arm.model.body(name)
+            fixed = ("link_T", body.pos.copy(), body.quat.copy())
+            calls.append(("joint_T", step.q) if step.joint else fixed)
+        steps = []
+        T = np.eye(4)
+        for step, given in zip(right, self.own.many(*calls), strict=True):
+            end = step.link == END and not step.joint
+            factor = given @ arm.chain.T_link_frame if end else given
+            off = ~(np.abs(factor - step.factor) < AGREES)
+            steps.append(step._replace(
+                before=T, factor=factor, after=T @ factor, off=off
+            ))  # fmt: skip
+            T = T @ factor
+        return steps
+
+    def lost(self) -> None:
+        """Show no factors."""
+        self.product.content = ""
+
+
 class Order(Tab):
     """T_extra on either side: the tool steps, or the whole arm is moved."""
 
@@ -43,6 +100,7 @@ class Order(Tab):
         self.side = BOTH
         self.angle = np.pi / 4
         self.x = 0.1
+        self.own = page.own(LIBRARY, units=UNITS)
         page.choice("T_extra", [BOTH, RIGHT, LEFT], self.sets("side"))
         page.slider("turn about z", -np.pi, np.pi, self.angle, self.sets("angle"))
         page.slider("move along x", -0.3, 0.3, self.x, self.sets("x"), unit="m")
@@ -52,12 +110,25 @@ class Order(Tab):
         self.left = page.draw.frame("T_extra @ T_world_ee")
         self.lines = page.draw.lines(np.zeros((2, 2, 3)), "orange")
         page.light(END, {END})
-        page.legend({"T_extra on the left moves the whole arm": "purple"})
+        self.predicted = page.html()
+        page.legend({
+            "T_extra on the left moves the whole arm": "purple",
+            "to where your predict_order puts the ends": "orange",
+        })  # fmt: skip
 
     def on_move(self, q: Array) -> None:
+        """Ask for T_extra, and for where it takes the hand."""
+        self.page.job(lambda: self.ask(self.page.pose(END)), self.show)
+
+    def ask(self, T_world_ee: Array) -> tuple[Array, Array, tuple[Array, Array]]:
+        """Return T_world_ee, the student's T_extra, and both ends by their formula."""
+        R = self.own.Rz(self.angle)
+        T_extra = self.own.make_T(R, np.array([self.x, 0.0, 0.0]))
+        return T_world_ee, T_extra, self.own.predict_order(T_world_ee, T_extra)
+
+    def show(self, found: tuple[Array, Array, tuple[Array, Array]]) -> None:
         """Put T_extra on the right, and on the left of the whole arm."""
-        T_world_ee = self.page.pose(END)
-        T_extra = se3.make_T(se3.Rz(self.angle), [self.x, 0.0, 0.0])
+        T_world_ee, T_extra, (p_right, p_left) = found
         right, left = T_world_ee @ T_extra, T_extra @ T_world_ee
         self.right.place(right)
         self.left.place(left)
@@ -66,8 +137,8 @@ class Order(Tab):
         poses = self.page.arm.by_mujoco
         moved = {name: T_extra @ poses[f"body:{name}"] for name in self.arm.bodies}
         self.arm.pose({} if self.side == RIGHT else moved)
-        ends = {RIGHT: [right], LEFT: [left], BOTH: [right, left]}[self.side]
-        both = [[T_world_ee[:3, 3], T[:3, 3]] for T in ends]
+        ends = {RIGHT: [p_right], LEFT: [p_left], BOTH: [p_right, p_left]}[self.side]
+        both = [[T_world_ee[:3, 3], end] for end in ends]
         self.lines.points = np.array(both, np.float32)
         apart = float(np.linalg.norm(right[:3, 3] - left[:3, 3]))
         T, name = (left, "left") if self.side == LEFT else (right, "right")
@@ -78,6 +149,23 @@ class Order(Tab):
         }
         self.page.matrix(self.result, f"T_extra on the {name}", T)
         self.page.say(says[self.side])
+        off = [
+            np.linalg.norm(p_right - right[:3, 3]),
+            np.linalg.norm(p_left - left[:3, 3]),
+        ]
+        told = " and ".join(f"{1000 * mm:.1f} mm" for mm in off)
+        kind = "good" if max(off) < AGREES else "bad"
+        text = f"your predict_order is {told} off, for right and left"
+        self.predicted.content = words.line(text, "predicted", kind)
+
+    def lost(self) -> None:
+        """Show no T_extra."""
+        self.result.content = self.predicted.content = ""
+        self.page.say("")
+        self.right.show(False, chosen=False)
+        self.left.show(False, chosen=False)
+        self.arm.pose({})
+        self.lines.points = np.zeros((1, 2, 3), np.float32)
 
 
-TABS = [Order]
+TABS = [common_tabs.Joints, Chain, Order]

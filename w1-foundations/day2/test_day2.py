@@ -2,7 +2,6 @@
 
 import importlib.util
 import re
-from unittest.mock import MagicMock
 
 import inprocess
 import mujoco
@@ -10,7 +9,7 @@ import numpy as np
 import pytest
 from compare import assert_same
 
-from conftest import ROOT, load_script, need
+from conftest import ROOT, load_script, need, paper
 from labkit.judge import Draw
 from labkit.judge.answers import degrees, matches
 from labkit.judge.row import row_of
@@ -305,23 +304,21 @@ def test_the_tab_applies_one_exponential_at_a_time():
         need(importlib.util.find_spec(module) is not None, f"{module}: make view")
     inspector = DAY.module("inspector")
     model = panda.load("panda_nohand")
-    page = MagicMock(model=model, q=panda.READY_Q.copy())
-    page.arm.names = {"ee": "site:attachment_site"}
-    truth = verify.mujoco_poses(model, page.q[None])["site:attachment_site"][0]
-    page.pose.return_value = truth
-    page.animate.return_value.running = False
+    page = paper(model, panda.READY_Q, vars(lab))
     tab = inspector.Screws(page)
     tab.on_move(page.q)
-    assert page.say.call_args.args[0].startswith("Applied: M. The hand is 401 mm")
+    assert page.say.call_args.args[0].startswith("Applied: M. Your hand is 401 mm")
     for _ in range(3):
         tab.press(inspector.NEXT)
     assert "Applied: e^[S5] e^[S6] e^[S7] M." in page.say.call_args.args[0]
     tab.press(inspector.WHOLE)
-    assert page.say.call_args.args[0].endswith("The hand is 0 mm short of q.")
+    assert page.say.call_args.args[0].endswith("Your hand is 0 mm short of q.")
+    assert tab.own.says()[1] == "good"
     tab.press(inspector.BACK)
     assert "Applied: e^[S2]" in page.say.call_args.args[0]
     tab.spin(True)
     assert tab.legend.content.count(" mm, ") == 5
+    assert "your dh_fk, the ball: 0 mm" in tab.legend.content
     questions = inspector.GHOST.questions(model, page.q)
     assert len(questions) == len(inspector.GHOST.frames) == 8
     for args, name in zip(questions, inspector.GHOST.frames, strict=True):

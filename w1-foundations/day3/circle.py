@@ -64,7 +64,8 @@ class Circle(Tab):
         super().__init__(page)
         self.arm = panda.arm(page.model)
         self.limits = page.model.jnt_range[:7]
-        self.own = page.own(jacobian)
+        units = {"pose_error": "(rad or m)", "dls_step": "rad/s"}
+        self.own = page.own(jacobian, units=units)
         page.slider("radius", 0.3, 0.4, RADIUS, self.turn, unit="m", step=0.005)
         page.buttons([DRAW, AGAIN], self.press)
         self.numbers = page.html()
@@ -78,6 +79,16 @@ class Circle(Tab):
         self.goal = page.draw.curve(start, "grey", 2.0)
         self.lines = [page.draw.curve(start, colour) for colour in ("blue", "red")]
         self.turn(RADIUS)
+
+    def begin(self) -> None:
+        """Draw a lap from the start."""
+        self.press(AGAIN)
+        self.loop.start()
+
+    def lost(self) -> None:
+        """Show no numbers: the arms stand where they were."""
+        self.numbers.content = ""
+        self.bars.clear()
 
     def turn(self, radius: float) -> None:
         """Choose the radius, in metres; both arms go to the circle's start."""

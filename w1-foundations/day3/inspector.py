@@ -11,7 +11,7 @@ from labkit.inspector import words
 from labkit.inspector.arm import END
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
-from robo47 import jacobian, panda, screws
+from robo47 import jacobian, panda, screws, se3
 from robo47.checks import Array
 
 from .circle import Circle
@@ -21,6 +21,10 @@ NEAR_SINGULAR = 0.05  # the smallest singular value that is shown in red below
 COLUMN, BALL = 0.35, 0.2  # metres drawn for 1 m/s per rad/s
 SAME, SHORT = 1e-7, 0.01  # of a column; metres of an arrow that is not drawn
 REACHED = 1e-3  # radians and metres together
+UNITS = {
+    **dict.fromkeys(("space_jacobian", "site_jacobian"), "(rad/s or m/s per rad/s)"),
+    "null_step": "rad/s",
+}
 PART, MOST = 20, 0.25  # steps of the elbow; radians that its slider goes at once
 
 
@@ -36,7 +40,8 @@ class Jacobian(Tab):
         super().__init__(page)
         self.S, self.M = panda.screws(page.model), panda.home_pose(page.model)
         self.limits = page.model.jnt_range[:JOINTS]
-        self.own = page.own(jacobian, free=("solve_ik",))
+        self.own = page.own(jacobian, free=("solve_ik",), units=UNITS)
+        self.going = page.jobs_apart()  # to the target
         self.elbow = page.slider("swing the elbow", -2.0, 2.0, 0.0, self.swing)
         self.at = 0.0  # where the slider was
         page.tick("drag a target", self.drag)
@@ -62,26 +67,25 @@ class Jacobian(Tab):
         })  # fmt: skip
 
     def on_move(self, q: Array) -> None:
-        """Ask for the columns in the configuration."""
+        """Ask for the columns in the configuration, and go to the target."""
+        self.page.job(lambda: self.ask(q[:JOINTS]), self.show)
         if self.shown:
             self.follow(self.target.T)
-        else:
-            self.page.job(lambda: self.ask(q[:JOINTS]), self.show)
 
-    def ask(self, q: Array) -> tuple[Array, Array, Array]:
-        """Return the hand's place, the student's J_site and the library's."""
+    def ask(self, q: Array) -> tuple[Array, Array, Array, float]:
+        """Return the hand's place, the student's J_site, the library's, and w."""
         p = screws.fk_space(self.S, self.M, q)[:3, 3]
         J = self.own.site_jacobian(self.own.space_jacobian(self.S, q), p)
-        return p, J, self.J_site(q)
+        return p, J, self.J_site(q), float(self.own.manipulability(J))
 
     def J_site(self, q: Array) -> Array:
         """Return the library's J_site of the hand's origin, (6, 7)."""
         p = screws.fk_space(self.S, self.M, q)[:3, 3]
         return jacobian.site_jacobian(jacobian.space_jacobian(self.S, q), p)
 
-    def show(self, found: tuple[Array, Array, Array]) -> None:
+    def show(self, found: tuple[Array, Array, Array, float]) -> None:
         """Show columns, ellipsoid and singular values."""
-        p, J, right = found
+        p, J, right, w = found
         off = np.abs(J - right).max(axis=0) > SAME
         arrows = _arrows(p, J)
         long = np.linalg.norm(arrows[:, 1] - p, axis=1) > SHORT
@@ -94,9 +98,10 @@ class Jacobian(Tab):
         self.ball.show(J[3:] @ J[3:].T, p, BALL)
         sigma = np.linalg.svd(J, compute_uv=False)
         self.bars.show(sigma, np.linalg.svd(right, compute_uv=False))
-        kind = "bad" if sigma[-1] < NEAR_SINGULAR else "good"
-        w = jacobian.manipulability(J)
         says = f"smallest singular value {sigma[-1]:.3f}; manipulability {w:.3f}"
+        kind = "bad" if sigma[-1] < NEAR_SINGULAR else ""
+        if off.any() or abs(w - jacobian.manipulability(J)) > SAME:
+            says, kind = f"of a J or w that is wrong: {says}", "bad"
         self.least.content = words.line(says, "sigma", kind)
 
     def lost(self) -> None:
@@ -116,7 +121,7 @@ class Jacobian(Tab):
     def follow(self, T_goal: Array) -> None:
         """Have the student's own solve_ik take the second arm to the target."""
         q0 = np.clip(self.page.q[:JOINTS], *self.limits.T)
-        self.page.job(
+        self.going.want(
             lambda: self.own.solve_ik(self.S, self.M, T_goal, q0, self.limits),
             lambda q: self.stand(q, T_goal),
         )
@@ -124,12 +129,13 @@ class Jacobian(Tab):
     def stand(self, q: Array, T_goal: Array) -> None:
         """Draw the second arm at q, (7,), and say how far its hand is off."""
         self.ghost.pose(self.page.links(q))
-        left = jacobian.pose_error(screws.fk_space(self.S, self.M, q), T_goal)
-        mm = 1000 * np.linalg.norm(left[3:])
-        rad = np.linalg.norm(left[:3])
+        hand = screws.fk_space(self.S, self.M, q)
+        metres, rad = se3.pose_distance(hand, T_goal)
         out = bool(np.any((q < self.limits[:, 0]) | (q > self.limits[:, 1])))
-        kind = "good" if np.linalg.norm(left) < REACHED and not out else "bad"
-        says = f"the hand is {mm:.2f} mm and {rad:.4f} rad short of the target"
+        kind = "good" if np.hypot(metres, rad) < REACHED and not out else "bad"
+        says = (
+            f"the hand is {1000 * metres:.2f} mm and {rad:.4f} rad short of the target"
+        )
         says += "; OUT OF LIMITS" if out else ""
         self.numbers.content = words.line(says, "reached", kind)
 

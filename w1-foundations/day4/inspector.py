@@ -1,8 +1,9 @@
 """Day 4 in the inspector: the tab Forces.
 
 A ball at each link's centre of mass; the student's own torques as bars, with marks
-where they should be; their own M as coloured cells; and the arm in a real simulation:
-let go, floating on their own gravity torque, or pushed. A wrong sign falls.
+where they should be; their own M, of their own link_inertias, as coloured cells; and
+the arm in a real simulation: let go, floating on their own gravity torque, or pushed. A
+wrong sign falls.
 """
 
 from functools import partial
@@ -12,7 +13,7 @@ import numpy as np
 from labkit.inspector import words
 from labkit.inspector.draw import joined
 from labkit.inspector.page import Page
-from labkit.inspector.tab import Tab
+from labkit.inspector.tab import PLAYS, Tab
 from robo47 import dynamics, panda, simulate
 from robo47.checks import Array
 
@@ -27,6 +28,10 @@ HZ, RATE = 25.0, 100.0  # of the picture; of the controller
 HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
 LENGTH = 0.02  # metres of an arrow per newton
 SAME = 1e-6  # kg m2 of an entry of M
+UNITS = {
+    "gravity_torque": "N m", "mass_matrix": "kg m2",
+    "link_inertias": "(kg, kg m or kg m2)",
+}  # fmt: skip
 
 
 class Forces(Tab):
@@ -47,7 +52,7 @@ class Forces(Tab):
         self.force = 0 * FORCE
         self.falls = False
         self.begun = self.shown = page.q
-        self.own = page.own(dynamics)
+        self.own = page.own(dynamics, units=UNITS)
         page.buttons([LET_GO, FLOAT, PUSH, BACK], self.press)
         set_share = partial(setattr, self, "share")
         page.slider("share of your gravity_torque", 0.0, 1.2, 1.0, set_share, unit="")
@@ -75,6 +80,11 @@ class Forces(Tab):
             self.show_arm(0.0)
         else:
             self.loop.start()
+
+    def begin(self) -> None:
+        """Float on the student's torque: a right one holds the arm, a wrong one not."""
+        self.press(FLOAT)
+        self.loop.lasts = PLAYS
 
     def advance(self, seconds: float) -> None:
         """Simulate until the next picture; it waits for the student's torques."""
@@ -126,7 +136,7 @@ class Forces(Tab):
         """Return the student's torques, the needed ones, the student's M, the right."""
         now = self.rig.at(q)
         given = self.pulled(q)
-        G = dynamics.link_inertias(now.T_links, *self.weights)
+        G = self.own.link_inertias(now.T_links, *self.weights)
         tau, M = self.own.many(
             ("gravity_torque", *given),
             ("mass_matrix", now.J_space, G, self.rig.armature),
@@ -149,7 +159,7 @@ class Forces(Tab):
         """Show no torques and no M."""
         self.page.say("")
         self.bars.clear()
-        self.cells.content = ""
+        self.cells.content = self.clock.content = ""
 
 
 def heat_map(M: Array, wrong: Array | None = None) -> str:

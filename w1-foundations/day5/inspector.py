@@ -11,7 +11,7 @@ import numpy as np
 from labkit.inspector import words
 from labkit.inspector.own import Own
 from labkit.inspector.page import Page
-from labkit.inspector.tab import Tab
+from labkit.inspector.tab import PLAYS, Tab
 from robo47 import control, panda, references, scenes, simulate
 from robo47.arm import Arm
 from robo47.checks import Array
@@ -21,11 +21,17 @@ SWING, NUDGE, STOP = "swing", "0.1 rad off", "stop"
 HZ, RATE = 25.0, 250.0  # pictures a second; torques a second, as in the lab
 KP, KD = 100.0, 20.0  # of the plain springs, as in the lab
 KI, CLAMP = 4000.0, 0.02  # 1/s3, rad s, as in the lab
+SAME = 1e-6  # of the stiffest omega
 LEAST = 1e-3  # mrad, at the foot of the logarithmic axis
 REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])
 E0 = 0.1 * np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0])
 HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
 CHATTER = 0.2  # of the torques: so often a motor goes from limit to limit
+UNITS = {
+    **dict.fromkeys(("pd_torque", "gravity_pd", "computed_torque", "saturate"), "N m"),
+    "gains": "(1/s2 or 1/s)", "error_response": "of the first error",
+    "stiffest_omega": "rad/s", "pid_step": "(rad/s2 or rad s)",
+}  # fmt: skip
 Law = Callable[..., Array]
 
 
@@ -101,18 +107,20 @@ class Control(Tab):
         self.heavy = 0
         self.swing = False
         self.known = (0.0, 0)
+        self.asked_of = 0  # the file whose stiffest_omega is shown
         self.kp_kd = np.zeros(2)
         self.limits = simulate.limits(self.models[0])[1]
         steps = simulate.steps_per_period(self.models[0], RATE)
-        h = self.models[0].opt.timestep
-        self.stiffest = float(control.stiffest_omega(h, steps))
-        self.own = page.own(control)
+        h = float(self.models[0].opt.timestep)
+        self.breaks_at = float(control.stiffest_omega(h, steps))
+        self.stiffest = np.nan  # the student's, of a step of 4 ms
+        self.own = page.own(control, units=UNITS)
         self.ghost = page.draw.ghost("blue")
         page.choice("controller", list(LAWS), self.choose)
         page.slider("omega", 2, 300, 20, self.tune, unit="rad/s", step=1)
         page.tick("hang 1 kg on it", self.hang)
         page.buttons([SWING, NUDGE, STOP], self.press)
-        self.clock = page.html()
+        self.clock, self.breaks = page.html(), page.html()
         curves = ["measured", "predicted"]
         self.plot = page.plot(curves, y="largest error (mrad)", least=LEAST)
         self.bars = page.bars(ARM_JOINTS, self.limits, "N m", "torque asked for")
@@ -129,9 +137,43 @@ class Control(Tab):
     def tune(self, omega: float) -> None:
         """Make the springs stiffer or softer, critically damped."""
         self.omega = omega
-        broken = omega > self.stiffest and self.law not in (springs, with_gravity)
-        says = f"a loop with a torque every 4 ms breaks at {int(self.stiffest)} rad/s"
-        self.page.say(says if broken else "", "bad")
+        self.say_stiffest(self.stiffest)
+
+    def say_stiffest(self, stiffest: float) -> None:
+        """Say from which omega on the loop breaks, by the student's function."""
+        self.stiffest = stiffest
+        right = float(control.stiffest_omega(1.0 / RATE))
+        broken = self.omega > self.breaks_at and self.law not in (springs, with_gravity)
+        wrong = abs(stiffest - right) > SAME * right
+        says = (
+            f"a loop with a torque every 4 ms breaks at {int(self.breaks_at)} rad/s; "
+            f"your stiffest_omega of one step of 4 ms says {stiffest:.0f}"
+        )
+        if wrong:
+            says += f", the library's {right:.0f}"
+        kind = "bad" if broken or wrong else ""
+        self.breaks.content = words.line(says, "stiffest", kind)
+
+    def on_move(self, q: Array) -> None:
+        """Ask from which omega on the loop breaks, once for a file."""
+        if self.asked_of != self.own.version or not self.own.fresh():
+            self.page.job(lambda: self.own.stiffest_omega(1.0 / RATE), self.heard)
+
+    def heard(self, stiffest: Array) -> None:
+        """Keep the student's stiffest omega."""
+        self.asked_of = self.own.version
+        self.say_stiffest(float(stiffest))
+
+    def begin(self) -> None:
+        """Let go 0.1 rad off."""
+        self.press(NUDGE)
+        self.loop.lasts = PLAYS
+
+    def lost(self) -> None:
+        """Show no torques and no error."""
+        self.bars.clear()
+        self.plot.clear()
+        self.clock.content = self.breaks.content = ""
 
     def gains(self) -> Array:
         """Return the student's gains for omega, asked when it or the file changes."""

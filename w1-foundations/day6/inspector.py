@@ -15,7 +15,7 @@ from labkit.inspector.draw import joined
 from labkit.inspector.instruments import three
 from labkit.inspector.page import Page
 from labkit.inspector.robot import Robot
-from labkit.inspector.tab import Tab
+from labkit.inspector.tab import PLAYS, Tab
 from robo47 import control, jacobian, panda, scenes, simulate, task_space
 from robo47.checks import Array
 from robo47.rotation_log import small_pose_error
@@ -27,6 +27,10 @@ PULL = 100.0  # N per metre that the handle is away
 PRESS = 20.0  # N, on the table
 MOST = 60.0  # N, where the bar of the table's force ends
 LONG = 0.04  # metres of the ellipsoid's half axis per root of a kilogram
+UNITS = {
+    "task_inertia": "(kg, kg m or kg m2)", "critical_damping": "(N s/m or N m s/rad)",
+    "null_torque": "N m", "spring_wrench": "(N or N m)", "impedance_torque": "N m",
+}  # fmt: skip
 AGAIN, LET_GO, READY = "start / stop", "let go", "press the table"
 
 
@@ -56,7 +60,8 @@ class Touch(Tab):
         self.hold = 10.0
         self.goal_q = page.q[:7].copy()
         self.data = simulate.start(self.robot, self.goal_q)
-        self.own = page.own(task_space)
+        self.Lambda: Array | None = None  # the student's, of the last torque
+        self.own = page.own(task_space, units=UNITS)
         page.buttons([AGAIN, LET_GO, READY], self.press)
         page.slider("spring", 50, 2000, self.k, self.set_k, unit="N/m", step=50)
         unit = "N m/rad"
@@ -110,7 +115,30 @@ class Touch(Tab):
         self.goal_q = q[:7].copy()
         if not self.loop.running:
             self.data = simulate.start(self.robot, self.goal_q)
+            now = self.arm.at(self.goal_q)
+            self.page.job(lambda: self.weigh(now.J_site, now.M), lambda _: self.show())
         self.show()
+
+    def begin(self) -> None:
+        """Pull at the hand with 10 N along x."""
+        self.data = simulate.start(self.robot, self.goal_q)
+        self.force = np.array([0.1 * PULL, 0.0, 0.0])
+        T = self.arm.at(self.goal_q).T_world_ee.copy()
+        T[:3, 3] += self.force / PULL
+        self.target.place(T)
+        self.loop.stop()
+        self.loop.start(PLAYS)
+
+    def weigh(self, J: Array, M: Array) -> Array:
+        """Return the student's Lambda, and keep it; it waits for them."""
+        self.Lambda = self.own.task_inertia(J, M)
+        return self.Lambda
+
+    def lost(self) -> None:
+        """Show no numbers, and no mass."""
+        self.Lambda = None
+        self.mass.ball.visible = False
+        self.numbers.content = ""
 
     def step(self, seconds: float) -> None:
         """Simulate one picture's time; it waits for the student's torques."""
@@ -127,7 +155,7 @@ class Touch(Tab):
         def torque(t: float, q: Array, qd: Array) -> Array:
             now = self.arm.at(q)
             J, M = now.J_site, now.M
-            Lambda = own.task_inertia(J, M)
+            Lambda = self.weigh(J, M)
             e = small_pose_error(now.T_world_ee, T_goal)
             back = control.pd_torque(self.goal_q - q, -qd, self.hold, BACK)
             D, idle = own.many(
@@ -157,8 +185,6 @@ class Touch(Tab):
         goal = self.arm.at(self.goal_q).T_world_ee[:3, 3]
         hand = now.T_world_ee[:3, 3]
         self.drawn.show(self.data.qpos)
-        mass = task_space.task_inertia(now.J_site, now.M)[3:, 3:]
-        self.mass.show(mass, hand, LONG)
         self.arrow.visible = bool(self.force.any())
         if self.force.any():
             self.arrow.points = joined([hand, hand + self.force / PULL])
@@ -166,12 +192,20 @@ class Touch(Tab):
         self.bars.show([felt])
         predicted = 1000 * self.force / self.k
         moved = 1000 * (hand - goal)
-        kilograms = ", ".join(f"{m:.1f}" for m in np.diag(mass))
+        if self.Lambda is None:
+            weighs = "What the hand weighs is not known."
+        else:
+            mass = self.Lambda[3:, 3:]
+            self.mass.show(mass, hand, LONG)
+            kilograms = ", ".join(f"{m:.1f}" for m in np.diag(mass))
+            truth = task_space.task_inertia(now.J_site, now.M)[3:, 3:]
+            ours = ", ".join(f"{m:.1f}" for m in np.diag(truth))
+            weighs = f"By yours the hand weighs {kilograms} kg along x, y, z"
+            weighs += "." if kilograms == ours else f"; by the library {ours}."
         self.numbers.content = words.line(
             f"t = {self.data.time:.1f} s. Pull ({_three(self.force)}) N; in the air "
-            f"F / k = ({_three(predicted)}) mm, moved ({_three(moved)}) mm. The hand "
-            f"weighs {kilograms} kg along x, y, z. The table feels "
-            f"{three(felt, MOST)} N.",
+            f"F / k = ({_three(predicted)}) mm, moved ({_three(moved)}) mm. {weighs} "
+            f"The table feels {three(felt, MOST)} N.",
             "touch",
         )
 

@@ -25,8 +25,13 @@ GOAL_Q = np.array([0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6])  # the lab's
 QUINTIC, TRAPEZOID = "quintic", "trapezoid"
 PLAY, PICK, STOP = "play / stop", "pick it", "stop"
 ARM = slice(0, 7)
+LATE = 1e-9  # of the time
 COUNT = 60  # instants that the student's functions are asked for
 TODAY, ALL = "of today", "of all days"
+UNITS = {"quintic_duration": "s", "joint_move": "(rad, rad/s or rad/s2)",
+         "trapezoid": "(of the way, or per s or s2)", "heaviest_cube": "kg",
+         "grasp_pose": "in one entry", "straight_pose": "in one entry",
+         "carry": "in one entry"}  # fmt: skip
 
 
 class Plan(Tab):
@@ -44,7 +49,8 @@ class Plan(Tab):
         self.arm = panda.arm(page.model)
         self.T = 1.0
         self.q = self.qd = np.zeros((COUNT, 7))
-        self.own = page.own(trajectory)
+        self.to_play = False
+        self.own = page.own(trajectory, units=UNITS)
         page.choice("time scaling", [QUINTIC, TRAPEZOID], self.sets("kind"))
         # The share of the limits that is used up; over 1 breaks them.
         page.slider("of the limits", 0.1, 1.5, 1.0, self.sets("hurry"), unit="")
@@ -74,6 +80,12 @@ class Plan(Tab):
         self.show()
         return self.share < 1.0
 
+    def begin(self) -> None:
+        """Play the way, once it is there."""
+        self.loop.stop()
+        self.to_play = True
+        self.on_move(self.page.q)
+
     def on_move(self, q: Array) -> None:
         """Ask for the way from where the arm is now."""
         self.page.job(lambda: self.plan(q[ARM]), self.planned)
@@ -90,7 +102,9 @@ class Plan(Tab):
             return T, moves[:, 0], moves[:, 1]
         top, ramp = self._top(dq)
         T = 1.0 / top + ramp
-        calls = [("trapezoid", float(t), 1.0, top, top / ramp) for t in s * T]
+        # A little late: the acceleration jumps at the start and at the end.
+        late = np.clip(s, LATE, 1.0 + LATE) * T
+        calls = [("trapezoid", float(t), 1.0, top, top / ramp) for t in late]
         part = np.array(self.own.many(*calls))
         return T, q0 + dq * part[:, :1], dq * part[:, 1:2]
 
@@ -111,6 +125,9 @@ class Plan(Tab):
         times = np.linspace(0.0, self.T, COUNT)
         self.plot.show(times, [*parts.T, np.ones(COUNT)])
         self.show()
+        if self.to_play:
+            self.to_play = False
+            self.loop.start()
 
     def lost(self) -> None:
         """Show no way."""
@@ -150,7 +167,7 @@ class Pick(Tab):
     def __init__(self, page: Page) -> None:
         """Stand at the table; nothing moves yet."""
         super().__init__(page)
-        self.own = page.own(trajectory)
+        self.own = page.own(trajectory, units=UNITS)
         self.whose = TODAY
         self.begun = 0.0
         self.done: Result | None = None
@@ -169,6 +186,10 @@ class Pick(Tab):
         page.draw.curve(ring, "blue", 4.0)
         page.legend({"the cube": "orange", "where it is to stand": "blue"})
         self.robot.show(simulate.start(_scene(), panda.READY_Q).qpos)
+
+    def begin(self) -> None:
+        """Have the cube picked."""
+        self.press(PICK)
 
     def press(self, name: str) -> None:
         """Have the cube picked, or stop."""
@@ -212,7 +233,10 @@ class Pick(Tab):
         if i < len(done.t) - 1:
             return True
         kind = "bad" if done.failed else "good"
-        self.page.say(f"placed {done.place_mm:.1f} mm from its goal{self.mine}", kind)
+        self.page.say(
+            f"placed {done.place_mm:.1f} mm from its goal; the grip can lift "
+            f"{done.heaviest:.2f} kg, by heaviest_cube{self.mine}", kind
+        )  # fmt: skip
         return False
 
 

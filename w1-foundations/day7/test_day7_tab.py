@@ -49,18 +49,3 @@ def test_the_tab_shows_what_a_wrong_duration_does(monkeypatch):
     tab.on_move(panda.READY_Q)
     assert "200% of a speed limit" in tab.numbers.content
     assert "quintic_duration by" in tab.own.says()[0]
-
-
-def test_the_tab_plays_the_capstone_with_ones_own_functions(monkeypatch):
-    inspector, tab = tab_of("Pick", vars(lab), monkeypatch)
-    tab.press(inspector.PICK)
-    assert tab.own.says()[1] == "good"
-    assert "joint_move" in tab.own.says()[0]
-    assert tab.replay(0.0)
-    assert "reach" in tab.clock.content
-    assert tab.replay(2.6)
-    assert "carry" in tab.clock.content or "lift" in tab.clock.content, (
-        tab.clock.content
-    )
-    assert tab.replay(20.0) is False
-    assert "placed 0.9 mm from its goal" in tab.page.say.call_args.args[0]

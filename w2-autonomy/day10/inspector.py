@@ -23,6 +23,11 @@ from robo47.screws import skew
 import day10_mujoco
 
 LAB = lab_of(find_day(10))  # its noise and seeds
+UNITS = {
+    **dict.fromkeys(("camera_matrix", "project"), "px"), "back_project": "m",
+    **dict.fromkeys(("moved", "refine_pose"), "in one entry"),
+    "projection_jacobian": "(px per rad or m)", "pose_covariance": "(rad2 or m2)",
+}  # fmt: skip
 GUESS = np.array([0.1, -0.08, 0.05, 0.02, -0.01, 0.03])  # what a fit begins beside
 LARGER = 2  # pixels of the page for one of the camera's
 EDGES = [(i, j) for i in range(8) for j in range(i) if (i ^ j) in (1, 2, 4)]
@@ -39,6 +44,8 @@ class Seen(NamedTuple):
     T_world_found: Array  # the cube by the student's fit, (4, 4)
     off: Array  # of its place, in the camera's axes, mm, (3,)
     sigma: Array  # that the student's covariance says, mm, (3,)
+    right: tuple[Array, Array]  # off and sigma by the library
+    view: Array  # the frustum by the student's K and back_project, (8, 2, 3)
 
 
 class Eye(Tab):
@@ -57,7 +64,7 @@ class Eye(Tab):
         self.y = 60.0
         self.yaw = 0.4
         self.noise = LAB.NOISE
-        self.own = page.own(camera)
+        self.own = page.own(camera, units=UNITS)
         page.slider("cube, x", 350, 600, self.x, self.sets("x"), unit="mm", step=5)
         page.slider("cube, y", -250, 250, self.y, self.sets("y"), unit="mm", step=5)
         page.slider("turned", -0.8, 0.8, self.yaw, self.sets("yaw"))
@@ -65,10 +72,16 @@ class Eye(Tab):
         blank = np.zeros((day10_mujoco.HEIGHT, day10_mujoco.WIDTH))
         self.image = page.image(blank, "depth; white: MuJoCo's corners, red: yours")
         self.text = page.html()
-        page.draw.lines(self.view(), "grey")
+        frame = self.view(camera.back_project(*self.asked_view(self.K)))
+        page.draw.lines(frame, "black", 1.5)
+        self.frustum = page.draw.lines(frame, "purple")
         page.draw.curve(table_edge(), "grey")
         self.cube = page.draw.lines(np.zeros((12, 2, 3)), "orange")
         self.found = page.draw.lines(np.zeros((12, 2, 3)), "blue", 4)
+        page.legend({
+            "the cube": "orange", "where your fit puts it": "blue",
+            "your camera's view": "purple", "the library's": "black",
+        })  # fmt: skip
         self.on_move(page.q)
 
     def on_move(self, q: Array) -> None:
@@ -103,30 +116,39 @@ class Eye(Tab):
         rng = np.random.default_rng(LAB.NOISE_SEED)
         pixels = truth + noise * rng.normal(size=truth.shape)
         in_world = corners @ T_world_cube[:3, :3].T + T_world_cube[:3, 3]
-        theirs, fit, J = self.own.many(
-            ("project", self.K, T_cam_world, in_world),
-            ("refine_pose", self.K, camera.moved(T, GUESS), corners, pixels),
-            ("projection_jacobian", self.K, p_cam),
+        fovy = float(np.deg2rad(self.model.camera("eye").fovy[0]))
+        K, guess = self.own.many(
+            ("camera_matrix", fovy, day10_mujoco.WIDTH, day10_mujoco.HEIGHT),
+            ("moved", T, GUESS),
+        )
+        theirs, fit, J, far = self.own.many(
+            ("project", K, T_cam_world, in_world),
+            ("refine_pose", K, guess, corners, pixels),
+            ("projection_jacobian", K, p_cam),
+            ("back_project", *self.asked_view(K)),
         )
         C = self.own.pose_covariance(J, noise)
-        at_cube = np.hstack([-skew(T[:3, 3]), np.eye(3)])
-        spread = np.diag(at_cube @ C @ at_cube.T)
+        best = camera.refine_pose(self.K, camera.moved(T, GUESS), corners, pixels)
+        right = camera.projection_jacobian(self.K, p_cam)
+        C_right = camera.pose_covariance(right, noise)
         return Seen(
             eye.depth(self.model, self.data, "eye"),
             truth,
             theirs,
             self.T_world_cam @ fit,
             1000 * (fit[:3, 3] - T[:3, 3]),
-            1000 * np.sqrt(np.maximum(spread, 0.0)),
+            sigma_at(T, C),
+            (1000 * (best[:3, 3] - T[:3, 3]), sigma_at(T, C_right)),
+            self.view(far),
         )
 
     def show(self, seen: Seen) -> None:
         """Show the picture, both clouds of corners, and how far the fit is off."""
         self.image.image = as_bytes(picture(seen))
         self.found.points = edges(seen.T_world_found)
+        self.frustum.points = seen.view
         apart = np.abs(seen.theirs - seen.truth).max()
-        across, _, along = np.abs(seen.off)
-        sure_across, _, sure = seen.sigma
+        across, _, along = fits(seen.off, seen.sigma, *seen.right)
         kind = "good" if apart < SMALL else "bad"
         said = f"{apart:.2g}" if apart >= SMALL else f"less than {SMALL:g}"
         self.text.content = "".join(
@@ -134,8 +156,8 @@ class Eye(Tab):
             for text, key, kind in (
                 (f"your corners: {said} px from MuJoCo's", "corners", kind),
                 (f"your fit, with {self.noise:.2f} px of noise:", "fit", ""),
-                (f"across {across:.1f} mm off, sigma {sure_across:.1f}", "across", ""),
-                (f"along the view {along:.1f} mm off, sigma {sure:.1f}", "along", ""),
+                (f"across {across}", "across", ""),
+                (f"along the view {along}", "along", ""),
             )
         )
 
@@ -143,16 +165,37 @@ class Eye(Tab):
         """Show no numbers, and no cube where they would put it."""
         self.text.content = ""
         self.found.points = np.zeros((12, 2, 3), np.float32)
+        self.frustum.points = np.zeros((8, 2, 3), np.float32)
 
-    def view(self) -> Array:
-        """Return the camera's frustum: four rays and the picture's edge, (8, 2, 3)."""
+    def asked_view(self, K: Array) -> tuple[Array, ...]:
+        """Return what back_project is asked for the picture's corners, 0.2 m deep."""
         width = float(day10_mujoco.WIDTH)
         height = float(day10_mujoco.HEIGHT)
         frame = np.array([[0, 0], [width, 0], [width, height], [0, height]])
-        far = camera.back_project(self.K, self.T_world_cam, frame, np.full(4, 0.2))
+        return K, self.T_world_cam, frame, np.full(4, 0.2)
+
+    def view(self, far: Array) -> Array:
+        """Return four rays to those points, and the picture's edge, (8, 2, 3)."""
         here = np.tile(self.T_world_cam[:3, 3], (4, 1))
         rays = np.stack([here, far], axis=1)
-        return np.vstack([rays, np.stack([far, np.roll(far, -1, axis=0)], axis=1)])
+        edge = np.stack([far, np.roll(far, -1, axis=0)], axis=1)
+        return np.vstack([rays, edge]).astype(np.float32)
+
+
+def sigma_at(T_cam_cube: Array, C: Array) -> Array:
+    """Return the cube's sigma in the camera's axes, mm, (3,), of a covariance."""
+    at_cube = np.hstack([-skew(T_cam_cube[:3, 3]), np.eye(3)])
+    spread = np.diag(at_cube @ C @ at_cube.T)
+    return 1000 * np.sqrt(np.maximum(spread, 0.0))
+
+
+def fits(off: Array, sigma: Array, off_right: Array, sigma_right: Array) -> list[str]:
+    """Return by axis how far a fit is off, and the library's, in words; all in mm."""
+    rows = zip(np.abs(off), sigma, np.abs(off_right), sigma_right, strict=True)
+    return [
+        f"{x:.1f} mm off, sigma {s:.1f}; the library {x_right:.1f}, sigma {s_right:.1f}"
+        for x, s, x_right, s_right in rows
+    ]
 
 
 def edges(T_world_cube: Array) -> Array:

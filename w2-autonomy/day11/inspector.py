@@ -27,6 +27,8 @@ LASTS = 4.0  # s
 FULL = 0.8  # m/rad, where a bar ends
 PUSH, SLOWED, STOP = "push", "push, slowed", "stop"
 JOINTS = [f"joint{i}" for i in range(1, 8)]
+UNITS = {"capsule_distance": "m", "segment_segment": "m", "distance_gradient": "m/rad",
+         "slowed": "rad/s"}  # fmt: skip
 SMALL = 1e-5  # m and m/rad: what one calls the same on a screen
 
 
@@ -54,7 +56,7 @@ class Near(Tab):
         self.y = 150.0
         self.radius = 40.0
         self.how = STOP
-        self.own = page.own(distance)
+        self.own = page.own(distance, units=UNITS)
         page.slider("post, x", 250, 700, self.x, self.sets("x"), unit="mm", step=5)
         page.slider("post, y", -400, 400, self.y, self.sets("y"), unit="mm", step=5)
         page.slider("radius", 10, 100, self.radius, self.sets("radius"), unit="mm",

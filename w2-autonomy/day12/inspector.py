@@ -1,10 +1,10 @@
 """Day 12 in the inspector: the tab Way.
 
 In the plane: discs, both trees as the student's own `extend` grows them, sample by
-sample, and the way of their `rrt_connect` on the library's. Twenty other draws of as
-many samples are counted, and their `wilson` says what that count is worth. In the
-scene: a way over the lab's wall, played as their `path_dynamics` and `fastest_along`
-time it.
+sample, the way of their `rrt_connect` on the library's, and what their `shortcut`
+leaves of it. Twenty other draws of as many samples are counted, and their `wilson` says
+what that count is worth. In the scene: a way over the lab's wall, played as their
+`path_dynamics` and `fastest_along` time it.
 """
 
 from itertools import pairwise
@@ -34,8 +34,10 @@ PIXELS = 480
 LEG = 20  # steps of each leg that is timed
 HZ = 30.0
 BLUE, ORANGE, RED = (0, 114, 178), (230, 159, 0), (213, 60, 20)
+GREEN = (0, 190, 140)
 WHITE, GREY, GROUND = (255, 255, 255), (120, 126, 132), (28, 30, 34)
 OVER = "over the wall"
+UNITS = {"path_dynamics": "N m", "fastest_along": "1/s2"}
 
 
 class Seen(NamedTuple):
@@ -44,6 +46,7 @@ class Seen(NamedTuple):
     discs: Array
     edges: tuple[list, list]  # of the start's tree and of the goal's: pairs of points
     way: Array  # theirs
+    cut: tuple[Array, Array]  # what their shortcut leaves of it, and the library's does
     truth: Array  # the library's
     found: int  # of DRAWS, by theirs
     interval: Array  # theirs, (2,)
@@ -62,14 +65,16 @@ class Way(Tab):
         self.world = 2.0
         self.x = 0.0
         self.y = 0.0
-        self.own = page.own(planning, any_rows={"rrt_connect"})
+        self.timing = page.jobs_apart()  # what is timed is no reason to drop a plan
+        self.own = page.own(planning, any_rows={"rrt_connect", "shortcut"}, units=UNITS)
         page.slider("samples", 0, MOST, self.n, self.sets("n"), unit="", step=1)
         page.slider("world", 0, 20, self.world, self.sets("world"), unit="", step=1)
         page.slider("a disc, x", -1, 1, self.x, self.sets("x"), unit="", step=0.05)
         page.slider("a disc, y", -1, 1, self.y, self.sets("y"), unit="", step=0.05)
         blank = np.zeros((PIXELS, PIXELS, 3), np.uint8)
         title = (
-            "your trees: start's blue, goal's orange; way: yours red, library's white"
+            "your trees: start's blue, goal's orange; way: yours red, cut green, "
+            "library's white"
         )
         self.image = page.image(blank, title)
         self.text = page.html()
@@ -92,7 +97,8 @@ class Way(Tab):
         for q in self.cut:
             self.page.draw.ghost("purple", 0.25).pose(self.page.links(q))
         self.runner = self.page.draw.ghost("orange", 0.8)
-        self.page.legend({"corners of a way": "purple", "at your times": "orange"})
+        told = {"corners of the library's way": "purple", "at your times": "orange"}
+        self.page.legend(told)
         self.at: Array = np.zeros(1)
         self.q: Array = self.cut[:1]
 
@@ -100,6 +106,10 @@ class Way(Tab):
         """Ask again: the world is another, or the file may be."""
         asked = self.chosen()
         self.page.job(lambda: (asked, self.ask(*asked)), self.answered)
+
+    def begin(self) -> None:
+        """Time the way over the wall, and play it."""
+        self.press(OVER)
 
     def chosen(self) -> tuple[float, ...]:
         """Return what the sliders say."""
@@ -124,10 +134,19 @@ class Way(Tab):
             discs,
             self.trees(start, goal, discs, draws[0]),
             way,
+            self.cut_of(way, discs),
             planning.rrt_connect(start, goal, discs, draws[0], EDGE),
             found,
             self.own.wilson(found, DRAWS),
         )
+
+    def cut_of(self, way: Array, discs: Array) -> tuple[Array, Array]:
+        """Return what the student's shortcut leaves of a way, and the library's."""
+        if not len(way):
+            return way, way
+        pairs = np.random.default_rng(LAB.SEED).uniform(0.0, 1.0, (LAB.PAIRS, 2))
+        yours = self.own.shortcut(way, discs, pairs)
+        return yours, planning.shortcut(way, discs, pairs)
 
     def trees(self, start: Array, goal: Array, discs: Array, samples: Array) -> tuple:
         """Return the edges of two trees that grow by the student's `extend`."""
@@ -160,6 +179,7 @@ class Way(Tab):
         low, high = seen.interval
         self.bars.show(seen.interval, planning.wilson(seen.found, DRAWS))
         told, kind = compared(seen.way, seen.truth)
+        cut, kind_cut = compared(*seen.cut, "your shortcut")
         a, b = (len(edges) + 1 for edges in seen.edges)
         share = f"{seen.found} of {DRAWS} draws find a way: {low:.2f} to {high:.2f}"
         self.text.content = "".join(
@@ -167,13 +187,14 @@ class Way(Tab):
             for text, key, kind in (
                 (f"your trees: {a} and {b} nodes", "trees", ""),
                 (told, "way", kind),
+                (cut if len(seen.way) else "", "cut", kind_cut),
                 (share, "share", ""),
             )
         )
 
     def press(self, name: str) -> None:
         """Time the way over the wall with the student's functions, and play it."""
-        self.page.job(self.time_it, self.play)
+        self.timing.want(self.time_it, self.play)
 
     def time_it(self) -> tuple[Array, Array, float]:
         """Return times, configurations, and the library's seconds; it waits."""
@@ -240,20 +261,20 @@ def over_the_wall(wall: day12_mujoco.Wall) -> Array:
     return planning.shortcut(way, wall, pairs)
 
 
-def compared(way: Array, truth: Array) -> tuple[str, str]:
+def compared(way: Array, truth: Array, name: str = "your way") -> tuple[str, str]:
     """Return how a way compares with the library's, in words, and the kind of line."""
     if not len(way) and not len(truth):
         return "no way yet, as the library says", ""
     if way.shape == truth.shape and np.abs(way - truth).max() < 1e-7:
-        return f"your way is the library's: {len(way)} points", "good"
+        return f"{name} is the library's: {len(way)} points", "good"
     if not len(way):
         return f"you find no way; the library's has {len(truth)} points", "bad"
     if not len(truth):
-        return f"your way has {len(way)} points; the library finds none", "bad"
+        return f"{name} has {len(way)} points; the library finds none", "bad"
     n = min(len(way), len(truth))
     off = np.abs(way[:n] - truth[:n]).max(axis=1) > 1e-7
     at = int(np.argmax(off)) if off.any() else n
-    return f"your way is another one from point {at} on, counted from 0", "bad"
+    return f"{name} is another one from point {at} on, counted from 0", "bad"
 
 
 def picture(seen: Seen) -> Array:
@@ -269,6 +290,7 @@ def picture(seen: Seen) -> Array:
             stroke(image, np.array(edge), colour, 1)
     stroke(image, seen.truth, WHITE, 3)
     stroke(image, seen.way, RED, 1)
+    stroke(image, seen.cut[0], GREEN, 1)
     return image
 
 

@@ -70,7 +70,7 @@ class Best(Tab):
         """Draw the circle and the arms at its start; nothing runs yet."""
         super().__init__(page)
         self.arm = panda.arm(page.model)
-        self.own = page.own(optimal)
+        self.own = page.own(optimal, units={"qp_ik": "rad", "limit_prices": "m2/rad"})
         self.set: dict[str, float] = {
             "damping": LAB.DAMPING, "turn": 1.0, "share": 1.0, "radius": LAB.RADIUS,
         }  # fmt: skip
@@ -82,8 +82,11 @@ class Best(Tab):
         self.numbers = page.html()
         title = "what your step asks, in parts of the speed limit"
         self.speeds = page.bars(JOINTS, 1.0, "", title, "up")
-        title = "your limit_prices, the most so far, mm² per mrad"
-        self.costs = page.bars(JOINTS, 0.2, "", title, "scale")
+        title = (
+            "your limit_prices, the most so far, the library's as marks, mm² per mrad; "
+            "below 0: an upper limit"
+        )
+        self.costs = page.bars(JOINTS, 0.2, "", title, "signed")
         self.loop = page.animate(self.step, 1 / LAB.DT, work=self.draw)
         page.hide_arm()
         named = {f"{name}, {'dls_step' if name == 'clipped' else 'qp_ik'}": colour
@@ -94,6 +97,11 @@ class Best(Tab):
         self.goal = page.draw.curve(start, "orange", 2.0)
         self.lines = [page.draw.curve(start, colour) for colour in COLOURS.values()]
         self.again()
+
+    def begin(self) -> None:
+        """Draw a lap from the start."""
+        self.again()
+        self.loop.start()
 
     def slider(
         self, text: str, low: float, high: float, name: str, step: float
@@ -118,7 +126,7 @@ class Best(Tab):
         of = self.page.model, self.set["radius"], TIMES
         self.circle, q = day13_mujoco.circle(*of)
         self.pens = {name: Pen(self.arm, q) for name in COLOURS}
-        self.speed, self.price = np.zeros(7), np.zeros(7)
+        self.speed, self.price, self.right = np.zeros((3, 7))
         self.last: tuple[Array, ...] = ()  # what limit_prices is asked next
         points = self.circle[:, :3, 3]
         self.goal.points = joined([*points, points[0]])
@@ -155,17 +163,19 @@ class Best(Tab):
         asked = ("qp_ik", own.J, own.e, weights, damping, own.low, own.high)
         priced = [("limit_prices", *self.last)] if self.last else []  # one way there
         dq, *prices = self.own.many(asked, *priced)
+        best_prices = [optimal.limit_prices(*self.last)] if self.last else []
         H = own.J.T @ (weights[:, None] * own.J) + damping**2 * np.eye(7)
         self.last = (H, -own.J.T @ (weights * own.e), own.low, own.high, dq)
-        right = optimal.qp_ik(best.J, best.e, weights, damping, best.low, best.high)
+        step = optimal.qp_ik(best.J, best.e, weights, damping, best.low, best.high)
         plain = np.clip(dls_step(clipped.J, clipped.e, damping), *clipped[2:])
         T_now = self.circle[self.steps]
-        for pen, step in zip(self.pens.values(), (plain, dq, right), strict=True):
-            pen.go(step, T_now)
+        for pen, one in zip(self.pens.values(), (plain, dq, step), strict=True):
+            pen.go(one, T_now)
         self.speed = np.abs(dq) / (LAB.SPEED * LAB.DT * self.set["share"])
         # m^2 per rad are 1,000 mm^2 per mrad; box_qp's cost is half of a square.
-        for one in prices:
-            self.price = np.maximum(self.price, 2_000 * np.abs(one))
+        for one, right in zip(prices, best_prices, strict=True):
+            self.price = larger(self.price, 2_000 * one)
+            self.right = larger(self.right, 2_000 * right)
         self.steps += 1
 
     def show(self) -> None:
@@ -175,7 +185,7 @@ class Best(Tab):
             ghost.pose(self.page.links(pen.q))
             line.points = joined([*pen.path[:1], *pen.path])
         self.speeds.show(self.speed)
-        self.costs.show(self.price)
+        self.costs.show(self.price, self.right)
         apart = max(self.pens["yours"].off) - max(self.pens["the library's"].off)
         kind = "bad" if abs(apart) > SMALL else "good"
         kinds = {"yours": kind if self.steps else ""}
@@ -195,6 +205,11 @@ class Best(Tab):
         self.numbers.content = ""
         self.speeds.clear()
         self.costs.clear()
+
+
+def larger(one: Array, other: Array) -> Array:
+    """Return of each pair the number that is farther from 0, (n,)."""
+    return np.where(np.abs(other) > np.abs(one), other, one)
 
 
 TABS = [Best]

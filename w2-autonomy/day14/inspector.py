@@ -23,6 +23,9 @@ import day14_mujoco
 LAB = lab_of(find_day(14))  # its seeds, its start, what is held
 AGAIN, ROUND, TRY, NEW = "lift again", "learn a round", "try 20 cubes", "start over"
 TRIED = 20
+ENTRY = "in one entry"
+UNITS = {"cone_margin": "N", "reflex": "m", "observe": ENTRY, "act": ENTRY,
+         "cem_step": ENTRY}  # fmt: skip
 ROUND_CONE = 12  # edges of a cone that is drawn
 LONG = 0.008  # m of an arrow, for 1 N
 SIZE = (240, 360)  # px of the dots' picture
@@ -71,7 +74,7 @@ class Touch(Tab):
         self.grams = 220.0
         self.squeeze = 3.0
         self.feels = False
-        self.own = page.own({**vars(grasp), **vars(policy)})
+        self.own = page.own({**vars(grasp), **vars(policy)}, units=UNITS)
         page.slider("friction", 0.1, 1, self.mu, self.sets("mu"), unit="", step=0.05)
         page.slider("mass", 20, 300, self.grams, self.sets("grams"), unit="g", step=10)
         page.slider("squeeze", 0.5, 8, self.squeeze, self.sets("squeeze"), unit="N",
@@ -244,6 +247,7 @@ class Touch(Tab):
         noise = LAB.NOISE * self.fresh.normal(size=(TRIED, 3))
         held = LAB.held(self.lifted(self.mean[None], cubes, noise)[0])
         self.tries += list(zip(cubes, map(bool, held), strict=True))
+        self.rate = self.own.success_rate(np.array([good for _, good in self.tries]))
 
     def show_policy(self) -> None:
         """Show the six numbers and all dots."""
@@ -252,7 +256,9 @@ class Touch(Tab):
         held = sum(good for _, good in self.tries)
         says = f"after round {self.rounds} it presses with {LAB.squeezed(theta):.1f} N"
         if self.tries:
-            says += f"; held {held} of {len(self.tries)}"
+            rate, low, high = self.rate
+            says += f"; held {held} of {len(self.tries)}: your success_rate is "
+            says += f"{rate:.2f}, {low:.2f} to {high:.2f}"
         self.learned.content = words.line(says, "learned")
         self.image.image = self.dots(self.tries)
 

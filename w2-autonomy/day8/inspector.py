@@ -21,6 +21,7 @@ import day8_mujoco
 
 LAB = lab_of(find_day(8))  # its robot, poses, wait and cut
 HERE, FIVE, FORGET = "hold here", "five poses", "forget"
+UNITS = {"payload_from_holds": "(kg or kg m)", "predict_with_sigma": "(kg or kg m)"}
 NO_MASS = 1e-9  # kg: what weighs less has no centre
 
 
@@ -70,7 +71,8 @@ class Weigh(Tab):
         self.com = LAB.AT.copy()
         self.held: list[Array] = []  # q, torque with and without, from either side
         self.centre: Array | None = None
-        self.own = page.own(identification)
+        self.own = page.own(identification, units=UNITS)
+        self.holding = page.jobs_apart()  # a weighing is no reason to drop a hold
         grams = round(1000 * self.mass)
         page.slider("load", 50, 2000, grams, self.hang, unit="g", step=50)
         below = round(1000 * self.com[2])
@@ -99,14 +101,34 @@ class Weigh(Tab):
             poses = list(LAB.POSES)
         if name != HERE:  # the same holds again would only look like more
             self.held = []
-        edit = day8_mujoco.load(self.mass, self.com)
+        before, mass, com = self.held, self.mass, self.com.copy()
+        if not poses:
+            self.weigh()
+            return
+
+        def keep(made: list[Array]) -> None:
+            if self.held is before:  # nothing has been forgotten meanwhile
+                self.held = [*before, *made]
+            self.weigh()
+
+        self.holding.want(lambda: self.hold(poses, mass, com), keep)
+
+    def hold(self, poses: list[Array], mass: float, com: Array) -> list[Array]:
+        """Return what a load's holds show, see `ask`; it takes some tenths of a s."""
+        edit = day8_mujoco.load(mass, com)
         hung = panda.load("panda_nohand", drive="torque", edit=edit)
         full = day8_mujoco.changed(hung, LAB.ROBOT_SEED)
+        made = []
         for pose in poses:
             _, empty = day8_mujoco.holds(self.empty, self.arm, [pose], LAB.WAIT)
             held = day8_mujoco.holds(full, self.arm, [pose], LAB.WAIT)
-            self.held = [*self.held, np.array([*held, empty])]
-        self.weigh()
+            made.append(np.array([*held, empty]))
+        return made
+
+    def begin(self) -> None:
+        """Hold the arm where it is, unless it was held before."""
+        if not self.held:
+            self.press(HERE)
 
     def on_move(self, q: Array) -> None:
         """Move both balls with the hand; ask again, for the file may be another."""

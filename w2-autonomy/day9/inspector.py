@@ -14,7 +14,7 @@ from labkit.inspector import words
 from labkit.inspector.draw import joined
 from labkit.inspector.page import Page
 from labkit.inspector.robot import Robot
-from labkit.inspector.tab import Tab
+from labkit.inspector.tab import PLAYS, Tab
 from labkit.lesson.day import find_day
 from labkit.lesson.lab_module import lab_of
 from robo47 import estimation, panda, simulate
@@ -26,6 +26,7 @@ LAB = lab_of(find_day(9))  # its gain and threshold
 RATE, HZ = 100.0, 25.0  # of the observer, and of the picture
 PULL = 100.0  # N per metre that the handle is away
 FULL, MOST = 12.0, 999.0  # N m, where a bar ends; what is shown at most
+UNITS = {"energy_slope": "N m", "observer_step": "(N m or N m s)"}
 AGAIN, LET_GO, DOWN = "start / stop", "let go", "10 N down"
 PLACES = [day9_mujoco.FLANGE, *[f"link{i}" for i in range(7, 0, -1)]]
 ARM_JOINTS = [f"joint{i}" for i in range(1, 8)]
@@ -48,7 +49,7 @@ class Feel(Tab):
         self.force = np.zeros(3)
         self.gain, self.threshold = LAB.GAIN, LAB.THRESHOLD
         self.goal_q = page.q[:7].copy()
-        self.own = page.own(estimation)
+        self.own = page.own(estimation, units=UNITS)
         self.again()
         page.choice("pull at", PLACES, self.pull_at)
         page.buttons([AGAIN, DOWN, LET_GO], self.press)
@@ -74,6 +75,19 @@ class Feel(Tab):
         self.integral = np.zeros(7)  # p of an arm at rest
         self.link = 0
         self.before: tuple[Array, ...] | None = None
+
+    def begin(self) -> None:
+        """Pull downwards with 10 N at an arm that has felt nothing yet."""
+        self.loop.stop()
+        self.again()
+        self.press(DOWN)
+        self.loop.lasts = PLAYS
+
+    def lost(self) -> None:
+        """Feel nothing, and name no link."""
+        self.bars.clear()
+        self.named.visible = False
+        self.numbers.content = ""
 
     def pull_at(self, place: str) -> None:
         """Choose what the handle pulls at."""

@@ -95,7 +95,9 @@ def servo(spec, joint: str, stiffness: float) -> None:
     """Add a spring with critical damping that pulls a joint to its ctrl."""
     one = spec.add_actuator(name=joint, target=joint)
     one.trntype = mujoco.mjtTrn.mjTRN_JOINT
-    one.set_to_position(kp=stiffness, dampratio=1)
+    one.biastype = mujoco.mjtBias.mjBIAS_AFFINE
+    one.gainprm[0] = stiffness
+    one.biasprm[1:3] = -stiffness, 1.0  # positive: a damping ratio, not a damping
 
 
 def start(model, data, cube: Cube, action: Array) -> None:

@@ -1,0 +1,237 @@
+"""Every tab shows the student's own: a sign in a function changes what one sees.
+
+`SHOWN` is the table: which functions of the day's tasks stand behind what a tab shows.
+The line that says in words how they compare with the library's does not count here.
+"""
+
+import sys
+from functools import cache
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+pytest.importorskip("viser", reason="the extra view")
+
+from tabs_on_paper import Desk, Paper, same
+
+from conftest import load_script
+from labkit.base.exchange import Path
+from labkit.inspector import words
+from labkit.inspector.arm import Arm
+from labkit.inspector.common_tabs import Joints
+from labkit.inspector.ghost import compare
+from labkit.inspector.own import NoAnswerError
+from labkit.inspector.tab import day_tabs
+from labkit.lesson.day import day_numbers, find_day
+from robo47 import panda
+
+pytestmark = pytest.mark.kit
+
+SHOWN = {
+    (1, "Chain"): "link_T joint_T",
+    (1, "Order"): "make_T Rz predict_order",
+    (2, "Screws"): "joint_screws exp_screw fk_space dh_link dh_fk",
+    (3, "Jacobian"): "space_jacobian site_jacobian manipulability null_step solve_ik",
+    (3, "Circle"): "pose_error dls_step",
+    (4, "Forces"): "link_inertias mass_matrix gravity_torque",
+    (
+        5,
+        "Control",
+    ): "pd_torque gains error_response gravity_pd computed_torque pid_step "
+    "saturate stiffest_omega",
+    (6, "Touch"): "task_inertia null_torque spring_wrench critical_damping "
+    "impedance_torque",
+    (7, "Plan"): "quintic_duration joint_move trapezoid",
+    (7, "Pick"): "quintic_scaling quintic_duration joint_move straight_pose grasp_pose "
+    "carry heaviest_cube",
+    (8, "Weigh"): "identifiable predict_with_sigma payload_from_holds",
+    (9, "Feel"): "energy_slope observer_step pushed_link",
+    (10, "Eye"): "camera_matrix project back_project projection_jacobian moved "
+    "refine_pose pose_covariance",
+    (11, "Near"): "segment_segment capsule_distance distance_gradient slowed",
+    (12, "Way"): "extend rrt_connect shortcut wilson path_dynamics fastest_along",
+    (13, "Best"): "qp_ik limit_prices",
+    (14, "Touch"): "cone_margin reflex cone_edges observe act reward cem_step "
+    "success_rate",
+}
+LAWS = ("with an integral (PID)", "gains outside M", "springs and gravity", "springs")
+
+
+def push(tab):
+    """Pull so hard that the arm moves."""
+    tab.force = np.array([0.0, 60.0, -60.0])
+
+
+# What a person does in a tab, where it does not play all by itself.
+DONE = {
+    (1, "Chain"): [lambda tab: tab.press("next")] * 13,
+    (2, "Screws"): [lambda tab: tab.spin(True)],
+    (3, "Jacobian"): [
+        lambda tab: tab.swing(0.1), lambda tab: tab.drag(True),
+        lambda tab: tab.follow(tab.target.T),
+    ],
+    (5, "Control"): [
+        lambda tab, law=law: (tab.choose(law), tab.press("0.1 rad off"))
+        for law in LAWS
+    ],
+    (7, "Plan"): [lambda tab: tab.sets("kind")("trapezoid")],
+    (7, "Pick"): [lambda tab: tab.done and tab.replay(99.0)],
+    (9, "Feel"): [push],
+    (11, "Near"): [lambda tab: tab.press("push, slowed")],
+    (13, "Best"): [lambda tab: (tab.sets("share")(0.3), tab.press("draw"))],
+    (14, "Touch"): [
+        lambda tab: tab.sets("feels")(True), lambda tab: tab.press("learn a round"),
+        lambda tab: tab.press("try 20 cubes"),
+    ],
+}  # fmt: skip
+PICTURES = 8  # of a loop that is played
+SIGNS = {  # where a sign in front of everything is no mistake
+    "path_dynamics": lambda rows: rows * [[1], [1], [-1]],
+    "extend": lambda found: (found[0], found[1] * [-1, 1], found[2]),
+    "projection_jacobian": lambda J: J * [-1, -1, -1, 1, 1, 1],
+}
+BOTH = [
+    (*tab, name)
+    for tab, names in SHOWN.items()
+    for name in names.split()
+    if tab != (7, "Pick") or name not in SHOWN[7, "Plan"]  # a pick takes a second
+]
+
+
+def negative(value):
+    """Return an answer with the sign of every number in it changed."""
+    if isinstance(value, (tuple, list)):
+        return type(value)(map(negative, value))
+    return value if isinstance(value, (bool, str)) or value is None else -value
+
+
+@cache
+def lab(number):
+    """Return a day's complete lab, as {name: function}."""
+    return vars(load_script(find_day(number).source))
+
+
+def kind_of(number, title):
+    """Return a tab of a day."""
+    return next(tab for tab in day_tabs(find_day(number)).tabs if tab.title == title)
+
+
+def looked(number, title, functions, used=True):
+    """Return a tab of who wrote these functions, played, and used as a person does."""
+    kind = kind_of(number, title)
+    module = sys.modules[kind.__module__]
+    drawn = lambda page, *_: Paper(page.host.log, "robot")  # noqa: E731
+    with patch.object(module, "Robot", drawn, create=True):
+        desk = Desk(number, kind, functions)
+    desk.begin()
+    desk.play(PICTURES)
+    desk.opened = set(desk.asked)
+    for action in DONE.get((number, title), ()) if used else ():
+        action(desk.tab)
+        desk.settle()
+        desk.play(PICTURES)
+    return desk
+
+
+@cache
+def right(number, title):
+    """Return the tab of who has everything right."""
+    return looked(number, title, lab(number))
+
+
+def test_the_table_has_every_tab_that_a_day_brings():
+    brought = {
+        (number, tab.title)
+        for number in day_numbers()
+        for tab in day_tabs(find_day(number)).tabs
+        if tab is not Joints
+    }
+    assert set(SHOWN) == brought
+
+
+@pytest.mark.parametrize(("number", "title"), SHOWN)
+def test_a_tab_asks_the_student_for_what_it_shows_and_finds_it_right(number, title):
+    desk = right(number, title)
+    tasks = {name for task in find_day(number).tasks for name in task.functions}
+    assert desk.asked & tasks == set(SHOWN[number, title].split())
+    says, kind = desk.whose
+    assert (kind, desk.problem) == ("good", None), says
+    assert "r47-bad" not in str(desk.log)
+
+
+@pytest.mark.parametrize(("number", "title", "function"), BOTH)
+def test_a_sign_in_a_function_changes_what_the_tab_shows(number, title, function):
+    def wrong(*given):
+        return SIGNS.get(function, negative)(lab(number)[function](*given))
+
+    desk = looked(number, title, {**lab(number), function: wrong})
+    assert not same(desk.log, right(number, title).log)
+    says, kind = desk.whose
+    free = f"{function}" in says.partition("at work: ")[2]  # the tab itself tells
+    assert (kind == "bad" and f"{function} by" in says) or free, says
+
+
+def test_the_same_functions_show_the_same():
+    for number, title in ((1, "Order"), (4, "Forces"), (9, "Feel"), (12, "Way")):
+        again = looked(number, title, lab(number))
+        assert same(again.log, right(number, title).log)
+
+
+def test_a_pick_ends_with_how_far_off_the_cube_stands():
+    shown = right(7, "Pick").seen
+    assert "placed 0.9 mm from its goal" in shown
+    assert "carry" in str(right(7, "Pick").tab.done.phases)
+
+
+def stops(*given):
+    """Stop as a typing mistake does."""
+    raise ZeroDivisionError
+
+
+def no_number(*given):
+    """Return what is no number."""
+    return np.full(3, np.nan)
+
+
+@pytest.mark.parametrize(
+    ("number", "title"), [tab for tab in SHOWN if tab[1] != "Pick"]
+)
+def test_a_tab_without_answers_shows_no_green(number, title):
+    desk = looked(number, title, lab(number), used=False)
+    wrong = stops if number % 2 else no_number
+    desk.save({**lab(number), **dict.fromkeys(SHOWN[number, title].split(), wrong)})
+    desk.play(2)
+    assert isinstance(desk.problem, NoAnswerError)
+    assert "r47-good" not in desk.seen
+    assert desk.whose[1] == "bad"
+    desk.asked.clear()
+    desk.save(lab(number))
+    desk.play(PICTURES)
+    assert desk.asked >= desk.opened  # a save has all asked again that opening asks
+    assert desk.problem is None
+    assert desk.whose[1] == "good"
+    assert "r47-bad" not in desk.seen
+
+
+@pytest.mark.parametrize("number", [1, 2])
+def test_a_sign_in_the_chain_changes_the_tab_joints(number):
+    arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])
+    ghost = day_tabs(find_day(number)).ghost
+    asked = [
+        [list(one.pairs) if isinstance(one, Path) else one for one in given]
+        for given in ghost.questions(arm.model, arm.q)
+    ]
+    shown = []
+    for sign in (1, -1):
+        poses = {
+            name: sign * lab(number)[ghost.function](*args)
+            for name, args in zip(ghost.frames, asked, strict=True)
+        }
+        seen = compare(ghost, poses, "", arm.poses_at(arm.q))
+        shown.append((seen.sentence, words.proof(arm, "ee", seen, True)))
+    (right, proof), (wrong, proof_wrong) = shown
+    assert "agrees" in right
+    assert "off by" in wrong
+    assert proof != proof_wrong
+    assert "r47-good" not in proof_wrong
