@@ -42,12 +42,7 @@ def _(q, target, step):
     direction-only 2: q is missing: this is the step, or the whole way where it is
       shorter
     away: it goes away from the target: q - target is the other way round
-<<<<<<< HEAD
-    away 2: where the target is far it goes away from it: q - target is the other way
-      round
-=======
     away 2: where the target is far it goes a step away from it
->>>>>>> 9596c5416114fad52100274fad2430d40463d97c
     stays-when-near: where the target is no further than a step it does not move; it
       ends at the target then
     always-q: it never moves
