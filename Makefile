@@ -94,7 +94,8 @@ doctor: ## what this machine has and lacks; paste it when asking
 
 grade: .venv/.ready-$(if $(findstring --dask,$(ARGS)),grade,$(if $(findstring --proof,$(ARGS)),view,core)) $(ROBOT) ## grade a folder of clones: make grade ROOT=../class
 	@$(PY) scripts/grade_class.py "$(or $(ROOT),$(error which folder of \
-	clones? make grade ROOT=../class))" $(if $(WEEK),--week $(WEEK)) $(ON_DAY) $(ARGS)
+	clones? make grade ROOT=../class))" $(if $(WEEK),--week $(WEEK)) $(ON_DAY) \
+	$(if $(SEED),--hunt $(or $(LEVEL),1) --seed $(SEED)) $(ARGS)
 
 edition: .venv/.ready-core ## the kit for students, answers sealed: OUT=../robo47-students
 	@$(PY) scripts/edition.py "$(or $(OUT),$(error where to? make edition OUT=../robo47-students))" $(ARGS)

@@ -37,6 +37,8 @@ class Told(NamedTuple):
     of: str  # what that is, "from the cube to its mark"
     came: str  # a sentence for a page: what came of it, and what is allowed
     way: str  # another: how it went
+    # What it measured: (what, how much with its unit, what is allowed).
+    figures: Sequence[tuple[str, str, str]] = ()
 
 
 class Block(NamedTuple):

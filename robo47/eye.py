@@ -81,6 +81,18 @@ def depth(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> Array:
     return np.where(hit < 0, np.inf, far).reshape(height, width)
 
 
+def looking(at: Array, to: Array) -> Array:
+    """Return the pose of a camera whose picture's top is up, (4, 4).
+
+    Args:
+        at, to: where it hangs and what it looks at, metres, (3,); not straight up or
+            down.
+    """
+    z = checks.unit(np.subtract(to, at), "to - at")
+    x = checks.unit(np.cross(z, (0.0, 0.0, 1.0)), "the way to the right")
+    return se3.make_T(np.column_stack([x, np.cross(z, x), z]), at)  # y down
+
+
 def add(body, name: str, at: Array, to: Array, fovy: float, size: tuple[int, int]):
     """Add a camera to a body of a MjSpec; its picture's top is up.
 
@@ -95,10 +107,7 @@ def add(body, name: str, at: Array, to: Array, fovy: float, size: tuple[int, int
     Returns:
         The spec's camera.
     """
-    z = checks.unit(np.subtract(to, at), "to - at")
-    x = checks.unit(np.cross(z, (0.0, 0.0, 1.0)), "the way to the right")
-    R = np.column_stack([x, np.cross(z, x), z])  # ours: y down
-    quat = se3.R_to_quat(R @ FLIP)
+    quat = se3.R_to_quat(looking(at, to)[:3, :3] @ FLIP)
     return body.add_camera(name=name, pos=at, quat=quat, fovy=fovy, resolution=size)
 
 

@@ -1,11 +1,12 @@
-// The Panda on one page: MuJoCo says where the arm is; ghosts.json, where a mistake puts it.
-import * as THREE from "three";
-import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import load from "@mujoco/mujoco";
+// The Panda on one page: where the arm is, where a mistake puts it, what the checker says.
+// The arm stands where Day 1's product puts it; MuJoCo, once it is loaded, is asked too.
+import { apart, chain, fixed, largest, pose, rigid } from "./maths.js";
+import { Stage, looks } from "./stage.js";
+import { Unread, judged, read } from "./typed.js";
 
-const JOINTS = 7;
 const here = (name) => new URL(name, import.meta.url).href;
 const by = (id) => document.getElementById(id);
+const RIGHT = "Rz(q)";
 
 // Formulas. A line is an operation on lines before it; labkit/site/formulas.py writes them.
 
@@ -25,28 +26,17 @@ function evaluated(lines, q) {
   return values;
 }
 
-// The robot.
-
-const [mujoco, xml, ghosts] = await Promise.all([
-  load({ locateFile: here }),
-  fetch(here("panda_twin.xml")).then((answer) => answer.text()),
-  fetch(here("ghosts.json")).then((answer) => answer.json()),
+const json = (name) => fetch(here(name)).then((answer) => answer.json());
+const [panda, ghosts, meshes] = await Promise.all([
+  json("panda.json"),
+  json("ghosts.json"),
+  fetch(here("panda.bin")).then((answer) => answer.arrayBuffer()),
 ]);
-const model = mujoco.MjModel.from_xml_string(xml);
-const data = new mujoco.MjData(model);
-const body = (name) => mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY.value, name);
-const LINKS = Array.from({ length: JOINTS }, (_, i) => body(`link${i + 1}`));
-const END = body("attachment"); // attachment_site sits right on it
-const q = [...ghosts.ready];
+const LINKS = panda.links.map((link) => link.name);
+const q = [...panda.ready];
+let oracle = null; // MuJoCo, once it is here
 
-/** The first three rows of a body's pose in the world, from MuJoCo. */
-function pose(id) {
-  const R = data.xmat.slice(9 * id, 9 * id + 9);
-  const t = data.xpos.slice(3 * id, 3 * id + 3);
-  return [0, 1, 2].flatMap((i) => [R[3 * i], R[3 * i + 1], R[3 * i + 2], t[i]]);
-}
-
-/** The mistaken arm: {frame: the first three rows of its pose}. */
+/** The arm of a mistake: {frame: the first three rows of its pose}. */
 function mistaken(mistake) {
   const values = evaluated(ghosts.lines, q);
   const rows = (entries) => entries.map((line) => values[line]);
@@ -55,186 +45,143 @@ function mistaken(mistake) {
   );
 }
 
+/** What is to be seen beside the right arm: {poses, right, says} of a line or a mistake. */
+function other() {
+  const chosen = ghosts.mistakes.find((one) => one.slug === by("mistake").value);
+  if (chosen) return { poses: mistaken(chosen), says: chosen.says, right: false };
+  const line = by("line").value;
+  if (line.trim() === RIGHT) return { poses: null, says: "", right: true };
+  try {
+    const turn = read(line);
+    const verdict = judged(turn, ghosts.typed);
+    const { link0, ...poses } = chain(panda.links, q, (angle) => pose(turn(angle)));
+    const drawn = Object.values(poses).flat().every(Number.isFinite);
+    return { ...verdict, poses: drawn && !verdict.right ? poses : null };
+  } catch (error) {
+    if (!(error instanceof Unread)) throw error;
+    return { poses: null, says: `Not read: ${error.message}.`, right: false };
+  }
+}
+
 // The picture.
 
-const scene = new THREE.Scene();
-const camera = new THREE.PerspectiveCamera(40, 4 / 3, 0.01, 20);
-camera.up.set(0, 0, 1);
-camera.position.set(1.7, -1.5, 1.2);
-const renderer = started();
-const orbit = new OrbitControls(camera, renderer?.domElement ?? by("stage"));
-orbit.target.set(0.2, 0, 0.4);
-orbit.update();
-scene.add(new THREE.HemisphereLight(0xffffff, 0x888888, 2.4));
-const sun = new THREE.DirectionalLight(0xffffff, 2);
-sun.position.set(2, -2, 4);
-scene.add(sun, new THREE.GridHelper(2, 20, 0x999999, 0x999999).rotateX(Math.PI / 2));
+const stage = new Stage(by("stage"));
+const shapes = looks(meshes);
+const real = stage.arm(shapes);
+const red = stage.arm(shapes, { red: true });
+const hand = stage.frame(0.2, "ee");
+const redHand = stage.frame(0.2);
+const frames = LINKS.slice(0, -1).map((name) => stage.frame(0.11, name, false));
 
-/** What draws; without WebGL nothing does, and the numbers stand alone. */
-function started() {
-  try {
-    const made = new THREE.WebGLRenderer({ antialias: true, alpha: true });
-    by("stage").append(made.domElement);
-    return made;
-  } catch {
-    by("stage").className = "none";
-    by("stage").textContent = "This browser draws no 3D (WebGL). The numbers are right.";
-    return null;
-  }
-}
-
-function shape(type, [a, b, c]) {
-  const kind = mujoco.mjtGeom;
-  if (type === kind.mjGEOM_CAPSULE.value)
-    return new THREE.CapsuleGeometry(a, 2 * b, 8, 20).rotateX(Math.PI / 2);
-  if (type === kind.mjGEOM_CYLINDER.value)
-    return new THREE.CylinderGeometry(a, a, 2 * b, 24).rotateX(Math.PI / 2);
-  return new THREE.BoxGeometry(2 * a, 2 * b, 2 * c);
-}
-
-function arm(color, opacity) {
-  return Array.from({ length: model.ngeom }, (_, i) => {
-    const size = model.geom_size.slice(3 * i, 3 * i + 3);
-    const paint = { color, opacity, transparent: opacity < 1, roughness: 0.6 };
-    const material = new THREE.MeshStandardMaterial(paint);
-    const mesh = new THREE.Mesh(shape(model.geom_type[i], size), material);
-    mesh.matrixAutoUpdate = false;
-    scene.add(mesh);
-    return mesh;
-  });
-}
-
-function axes(length) {
-  const made = new THREE.AxesHelper(length);
-  made.matrixAutoUpdate = false;
-  scene.add(made);
-  return made;
-}
-
-const matrix = (rows) => new THREE.Matrix4().set(...rows, 0, 0, 0, 1);
-const real = arm(0xdfe3e6, 1);
-const ghost = arm(0xd03020, 0.5);
-const hand = axes(0.2);
-const ghostHand = axes(0.2);
-const frames = LINKS.map(() => axes(0.12));
-
-function put(thing, T) {
-  thing.matrix.copy(T);
-  thing.matrixWorldNeedsUpdate = true;
-}
-
-/** From a body of the arm to the same body of the ghost, in the world. */
-function moved(poses, id) {
-  const i = LINKS.indexOf(id);
-  if (i < 0 && id < LINKS[0]) return new THREE.Matrix4(); // the base stands still
-  const [name, from] = i < 0 ? ["ee", END] : [`link${i + 1}`, id];
-  return matrix(poses[name]).multiply(matrix(pose(from)).invert());
-}
-
-function draw(poses) {
-  for (let i = 0; i < model.ngeom; i++) {
-    const R = data.geom_xmat.slice(9 * i, 9 * i + 9);
-    const t = data.geom_xpos.slice(3 * i, 3 * i + 3);
-    const rows = [0, 1, 2].flatMap((k) => [R[3 * k], R[3 * k + 1], R[3 * k + 2], t[k]]);
-    put(real[i], matrix(rows));
-    ghost[i].visible = poses !== null;
-    if (poses) put(ghost[i], moved(poses, model.geom_bodyid[i]).multiply(matrix(rows)));
-  }
-  put(hand, matrix(pose(END)));
-  ghostHand.visible = poses !== null;
-  if (poses) put(ghostHand, matrix(poses.ee));
-  frames.forEach((frame, i) => {
-    frame.visible = by("frames").checked;
-    put(frame, matrix(pose(LINKS[i])));
-  });
-  renderer?.render(scene, camera);
-}
-
-function fit() {
-  if (!renderer) return;
-  const { clientWidth, clientHeight } = by("stage");
-  renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-  renderer.setSize(clientWidth, clientHeight, false);
-  renderer.domElement.style.width = renderer.domElement.style.height = "100%";
-  camera.aspect = clientWidth / clientHeight;
-  camera.updateProjectionMatrix();
-  renderer.render(scene, camera);
+/** Draws; whether all of it is in the picture. */
+function draw(truth, poses) {
+  const right = { link0: truth.link0, ...truth };
+  stage.pose(real, right);
+  stage.pose(red, poses && { link0: truth.link0, ...poses }, right);
+  stage.put(hand, truth.ee);
+  stage.put(redHand, poses && red.bodies.ee.visible ? poses.ee : null);
+  frames.forEach((frame, i) => stage.put(frame, by("frames").checked ? truth[LINKS[i]] : null));
+  const inside = stage.seen();
+  stage.render();
+  return inside;
 }
 
 // The numbers.
 
-/** How far the hand is off: millimetres and degrees. */
-function apart(T, truth) {
-  const metres = Math.hypot(...[3, 7, 11].map((i) => T[i] - truth[i]));
-  const of = [0, 1, 2].map((i) => [0, 1, 2].map((k) => i + 4 * k)); // columns
-  const R = of.map((a) => of.map((b) => a.reduce((sum, x, k) => sum + T[x] * truth[b[k]], 0)));
-  const sine = Math.hypot(R[2][1] - R[1][2], R[0][2] - R[2][0], R[1][0] - R[0][1]) / 2;
-  const cosine = (R[0][0] + R[1][1] + R[2][2] - 1) / 2;
-  return [1000 * metres, (Math.atan2(sine, cosine) * 180) / Math.PI];
-}
-
-/** A number with so many decimals; a zero has no sign. */
-function fixed(x, decimals) {
-  return x.toFixed(decimals).replace(/^-(?=[0.]*$)/, "");
-}
-
 function show() {
-  data.qpos.set(q);
-  mujoco.mj_kinematics(model, data); // fills xpos, xmat, geom_xpos and geom_xmat
-  const mistake = ghosts.mistakes.find((one) => one.slug === by("mistake").value);
-  const poses = mistake ? mistaken(mistake) : null;
-  const truth = pose(END);
-  draw(poses);
-  const row = (i) => truth.slice(4 * i, 4 * i + 4).map((x) => fixed(x, 6).padStart(10));
+  const truth = chain(panda.links, q);
+  const { poses, says, right } = other();
+  const drawn = poses && Object.values(poses).every(rigid) ? poses : null;
+  const inside = draw(truth, drawn);
+  const row = (i) => truth.ee.slice(4 * i, 4 * i + 4).map((x) => fixed(x, 6).padStart(9));
   by("pose").textContent = `T_world_ee\n${[0, 1, 2].map((i) => row(i).join(" ")).join("\n")}`;
-  by("says").textContent = mistake ? mistake.says : "";
-  const [mm, degrees] = poses ? apart(poses.ee, truth) : [0, 0];
-  by("off").textContent = poses
-    ? `Here the hand is off by ${mm.toFixed(0)} mm and ${degrees.toFixed(1)} degrees.`
-    : "";
-  const where = `#q=${q.join(",")}${mistake ? `&mistake=${mistake.slug}` : ""}`;
-  history.replaceState(null, "", where);
-  window.arm = { q: [...q], truth, poses }; // what the page's test reads
+  by("says").textContent = says;
+  by("says").className = says && !right ? "wrong" : "right";
+  by("off").textContent = poses ? away(poses.ee, truth.ee, drawn, inside) : "";
+  written();
+  const asked = oracle ? oracle(q) : null;
+  if (asked) by("state").textContent = agreed(asked, truth.ee);
+  window.arm = { q: [...q], truth: asked?.ee ?? truth.ee, poses, mujoco: asked?.version };
+}
+
+function away(T, truth, drawn, inside) {
+  const [mm, degrees] = apart(T, truth);
+  const turned = drawn ? ` and ${degrees.toFixed(1)} degrees` : "";
+  const shape = " Not drawn: R is no rotation, so the arm would change its shape.";
+  const where = drawn ? (inside ? "" : " It is outside the picture.") : shape;
+  return `Here the hand is off by ${mm.toFixed(0)} mm${turned}.${where}`;
+}
+
+/** The address holds what is seen. */
+function written() {
+  const parts = [`q=${q.join(",")}`];
+  const line = by("line").value;
+  if (by("mistake").value) parts.push(`mistake=${by("mistake").value}`);
+  else if (line.trim() !== RIGHT) parts.push(`line=${encodeURIComponent(line)}`);
+  history.replaceState(null, "", `#${parts.join("&")}`);
+}
+
+function agreed({ version, ee }, mine) {
+  const off = largest(ee, mine);
+  const far = off < 1e-8 ? `agrees: ${off.toExponential(1)} apart at most` : `disagrees by ${off}`;
+  return `MuJoCo ${version}, in your browser, ${far}.`;
+}
+
+/** Loads MuJoCo: a function of q to what it says. */
+async function loaded() {
+  const [{ default: load }, xml] = await Promise.all([
+    import("@mujoco/mujoco"),
+    fetch(here("panda_twin.xml")).then((answer) => answer.text()),
+  ]);
+  const mujoco = await load({ locateFile: here });
+  const model = mujoco.MjModel.from_xml_string(xml);
+  const data = new mujoco.MjData(model);
+  const version = mujoco.mj_versionString();
+  // attachment_site sits right on it
+  const end = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY.value, "attachment");
+  return (angles) => {
+    data.qpos.set(angles);
+    mujoco.mj_kinematics(model, data); // fills xpos and xmat
+    const R = data.xmat.slice(9 * end, 9 * end + 9);
+    return { version, ee: pose([...R], data.xpos.slice(3 * end, 3 * end + 3)) };
+  };
 }
 
 // The controls.
 
+const within = (x, [low, high]) => Math.min(Math.max(x, low), high);
+
 const sliders = q.map((_, i) => {
   const slider = document.createElement("input");
-  const [min, max] = model.jnt_range.slice(2 * i, 2 * i + 2);
+  const [min, max] = panda.limits[i];
   Object.assign(slider, { type: "range", min, max, step: "any" });
   const label = document.createElement("label");
   label.append(`joint${i + 1}`, slider, document.createElement("output"));
   by("sliders").append(label);
-  slider.addEventListener("input", () => turn(i, Number(slider.value)));
+  slider.addEventListener("input", () => {
+    q[i] = Number(slider.value);
+    go(q);
+  });
   return slider;
 });
 
-function turn(i, angle) {
-  q[i] = angle;
-  read();
-}
-
-/** Show what q holds, on the sliders as well. */
-function read() {
+/** Goes to some angles, each within its joint's limits. */
+function go(angles) {
   sliders.forEach((slider, i) => {
+    q[i] = within(angles[i], panda.limits[i]);
     slider.value = q[i];
     slider.nextSibling.textContent = fixed(q[i], 3);
   });
   show();
 }
 
-function go(angles) {
-  angles.forEach((angle, i) => (q[i] = angle));
-  read();
-}
-
 function followAddress() {
   const asked = new URLSearchParams(location.hash.slice(1));
   const angles = (asked.get("q") ?? "").split(",").map(Number);
   by("mistake").value = asked.get("mistake") ?? "";
-  const whole = angles.length === JOINTS && angles.every(Number.isFinite);
-  go(whole ? angles : ghosts.ready);
+  by("line").value = asked.get("line") ?? RIGHT;
+  const whole = angles.length === q.length && angles.every(Number.isFinite);
+  go(whole ? angles : panda.ready);
 }
 
 for (const day of [1, 2]) {
@@ -244,12 +191,34 @@ for (const day of [1, 2]) {
     group.append(new Option(`${one.function}: ${one.slug.replaceAll("-", " ")}`, one.slug));
   by("mistake").append(group);
 }
-by("mistake").addEventListener("change", show);
+
+/** One mistake at a time: a line, or one from the list. */
+function typed() {
+  by("mistake").value = "";
+  show();
+}
+
+by("mistake").addEventListener("change", () => {
+  by("line").value = RIGHT;
+  show();
+});
+by("line").addEventListener("input", typed);
+for (const button of document.querySelectorAll("#tries button"))
+  button.addEventListener("click", () => {
+    by("line").value = button.textContent;
+    typed();
+  });
 by("frames").addEventListener("change", show);
-by("ready").addEventListener("click", () => go(ghosts.ready));
-by("zero").addEventListener("click", () => go(Array(JOINTS).fill(0)));
-orbit.addEventListener("change", () => renderer?.render(scene, camera));
+by("ready").addEventListener("click", () => go(panda.ready));
+by("zero").addEventListener("click", () => go(q.map(() => 0)));
 addEventListener("hashchange", followAddress);
+by("arm").classList.add("here");
+by("state").textContent = "The product of Day 1, in this page. MuJoCo is loading ...";
 followAddress();
-new ResizeObserver(fit).observe(by("stage"));
-by("state").textContent = `MuJoCo ${mujoco.mj_versionString()} in your browser.`;
+performance.mark("arm ready");
+try {
+  oracle = await loaded();
+  show();
+} catch (error) {
+  by("state").textContent = `The product of Day 1, in this page. MuJoCo did not load: ${error.message}`;
+}

@@ -9,6 +9,7 @@ import pytest
 
 from bench import (
     bench_dynamics,
+    bench_first_minute,
     bench_fk,
     bench_growth,
     bench_ik,
@@ -179,6 +180,14 @@ def test_a_first_minute_that_failed_is_not_printed_as_passed():
     text = table.render({"about": RESULTS["about"], "first-minute": first})
     assert "until it FAILED" in text
     assert "PASSED" not in text
+
+
+def test_a_lab_that_ends_with_advice_has_passed_its_first_minute():
+    lab = [sys.executable, "w1-foundations/src/day1_transforms.py", "--no-log"]
+    done = subprocess.run(lab, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert bench_first_minute.passed(done)
+    done.returncode = 1
+    assert not bench_first_minute.passed(done)
 
 
 def test_the_handouts_script_mended_runs(real_panda):

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from labkit.figures import client, clip
+from labkit.figures import client, clip, editor
 from labkit.figures.portrait import link_frames, with_fingers
+from labkit.lesson.day import find_day
 from robo47 import panda, se3
 from robo47.errors import Robo47Error
 
@@ -110,3 +111,53 @@ def test_a_picks_clip_names_its_phases_and_a_small_cube_keeps_its_colour(tmp_pat
         red, _, blue = made.convert("RGB").getpixel((93, 93))
     assert red > 180
     assert blue < 60
+
+
+def said(*sentence):
+    arm = Image.new("RGB", [editor.SHARP * n for n in editor.ARM])
+    code = ("def f(q):", "    return -q")
+    says = ("1.5 f WRONG", *sentence) if sentence else ()
+    return editor.Page(code, arm, "make check TASK=1.5", says, mark="-q", cursor=12)
+
+
+@pytest.mark.parametrize("layout", [editor.WIDE, editor.TALL])
+def test_what_the_checker_says_in_a_clip_is_shown_whole_or_refused(layout):
+    nothing = np.asarray(editor.draw(said(), layout)).astype(int)
+    sentence = "It turns the wrong way. " * 8
+    shown = np.asarray(editor.draw(said(sentence), layout)).astype(int)
+    changed = np.argwhere(np.abs(shown - nothing).max(axis=2) > 100)
+    edge = editor.SHARP * editor.ARM[0]
+    assert changed[:, 0].max() < shown.shape[0] - 10
+    assert changed[:, 1].max() < edge - 10
+    with pytest.raises(ValueError, match="are cut"):
+        editor.draw(said(sentence * 3), layout)
+
+
+def test_frames_of_a_clip_are_seen_for_their_own_times_or_it_is_refused(tmp_path):
+    frames = [clip.Frame(p, s) for p, s in zip(noise(2), (0.1, 2.0), strict=True)]
+    says = clip.save_frames(frames, tmp_path / "a.webp")
+    assert "200 x 160, 2.1 s" in says
+    with Image.open(tmp_path / "a.webp") as made:
+        made.load()
+        assert made.n_frames == 2
+    with pytest.raises(Robo47Error, match="over 1,000"):
+        clip.save_frames(frames, tmp_path / "b.webp", largest=1000)
+
+
+def test_the_clip_of_a_mistake_is_the_labs_own_arm_and_the_checkers_own_words():
+    day = find_day(1)
+    day.offered("clips")  # makes the lab importable
+    clips = day.module("clips")
+    true = link_frames(with_fingers(clips.Q))
+    for name, T in clips.links(1.0).items():
+        np.testing.assert_allclose(T, true[name], atol=1e-12)
+    mirrored = link_frames(with_fingers(-clips.Q))
+    for name, T in clips.links(-1.0).items():
+        np.testing.assert_allclose(T, mirrored[name], atol=1e-12)
+    assert clips.told(clips.RIGHT) == ("1.5  link_T, joint_T      passed",)
+    assert "Rz(-theta) gives your numbers exactly" in " ".join(clips.told(clips.WRONG))
+    for name in day.offered("clips"):
+        path = day.folder / "figures" / f"{name}.webp"
+        assert path.stat().st_size < clip.LARGEST
+        with Image.open(path) as made:
+            assert made.n_frames > 30

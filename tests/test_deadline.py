@@ -10,7 +10,7 @@ from make_class import DAY as FIRST
 
 from labkit.base import processes
 from labkit.base.deadline import Deadline
-from labkit.base.exchange import Exchange, Question
+from labkit.base.exchange import EndedError, Exchange, Question
 from labkit.check import slow
 from labkit.check.lab_run import rehearse
 from labkit.check.slow import Budget, RunsOn
@@ -19,6 +19,8 @@ from labkit.grade import engine
 from labkit.grade.engine import Grader
 from labkit.grade.package import Package, fingerprint
 from labkit.lesson.day import find_day
+from labkit.sandbox import sandbox
+from labkit.sandbox.process import ENDLESS
 from labkit.sandbox.sandbox import TOO_LONG, Sandbox, deadline_of
 from robo47.errors import FaultError
 
@@ -69,6 +71,22 @@ def test_what_a_process_waited_that_is_gone_stays_taken_off(fake):
     assert deadline.over
 
 
+def test_what_the_deadline_cut_is_no_loop_though_some_waited_meanwhile(fake):
+    """A wait that is seen afterwards gives time back, to others than that call."""
+
+    def next_(seconds):
+        fake.now, fake.theirs = fake.now + seconds, 1.0
+        raise EndedError(ENDLESS)
+
+    box = SimpleNamespace(next=next_, used=fake.used)
+    deadline = Deadline(2.0, fake)
+    deadline.watch(box)
+    with pytest.raises(EndedError, match=TOO_LONG):
+        sandbox._next(box, 3.0, deadline)
+    with pytest.raises(EndedError, match=ENDLESS):
+        sandbox._next(box, 0.5, deadline)
+
+
 def test_a_day_has_one_deadline_for_its_tasks_and_its_lab():
     assert deadline_of(FIRST).seconds == 130.0
 
@@ -78,8 +96,10 @@ class TestItIsKept:
     SLOW = "import time\ndef f(x):\n    time.sleep(0.4)\n    return 1.0"
 
     def test_by_a_session(self, student):
+        deadline = Deadline(600.0)
         with Sandbox() as box:
-            session = box.session(student(self.SLOW), deadline=Deadline(1.0))
+            session = box.session(student(self.SLOW), deadline=deadline)
+            deadline.seconds = deadline.used + 2.0  # from here: a start takes its time
             replies = session.ask([Question("1.1", "f", (1.0,))] * 9)
             assert not session.alive
         assert replies[0].value == 1.0

@@ -47,6 +47,14 @@ def test_a_push_is_felt_one_or_two_samples_later(right):
     assert 0.0 < right.noticed_ms < 25.0
 
 
+def test_a_push_that_nobody_feels_or_that_is_felt_before_it_comes_is_none(right):
+    for ms in (np.nan, -40.0):
+        result = right._replace(noticed_ms=ms)
+        assert result.failed
+        assert any("nothing is felt" in line for line in delivery.told(result).after)
+    assert not right._replace(noticed_ms=np.nan, pushed=False).failed
+
+
 @pytest.mark.kit
 def test_what_the_week_predicts_on_paper_is_what_its_page_says(right):
     page = " ".join((ROOT / "w2-autonomy/README.md").read_text("utf-8").split())
@@ -82,6 +90,15 @@ class TestTheScale:
         result = cube(friction=0.4)
         assert abs(result.grams) < 1.0
         assert result.stopped == "there is nothing in the hand"
+
+    def test_of_the_wrong_sign_is_asked_about_and_not_the_hand(self):
+        def negative(*given):
+            return -FNS.payload_from_holds(*given)
+
+        result = cube(but(payload_from_holds=negative))
+        assert (
+            result.stopped == "it weighs -80 g: is payload_from_holds (task 8.8) right?"
+        )
 
     def test_sees_twice_the_weight_where_g_is_halved(self):
         def halved(J_site, R_site, extra, g):
@@ -169,6 +186,13 @@ class TestTheEye:
         assert not result.stopped
         assert result.failed
 
+    def test_whose_angle_is_doubled_is_asked_about_and_not_the_place(self):
+        def wide(fovy, *size):
+            return FNS.camera_matrix(2.0 * fovy, *size)
+
+        with pytest.raises(Robo47Error, match=r"inside table .* \(task 10.1\)"):
+            cube(but(camera_matrix=wide))
+
     def test_says_where_it_sees_no_cube(self):
         def behind(K, T_world_cam, pixels, depths):
             return FNS.back_project(K, T_world_cam, pixels, -depths)
@@ -190,9 +214,9 @@ def test_random_cubes_arrive():
 
 
 @pytest.mark.kit
-def test_a_film_of_it_has_table_wall_and_cube(right):
+def test_a_film_of_it_has_table_wall_eye_and_cube(right):
     film = delivery.film(right)
-    assert len(film.blocks(film.qpos[0])) == 3
+    assert len(film.blocks(film.qpos[0])) == 4
     assert set(film.moments) <= {name for name, _ in film.phases}
     assert film.model().nq == film.qpos.shape[1]
-    assert film.blocks(film.qpos[0])[2].half[0] == scenes.CUBE_HALF
+    assert film.blocks(film.qpos[0])[3].half[0] == scenes.CUBE_HALF

@@ -101,6 +101,7 @@ def test_a_drifted_output_is_found(monkeypatch, printed, same, drifted):
 def test_every_relative_link_leads_somewhere(path):
     text = path.read_text("utf-8")
     targets = re.findall(r"\]\((?!http|#)([^)#]+)", re.sub(r"`[^`]*`", "", text))
+    targets += re.findall(r'src(?:set)?="(?!http)([^"]+)"', text)
     missing = [t for t in targets if not (path.parent / t).exists()]
     assert missing == []
 
@@ -126,6 +127,12 @@ def test_the_readme_names_the_commands_that_ci_runs():
     assert "make lint" in ci
     assert f"-m '{AUTHORS}'" in ci
     assert "- run: .ci/run\n" in (ROOT / ".github/workflows/ci.yml").read_text("utf-8")
+
+
+def test_the_readme_says_how_many_days_stand():
+    readme = (ROOT / "README.md").read_text("utf-8").split("\n<!-- days")[0]
+    assert f"the first {len(all_days())} stand" in readme
+    assert [day.number for day in all_days()] == [*range(1, len(all_days()) + 1)]
 
 
 def test_every_command_in_the_teachers_guide_exists(run):

@@ -503,6 +503,8 @@ def test_the_page_fits_and_runs_nothing_in_a_real_browser(graded, tmp_path, chro
 def test_the_page_asks_for_nothing_from_outside_and_holds_no_markup(graded):
     assert not re.search(r"https?:|url\(|@import|<script|<link|<img", graded.page)
     links = re.findall(r'href="([^"]*)"', graded.page)
+    assert 'id="alike"' in graded.page  # where the first of them leads
+    links.remove("#alike")
     assert len(links) >= len(KINDS)
     for link in links:  # to the students' own files, and nowhere else
         assert re.fullmatch(r"feedback/[^/:]*\.txt", link)

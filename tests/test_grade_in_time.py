@@ -132,6 +132,21 @@ def test_a_time_that_nobody_knows_is_said_to_be_unknown(clone, what):
     assert replace(one, result=ungraded(DAY, "")).late_by == (None, None)
 
 
+def test_a_newer_kit_that_is_merged_too_late_takes_no_works_place(clone):
+    """Its commits may be of the days between the work and the deadline."""
+    put(clone, {"README.md": "kit"})
+    commit(clone, DEADLINE - 9 * HOUR)
+    git(clone, "checkout", "-q", "-b", "kit")
+    put(clone, {"README.md": "a newer kit"})
+    commit(clone, DEADLINE - 60)
+    git(clone, "checkout", "-q", "-")
+    good = save(clone, "good = 1", DEADLINE - HOUR)
+    who = ("-c", "user.name=A", "-c", "user.email=a@example.org")
+    git(clone, *who, "merge", "-q", "--no-edit", "kit")  # today: after the deadline
+    package, text = collected(clone)
+    assert (text, package.commit, package.late) == ("good = 1", good, 1)
+
+
 @pytest.mark.parametrize(("when", "late"), [(DEADLINE, 0), (DEADLINE + 5400, 1)])
 def test_a_commit_at_the_deadline_is_in_time_and_counts_late_if_none_is(
     clone, when, late
@@ -297,7 +312,7 @@ def test_work_in_time_that_a_late_forced_push_takes_back_still_counts(pulled):
     assert (clone / SCRIPT).read_text() == "worse("
     assert collected(clone, None)[1] == "worse("
     shutil.rmtree(clone / ".git" / "refs" / "robo47")
-    assert before(clone, DEADLINE) == ("", 1)
+    assert before(clone, DEADLINE, f"{WEEK}/work/") == ("", 1)
 
 
 def result(passed: int, kit: str = "1", seed: int = 4711) -> Result:

@@ -340,7 +340,7 @@ class TestTheEngine:
     def test_believes_no_worker_that_lies(self, answer):
         assert "is no result of the day" in self.told(answer=answer)
 
-    @pytest.mark.parametrize("fact", [{"seed": 10**5000}, {"kit": "=1\n\ud800"}])
+    @pytest.mark.parametrize("fact", [{"seed": 10**5000}, {"kit": "=1\n"}])
     def test_takes_kit_and_seed_from_no_worker(self, fact):
         answer = asdict(replace(ungraded(DAY, ""), **fact))
         liar = engine.Engine(Stubborn(answer=answer), lambda: 1)
@@ -424,6 +424,8 @@ class TestTheJournal:
             ('"id": "commit"', '"id": "poem"'),
             ('"text": "', '"text": 5, "x": "'),
             ('"error": "why"', '"error": ["why"]'),
+            ('"error": "why"', '"error": "\\ud800"'),  # nothing that is written
+            ('"refused": []', '"refused": [' + '"",' * 200_000 + '""]'),
             ('"package": "', '"package": null, "x": "'),
             ('"day": 1', '"day": 7'),
             ('"result": {', '"result": ' + "[" * 100_000 + "{"),
@@ -816,7 +818,16 @@ class TestWhatDoesNotShow:
         assert similar.hidden([RZ], [("turned", "Rz")]) == []
 
     @pytest.mark.parametrize(
-        "text", ["exec(x)", "\uff45xec(x)", "builtins.exec", "__builtins__[y]"]
+        "text",
+        [
+            "exec(x)",
+            "\uff45xec(x)",
+            "builtins.exec",
+            "__builtins__[y]",
+            "getattr(print, '__self__')",
+            "class E:\n    def __reduce__(self): return x",
+            "code.InteractiveInterpreter().runsource(x)",
+        ],
     )
     def test_is_a_text_that_runs_as_code(self, text):
         (says,) = similar.hidden([f"{RZ}\n{text}"], [("Rz",)])[:1]
@@ -867,6 +878,22 @@ class TestTheOverview:
         ]
         ((mark, who),) = Course(DAY, class_).mistakes()
         assert (mark.mistake, mark.id, who) == ("shape", "1.1", ["a", "b"])
+
+    def test_leads_with_what_can_be_explained_in_bars_of_the_whole_class(self):
+        passed = ["passed"] * 7
+        stops = [graded("wrong", *passed, name=n, mistakes={0: "raises"}) for n in "ab"]
+        named = graded("wrong", *passed, name="c", mistakes={0: "sign"})
+        class_ = [*stops, named, graded(*["passed"] * 8, name="d")]
+        found = Course(DAY, class_).mistakes()
+        assert [(mark.mistake, len(who)) for mark, who in found] == [
+            ("sign", 1),
+            ("raises", 2),
+        ]
+        text = page.render(Course(DAY, class_))
+        first, second = re.findall(r'width="([\d.]+)%"[^>]*var\(--line\)', text)
+        assert (first, second) == ("25.00", "50.00")
+        assert ">1 of 4 students</text>" in text
+        assert ">1.1  it stopped with an error</text>" in text
 
     @pytest.mark.parametrize(
         ("statuses", "state"),
@@ -933,6 +960,8 @@ def test_bars_fill_their_line_and_escape_their_words():
             "read as (x, y, z, w) – here w is first",
         ),
         ("; =1+1", "– =1+1"),
+        ("＝1+1", "'＝1+1"),
+        ("﹦1+1", "'﹦1+1"),
         ("\ud800", "\\ud800"),
         ("Zoë", "Zoë"),
     ],

@@ -2,17 +2,25 @@
 
 import ast
 import json
+import re
 
+import make_hunters
 import pytest
 from restored import Restored
 
 from conftest import copy_kit
 from labkit import log as metrics
-from labkit.hunt import quarry
+from labkit.grade import hunts, hunts_page
+from labkit.grade.roster import find_students
+from labkit.hunt import case as cases
+from labkit.hunt import experiment, quarry, tally, written
 from labkit.hunt.script import closed_capstone, closed_lab, is_closed, opened
 from labkit.judge.row import rows_of
 from labkit.lesson.day import all_days, days_of, find_day
 from labkit.lesson.starter import function_lines, put_back
+from labkit.lesson.week import weeks
+from labkit.report.page import render
+from labkit.report.series import Report
 from robo47.errors import Robo47Error
 
 HUNT = "scripts/hunt_bug.py"
@@ -53,12 +61,71 @@ def test_level_3_draws_two_functions():
     assert first.function != second.function
 
 
+def test_a_mark_finds_a_mistake_again_though_the_catalogue_has_changed(monkeypatch):
+    day = find_day(4)
+    case = cases.draw(day, 1, 7, [])
+    (first,) = case.quarries
+    pool = quarry.pool_of(day, 1)
+    monkeypatch.setattr(quarry, "pool_of", lambda *_: pool[::-1])
+    assert cases.Case(4, 1, 7, case.marks).quarries == [first]
+    monkeypatch.setattr(quarry, "pool_of", lambda *_: [q for q in pool if q != first])
+    with pytest.raises(Robo47Error, match="no longer the mistake of this hunt"):
+        cases.Case(4, 1, 7, case.marks).quarries  # noqa: B018
+
+
+def test_a_kit_without_catalogues_says_so_in_a_line(monkeypatch):
+    monkeypatch.setattr(quarry, "quarries", lambda day: [])
+    with pytest.raises(Robo47Error, match="nothing to hunt: this kit has no mistakes"):
+        cases.draw(find_day(4), 1, 7, [])
+
+
+def test_rows_of_hunts_add_up_to_found_and_named():
+    rows = []
+    for seed, end in enumerate(tally.ENDS):
+        case = cases.draw(find_day(4), 1, seed, [])
+        (name,) = case.guilty
+        case.runs = seed + 1
+        case.ended = end
+        case.suspected = [[name, "less"], ["ad", ""]]
+        rows.append(tally.row_of(case, ["ad", "energy"]))
+        assert rows[-1]["n_failures"] == len({"ad", "energy"} - {name})
+        assert (name in rows[-1]["notes"]) == (end != tally.LEFT)
+    assert tally.tally(rows) == "found 1 of 4 in 10 runs, named 1 more"
+    page = render(Report([], hunts=[{**row, "date": "2026-11-27"} for row in rows]), "")
+    assert "<p>found 1 of 4 in 10 runs, named 1 more</p>" in page
+    assert tally.tally([{"check": "fk_by_hand", "notes": "found", "value": 1.0}]) == ""
+
+
+def test_what_was_expected_stands_beside_the_run_in_80_columns():
+    lines = ["1. A step", "  PASS  one: 0 (limit 1)", f"  FAIL  {'long ' * 30}: 2"]
+    told = experiment.beside("the torque of joint 4 is twice as large", lines)
+    assert max(map(len, told.splitlines())) <= 80
+    assert "the torque of joint 4 is twice" in told.splitlines()[1]
+    assert "FAIL  long" in told.splitlines()[1]
+    assert told.endswith("1 check PASS")
+    rows = ["  place  joints", "these functions  398.4", "  cut", "right ones  0.9"]
+    told = experiment.beside("", rows).splitlines()
+    assert " ".join(told[1].split()) == "(nothing said) these functions 398.4 cut"
+    assert told[2].strip() == "right ones 0.9"
+
+
 @pytest.mark.kit
 def test_nine_in_ten_of_all_mistakes_can_be_hunted():
     for day in all_days():
         ways = [w for row in rows_of(day).values() for w in row.ways]
         wrong = [w for w in ways if w.status == "wrong" and not w.reached]
         assert len(quarry.quarries(day)) >= 0.9 * len(wrong), day.number
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize(
+    "week", [w for w in weeks() if w.capstone], ids=lambda w: w.name
+)
+def test_what_a_capstone_shows_is_in_the_catalogue(week):
+    last = find_day(week.days[-1])
+    pool = {(one.function, one.slug) for one in quarry.asked_by(last)}
+    assert written.showing(week) <= pool
+    assert len(quarry.pool_of(last, 2)) > len(pool) / 4
 
 
 @pytest.mark.kit
@@ -92,6 +159,7 @@ class TestTheCommand:
     ):
         done = self.hunt(run_in, 4, "--seed", 7)
         assert done.returncode == 0
+        assert self.hunt(run_in).stdout == done.stdout  # no keyboard: nothing is asked
         case = json.loads((clone / "w1-foundations/work/hunt/hunt.json").read_text())
         assert case["seed"] == 7
         mistake = quarry.drawn(find_day(4, clone), 1, 7)[0]
@@ -100,6 +168,10 @@ class TestTheCommand:
         ran = self.hunt(run_in, 4, "--run")
         assert "FAIL" in ran.stdout
         assert "nothing logged" in ran.stdout
+        verdicts = [line for line in ran.stdout.splitlines() if "FAIL" in line]
+        functions = [f for task in find_day(4).tasks for f in task.functions]
+        named = re.compile(rf"\b({'|'.join(functions)})\b")
+        assert not any(map(named.search, verdicts))
 
     def test_finds_who_writes_the_right_function_anew(self, run_in, clone):
         self.hunt(run_in, 4, "--seed", 7)
@@ -109,8 +181,12 @@ class TestTheCommand:
         suspected = self.hunt(
             run_in, 4, "--suspect", name, "--expect", "M is too small"
         )
-        assert "You expected: M is too small" in suspected.stdout
+        assert re.search(r"\n  M is too small  +FAIL  ", suspected.stdout)
+        assert max(map(len, suspected.stdout.splitlines())) <= 80
         assert self.hunt(run_in, 4, "--judge").returncode == 2  # nothing written yet
+        stopped = self.hunt(run_in, "--call", f"{name}(3)").stderr
+        assert stopped.startswith("it stops: ")
+        assert "src/day4" not in stopped
         right = day.source.read_text("utf-8")
         script.write_text(put_back(script.read_text("utf-8"), right, (name,)))
         assert "FAIL" not in self.hunt(run_in, 4, "--run").stdout
@@ -119,6 +195,7 @@ class TestTheCommand:
         assert "found in 2 runs and 1 check" in found.stdout
         rows = metrics.read_rows(clone / "metrics" / "metrics.csv")
         assert [(r["check"], r["value"]) for r in rows] == [("hunt", 2.0)]
+        assert "All your hunts: found 1 of 1 in 2 runs." in found.stdout
 
     def test_tells_who_suspects_another_one(self, run_in, clone):
         self.hunt(run_in, 4, "--seed", 7)
@@ -129,6 +206,14 @@ class TestTheCommand:
         told = self.hunt(run_in, 4, "--judge")
         assert told.returncode == 1
         assert "ad: not it; it was right as it was." in told.stdout
+        # It does not stand in the way of what is found next.
+        name = quarry.drawn(day, 1, 7)[0].function
+        script.write_text(put_back(script.read_text("utf-8"), right, (name,)))
+        found = self.hunt(run_in, "--judge")
+        assert found.returncode == 0
+        row = metrics.read_rows(clone / "metrics" / "metrics.csv")[0]
+        assert row["n_failures"] == 1
+        assert row["notes"] == f"found: {name} (never suspected)"
 
     def test_by_the_capstone_shows_it_beside_the_right_one(self, run_in):
         self.hunt(run_in, 7, "--level", 2, "--seed", 3)
@@ -139,8 +224,8 @@ class TestTheCommand:
     @pytest.mark.parametrize(
         ("arguments", "says"),
         [
-            (("--run",), "no hunt is begun"),
-            (("--judge",), "no hunt is begun"),
+            (("--run",), "no such hunt is begun"),
+            (("--judge",), "no such hunt is begun"),
             (("--level", 9), "invalid choice"),
         ],
     )
@@ -149,3 +234,31 @@ class TestTheCommand:
         assert done.returncode == 2
         assert says in done.stderr
         assert "Traceback" not in done.stderr
+
+
+@pytest.mark.kit
+def test_a_class_is_graded_by_its_scripts_and_not_by_its_word(tmp_path):
+    make_hunters.make(tmp_path)
+    hunt = hunts.Hunt(make_hunters.DAY, make_hunters.LEVEL, make_hunters.SEED)
+    class_ = list(hunts.grade(hunt, find_students(tmp_path)))
+    assert {one.student.name: one.state for one in class_} == {
+        "another-seed": hunts.NO_HUNT,
+        "broken": hunts.UNGRADED,
+        "found-0": hunts.FOUND,
+        "found-second-0": hunts.FOUND,
+        "gave-up-0": hunts.NOT_FOUND,
+        "log-edited-0": hunts.NOT_FOUND,
+        "marks-edited-0": hunts.NOT_FOUND,
+        "named-only-0": hunts.NAMED,
+        "no-git": hunts.NO_HUNT,
+        "nothing": hunts.NO_HUNT,
+        "repaired-only-0": hunts.REPAIRED,
+        "runs-edited-0": hunts.FOUND,
+    }
+    odd = {one.student.name: one.odd for one in class_ if one.odd}
+    assert set(odd) == {"log-edited-0", "marks-edited-0", "runs-edited-0"}
+    assert odd["runs-edited-0"] == ["the log says 1 runs, hunt.json 4"]
+    page = hunts_page.render(hunt, class_)
+    assert "the committed script does not repair it" in page
+    late = list(hunts.grade(hunt, find_students(tmp_path), deadline=1_000_000_000))
+    assert {one.state for one in late} == {hunts.NO_HUNT}

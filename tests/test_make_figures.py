@@ -17,7 +17,7 @@ if not os.environ.get("ROBO47_CI"):
 from PIL import Image
 
 from labkit.commands import figures as command
-from labkit.figures import client, overlay, portrait, sheet
+from labkit.figures import cards, client, overlay, portrait
 from labkit.figures.lessons import lesson_figures
 from labkit.lesson.day import Day, all_days
 
@@ -47,20 +47,31 @@ def test_the_committed_pictures_are_there(name):
 
 
 @pytest.mark.parametrize("day", all_days(), ids="day{0.number}".format)
-def test_a_weeks_table_shows_the_days_picture_as_it_is_now(day):
+def test_a_days_small_picture_is_dark_and_its_number_stands_in_the_days_line(day):
     lesson_figures(day.number)  # makes the lab importable
-    name, *part = day.module("figures").SMALL
-    figures = day.folder / "figures"
-    kept = Image.open(figures / f"day{day.number}_small.png").convert("RGB")
-    whole = Image.open(figures / f"day{day.number}_{name}.png").convert("RGB")
-    assert differing(sheet.thumbnail(whole, *part), kept) < 0.05
+    _, number = day.module("figures").SMALL
+    assert number in day.see
+    path = day.folder / "figures" / f"day{day.number}_small.png"
+    kept = Image.open(path).convert("RGB")
+    assert kept.size == cards.TINY
+    assert 10 < np.median(np.asarray(kept)) < 60
+    assert np.asarray(kept).std() > 15  # and shows something
+
+
+def test_a_long_number_on_a_small_picture_is_not_cut():
+    black = Image.new("RGB", cards.SIZE)
+    for number in ("7", "39 of 60", "12,345 of 67,890"):
+        drawn = np.asarray(cards.card(black, number))
+        edges = (drawn[:, -2:], drawn[:, :2], drawn[-2:], drawn[:2])
+        assert max(edge.max() for edge in edges) < 90
+        assert drawn.max() > 200
 
 
 @pytest.mark.gl
 @pytest.mark.meshes
 @pytest.mark.usefixtures("gl", "real_panda")
 def test_the_committed_pictures_can_be_drawn_again(monkeypatch, tmp_path):
-    names = [f"day1_{name}" for name in SIZES]
+    names = [*(f"day1_{name}" for name in SIZES), "day1_small"]
     monkeypatch.setattr(sys, "argv", ["", *names, "--out", str(tmp_path)])
     assert command.main() == 0
     for name, size in SIZES.items():
@@ -69,6 +80,8 @@ def test_the_committed_pictures_can_be_drawn_again(monkeypatch, tmp_path):
         assert fresh.size == size
         # Drivers and fonts round differently; another arm or label would not.
         assert differing(fresh, kept) < 0.02
+    fresh, kept = (Image.open(p / "day1_small.png") for p in (tmp_path, FOLDER))
+    assert differing(fresh.convert("RGB"), kept.convert("RGB")) < 0.02
 
 
 @pytest.mark.gl

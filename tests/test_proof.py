@@ -1,11 +1,13 @@
 """A page to show: what is theirs, run again, and nothing from outside gets a say."""
 
 import functools
+import html
 import subprocess
 from dataclasses import replace
 from html.parser import HTMLParser
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 pytest.importorskip("viser", reason="the extra view")
@@ -13,18 +15,21 @@ pytest.importorskip("viser", reason="the extra view")
 from labkit.base.exchange import Reply
 from labkit.commands import grade
 from labkit.commands import proof as command
+from labkit.figures import client
 from labkit.grade.roster import Student
 from labkit.lesson.day import find_day
 from labkit.lesson.week import find_week
 from labkit.lesson.writers import Writers, file_mark
-from labkit.proof import facts, page
+from labkit.proof import card, facts, page
 from labkit.proof.capstone import Attempt, attempt
 from labkit.report.series import Series
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import capstone
+from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
 
+EVERY = frozenset().union(*capstone.USES.values())
 EVIL = "<script>document.title='evil'</script>\"' onload=alert(1) {film}"
 
 
@@ -129,12 +134,19 @@ def hostile():
     one = facts.RunDay(day, states, numbers, {}, EVIL, EVIL)
     fresh = {"commit": EVIL, "wrong": 0, "missing": 2, "date": EVIL}
     return page.Proof(
-        EVIL, False, EVIL, [one], Attempt(capstone, None, EVIL, 3, 35), fresh
+        EVIL,
+        False,
+        EVIL,
+        [one],
+        Attempt(capstone, None, EVIL, frozenset({"make_T"})),
+        fresh,
     )
 
 
 def test_nothing_from_outside_becomes_a_tag():
-    text = page.render(hostile())
+    text = page.render(hostile(), "card.png")
+    assert '<meta property="og:image" content="card.png">' in text
+    assert f'content="{html.escape(EVIL)}: Week 1: foundations">' in text
     seen = Seen(text)
     assert "script" not in seen.tags
     assert not [name for name in seen.attributes if name.startswith("on")]
@@ -143,12 +155,41 @@ def test_nothing_from_outside_becomes_a_tag():
     assert seen.words.count("<script>") >= 7
 
 
+@pytest.mark.parametrize("draws", [True, False])
+def test_the_card_to_share_has_its_size_and_its_words_with_a_picture_or_without(
+    monkeypatch, draws
+):
+    def draw(scene):
+        if not draws:
+            raise Robo47Error("nothing draws here")
+        return np.full((*scene.size[::-1], 3), 200, dtype=np.uint8)
+
+    monkeypatch.setattr(client, "draw", draw)
+    result = capstone.pick(capstone.library())
+    proof = replace(hostile(), attempt=Attempt(capstone, result, "", EVERY))
+    drawn = np.asarray(card.draw(page.in_short(proof), proof.attempt)).astype(int)
+    assert drawn.shape == (630, 1200, 3)
+    assert (drawn[300:500, 1000] == 200).all() == draws
+    green = (np.abs(drawn - card.GOOD).max(axis=2) < 10).any(axis=1)
+    assert green[450:520].any()  # the pick's number; the functions are not all theirs
+    assert not green[:420].any()
+    partly = proof.attempt._replace(theirs=frozenset({"make_T"}))
+    drawn = np.asarray(card.draw(page.in_short(proof), partly)).astype(int)
+    assert not (np.abs(drawn - card.GOOD).max(axis=2) < 10).any()
+
+
+def test_a_name_on_the_card_has_the_letters_of_its_font():
+    assert card._known("Ada Lovelace") == "Ada Lovelace"
+    assert card._known("Zoë") in ("Zoë", "Zoe")
+    assert card._known("\uffff") == ""
+
+
 @functools.cache
 def filmed():
     """Return a hostile page with a film that ends after half a second."""
     result = capstone.pick(capstone.library())._replace(seconds=0.5)
     return page.render(
-        replace(hostile(), attempt=Attempt(capstone, result, "", 35, 35))
+        replace(hostile(), attempt=Attempt(capstone, result, "", frozenset({"make_T"})))
     )
 
 
@@ -195,7 +236,46 @@ def test_an_arm_that_stops_is_told_and_not_filmed():
     known = facts.RunDay(day, {task.id: "passed"}, [])
     found = attempt(capstone, [known], [day.source.parent], Failing())
     says = "make_T did not return: it hangs"
-    assert found == Attempt(capstone, None, says, 1, found.total)
+    assert found == Attempt(capstone, None, says, frozenset({"make_T"}))
+
+
+class World:
+    """What answers questions itself: the sandbox cannot be sent it."""
+
+    def free(self, q):
+        return True
+
+
+def test_a_whole_picture_travels_and_what_stays_here_is_called_the_kits(sandbox):
+    """320 x 240 pixels are more numbers than a task's answer may have."""
+    n = 320 * 240
+    uses = {10: ("back_project",), 12: ("shortcut",)}
+
+    def tried(fns, seed=None):
+        cloud = fns.back_project(np.eye(3), np.eye(4), np.zeros((n, 2)), np.ones(n))
+        fns.shortcut(np.zeros((2, 7)), World(), np.zeros((0, 2)))
+        return cloud
+
+    some = SimpleNamespace(
+        USES=uses,
+        library=SimpleNamespace,
+        attempt=tried,
+        film=lambda result: SimpleNamespace(qpos=result),
+    )
+    known = []
+    for number in uses:
+        day = find_day(number)
+        own = {t.id: "passed" for t in day.tasks if {*t.functions} & {*uses[number]}}
+        known.append(facts.RunDay(day, own, []))
+    places = [one.day.source.parent for one in known]
+    found = attempt(some, known, places, sandbox)
+    assert found.stopped == ""
+    assert found.result.shape == (n, 3)
+    assert found.theirs == {"back_project", "shortcut"}
+    assert found.stayed == {"shortcut"}
+    assert (found.yours, found.total) == (1, 2)
+    words = Seen(page._by(uses, found)).words
+    assert "shortcut: theirs pass." in words
 
 
 def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path, capsys):

@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -173,6 +174,20 @@ def test_an_index_that_was_cut_is_made_anew_and_keeps_nothing_old(server):
     server.push("main", "x = 2")
     assert server.pull() == ("", "x = 2", "main")
     assert not (server.student.path / "gone.py").exists()
+
+
+def test_the_teachers_own_name_for_a_server_keeps_nobody_out(
+    server, tmp_path, monkeypatch
+):
+    (tmp_path / ".gitconfig").write_text("[clone]\n\tdefaultRemoteName = upstream\n")
+    monkeypatch.setenv("HOME", str(tmp_path))
+    server.push("main", "x = 1")
+    assert server.pull() == ("", "x = 1", "main")
+
+
+def test_an_address_at_which_git_would_wait_is_refused(server):
+    server.student = replace(server.student, url="fd::3")
+    assert server.pull()[0] == "fatal: transport 'fd' not allowed"
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a shell script stands in for git")

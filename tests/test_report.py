@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from labkit.lesson.day import find_day
+from labkit.lesson.day import all_days, find_day
 from labkit.lesson.metric import Metric
 from labkit.log.rows import HEADER as LINE
 from labkit.log.rows import encode, typed
@@ -105,6 +105,20 @@ def test_the_threshold_of_one_day_is_not_anothers_and_days_can_be_jumped_to(log)
     text = page.render(report, "")
     assert '<a class="fail" href="#1">Day 1</a>' in text
     assert '<section id="2">' in text
+
+
+def test_a_number_is_told_in_words_with_its_unit_and_by_its_names(log):
+    log.write_text("\n".join([LINE, line(value=0.25)]) + "\n", encoding="utf-8")
+    wanted = Metric("fk", "err", max=1.0, says="hand off <its place>", unit="mm")
+    text = page.render(collect(scan(log), [Series(1, wanted)]), "")
+    assert "<h3>hand off &lt;its place&gt;</h3>" in text
+    assert '<span class="muted">fk, err</span>' in text
+    assert ">0.25 mm</dd>" in text
+
+
+def test_every_number_of_the_course_has_a_sentence():
+    asked = [metric for day in all_days() for metric in day.metrics]
+    assert not [metric for metric in asked if not 10 < len(metric.says) < 60]
 
 
 def test_what_fails_comes_first_in_its_day(log):

@@ -135,6 +135,26 @@ class TestASecondAsking:
         # In reverse order, of the file loaded anew.
         assert [reply.again for reply in replies] == [301, 202, 103]
 
+    def test_waits_for_a_file_that_loads_longer_than_a_call_may_take(
+        self, ask, monkeypatch
+    ):
+        monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.3)
+        code = "import time\ntime.sleep(0.6)\ndef f(n): return n"
+        (reply,) = ask(code, Question("1.1", "f", (1.0,)))
+        assert (reply.value, reply.again, reply.kind) == (1, 1, "")
+
+    def test_of_a_file_that_loads_once_alone_says_so(self, ask, monkeypatch):
+        monkeypatch.setattr(sandbox, "LOAD_SECONDS", 0.3)
+        code = """
+            import sys
+            while hasattr(sys, "seen"): pass
+            sys.seen = True
+            def f(n): return n
+        """
+        (reply,) = ask(code, Question("1.1", "f", (1.0,)))
+        assert reply.kind == "stopped"
+        assert "loaded once more: it runs on and on" in reply.error
+
     def test_that_goes_wrong_alone_says_how(self, ask):
         code = """
             import numpy as np
@@ -494,7 +514,7 @@ class TestASession:
     def test_of_a_file_that_hangs_when_loaded_once_more_costs_its_time_once(
         self, student, monkeypatch
     ):
-        monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.5)
+        monkeypatch.setattr(sandbox, "LOAD_SECONDS", 0.5)
         code = """
             import sys
             sys.loads = getattr(sys, "loads", 0) + 1

@@ -2,6 +2,7 @@
 
 import base64
 import functools
+import gzip
 import http.server
 import json
 import re
@@ -10,12 +11,14 @@ import sys
 import threading
 from importlib.util import find_spec
 
+import mujoco
 import numpy as np
 import pytest
+from judged import judged
 
 from conftest import ROOT, need
 from labkit.figures import backends
-from robo47 import panda, verify
+from robo47 import jacobian, kinematics, panda, screws, verify
 from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
@@ -178,12 +181,75 @@ def test_a_cell_that_fails_is_named_with_its_day(monkeypatch):
         notebooks.run(find_day(1))
 
 
-def test_an_accented_letter_has_its_index_beside_it_and_not_below():
+def test_an_accented_letter_has_its_index_beside_it_and_its_dot_clear_of_it():
     pytest.importorskip("sphinx")
     pytest.importorskip("viser")
     from labkit.site.build import mathml
 
-    assert mathml(r"\dot q_i").count("<msub><mover") == 1
+    assert mathml(r"\dot q_i").count("<msub><mover>") == 1
+    assert "accent" not in mathml(r"\ddot q + \hat x")  # set into the letter at 1x
+
+
+def test_an_equation_of_a_docstring_keeps_its_lines():
+    pytest.importorskip("sphinx")
+    pytest.importorskip("viser")
+    from labkit.site.build import plain
+
+    says = ["The |sum|:", "", "    a = |b|  c", "    d = e", "", "- one", "  more", ""]
+    lines = [*says, ":param q: what", "", "    it is"]
+    plain(lines)
+    kept = [".. code-block:: text", "", "    a = |b|  c", "    d = e", "", "- one"]
+    assert lines[:8] == [r"The \|sum\|:", "", *kept]
+    assert lines[-3:] == [":param q: what", "", "    it is"]
+
+
+def test_a_pages_boxes_have_labels_and_its_captions_a_level():
+    from labkit.site import access
+
+    box = '<input class="task-list-item-checkbox" type="checkbox">'
+    made = access.page(f'<p class="caption" role="heading"></p><li><p>{box} a\nb</p>')
+    assert 'role="heading" aria-level="2"' in made
+    assert f"<label>{box} a\nb</label></p>" in made
+    wide = '<img alt="b" src="../_images/a.webp">'
+    narrow = '<source media="(max-width: 600px)" srcset="../_static/a_tall.webp">'
+    made = access.page(f"{wide}{wide.replace('a.webp', 'b.png')}", ["a_tall.webp"])
+    assert made.startswith(f"<picture>{narrow}{wide}</picture><img loading")
+
+
+def test_the_page_says_of_a_mistake_what_the_checker_says():
+    pytest.importorskip("viser")
+    from labkit.judge.row import row_of
+    from labkit.lesson.day import find_day
+    from labkit.site import typed
+
+    table = typed.table()
+    ask = row_of(find_day(1), "joint_T").ask
+    assert table["questions"] == [call[0] for call in ask.main]
+    assert len(table["named"]) > 15
+    for one in table["named"]:
+        poses = np.tile(np.eye(4), (len(ask.main), 1, 1))
+        poses[:, :3, :3] = np.reshape(one["values"], (-1, 3, 3))
+        found = judged(ask, list(poses))
+        assert (found.mistake, found.message) == (one["slug"], one["says"])
+
+
+def test_the_arms_small_meshes_are_where_the_robots_own_are(site):
+    from labkit.site import meshes
+
+    data = (site / "_static" / "panda.bin").read_bytes()
+    size = int.from_bytes(data[:4], "little")
+    head = json.loads(data[4 : 4 + size])
+    at = 4 + size
+    assert len(data) < meshes.LARGEST
+    for seen, own in zip(head["shapes"], meshes.arm(), strict=True):
+        corners = np.frombuffer(data, "<i2", 3 * seen["vertices"], at).reshape(-1, 3)
+        at += 6 * (seen["vertices"] + seen["faces"])
+        ends = head["step"] * np.array([corners.min(0), corners.max(0)])
+        truth = [own.vertices.min(0), own.vertices.max(0)]
+        assert seen["body"] == own.body
+        assert np.abs(ends - truth).max() < 2e-3, own.body
+        assert seen["faces"] < 0.5 * len(own.faces) + 200
+    assert at == len(data)
 
 
 DO = {
@@ -237,7 +303,7 @@ def test_the_arms_page_says_what_python_says(browse):
         T_world_ee = where["site:attachment_site"][0][:3]
         angles = ",".join(map(repr, map(float, q)))
         page = browse(f"arm.html?{angles}#q={angles}", width=640)
-        page.wait_for_function("window.arm", timeout=60_000)
+        page.wait_for_function("window.arm?.mujoco", timeout=60_000)
         for slug, frames in truth.items():
             page.select_option("#mistake", slug)
             seen = page.evaluate("window.arm")
@@ -257,6 +323,12 @@ def test_a_slider_moves_the_arm_and_the_address_brings_it_back(browse):
     page = browse("arm.html", width=390)
     page.wait_for_function("window.arm", timeout=60_000)
     before = page.inner_text("#pose")
+    page.click("#zero")
+    limits = page.evaluate(
+        "[...document.querySelectorAll('#sliders input')].map(s => s.max)"
+    )
+    assert page.evaluate("window.arm.q") == [min(0, float(x)) for x in limits]
+    assert "-0.000000" not in page.inner_text("#pose")
     page.locator("#sliders input").nth(1).fill("0.5")
     assert page.inner_text("#pose") != before
     after = page.inner_text("#pose")
@@ -265,6 +337,137 @@ def test_a_slider_moves_the_arm_and_the_address_brings_it_back(browse):
     assert page.inner_text("#pose") == after
     assert page.evaluate("document.documentElement.scrollWidth") == 390
     assert page.problems == []
+
+
+@pytest.mark.browser
+def test_a_typed_line_is_judged_and_never_run(browse):
+    from labkit.site import typed
+
+    says = {one["slug"]: one["says"] for one in typed.table()["named"]}
+    page = browse("arm.html#line=Rz(2*q)")
+    page.wait_for_function("window.arm", timeout=60_000)
+    assert page.inner_text("#says") == says["double-angle"]
+    for line, told in {
+        "Rz(-q)": says["turns-backwards"],
+        "Rz(q).T": says["turns-backwards"],
+        "return make_T(Rz(q / 2), np.zeros(3))": says["half-angle"],
+        "[[sin(q), -cos(q), 0], [cos(q), sin(q), 0], [0, 0, 1]]": says[
+            "sin-and-cos-swapped"
+        ],
+        "[[cos(q), -sin(q), 0], [sin(q), cos(q), 0], [0, 0, 1]]": "Right, at all",
+        "Rz(q) @ Rz(0.5)": "None of the",
+        "Rz(q": "Not read: a ) is missing",
+        "alert(q)": 'Not read: "alert" is no name here',
+        "constructor(q)": 'Not read: "constructor" is no name here',
+        "<img src=x onerror=alert(1)>": "Not read:",
+    }.items():
+        page.fill("#line", line)
+        assert page.inner_text("#says").startswith(told), line
+    page.fill("#line", "Rz(q)")
+    assert page.inner_text("#says") == ""
+    assert page.url.count("line=") == 0
+    assert page.problems == []
+
+
+def live(day, model, q):
+    """Return what the figure of a day's guide shows, by the library."""
+    ee = "site:attachment_site"
+    T = kinematics.fk_all(model, q)
+    zero = kinematics.fk_all(model, np.zeros(7))
+    S = screws.joint_screws([zero[f"body:link{i}"] for i in range(1, 8)])
+    if day == 1:
+        return T["body:link3"][:3].ravel()  # L0 L1 J(q1) ... L3, and no J(q3)
+    if day == 2:
+        return (screws.fk_space(S[3:], zero[ee], q[3:]))[:3].ravel()
+    J = jacobian.space_jacobian(S, q)
+    if day == 3:
+        at_hand = jacobian.site_jacobian(J, T[ee][:3, 3])
+        return np.linalg.svd(at_hand[3:], compute_uv=False)
+    data = mujoco.MjData(model)
+    data.qpos[:] = q
+    mujoco.mj_forward(model, data)  # at rest qfrc_bias is gravity's torque
+    return data.qfrc_bias
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("browse", [WITHOUT_3D], indirect=True)  # half the time
+@pytest.mark.parametrize("day", [1, 2, 3, 4])
+def test_a_live_figure_at_a_formula_shows_the_librarys_numbers(browse, day):
+    page = browse(f"w1-foundations/docs/day{day}-lab.html")
+    asked = "performance.getEntries().filter(e => e.name.includes('figures')).length"
+    assert day in (2, 4) or page.evaluate(asked) == 0  # those two are near the top
+    figure = page.locator("figure.live")
+    figure.scroll_into_view_if_needed()
+    page.wait_for_function("document.querySelector('.live').figure", timeout=60_000)
+    q = np.array(panda.READY_Q)
+    q[3] = -1.25
+    figure.locator("label:has-text('q4') input").fill("-1.25")
+    seen = page.evaluate("document.querySelector('.live').figure.value")
+    model = panda.load("panda_nohand")
+    assert np.abs(seen - live(day, model, q)).max() < 1e-6
+    assert page.problems == []
+
+
+KINDS = (
+    "index.html",
+    "arm.html",
+    "search.html?q=gimbal",
+    "library/dynamics.html",
+    "w1-foundations/docs/day1-lab.html",
+    "w1-foundations/docs/day1.html",
+    "_static/films/day1_order.html",
+)
+
+
+@pytest.mark.browser
+def test_no_kind_of_page_has_a_part_that_cannot_be_named_or_reached(browse):
+    axe = (ROOT / "site/node_modules/axe-core/axe.min.js").read_text("utf-8")
+    grave = "v => ['serious', 'critical'].includes(v.impact)"
+    for kind in KINDS:
+        page = browse(kind, width=390)
+        page.wait_for_function(READY.get(kind, "true"), timeout=60_000)
+        page.evaluate(axe)
+        found = page.evaluate(
+            f"axe.run().then(r => r.violations.filter({grave})"
+            ".map(v => [v.id, v.nodes[0].html]))"
+        )
+        assert found == [], kind
+
+
+READY = {
+    "arm.html": "window.arm",
+    "search.html?q=gimbal": "document.querySelector('#search-results li a')",
+    "_static/films/day1_order.html": "document.querySelector('[aria-label=speed]')",
+}
+
+
+@pytest.mark.browser
+def test_the_home_page_is_small_and_leads_to_the_arm(browse, site, served):
+    page = browse("index.html", wait_until="commit")
+    page.wait_for_load_state("networkidle")
+    asked = page.evaluate("performance.getEntries().map(entry => entry.name)")
+    names = {each.split("?")[0] for each in asked if each.startswith(served)}
+    files = [(site / name.removeprefix(f"{served}/")).read_bytes() for name in names]
+    assert len(files) > 10
+    assert sum(len(gzip.compress(file)) for file in files) < 500_000  # as it is sent
+    link = page.get_by_text("Try it now, nothing to install")
+    assert link.bounding_box()["y"] < 600
+    link.click()
+    page.wait_for_function("window.arm", timeout=60_000)
+    assert page.problems == []
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("browse", [WITHOUT_3D], indirect=True)
+def test_a_search_finds_what_a_student_types(browse):
+    first = "document.querySelector('#search-results li a')"
+    for words, leads in {
+        "gimbal": "library/orientation.html",
+        "make hint": "commands.html#make-hint",
+    }.items():
+        page = browse(f"search.html?q={words.replace(' ', '+')}")
+        page.wait_for_function(first, timeout=60_000)
+        assert leads in page.evaluate(f"{first}.href")
 
 
 def test_films_are_small_and_linked_where_their_picture_stands(site):

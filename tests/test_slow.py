@@ -27,6 +27,12 @@ from labkit.sandbox.sandbox import Sandbox
 
 DAY = find_day(1)
 CALLS = [(float(i),) for i in range(3)]
+NO_END = """
+right, here = link4_to_world, panda.load().body_pos
+def link4_to_world(model, *args):
+    while not np.array_equal(model.body_pos, here): pass
+    return right(model, *args)
+"""
 
 
 class Clock:
@@ -241,3 +247,13 @@ class TestALabsRun:
             image = np.arange(6.0).reshape(2, 3)
             assert image[own["brightest"](image)] == 5.0
             assert own["brightest"](image) == (1, 2)
+
+
+@pytest.mark.kit
+def test_who_does_not_return_for_another_robot_typed_nothing_in(check, monkeypatch):
+    monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.5)
+    guard = 'if __name__ == "__main__":'
+    text = DAY.source.read_text("utf-8").replace(guard, f"{NO_END}\n{guard}")
+    verdict = check(text)["1.8"]
+    assert verdict.mistake in ("stopped", "too-slow")
+    assert "yours was stopped after 0.5 s" in verdict.message

@@ -164,6 +164,8 @@ class TestReport:
         assert done.returncode == 0, done.stderr
         pages = sorted(page.name for page in (both / "metrics").glob("*.html"))
         assert pages == ["report-week1.html"]
+        alone = (both / "metrics" / pages[0]).read_text("utf-8")
+        assert "href" not in alone  # no page stands there that it could lead to
 
     def test_the_retrospective_of_week_one_is_filled_in_after_week_two_was_begun(
         self, both

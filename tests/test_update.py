@@ -465,6 +465,81 @@ def test_a_file_of_the_students_is_never_written_over(kit, student, ignored, nam
     assert (student / new.relative_to(kit)).read_text() == "kit"
 
 
+def test_a_log_that_an_editor_saved_in_latin_1_keeps_its_rows(kit, student):
+    mid_term(kit)
+    log = student / "metrics" / "metrics.csv"
+    log.write_bytes(
+        log.read_bytes() + "2026-09-02,day1,1,ge\xe4ndert\n".encode("latin-1")
+    )
+    done = update(student)
+    assert done.returncode == 0, done.stderr
+    assert log.read_bytes().count(b"ge\xe4ndert\n") == 1
+    assert log.read_bytes().count(b"ndert") == 1
+
+
+def test_a_lab_that_is_not_in_utf_8_is_named(kit, student):
+    mid_term(kit)
+    lab = student / WORK
+    lab.write_bytes(lab.read_bytes().replace(b"# mine", b"# mine \xe4"))
+    before = state(student)
+    assert f"{WORK} is not in UTF-8: save it" in update(student).stderr
+    assert state(student) == before
+
+
+def test_what_it_says_of_the_clone_is_true_where_it_stops(kit, student):
+    """A git that cannot write where the kit is; a reader who went away."""
+    mid_term(kit)
+    lock = student / ".git" / "config.lock"
+    lock.touch()
+    before = state(student)
+    done = update(student, "--from", kit)
+    assert "could not lock config file" in done.stderr
+    assert "Nothing of yours has changed." in done.stderr
+    assert state(student) == before
+    lock.unlink()
+    gone = "import os, sys, runpy; sys.path.insert(0, 'scripts')\n"
+    gone += "reader, writer = os.pipe(); os.close(reader); os.dup2(writer, 1)\n"
+    gone += "runpy.run_path('scripts/update.py', run_name='__main__')"
+    done = run_copy(student, "-c", gone)
+    assert "Nothing of yours" not in done.stderr
+    whole(student)
+
+
+def test_a_folder_that_may_not_be_written_is_named_and_not_ours_beside_it(kit, student):
+    mid_term(kit)
+    before = state(student)
+    code = (
+        "import sys; sys.argv = ['update.py']\nfrom pathlib import Path\n"
+        "from labkit.base import cli\nfrom labkit.commands import update\n"
+        "replace = Path.replace\n"
+        "def no(self, to):\n"
+        "    if to.name != 'day1.md' or '.robo47' not in str(self):\n"
+        "        return replace(self, to)\n"
+        "    Path.replace = replace\n"
+        "    raise PermissionError(13, 'Permission denied', str(self), None, str(to))\n"
+        "Path.replace = no\ncli.run(update.main)\n"
+    )
+    done = run_copy(student, "-c", code)
+    assert f"student/{SHEET} cannot be written: Permission denied" in done.stderr
+    assert "Nothing of yours has changed." in done.stderr
+    assert state(student) == before
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a shell script stands in for a hook")
+def test_a_hook_of_the_students_stops_no_update(kit, student):
+    """Git LFS brings such a one, which fails where LFS is not installed."""
+    mid_term(kit)
+    for name in ("post-checkout", "pre-commit", "commit-msg", "reference-transaction"):
+        hook = student / ".git" / "hooks" / name
+        hook.parent.mkdir(exist_ok=True)
+        hook.write_text("#!/bin/sh\nexit 2\n")
+        hook.chmod(0o755)
+    done = update(student)
+    shutil.rmtree(student / ".git" / "hooks")
+    assert done.returncode == 0, done.stderr
+    whole(student)
+
+
 @pytest.mark.skipif(os.name == "nt", reason="Windows asks for rights to link")
 def test_nothing_is_written_through_a_link_of_the_students(kit, student, tmp_path):
     (kit / "notes").mkdir()

@@ -86,7 +86,7 @@ class TestTheLoop:
             stdout=subprocess.PIPE,
             text=True,
         ) as watcher:
-            until(watcher, "asking again", said)
+            until(watcher, "asking the others again", said)
             until(watcher, "watching", said)
             watcher.terminate()
 

@@ -146,12 +146,16 @@ def author_of(clone: Path, files: str) -> str:
     return read_history(clone, (), at=commit).author if commit else ""
 
 
-def before(clone: Path, moment: int) -> tuple[str, int]:
+def before(clone: Path, moment: int, own: str) -> tuple[str, int]:
     """Return the last commit up to a moment, by the committers' clocks.
+
+    A newer kit, merged too late, brings commits from before that moment: where the last
+    one has nothing of the student's, it is the last of those that were made here.
 
     Args:
         clone: a student's folder.
         moment: seconds since 1970.
+        own: "w1-foundations/work/": what stands there no commit of the kit's has.
 
     Returns:
         Its hash, "" where there is none, and how many commits of HEAD came later. What
@@ -161,10 +165,12 @@ def before(clone: Path, moment: int) -> tuple[str, int]:
         GitError: git is not there, or takes too long.
     """
     git = _repository(clone)
-    seen = ("HEAD", f"--glob={SEEN}*")
-    found = _git(git, "rev-list", "-1", f"--min-age={moment}", *seen)
+    last = ("rev-list", "-1", f"--min-age={moment}", "HEAD", f"--glob={SEEN}*")
+    found = (_git(git, *last) or "").strip()
+    if found and not files_of(clone, found, own):
+        found = (_git(git, *last, "--first-parent") or "").strip() or found
     later = _git(git, "rev-list", "--count", f"--max-age={moment + 1}", "HEAD")
-    return (found or "").strip(), int((later or "").strip() or 0)
+    return found, int((later or "").strip() or 0)
 
 
 def files_of(clone: Path, commit: str, *names: str) -> dict[str, tuple[str, int]]:

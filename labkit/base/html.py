@@ -36,10 +36,9 @@ p { margin: 4px 0; } .jumps { margin-top: 14px; } .muted { color: var(--muted); 
   font-size: 13px; font-weight: 600; white-space: nowrap; }
 .pass { color: var(--pass); } .fail { color: var(--fail); }
 .open, .none { color: var(--muted); }
-dl { display: grid; grid-template-columns: repeat(4, auto); gap: 0 12px;
-  margin: 12px 0 8px; justify-content: space-between; }
-dt { grid-row: 1; color: var(--muted); font-size: 12px; }
-dd { grid-row: 2; margin: 0; font-weight: 600; white-space: nowrap; }
+dl { display: flex; flex-wrap: wrap; gap: 6px 14px; margin: 12px 0 8px;
+  justify-content: space-between; } dl, dt, dd { white-space: nowrap; }
+dt { color: var(--muted); font-size: 12px; } dd { margin: 0; font-weight: 600; }
 svg { display: block; width: 100%; height: auto; font-size: 11px; }
 details { margin-top: 6px; } summary { cursor: pointer; color: var(--muted);
   font-size: 13px; }
@@ -64,7 +63,14 @@ _OBEYED = re.compile(
 )
 
 
-def page(title: str, about: str, *parts: str, style: str = "", policy: str = "") -> str:
+def page(
+    title: str,
+    about: str,
+    *parts: str,
+    style: str = "",
+    policy: str = "",
+    meta: str = "",
+) -> str:
     """Return a whole page: no script runs in it even if escaping failed somewhere.
 
     Args:
@@ -73,9 +79,11 @@ def page(title: str, about: str, *parts: str, style: str = "", policy: str = "")
         parts: the rest.
         style: CSS of this page besides what all have.
         policy: what this page may load besides, "; script-src ...".
+        meta: tags of its head besides.
     """
     whole = [
         _HEAD % policy,
+        meta,
         f"<title>{title}</title><style>{STYLE}{style}</style></head><body>",
         f'<h1>{title}</h1><p class="muted">{about}</p>',
         *parts,
@@ -84,9 +92,10 @@ def page(title: str, about: str, *parts: str, style: str = "", policy: str = "")
     return _OBEYED.sub(" ", "\n".join(whole))
 
 
-def section(heading: str, *parts: str) -> str:
-    """Return a section under its heading."""
-    return f"<section><h2>{heading}</h2>{''.join(parts)}</section>"
+def section(heading: str, *parts: str, id: str = "") -> str:
+    """Return a section under its heading; `id` is what a link leads to."""
+    name = f' id="{id}"' if id else ""
+    return f"<section{name}><h2>{heading}</h2>{''.join(parts)}</section>"
 
 
 def tiles(cells: Iterable[tuple[str, str, str]]) -> str:

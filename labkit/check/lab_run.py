@@ -40,7 +40,7 @@ from labkit.judge.mistake import Verdict
 from labkit.judge.replies_read import no_answer, stops_with
 from labkit.judge.row import rows_of
 from labkit.lesson.added_code import old_names
-from labkit.lesson.day import Day, Task
+from labkit.lesson.day import Day, Limits, Task
 from labkit.lesson.lab import Lab, number_of
 from labkit.lesson.lab_module import load_lab
 from labkit.lesson.metric import Metric
@@ -174,20 +174,27 @@ def rehearse(
 
 
 def behind_wall(
-    day: Day, script: Path, sandbox: Sandbox, lab: ModuleType, budget: Budget
+    day: Day,
+    script: Path,
+    sandbox: Sandbox,
+    lab: ModuleType,
+    budget: Budget,
+    limits: Limits | None = None,
 ) -> dict[str, Callable[..., Any]]:
     """Return a file's functions, by name; each call of one is asked in the sandbox.
 
     Args:
         day, script, sandbox: as those of `rehearse`.
         lab: the complete one, whose functions have the same arguments.
-        budget: of seconds.
+        budget: of seconds; it keeps whose calls could not travel.
+        limits: what the file may take; None is what its tasks may.
     """
+    limits = limits or day.limits
     added = old_names(day, script.read_text("utf-8", "replace"))
     library = library_of(day)
     robots = (*ROBOTS, *_own_robots(day))
     session = sandbox.session(
-        script, robots, library, added, day.limits, brief=True, deadline=budget.whole
+        script, robots, library, added, limits, brief=True, deadline=budget.whole
     )
     budget.watch(session)
     kits = cache(kits_functions(day))
@@ -227,6 +234,7 @@ def _asked(
         try:
             (reply,) = session.ask([Question(task.id, name, sent)], seconds)
         except StaysError:
+            budget.stayed.add(name)
             return kits()[name](*bound.args)
         if reply.error == ENDLESS:
             reply = replace(reply, given=seconds)

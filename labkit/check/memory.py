@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 STATES, JOURNAL = "statuses.json", "journal.jsonl"
 KEPT = 50  # keys
+LABEL = 40  # letters: what ends with a colon and is no longer names a result
 
 # Verdicts that say that nothing was judged, not that a mistake was made.
 _NO_MISTAKE = {"", "unwritten", "waits", "inherited", "borrowed", "does-not-load"}
@@ -177,6 +178,11 @@ def _of(memory: dict[str, Any], key: str) -> dict[str, str]:
 
 
 def _sentence(message: str) -> str:
-    """Return the first sentence of a message, at most 200 characters of it."""
-    first = re.split(r"(?<=[.:;]) (?=[A-Z])|\n", message, maxsplit=1)[0]
+    """Return the first sentence of a message, at most 200 characters of it.
+
+    A name in front of it, "sigma: Off by 2.", is none yet.
+    """
+    first, *rest = re.split(r"(?<=[.:;]) (?=[A-Z])|\n", message, maxsplit=2)
+    if rest and first.endswith(":") and len(first) <= LABEL:
+        first = f"{first} {rest[0]}"
     return first if len(first) <= 200 else first[:199] + "…"

@@ -10,6 +10,7 @@ with what a function returned, that function is why.
 
 import contextlib
 import ctypes
+import math
 import threading
 import time
 from collections import Counter
@@ -66,12 +67,13 @@ class Budget(Deadline):
             clock: in seconds.
             whole: what the submission has left, in which it must be.
         """
-        super().__init__(whole.within(seconds) if whole else seconds, clock)
-        self.whole = whole
+        self.whole = whole or Deadline(math.inf)
+        super().__init__(self.whole.within(seconds), clock)
         self._kits = kits
         self.stretch = ONE_CALL + seconds
         self._since = 0.0  # when a function was last called
         self.calls = Counter[str]()
+        self.stayed = set[str]()  # whose call could not travel: the kit's own took it
         self._last: dict[str, tuple[Any, ...]] = {}  # arguments, the latest call last
         self._kits_own: dict[str, float] | None = None  # seconds a call
 
@@ -134,8 +136,7 @@ class Budget(Deadline):
         if theirs > FAST * self._kits_took() + LITTLE * self.seconds:
             return False
         most = min(MORE * self.seconds, MOST_LAB)
-        if self.whole:
-            most = min(most, self.used + self.whole.within(most))
+        most = min(most, self.used + self.whole.within(most))
         self.seconds = max(self.seconds, most)
         return True
 

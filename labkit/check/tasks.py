@@ -6,6 +6,8 @@ import secrets
 import tokenize
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
+from itertools import chain
 from pathlib import Path
 
 from labkit.base.deadline import Deadline
@@ -240,18 +242,15 @@ def _verdict_of(day: Day, task: Task, asked: Sequence[Asked], source: str) -> Ve
 
 def _of_function(day: Day, task: Task, asked: Asked, source: str) -> Verdict:
     function = asked.function
-    both = [*asked.main, *asked.fresh]
-    for one, reply in zip(both, replies(both), strict=True):
-        if reply.given:
-            slow = too_slow(day, function, one.question.args, reply)
-            return _with_slip(asked, slow, source)
-        if early := no_answer(reply, function, task.id):
-            slip = early.mistake == "unwritten" and unfinished(source, function)
-            if early.mistake == "missing" and (near := renamed(source, function)):
-                return replace(early, message=near)
-            return Verdict("todo", "raise-left-in", slip) if slip else early
+    unanswered = partial(_unanswered, day, task, asked, source)
+    if early := unanswered([*asked.main, *asked.fresh]):
+        return early
     verdict = judge(asked, source, arguments(source, function))
     came = replies(asked.exchanges)
+    if verdict.mistake in {held.slug for held in asked.ask.held_out}:
+        further = chain(*asked.held_out)  # who is stopped there made no such mistake
+        stopped = [one for one in further if one.reply and one.reply.kind == "stopped"]
+        verdict = unanswered(stopped) or verdict
     if verdict.mistake == "nothing-returned":
         says = unfinished(source, function)
         if not says and any(reply.printed for reply in came):
@@ -263,6 +262,23 @@ def _of_function(day: Day, task: Task, asked: Asked, source: str) -> Verdict:
         if refused:
             return refusal(refused[0], None)
     return _changed_arguments(function, came, verdict)
+
+
+def _unanswered(
+    day: Day, task: Task, asked: Asked, source: str, exchanges: Sequence[Exchange]
+) -> Verdict | None:
+    """Return the verdict on the first of some questions that has no answer, or None."""
+    function = asked.function
+    for one, reply in zip(exchanges, replies(exchanges), strict=True):
+        if reply.given:
+            slow = too_slow(day, function, one.question.args, reply)
+            return _with_slip(asked, slow, source)
+        if early := no_answer(reply, function, task.id):
+            slip = early.mistake == "unwritten" and unfinished(source, function)
+            if early.mistake == "missing" and (near := renamed(source, function)):
+                return replace(early, message=near)
+            return Verdict("todo", "raise-left-in", slip) if slip else early
+    return None
 
 
 def _with_slip(asked: Asked, verdict: Verdict, source: str) -> Verdict:

@@ -13,6 +13,7 @@ Each function of yours that `make check` does not pass is replaced by the librar
 
 import sys
 import traceback
+from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -20,12 +21,17 @@ from typing import Any
 from tqdm import tqdm
 
 from labkit.base import cli
+from labkit.base.text import visible
 from labkit.check import own_functions
 from labkit.lesson.day import chosen_week
+from labkit.lesson.predicted import predictions, rows_asked
 from labkit.lesson.week import Week
 from robo47.errors import Robo47Error
+from robo47.paths import shown
 
 RANDOM = 20
+FEW, MANY = 5, 13  # functions that are named, of others' and of one's own
+PREDICTED = 3  # rows of the table of mistakes, before it is shown
 
 
 def chosen(week: Week, kit_only: bool) -> Any:
@@ -36,11 +42,37 @@ def chosen(week: Week, kit_only: bool) -> Any:
     with cli.busy("checking your functions"):
         own = own_functions.load(week)
     print(f"yours: {len(own.yours)} of {own.total}")
-    for day, why in dict.fromkeys((day, why) for day, _, why in own.replaced):
-        names = [name for d, name, w in own.replaced if (d, w) == (day, why)]
-        listed = ", ".join(names) if len(names) < 5 else f"{len(names)} functions"
-        print(cli.wrapped(f"  day {day}, the library's instead of {listed}: {why}"))
+    calls = {
+        name for some in own_functions.capstone_of(week).USES.values() for name in some
+    }
+    driven = [name for name in own.yours if name in calls]
+    listed = ": " + ", ".join(driven) if 0 < len(driven) < MANY else ""
+    says = f"  of the {len(calls)} that it calls, {len(driven)} are yours{listed}"
+    print(cli.wrapped(says, "    "))
+    reasons: dict[str, list[tuple[int, str]]] = {}
+    for day, name, why in own.replaced:
+        reasons.setdefault(why, []).append((day, name))
+    for why, some in reasons.items():
+        names = [name for _, name in some]
+        listed = ", ".join(names) if len(names) < FEW else f"{len(names)} functions"
+        days = days_of([day for day, _ in some])
+        says = f"  {days}, the library's instead of {listed}: {why}"
+        print(cli.wrapped(says, "    "))
     return own.functions
+
+
+def days_of(numbers: Sequence[int]) -> str:
+    """Return "day 3", or "days 1 to 7, 11", of numbers in order."""
+    runs: list[list[int]] = []
+    for number in dict.fromkeys(numbers):
+        if runs and number == runs[-1][-1] + 1:
+            runs[-1].append(number)
+        else:
+            runs.append([number])
+    said = [
+        f"{r[0]} to {r[-1]}" if len(r) > 2 else ", ".join(map(str, r)) for r in runs
+    ]
+    return f"day{'s' if len(runs) > 1 or len(runs[0]) > 1 else ''} {', '.join(said)}"
 
 
 def attempted(capstone: ModuleType, fns: Any, *seed: int, **options: Any) -> Any:
@@ -80,19 +112,36 @@ def random_ones(capstone: ModuleType, fns: Any) -> int:
     return verdict(capstone, failed, RANDOM)
 
 
-def ablations(capstone: ModuleType, fns: Any) -> int:
-    """Show what a mistake does: most of them still arrive.
+def predicted(week: Week) -> dict[str, str]:
+    """Return what the student's retrospective predicts, by a row's name."""
+    found: dict[str, str] = {}
+    for path in sorted((week.folder / "docs").glob("RETRO_*.md")):
+        text = path.read_text("utf-8", "replace")
+        rows = predictions(text)
+        found |= {visible(name).lower(): visible(says) for name, says in rows.items()}
+        if rows_asked(text) and len(rows) < PREDICTED:
+            print(f"your predictions: {len(rows)} of {PREDICTED} in {shown(path)}")
+    return found
+
+
+def ablations(capstone: ModuleType, fns: Any, week: Week) -> int:
+    """Show what a mistake does, below it what was predicted: most still arrive.
 
     Raises:
         Robo47Error: this capstone has none.
     """
     if not hasattr(capstone, "ablations"):
         raise Robo47Error(f"{capstone.NAME} has no table of mistakes")
+    said = predicted(week)
     print(capstone.HEAD)
     for name, (changed, options) in capstone.ablations(fns).items():
         result = attempted(capstone, changed, **options)
         print(capstone.row(name, result), flush=True)
+        if name.lower() in said:
+            print(f"  you predicted: {said.pop(name.lower())}")
     print(capstone.MORAL)
+    for name, says in said.items():
+        print(cli.wrapped(f"you predicted {says} of {name!r}: no row has that name"))
     return cli.EXIT_OK
 
 
@@ -133,5 +182,5 @@ def main() -> int:
     if options.all:
         return random_ones(capstone, fns)
     if options.ablations:
-        return ablations(capstone, fns)
+        return ablations(capstone, fns, week)
     return one(capstone, fns, options.clip, options.picture)

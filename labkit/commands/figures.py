@@ -2,6 +2,7 @@
 
     make figures DAY=6                              yours, that the day hands in
     make figures DAY=6 ARGS=--kit                   all of the lesson
+    make figures DAY=1 ARGS=--clips                 its clips, where it has some
     python3 scripts/make_figures.py --day 6         the same as the first
     python3 scripts/make_figures.py NAME            one of them
     python3 scripts/make_figures.py --out elsewhere into another folder
@@ -35,14 +36,18 @@ def main() -> int:
     parser.add_argument("--day", type=cli.day, help="default: the one worked on last")
     parser.add_argument("--out", type=Path, help="folder to write to")
     parser.add_argument("--kit", action="store_true", help="the lesson's, not yours")
+    parser.add_argument("--clips", action="store_true", help="the lesson's clips")
     options = parser.parse_args()
     # Before a lesson imports MuJoCo, which fails there with a traceback.
     backends.rendering_environment()
     number = day_of(options.names) if options.day is None else options.day
     day = chosen_day(number)
     folder = options.out or day.folder / "figures"
-    own = bool(day.draw and day.work.is_file()) and not (options.names or options.kit)
+    theirs = options.names or options.kit or options.clips
+    own = bool(day.draw and day.work.is_file()) and not theirs
     try:
+        if options.clips:
+            return film(day, folder)
         if own:
             return draw_own(day, folder / Path(day.figure).name)
         figures = lesson_figures(day.number)
@@ -59,6 +64,16 @@ def main() -> int:
         )
     for name in tqdm(names, "drawing", leave=False, delay=1, disable=None):
         print(save(figures[name](), folder / f"{name}.png"))
+    return cli.EXIT_OK
+
+
+def film(day: Day, folder: Path) -> int:
+    """Write the clips of a day's lesson, which take minutes."""
+    from labkit.figures import clip
+
+    for name, frames in day.offered("clips").items():
+        waits = tqdm(frames(), name, leave=False, delay=1, disable=None)
+        print(clip.save_frames(waits, folder / f"{name}.webp"))
     return cli.EXIT_OK
 
 

@@ -8,6 +8,7 @@
     python3 scripts/grade_class.py CLONES --day 1-7 --proof    a page for each
     python3 scripts/grade_class.py CLONES --format canvas      or moodle
     python3 scripts/grade_class.py CLONES --dask tls://10.0.0.5:8786
+    python3 scripts/grade_class.py CLONES --day 4 --hunt 1 --seed 7    a bug hunt
 
 CLONES/roster.csv (name, folder, git) says who is in the class; without it,
 each folder is a student. Beside the table: class.html (what to explain again,
@@ -36,13 +37,21 @@ from typing import Any
 
 from labkit.base import cli, git, processes, store
 from labkit.base.text import count, visible
-from labkit.grade import engine, page
+from labkit.grade import engine, hunts, hunts_page, page
 from labkit.grade.classroom import Again, Classroom, pull, write_all
 from labkit.grade.course import Course, percent
 from labkit.grade.journal import Journal
 from labkit.grade.package import version
 from labkit.grade.roster import Student, find_students
-from labkit.grade.sheet import PLATFORMS, for_platform, known, of_days, write
+from labkit.grade.sheet import (
+    PLATFORMS,
+    for_platform,
+    known,
+    of_days,
+    table,
+    write,
+)
+from labkit.hunt.quarry import LEVELS
 from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
 from labkit.sandbox.process import wall
 from robo47.errors import Robo47Error
@@ -84,6 +93,8 @@ def add_how(parser: argparse.ArgumentParser) -> None:
     add("--processes", type=positive, default=cores, metavar="N", help=at_once)
     drawn = "of the fresh inputs, the same for everybody; default: drawn once"
     add("--seed", type=int, metavar="N", help=drawn)
+    hunted = "grade the bug hunt of --day, this level and --seed"
+    add("--hunt", type=int, choices=sorted(LEVELS), metavar="LEVEL", help=hunted)
     add("--dask", metavar="ADDRESS", help="grade on this Dask scheduler's workers")
     add("--proof", action="store_true", help="a page to show for each, of the week")
     whom = "grade those too that did not change: everybody, or only who asks"
@@ -180,6 +191,8 @@ def main() -> int:
     options = parse()
     if options.kit:
         return with_kit(options.kit)
+    if options.hunt:
+        return grade_hunt(options)
     days = chosen(options.day, options.week)
     several = len(days) > 1
     out = options.out or Path(folder_of(days, options.week)) / "grades.csv"
@@ -204,6 +217,30 @@ def main() -> int:
             prove(students, week, place, options.processes, courses)
     failed = tell(courses, notes, out)
     return cli.EXIT_FAILED if failed else cli.EXIT_OK
+
+
+def grade_hunt(options: argparse.Namespace) -> int:
+    """Grade a class's bug hunt; write its table and its page."""
+    (day, *others) = chosen(options.day, options.week)
+    if others or options.seed is None:
+        raise Robo47Error("which hunt? --day 4 --hunt 1 --seed 7")
+    hunt = hunts.Hunt(day, options.hunt, options.seed)
+    students = find_students(options.root, options.roster)
+    admit(options)
+    notes = pull(students) if options.pull else {}
+    hunters = list(hunts.grade(hunt, students, options.deadline))
+    out = options.out or Path(f"hunt-day{day.number}-seed{hunt.seed}") / "hunt.csv"
+    write(out, table(hunts.columns(hunters)))
+    page = out.with_suffix(".html")
+    write(page, hunts_page.render(hunt, hunters).encode("utf-8"))
+    print(f"Day {day.number}, level {hunt.level}, seed {hunt.seed}")
+    print(cli.wrapped(hunts.standings(hunters), "  "))
+    if odd := sum(bool(one.odd) for one in hunters):
+        print(f"contradicts the script: {odd:,}; the page says what")
+    for folder, note in notes.items():
+        print(cli.wrapped(f"{folder}: {note}", "  "))
+    print(f"wrote {shown(out.absolute())}; open {shown(page.absolute())}")
+    return cli.EXIT_FAILED if notes else cli.EXIT_OK
 
 
 def with_kit(tag: str) -> int:

@@ -5,36 +5,49 @@
     make hunt DAY=4 LEVEL=3       two functions of the day are wrong
     make hunt DAY=4 SEED=7        the same mistake for a whole class
     make hunt ARGS=--run          run the hunted lab
+    make hunt ARGS="--call 'ad([0, 0, 1, 0, 0, 0])'"
     make hunt ARGS="--suspect mass_matrix --expect 'M is not symmetric'"
     make hunt ARGS=--judge        is it the function, and does your repair pass?
     make hunt ARGS=--give-up      which one it was
 
 The functions of the hunted script are closed: call them, print, compare with paper or
-with MuJoCo. Say what you expect of the run if your suspicion is right, then look. Whom
-you suspect you write anew in its place; --judge looks at what you wrote.
+with MuJoCo. Say what you expect if your suspicion is right, then look. Whom you suspect
+you write anew in its place; --judge looks at what you wrote.
 Exit code: 0 found or nothing to judge, 1 not yet, 2 it could not run.
 """
 
 import argparse
+import contextlib
 import secrets
-import subprocess
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from labkit import log
 from labkit.base import cli
 from labkit.base.text import count
 from labkit.check import memory
 from labkit.hunt import case as cases
+from labkit.hunt import experiment, tally
 from labkit.hunt.case import Case
 from labkit.hunt.quarry import LEVELS
-from labkit.hunt.script import closed_capstone, closed_lab, kit_beside
-from labkit.lesson.day import Day, chosen_day, days_of
+from labkit.hunt.script import closed_capstone, closed_lab, closed_names, kit_beside
+from labkit.lesson.day import Day, chosen_day
 from labkit.lesson.starter import require_kits
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
-CHECK = "hunt"  # of its row in the log
+if TYPE_CHECKING:
+    from labkit.hunt.verdict import Repaired
+
+HOW = "A call, such as ad([0, 0, 1, 0, 0, 0]), is made; Enter alone runs all of it."
+SUSPECT = "Which function do you suspect? "
+EXPECT = "What do you expect to see if this is the fault? "
+DO = """
+  make hunt ARGS=--run       its run, the symptoms
+  make hunt                  say whom you suspect and what you expect, then look
+  make hunt ARGS=--judge     once you wrote that function anew
+  make hunt ARGS=--give-up   which one it was; make hunt ARGS=--help: all of it"""
 
 
 def parse() -> argparse.Namespace:
@@ -46,34 +59,38 @@ def parse() -> argparse.Namespace:
     add("--seed", type=int, metavar="N", help="which mistake; default: any")
     add("--anew", action="store_true", help="begin another hunt")
     add("--run", action="store_true", help="run the hunted script")
+    add("--call", metavar="CALL", help="call one of its functions")
     add("--suspect", metavar="FUNCTION", help="which one you suspect")
-    add("--expect", metavar="TEXT", default="", help="of the run, if it is that one")
+    add("--expect", metavar="TEXT", default="", help="to see, if it is that one")
     add("--judge", action="store_true", help="look at your repair")
     add("--give-up", action="store_true", help="say which one it was")
+    add("--write-seen", action="store_true", help=argparse.SUPPRESS)
     return parser.parse_args()
 
 
-def begin(day: Day, options: argparse.Namespace) -> Case:
-    """Draw a mistake and write the hunted script."""
+def draw(day: Day, options: argparse.Namespace) -> Case:
+    """Draw a mistake; of one's own, none that the checker has named already."""
     require_kits(day)
-    level = options.level or 1
     given = options.seed is not None
     known = [] if given else sorted({m.mistake for m in memory.journal()} - {""})
     seed = options.seed if given else secrets.randbelow(1_000_000)
-    case = Case(day.number, level, seed, known)
-    case.quarries  # noqa: B018 (says now if there is nothing to draw)
+    return cases.draw(day, options.level or 1, seed, known)
+
+
+def begin(case: Case) -> None:
+    """Write the hunted script of a hunt that begins."""
+    day = case.of_day
     folder = cases.folder_of(day)
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "kit.py").write_text(kit_beside(day), "utf-8")
-    if level == 2:
-        days = [other for other in days_of(day.week) if other.number <= day.number]
+    if case.level == 2:
+        days = cases.days_hunted(day, case.level)
         text = closed_capstone(day, days, case.script.stem)
     else:
         text = closed_lab(day)
     _keep(case.script)
     case.script.write_text(text, "utf-8")
     case.save()
-    return case
 
 
 def _keep(script: Path) -> None:
@@ -82,78 +99,92 @@ def _keep(script: Path) -> None:
         script.replace(script.with_suffix(".before.txt"))
 
 
+def leave(day: Day) -> None:
+    """Note that a hunt of this week that is not over makes room for another."""
+    with contextlib.suppress(Robo47Error):  # a broken file: nothing is known of it
+        case = cases.read(cases.folder_of(day))
+        if case and not case.ended and case.runs + case.checks:
+            end(case, tally.LEFT)
+            level = f" LEVEL={case.level}" if case.level != 1 else ""
+            again = f"make hunt DAY={case.day}{level} SEED={case.seed}"
+            print(f"Left: the hunt of day {case.day}. Anew: {again}\n")
+
+
+def end(case: Case, how: str, innocent: tuple[str, ...] = ()) -> None:
+    """Keep that a hunt is over, and write its row."""
+    case.ended = how
+    row = tally.row_of(case, innocent)
+    case.save()
+    log.append_rows([row])
+
+
 def tell(case: Case) -> None:
     """Say how a hunt stands, and what one can do."""
-    print(f"Day {case.day}, level {case.level}: {LEVELS[case.level]}. Seed {case.seed}")
+    head = f"Day {case.day}, level {case.level}: {LEVELS[case.level]}. Seed {case.seed}"
+    print(cli.wrapped(head, "  "))
     print(f"  {shown(case.script)}")
     done = f"{count(case.runs, 'run')}, {count(case.checks, 'check')} so far"
     print(f"  {done}")
     for function, expected in case.suspected:
-        print(
-            cli.wrapped(f"  suspected: {function}; expected: {expected or '-'}", "    ")
-        )
-    print()
-    print("  make hunt ARGS=--run       its run, the symptoms")
-    print("  make hunt                  say whom you suspect, then look")
-    print("  make hunt ARGS=--judge     once you wrote that function anew")
+        words = f"  suspected: {function}; expected: {expected or '-'}"
+        print(cli.wrapped(words, "    "))
+    print(DO)
 
 
-def run(case: Case) -> None:
-    """Run the hunted script and count it."""
-    case.runs += 1
-    case.save()
-    sys.stdout.flush()
-    subprocess.run([sys.executable, str(case.script)], check=False)
-
-
-def suspect(case: Case, function: str, expected: str) -> None:
-    """Keep a suspicion and what it lets one expect; run, and show both.
+def known(case: Case, function: str) -> list[str]:
+    """Return the functions that are written anew; refuse a name of none.
 
     Raises:
         Robo47Error: the hunted script has no such function.
     """
-    names = _names(case)
-    if function not in names:
-        raise Robo47Error(
-            f"{function!r} is no function of this hunt: {', '.join(names)}"
-        )
+    days = cases.days_hunted(case.of_day, case.level)
+    shut, written = closed_names(case.script, days)
+    if function not in shut + written:
+        names = ", ".join(shut + written)
+        raise Robo47Error(f"{function!r} is no function of this hunt: {names}")
+    return written
+
+
+def suspect(case: Case, function: str, expected: str) -> None:
+    """Keep a suspicion and what it lets one expect; run, and show both side by side.
+
+    Raises:
+        Robo47Error: the hunted script has no such function.
+    """
+    written = function in known(case, function)
     case.suspected.append([function, expected])
-    run(case)
-    print(cli.wrapped(f"\nYou suspect {function}."))
-    if expected:
-        print(cli.wrapped(f"You expected: {expected}"))
-    print(cli.wrapped(
-        f"Does it fit? Then write {function} anew in {shown(case.script)}, and:"
-        " make hunt ARGS=--judge"
-    ))  # fmt: skip
-
-
-def _names(case: Case) -> list[str]:
-    from labkit.hunt.script import MARK
-    from labkit.lesson.starter import function_lines
-
-    text = case.script.read_text("utf-8-sig", errors="replace")
-    asked = [line.split("(")[0][4:] for line in text.splitlines() if line[:4] == "def "]
-    days = days_of(case.of_day.week)
-    known = {n for day in days for task in day.tasks for n in task.functions}
-    shut = [n for n in asked if MARK in "\n".join(function_lines(text, n)[2])]
-    return [n for n in asked if n in known or n in shut]
+    lines = experiment.run(case)
+    print(f"\nYou suspect {function}.")
+    print(experiment.beside(expected, lines))
+    where = f"write {function} anew in {shown(case.script)}, and: "
+    where = "it is written anew already: " if written else where
+    print(cli.wrapped(f"\nDoes it fit? Then {where}make hunt ARGS=--judge"))
 
 
 def ask(case: Case) -> int:
     """Ask whom one suspects and what one expects, then run."""
     tell(case)
-    print()
+    print(f"\n{HOW}")
     try:
-        function = input("Which function do you suspect? (Enter: run only) ").strip()
+        function = typed(SUSPECT)
+        while "(" in function:
+            experiment.call(case, function)
+            function = typed(SUSPECT)
         if not function:
-            run(case)
+            experiment.run(case)
             return cli.EXIT_OK
-        expected = input("What do you expect of the run, if it is that one? ").strip()
+        known(case, function)
+        expected = typed(EXPECT)
     except EOFError:
+        print()
         return cli.EXIT_OK
     suspect(case, function, expected)
     return cli.EXIT_OK
+
+
+def typed(question: str) -> str:
+    """Return what somebody answers, without what a terminal adds."""
+    return "".join(c for c in input(question) if c.isprintable()).strip()
 
 
 def judge(case: Case) -> int:
@@ -169,83 +200,109 @@ def judge(case: Case) -> int:
         )
     case.checks += 1
     for one in repaired:
-        if not one.guilty:
-            print(cli.wrapped(f"{one.function}: not it; it was right as it was."))
-        elif one.verdict.status == "passed":
-            print(cli.wrapped(f"{one.function}: that is it, and yours is right."))
-        else:
-            says = f"{one.function}: that is it, but yours is not right yet. "
-            print(cli.wrapped(says + one.verdict.message))
-    case.found = is_found(case, repaired)
-    case.save()
-    if not case.found:
+        print(cli.wrapped(f"{one.function}: {told(one)}"))
+    if not is_found(case, repaired):
+        case.save()
         missing = len(case.quarries) - sum(one.guilty for one in repaired)
         left = f"{count(missing, 'function')} left to find; " if missing > 0 else ""
         return cli.conclude(False, f"{left}{count(case.runs, 'run')} so far")
-    print()
-    for quarry in case.quarries:
-        print(
-            cli.wrapped(f"The mistake, {quarry.slug}: {quarry.says or 'see --help'}.")
-        )
-    write_row(case)
+    reveal(case)
+    if not case.named:
+        print("You never said whom you suspect: next time, first say what you expect.")
+    end(case, tally.FOUND, tuple(r.function for r in repaired if not r.guilty))
     asked = f"{count(case.runs, 'run')} and {count(case.checks, 'check')}"
-    return cli.conclude(True, f"found in {asked}")
+    return conclude(True, f"found in {asked}")
 
 
-def write_row(case: Case) -> None:
-    """Write the hunt into the log."""
-    wrong = [function for function, _ in case.suspected]
-    guilty = {one.function for one in case.quarries}
-    row = {
-        "run_id": f"hunt_day{case.day}",
-        "day": case.day,
-        "check": CHECK,
-        "seed": case.seed,
-        "method": f"level {case.level}",
-        "n_trials": case.checks,
-        "n_failures": sum(function not in guilty for function in wrong),
-        "metric": "runs",
-        "value": float(case.runs),
-        "notes": f"found {' and '.join(sorted(guilty))}",
-    }
-    log.append_rows([row])
+def told(one: "Repaired") -> str:
+    """Return what is said of a function that was written anew."""
+    if not one.guilty:
+        return "not it; it was right as it was."
+    if one.verdict.status == "passed":
+        return "that is it, and yours is right."
+    return f"that is it, but yours is not right yet. {one.verdict.message}"
+
+
+def reveal(case: Case) -> None:
+    """Say what the mistake was."""
+    print()
+    for one in case.quarries:
+        says = one.says or "its numbers say it"
+        print(cli.wrapped(f"The mistake in {one.function}, {one.slug}: {says}."))
+
+
+def conclude(passed: bool, says: str) -> int:
+    """Say how it ended, and how all hunts of the log did."""
+    done = cli.conclude(passed, says)
+    print(f"All your hunts: {tally.tally(log.read_rows())}. Another: make hunt")
+    return done
 
 
 def give_up(case: Case) -> int:
-    """Say which one it was; nothing is logged."""
-    for one in case.quarries:
-        print(
-            cli.wrapped(f"{one.function}, {one.slug}: {one.says or 'no words for it'}.")
-        )
-    case.found = True
-    case.save()
-    print("Another one: make hunt")
-    return cli.EXIT_FAILED
+    """Say which one it was, and keep that it was not repaired."""
+    reveal(case)
+    end(case, tally.NAMED if case.named else tally.GAVE_UP)
+    how = "named, not repaired" if case.named else "not found"
+    return conclude(False, f"{how}; {count(case.runs, 'run')}")
+
+
+def going_on(options: argparse.Namespace) -> Case | None:
+    """Return the hunt that a command line means; None where one is to begin."""
+    if options.anew:
+        return None
+    given = options.day is not None
+    case = cases.read(cases.folder_of(chosen_day(options.day))) if given else None
+    case = case if given else cases.latest()
+    if case is None or case.ended:
+        return None
+    asked = (options.day, options.level, options.seed)
+    now = (case.day, case.level, case.seed)
+    same = all(a in (None, b) for a, b in zip(asked, now, strict=True))
+    return case if same else None
+
+
+def go_on(case: Case, options: argparse.Namespace) -> int:
+    """Do what is asked of a hunt that has begun."""
+    if not case.script.is_file():
+        raise Robo47Error(f"{shown(case.script)} is gone: make hunt ARGS=--anew")
+    if options.call:
+        return cli.EXIT_FAILED if experiment.call(case, options.call) else cli.EXIT_OK
+    if options.run:
+        experiment.run(case)
+    elif options.suspect:
+        suspect(case, options.suspect, options.expect)
+    elif options.judge:
+        return judge(case)
+    elif options.give_up:
+        return give_up(case)
+    elif sys.stdin is not None and sys.stdin.isatty():
+        return ask(case)
+    else:
+        tell(case)
+    return cli.EXIT_OK
+
+
+def write_seen(day: Day) -> int:
+    """Write down which mistakes a week's capstone shows; for authors, in minutes."""
+    from labkit.hunt.seen import write_all
+
+    print(write_all(day, print))
+    return cli.EXIT_OK
 
 
 def main() -> int:
     """Begin a hunt, or go on with one."""
     options = parse()
+    if options.write_seen:
+        return write_seen(chosen_day(options.day))
+    if case := going_on(options):
+        return go_on(case, options)
+    doing = (options.run, options.call, options.suspect, options.judge, options.give_up)
+    if any(doing):
+        raise Robo47Error("no such hunt is begun: make hunt DAY=4 begins one")
     day = chosen_day(options.day)
-    case = cases.read(cases.folder_of(day)) if not options.anew else None
-    asked = options.seed is not None or options.level or options.anew
-    other = case is not None and options.day is not None and case.day != options.day
-    if case is None or case.found or asked or other:
-        if options.run or options.judge or options.suspect or options.give_up:
-            raise Robo47Error("no hunt is begun: make hunt DAY=4")
-        tell(begin(day, options))
-        return cli.EXIT_OK
-    if options.run:
-        run(case)
-        return cli.EXIT_OK
-    if options.suspect:
-        suspect(case, options.suspect, options.expect)
-        return cli.EXIT_OK
-    if options.judge:
-        return judge(case)
-    if options.give_up:
-        return give_up(case)
-    if sys.stdin.isatty():
-        return ask(case)
-    tell(case)
+    new = draw(day, options)
+    leave(day)
+    begin(new)
+    tell(new)
     return cli.EXIT_OK

@@ -8,10 +8,12 @@
 
 Every function is checked and every finished lab is run again now, in the sandbox; the
 week's capstone is tried with the functions that pass. One file, opened from disk;
-metrics/proof.html leads to those of all weeks.
+metrics/proof.html leads to those of all weeks. Beside your own page stands its card,
+proof-week1.png: put both on a server, and who shares the page's address shows the card.
 """
 
 import importlib.util
+import io
 import re
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -63,15 +65,31 @@ def main() -> int:
         proof = found(week, clone, options.name, own=own, graded=options.graded)
     except (OSError, GitError) as error:
         raise Robo47Error(f"{error}") from None
-    write(out, door.with_facts(page.render(proof), page.in_short(proof)))
+    facts = page.in_short(proof)
+    shared = draw_card(out.with_suffix(".png"), proof) if own else None
+    text = page.render(proof, shared.name if shared else "")
+    write(out, door.with_facts(text, facts).encode("utf-8", "replace"))
     size = out.stat().st_size / 1e6
     print(f"wrote {shown(out.absolute())}: {size:.1f} MB, one file to open or")
     print(f"send, in {time.monotonic() - begun:.0f} s; it says what it does not prove")
+    if shared:
+        print(f"wrote {shown(shared.absolute())}: its card, for where you share it")
     if options.out is None:
         every = METRICS_CSV.with_name("proof.html")
-        write(every, door.render(door.pages_beside(every.parent)))
+        write(every, door.render(door.pages_beside(every.parent)).encode())
         print(f"wrote {shown(every.absolute())}, which leads to the pages of all weeks")
     return cli.EXIT_OK
+
+
+def draw_card(path: Path, proof: page.Proof) -> Path:
+    """Write the picture to share; return where it is."""
+    from labkit.proof import card  # Pillow comes with viser
+
+    with cli.busy("its card"):
+        picture = io.BytesIO()
+        card.draw(page.in_short(proof), proof.attempt).save(picture, "PNG")
+    write(path, picture.getvalue())
+    return path
 
 
 def graded(text: str) -> dict[int, str]:
@@ -157,10 +175,10 @@ def run_days(
         yield found
 
 
-def write(path: Path, text: str) -> None:
-    """Write the page whole."""
+def write(path: Path, content: bytes) -> None:
+    """Write a file whole."""
     try:
-        store.replace(path, text.encode("utf-8", "replace"))
+        store.replace(path, content)
     except OSError as error:
         raise Robo47Error(
             f"cannot write {shown(path.absolute())}: {error.strerror or error}."

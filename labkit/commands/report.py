@@ -20,6 +20,7 @@ from pathlib import Path
 from labkit.base import cli
 from labkit.base.text import count
 from labkit.check import memory
+from labkit.hunt.tally import tally
 from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
 from labkit.lesson.week import Week, weeks
 from labkit.lesson.writers import Writers, writers_of
@@ -50,8 +51,8 @@ def main() -> int:
     heading = describe(args, report)
     out = args.out or args.file.parent
     shown_weeks = [] if filtered else begun(report)
-    if asked_week:
-        shown_weeks = sorted({*shown_weeks, asked_week}, key=lambda week: week.number)
+    if asked_week:  # of the others, those that an earlier run wrote
+        shown_weeks = [w for w in shown_weeks if (out / page_of(w)).is_file()]
     else:
         checked = {day.number: last_check(day) for day in days} if mine else {}
         beside = [week.number for week in shown_weeks]
@@ -63,6 +64,8 @@ def main() -> int:
         f" {report.count('fail')} failing,"
         f" {report.count('none') + report.count('kit')} not run yet"
     )
+    if hunts := tally(report.hunts):
+        print(f"bug hunts: {hunts}")
     if mine:
         tell(report, days_of(asked_week) if asked_week else days)
     if look := len(report.look):
@@ -86,6 +89,11 @@ def begun(report: Report) -> list[Week]:
     return found or [chosen_week(None)]
 
 
+def page_of(week: Week) -> str:
+    """Return the name of the page on a week."""
+    return f"report-week{week.number}.html"
+
+
 def write_week(
     report: Report,
     heading: str,
@@ -100,8 +108,9 @@ def write_week(
 
     facts = [facts_of(day, report.series) for day in days_of(week)]
     others = [other.number for other in beside if other != week]
-    text = week_page.render(facts, heading, others)
-    write(out / f"report-week{week.number}.html", text)
+    whole = (out / "report.html").is_file()
+    text = week_page.render(facts, heading, others, whole=whole)
+    write(out / page_of(week), text)
     if mine:  # another log's numbers are not mine
         for path in week_retro.fill(facts):
             print(f"its numbers are in {shown(path)}: commit it")

@@ -36,7 +36,7 @@ def start(day: Day) -> int:
     print(f"Day {day.number}: {day.title}, about {day.minutes} minutes.")
     print(f"Your copy of the lab: {shown(work)}")
     print(f"It has {len(day.tasks)} tasks, from {first.id} ({first.functions[0]}) on.")
-    print(f"Open it in your editor, then: make check DAY={day.number}")
+    print(f"Open it in your editor, then: make watch (or make check DAY={day.number})")
     return cli.EXIT_OK
 
 

@@ -40,21 +40,27 @@ def main() -> int:
         try:
             last_step.heal()
             sweep()
-            update(options.place, options.to)
+            done = update(options.place, options.to)
         except OSError as error:
             says = f"{error.filename}: {error.strerror}"
             raise Robo47Error(f"{says}. {last_step.state()}") from None
         except Robo47Error as error:
             raise Robo47Error(f"{error}. {last_step.state()}") from None
+    tell(*done)
     return cli.EXIT_OK
 
 
-def update(kit: str | None, to: str | None) -> None:
+def update(
+    kit: str | None, to: str | None
+) -> tuple[dict[str, Any], list[Path], list[str], str]:
     """Fetch, merge and take over; until the last step nothing of the student's moves.
 
     Args:
         kit: where it is; None is where it was.
         to: a tag; None is the newest commit.
+
+    Returns:
+        What `tell` takes.
     """
     with cli.busy("fetching"):
         place, commit = merge.fetch(kit, to)
@@ -66,11 +72,11 @@ def update(kit: str | None, to: str | None) -> None:
         if ask("status", "--porcelain", at=worktree):
             ask("add", "-A", at=worktree)
             git.commit("My labs on the newer kit", worktree)
+        merge.remember(place)
         if ask("rev-parse", "HEAD", at=worktree) != own:
             with kept_copies(found["days"]) as copies:
                 last_step.take(worktree, own)
-    merge.remember(place)
-    tell(found, copies, taken, own)
+    return found, copies, taken, own
 
 
 def renew_labs(worktree: Path, own: str, target: str) -> dict[str, Any]:
@@ -80,7 +86,7 @@ def renew_labs(worktree: Path, own: str, target: str) -> dict[str, Any]:
     done = processes.run(command, env=environment, cwd=worktree)
     if done.returncode:
         why = done.stderr.strip().splitlines()[-1:] or ["it ended early"]
-        raise Robo47Error(f"the newer kit stops: {why[0]}")
+        raise Robo47Error(f"the newer kit stops: {why[0].removeprefix('error: ')}")
     found: dict[str, Any] = json.loads(done.stdout)
     return found
 

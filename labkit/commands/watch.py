@@ -33,6 +33,9 @@ from robo47.paths import METRICS_CSV, ROOT, shown
 
 POLL_SECONDS = 0.15  # polling sees saves on WSL and network mounts, where events do not
 BAR = 20  # places
+ONLY_A_QUEST = """\
+All that is asked for passes; a side quest is left. r runs the lab and logs
+your numbers; c says what else is to hand in."""
 KEYS = "h hint  r run  v view  b borrow  l list  c check all  q quit"
 
 
@@ -94,12 +97,12 @@ class Loop:
         if self.warm:
             self.warm.close()
 
-    def head(self) -> str:
+    def far(self) -> str:
         """Return how far the day and the week are, in a line each."""
         tasks = [task for task in self.day.tasks if not task.optional]
         passed = sum(self.states.get(task.id) == "passed" for task in tasks)
         day = f"Day {self.day.number}"
-        lines = [f"{day}: {self.day.title}", "", _bar(day, passed, len(tasks))]
+        lines = [_bar(day, passed, len(tasks))]
         in_week = [passed, len(tasks)]
         for other in days_of(self.day.week):
             if other.number != self.day.number:
@@ -107,17 +110,20 @@ class Loop:
                     in_week[i] += count
         lines.append(_bar(f"Week {self.day.week.number}", *in_week))
         if not self.sure:
-            lines.append("  (as they were before your last save; asking again ...)")
+            lines.append("  (some as they were before your last save)")
         return "\n".join(lines)
 
     def listed(self) -> str:
         """Return a line per task: its name and how it stands."""
         lines = []
+        wide = max(len(task.id) for task in self.day.tasks)
         for task in self.day.tasks:
             state = self.states.get(task.id, "not asked yet")
             state = state if self.sure else f"({state})"
             side = " (side quest)" if task.optional else ""
-            lines.append(f"  {task.id}  {', '.join(task.functions) + side:40} {state}")
+            lines.append(
+                f"  {task.id:{wide}}  {', '.join(task.functions) + side:40} {state}"
+            )
         return "\n".join(lines)
 
     def shown(self, task: Task) -> str:
@@ -130,6 +136,7 @@ class Loop:
             lines.append(f"  {name}  {where}")
             if said := re.search(r'"""(.+?)("""|$)', "\n".join(body), re.MULTILINE):
                 lines.append(cli.wrapped(f"    {said[1]}", "    "))
+        lines.append(cli.wrapped(f"  Read: {task.read}", "  "))
         return "\n".join(lines)
 
 
@@ -143,12 +150,14 @@ def watch(day: Day, only: str | None, file: Path | None = None) -> int:
     with contextlib.closing(loop), Keys() as keys:
         seen = stamps(day, loop.script)
         first = True
+        clear = True
         while True:
             if first or (now := stamps(day, loop.script)) != seen:
                 seen = seen if first else now
                 first = False
-                if _saved(loop, keys):
+                if _saved(loop, keys, clear=clear):
                     return cli.EXIT_OK
+                clear = True
                 seen_again = stamps(day, loop.script)
                 if seen_again != seen:
                     continue
@@ -157,16 +166,19 @@ def watch(day: Day, only: str | None, file: Path | None = None) -> int:
                 return cli.EXIT_FAILED if loop.open() else cli.EXIT_OK
             if key:
                 pressed(key, loop, keys)
+                clear = stamps(day, loop.script) == seen  # else what it said is lost
 
 
-def _saved(loop: Loop, keys: Keys) -> bool:
+def _saved(loop: Loop, keys: Keys, *, clear: bool = True) -> bool:
     """Ask what is next, then the rest; return whether all is done."""
-    _clear()
+    if clear:
+        _clear()
     loop.sure = False
-    print(loop.head(), flush=True)
+    print(f"Day {loop.day.number}: {loop.day.title}", flush=True)
     try:
         done = _go_on(loop)
         if not done and not loop.only:
+            print("\nasking the others again ...", flush=True)
             loop.check(None)
             loop.sure = True
     except Robo47Error as error:  # a file may be away while an editor saves it
@@ -174,10 +186,11 @@ def _saved(loop: Loop, keys: Keys) -> bool:
         return False
     if done:
         return True
-    if loop.open():
-        if loop.sure:
-            print("\n" + "\n".join(loop.head().splitlines()[2:]))
-        print(f"\n{loop.shown(loop.open()[0])}")
+    if left := loop.open():
+        print(f"\n{loop.far()}")
+        if left[0].optional and not loop.only:
+            print(f"\n{ONLY_A_QUEST}")
+        print(f"\n{loop.shown(left[0])}")
     asked = KEYS if keys.there else "Ctrl-C ends it"
     print(f"\n{time.strftime('%H:%M:%S')}  watching; {asked}\n", flush=True)
     return False
@@ -224,7 +237,7 @@ def pressed(key: str, loop: Loop, keys: Keys) -> None:
         "c": ["check_day.py", day],
     }
     if key == "l":
-        print(f"{loop.head()}\n\n{loop.listed()}\n", flush=True)
+        print(f"{loop.far()}\n\n{loop.listed()}\n", flush=True)
     elif key in commands and (key != "b" or task):
         print(f"make {_verb(key, day, task)}\n", flush=True)
         _run(keys, commands[key], view=key == "v")

@@ -54,6 +54,13 @@ STYLE: Any = {
 Draw = Callable[..., None]  # of a Figure, and of what the picture shows
 
 
+def image_of(figure: Figure) -> Image.Image:
+    """Return a figure as an image."""
+    file = io.BytesIO()
+    figure.savefig(file, format="png")
+    return Image.open(file).convert("RGB")
+
+
 def picture(
     height: float, width: float = WIDTH
 ) -> Callable[[Draw], Callable[..., Image.Image]]:
@@ -67,12 +74,10 @@ def picture(
     def decorate(draw: Draw) -> Callable[..., Image.Image]:
         @wraps(draw)
         def drawn(*args: Any, **more: Any) -> Image.Image:
-            file = io.BytesIO()
             with matplotlib.rc_context(STYLE):
                 figure = Figure(figsize=(width, height), dpi=DPI)
                 draw(figure, *args, **more)
-                figure.savefig(file, format="png")
-            return Image.open(file).convert("RGB")
+                return image_of(figure)
 
         return drawn
 

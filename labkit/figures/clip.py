@@ -9,6 +9,7 @@ GIF for what shows nothing else, WebP for a third of the size.
 import io
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,10 +17,9 @@ from PIL import Image
 from tqdm import tqdm
 
 from labkit.figures import client
-from labkit.figures.portrait import LINKS, link_frames, with_fingers
-from labkit.figures.scene import Box, Camera, Ghost, Scene
+from labkit.figures.portrait import ghosts, link_frames, with_fingers
+from labkit.figures.scene import Box, Camera, Scene
 from labkit.figures.sheet import INK, with_line
-from robo47 import se3
 from robo47.attempt import Film
 from robo47.checks import Array
 from robo47.errors import Robo47Error
@@ -45,6 +45,13 @@ Caption = tuple[str, bool | None]  # words; whether they are good news, None for
 Shot = tuple[Scene, Caption]
 
 
+class Frame(NamedTuple):
+    """A picture of a clip, and how long it is seen."""
+
+    picture: Image.Image
+    seconds: float
+
+
 def there_and_back(start: Array, end: Array, count: int) -> Array:
     """Return a soft move from (nq,) to (nq,) and back without a jump, (count, nq)."""
     s = (1 - np.cos(2 * np.pi * np.arange(count) / count)) / 2
@@ -60,13 +67,8 @@ def arm_scene(q: ArrayLike, other: Mapping[str, Array] | None = None) -> Scene:
             link7 carries the hand along.
     """
     full = with_fingers(q)
-    true = link_frames(full)
-    ghosts = tuple(
-        Ghost(link, T @ se3.inverse(true[link]), alone=link != "link7", wrong=True)
-        for link, T in (other or {}).items()
-        if link in LINKS
-    )
-    return Scene(full, SIZE, CAMERA, ghosts, fast=True)
+    red = ghosts(link_frames(full), other or {}, wrong=True)
+    return Scene(full, SIZE, CAMERA, red, fast=True)
 
 
 def drawn(shots: Iterable[Shot]) -> list[Image.Image]:
@@ -111,6 +113,24 @@ def save_clip(
         some = [frame.resize((width, height), lanczos) for frame in some]
 
 
+def save_frames(frames: Iterable[Frame], path: Path, largest: int = LARGEST) -> str:
+    """Write a clip of frames that are seen for different times; say so in a line.
+
+    Raises:
+        Robo47Error: it is larger than `largest` bytes, or no .gif or .webp.
+    """
+    kind = kind_of(path)
+    pictures, seconds = zip(*frames, strict=True)
+    made = _encoded(pictures, kind, [round(1000 * s) for s in seconds])
+    if len(made) > largest:
+        raise Robo47Error(f"{path.name} has {len(made):,} bytes, over {largest:,}")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(made)
+    width, height = pictures[0].size
+    told = f"{width} x {height}, {sum(seconds):.1f} s, {len(made) / 1e3:.0f} kB"
+    return f"{shown(path.absolute())}  {told}"
+
+
 def kind_of(path: Path) -> str:
     """Return "gif" or "webp"; a Robo47Error refuses another ending."""
     kind = path.suffix.lower().lstrip(".")
@@ -119,8 +139,8 @@ def kind_of(path: Path) -> str:
     return kind
 
 
-def _encoded(frames: Sequence[Image.Image], kind: str, each: int) -> bytes:
-    """Return a clip's bytes, `each` milliseconds a frame."""
+def _encoded(frames: Sequence[Image.Image], kind: str, each: int | list[int]) -> bytes:
+    """Return a clip's bytes; each frame, or all of them, by milliseconds."""
     buffer = io.BytesIO()
     if kind == "gif":  # one palette, no dither: what stands still costs nothing; a
         # small cube keeps its colour
@@ -140,7 +160,7 @@ def film_clip(film: Film, path: Path) -> str:
     kind_of(path)
     rows = np.linspace(0, len(film.qpos) - 1, FRAMES).astype(int)
     shots = (
-        (_scene(film, row, PICK_SIZE, fast=True), phase(film, row)) for row in rows
+        (scene_of(film, row, PICK_SIZE, fast=True), phase(film, row)) for row in rows
     )
     size = save_clip(drawn(shots), path, seconds=film.seconds)
     return f"{shown(path.absolute())}  {size / 1e3:.0f} kB"
@@ -150,7 +170,7 @@ def film_picture(film: Film, path: Path) -> str:
     """Write a PNG: the arm at the film's moments, side by side; say so in a line."""
     begins = dict(film.phases)
     rows = np.searchsorted(film.t, [begins[name] for name in film.moments])
-    whole = [client.draw(_scene(film, row, PICTURE_SIZE)) for row in rows]
+    whole = [client.draw(scene_of(film, row, PICTURE_SIZE)) for row in rows]
     quarter = PICTURE_SIZE[0] // 4
     middles = [part[:, quarter:-quarter] for part in whole]
     sheet = Image.fromarray(np.hstack(middles))
@@ -168,8 +188,22 @@ def phase(film: Film, row: int) -> Caption:
     return f"{name}, {t:.1f} s", None
 
 
-def _scene(film: Film, row: int, size: tuple[int, int], fast: bool = False) -> Scene:
-    """Return the arm at an instant, and what stands around it."""
+def scene_of(
+    film: Film,
+    row: int,
+    size: tuple[int, int],
+    *,
+    fast: bool = False,
+    dark: bool = False,
+) -> Scene:
+    """Return the arm at an instant, and what stands around it.
+
+    Args:
+        film: of an attempt.
+        row: of its instants.
+        size, fast, dark: as a scene has them.
+    """
     qpos = film.qpos[row]
     boxes = tuple(Box(*block) for block in film.blocks(qpos))
-    return Scene(qpos[:ARM], size, AT_THE_TABLE, fast=fast, boxes=boxes)
+    arm = qpos[:ARM]
+    return Scene(arm, size, AT_THE_TABLE, fast=fast, boxes=boxes, dark=dark)

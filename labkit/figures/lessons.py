@@ -16,9 +16,8 @@ def lesson_figures(number: int, own: bool = False) -> dict[str, Callable[[], Any
     day = find_day(number)
     figures = day.offered("figures", day.work if own else None)
     if figures and (small := getattr(day.module("figures"), "SMALL", None)):
-        from labkit.figures.sheet import thumbnail  # Pillow is an extra
+        from labkit.figures.cards import card  # matplotlib is an extra
 
-        name, *part = small  # a picture, and the part of it that a table shows
-        draw = figures[f"day{number}_{name}"]
-        figures[f"day{number}_small"] = lambda: thumbnail(draw(), *part)
+        draw, told = small
+        figures[f"day{number}_small"] = lambda: card(draw(), told)
     return figures

@@ -7,11 +7,12 @@ from numpy.typing import ArrayLike
 from PIL import Image, ImageDraw, ImageFont
 
 from labkit.figures import client, overlay
-from labkit.figures.scene import Camera, Scene
-from robo47 import checks, kinematics, panda
+from labkit.figures.scene import Camera, Ghost, Scene
+from robo47 import checks, kinematics, panda, se3
 from robo47.checks import Array
 
 LINKS = [f"link{i}" for i in range(8)]
+SEEN = 1e-6  # of a pose: a link that is off by less would flicker through its ghost
 REACH = 0.12  # metres: how far the arm's shapes go beyond their frames' origins
 OPEN = (0.04, 0.04)  # the fingers of a configuration that is the arm's alone, metres
 # The lessons show the arm from its right, a picture to hand in from its left.
@@ -83,6 +84,23 @@ def link_frames(qpos: Array) -> dict[str, Array]:
     poses = kinematics.fk_all(panda.load("panda_nohand"), qpos[: len(panda.READY_Q)])
     found = {name: poses[f"body:{name}"] for name in LINKS}
     return {**found, "ee": poses[panda.END_FRAME["panda_nohand"]]}
+
+
+def ghosts(
+    here: Mapping[str, Array], there: Mapping[str, Array], *, wrong: bool = False
+) -> tuple[Ghost, ...]:
+    """Return ghosts of the links that are somewhere else.
+
+    Args:
+        here: {link: its pose where the arm is drawn, (4, 4)}.
+        there: the same of another arm; link7 carries the hand along.
+        wrong: red, not blue.
+    """
+    return tuple(
+        Ghost(link, T @ se3.inverse(here[link]), alone=link != "link7", wrong=wrong)
+        for link, T in there.items()
+        if link in LINKS and np.abs(T - here[link]).max() > SEEN
+    )
 
 
 def corners(poses: Mapping[str, Array]) -> Array:

@@ -5,16 +5,6 @@ from PIL import Image, ImageDraw, ImageFont
 Colour = tuple[int, int, int]  # red, green, blue, of 255
 INK, FAINT, RULE = (33, 37, 41), (90, 97, 104), (206, 212, 218)
 HEAD, TITLE, SMALL = 130, 44, 30  # pixels: the space above, and two sizes of text
-TINY = (168, 126)  # pixels: four beside each other in a README, two on a phone
-
-
-def thumbnail(
-    picture: Image.Image, left: float, top: float, width: float
-) -> Image.Image:
-    """Return a part of a picture, small; left, top, width in parts of its width."""
-    x, y, w = (round(part * picture.width) for part in (left, top, width))
-    part = picture.crop((x, y, x + w, y + w * TINY[1] // TINY[0]))
-    return part.resize(TINY, Image.Resampling.LANCZOS)
 
 
 def with_line(

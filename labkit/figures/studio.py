@@ -9,8 +9,8 @@ imported, and since a broken driver ends the process that called it.
 import os
 import pickle
 import sys
-from functools import lru_cache
-from typing import Any
+from functools import lru_cache, partial
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
@@ -21,15 +21,31 @@ from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.panda.reading import hangs_on
 
-WHITE, FLOOR, GRID = (1.0, 1.0, 1.0), (0.93, 0.94, 0.96), (0.84, 0.86, 0.89)
+Colour = tuple[float, float, float]
+
+
+class Room(NamedTuple):
+    """The colours of what stands around the robot."""
+
+    sky: Colour
+    floor: Colour
+    grid: Colour
+
+
+LIGHT = Room((1.0, 1.0, 1.0), (0.93, 0.94, 0.96), (0.84, 0.86, 0.89))
+DARK = Room((0.106, 0.122, 0.141), (0.15, 0.17, 0.19), (0.24, 0.27, 0.30))
+# Metres behind what the camera looks at: there the floor begins to fade into the sky,
+# and there it is gone. Nearer, the robot and its ghosts would fade, too.
+FADES, GONE = 1.2, 3.2
+NOTCH = 0.5  # metres, of the camera's distance: a renderer for each
 GHOST_COLOUR = np.array([0.36, 0.52, 0.78, 0.36], dtype=np.float32)
 WRONG_COLOUR = np.array([0.85, 0.16, 0.16, 0.5], dtype=np.float32)
 VISIBLE = (0, 2)  # geom groups: the twin's shapes, the Menagerie's (3 is collision)
 
 
-def light_up(spec: mujoco.MjSpec) -> None:
-    """Put a robot into a light room: a white sky, a pale floor, soft shadows."""
-    _add_sky_and_floor(spec)
+def light_up(spec: mujoco.MjSpec, room: Room = LIGHT) -> None:
+    """Put a robot into a room: a sky of one colour, a floor like it, soft shadows."""
+    _add_sky_and_floor(spec, room)
     for light in spec.lights:  # the Panda brings one that would glare
         light.active = False
     spec.worldbody.add_light(
@@ -39,22 +55,21 @@ def light_up(spec: mujoco.MjSpec) -> None:
     look = spec.visual
     look.headlight.ambient, look.headlight.diffuse = [0.42] * 3, [0.25] * 3
     look.headlight.specular = [0.0] * 3
-    # Above 1 the haze would reach the robot and cover its ghosts.
-    look.rgba.haze = [*WHITE, 1.0]
-    look.map.haze = 0.92
+    look.rgba.fog = [*room.sky, 1.0]
     look.map.shadowscale = 0.3  # spend the shadow map on the robot, not the room
 
 
-def _add_sky_and_floor(spec: mujoco.MjSpec) -> None:
+def _add_sky_and_floor(spec: mujoco.MjSpec, room: Room) -> None:
     texture = mujoco.mjtTexture
     flat = mujoco.mjtBuiltin.mjBUILTIN_FLAT
     spec.add_texture(
         name="sky", type=texture.mjTEXTURE_SKYBOX, builtin=flat,
-        rgb1=WHITE, rgb2=WHITE, width=8, height=48,
+        rgb1=room.sky, rgb2=room.sky, width=8, height=48,
     )  # fmt: skip
     spec.add_texture(
         name="floor", type=texture.mjTEXTURE_2D, builtin=flat, width=512, height=512,
-        mark=mujoco.mjtMark.mjMARK_EDGE, rgb1=FLOOR, rgb2=FLOOR, markrgb=GRID,
+        mark=mujoco.mjtMark.mjMARK_EDGE, markrgb=room.grid,
+        rgb1=room.floor, rgb2=room.floor,
     )  # fmt: skip
     material = spec.add_material(
         name="floor", texuniform=True, texrepeat=[4, 4], emission=0.36
@@ -67,14 +82,25 @@ def _add_sky_and_floor(spec: mujoco.MjSpec) -> None:
 
 
 @lru_cache(maxsize=2)
-def renderer_for(size: tuple[int, int], fast: bool, robot: str = "") -> mujoco.Renderer:
-    """Return a renderer, kept for the next picture of the same kind."""
+def renderer_for(
+    size: tuple[int, int], fast: bool, robot: str, dark: bool, far: float
+) -> mujoco.Renderer:
+    """Return a renderer, kept for the next picture of the same kind.
+
+    Args:
+        size, fast, robot, dark: as a scene has them.
+        far: from the camera to what it looks at, metres.
+    """
+    lit = partial(light_up, room=DARK if dark else LIGHT)
     if robot:
         spec = mujoco.MjSpec.from_file(robot)
-        light_up(spec)
+        lit(spec)
         model = spec.compile()
     else:
-        model = panda.load("panda", meshes=True, edit=light_up)
+        model = panda.load("panda", meshes=True, edit=lit)
+    look = model.vis.map  # read once, by the renderer
+    look.fogstart = (far + FADES) / model.stat.extent
+    look.fogend = (far + GONE) / model.stat.extent
     model.vis.global_.offwidth, model.vis.global_.offheight = size
     model.vis.global_.fovy = np.degrees(FOVY)
     model.vis.quality.offsamples = 0 if fast else 8
@@ -84,7 +110,8 @@ def renderer_for(size: tuple[int, int], fast: bool, robot: str = "") -> mujoco.R
 
 def draw(scene: Scene) -> Array:
     """Return the picture of a scene, (height, width, 3), bytes."""
-    renderer = renderer_for(scene.size, scene.fast, scene.robot)
+    far = np.ceil(scene.camera.distance / NOTCH) * NOTCH
+    renderer = renderer_for(scene.size, scene.fast, scene.robot, scene.dark, far)
     model = renderer.model
     data = mujoco.MjData(model)
     data.qpos[:] = scene.qpos
@@ -94,7 +121,7 @@ def draw(scene: Scene) -> Array:
     renderer.update_scene(data, free_camera(scene.camera), option)
     for flag in (mujoco.mjtRndFlag.mjRND_SHADOW, mujoco.mjtRndFlag.mjRND_REFLECTION):
         renderer.scene.flags[flag] = not scene.fast
-    renderer.scene.flags[mujoco.mjtRndFlag.mjRND_HAZE] = True
+    renderer.scene.flags[mujoco.mjtRndFlag.mjRND_FOG] = True
     for ghost in scene.ghosts:
         add_ghost(renderer.scene, model, ghost)
     for box in scene.boxes:

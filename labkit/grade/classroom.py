@@ -117,7 +117,6 @@ class Classroom:
     ) -> Graded:
         given: Package | Kept = package
         fault = isinstance(result, FaultError)
-        late = package.late
         if isinstance(result, FaultError):  # not kept, so that it is tried again
             result = ungraded(self.day, FAULT.format(visible(result, 200)))
         elif self.keep == "best":
@@ -134,7 +133,7 @@ class Classroom:
             minutes=minutes,
             note=self.notes.get(student.folder, ""),
             fault=fault,
-            late=late if self.journal.deadline else None,
+            late=package.late if self.journal.deadline else None,
         )
 
     def _course(

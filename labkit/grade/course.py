@@ -8,6 +8,7 @@ from labkit.grade.result import UNGRADED, Mark, Result
 from labkit.grade.roster import Student
 from labkit.grade.similar import Group
 from labkit.lesson.day import Day
+from labkit.report.unnamed import UNNAMED
 
 UNKNOWN = "unknown"
 
@@ -95,7 +96,7 @@ class Course:
         return Counter(graded.state for graded in self.class_)
 
     def mistakes(self) -> list[tuple[Mark, list[str]]]:
-        """Return the mistakes of the class, the most common first.
+        """Return the mistakes of the class, the most common first, then the unnamed.
 
         A mistake counts where it was made: in a task that builds on no other open one.
         It counts once per student.
@@ -112,7 +113,7 @@ class Course:
         for some in made.values():
             ((most, _),) = Counter(mark.id for mark, _ in some).most_common(1)
             found.append((replace(some[0][0], id=most), [who for _, who in some]))
-        return sorted(found, key=lambda it: (-len(it[1]), it[0].id, it[0].mistake))
+        return sorted(found, key=_rank)
 
     def _roots(self, result: Result) -> dict[str, Mark]:
         """Return a student's mistakes in tasks whose needs are all passed, by name."""
@@ -130,3 +131,9 @@ class Course:
 def by_student(courses: Sequence[Course]) -> list[tuple[Graded, ...]]:
     """Return the days of each student, in the roster's order."""
     return list(zip(*(course.class_ for course in courses), strict=True))
+
+
+def _rank(found: tuple[Mark, list[str]]) -> tuple[bool, int, str, str]:
+    """Return what orders mistakes: what can be explained first, then by how many."""
+    mark, who = found
+    return mark.mistake in UNNAMED, -len(who), mark.id, mark.mistake

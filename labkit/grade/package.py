@@ -151,7 +151,7 @@ def read_in_time(
         return handin, history, 0
     if not at and (deadline is None or not is_late):
         return handin, history, 0
-    commit, late = (at, 0) if at else before(clone, deadline or 0)
+    commit, late = (at, 0) if at else before(clone, deadline or 0, _work(day))
     if not commit:
         return handin, history, late
     with tempfile.TemporaryDirectory(prefix=FOLDER) as folder:
@@ -164,11 +164,15 @@ def _as_there(day: Day, root: Path) -> Day:
     return day.named_as(lambda name: os.path.isfile(root / name))
 
 
+def _work(day: Day) -> str:
+    """Return the folder of a student's labs, as git has it."""
+    return f"{Path(day.files['script']).parent.as_posix()}/"
+
+
 def _check_out(day: Day, clone: Path, commit: str, folder: Path) -> None:
     """Write what a day may hand in of a commit, without running anything of git's."""
-    work = f"{Path(day.files['script']).parent.as_posix()}/"
     _write(clone, files_of(clone, commit, *day.files.values()), folder)
-    beside = files_of(clone, commit, work).items()
+    beside = files_of(clone, commit, _work(day)).items()
     helpers = {name: facts for name, facts in beside if name.endswith(".py")}
     _write(clone, helpers, folder, LIMITS["script"])
     sheet = day.files.get("worksheet", "")

@@ -12,6 +12,7 @@ from labkit.grade.charts import STATUS, STYLE, Row, chart, legend
 from labkit.grade.course import UNKNOWN, Course, Graded, by_student, percent
 from labkit.grade.result import Mark
 from labkit.grade.sheet import printable
+from labkit.report.unnamed import UNNAMED
 
 CHARTED = 15  # mistakes in the chart
 COMMON = 3  # of each of several days, the most common
@@ -39,9 +40,14 @@ _ALIKE = (
     "count. The number is that of the two most similar; beside the kit's solution, "
     "the share of one's own code that stands in it, or of its functions in one's own."
 )
+_GROUPS = '<a href="#alike">groups alike</a>: no verdict'
 _HIDDEN = (
     "In an ordinary file each function that a task asks for has its def. Here tasks "
     "pass without one, or beside what runs a text as code: look at the file, and ask."
+)
+_COUNTED = (
+    "Counted where they were made, once per student; a whole bar is the class. Last: "
+    "what stopped or is wrong in a way that has no name."
 )
 _REFUSED = "A task needs nothing but its arguments. Most of these are accidents: ask."
 
@@ -83,7 +89,7 @@ def _tiles(course: Course) -> str:
         ("broken", number["does not load"], "do not load"),
         ("none", number["not started"], "not started"),
         ("limit" if number["ungraded"] else "none", number["ungraded"], "not graded"),
-        ("", len(course.alike), "groups alike"),
+        ("", len(course.alike), _GROUPS if course.alike else "groups alike"),
     ]
     return html.tiles((role, f"{number:,}", label) for role, number, label in tiles)
 
@@ -93,14 +99,15 @@ def _mistakes(course: Course) -> str:
     found = course.mistakes()
     if not found:
         return ""
-    most = len(found[0][1])
+    size = len(course.class_)
     rows = []
     words = []
     for mark, who in found:
-        students = count(len(who), "student")
+        students = f"{len(who):,} of {count(size, 'student')}"
         parts = [("line", len(who))]
-        rows.append(Row(f"{mark.id}  {mark.mistake}", students, parts, most))
-        head = f"{escape(mark.id)} <b>{escape(mark.mistake)}</b>, {students}"
+        name = _name_of(mark.mistake)
+        rows.append(Row(f"{mark.id}  {name}", students, parts, size))
+        head = f"{escape(mark.id)} <b>{escape(name)}</b>, {students}"
         says = f'<p class="says">{escape(mark.message)}</p>'
         names = f'<p class="muted">{", ".join(map(escape, who))}</p>'
         words.append(html.folded(head, says, names))
@@ -108,7 +115,7 @@ def _mistakes(course: Course) -> str:
         words[CHARTED:] = [html.folded("the others", *others)]
     kinds = "1 mistake" if len(found) == 1 else f"{len(found)} different mistakes"
     rest = f", the {CHARTED} most common" if others else ""
-    counted = '<p class="muted">Counted where they were made, once per student</p>'
+    counted = f'<p class="muted">{_COUNTED}</p>'
     bars = chart(rows[:CHARTED], "students by mistake, the most common first")
     return html.section(
         "What to explain again tomorrow",
@@ -117,6 +124,11 @@ def _mistakes(course: Course) -> str:
         html.card("In the words the students saw", *words),
         "</div>",
     )
+
+
+def _name_of(mistake: str) -> str:
+    """Return a mistake's name as the catalogue has it, or words where it has none."""
+    return UNNAMED.get(mistake, mistake)
 
 
 def _standings(course: Course) -> str:
@@ -183,7 +195,12 @@ def _person(graded: Graded) -> str:
 
 
 def _listed(
-    heading: str, size: int, rows: Sequence[str], about: str = "", rest: str = ""
+    heading: str,
+    size: int,
+    rows: Sequence[str],
+    about: str = "",
+    rest: str = "",
+    id: str = "",
 ) -> str:
     """Return a section with a list; "" of nobody."""
     if not rows:
@@ -192,6 +209,7 @@ def _listed(
     return html.section(
         f"{heading} <small>{size:,}</small>",
         f'<div class="card">{says}<ul>{"".join(rows)}</ul>{rest}</div>',
+        id=id,
     )
 
 
@@ -232,7 +250,8 @@ def _alike(course: Course) -> str:
         rows.append(_entry(f"<span>{kits}{names}</span>{share}"))
     more = len(course.alike) - MOST
     rest = f'<p class="muted">and {more:,} more</p>' if more > 0 else ""
-    return _listed("Similar submissions", len(course.alike), rows, _ALIKE, rest)
+    heading = "Similar submissions"
+    return _listed(heading, len(course.alike), rows, _ALIKE, rest, id="alike")
 
 
 def _hidden(course: Course) -> str:
@@ -308,6 +327,7 @@ def render_days(courses: Sequence[Course]) -> str:
 def _days(courses: Sequence[Course]) -> str:
     bars = []
     mistakes = ""
+    without = []
     for course in courses:
         counts = course.counts
         size = len(course.class_)
@@ -315,11 +335,17 @@ def _days(courses: Sequence[Course]) -> str:
         words = f"{counts['done']:,} of {size:,} done"
         bars.append(Row(f"{course.day.number}  {course.day.title}", words, parts, size))
         common = ", ".join(
-            f"{escape(mark.id)} <b>{escape(mark.mistake)}</b> ({len(who)})"
+            f"{escape(mark.id)} <b>{escape(_name_of(mark.mistake))}</b> ({len(who)})"
             for mark, who in course.mistakes()[:COMMON]
         )
-        head = f'<div class="head">{_link(course, "Day ")}</div>'
-        mistakes += f"<li>{head}<p>{common or 'none'}</p></li>"
+        if common:
+            head = f'<div class="head">{_link(course, "Day ")}</div>'
+            mistakes += f"<li>{head}<p>{common}</p></li>"
+        else:
+            without.append(_link(course))
+    if without:
+        head = '<div class="head">Days without one</div>'
+        mistakes += f"<li>{head}<p>{', '.join(without)}</p></li>"
     marks = legend((role, escape(where)) for where, role in ROLES.items())
     about = "students by how they stand, day by day"
     return html.section(

@@ -36,6 +36,7 @@ _SAFE = (
     "core.fsmonitor=false",
     f"core.hooksPath={os.devnull}",
     "submodule.recurse=false",
+    "protocol.fd.allow=never",  # a roster's address of ours, at which git waits
     "http.lowSpeedLimit=1000",
     "http.lowSpeedTime=30",
 )
@@ -104,7 +105,8 @@ def _problem(work: Callable[..., None], *arguments: Any) -> str:
 
 
 def _clone(new: Path, url: str) -> None:
-    _git(new.parent, "clone", "-q", "--no-checkout", "--", url, new.name)
+    how = ("-q", "--no-checkout", "--origin=origin")  # whatever their settings say
+    _git(new.parent, "clone", *how, "--", url, new.name)
     _update(new)
 
 
@@ -251,5 +253,4 @@ def _run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[Any]:
         seconds=SECONDS,
         largest=git.LARGEST_GIT,
         GIT_ALLOC_LIMIT=git.LARGEST_OBJECT,
-        GIT_LFS_SKIP_SMUDGE="1",
     )

@@ -9,7 +9,7 @@ from labkit.handin.deliverables import item_names
 from labkit.lesson.day import Day
 
 UNGRADED = "ungraded"  # the status of a task that nobody could look at
-MOST_TEXT = 200_000  # characters of all texts of a result; what we tell has half
+MOST_TEXT = 200_000  # bytes of all texts of a result; what we tell has half
 STATUSES = ("passed", "close", "wrong", "todo", UNGRADED)
 # Names of what is only not there yet: nothing to explain again.
 NO_MISTAKES = ("", "unwritten", "waits", "inherited", "borrowed", "not-started")
@@ -102,7 +102,7 @@ def from_json(data: Mapping[str, Any], day: Day) -> Result:
     texts += [text for mark in marks for text in (mark.mistake, mark.message)]
     if not all(isinstance(text, str) for text in texts):
         raise TypeError("no text")
-    if sum(map(len, texts)) > MOST_TEXT:
+    if len("\n".join(texts).encode()) > MOST_TEXT:  # a lone surrogate is no text
         raise ValueError("far too much text")
     if type(result.seed) is not int:
         raise TypeError("no seed")

@@ -10,6 +10,7 @@ import hashlib
 import io
 import os
 import re
+import unicodedata
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -22,8 +23,8 @@ from labkit.grade.roster import Student
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
-# A spreadsheet runs a text that begins like this as a formula.
-_FORMULA = re.compile(r"\s*['=+@|%＝＋－＠-]")
+# A spreadsheet runs a text that begins like this as a formula, in wide letters, too.
+_FORMULA = re.compile(r"\s*['=+@|%-]")
 Cell = str | int | None
 # Where half the world's spreadsheets split, and what reads alike: what stands behind it
 # would be a cell of its own, and may be a formula.
@@ -48,6 +49,15 @@ def of_days(courses: Sequence[Course]) -> bytes:
     numbers = [course.day.number for course in courses]
     rows = [_row_of_days(numbers, days) for days in by_student(courses)]
     return _csv([rows[0], *(row.values() for row in rows)])
+
+
+def table(rows: Sequence[dict[str, Cell]]) -> bytes:
+    """Return a table of rows that have the same columns; words in it are plain."""
+    cells = [
+        [plain(cell) if isinstance(cell, str) else cell for cell in row.values()]
+        for row in rows
+    ]
+    return _csv([rows[0], *cells])
 
 
 def _csv(rows: Iterable[Iterable[Cell]]) -> bytes:
@@ -206,7 +216,8 @@ def plain(text: str) -> str:
     line = visible(printable(text), 2000)
     for separator, alike in _SEPARATORS.items():
         line = line.replace(separator, alike).strip()
-    return f"'{line}" if _FORMULA.match(line) else line
+    narrow = unicodedata.normalize("NFKC", line[:9])
+    return f"'{line}" if _FORMULA.match(narrow) else line
 
 
 def printable(text: str) -> str:

@@ -40,9 +40,13 @@ _TOKEN = re.compile(
     re.DOTALL,
 )
 _PADDING = (";", "pass")  # may stand anywhere and does nothing
-# What runs a text as code, or leads to what does.
-_RUNS_TEXT = {"exec", "eval", "compile", "__import__", "__builtins__", "builtins"}
-_RUNS_TEXT |= {"importlib", "marshal"}
+# What runs a text as code, or leads to what does; some names are handed over as texts.
+_RUNS_TEXT = {"exec", "eval", "compile", "builtins", "importlib", "runpy", "codeop"}
+_RUNS_TEXT |= {"InteractiveInterpreter", "InteractiveConsole", "ForwardRef"}
+_RUNS_TEXT |= {"marshal", "pickle", "FunctionType", "CodeType"}
+_LEADS = {"import", "builtins", "self", "globals", "dict", "code", "subclasses"}
+_LEADS |= {"reduce", "loader"}
+_RUNS_TEXT |= {f"__{name}__" for name in _LEADS}
 _KEPT = frozenset(keyword.kwlist) | frozenset(dir(builtins))
 
 
@@ -135,7 +139,8 @@ def hidden(texts: Sequence[str], names: Sequence[tuple[str, ...]]) -> list[str]:
     """
     there = {name for text in texts for name in functions_of(text)}
     found = [f"no function {some[0]}" for some in names if there.isdisjoint(some)]
-    words = (match[0] for text in texts for match in _TOKEN.finditer(text))
+    words = [match[0] for text in texts for match in _TOKEN.finditer(text)]
+    words += [word for text in texts for word in re.findall(r"__\w+?__", text)]
     plain = {unicodedata.normalize("NFKC", word).lstrip(".") for word in words}
     runs = sorted(_RUNS_TEXT & plain) if names else []
     return [*found, *(f"a text can run as code: {word}" for word in runs)]

@@ -1,16 +1,17 @@
 """Which mistakes can be hunted, and which one a seed draws."""
 
 import hashlib
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from typing import Any, NamedTuple
 
+from labkit.hunt.written import showing
 from labkit.judge.row import rows_of
 from labkit.lesson.day import Day, days_of
 from robo47.errors import Robo47Error
 
 LEVELS = {
     1: "one function of the day is wrong",
-    2: "one function of the week is wrong; all that you see is its capstone",
+    2: "one function of the week is wrong, and you see its capstone alone",
     3: "two functions of the day are wrong",
 }
 
@@ -35,8 +36,25 @@ def quarries(day: Day) -> list[Quarry]:
     ]
 
 
+def pool_of(day: Day, level: int) -> list[Quarry]:
+    """Return what can be drawn of a day at a level.
+
+    Raises:
+        Robo47Error: nothing: this kit has no such catalogue, or no capstone shows any.
+    """
+    found = quarries(day) if level != 2 else of_the_capstone(day)
+    if not found:
+        what = f"mistakes of day {day.number}"
+        what += " that the capstone shows" if level == 2 else ""
+        raise Robo47Error(f"there is nothing to hunt: this kit has no {what}")
+    return found
+
+
 def drawn(day: Day, level: int, seed: int, known: Collection[str] = ()) -> list[Quarry]:
     """Return what is to be found, by a seed.
+
+    Each function and then each of its mistakes gets a number, and the lowest is drawn:
+    a mistake that a newer kit adds changes few hunts of older seeds.
 
     Args:
         day: whose functions; at level 2 with those of its week before it.
@@ -47,22 +65,60 @@ def drawn(day: Day, level: int, seed: int, known: Collection[str] = ()) -> list[
     Raises:
         Robo47Error: nothing is left to be drawn.
     """
-    pool = quarries(day) if level != 2 else of_the_capstone(day)
-    pool = [one for one in pool if one.slug not in known]
+    pool = [one for one in pool_of(day, level) if one.slug not in known]
     if not pool:
         raise Robo47Error(f"day {day.number} has no mistake that you have not met")
-    found = [pool[_number(day, level, seed) % len(pool)]]
-    if level == 3:
-        others = [one for one in pool if one.function != found[0].function]
-        found += [others[_number(day, 4, seed) % len(others)]] if others else []
-    return found
+
+    def number(*words: str) -> bytes:
+        text = " ".join([str(day.number), str(level), str(seed), *words])
+        return hashlib.sha256(text.encode()).digest()
+
+    functions = sorted({one.function for one in pool}, key=number)
+    return [
+        min(
+            (one for one in pool if one.function == function),
+            key=lambda one: number(one.function, one.slug),
+        )
+        for function in functions[: 2 if level == 3 else 1]
+    ]
+
+
+def mark_of(one: Quarry, level: int, seed: int) -> str:
+    """Return what tells a mistake again in another kit, and nobody reads it from."""
+    text = f"{level} {seed} {one.day} {one.function} {one.slug}"
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def marked(day: Day, level: int, seed: int, marks: Sequence[str]) -> list[Quarry]:
+    """Return the mistakes that marks of `mark_of` mean.
+
+    Raises:
+        Robo47Error: this kit has not all of them.
+    """
+    pool = {mark_of(one, level, seed): one for one in reversed(pool_of(day, level))}
+    if any(mark not in pool for mark in marks):
+        raise Robo47Error(
+            f"this kit's day {day.number} has no longer the mistake of this hunt."
+            f" Begin another: make hunt DAY={day.number} ARGS=--anew"
+        )
+    return [pool[mark] for mark in marks]
 
 
 def of_the_capstone(day: Day) -> list[Quarry]:
-    """Return mistakes of the functions that the capstone of a day's week calls.
+    """Return mistakes of days up to this one that the capstone of its week shows.
 
     Raises:
         Robo47Error: that week has no capstone.
+    """
+    shown = showing(day.week)
+    return [one for one in asked_by(day) if (one.function, one.slug) in shown]
+
+
+def asked_by(day: Day) -> list[Quarry]:
+    """Return mistakes of days up to this one in functions that the capstone calls.
+
+    Raises:
+        Robo47Error: the day's week has no capstone.
     """
     from labkit.check.own_functions import capstone_of
 
@@ -73,8 +129,3 @@ def of_the_capstone(day: Day) -> list[Quarry]:
             asked = uses.get(other.number, ())
             found += [one for one in quarries(other) if one.function in asked]
     return found
-
-
-def _number(day: Day, level: int, seed: int) -> int:
-    drawn = hashlib.sha256(f"{day.number} {level} {seed}".encode()).digest()
-    return int.from_bytes(drawn[:8], "big")

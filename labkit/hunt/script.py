@@ -13,7 +13,9 @@ from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import function_lines
 
 MARK = "# closed: suspect it? Write it anew here"
-IMPORT = "from labkit.hunt.hunted import hunted"
+IMPORT = "from labkit.hunt.hunted import {}"
+KIT = "import kit  # noqa: F401 (goes on in the kit's own Python)"
+LAB = "from robo47.lesson.lab import Lab"
 CAPSTONE = '''"""{name} of week {week}, by functions of which one is wrong.
 
     make hunt ARGS=--run      do it
@@ -22,7 +24,7 @@ CAPSTONE = '''"""{name} of week {week}, by functions of which one is wrong.
 
 from __future__ import annotations
 
-import kit  # noqa: F401 (goes on in the kit's own Python)
+{kit}
 import numpy as np
 {imports}
 
@@ -49,8 +51,8 @@ def closed_lab(day: Day) -> str:
     for name in _functions(day):
         start, end, own = function_lines("\n".join(lines), name)
         lines[start:end] = closed(own, name)
-    last = max(i for i, line in enumerate(lines) if line.startswith(("import kit",)))
-    lines.insert(last + 1, IMPORT)
+    lines.remove(LAB)
+    lines.insert(lines.index(KIT) + 1, IMPORT.format("Lab, hunted"))
     return "\n".join(lines) + "\n"
 
 
@@ -75,7 +77,8 @@ def closed_capstone(day: Day, days: Iterable[Day], name: str) -> str:
     return CAPSTONE.format(
         name=name[0].upper() + name[1:],
         week=day.week.number,
-        imports=IMPORT,
+        kit=KIT,
+        imports=IMPORT.format("hunted"),
         functions="\n\n\n".join(parts),
     )
 
@@ -105,6 +108,15 @@ def opened(text: str, names: Iterable[str]) -> dict[str, str]:
         if own and not is_closed(own):
             found[name] = "\n".join(own)
     return found
+
+
+def closed_names(script: Path, days: Iterable[Day]) -> tuple[list[str], list[str]]:
+    """Return the functions of a hunted script: those closed, those written anew."""
+    text = script.read_text("utf-8-sig", errors="replace")
+    asked = [name for day in days for name in _functions(day)]
+    there = [name for name in asked if f"def {name}(" in text]
+    anew = opened(text, there)
+    return [name for name in there if name not in anew], list(anew)
 
 
 def _functions(day: Day) -> list[str]:

@@ -5,10 +5,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
-from labkit.hunt.case import Case
+from labkit.hunt.case import Case, days_hunted
 from labkit.hunt.script import opened
 from labkit.judge.mistake import Verdict
-from labkit.lesson.day import Day, days_of
+from labkit.lesson.day import Day
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import function_lines
 
@@ -23,29 +23,30 @@ class Repaired(NamedTuple):
 
 def repairs(case: Case) -> list[Repaired]:
     """Return what is said of each function that somebody wrote anew."""
-    text = case.script.read_text("utf-8-sig", errors="replace")
-    guilty = {one.function for one in case.quarries}
+    return judged(case, case.script.read_bytes())
+
+
+def judged(case: Case, script: bytes) -> list[Repaired]:
+    """Return what is said of each function that is written anew in a hunted script.
+
+    Args:
+        case: which day, level and mistake.
+        script: the content of the hunted script.
+    """
+    text = script.decode("utf-8-sig", errors="replace")
     found = []
-    for day in _days(case):
+    for day in days_hunted(case.of_day, case.level):
         names = [name for task in day.tasks for name in task.functions]
         own = opened(text, names)
         for name, verdict in _verdicts(day, own).items():
-            found.append(Repaired(name, name in guilty, verdict))
+            found.append(Repaired(name, name in case.guilty, verdict))
     return found
 
 
 def is_found(case: Case, repaired: list[Repaired]) -> bool:
-    """Return whether all that was wrong, and nothing else, was repaired."""
-    guilty = {one.function for one in case.quarries}
+    """Return whether all that was wrong was repaired."""
     right = {r.function for r in repaired if r.guilty and r.verdict.status == "passed"}
-    return right == guilty and all(one.guilty for one in repaired)
-
-
-def _days(case: Case) -> list[Day]:
-    day = case.of_day
-    if case.level != 2:
-        return [day]
-    return [other for other in days_of(day.week) if other.number <= day.number]
+    return right == case.guilty
 
 
 def _verdicts(day: Day, own: Mapping[str, str]) -> dict[str, Verdict]:

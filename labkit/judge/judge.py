@@ -33,6 +33,7 @@ from labkit.judge.failing_call import failing_call, for_fresh
 from labkit.judge.kinds import Kind
 from labkit.judge.made_again import redone
 from labkit.judge.mistake import Finding, Verdict
+from labkit.judge.one_slip import Slips
 from labkit.judge.pairs import (
     by_results,
     in_some_calls,
@@ -114,11 +115,13 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     S = replies_read.read(good, asked.ask) if good else found
     if isinstance(S, Finding) or asked.ask.accept:
         return found
+    named = odd_answers.stops_alike(asked, found)
+    if named is not found:
+        return named
     T = right_answers(asked.ask, good)
     rest = replace(asked, main=good, probes=[])
     case = replace(_case(rest, S, T, names), further=_further(asked))
-    both = _both(found, case, S, T)
-    return odd_answers.stops_alike(asked, found) if both is found else both
+    return _both(found, case, S, T)
 
 
 def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
@@ -258,15 +261,29 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     i = worst_part(ask.kinds, S, T, ask.near)
     every = (S[i], case.further.S[i]) if case.further else (S[i],)
     found = _all_the_same(ask.kinds[i], every, T[i])  # simpler than two mistakes
-    found = found or of_other_arguments(case, S, T) or two_at_once(case, S, T)
-    found = found or by_results(case, S, T)
+    slips = Slips(case, S, T)
+    found = found or slips.one() or of_other_arguments(case, S, T)
+    found = found or two_at_once(case, S, T) or slips.beside()
+    found = found or by_results(case, S, T) or slips.two()
+    if found and found.slug.startswith("slip-"):
+        return _with_its_place(case, found)
     if found := found or near_miss.rounded(S[i], T[i]):
         return found
+    return _unnamed(case) or in_some_calls(case, S, T)
+
+
+def _unnamed(case: Case) -> Finding | None:
+    """Return what the row says of answers that no named mistake gives."""
     try:
-        found = ask.unnamed(case) if ask.unnamed else None
+        return case.ask.unnamed(case) if case.ask.unnamed else None
     except np.linalg.LinAlgError:  # of a singular answer
-        found = None
-    return found or in_some_calls(case, S, T)
+        return None
+
+
+def _with_its_place(case: Case, slip: Finding) -> Finding:
+    """Return a slip, and before it where the row says that answers go wrong."""
+    where = _unnamed(case)
+    return Finding(where.slug, f"{where.message} {slip.message}") if where else slip
 
 
 def _not_finite(case: Case, S: Parts, T: Parts) -> Finding | None:

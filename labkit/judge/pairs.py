@@ -55,12 +55,12 @@ def of_other_arguments(case: Case, S: Parts, T: Parts) -> Finding | None:
     whole = any(kind.whole for kind in ask.kinds)
     if whole or ask.seconds > QUICK or not isinstance(truth, InTurn):
         return None
-    i = _tried(ask, S, T)[0]
+    i = tried(ask, S, T)[0]
     for move in _moves(case, i):
         asked = ask.in_turn(partial(_after, truth.function, move.change))
-        if not _alike(ask, _answer(asked, case.arguments, i, T), _nth(S, i)):
+        if not _alike(ask, answer_to(asked, case.arguments, i, T), nth(S, i)):
             continue
-        if _alike(ask, _all(asked, case.arguments), S):
+        if _alike(ask, answers_to(asked, case.arguments), S):
             k = worst_part(ask.kinds, S, T, ask.near)
             off = f"Off by up to {ask.kinds[k].apart(S[k], T[k])}"
             says = f"It is the right answer to other arguments: with {move.says}."
@@ -69,7 +69,7 @@ def of_other_arguments(case: Case, S: Parts, T: Parts) -> Finding | None:
     return None
 
 
-def _tried(ask: Ask, S: Parts, T: Parts) -> list[int]:
+def tried(ask: Ask, S: Parts, T: Parts) -> list[int]:
     """Return the calls that pairs are tried at.
 
     Drawn inputs come last, and hide less; what is furthest off is tried besides.
@@ -100,18 +100,18 @@ def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
     ask = case.ask
     if any(kind.whole for kind in ask.kinds):
         return None
-    found = (_two_of(case, S, T, i) for i in _tried(ask, S, T))
+    found = (_two_of(case, S, T, i) for i in tried(ask, S, T))
     return next((_both_told(ask, pair, S, T) for pair in found if pair), None)
 
 
 def _two_of(case: Case, S: Parts, T: Parts, i: int) -> Sequence[Mistake] | None:
     """Return two mistakes that together give all answers, found at the i-th call."""
     ask = case.ask
-    mistakes = _of_its_own_first(ask)
+    mistakes = of_its_own_first(ask)
     answers = {}
     for k, one in enumerate(mistakes):
-        answer = _answer(one.redo, case.arguments, i, T)
-        wrong = _alike(ask, answer, _nth(T, i)) is False
+        answer = answer_to(one.redo, case.arguments, i, T)
+        wrong = _alike(ask, answer, nth(T, i)) is False
         if wrong and not _handed_back(answer, case.arguments, i):
             answers[k] = answer
     pairs = _Pairs(case, S, T, i, mistakes, answers)
@@ -119,7 +119,8 @@ def _two_of(case: Case, S: Parts, T: Parts, i: int) -> Sequence[Mistake] | None:
     return found or pairs.in_turn()
 
 
-def _of_its_own_first(ask: Ask) -> list[Mistake]:
+def of_its_own_first(ask: Ask) -> list[Mistake]:
+    """Return the mistakes that are tried two at a time, a function's own first."""
     mistakes = [one for one in ask.named if isinstance(one.redo, InTurn)]
     return sorted(mistakes, key=lambda one: one.reached)[:MOST]
 
@@ -140,13 +141,13 @@ def by_results(case: Case, S: Parts, T: Parts) -> Finding | None:
         return None
     i = int(np.argmax(ask.gaps(S, T)))
     told: dict[int, Mistake] = {}
-    for one in _of_its_own_first(ask):
-        answer = _answer(one.redo, case.arguments, i, T)
+    for one in of_its_own_first(ask):
+        answer = answer_to(one.redo, case.arguments, i, T)
         for j in [j for j in wrong if j not in told and len(answer) == len(S)]:
             kind, s, t = pairs[j]
             if not matches(s[i : i + 1], answer[j], kind.scale):
                 continue
-            every = _all(one.redo, case.arguments)
+            every = answers_to(one.redo, case.arguments)
             is_wrong = gaps([kind], (every[j],), (t,)).max() > ask.near
             if is_wrong and matches(s, every[j], kind.scale):
                 told[j] = one
@@ -174,12 +175,12 @@ def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
         return None
     few = wrong[np.unique(np.linspace(0, len(wrong) - 1, FEW).astype(int))]
     most: tuple[int, Mistake] | None = None
-    for one in _of_its_own_first(ask):
-        hits = [_alike(ask, _answer(one.redo, case.arguments, i, T), _nth(S, i))
+    for one in of_its_own_first(ask):
+        hits = [_alike(ask, answer_to(one.redo, case.arguments, i, T), nth(S, i))
                 for i in few]  # fmt: skip
         if sum(map(bool, hits)) < 2:
             continue
-        given = _given_by(ask, S, _all(one.redo, case.arguments))
+        given = _given_by(ask, S, answers_to(one.redo, case.arguments))
         n = int(np.sum(given[wrong])) if _differ(S, wrong[given[wrong]]) else 0
         # Made every time, it shows nowhere that is right.
         always = given[ask.gaps(S, T) <= ask.near].all()
@@ -188,9 +189,10 @@ def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
     if most is None:
         return None
     n, one = most
+    rest = "one is not" if len(wrong) == n + 1 else f"{len(wrong) - n} are not"
     says = (
         f"In {n} of your {len(wrong)} wrong answers the numbers are those of one "
-        f"mistake: {one.says.rstrip('?')}. The other {len(wrong) - n} are not."
+        f"mistake: {one.says.rstrip('?')}. The other {rest}."
     )
     return Finding(f"{one.slug}+other", says)
 
@@ -239,7 +241,7 @@ class _Pairs:
 
     def added(self) -> Sequence[Mistake] | None:
         """Return two mistakes whose differences, or factors, come together."""
-        its = _nth(self.T, self.i)
+        its = nth(self.T, self.i)
         for a, b in combinations(self.answers, 2):
             first = self.mistakes[a]
             second = self.mistakes[b]
@@ -255,7 +257,7 @@ class _Pairs:
                 other = self._every(second.redo)
                 if combined is _product and _one_factor(one, other, self.T):
                     continue
-                if _exactly(self.case.ask, combined(one, other, self.T), self.S):
+                if exactly(self.case.ask, combined(one, other, self.T), self.S):
                     return first, second
         return None
 
@@ -272,11 +274,11 @@ class _Pairs:
         if len(self.case.ask.kinds) != 1:
             return None
         general = list(self.case.ask.kinds[0].general())
-        its = _nth(self.T, self.i)
+        its = nth(self.T, self.i)
         for first, change in combinations(general, 2):
             if self._is_this_one(_changed(change, _changed(first, its))):
                 every = _changed(change, _changed(first, self.T))
-                if _exactly(self.case.ask, every, self.S):
+                if exactly(self.case.ask, every, self.S):
                     return first, change
         return None
 
@@ -289,7 +291,7 @@ class _Pairs:
             for k, answer in self.answers.items():
                 if self._is_this_one(_changed(change, answer)):
                     every = self._every(self.mistakes[k].redo)
-                    if _exactly(self.case.ask, _changed(change, every), self.S):
+                    if exactly(self.case.ask, _changed(change, every), self.S):
                         return self.mistakes[k], change
         return None
 
@@ -298,7 +300,7 @@ class _Pairs:
         for pair in self._that_combine():
             if self._is_this_one(self._answer(pair.redo)):
                 every = self._every(pair.redo)
-                if _exactly(self.case.ask, every, self.S):
+                if exactly(self.case.ask, every, self.S):
                     return pair.first, pair.second
         return None
 
@@ -338,10 +340,10 @@ class _Pairs:
         return found
 
     def _answer(self, redo: Callable[..., Any]) -> Parts:
-        return _answer(redo, self.case.arguments, self.i, self.T)
+        return answer_to(redo, self.case.arguments, self.i, self.T)
 
     def _every(self, redo: Callable[..., Any]) -> Parts:
-        return _all(redo, self.case.arguments)
+        return answers_to(redo, self.case.arguments)
 
     def _that_give(self, answer: Parts, every: Callable[[], Parts]) -> Iterator[int]:
         """Yield the first mistake that gives an answer at one call, and at all."""
@@ -354,7 +356,7 @@ class _Pairs:
     @cached_property
     def _of_the_answer(self) -> list[Mistake]:
         """Mistakes that are a change of the right answer, as such changes."""
-        its = _nth(self.T, self.i)[0]
+        its = nth(self.T, self.i)[0]
         found = []
         for change in moves.of_answer(its[0]):
             answer = (np.asarray(change(its)),)
@@ -363,7 +365,7 @@ class _Pairs:
         return found
 
     def _is_this_one(self, answer: Parts) -> bool:
-        return _exactly(self.case.ask, answer, _nth(self.S, self.i))
+        return exactly(self.case.ask, answer, nth(self.S, self.i))
 
 
 def _handed_back(answer: Parts, arguments: tuple[Any, ...], i: int) -> bool:
@@ -395,7 +397,7 @@ def _options(one: Any, other: Any) -> bool:
     return one.func is other.func and not one.keywords.keys() & other.keywords.keys()
 
 
-def _answer(
+def answer_to(
     redo: Callable[..., Any], arguments: tuple[Any, ...], i: int, like: Parts
 ) -> Parts:
     """Return the answer to one question with a mistake, or with two; () for none.
@@ -403,14 +405,15 @@ def _answer(
     It is filled up with 0 to the size of `like`, as answers of several sizes are.
     """
     column = [c[[i]] if isinstance(c, np.ndarray) else c for c in arguments]
-    answer = _nth(_all(redo, tuple(column)), 0)
+    answer = nth(answers_to(redo, tuple(column)), 0)
     pairs = list(zip(answer, like, strict=False))
     if any(x.ndim != its.ndim for x, its in pairs):
         return answer
     return tuple(as_one([x[0], np.zeros(its.shape[1:])])[:1] for x, its in pairs)
 
 
-def _all(redo: Callable[..., Any], arguments: tuple[Any, ...]) -> Parts:
+def answers_to(redo: Callable[..., Any], arguments: tuple[Any, ...]) -> Parts:
+    """Return the answers to all questions with a mistake; () where it has none."""
     try:
         with np.errstate(all="ignore"):
             return parts(redo(*arguments))
@@ -426,7 +429,8 @@ def _changed(change: Mistake, answer: Parts) -> Parts:
         return ()
 
 
-def _nth(some: Parts, i: int) -> Parts:
+def nth(some: Parts, i: int) -> Parts:
+    """Return the answer to one question, as a set of one."""
     return tuple(part[i : i + 1] for part in some)
 
 
@@ -471,7 +475,7 @@ def _alike(ask: Ask, a: Parts, b: Parts) -> bool | None:
     return all_match(ask.kinds, a, b)
 
 
-def _exactly(ask: Ask, a: Parts, b: Parts) -> bool:
+def exactly(ask: Ask, a: Parts, b: Parts) -> bool:
     """Return whether two answers match in all the digits that rounding leaves."""
     return all_match(ask.kinds, a, b, EXACT)
 

@@ -203,6 +203,12 @@ class Experiments:
         ]
         return [*known, *resized]
 
+    def _of_other_sizes(self) -> list[Call]:
+        """Return what was asked with arguments of other shapes: it must hold there."""
+        shapes = [np.shape(x) for x in self.calls[0]]
+        other = [c for c in self.known if [np.shape(x) for x in c] != shapes]
+        return [c for c in other if len(c) == len(shapes)][:TRIED]
+
     def _fixed(self, k: int, x: Any) -> Any:
         """Return which entries of a matrix no question changes, such as K's last 1.
 
@@ -235,7 +241,7 @@ class Experiments:
     def _more(self, k: int, neutral: Neutral) -> Callable[[], list[Call]]:
         def more() -> list[Call]:
             found = []
-            for n, call in enumerate(self._others()):
+            for n, call in enumerate([*self._others(), *self._of_other_sizes()]):
                 again = [one for one in neutrals(call[k]) if one.says == neutral.says]
                 for one in again:
                     values = [*one.others, one.value]

@@ -17,6 +17,7 @@ it names the mistake; in the lab's place, it is put before the checker and run a
 which proves the name. Nothing else is written of a mistake.
 """
 
+import ast
 import importlib
 import inspect
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -33,7 +34,7 @@ from labkit.judge.mistake import REDONE, Mistake, told
 from labkit.judge.results import checked, numbers
 from labkit.judge.written import Answered, stop, stops_with
 from labkit.lesson.day import Day
-from labkit.lesson.lab_module import lab_of
+from labkit.lesson.lab_module import definition, lab_of, read_script
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -295,7 +296,8 @@ class Row:
         """What the judge asks."""
         if "inputs" not in self.more:
             raise Robo47Error(f"{self.function}.py has no @row.inputs")
-        more = {**self.more, "inputs": self._inputs, "reference": self._reference}
+        more = {**self.more, "inputs": self._inputs, "reference": self._reference,
+                "body": self._body}  # fmt: skip
         if "accept" in more:
             more["accept"] = self._accept
         else:
@@ -332,6 +334,12 @@ class Row:
     def _reference(self) -> Code | None:
         there = hasattr(self, "_day") and self._day.source.is_file()
         return getattr(self.lab, self.function, None) if there else None
+
+    def _body(self) -> tuple[ast.FunctionDef, dict[str, Any]] | None:
+        if self._reference() is None:
+            return None
+        found = definition(read_script(self._day.source), self.function)
+        return (found, vars(self.lab)) if found else None
 
     def _accept(self, *args: Any) -> Any:
         try:

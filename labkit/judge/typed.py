@@ -12,6 +12,8 @@ import numpy as np
 
 from labkit.base.exchange import Question
 
+DUST = 4  # last bits that a sum or a product may leave
+
 
 def typed(
     question: Question, names: Sequence[str] = (), longest: float = np.inf
@@ -92,4 +94,6 @@ def number(x: float) -> str:
             sign = "-" if times < 0 else ""
             many = "" if abs(times) == 1 else f"{abs(round(times))} * "
             return f"{sign}{many}pi" + (f" / {over}" if over > 1 else "")
+    if (short := round(x, 9)) and abs(x - short) <= DUST * np.spacing(abs(x)):
+        x = short  # 0.831, and not the 0.8310000000000001 of a sum
     return repr(round(x)) if x == round(x) and abs(x) < 1e6 else repr(x)

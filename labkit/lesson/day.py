@@ -203,7 +203,7 @@ class Day:
             raise Robo47Error(f"{shown(file)} does not load: {why}") from error
 
     def offered(self, name: str, lab: Path | None = None) -> dict[str, Any]:
-        """Return what its figures.py or films.py offers: {"dayN_name": function}.
+        """Return what its figures, films or clips.py offers: {"dayN_name": function}.
 
         Args:
             name: "figures", for FIGURES; {} where it has no such file.

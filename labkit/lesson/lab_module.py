@@ -1,5 +1,6 @@
 """A lab script read and loaded: as text, and as a module in the kit's Python."""
 
+import ast
 from functools import cache, lru_cache
 from pathlib import Path
 from types import CodeType, ModuleType
@@ -27,6 +28,12 @@ def read_script(path: Path) -> str:
 def lab_of(day: Day) -> ModuleType:
     """Return a day's complete lab as a module, one for all who ask; see `load_lab`."""
     return load_lab(day.source)
+
+
+def definition(text: str, name: str) -> ast.FunctionDef | None:
+    """Return a function of a lab's text as it is written; None where it has none."""
+    some = (node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef))
+    return next((node for node in some if node.name == name), None)
 
 
 def load_lab(script: Path) -> ModuleType:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 Row = Mapping[str, Any]  # of the log, by column
@@ -16,6 +16,8 @@ class Metric:
     metric: str
     max: float | None = None
     min: float | None = None
+    says: str = field(default="", compare=False)  # what it is, in words
+    unit: str = field(default="", compare=False)
 
     @property
     def limit(self) -> str:

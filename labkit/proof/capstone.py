@@ -1,6 +1,7 @@
 """A week's capstone with a student's functions, in the sandbox; as a film."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -18,6 +19,7 @@ from robo47.attempt import Film
 if TYPE_CHECKING:
     from labkit.inspector.recording import Recording
 
+NUMBERS = 1_000_000  # in one answer: an eye's picture has 3 for each of its pixels
 SECONDS = 240.0  # of a processor; the pick with all functions right makes 30,000 calls
 
 
@@ -27,11 +29,23 @@ class Attempt(NamedTuple):
     capstone: ModuleType | None  # as `robo47.attempt` has it; None of a week without
     result: Any  # None where the arm stopped
     stopped: str  # why it did, in a line
-    yours: int  # how many of its functions are the student's
-    total: int  # of how many
+    theirs: frozenset[str]  # its functions that are the student's
+    # Of those, what the kit's own did here: what asks them cannot travel.
+    stayed: frozenset[str] = frozenset()
+
+    @property
+    def yours(self) -> int:
+        """How many of its functions that ran are the student's."""
+        return len(self.theirs - self.stayed)
+
+    @property
+    def total(self) -> int:
+        """Of how many."""
+        uses = self.capstone.USES.values() if self.capstone else ()
+        return len(frozenset().union(*uses))
 
 
-NO_CAPSTONE = Attempt(None, None, "", 0, 0)
+NO_CAPSTONE = Attempt(None, None, "", frozenset())
 
 
 def attempt(
@@ -50,30 +64,34 @@ def attempt(
     """
     fns = capstone.library()
     budget = Budget(SECONDS)
-    yours = 0
-    names = {name for some in capstone.USES.values() for name in some}
+    theirs: set[str] = set()
     for facts, place in zip(days, folders, strict=True):
         wanted = set(capstone.USES.get(facts.day.number, ())) & set(facts.own)
         if wanted:
             script = place / facts.day.script
             lab = lab_of(facts.day)
-            own = behind_wall(facts.day, script, sandbox, lab, budget)
+            limits = replace(facts.day.limits, numbers=NUMBERS)
+            own = behind_wall(facts.day, script, sandbox, lab, budget, limits)
             for name in wanted:
                 setattr(fns, name, own[name])
-            yours += len(wanted)
-    if not yours:
-        return Attempt(capstone, None, "", 0, len(names))
+            theirs |= wanted
+    result, stopped = _tried(capstone, fns, budget) if theirs else (None, "")
+    stayed = frozenset(budget.stayed)
+    return Attempt(capstone, result, stopped, frozenset(theirs), stayed)
+
+
+def _tried(capstone: ModuleType, fns: Any, budget: Budget) -> tuple[Any, str]:
+    """Return what came of an attempt, None with why where the arm stopped."""
     try:
         with np.errstate(all="ignore"), budget.bounded():
             result = capstone.attempt(fns)
         if np.isfinite(capstone.film(result).qpos).all():
-            return Attempt(capstone, result, "", yours, len(names))
-        why = "the arm flew off"
+            return result, ""
+        return None, "the arm flew off"
     except (EnoughAsked, RunsOn):
-        why = "it took too long"
+        return None, "it took too long"
     except (FirstFailure, Exception) as error:  # what a strange answer leads to
-        why = visible(error, 300)
-    return Attempt(capstone, None, why, yours, len(names))
+        return None, visible(error, 300)
 
 
 def recorded(film: Film) -> "Recording":

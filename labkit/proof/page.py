@@ -2,7 +2,7 @@
 
 import datetime
 import secrets
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
 from types import ModuleType
@@ -14,9 +14,11 @@ import robo47
 from labkit.base import html
 from labkit.base.text import count, number_of
 from labkit.check.lab_run import TRIALS
+from labkit.proof import sharing
 from labkit.proof.capstone import Attempt, recorded
 from labkit.proof.facts import RunDay
-from labkit.report.series import Series
+from labkit.report.series import Series, cell_of, limit_of, with_unit
+from robo47.attempt import Told
 
 # What viser's player needs of the page's policy. Its workers compile what they run.
 ALLOWED = (
@@ -27,7 +29,7 @@ STYLE = """
 body { max-width: 980px; } td.n, th.n { text-align: right; }
 td.wide { white-space: normal; min-width: 140px; }
 iframe { display: block; width: 100%; height: min(70vh, 560px); border: 0; }
-.film { padding: 0; overflow: hidden; } li { margin: 4px 0; }
+.film { padding: 0; overflow: hidden; margin-bottom: 12px; } li { margin: 4px 0; }
 @media (max-width: 500px) { th, td { padding-right: 8px; } .card { padding: 10px; }
   .film { padding: 0; } iframe { height: 420px; } }
 """
@@ -62,8 +64,12 @@ class Proof:
     fresh: dict[str, Any] = field(default_factory=dict)
 
 
-def render(proof: Proof) -> str:
+def render(proof: Proof, card_name: str = "") -> str:
     """Return the whole page.
+
+    Args:
+        proof: what it says.
+        card_name: of the picture to share, a file beside it; "" without one.
 
     The film is put in last and by a name that nobody could know before: no text from
     outside can stand in its place, and no script runs but with its number.
@@ -86,6 +92,7 @@ def render(proof: Proof) -> str:
         html.section("What this does not prove", f"<ul>{not_proved}</ul>"),
         style=STYLE,
         policy=ALLOWED.format(nonce=nonce),
+        meta=sharing.meta(card_name, in_short(proof)) if card_name else "",
     )
     told = proof.attempt
     if told.capstone is None or told.result is None:
@@ -135,7 +142,7 @@ def _again(one: RunDay, number: Series) -> tuple[str, str]:
     value = one.again.get((wanted.check, wanted.metric))
     if value is None:
         return "none", "–"
-    return "pass" if wanted.passes(value) else "fail", number_of(value)
+    return "pass" if wanted.passes(value) else "fail", with_unit(value, wanted)
 
 
 def _fresh(proof: Proof) -> tuple[str, str]:
@@ -158,7 +165,7 @@ def _capstone_tiles(attempt: Attempt) -> list[tuple[str, str, str]]:
     if attempt.result is None:
         return [("none", "–", attempt.capstone.NAME)]
     told = attempt.capstone.told(attempt.result)
-    role = "pass" if attempt.yours == attempt.total else ""
+    role = "pass" if len(attempt.theirs) == attempt.total else ""
     return [("fail" if attempt.result.failed else role, told.number, told.of)]
 
 
@@ -167,7 +174,9 @@ def _capstone_in_short(attempt: Attempt) -> str:
     if attempt.capstone is None or attempt.result is None:
         return ""
     told = attempt.capstone.told(attempt.result)
-    return f"{attempt.capstone.NAME}: {told.number} {told.of}"
+    words = f"{attempt.capstone.NAME}: {told.number} {told.of}"
+    whose = f", by {attempt.yours} of its {attempt.total} functions"
+    return words if attempt.yours == attempt.total else words + whose
 
 
 def _capstone(attempt: Attempt, place: str) -> str:
@@ -182,13 +191,46 @@ def _capstone(attempt: Attempt, place: str) -> str:
         words = why or "None of the functions that move the arm is theirs yet."
         return html.section(heading, f"<p>{words}</p>")
     told = attempt.capstone.told(attempt.result)
+    by = _by(attempt.capstone.USES, attempt)
     words = escape(f"{told.came} {whose}. {told.way} Drag to turn it.")
     player = (
         f'<iframe title="{heading} in 3D" sandbox="allow-scripts" srcdoc="{place}">'
     )
-    return html.section(
-        heading, f"<p>{words}</p>", f'<div class="card film">{player}</iframe></div>'
-    )
+    film = f'<div class="card film">{player}</iframe></div>'
+    return html.section(heading, f"<p>{words}</p>", film, _figures(told), by)
+
+
+def _figures(told: Told) -> str:
+    """Return what the capstone measured, each with its unit and what is allowed."""
+    rows = [
+        f"<tr><td class=wide>{escape(what)}</td><td class=n>{escape(value)}</td>"
+        f"<td>{escape(limit) or '–'}</td></tr>"
+        for what, value, limit in told.figures
+    ]
+    head = "<th>measured</th><th class=n>here</th><th>allowed</th>"
+    return html.table(head, rows) if rows else ""
+
+
+def _by(uses: Mapping[int, Sequence[str]], attempt: Attempt) -> str:
+    """Return whose each of the capstone's functions was in it, by day."""
+    theirs = attempt.theirs - attempt.stayed
+    rows = []
+    for day, names in sorted(uses.items()):
+        own = _code([name for name in names if name in theirs])
+        kits = _code([name for name in names if name not in theirs])
+        rows.append(
+            f"<tr><td>{day}</td><td class=wide>{own or '–'}</td>"
+            f"<td class=wide>{kits or '–'}</td></tr>"
+        )
+    head = "<th>day</th><th>theirs</th><th>the kit's own</th>"
+    why = ""
+    if attempt.stayed:
+        names = _code(sorted(attempt.stayed))
+        why = (
+            f"<p class=muted>{names}: theirs pass. They ask a world that stays outside"
+            " the sandbox, so the kit's own, their equals, did it here.</p>"
+        )
+    return html.folded("Theirs or the kit's", html.table(head, rows), why)
 
 
 def _numbers(days: Sequence[RunDay]) -> str:
@@ -218,9 +260,9 @@ def _number(one: RunDay, number: Series) -> str:
     again, value = _again(one, number)
     return (
         f"<tr><td>{one.day.number}</td>"
-        f"<td class=wide>{escape(one.day.name_of(number.wanted))}<br>"
+        f"<td class=wide>{cell_of(one.day, number.wanted)}<br>"
         f'<small class="{role}">{logged}{worth}</small></td>'
-        f'<td class="n {again}">{value}</td><td>{escape(number.wanted.limit)}</td></tr>'
+        f'<td class="n {again}">{value}</td><td>{limit_of(number.wanted)}</td></tr>'
     )
 
 

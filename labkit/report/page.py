@@ -6,6 +6,7 @@ from itertools import groupby
 
 from labkit.base import html
 from labkit.base.text import count
+from labkit.hunt.tally import tally
 from labkit.log.rows import Row
 from labkit.log.scan import Line
 from labkit.report import plot
@@ -61,6 +62,7 @@ def render(
         *([] if report.rows else [NOTHING]),
         _jumps(report),
         *(_day(day, series, checked.get(day or 0, "")) for day, series in days),
+        _hunts(report.hunts),
         _look(report.look),
     )
 
@@ -105,12 +107,41 @@ def _day(day: int | None, series: Iterable[Series], checked: str) -> str:
     )
 
 
+def _hunts(rows: Sequence[Row]) -> str:
+    """Return what came of the bug hunts; "" where nobody hunted."""
+    if not rows:
+        return ""
+    names = {
+        "date": "date",
+        "day": "day",
+        "level": "method",
+        "seed": "seed",
+        "runs": "value",
+        "checks": "n_trials",
+        "wrong": "n_failures",
+        "how it ended": "notes",
+    }
+    head = "".join(f"<th>{name}</th>" for name in names)
+    body = []
+    for row in rows[-LISTED:]:
+        cells = (escape(_hunted(row[name])) for name in names.values())
+        body.append(f"<tr>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>")
+    table = html.folded("Hunt by hunt", html.table(head, body, "scroll"))
+    return html.section("Bug hunts", f"<p>{escape(tally(rows))}</p>", table)
+
+
+def _hunted(cell: object) -> str:
+    text = f"{cell:g}" if isinstance(cell, float) else str(cell)
+    return _clipped(text.removeprefix("level "))
+
+
 def _card(series: Series) -> str:
     mark, words = STATUS[series.status]
     best = "best" if series.bounds else "lowest"
     limits = ", ".join(f"{sign} {bound:g}" for sign, bound in series.bounds)
+    unit = f" {escape(series.wanted.unit)}" if series.rows else ""
     facts = [
-        ("latest", plot.number(series.latest)),
+        ("latest", plot.number(series.latest) + unit),
         (best, plot.number(series.best)),
         ("runs", f"{len(series.rows):,}"),
         ("threshold", escape(limits or "–")),
@@ -120,18 +151,26 @@ def _card(series: Series) -> str:
     judged = series.status in ("pass", "fail")
     role = {"latest": f' class="{series.status}"'} if judged else {}
     terms = "".join(
-        f"<dt>{name}</dt><dd{role.get(name, '')}>{value}</dd>" for name, value in facts
+        f"<div><dt>{name}</dt><dd{role.get(name, '')}>{value}</dd></div>"
+        for name, value in facts
     )
     failed = failures_of(series.rows[-1]) if series.rows else ""
     failed = failed and f'<p class="fail">{failed}</p>'
-    check, metric = map(_text, (series.wanted.check, series.wanted.metric))
     return (
-        f'<article class="card"><div class="top"><div><h3>{check}</h3>'
-        f'<span class="muted">{metric}</span></div>'
+        f'<article class="card"><div class="top"><div>{_named(series)}</div>'
         f'<span class="badge {series.status}">{mark} {words}</span></div>'
         f"<dl>{terms}</dl>{failed}{plot.draw(series)}"
         f"{_recent(series.rows)}{_recent(series.kits, ' of the kit')}</article>"
     )
+
+
+def _named(series: Series) -> str:
+    """Return what a number is called: a sentence where it has one, and its names."""
+    check, metric = map(_text, (series.wanted.check, series.wanted.metric))
+    if says := series.wanted.says:
+        name = f'<span class="muted">{check}, {metric}</span>'
+        return f"<h3>{escape(says)}</h3>{name}"
+    return f'<h3>{check}</h3><span class="muted">{metric}</span>'
 
 
 def _text(cell: object) -> str:

@@ -3,7 +3,10 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from html import escape
 
+from labkit.base.text import number_of
+from labkit.hunt.tally import ending
 from labkit.lesson.day import Day
 from labkit.lesson.metric import Metric
 from labkit.lesson.writers import Writers, mark_of
@@ -111,6 +114,7 @@ class Report:
     series: list[Series]
     look: list[Line] = field(default_factory=list)  # lines that need one
     rows: int = 0
+    hunts: list[Row] = field(default_factory=list)  # bug hunts that ended
 
     def count(self, status: str) -> int:
         """Return how many series have that status."""
@@ -132,6 +136,26 @@ def series_of(
         if one := found.get((str(row["check"]), str(row["metric"]))):
             one.add(row)
     return list(found.values())
+
+
+def cell_of(day: Day, wanted: Metric) -> str:
+    """Return a table's cell on what a number is: in words, then by its names."""
+    name = escape(day.name_of(wanted))
+    if not wanted.says:
+        return name
+    return f"{escape(wanted.says)}<br><small class=muted>{name}</small>"
+
+
+def with_unit(value: float | None, wanted: Metric) -> str:
+    """Return a value as pages print it, "2.4e-15 m"; "–" without one."""
+    if value is None:
+        return "–"
+    return escape(f"{number_of(value)} {wanted.unit}".strip())
+
+
+def limit_of(wanted: Metric) -> str:
+    """Return what a number must be, as pages print it: "under 20 mm"."""
+    return escape(f"{wanted.limit} {wanted.unit}".strip())
 
 
 def value_of(row: Row) -> float | None:
@@ -178,6 +202,9 @@ def collect(
             if check not in ("", row["check"]):
                 continue
             report.rows += 1
+            if ending(row):
+                report.hunts.append(row)
+                continue
             key = _key(row, asked)
             if key not in found:
                 found[key] = Series(key[0], Metric(*key[1:]))

@@ -8,7 +8,8 @@ from labkit.base.text import number_of
 from labkit.check.memory import Met
 from labkit.lesson.day import Day
 from labkit.report.page import STATUS, links
-from labkit.report.series import Series
+from labkit.report.series import Series, cell_of, limit_of, with_unit
+from labkit.report.unnamed import in_words
 from labkit.report.week_facts import OwnDay
 
 STYLE = """
@@ -31,22 +32,25 @@ th:last-child, td:last-child { padding-right: 0; } td.wide { white-space: normal
 _MARKS = {status: f"{mark} {words}" for status, (mark, words) in STATUS.items()}
 _MARKS |= {"none": "○ no row yet", "kit": "○ the kit's file ran"}
 # Names of what no known mistake explains.
-_GENERAL = {
-    "off": "wrong numbers, by no mistake that the kit knows",
-    "raises": "it stopped with an error",
-    "shape": "an array of another shape",
-}
 _MOODS = {"left behind": ("pass", "✓"), "still there": ("fail", "✗")}
 
 
-def render(facts: Sequence[OwnDay], heading: str, others: Sequence[int] = ()) -> str:
+def render(
+    facts: Sequence[OwnDay],
+    heading: str,
+    others: Sequence[int] = (),
+    *,
+    whole: bool = True,
+) -> str:
     """Return the whole page.
 
     Args:
         facts: of the week's days, in order.
         heading: one line of plain text on where this comes from.
         others: numbers of the weeks whose pages stand beside this one.
+        whole: whether the page on all runs stands there, too.
     """
+    plots = '<a href="report.html">report.html</a>' if whole else "make report"
     return html.page(
         escape(facts[0].day.week.heading),
         escape(heading) + links(others),
@@ -54,8 +58,7 @@ def render(facts: Sequence[OwnDay], heading: str, others: Sequence[int] = ()) ->
         _numbers(facts),
         _days(facts),
         _mistakes(facts),
-        '<p class="muted last">Every run as a plot: '
-        '<a href="report.html">report.html</a>. '
+        f'<p class="muted last">Every run as a plot: {plots}. '
         "Hints and mistakes are on your machine alone.</p>",
         style=STYLE,
     )
@@ -114,9 +117,10 @@ def _number(one: OwnDay, number: Series, *, first: bool, kits: bool) -> str:
     kit = f"<td class=n>{_value(number.kit)}</td>" if kits else ""
     return (
         f"<tr{' class=first' if first else ''}><td class=day>{day}</td>"
-        f"<td>{escape(one.day.name_of(number.wanted))}</td>"
-        f'<td class=n>{_value(number.latest)}</td><td class="{role}">{mark}</td>'
-        f"<td>{escape(number.wanted.limit)}</td>"
+        f"<td class=wide>{cell_of(one.day, number.wanted)}</td>"
+        f"<td class=n>{with_unit(number.latest, number.wanted)}</td>"
+        f'<td class="{role}">{mark}</td>'
+        f"<td>{limit_of(number.wanted)}</td>"
         f"<td class=n>{_value(number.worst)}</td>{kit}</tr>"
     )
 
@@ -149,7 +153,7 @@ def _mistakes(facts: Sequence[OwnDay]) -> str:
 
 def _mistake(day: Day, met: Met) -> str:
     role, mark = _MOODS.get(met.now, ("none", "•"))
-    name = escape(_GENERAL.get(met.mistake, met.mistake.replace("-", " ")))
+    name = escape(in_words(met.mistake))
     says = met.says and f"<br><span class=muted>{escape(met.says)}</span>"
     names = ", ".join(f for t in day.tasks if t.id == met.task for f in t.functions)
     return (

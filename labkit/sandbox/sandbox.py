@@ -18,7 +18,6 @@ import time
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from operator import methodcaller
 from pathlib import Path
 from typing import Any
 
@@ -36,7 +35,7 @@ from labkit.base.exchange import (
 from labkit.lesson.day import Day, Limits
 from labkit.sandbox import messages
 from labkit.sandbox.messages import USUAL, Robots
-from labkit.sandbox.process import ENDLESS, Process
+from labkit.sandbox.process import ENDLESS, LOAD_SECONDS, Process
 from robo47.errors import FaultError
 
 CALL_SECONDS, TASK_SECONDS = 3.0, 10.0  # for one call, for all calls of a task
@@ -174,7 +173,7 @@ class Sandbox:
             process.close()
             raise
         alive = [session for session in self._sessions if session.alive]
-        back = self._keep if brief else methodcaller("close")
+        back = self._keep if brief else Process.close
         session = Session(process, limits, back, deadline or Deadline(math.inf))
         self._sessions = [*alive, session]
         if not brief:
@@ -199,10 +198,9 @@ class Sandbox:
         same = all(had[name] == request[name] for name in _SAME)
         if same and request["added"].startswith(had["added"]):  # it forgets no code
             more = [model for model in request["models"] if model not in had["models"]]
-            told = {"added": request["added"], "keep": request["keep"], "models": more}
-            process.ask([{"function": "", "args": [], "again": told}])
+            process.ask([_anew(request["added"], request["keep"], more)])
             with contextlib.suppress(EndedError, FaultError):
-                process.next(CALL_SECONDS)
+                process.next(LOAD_SECONDS)
                 process.told = {**request, "models": had["models"] + more}
                 return process
             self._odd = True
@@ -260,9 +258,9 @@ class Session:
             self._process.ask(messages.pack(questions, self._process.told["models"]))
         while len(came) < len(questions) and self._ended is None:
             try:
-                came.append(self._process.next(self._deadline.within(seconds)))
+                came.append(_next(self._process, seconds, self._deadline))
             except (EndedError, FaultError) as error:
-                self._end(TOO_LONG if self._deadline.over else str(error))
+                self._end(str(error))
         replies = messages.read(came, self._limits.numbers)
         if len(replies) < len(came):
             self._end(CHANNEL)
@@ -308,12 +306,20 @@ class _Rounds:
         """Ask all of them in both rounds, or until the process ends."""
         questions = [exchange.question for exchange in self.left]
         calls = messages.pack(questions, process.told["models"])
-        anew, *others = reversed(calls)
-        anew = {**anew, "anew": True}  # from here on, what the file kept is gone
-        process.ask([*calls, anew, *others])
+        process.ask([*calls, _anew(process.told["added"]), *reversed(calls)])
         self._listen(process, self.left, self.first)
         if not self.ended:
+            self._reload(process)
+        if not self.ended:
             self._listen(process, self.left[::-1], self.second)
+
+    def _reload(self, process: Process) -> None:
+        """Wait until the file is loaded once more, as long as for the first time."""
+        try:
+            _next(process, LOAD_SECONDS, self.deadline)
+        except EndedError as error:
+            says = f"the file, loaded once more: {error}"
+            self.ended = self.left[-1], stopped(says)
 
     def _listen(
         self, process: Process, asked: list[Exchange], into: dict[Exchange, Reply]
@@ -326,11 +332,9 @@ class _Rounds:
             waited = process.waited
             seconds = min(self.call[task], self.spare[task])
             try:
-                came.append(process.next(self.deadline.within(seconds)))
+                came.append(_next(process, seconds, self.deadline))
             except EndedError as error:
-                late = self.deadline.over
-                why = stopped(TOO_LONG) if late else self._timed(task, error.reply)
-                self.ended = exchange, why
+                self.ended = exchange, self._timed(task, error.reply)
                 break
             took = time.monotonic() - started - (process.waited - waited)
             self.spare[task] -= took
@@ -368,6 +372,28 @@ class _Rounds:
                 exchange.reply = twice(once, once) if once else why
             elif exchange.question.task in waiting:
                 exchange.reply = Reply(error=f"task {culprit}", kind="waits")
+
+
+def _anew(added: str, keep: bool = True, models: Sequence[Any] = ()) -> dict[str, Any]:
+    """Return a call that loads the file anew: what it kept is gone, and its answers."""
+    told = {"added": added, "keep": keep, "models": models}
+    return {"function": "", "args": [], "anew": told}
+
+
+def _next(process: Process, seconds: float, deadline: Deadline) -> dict[str, Any]:
+    """Return a process's next reply.
+
+    Raises:
+        EndedError: none came within so many seconds, or before the deadline, or ever
+            will: it says which.
+        FaultError: this machine ended the process.
+    """
+    given = deadline.within(seconds)
+    try:
+        return process.next(given)
+    except EndedError as error:
+        cut = given < seconds and str(error) == ENDLESS
+        raise EndedError(TOO_LONG if cut else str(error)) from None
 
 
 def twice(first: Reply, second: Reply) -> Reply:

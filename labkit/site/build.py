@@ -7,8 +7,9 @@ import json
 import re
 import shutil
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ from sphinx.application import Sphinx
 from labkit.base import processes
 from labkit.inspector.recording import Recording
 from labkit.lesson.day import all_days
-from labkit.site import formulas, links, notebooks, pages
+from labkit.site import access, formulas, links, meshes, notebooks, pages, robot, typed
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, TWIN_XML
 
@@ -31,7 +32,8 @@ SETTINGS: dict[str, Any] = {
     "html_title": "robo47",
     "html_theme": "furo",
     "html_css_files": ["style.css"],
-    "html_js_files": [("film.js", {"defer": "defer"})],
+    "html_js_files": [("page.js", {"type": "module"})],
+    "html_search_scorer": str(SOURCES / "search.js"),
     "html_favicon": str(SOURCES / "icon.svg"),
     "html_copy_source": False,
     "html_show_sphinx": False,
@@ -51,12 +53,15 @@ SETTINGS: dict[str, Any] = {
     "napoleon_attr_annotations": False,  # and, as elsewhere, without types
     "default_role": "code",  # `q` in a docstring
 }
+# As an accent, a dot is set into its letter at a screen's size: q with a dot reads q.
+_MELTS = ' accent="true"'
+_MARKUP = (":", "..", "- ", "* ")  # what an indented paragraph belongs to
 # docutils puts the index of an accented letter below it: q with a dot and an i.
 _BELOW = re.compile(
     r"<munderover>\s*(<mi>[^<]*</mi>)(.*?)(<mo[^>]*>[˙¨]</mo>)\s*</munderover>",
     re.DOTALL,
 )
-_BESIDE = r'<msub><mover accent="true">\1\3</mover>\2</msub>'
+_BESIDE = r"<msub><mover>\1\3</mover>\2</msub>"
 
 
 def build(out: Path) -> None:
@@ -87,6 +92,7 @@ def build(out: Path) -> None:
         site.build()
     if site.statuscode:
         raise Robo47Error("the site has warnings, above; each is an error")
+    access.mend(out, pages.FILMS)
     if wrong := links.faults(out):
         raise Robo47Error("links that lead nowhere:\n  " + "\n  ".join(wrong))
 
@@ -100,17 +106,23 @@ def films() -> dict[str, Callable[[], Recording]]:
 def _static(into: Path) -> Path:
     """Return a folder, made with the style and all that the arm's page loads."""
     (into / pages.FILMS).mkdir(parents=True)
-    for path in (SOURCES / "style.css", SOURCES / "film.js", TWIN_XML, WASM):
+    for path in (SOURCES / "style.css", SOURCES / "page.js", TWIN_XML, WASM):
         shutil.copy(path, into)
+    for path in ROOT.glob(f"w*/figures/*{access.TALL}.*"):
+        shutil.copy(path, into)  # for narrow screens
     for name, make in films().items():
         path = into / pages.FILMS / f"{name}.html"
-        path.write_text(make().page(name.replace("_", " ")), "utf-8")
+        path.write_text(access.film(make().page(name.replace("_", " "))), "utf-8")
         if path.stat().st_size > LARGEST_FILM:
             raise Robo47Error(f"the film {name} has {path.stat().st_size:,} bytes")
-    (into / "ghosts.json").write_text(
-        json.dumps(formulas.tables(), separators=(",", ":")), "utf-8"
-    )
-    command = ["npm", "run", "--silent", "build", "--", f"--outfile={into}/arm.js"]
+    read = {
+        "ghosts.json": {**formulas.tables(), "typed": typed.table()},
+        "panda.json": robot.numbers(),
+    }
+    for name, what in read.items():
+        (into / name).write_text(json.dumps(what, separators=(",", ":")), "utf-8")
+    meshes.write(into / "panda.bin")
+    command = ["npm", "run", "--silent", "build", "--", f"--outdir={into}"]
     done = processes.run(command, cwd=SOURCES)
     if done.returncode:
         raise Robo47Error(f"arm.js was not built: {done.stderr.strip()[-500:]}")
@@ -119,7 +131,8 @@ def _static(into: Path) -> Path:
 
 def mathml(formula: str, as_block: bool = False) -> str:
     """Return a formula of LaTeX as MathML."""
-    return _BELOW.sub(_BESIDE, tex2mathml(formula, as_block=as_block))
+    made = _BELOW.sub(_BESIDE, tex2mathml(formula, as_block=as_block))
+    return made.replace(_MELTS, "")
 
 
 def write(page: Any, node: Any, as_block: bool = False) -> None:
@@ -129,9 +142,21 @@ def write(page: Any, node: Any, as_block: bool = False) -> None:
 
 
 def plain(*docstring: Any) -> None:
-    """Keep the bars of a docstring's |x| from being taken for markup."""
+    """Keep the bars of a docstring's |x|, and its equations, from becoming markup."""
     lines = docstring[-1]
-    lines[:] = [line.replace("|", r"\|") for line in lines]
+    lines[:] = _as_they_stand([line.rstrip() for line in lines])
+
+
+def _as_they_stand(lines: list[str]) -> Iterator[str]:
+    """Yield a docstring where what is indented after a gap keeps its lines."""
+    above, alone = "", False  # the last line at the margin; in an equation now?
+    for before, line in pairwise(["", *lines]):
+        if line and not line[0].isspace():
+            above, alone = line, False
+        elif line and not before and not alone and not above.startswith(_MARKUP):
+            alone = True
+            yield from (".. code-block:: text", "")
+        yield line if alone else line.replace("|", r"\|")
 
 
 def fields(*member: Any) -> bool | None:

@@ -22,12 +22,37 @@ DOCUMENTS = (
     "metrics/README.md",
     "bench/README.md",
 )
-PICTURES = {".png", ".jpg", ".gif", ".svg"}
+PICTURES = {".png", ".jpg", ".gif", ".svg", ".webp"}
+# HTML that GitHub shows, with another picture on a phone: a page here has the first.
+BY_WIDTH = re.compile(
+    r'<picture>.*?<img src="([^"]+)"[^>]* alt="([^"]*)"[^>]*>\s*</picture>', re.DOTALL
+)
 LINK = re.compile(r"(?<=\]\()(?!https?:|#|mailto:)([^)#\s]+)(?=[)#])")
 PICTURE = re.compile(r"^!\[[^\]]*\]\([^)\s]*?(\w+)\.\w+\)$", re.MULTILINE)
+LIVE = re.compile(
+    r"^<!-- live: (\w+) -->$", re.MULTILINE
+)  # a figure of site/figures.js
+FIGURE = '```{raw} html\n<figure class="live" data-figure="\\1"></figure>\n```'
 FILMS = "films"  # their folder among the site's static files
+# The README says where the arm's page is; here it is a click away, above all pictures.
+ELSEWHERE = re.compile(r"^\*\*Try it now.*?\n\n", re.MULTILINE | re.DOTALL)
+FIRST = re.compile(r"\A(# [^\n]+\n\n.+?\n\n)", re.DOTALL)  # title and paragraph
+TRY = (
+    r"\1**[Try it now, nothing to install](arm.md)**: type a mistake, see the arm.\n\n"
+)
+VERB = re.compile(
+    r"^([a-z-]+)%?:.*?##(\d?) (.+)$", re.MULTILINE
+)  # as `make help` reads it
+COMMANDS = """\
+# What to type: the commands
+
+In a clone of the kit. `DAY=2` names a day, `WEEK=1` a week, `TASK=1.4` a task; without
+it, it is the one you worked on last. The first ten are for a day's work, in its order.
+
+"""
 LANGUAGE = {".py": "python", ".toml": "toml"}
 HOME = Path("README.md")
+ARM = Path("site", "arm.md")
 REFERENCE = """\
 # robo47.{0}
 
@@ -45,11 +70,14 @@ CONTENTS = """
 ```
 """
 MODULES = (
-    ("Poses and chains", ("se3", "kinematics", "screws", "dh", "rotation_log")),
+    (
+        "Poses and chains",
+        ("se3", "kinematics", "screws", "dh", "rotation_log", "orientation"),
+    ),
     ("Velocities and forces", ("jacobian", "fast.jacobians", "fast.ik", "dynamics")),
     ("Control and motion", ("control", "task_space", "trajectory")),
     ("The robot and its world", ("panda", "scenes", "simulate", "verify", "arm")),
-    ("The week's end", ("capstone",)),
+    ("The weeks' ends", ("capstone", "delivery")),
 )
 
 
@@ -64,15 +92,19 @@ def lay_out(folder: Path, filmed: Collection[str], ran: Sequence[Day]) -> None:
     notebooks = {Path(day.folder.name, day.guide): day for day in ran}
     pages = {p.relative_to(ROOT) for each in DOCUMENTS for p in ROOT.glob(each)}
     for page in pages:
-        text = _with_films((ROOT / page).read_text("utf-8"), page, filmed)
-        text = _with_notebook(text, notebooks.get(page))
+        text = BY_WIDTH.sub(r"![\2](\1)", (ROOT / page).read_text("utf-8"))
+        text = _with_films(text, page, filmed)
+        if page == HOME:
+            text = FIRST.sub(TRY, ELSEWHERE.sub("", text))
+        text = LIVE.sub(FIGURE, _with_notebook(text, notebooks.get(page)))
         name = Path("index.md") if page == HOME else page
         _write(folder / name, _linked(text, page, pages, folder))
     with (folder / "index.md").open("a", encoding="utf-8") as home:
         for caption, names in _contents(pages):
             above = f":caption: {caption}" if caption else ""
             home.write(CONTENTS.format(above, "\n".join(names)))
-    shutil.copy(ROOT / "site" / "arm.md", folder / "arm.md")
+    shutil.copy(ROOT / ARM, folder / ARM.name)
+    _write(folder / "commands.md", _commands((ROOT / "Makefile").read_text("utf-8")))
     for module in (module for _, modules in _modules() for module in modules):
         _write(folder / "library" / f"{module}.md", REFERENCE.format(module))
 
@@ -85,6 +117,8 @@ def _linked(text: str, page: Path, pages: set[Path], folder: Path) -> str:
         name = target.relative_to(ROOT)
         if name in pages or not target.is_file():
             return found[1]  # Sphinx says what leads nowhere
+        if name == ARM:  # a page at the site's top
+            return "../" * (len(page.parts) - 1) + name.name
         copy = folder / name
         if target.suffix in PICTURES:
             copy.parent.mkdir(parents=True, exist_ok=True)
@@ -99,7 +133,7 @@ def _linked(text: str, page: Path, pages: set[Path], folder: Path) -> str:
 def _with_films(text: str, page: Path, filmed: Collection[str]) -> str:
     """Return a document with a link below each picture that has a film.
 
-    film.js plays it in the picture's place; without WebGL the picture stays alone.
+    page.js plays it in the picture's place; without WebGL the picture stays alone.
     """
     up = "../" * (len(page.parts) - 1)
 
@@ -135,6 +169,16 @@ def _shown(file: Path, name: Path) -> str:
     return f"{head}{fence}{language}\n{body}{fence}\n"
 
 
+def _commands(makefile: str) -> str:
+    """Return a page with a heading per command of `make`, so that a search finds it."""
+    found = VERB.findall(makefile)
+    verbs = sorted(found, key=lambda verb: (verb[1] == "", verb[1]))
+    parts = [
+        f"## make {name}\n\n{says[0].upper()}{says[1:]}.\n" for name, _, says in verbs
+    ]
+    return COMMANDS + "\n".join(parts)
+
+
 def _modules() -> Iterator[tuple[str, Sequence[str]]]:
     """Yield the library's modules by what they are about, then a later week's."""
     yield from MODULES
@@ -147,7 +191,7 @@ def _modules() -> Iterator[tuple[str, Sequence[str]]]:
 
 def _contents(pages: set[Path]) -> Iterator[tuple[str, Sequence[str]]]:
     """Yield the captions of the site's margin, and what stands below each."""
-    yield "", ["arm"]
+    yield "", ["arm", "commands"]
     rest = {page.with_suffix("").as_posix() for page in pages - {HOME}}
     for week in weeks():
         top = f"{week.folder.name}/"

@@ -1,6 +1,7 @@
 """What an update asks of git, and the worktree beside the clone that it works in."""
 
 import contextlib
+import os
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -12,7 +13,8 @@ from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
 SECONDS = 300.0
-PREFIX = "update-"  # of a worktree's folder in `.robo47/`
+PREFIX = "update-"  # of a folder in `.robo47/`, of a worktree or an index
+NO_HOOKS = ("-c", f"core.hooksPath={os.devnull}")  # they see no checkout of ours
 NOBODY = ("-c", "user.name=robo47", "-c", "user.email=robo47@localhost")
 
 
@@ -34,10 +36,9 @@ def ask(
         Robo47Error: git fails; what it says, with the files that it names.
     """
     more: dict[str, Any] = {"GIT_INDEX_FILE": str(index)} if index else {}
+    more |= {"seconds": SECONDS, "largest": git.LARGEST_GIT}
     try:
-        done = git.run(
-            *arguments, folder=at, seconds=SECONDS, largest=git.LARGEST_GIT, **more
-        )
+        done = git.run(*NO_HOOKS, *arguments, folder=at, **more)
     except git.GitError as error:
         raise Robo47Error(f"{error}") from None
     if done.returncode == 0:
@@ -55,37 +56,39 @@ def as_whom(at: Path) -> tuple[str, ...]:
 
 def commit(message: str, at: Path) -> None:
     """Commit what is staged."""
-    how = ("commit", "-q", "--no-verify", "--no-gpg-sign", "-m", message)
+    how = ("commit", "-q", "--no-gpg-sign", "-m", message)
     ask(*as_whom(at), *how, at=at)
 
 
 @contextlib.contextmanager
-def own_index() -> Iterator[Path]:
-    """Yield where an index may be, besides the clone's own; it goes with the block."""
-    index = store.path_of("update.index")
-    index.parent.mkdir(exist_ok=True)
-    try:
-        yield index
-    finally:
-        for path in (index, index.with_name(f"{index.name}.lock")):
-            path.unlink(missing_ok=True)
-
-
-@contextlib.contextmanager
-def beside(head: str) -> Iterator[Path]:
-    """Yield a worktree at a commit, under a name that no run before had.
+def _folder() -> Iterator[Path]:
+    """Yield a folder beside the clone's files, under a name that no run before had.
 
     A git that outlives a killed run for a moment has its own.
     """
     memory = store.path_of("")
     memory.mkdir(exist_ok=True)
-    place = Path(tempfile.mkdtemp(prefix=PREFIX, dir=memory))
-    try:
-        ask("worktree", "add", "-q", "--detach", str(place), head)
-        yield place
-    finally:
-        with contextlib.suppress(Robo47Error):  # it is away, or goes at the next run
-            remove(place)
+    with tempfile.TemporaryDirectory(prefix=PREFIX, dir=memory) as place:
+        yield Path(place)
+
+
+@contextlib.contextmanager
+def own_index() -> Iterator[Path]:
+    """Yield where an index may be, besides the clone's own; it goes with the block."""
+    with _folder() as folder:
+        yield folder / "index"
+
+
+@contextlib.contextmanager
+def beside(head: str) -> Iterator[Path]:
+    """Yield a worktree at a commit; it goes with the block."""
+    with _folder() as place:
+        try:
+            ask("worktree", "add", "-q", "--detach", str(place), head)
+            yield place
+        finally:
+            with contextlib.suppress(Robo47Error):  # away, or it goes at the next run
+                remove(place)
 
 
 def remove(place: Path) -> None:
@@ -97,7 +100,5 @@ def remove(place: Path) -> None:
 
 def sweep() -> None:
     """Take away what runs left behind that were killed."""
-    with own_index():
-        pass
     for place in store.path_of("").glob(f"{PREFIX}*/"):
         remove(place)

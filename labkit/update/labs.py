@@ -10,6 +10,7 @@ import sys
 import tomllib
 from typing import Any
 
+from labkit.base import cli
 from labkit.lesson.day import Day, all_days
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.merge import renewed
@@ -20,11 +21,12 @@ from robo47.paths import ROOT
 MOST = 100  # versions of a lab to look through for the one that was begun with
 
 
-def main() -> None:
+def main() -> int:
     """Renew every lab that was begun."""
     before, target = sys.argv[1:]
     days = [found for day in all_days() if (found := renew(day, before, target))]
     print(json.dumps({"days": days, "changes": changes(before)}))
+    return cli.EXIT_OK
 
 
 def renew(day: Day, before: str, target: str) -> dict[str, object] | None:
@@ -39,7 +41,7 @@ def renew(day: Day, before: str, target: str) -> dict[str, object] | None:
     lines = news(day, before)
     if not begun.is_file() or begun.is_symlink():  # a link leads out of this worktree
         return {"day": day.number, "news": lines} if lines else None
-    text = begun.read_text("utf-8-sig")
+    text = read_script(begun)
     new = renewed(day, text, versions(day, before, target), read_script(day.source))
     if begun != day.work:
         begun.rename(day.work)
@@ -115,10 +117,10 @@ def _rows(day: Day, old: dict[str, Any]) -> list[str]:
 def _sheet(day: Day, before: str) -> list[str]:
     name = day.files.get("worksheet", "")
     old = said("show", f"{before}:{name}").splitlines() if name else []
-    now = (ROOT / name).read_text("utf-8").splitlines() if old else []
+    now = (ROOT / name).read_text("utf-8", "replace").splitlines() if old else []
     new = [line for line in now if line.startswith("#") and line not in old]
     return [f"the worksheet has a heading {line.strip('# ')!r}" for line in new]
 
 
 if __name__ == "__main__":
-    main()
+    cli.run(main)

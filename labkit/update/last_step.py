@@ -42,7 +42,8 @@ def take(worktree: Path, own: str) -> None:
     now = ask("rev-parse", "HEAD")
     to = ask("rev-parse", "HEAD", at=worktree)
     names = _changed(own, to)
-    if blocked := in_the_way(names, own, to):
+    # what is neither as in one commit nor as in the other
+    if blocked := sorted(_unlike(to, names) & _unlike(own, names)):
         shown = ", ".join(blocked[:SHOWN]) + (", ..." if blocked[SHOWN:] else "")
         if ask("ls-tree", "--name-only", own, "--", *blocked[:SHOWN]):
             raise Robo47Error(f"changed meanwhile: {shown}. Once more: make update")
@@ -67,7 +68,7 @@ def take(worktree: Path, own: str) -> None:
         with contextlib.suppress(Robo47Error, OSError):  # then the next run does it
             heal()
         if isinstance(error, OSError):
-            where = error.filename or "a file"
+            where = error.filename2 or error.filename or "a file"
             raise Robo47Error(f"{where} cannot be written: {error.strerror}") from None
         raise
     store.path_of(NOTE).unlink()
@@ -91,20 +92,12 @@ def heal() -> None:
         head = ask("rev-parse", "HEAD")
         if head == now != to and whole:
             names = _changed(own, to)
-            moved = [name for name in names if name not in _unlike(to, names)]
             with beside(own) as worktree:
-                _move(worktree, moved)
+                _move(worktree, set(names) - _unlike(to, names))
         if head in (now, to):
             ask("reset", "-q")
     with contextlib.suppress(FileNotFoundError, NotADirectoryError):
         store.path_of(NOTE).unlink()  # else the student went on from there
-
-
-def in_the_way(names: Iterable[str], own: str, to: str) -> list[str]:
-    """Return the files of the clone that are neither as in one commit nor the other."""
-    names = list(names)
-    strange = _unlike(to, names) & _unlike(own, names)
-    return [name for name in names if name in strange]
 
 
 def _changed(own: str, to: str) -> list[str]:
@@ -120,7 +113,8 @@ def _unlike(commit: str, names: list[str]) -> set[str]:
         ask("update-index", "-q", "--refresh", may_fail=True, index=index)
         has = set(ask("ls-files", "-z", index=index).split("\0"))
         other = set(ask("diff-files", "-z", "--name-only", index=index).split("\0"))
-    return {n for n in names if (n in other if n in has else _stands(n, set(names)))}
+    whole = set(names)
+    return {n for n in names if (n in other if n in has else _stands(n, whole))}
 
 
 def _stands(name: str, names: set[str]) -> bool:

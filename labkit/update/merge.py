@@ -55,14 +55,14 @@ def saved_own() -> str:
         try:
             shutil.copyfile(own, index)
         except OSError as error:
-            raise Robo47Error(f"{own}: {error.strerror}") from None
+            raise Robo47Error(f"{error.filename}: {error.strerror}") from None
         ask("add", "-u", index=index)
         ask("add", "--", *there, may_fail=True, index=index)
         tree = ask("write-tree", index=index)
     if tree == ask("rev-parse", "HEAD^{tree}"):
         return ask("rev-parse", "HEAD")
-    says = ("-p", "HEAD", "-m", "My work before the update", tree)
-    return ask(*as_whom(ROOT), "commit-tree", *says)
+    commit = ("commit-tree", "-p", "HEAD", "-m", "My work before the update", tree)
+    return ask(*as_whom(ROOT), *commit)
 
 
 def merge(worktree: Path, target: str) -> list[str]:
@@ -125,23 +125,30 @@ def _resolve(worktree: Path, name: str, blobs: dict[str, str], own: bool) -> boo
 
 def _text(worktree: Path, blob: str) -> str | None:
     """Return a blob's text; None for what is none."""
-    done = git.run("show", blob, folder=worktree, seconds=SECONDS, text=False)
+    content = _content(worktree, blob)
     try:
-        return None if b"\0" in done.stdout else done.stdout.decode("utf-8")
+        return None if b"\0" in content else content.decode("utf-8")
     except UnicodeDecodeError:
         return None
 
 
+def _content(worktree: Path, blob: str) -> bytes:
+    """Return a blob's content; b"" where there is none."""
+    done = git.run("show", blob, folder=worktree, seconds=SECONDS, text=False)
+    content: bytes = done.stdout
+    return content
+
+
 def _keep_rows(worktree: Path, own: str) -> None:
     """Put back rows of the log that a merge left out, however it came about."""
-    before = ask("show", f"{own}:{LOG}", at=worktree, may_fail=True).splitlines()
+    before = _content(worktree, f"{own}:{LOG}").splitlines()
     path = worktree / LOG
     if path.is_symlink():  # it leads out of the worktree
         return
-    now = path.read_text("utf-8").splitlines() if path.is_file() else []
+    now = path.read_bytes().splitlines() if path.is_file() else []
     if lost := [row for row in before if row not in set(now)]:
         path.parent.mkdir(exist_ok=True)
-        path.write_text("\n".join([*now, *lost]) + "\n", "utf-8", newline="\n")
+        path.write_bytes(b"\n".join([*now, *lost, b""]))
 
 
 def remember(place: str) -> None:

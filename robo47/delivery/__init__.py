@@ -120,7 +120,9 @@ def attempt(fns: Any, seed: int | None = None, **options: Any) -> Result:
     if options:
         return found
     pushed = deliver(fns, CUBE_XY, GOAL_XY, YAW, Asked(mass=MASS, push=PUSH))
-    return found._replace(noticed_ms=pushed.noticed_ms, pushed_link=pushed.link)
+    return found._replace(
+        pushed=True, noticed_ms=pushed.noticed_ms, pushed_link=pushed.link
+    )
 
 
 def film(found: Result) -> Film:

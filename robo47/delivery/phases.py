@@ -170,7 +170,10 @@ class Delivery(Task):
         extra = self.runs[-1].tau[-1] - self.arm.gravity(q)
         holds = J_site[None], now.T[None, :3, :3], extra[None]
         self.weighed = float(fns.payload_from_holds(*holds, GRAVITY)[0])
-        if self.weighed < EMPTY:
+        if not self.weighed >= -EMPTY:  # NaN, too
+            grams = f"{1e3 * self.weighed:.0f} g"
+            self.stopped = f"it weighs {grams}: is payload_from_holds (task 8.8) right?"
+        elif self.weighed < EMPTY:
             self.stopped = "there is nothing in the hand"
         else:
             self._hold(self.weighed, now.T @ self.T_tcp_cube)

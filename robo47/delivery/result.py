@@ -27,13 +27,14 @@ class Result(NamedTuple):
     residual: float  # largest torque that nobody commanded, of any joint, N m
     link: int  # which link felt more than it may first; 0: none did
     pushed_link: int  # the same of a second run, in which somebody pushes
-    noticed_ms: float  # how long after a push it was felt; nan where nobody pushed
+    noticed_ms: float  # how long after a push it was felt; nan where none was
     stopped: str  # why it did not go on; "" where it did
     seconds: float  # how long the task took in the simulation
     looks: int  # how often the planner asked for a distance
     phases: list[tuple[str, float]]  # (name, when it began in seconds), in order
     t: Array  # time of each control instant, seconds, (N,)
     qpos: Array  # everything's configuration then, (N, nq): for pictures and replays
+    pushed: bool = False  # whether somebody pushed, here or in the second run
 
     @property
     def failed(self) -> bool:
@@ -44,6 +45,7 @@ class Result(NamedTuple):
             and self.seen_mm < 3.0
             and abs(self.grams - 1e3 * self.mass) < 1.0
             and self.clearance_mm > 0.0
+            and (self.noticed_ms > 0.0 or not self.pushed)
         )
         return not good
 
@@ -71,6 +73,7 @@ def of(task: Delivery) -> Result:
         phases=[task.phases[i] for i in first],
         t=np.linspace(task.now / len(qpos), task.now, len(qpos)),
         qpos=qpos,
+        pushed=bool(task.asked.push),
     )
 
 

@@ -3,20 +3,21 @@
 Units: metres and seconds, in sentences millimetres, grams and milliseconds.
 """
 
-import numpy as np
-
-from robo47 import scenes, se3
+from robo47 import eye, scenes, se3
 from robo47.attempt import Block, Film, Told
 from robo47.capstone.told import ARM, CUBE, TABLE, phase_lines
 from robo47.checks import Array
 from robo47.delivery import scene
 from robo47.delivery.result import Result
+from robo47.delivery.watching import THRESHOLD
 
 HEAD = f"""
 {"":26}{"seen":>7}{"weighed":>9}{"speed":>7}{"clear":>8}{"felt":>7}{"place":>8}
 {"":26}{"mm":>7}{"g":>9}{"of max":>7}{"mm":>8}{"N m":>7}{"mm":>8}"""
-MOMENTS = ("close", "weigh", "carry", "open")  # phases whose beginnings a picture shows
+MOMENTS = ("close", "weigh", "put down", "leave")  # of the pictures, as they begin
 WALL = (0.45, 0.55, 0.70, 1.0)
+EYE = (0.15, 0.15, 0.18, 1.0)
+EYE_HALF = (0.03, 0.02, 0.05)  # m, long along its view
 
 
 def row(name: str, result: Result) -> str:
@@ -31,11 +32,10 @@ def told(result: Result) -> Told:
     after = [f"the planner asked for {result.looks:,} distances"]
     if result.stopped:
         after.append(f"it stopped: {result.stopped}")
-    if not np.isnan(result.noticed_ms):
-        after.append(
-            f"pushed by 10 N in a second carry: link {result.pushed_link} feels it"
-            f" after {result.noticed_ms:.0f} ms"
-        )
+    if result.pushed:
+        felt = f"link {result.pushed_link} feels it after {result.noticed_ms:.0f} ms"
+        felt = felt if result.noticed_ms > 0.0 else "nothing is felt"
+        after.append(f"pushed by 10 N in a second carry: {felt}")
     came = "The arm finds a cube that nobody told it about, weighs it and puts it down"
     return Told(
         before=phase_lines(result.phases, result.seconds),
@@ -47,7 +47,37 @@ def told(result: Result) -> Told:
         else f"The arm stops: {result.stopped}.",
         way=f"It keeps {result.clearance_mm:.0f} mm from wall and table, and carries"
         f" the cube at {result.speed:.1f} of its speed, as the weight allows.",
+        figures=figures(result),
     )
+
+
+def figures(result: Result) -> list[tuple[str, str, str]]:
+    """Return what was measured: (what, how much with its unit, what is allowed)."""
+    known = 1e3 * result.mass
+    found = [
+        ("seen, from where the cube stood", f"{result.seen_mm:.1f} mm", "under 3 mm"),
+        ("weighed", f"{result.grams:z.1f} g", f"{known:.0f} ± 1 g"),
+        (
+            "clearance of the way as driven",
+            f"{result.clearance_mm:.1f} mm",
+            "over 0 mm",
+        ),
+        ("speed of the carry, of the joints' limits", f"{result.speed:.1f}", ""),
+        (
+            "torque felt in the carry that nobody commanded",
+            f"{result.residual:.2f} N m",
+            f"under {THRESHOLD} N m",
+        ),
+    ]
+    if not result.stopped:
+        place = f"{result.place_mm:.1f} mm"
+        found.append(("put down, from its mark", place, "under 10 mm"))
+    if result.pushed:
+        after = "a push of 10 N in a second carry, felt after"
+        felt = result.noticed_ms > 0.0
+        value = f"{result.noticed_ms:.0f} ms" if felt else "not felt"
+        found.append((after, value, "felt"))
+    return found
 
 
 def film_of(result: Result, cube_xy: tuple[float, float], yaw: float) -> Film:
@@ -71,10 +101,11 @@ def film_of(result: Result, cube_xy: tuple[float, float], yaw: float) -> Film:
 
 
 def _blocks(qpos: Array) -> list[Block]:
-    """Return table and wall, and the cube where a configuration, (16,), has it."""
+    """Return table, wall and eye, and the cube where a configuration, (16,), has it."""
     cube = se3.make_T(se3.quat_to_R(qpos[ARM + 3 : ARM + 7]), qpos[ARM : ARM + 3])
     still = zip(scene.boxes(), (TABLE, WALL), strict=True)
     return [
         *[Block(T, tuple(half), colour) for (T, half), colour in still],
+        Block(eye.looking(scene.EYE_AT, scene.EYE_TO), EYE_HALF, EYE),
         Block(cube, (scenes.CUBE_HALF,) * 3, CUBE),
     ]

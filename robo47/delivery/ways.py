@@ -22,6 +22,12 @@ CUTS = 60  # shortcuts that are tried
 SEED = 12  # of samples and shortcuts
 LEAST = 1e-3  # share of an edge between two looks: next_check stands still at a touch
 LOOKS = 2000  # at one edge; over that next_check does not get on
+INSIDE = {  # what to look at where an end of a way lies there
+    "start": "The way before led into it: are next_check (task 11.8) and rrt_connect"
+    " (task 12.4) right?",
+    "goal": "Is the cube where it was seen: are camera_matrix (task 10.1), back_project"
+    " (task 10.3) and icp_step (task 10.9) right?",
+}
 
 
 class Ways:
@@ -83,6 +89,11 @@ class Ways:
         """
         for name, q in (("start", a), ("goal", b)):
             apart = float(self.shape.clearance(q, self.world))
+            if apart <= -MARGIN:
+                raise Robo47Error(
+                    f"no way: the {name} is {-1e3 * apart:.0f} mm inside table or wall."
+                    f" {INSIDE[name]}"
+                )
             if apart <= MARGIN:
                 raise Robo47Error(
                     f"no way: the {name} is {1e3 * apart:.0f} mm from table or wall;"

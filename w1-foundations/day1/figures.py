@@ -10,7 +10,7 @@ from day1_transforms import READY_Q, SEED, Rz, compose_fk, inverse, make_T
 from PIL import Image
 
 from labkit import figures
-from labkit.figures import errorplot, portrait, sheet
+from labkit.figures import cards, errorplot, portrait, sheet
 from labkit.figures.scene import Camera, Ghost, Scene
 from labkit.lesson.day import find_day
 from robo47 import kinematics, panda, verify
@@ -67,5 +67,12 @@ def _after(
     )
 
 
+def small() -> Image.Image:
+    """Return the arm at ready, the world's frame and the one that is composed."""
+    T_world_ee = compose_fk(panda.load("panda_nohand"), READY_Q)
+    frames = [*cards.triad(np.eye(4), 0.35), *cards.triad(T_world_ee, 0.28)]
+    return cards.arm(READY_Q, boxes=frames)
+
+
 FIGURES = {"reference": reference, "order": order, "fk_error": fk_error}
-SMALL = ("order", 0, 0, 0.5)  # its left, top and width, in parts of its width
+SMALL = (small, "")  # of a table of days, and its number

@@ -113,7 +113,7 @@ def _(quat):
     return R
 
 
-@row.wrong("few-entries-off")  # One sign slipped in one entry.
+@row.wrong("slip-sign")  # One sign slipped in one entry.
 def _(quat):
     w, x, y, z = quat / np.linalg.norm(quat)
     R = by_ones([w, x, y, z])

@@ -100,7 +100,7 @@ for name in ("a", "d", "theta"):
 row.of_answer(of_a_pose("maps the link before to this one"))
 
 
-@row.wrong("few-entries-off")  # One minus forgotten.
+@row.wrong("slip-sign")  # One minus forgotten.
 def _(alpha, a, d, theta):
     T = dh_link(alpha, a, d, theta)
     T[1, 3] *= -1

@@ -11,7 +11,7 @@ import numpy as np
 from day2_screws import FRANKA_DH, SEED, exp_rotation, joint_screws
 from PIL import Image
 
-from labkit.figures import client, portrait
+from labkit.figures import cards, client, portrait
 from labkit.figures.overlay import HALO, INK, LEADER, SMOOTH, Layer
 from labkit.figures.scene import Camera, Scene
 from robo47 import kinematics, panda, verify
@@ -150,10 +150,22 @@ def _polyline(
         layer.dot((x, y), INK, 5)
 
 
+def small() -> Image.Image:
+    """Return the arm at q = 0 and the lines that its joints turn about."""
+    poses = kinematics.fk_all(panda.load("panda_nohand"), np.zeros(7))
+    origins = np.array([poses[link][:3, 3] for link in LINKS])
+    axes = joint_screws(np.array([poses[link] for link in LINKS]))[:, :3]
+    rods = [
+        cards.rod(p - 0.4 * omega, p + 0.4 * omega, (*np.divide(colour, 255), 1.0))
+        for p, omega, colour in zip(origins, axes, AXES, strict=True)
+    ]
+    return cards.arm(np.zeros(7), Camera((0.05, 0.0, 0.62), 2.9), rods)
+
+
 FIGURES = {
     "screws": screws,
     "dh_roulette": dh_roulette,
     "pitch": pitch,
     "dh_conventions": dh_conventions,
 }
-SMALL = ("screws", 0, 0.04, 1)  # its left, top and width, in parts of its width
+SMALL = (small, "")  # of a table of days, and its number

@@ -92,7 +92,7 @@ def _(J, e, damping):
     return dls_step(J, e, damping) if damping else np.zeros(7)
 
 
-@row.wrong("raises")  # Minus: with J = [I 0] and damping 1 nothing is left to invert.
+@row.wrong("slip-sign")  # Minus: with J = [I 0] and damping 1 nothing is left to invert.
 def _(J, e, damping):
     return J.T @ solve(J @ J.T - damping**2 * I6, e)
 

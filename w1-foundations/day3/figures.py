@@ -16,9 +16,11 @@ from day3_jacobian_ik import (
 )
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from PIL import Image
 
-from labkit.figures import chart
+from labkit.figures import cards, chart
 from labkit.figures.chart import BLUE, GREY, INK, ORANGE, RED, RULE
+from labkit.figures.scene import Camera
 from robo47 import panda, screws, verify
 from robo47.checks import Array
 
@@ -106,5 +108,23 @@ def _ellipse(axes: Axes, at: Array, A: Array, colour: str, style: str) -> None:
     axes.plot(x, y, style, color=colour)
 
 
+def small() -> Image.Image:
+    """Return the arm on the circle, red where even the best joint angles miss it."""
+    model = panda.load("panda_nohand")
+    arm = (panda.screws(model), panda.home_pose(model))
+    times = np.arange(0.0, day3_mujoco.LAP, DT)
+    circle, q = day3_mujoco.circle(arm, model.jnt_range, RADIUS, times)
+    least = day3_mujoco.least_miss(arm, model.jnt_range, circle, q)
+    _, _, path = draw_circle(arm, circle, q, DAMPING)
+    rods = [
+        cards.rod(circle[i, :3, 3], circle[i + 5, :3, 3], colour, 0.014)
+        for i in range(0, len(circle) - 5, 5)
+        for colour in [cards.RED if least[i] > 1e-3 else cards.SKY]
+    ]
+    rods.append(cards.rod(circle[-5, :3, 3], circle[0, :3, 3], cards.SKY, 0.014))
+    at = path[np.argmax(least) - 40]
+    return cards.arm(at, Camera((0.2, 0, 0.52), 2.5, np.radians(150.0)), rods)
+
+
 FIGURES = {"singularity": singularity, "ellipses": ellipses}
-SMALL = ("ellipses", 0.02, 0, 0.56)  # its left, top and width, in parts of its width
+SMALL = (small, "")  # of a table of days, and its number

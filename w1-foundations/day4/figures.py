@@ -17,12 +17,15 @@ from day4_dynamics import (
 )
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from PIL import Image
 
-from labkit.figures import chart
+from labkit.figures import cards, chart
 from labkit.figures.chart import BLUE, GREEN, INK, ORANGE, RED, RULE
+from labkit.figures.scene import Camera
 from robo47 import panda, simulate
 from robo47.checks import Array
 
+GLIDES = 0.7  # s after the push, of the small picture
 SPEED, ACCELERATION = 1.5, 5.0  # rad/s and rad/s^2, of every joint at once
 POSES = {
     "ready": READY_Q,
@@ -138,5 +141,22 @@ def _bars(axes: Axes, name: str, q: Array) -> None:
     axes.tick_params(length=0)
 
 
+def small() -> Image.Image:
+    """Return the arm held by your torques, and where it has glided after a push."""
+    model = panda.load("panda_nohand", drive="torque")
+    arm = panda.arm(model)
+
+    def hold(t: float, q: Array, qd: Array) -> Array:
+        now = arm.at(q)
+        return gravity_torque(now.J_space, arm.masses, now.coms_world, arm.gravity)
+
+    data = simulate.start(model, READY_Q)
+    push = simulate.push_at("attachment_site", np.append(np.zeros(3), PUSH))
+    simulate.run(model, data, hold, 0.5, push=push)
+    q = simulate.run(model, data, hold, GLIDES).q[-1]
+    camera = Camera((0.1, 0.0, 0.45), 2.1, np.radians(150.0))
+    return cards.arm(READY_Q, camera, ghosts=cards.elsewhere(READY_Q, q))
+
+
 FIGURES = {"momentum": momentum, "torques": torques, "float": float_and_push}
-SMALL = ("torques", 0, 0, 1)  # its left, top and width, in parts of its width
+SMALL = (small, "")  # of a table of days, and its number

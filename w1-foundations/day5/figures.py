@@ -5,14 +5,17 @@ error_curves   an error of 0.1 rad decays under five controllers; dashed: predic
 
 import day5_control as lab
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from PIL import Image
 
-from labkit.figures import chart
+from labkit.figures import cards, chart
 from labkit.figures.chart import BLUE, GREEN, GREY, ORANGE, PURPLE
 from robo47 import panda, references, simulate
 from robo47.checks import Array
 
 SECONDS, RATE = 1.0, 500.0  # at 500 Hz the curve is predicted to 1.2 % of e0
+LIT = ("#adb5bd", PURPLE, ORANGE, "#2fd39a", chart.SKY)  # on a dark ground
 LOOKS = ((GREY, "-"), (PURPLE, "-"), (ORANGE, "-"), (GREEN, "-."), (BLUE, "-"))
 
 
@@ -61,5 +64,16 @@ def error_curves(figure: Figure) -> None:
     axes.grid()
 
 
+def small() -> Image.Image:
+    """Return the five errors over time, without words."""
+
+    def draw(axes: Axes) -> None:
+        for e, colour in zip(curves().values(), LIT, strict=True):
+            axes.semilogy(e[::5], color=colour)
+        axes.set(ylim=(1e-5, 2.0))
+
+    return cards.curves(draw)
+
+
 FIGURES = {"error_curves": error_curves}
-SMALL = ("error_curves", 0, 0, 1)  # its left, top and width, in parts of its width
+SMALL = (small, "")  # of a table of days, and its number

@@ -65,6 +65,8 @@ def _(tau, limits):
     first-limit-typed-in: all joints get 87 N m, typed in; take each motor's own from
       limits
     all-positive: every torque has lost its sign; a motor turns both ways
+    rounded-off: it is limits tanh(tau / limits), which is smooth; within the limits a
+      torque stays as it is
     first-joint-only: only joint1 is limited; every motor has a limit
     """
     right = np.clip(tau, -limits, limits)
@@ -75,6 +77,7 @@ def _(tau, limits):
         "one-over-stops-all": 0.0 * tau if over.any() else tau,
         "nothing-within-the-limits": right if over.any() else 0.0 * tau,
         "first-limit-typed-in": np.clip(tau, -87.0, 87.0),
+        "rounded-off": limits * np.tanh(tau / limits),
         "all-positive": np.minimum(np.abs(tau), limits),
         "first-joint-only": np.append(right[0], tau[1:]),
     }

@@ -13,14 +13,17 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
+from PIL import Image
 
-from labkit.figures import chart
+from labkit.figures import cards, chart
 from labkit.figures.chart import BLUE, GREEN, INK, ORANGE, RED, RULE
-from robo47 import panda, scenes, simulate
+from labkit.figures.scene import Box
+from robo47 import panda, scenes, se3, simulate
 
 STEP = 0.002  # s, of the simulator
 FORCES = np.linspace(-20.0, 20.0, 11)  # N, along x
 STIFFNESSES = (400.0, 1000.0)  # N/m
+HAND = 0.1  # m that the pictures' arm, which has a hand, is longer
 MU = 0.6  # sliding friction of the drawn cone
 
 
@@ -172,5 +175,17 @@ def cone(figure: Figure) -> None:
     chart.blank(axes)
 
 
+def small() -> Image.Image:
+    """Return the hand on the table, and the force that it presses with."""
+    model = scenes.press_table()
+    q = lab.day6_mujoco.above_table(model, HAND)
+    x, y = scenes.PRESS_XY
+    top = scenes.PRESS_HEIGHT
+    T_world_table = se3.make_T(np.eye(3), [x, y, top - 0.03])
+    table = Box(T_world_table, (0.22, 0.3, 0.03), cards.WOOD)
+    force = cards.arrow((x, y - 0.2, top + 0.4), (x, y - 0.2, top), cards.ORANGE)
+    return cards.arm(q, boxes=[table, *force])
+
+
 FIGURES = {"push": push, "press": press, "loop": loop, "cone": cone}
-SMALL = ("press", 0, 0.03, 1)  # its left, top and width, in parts of its width
+SMALL = (small, "")  # of a table of days, and its number

@@ -15,7 +15,7 @@ from day7_trajectory import A_MAX, GOAL_Q, READY_Q, V_MAX, profiles, quintic_dur
 from matplotlib.figure import Figure
 from PIL import Image
 
-from labkit.figures import chart, client, portrait
+from labkit.figures import cards, chart, client, portrait
 from labkit.figures.chart import BLUE, GREEN, GREY, INK, ORANGE, RED
 from labkit.figures.overlay import HALO, SMOOTH, Layer
 from labkit.figures.scene import Box, Camera, Scene
@@ -151,10 +151,20 @@ def _cube(pose: Array, opacity: float = 1.0) -> Box:
     return Box(T, (scenes.CUBE_HALF,) * 3, (*PAINT[:3], opacity))
 
 
+def small() -> Image.Image:
+    """Return the arm as it lifts the cube, and the cube's way."""
+    done = capstone.pick(capstone.with_own(vars(day7_trajectory)))
+    now = int(np.searchsorted(done.t, dict(done.phases)["carry"] + 0.25))
+    cube = done.qpos[:, 9:16]
+    boxes = [_table(), _cube(cube[now]), *cards.line(cube[::40, :3], cards.RED)]
+    camera = Camera((0.38, 0.0, 0.3), 1.9, np.radians(205.0), np.radians(-18.0))
+    return cards.arm(done.qpos[now, :9], camera, boxes)
+
+
 FIGURES = {
     "profiles": profile_sheet,
     "grip": grip,
     "pick": pick,
     "letters": forty_seven,
 }
-SMALL = ("pick", 0.1, 0.08, 0.8)  # its left, top and width, in parts of its width
+SMALL = (small, "")  # of a table of days, and its number

@@ -8,10 +8,12 @@ import mujoco
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from PIL import Image
 
-from labkit.figures import chart
+from labkit.figures import cards, chart
 from labkit.figures.chart import BLUE, INK, RED
-from robo47 import eye, se3
+from labkit.figures.scene import Box, Camera
+from robo47 import eye, panda, scenes, se3
 from robo47.screws import skew
 
 import day10_mujoco
@@ -97,5 +99,20 @@ def _ellipse(axes: Axes, K: np.ndarray, T: np.ndarray) -> None:
     axes.grid()
 
 
+def small() -> Image.Image:
+    """Return the eye over the table, what it sees of it, and the cube."""
+    centre = (*scenes.TABLE_CENTRE, day10_mujoco.TABLE / 2)
+    half = (*scenes.TABLE_HALF, day10_mujoco.TABLE / 2)
+    T_world_cube = day10_mujoco.cubes(1, lab.SEED + 1)[0]
+    size = 2 * scenes.CUBE_HALF  # twice as large, to be seen
+    corners = 2 * day10_mujoco.CORNERS @ T_world_cube[:3, :3].T + T_world_cube[:3, 3]
+    rays = [cards.rod(day10_mujoco.AT, p, cards.SKY, 0.004) for p in corners]
+    eye_box = Box(se3.make_T(np.eye(3), day10_mujoco.AT), (0.05,) * 3, cards.SKY)
+    table = Box(se3.make_T(np.eye(3), centre), half, cards.WOOD)
+    cube = Box(T_world_cube, (size,) * 3, cards.ORANGE)
+    camera = Camera((0.6, 0.0, 0.42), 2.2, np.radians(118.0), np.radians(-18.0))
+    return cards.arm(panda.READY_Q, camera, [table, cube, eye_box, *rays])
+
+
 FIGURES = {"shown": shown}
-SMALL = ("shown", 0.09, 0.1, 0.42)  # its left, top and width, in parts of its width
+SMALL = (small, "0.8 mm")  # of a table of days, and its number

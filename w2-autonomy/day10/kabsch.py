@@ -113,6 +113,8 @@ def _(A, B):
     """other-way: this is the motion from B to A => kabsch(B, A)
     t-of-the-first: the translation fits the first point alone; its noise stays in
       => with b_0 - R a_0
+    first-for-centre: the first points are taken for the centres; their noise stays in
+      => with A[0] and B[0] for a and b
     affine: this is the best 3x3 matrix, by lstsq, and no rotation => the affine fit
     """
     R = kabsch(A, B)[:3, :3]
@@ -120,6 +122,9 @@ def _(A, B):
     M = np.linalg.lstsq(one, B, rcond=None)[0].T
     return {
         "other-way": kabsch(B, A),
+        "first-for-centre": fitted(
+            A, B, centre=lambda X: X[0], shift=lambda R, a, b: B[0] - R @ A[0]
+        ),
         "t-of-the-first": rigid(R, B[0] - R @ A[0]),
         "affine": rigid(M[:, :3], M[:, 3]),
     }

@@ -8,9 +8,11 @@ import day11_distance as lab
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from PIL import Image
 
-from labkit.figures import chart
+from labkit.figures import cards, chart
 from labkit.figures.chart import BLUE, GREY, INK, RED
+from labkit.figures.scene import Camera
 from robo47 import panda, shapes
 
 import day11_mujoco
@@ -83,5 +85,17 @@ def _curve(axes: Axes, s: np.ndarray, d: np.ndarray) -> None:
     axes.grid()
 
 
+def small() -> Image.Image:
+    """Return the arm on a way on which the points miss the wire, as it touches it."""
+    edge = missed_edge()
+    s = np.linspace(0.0, 1.0, FINE)
+    q = edge.q + s[np.argmin(day11_mujoco.far(edge, s))] * edge.dq
+    start, end, _ = edge.wire
+    pen = cards.rod(*day11_mujoco.pen(q), cards.SKY, 0.012)
+    wire = cards.rod(start, end, cards.RED, 0.012)
+    camera = Camera((0.1, 0.3, 0.3), 2.0, np.radians(200.0), np.radians(-20.0))
+    return cards.arm(q, camera, [pen, wire])
+
+
 FIGURES = {"looks": looks}
-SMALL = ("looks", 0.42, 0.545, 0.27)  # its left, top and width, in parts of its width
+SMALL = (small, "39 of 60")  # of a table of days, and its number

@@ -56,13 +56,23 @@ def _(a, b, g, limits, sd):
     widest: the widest range is taken, and not what all joints allow
     least-of-both: both ends are the smallest of their quotients
     first-joint-only: only the first joint is looked at
+    first-joint-only 2: only the first joint that moves is looked at; each of them
+      limits sdd
     last-joint-only: only the last joint is looked at, as by a loop that overwrites
     half-the-limit: only half of the limit is used
     not-divided: it is not divided by a
+    times-a: it is multiplied by a; it is divided by it
+    one-limit: a torque is kept between 0 and its limit; its limit goes both ways
     greatest-first: the two are in the other order: least, then greatest
+    greatest-first 2: the two are in the other order wherever the torques of joints with
+      a = 0 hold: least, then greatest
     none-sorted: where none is allowed the least is above the greatest; here they are
       sorted
     none-is-zero: where none is allowed this is (0, 0)
+    none-is-zero 2: where a joint with a = 0 cannot hold this is (0, 0): that allows sdd
+      0; (inf, -inf) allows nothing
+    none-is-one: where none is allowed the least is lowered to the greatest; the least
+      is above the greatest there
     zero-stops-all: a joint with a = 0 limits nothing if it holds
     zero-row-ignored: a joint with a = 0 that cannot hold its torque allows nothing:
       (inf, -inf)
@@ -104,18 +114,37 @@ def _(a, b, g, limits, sd):
         "widest": np.array([low.min(initial=np.inf), high.max(initial=-np.inf)]),
         "least-of-both": np.array([low.min(initial=np.inf), high.min(initial=np.inf)]),
         "first-joint-only": only(one),
+        "first-joint-only 2": np.append(low[:1], high[:1]) if moves.any() else right,
         "last-joint-only": only(last),
         "half-the-limit": of(rest, limits=limits / 2),
         "not-divided": narrowed(*np.sort(lone, axis=0)),
+        "times-a": narrowed(*np.sort(lone * a[moves], axis=0)),
+        "one-limit": narrowed(
+            *np.sort(
+                (np.array([0 * limits, limits]) - rest)[:, moves] / a[moves], axis=0
+            )
+        ),
         "greatest-first": right[::-1],
+        "greatest-first 2": right[::-1],
         "none-sorted": np.sort(right),
         "none-is-zero": right if right[0] <= right[1] else np.zeros(2),
+        "none-is-zero 2": right if held else np.zeros(2),
+        "none-is-one": np.array([min(right), right[1]]),
         "zero-stops-all": right if moves.all() else none,
         "zero-row-ignored": narrowed(low, high),
     }
-    for slug in table.keys() - {"gravity-forgotten", "zero-row-ignored", "none-sorted",
-                                "speed-forgotten", "none-is-zero", "greatest-first",
-                                "first-joint-only", "last-joint-only"}:  # fmt: skip
+    decided = {
+        "first-joint-only",
+        "last-joint-only",
+        "gravity-forgotten",
+        "speed-forgotten",
+        "greatest-first",
+        "none-is-zero",
+        "none-is-zero 2",
+        "none-sorted",
+        "zero-row-ignored",
+    }  # by themselves, what a joint with a = 0 that cannot hold does
+    for slug in table.keys() - decided:
         table[slug] = table[slug] if held else none
     return table
 

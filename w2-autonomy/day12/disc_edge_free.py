@@ -52,6 +52,8 @@ def _(rng):
     yield np.array([1.0, 2]), np.array([1.0, 2]), DISC
     yield np.array([0.0, 0]), np.array([2.0, 0]), np.array([[1, 0.1, 0.01]])
     yield np.array([0.0, 0]), np.array([2.0, 0]), np.array([[1, 0.001, 0.01]])
+    # Between the points of whoever looks at a thousand of them.
+    yield np.array([0.0, 0]), np.array([2.0, 0]), np.array([[0.713, 0.0002, 0.0005]])
     yield np.array([0.0, 0]), np.array([9.0, 0]), np.array([[2, 1.5, 2.0]])  # large
     yield np.array([0.0, 0]), np.array([9.0, 0]), np.array([[2, 2.5, 2.0]])
     yield np.array([0.0, 0]), np.array([1.1, 0]), np.array([[0.5, 0, 0.2]])
@@ -108,6 +110,12 @@ def _(a, b, discs):
       two of them => five points
     points-only 3: only some points of the edge are looked at; a thin disc fits between
       two of them => twenty points
+    points-only 4: only some points of the edge are looked at; a thin disc fits between
+      two of them => eleven points
+    points-only 5: only some points of the edge are looked at; a thin disc fits between
+      two of them => a hundred and one points
+    points-only 6: only some points of the edge are looked at; a thin disc fits between
+      two of them => two hundred points
     inner-only: a disc whose foot lies beyond an end is left out; the end itself may be
       in it
     first-disc-only: only the first disc is looked at
@@ -155,6 +163,9 @@ def _(a, b, discs):
         "points-only": at_points(a, b, discs, np.linspace(0, 1, 10)),
         "points-only 2": at_points(a, b, discs, np.linspace(0, 1, 5)),
         "points-only 3": at_points(a, b, discs, np.linspace(0, 1, 20)),
+        "points-only 4": at_points(a, b, discs, np.linspace(0, 1, 11)),
+        "points-only 5": at_points(a, b, discs, np.linspace(0, 1, 101)),
+        "points-only 6": at_points(a, b, discs, np.linspace(0, 1, 200)),
         "inner-only": bool(np.all((away > r) | ~inside)),
         "first-disc-only": disc_edge_free(a, b, discs[:1]),
         "last-disc-only": disc_edge_free(a, b, discs[-1:]),

@@ -83,6 +83,8 @@ def _(tree, sample, step, world):
     away: it grows away from the sample: steer takes the node, then the sample
     from-the-sample: it is steered from the sample to the node; the tree grows from the
       node
+    from-the-sample 2: it is steered from the sample to the node; the tree grows from
+      the node => a step from the sample, and the edge from the node to there
     farthest: the farthest node grows; the nearest one does
     """
     i, q, free = extend(tree, sample, step, world)
@@ -114,6 +116,7 @@ def _(tree, sample, step, world):
         "index-of-the-new": (len(tree), q, free),
         "away": (i, off, check(tree[i], off)),
         "from-the-sample": (i, back, check(sample, back)),
+        "from-the-sample 2": (i, back, check(tree[i], back)),
         "farthest": (far, at_far, check(tree[far], at_far)),
     }
 

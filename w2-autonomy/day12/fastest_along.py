@@ -59,7 +59,7 @@ def _(rng):
 
 def timed(A, B, G, limits, x_max, two_ds=0.0, sd=np.sqrt, end=0.0, start=0.0, last=True,
           backwards=True, forwards=True, bisections=60, pull=None, at=0, most=None,
-          ranges=accel_range, stands=True):  # fmt: skip
+          ranges=accel_range, stands=True, forward_sd=None, kept=1):  # fmt: skip
     """Time a path in another way.
 
     Args:
@@ -75,6 +75,8 @@ def timed(A, B, G, limits, x_max, two_ds=0.0, sd=np.sqrt, end=0.0, start=0.0, la
         most: the greatest x, for x_max.
         ranges: accel_range.
         stands: whether it looks if gravity alone is too much.
+        forward_sd: sd of the pass forwards; None is the same.
+        kept: the most of which end of a step its x is kept below, forwards.
     """
     n = len(A) - 1
     two_ds = two_ds or 2 / n
@@ -83,7 +85,7 @@ def timed(A, B, G, limits, x_max, two_ds=0.0, sd=np.sqrt, end=0.0, start=0.0, la
     if stands and np.any(np.abs(G) > limits):
         return np.zeros(n + 1)
 
-    def bounds(i, x):
+    def bounds(i, x, sd=sd):
         return ranges(A[i + at], B[i + at], g[i + at], limits, sd(x))
 
     def reached(i, x, after):
@@ -104,7 +106,8 @@ def timed(A, B, G, limits, x_max, two_ds=0.0, sd=np.sqrt, end=0.0, start=0.0, la
         return K
     x = np.full(n + 1, float(start))
     for i in range(n):
-        x[i + 1] = max(0.0, min(K[i + 1], x[i] + two_ds * bounds(i, x[i])[1]))
+        high = bounds(i, x[i], forward_sd or sd)[1]
+        x[i + 1] = max(0.0, min(K[i + kept], x[i] + two_ds * high))
     return x
 
 
@@ -143,6 +146,10 @@ def _(A, B, G, limits, x_max):
     four-ds: sd^2 grows by 2 ds u in a step; here it is 4 ds u
     points-for-steps: ds is 1 / (N + 1): N + 1 points have N steps
     sd-for-sd2: accel_range is given x; it wants sd, its root
+    sd-for-sd2 2: backwards accel_range is given x; it wants sd, its root
+    sd-for-sd2 3: forwards accel_range is given x; it wants sd, its root
+    most-of-the-point-before: forwards x[i + 1] is kept below what is possible at i;
+      that of i + 1 belongs there
     no-speed-limit: x_max is not used: the motors' speed is no limit
     speed-limit-forwards-only: x_max is used forwards alone: what comes after was not
       looked at
@@ -192,6 +199,9 @@ def _(A, B, G, limits, x_max):
         "four-ds": timed(*given, two_ds=4 / n),
         "points-for-steps": timed(*given, two_ds=2 / (n + 1)),
         "sd-for-sd2": timed(*given, sd=lambda x: x),
+        "sd-for-sd2 2": timed(*given, sd=lambda x: x, forward_sd=np.sqrt),
+        "sd-for-sd2 3": timed(*given, forward_sd=lambda x: x),
+        "most-of-the-point-before": timed(*given, kept=0),
         "no-speed-limit": timed(*given, most=wide),
         "speed-limit-forwards-only": fall,
         "gravity-forgotten": timed(*given, pull=0 * G),

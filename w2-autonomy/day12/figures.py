@@ -10,9 +10,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
+from PIL import Image
 
-from labkit.figures import chart
+from labkit.figures import cards, chart
 from labkit.figures.chart import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, RED, SKY
+from labkit.figures.scene import Box, Camera
 from robo47 import panda, simulate
 from robo47 import planning as library
 
@@ -117,5 +119,20 @@ def _fastest(*given: np.ndarray) -> tuple[np.ndarray, str]:
         return library.fastest_along(*given), "The library's move"
 
 
+def small() -> Image.Image:
+    """Return the arm on its way over the wall."""
+    wall = day12_mujoco.Wall()
+    samples = day12_mujoco.samples(wall.model, lab.COUNTS[-1], SEED)
+    start, goal = day12_mujoco.START, day12_mujoco.GOAL
+    found = lab.rrt_connect(start, goal, wall, samples, lab.STEP)
+    arm = panda.arm(wall.model)
+    hand = np.array([arm.at(q).T_world_ee[:3, 3] for q in found])
+    above = found[np.argmax(hand[:, 2])]
+    (T_world_wall, half), _ = wall.boxes
+    boxes = [Box(T_world_wall, half, cards.WOOD), *cards.line(hand, cards.SKY, 0.012)]
+    camera = Camera((0.3, 0.0, 0.42), 2.4, np.radians(150.0), np.radians(-16.0))
+    return cards.arm(above, camera, boxes)
+
+
 FIGURES = {"way": way}
-SMALL = ("way", 0.09, 0.1, 0.42)  # its left, top and width, in parts of its width
+SMALL = (small, "60 of 60")  # of a table of days, and its number

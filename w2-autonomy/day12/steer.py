@@ -37,10 +37,12 @@ def _(q, target, step):
     squared: it divides by the square of the distance; its root makes a direction of
       length 1
     from-the-target: a step is taken back from the target; it starts at q
+    from-the-target 2: a step is added to the target, and goes past it; it starts at q
     direction-only: q is missing: this is the step, and not where it ends
     direction-only 2: q is missing: this is the step, or the whole way where it is
       shorter
     away: it goes away from the target: q - target is the other way round
+    away 2: where the target is far it goes a step away from it
     stays-when-near: where the target is no further than a step it does not move; it
       ends at the target then
     always-q: it never moves
@@ -71,9 +73,11 @@ def _(q, target, step):
         "not-unit": target if near else q + step * way,
         "squared": target if near else q + step * unit / far,
         "from-the-target": target if near else target - step * unit,
+        "from-the-target 2": target if near else target + step * unit,
         "direction-only": step * unit,
         "direction-only 2": part * way,
         "away": q - part * way,
+        "away 2": target if near else q - step * unit,
         "stays-when-near": q if near else q + step * unit,
         "always-q": q,
         "largest-coordinate": q + min(1.0, step / size) * way,

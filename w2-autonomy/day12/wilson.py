@@ -56,6 +56,9 @@ def _(successes, n):
     root-n-forgotten: p (1 - p) is not divided by n, so that more trials tell no more
     not-rooted: the root is missing
     ninety: 1.645 leaves 5 in 100 on each side: that is 90 %; it takes 1.96
+    ninety-without-z2: 1.645 stands for 1.96, and z^2 / (4 n^2) is missing under the
+      root: two mistakes
+    two-sigma: 2 is taken for 1.96
     one-sigma: one sigma holds 68 times in 100; it takes 1.96
     ninety-nine: 2.576 is for 99 %; it takes 1.96
     more-digits: 1.959964 is nearer to the truth than 1.96; asked for is 1.96, so that
@@ -67,10 +70,15 @@ def _(successes, n):
     successes-for-p: k stands where the share k / n belongs
     failures: these are the shares of failures: the interval of n - k
     high-first: the two are in the other order: low, then high
+    high-first 2: the two are in the other order wherever there is a trial: low, then
+      high
     middle-and-width: this is the middle and the half width; the two ends are asked for
     rule-of-three: with no success at all the high end is 3 / n: that is another
       interval
     plus-four: p is (k + 2) / (n + 4), then Wald's interval: near, and another one
+    plus-four 2: p is (k + z^2 / 2) / (n + z^2), then Wald's interval with n + z^2 for n
+      (Agresti and Coull's): near, and another one
+    one-more: p is (k + 1) / (n + 2), one success and one failure more; it is k / n
     half-width: the width is half of what it is
     """
     k, trials = successes, n
@@ -82,6 +90,9 @@ def _(successes, n):
     two = np.array([-1, 1])
     wald = p + two * z * np.sqrt(p * (1 - p) / n)
     q = (k + 2) / (n + 4)
+    many = n + z**2
+    coull = (k + z**2 / 2) / many
+    more = (k + 1) / (n + 2)
     spread = p * (1 - p) / n
 
     def with_root(under, centre=p + z**2 / (2 * n)):
@@ -98,6 +109,8 @@ def _(successes, n):
         "root-n-forgotten": with_root(p * (1 - p) + z**2 / (4 * n**2)),
         "not-rooted": interval(k, n, root=lambda x: x),
         "ninety": interval(k, n, 1.645),
+        "ninety-without-z2": interval(k, n, 1.645, widen=False),
+        "two-sigma": interval(k, n, 2.0),
         "one-sigma": interval(k, n, 1.0),
         "ninety-nine": interval(k, n, 2.576),
         "more-digits": interval(k, n, 1.959964),
@@ -108,9 +121,14 @@ def _(successes, n):
         "successes-for-p": with_root(spread + z**2 / (4 * n**2), k + z**2 / (2 * n)),
         "failures": wilson(n - k, n),
         "high-first": right[::-1],
+        "high-first 2": right[::-1],
         "middle-and-width": np.array([middle, around]),
         "rule-of-three": np.array([0, 3 / n]) if k == 0 else right,
         "plus-four": q + two * z * np.sqrt(q * (1 - q) / (n + 4)),
+        "plus-four 2": coull + two * z * np.sqrt(coull * (1 - coull) / many),
+        "one-more": with_root(
+            more * (1 - more) / n + z**2 / (4 * n**2), more + z**2 / (2 * n)
+        ),
         "half-width": middle + two * around / 2,
     }
     if trials == 0:

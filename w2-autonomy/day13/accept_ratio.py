@@ -22,6 +22,14 @@ def _(before, after, expected):
     difference: that is what was saved less what was expected
     after-over-expected: what is left is divided by what was expected; what was saved is
       asked
+    after-over-before: that is what is left as a share of the cost before
+    percent: it is in per cent; a share is asked
+    before-over-expected: what it cost before is divided by what was expected; what was
+      saved is asked
+    expected-and-left: it is divided by what was expected and what is left together
+    less-1: 1 is taken off: it is 1 when all is well => less 1
+    brackets: only after is divided by what was expected; what was saved is => with
+      before - after / expected
     sizes: its sign is lost: a step that did harm has a ratio below 0 => its size
     at-most-1: it is clipped at 1; more than was expected may be saved
     never-below-0: it is clipped at 0; a step that did harm has a ratio below 0
@@ -36,6 +44,12 @@ def _(before, after, expected):
         "not-divided": saved,
         "difference": saved - expected,
         "after-over-expected": after / expected,
+        "after-over-before": after / before,
+        "percent": 100 * ratio,
+        "before-over-expected": before / expected,
+        "expected-and-left": saved / (expected + after),
+        "less-1": ratio - 1,
+        "brackets": before - after / expected,
         "sizes": abs(ratio),
         "at-most-1": min(ratio, 1.0),
         "never-below-0": max(ratio, 0.0),

@@ -5,10 +5,13 @@ import itertools
 import numpy as np
 
 from labkit.judge import Row, Vector
+from labkit.lesson.day import find_day
+from labkit.lesson.lab_module import lab_of
 from robo47.optimal import box_qp
 
 from .asked import boxed, problems
 
+LAB = lab_of(find_day(13))  # its `first_limit`, which is given
 row = Row(Vector((None,)))
 
 
@@ -24,7 +27,49 @@ def _(rng):
     # Where Newton by H's diagonal alone goes to the corners, and short steps arrive.
     alike = 0.2 * np.eye(3) + 0.8
     wide = (alike, np.array([1.0, -2, 0.5]), -9 * one, 9 * one, np.zeros(3))
-    return [(*case, np.zeros(2)), circling, wide, *best, *boxed(rng)]
+    flat = 0.05 * np.eye(2) + 0.95  # where what is done in turn takes hundreds of turns
+    long = (flat, np.array([1.0, -1]), -30 * one[:2], 30 * one[:2], np.zeros(2))
+    found = [*best, *boxed(rng)]
+    return [(*case, np.zeros(2)), circling, wide, long, *typed(), *found]
+
+
+def typed():
+    """Return what few questions that are drawn have in them."""
+    # The second number is held at its upper limit, and wants to leave by 3e-5.
+    H = np.array([[0.89, -0.26, 0.78], [-0.26, 0.89, -0.37], [0.78, -0.37, 1.21]])
+    g = np.array([1.9, -0.40597, -2.2])
+    lo, hi = np.array([-2.3, -0.1, 0.0]), np.array([-1.8, 0.2, 1.0])
+    hardly = (H, g, lo, hi, lo.copy())
+    # Two are held, and the one with the steeper slope wants to leave.
+    H = np.array([[0.45, -0.7], [-0.7, 2.2]])
+    lo, hi = np.array([-2.4, -0.4]), np.array([-1.3, 0.3])
+    steeper = (H, np.array([-1.5, 0.8]), lo, hi, np.array([-1.4, 0.8]))
+    # So here, after more rounds.
+    H = np.array([
+        [1.78, 0.36, 0.49, -0.49],
+        [0.36, 2.19, 0.6, 1.43],
+        [0.49, 0.6, 0.59, 0.29],
+        [-0.49, 1.43, 0.29, 1.85],
+    ])  # fmt: skip
+    lo, hi = np.array([-1.5, -1.2, -1.2, -2.3]), np.array([-1.1, -0.2, -0.4, -1.9])
+    start = np.array([2.0, -1.5, -1.5, 0.4])
+    later = (H, np.array([-3.9, -1.6, -3.3, -1.4]), lo, hi, start)
+    # It starts outside, above one limit and beyond the other.
+    H = np.array([[1.21, 0.01], [0.01, 0.21]])
+    lo, hi = np.array([-1.1, -0.1]), np.array([-0.8, 0.5])
+    outside = (H, np.array([-0.6, 2.6]), lo, hi, np.array([0.9, 1.8]))
+    # Ten rounds are too few here.
+    H = np.array([
+        [1.47, 1.46, -0.51, 0.81, 0.08],
+        [1.46, 2.27, 0.0, 1.31, -0.6],
+        [-0.51, 0.0, 1.94, -0.03, -1.75],
+        [0.81, 1.31, -0.03, 1.88, 0.23],
+        [0.08, -0.6, -1.75, 0.23, 2.79],
+    ])  # fmt: skip
+    lo = np.array([-1.3, -1.6, -2.4, -0.8, -2.4])
+    hi = np.array([-0.8, -1.3, -0.9, -0.5, -1.0])
+    often = (H, np.array([2.0, 2.4, 2.9, -1.2, 1.7]), lo, hi, lo.copy())
+    return [hardly, steeper, later, outside, often]
 
 
 def newton(H, g, lo, hi, x, n=50, frees="pushed", full=False):
@@ -74,6 +119,48 @@ def swept(H, g, lo, hi, x, n):
     return x
 
 
+def guessed(
+    H, g, lo, hi, x, *, rounds=100, enough=1e-12, lets_go="most", way=None, inside=True,
+    high=0.0,
+):  # fmt: skip
+    """Return x of the lab's own way, with other parts.
+
+    Args:
+        H, g, lo, hi, x: as the function has them.
+        rounds: how many are made at most.
+        enough: by how much nobody may leave at the end.
+        lets_go: "most" lets the one go that leaves most; "all" all; "steepest" the one
+            with the largest slope.
+        way: the step of the free entries, of x and which they are.
+        inside: whether the start is clipped.
+        high: is added to the upper limits on the way.
+    """
+    x = np.clip(x, lo, hi) if inside else np.array(x, float)
+    held = lo == hi
+    for _ in range(rounds):
+        free = ~held
+        slope = H @ x + g
+        step = np.zeros(len(x))
+        if way is None:
+            step[free] = np.linalg.solve(H[np.ix_(free, free)], -slope[free])
+        else:
+            step[free] = way(x, free)
+        x, met = LAB.first_limit(x, step, lo, hi + high)
+        if met is not None:
+            held[met] = True
+            continue
+        slope = H @ x + g
+        leaves = np.abs(x - np.clip(x - slope, lo, hi))
+        if leaves.max() < enough:
+            break
+        if lets_go == "all":
+            held = lo == hi
+        else:
+            sizes = np.abs(np.where(held, slope, 0.0))
+            held[np.argmax(leaves if lets_go == "most" else sizes)] = False
+    return x
+
+
 def held_for_good(H, g, lo, hi, x, own=True):
     """Return x where an entry that met a limit is never let go."""
     x = np.clip(x, lo, hi)
@@ -105,13 +192,31 @@ def _(H, g, lo, hi, x):
     solved-once-more: the best point without limits is clipped, the others are solved
       anew, and that is all; then others may meet, or want to leave
     held-for-good: an entry that has met its limit is never let go, though its slope may
-      pull it back inside
+      pull it back inside; or it is another one that is let go
+    steepest-let-go: of those that are held the one with the largest slope is let go,
+      whichever way it pushes; who leaves most is let go
+    all-let-go: all are let go at once, and meet the same limits again, in a circle; let
+      go the one that leaves most
+    stops-too-early: it stops while an entry wants to leave its limit by a little
+      => with 1e-4 for what nobody may leave by
+    stops-too-early 2: it stops while an entry wants to leave its limit by a little
+      => with 1e-2
+    few-rounds: so few rounds of guessing are not enough => with four
+    few-rounds 2: so few rounds of guessing are not enough => with five
+    few-rounds 3: so few rounds of guessing are not enough => with ten
+    start-not-clipped: it starts outside the box, where a way to a limit has no sense;
+      clip x first
+    uphill: the free entries are solved with plus the slope
+    starts-at-0: the step of the free entries is made with g, their slope at 0; they
+      start at x
+    upper-limits-passed: the upper limits stop no step
     held-by-place: whatever stands at a limit is held, whichever way its slope pushes
       => with all entries at limits held
     frees-the-wrong-ones: held are those at a limit whose slope pulls them inside; it is
       those that it pushes out
     held-left-out: what the held entries add to the slope of the free ones is left out
       => with -H_ff^-1 g_f
+    held-left-out 2: what the held entries add to the slope of the free ones is left out
     one-step: this is x after one Newton step, clipped
     two-steps: this is x after two Newton steps, clipped
     full-hessian: each step is solved with all of H, and the free entries are kept; the
@@ -122,6 +227,23 @@ def _(H, g, lo, hi, x):
     gradient-steps: this is x after 50 short steps downhill => with 50 steps of 0.01
     gradient-steps 2: the slope is steep here, and steps of 0.1 of it are too long: the
       step that H's largest eigenvalue allows is 1 over that => with 1,000 steps of 0.1
+    diagonal-hessian 2: each step of the free entries divides by H's diagonal only
+    gradient-steps 3: this is x after 30 short steps downhill => with 1 over H's
+      largest eigenvalue
+    gradient-steps 4: this is x after 100 short steps downhill => with 1 over H's
+      largest eigenvalue
+    one-gradient-step: this is x after one step downhill, clipped => with all of the
+      slope
+    one-gradient-step 2: this is x after one step downhill, clipped => with 1 over H's
+      largest eigenvalue
+    steps-too-long: the steps downhill are as long as the slope: that may never arrive;
+      1 over H's largest eigenvalue is short enough => with 100 of them
+    few-sweeps: each entry is made best in turn, some times; that is not the end yet
+      => with five
+    few-sweeps 2: each entry is made best in turn, some times; that is not the end yet
+      => with twenty
+    few-sweeps 3: each entry is made best in turn, some times; that is not the end yet
+      => with a hundred
     one-sweep: each entry is made best once, in turn; the first do not know what the
       last have done
     ten-sweeps: each entry is made best in turn, ten times; that is not the end yet
@@ -136,6 +258,11 @@ def _(H, g, lo, hi, x):
     given = (H, g, lo, hi, x)
     free = np.linalg.solve(H, -g)
     far = 1e6 * np.ones(len(x))
+    short = 1 / np.linalg.eigvalsh(H)[-1]
+
+    def solve(of, right):
+        return np.linalg.solve(H[np.ix_(of, of)], right)
+
     jacobi = np.clip(x, lo, hi)
     for _ in range(100):
         jacobi = np.clip(jacobi - (H @ jacobi + g) / np.diag(H), lo, hi)
@@ -149,9 +276,21 @@ def _(H, g, lo, hi, x):
         "scaled-back": start + min(1.0, share.min()) * way,
         "solved-once-more": solved_once_more(*given),
         "held-for-good": held_for_good(*given),
+        "steepest-let-go": guessed(*given, lets_go="steepest"),
+        "all-let-go": guessed(*given, lets_go="all"),
+        "stops-too-early": guessed(*given, enough=1e-4),
+        "stops-too-early 2": guessed(*given, enough=1e-2),
+        "few-rounds": guessed(*given, rounds=4),
+        "few-rounds 2": guessed(*given, rounds=5),
+        "few-rounds 3": guessed(*given, rounds=10),
+        "start-not-clipped": guessed(*given, inside=False),
+        "uphill": guessed(*given, way=lambda x, f: solve(f, (H @ x + g)[f])),
+        "starts-at-0": guessed(*given, way=lambda x, f: solve(f, -g[f])),
+        "upper-limits-passed": guessed(*given, high=np.inf),
         "held-by-place": newton(*given, frees="never"),
         "frees-the-wrong-ones": newton(*given, frees="wrong"),
         "held-left-out": held_for_good(*given, own=False),
+        "held-left-out 2": guessed(*given, way=lambda x, f: solve(f, -g[f]) - x[f]),
         "one-step": newton(*given, n=1),
         "two-steps": newton(*given, n=2),
         "full-hessian": newton(*given, full=True),
@@ -159,6 +298,17 @@ def _(H, g, lo, hi, x):
         "diagonal-hessian": jacobi,
         "gradient-steps": slid(*given, 50, 0.01),
         "gradient-steps 2": lambda: slid(*given, 1_000, 0.1),
+        "diagonal-hessian 2": guessed(
+            *given, way=lambda x, f: -(H @ x + g)[f] / np.diag(H)[f]
+        ),
+        "gradient-steps 3": slid(*given, 30, short),
+        "gradient-steps 4": slid(*given, 100, short),
+        "one-gradient-step": np.clip(x - (H @ x + g), lo, hi),
+        "one-gradient-step 2": slid(*given, 1, short),
+        "steps-too-long": slid(*given, 100, 1.0),
+        "few-sweeps": swept(*given, 5),
+        "few-sweeps 2": swept(*given, 20),
+        "few-sweeps 3": swept(*given, 100),
         "one-sweep": swept(*given, 1),
         "ten-sweeps": swept(*given, 10),
         "g-sign": box_qp(H, -g, lo, hi, x),

@@ -29,9 +29,15 @@ def _(drop, alpha):
     second-part-only: the first part is missing => without drop[0]
     sign: the sign is the other way: a drop is what is saved, above 0 when all is well
       => the change of the cost
-    second-sign: the second part is subtracted from what is saved; only what the first
-      part says is saved, and the second takes some of it back
+    second-sign: the second part is added to what is saved; it takes some of it back
       => with alpha^2 drop[1] added
+    second-doubled: the second part is doubled; it is whole already
+    alpha-in-the-second-only: alpha is missing in the first part => with drop[0] as it
+      is
+    halved: it is half of it: the second part has its half already
+    alpha-rooted: the second part grows with alpha's root; it is alpha squared
+    alpha-cubed: the second part grows with alpha to the third; it is alpha squared
+    one-less-alpha: the second part is multiplied by (1 - alpha)^2; it is alpha^2
     half-again: the second part is halved once more; it has its half already
     alphas-swapped: alpha squared belongs to the second part => with alpha and its
       square swapped
@@ -46,6 +52,12 @@ def _(drop, alpha):
         "second-part-only": -(alpha**2) * second,
         "sign": alpha * first + alpha**2 * second,
         "second-sign": -alpha * first + alpha**2 * second,
+        "second-doubled": -(alpha * first + 2 * alpha**2 * second),
+        "alpha-in-the-second-only": -(first + alpha**2 * second),
+        "halved": -(alpha * first + alpha**2 * second) / 2,
+        "alpha-rooted": -(alpha * first + np.sqrt(alpha) * second),
+        "alpha-cubed": -(alpha * first + alpha**3 * second),
+        "one-less-alpha": -(alpha * first + (1 - alpha) ** 2 * second),
         "half-again": -(alpha * first + alpha**2 * second / 2),
         "alphas-swapped": -(alpha**2 * first + alpha * second),
     }

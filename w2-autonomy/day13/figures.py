@@ -7,8 +7,9 @@ import day13_optimal as lab
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from PIL import Image
 
-from labkit.figures import chart
+from labkit.figures import cards, chart
 from labkit.figures.chart import BLUE, GREEN, GREY, INK, ORANGE, RED
 from robo47 import panda
 from robo47.jacobian import dls_step
@@ -76,5 +77,21 @@ def _circle(axes: Axes, model) -> None:
     axes.grid()
 
 
+def small() -> Image.Image:
+    """Return how far the hand is off the circle, clipped and best, without words."""
+    model = day13_mujoco.arm()
+
+    def clipped(J, e, lo, hi):
+        return np.clip(dls_step(J, e, lab.DAMPING), lo, hi)
+
+    def draw(axes: Axes) -> None:
+        for step, colour in ((clipped, "#ff6b5e"), (lab.best_step(), chart.SKY)):
+            off, _, _ = lab.draw_circle(model, step)
+            axes.plot(lab.DT * np.arange(len(off)), off, color=colour)
+        axes.set(xlim=(0.8, 2.8))
+
+    return cards.curves(draw)
+
+
 FIGURES = {"best": best}
-SMALL = ("best", 0.09, 0.6, 0.6)  # its left, top and width, in parts of its width
+SMALL = (small, "")  # of a table of days, and its number

@@ -79,9 +79,18 @@ def _(J_space, masses, coms, g):
       half
     lower-half-zero: all below the diagonal is 0; the matrix is symmetric => its upper
       half
+    upper-half-sign: the half above the diagonal has the wrong sign: a mirror image
+      keeps it => with its upper half times -1
+    half-beside-the-diagonal: all beside the diagonal is half as large: a lower half is
+      averaged with its mirror image, and each has 0 where the other has a number
+    diagonal-zero: the diagonal is 0; it belongs to the lower half
+    last-joint-left-out: the last joint's turn is left out
     not-symmetrised: the formula is used above the diagonal too; there joint j moves
       less than joint i carries, and only i >= j holds: mirror the rest => with the
       formula in both halves
+    not-symmetrised 2: the formula is used above the diagonal too, and rows stand for
+      columns; it holds for i >= j: mirror the rest => with the formula in both halves,
+      transposed
     averaged: both halves are averaged; only the lower one is right: mirror it => the
       mean of both halves
     other-half: the half above the diagonal is taken and mirrored: there joint i is the
@@ -93,6 +102,20 @@ def _(J_space, masses, coms, g):
     first-mass: all links have the first one's mass
     only-z: of gravity only its z is used; it may point anywhere => with (0, 0, g_z)
     minus-9.81: g is taken for (0, 0, -9.81); it may point anywhere => with that g
+    minus-9.81 2: g's length is taken, straight down; it may point anywhere => with (0,
+      0, -|g|)
+    length-1: g is divided by its length: only where it points is left => with g / |g|
+    axis-before: gravity is turned about the axis of the joint before; joint j's turn is
+      its own axis
+    axes-summed: gravity is turned about the sum of all axes up to joint j; it is
+      joint j alone that turns
+    g-along-omega: g's part along omega stands for g x omega
+    total-mass: each link counts with the mass of all
+    differences: a difference of two torques is divided by the turn, and the turn is
+      large: what is asked is the slope => with a turn of 0.05
+    last-axis: gravity is turned about the last joint's axis in every column; each
+      joint has its own
+    z-axis: gravity is turned about z in every column; each joint has its own axis
     turned-twice: gravity is turned twice, by omega_i and by omega_j
     v-for-omega: gravity is turned by v_j; the turn of a joint is its omega, the upper
       three rows of J_space => with g x v_j
@@ -111,6 +134,11 @@ def _(J_space, masses, coms, g):
         felt(*given, np.cross(np.cross(g, o), omega))[:, j] for j, o in enumerate(omega)
     ]).T  # fmt: skip
     g_z = np.array([0.0, 0.0, g[2]])
+    length = np.linalg.norm(g)
+    at = np.arange(len(masses))
+    straight = np.array([0.0, 0.0, -length])
+    last = np.zeros_like(right)
+    last[-1, -1] = right[-1, -1]
     return {
         "sign": -right,
         "gravity-not-turned": mirrored(felt(*given, np.tile(g, (len(masses), 1)))),
@@ -126,7 +154,12 @@ def _(J_space, masses, coms, g):
         ),
         "upper-half-zero": np.tril(right),
         "lower-half-zero": np.triu(right),
+        "upper-half-sign": np.tril(right) - np.triu(right, 1),
+        "half-beside-the-diagonal": (right + np.diag(np.diag(right))) / 2,
+        "diagonal-zero": right - np.diag(np.diag(right)),
+        "last-joint-left-out": right - last,
         "not-symmetrised": full,
+        "not-symmetrised 2": full.T,
         "averaged": (full + full.T) / 2,
         "other-half": mirrored(full.T),
         "diagonal-doubled": right + np.diag(np.diag(right)),
@@ -135,6 +168,15 @@ def _(J_space, masses, coms, g):
         "first-mass": mirrored(felt(J_space, 0 * masses + masses[0], coms, turned)),
         "only-z": mirrored(felt(*given, np.cross(g_z, omega))),
         "minus-9.81": mirrored(felt(*given, np.cross(DOWN, omega))),
+        "minus-9.81 2": mirrored(felt(*given, np.cross(straight, omega))),
+        "length-1": right / length,
+        "axis-before": mirrored(felt(*given, turned[np.maximum(at - 1, 0)])),
+        "axes-summed": mirrored(felt(*given, np.cumsum(turned, axis=0))),
+        "g-along-omega": mirrored(felt(*given, (omega @ g)[:, None] * omega)),
+        "total-mass": mirrored(felt(J_space, 0 * masses + masses.sum(), coms, turned)),
+        "differences": mirrored(felt(*given, turned + 0.025 * np.cross(turned, omega))),
+        "last-axis": mirrored(felt(*given, np.cross(g, 0 * omega + omega[-1]))),
+        "z-axis": mirrored(felt(*given, np.cross(g, 0 * omega + [0, 0, 1]))),
         "turned-twice": mirrored(twice),
         "v-for-omega": mirrored(felt(*given, np.cross(g, J_space[3:].T))),
         "torque-added": mirrored(felt(*given, g + turned)),

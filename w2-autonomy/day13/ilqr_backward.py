@@ -27,33 +27,51 @@ def _(rng):
 def backward(
     fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu, *, order=-1, in_k=1, in_K=1, in_V=1,
     in_drop=1, right_fx=False, short=0.0, keep=(), sum_drop=True, quad=0.5, cross=1.0,
-    cross_xx=1.0,
-    gain=True,
+    cross_xx=1.0, gain=True, first=1.0, quu_x=1.0, quu_xx=1.0, signs=(-1.0, -1.0),
+    turned_in_Qx=False, but=(), solve=np.linalg.solve,
+    lux_in_K=True, Vx_in_k=True, mu_by=1.0,
 ):  # fmt: skip
     """Return k, K and drop of a pass whose parts may be wrong."""
     T, n, m = fu.shape
     k, K, drop = np.zeros((T, m)), np.zeros((T, m, n)), np.zeros(2)
     for t in range(T)[::order]:
+        if t - T in but or t in but:
+            continue
         F = fx[t] if not right_fx else fx[t].T
-        Qx = lx[t] + F.T @ Vx
+        Qx = lx[t] + (F if turned_in_Qx else F.T) @ Vx
         Qu = lu[t] + fu[t].T @ Vx
         Qxx = lxx[t] + F.T @ Vxx @ F
         bare = luu[t] + fu[t].T @ Vxx @ fu[t]
         Qux = lux[t] + fu[t].T @ Vxx @ F
         more = mu * np.eye(m)
-        k[t] = -np.linalg.solve(bare + in_k * more, Qu)
-        K[t] = -np.linalg.solve(bare + in_K * more, Qux)
+        pulls = Qu if Vx_in_k else lu[t]
+        bends = Qux if lux_in_K else Qux - lux[t]
+        k[t] = signs[0] * solve(bare + in_k * more, pulls)
+        K[t] = signs[1] * solve(bare + in_K * more, bends)
+        mu = mu * mu_by
         V = bare + in_V * more
-        now = np.array([k[t] @ Qu, quad * k[t] @ (bare + in_drop * more) @ k[t]])
+        now = np.array(
+            [first * k[t] @ Qu, quad * k[t] @ (bare + in_drop * more) @ k[t]]
+        )
         drop = drop + now if sum_drop else now
         sign = 1.0 - short
         if "Vx" not in keep:
-            part = sign * Qux.T @ k[t] + K[t].T @ (Qu + V @ k[t])
+            part = sign * Qux.T @ k[t] + K[t].T @ (Qu + quu_x * V @ k[t])
             Vx = Qx + cross * part if gain else Qx
         if "Vxx" not in keep:
-            part = Qux.T @ K[t] + K[t].T @ (Qux + V @ K[t])
+            part = Qux.T @ K[t] + K[t].T @ (Qux + quu_xx * V @ K[t])
             Vxx = Qxx + cross_xx * part if gain else Qxx
     return k, K, drop
+
+
+def by_diagonal(Quu, right):
+    """Return what Quu's diagonal alone makes of a gain's right side."""
+    return (right.T / np.diag(Quu)).T
+
+
+def sum_of(k, luu):
+    """Return the sum of k . luu k over all steps."""
+    return np.einsum("ti,tij,tj->", k, luu, k)
 
 
 @row.wrongs
@@ -68,6 +86,8 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     mu-forgotten: mu is missing => with mu 0
     mu-in-k-only: mu is missing in K => with mu in k alone
     mu-in-k-only 2: mu is missing in K => with mu in all but K
+    mu-in-K-only: mu is missing in k => with mu in all but k
+    mu-squared: mu is squared
     mu-not-in-V: Vx and Vxx are made with a Quu that has no mu in it; the gains have it
       => with mu in the gains alone
     mu-not-in-V 2: Vx, Vxx and the drop are made with a Quu that has no mu in it; the
@@ -89,10 +109,19 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     nothing-saved: Vx and Vxx are Qx and Qxx: what the inputs save is missing => with Vx
       = Qx and Vxx = Qxx
     Vx-sign: in Vx what the inputs save has the wrong sign => with Qx - Qux^T k
+    Vx-without-Quu: in Vx K^T Quu k is missing => with Qx + K^T Qu + Qux^T k
+    Vx-Quu-sign: in Vx K^T Quu k has the wrong sign
+    Vxx-without-Quu: in Vxx K^T Quu K is missing => with Qxx + K^T Qux + Qux^T K
+    Vxx-sign: in Vxx what the inputs save has the wrong sign => with Qxx - Qux^T K
     drop-last-step: the drop is that of one step; they add up => with the drop of the
       first step
     no-half: the half before k . Quu k is missing: the drop's second entry is twice as
       large => the right ones, and k . Quu k
+    half-in-the-first: the drop's first entry is halved; only its second has a half
+    drop-summed: the drop's entries are added to one number; each is to be by itself =>
+      with (sum, 0)
+    drop-of-lu: the drop's first entry is made with lu; it is k . Qu
+    drop-of-luu: the drop's second entry is made with luu; it is k . Quu k / 2
     drop-signs: the drop's signs are turned round: it is what the cost changes by => the
       right ones, and -drop
     drop-swapped: the drop's two entries are swapped
@@ -101,9 +130,30 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     gain-signs: k and K have the other sign: each u changes by k + K dx => with -k, -K
     k-sign: k has the other sign => with -k
     K-sign: K has the other sign: here u changes by +K dx => with -K
+    gain-signs 2: k and K have the other sign: each u changes by k + K dx => with the
+      minus forgotten in both
+    k-sign 2: k has the other sign => with the minus forgotten
+    K-sign 2: K has the other sign: here u changes by +K dx => with the minus forgotten
+    diagonal-of-Quu: Quu is taken for its diagonal in k and K; its inputs act together
+      => divided by Quu's diagonal
+    last-step-left-out: the last step is left out: its k and K stay 0 => from the last
+      but one
+    first-step-left-out: the first step is left out: its k and K stay 0
     forwards: it goes from the first step to the last; what follows is known at the end
     fx-not-transposed: fx stands where fx^T should, and the other way round => with fx^T
       for fx
+    fx-not-transposed 2: fx stands where fx^T should in Qx => with fx Vx
+    first-slopes 3: all steps have the first one's fu
+    lux-not-in-K: lux is missing in K, and only there
+    Vx-not-in-k: k is made with lu alone; what follows has its Vx in it
+    mu-halved-each-step: mu is halved from step to step; it is the same everywhere
+    lxx-halved: lxx is halved; it is a second slope as it is
+    luu-halved: luu is halved; it is a second slope as it is
+    drop-mean: the drop is divided by the number of steps; they add up
+    drop-halved: both of the drop's entries are halved
+    first-slopes 2: all steps have the first one's fx
+    last-lu: all steps have the last one's lu
+    first-lu: all steps have the first one's lu
     first-slopes: all steps have the first one's fx and fu
     last-slopes: all steps have the last one's fx and fu
     K-reversed: k and K come in the order in which they are made: the last step first
@@ -133,6 +183,8 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
         "mu-forgotten": of(mu=0.0),
         "mu-in-k-only": of(in_K=0, in_V=0, in_drop=0),
         "mu-in-k-only 2": of(in_K=0),
+        "mu-in-K-only": of(in_k=0),
+        "mu-squared": of(mu=mu**2),
         "mu-not-in-V": of(in_V=0),
         "mu-not-in-V 2": of(in_V=0, in_drop=0),
         "mu-not-in-the-drop": of(in_drop=0),
@@ -146,8 +198,16 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
         "V-signs": of(cross=-1.0, cross_xx=-1.0),
         "nothing-saved": of(gain=False),
         "Vx-sign": of(cross=-1.0),
+        "Vx-without-Quu": of(quu_x=0.0),
+        "Vx-Quu-sign": of(quu_x=-1.0),
+        "Vxx-without-Quu": of(quu_xx=0.0),
+        "Vxx-sign": of(cross_xx=-1.0),
         "drop-last-step": of(sum_drop=False),
         "no-half": of(quad=1.0),
+        "half-in-the-first": (k, K, drop * [0.5, 1]),
+        "drop-summed": (k, K, drop.sum() * np.array([1.0, 0.0])),
+        "drop-of-lu": (k, K, np.array([np.sum(k * lu), drop[1]])),
+        "drop-of-luu": (k, K, np.array([drop[0], sum_of(k, luu) / 2])),
         "drop-signs": (k, K, -drop),
         "drop-swapped": (k, K, drop[::-1].copy()),
         "drop-added": (k, K, drop.sum() * np.ones(2)),
@@ -155,8 +215,26 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
         "gain-signs": (-k, -K, drop),
         "k-sign": (-k, K, drop),
         "K-sign": (k, -K, drop),
+        "gain-signs 2": of(signs=(1.0, 1.0)),
+        "k-sign 2": of(signs=(1.0, -1.0)),
+        "K-sign 2": of(signs=(-1.0, 1.0)),
+        "diagonal-of-Quu": of(solve=by_diagonal),
+        "last-step-left-out": of(but=(-1,)),
+        "first-step-left-out": of(but=(0,)),
         "forwards": of(order=1),
         "fx-not-transposed": of(right_fx=True),
+        "fx-not-transposed 2": of(turned_in_Qx=True),
+        "first-slopes 3": of(fu=0 * fu + fu[:1]),
+        "lux-not-in-K": of(lux_in_K=False),
+        "Vx-not-in-k": of(Vx_in_k=False),
+        "mu-halved-each-step": of(mu_by=0.5),
+        "lxx-halved": of(lxx=lxx / 2),
+        "luu-halved": of(luu=luu / 2),
+        "drop-mean": (k, K, drop / len(fx)),
+        "drop-halved": (k, K, drop / 2),
+        "first-slopes 2": of(fx=0 * fx + fx[:1]),
+        "last-lu": of(lu=0 * lu + lu[-1:]),
+        "first-lu": of(lu=0 * lu + lu[:1]),
         "first-slopes": of(fx=0 * fx + fx[:1], fu=0 * fu + fu[:1]),
         "last-slopes": of(fx=0 * fx + fx[-1:], fu=0 * fu + fu[-1:]),
         "K-reversed": (k[::-1].copy(), K[::-1].copy(), drop),

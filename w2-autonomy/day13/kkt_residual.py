@@ -58,22 +58,44 @@ def _(H, g, lo, hi, x):
       is not best => the largest slope of the free ones
     lower-only: only the lower limit clips
     upper-only: only the upper limit clips
+    clip-the-push: the push is clipped to the box; it is where it leads that has limits
+      => the largest of |clip(-slope)|
+    cost-gap: that is how much the cost falls by a push; how far x moves is asked
+    first-only: only the first difference is looked at
+    last-only: only the last difference is looked at
+    share-of-x: it is divided by the largest entry of x, where that is above 1
+    squares-summed: the squares of the differences are added; the largest difference is
+      asked
     squared: the largest difference is squared
     distance: that is how far the best point is; the residual needs no solution => the
       largest distance to the best point
     newton-push: x is pushed by Newton's step; it is pushed by its slope => with H^-1
       times the slope
     jacobi-push: x is pushed by its slope over H's diagonal; it is pushed by its slope
+    half-a-push: x is pushed by half of its slope
+    pushed-from-0: minus the slope is clipped, and x is not added to it: x is pushed,
+      not 0 => with clip(-slope)
+    unit-box: the box is taken for -1 to 1
+    diagonal-of-H: of H only the diagonal is used in the slope => with H's diagonal
+    which-one: that is which difference is largest; how large it is is asked => its
+      index
+    clipped-for-the-difference: it is the clipped x that the pushed one is compared
+      with; x itself is
     clipped-first: x is clipped first, so what is outside counts for nothing => with
       clip(x) for x
     slope-that-counts: that is the largest slope that no limit holds; it is not clipped,
       and how far x may still go does not limit it
+    slope-that-counts 2: that is the largest slope that no limit holds; it is not
+      clipped, and how far x may still go does not limit it => with none where both
+      limits are one
     signed-limit: which limit an entry is pushed to is left out: at either one slopes
       count for nothing => the slope, 0 at the limits
     """
     s = H @ x + g
     d = x - np.clip(x - s, lo, hi)
+    there = x - d
     free = (x > lo) & (x < hi)
+    stays = ((x <= lo) & (s > 0)) | ((x >= hi) & (s < 0))
     counted = np.where(
         x <= lo, np.minimum(s, 0), np.where(x >= hi, np.maximum(s, 0), s)
     )
@@ -100,12 +122,25 @@ def _(H, g, lo, hi, x):
         "free-only": np.abs(np.where(free, d, 0.0)).max(),
         "lower-only": np.abs(x - np.maximum(x - s, lo)).max(),
         "upper-only": np.abs(x - np.minimum(x - s, hi)).max(),
+        "clip-the-push": np.abs(np.clip(-s, lo, hi)).max(),
+        "cost-gap": abs(x @ H @ x / 2 + g @ x - there @ H @ there / 2 - g @ there),
+        "first-only": abs(d[0]),
+        "last-only": abs(d[-1]),
+        "share-of-x": np.abs(d).max() / max(1.0, np.abs(x).max()),
+        "squares-summed": np.sum(d**2),
         "squared": np.abs(d).max() ** 2,
         "distance": np.abs(x - box_qp(H, g, lo, hi, x)).max(),
         "newton-push": by(np.linalg.solve(H, s)),
         "jacobi-push": by(s / np.diag(H)),
+        "half-a-push": by(s / 2),
+        "pushed-from-0": np.abs(x - np.clip(-s, lo, hi)).max(),
+        "unit-box": np.abs(x - np.clip(x - s, -1, 1)).max(),
+        "diagonal-of-H": by(np.diag(H) * x + g),
+        "which-one": float(np.abs(d).argmax()),
+        "clipped-for-the-difference": np.abs(np.clip(x, lo, hi) - x + d).max(),
         "clipped-first": clipped_first(H, g, lo, hi, x),
         "slope-that-counts": np.abs(counted).max(),
+        "slope-that-counts 2": np.abs(np.where(stays, 0.0, s)).max(),
         "signed-limit": np.abs(np.where(free, s, 0.0)).max(),
     }
 

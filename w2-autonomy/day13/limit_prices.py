@@ -24,8 +24,16 @@ def _(H, g, lo, hi, x):
     absolute: the signs are lost: an upper limit that moves up saves => its sizes
     upper-only: only upper limits have a price
     lower-only: only lower limits have a price
-    slopes-of-the-free: the prices are those of the entries that no limit holds => the
-      slopes of the others
+    no-price: every price is 0, as it is where no limit holds; where one holds it is the
+      slope => the slopes of the entries that no limit holds
+    largest-only: only the largest price is there; each limit that holds has one
+    first-limit-only: only the first limit that holds has its price; each of them has
+      one
+    times-the-width: the slope is multiplied by the width of the box; the limit moves by
+      1
+    doubled: it is twice as large
+    lower-sign: a lower limit's price has the wrong sign => with minus the lower ones
+    times-x: the slope is multiplied by x; the limit moves by 1, not by x
     g-forgotten: g is missing in the slope => with H x
     g-forgotten 2: g is missing in the slope => H x
     H-forgotten: H is missing in the slope => with g
@@ -53,7 +61,13 @@ def _(H, g, lo, hi, x):
         "absolute": np.abs(right),
         "upper-only": np.where(high, slope, 0.0),
         "lower-only": np.where(low, slope, 0.0),
-        "slopes-of-the-free": np.where(held, 0.0, slope),
+        "no-price": np.where(held, 0.0, slope),
+        "largest-only": np.where(np.abs(right) == np.abs(right).max(), right, 0.0),
+        "first-limit-only": np.where(np.cumsum(held) == 1, right, 0.0),
+        "times-the-width": at(slope * (hi - lo)),
+        "doubled": 2 * right,
+        "lower-sign": np.where(low, -right, right),
+        "times-x": at(slope * x),
         "g-forgotten": at(H @ x),
         "g-forgotten 2": H @ x,
         "H-forgotten": at(g),

@@ -68,6 +68,7 @@ def _(M, slope, damping, h):
     damping-twice: the damping acts on both speeds => with (M + h D)^-1 (M - h D)
     damping-halved: half of the damping acts on either speed; here all of it acts on the
       new one
+    mean-damping: all joints have the mean damping => with one damping for all
     damping-of-the-first: all joints have the first one's damping
     damping-squared: h D is taken twice: in M + h D, and once more in h
     position-first: the old speed moves the joints; in MuJoCo the new one does => q+ = q
@@ -78,6 +79,12 @@ def _(M, slope, damping, h):
     velocity-kept 2: in the lower right of A stands 1; the damping brakes: (M + h D)^-1
       M
     M-for-inverse: M + h D multiplies; it divides => with M + h D for its inverse
+    inverse-by-entry: each entry of M + h D is inverted by itself; it is the inverse of
+      the matrix => with 1 / (M + h D)
+    slope-from-the-right: the slope stands before (M + h D)^-1; matrices do not change
+      places => with -h slope (M + h D)^-1
+    M-from-the-right: M stands before (M + h D)^-1; matrices do not change places =>
+      with M (M + h D)^-1
     position-kept: in the upper left of A stands 1: the slope moves the joints within
       the step, too
     B-upper-zero: u does not move the joints within the step; the new speed does
@@ -88,6 +95,9 @@ def _(M, slope, damping, h):
     step-of-euler: that is x + h x', with the old speed in both => 1 + h A
     identity-missing: these are the changes: x itself is missing => A - 1
     halves-swapped: positions and velocities are swapped: x is (q - q0, qd)
+    A-rows-swapped: in A the rows of q and of v are swapped: q comes first
+    A-columns-swapped: in A the columns of q and of v are swapped: q comes first
+    B-swapped: in B the rows of q and of v are swapped: q comes first
     A-transposed: A is transposed
     A-diagonal-M: M is taken for its diagonal
     exponential: these are the exact ones of the motion in continuous time; MuJoCo's
@@ -99,9 +109,15 @@ def _(M, slope, damping, h):
     damping-not-divided: the damping is not divided by M, and acts on the old speed
       => with 1 - h D in the lower right
     B-not-divided: B is not divided by M + h D: u is a torque, and no acceleration
+    B-halved-below: the lower half of B is halved; a torque acts for all of h
+    h-twice-in-B: h is multiplied twice: (M + h D)^-1 h u is the change of the speed
+    diagonal-of-the-slope: of the slope only the diagonal is used => with its diagonal
+    slope-halved-above: in the upper left of A the slope is halved: the new speed moves
+      the joints for all of h
     B-halved-above: the upper half of B is h^2 / 2; the new speed moves the joints for
       all of h
     upper-right-h: in the upper right of A stands h; the new speed is (M + h D)^-1 M v
+    upper-without-h: in the upper half of A the new speed moves the joints without h
     upper-left-without-1: in the upper left of A the 1 is missing: q+ begins with q
     """
     n = len(damping)
@@ -127,6 +143,7 @@ def _(M, slope, damping, h):
         "damping-sign": stepped(*given, implicit=-1.0),
         "damping-twice": stepped(*given, explicit=1.0),
         "damping-halved": stepped(*given, implicit=0.5, explicit=0.5),
+        "mean-damping": stepped(M, slope, 0 * damping + damping.mean(), h),
         "damping-of-the-first": stepped(M, slope, 0 * damping + damping[0], h),
         "damping-squared": stepped(*given, implicit=h),
         "position-first": stepped(*given, old=True),
@@ -134,6 +151,16 @@ def _(M, slope, damping, h):
         "velocity-kept": joined(qq, h * one, vq, one, B[:n], B[n:]),
         "velocity-kept 2": joined(qq, qv, vq, one, B[:n], B[n:]),
         "M-for-inverse": stepped(*given, inv=M + h * D),
+        "inverse-by-entry": stepped(*given, inv=1 / (M + h * D)),
+        "slope-from-the-right": joined(
+            one - h * h * slope @ B[n:] / h,
+            qv,
+            -h * slope @ B[n:] / h,
+            vv,
+            B[:n],
+            B[n:],
+        ),
+        "M-from-the-right": joined(qq, M @ B[n:], vq, M @ B[n:] / h, B[:n], B[n:]),
         "position-kept": joined(one, qv, vq, vv, B[:n], B[n:]),
         "B-upper-zero": joined(qq, qv, vq, vv, 0 * B[:n], B[n:]),
         "h-forgotten-in-B": (A, B / h),
@@ -142,6 +169,9 @@ def _(M, slope, damping, h):
         "step-of-euler": (np.eye(2 * n) + h * rate[0], h * rate[1]),
         "identity-missing": (A - np.eye(2 * n), B),
         "halves-swapped": (A[np.ix_(flip, flip)], B[flip]),
+        "A-rows-swapped": (A[flip], B),
+        "A-columns-swapped": (A[:, flip], B),
+        "B-swapped": (A, B[flip]),
         "A-transposed": (A.T, B),
         "A-diagonal-M": stepped(np.diag(np.diag(M)), slope, damping, h),
         "exponential": exact(*rate, h),
@@ -158,8 +188,13 @@ def _(M, slope, damping, h):
             h * M_inv,
         ),
         "B-not-divided": (A, np.vstack([h * h * one, h * one])),
+        "B-halved-below": (A, np.vstack([B[:n], B[n:] / 2])),
+        "h-twice-in-B": (A, h * B),
+        "diagonal-of-the-slope": stepped(M, np.diag(np.diag(slope)), damping, h),
+        "slope-halved-above": joined(one + h * vq / 2, qv, vq, vv, B[:n], B[n:]),
         "B-halved-above": (A, np.vstack([B[:n] / 2, B[n:]])),
         "upper-right-h": joined(qq, h * one, vq, vv, B[:n], B[n:]),
+        "upper-without-h": joined(one + vq, vv, vq, vv, B[:n], B[n:]),
         "upper-left-without-1": joined(qq - one, qv, vq, vv, B[:n], B[n:]),
     }
 

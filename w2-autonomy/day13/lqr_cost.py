@@ -23,10 +23,15 @@ def _(P, x):
     P-forgotten: x . x: P is missing
     diagonal-of-P: of P only the diagonal is used => with P's diagonal
     P-squared: P is multiplied twice: |P x|^2
+    length-of-P-x: that is the length of P x; x stands on both sides of P
+    doubled: it is twice as large
     P-inverted: P is inverted
     summed: the entries of P x are added; they are multiplied by those of x
     P-rooted: P is rooted first => with the root of each entry's size
-    upper-half: of P only the upper half is used
+    P-by-squares: P is multiplied by the squares of x and summed; P's other entries
+      belong to products
+    trace: P is taken for its trace
+    one-half-of-P: of P only the upper half is used, or only the lower one
     """
     right = x @ P @ x
     return {
@@ -35,10 +40,14 @@ def _(P, x):
         "P-forgotten": x @ x,
         "diagonal-of-P": np.diag(P) @ x**2,
         "P-squared": (P @ x) @ (P @ x),
+        "length-of-P-x": np.linalg.norm(P @ x),
+        "doubled": 2 * right,
         "P-inverted": x @ np.linalg.solve(P, x),
         "summed": np.sum(P @ x),
         "P-rooted": x @ np.sqrt(np.abs(P)) @ x,
-        "upper-half": x @ np.triu(P) @ x,
+        "P-by-squares": np.sum(P @ x**2),
+        "trace": np.trace(P) * (x @ x),
+        "one-half-of-P": x @ np.triu(P) @ x,
     }
 
 

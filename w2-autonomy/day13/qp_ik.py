@@ -3,10 +3,13 @@
 import numpy as np
 
 from labkit.judge import Row, Vector
+from labkit.lesson.day import find_day
+from labkit.lesson.lab_module import lab_of
 from robo47.optimal import box_qp
 
 from .asked import ARM
 
+LAB = lab_of(find_day(13))  # its `box_qp` does not refuse limits that are swapped
 row = Row(Vector((7,), "rad", names=tuple(f"joint{i}" for i in range(1, 8))))
 HALF = np.roll(np.arange(6), 3)
 
@@ -38,11 +41,11 @@ def _(rng):
     return [*cases, *drawn]
 
 
-def solved(J, e, weights, damp, lo, hi, right=None):
+def solved(J, e, weights, damp, lo, hi, right=None, box=box_qp):
     """Return the best step with weights and a damping already squared."""
     right = weights if right is None else right
     H = J.T @ (weights[:, None] * J) + damp * np.eye(7)
-    return box_qp(H, -J.T @ (right * e), lo, hi, np.zeros(7))
+    return box(H, -J.T @ (right * e), lo, hi, np.zeros(7))
 
 
 @row.wrongs
@@ -55,12 +58,19 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
     lower-only: only the lower limits are kept
     upper-only: only the upper limits are kept
     limits-mirrored: the lower limit is taken to be minus the upper one => with -dq_hi
+    limits-mirrored 2: the lower limit is taken to be minus the upper one, also where
+      that is above it => with -dq_hi
+    limits-mirrored 3: the upper limit is taken to be minus the lower one => with -dq_lo
+    limits-swapped: the lower and the upper limit are swapped
+    limits-1: the limits are taken to be -1 and 1
     damping-not-squared: the damping is added as it is; it is squared => with damping
       for its square
     damping-halved: the damping is halved; both parts of the cost have the same half
       => with damping^2 / 2
     damping-doubled: the damping is doubled; both parts of the cost have the same half
       => with 2 damping^2
+    J-W-J-doubled: J^T W J is doubled, and J^T W e is not: both have the same half =>
+      with 2 J^T W J
     weights-squared: the weights are squared: they stand in the cost as they are => with
       W^2
     weights-rooted: the weights are rooted: they stand in the cost as they are => with
@@ -77,6 +87,12 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
     e-doubled: the step is twice of it: H and g have the same half => with 2 e
     clipped-twice: Day 3's step is clipped, what is left of e is tried once more and
       clipped again; joints that are held should be left out of it
+    mean-weight-in-g: before e stands the mean of the weights; each row has its own
+    first-weight: all rows have the first one's weight
+    damping-cubed: the damping is to the third power; it is squared
+    damping-weighted: the mean weight multiplies the damping, too
+    stands-still-allowed: the limits are widened until they have 0 between them; a joint
+      beyond its range has to come back => with 0 within all limits
     translation-only: only the translation is looked at
     rotation-only: only the rotation is looked at
     """
@@ -98,9 +114,14 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
         "lower-only": solved(*given, lo, far),
         "upper-only": solved(*given, -far, hi),
         "limits-mirrored": solved(*given, -np.abs(hi), np.abs(hi)),
+        "limits-mirrored 2": solved(*given, -hi, hi, box=LAB.box_qp),
+        "limits-mirrored 3": solved(*given, -np.abs(lo), np.abs(lo)),
+        "limits-swapped": solved(*given, hi, lo, box=LAB.box_qp),
+        "limits-1": solved(*given, -np.ones(7), np.ones(7)),
         "damping-not-squared": solved(J, e, weights, damping, lo, hi),
         "damping-halved": solved(J, e, weights, d / 2, lo, hi),
         "damping-doubled": solved(J, e, weights, 2 * d, lo, hi),
+        "J-W-J-doubled": solved(J, e / 2, weights, d / 2, lo, hi),
         "weights-squared": solved(J, e, weights**2, d, lo, hi),
         "weights-rooted": solved(J, e, np.sqrt(weights), d, lo, hi),
         "weights-forgotten": solved(J, e, np.ones(6), d, lo, hi),
@@ -112,6 +133,11 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
         "error-sign": solved(J, -e, weights, d, lo, hi),
         "e-halved": solved(J, e / 2, weights, d, lo, hi),
         "e-doubled": solved(J, 2 * e, weights, d, lo, hi),
+        "mean-weight-in-g": solved(*given, lo, hi, 0 * weights + weights.mean()),
+        "first-weight": solved(J, e, 0 * weights + weights[0], d, lo, hi),
+        "damping-cubed": solved(J, e, weights, damping**3, lo, hi),
+        "damping-weighted": solved(J, e, weights, weights.mean() * d, lo, hi),
+        "stands-still-allowed": solved(*given, np.minimum(lo, 0), np.maximum(hi, 0)),
         "translation-only": solved(J, e, weights * down, d, lo, hi),
         "rotation-only": solved(J, e, weights * (1 - down), d, lo, hi),
     }
@@ -119,7 +145,10 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
 
 # What is left out is named above: a start at 0 makes it one thing with these.
 SAME = ("clip-the-optimum", "no-limits", "full-hessian", "g-sign", "half-missing")
-row.reached_by("box_qp", but=(*SAME, "lower-only", "upper-only"))
+# What no question of seven joints shows, from 0.
+UNSEEN = ("all-let-go", "few-rounds", "start-not-clipped", "steepest-let-go",
+          "stops-too-early", "upper-limits-passed")  # fmt: skip
+row.reached_by("box_qp", but=(*SAME, *UNSEEN, "lower-only", "upper-only"))
 row.at_least_0(weights="a weight is", damping="it is squared")
 
 

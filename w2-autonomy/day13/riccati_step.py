@@ -34,7 +34,10 @@ def _(P, A, B, Q, R):
       and -K
     plus-BK: the arm is driven by +K x in P: it is A - B K => with A + B K
     A-not-transposed: A stands where A^T should in P => A P (A - B K)
-    A-not-transposed-in-K: the gain is B^T P without its A => (R + B^T P B)^-1 B^T P
+    A-missing-in-K: the gain is B^T P without its A => (R + B^T P B)^-1 B^T P
+    A-P-AT: A P A^T stands where A^T P A should: that is how a covariance goes on, and
+      no cost => Q + A P A^T - A P B K
+    Q-for-P: the gain is made with Q where P should stand => with K of Q
     Q-forgotten: Q is missing in P => P without Q
     Q-in-the-gain: Q is added to P in the gain; what this step costs does not depend on
       its u through Q => with P + Q in K
@@ -43,6 +46,8 @@ def _(P, A, B, Q, R):
     R-inverted: R's inverse is added in the gain => with R^-1
     K-R-K-subtracted: K^T R K is subtracted; it is K^T (R + B^T P B) K that is saved
       => Q + A^T P A - K^T R K
+    K-K-subtracted: K^T K is subtracted; it is K^T (R + B^T P B) K that is saved
+      => Q + A^T P A - K^T K
     K-K-added: K^T K is added for K^T R K: what u costs is R's => with K^T K
     K-halved: K is half as large => the right P, and K / 2
     P-not-updated: P is returned as it was
@@ -78,13 +83,16 @@ def _(P, A, B, Q, R):
         "gain-sign": (right, -K),
         "plus-BK": (Q + A.T @ P @ (A + B @ K), K),
         "A-not-transposed": (Q + A @ P @ closed, K),
-        "A-not-transposed-in-K": by(np.linalg.solve(S, B.T @ P)),
+        "A-missing-in-K": by(np.linalg.solve(S, B.T @ P)),
+        "A-P-AT": (Q + A @ P @ A.T - A @ P @ B @ K, K),
+        "Q-for-P": by(np.linalg.solve(R + B.T @ Q @ B, B.T @ Q @ A)),
         "Q-forgotten": (right - Q, K),
         "Q-in-the-gain": by(np.linalg.solve(R + B.T @ (P + Q) @ B, B.T @ (P + Q) @ A)),
         "no-control": (Q + A.T @ P @ A, K),
         "P-forgotten": (Q + A.T @ closed, K),
         "R-inverted": by(np.linalg.solve(np.linalg.inv(R) + B.T @ P @ B, F)),
         "K-R-K-subtracted": (Q + A.T @ P @ A - K.T @ R @ K, K),
+        "K-K-subtracted": (Q + A.T @ P @ A - K.T @ K, K),
         "K-K-added": (Q + closed.T @ P @ closed + K.T @ K, K),
         "K-halved": (right, K / 2),
         "P-not-updated": (P.copy(), K),

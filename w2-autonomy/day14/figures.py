@@ -8,15 +8,18 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
+from PIL import Image
 
-from labkit.figures import chart
+from labkit.figures import cards, chart
 from labkit.figures.chart import BLUE, INK, RED
+from labkit.figures.scene import Box, Camera
+from robo47 import panda, scenes, se3
 
 import day14_mujoco
 
 MASS = 0.15  # kg, of both cubes on the left
 GRIPS = (0.9, 0.25)  # their friction
-WHEN = 0.03  # s after the hand has begun to rise
+WHEN = 0.02  # s after the hand has begun to rise
 CUBES = 150
 NEWTON = 7.0  # mm of an arrow, for 1 N
 
@@ -96,5 +99,16 @@ def _tried(axes: Axes, model, data, theta: np.ndarray) -> None:
     axes.grid()
 
 
+def small() -> Image.Image:
+    """Return the hand with a cube between its fingers."""
+    half = day14_mujoco.HALF
+    q = np.append(panda.READY_Q, (half, half))
+    T = panda.arm(panda.load("panda_nohand")).at(panda.READY_Q).T_world_ee
+    tcp = T @ se3.make_T(np.eye(3), scenes.TCP)
+    cube = Box(tcp, (half, half, half), cards.ORANGE)
+    camera = Camera(tuple(tcp[:3, 3] - [0, 0, 0.03]), 1.0, np.radians(160.0))
+    return cards.arm(q, camera, [cube])
+
+
 FIGURES = {"touched": touched}
-SMALL = ("touched", 0.0, 0.02, 0.34)  # its left, top and width, in parts of its width
+SMALL = (small, "60 of 60")  # of a table of days, and its number

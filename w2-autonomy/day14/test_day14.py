@@ -22,7 +22,7 @@ SLIPPERY = lab.unseen(lab.SLIPPERY)
 
 @cache
 def learned(seed):
-    """Return what the lab learns from a seed; a second and a half."""
+    """Return what the lab learns from a seed; most of a second."""
     return lab.learn(model, data, seed)
 
 
@@ -83,7 +83,7 @@ def test_what_8_of_8_and_60_of_60_and_0_of_60_say():
     assert f"below {high:.2f}; 60 of 60 above {low60:.2f}" in SENTENCES
     assert f"an interval from {low60:.3f} on" in SENTENCES
     assert f"asks for {lab.needed(0.05)} cubes, not 384" in SENTENCES
-    both = [policy.success_rate(np.arange(60) < k)[1:] for k in (16, 55)]
+    both = [policy.success_rate(np.arange(60) < k)[1:] for k in (15, 58)]
     words = "{:.2f} to {:.2f} and {:.2f} to {:.2f} do not overlap"
     assert words.format(*both[0], *both[1]) in SENTENCES
 
@@ -127,10 +127,10 @@ def test_a_held_cube_presses_with_2_n_a_contact_and_the_whole_force_seems_to_sli
 
 @pytest.mark.kit
 def test_the_heaviest_cube_hangs_on_the_time_of_its_lift():
-    for seconds, grams in ((1.0, 120), (2.0, 121), (0.3, 112)):
+    for seconds, grams in ((1.0, 119), (2.0, 121), (0.3, 111)):
         with patch.object(lab, "SLOW", seconds):
             assert lab.heaviest(model, data, 0.3, 2) == grams
-    assert "in 2 s it is 121 g, in 0.3 s 112 g" in SENTENCES
+    assert "in 2 s it is 121 g, in 0.3 s 111 g" in SENTENCES
     share = 6 * lab.TARGET / lab.SLOW**2
     assert f"= {share:.1f} m/s², {100 * share / lab.G:.0f} % of g" in SENTENCES
 
@@ -183,7 +183,7 @@ def test_noise_after_the_fold_and_the_worlds_axes_are_right_nearly_everywhere():
 @pytest.mark.kit
 def test_three_predictions_of_the_worksheet_stand_beside_what_is_measured(printed):
     sheet = (ROOT / "w2-autonomy/docs/day14.md").read_text("utf-8")
-    for yours, found in (("122", "120"), ("0.32", "0.2667"), ("384", "382")):
+    for yours, found in (("122", "119"), ("0.32", "0.25"), ("384", "382")):
         row = rf"you predicted {yours}, measured ([\d.]+):\s+([^\n]+)"
         measured, name = re.search(row, printed).groups()
         assert measured == found
@@ -193,10 +193,10 @@ def test_three_predictions_of_the_worksheet_stand_beside_what_is_measured(printe
 @pytest.mark.kit
 def test_what_the_opening_promises_is_what_the_lab_prints(printed):
     counts = re.findall(r"about (\d+) of 60", printed)
-    assert counts == ["60", "15", "55"]
+    assert counts == ["60", "15", "60"]
     assert "lift 60 of 60 cubes" in SENTENCES
     assert "about 15 of 60 cubes that" in SENTENCES
-    assert "about 55 of 60, with" in SENTENCES
+    assert "feel: nearly all of the 60, with" in SENTENCES
     named, did = re.search(r"alone: (\d+) of .*\s(\d+) of them did", printed).groups()
     assert named == did
     assert f"one line of paper names {named} that will drop" in SENTENCES
@@ -231,7 +231,9 @@ def test_what_theta_promised_is_held_if_it_is_lifted_slowly_and_the_turn_is_no_c
     assert np.array_equal(slowly, ~drops(theta))
     assert f"seed 7 holds {slowly.sum()}, the {slowly.sum()} that theta" in SENTENCES
     straight = with_numbers(theta, x=0.0, y=0.0, turn=0.0)
-    assert holds(straight).sum() == holds(theta).sum() == 16
+    assert holds(straight).sum() == 16
+    assert holds(theta).sum() == 15
+    assert "with both 0 it holds 16, and 15 with them" in SENTENCES
     assert "60 of 60; 16 of 60; 60 of 60" in SENTENCES
     assert holds(lab.BY_HAND).all()
     assert not holds(lab.START, lab.unseen(lab.ROUGH)).any()
@@ -245,14 +247,15 @@ def test_a_reflex_that_closes_too_slowly_comes_too_late():
         with patch.object(lab, "CLOSE", step):
             found[step] = lab.feeling(model, data, theta, *SLIPPERY)
     counts = [held.sum() for held, _ in found.values()]
-    assert counts == [37, 55, 60]
+    assert counts == [37, 58, 60]
     assert f"With 1 mm it holds {counts[0]}, with 4 mm all 60" in SENTENCES
     newtons = np.median(found[0.004][1])
     assert f"presses with {newtons:.1f} N" in SENTENCES
     assert round(np.median(found[0.002][1])) == 5
     lost = [c for c, held in zip(SLIPPERY[0], found[0.002][0], strict=True) if not held]
-    grams = [1000 * c.mass for c in lost]
-    assert f"have {min(grams):.0f} to {max(grams):.0f} g and friction" in SENTENCES
+    grams = sorted(1000 * c.mass for c in lost)
+    assert len(grams) == 2
+    assert "have {:.0f} and {:.0f} g and friction".format(*grams) in SENTENCES
     assert max(c.mu for c in lost) < 0.3
 
 

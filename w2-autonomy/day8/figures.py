@@ -7,10 +7,12 @@ import day8_identification as lab
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from PIL import Image
 
-from labkit.figures import chart
+from labkit.figures import cards, chart
 from labkit.figures.chart import BLUE, INK, RED
-from robo47 import panda
+from labkit.figures.scene import Box
+from robo47 import panda, se3
 
 import day8_mujoco
 
@@ -78,5 +80,14 @@ def _torque(axes: Axes, arm, robot, Y: np.ndarray, motion: day8_mujoco.Motion) -
     axes.legend(loc="upper right", ncols=3)
 
 
+def small() -> Image.Image:
+    """Return the arm with the load that it weighs."""
+    q = lab.POSES[0]
+    hand = panda.arm(panda.load("panda_nohand")).at(q).T_world_ee[:3, 3]
+    below = hand - [0.0, 0.0, 0.3]
+    ball = Box(se3.make_T(np.eye(3), below), (0.07, 0.07, 0.07), cards.ORANGE)
+    return cards.arm(q, boxes=[cards.rod(hand, below, cards.ORANGE), ball])
+
+
 FIGURES = {"shown": shown}
-SMALL = ("shown", 0.02, 0.555, 0.74)  # its left, top and width, in parts of its width
+SMALL = (small, "500 g")  # of a table of days, and its number

@@ -45,6 +45,8 @@ for slug, says, redone, code in (
          pseudo(phi, lambda I: np.trace(I) * np.eye(3) - I))[0]),  # noqa: E741
     ("centre-for-first-moment", "c stands there for h = m c", "with h / m",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, h=1.0 / phi[0]))[0]),
+    ("determinant", "this is the determinant, the product of all eigenvalues",
+     "the determinant", lambda phi: np.linalg.det(pseudo(phi))),
     ("singular-value", "this is the least singular value, which is never below 0; the "
      "sign is what is asked for", "the least singular value",
      lambda phi: np.linalg.svd(pseudo(phi), compute_uv=False)[-1]),

@@ -79,6 +79,8 @@ def _(J_site, R_site, extra, g):
     g-turned-after-the-cross: R stands on the left of [g]: m c is turned into the world
       first, so [g] R => the right one with
       R [g]
+    weight-for-mass: the first is the weight, in newtons; over m stands g, and not its
+      direction alone
     centre-for-first-moment: the last three are c; asked for is m c, which is what is
       linear => m, then c
     """
@@ -111,6 +113,7 @@ def _(J_site, R_site, extra, g):
             [solved(one, tau) for one, tau in zip(Y, extra, strict=True)], axis=0
         ),
         "g-turned-after-the-cross": solved(left, extra),
+        "weight-for-mass": right * [np.linalg.norm(g), 1.0, 1.0, 1.0],
         "centre-for-first-moment": np.append(right[0], right[1:] / right[0]),
     }
 

@@ -7,9 +7,11 @@ import day9_estimation as lab
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from PIL import Image
 
-from labkit.figures import chart
+from labkit.figures import cards, chart
 from labkit.figures.chart import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, RED, SKY
+from labkit.figures.scene import Camera
 from robo47 import panda
 
 import day9_mujoco
@@ -63,5 +65,13 @@ def _push(axes: Axes, residual: np.ndarray, truth: np.ndarray) -> None:
     axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.77))
 
 
+def small() -> Image.Image:
+    """Return the arm at ready, and the push on its flange."""
+    q = panda.READY_Q
+    at = panda.arm(panda.load("panda_nohand")).at(q).T_world_ee[:3, 3] + [0, 0, 0.16]
+    push = cards.arrow(at - 0.035 * lab.FORCE, at, cards.RED, 0.02)
+    return cards.arm(q, Camera((0.2, 0.0, 0.55), 2.6), push)
+
+
 FIGURES = {"felt": felt}
-SMALL = ("felt", 0.02, 0.555, 0.74)  # its left, top and width, in parts of its width
+SMALL = (small, "10 N")  # of a table of days, and its number

@@ -69,10 +69,9 @@ def main() -> None:
 
 def _answer(call: Any, request: Any, answering: Any, module: types.ModuleType) -> Any:
     """Return the reply to a question, of the file loaded anew where that is asked."""
-    if told := call.get("again"):  # by another check, with more robots
+    if told := call.get("anew"):
         request["added"] = told["added"]
         answering.begin(told)
-    if told or "anew" in call:
         answering.module = _anew(request, module)
     return answering.ask(call)
 

@@ -8,6 +8,7 @@ kernels) the filter of system calls refuses everywhere: `seccomp`.
 
 import ctypes
 import os
+import struct
 import sys
 
 _CREATE_RULESET, _ADD_RULE, _RESTRICT_SELF = 444, 445, 446  # on every architecture
@@ -18,16 +19,6 @@ _SINCE = {2: 1 << 13, 3: 1 << 14, 5: 1 << 15}  # refer, truncate, ioctl on devic
 # The C library loads what a late import needs from here.
 _SYSTEM = ("/lib", "/lib64", "/usr/lib", "/usr/lib64")
 _PACKAGES = ("site-packages", "dist-packages", "python")  # not the libraries of others
-
-
-class _Ruleset(ctypes.Structure):
-    _fields_ = [("files", ctypes.c_uint64)]
-
-
-class _Beneath(ctypes.Structure):
-    _pack_ = 1
-    _layout_ = "ms"
-    _fields_ = [("allowed", ctypes.c_uint64), ("folder", ctypes.c_int32)]
 
 
 def version() -> int:
@@ -56,8 +47,8 @@ def fence(readable: list[str]) -> bool:
         return False
     libc = ctypes.CDLL(None, use_errno=True)
     rights = _FILES | sum(right for since, right in _SINCE.items() if known >= since)
-    size = ctypes.c_size_t(ctypes.sizeof(_Ruleset))
-    rules = libc.syscall(_CREATE_RULESET, ctypes.byref(_Ruleset(rights)), size, 0)
+    ruleset = struct.pack("=Q", rights)
+    rules = libc.syscall(_CREATE_RULESET, ruleset, ctypes.c_size_t(len(ruleset)), 0)
     if rules < 0:
         return False
     _allow(libc, rules, os.devnull, _READ_FILE | 1 << 1)
@@ -88,6 +79,6 @@ def _allow(libc: ctypes.CDLL, rules: int, path: str, rights: int) -> None:
         return
     if not os.path.isdir(path):
         rights &= ~_READ_DIR  # the kernel refuses it for a file
-    rule = _Beneath(rights, handle)
-    libc.syscall(_ADD_RULE, rules, _PATH_BENEATH, ctypes.byref(rule), 0)
+    rule = struct.pack("=Qi", rights, handle)  # packed, as the kernel has it
+    libc.syscall(_ADD_RULE, rules, _PATH_BENEATH, rule, 0)
     os.close(handle)

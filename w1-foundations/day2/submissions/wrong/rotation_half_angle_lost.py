@@ -1,4 +1,4 @@
-# task 2.2: not-orthonormal
+# task 2.2: slip-factor
 # 1 - cos as twice the squared sine, but of the whole angle.
 import numpy as np
 

@@ -1,0 +1,118 @@
+"""Which mistakes a week's capstone shows: what level 2 may draw.
+
+Most mistakes of a function move no number of the capstone (its angles never come near
+pi, its torques never to a limit), and some stop it with a TypeError that names nothing
+but Python. Neither can be hunted. What shows is written down (`labkit.hunt.written`):
+
+    python scripts/hunt_bug.py 7 --write-seen       for authors; it takes minutes
+"""
+
+import contextlib
+import re
+import signal
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from types import FrameType, ModuleType, SimpleNamespace
+from typing import Any, NamedTuple
+
+from labkit.hunt.quarry import Quarry, asked_by
+from labkit.hunt.written import write
+from labkit.lesson.day import Day, days_of
+from labkit.lesson.lab_module import load_lab
+from robo47.errors import Robo47Error
+
+SECONDS = 60  # that an attempt may take
+
+
+class Attempt(NamedTuple):
+    """What one sees of a capstone."""
+
+    line: str  # its row of numbers, or why it stopped
+    done: bool  # whether it came to an end
+    words: bool = True  # if it stopped: in words of the kit's, not of Python's
+
+
+def attempt(capstone: ModuleType, fns: Any, name: str) -> Attempt:
+    """Do a capstone by some functions; what stops it is told, not raised."""
+    try:
+        return Attempt(str(capstone.row(name, capstone.attempt(fns))), True)
+    except Exception as error:
+        kind = "" if isinstance(error, Robo47Error) else f"{type(error).__name__}: "
+        ours = isinstance(error, Robo47Error)
+        return Attempt(f"{name}: it stops. {kind}{error}", False, ours)
+
+
+def shows(one: Quarry, found: Attempt, right: Attempt) -> bool:
+    """Return whether a mistake can be hunted by what the capstone shows of it.
+
+    Its numbers are others than the right ones, or it stops in words that do not name
+    the function.
+    """
+    if found.done:
+        return found.line != right.line
+    return found.words and not re.search(rf"\b{one.function}\b", found.line)
+
+
+def seen(
+    capstone: ModuleType, labs: Mapping[int, ModuleType], pool: Iterable[Quarry]
+) -> Iterator[tuple[Quarry, Attempt, bool]]:
+    """Try each mistake of a pool: it, what one sees, whether it can be hunted.
+
+    Args:
+        capstone: of the week.
+        labs: the kit's, by day.
+        pool: mistakes of functions that the capstone calls.
+    """
+    library = vars(capstone.library())
+    own = {n: labs[d] for d, names in capstone.USES.items() if d in labs for n in names}
+
+    def functions() -> SimpleNamespace:
+        asked = {n: vars(lab)[n] for n, lab in own.items() if n in vars(lab)}
+        return SimpleNamespace(**{**library, **asked})
+
+    right = attempt(capstone, functions(), "")
+    for one in pool:
+        lab = vars(labs[one.day])
+        kept = lab[one.function]
+        lab[one.function] = one.code
+        with _in_time():
+            found = attempt(capstone, functions(), "")
+        lab[one.function] = kept
+        yield one, found, shows(one, found, right)
+
+
+@contextlib.contextmanager
+def _in_time() -> Iterator[None]:
+    """Stop what goes on for longer than SECONDS."""
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        raise TimeoutError(f"it takes over {SECONDS} s")
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.alarm(SECONDS)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def write_all(day: Day, say: Callable[[str], None]) -> str:
+    """Try all mistakes that the capstone of a day's week may show; write down which do.
+
+    Args:
+        day: the last one of its week.
+        say: is told each, as it is tried.
+
+    Returns:
+        How many show.
+    """
+    from labkit.check.own_functions import capstone_of
+
+    labs = {other.number: load_lab(other.source) for other in days_of(day.week)}
+    found: dict[tuple[str, str], bool] = {}
+    for one, what, can in seen(capstone_of(day.week), labs, asked_by(day)):
+        say(f"{'shows' if can else '  -  '}  {one.function} {one.slug}: {what.line}")
+        key = (one.function, one.slug)
+        found[key] = can and found.get(key, True)  # made in two ways: both must show
+    write(day.week, [key for key, can in found.items() if can])
+    return f"{sum(found.values())} of {len(found)} show"

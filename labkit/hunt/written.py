@@ -1,0 +1,37 @@
+"""What is written down of a week's capstone: which mistakes it shows.
+
+Trying one takes a second or more, and a hunt is to begin at once; so `labkit.hunt.seen`
+tries them all and writes the week's `hunts.txt`, a function and a mistake a line.
+"""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from labkit.base import store
+from labkit.lesson.week import Week
+
+HEAD = """\
+# Which mistakes the capstone shows, for `make hunt LEVEL=2`: its numbers change, or it
+# stops in words that do not name the function. Written by a run, not by hand:
+# python scripts/hunt_bug.py {day} --write-seen
+"""
+
+
+def file_of(week: Week) -> Path:
+    """Return where it stands."""
+    return week.folder / "hunts.txt"
+
+
+def showing(week: Week) -> set[tuple[str, str]]:
+    """Return (function, mistake) of all that a week's capstone shows."""
+    path = file_of(week)
+    lines = path.read_text("utf-8").splitlines() if path.is_file() else []
+    pairs = [line.split() for line in lines if line and line[0] != "#"]
+    return {(pair[0], pair[1]) for pair in pairs if len(pair) == 2}
+
+
+def write(week: Week, found: Iterable[tuple[str, str]]) -> None:
+    """Write it anew."""
+    lines = sorted({" ".join(pair) for pair in found})
+    text = HEAD.format(day=week.days[-1]) + "\n".join(lines) + "\n"
+    store.replace(file_of(week), text.encode())

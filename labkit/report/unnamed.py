@@ -1,0 +1,29 @@
+"""Words for verdicts that say what came out, and not which mistake was made."""
+
+UNNAMED = {
+    "both-halves-off": "both halves are off",
+    "both-off": "both results are off",
+    "few-entries-off": "a few entries are off",
+    "huge-numbers": "numbers that are far too large",
+    "missing": "there is no such function",
+    "none-or-not": "None where there is an answer, or the other way round",
+    "not-accepted": "an answer that is not accepted",
+    "not-an-array": "no array of numbers",
+    "not-by-hand": "it calls what it was to write",
+    "not-finite": "NaN or infinity",
+    "not-numbers": "no numbers",
+    "nothing-returned": "nothing is returned",
+    "off": "wrong numbers, by no mistake that the kit knows",
+    "part-off": "a part of it is off",
+    "parts": "another number of results",
+    "raises": "it stopped with an error",
+    "refused": "it wanted what a task is not given",
+    "shape": "an array of another shape",
+    "some-inputs": "it stopped at some inputs",
+    "stopped": "it did not return",
+}
+
+
+def in_words(slug: str) -> str:
+    """Return a verdict's words: these, or the mistake's name without its hyphens."""
+    return UNNAMED.get(slug, slug.replace("-", " "))
