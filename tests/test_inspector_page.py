@@ -83,7 +83,8 @@ LEAST_CONTRAST = """() => {
     const paint = getComputedStyle(node).backgroundColor.match(/[0-9.]+/g).map(Number);
     return paint[3] === 0 ? behind(node.parentElement) : paint;
   };
-  const contrasts = [...document.querySelectorAll("[class*=r47] *, [class*=r47], label, button")]
+  const texts = "[class*=r47] *, [class*=r47], label, button";
+  const contrasts = [...document.querySelectorAll(texts)]
     .filter((node) => node.checkVisibility() && [...node.childNodes].some(
       (child) => child.nodeType === 3 && child.data.trim()))
     .map((node) => {

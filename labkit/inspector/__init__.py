@@ -33,10 +33,11 @@ The page belongs to no day. A day brings tabs in `w1-foundations/dayN/inspector.
 
     TABS = [Screws]
 
-The first of TABS is open at the start; where Joints, Chain or Tasks, which every day
-has, are not in it they follow. Both names are optional. `GHOST.questions(model, q)` returns the arguments for each
-frame in `GHOST.frames`, such as `fk_space(screws[:k], M_k, q[:k])`. Where there is no
-GHOST, no ghost arm is drawn; the file is watched all the same.
+The first of TABS is open at the start; Joints, Chain and Tasks, which every day has,
+follow where they are not in it. Both names are optional. `GHOST.questions(model, q)`
+returns the arguments for each frame in `GHOST.frames`, such as
+`fk_space(screws[:k], M_k, q[:k])`. Where there is no GHOST, no ghost arm is drawn; the
+file is watched all the same.
 
 What a tab has in `page` (`labkit/inspector/page.py` says the arguments):
 
@@ -60,9 +61,11 @@ What a tab has in `page` (`labkit/inspector/page.py` says the arguments):
 Everything a tab makes vanishes when the tab is left: its widgets, its drawings, its
 loops. Make everything anew in `__init__`; keep on the class what should outlive the
 tab. At a save all that was said turns grey until the new file has answered. What a
-tab shows and a task of the day computes is asked of `own`: `tests/test_inspector_tabs.py`
-has the table, and changes a sign in each. Two things that are wanted at one moment need
-two queues (`page.jobs_apart()`): of those that wait in `job` the newest is done.
+tab shows and a task of the day computes is asked of `own`: the table is in
+`tests/test_inspector_tabs.py`, which changes a sign in each. What is wanted at one
+moment needs two queues (`page.jobs_apart()`): of those that wait in `job` the newest is
+done.
+
 Callbacks run one after the other on the server's event loop: keep them under 20 ms
 and never wait in one. `wide = True` on the class hides the two matrices at the top,
 `camera` says from where one looks.
