@@ -210,6 +210,10 @@ def test_a_pages_boxes_have_labels_and_its_captions_a_level():
     made = access.page(f'<p class="caption" role="heading"></p><li><p>{box} a\nb</p>')
     assert 'role="heading" aria-level="2"' in made
     assert f"<label>{box} a\nb</label></p>" in made
+    wide = '<img alt="b" src="../_images/a.webp">'
+    narrow = '<source media="(max-width: 600px)" srcset="../_static/a_tall.webp">'
+    made = access.page(f"{wide}{wide.replace('a.webp', 'b.png')}", ["a_tall.webp"])
+    assert made.startswith(f"<picture>{narrow}{wide}</picture><img loading")
 
 
 def test_the_page_says_of_a_mistake_what_the_checker_says():

@@ -1,6 +1,7 @@
 """What is mended in built pages: names for who does not see, fewer bytes for all."""
 
 import re
+from collections.abc import Collection
 from pathlib import Path
 
 # The theme calls the captions of its margin headings, and not of which level.
@@ -11,6 +12,9 @@ _BOX = re.compile(
     r'(<input class="task-list-item-checkbox"[^>]*>)(.*?)(?=</p>|</li>|\n<ul)',
     re.DOTALL,
 )
+# A picture that has another one for narrow screens; Sphinx takes one.
+_PICTURE = re.compile(r'<img [^>]*src="((?:\.\./)*)_images/(\w+)\.\w+"[^>]*>')
+TALL = "_tall"  # at the end of that one's name
 # viser's player in a film: the parts without a name, and theirs.
 _NAMELESS = {
     ".mantine-NumberInput-input": "time in seconds",
@@ -36,17 +40,31 @@ def mend(site: Path, films: str) -> None:
         site: the folder of the site.
         films: the name of the folder that holds films, which are left as they are.
     """
+    tall = [path.name for path in (site / "_static").glob(f"*{TALL}.*")]
     for path in site.rglob("*.html"):
         if films not in path.relative_to(site).parts:
-            path.write_text(page(path.read_text("utf-8")), "utf-8", newline="\n")
+            path.write_text(page(path.read_text("utf-8"), tall), "utf-8", newline="\n")
 
 
-def page(text: str) -> str:
+def page(text: str, tall: Collection[str] = ()) -> str:
     """Return a page of the theme as it should be.
 
     Captions have a level, boxes a label; pictures after the first are fetched when the
-    page is scrolled near them.
+    page is scrolled near them, and on a narrow screen its own where there is one.
+
+    Args:
+        text: the page.
+        tall: names of pictures for narrow screens, among the static files.
     """
+    narrow = {name.rpartition(TALL)[0]: name for name in tall}
+
+    def both(found: re.Match[str]) -> str:
+        if found[2] not in narrow:
+            return found[0]
+        source = f'media="(max-width: 600px)" srcset="{found[1]}_static/'
+        return f'<picture><source {source}{narrow[found[2]]}">{found[0]}</picture>'
+
+    text = _PICTURE.sub(both, text)
     text = _BOX.sub(r"<label>\1\2</label>", _CAPTION.sub(_LEVEL, text))
     before, first, after = text.partition("<img ")
     return before + first + after.replace("<img ", '<img loading="lazy" ')

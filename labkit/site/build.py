@@ -108,6 +108,8 @@ def _static(into: Path) -> Path:
     (into / pages.FILMS).mkdir(parents=True)
     for path in (SOURCES / "style.css", SOURCES / "page.js", TWIN_XML, WASM):
         shutil.copy(path, into)
+    for path in ROOT.glob(f"w*/figures/*{access.TALL}.*"):
+        shutil.copy(path, into)  # for narrow screens
     for name, make in films().items():
         path = into / pages.FILMS / f"{name}.html"
         path.write_text(access.film(make().page(name.replace("_", " "))), "utf-8")
