@@ -96,8 +96,10 @@ class TestItIsKept:
     SLOW = "import time\ndef f(x):\n    time.sleep(0.4)\n    return 1.0"
 
     def test_by_a_session(self, student):
+        deadline = Deadline(600.0)
         with Sandbox() as box:
-            session = box.session(student(self.SLOW), deadline=Deadline(1.0))
+            session = box.session(student(self.SLOW), deadline=deadline)
+            deadline.seconds = deadline.used + 2.0  # from here: a start takes its time
             replies = session.ask([Question("1.1", "f", (1.0,))] * 9)
             assert not session.alive
         assert replies[0].value == 1.0

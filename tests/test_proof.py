@@ -173,7 +173,7 @@ def test_the_card_to_share_has_its_size_and_its_words_with_a_picture_or_without(
     green = (np.abs(drawn - card.GOOD).max(axis=2) < 10).any(axis=1)
     assert green[450:520].any()  # the pick's number; the functions are not all theirs
     assert not green[:420].any()
-    partly = proof.attempt._replace(yours=9)
+    partly = proof.attempt._replace(theirs=frozenset({"make_T"}))
     drawn = np.asarray(card.draw(page.in_short(proof), partly)).astype(int)
     assert not (np.abs(drawn - card.GOOD).max(axis=2) < 10).any()
 

@@ -146,8 +146,10 @@ def _of_a_part(node: ast.expr, place: Place) -> Iterator[tuple[str, ast.expr]]:
         if isinstance(place.parent.op, ast.MatMult):
             yield "transpose", ast.Attribute(node, "mT", ast.Load())
             yield "inverse", _inverse(node)
+    if isinstance(place.parent, (ast.BinOp, ast.Assign, *NUMBERED)):
+        yield from _of_a_factor(node)
         if isinstance(node, ast.Subscript):
-            yield from _of_a_factor(node)
+            yield "left-out", ast.Constant(1)
 
 
 def _of_operation(node: ast.BinOp) -> Iterator[tuple[str, ast.expr]]:

@@ -36,13 +36,11 @@ def draw(facts: Mapping[str, Any], tried: Attempt) -> Image.Image:
         facts: what the door says of it, `labkit.proof.page.in_short`.
         tried: what came of the capstone.
     """
-    rows = [
-        (facts[key], words, _whole(facts[key]))
-        for key, words in (
-            ("functions", "functions"),
-            ("numbers", "numbers, run again"),
-        )
-    ]
+    counted = {
+        "functions": "functions, right and their own",
+        "numbers": "numbers, run again",
+    }
+    rows = [(facts[key], words, _whole(facts[key])) for key, words in counted.items()]
     film = None
     if tried.capstone is not None and tried.result is not None:
         film = tried.capstone.film(tried.result)

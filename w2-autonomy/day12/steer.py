@@ -26,42 +26,37 @@ def _(rng):
 @row.wrongs
 def _(q, target, step):
     """overshoots: it goes a whole step even where the target is nearer, and past it; it
-          ends at the target then => a whole step each time
-        no-limit: it goes to the target, however far: the step limits nothing => the target
-        fraction: it goes the share `step` of the way; a step is a length => q + step
-          (target - q)
-        fraction-at-most-all: it goes the share `step` of the way, at most all of it; a step
-          is a length
-        not-unit: far targets are not divided by their distance => q + step (target - q)
-          where the target is far
-        squared: it divides by the square of the distance; its root makes a direction of
-          length 1
-        from-the-target: a step is taken back from the target; it starts at q
-        from-the-target 2: a step is added to the target, and goes past it; it starts at q
-        direction-only: q is missing: this is the step, and not where it ends
-        direction-only 2: q is missing: this is the step, or the whole way where it is
-          shorter
-        away: it goes away from the target: q - target is the other way round
-    <<<<<<< HEAD
-        away 2: where the target is far it goes away from it: q - target is the other way
-          round
-    =======
-        away 2: where the target is far it goes a step away from it
-    >>>>>>> 9596c5416114fad52100274fad2430d40463d97c
-        stays-when-near: where the target is no further than a step it does not move; it
-          ends at the target then
-        always-q: it never moves
-        largest-coordinate: the distance is taken for the largest difference in one
-          coordinate; it is the root of the sum of squares
-        largest-coordinate 2: each coordinate is cut to a step; the whole way is to be no
-          longer than one
-        sum-of-sizes: the distance is taken for the sum of the differences' sizes; it is the
-          root of the sum of squares
-        unit-step: it goes 1 far; it is `step` => with step 1
-        half-a-step: it goes half a step
-        limit-the-other-way: where the target is far it jumps to it, and where it is near it
-          goes a whole step: the two cases are swapped
-        from-the-origin: it goes from the origin, not from q
+      ends at the target then => a whole step each time
+    no-limit: it goes to the target, however far: the step limits nothing => the target
+    fraction: it goes the share `step` of the way; a step is a length => q + step
+      (target - q)
+    fraction-at-most-all: it goes the share `step` of the way, at most all of it; a step
+      is a length
+    not-unit: far targets are not divided by their distance => q + step (target - q)
+      where the target is far
+    squared: it divides by the square of the distance; its root makes a direction of
+      length 1
+    from-the-target: a step is taken back from the target; it starts at q
+    from-the-target 2: a step is added to the target, and goes past it; it starts at q
+    direction-only: q is missing: this is the step, and not where it ends
+    direction-only 2: q is missing: this is the step, or the whole way where it is
+      shorter
+    away: it goes away from the target: q - target is the other way round
+    away 2: where the target is far it goes a step away from it
+    stays-when-near: where the target is no further than a step it does not move; it
+      ends at the target then
+    always-q: it never moves
+    largest-coordinate: the distance is taken for the largest difference in one
+      coordinate; it is the root of the sum of squares
+    largest-coordinate 2: each coordinate is cut to a step; the whole way is to be no
+      longer than one
+    sum-of-sizes: the distance is taken for the sum of the differences' sizes; it is the
+      root of the sum of squares
+    unit-step: it goes 1 far; it is `step` => with step 1
+    half-a-step: it goes half a step
+    limit-the-other-way: where the target is far it jumps to it, and where it is near it
+      goes a whole step: the two cases are swapped
+    from-the-origin: it goes from the origin, not from q
     """
     way = target - q
     far = np.linalg.norm(way)

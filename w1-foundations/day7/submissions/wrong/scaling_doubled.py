@@ -1,4 +1,4 @@
-# task 7.1: one-factor-off
+# task 7.1: slip-factor
 # Everything doubled.
 import numpy as np
 
