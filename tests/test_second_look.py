@@ -61,6 +61,14 @@ def test_a_fault_of_ones_own_shows_beside_an_inherited_one(check):
     assert verdict.follows == ""
 
 
+def test_a_task_that_waits_says_so_also_when_it_is_asked_alone(check):
+    start = "    w, x, y, z = quat"
+    gap = '    raise NotImplementedError("task 1.4: write quat_to_R")\n'
+    assert start in REFERENCE
+    verdict = check(REFERENCE.replace(start, gap + start, 1), task="1.6")["1.6"]
+    assert (verdict.status, verdict.message) == ("todo", "Right as soon as 1.4 is.")
+
+
 def test_a_wrong_term_is_told_by_when_it_is_right(check):
     day = find_day(5)
     text = day.source.read_text("utf-8")

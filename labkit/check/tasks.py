@@ -84,7 +84,8 @@ def check_tasks(
     check = _Check(day, script, sandbox, seed, deadline or deadline_of(day))
     try:
         results = check.ask(wanted)
-        if only and results[wanted[0].id].verdict.status not in ("passed", "todo"):
+        first = results[wanted[0].id].verdict  # one that waits, too, has a need
+        if only and (first.follows or first.status not in ("passed", "todo")):
             results |= check.ask([day.task(id) for id in day.needs(wanted[0].id)])
     except LoadError as error:
         verdict = Verdict("todo", "does-not-load", not_loaded(script, error.reply))

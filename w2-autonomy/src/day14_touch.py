@@ -129,7 +129,8 @@ def closes(W: np.ndarray, weights: np.ndarray) -> bool:
     """Return whether weights, (n,), prove that the grasp W, (6, n), resists all.
 
     W has rank 6: its smallest singular value is above 1e-9 of the largest. Every weight
-    is above 0. And they balance: in each row |W w| is at most 1e-9 of |W| |w|.
+    is above 0. And they balance: in each row |W w| is at most 1e-9 of the sum of its
+    |W_ij w_j|.
     """
     # region 14.4
     if np.linalg.matrix_rank(W, rtol=1e-9) < 6:
@@ -214,7 +215,7 @@ def paired_difference(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """Return by how much first, (n,), is better than second on the same cubes: (2,).
 
     The mean of the differences, and its sigma: their standard deviation, over n, over
-    sqrt(n). (1, 1, 0, 1) and (1, 0, 0, 0): (0.5, 0.25).
+    sqrt(n). True counts as 1. (1, 1, 0, 1) and (1, 0, 0, 0): (0.5, 0.25).
     """
     # region 14.9
     apart = np.asarray(first, float) - np.asarray(second, float)
