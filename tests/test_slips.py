@@ -113,3 +113,9 @@ def test_a_whenever_holds_for_arguments_of_other_sizes_as_well():
         return X
 
     assert "whenever" not in told(10, "10.8", hand_eye=hand_eye)
+
+
+def test_what_a_condition_is_made_of_is_no_factor_and_no_sign():
+    text = "def f(x, y):\n    return x if 2.0 * y > x else y\n"
+    assert "x if 1.0 * y > x else y" in of("condition", text)
+    assert not of("factor", text) | of("number", text)

@@ -298,7 +298,7 @@ def _of_subscript(node: ast.Subscript) -> Iterator[tuple[str, ast.expr]]:
 def _of_comparison(node: ast.Compare) -> Iterator[tuple[str, ast.expr]]:
     for op in (ast.Lt, ast.LtE, ast.Gt, ast.GtE):
         if not isinstance(node.ops[0], op):
-            yield "comparison", ast.Compare(node.left, [op()], node.comparators)
+            yield "condition", ast.Compare(node.left, [op()], node.comparators)
 
 
 def _of_a_list(node: Any) -> Iterator[tuple[str, ast.expr]]:

@@ -36,7 +36,7 @@ SAYS = {
     "exchanged": "two names have changed places",
     "scaled": "something is multiplied, or divided, by what does not belong there",
     "function": "one function stands for another",
-    "comparison": "one comparison stands for another",
+    "condition": "one condition is another",
     "line": "one line is missing, is another or stands elsewhere",
 }
 
@@ -150,8 +150,9 @@ def _changes(function: ast.FunctionDef) -> Iterator[Change]:
     for place in places:
         around = above.get(id(place.parent))
         index = "slice" in (place.field, around and around.field)
+        decides = _decides(place, above)
         for kind, new in instead(place, names):
-            kind = "index" if index else kind
+            kind = "condition" if decides else "index" if index else kind
             place.put(ast.fix_missing_locations(ast.copy_location(new, place.node)))
             try:
                 yield (
@@ -162,6 +163,16 @@ def _changes(function: ast.FunctionDef) -> Iterator[Change]:
             finally:
                 place.put(place.node)
     yield from _of_lines(function)
+
+
+def _decides(place: Place, above: dict[int, Place]) -> bool:
+    """Return whether a place stands in a condition: what it is made of hardly shows."""
+    around: Place | None = place
+    while around:
+        if isinstance(around.node, ast.Compare) or around.field == "test":
+            return True
+        around = above.get(id(around.parent))
+    return False
 
 
 def _spot(node: ast.expr, kind: str) -> ast.expr:
