@@ -130,6 +130,17 @@ def test_of_several_results_the_one_that_is_wrong_is_named():
     assert failing_call(asked)[0] == "f(3)[1][1] is 7, and 3 is right."
 
 
+def test_of_several_wrong_results_it_is_the_one_that_is_talked_about():
+    kinds = (Scalar(called="the sine"), Vector((2,)))
+    ask = Ask(lambda rng: [(2.0,), (3.0,)], kinds, truth=InTurn(_sine_and_pair))
+    asked = round_of(ask)
+    answers = right(ask)
+    answers[0][0] += 0.5
+    answers[1][1, 1] = 7000.0  # further off, in a call whose sine is right
+    answered(asked.exchanges, replies_of(answers))
+    assert failing_call(asked)[0].startswith("f(2)[0] is ")
+
+
 def _sine_and_pair(x):
     return np.sin(x), np.array([x, x])
 

@@ -74,7 +74,8 @@ def test_a_slip_is_told_by_its_kind_and_by_how_it_reads():
 
     says = told(2, "2.4", exp_screw=exp_screw)
     assert "One sign is the other way round." in says
-    assert "`(theta + s) * K @ K` gives your numbers exactly" in says
+    assert "the lab's own with `(theta + s) * K @ K`, or with" in says
+    assert "gives your numbers exactly" in says
 
 
 def test_two_slips_whose_parts_add_up_are_told_together():

@@ -8,7 +8,7 @@
     python3 scripts/grade_class.py CLONES --day 1-7 --proof    a page for each
     python3 scripts/grade_class.py CLONES --format canvas      or moodle
     python3 scripts/grade_class.py CLONES --dask tls://10.0.0.5:8786
-    python3 scripts/grade_class.py CLONES --day 4 --hunt 1 --seed 7    a bug hunt
+    python3 scripts/grade_class.py CLONES --day 4 --hunt 1 --seed 7   a bug hunt
 
 CLONES/roster.csv (name, folder, git) says who is in the class; without it,
 each folder is a student. Beside the table: class.html (what to explain again,

@@ -20,22 +20,30 @@ The page belongs to no day. A day brings tabs in `w1-foundations/dayN/inspector.
             page.buttons(["let go"], self.let_go)
 
         def on_move(self, q: Array) -> None:       # the arm is at q; also at the start
-            self.axes.points = ...
+            self.axes.points = ...                 # and when the file was saved
+
+        def begin(self) -> None:                   # opened, or saved: play it
+            self.loop.start(PLAYS)
+
+        def lost(self) -> None:                    # a function gave no answer
+            self.axes.visible = False
 
         def close(self) -> None:                   # left; whatever `page` made is gone
             ...
 
     TABS = [Screws]
 
-Both names are optional. `GHOST.questions(model, q)` returns the arguments for each
-frame in `GHOST.frames`, such as `fk_space(screws[:k], M_k, q[:k])`. Where there is no
-GHOST, no ghost arm is drawn; the file is watched all the same.
+The first of TABS is open at the start; Joints, Chain and Tasks, which every day has,
+follow where they are not in it. Both names are optional. `GHOST.questions(model, q)`
+returns the arguments for each frame in `GHOST.frames`, such as
+`fk_space(screws[:k], M_k, q[:k])`. Where there is no GHOST, no ghost arm is drawn; the
+file is watched all the same.
 
 What a tab has in `page` (`labkit/inspector/page.py` says the arguments):
 
     model, arm, q, pose(name)   the robot, its numbers, the configuration, MuJoCo's pose
     move(q)                     moves the arm, in every browser
-    own(library)                the student's functions, in the sandbox; a line says how
+    own(library, units=...)     the student's functions, in the sandbox; a line says how
                                 they compare with the library's of the same names
     job(work, done)             work that waits for them, on another thread
     animate(step, hz, work)     a loop in real time: start(), stop(), toggle()
@@ -52,7 +60,13 @@ What a tab has in `page` (`labkit/inspector/page.py` says the arguments):
 
 Everything a tab makes vanishes when the tab is left: its widgets, its drawings, its
 loops. Make everything anew in `__init__`; keep on the class what should outlive the
-tab. Callbacks run one after the other on the server's event loop: keep them under 20 ms
+tab. At a save all that was said turns grey until the new file has answered. What a
+tab shows and a task of the day computes is asked of `own`: the table is in
+`tests/test_inspector_tabs.py`, which changes a sign in each. What is wanted at one
+moment needs two queues (`page.jobs_apart()`): of those that wait in `job` the newest is
+done.
+
+Callbacks run one after the other on the server's event loop: keep them under 20 ms
 and never wait in one. `wide = True` on the class hides the two matrices at the top,
 `camera` says from where one looks.
 

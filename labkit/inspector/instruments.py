@@ -98,8 +98,9 @@ class Plot:
         if least:
             scales["y"] = uplot.Scale(distr=3, log=10)
         self.handle = gui.add_uplot(
-            empty, tuple(series), title=y or None, scales=scales, height=height
-        )
+            empty, tuple(series), title=y or None, scales=scales, height=height,
+            padding=(14, 12, 0, 0),  # the top tick is not cut in half
+        )  # fmt: skip
 
     def show(self, x: ArrayLike, ys: ArrayLike) -> None:
         """Draw whole curves over x, (n,), one row of ys per curve, (m, n)."""

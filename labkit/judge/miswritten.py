@@ -20,18 +20,18 @@ Change = tuple[str, Span, Callable[[], str]]  # kind and place, and what reads i
 # What a slip is called, and what is said of it.
 SAYS = {
     "sign": "one sign is the other way round",
-    "negated": "one sign is the other way round",
+    "order": "two things have changed places",
     "left-out": "something is left out",
-    "sign-lost": "one sign is lost: what is negative counts as positive",
     "operation": "one operation stands for another",
+    "sign-lost": "one sign is lost: what is negative counts as positive",
+    "name": "one name stands for another",
+    "index": "one index or range stands for another",
     "number": "one number stands for another",
     "factor": "a factor of two is missing, or too many",
-    "name": "one name stands for another",
-    "order": "two things have changed places",
+    "negated": "one sign is the other way round",
     "bracket": "a bracket begins or ends elsewhere",
     "transpose": "one transpose is too many, or missing",
     "inverse": "one inverse is too many, or missing",
-    "index": "one index or range stands for another",
     "squared": "something is squared that should not be",
     "exchanged": "two names have changed places",
     "scaled": "something is multiplied, or divided, by what does not belong there",
@@ -124,6 +124,9 @@ def _compiled(
 
 def _places(function: ast.FunctionDef) -> Iterator[Place]:
     body = function.body[bool(ast.get_docstring(function)) :]
+    targets = [t for one in ast.walk(function) if isinstance(one, ast.Assign)
+               for t in one.targets]  # fmt: skip
+    set_there = {id(node) for target in targets for node in ast.walk(target)}
     for statement in body:
         for parent in ast.walk(statement):
             for field, value in ast.iter_fields(parent):
@@ -131,7 +134,10 @@ def _places(function: ast.FunctionDef) -> Iterator[Place]:
                     continue
                 several = value if isinstance(value, list) else [value]
                 for at, one in enumerate(several):
-                    if isinstance(one, ast.expr):
+                    index = isinstance(one, ast.Constant)
+                    if isinstance(one, ast.expr) and (
+                        index or id(one) not in set_there
+                    ):
                         place = at if isinstance(value, list) else None
                         yield Place(one, parent, field, place)
 

@@ -30,6 +30,7 @@ from robo47.checks import Array
 
 FEW = 3  # wrong calls at which the first of two slips is looked for
 LIKELY = 3  # first slips beside which all others are tried
+SEVERAL = 20  # slips that give one answer, of which some give all
 MOST = 400  # pairs that add up at one call, of which some do at all
 NAMED = 1.5  # a named mistake comes after two signs, and before the other slips
 # Slips that may be one of two: by factors and numbers a sum is made in too many ways.
@@ -56,11 +57,15 @@ class Slips:
 
     @nothing_printed()
     def one(self) -> Finding | None:
-        """Return which slip gives the answers, or None."""
-        for slip, answer in zip(self.some, self._answers, strict=True):
-            if exactly(self.case.ask, answer, self._mine) and self._gives_all(slip):
-                return self._told([self._part(slip)])
-        return None
+        """Return which slip gives the answers, or which two do, each alone; or None."""
+        answers = zip(self.some, self._answers, strict=True)
+        here = (one for one, a in answers if exactly(self.case.ask, a, self._mine))
+        found: list[Miswritten] = []
+        for slip in islice(here, SEVERAL):
+            apart = not any(overlap(slip, other) for other in found)
+            if apart and self._gives_all(slip):
+                found.append(slip)
+        return self._told_of_one(found[:2]) if found else None
 
     @nothing_printed()
     def beside(self) -> Finding | None:
@@ -168,23 +173,32 @@ class Slips:
         best = sorted(range(len(scores)), key=lambda k: -scores[k])[:LIKELY]
         return [self.some[k] for k in best if scores[k] > least]
 
+    def _off(self) -> str:
+        kinds = self.case.ask.kinds
+        k = worst_part(kinds, self.S, self.T, self.case.ask.near)
+        return f"Off by up to {kinds[k].apart(self.S[k], self.T[k])}"
+
+    def _told_of_one(self, found: Sequence[Miswritten]) -> Finding:
+        """Return a slip, and another that gives the same numbers where there is one."""
+        body = self.case.ask.body()
+        assert body
+        says = list(dict.fromkeys(SAYS[one.kind] for one in found))
+        texts = [text for one in found if (text := reads(body[0], one))]
+        own = ", or ".join(map(_with, texts)) or "with that slip"
+        what = f"Either {', or '.join(says)}" if len(says) > 1 else capitalised(says[0])
+        how = f"{self._off()}; the lab's own {own} gives your numbers exactly"
+        return Finding(f"slip-{found[0].kind}", f"{what}. ({how}.)")
+
     def _told(self, found: Sequence[_Part], first: Miswritten | None = None) -> Finding:
-        ask = self.case.ask
-        k = worst_part(ask.kinds, self.S, self.T, ask.near)
-        off = f"Off by up to {ask.kinds[k].apart(self.S[k], self.T[k])}"
-        body = ask.body()
+        body = self.case.ask.body()
         assert body
         befores = [None, first]  # a second slip may be one of what the first made
         pairs = zip(found, befores, strict=False)
         texts = [reads(body[0], p.slip, after) if p.slip else "" for p, after in pairs]
         slug = "+".join(one.slug for one in found)
-        if len(found) == 1:
-            how = f"the lab's own with {f'`{texts[0]}`' if texts[0] else 'that slip'}"
-            says = f"{capitalised(found[0].says)}. ({off}; {how} gives your numbers"
-            return Finding(slug, f"{says} exactly.)")
         both = zip(found, texts, strict=True)
-        says = "; ".join(f"{p.says} (as in `{t}`)" if t else p.says for p, t in both)
-        how = f"{off}; both together give your numbers exactly"
+        says = "; ".join(f"{p.says} ({_with(t)})" if t else p.says for p, t in both)
+        how = f"{self._off()}; both together give your numbers exactly"
         return Finding(slug, f"Two things at once: {says}. ({how}.)")
 
 
@@ -202,6 +216,12 @@ def _gives_all(
         return False
     more = case.further
     return not more or exactly(case.ask, answers(more.arguments), more.S)
+
+
+def _with(text: str) -> str:
+    """Return how a slip reads, as one says it of a body."""
+    left_out = text.removeprefix("without ")
+    return f"with `{text}`" if left_out == text else f"without `{left_out}`"
 
 
 def _rank(part: _Part) -> float:

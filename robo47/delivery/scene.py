@@ -15,6 +15,7 @@ WALL_AT = (0.56, 0.0, 0.35)  # m, its middle; READY clears it by 77 mm
 WALL_HALF = (0.14, 0.01, 0.15)  # m
 EYE_AT = np.array([1.15, 0.0, 0.9])  # m, Day 10's eye, and ...
 EYE_TO = np.array([0.5, 0.0, 0.2])  # ... m, what it looks at
+EYE_HALF = (0.03, 0.02, 0.05)  # m, long along its view
 FOVY = 45.0  # degrees
 PIXELS = (320, 240)  # width, height
 
@@ -40,7 +41,14 @@ def table_with_wall(
     """
 
     def add(spec: mujoco.MjSpec) -> None:
-        eye.add(spec.worldbody, "eye", EYE_AT, EYE_TO, FOVY, PIXELS)
+        seen = eye.add(spec.worldbody, "eye", EYE_AT, EYE_TO, FOVY, PIXELS)
+        if meshes:  # looks alone: its rays begin inside
+            box = spec.worldbody.add_geom(
+                name="eye", type=mujoco.mjtGeom.mjGEOM_BOX, pos=EYE_AT, size=EYE_HALF
+            )
+            box.quat = seen.quat
+            box.contype = box.conaffinity = 0
+            box.rgba = [0.15, 0.15, 0.18, 1.0]
         if not wall:
             return
         geom = spec.worldbody.add_geom(

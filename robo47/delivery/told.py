@@ -17,7 +17,6 @@ HEAD = f"""
 MOMENTS = ("close", "weigh", "put down", "leave")  # of the pictures, as they begin
 WALL = (0.45, 0.55, 0.70, 1.0)
 EYE = (0.15, 0.15, 0.18, 1.0)
-EYE_HALF = (0.03, 0.02, 0.05)  # m, long along its view
 
 
 def row(name: str, result: Result) -> str:
@@ -106,6 +105,6 @@ def _blocks(qpos: Array) -> list[Block]:
     still = zip(scene.boxes(), (TABLE, WALL), strict=True)
     return [
         *[Block(T, tuple(half), colour) for (T, half), colour in still],
-        Block(eye.looking(scene.EYE_AT, scene.EYE_TO), EYE_HALF, EYE),
+        Block(eye.looking(scene.EYE_AT, scene.EYE_TO), scene.EYE_HALF, EYE),
         Block(cube, (scenes.CUBE_HALF,) * 3, CUBE),
     ]

@@ -92,7 +92,8 @@ def _(J, e, damping):
     return dls_step(J, e, damping) if damping else np.zeros(7)
 
 
-@row.wrong("slip-sign")  # Minus: with J = [I 0] and damping 1 nothing is left to invert.
+# With J = [I 0] and damping 1 a minus leaves nothing to invert.
+@row.wrong("slip-sign")
 def _(J, e, damping):
     return J.T @ solve(J @ J.T - damping**2 * I6, e)
 

@@ -102,6 +102,9 @@ for slug, says, redone, other in (
      "with (x, y, depth)", {"scaled": lambda ray, d: np.hstack([ray[:, :2], d])}),
     ("depth-added", "the depth is added to z; the whole ray is multiplied by it",
      "with z + depth", {"scaled": lambda ray, d: ray + d * [0, 0, 1]}),
+    ("depth-along-columns", "the depth multiplies columns, and each point is a row: "
+     "depth[:, None] is one number a row", "rays times depth as it is",
+     {"scaled": lambda ray, d: ray * d[:, 0] if len(d) == 3 else d * ray}),
     ("depth-divided", "the ray is divided by the depth; it is multiplied by it",
      "divided by depth", {"scaled": lambda ray, d: ray / d}),
     ("depth-in-the-pixel", "the depth stands in the place of the 1, so the pixel is "

@@ -240,6 +240,24 @@ def test_the_ellipse_along_the_view_grows_with_z_squared_over_f_w():
     assert f"f w / z = {F * 0.04 / lab.NEAR:.1f} px wide" in SENTENCES
 
 
+@pytest.mark.kit
+def test_far_away_fewer_fits_lie_inside_because_the_noise_is_not_small(capsys):
+    T, _ = held(2 * lab.NEAR)
+    T[:2, 3] /= 2  # where NEAR alone puts it
+    inside = {}
+    for noise in (lab.NOISE, lab.NOISE / 10):
+        rng = np.random.default_rng(lab.NOISE_SEED)
+        with patch.object(lab, "NOISE", noise):
+            inside[noise] = [lab.fit_with_noise(n, T, rng)[0] for n in lab.HEIGHTS]
+    _, middle, small = (f"{np.mean(one):.0%}" for one in inside[lab.NOISE])
+    words = f"falls to {middle} with 240 px, and to {small} with 120".replace("%", " %")
+    assert words in SENTENCES
+    _, *back = (f"{np.mean(one):.0%}" for one in inside[lab.NOISE / 10])
+    assert back == ["94%", "94%"]
+    assert f"cube is {F / 2 * 0.04 / T[2, 3]:.1f} px wide" in SENTENCES
+    capsys.readouterr()
+
+
 def test_joint_7_alone_leaves_two_numbers_free_and_the_residual_knows_nothing(looks):
     many, seven, fresh = looks
     assert [lab.free(lab.motions(one)[0]) for one in (many, seven)] == [0, 2]
@@ -289,7 +307,8 @@ def test_a_little_of_joint_6_frees_nothing_and_is_not_enough_with_noise(looks):
             residual.append(np.abs(A @ X - X @ B).max())
         typical.append(np.median(off))
     one, five, twenty = typical
-    assert f"{one:.0f} mm, typically; with 5 degrees {five:.0f} mm" in SENTENCES
+    assert f"About {one:.0f} mm, typically, and" in SENTENCES
+    assert f"with 5 degrees {five:.0f} mm" in SENTENCES
     assert f"with 20 degrees {twenty:.1f} mm" in SENTENCES
     assert 2e-3 < np.median(residual) < 4e-3
 

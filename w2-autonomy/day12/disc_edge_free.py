@@ -92,7 +92,7 @@ def at_points(a, b, some, parts):
     return bool(np.all(away > some[:, 2]))
 
 
-@row.wrongs
+@row.wrongs(hidden={"points-only 5": "no disc of the lab is so thin"})
 def _(a, b, discs):
     """line-for-segment: the foot may lie beyond the edge's ends: an endless line is
       looked at, and what stands behind an end blocks it; cut the share to 0..1

@@ -29,7 +29,7 @@ def backward(
     in_drop=1, right_fx=False, short=0.0, keep=(), sum_drop=True, quad=0.5, cross=1.0,
     cross_xx=1.0, gain=True, first=1.0, quu_x=1.0, quu_xx=1.0, signs=(-1.0, -1.0),
     turned_in_Qx=False, but=(), solve=np.linalg.solve,
-    lux_in_K=True, Vx_in_k=True, mu_by=1.0,
+    lux_in_K=True, Vx_in_k=True, mu_by=1.0, Vxx_in_Quu=True, fx_twice=True,
 ):  # fmt: skip
     """Return k, K and drop of a pass whose parts may be wrong."""
     T, n, m = fu.shape
@@ -40,8 +40,8 @@ def backward(
         F = fx[t] if not right_fx else fx[t].T
         Qx = lx[t] + (F if turned_in_Qx else F.T) @ Vx
         Qu = lu[t] + fu[t].T @ Vx
-        Qxx = lxx[t] + F.T @ Vxx @ F
-        bare = luu[t] + fu[t].T @ Vxx @ fu[t]
+        Qxx = lxx[t] + (F.T if fx_twice else np.eye(n)) @ Vxx @ F
+        bare = luu[t] + fu[t].T @ (Vxx if Vxx_in_Quu else np.eye(n)) @ fu[t]
         Qux = lux[t] + fu[t].T @ Vxx @ F
         more = mu * np.eye(m)
         pulls = Qu if Vx_in_k else lu[t]
@@ -147,6 +147,9 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     lux-not-in-K: lux is missing in K, and only there
     Vx-not-in-k: k is made with lu alone; what follows has its Vx in it
     mu-halved-each-step: mu is halved from step to step; it is the same everywhere
+    lx-of-the-next: lx is that of the next step
+    Vxx-forgotten-in-Quu: in Quu Vxx is missing => with luu + fu^T fu
+    fx-once: fx stands on one side of Vxx in Qxx; it is on both => with Vxx fx
     lxx-halved: lxx is halved; it is a second slope as it is
     luu-halved: luu is halved; it is a second slope as it is
     drop-mean: the drop is divided by the number of steps; they add up
@@ -228,6 +231,9 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
         "lux-not-in-K": of(lux_in_K=False),
         "Vx-not-in-k": of(Vx_in_k=False),
         "mu-halved-each-step": of(mu_by=0.5),
+        "lx-of-the-next": of(lx=np.concatenate([lx[1:], lx[-1:]])),
+        "Vxx-forgotten-in-Quu": of(Vxx_in_Quu=False),
+        "fx-once": of(fx_twice=False),
         "lxx-halved": of(lxx=lxx / 2),
         "luu-halved": of(luu=luu / 2),
         "drop-mean": (k, K, drop / len(fx)),

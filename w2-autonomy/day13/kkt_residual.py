@@ -72,6 +72,8 @@ def _(H, g, lo, hi, x):
     newton-push: x is pushed by Newton's step; it is pushed by its slope => with H^-1
       times the slope
     jacobi-push: x is pushed by its slope over H's diagonal; it is pushed by its slope
+    limits-swapped: the lower and the upper limit are swapped
+    two-pushes: x is pushed by twice its slope
     half-a-push: x is pushed by half of its slope
     pushed-from-0: minus the slope is clipped, and x is not added to it: x is pushed,
       not 0 => with clip(-slope)
@@ -132,6 +134,8 @@ def _(H, g, lo, hi, x):
         "distance": np.abs(x - box_qp(H, g, lo, hi, x)).max(),
         "newton-push": by(np.linalg.solve(H, s)),
         "jacobi-push": by(s / np.diag(H)),
+        "limits-swapped": np.abs(x - np.clip(x - s, hi, lo)).max(),
+        "two-pushes": by(2 * s),
         "half-a-push": by(s / 2),
         "pushed-from-0": np.abs(x - np.clip(-s, lo, hi)).max(),
         "unit-box": np.abs(x - np.clip(x - s, -1, 1)).max(),

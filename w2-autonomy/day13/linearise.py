@@ -110,6 +110,9 @@ def _(M, slope, damping, h):
       => with 1 - h D in the lower right
     B-not-divided: B is not divided by M + h D: u is a torque, and no acceleration
     B-halved-below: the lower half of B is halved; a torque acts for all of h
+    B-without-damping: in B the damping is missing in the inverse => with M^-1 in B
+    M-forgotten-in-A: in the right half of A M is missing: the old momentum is M v =>
+      with (M + h D)^-1 alone
     h-twice-in-B: h is multiplied twice: (M + h D)^-1 h u is the change of the speed
     diagonal-of-the-slope: of the slope only the diagonal is used => with its diagonal
     slope-halved-above: in the upper left of A the slope is halved: the new speed moves
@@ -189,6 +192,8 @@ def _(M, slope, damping, h):
         ),
         "B-not-divided": (A, np.vstack([h * h * one, h * one])),
         "B-halved-below": (A, np.vstack([B[:n], B[n:] / 2])),
+        "B-without-damping": (A, np.vstack([h * h * M_inv, h * M_inv])),
+        "M-forgotten-in-A": joined(qq, B[n:], vq, B[n:] / h, B[:n], B[n:]),
         "h-twice-in-B": (A, h * B),
         "diagonal-of-the-slope": stepped(M, np.diag(np.diag(slope)), damping, h),
         "slope-halved-above": joined(one + h * vq / 2, qv, vq, vv, B[:n], B[n:]),

@@ -48,7 +48,7 @@ def solved(J, e, weights, damp, lo, hi, right=None, box=box_qp):
     return box(H, -J.T @ (right * e), lo, hi, np.zeros(7))
 
 
-@row.wrongs
+@row.wrongs(hidden={"stands-still-allowed": "no joint of the lab is beyond its range"})
 def _(J, e, weights, damping, dq_lo, dq_hi):
     """clip-after: Day 3's step, clipped; where one joint is held the others should take
       over => with the limits after the step
@@ -89,6 +89,8 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
       clipped again; joints that are held should be left out of it
     mean-weight-in-g: before e stands the mean of the weights; each row has its own
     first-weight: all rows have the first one's weight
+    clip-after 2: Day 3's step, without weights, clipped; where one joint is held the
+      others should take over
     damping-cubed: the damping is to the third power; it is squared
     damping-weighted: the mean weight multiplies the damping, too
     stands-still-allowed: the limits are widened until they have 0 between them; a joint
@@ -135,6 +137,7 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
         "e-doubled": solved(J, 2 * e, weights, d, lo, hi),
         "mean-weight-in-g": solved(*given, lo, hi, 0 * weights + weights.mean()),
         "first-weight": solved(J, e, 0 * weights + weights[0], d, lo, hi),
+        "clip-after 2": np.clip(solved(J, e, np.ones(6), d, -far, far), lo, hi),
         "damping-cubed": solved(J, e, weights, damping**3, lo, hi),
         "damping-weighted": solved(J, e, weights, weights.mean() * d, lo, hi),
         "stands-still-allowed": solved(*given, np.minimum(lo, 0), np.maximum(hi, 0)),

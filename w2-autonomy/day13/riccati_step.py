@@ -46,6 +46,10 @@ def _(P, A, B, Q, R):
     R-inverted: R's inverse is added in the gain => with R^-1
     K-R-K-subtracted: K^T R K is subtracted; it is K^T (R + B^T P B) K that is saved
       => Q + A^T P A - K^T R K
+    motion-forgotten: what the next state costs is missing in P => Q + K^T R K
+    P-forgotten-and-R: the next state's squares are added; it is P that they cost => Q +
+      (A - B K)^T (A - B K)
+    R-squared: R is squared in the gain => with R R
     K-K-subtracted: K^T K is subtracted; it is K^T (R + B^T P B) K that is saved
       => Q + A^T P A - K^T K
     K-K-added: K^T K is added for K^T R K: what u costs is R's => with K^T K
@@ -92,6 +96,9 @@ def _(P, A, B, Q, R):
         "P-forgotten": (Q + A.T @ closed, K),
         "R-inverted": by(np.linalg.solve(np.linalg.inv(R) + B.T @ P @ B, F)),
         "K-R-K-subtracted": (Q + A.T @ P @ A - K.T @ R @ K, K),
+        "motion-forgotten": (Q + K.T @ R @ K, K),
+        "P-forgotten-and-R": (Q + closed.T @ closed, K),
+        "R-squared": by(np.linalg.solve(R @ R + B.T @ P @ B, F)),
         "K-K-subtracted": (Q + A.T @ P @ A - K.T @ K, K),
         "K-K-added": (Q + closed.T @ P @ closed + K.T @ K, K),
         "K-halved": (right, K / 2),
