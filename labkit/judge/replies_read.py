@@ -41,7 +41,8 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
         case "huge":
             slug = "huge-numbers"
             says = f"I{reply.error[1:]}; nothing here comes near "
-            says += "that. Is something divided by almost zero?"
+            says += "that. Is something divided by almost zero, or does an "
+            says += "exponential grow?"
         case "missing":
             slug = "missing"
             says = f"The file has no function {function}."
