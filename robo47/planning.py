@@ -69,7 +69,7 @@ def steer(q: ArrayLike, target: ArrayLike, step: float) -> Array:
         step: the length of a step, in the units of q, above 0.
 
     Returns:
-        (k,): the target itself, to the last bit, where it is no further away.
+        (k,): a copy of the target, to the last bit, where it is no further away.
     """
     q, target = checks.same_size(q=q, target=target)
     return _steer(q, target, float(checks.positive(step, "step")))
