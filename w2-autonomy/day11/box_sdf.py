@@ -36,6 +36,8 @@ def _(p, half):
       right angle
     inside-added-outside: what is below 0 counts outside as well: only what is beyond a
       face does => the norm of |p| - half
+    depth-added-outside: outside the largest of |p| - half comes on top; it counts only
+      inside, where it is below 0 => the length, and max(|p| - half) without min(..., 0)
     inside-by-the-norm: inside it is minus the length of all three; it is the way to the
       nearest face alone
     farthest-face-inside: inside it is the way to the farthest face; the nearest one is
@@ -83,6 +85,7 @@ def _(p, half):
         "largest-outside": beyond.max(),
         "sum-outside": out.sum() + inside,
         "inside-added-outside": np.linalg.norm(beyond) if inside == 0 else inside,
+        "depth-added-outside": length + beyond.max(),
         "inside-by-the-norm": length if inside == 0 else -np.linalg.norm(beyond),
         "farthest-face-inside": length if inside == 0 else beyond.min(),
         "farthest-face-inside 2": length + min(beyond.min(), 0.0),
