@@ -27,6 +27,9 @@ def _(a0, a1, r):
     radius-added-to-both: the radius is added to both corners
     diameter: it is wider by the diameter on each side => with 2 r
     half-the-radius: it is wider by half the radius on each side
+    flat-ends: the radius shrinks with the axis' direction, as of a cylinder with flat
+      ends; a capsule ends in balls, as wide as r on every axis => with
+      r sqrt(1 - d^2) on each axis, d the axis' direction
     corners-not-sorted: a0 and a1 are taken for the least and the greatest corner: each
       may be the lesser in one of x, y, z => a0 - r, a1 + r
     corners-of-all: one number serves all three: the least of x, y and z together
@@ -38,7 +41,10 @@ def _(a0, a1, r):
     low = np.minimum(a0, a1)
     high = np.maximum(a0, a1)
     middle = (a0 + a1) / 2
-    ball = np.linalg.norm(a1 - a0) / 2 + r
+    length = np.linalg.norm(a1 - a0)
+    ball = length / 2 + r
+    along = (a1 - a0) / length if length else np.zeros(3)
+    disc = r * np.sqrt(1 - along**2)
     return {
         "radius-forgotten": np.array([low, high]),
         "radius-on-one-side": np.array([low, high + r]),
@@ -47,6 +53,7 @@ def _(a0, a1, r):
         "radius-added-to-both": np.array([low + r, high + r]),
         "diameter": np.array([low - 2 * r, high + 2 * r]),
         "half-the-radius": np.array([low - r / 2, high + r / 2]),
+        "flat-ends": np.array([low - disc, high + disc]),
         "corners-not-sorted": np.array([a0 - r, a1 + r]),
         "corners-of-all": np.array(
             [np.full(3, low.min() - r), np.full(3, high.max() + r)]

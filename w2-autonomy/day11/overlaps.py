@@ -23,7 +23,7 @@ def _(rng):
     big = np.array([(-2.0, -2, -2), (3, 3, 3)])
     first = [(unit, unit + x), (unit, unit + y + z), (unit, unit + 1.001 * y),
              (unit + x + y + z, unit), (unit, big), (big, unit),
-             (unit, unit)]  # fmt: skip
+             (unit, unit), (unit, unit + 0.75 * (x + y - z))]  # fmt: skip
     drawn = []
     for gaps in ((0.2, 0, 0), (0, 0.2, 0), (0, 0, 0.2), (0.2, 0.3, 0), (0.1, 0.1, 0.2),
                  (0, 0.3, 0.2), (-0.2, -0.1, -0.3), (-0.1, -0.2, -0.1),
@@ -56,6 +56,7 @@ def _(A, B):
       without
     a-corner-inside 2: B's least corner has to lie in A; it may lie below A's
     middles-inside: A's middle has to lie in B
+    middles-inside 2: one box's middle has to lie in the other; boxes overlap by less
     half-of-one: the middles may be as far apart as half of A; half of B counts, too
     always: it is always True
     never: it is always False
@@ -84,6 +85,7 @@ def _(A, B):
         "a-corner-inside": inside(B[0], A) or inside(B[1], A),
         "a-corner-inside 2": inside(B[0], A),
         "middles-inside": inside(A.mean(axis=0), B),
+        "middles-inside 2": inside(A.mean(axis=0), B) or inside(B.mean(axis=0), A),
         "half-of-one": bool(
             np.all(np.abs(A.mean(axis=0) - B.mean(axis=0)) <= (A[1] - A[0]) / 2)
         ),

@@ -34,6 +34,10 @@ def _(offsets, far):
       next => with offsets[i + 1]
     offset-of-the-last: the last link's offset is added; nothing is behind it => +
       offsets of the last
+    offset-of-the-last 2: the last link's offset counts as one more point; nothing is
+      behind it => the larger of far and offset for the last
+    offset-to-its-own: the offset is added to the joint's own far, too; it leads to the
+      next joint => offset + the larger of far and the reach behind
     far-forgotten: only the offsets are added: the links have a size of their own
     offsets-forgotten: the offsets are missing: this is the largest far behind it
     all-summed: the far of all links behind it is added up; only one point is the
@@ -70,6 +74,18 @@ def _(offsets, far):
                              *(behind(i, j) + far[j] for j in range(i, n)))
                          for i in range(n)])  # fmt: skip
 
+    def with_end():
+        reach = np.append(far, 0.0)
+        for i in range(n - 1, -1, -1):
+            reach[i] = max(far[i], offsets[i] + reach[i + 1])
+        return reach[:-1]
+
+    def to_its_own():
+        reach = far.copy()
+        for i in range(n - 2, -1, -1):
+            reach[i] = offsets[i] + max(far[i], reach[i + 1])
+        return reach
+
     def of(what):
         return np.array([what(i) for i in range(n)])
 
@@ -99,6 +115,8 @@ def _(offsets, far):
         "from-the-base": of(lambda i: behind(0, i) + far[i]),
         "offset-one-late": reaches(late, far),
         "offset-of-the-last": with_last,
+        "offset-of-the-last 2": with_end,
+        "offset-to-its-own": to_its_own,
         "far-forgotten": of(lambda i: behind(i, n - 1)),
         "offsets-forgotten": of(lambda i: far[i:].max()),
         "all-summed": of(lambda i: behind(i, n - 1) + far[i:].sum()),
