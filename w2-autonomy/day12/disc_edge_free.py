@@ -116,6 +116,10 @@ def _(a, b, discs):
       two of them => a hundred and one points
     points-only 6: only some points of the edge are looked at; a thin disc fits between
       two of them => two hundred points
+    inside-is-free: an edge that lies in a disc crosses no circle, and is free; a disc
+      is all that is inside => where the edge crosses a circle
+    inside-is-free 2: an edge that lies in a disc crosses no circle, and is free, a
+      point as well; a disc is all that is inside => where the edge crosses a circle
     inner-only: a disc whose foot lies beyond an end is left out; the end itself may be
       in it
     first-disc-only: only the first disc is looked at
@@ -152,6 +156,8 @@ def _(a, b, discs):
     back = b + np.clip(part, 0, 1)[:, None] * (a - b)
     r = discs[:, 2]
     many = len(discs) > 0
+    ends = [np.linalg.norm(discs[:, :2] - x, axis=1) < r for x in (a, b)]
+    held = ends[0] & ends[1]
     return {
         "line-for-segment": looked(a, b, discs, cut=lambda x: x),
         "only-one-end-cut": looked(a, b, discs, cut=lambda x: np.minimum(x, 1)),
@@ -166,6 +172,8 @@ def _(a, b, discs):
         "points-only 4": at_points(a, b, discs, np.linspace(0, 1, 11)),
         "points-only 5": at_points(a, b, discs, np.linspace(0, 1, 101)),
         "points-only 6": at_points(a, b, discs, np.linspace(0, 1, 200)),
+        "inside-is-free": bool(np.all((away > r) | (held & (not point)))),
+        "inside-is-free 2": bool(np.all((away > r) | held)),
         "inner-only": bool(np.all((away > r) | ~inside)),
         "first-disc-only": disc_edge_free(a, b, discs[:1]),
         "last-disc-only": disc_edge_free(a, b, discs[-1:]),
@@ -206,6 +214,17 @@ def _(a, b, discs):
         part = (discs[:, :2] - a) @ along / (along @ along)
     foot = a + np.clip(part, 0, 1)[:, None] * along
     return not np.any(np.linalg.norm(discs[:, :2] - foot, axis=1) <= discs[:, 2])
+
+
+@row.wrong
+def touching_and_no_length(a, b, discs):
+    """an edge that touches is free, and an edge of no length divides by 0: touching is
+    not free, and the edge is a point then: two mistakes"""
+    along = b - a
+    with np.errstate(all="ignore"):
+        part = (discs[:, :2] - a) @ along / (along @ along)
+    foot = a + np.clip(part, 0, 1)[:, None] * along
+    return not np.any(np.linalg.norm(discs[:, :2] - foot, axis=1) < discs[:, 2])
 
 
 @row.right  # Disc by disc, by three cases.

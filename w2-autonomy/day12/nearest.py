@@ -21,6 +21,10 @@ def _(rng):
     yield np.array([[5.0, 0], [0, 0], [2, 0], [2, 0], [0, 0]]), np.array([1.0, 0])
     # The fourth is nearest, and each of its coordinates is further off than another's.
     yield np.array([[0.0, 9, 9], [9, 0, 9], [9, 9, 0], [2, 2, 2]]), np.zeros(3)
+    # Near by way of half a turn, where these joints have their stops.
+    yield np.array([[-2.8, 0], [0.5, 0.4]]), np.array([2.7, 0])
+    three = np.array([[0.6, 0.1, 0.2], [2.6, -0.3, 0], [1, 0, 0.1]])
+    yield three, np.array([-2.8, 0, 0])
     rng = usual(rng)
     for n, k in ((5, 2), (9, 2), (12, 2), (7, 3), (6, 7), (9, 7), (14, 7), (25, 7)) * 2:
         while True:
@@ -46,6 +50,14 @@ def _(tree, q):
       coordinate; the distance is the root of the sum of squares
     sum-of-sizes: nodes are compared by the sum of the differences' sizes; the distance
       is the root of the sum of squares
+    wrapped: the differences are taken to within half a turn; the arm's joints have
+      stops, so a whole turn is not the same as none => with differences within +-pi
+    wrapped 2: the differences are taken modulo a whole turn; the arm's joints have
+      stops, so a whole turn is not the same as none => with differences modulo 2 pi
+    weighted: the first coordinates count more than the last; all count alike => with
+      weights from 1 down to 1/2
+    weighted 2: the first coordinates count more than the last; all count alike => with
+      weights 1, 1/2, 1/3 and so on
     from-the-origin: this is the node nearest to the origin: q is not used
     q-added: q is added to the nodes; the difference is needed
     most-alike: nodes are compared by their product with q, which also grows with a
@@ -59,7 +71,12 @@ def _(tree, q):
     away = tree - q
     far = np.sum(away**2, axis=1)
     n = len(tree)
+    k = len(q)
     best = nearest(tree, q)
+
+    def by(differences):
+        return int(np.argmin(np.sum(differences**2, axis=1)))
+
     return {
         "farthest": int(np.argmax(far)),
         "newest": n - 1,
@@ -70,6 +87,10 @@ def _(tree, q):
         "last-of-equals": n - 1 - int(np.argmin(far[::-1])),
         "largest-coordinate": int(np.argmin(np.abs(away).max(axis=1))),
         "sum-of-sizes": int(np.argmin(np.abs(away).sum(axis=1))),
+        "wrapped": by((away + np.pi) % (2 * np.pi) - np.pi),
+        "wrapped 2": by(away % (2 * np.pi)),
+        "weighted": by(away * np.linspace(1, 0.5, k)),
+        "weighted 2": by(away / np.arange(1, k + 1)),
         "from-the-origin": int(np.argmin(np.sum(tree**2, axis=1))),
         "q-added": int(np.argmin(np.sum((tree + q) ** 2, axis=1))),
         "most-alike": int(np.argmax(tree @ q)),

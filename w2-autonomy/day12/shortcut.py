@@ -99,6 +99,7 @@ def _(path, world, pairs):
       the path as it is by then
     not-sorted: a pair whose first number is the larger is left out: sort the two rows
     rounded: u m is rounded; int() cuts it off
+    rounded 2: u (m - 1) is rounded; it is int(u m), so that all rows are equally likely
     of-m-minus-one: u is multiplied with m - 1; it is int(u m), so that all rows are
       equally likely
     neighbours-too: rows that are next to each other count as cut => with j - i > 0
@@ -145,6 +146,9 @@ def _(path, world, pairs):
         "not-sorted": cut(path, world, pairs, order=list),
         "rounded": cut(
             path, world, pairs, lambda pair, m: [round(u * m) for u in pair]
+        ),
+        "rounded 2": cut(
+            path, world, pairs, lambda pair, m: [round(u * (m - 1)) for u in pair]
         ),
         "of-m-minus-one": cut(path, world, pairs, halved),
         "neighbours-too": cut(

@@ -2,10 +2,28 @@
 
 import numpy as np
 
-from labkit.judge import Row, Vector
+from labkit.judge import HeldOut, Row, Vector
 from robo47.planning import steer
 
-row = Row(Vector((None,)))
+
+def from_afar(rng):
+    """Return targets within a step, so far that rounding q + way shows at once."""
+    far = 1e14  # a number so large is good to 1/64 alone
+    for k in (2, 7, 7):
+        q = target = rng.numbers(-2, 2, k)
+        q = np.where(np.arange(k) == 0, far, q)
+        target = np.where(np.arange(k) == 0, 0.3, target)
+        yield q, target, 2 * far
+
+
+NOT_THE_TARGET = HeldOut(
+    "not-the-target",
+    "Right but for the last bit: where the target is within a step, q plus the whole "
+    "way is rounded, and may miss the target (where q is 1e14 by much). Return a copy "
+    "of the target then: trees join where two nodes are equal.",
+    from_afar,
+)
+row = Row(Vector((None,)), held_out=[NOT_THE_TARGET])
 
 
 @row.inputs
@@ -105,10 +123,25 @@ def _(q, target, step):
     return np.array(target) if far <= step else q + (target - q) * (step / far)
 
 
-@row.right  # By clipping.
+@row.right  # By a loop over the coordinates.
+def _(q, target, step):
+    far = np.linalg.norm(q - target)
+    if far > step:
+        return np.array([a + step * (b - a) / far for a, b in zip(q, target)])
+    return np.array([float(b) for b in target])
+
+
+@row.wrong("not-the-target", hidden="its trees join all the same")
 def _(q, target, step):
     far = np.linalg.norm(q - target)
     return q + (target - q) * min(1.0, step / max(far, 1e-12))
+
+
+@row.wrong("not-the-target")
+def _(q, target, step):
+    way = target - q
+    far = np.linalg.norm(way)
+    return q + way / far * min(step, far) if far else np.array(target)
 
 
 row.at_least_0(step="a length")

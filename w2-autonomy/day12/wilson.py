@@ -80,6 +80,8 @@ def _(successes, n):
       (Agresti and Coull's): near, and another one
     one-more: p is (k + 1) / (n + 2), one success and one failure more; it is k / n
     half-width: the width is half of what it is
+    one-is-none: one trial tells as little as none here; it tells a little: (0, 1) is
+      for n = 0 alone => (0, 1) below two trials
     """
     k, trials = successes, n
     n = n or 1  # of no trial see below
@@ -130,6 +132,7 @@ def _(successes, n):
             more * (1 - more) / n + z**2 / (4 * n**2), more + z**2 / (2 * n)
         ),
         "half-width": middle + two * around / 2,
+        "one-is-none": right if n > 1 else np.array([0.0, 1.0]),
     }
     if trials == 0:
         sure = np.array([0.0, 1.0])
