@@ -32,6 +32,8 @@ def _(before, after, expected):
       before - after / expected
     sizes: its sign is lost: a step that did harm has a ratio below 0 => its size
     at-most-1: it is clipped at 1; more than was expected may be saved
+    how-well-foretold: it falls on both sides of what was expected; a step that saves
+      more has a ratio above 1 => 1 - |saved - expected| / |expected|
     never-below-0: it is clipped at 0; a step that did harm has a ratio below 0
     """
     saved = before - after
@@ -52,6 +54,7 @@ def _(before, after, expected):
         "brackets": before - after / expected,
         "sizes": abs(ratio),
         "at-most-1": min(ratio, 1.0),
+        "how-well-foretold": 1 - abs(saved - expected) / abs(expected),
         "never-below-0": max(ratio, 0.0),
     }
 

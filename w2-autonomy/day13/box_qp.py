@@ -69,7 +69,16 @@ def typed():
     lo = np.array([-1.3, -1.6, -2.4, -0.8, -2.4])
     hi = np.array([-0.8, -1.3, -0.9, -0.5, -1.0])
     often = (H, np.array([2.0, 2.4, 2.9, -1.2, 1.7]), lo, hi, lo.copy())
-    return [hardly, steeper, later, outside, often]
+    # Clipped and solved anew, one more is beyond; the rest is to be solved once more.
+    H = np.array([
+        [2.1, 0.7, -2.8, 2.7],
+        [0.7, 0.9, -1.8, 0.5],
+        [-2.8, -1.8, 5.5, -4.1],
+        [2.7, 0.5, -4.1, 7.6],
+    ])  # fmt: skip
+    one = np.ones(4)
+    again = (H, np.array([-0.1, -2.2, 1.7, 1.8]), -one, one, 0 * one)
+    return [hardly, steeper, later, outside, often, again]
 
 
 def newton(H, g, lo, hi, x, n=50, frees="pushed", full=False):
@@ -108,6 +117,21 @@ def solved_once_more(H, g, lo, hi, x):
     right = -(H @ x + g)[free]
     x[free] += np.linalg.solve(H[np.ix_(free, free)], right)
     return np.clip(x, lo, hi)
+
+
+def clipped_for_good(H, g, lo, hi, x):
+    """Return the clipped optimum, solved anew while others meet; none is let go."""
+    x = np.array(x, float)
+    free = np.ones(len(x), bool)
+    while free.any():
+        right = -(g + H[:, ~free] @ x[~free])[free]
+        x[free] = np.linalg.solve(H[np.ix_(free, free)], right)
+        met = (x < lo) | (x > hi)
+        x = np.clip(x, lo, hi)
+        if not met.any():
+            break
+        free &= ~met
+    return x
 
 
 def swept(H, g, lo, hi, x, n):
@@ -191,6 +215,9 @@ def _(H, g, lo, hi, x):
       limit; the others should go on from there
     solved-once-more: the best point without limits is clipped, the others are solved
       anew, and that is all; then others may meet, or want to leave
+    clipped-for-good: the best point without limits is clipped and the others are solved
+      anew, as often as one is beyond; but what was clipped is never let go, though its
+      slope may pull it back inside
     held-for-good: an entry that has met its limit is never let go, though its slope may
       pull it back inside; or it is another one that is let go
     steepest-let-go: of those that are held the one with the largest slope is let go,
@@ -229,6 +256,8 @@ def _(H, g, lo, hi, x):
       step that H's largest eigenvalue allows is 1 over that => with 1,000 steps of 0.1
     diagonal-hessian 2: each step of the free entries divides by H's diagonal only
     gradient-steps 3: this is x after 30 short steps downhill => with 1 over H's
+      largest eigenvalue
+    gradient-steps 5: this is x after 50 short steps downhill => with 1 over H's
       largest eigenvalue
     gradient-steps 4: this is x after 100 short steps downhill => with 1 over H's
       largest eigenvalue
@@ -275,6 +304,7 @@ def _(H, g, lo, hi, x):
         "no-limits": free,
         "scaled-back": start + min(1.0, share.min()) * way,
         "solved-once-more": solved_once_more(*given),
+        "clipped-for-good": clipped_for_good(*given),
         "held-for-good": held_for_good(*given),
         "steepest-let-go": guessed(*given, lets_go="steepest"),
         "all-let-go": guessed(*given, lets_go="all"),
@@ -302,6 +332,7 @@ def _(H, g, lo, hi, x):
             *given, way=lambda x, f: -(H @ x + g)[f] / np.diag(H)[f]
         ),
         "gradient-steps 3": slid(*given, 30, short),
+        "gradient-steps 5": slid(*given, 50, short),
         "gradient-steps 4": slid(*given, 100, short),
         "one-gradient-step": np.clip(x - (H @ x + g), lo, hi),
         "one-gradient-step 2": slid(*given, 1, short),

@@ -40,13 +40,13 @@ def joined(qq, qv, vq, vv, qu, vu):
     return np.block([[qq, qv], [vq, vv]]), np.vstack([qu, vu])
 
 
-def exact(A, B, h):
+def exact(A, B, h, terms=59):
     """Return the exponential's A and B of a step, by its series."""
     n, m = B.shape
     both = np.zeros((n + m, n + m))
     both[:n] = np.hstack([A, B])
     term = total = np.eye(n + m)
-    for k in range(1, 60):
+    for k in range(1, terms + 1):
         term = term @ (h * both) / k
         total = total + term
     return total[:n, :n], total[:n, n:]
@@ -102,6 +102,8 @@ def _(M, slope, damping, h):
     A-diagonal-M: M is taken for its diagonal
     exponential: these are the exact ones of the motion in continuous time; MuJoCo's
       step is not => with the exponential of h times the slopes
+    exponential 2: these are the first terms of the exact ones of the motion in
+      continuous time; MuJoCo's step is not => with 1 + h A + h^2 A^2 / 2
     slope-implicit: the slope acts on the new position; in MuJoCo it acts on the old one
       => with M + h D + h^2 slope
     damping-not-diagonal: damping is added to every row of M; it belongs on the diagonal
@@ -178,6 +180,7 @@ def _(M, slope, damping, h):
         "A-transposed": (A.T, B),
         "A-diagonal-M": stepped(np.diag(np.diag(M)), slope, damping, h),
         "exponential": exact(*rate, h),
+        "exponential 2": exact(*rate, h, terms=2),
         "slope-implicit": stepped(
             M, slope, damping, h, inv=np.linalg.inv(M + h * D + h * h * slope)
         ),
