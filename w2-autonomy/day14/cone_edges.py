@@ -55,6 +55,8 @@ def _(normal, mu, k):
       size counts
     not-unit: a is not divided by its length, so the edges lie on an ellipse
     axis-x-n: a is axis x n; n x axis was asked for, so the edges begin opposite
+    axis-itself: for a it takes the part of the axis across n; n x axis was asked for,
+      so the edges begin a quarter of a turn away
     other-way-round: it goes round the other way: b is n x a
     last-is-first: the last edge is the first again: t goes from 0 to 2 pi with both
       ends => with t = 2 pi i / (k - 1)
@@ -98,6 +100,7 @@ def _(normal, mu, k):
         "signed-least": edges(normal, mu, k, np.eye(3)[np.argmin(normal)]),
         "not-unit": ellipse,
         "axis-x-n": edges(normal, mu, k, a=-a),
+        "axis-itself": edges(normal, mu, k, a=least - normal @ least * normal),
         "other-way-round": edges(normal, mu, k, b=-b),
         "last-is-first": turned,
         "degrees": edges(normal, mu, k, t=360 * np.arange(k) / k),

@@ -75,6 +75,7 @@ def _(rng):
 @row.wrongs
 def _(opening, force, normal, mu, share, step):
     """opens: it opens by a step; a cube that nearly slips has to be squeezed more
+    opens-again: where nothing slips it opens by a step; the opening stays as it is then
     all-must-slip: it closes only when all contacts nearly slip; one is enough
     at-the-line: a margin that is as large as its share closes, too; only a smaller one
       does
@@ -114,6 +115,7 @@ def _(opening, force, normal, mu, share, step):
 
     return {
         "opens": opening + step if slips.any() else opening,
+        "opens-again": closed(True) if slips.any() else opening + step,
         "all-must-slip": closed(slips.all()),
         "at-the-line": closed(np.any(margin <= share * mu * press)),
         "one-minus-the-share": closed(np.any(margin < (1 - share) * mu * press)),

@@ -46,6 +46,8 @@ def _(heights, target, cap):
     thrown-is-zero: what was thrown or lost is worth 0, as on the floor; it is -1
     thrown-is-minus-cap: what was thrown is worth minus its height; it is -1
     cap-for-target: the cap is taken for the target
+    cap-for-target 2: below the target the height is divided by the cap; the target
+      divides it, so that half of the way is worth half
     target-for-cap: the target is taken for the cap: what is above it was thrown
     at-the-cap: what is as high as the cap counts as thrown; only what is above it does
     halved: the worth of the floor is -1; it is 0
@@ -78,6 +80,9 @@ def _(heights, target, cap):
         "thrown-is-zero": np.where(good, share, 0.0),
         "thrown-is-minus-cap": np.where(h > cap, -h, right),
         "cap-for-target": lost(np.clip(h, 0, cap) / cap, ~good),
+        "cap-for-target 2": lost(
+            np.where(h >= target, 1.0, np.maximum(h, 0) / cap), ~good
+        ),
         "target-for-cap": lost(share, ~(np.isfinite(h) & (h <= target))),
         "at-the-cap": lost(share, ~(np.isfinite(h) & (h < cap))),
         "halved": lost(2 * share - 1, ~good),

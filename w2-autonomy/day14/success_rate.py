@@ -36,6 +36,7 @@ def _(success):
     count: it returns how many, not which share
     half-width: it returns how far the interval goes to either side, not its ends
     failures: failures are counted for successes
+    failures 2: the rate is that of the successes, and the interval that of the failures
     one-sided: 1.645 is taken for 1.96: 90 % of all rates are within
     ninety-nine: 2.576 is taken for 1.96: 99 % of all rates are within
     n-less-one: it is divided by n - 1
@@ -58,6 +59,7 @@ def _(success):
         "count": np.array([k, low, high]),
         "half-width": np.array([p, p - low, high - p]),
         "failures": np.array([1 - p, *wilson(n - k, n)]),
+        "failures 2": np.array([p, *wilson(n - k, n)]),
         "one-sided": np.array([p, *wilson(k, n, 1.645)]),
         "ninety-nine": np.array([p, *wilson(k, n, 2.576)]),
         "n-less-one": lambda: right * n / (n - 1) if n > 1 else np.full(3, np.nan),
