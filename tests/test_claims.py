@@ -226,3 +226,13 @@ def test_a_mirror_of_axes_in_one_plane_does_not_pass():
         return X
 
     assert "mirror image" in told(10, "10.8", hand_eye=hand_eye)
+
+
+def test_a_list_of_discs_is_not_right_whenever_it_is_0():
+    grow = right(12, "extend")
+
+    def extend(tree, sample, step, world):
+        i, q, free = grow(tree, sample, step, world)
+        return (i, q, True) if free else (-1, tree[i], False)
+
+    assert "whenever world" not in told(12, "12.3", extend=extend)

@@ -30,6 +30,7 @@ NOTHING = 1e-12  # a right answer as small as this says nothing
 ROUNDING = 1e-9  # what sums of larger numbers may leave of a small answer
 COMMON = 0.5  # the share of other wrong functions that may be right there as well
 OTHERS = 12  # of them are asked
+LISTED = 1 / 3  # the share of calls that have a list so, where that is worth saying
 Call = tuple[Any, ...]  # its arguments
 # From calls to the answers of a function, None where there is none, which says nothing.
 Answers = Callable[[Sequence[Call]], Iterable[Any]]
@@ -227,7 +228,7 @@ class Experiments:
         for k, column in enumerate(zip(*self.calls, strict=True)):
             for choices in zip(*map(neutrals, column), strict=False):
                 first = choices[0]
-                if len({one.says for one in choices}) > 1:
+                if len({one.says for one in choices}) > 1 or self._idle(k, first):
                     continue
                 values = [one.value for one in choices]
                 pairs = zip(column, values, strict=True)
@@ -237,6 +238,17 @@ class Experiments:
                     calls = _with(self.calls, k, values)
                     more = self._more(k, first)
                     yield Claim(k, says, calls, first.holds, more, changed)
+
+    def _idle(self, k: int, neutral: Neutral) -> bool:
+        """Return whether a list of rows is neutral in a way that hardly a call has it.
+
+        Worlds of discs and trees of nodes have any number of rows. One of as many rows
+        as columns is no square matrix, and it is never asked with all of them 0.
+        """
+        alike = [c[k] for c in self.known if k < len(c) and np.ndim(c[k]) == 2]
+        if len({len(x) for x in alike}) < 2 or len({x.shape[1] for x in alike}) > 1:
+            return False
+        return sum(map(neutral.holds, alike)) < LISTED * len(alike)
 
     def _more(self, k: int, neutral: Neutral) -> Callable[[], list[Call]]:
         def more() -> list[Call]:
