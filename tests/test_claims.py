@@ -226,3 +226,32 @@ def test_a_mirror_of_axes_in_one_plane_does_not_pass():
         return X
 
     assert "mirror image" in told(10, "10.8", hand_eye=hand_eye)
+
+
+def test_a_range_holds_whatever_the_other_arguments_are():
+    profile = right(7, "trapezoid")
+
+    def trapezoid(t, L, v, a):
+        if v * v / a <= L:
+            return profile(t, L, v, a)
+        ramp = np.sqrt(L / a)  # with half the speed that belongs to it
+        T = ramp + 2 * L / (a * ramp)
+        if t <= 0 or t >= T:
+            return np.array([L if t > 0 else 0.0, 0.0, 0.0])
+        if t < ramp:
+            return np.array([0.5 * a * t * t, a * t, a])
+        return np.array([0.5 * a * ramp * t, a * ramp / 2, 0.0])
+
+    says = told(7, "7.4", trapezoid=trapezoid)
+    assert "between" not in says
+    assert says.endswith("It is right whenever v^2 / a <= L.")
+
+
+def test_a_list_of_discs_is_not_right_whenever_it_is_0():
+    grow = right(12, "extend")
+
+    def extend(tree, sample, step, world):
+        i, q, free = grow(tree, sample, step, world)
+        return (i, q, True) if free else (-1, tree[i], False)
+
+    assert "whenever world" not in told(12, "12.3", extend=extend)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from labkit.judge.crossed import crossed
 from labkit.judge.neutral import neutrals
 from labkit.judge.right_when import Experiments
 from robo47 import se3
@@ -123,3 +124,43 @@ def test_answers_of_unlike_length_are_no_reason_to_stop():
     calls = [(np.arange(1.0, n), float(n)) for n in (3, 5, 8, 4)]
     says = told(lambda x, a: x + a, lambda x, a: x * a, calls, ["x", "a"])
     assert "a is 1" not in says
+
+
+def test_arguments_are_crossed_at_their_ends():
+    calls = [(0.5, 1.0, 3.0), (0.7, 2.0, 4.0), (0.9, 1.5, 3.5)]
+    some = crossed(calls, 0)
+    corners = {call[1:] for call in some}
+    assert {(low, high) for low in (0.1, 1.0, 2.0) for high in (0.3, 3.0, 4.0)} <= {
+        tuple(round(x, 9) for x in corner) for corner in corners
+    }
+    assert some == crossed(calls, 0)
+    assert {call[0] for call in some} <= {0.5, 0.7, 0.9}
+    assert crossed([(0.5,), (0.7,)], 0) == []
+
+
+def ranged(conditions=()):
+    """Return what a function is told that is wrong for a large x, or y over z.
+
+    It was asked with no large y over z, and no other size of a whole call makes one.
+    """
+    sizes = (0.1, 0.2, 0.4, 0.6, 0.9, 1.6, 2.5, 3.0)
+    known = [(x, y, z) for x in sizes for y, z in ((4.0, 1.0), (1.0, 0.2))]
+    right = lambda x, y, z: x + y + z  # noqa: E731
+    mine = lambda x, y, z: x + y + z + (x > 1.2 or 0 < 12 * z < y)  # noqa: E731
+    verdicts = [mine(*call) == right(*call) for call in known]
+    wrong = [c for c, ok in zip(known, verdicts, strict=True) if not ok]
+    both = [lambda some, f=f: [f(*call) for call in some] for f in (mine, right)]
+    return Experiments(
+        wrong[-4:], ["x", "y", "z"], *both, 1e-5, known, verdicts, conditions
+    ).neutral()
+
+
+def test_a_range_is_not_said_where_another_argument_ends_it():
+    assert "between" not in ranged()
+
+
+def test_a_row_s_condition_is_said_where_it_holds_alone():
+    small = ("x <= 1", lambda x, y, z: x <= 1)
+    alone = ("x <= 1 and y <= 12 z", lambda x, y, z: x <= 1 and y <= 12 * z)
+    assert ranged([alone]).startswith(f"It is right whenever {alone[0]}")
+    assert "x <= 1" not in ranged([small])

@@ -22,6 +22,7 @@
     judge       from questions with their replies to a verdict and its name
     odd_answers a mistake that stops, or changes its shape, at some questions
     right_when  with which argument neutral a wrong function is right
+    crossed     calls whose arguments are mixed, at their ends and between them
     chain       where along a serial chain a product goes wrong
     matrices    moves of matrices that need not be poses
 

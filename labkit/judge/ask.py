@@ -167,6 +167,9 @@ class Ask:
     near_miss: Callable[[Case], Finding | None] | None = None
     measured: Callable[[Case], Sequence[str]] | None = None  # adds lines for --explain
     slips: Sequence[Slip] = ()  # exceptions that have better words than their own
+    # What a wrong function may turn out to be right for, in words that follow
+    # "whenever", each with a function of a call's arguments that says whether it is so.
+    conditions: Sequence[tuple[str, Callable[..., bool]]] = ()
     # Whether a call with edge values has one right answer; None is yes.
     at_edge: Callable[..., bool] | None = None
     seconds: float = 0.0  # that a call of the reference takes; 0: it is measured here

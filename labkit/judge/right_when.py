@@ -17,6 +17,7 @@ import numpy as np
 from labkit.base.exchange import Question, Reply
 from labkit.judge.answers import InTurn, own, say_factor
 from labkit.judge.ask import Asked, as_plain, right_answers
+from labkit.judge.crossed import crossed
 from labkit.judge.mistake import Finding
 from labkit.judge.neutral import SIZES, Neutral, neutrals, scaled
 from labkit.judge.ranges import Span, spans
@@ -30,6 +31,7 @@ NOTHING = 1e-12  # a right answer as small as this says nothing
 ROUNDING = 1e-9  # what sums of larger numbers may leave of a small answer
 COMMON = 0.5  # the share of other wrong functions that may be right there as well
 OTHERS = 12  # of them are asked
+LISTED = 1 / 3  # the share of calls that have a list so, where that is worth saying
 Call = tuple[Any, ...]  # its arguments
 # From calls to the answers of a function, None where there is none, which says nothing.
 Answers = Callable[[Sequence[Call]], Iterable[Any]]
@@ -71,6 +73,8 @@ def right_when(
         max(ask.tolerance, ask.rtol),
         more,
         _verdicts(asked),
+        ask.conditions,
+        ask.at_edge,
     )
     return seen.told(others)
 
@@ -91,12 +95,12 @@ def _verdicts(asked: Asked) -> list[bool]:
 
 @dataclass(frozen=True)
 class Claim:
-    """A sentence about one argument, and the inputs that satisfy it."""
+    """A sentence about a call, mostly of one argument, and inputs that satisfy it."""
 
-    k: int  # which argument
+    k: int  # which argument; -1 of several
     says: str  # "whenever ed is 0", "for theta between 0 and pi"
     calls: Sequence[Call]  # at which it is first tried
-    holds: Callable[[Any], bool]  # whether a value of the argument satisfies it
+    holds: Callable[[Call], bool]  # whether a call satisfies it
     more: Callable[[], Sequence[Call]]  # those at which it is tried then
     changed: float = 0.0  # how many numbers of a call that changes
 
@@ -112,6 +116,8 @@ class Experiments:
     near: float  # how far off a right answer may be, relative to its largest entry
     known: Sequence[Call] = ()  # all that it was asked
     right: Sequence[bool] = ()  # of each of those whether it was answered rightly
+    conditions: Sequence[tuple[str, Callable[..., bool]]] = ()  # as in an `Ask`
+    at_edge: Callable[..., bool] | None = None  # as in an `Ask`
 
     def told(self, others: Sequence[Answers] = ()) -> str:
         """Return what all experiments show, in words."""
@@ -123,7 +129,7 @@ class Experiments:
         Args:
             others: other wrong functions. What is true of most of them says nothing.
         """
-        claims = [*self._ranges(), *self._claims()]
+        claims = [*self._stated(), *self._ranges(), *self._claims()]
         claims = [one for one in claims if not self._refuted(one)]
         first = self._each([one.calls for one in claims])
         telling = []
@@ -133,9 +139,10 @@ class Experiments:
                          for f in others[:OTHERS]]  # fmt: skip
                 share = sum(right) / max(1, len(right))
                 if share <= COMMON or not claim.changed:
-                    telling.append((share, claim.changed, i, claim))
-        telling.sort(key=lambda one: one[:3])
-        tried = [(claim, list(claim.more())) for *_, claim in telling]
+                    order = (claim.k >= 0, share, claim.changed, i)
+                    telling.append((order, claim))
+        telling.sort(key=lambda one: one[0])
+        tried = [(claim, list(claim.more())) for _, claim in telling]
         says: dict[int, str] = {}  # of each argument the most telling
         answers = self._each([some for _, some in tried])
         for (claim, some), given in zip(tried, answers, strict=True):
@@ -180,7 +187,7 @@ class Experiments:
     def _refuted(self, claim: Claim) -> bool:
         """Return whether a call that was answered wrongly satisfies a claim."""
         wrong = [c for c, ok in zip(self.known, self.right, strict=False) if not ok]
-        return any(claim.holds(call[claim.k]) for call in (*self.calls, *wrong))
+        return any(map(claim.holds, (*self.calls, *wrong)))
 
     def _each(self, rounds: Sequence[Sequence[Call]]) -> list[list[Any]]:
         """Return the function's answers to several rounds, asked at once."""
@@ -227,7 +234,7 @@ class Experiments:
         for k, column in enumerate(zip(*self.calls, strict=True)):
             for choices in zip(*map(neutrals, column), strict=False):
                 first = choices[0]
-                if len({one.says for one in choices}) > 1:
+                if len({one.says for one in choices}) > 1 or self._idle(k, first):
                     continue
                 values = [one.value for one in choices]
                 pairs = zip(column, values, strict=True)
@@ -236,7 +243,19 @@ class Experiments:
                     says = f"whenever {first.says.format(self.names[k])}"
                     calls = _with(self.calls, k, values)
                     more = self._more(k, first)
-                    yield Claim(k, says, calls, first.holds, more, changed)
+                    holds = partial(_of_argument, k, first.holds)
+                    yield Claim(k, says, calls, holds, more, changed)
+
+    def _idle(self, k: int, neutral: Neutral) -> bool:
+        """Return whether a list of rows is neutral in a way that hardly a call has it.
+
+        Worlds of discs and trees of nodes have any number of rows. One of as many rows
+        as columns is no square matrix, and it is never asked with all of them 0.
+        """
+        alike = [c[k] for c in self.known if k < len(c) and np.ndim(c[k]) == 2]
+        if len({len(x) for x in alike}) < 2 or len({x.shape[1] for x in alike}) > 1:
+            return False
+        return sum(map(neutral.holds, alike)) < LISTED * len(alike)
 
     def _more(self, k: int, neutral: Neutral) -> Callable[[], list[Call]]:
         def more() -> list[Call]:
@@ -253,22 +272,54 @@ class Experiments:
 
         return more
 
+    def _stated(self) -> Iterator[Claim]:
+        """Yield the row's own conditions, of several arguments, as asked."""
+        mixed = self._crossed() if self.conditions else []
+        some = [*self.known, *filter(self._definite, mixed)]
+        for says, holds in self.conditions:
+            of_call = partial(_of_call, holds)
+            kept = [call for call in some if of_call(call)]
+            first = kept[: QUESTIONS + 2]
+            yield Claim(-1, f"whenever {says}", first, of_call, partial(list, kept))
+
     def _ranges(self) -> Iterator[Claim]:
         """Yield in which range of a number, or of entries, it is right, as asked."""
         for k, x in enumerate(self.calls[0]):
             column = [call[k] for call in self.known]
             for one in spans(x, column, self.right):
                 says = one.says.format(self.names[k])
-                calls = self._spanned(k, one, QUESTIONS + 2)
-                more = partial(self._spanned, k, one, 2 * TRIED)
-                yield Claim(k, says, calls, one.holds, more)
+                calls = self._spanned(k, one, self.calls, QUESTIONS + 2)
+                holds = partial(_of_argument, k, one.holds)
+                yield Claim(k, says, calls, holds, partial(self._in_span, k, one))
 
-    def _spanned(self, k: int, one: Span, n: int) -> list[Call]:
-        """Return calls with argument k in a range, and near its ends."""
-        some = self._others() if n > TRIED else self.calls
+    def _in_span(self, k: int, one: Span) -> list[Call]:
+        """Return calls in a range, with the others as asked, resized, and crossed.
+
+        None where too few of those that are crossed have one right answer.
+        """
+        usual = self._spanned(k, one, self._others(), 2 * TRIED)
+        if not (others := self._crossed(k)):
+            return usual
+        parts = [others[i : i + QUESTIONS] for i in range(0, len(others), QUESTIONS)]
+        # Of each four, two are near the range's ends.
+        near = chain(*(self._spanned(k, one, part, QUESTIONS) for part in parts))
+        found = list(filter(self._definite, near))
+        return [*usual, *found] if len(found) >= TRIED else []
+
+    def _spanned(self, k: int, one: Span, some: Sequence[Call], n: int) -> list[Call]:
+        """Return n calls with argument k in a range, and near its ends."""
         again = [some[i % len(some)] for i in range(n)]
         values = one.values([call[k] for call in again])
         return _with(again, k, values)
+
+    def _crossed(self, k: int = -1) -> list[Call]:
+        """Return calls with all arguments but k at their ends, also jointly."""
+        shapes = [np.shape(x) for x in self.calls[0]]
+        known = [c for c in self.known if [np.shape(x) for x in c] == shapes]
+        return crossed([*known, *self.calls], k)
+
+    def _definite(self, call: Call) -> bool:
+        return self.at_edge is None or _of_call(self.at_edge, call)
 
     def _right(
         self, given: Iterable[Any], calls: Sequence[Call], least: int = AGREE
@@ -312,6 +363,18 @@ class Experiments:
         factor = float(one @ two / (one @ one))
         off = np.abs(two - factor * one).max()
         return factor if off <= self.near * max(1.0, float(np.abs(two).max())) else None
+
+
+def _of_argument(k: int, holds: Callable[[Any], bool], call: Call) -> bool:
+    return holds(call[k])
+
+
+def _of_call(holds: Callable[..., bool], call: Call) -> bool:
+    """Return what a row's function says of a call; False where it stops."""
+    try:
+        return bool(holds(*map(as_plain, call)))
+    except Exception:  # the condition divides by one that is 0, say
+        return False
 
 
 def _with(calls: Sequence[Call], k: int, values: Sequence[Any]) -> list[Call]:

@@ -133,6 +133,20 @@ for i, k in combinations(range(7), 2):
     two_swapped(row, i, k)
 
 
+def skipped(row, k, to=PATH, hidden=""):
+    """Take that joint k, counted from 0, never turns."""
+    others = np.arange(7) != k
+    says = f"joint{k + 1} never turns: its angle has no effect"
+    row.wrong("joint-skipped", says, f"the pose with joint{k + 1} at 0", hidden)(
+        lambda model, q, path=to: fk(model, q * others, path)
+    )
+
+
+# `places` finds any other; two mistakes at once may make the same numbers as these.
+for k in (0, 6):
+    skipped(row, k)
+
+
 row.wrongs(products.in_order)
 row.wrong(products.chain_reversed)
 row.wrongs(products.on_each_other)

@@ -7,7 +7,7 @@ from labkit.judge.matrices import rigid_inverse
 from robo47.panda import READY_Q
 
 from . import ends, places
-from .compose_fk import stops_early, two_swapped
+from .compose_fk import skipped, stops_early, two_swapped
 from .panda_chain import NEAR, PANDA, PATH, by_mujoco, fk, link, on, turn
 
 TO_LINK4 = PATH[:5]
@@ -36,7 +36,7 @@ for k, end in enumerate(("link5", "link6", "link7", "the end effector"), start=5
 
 row.reached_by(
     "compose_fk",
-    but={*ends.ENDS, "stops-early", "two-joints-swapped"},
+    but={*ends.ENDS, "stops-early", "two-joints-swapped", "joint-skipped"},
     called={"the end effector": "link4", "attachment": "link4"},
     hidden={"home-whatever-q": AT_READY},
 )
@@ -44,6 +44,7 @@ for i, k in combinations(range(7), 2):
     if i < 4:  # of the other joints link4 does not depend
         same = AT_READY if READY_Q[i] == READY_Q[k] else ""
         two_swapped(row, i, k, TO_LINK4, same)
+skipped(row, 0, TO_LINK4, AT_READY)  # its angle is 0 there
 
 
 @row.wrong("joint-skipped")  # joint4 turns link4 itself, so it belongs in.

@@ -134,6 +134,24 @@ def _(R):
     }
 
 
+@row.wrongs
+def _(R):
+    """half-the-trace-less-1: the trace is halved, and 1 taken off; the cosine is (trace
+      - 1) / 2 => the axis times the arccosine of trace / 2 - 1
+    half-the-trace-less-1 2: the trace is halved, and 1 taken off; the cosine is (trace
+      - 1) / 2 => the axis times that arccosine, with its NaN,
+    half-the-trace-less-1 3: the trace is halved, and 1 taken off; the cosine is (trace
+      - 1) / 2 => the books' formula with the arccosine of trace / 2 - 1
+    """
+    c = np.trace(R) / 2 - 1
+    angle = np.arccos(c)
+    return {
+        "half-the-trace-less-1": axis(R) * np.arccos(np.clip(c, -1, 1)),
+        "half-the-trace-less-1 2": axis(R) * angle,
+        "half-the-trace-less-1 3": angle / (2 * np.sin(angle)) * vee(R),
+    }
+
+
 @row.wrongs(hidden={"arccosine-beyond-1": "its identity is exact"})
 def _(R):
     """textbook-formula: this is the formula of most books, theta / (2 sin theta) times

@@ -13,7 +13,14 @@ def between_ends(t, L, v, a):
 
 
 NAMES = ("the position", "the speed", "the acceleration")
-row = Row(Vector((3,), names=NAMES), at_edge=between_ends)
+row = Row(
+    Vector((3,), names=NAMES),
+    at_edge=between_ends,
+    conditions=[
+        ("v^2 / a <= L", lambda t, L, v, a: v**2 / a <= L),
+        ("v^2 / a > L", lambda t, L, v, a: v**2 / a > L),
+    ],
+)
 
 
 @row.inputs
