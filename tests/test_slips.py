@@ -61,6 +61,8 @@ def test_a_loop_that_may_never_end_has_no_slips():
     assert not of(
         "sign", "def f(x):\n    while x < 3:\n        x = x + 1\n    return x\n"
     )
+    least = "def f(A, b):\n    return np.linalg.lstsq(A, b)[0]\n"
+    assert miswritten(one(least), {}) == []
 
 
 def test_a_slip_is_told_by_its_kind_and_by_how_it_reads():

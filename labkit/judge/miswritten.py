@@ -54,14 +54,15 @@ def miswritten(function: ast.FunctionDef, names: dict[str, Any]) -> list[Miswrit
     """Return the slips of a function, those first that are made most often.
 
     A body with a loop that runs until something happens has none: with a slip it may
-    run for ever.
+    run for ever. So may `np.linalg.lstsq`, where a slip makes its numbers infinite.
 
     Args:
         function: as it stands in a file; it is changed and put back.
         names: of its module, which it may use.
     """
-    if any(isinstance(node, ast.While) for node in ast.walk(function)):
-        return []
+    for node in ast.walk(function):
+        if isinstance(node, ast.While) or getattr(node, "attr", "") == "lstsq":
+            return []
     space = dict(names)
     found = []
     function.decorator_list.clear()
