@@ -112,7 +112,7 @@ def test_a_rotor_hides_where_its_link_turns_about_that_axis_by_its_joint_alone(
     axes = [[0.0, 0.0, 1.0], [np.sin(tip), 0.0, np.cos(tip)]]
     *_, links, both = shown_by(chain(axes, [[0, 0, 0.3], [0, 0, 0.3]]), (0, 1))
     assert both - links == more
-    assert "if no joint *before* it can turn that link about this axis" in SENTENCES
+    assert "if no joint before it can turn that link about this axis" in SENTENCES
     assert "to which axis 2 is at a right angle" in SENTENCES
 
 
