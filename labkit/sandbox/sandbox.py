@@ -18,6 +18,7 @@ import time
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from operator import methodcaller
 from pathlib import Path
 from typing import Any
 
@@ -173,7 +174,7 @@ class Sandbox:
             process.close()
             raise
         alive = [session for session in self._sessions if session.alive]
-        back = self._keep if brief else Process.close
+        back = self._keep if brief else methodcaller("close")
         session = Session(process, limits, back, deadline or Deadline(math.inf))
         self._sessions = [*alive, session]
         if not brief:

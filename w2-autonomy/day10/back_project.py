@@ -134,7 +134,8 @@ for slug, says, redone, other in (
     ("t-before-R", "the point is moved first and turned then; T p is R p + t",
      "with R (p + t)", {"moved": lambda R, t, p, d: (p + t) @ R.T}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(placed, **other))
+    three = "the lab never asks three points" if slug == "depth-along-columns" else ""
+    row.wrong(slug, says, redone, hidden=three)(partial(placed, **other))
 
 
 row.at_least_0(K="f and the centre are", depth="a camera sees before it")

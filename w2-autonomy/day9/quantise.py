@@ -62,9 +62,6 @@ for slug, says, redone, other in (
      "with 1 / counts", {"step": lambda n: 1 / n}),
     ("in-degrees", "a step is 360 / counts, which is in degrees; q is in radians",
      "with 360 / counts", {"step": lambda n: 360 / n}),
-    ("counts-for-bits", "a turn is divided by 2^counts; counts is how many there are, "
-     "not how many bits say so", "with 2 pi / 2^counts",
-     {"step": lambda n: 2 * np.pi / 2 ** float(n)}),
     ("step-inverted", "a step is counts / (2 pi); it is 2 pi / counts",
      "with counts / (2 pi)", {"step": lambda n: n / (2 * np.pi)}),
     ("in-counts", "these are counts; the angle is asked for", "the right one / step",
