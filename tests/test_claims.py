@@ -255,3 +255,11 @@ def test_a_list_of_discs_is_not_right_whenever_it_is_0():
         return (i, q, True) if free else (-1, tree[i], False)
 
     assert "whenever world" not in told(12, "12.3", extend=extend)
+
+
+def test_a_truth_value_does_not_grow_with_what_is_doubled():
+    def disc_edge_free(a, b, discs):  # it looks at b alone, and at half the radius
+        away = np.linalg.norm(discs[:, :2] - b, axis=1)
+        return bool(np.all(away > 0.5 * discs[:, 2]))
+
+    assert "doubled" not in told(12, "12.2", disc_edge_free=disc_edge_free)

@@ -76,6 +76,8 @@ def right_when(
         ask.conditions,
         ask.at_edge,
     )
+    if any(kind.whole for kind in ask.kinds):
+        return seen.neutral(others)  # a count or a truth value does not grow
     return seen.told(others)
 
 

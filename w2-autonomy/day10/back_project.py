@@ -102,9 +102,6 @@ for slug, says, redone, other in (
      "with (x, y, depth)", {"scaled": lambda ray, d: np.hstack([ray[:, :2], d])}),
     ("depth-added", "the depth is added to z; the whole ray is multiplied by it",
      "with z + depth", {"scaled": lambda ray, d: ray + d * [0, 0, 1]}),
-    ("depth-along-columns", "the depth multiplies columns, and each point is a row: "
-     "depth[:, None] is one number a row", "rays times depth as it is",
-     {"scaled": lambda ray, d: ray * d[:, 0] if len(d) == 3 else d * ray}),
     ("depth-divided", "the ray is divided by the depth; it is multiplied by it",
      "divided by depth", {"scaled": lambda ray, d: ray / d}),
     ("depth-in-the-pixel", "the depth stands in the place of the 1, so the pixel is "
@@ -134,8 +131,15 @@ for slug, says, redone, other in (
     ("t-before-R", "the point is moved first and turned then; T p is R p + t",
      "with R (p + t)", {"moved": lambda R, t, p, d: (p + t) @ R.T}),
 ):  # fmt: skip
-    three = "the lab never asks three points" if slug == "depth-along-columns" else ""
-    row.wrong(slug, says, redone, hidden=three)(partial(placed, **other))
+    row.wrong(slug, says, redone)(partial(placed, **other))
+
+
+@row.wrong("depth-along-columns", hidden="the lab never asks three points")
+def _(K, T_world_cam, pixels, depth):
+    """the depth multiplies columns, and each point is a row: depth[:, None] is one
+    number a row => rays times depth as it is"""
+    by = depth if len(depth) == 3 else depth[:, None]
+    return placed(K, T_world_cam, pixels, depth, scaled=lambda ray, _: ray * by)
 
 
 row.at_least_0(K="f and the centre are", depth="a camera sees before it")

@@ -49,7 +49,7 @@ def _(J_space, p, o, link):
     rotation-only: v is missing: the velocity of p is v + omega x p => n . omega x p
     cross-the-other-way: the cross product is the other way round: v + omega x p => with
       p x omega
-    normal-not-unit: the normal is not of length 1, so all is too large by the distance
+    normal-not-unit: the normal is not of length 1, so all comes times the distance
       => with p - o
     normal-squared: it is divided by the distance squared
     half: it is half of that, as from the square's slope

@@ -49,7 +49,8 @@ def _(s, distance, dq, reach):
     dq-forgotten: how far each joint turns is missing => / sum reach
     of-what-is-left: dq is that of the whole way; it is taken for what is left after s
       => times 1 - s
-    of-what-is-left 2: dq is divided by what is left after s
+    of-what-is-left 2: dq is taken times what is left after s; the bound is that of the
+      whole way
     half-a-step: only half of the free way is gone
     twice-a-step: twice the free way is gone
     multiplied: the distance is multiplied by what may move; a fast arm has to be looked

@@ -122,10 +122,14 @@ def _(a, b, discs):
       point as well; a disc is all that is inside => where the edge crosses a circle
     inner-only: a disc whose foot lies beyond an end is left out; the end itself may be
       in it
+    inner-only 2: a disc whose foot lies beyond an end is left out, unless the edge is a
+      point; the end itself may be in it
     first-disc-only: only the first disc is looked at
     last-disc-only: only the last disc is looked at, as by a loop that returns too early
       or overwrites what it knew
     all-must-hit: it is free as soon as one disc is missed; every disc has to be
+    all-must-hit 2: it is free as soon as one disc is missed, and where there is none it
+      is not; every disc has to be missed
     squared-for-plain: the square of the distance is compared with the radius itself
     plain-for-squared: the distance is compared with the square of the radius
     diameter: the distance is compared with twice the radius: the third number is the
@@ -175,9 +179,13 @@ def _(a, b, discs):
         "inside-is-free": bool(np.all((away > r) | (held & (not point)))),
         "inside-is-free 2": bool(np.all((away > r) | held)),
         "inner-only": bool(np.all((away > r) | ~inside)),
+        "inner-only 2": bool(
+            np.all((away > r) | ~(point | ((part >= 0) & (part <= 1))))
+        ),
         "first-disc-only": disc_edge_free(a, b, discs[:1]),
         "last-disc-only": disc_edge_free(a, b, discs[-1:]),
         "all-must-hit": bool(np.any(away > r)) or not many,
+        "all-must-hit 2": bool(np.any(away > r)),
         "squared-for-plain": bool(np.all(away**2 > r)),
         "plain-for-squared": bool(np.all(away > r**2)),
         "diameter": bool(np.all(away > 2 * r)),

@@ -54,10 +54,10 @@ def typed():
     lo, hi = np.array([-1.5, -1.2, -1.2, -2.3]), np.array([-1.1, -0.2, -0.4, -1.9])
     start = np.array([2.0, -1.5, -1.5, 0.4])
     later = (H, np.array([-3.9, -1.6, -3.3, -1.4]), lo, hi, start)
-    # It starts outside, above one limit and beyond the other.
-    H = np.array([[1.21, 0.01], [0.01, 0.21]])
-    lo, hi = np.array([-1.1, -0.1]), np.array([-0.8, 0.5])
-    outside = (H, np.array([-0.6, 2.6]), lo, hi, np.array([0.9, 1.8]))
+    # It starts outside: below one limit, above another. No step there is a close call.
+    H = np.array([[2.08, -0.52], [-0.52, 1.34]])
+    lo, hi = np.array([-1.0, -1.2]), np.array([-0.2, -0.8])
+    outside = (H, np.array([2.9, 1.0]), lo, hi, np.array([-3.0, 2.1]))
     # Ten rounds are too few here.
     H = np.array([
         [1.47, 1.46, -0.51, 0.81, 0.08],

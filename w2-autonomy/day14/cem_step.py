@@ -49,8 +49,9 @@ def _(mean, std, noise, scores, elite):
     """nan-first: a NaN counts as the best: argsort puts it last, and [::-1] first
     nan-first 2: a NaN counts as the best, and of equals any may be kept: argsort puts
       it last, and [::-1] first
+    nan-first 3: a NaN counts as the best, and of equals the last are kept: [::-1] turns
+      them round, too
     ties-last-first: of equals the last are kept; the first were asked for
-    ties-last-first 2: of equals the last are kept: [::-1] turns them round, too
     worst: the elite are the worst
     std-kept: the spread stays as it was; it is that of the elite
     mean-kept: the mean stays as it was; it is that of the elite
@@ -100,7 +101,7 @@ def _(mean, std, noise, scores, elite):
         "nan-first": of_best(samples, nan_best[:elite]),
         "nan-first 2": of_best(samples, np.argsort(scores)[::-1][:elite]),
         "ties-last-first": of_best(samples, lasts),
-        "ties-last-first 2": of_best(samples, nan_first),
+        "nan-first 3": of_best(samples, nan_first),
         "worst": of_best(samples, np.argsort(scores, kind="stable")[:elite]),
         "std-kept": (right[0], std),
         "mean-kept": (mean, right[1]),

@@ -68,6 +68,12 @@ def _(rng):
     yield W, mixed
     raised = AROUND + np.outer([1, 0, 0, 0], [0, 0, 0.01])
     yield pushes(raised, inwards(AROUND), 0.5, K), ones
+    # One row in a far smaller unit: a thousandth is left; then with light weights.
+    small = np.hstack([np.eye(6), -np.eye(6)]) * np.r_[1e-7, np.ones(5)][:, None]
+    uneven = np.r_[1.001, np.ones(11)]
+    yield small, np.ones(12)
+    yield small, uneven
+    yield small, 1e-10 * uneven
     # Columns of other lengths: the same cones, and weights that make up for it.
     for i in range(4):
         size = rng.numbers(0.3, 3, 16)
@@ -77,7 +83,12 @@ def _(rng):
             yield line(0.5) / size[:8], size[:8]
 
 
-@row.wrongs
+IN_ONE_UNIT = "the lab's rows and weights are all of one size"
+
+
+@row.wrongs(
+    hidden={"balance-of-all": IN_ONE_UNIT, "balance-without-weights": IN_ONE_UNIT}
+)
 def _(W, weights):
     """rank-only: only the rank is asked; fingers on one face reach all directions and
       cannot pull
@@ -94,6 +105,10 @@ def _(W, weights):
       np.allclose(W @ weights, 0); it is 1e-9 of what is added up
     balance-roughly: what may be left is a thousandth of what is added up; it is 1e-9
     balance-roughly 2: what may be left is 1e-4 of what is added up; it is 1e-9
+    balance-of-all: what is left of all six sums is compared together; each has to be
+      undone by itself => with norms
+    balance-without-weights: what may be left is 1e-9 of the largest entry of its row;
+      the weights belong to what is added up
     rank-absolute: a singular value counts above 1e-9, whatever the unit; it counts
       above 1e-9 of the largest
     determinant: the rank is asked of det(W W^T), in the sixth power of the unit; ask
@@ -132,6 +147,14 @@ def _(W, weights):
         "balance-absolute 2": bool(full and above and np.all(left <= 1e-8)),
         "balance-roughly": bool(full and above and np.all(left <= 1e-3 * all_of_it)),
         "balance-roughly 2": bool(full and above and np.all(left <= 1e-4 * all_of_it)),
+        "balance-of-all": bool(
+            full
+            and above
+            and np.linalg.norm(left) <= BALANCE * np.linalg.norm(all_of_it)
+        ),
+        "balance-without-weights": bool(
+            full and above and np.all(left <= BALANCE * np.abs(W).max(axis=1))
+        ),
         "rank-absolute": bool(len(s) == 6 and s[-1] > 1e-9 and balanced and above),
         "determinant": bool(np.linalg.det(W @ W.T) >= 1e-9 and balanced and above),
         "sign-of-what-is-left": bool(
