@@ -96,10 +96,8 @@ def test_all_wrong_slopes_but_one_hold_the_arm_and_most_cost_little():
     assert "all but one hold the arm still, and three in four cost less than 10 %" in (
         SENTENCES
     )
-    least = 100 * sorted(off)[2]
-    assert (
-        f"The wrong ones, all but two, are off by {least:.1f} % at least" in SENTENCES
-    )
+    third = 100 * sorted(off)[2]
+    assert f"wrong ones, all but two, are off by {third:.1f} % at least" in SENTENCES
     assert abs(costs(P, K)[0] - 1) < 1e-5  # to 1 in 100,000
 
 

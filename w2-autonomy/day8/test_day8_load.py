@@ -175,3 +175,38 @@ def library_rows(now, qd, qdd):
 )
 def test_a_right_lab_passes_with_the_knobs_that_the_exercises_turn(knobs):
     assert run_as_lab(find_day(8), lambda lab: vars(lab).update(knobs)) == 0
+
+
+@pytest.mark.kit
+def test_noise_moves_the_grams_and_another_robot_hardly_does():
+    """The last exercise: 500 g plus or minus what, by NOISE_SEED and by ROBOT_SEED."""
+
+    def found(robot_seed, noise_seeds, noise):
+        robots = [day8_mujoco.changed(one, robot_seed) for one in (model, hung)]
+        held = {id(one): day8_mujoco.holds(one, arm, lab.POSES, lab.WAIT)
+                for one in robots}  # fmt: skip
+        by_seed = []
+        for seed in noise_seeds:
+            rng = np.random.default_rng(seed)
+            rng.normal(size=(600, 7))  # the lab's three motions have these
+            with (
+                patch.object(day8_mujoco, "holds", lambda one, *_: held[id(one)]),
+                patch.object(lab, "NOISE", noise),
+            ):
+                *_, (load, sigma) = lab.weighings(*robots, arm, rng).values()
+            by_seed.append((1000 * load[0], 1000 * sigma[0]))
+        return np.array(by_seed).T
+
+    load, sigma = found(lab.ROBOT_SEED, range(1, 9), lab.NOISE)
+    off = np.abs(load - 500) / sigma
+    assert (np.sum(off < 1), np.sum(off < 2)) == (6, 6)
+    assert "In 6 of 8 it is within sigma, and in the same 6 within two" in SENTENCES
+    assert f"seed 8 finds {load[-1]:.0f} g, {off[-1]:.1f} sigmas off" in SENTENCES
+    assert f"it is {sigma.min():.0f} to {sigma.max():.0f} g" in SENTENCES
+    noisy, still = (
+        np.array([found(seed, [lab.NOISE_SEED], noise)[0, 0] for seed in range(1, 9)])
+        for noise in (lab.NOISE, 0.0)
+    )
+    assert np.ptp(noisy) < 2
+    assert f"({noisy.min():.1f} to {noisy.max():.1f})" in SENTENCES
+    assert f"give {still.min():.1f} to {still.max():.1f}, so most" in SENTENCES
