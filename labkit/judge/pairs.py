@@ -58,9 +58,9 @@ def of_other_arguments(case: Case, S: Parts, T: Parts) -> Finding | None:
     i = tried(ask, S, T)[0]
     for move in _moves(case, i):
         asked = ask.in_turn(partial(_after, truth.function, move.change))
-        if not _alike(ask, answer_to(asked, case.arguments, i, T), nth(S, i)):
+        if not alike(ask, answer_to(asked, case.arguments, i, T), nth(S, i)):
             continue
-        if _alike(ask, answers_to(asked, case.arguments), S):
+        if alike(ask, answers_to(asked, case.arguments), S):
             k = worst_part(ask.kinds, S, T, ask.near)
             off = f"Off by up to {ask.kinds[k].apart(S[k], T[k])}"
             says = f"It is the right answer to other arguments: with {move.says}."
@@ -111,7 +111,7 @@ def _two_of(case: Case, S: Parts, T: Parts, i: int) -> Sequence[Mistake] | None:
     answers = {}
     for k, one in enumerate(mistakes):
         answer = answer_to(one.redo, case.arguments, i, T)
-        wrong = _alike(ask, answer, nth(T, i)) is False
+        wrong = alike(ask, answer, nth(T, i)) is False
         if wrong and not _handed_back(answer, case.arguments, i):
             answers[k] = answer
     pairs = _Pairs(case, S, T, i, mistakes, answers)
@@ -176,7 +176,7 @@ def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
     few = wrong[np.unique(np.linspace(0, len(wrong) - 1, FEW).astype(int))]
     most: tuple[int, Mistake] | None = None
     for one in of_its_own_first(ask):
-        hits = [_alike(ask, answer_to(one.redo, case.arguments, i, T), nth(S, i))
+        hits = [alike(ask, answer_to(one.redo, case.arguments, i, T), nth(S, i))
                 for i in few]  # fmt: skip
         if sum(map(bool, hits)) < 2:
             continue
@@ -348,8 +348,8 @@ class _Pairs:
     def _that_give(self, answer: Parts, every: Callable[[], Parts]) -> Iterator[int]:
         """Yield the first mistake that gives an answer at one call, and at all."""
         for k, its in self.answers.items():
-            if answer and _alike(self.case.ask, answer, its):
-                if _alike(self.case.ask, every(), self._every(self.mistakes[k].redo)):
+            if answer and alike(self.case.ask, answer, its):
+                if alike(self.case.ask, every(), self._every(self.mistakes[k].redo)):
                     yield k
                 return
 
@@ -468,7 +468,7 @@ def _one_factor(a: Parts, b: Parts, right: Parts) -> bool:
     return bool(np.abs(y - power * x).max() <= MATCHES * np.abs(y).max())
 
 
-def _alike(ask: Ask, a: Parts, b: Parts) -> bool | None:
+def alike(ask: Ask, a: Parts, b: Parts) -> bool | None:
     """Return whether two answers match; None where there is none."""
     if len(a) != len(b):
         return None
