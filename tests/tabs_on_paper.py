@@ -149,7 +149,7 @@ class Desk:
         self.tab.on_move(self.q)
         self.settle()
 
-    def ask(self, questions: Any) -> list[Reply]:
+    def ask(self, questions: Any, version: int) -> list[Reply]:
         """Ask the functions; one that stops is told as the sandbox tells it."""
         self.asked |= {one.function for one in questions}
         replies = []

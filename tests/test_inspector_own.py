@@ -80,7 +80,7 @@ def test_what_is_no_answer_is_said_and_nothing_else_is_passed_off_as_it(answer, 
 )
 def test_what_stops_is_told_in_the_words_of_make_check(reply, says):
     student, own = own_of({})
-    student.ask = lambda questions: [reply]
+    student.ask = lambda *_: [reply]
     with pytest.raises(NoAnswerError, match=says):
         own.double(ONE)
 
@@ -155,7 +155,7 @@ def test_what_an_answer_says_cannot_become_part_of_the_page():
 
     student, own = own_of({})
     evil = "<img src=x onerror=alert(1)>"
-    student.ask = lambda questions: [Reply(kind="ValueError", error=evil)]
+    student.ask = lambda *_: [Reply(kind="ValueError", error=evil)]
     with pytest.raises(NoAnswerError) as said:
         own.double(ONE)
     shown = words.judged(str(said.value), "whose", "bad")

@@ -98,7 +98,7 @@ class Own:
             told.lent.update({name: why for name, *_ in calls})
             return right
         questions = [Question("view", name, tuple(args)) for name, *args in calls]
-        replies = student.ask(questions)
+        replies = student.ask(questions, version)
         if student.problem:
             raise NoAnswerError(f"YOUR {student.problem}")
         answers = []

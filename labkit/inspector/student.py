@@ -67,10 +67,10 @@ class Student:
             stamp = self._now()
             if stamp == self._stamp:
                 return
+            self.version += 1  # first: while it is opened, nothing told is true of it
             self._stamp = stamp
             self._shut()
             self.problem = self._open() if stamp else ""
-            self.version += 1
 
     def _open(self) -> str:
         """Open the file with the model of the questions; return why it does not."""
@@ -91,10 +91,13 @@ class Student:
             self._asker.close()
             self._asker = None
 
-    def ask(self, questions: Sequence[Question]) -> list[Reply]:
-        """Ask any functions; see `problem` afterwards."""
+    def ask(self, questions: Sequence[Question], version: int = 0) -> list[Reply]:
+        """Ask any functions, of that version of the file alone where one is named.
+
+        See `problem` afterwards.
+        """
         with self._lock:
-            if self._asker is None:
+            if self._asker is None or version not in (0, self.version):
                 ended = Reply(kind="stopped", error="it is not asked")
                 return [ended] * len(questions)
             try:
