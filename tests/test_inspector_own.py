@@ -1,10 +1,15 @@
 """The student's functions beside the library's, as a tab of the page asks them."""
 
+import asyncio
+import threading
+from functools import partial
+
 import numpy as np
 import pytest
 
 from conftest import Answers
 from labkit.base.exchange import Reply
+from labkit.inspector.animate import Animation, Jobs
 from labkit.inspector.own import NoAnswerError, Own
 
 pytestmark = pytest.mark.kit
@@ -124,6 +129,26 @@ def test_who_gave_no_answer_is_not_green_because_another_one_does():
     student.functions["double"] = lambda x: 2.0 * x  # as of another x
     own.double(ONE)
     assert own.says()[1] == "good"
+
+
+def test_a_loop_and_a_job_owe_an_answer_until_their_first_one():
+    async def told():
+        may = threading.Event()
+        said = []
+        loop = Animation(
+            lambda t: said.append(loop.due), 50, lambda e: None, lambda t: may.wait(9)
+        )
+        job = Jobs(lambda error: said.append(job.due))
+        loop.start()
+        job.want(partial(may.wait, 9), lambda found: None)
+        owe = loop.due, job.due
+        may.set()
+        while len(said) < 4:
+            await asyncio.sleep(0.01)
+        loop.stop()
+        return owe, said
+
+    assert asyncio.run(told()) == ((True, True), [False] * 4)
 
 
 def test_a_function_with_many_right_answers_is_not_compared():

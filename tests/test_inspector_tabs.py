@@ -214,6 +214,19 @@ def test_a_tab_without_answers_shows_no_green(number, title):
     assert "r47-bad" not in desk.seen
 
 
+def test_no_green_stands_while_a_first_answer_has_still_to_come():
+    desk = looked(6, "Touch", lab(6), used=False)
+    whose = desk.page._whose
+    assert "r47-good" in whose.content
+    desk.page.asking()
+    desk.loops[0].due = True  # its first torques are being asked
+    desk.page._ended(None)  # the job has what the hand weighs
+    assert "r47-asking" in whose.content
+    desk.loops[0].due = False
+    desk.page._ended(None)
+    assert "r47-good" in whose.content
+
+
 @pytest.mark.parametrize("number", [1, 2])
 def test_a_sign_in_the_chain_changes_the_tab_joints(number):
     arm = Arm(panda.load(), panda.END_FRAME["panda_nohand"])

@@ -25,6 +25,7 @@ class Animation:
     task: asyncio.Task[None] | None = None
     slow: float = 1.0  # how many times slower than real time it runs
     lasts: float = math.inf  # seconds; after them it ends by itself
+    due: bool = False  # whether its work has still to give a first answer
 
     @property
     def running(self) -> bool:
@@ -35,6 +36,7 @@ class Animation:
         """Run from t = 0, unless it runs already; call it from a callback."""
         self.lasts = lasts
         if self.task is None:
+            self.due = self.work is not None
             self.task = asyncio.get_running_loop().create_task(self._run())
             self.changed(None)
 
@@ -43,6 +45,7 @@ class Animation:
         if self.task is not None:
             self.task.cancel()
             self.task = None
+            self.due = False
             self.changed(None)
 
     def toggle(self) -> None:
@@ -59,6 +62,7 @@ class Animation:
             while True:
                 if self.work is not None:
                     await asyncio.to_thread(self.work, calls * period)
+                self.due = False
                 seconds = calls * period
                 if self.step(seconds) is False or seconds > self.lasts:
                     break
@@ -71,6 +75,7 @@ class Animation:
         except Exception as error:
             stopped = error
         self.task = None
+        self.due = False
         self.changed(stopped)
 
 
@@ -81,6 +86,7 @@ class Jobs:
     ended: Ended = lambda error: None  # is called after each
     next: tuple[Callable[[], Any], Callable[[Any], None]] | None = None
     task: asyncio.Task[None] | None = None
+    due: bool = False  # whether one is at work, or waits
 
     def want(self, work: Callable[[], Any], done: Callable[[Any], None]) -> None:
         """Do this next; call it from a callback.
@@ -88,6 +94,7 @@ class Jobs:
         The work may wait; `done` is given what it returned, on the event loop.
         """
         self.next = work, done
+        self.due = True
         if self.task is None:
             self.task = asyncio.get_running_loop().create_task(self._run())
 
@@ -100,10 +107,11 @@ class Jobs:
         while self.next is not None:
             work, done = self.next
             self.next = None
+            stopped = None
             try:
                 done(await asyncio.to_thread(work))
             except Exception as error:
-                self.ended(error)
-            else:
-                self.ended(None)
+                stopped = error
+            self.due = self.next is not None
+            self.ended(stopped)
         self.task = None

@@ -287,7 +287,7 @@ class Inspector:
         while True:
             if self.student.saved():
                 self.forget()  # before the look, which may wait for an old answer
-            await asyncio.to_thread(self.student.look)
+                await asyncio.to_thread(self.student.look)
             if self.version != self.student.version:
                 self.version = self.student.version
                 self.unchecked = True

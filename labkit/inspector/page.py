@@ -74,6 +74,7 @@ class Page:
         self.jobs = self.jobs_apart()
         self._own: Own | None = None
         self._whose: viser.GuiHtmlHandle | None = None
+        self._asking = False  # whether that line says that no answer is known
 
     # The arm
 
@@ -190,8 +191,11 @@ class Page:
             self.host.lose()
         elif error is not None:
             self.say(f"stopped: {type(error).__name__}: {error}", "bad")
-        elif self._own is not None:
-            self._show_whose(*self._own.says())
+        elif own is not None:
+            text, kind = own.says()
+            # What a loop or another job still waits for may be wrong, or never come.
+            if kind == "bad" or not (self._asking and self._due()):
+                self._show_whose(text, kind)
         self.host.schedule()
 
     def asking(self) -> None:
@@ -199,7 +203,12 @@ class Page:
         if self._whose is not None:
             self._show_whose("asking YOUR functions ...", "asking")
 
+    def _due(self) -> bool:
+        """Return whether a first answer has still to come."""
+        return any(one.due for one in self.running)
+
     def _show_whose(self, text: str, kind: str) -> None:
+        self._asking = kind == "asking"
         if self._whose is not None:
             self._whose.content = words.judged(text, "whose", kind)
 

@@ -36,7 +36,7 @@ class Student:
     ghost: Ghost | None  # what to ask for the arm's poses; None where only tabs ask
     sandbox: Sandbox  # where the file runs
     script: Path  # the file, there or not; `look` opens it
-    seconds: float = 2.0  # for one call; who takes longer is asked again after a save
+    seconds: float = 1.5  # for one call; who takes longer is asked again after a save
     version: int = 0  # of the file: another one after each save
     problem: str = ""  # why the file is not asked, in a sentence
     # A session answers one thread at a time.
@@ -96,8 +96,9 @@ class Student:
 
         See `problem` afterwards.
         """
+        late = version and self.saved()  # the next look shall not wait for all of it
         with self._lock:
-            if self._asker is None or version not in (0, self.version):
+            if late or self._asker is None or version not in (0, self.version):
                 ended = Reply(kind="stopped", error="it is not asked")
                 return [ended] * len(questions)
             try:

@@ -138,6 +138,7 @@ class Touch(Tab):
         """Show no numbers, and no mass."""
         self.Lambda = None
         self.mass.ball.visible = False
+        self.bars.clear()
         self.numbers.content = ""
 
     def step(self, seconds: float) -> None:

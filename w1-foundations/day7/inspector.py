@@ -185,7 +185,12 @@ class Pick(Tab):
         ring = np.column_stack([corners + goal[:2], np.full(5, goal[2] + 1e-3)])
         page.draw.curve(ring, "blue", 4.0)
         page.legend({"the cube": "orange", "where it is to stand": "blue"})
+        self.stand()
+
+    def stand(self) -> None:
+        """Stand at the start: nothing is picked yet."""
         self.robot.show(simulate.start(_scene(), panda.READY_Q).qpos)
+        self.bars.clear()
 
     def begin(self) -> None:
         """Have the cube picked."""
@@ -198,6 +203,7 @@ class Pick(Tab):
             says = "the simulation runs: some seconds, of all days up to a minute"
             self.clock.content = words.line(says, "clock", "quiet")
             self.page.say("")
+            self.stand()
             self.page.job(self.pick, self.picked)
 
     def pick(self) -> tuple[Result, str]:
@@ -212,6 +218,8 @@ class Pick(Tab):
 
     def lost(self) -> None:
         """Nothing was picked."""
+        self.loop.stop()
+        self.stand()
         self.clock.content = ""
 
     def picked(self, found: tuple[Result, str]) -> None:
