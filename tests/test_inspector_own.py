@@ -9,6 +9,7 @@ import pytest
 
 from conftest import Answers
 from labkit.base.exchange import Reply
+from labkit.inspector import words
 from labkit.inspector.animate import Animation, Jobs
 from labkit.inspector.own import NoAnswerError, Own
 
@@ -34,6 +35,31 @@ def test_an_answer_is_the_students_and_is_compared_with_the_librarys():
     assert own.says() == ("YOUR double: the same as the library's", "good")
     assert own.both(ONE)[1][1] == 4.0  # as wrong as it is
     assert own.says() == ("YOUR functions. Off the library's: both by 8 N m", "bad")
+
+
+def test_how_far_off_is_said_without_a_power_of_ten():
+    _, own = own_of({"double": lambda x: 1e4 * x})
+    own.double(ONE)
+    assert own.says()[0].endswith("double by 40,000")
+    assert [words.digits(x) for x in (0.00123456, 999.6, 67_851.9)] == [
+        "0.00123", "1,000", "67,900",
+    ]  # fmt: skip
+
+
+def test_what_a_tab_finds_wrong_is_held_against_its_file_alone():
+    student, own = own_of({"double": lambda x: 2.0 * x}, free=("double",))
+    own.double(ONE)
+    own.tell("double", "another way")
+    assert own.says() == (
+        "YOUR functions. Off the library's: double (another way)",
+        "bad",
+    )
+    own.tell("double", "")
+    assert own.says()[1] == "good"
+    own.tell("double", "another way")
+    student.version = 2
+    own.double(ONE)
+    assert own.says()[1] == "good"
 
 
 def test_what_is_not_written_is_the_librarys_and_is_called_that():

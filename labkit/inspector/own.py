@@ -19,6 +19,7 @@ import numpy as np
 from labkit.base.exchange import LoadError, Question
 from labkit.check.memory import passing
 from labkit.check.own_functions import statuses
+from labkit.inspector import words
 from labkit.inspector.student import Student, describe
 from labkit.lesson.day import all_days
 from labkit.sandbox.messages import library_of
@@ -41,6 +42,7 @@ class Told(NamedTuple):
     apart: dict[str, float]  # how far from the library's, by function; 0 for the same
     lent: dict[str, str]  # what the library answered instead, and why
     none: dict[str, str]  # what gave no answer when it was asked last, and why
+    other: dict[str, str]  # what the tab found to be wrong, and how
 
 
 class Own:
@@ -74,7 +76,7 @@ class Own:
         Where one of them gave none NoAnswerError is raised.
         """
         version = self.version  # a file that comes meanwhile is another one
-        told = Told({}, {}, {})
+        told = Told({}, {}, {}, {})
         try:
             return self._answers(calls, version, told)
         except NoAnswerError as error:
@@ -112,7 +114,7 @@ class Own:
 
     def _keep(self, version: int, told: Told) -> None:
         """Keep what was noted of a file; another thread may ask another file."""
-        before = self._told.setdefault(version, Told({}, {}, {}))
+        before = self._told.setdefault(version, Told({}, {}, {}, {}))
         before.lent.update(told.lent)
         for name in {*told.apart, *told.lent}:
             before.none.pop(name, None)
@@ -143,6 +145,11 @@ class Own:
             told.apart[name] = max(told.apart.get(name, 0.0), off if judged else 0.0)
         return _as_drawn(reply.value)
 
+    def tell(self, name: str, how: str) -> None:
+        """Say how an answer is wrong, where the tab compares; "" for a right one."""
+        if told := self._told.get(self.version):
+            told.other[name] = how
+
     def fresh(self) -> bool:
         """Return whether the file that is there has been asked."""
         return self.version in self._told and not self._student.saved()
@@ -150,14 +157,14 @@ class Own:
     def says(self) -> tuple[str, str]:
         """Return whose functions were at work, and how they compare; its kind."""
         units = self._units
-        apart, lent, none = self._told.get(self.version, Told({}, {}, {}))
+        apart, lent, none, other = self._told.get(self.version, Told({}, {}, {}, {}))
         if none:
             return next(iter(none.values())), "bad"
         wrong = [
-            f"{name} by {x:.3g} {units.get(name, '')}".rstrip()
+            f"{name} by {words.digits(x)} {units.get(name, '')}".rstrip()
             for name, x in apart.items()
             if x
-        ]
+        ] + [f"{name} ({how})" for name, how in other.items() if how]
         if wrong:
             return f"YOUR functions. Off the library's: {', '.join(wrong)}", "bad"
         why = next(iter(lent.values()), "")

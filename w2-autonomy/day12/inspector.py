@@ -180,6 +180,8 @@ class Way(Tab):
         self.bars.show(seen.interval, planning.wilson(seen.found, DRAWS))
         told, kind = compared(seen.way, seen.truth)
         cut, kind_cut = compared(*seen.cut, "your shortcut")
+        self.own.tell("rrt_connect", "another way" if kind == "bad" else "")
+        self.own.tell("shortcut", "another cut" if kind_cut == "bad" else "")
         a, b = (len(edges) + 1 for edges in seen.edges)
         share = f"{seen.found} of {DRAWS} draws find a way: {low:.2f} to {high:.2f}"
         self.text.content = "".join(
@@ -245,7 +247,9 @@ class Way(Tab):
         return seconds < self.at[-1]
 
     def lost(self) -> None:
-        """Show no numbers and no trees."""
+        """Show no numbers, no trees, and no arm on the way."""
+        self.loop.stop()
+        self.runner.pose({})
         self.text.content = ""
         self.timed.content = ""
         self.bars.clear()
