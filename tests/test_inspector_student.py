@@ -38,6 +38,9 @@ class Fake:
         scale = 1.0 if self.text == "no path" else float(self.text)
         return [Reply(scale * np.eye(4))] * len(questions)
 
+    def halt(self):
+        self.text = "loop"
+
     def close(self):
         self.alive = False
 

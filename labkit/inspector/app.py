@@ -134,6 +134,8 @@ class Inspector:
     def update(self) -> None:
         """Bring everything that is shown to what is wanted."""
         self.scheduled = False
+        if self.student.saved():  # at once, and not when the watch comes round
+            self.forget()
         moved = not np.array_equal(self.q, self.arm.q)
         if moved:
             self.arm.move(self.q)

@@ -63,6 +63,8 @@ class Student:
 
     def look(self) -> None:
         """Open the file anew where it was saved since the last look."""
+        if (asker := self._asker) and self.saved():
+            asker.halt()  # an old file that hangs keeps nobody waiting
         with self._lock:
             stamp = self._now()
             if stamp == self._stamp:

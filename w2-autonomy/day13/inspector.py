@@ -74,7 +74,7 @@ class Best(Tab):
         self.set: dict[str, float] = {
             "damping": LAB.DAMPING, "turn": 1.0, "share": 1.0, "radius": LAB.RADIUS,
         }  # fmt: skip
-        self.slider("radius, m", 0.3, 0.4, "radius", 0.005)
+        self.slider("radius", 0.3, 0.4, "radius", 0.005, "m")
         self.slider("damping", 0.002, 0.05, "damping", 0.001)
         self.slider("a turn weighs", 0.01, 1.0, "turn", 0.01)
         self.slider("share of the speed", 0.3, 1.0, "share", 0.05)
@@ -83,7 +83,7 @@ class Best(Tab):
         title = "what your step asks, in parts of the speed limit"
         self.speeds = page.bars(JOINTS, 1.0, "", title, "up")
         title = (
-            "your limit_prices, the most so far, the library's as marks, mm² per mrad; "
+            "your limit_prices, the most so far, the library's as marks, mm2 per mrad; "
             "below 0: an upper limit"
         )
         self.costs = page.bars(JOINTS, 0.2, "", title, "signed")
@@ -104,11 +104,17 @@ class Best(Tab):
         self.loop.start()
 
     def slider(
-        self, text: str, low: float, high: float, name: str, step: float
+        self,
+        text: str,
+        low: float,
+        high: float,
+        name: str,
+        step: float,
+        unit: str = "",
     ) -> None:
         """Add a slider of one of the settings."""
         to = self.sets(name)
-        self.page.slider(text, low, high, self.set[name], to, unit="", step=step)
+        self.page.slider(text, low, high, self.set[name], to, unit=unit, step=step)
 
     def sets(self, name: str) -> Callable[[float], None]:
         """Return what a slider does: all arms go back to the start."""
