@@ -71,6 +71,21 @@ def test_what_is_not_written_is_the_librarys_and_is_called_that():
     assert own.says()[0].startswith("YOUR double: the same as the library's; besides")
 
 
+def test_what_the_library_refuses_is_told_of_who_gave_it():
+    def positive(x):
+        raise ValueError("x is below 0")
+
+    library = {**LIBRARY, "root": positive}
+    own = Own(Answers({"double": lambda x: -2.0 * x}), library)
+    with pytest.raises(NoAnswerError, match="The library's root refuses what it is"):
+        own.root(ONE)
+    own.double(ONE)
+    with pytest.raises(
+        NoAnswerError, match=r"double by 16\. The library's root refuses"
+    ):
+        own.root(ONE)
+
+
 def test_a_name_that_the_tab_did_not_give_is_told():
     _, own = own_of({})
     with pytest.raises(AttributeError, match="given has no ask"):

@@ -184,6 +184,7 @@ def test_a_tab_asks_the_student_for_what_it_shows_and_finds_it_right(number, tit
 def test_a_sign_in_a_function_changes_what_the_tab_shows(number, title, function):
     desk = looked(number, title, {**lab(number), **turned(number, function)})
     assert not same(desk.log, right(number, title).log)
+    assert "r47-bad" in desk.page._whose.content or not desk.problem
     says, kind = desk.whose
     free = f"{function}" in says.partition("at work: ")[2]  # the tab itself tells
     named = f"{function} by" in says or f"{function} (another" in says

@@ -92,7 +92,7 @@ class Own:
 
     def _answers(self, calls: Sequence[Call], version: int, told: Told) -> list[Any]:
         """Return the answers, having noted how they compare."""
-        right = [self._library[name](*args) for name, *args in calls]
+        right = [self._right(name, args) for name, *args in calls]
         student = self._student
         if version < 0:
             looked = student.version
@@ -111,6 +111,16 @@ class Own:
                 told.none[name] = str(error)
                 raise
         return answers
+
+    def _right(self, name: str, args: Sequence[Any]) -> Any:
+        """Return the library's answer; what it refuses another of theirs has given."""
+        try:
+            return self._library[name](*args)
+        except Exception as error:
+            says, kind = self.says()
+            known = f"{says}. " if kind == "bad" else ""
+            refused = f"The library's {name} refuses what it is given: {error}"
+            raise NoAnswerError(f"{known}{refused}") from error
 
     def _keep(self, version: int, told: Told) -> None:
         """Keep what was noted of a file; another thread may ask another file."""

@@ -190,6 +190,10 @@ class Page:
             self.say("")
             self.host.lose()
         elif error is not None:
+            self.host.lose()
+            text, kind = own.says() if own else ("", "")
+            text = text if kind == "bad" else "The tab stopped: see below"
+            self._show_whose(text, "bad")
             self.say(f"stopped: {type(error).__name__}: {error}", "bad")
         elif own is not None:
             text, kind = own.says()

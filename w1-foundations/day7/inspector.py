@@ -76,7 +76,7 @@ class Plan(Tab):
 
     def play(self, seconds: float) -> bool:
         """Go on in real time; return whether there is more."""
-        self.share = min(seconds / abs(self.T), 1.0)
+        self.share = min(seconds / max(abs(self.T), LEAST), 1.0)
         self.slider.value = self.share
         self.show()
         return self.share < 1.0
@@ -98,8 +98,8 @@ class Plan(Tab):
         v, a = self.hurry * simulate.SPEED_LIMITS, self.hurry * simulate.ACC_LIMITS
         if self.kind == QUINTIC:
             T = float(self.own.quintic_duration(dq, v, a))
-            T = T if abs(T) > LEAST else LEAST
-            calls = [("joint_move", q0, GOAL_Q, float(t), T) for t in s * T]
+            plays = max(abs(T), LEAST)
+            calls = [("joint_move", q0, GOAL_Q, float(t), plays) for t in s * plays]
             moves = np.array(self.own.many(*calls))
             return T, moves[:, 0], moves[:, 1]
         top, ramp = self._top(dq)
@@ -148,9 +148,9 @@ class Plan(Tab):
         most = float((np.abs(self.qd) / simulate.SPEED_LIMITS).max())
         t = f"t = {self.share * self.T:.2f} of {self.T:.3f} s"
         says = f"{t}; at most {most:.0%} of a speed limit"
-        if self.T < 0.0:
-            says += "; it is played, but no time is negative"
-        kind = "bad" if most > 1 + 1e-6 or self.T < 0.0 else ""
+        if self.T <= 0.0:
+            says += "; no way takes that time, it is played all the same"
+        kind = "bad" if most > 1 + 1e-6 or self.T <= 0.0 else ""
         self.numbers.content = words.line(says, "plan", kind)
 
 
