@@ -167,21 +167,22 @@ class Best(Tab):
         damping = self.set["damping"]
         clipped, own, best = (self.asked(pen) for pen in self.pens.values())
         asked = ("qp_ik", own.J, own.e, weights, damping, own.low, own.high)
-        priced = [("limit_prices", *self.last)] if self.last else []  # one way there
-        dq, *prices = self.own.many(asked, *priced)
-        best_prices = [optimal.limit_prices(*self.last)] if self.last else []
         H = own.J.T @ (weights[:, None] * own.J) + damping**2 * np.eye(7)
-        self.last = (H, -own.J.T @ (weights * own.e), own.low, own.high, dq)
+        g = -own.J.T @ (weights * own.e)
+        dq, prices = self.own.many(  # at once: one way there
+            asked, ("limit_prices", *(self.last or pressed(H, g)))
+        )
+        if self.last:  # m^2 per rad are 1,000 mm^2 per mrad; box_qp has half a square
+            self.price = larger(self.price, 2_000 * prices)
+            right = optimal.limit_prices(*self.last)
+            self.right = larger(self.right, 2_000 * right)
+        self.last = (H, g, own.low, own.high, dq)
         step = optimal.qp_ik(best.J, best.e, weights, damping, best.low, best.high)
         plain = np.clip(dls_step(clipped.J, clipped.e, damping), *clipped[2:])
         T_now = self.circle[self.steps]
         for pen, one in zip(self.pens.values(), (plain, dq, step), strict=True):
             pen.go(one, T_now)
         self.speed = np.abs(dq) / (LAB.SPEED * LAB.DT * self.set["share"])
-        # m^2 per rad are 1,000 mm^2 per mrad; box_qp's cost is half of a square.
-        for one, right in zip(prices, best_prices, strict=True):
-            self.price = larger(self.price, 2_000 * one)
-            self.right = larger(self.right, 2_000 * right)
         self.steps += 1
 
     def show(self) -> None:
@@ -211,6 +212,16 @@ class Best(Tab):
         self.numbers.content = ""
         self.speeds.clear()
         self.costs.clear()
+
+
+def pressed(H: Array, g: Array) -> tuple[Array, ...]:
+    """Return what limit_prices is asked first: limits at half of the free step, (7,).
+
+    On the way no limit may press for seconds, and all prices are 0 until then.
+    """
+    most = np.abs(np.linalg.solve(H, g)) / 2.0
+    dq = optimal.box_qp(H, g, -most, most, np.zeros(len(g)))
+    return H, g, -most, most, dq
 
 
 def larger(one: Array, other: Array) -> Array:
