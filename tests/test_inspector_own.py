@@ -46,6 +46,20 @@ def test_how_far_off_is_said_without_a_power_of_ten():
     ]  # fmt: skip
 
 
+def test_a_function_that_was_not_asked_before_is_announced():
+    said = []
+    student = Answers({"double": lambda x: 2.0 * x, "both": lambda x: (x, -x)})
+    own = Own(student, LIBRARY, first=lambda: said.append(own.says()[1]))
+    own.double(ONE)
+    own.double(ONE)
+    assert said == ["quiet"]
+    own.many(("double", ONE), ("both", ONE))
+    assert said == ["quiet", "good"]
+    student.version = 2
+    own.double(ONE)
+    assert len(said) == 3
+
+
 def test_what_a_tab_finds_wrong_is_held_against_its_file_alone():
     student, own = own_of({"double": lambda x: 2.0 * x}, free=("double",))
     own.double(ONE)

@@ -55,8 +55,12 @@ class Own:
         free: Collection[str] = (),
         any_rows: Collection[str] = (),
         units: Mapping[str, str] | None = None,
+        first: Callable[[], object] = lambda: None,
     ) -> None:
-        """Ask nobody yet, see `Page.own`."""
+        """Ask nobody yet, see `Page.own`; `first` is called, on the thread that asks,
+        before a file is asked for a function for the first time.
+        """
+        self._first = first
         self._units = units or {}
         self._free = {*free, *any_rows}
         self._any_rows = any_rows
@@ -77,6 +81,8 @@ class Own:
         """
         version = self.version  # a file that comes meanwhile is another one
         told = Told({}, {}, {}, {})
+        if not {name for name, *_ in calls} <= self._heard(version):
+            self._first()
         try:
             return self._answers(calls, version, told)
         except NoAnswerError as error:
@@ -84,6 +90,11 @@ class Own:
             raise
         finally:
             self._keep(version, told)
+
+    def _heard(self, version: int) -> set[str]:
+        """Return the functions that this file has been asked for."""
+        apart, lent, none, _ = self._told.get(version, Told({}, {}, {}, {}))
+        return {*apart, *lent, *none}
 
     @property
     def version(self) -> int:

@@ -143,8 +143,12 @@ class Page:
         """
         self._whose = self.html()
         self.asking()
-        self._own = Own(self.host.student, library, free, any_rows, units)
-        return self._own
+        student, loop = self.host.student, self.host.server.get_event_loop()
+        own = self._own = Own(
+            student, library, free, any_rows, units,
+            lambda: loop.call_soon_threadsafe(self._asks, own),
+        )  # fmt: skip
+        return own
 
     def jobs_apart(self) -> Jobs:
         """Return a queue of its own, for what shall not wait behind `job`."""
@@ -201,6 +205,11 @@ class Page:
             if kind == "bad" or not (self._asking and self._due()):
                 self._show_whose(text, kind)
         self.host.schedule()
+
+    def _asks(self, own: Own) -> None:
+        """Say that it is asked for what it was not before, unless all was stopped."""
+        if self._own is own and any(one.task for one in self.running):
+            self.asking()
 
     def asking(self) -> None:
         """Say that the student's functions are asked, and that no answer is known."""
