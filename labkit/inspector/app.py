@@ -301,10 +301,11 @@ class Inspector:
         if self.seen.kind != "asking" or self.standing is not ASKING:
             self.stop()
             self.seen, self.standing = asked(self.day.ghost), ASKING
-            self.show_seen()
+            with self.server.atomic():
+                if self.page is not None:
+                    self.page.asking()
+                self.show_seen()
             self.show_tasks()
-            if self.page is not None:
-                self.page.asking()
 
     def ask(self) -> None:
         """Ask the file, once it is open, where it puts the arm."""
@@ -336,9 +337,9 @@ class Inspector:
         """Show the ghost, and what is said of it."""
         end = self.day.ghost.frames[-1] if self.day.ghost else END
         with self.server.atomic():
+            self.show()  # first: a page that is behind has the words before the arms
             self.scene.show_ghost(self.seen.drawn, end)
             self.look()
-            self.show()
 
     def judge(self, version: int, found: Standing) -> None:
         """Show how a file's tasks stand, unless it was saved again meanwhile."""
