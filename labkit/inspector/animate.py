@@ -86,7 +86,7 @@ class Jobs:
     ended: Ended = lambda error: None  # is called after each
     next: tuple[Callable[[], Any], Callable[[Any], None]] | None = None
     task: asyncio.Task[None] | None = None
-    due: bool = False  # whether one is at work, or waits
+    due: bool = False  # whether the first of those that are wanted is at work
 
     def want(self, work: Callable[[], Any], done: Callable[[Any], None]) -> None:
         """Do this next; call it from a callback.
@@ -94,8 +94,8 @@ class Jobs:
         The work may wait; `done` is given what it returned, on the event loop.
         """
         self.next = work, done
-        self.due = True
         if self.task is None:
+            self.due = True
             self.task = asyncio.get_running_loop().create_task(self._run())
 
     def stop(self) -> None:
@@ -112,6 +112,6 @@ class Jobs:
                 done(await asyncio.to_thread(work))
             except Exception as error:
                 stopped = error
-            self.due = self.next is not None
+            self.due = False  # of a stream, as of a slider, the first tells
             self.ended(stopped)
         self.task = None
