@@ -212,8 +212,23 @@ def test_a_pages_boxes_have_labels_and_its_captions_a_level():
     assert f"<label>{box} a\nb</label></p>" in made
     wide = '<img alt="b" src="../_images/a.webp">'
     narrow = '<source media="(max-width: 600px)" srcset="../_static/a_tall.webp">'
-    made = access.page(f"{wide}{wide.replace('a.webp', 'b.png')}", ["a_tall.webp"])
+    chart = wide.replace("a.webp", "b.png")
+    made = access.page(f"{wide}{chart}", ["a_tall.webp"], ["b.png"])
     assert made.startswith(f"<picture>{narrow}{wide}</picture><img loading")
+    assert made.count('class="chart"') == 1
+
+
+def test_a_lessons_picture_is_a_chart_on_white_or_dark_itself():
+    from PIL import Image
+
+    from labkit.site import access
+
+    dark = []
+    for path in ROOT.glob("w*/figures/*.png"):
+        grey = np.asarray(Image.open(path).convert("L"))
+        assert access.on_white(path) == (np.median(grey) > 200), path.name
+        dark += [] if access.on_white(path) else [path.name]
+    assert {"day1_reference.png", "day7_pick.png", "week2_delivery.png"} <= {*dark}
 
 
 def test_the_page_says_of_a_mistake_what_the_checker_says():
