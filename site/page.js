@@ -37,4 +37,4 @@ const sized = new ResizeObserver((all) => {
     if (target.scrollWidth > target.clientWidth) target.tabIndex = 0;
     else target.removeAttribute("tabindex");
 });
-for (const wide of document.querySelectorAll("pre, .table-wrapper, .math-wrapper")) sized.observe(wide);
+for (const wide of document.querySelectorAll("pre, .table-wrapper, .math-wrapper, .long")) sized.observe(wide);

@@ -23,6 +23,10 @@ TALL = "_tall"  # at the end of that one's name
 # are dark themselves, and stand on either.
 _CHART = re.compile(r'<img (?=[^>]*src="(?:\.\./)*_images/([\w.-]+)")')
 _WHITE = (255, 255, 255)
+# A line may end on either side of a formula: what belongs to it would stand alone.
+_FORMULA = re.compile(
+    r'([(“]*)(<math (?![^>]*display="block")[^>]*>.*?</math>)([.,;:!?)”’]*)', re.DOTALL
+)
 # viser's player in a film: the parts without a name, and theirs.
 _NAMELESS = {
     ".mantine-NumberInput-input": "time in seconds",
@@ -70,7 +74,7 @@ def page(text: str, tall: Collection[str] = (), charts: Collection[str] = ()) ->
 
     Captions have a level, boxes a label; pictures after the first are fetched when the
     page is scrolled near them, and on a narrow screen its own where there is one; a
-    chart is of the class `chart`.
+    chart is of the class `chart`, and no line ends between a formula and its comma.
 
     Args:
         text: the page.
@@ -88,7 +92,12 @@ def page(text: str, tall: Collection[str] = (), charts: Collection[str] = ()) ->
     def marked(found: re.Match[str]) -> str:
         return '<img class="chart" ' if found[1] in charts else found[0]
 
+    def together(found: re.Match[str]) -> str:
+        alone = not found[1] and not found[3]
+        return found[0] if alone else f'<span class="kept">{found[0]}</span>'
+
     text = _CHART.sub(marked, _PICTURE.sub(both, text))
+    text = _FORMULA.sub(together, text)
     text = _BOX.sub(r"<label>\1\2</label>", _CAPTION.sub(_LEVEL, text))
     before, first, after = text.partition("<img ")
     return before + first + after.replace("<img ", '<img loading="lazy" ')

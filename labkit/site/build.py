@@ -53,6 +53,7 @@ SETTINGS: dict[str, Any] = {
     "napoleon_attr_annotations": False,  # and, as elsewhere, without types
     "default_role": "code",  # `q` in a docstring
 }
+LONG = 55  # letters of LaTeX: a formula that a phone scrolls, since none is broken
 # As an accent, a dot is set into its letter at a screen's size: q with a dot reads q.
 _MELTS = ' accent="true"'
 _MARKUP = (":", "..", "- ", "* ")  # what an indented paragraph belongs to
@@ -137,7 +138,11 @@ def mathml(formula: str, as_block: bool = False) -> str:
 
 def write(page: Any, node: Any, as_block: bool = False) -> None:
     """Write a formula that stands in a line, or alone."""
-    page.body.append(mathml(node.astext(), as_block))
+    formula = node.astext()
+    made = mathml(formula, as_block)
+    if len(formula) > LONG and not as_block:
+        made = f'<span class="long">{made}</span>'
+    page.body.append(made)
     raise nodes.SkipNode
 
 
