@@ -173,10 +173,15 @@ def _commands(makefile: str) -> str:
     """Return a page with a heading per command of `make`, so that a search finds it."""
     found = VERB.findall(makefile)
     verbs = sorted(found, key=lambda verb: (verb[1] == "", verb[1]))
-    parts = [
-        f"## make {name}\n\n{says[0].upper()}{says[1:]}.\n" for name, _, says in verbs
-    ]
+    parts = [f"## make {name}\n\n{_sentence(says)}\n" for name, _, says in verbs]
     return COMMANDS + "\n".join(parts)
+
+
+def _sentence(words: str) -> str:
+    """Return words with a capital, but for a path's, and with a full stop."""
+    first = words.split()[0]
+    start = words[0].upper() if "/" not in first else words[0]
+    return f"{start}{words[1:]}{'' if words.endswith(('.', '?')) else '.'}"
 
 
 def _modules() -> Iterator[tuple[str, Sequence[str]]]:
