@@ -188,6 +188,8 @@ def test_an_accented_letter_has_its_index_beside_it_and_its_dot_clear_of_it():
 
     assert mathml(r"\dot q_i").count("<msub><mover>") == 1
     assert "accent" not in mathml(r"\ddot q + \hat x")  # set into the letter at 1x
+    assert mathml(r"a \sin q").count("<mspace") == 2  # "asin q" is another function
+    assert "<mspace" not in mathml(r"\sin(q)")
 
 
 def test_an_equation_of_a_docstring_keeps_its_lines():

@@ -63,6 +63,13 @@ _BELOW = re.compile(
     re.DOTALL,
 )
 _BESIDE = r"<msub><mover>\1\3</mover>\2</msub>"
+# A function's name stands off its neighbours, as TeX sets it: a sin x is no asin x.
+_CALL = "<mo>&ApplyFunction;</mo>"
+_NAME = re.compile(
+    r"(</mi>|</mn>|</msub>|</msup>|\)</mo>)(?=\s*<mi[^>]*>\w\w+</mi>\s*" + _CALL + ")"
+)
+_ARGUMENT = re.compile(_CALL + r"(?!\s*<mo[^>]*>[(\[])")
+_THIN = '<mspace width="0.17em"/>'
 
 
 def build(out: Path) -> None:
@@ -133,6 +140,7 @@ def _static(into: Path) -> Path:
 def mathml(formula: str, as_block: bool = False) -> str:
     """Return a formula of LaTeX as MathML."""
     made = _BELOW.sub(_BESIDE, tex2mathml(formula, as_block=as_block))
+    made = _ARGUMENT.sub(_CALL + _THIN, _NAME.sub(rf"\1{_THIN}", made))
     return made.replace(_MELTS, "")
 
 
