@@ -224,6 +224,16 @@ def test_a_pages_boxes_have_labels_and_its_captions_a_level():
     assert access.page(f"{formula} b {block}.") == f"{formula} b {block}."
 
 
+def test_a_command_is_told_in_a_sentence_whose_typed_parts_are_code():
+    from labkit.site.pages import _sentence
+
+    assert _sentence("is it so? TASK=9.3") == "Is it so? `TASK=9.3`."
+    assert _sentence("a/b.html of it; ARGS=--x, --y") == (
+        "`a/b.html` of it; `ARGS=--x`, `--y`."
+    )
+    assert _sentence("does it?") == "Does it?"
+
+
 def test_a_lessons_picture_is_a_chart_on_white_or_dark_itself():
     from PIL import Image
 

@@ -23,6 +23,9 @@ TALL = "_tall"  # at the end of that one's name
 # are dark themselves, and stand on either.
 _CHART = re.compile(r'<img (?=[^>]*src="(?:\.\./)*_images/([\w.-]+)")')
 _WHITE = (255, 255, 255)
+# Where a name may be broken, so that it is broken nowhere else.
+_CODE = re.compile(r'(?<=<span class="pre">)[^<]+(?=</span>)')
+_JOINT = re.compile(r"(?<=\w[_/])(?=\w)")
 # A line may end on either side of a formula: what belongs to it would stand alone.
 _FORMULA = re.compile(
     r'([(“]*)(<math (?![^>]*display="block")[^>]*>.*?</math>)([.,;:!?)”’]*)', re.DOTALL
@@ -75,6 +78,7 @@ def page(text: str, tall: Collection[str] = (), charts: Collection[str] = ()) ->
     Captions have a level, boxes a label; pictures after the first are fetched when the
     page is scrolled near them, and on a narrow screen its own where there is one; a
     chart is of the class `chart`, and no line ends between a formula and its comma.
+    A long name in code is broken at its underscores and slashes.
 
     Args:
         text: the page.
@@ -97,6 +101,7 @@ def page(text: str, tall: Collection[str] = (), charts: Collection[str] = ()) ->
         return found[0] if alone else f'<span class="kept">{found[0]}</span>'
 
     text = _CHART.sub(marked, _PICTURE.sub(both, text))
+    text = _CODE.sub(lambda code: _JOINT.sub("<wbr>", code[0]), text)
     text = _FORMULA.sub(together, text)
     text = _BOX.sub(r"<label>\1\2</label>", _CAPTION.sub(_LEVEL, text))
     before, first, after = text.partition("<img ")

@@ -43,6 +43,7 @@ TRY = (
 VERB = re.compile(
     r"^([a-z-]+)%?:.*?##(\d?) (.+)$", re.MULTILINE
 )  # as `make help` reads it
+TYPED = re.compile(r"\b[A-Z]+=[^\s,;]+|\B--[\w-]+|\b\w+/[\w.-]*\w")
 COMMANDS = """\
 # What to type: the commands
 
@@ -178,10 +179,11 @@ def _commands(makefile: str) -> str:
 
 
 def _sentence(words: str) -> str:
-    """Return words with a capital, but for a path's, and with a full stop."""
+    """Return words with a capital and a full stop; what is typed becomes code."""
     first = words.split()[0]
     start = words[0].upper() if "/" not in first else words[0]
-    return f"{start}{words[1:]}{'' if words.endswith(('.', '?')) else '.'}"
+    said = TYPED.sub(r"`\g<0>`", start + words[1:])
+    return said if words.endswith((".", "?")) else f"{said}."
 
 
 def _modules() -> Iterator[tuple[str, Sequence[str]]]:
