@@ -78,7 +78,7 @@ def page(text: str, tall: Collection[str] = (), charts: Collection[str] = ()) ->
     Captions have a level, boxes a label; pictures after the first are fetched when the
     page is scrolled near them, and on a narrow screen its own where there is one; a
     chart is of the class `chart`, and no line ends between a formula and its comma.
-    A long name in code is broken at its underscores and slashes.
+    A long name in a table's code is broken at its underscores and slashes.
 
     Args:
         text: the page.
