@@ -8,9 +8,9 @@
     push()    # a PIL image, 1200 pixels wide
 
 The colours are those of Okabe and Ito, which colour-blind readers tell apart; draw no
-two lines that differ by colour alone. 390 pixels of a phone show FONT 10 pixels high. On
-a dark page the site turns white into black and keeps hues (site/style.css), so a map of
-colours has one hue.
+two lines that differ by colour alone. 390 pixels of a phone show FONT 10 pixels high.
+On a dark page the site turns white into black and keeps hues (site/style.css), so a map
+of colours has one hue.
 """
 
 import io
