@@ -4,7 +4,12 @@ import numpy as np
 
 from labkit.judge import Matrix, Row
 
-row = Row(Matrix((2, 3), "m", rows=("least", "greatest"), columns=("x", "y", "z")))
+from . import where_boxes
+
+row = Row(
+    Matrix((2, 3), "m", rows=("least", "greatest"), columns=("x", "y", "z")),
+    unnamed=where_boxes.around,
+)
 
 
 @row.inputs

@@ -5,14 +5,14 @@ import numpy as np
 from labkit.judge import Finding, Row, Scalar
 from robo47.distance import box_sdf, capsule_box
 
-from . import pairs
+from . import pairs, where_boxes
 
 
 def above(case):
     """Say so where no answer is too small: the axis' nearest point was not found."""
     more = case.S - case.T
     if more.min() < -1e-9 or more.max() > 0.2 or (more > 1e-9).all():
-        return None
+        return where_boxes.capsule(case)
     return Finding(
         "not-the-least",
         f"No answer is too small, some are up to {1000 * more.max():.3g} mm too large: "

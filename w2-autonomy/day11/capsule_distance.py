@@ -5,9 +5,9 @@ import numpy as np
 from labkit.judge import Row, Scalar
 from robo47.distance import segment_segment
 
-from . import pairs
+from . import pairs, where_segments
 
-row = Row(Scalar(unit="m"))
+row = Row(Scalar(unit="m"), unnamed=where_segments.gap)
 
 
 @row.inputs

@@ -4,7 +4,9 @@ import numpy as np
 
 from labkit.judge import Row, Scalar
 
-row = Row(Scalar())
+from . import where_arm
+
+row = Row(Scalar(), unnamed=where_arm.step)
 
 
 @row.inputs
@@ -23,6 +25,7 @@ def _(rng):
         case, (0.4, 0.2, one, rng.numbers(0.2, 1.2, 7)), (0.95, 0.5, half, half),
         (0.3, 0.1, np.zeros(7), half), (0.3, -0.05, half, half), (0.6, 0.0, half, half),
         (0.0, 3.0, half, half), (0.5, 0.0005, half, half), (0.5, -0.0005, half, half),
+        (0.3, -0.05, np.zeros(7), half), (0.4, 0.0, np.zeros(7), half),
         (0.1, 0.02, np.full(7, -0.05), half), (0.3, 0.0001, 0.0002 * half, half),
         *drawn,
     ]  # fmt: skip

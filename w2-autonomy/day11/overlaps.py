@@ -4,7 +4,9 @@ import numpy as np
 
 from labkit.judge import Mask, Row, rounded
 
-row = Row(Mask())
+from . import where_boxes
+
+row = Row(Mask(), unnamed=where_boxes.both)
 
 
 def beside(rng, gaps):
@@ -21,8 +23,11 @@ def _(rng):
     unit = np.array([(0.0, 0, 0), (1, 1, 1)])
     x, y, z = np.eye(3)
     big = np.array([(-2.0, -2, -2), (3, 3, 3)])
+    bar = np.array([(-1.0, 0.25, 0.25), (2, 0.75, 0.75)])  # along x, through a unit
+    post = np.array([(0.25, 0.5, -1.0), (0.75, 0.7, 2)])
     first = [(unit, unit + x), (unit, unit + y + z), (unit, unit + 1.001 * y),
              (unit + x + y + z, unit), (unit, big), (big, unit),
+             (bar, post), (post, bar), (bar, unit), (bar, post + 2 * z),
              (unit, unit), (unit, unit + 0.75 * (x + y - z))]  # fmt: skip
     drawn = []
     for gaps in ((0.2, 0, 0), (0, 0.2, 0), (0, 0, 0.2), (0.2, 0.3, 0), (0.1, 0.1, 0.2),

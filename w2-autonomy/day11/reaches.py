@@ -5,7 +5,9 @@ import numpy as np
 from labkit.judge import Row, Vector
 from robo47.distance import reaches
 
-row = Row(Vector((None,), "m"))
+from . import where_arm
+
+row = Row(Vector((None,), "m"), unnamed=where_arm.lengths)
 
 
 @row.inputs

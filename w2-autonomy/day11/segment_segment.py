@@ -2,32 +2,9 @@
 
 import numpy as np
 
-from labkit.judge import Finding, HeldOut, Points, Row
+from labkit.judge import HeldOut, Points, Row
 
-from . import pairs
-
-
-def hardly(case):
-    """Say so where both points lie on their segments and are nearly the closest."""
-    S, T = case.S, case.T
-    ends = np.array(case.arguments).swapaxes(0, 1)  # (n, 4, 3)
-    for i in (0, 1):
-        start, end = ends[:, 2 * i], ends[:, 2 * i + 1]
-        way = np.linalg.norm(end - start, axis=1)
-        beside = np.linalg.norm(S[:, i] - start, axis=1)
-        beside += np.linalg.norm(S[:, i] - end, axis=1) - way
-        if beside.max() > 1e-9:
-            return None
-    far = [np.linalg.norm(X[:, 0] - X[:, 1], axis=1) for X in (S, T)]
-    more = float((far[0] - far[1]).max())
-    if not 0 < more < 0.05:
-        return None
-    return Finding(
-        "nearly-the-closest",
-        f"All points lie on their segments, and are up to {1000 * more:.3g} mm farther "
-        "apart than the closest: are only some points tried, or is a loop not at its "
-        "end?",
-    )
+from . import pairs, where_segments
 
 
 # What has more than one closest pair is no question here; 11.2 asks how far such
@@ -35,7 +12,7 @@ def hardly(case):
 row = Row(
     Points((2, 3), names=("first's point", "second's point")),
     at_edge=pairs.crosses,
-    unnamed=hardly,
+    unnamed=where_segments.closest,
     held_out=[
         HeldOut(
             "parallel-not-handled",

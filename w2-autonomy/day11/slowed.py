@@ -5,11 +5,14 @@ import numpy as np
 from labkit.judge import Row, Vector
 from robo47.distance import slowed
 
+from . import where_arm
+
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 # Where the slope is 0 and the arm overlaps, a slope of 1e-12 would ask for any speed.
 row = Row(
     Vector((7,), "rad/s", names=JOINTS),
     at_edge=lambda qd, slope, distance, gain: bool(slope.any()),
+    unnamed=where_arm.kept,
 )
 
 
