@@ -6,7 +6,7 @@ from labkit.judge import Row, Scalar, rounded
 
 from . import where_boxes
 
-row = Row(Scalar(unit="m"), unnamed=where_boxes.point)
+row = Row(Scalar(unit="m"), unnamed=where_boxes.point, before_slips=False)
 
 
 @row.inputs

@@ -22,7 +22,7 @@ def above(case):
 
 
 # Ten sections and less leave some 1e-4: near in method.
-row = Row(Scalar(unit="m"), near=1e-3, unnamed=above)
+row = Row(Scalar(unit="m"), near=1e-3, unnamed=above, before_slips=False)
 
 
 @row.inputs

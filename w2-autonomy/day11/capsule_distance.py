@@ -7,7 +7,7 @@ from robo47.distance import segment_segment
 
 from . import pairs, where_segments
 
-row = Row(Scalar(unit="m"), unnamed=where_segments.gap)
+row = Row(Scalar(unit="m"), unnamed=where_segments.gap, before_slips=False)
 
 
 @row.inputs

@@ -6,7 +6,7 @@ from labkit.judge import Row, Scalar
 
 from . import where_arm
 
-row = Row(Scalar(), unnamed=where_arm.step)
+row = Row(Scalar(), unnamed=where_arm.step, before_slips=False)
 
 
 @row.inputs

@@ -6,7 +6,7 @@ from labkit.judge import Mask, Row, rounded
 
 from . import where_boxes
 
-row = Row(Mask(), unnamed=where_boxes.both)
+row = Row(Mask(), unnamed=where_boxes.both, before_slips=False)
 
 
 def beside(rng, gaps):
@@ -28,6 +28,9 @@ def _(rng):
     first = [(unit, unit + x), (unit, unit + y + z), (unit, unit + 1.001 * y),
              (unit + x + y + z, unit), (unit, big), (big, unit),
              (bar, post), (post, bar), (bar, unit), (bar, post + 2 * z),
+             (unit, unit + x - 2 * y), (unit + x - 1.2 * y, unit), (unit, unit + 5 * z),
+             (unit, unit + 1.5 * y + x), (unit, unit - 3 * x - 2 * y),
+             (unit, unit + 1.3 * x - 1.4 * z),
              (unit, unit), (unit, unit + 0.75 * (x + y - z))]  # fmt: skip
     drawn = []
     for gaps in ((0.2, 0, 0), (0, 0.2, 0), (0, 0, 0.2), (0.2, 0.3, 0), (0.1, 0.1, 0.2),
@@ -60,9 +63,37 @@ def _(A, B):
     a-corner-inside: B's least or greatest corner has to lie in A; boxes may cross
       without
     a-corner-inside 2: B's least corner has to lie in A; it may lie below A's
+    a-corner-inside 3: B's greatest corner has to lie in A; it may lie above A's
     middles-inside: A's middle has to lie in B
     middles-inside 2: one box's middle has to lie in the other; boxes overlap by less
     half-of-one: the middles may be as far apart as half of A; half of B counts, too
+    corners-only: some corner of one has to lie in the other; boxes may cross without =>
+      all 8 corners of both
+    corners-only 2: some corner of B has to lie in A; boxes may cross, or B hold A,
+      without => all 8 corners of B
+    corners-only 3: a least or greatest corner has to lie in the other box; boxes may
+      overlap without => two corners of each
+    ends-in-between: on each axis an end of B has to lie between those of A; B may also
+      hold A there
+    balls: the boxes are taken for balls around them, and those may touch where the
+      boxes do not => half of the diagonals
+    balls 2: the boxes are taken for balls inside them => half of the least sides
+    balls 3: the boxes are taken for balls => half of the greatest sides
+    sides-not-halved: the middles may be as far apart as both sides; half of both is it
+    sides-in-quarters: the middles may be as far apart as a quarter of both sides; half
+      of both is it
+    or-for-and: one of the two comparisons is enough; both have to hold => or for and
+    two-axes-enough: two axes are enough for it; boxes overlap only on all three
+    other-axes: y is not compared
+    other-axes 2: x is not compared
+    other-axes 3: only y is compared
+    other-axes 4: only z is compared
+    volume: it is what both share as a volume: two lengths below 0 make one above 0 =>
+      the product above 0
+    volume 2: it is what both share as a volume: two lengths below 0 make one above 0 =>
+      the product not below 0
+    sum-of-overlaps: what both share is added over the axes; each has to be 0 or more
+    nearly-touching: boxes that are hardly apart count as touching => up to 0.01 m
     always: it is always True
     never: it is always False
     """
@@ -74,7 +105,40 @@ def _(A, B):
 
     holds = (A[0] <= B[0]) & (B[1] <= A[1])
     held = (B[0] <= A[0]) & (A[1] <= B[1])
+    share = np.minimum(A[1], B[1]) - np.maximum(A[0], B[0])
+    apart = np.abs(A.mean(axis=0) - B.mean(axis=0))
+    sides = A[1] - A[0], B[1] - B[0]
+    ends = [(A[0] <= end) & (end <= A[1]) for end in B]
+    eight = [
+        [inside(np.where(ends_of, Y[1], Y[0]), X) for ends_of in np.ndindex(2, 2, 2)]
+        for X, Y in ((A, B), (B, A))
+    ]
+    two = [inside(c, X) for X, Y in ((A, B), (B, A)) for c in Y]
+
+    def balls(of):
+        return bool(np.linalg.norm(apart) <= (of(sides[0]) + of(sides[1])) / 2)
+
     return {
+        "corners-only": any(map(any, eight)),
+        "corners-only 2": any(eight[0]),
+        "corners-only 3": any(two),
+        "ends-in-between": bool(np.all(ends[0] | ends[1])),
+        "balls": balls(np.linalg.norm),
+        "balls 2": balls(np.min),
+        "balls 3": balls(np.max),
+        "sides-not-halved": bool(np.all(apart <= sides[0] + sides[1])),
+        "sides-in-quarters": bool(np.all(apart <= (sides[0] + sides[1]) / 4)),
+        "or-for-and": bool(low.all() or high.all()),
+        "two-axes-enough": bool(both.sum() >= 2),
+        "other-axes": bool(both[[0, 2]].all()),
+        "other-axes 2": bool(both[1:].all()),
+        "other-axes 3": bool(both[1]),
+        "other-axes 4": bool(both[2]),
+        "volume": bool(np.prod(share) > 0),
+        "volume 2": bool(np.prod(share) >= 0),
+        "sum-of-overlaps": bool(share.sum() >= 0),
+        "a-corner-inside 3": inside(B[1], A),
+        "nearly-touching": bool(share.min() >= -0.01),
         "any-for-all": bool(both.any()),
         "one-direction": bool(low.all()),
         "one-direction 2": bool(high.all()),

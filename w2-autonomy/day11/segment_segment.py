@@ -6,13 +6,13 @@ from labkit.judge import HeldOut, Points, Row
 
 from . import pairs, where_segments
 
-
 # What has more than one closest pair is no question here; 11.2 asks how far such
 # segments are apart.
 row = Row(
     Points((2, 3), names=("first's point", "second's point")),
     at_edge=pairs.crosses,
     unnamed=where_segments.closest,
+    before_slips=False,
     held_out=[
         HeldOut(
             "parallel-not-handled",

@@ -13,6 +13,7 @@ row = Row(
     Vector((7,), "rad/s", names=JOINTS),
     at_edge=lambda qd, slope, distance, gain: bool(slope.any()),
     unnamed=where_arm.kept,
+    before_slips=False,
 )
 
 

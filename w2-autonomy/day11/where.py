@@ -52,21 +52,27 @@ def listed(some: Sequence[str]) -> str:
     return " and ".join([", ".join(some[:-1]), some[-1]] if some[1:] else some)
 
 
-def apart(
-    all_: Seen,
-    groups: Mapping[str, Group],
-    label: Callable[..., str],
-    lead: str = "",
-) -> Finding | None:
-    """Return which groups are right and which not; None where none is right.
+class Sorted(NamedTuple):
+    """A way to sort calls."""
 
-    Args:
-        all_: what was asked.
-        groups: by what follows "it is right" ("inside the box"), the simplest first.
-        label: from a call's arguments to one of them, "" for none.
-        lead: what stands before the groups' names ("where they are ").
+    groups: Mapping[str, Group]  # by their names, the simplest first
+    label: Callable[..., str]  # from a call's arguments to one of them, "" for none
+    lead: str = ""  # what stands before the names ("where they are ")
+
+
+def apart(all_: Seen, *ways: Sorted) -> Finding | None:
+    """Return which groups are right and which not, sorted in the way that tells most.
+
+    That is the one in which fewest calls stand in a group that is now right and now
+    wrong; None where no group is right, or all are.
     """
-    of = np.array([label(*call) for call in all_.calls])
+    found = [one for way in ways if (one := _apart(all_, way))]
+    return min(found, key=lambda one: one[0])[1] if found else None
+
+
+def _apart(all_: Seen, way: Sorted) -> tuple[int, Finding] | None:
+    groups, lead = way.groups, way.lead
+    of = np.array([way.label(*call) for call in all_.calls])
     right = [g for g in groups if np.any(of == g) and not all_.wrong[of == g].any()]
     never = [g for g in groups if np.any(of == g) and all_.wrong[of == g].all()]
     mixed = [g for g in groups if all_.wrong[of == g].any() and g not in never]
@@ -77,7 +83,7 @@ def apart(
     parts += [f"now right, now wrong {lead}{listed(mixed)}"] if mixed else []
     first = next(group for name, group in groups.items() if name in never + mixed)
     says = f"It is {'; '.join(parts)}. {first.hint}".strip()
-    return Finding(first.slug, says)
+    return int(np.isin(of, mixed).sum()), Finding(first.slug, says)
 
 
 def sizes(all_: Seen) -> str:

@@ -8,7 +8,7 @@ from labkit.judge import Case, Finding
 from robo47.checks import Array
 
 from . import where
-from .where import Group, number
+from .where import Group, Sorted, number
 
 KEPT = {
     "joint 1 to the link's own": lambda i, link: i < link,
@@ -45,7 +45,29 @@ def terms(case: Case) -> Finding | None:
                     "with n = (p - o) / |p - o|, for joint 1 to the link's own."
                 )
                 return Finding("other-terms", says)
-    return _entries(own, np.array(all_.T), link)
+    return _of_another_normal(all_) or _entries(own, np.array(all_.T), link)
+
+
+def _of_another_normal(all_: where.Seen) -> Finding | None:
+    """Return which normal gives the entries, where joints enough say so."""
+    many = all_.some([call[3] > 3 for call in all_.calls])
+    first = None
+    for (J, p, o, link), S in zip(many.calls, many.S, strict=True):
+        n = (p - o) / np.linalg.norm(p - o)
+        velocity = J[3:].T + np.cross(J[:3].T, p)
+        own = where.fitted(velocity[:link], S[:link])
+        if own is None or not np.allclose(S[link:], 0, 0, 1e-9):
+            return None
+        if first is None and not np.allclose(own, n, 0, 1e-6):
+            first = own, n, p, o
+    if first is None:
+        return None
+    own, n, p, o = (f"({', '.join(map(number, x))})" for x in first)
+    says = (
+        f"The velocities are right, the normal is another one: for p = {p}, o = {o} it "
+        f"is {own}; (p - o) / |p - o| is {n}."
+    )
+    return Finding("other-normal", says)
 
 
 def _terms(J: Array, p: Array, o: Array, link: int) -> Array:
@@ -61,7 +83,7 @@ def _entries(own: Array, right: Array, link: Array) -> Finding | None:
     groups = {
         "of the joints before the link's own": np.broadcast_to(i < link - 1, off.shape),
         "of the link's own joint": np.broadcast_to(i == link - 1, off.shape),
-        "of the joints behind it, which are 0": np.broadcast_to(i >= link, off.shape),
+        "of the joints behind the link": np.broadcast_to(i >= link, off.shape),
     }
     bad = [name for name, mask in groups.items() if off[mask].any()]
     good = [name for name in groups if name not in bad]
@@ -75,50 +97,43 @@ def _entries(own: Array, right: Array, link: Array) -> Finding | None:
     return None
 
 
+PLACES = ("the last joint", "the last but one", "a joint before these")
+LINKS = ("its own link", "the next link", "a link between", "the last link")
+
+
 def lengths(case: Case) -> Finding | None:
     """Return for which joints, or farthest links, a reach is wrong."""
     all_ = where.seen(case)
-    entries: list[tuple[bool, int, int, float]] = []
+    places: dict[str, list[bool]] = {}
+    links: dict[str, list[bool]] = {}
+    offs = []
     for (offsets, far), S, T in zip(all_.calls, all_.S, all_.T, strict=True):
         n = len(far)
-        for i in range(n):
+        for i, off in enumerate((S - T)[:n]):
             ways = [offsets[i:j].sum() + far[j] for j in range(i, n)]
-            off = float(S[i] - T[i])
+            steps, behind = int(np.argmax(ways)), n - 1 - i
             wrong = not abs(off) <= 1e-6
-            entries.append((wrong, n - 1 - i, int(np.argmax(ways)), off))
-    by_place: dict[str, list[bool]] = {}
-    by_link: dict[str, list[bool]] = {}
-    for wrong, behind, steps, _ in entries:
-        place = (
-            ("the last joint", "the last but one")[behind] if behind < 2 else "others"
-        )
-        by_place.setdefault(place, []).append(wrong)
-        name = ("its own link's" if not steps else "the last link's" if steps == behind
-                else "the next link's" if steps == 1 else "that of a link between")  # fmt: skip
-        by_link.setdefault(name, []).append(wrong)
-    offs = [off for wrong, _, _, off in entries if wrong]
-    large = ""
-    if all(off > 0 for off in offs):
-        large = " No entry is too small."
-    elif all(off < 0 for off in offs):
-        large = " No entry is too large, so it is no bound."
-    for what, found in (
-        ("the farthest point is {}", by_link),
-        ("it is that of {}", by_place),
-    ):
-        good = [name for name, wrong in found.items() if not any(wrong)]
-        bad = [name for name, wrong in found.items() if any(wrong)]
-        if good and bad:
-            says = what.format(" or ".join(good))
-            says = f"An entry is right where {says}, and not always where "
-            says += what.format(" or ".join(bad)) + "."
-            slug = "wrong-of-some-links" if found is by_link else "wrong-of-some-joints"
-            return Finding(slug, says + large)
-    says = (
-        "Entries of all joints are wrong, the last one's, too: that one is far[-1], and "
-        "each before it is made of the next one's reach."
+            places.setdefault(PLACES[min(behind, 2)], []).append(wrong)
+            last = 3 if steps == behind and steps else min(steps, 2)
+            links.setdefault(LINKS[last], []).append(wrong)
+            offs += [off] if wrong else []
+    large = " No entry is too small." if min(offs) > 0 else ""
+    large = " No entry is too large: it is no bound." if max(offs) < 0 else large
+    ways = (
+        (links, LINKS, "where the farthest point is on ", "wrong-of-some-links"),
+        (places, PLACES, "for ", "wrong-of-some-joints"),
     )
-    return Finding("wrong-of-all-joints", says + large)
+    for found, order, lead, slug in ways:
+        good = [name for name in order if not any(found.get(name, [True]))]
+        bad = [name for name in order if any(found.get(name, []))]
+        if good and bad:
+            says = f"An entry is right {lead}{where.listed(good)}; not always {lead}"
+            return Finding(slug, f"{says}{where.listed(bad)}.{large}")
+    says = (
+        "Entries of all joints are wrong, also the last one's: it is far[-1], and each "
+        f"before it is made of the next one's reach.{large}"
+    )
+    return Finding("wrong-of-all-joints", says)
 
 
 def step(case: Case) -> Finding | None:
@@ -129,26 +144,46 @@ def step(case: Case) -> Finding | None:
     end = "the rest of the way is free"
     way = "the next look is on the way"
 
+    slow = "it hardly moves"
+    near = "it is nearer than 1 mm"
+
+    def back(s: float, distance: float, dq: Array, reach: Array) -> str:
+        any_ = "a joint turns backwards"
+        return any_ if np.any(dq < 0) else "no joint turns backwards"
+
     def which(s: float, distance: float, dq: Array, reach: Array) -> str:
         if distance <= 0:
             return touch
         speed = np.abs(dq) @ reach
         if speed == 0:
             return still
+        if speed < 0.01:
+            return slow
+        if distance <= 1e-3:
+            return near
         return end if s + distance / speed >= 1 else way
 
+    says = "It is s + distance / (|dq| . reach) there."
     groups = {
-        way: Group("wrong-on-the-way", "It is s + distance / (|dq| . reach) there."),
+        way: Group("wrong-on-the-way", says),
         end: Group("wrong-at-the-end", "It is 1 there, the end of the way."),
+        slow: Group("wrong-where-slow", f"{says} No size is too small for that."),
+        near: Group("wrong-where-near", f"{says} No size is too small for that."),
         still: Group("wrong-standing-still", "It is 1 there: nothing can touch."),
         touch: Group("wrong-where-it-touches", "It is s there: it goes no further."),
     }
+    says = "Every joint counts, whichever way it turns: |dq_i| reach_i."
+    signs = {
+        "no joint turns backwards": Group("wrong-forwards", says),
+        "a joint turns backwards": Group("wrong-backwards", says),
+    }
+    ways = Sorted(groups, which, "where "), Sorted(signs, back, "where ")
     some = [
         which(*call) == way and s - call[0] > 1e-9 and s < 1
         for call, s in zip(all_.calls, np.ravel(all_.S), strict=True)
     ]
     counted = _counted(all_.some(some)) if sum(some) > 10 else ""
-    found = where.apart(all_, groups, which, "where ")
+    found = where.apart(all_, *ways)
     large = where.sizes(all_)
     if found:
         return Finding(found.slug, found.message + large + counted)
@@ -193,16 +228,17 @@ def kept(case: Case) -> Finding | None:
             return free
         return inside if distance <= 0 else fast
 
-    told = "It is qd + slope lack / (slope . slope) there, lack = -gain distance - slope . qd."
+    told = "There it is qd + k slope, with slope . (qd + k slope) = -gain distance."
     groups = {
         free: Group("wrong-where-allowed", "They are to stay as they are there."),
         fast: Group("wrong-where-too-fast", told),
-        inside: Group("wrong-where-it-overlaps", f"{told} It is driven out."),
+        inside: Group("wrong-where-it-overlaps", told),
         none: Group("wrong-without-slope", "They are to stay as they are there."),
     }
+    ways = [Sorted(groups, which, "where ")]
     late = [which(*call) in (fast, inside) for call in all_.calls]
     how = _change(all_.some(np.array(late) & all_.wrong))
-    if found := where.apart(all_, groups, which, "where "):
+    if found := where.apart(all_, *ways):
         return Finding(found.slug, f"{found.message} {how}".strip())
     return Finding("wrong-change", how) if how else None
 

@@ -9,7 +9,7 @@ from robo47.checks import Array
 from robo47.distance import box_sdf
 
 from . import where
-from .where import Group, number
+from .where import Group, Sorted, number
 
 DEPTH = "There it is the largest of |p| - half, which are all below 0."
 ALONE = "There it is |p| - half of that one axis."
@@ -34,14 +34,25 @@ def point(case: Case) -> Finding | None:
         below = np.any(p < 0)
         return "an entry of p is below 0" if below else "none of p is below 0"
 
+    def alike(p: Array, half: Array) -> str:
+        return "the sides are alike" if np.ptp(half) < 1e-9 else "the sides differ"
+
     says = "The box is the same on all sides: fold p first."
-    found = where.apart(all_, groups, faces) or where.apart(
+    signs = {
+        "an entry of p is below 0": Group("not-folded", says),
+        "none of p is below 0": Group("folded-only", says),
+    }
+    says = "Each axis has its own half of a side."
+    cubes = {
+        "the sides are alike": Group("wrong-cubes", says),
+        "the sides differ": Group("wrong-sides", says),
+    }
+    found = where.apart(
         all_,
-        {"an entry of p is below 0": Group("not-folded", says),
-         "none of p is below 0": Group("folded-only", says)},
-        folded,
-        "where ",
-    )  # fmt: skip
+        Sorted(groups, faces),
+        Sorted(signs, folded, "where "),
+        Sorted(cubes, alike, "where "),
+    )
     large = where.sizes(all_)
     if found:
         return Finding(found.slug, found.message + large)
@@ -52,53 +63,46 @@ def point(case: Case) -> Finding | None:
 def capsule(case: Case) -> Finding | None:
     """Return for which poses, or where along the axis, a capsule's distance fails."""
     all_ = where.seen(case)
-    turned = "turned"
-    moved = "moved and not turned"
-    home = "at the origin and not turned"
-
-    def pose(a0: Array, a1: Array, r: float, T: Array, half: Array) -> str:
-        if not np.allclose(T[:3, :3], np.eye(3)):
-            return turned
-        return moved if T[:3, 3].any() else home
-
-    groups = {
-        home: Group("wrong-anywhere"),
-        moved: Group("wrong-moved", "Into the box's axes a point is R^T (x - t)."),
-        turned: Group(
-            "wrong-turned",
-            "Into the box's axes a point is R^T (x - t), and a way R^T (a1 - a0).",
-        ),
-    }
     large = where.sizes(all_)
-    if found := where.apart(all_, groups, pose, "where the box is "):
+    if found := where.apart(all_, _by_pose(), _by_place()):
         return Finding(found.slug, found.message + large)
-    return _of_another_point(all_) or _where_it_is(all_, large)
-
-
-def _where_it_is(all_: where.Seen, large: str) -> Finding | None:
-    deep = "in the box"
-    end = "an end of it"
-    between = "between its ends"
-
-    def place(a0: Array, a1: Array, r: float, T: Array, half: Array) -> str:
-        far = _along(a0, a1, T, half)
-        if far.min() < 0:
-            return deep
-        return end if far.argmin() in (0, len(far) - 1) else between
-
-    groups = {
-        between: Group("wrong-between", "How is the valley cut?"),
-        end: Group("wrong-at-an-end", "May the valley's bottom be an end?"),
-        deep: Group("wrong-inside", "The least of 11.3 along the axis, less r."),
-    }
-    found = where.apart(all_, groups, place, "where the axis' nearest point is ")
-    if found:
-        return Finding(found.slug, found.message + large)
+    if found := _of_another_point(all_):
+        return found
     says = (
         "It is wrong wherever the box stands, also at the origin and not turned: there "
         f"it is the least of 11.3 along the axis, less r.{large}"
     )
     return Finding("wrong-anywhere", says)
+
+
+def _by_pose() -> Sorted:
+    def pose(a0: Array, a1: Array, r: float, T: Array, half: Array) -> str:
+        if not np.allclose(T[:3, :3], np.eye(3)):
+            return "turned"
+        return "moved and not turned" if T[:3, 3].any() else "at the origin"
+
+    says = "Into the box's axes a point is R^T (x - t), a way is R^T (a1 - a0)."
+    groups = {
+        "at the origin": Group("wrong-at-the-origin"),
+        "moved and not turned": Group("wrong-moved", says),
+        "turned": Group("wrong-turned", says),
+    }
+    return Sorted(groups, pose, "where the box is ")
+
+
+def _by_place() -> Sorted:
+    def place(a0: Array, a1: Array, r: float, T: Array, half: Array) -> str:
+        far = _along(a0, a1, T, half)
+        if far.min() < 0:
+            return "in the box"
+        return "an end" if far.argmin() in (0, len(far) - 1) else "between the ends"
+
+    groups = {
+        "between the ends": Group("wrong-between", "How is the valley cut?"),
+        "an end": Group("wrong-at-an-end", "May the valley's bottom be an end?"),
+        "in the box": Group("wrong-inside", "It is what 11.3 says there, too, less r."),
+    }
+    return Sorted(groups, place, "where the axis' nearest point is ")
 
 
 def _along(a0: Array, a1: Array, T: Array, half: Array) -> Array:
@@ -200,9 +204,13 @@ def both(case: Case) -> Finding | None:
     )
 
     def told(some: list[str]) -> str:
-        names = [f"{one}{'' if of.count(one) == every.count(one) else ' (some of them)'}"
-                 for one in some]  # fmt: skip
-        return where.listed(names)
+        whole = [of.count(one) == every.count(one) for one in some]
+        return where.listed(
+            [
+                one + " (some)" * (not full)
+                for one, full in zip(some, whole, strict=True)
+            ]
+        )
 
     parts = [f"it is True for boxes {told(true)}"] if true else []
     parts += [f"it is False for boxes {told(false)}"] if false else []

@@ -7,7 +7,7 @@ from robo47.checks import Array
 from robo47.distance import segment_segment
 
 from . import where
-from .where import Group
+from .where import Group, Sorted
 
 BOTH = "between the ends of both"
 FIRST = "an end of the first alone"
@@ -78,7 +78,7 @@ def _not_nearest(all_: where.Seen, s: bool, t: bool) -> Finding:
         f"{1000 * more:.3g} mm farther apart than the closest. "
     )
     groups = {name: Group("") for name in (BOTH, FIRST, SECOND, ENDS)}
-    by = where.apart(all_, groups, kind, LEAD)
+    by = where.apart(all_, Sorted(groups, kind, LEAD))
     right = f" {by.message}" if by else ""
     if s and t:
         says += "Neither is always the nearest one to the other"
@@ -109,17 +109,16 @@ def gap(case: Case) -> Finding | None:
         return kind(a0, a1, *other[:2])
 
     says = "No case is special here: it is |p - o| - ra - rb everywhere."
-    found = where.apart(
-        all_,
-        {APART: Group("wrong-apart", says),
-         OVERLAP: Group("wrong-inside", says)},
-        overlap,
-    )  # fmt: skip
+    deep = {APART: Group("wrong-apart", says), OVERLAP: Group("wrong-inside", says)}
     says = "Which points are p and o there?"
-    names = {BOTH: "between-the-ends", FIRST: "at-an-end", SECOND: "at-an-end",
-             ENDS: "at-both-ends", SIDE: "side-by-side", POINT: "of-a-point"}  # fmt: skip
-    groups = {name: Group(f"wrong-{slug}", says) for name, slug in names.items()}
-    found = found or where.apart(all_, groups, place, LEAD)
+    slugs = ("between-the-ends", "at-an-end", "at-an-end", "at-both-ends",
+             "side-by-side", "of-a-point")  # fmt: skip
+    names = (BOTH, FIRST, SECOND, ENDS, SIDE, POINT)
+    groups = {
+        name: Group(f"wrong-{slug}", says)
+        for name, slug in zip(names, slugs, strict=True)
+    }
+    found = where.apart(all_, Sorted(deep, overlap), Sorted(groups, place, LEAD))
     if found:
         return Finding(found.slug, found.message + large)
     return _taken_off(all_, large)
