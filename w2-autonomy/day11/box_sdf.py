@@ -63,6 +63,32 @@ def _(p, half):
     largest-half: all sides are the largest => with half.max()
     first-half: all sides are the first => with half[0]
     in-the-plane: z is forgotten
+    smallest-added: the least of |p| - half is added, above 0 as well; it is the
+      largest, where that is below 0 => the length, and min(|p| - half)
+    first-axis-added: what is added to the length is x's |p| - half where that is below
+      0; it is the largest of all three
+    largest-with-max: max(..., 0) stands for min(..., 0): outside the largest comes on
+      top, and inside it is 0
+    sum-inside: inside the three ways to the faces are added; the nearest is the way out
+    mean-inside: inside it is the mean of the three ways; the nearest is the way out
+    one-number-inside: inside it is -1 everywhere; it is the way to the nearest face
+    least-half-inside: inside it is minus the least half everywhere; that is right in
+      the middle alone
+    smallest-part-inside: inside it is minus the least of |p|; the faces are half away
+    upper-faces-inside: inside only the faces above 0 count: the others may be nearer =>
+      minus the least of half - p
+    lengthwise: it is measured along the line to the middle; the nearest point of a face
+      lies straight below => |p| (1 - 1 / max(|p| / half))
+    size-of-the-difference: |p - half| is taken: it is |p| - half
+    cut-at-one: what is beyond a face is cut to 1 at most
+    corner-or-face: beyond an edge, two faces, it is the length of both; this is the
+      larger of them => the length beyond corners alone
+    two-of-three: beyond a corner all three count; this is the length of the larger two
+    first-two-only: beyond a face of z the length of x and y is left out => the largest
+      there
+    mean-square: the root of the mean square is taken; it is that of the sum
+    smallest-taken-off: the least size of |p| - half is taken off, outside as well
+    edges-negative: beyond an edge or a corner its sign is the other one
     cut-at-both: this is p cut to the box, and its length => the norm of the nearest
       point
     """
@@ -80,7 +106,27 @@ def _(p, half):
         beyond = p - half
         return np.linalg.norm(np.maximum(beyond, 0.0)) + min(beyond.max(), 0.0)
 
+    outside = inside == 0
+    two = np.linalg.norm(np.sort(out)[1:])
     return {
+        "smallest-added": length + beyond.min(),
+        "first-axis-added": length + min(beyond[0], 0.0),
+        "largest-with-max": length + max(beyond.max(), 0.0),
+        "sum-inside": length if outside else beyond.sum(),
+        "mean-inside": length if outside else beyond.mean(),
+        "one-number-inside": length if outside else -1.0,
+        "least-half-inside": length if outside else -half.min(),
+        "smallest-part-inside": length if outside else -np.abs(p).min(),
+        "upper-faces-inside": length if outside else -(half - p).min(),
+        "lengthwise": lambda: far * (1 - 1 / (np.abs(p) / half).max()),
+        "size-of-the-difference": np.linalg.norm(p - half),
+        "cut-at-one": np.linalg.norm(np.minimum(out, 1.0)) + inside,
+        "corner-or-face": length if out.all() else beyond.max(),
+        "two-of-three": two + inside,
+        "first-two-only": (beyond.max() if out[2] else length) if outside else inside,
+        "mean-square": length / np.sqrt(3) + inside,
+        "smallest-taken-off": length - np.abs(beyond).min(),
+        "edges-negative": -length if np.sum(out > 0) > 1 else length + inside,
         "zero-inside": length,
         "inside-positive": length - inside,
         "sign": -(length + inside),

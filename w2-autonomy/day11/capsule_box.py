@@ -3,7 +3,7 @@
 import numpy as np
 
 from labkit.judge import Finding, Row, Scalar
-from robo47.distance import box_sdf, capsule_box
+from robo47.distance import box_sdf, capsule_box, segment_segment
 
 from . import pairs, where_boxes
 
@@ -113,6 +113,29 @@ def _(a0, a1, r, T_world_box, half):
     sign: its sign is the other one: apart is above 0
     outside-only: the axis counts as outside: inside it is below 0 => 0 there, less r
     as-a-line: the axis is not cut at its ends: this is the least on a far longer one
+    way-moved: t is taken off the way as well; a way from end to end has no place => R^T
+      (a1 - a0 - t)
+    way-moved 2: the way is taken to a1 from the box's middle; it is from a0 => R^T (a1
+      - t)
+    way-of-length-1: the way is made a unit vector, and s still goes from 0 to 1 only
+    not-into-the-box: the ends are taken as they are: neither turned nor moved
+    radius-off-the-box: the box is smaller by the radius; it is taken off the distance
+    size-of-the-depth: inside, the depth counts as a distance => |d| - r
+    size-of-the-distance: what overlaps counts as apart => |d - r|
+    largest-half: all sides are the largest => with half.max()
+    sides-exchanged: x and y of half are exchanged
+    box-around-it: the box is not turned, but made large enough to hold the turned one
+      => |R| half
+    half-turned: half is turned in place of the ends; these are lengths, no point => R
+      half
+    mean-along: it is the mean along the axis; it is the least
+    edges-only: only the box's edges are asked; a face may be nearer, and an axis in the
+      box goes unseen
+    faces-only: only the ends, and where the axis crosses a face's plane, are asked
+    point-to-box-in-turn: the nearest point in the box to a point of the axis, and of
+      the axis to that, are found in turn a few times only => 5 times from the middle
+    no-sections: nothing is cut off: one section leaves 0.618 of the axis
+    share-returned: this is the share of the axis, s, and not how far it is
     five-sections: a few sections are too few: each leaves 0.618 of the axis => after 5
     five-sections 2: a few sections are too few: each leaves 0.618 of the axis => after
       8
@@ -140,8 +163,55 @@ def _(a0, a1, r, T_world_box, half):
     def sections(n):
         return at(np.mean(golden(at, n))) - r
 
+    p, q = R.T @ (a0 - t), R.T @ (a1 - t)
+
+    def from_to(start, end, half=half):
+        return capsule_box(start, end, 0.0, np.eye(4), half) - r
+
+    def edges():
+        found = []
+        for i in range(3):
+            for x, y in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
+                start = half * np.insert([x, y], i, -1.0)
+                end = half * np.insert([x, y], i, 1.0)
+                found.append(np.linalg.norm(np.subtract(
+                    *segment_segment(p, q, start, end))))  # fmt: skip
+        return min(found) - r
+
+    def crossed():
+        some = [0.0, 1.0]
+        for i in range(3):
+            for side in (-half[i], half[i]):
+                share = (side - p[i]) / (q[i] - p[i]) if q[i] != p[i] else 0.0
+                some += [share] if 0 < share < 1 else []
+        return along(p, q, half, some).min() - r
+
+    def in_turn():
+        s = 0.5
+        for _ in range(5):
+            inside = np.clip(p + s * (q - p), -half, half)
+            s = np.clip((inside - p) @ (q - p) / ((q - p) @ (q - p)), 0, 1)
+        return box_sdf(p + s * (q - p), half) - r
+
     far = np.linalg.norm(a0 + to_middle * way - t)
     return {
+        "way-moved": lambda: from_to(p, p + R.T @ (way - t)),
+        "way-moved 2": lambda: from_to(p, p + q),
+        "way-of-length-1": lambda: from_to(p, p + R.T @ way / np.linalg.norm(way)),
+        "not-into-the-box": lambda: from_to(a0, a1),
+        "radius-off-the-box": lambda: from_to(p, q, half - r) + r,
+        "size-of-the-depth": abs(d) - r,
+        "size-of-the-distance": abs(d - r),
+        "largest-half": lambda: from_to(p, q, np.full(3, half.max())),
+        "sides-exchanged": lambda: from_to(p, q, half[[1, 0, 2]]),
+        "box-around-it": lambda: from_to(a0 - t, a1 - t, np.abs(R) @ half),
+        "half-turned": lambda: from_to(a0 - t, a1 - t, R @ half),
+        "mean-along": lambda: along(p, q, half, np.linspace(0, 1, 101)).mean() - r,
+        "edges-only": edges,
+        "faces-only": crossed,
+        "point-to-box-in-turn": in_turn,
+        "no-sections": lambda: min(at(x) for x in golden(at, 1)) - r,
+        "share-returned": lambda: golden(at, 60)[0],
         "ends-only": shares(0.0, 1.0),
         "middle-only": shares(0.5),
         "three-points": shares(0.0, 0.5, 1.0),

@@ -55,13 +55,84 @@ def _(a0, a1, ra, b0, b1, rb):
     of-end-pairs: the nearest ends are taken for the closest points
     largest-part: the largest of |x|, |y| and |z| is taken for the length
     sum-of-parts: the sum of |x|, |y| and |z| is taken for the length
+    twice-the-larger: the larger radius is taken off twice; each capsule has its own =>
+      2 max(ra, rb)
+    radii-as-sides: the radii are added as the sides of a right angle; one stands behind
+      the other => the root of ra^2 + rb^2
+    root-of-squares: it is the root of |p - o|^2 - (ra + rb)^2, a tangent's length; it
+      is |p - o| less ra + rb => 0 where they overlap
+    root-of-squares 2: it is the root of |p - o|^2 - (ra + rb)^2, a tangent's length; it
+      is |p - o| less ra + rb => below 0 where they overlap
+    least-part: the least of |x|, |y| and |z| is taken for the length
+    parts-with-signs: x, y and z are added with their signs; it is the root of their
+      squares
+    parts-with-signs 2: x, y and z are added with their signs; it is the root of their
+      squares => the size of the sum
+    mean-square: the root of the mean square is taken; it is that of the sum
+    lengths-differ: lengths of p and o are subtracted: that is how much farther one is
+      from the origin => | |p| - |o| |
+    cut-once: what is left after ra is cut at 0, and then rb is taken off
+    one-number-inside: what overlaps is -1 apart everywhere; it is less the deeper it is
+    one-number-inside 2: what overlaps is apart by minus the lesser radius everywhere
+    axes-inside: what overlaps is apart by minus the distance of the axes
+    ends-only: one of the points is always an end; where axes cross, both may lie
+      between the ends => the nearest end of one to the other
+    ends-only 2: only the first's ends are asked: its nearest point may lie between them
+    ends-only 3: only the second's ends are asked: its nearest point may lie between
+      them
+    grown-axes: the axes are longer by the radius at each end, and the radius is taken
+      off as well
+    starts-and-ends: segments from a0 to b0 and from a1 to b1 are taken; an axis is from
+      a0 to a1
     in-the-plane: only x and y are measured: the heights are forgotten
     """
     p, o = segment_segment(a0, a1, b0, b1)
     axes = np.linalg.norm(p - o)
     d = axes - ra - rb
     ends = min(np.linalg.norm(x - y) for x in (a0, a1) for y in (b0, b1))
+    square = axes**2 - (ra + rb) ** 2
+    way = p - o
+
+    def to(q, start, end):
+        u = end - start
+        share = np.clip((q - start) @ u / (u @ u), 0, 1) if u.any() else 0.0
+        return np.linalg.norm(q - start - share * u)
+
+    firsts = min(to(a0, b0, b1), to(a1, b0, b1))
+    seconds = min(to(b0, a0, a1), to(b1, a0, a1))
+
+    def grown(start, end, r):
+        size = np.linalg.norm(end - start)
+        return r * (end - start) / size if size else np.zeros(3)
+
+    def longer():
+        u, v = grown(a0, a1, ra), grown(b0, b1, rb)
+        x, y = segment_segment(a0 - u, a1 + u, b0 - v, b1 + v)
+        return np.linalg.norm(x - y) - ra - rb
+
+    def across():
+        x, y = segment_segment(a0, b0, a1, b1)
+        return np.linalg.norm(x - y) - ra - rb
+
     return {
+        "twice-the-larger": axes - 2 * max(ra, rb),
+        "radii-as-sides": axes - np.hypot(ra, rb),
+        "root-of-squares": np.sqrt(max(square, 0.0)),
+        "root-of-squares 2": np.sign(square) * np.sqrt(abs(square)),
+        "least-part": np.abs(way).min() - ra - rb,
+        "parts-with-signs": way.sum() - ra - rb,
+        "parts-with-signs 2": abs(way.sum()) - ra - rb,
+        "mean-square": axes / np.sqrt(3) - ra - rb,
+        "lengths-differ": abs(np.linalg.norm(p) - np.linalg.norm(o)) - ra - rb,
+        "cut-once": max(axes - ra, 0.0) - rb,
+        "one-number-inside": -1.0 if d < 0 else d,
+        "one-number-inside 2": -min(ra, rb) if d < 0 else d,
+        "axes-inside": -axes if d < 0 else d,
+        "ends-only": min(firsts, seconds) - ra - rb,
+        "ends-only 2": firsts - ra - rb,
+        "ends-only 3": seconds - ra - rb,
+        "grown-axes": longer,
+        "starts-and-ends": across,
         "radii-added": axes + ra + rb,
         "radii-forgotten": axes,
         "one-radius": axes - ra,

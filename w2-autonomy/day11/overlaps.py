@@ -69,12 +69,10 @@ def _(A, B):
     half-of-one: the middles may be as far apart as half of A; half of B counts, too
     corners-only: some corner of one has to lie in the other; boxes may cross without =>
       all 8 corners of both
-    corners-only 2: some corner of B has to lie in A; boxes may cross, or B hold A,
-      without => all 8 corners of B
+    corners-only 2: some corner of B has to lie in A, so on each axis one of its ends;
+      boxes may cross, or B hold A, without => all 8 corners of B
     corners-only 3: a least or greatest corner has to lie in the other box; boxes may
       overlap without => two corners of each
-    ends-in-between: on each axis an end of B has to lie between those of A; B may also
-      hold A there
     balls: the boxes are taken for balls around them, and those may touch where the
       boxes do not => half of the diagonals
     balls 2: the boxes are taken for balls inside them => half of the least sides
@@ -108,7 +106,6 @@ def _(A, B):
     share = np.minimum(A[1], B[1]) - np.maximum(A[0], B[0])
     apart = np.abs(A.mean(axis=0) - B.mean(axis=0))
     sides = A[1] - A[0], B[1] - B[0]
-    ends = [(A[0] <= end) & (end <= A[1]) for end in B]
     eight = [
         [inside(np.where(ends_of, Y[1], Y[0]), X) for ends_of in np.ndindex(2, 2, 2)]
         for X, Y in ((A, B), (B, A))
@@ -122,7 +119,6 @@ def _(A, B):
         "corners-only": any(map(any, eight)),
         "corners-only 2": any(eight[0]),
         "corners-only 3": any(two),
-        "ends-in-between": bool(np.all(ends[0] | ends[1])),
         "balls": balls(np.linalg.norm),
         "balls 2": balls(np.min),
         "balls 3": balls(np.max),

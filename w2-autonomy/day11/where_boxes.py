@@ -204,13 +204,8 @@ def both(case: Case) -> Finding | None:
     )
 
     def told(some: list[str]) -> str:
-        whole = [of.count(one) == every.count(one) for one in some]
-        return where.listed(
-            [
-                one + " (some)" * (not full)
-                for one, full in zip(some, whole, strict=True)
-            ]
-        )
+        part = {one for one in some if of.count(one) < every.count(one)}
+        return where.listed([one + " (some)" * (one in part) for one in some])
 
     parts = [f"it is True for boxes {told(true)}"] if true else []
     parts += [f"it is False for boxes {told(false)}"] if false else []
