@@ -38,10 +38,24 @@ def _(rng):
         (qd - slope * (slope @ qd + 0.3 + off) / (slope @ slope), slope, 0.1, 3.0)
         for off in (0.0005, -0.0005)
     ]  # 0.5 mm/s too fast, and not
+    deep = [
+        (qd - slope * (slope @ qd + speed) / (slope @ slope), slope, -0.05, 3.0)
+        for speed in (0.5, -0.1)
+    ]  # it overlaps: fast towards it, and away, but too slowly
     slow = (0.05 * rng.numbers(-1, 1, 7), slope, 0.2, 5.0)  # towards, and allowed
     return [case, (rng.numbers(-1, 1, 7), np.zeros(7), 0.1, 4.0),
             (rng.numbers(-1, 1, 7), np.zeros(7), -0.1, 4.0), inside, slow,
-            (-far, small, 0.01, 2.0), *hardly, *drawn]  # fmt: skip
+            (-far, small, 0.01, 2.0), *hardly, *deep, *drawn]  # fmt: skip
+
+
+# What changes nothing where the slope is 0.
+MORE = (
+    "left-where-it-overlaps", "no-way-out", "coming-near", "by-the-sizes", "half-of-it",
+    "twice-of-it", "one-joint-only", "one-joint-only 2", "alike", "by-signs",
+    "a-seventh-each", "divided-by-the-sum", "divided-by-the-largest", "divided-by-qd",
+    "those-that-come-near", "those-that-come-near 2", "gain-squared",
+    "distance-squared", "rate-added",
+)  # fmt: skip
 
 
 @row.wrongs
@@ -58,6 +72,8 @@ def _(qd, slope, distance, gain):
       too fast => qd times bound / speed
     stops-dead: it stops where it would be too fast; the part that is allowed is lost =>
       0
+    stops-dead 2: it stops where it would be too fast, and where the slope is 0 as well;
+      the part that is allowed is lost
     part-removed: all of the part along the slope is taken away; coming near slowly is
       allowed => without it
     sign-of-the-bound: the bound has the wrong sign: it may come nearer at gain distance
@@ -78,6 +94,39 @@ def _(qd, slope, distance, gain):
     slope-unit: the slope is made a unit vector before the bound: that is another speed
     only-inside: it is slowed only where it overlaps
     standing-still: it is 0 / 0 where the slope is 0; then nothing can be changed
+    part-alone: what is beside the slope is lost; it makes nothing nearer, and stays =>
+      slope bound / slope^2
+    left-where-it-overlaps: where it overlaps nothing is changed; it is to be driven out
+    stopped-where-it-overlaps: where it overlaps it is 0; the part that leads out stays
+    no-way-out: below 0 the distance counts as 0: where it overlaps it is not driven out
+    coming-near: whatever comes nearer is changed; what is slow enough may => where
+      slope . qd < 0
+    by-the-sizes: what moves away too fast counts as too fast, too => with |slope . qd|
+      and |distance|
+    half-of-it: only half of what is lacking is added
+    twice-of-it: twice what is lacking is added
+    one-joint-only: only the first joint is changed; nearest is all of them, along the
+      slope
+    one-joint-only 2: only the joint that comes near fastest is changed; nearest is all
+      of them, along the slope
+    alike: all joints are given the same; each is given its part of the slope => lack /
+      sum of slope
+    by-signs: all joints are given the same size; each is given its part of the slope =>
+      sign of slope, lack / sum |slope|
+    a-seventh-each: each joint makes up a seventh; nearest is each by its part of the
+      slope
+    divided-by-the-sum: it is divided by the sum of slope, not by slope . slope
+    divided-by-the-largest: it is divided by the largest slope squared, not by slope .
+      slope
+    divided-by-qd: it is divided by qd . qd, not by slope . slope
+    those-that-come-near: only joints that come nearer are changed; nearest is all of
+      them, along the slope
+    those-that-come-near 2: joints that come nearer are stopped; the part that is
+      allowed is lost
+    gain-squared: the gain is squared in the bound
+    distance-squared: the distance is squared in the bound
+    rate-added: slope . qd is added to the bound; it is what is there already => lack =
+      -gain distance + slope . qd
     lack-alone: this is the change alone; qd is to be added
     """
     bound = -gain * distance
@@ -103,6 +152,10 @@ def _(qd, slope, distance, gain):
             "joint-by-joint": qd.copy(),
             "standing-still": still if lack > 0 else qd.copy(),
             "lack-alone": np.zeros(7),
+            "part-alone": qd.copy(),
+            "stops-dead 2": np.zeros(7) if lack > 0 else qd.copy(),
+            "stopped-where-it-overlaps": np.zeros(7) if distance <= 0 else qd.copy(),
+            **dict.fromkeys(MORE, qd.copy()),
         }
 
     def to(bound, push=1.0, when=None):
@@ -117,12 +170,42 @@ def _(qd, slope, distance, gain):
         return qd * max(bound / rate, 0.0)
 
     big = int(np.argmax(np.abs(slope)))
-    one = qd.copy()
-    one[big] += lack / slope[big] if lack > 0 else 0.0
     alone = slope * qd
     apart = np.where(alone < bound, bound, alone)
     unit = slope / np.sqrt(square)
+
+    def add(change):
+        return qd + change if lack > 0 else qd.copy()
+
+    def one(k):
+        return add(np.eye(7)[k] * lack / slope[k] if slope[k] else 0.0)
+
+    towards = np.where(slope * qd < 0, slope, 0.0)
     return {
+        "part-alone": slope * bound / square if lack > 0 else qd.copy(),
+        "stops-dead 2": np.zeros(7) if lack > 0 else qd.copy(),
+        "stopped-where-it-overlaps": np.zeros(7) if distance <= 0 else to(bound),
+        "left-where-it-overlaps": qd.copy() if distance <= 0 else to(bound),
+        "no-way-out": to(-gain * max(distance, 0.0)),
+        "coming-near": to(bound, when=rate < 0),
+        "by-the-sizes": to(bound, when=abs(rate) > gain * abs(distance)),
+        "half-of-it": to(bound, 0.5),
+        "twice-of-it": to(bound, 2.0),
+        "one-joint-only": one(0),
+        "one-joint-only 2": one(int(np.argmin(slope * qd))),
+        "alike": add(lack / slope.sum()),
+        "by-signs": add(np.sign(slope) * lack / np.abs(slope).sum()),
+        "a-seventh-each": lambda: add(lack / slope / 7),
+        "divided-by-the-sum": add(slope * lack / slope.sum()),
+        "divided-by-the-largest": add(slope * lack / np.abs(slope).max() ** 2),
+        "divided-by-qd": lambda: add(slope * lack / (qd @ qd)),
+        "those-that-come-near": lambda: add(towards * lack / (towards @ towards)),
+        "those-that-come-near 2": np.where(slope * qd < 0, 0.0, qd)
+        if lack > 0 else qd.copy(),
+        "gain-squared": to(-(gain**2) * distance),
+        "distance-squared": to(-gain * distance**2),
+        "rate-added": qd + slope * (bound + rate) / square
+        if bound + rate > 0 else qd.copy(),
         "always": to(bound, when=True),
         "not-divided": qd + slope * max(lack, 0.0),
         "divided-by-the-length": qd + slope * max(lack, 0.0) / np.sqrt(square),
@@ -141,7 +224,7 @@ def _(qd, slope, distance, gain):
         to(-bound, when=rate > -bound),
         "joint-by-joint": np.where(slope != 0, apart / np.where(slope, slope, 1), qd),
         "joint-by-joint 2": np.maximum(qd, bound) if lack > 0 else qd.copy(),
-        "largest-joint-only": one,
+        "largest-joint-only": one(big),
         "slope-unit": qd + unit * max(bound - unit @ qd, 0.0),
         "only-inside": to(bound) if distance <= 0 else qd.copy(),
         "standing-still": slowed(qd, slope, distance, gain),
