@@ -61,6 +61,9 @@ def _(p, half):
     not-rooted: this is the square of the length outside
     nearest-corner: this is how far the nearest corner is; a face may be nearer
     largest-half: all sides are the largest => with half.max()
+    half-backwards: half is read from its end: its first entry is x's
+    last-half: all sides are the last => with half[2]
+    mean-half: all sides are the mean => with half.mean()
     first-half: all sides are the first => with half[0]
     in-the-plane: z is forgotten
     smallest-added: the least of |p| - half is added, above 0 as well; it is the
@@ -149,6 +152,9 @@ def _(p, half):
         "not-rooted": length**2 + inside,
         "nearest-corner": np.linalg.norm(np.abs(p) - half),
         "largest-half": of(p, np.full(3, half.max())),
+        "half-backwards": of(p, half[::-1]),
+        "last-half": of(p, np.full(3, half[2])),
+        "mean-half": of(p, np.full(3, half.mean())),
         "first-half": of(p, np.full(3, half[0])),
         "in-the-plane": of(p[:2], half[:2]),
         "cut-at-both": np.linalg.norm(np.clip(p, -half, half)),

@@ -75,7 +75,14 @@ def golden(f, n, keep=0.618, wrong=False):
 def _(a0, a1, r, T_world_box, half):
     """ends-only: only the ends of the axis are asked; its nearest point may lie between
       them
+    one-end-only: it is a1's distance, whatever is found: the upper part is always kept
+    one-end-only 2: it is a0's distance, whatever is found: the lower part is always
+      kept
     middle-only: only the middle of the axis is asked
+    five-points: only some points of the axis are asked; the nearest one lies between
+      them => the least at 0, 0.25, 0.5, 0.75 and 1
+    five-points 2: only some points of the axis are asked; the nearest one lies between
+      them => the least at 0.25, 0.5 and 0.75
     three-points: only both ends and the middle are asked; the nearest point may lie
       between them
     eleven-points: only some points of the axis are asked, as by linspace; the nearest
@@ -213,7 +220,11 @@ def _(a0, a1, r, T_world_box, half):
         "no-sections": lambda: min(at(x) for x in golden(at, 1)) - r,
         "share-returned": lambda: golden(at, 60)[0],
         "ends-only": shares(0.0, 1.0),
+        "one-end-only": shares(1.0),
+        "one-end-only 2": shares(0.0),
         "middle-only": shares(0.5),
+        "five-points": shares(0.0, 0.25, 0.5, 0.75, 1.0),
+        "five-points 2": shares(0.25, 0.5, 0.75),
         "three-points": shares(0.0, 0.5, 1.0),
         "eleven-points": lambda: shares(*np.linspace(0, 1, 11)),
         "eleven-points 2": lambda: shares(*np.linspace(0, 1, 21)),

@@ -55,6 +55,14 @@ def _(a0, a1, ra, b0, b1, rb):
     of-end-pairs: the nearest ends are taken for the closest points
     largest-part: the largest of |x|, |y| and |z| is taken for the length
     sum-of-parts: the sum of |x|, |y| and |z| is taken for the length
+    in-the-plane 2: only y and z are measured
+    in-the-plane 3: only x and z are measured
+    product-of-radii: the root of the product of the radii is taken off
+    squares-of-radii: the squares of the radii are taken off
+    over-the-radii: it is divided by the radii: that is a ratio, no distance => |p - o|
+      / (ra + rb) - 1
+    ends-and-middles: only the ends and the middles of both axes are asked
+    same-share: both points are at the same share of their axes; each has its own
     twice-the-larger: the larger radius is taken off twice; each capsule has its own =>
       2 max(ra, rb)
     radii-as-sides: the radii are added as the sides of a right angle; one stands behind
@@ -115,6 +123,19 @@ def _(a0, a1, ra, b0, b1, rb):
         return np.linalg.norm(x - y) - ra - rb
 
     return {
+        "in-the-plane 2": np.linalg.norm(way[1:]) - ra - rb,
+        "in-the-plane 3": np.linalg.norm(way[::2]) - ra - rb,
+        "product-of-radii": axes - np.sqrt(ra * rb),
+        "squares-of-radii": axes - ra**2 - rb**2,
+        "over-the-radii": axes / (ra + rb) - 1 if ra + rb else np.inf,
+        "ends-and-middles": min(
+            np.linalg.norm(x - y)
+            for x in (a0, (a0 + a1) / 2, a1)
+            for y in (b0, (b0 + b1) / 2, b1)
+        )
+        - ra
+        - rb,
+        "same-share": to(np.zeros(3), a0 - b0, a1 - b1) - ra - rb,
         "twice-the-larger": axes - 2 * max(ra, rb),
         "radii-as-sides": axes - np.hypot(ra, rb),
         "root-of-squares": np.sqrt(max(square, 0.0)),

@@ -71,6 +71,10 @@ def _(J_space, p, o, link):
     parts-summed: the sizes of the velocity's parts are added; only what is along n
       counts
     summed-up: each entry has those before it added => the cumulative sum
+    one-place-early: each entry stands at the joint before its own; joint 1's is the
+      first
+    one-place-late: each entry stands at the joint behind its own; joint 1's is the
+      first
     backwards: the joints are in the reverse order => joint 7 first
     backwards 2: the link's joints are in the reverse order => its own first
     own-length: all entries together are made a unit vector
@@ -113,6 +117,8 @@ def _(J_space, p, o, link):
         "two-directions": lambda: velocity @ (to(p) - to(o)) * mask,
         "parts-summed": np.abs(velocity).sum(axis=1) * mask,
         "summed-up": np.cumsum(right) * mask,
+        "one-place-early": np.roll(right, -1),
+        "one-place-late": np.roll(right, 1),
         "backwards": (velocity @ n)[::-1] * mask,
         "backwards 2": np.append(right[:link][::-1], np.zeros(7 - link)),
         "own-length": lambda: to(right),

@@ -69,6 +69,7 @@ def _(s, distance, dq, reach):
     stops-inside 2: where it touches it is 0
     still-before-touching: that nothing moves is asked first; where it touches it is s,
       whether it moves or not => 1 there
+    reach-backwards: the reaches are counted from the tip: joint 1 has the last one's
     last-reach: every joint is given the last one's reach
     reaches-summed: the reaches are added, and the turns; each turn has its own reach =>
       sum |dq| times sum reach
@@ -114,6 +115,7 @@ def _(s, distance, dq, reach):
 
     return {
         "still-before-touching": 1.0 if still else s if inside else plain(),
+        "reach-backwards": by(turns @ reach[::-1]),
         "last-reach": by(turns.sum() * reach[-1]),
         "reaches-summed": by(turns.sum() * reach.sum()),
         "reaches-summed 2": by(turns.max() * reach.sum()),

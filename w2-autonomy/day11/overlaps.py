@@ -25,9 +25,11 @@ def _(rng):
     big = np.array([(-2.0, -2, -2), (3, 3, 3)])
     bar = np.array([(-1.0, 0.25, 0.25), (2, 0.75, 0.75)])  # along x, through a unit
     post = np.array([(0.25, 0.5, -1.0), (0.75, 0.7, 2)])
+    under = np.array([(-1, -1, 0.2), (0.5, 0.5, 0.5)])  # its greatest corner in a unit
     first = [(unit, unit + x), (unit, unit + y + z), (unit, unit + 1.001 * y),
              (unit + x + y + z, unit), (unit, big), (big, unit),
              (bar, post), (post, bar), (bar, unit), (bar, post + 2 * z),
+             (unit, under), (under, unit),
              (unit, unit + x - 2 * y), (unit + x - 1.2 * y, unit), (unit, unit + 5 * z),
              (unit, unit + 1.5 * y + x), (unit, unit - 3 * x - 2 * y),
              (unit, unit + 1.3 * x - 1.4 * z),
@@ -73,10 +75,14 @@ def _(A, B):
       boxes may cross, or B hold A, without => all 8 corners of B
     corners-only 3: a least or greatest corner has to lie in the other box; boxes may
       overlap without => two corners of each
-    balls: the boxes are taken for balls around them, and those may touch where the
-      boxes do not => half of the diagonals
-    balls 2: the boxes are taken for balls inside them => half of the least sides
-    balls 3: the boxes are taken for balls => half of the greatest sides
+    corners-only 4: the least corner of one has to lie in the other; boxes may overlap
+      without
+    balls: the way between the middles is one length here, as of balls; it is at most
+      half of both sides on each axis alone => half of the diagonals
+    balls 2: the way between the middles is one length here, as of balls; it is at most
+      half of both sides on each axis alone => half of the least sides
+    balls 3: the way between the middles is one length here, as of balls; it is at most
+      half of both sides on each axis alone => half of the greatest sides
     sides-not-halved: the middles may be as far apart as both sides; half of both is it
     sides-in-quarters: the middles may be as far apart as a quarter of both sides; half
       of both is it
@@ -119,6 +125,7 @@ def _(A, B):
         "corners-only": any(map(any, eight)),
         "corners-only 2": any(eight[0]),
         "corners-only 3": any(two),
+        "corners-only 4": two[0] or two[2],
         "balls": balls(np.linalg.norm),
         "balls 2": balls(np.min),
         "balls 3": balls(np.max),

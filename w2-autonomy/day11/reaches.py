@@ -81,6 +81,8 @@ def _(offsets, far):
       taken of far, and of both others together
     largest-of-three: the largest of far, offset and the next one's reach is taken; the
       last two are added
+    largest-far-next: the largest far is added to the offset; each link has its own => the
+      larger of far and offset + largest far
     mean-not-largest: it is the mean over the links behind it; a bound is the largest
     offsets-alone: the larger of far and all offsets behind it is taken
     last-link-forgotten: the last link's far is 0
@@ -174,6 +176,9 @@ def _(offsets, far):
         ),
         "largest-of-three": turn_by_turn(
             lambda i, next_: max(far[i], offsets[i], next_)
+        ),
+        "largest-far-next": of(
+            lambda i: max(far[i], offsets[i] + far.max()) if i < n - 1 else far[i]
         ),
         "mean-not-largest": of(
             lambda i: np.mean([behind(i, j) + far[j] for j in range(i, n)])

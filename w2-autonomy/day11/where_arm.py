@@ -104,6 +104,8 @@ LINKS = ("its own link", "the next link", "a link between", "the last link")
 def lengths(case: Case) -> Finding | None:
     """Return for which joints, or farthest links, a reach is wrong."""
     all_ = where.seen(case)
+    if any(s.shape != t.shape for s, t in zip(all_.S, all_.T, strict=True)):
+        return None
     places: dict[str, list[bool]] = {}
     links: dict[str, list[bool]] = {}
     offs = []

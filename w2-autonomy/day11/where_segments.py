@@ -139,7 +139,7 @@ def _taken_off(all_: where.Seen, large: str) -> Finding | None:
         )
         return Finding("other-radii", says)
     says = (
-        "The distance of the axes is another one: with equal radii what you take off "
-        f"|p - o| is not always the same.{large} What is the length of p - o?"
+        "With equal radii, what you take off |p - o| is not always the same, so more "
+        f"than the radii is wrong.{large} What is the length of p - o?"
     )
     return Finding("other-length", says)
