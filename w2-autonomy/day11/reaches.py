@@ -81,8 +81,8 @@ def _(offsets, far):
       taken of far, and of both others together
     largest-of-three: the largest of far, offset and the next one's reach is taken; the
       last two are added
-    largest-far-next: the largest far is added to the offset; each link has its own => the
-      larger of far and offset + largest far
+    largest-far-next: the largest far is added to the offset; each link has its own =>
+      the larger of far and offset + largest far
     mean-not-largest: it is the mean over the links behind it; a bound is the largest
     offsets-alone: the larger of far and all offsets behind it is taken
     last-link-forgotten: the last link's far is 0
