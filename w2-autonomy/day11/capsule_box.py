@@ -129,8 +129,12 @@ def _(a0, a1, r, T_world_box, half):
     radius-off-the-box: the box is smaller by the radius; it is taken off the distance
     size-of-the-depth: inside, the depth counts as a distance => |d| - r
     size-of-the-distance: what overlaps counts as apart => |d - r|
+    radius-off-the-box 2: the box is smaller by the radius; it is taken off the distance
+      => with half - r at the right place
     largest-half: all sides are the largest => with half.max()
+    largest-half 2: all sides are the largest => with half.max() at the right place
     sides-exchanged: x and y of half are exchanged
+    sides-exchanged 2: x and y of half are exchanged => at the right place
     box-around-it: the box is not turned, but made large enough to hold the turned one
       => |R| half
     half-turned: half is turned in place of the ends; these are lengths, no point => R
@@ -141,7 +145,8 @@ def _(a0, a1, r, T_world_box, half):
     faces-only: only the ends, and where the axis crosses a face's plane, are asked
     point-to-box-in-turn: the nearest point in the box to a point of the axis, and of
       the axis to that, are found in turn a few times only => 5 times from the middle
-    no-sections: nothing is cut off: one section leaves 0.618 of the axis
+    one-section: one section alone is made: it leaves 0.618 of the axis
+    radius-times-the-length: r is taken times the axis' length: that is no width
     share-returned: this is the share of the axis, s, and not how far it is
     five-sections: a few sections are too few: each leaves 0.618 of the axis => after 5
     five-sections 2: a few sections are too few: each leaves 0.618 of the axis => after
@@ -174,6 +179,9 @@ def _(a0, a1, r, T_world_box, half):
 
     def from_to(start, end, half=half):
         return capsule_box(start, end, 0.0, np.eye(4), half) - r
+
+    def nearest_with(other):
+        return along(p, q, other, golden(at, 60)).min()
 
     def edges():
         found = []
@@ -217,7 +225,11 @@ def _(a0, a1, r, T_world_box, half):
         "edges-only": edges,
         "faces-only": crossed,
         "point-to-box-in-turn": in_turn,
-        "no-sections": lambda: min(at(x) for x in golden(at, 1)) - r,
+        "radius-times-the-length": d - r * np.linalg.norm(way),
+        "radius-off-the-box 2": lambda: nearest_with(half - r),
+        "largest-half 2": lambda: nearest_with(np.full(3, half.max())) - r,
+        "sides-exchanged 2": lambda: nearest_with(half[[1, 0, 2]]) - r,
+        "one-section": lambda: min(at(x) for x in golden(at, 1)) - r,
         "share-returned": lambda: golden(at, 60)[0],
         "ends-only": shares(0.0, 1.0),
         "one-end-only": shares(1.0),

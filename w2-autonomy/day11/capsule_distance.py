@@ -88,6 +88,16 @@ def _(a0, a1, ra, b0, b1, rb):
     ends-only 2: only the first's ends are asked: its nearest point may lie between them
     ends-only 3: only the second's ends are asked: its nearest point may lie between
       them
+    sampled: only some points of each axis are tried, as by linspace; the closest ones
+      lie between them => the best of 11 x 11 points
+    sampled 2: only some points of each axis are tried, as by linspace; the closest ones
+      lie between them => the best of 21 x 21 points
+    sampled 3: only some points of each axis are tried, as by linspace; the closest ones
+      lie between them => the best of 51 x 51 points
+    sampled 4: only some points of each axis are tried, as by linspace; the closest ones
+      lie between them => the best of 101 x 101 points
+    lines: the axes are taken as lines without ends => |(b0 - a0) . n|, n the unit
+      vector across both
     grown-axes: the axes are longer by the radius at each end, and the radius is taken
       off as well
     starts-and-ends: segments from a0 to b0 and from a1 to b1 are taken; an axis is from
@@ -117,6 +127,18 @@ def _(a0, a1, ra, b0, b1, rb):
         u, v = grown(a0, a1, ra), grown(b0, b1, rb)
         x, y = segment_segment(a0 - u, a1 + u, b0 - v, b1 + v)
         return np.linalg.norm(x - y) - ra - rb
+
+    def sampled(n):
+        some = np.linspace(0, 1, n)[:, None]
+        each = (a0 + some * (a1 - a0))[:, None] - (b0 + some * (b1 - b0))
+        return np.linalg.norm(each, axis=2).min() - ra - rb
+
+    def lines():
+        u = a1 - a0
+        n = np.cross(u, b1 - b0)
+        if n.any():
+            return abs((b0 - a0) @ n) / np.linalg.norm(n) - ra - rb
+        return np.linalg.norm(np.cross(b0 - a0, u)) / np.linalg.norm(u) - ra - rb
 
     def across():
         x, y = segment_segment(a0, b0, a1, b1)
@@ -152,6 +174,11 @@ def _(a0, a1, ra, b0, b1, rb):
         "ends-only": min(firsts, seconds) - ra - rb,
         "ends-only 2": firsts - ra - rb,
         "ends-only 3": seconds - ra - rb,
+        "sampled": lambda: sampled(11),
+        "sampled 2": lambda: sampled(21),
+        "sampled 3": lambda: sampled(51),
+        "sampled 4": lambda: sampled(101),
+        "lines": lines,
         "grown-axes": longer,
         "starts-and-ends": across,
         "radii-added": axes + ra + rb,

@@ -53,8 +53,9 @@ row = Row(
 def _(rng):
     case = ((-1, 0, 0), (1, 0, 0), (0, -1, 1), (0, 1, 1))
     ends = ((0, 0, 0), (1, 0, 0), (2, 1, 0), (1, 2, 0))
+    hardly = ((-1, 0, 0), (1, 0, 0), (-1, -0.1, 1), (1, 0.15, 1))  # 7 degrees
     drawn = [pairs.segments(rng, one) for one in 6 * pairs.KINDS]
-    return [*pairs.arrays([case, ends]), *drawn]
+    return [*pairs.arrays([case, ends, hardly]), *drawn]
 
 
 @row.wrongs
@@ -299,14 +300,26 @@ def _(a0, a1, b0, b1):  # 1e-6 metres to the fourth power.
     return np.array([a0 + s * u, b0 + t * v])
 
 
-@row.wrong("nearly-parallel")
-def _(a0, a1, b0, b1):  # What differs by 2 degrees and less counts as parallel.
-    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
-    across = a * c - b * b
-    s = cut((b * e - c * d) / across) if across > 1e-3 * a * c else 0.0
-    t = cut((b * s + e) / c) if c else 0.0
-    s = cut((b * t - d) / a) if a else 0.0
-    return np.array([a0 + s * u, b0 + t * v])
+def least_angle(share):
+    """Return the way that takes for parallel what has less than this sin^2."""
+
+    def code(a0, a1, b0, b1):
+        u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+        across = a * c - b * b
+        start = (b * e - c * d) / across if across > share * a * c else 0.0
+        s = cut(start)
+        t = cut((b * s + e) / c) if c else 0.0
+        s = cut((b * t - d) / a) if a else 0.0
+        return np.array([a0 + s * u, b0 + t * v])
+
+    return code
+
+
+ALIKE = "segments that differ by a few degrees count as parallel; they have one closest pair"
+row.wrong("nearly-parallel")(least_angle(1e-3))
+for share in (0.02, 0.05, 0.1):
+    what = f"parallel where a c - b b is at most {share:g} a c"
+    row.wrong("nearly-parallel", ALIKE, what)(least_angle(share))
 
 
 def rounds(n, start):
