@@ -315,10 +315,13 @@ def least_angle(share):
     return code
 
 
-ALIKE = "segments that differ by a few degrees count as parallel; they have one closest pair"
+ALIKE = (
+    "segments that differ by a few degrees count as parallel; "
+    "they have one closest pair"
+)
 row.wrong("nearly-parallel")(least_angle(1e-3))
 for share in (0.02, 0.05, 0.1):
-    what = f"parallel where a c - b b is at most {share:g} a c"
+    what = f"parallel up to a c - b b = {share:g} a c"
     row.wrong("nearly-parallel", ALIKE, what)(least_angle(share))
 
 
