@@ -145,33 +145,35 @@ def _(a0, a1, ra, b0, b1, rb):
         return np.linalg.norm(x - y) - ra - rb
 
     return {
-        "in-the-plane 2": np.linalg.norm(way[1:]) - ra - rb,
-        "in-the-plane 3": np.linalg.norm(way[::2]) - ra - rb,
-        "product-of-radii": axes - np.sqrt(ra * rb),
+        "in-the-plane 2": lambda: np.linalg.norm(way[1:]) - ra - rb,
+        "in-the-plane 3": lambda: np.linalg.norm(way[::2]) - ra - rb,
+        "product-of-radii": lambda: axes - np.sqrt(ra * rb),
         "squares-of-radii": axes - ra**2 - rb**2,
         "over-the-radii": axes / (ra + rb) - 1 if ra + rb else np.inf,
-        "ends-and-middles": min(
-            np.linalg.norm(x - y)
-            for x in (a0, (a0 + a1) / 2, a1)
-            for y in (b0, (b0 + b1) / 2, b1)
-        )
-        - ra
-        - rb,
-        "same-share": to(np.zeros(3), a0 - b0, a1 - b1) - ra - rb,
-        "twice-the-larger": axes - 2 * max(ra, rb),
-        "radii-as-sides": axes - np.hypot(ra, rb),
-        "root-of-squares": np.sqrt(max(square, 0.0)),
-        "root-of-squares 2": np.sign(square) * np.sqrt(abs(square)),
-        "least-part": np.abs(way).min() - ra - rb,
-        "parts-with-signs": way.sum() - ra - rb,
-        "parts-with-signs 2": abs(way.sum()) - ra - rb,
-        "mean-square": axes / np.sqrt(3) - ra - rb,
-        "lengths-differ": abs(np.linalg.norm(p) - np.linalg.norm(o)) - ra - rb,
-        "cut-once": max(axes - ra, 0.0) - rb,
+        "ends-and-middles": lambda: (
+            min(
+                np.linalg.norm(x - y)
+                for x in (a0, (a0 + a1) / 2, a1)
+                for y in (b0, (b0 + b1) / 2, b1)
+            )
+            - ra
+            - rb
+        ),
+        "same-share": lambda: to(np.zeros(3), a0 - b0, a1 - b1) - ra - rb,
+        "twice-the-larger": lambda: axes - 2 * max(ra, rb),
+        "radii-as-sides": lambda: axes - np.hypot(ra, rb),
+        "root-of-squares": lambda: np.sqrt(max(square, 0.0)),
+        "root-of-squares 2": lambda: np.sign(square) * np.sqrt(abs(square)),
+        "least-part": lambda: np.abs(way).min() - ra - rb,
+        "parts-with-signs": lambda: way.sum() - ra - rb,
+        "parts-with-signs 2": lambda: abs(way.sum()) - ra - rb,
+        "mean-square": lambda: axes / np.sqrt(3) - ra - rb,
+        "lengths-differ": lambda: abs(np.linalg.norm(p) - np.linalg.norm(o)) - ra - rb,
+        "cut-once": lambda: max(axes - ra, 0.0) - rb,
         "one-number-inside": -1.0 if d < 0 else d,
-        "one-number-inside 2": -min(ra, rb) if d < 0 else d,
+        "one-number-inside 2": lambda: -min(ra, rb) if d < 0 else d,
         "axes-inside": -axes if d < 0 else d,
-        "ends-only": min(firsts, seconds) - ra - rb,
+        "ends-only": lambda: min(firsts, seconds) - ra - rb,
         "ends-only 2": firsts - ra - rb,
         "ends-only 3": seconds - ra - rb,
         "sampled": lambda: sampled(11),
@@ -188,20 +190,20 @@ def _(a0, a1, ra, b0, b1, rb):
         "as-diameters": axes - ra / 2 - rb / 2,
         "twice-the-radii": axes - 2 * ra - 2 * rb,
         "radii-differ": axes - (ra - rb),
-        "radii-differ 2": axes - abs(ra - rb),
-        "larger-radius": axes - max(ra, rb),
+        "radii-differ 2": lambda: axes - abs(ra - rb),
+        "larger-radius": lambda: axes - max(ra, rb),
         "radii-multiplied": axes - ra * rb,
-        "never-negative": max(0.0, d),
-        "sign-lost": abs(d),
+        "never-negative": lambda: max(0.0, d),
+        "sign-lost": lambda: abs(d),
         "squared": axes**2 - ra - rb,
         "squared 2": axes**2 - (ra + rb) ** 2,
         "sign": -d,
-        "of-middles": np.linalg.norm((a0 + a1 - b0 - b1) / 2) - ra - rb,
-        "of-starts": np.linalg.norm(a0 - b0) - ra - rb,
+        "of-middles": lambda: np.linalg.norm((a0 + a1 - b0 - b1) / 2) - ra - rb,
+        "of-starts": lambda: np.linalg.norm(a0 - b0) - ra - rb,
         "of-end-pairs": ends - ra - rb,
-        "largest-part": np.abs(p - o).max() - ra - rb,
-        "sum-of-parts": np.abs(p - o).sum() - ra - rb,
-        "in-the-plane": np.linalg.norm((p - o)[:2]) - ra - rb,
+        "largest-part": lambda: np.abs(p - o).max() - ra - rb,
+        "sum-of-parts": lambda: np.abs(p - o).sum() - ra - rb,
+        "in-the-plane": lambda: np.linalg.norm((p - o)[:2]) - ra - rb,
     }
 
 

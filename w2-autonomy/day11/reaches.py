@@ -151,68 +151,76 @@ def _(offsets, far):
         return reach
 
     return {
-        "less-the-base": (base + far).max() - base,
-        "less-the-base 2": of(lambda i: (base + far)[i:].max()),
-        "largest-far-behind": of(lambda i: behind(i, n - 1) + far[i:].max()),
-        "largest-far-behind 2": of(
+        "less-the-base": lambda: (base + far).max() - base,
+        "less-the-base 2": lambda: of(lambda i: (base + far)[i:].max()),
+        "largest-far-behind": lambda: of(lambda i: behind(i, n - 1) + far[i:].max()),
+        "largest-far-behind 2": lambda: of(
             lambda i: max(far[i], behind(i, n - 1) + far[i + 1 :].max(initial=0.0))
         ),
-        "own-offset-repeated": largest(lambda i, j: (j - i) * offsets[i] + far[j]),
-        "offset-of-the-one-before": turn_by_turn(
+        "own-offset-repeated": lambda: (
+            largest(lambda i, j: (j - i) * offsets[i] + far[j])
+        ),
+        "offset-of-the-one-before": lambda: turn_by_turn(
             lambda i, next_: max(far[i], offsets[i - 1] + next_)
         ),
-        "far-of-the-next": turn_by_turn(
+        "far-of-the-next": lambda: turn_by_turn(
             lambda i, next_: max(far[i + 1], offsets[i] + next_)
         ),
-        "own-left-out": of(
+        "own-left-out": lambda: of(
             lambda i: max([behind(i, j) + far[j] for j in range(i + 1, n)], default=0)
         ),
-        "own-or-tip": of(lambda i: max(far[i], behind(i, n - 1) + far[-1])),
-        "two-behind-only": of(
+        "own-or-tip": lambda: of(lambda i: max(far[i], behind(i, n - 1) + far[-1])),
+        "two-behind-only": lambda: of(
             lambda i: max(behind(i, j) + far[j] for j in range(i, min(i + 3, n)))
         ),
-        "sum-not-largest": turn_by_turn(
+        "sum-not-largest": lambda: turn_by_turn(
             lambda i, next_: far[i] + max(offsets[i], next_)
         ),
-        "largest-of-three": turn_by_turn(
+        "largest-of-three": lambda: turn_by_turn(
             lambda i, next_: max(far[i], offsets[i], next_)
         ),
-        "largest-far-next": of(
+        "largest-far-next": lambda: of(
             lambda i: max(far[i], offsets[i] + far.max()) if i < n - 1 else far[i]
         ),
-        "mean-not-largest": of(
+        "mean-not-largest": lambda: of(
             lambda i: np.mean([behind(i, j) + far[j] for j in range(i, n)])
         ),
-        "offsets-alone": of(lambda i: max(far[i], offsets[i:].sum())),
-        "last-link-forgotten": turn_by_turn(
+        "offsets-alone": lambda: of(lambda i: max(far[i], offsets[i:].sum())),
+        "last-link-forgotten": lambda: turn_by_turn(
             lambda i, next_: max(far[i], offsets[i] + next_), 0.0
         ),
-        "last-link-forgotten 2": largest(lambda i, j: behind(i, j) + far[j], n - 1),
-        "offsets-to-the-end": of(lambda i: offsets[i:].sum() + far[-1]),
-        "offset-too-early": largest(lambda i, j: offsets[i : j + 1].sum() + far[j]),
-        "to-the-tip-only": of(lambda i: behind(i, n - 1) + far[-1]),
-        "own-link-only": far.copy(),
-        "next-only": of(lambda i: max(far[i], offsets[i] + far[i + 1])
+        "last-link-forgotten 2": lambda: (
+            largest(lambda i, j: behind(i, j) + far[j], n - 1)
+        ),
+        "offsets-to-the-end": lambda: of(lambda i: offsets[i:].sum() + far[-1]),
+        "offset-too-early": lambda: (
+            largest(lambda i, j: offsets[i : j + 1].sum() + far[j])
+        ),
+        "to-the-tip-only": lambda: of(lambda i: behind(i, n - 1) + far[-1]),
+        "own-link-only": lambda: far.copy(),
+        "next-only": lambda: of(lambda i: max(far[i], offsets[i] + far[i + 1])
                         if i < n - 1 else far[i]),
-        "from-the-base": of(lambda i: behind(0, i) + far[i]),
-        "offset-one-late": reaches(late, far),
+        "from-the-base": lambda: of(lambda i: behind(0, i) + far[i]),
+        "offset-one-late": lambda: reaches(late, far),
         "offset-of-the-last": with_last,
         "offset-of-the-last 2": with_end,
         "offset-to-its-own": to_its_own,
-        "far-forgotten": of(lambda i: behind(i, n - 1)),
-        "offsets-forgotten": of(lambda i: far[i:].max()),
-        "all-summed": of(lambda i: behind(i, n - 1) + far[i:].sum()),
-        "largest-far": of(lambda i: behind(i, n - 1) + far.max()),
+        "far-forgotten": lambda: of(lambda i: behind(i, n - 1)),
+        "offsets-forgotten": lambda: of(lambda i: far[i:].max()),
+        "all-summed": lambda: of(lambda i: behind(i, n - 1) + far[i:].sum()),
+        "largest-far": lambda: of(lambda i: behind(i, n - 1) + far.max()),
         "least": least,
-        "not-in-a-row": of(lambda i: far[i] + (offsets[i] if i < n - 1 else 0.0)),
+        "not-in-a-row": lambda: (
+            of(lambda i: far[i] + (offsets[i] if i < n - 1 else 0.0))
+        ),
         "euclid": euclid,
-        "one-for-all": np.full(n, right.max()),
-        "backwards": right[::-1].copy(),
-        "sum-from-the-base": of(lambda i: behind(0, i + 1) + far[i]),
-        "far-of-its-own": of(lambda i: behind(i, n - 1) + far[i]),
-        "far-of-its-own 2": of(lambda i: offsets[i:].sum() + far[i]),
+        "one-for-all": lambda: np.full(n, right.max()),
+        "backwards": lambda: right[::-1].copy(),
+        "sum-from-the-base": lambda: of(lambda i: behind(0, i + 1) + far[i]),
+        "far-of-its-own": lambda: of(lambda i: behind(i, n - 1) + far[i]),
+        "far-of-its-own 2": lambda: of(lambda i: offsets[i:].sum() + far[i]),
         "forwards": forwards,
-        "far-twice": of(lambda i: far[i] + right[i]),
+        "far-twice": lambda: of(lambda i: far[i] + right[i]),
     }  # fmt: skip
 
 
