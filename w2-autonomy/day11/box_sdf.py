@@ -110,7 +110,6 @@ def _(p, half):
         return np.linalg.norm(np.maximum(beyond, 0.0)) + min(beyond.max(), 0.0)
 
     outside = inside == 0
-    two = np.linalg.norm(np.sort(out)[1:])
     return {
         "smallest-added": lambda: length + beyond.min(),
         "first-axis-added": lambda: length + min(beyond[0], 0.0),
@@ -125,7 +124,7 @@ def _(p, half):
         "size-of-the-difference": lambda: np.linalg.norm(p - half),
         "cut-at-one": lambda: np.linalg.norm(np.minimum(out, 1.0)) + inside,
         "corner-or-face": lambda: length if out.all() else beyond.max(),
-        "two-of-three": two + inside,
+        "two-of-three": lambda: np.linalg.norm(np.sort(out)[1:]) + inside,
         "first-two-only": lambda: (
             (beyond.max() if out[2] else length) if outside else inside
         ),
