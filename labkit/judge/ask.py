@@ -163,6 +163,7 @@ class Ask:
     # Says where an answer that no named mistake gives goes wrong, of another size too:
     # S and T of the case are filled up with zeros then.
     unnamed: Callable[[Case], Finding | None] | None = None
+    before_slips: bool = True  # whether `unnamed` is told before a slip, too
     # Says why an answer is right to some digits only.
     near_miss: Callable[[Case], Finding | None] | None = None
     measured: Callable[[Case], Sequence[str]] | None = None  # adds lines for --explain

@@ -1,12 +1,13 @@
 """11.3 `box_sdf(p, half)`: its questions and its mistakes."""
 
-from functools import partial
 
 import numpy as np
 
 from labkit.judge import Row, Scalar, rounded
 
-row = Row(Scalar(unit="m"))
+from . import where_boxes
+
+row = Row(Scalar(unit="m"), unnamed=where_boxes.point, before_slips=False)
 
 
 @row.inputs
@@ -61,8 +62,37 @@ def _(p, half):
     not-rooted: this is the square of the length outside
     nearest-corner: this is how far the nearest corner is; a face may be nearer
     largest-half: all sides are the largest => with half.max()
+    half-backwards: half is read from its end: its first entry is x's
+    last-half: all sides are the last => with half[2]
+    mean-half: all sides are the mean => with half.mean()
     first-half: all sides are the first => with half[0]
     in-the-plane: z is forgotten
+    smallest-added: the least of |p| - half is added, above 0 as well; it is the
+      largest, where that is below 0 => the length, and min(|p| - half)
+    first-axis-added: what is added to the length is x's |p| - half where that is below
+      0; it is the largest of all three
+    largest-with-max: max(..., 0) stands for min(..., 0): outside the largest comes on
+      top, and inside it is 0
+    sum-inside: inside the three ways to the faces are added; the nearest is the way out
+    mean-inside: inside it is the mean of the three ways; the nearest is the way out
+    one-number-inside: inside it is -1 everywhere; it is the way to the nearest face
+    least-half-inside: inside it is minus the least half everywhere; that is right in
+      the middle alone
+    smallest-part-inside: inside it is minus the least of |p|; the faces are half away
+    upper-faces-inside: inside only the faces above 0 count: the others may be nearer =>
+      minus the least of half - p
+    lengthwise: it is measured along the line to the middle; the nearest point of a face
+      lies straight below => |p| (1 - 1 / max(|p| / half))
+    size-of-the-difference: |p - half| is taken: it is |p| - half
+    cut-at-one: what is beyond a face is cut to 1 at most
+    corner-or-face: beyond an edge, two faces, it is the length of both; this is the
+      larger of them => the length beyond corners alone
+    two-of-three: beyond a corner all three count; this is the length of the larger two
+    first-two-only: beyond a face of z the length of x and y is left out => the largest
+      there
+    mean-square: the root of the mean square is taken; it is that of the sum
+    smallest-taken-off: the least size of |p| - half is taken off, outside as well
+    edges-negative: beyond an edge or a corner its sign is the other one
     cut-at-both: this is p cut to the box, and its length => the norm of the nearest
       point
     """
@@ -80,32 +110,60 @@ def _(p, half):
         beyond = p - half
         return np.linalg.norm(np.maximum(beyond, 0.0)) + min(beyond.max(), 0.0)
 
+    outside = inside == 0
     return {
+        "smallest-added": lambda: length + beyond.min(),
+        "first-axis-added": lambda: length + min(beyond[0], 0.0),
+        "largest-with-max": lambda: length + max(beyond.max(), 0.0),
+        "sum-inside": lambda: length if outside else beyond.sum(),
+        "mean-inside": lambda: length if outside else beyond.mean(),
+        "one-number-inside": length if outside else -1.0,
+        "least-half-inside": lambda: length if outside else -half.min(),
+        "smallest-part-inside": lambda: length if outside else -np.abs(p).min(),
+        "upper-faces-inside": lambda: length if outside else -(half - p).min(),
+        "lengthwise": lambda: far * (1 - 1 / (np.abs(p) / half).max()),
+        "size-of-the-difference": lambda: np.linalg.norm(p - half),
+        "cut-at-one": lambda: np.linalg.norm(np.minimum(out, 1.0)) + inside,
+        "corner-or-face": lambda: length if out.all() else beyond.max(),
+        "two-of-three": lambda: np.linalg.norm(np.sort(out)[1:]) + inside,
+        "first-two-only": lambda: (
+            (beyond.max() if out[2] else length) if outside else inside
+        ),
+        "mean-square": lambda: length / np.sqrt(3) + inside,
+        "smallest-taken-off": lambda: length - np.abs(beyond).min(),
+        "edges-negative": lambda: -length if np.sum(out > 0) > 1 else length + inside,
         "zero-inside": length,
         "inside-positive": length - inside,
         "sign": -(length + inside),
-        "largest-outside": beyond.max(),
-        "sum-outside": out.sum() + inside,
-        "inside-added-outside": np.linalg.norm(beyond) if inside == 0 else inside,
-        "depth-added-outside": length + beyond.max(),
-        "inside-by-the-norm": length if inside == 0 else -np.linalg.norm(beyond),
-        "farthest-face-inside": length if inside == 0 else beyond.min(),
-        "farthest-face-inside 2": length + min(beyond.min(), 0.0),
+        "largest-outside": lambda: beyond.max(),
+        "sum-outside": lambda: out.sum() + inside,
+        "inside-added-outside": lambda: (
+            np.linalg.norm(beyond) if inside == 0 else inside
+        ),
+        "depth-added-outside": lambda: length + beyond.max(),
+        "inside-by-the-norm": lambda: (
+            length if inside == 0 else -np.linalg.norm(beyond)
+        ),
+        "farthest-face-inside": lambda: length if inside == 0 else beyond.min(),
+        "farthest-face-inside 2": lambda: length + min(beyond.min(), 0.0),
         "to-the-middle-inside": length if inside == 0 else -far,
         "to-the-middle": far,
-        "box-as-a-ball": far - np.linalg.norm(half),
-        "box-as-a-ball 2": far - half.max(),
-        "box-as-a-ball 3": far - half.min(),
-        "whole-sides": partial(of, p, half / 2),
-        "twice-the-sides": partial(of, p, 2 * half),
+        "box-as-a-ball": lambda: far - np.linalg.norm(half),
+        "box-as-a-ball 2": lambda: far - half.max(),
+        "box-as-a-ball 3": lambda: far - half.min(),
+        "whole-sides": lambda: of(p, half / 2),
+        "twice-the-sides": lambda: of(p, 2 * half),
         "abs-forgotten": unfolded,
-        "abs-forgotten-zero-inside": np.linalg.norm(np.maximum(p - half, 0.0)),
+        "abs-forgotten-zero-inside": lambda: np.linalg.norm(np.maximum(p - half, 0.0)),
         "not-rooted": length**2 + inside,
-        "nearest-corner": np.linalg.norm(np.abs(p) - half),
-        "largest-half": partial(of, p, np.full(3, half.max())),
-        "first-half": partial(of, p, np.full(3, half[0])),
-        "in-the-plane": partial(of, p[:2], half[:2]),
-        "cut-at-both": np.linalg.norm(np.clip(p, -half, half)),
+        "nearest-corner": lambda: np.linalg.norm(np.abs(p) - half),
+        "largest-half": lambda: of(p, np.full(3, half.max())),
+        "half-backwards": lambda: of(p, half[::-1]),
+        "last-half": lambda: of(p, np.full(3, half[2])),
+        "mean-half": lambda: of(p, np.full(3, half.mean())),
+        "first-half": lambda: of(p, np.full(3, half[0])),
+        "in-the-plane": lambda: of(p[:2], half[:2]),
+        "cut-at-both": lambda: np.linalg.norm(np.clip(p, -half, half)),
     }
 
 

@@ -3,16 +3,16 @@
 import numpy as np
 
 from labkit.judge import Finding, Row, Scalar
-from robo47.distance import box_sdf, capsule_box
+from robo47.distance import box_sdf, capsule_box, segment_segment
 
-from . import pairs
+from . import pairs, where_boxes
 
 
 def above(case):
     """Say so where no answer is too small: the axis' nearest point was not found."""
     more = case.S - case.T
     if more.min() < -1e-9 or more.max() > 0.2 or (more > 1e-9).all():
-        return None
+        return where_boxes.capsule(case)
     return Finding(
         "not-the-least",
         f"No answer is too small, some are up to {1000 * more.max():.3g} mm too large: "
@@ -22,7 +22,7 @@ def above(case):
 
 
 # Ten sections and less leave some 1e-4: near in method.
-row = Row(Scalar(unit="m"), near=1e-3, unnamed=above)
+row = Row(Scalar(unit="m"), near=1e-3, unnamed=above, before_slips=False)
 
 
 @row.inputs
@@ -75,7 +75,14 @@ def golden(f, n, keep=0.618, wrong=False):
 def _(a0, a1, r, T_world_box, half):
     """ends-only: only the ends of the axis are asked; its nearest point may lie between
       them
+    one-end-only: it is a1's distance, whatever is found: the upper part is always kept
+    one-end-only 2: it is a0's distance, whatever is found: the lower part is always
+      kept
     middle-only: only the middle of the axis is asked
+    five-points: only some points of the axis are asked; the nearest one lies between
+      them => the least at 0, 0.25, 0.5, 0.75 and 1
+    five-points 2: only some points of the axis are asked; the nearest one lies between
+      them => the least at 0.25, 0.5 and 0.75
     three-points: only both ends and the middle are asked; the nearest point may lie
       between them
     eleven-points: only some points of the axis are asked, as by linspace; the nearest
@@ -113,6 +120,34 @@ def _(a0, a1, r, T_world_box, half):
     sign: its sign is the other one: apart is above 0
     outside-only: the axis counts as outside: inside it is below 0 => 0 there, less r
     as-a-line: the axis is not cut at its ends: this is the least on a far longer one
+    way-moved: t is taken off the way as well; a way from end to end has no place => R^T
+      (a1 - a0 - t)
+    way-moved 2: the way is taken to a1 from the box's middle; it is from a0 => R^T (a1
+      - t)
+    way-of-length-1: the way is made a unit vector, and s still goes from 0 to 1 only
+    not-into-the-box: the ends are taken as they are: neither turned nor moved
+    radius-off-the-box: the box is smaller by the radius; it is taken off the distance
+    size-of-the-depth: inside, the depth counts as a distance => |d| - r
+    size-of-the-distance: what overlaps counts as apart => |d - r|
+    radius-off-the-box 2: the box is smaller by the radius; it is taken off the distance
+      => with half - r at the right place
+    largest-half: all sides are the largest => with half.max()
+    largest-half 2: all sides are the largest => with half.max() at the right place
+    sides-exchanged: x and y of half are exchanged
+    sides-exchanged 2: x and y of half are exchanged => at the right place
+    box-around-it: the box is not turned, but made large enough to hold the turned one
+      => |R| half
+    half-turned: half is turned in place of the ends; these are lengths, no point => R
+      half
+    mean-along: it is the mean along the axis; it is the least
+    edges-only: only the box's edges are asked; a face may be nearer, and an axis in the
+      box goes unseen
+    faces-only: only the ends, and where the axis crosses a face's plane, are asked
+    point-to-box-in-turn: the nearest point in the box to a point of the axis, and of
+      the axis to that, are found in turn a few times only => 5 times from the middle
+    one-section: one section alone is made: it leaves 0.618 of the axis
+    radius-times-the-length: r is taken times the axis' length: that is no width
+    share-returned: this is the share of the axis, s, and not how far it is
     five-sections: a few sections are too few: each leaves 0.618 of the axis => after 5
     five-sections 2: a few sections are too few: each leaves 0.618 of the axis => after
       8
@@ -140,10 +175,68 @@ def _(a0, a1, r, T_world_box, half):
     def sections(n):
         return at(np.mean(golden(at, n))) - r
 
+    p, q = R.T @ (a0 - t), R.T @ (a1 - t)
+
+    def from_to(start, end, half=half):
+        return capsule_box(start, end, 0.0, np.eye(4), half) - r
+
+    def nearest_with(other):
+        return along(p, q, other, golden(at, 60)).min()
+
+    def edges():
+        found = []
+        for i in range(3):
+            for x, y in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
+                start = half * np.insert([x, y], i, -1.0)
+                end = half * np.insert([x, y], i, 1.0)
+                found.append(np.linalg.norm(np.subtract(
+                    *segment_segment(p, q, start, end))))  # fmt: skip
+        return min(found) - r
+
+    def crossed():
+        some = [0.0, 1.0]
+        for i in range(3):
+            for side in (-half[i], half[i]):
+                share = (side - p[i]) / (q[i] - p[i]) if q[i] != p[i] else 0.0
+                some += [share] if 0 < share < 1 else []
+        return along(p, q, half, some).min() - r
+
+    def in_turn():
+        s = 0.5
+        for _ in range(5):
+            inside = np.clip(p + s * (q - p), -half, half)
+            s = np.clip((inside - p) @ (q - p) / ((q - p) @ (q - p)), 0, 1)
+        return box_sdf(p + s * (q - p), half) - r
+
     far = np.linalg.norm(a0 + to_middle * way - t)
     return {
+        "way-moved": lambda: from_to(p, p + R.T @ (way - t)),
+        "way-moved 2": lambda: from_to(p, p + q),
+        "way-of-length-1": lambda: from_to(p, p + R.T @ way / np.linalg.norm(way)),
+        "not-into-the-box": lambda: from_to(a0, a1),
+        "radius-off-the-box": lambda: from_to(p, q, half - r) + r,
+        "size-of-the-depth": abs(d) - r,
+        "size-of-the-distance": abs(d - r),
+        "largest-half": lambda: from_to(p, q, np.full(3, half.max())),
+        "sides-exchanged": lambda: from_to(p, q, half[[1, 0, 2]]),
+        "box-around-it": lambda: from_to(a0 - t, a1 - t, np.abs(R) @ half),
+        "half-turned": lambda: from_to(a0 - t, a1 - t, R @ half),
+        "mean-along": lambda: along(p, q, half, np.linspace(0, 1, 101)).mean() - r,
+        "edges-only": edges,
+        "faces-only": crossed,
+        "point-to-box-in-turn": in_turn,
+        "radius-times-the-length": d - r * np.linalg.norm(way),
+        "radius-off-the-box 2": lambda: nearest_with(half - r),
+        "largest-half 2": lambda: nearest_with(np.full(3, half.max())) - r,
+        "sides-exchanged 2": lambda: nearest_with(half[[1, 0, 2]]) - r,
+        "one-section": lambda: min(at(x) for x in golden(at, 1)) - r,
+        "share-returned": lambda: golden(at, 60)[0],
         "ends-only": shares(0.0, 1.0),
+        "one-end-only": shares(1.0),
+        "one-end-only 2": shares(0.0),
         "middle-only": shares(0.5),
+        "five-points": shares(0.0, 0.25, 0.5, 0.75, 1.0),
+        "five-points 2": shares(0.25, 0.5, 0.75),
         "three-points": shares(0.0, 0.5, 1.0),
         "eleven-points": lambda: shares(*np.linspace(0, 1, 11)),
         "eleven-points 2": lambda: shares(*np.linspace(0, 1, 21)),

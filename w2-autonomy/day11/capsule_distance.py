@@ -5,9 +5,9 @@ import numpy as np
 from labkit.judge import Row, Scalar
 from robo47.distance import segment_segment
 
-from . import pairs
+from . import pairs, where_segments
 
-row = Row(Scalar(unit="m"))
+row = Row(Scalar(unit="m"), unnamed=where_segments.gap, before_slips=False)
 
 
 @row.inputs
@@ -55,13 +55,134 @@ def _(a0, a1, ra, b0, b1, rb):
     of-end-pairs: the nearest ends are taken for the closest points
     largest-part: the largest of |x|, |y| and |z| is taken for the length
     sum-of-parts: the sum of |x|, |y| and |z| is taken for the length
+    in-the-plane 2: only y and z are measured
+    in-the-plane 3: only x and z are measured
+    product-of-radii: the root of the product of the radii is taken off
+    squares-of-radii: the squares of the radii are taken off
+    over-the-radii: it is divided by the radii: that is a ratio, no distance => |p - o|
+      / (ra + rb) - 1
+    ends-and-middles: only the ends and the middles of both axes are asked
+    same-share: both points are at the same share of their axes; each has its own
+    twice-the-larger: the larger radius is taken off twice; each capsule has its own =>
+      2 max(ra, rb)
+    radii-as-sides: the radii are added as the sides of a right angle; one stands behind
+      the other => the root of ra^2 + rb^2
+    root-of-squares: it is the root of |p - o|^2 - (ra + rb)^2, a tangent's length; it
+      is |p - o| less ra + rb => 0 where they overlap
+    root-of-squares 2: it is the root of |p - o|^2 - (ra + rb)^2, a tangent's length; it
+      is |p - o| less ra + rb => below 0 where they overlap
+    least-part: the least of |x|, |y| and |z| is taken for the length
+    parts-with-signs: x, y and z are added with their signs; it is the root of their
+      squares
+    parts-with-signs 2: x, y and z are added with their signs; it is the root of their
+      squares => the size of the sum
+    mean-square: the root of the mean square is taken; it is that of the sum
+    lengths-differ: lengths of p and o are subtracted: that is how much farther one is
+      from the origin => | |p| - |o| |
+    cut-once: what is left after ra is cut at 0, and then rb is taken off
+    one-number-inside: what overlaps is -1 apart everywhere; it is less the deeper it is
+    one-number-inside 2: what overlaps is apart by minus the lesser radius everywhere
+    axes-inside: what overlaps is apart by minus the distance of the axes
+    ends-only: one of the points is always an end; where axes cross, both may lie
+      between the ends => the nearest end of one to the other
+    ends-only 2: only the first's ends are asked: its nearest point may lie between them
+    ends-only 3: only the second's ends are asked: its nearest point may lie between
+      them
+    sampled: only some points of each axis are tried, as by linspace; the closest ones
+      lie between them => the best of 11 x 11 points
+    sampled 2: only some points of each axis are tried, as by linspace; the closest ones
+      lie between them => the best of 21 x 21 points
+    sampled 3: only some points of each axis are tried, as by linspace; the closest ones
+      lie between them => the best of 51 x 51 points
+    sampled 4: only some points of each axis are tried, as by linspace; the closest ones
+      lie between them => the best of 101 x 101 points
+    lines: the axes are taken as lines without ends => |(b0 - a0) . n|, n the unit
+      vector across both
+    grown-axes: the axes are longer by the radius at each end, and the radius is taken
+      off as well
+    starts-and-ends: segments from a0 to b0 and from a1 to b1 are taken; an axis is from
+      a0 to a1
     in-the-plane: only x and y are measured: the heights are forgotten
     """
     p, o = segment_segment(a0, a1, b0, b1)
     axes = np.linalg.norm(p - o)
     d = axes - ra - rb
     ends = min(np.linalg.norm(x - y) for x in (a0, a1) for y in (b0, b1))
+    square = axes**2 - (ra + rb) ** 2
+    way = p - o
+
+    def to(q, start, end):
+        u = end - start
+        share = np.clip((q - start) @ u / (u @ u), 0, 1) if u.any() else 0.0
+        return np.linalg.norm(q - start - share * u)
+
+    firsts = min(to(a0, b0, b1), to(a1, b0, b1))
+    seconds = min(to(b0, a0, a1), to(b1, a0, a1))
+
+    def grown(start, end, r):
+        size = np.linalg.norm(end - start)
+        return r * (end - start) / size if size else np.zeros(3)
+
+    def longer():
+        u, v = grown(a0, a1, ra), grown(b0, b1, rb)
+        x, y = segment_segment(a0 - u, a1 + u, b0 - v, b1 + v)
+        return np.linalg.norm(x - y) - ra - rb
+
+    def sampled(n):
+        some = np.linspace(0, 1, n)[:, None]
+        each = (a0 + some * (a1 - a0))[:, None] - (b0 + some * (b1 - b0))
+        return np.linalg.norm(each, axis=2).min() - ra - rb
+
+    def lines():
+        u = a1 - a0
+        n = np.cross(u, b1 - b0)
+        if n.any():
+            return abs((b0 - a0) @ n) / np.linalg.norm(n) - ra - rb
+        return np.linalg.norm(np.cross(b0 - a0, u)) / np.linalg.norm(u) - ra - rb
+
+    def across():
+        x, y = segment_segment(a0, b0, a1, b1)
+        return np.linalg.norm(x - y) - ra - rb
+
     return {
+        "in-the-plane 2": lambda: np.linalg.norm(way[1:]) - ra - rb,
+        "in-the-plane 3": lambda: np.linalg.norm(way[::2]) - ra - rb,
+        "product-of-radii": lambda: axes - np.sqrt(ra * rb),
+        "squares-of-radii": axes - ra**2 - rb**2,
+        "over-the-radii": axes / (ra + rb) - 1 if ra + rb else np.inf,
+        "ends-and-middles": lambda: (
+            min(
+                np.linalg.norm(x - y)
+                for x in (a0, (a0 + a1) / 2, a1)
+                for y in (b0, (b0 + b1) / 2, b1)
+            )
+            - ra
+            - rb
+        ),
+        "same-share": lambda: to(np.zeros(3), a0 - b0, a1 - b1) - ra - rb,
+        "twice-the-larger": lambda: axes - 2 * max(ra, rb),
+        "radii-as-sides": lambda: axes - np.hypot(ra, rb),
+        "root-of-squares": lambda: np.sqrt(max(square, 0.0)),
+        "root-of-squares 2": lambda: np.sign(square) * np.sqrt(abs(square)),
+        "least-part": lambda: np.abs(way).min() - ra - rb,
+        "parts-with-signs": lambda: way.sum() - ra - rb,
+        "parts-with-signs 2": lambda: abs(way.sum()) - ra - rb,
+        "mean-square": lambda: axes / np.sqrt(3) - ra - rb,
+        "lengths-differ": lambda: abs(np.linalg.norm(p) - np.linalg.norm(o)) - ra - rb,
+        "cut-once": lambda: max(axes - ra, 0.0) - rb,
+        "one-number-inside": -1.0 if d < 0 else d,
+        "one-number-inside 2": lambda: -min(ra, rb) if d < 0 else d,
+        "axes-inside": -axes if d < 0 else d,
+        "ends-only": lambda: min(firsts, seconds) - ra - rb,
+        "ends-only 2": firsts - ra - rb,
+        "ends-only 3": seconds - ra - rb,
+        "sampled": lambda: sampled(11),
+        "sampled 2": lambda: sampled(21),
+        "sampled 3": lambda: sampled(51),
+        "sampled 4": lambda: sampled(101),
+        "lines": lines,
+        "grown-axes": longer,
+        "starts-and-ends": across,
         "radii-added": axes + ra + rb,
         "radii-forgotten": axes,
         "one-radius": axes - ra,
@@ -69,20 +190,20 @@ def _(a0, a1, ra, b0, b1, rb):
         "as-diameters": axes - ra / 2 - rb / 2,
         "twice-the-radii": axes - 2 * ra - 2 * rb,
         "radii-differ": axes - (ra - rb),
-        "radii-differ 2": axes - abs(ra - rb),
-        "larger-radius": axes - max(ra, rb),
+        "radii-differ 2": lambda: axes - abs(ra - rb),
+        "larger-radius": lambda: axes - max(ra, rb),
         "radii-multiplied": axes - ra * rb,
-        "never-negative": max(0.0, d),
-        "sign-lost": abs(d),
+        "never-negative": lambda: max(0.0, d),
+        "sign-lost": lambda: abs(d),
         "squared": axes**2 - ra - rb,
         "squared 2": axes**2 - (ra + rb) ** 2,
         "sign": -d,
-        "of-middles": np.linalg.norm((a0 + a1 - b0 - b1) / 2) - ra - rb,
-        "of-starts": np.linalg.norm(a0 - b0) - ra - rb,
+        "of-middles": lambda: np.linalg.norm((a0 + a1 - b0 - b1) / 2) - ra - rb,
+        "of-starts": lambda: np.linalg.norm(a0 - b0) - ra - rb,
         "of-end-pairs": ends - ra - rb,
-        "largest-part": np.abs(p - o).max() - ra - rb,
-        "sum-of-parts": np.abs(p - o).sum() - ra - rb,
-        "in-the-plane": np.linalg.norm((p - o)[:2]) - ra - rb,
+        "largest-part": lambda: np.abs(p - o).max() - ra - rb,
+        "sum-of-parts": lambda: np.abs(p - o).sum() - ra - rb,
+        "in-the-plane": lambda: np.linalg.norm((p - o)[:2]) - ra - rb,
     }
 
 

@@ -7,10 +7,14 @@ from labkit.judge.argument_mistakes import HALVES_SWAPPED
 from robo47 import panda
 from robo47.jacobian import space_jacobian
 
+from . import where_arm
+
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 row = Row(
     Vector((7,), "m/rad", names=JOINTS),
     at_edge=lambda J_space, p, o, link: bool(np.linalg.norm(p - o) > 1e-3),
+    unnamed=where_arm.terms,
+    before_slips=False,
 )
 row.of_argument("J_space", HALVES_SWAPPED)
 
@@ -42,6 +46,7 @@ def _(J_space, p, o, link):
       more
     from-the-link-on: what is kept are the link's own joint and those behind it; they
       are the last to move it => from joint `link` on
+    first-joint-left-out: joint 1 moves every link: its entry is 0 here => from joint 2
     own-joint-only: every joint before the link moves it, too; this keeps the link's own
     columns-before-dropped: what is kept are the joints behind the link => 0 before it
     rotation-forgotten: v alone is the velocity of the point at the world's origin; p's
@@ -59,6 +64,20 @@ def _(J_space, p, o, link):
     only-along-z: only the height counts
     not-projected: these are the speeds of p, and not how much of each is along n
     size-only: its sign is lost: some joints come nearer => the absolute values
+    parts-added: |x| + |y| + |z| of p - o is taken for its length
+    largest-part: the largest of |x|, |y| and |z| of p - o is taken for its length
+    two-directions: p and o are made unit vectors, each alone; it is their difference
+      that is => p / |p| - o / |o|
+    parts-summed: the sizes of the velocity's parts are added; only what is along n
+      counts
+    summed-up: each entry has those before it added => the cumulative sum
+    one-place-early: each entry stands at the joint before its own; joint 1's is the
+      first
+    one-place-late: each entry stands at the joint behind its own; joint 1's is the
+      first
+    backwards: the joints are in the reverse order => joint 7 first
+    backwards 2: the link's joints are in the reverse order => its own first
+    own-length: all entries together are made a unit vector
     of-the-square: this is the slope of the distance squared, 2 d d'
     """
     n = (p - o) / np.linalg.norm(p - o)
@@ -76,22 +95,33 @@ def _(J_space, p, o, link):
     return {
         "towards-the-obstacle": -right,
         "columns-behind-kept": velocity @ n,
-        "own-joint-left-out": right * (np.arange(7) < link - 1),
-        "one-column-too-many": velocity @ n * (np.arange(7) <= link),
-        "from-the-link-on": velocity @ n * (np.arange(7) >= link - 1),
+        "own-joint-left-out": lambda: right * (np.arange(7) < link - 1),
+        "one-column-too-many": lambda: velocity @ n * (np.arange(7) <= link),
+        "first-joint-left-out": lambda: right * (np.arange(7) > 0),
+        "from-the-link-on": lambda: velocity @ n * (np.arange(7) >= link - 1),
         "own-joint-only": alone,
         "columns-before-dropped": velocity @ n * ~mask,
         "rotation-forgotten": v @ n * mask,
-        "rotation-only": np.cross(w, p) @ n * mask,
-        "cross-the-other-way": (v - np.cross(w, p)) @ n * mask,
+        "rotation-only": lambda: np.cross(w, p) @ n * mask,
+        "cross-the-other-way": lambda: (v - np.cross(w, p)) @ n * mask,
         "normal-not-unit": right * d,
         "normal-squared": right / d,
         "half": right / 2,
         "normal-of-p": lambda: velocity @ to(p) * mask,
         "normal-of-o": lambda: velocity @ to(o) * mask,
-        "only-along-z": velocity[:, 2] * np.sign(n[2]) * mask,
-        "not-projected": np.linalg.norm(velocity, axis=1) * mask,
-        "size-only": np.abs(right),
+        "only-along-z": lambda: velocity[:, 2] * np.sign(n[2]) * mask,
+        "not-projected": lambda: np.linalg.norm(velocity, axis=1) * mask,
+        "size-only": lambda: np.abs(right),
+        "parts-added": lambda: right * d / np.abs(p - o).sum(),
+        "largest-part": lambda: right * d / np.abs(p - o).max(),
+        "two-directions": lambda: velocity @ (to(p) - to(o)) * mask,
+        "parts-summed": lambda: np.abs(velocity).sum(axis=1) * mask,
+        "summed-up": lambda: np.cumsum(right) * mask,
+        "one-place-early": lambda: np.roll(right, -1),
+        "one-place-late": lambda: np.roll(right, 1),
+        "backwards": (velocity @ n)[::-1] * mask,
+        "backwards 2": lambda: np.append(right[:link][::-1], np.zeros(7 - link)),
+        "own-length": lambda: to(right),
         "of-the-square": 2 * d * right,
     }
 

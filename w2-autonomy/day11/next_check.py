@@ -4,7 +4,9 @@ import numpy as np
 
 from labkit.judge import Row, Scalar
 
-row = Row(Scalar())
+from . import where_arm
+
+row = Row(Scalar(), unnamed=where_arm.step, before_slips=False)
 
 
 @row.inputs
@@ -23,12 +25,15 @@ def _(rng):
         case, (0.4, 0.2, one, rng.numbers(0.2, 1.2, 7)), (0.95, 0.5, half, half),
         (0.3, 0.1, np.zeros(7), half), (0.3, -0.05, half, half), (0.6, 0.0, half, half),
         (0.0, 3.0, half, half), (0.5, 0.0005, half, half), (0.5, -0.0005, half, half),
+        (0.3, -0.05, np.zeros(7), half), (0.4, 0.0, np.zeros(7), half),
         (0.1, 0.02, np.full(7, -0.05), half), (0.3, 0.0001, 0.0002 * half, half),
         *drawn,
     ]  # fmt: skip
 
 
-@row.wrongs
+@row.wrongs(
+    hidden={"still-before-touching": "in a run nothing is still where it touches"}
+)
 def _(s, distance, dq, reach):
     """no-bound: the distance itself is taken for a share of the way: metres are not s
       => s + distance
@@ -64,6 +69,29 @@ def _(s, distance, dq, reach):
     goes-on-inside: where it touches it goes on; s itself is asked for => with |d|
     stops-inside: where it touches it goes to the end
     stops-inside 2: where it touches it is 0
+    still-before-touching: that nothing moves is asked first; where it touches it is s,
+      whether it moves or not => 1 there
+    reach-backwards: the reaches are counted from the tip: joint 1 has the last one's
+    last-reach: every joint is given the last one's reach
+    reaches-summed: the reaches are added, and the turns; each turn has its own reach =>
+      sum |dq| times sum reach
+    reaches-summed 2: the largest turn is taken with all reaches; each has its own
+    reaches-summed 3: the length of dq is taken with all reaches; each has its own
+    one-direction: only joints that turn forwards count; others move it as well => dq
+      above 0
+    one-left-out: the last joint is left out
+    one-left-out 2: the first joint is left out
+    turn-squared: |dq| is squared
+    reach-squared: reach is squared
+    chord: the chord of each turn is taken, 2 sin(dq / 2); a point goes along the arc
+    mean-of-joints: it is the mean over the joints; what all do adds up
+    step-capped: the step is cut to 1, and s + step may be beyond the end => s + min(1,
+      step)
+    step-capped 2: s is taken off the end and not added to the step => min(1 - s, step)
+    max-for-min: max stands for min: it is always 1 or more
+    shares-summed: the steps that each joint alone allows are added
+    careful: a part of the free way is gone alone, for safety => 0.9
+    careful 2: a part of the free way is gone alone, for safety => 0.95
     time: this is the number of steps, 1 / step
     """
     speed = np.abs(dq) @ reach
@@ -81,7 +109,35 @@ def _(s, distance, dq, reach):
     def plain():
         return min(1.0, s + distance / speed) if speed else 1.0
 
+    turns = np.abs(dq)
+
+    def each():
+        moving = turns * reach > 0
+        return gone(np.sum(distance / (turns * reach)[moving]))
+
     return {
+        "still-before-touching": 1.0 if still else s if inside else plain(),
+        "reach-backwards": by(turns @ reach[::-1]),
+        "last-reach": by(turns.sum() * reach[-1]),
+        "reaches-summed": by(turns.sum() * reach.sum()),
+        "reaches-summed 2": by(turns.max() * reach.sum()),
+        "reaches-summed 3": by(np.linalg.norm(dq) * reach.sum()),
+        "one-direction": by(np.maximum(dq, 0) @ reach),
+        "one-left-out": by(turns[:-1] @ reach[:-1]),
+        "one-left-out 2": by(turns[1:] @ reach[1:]),
+        "turn-squared": by(turns**2 @ reach),
+        "reach-squared": by(turns @ reach**2),
+        "chord": by(2 * np.abs(np.sin(dq / 2)) @ reach),
+        "mean-of-joints": by(np.mean(turns * reach)),
+        "step-capped": lambda: s if inside else 1.0 if still else
+        s + min(1.0, distance / speed),
+        "step-capped 2": lambda: s if inside else 1.0 if still else
+        min(1.0 - s, distance / speed),
+        "max-for-min": lambda: s if inside else 1.0 if still else
+        max(1.0, s + distance / speed),
+        "shares-summed": each,
+        "careful": lambda: gone(0.9 * distance / speed),
+        "careful 2": lambda: gone(0.95 * distance / speed),
         "no-bound": s if inside else min(1.0, s + distance),
         "signs-kept": by(dq @ reach),
         "signs-kept 2": by(abs(dq @ reach)),

@@ -13,6 +13,11 @@ PARALLEL = [
     ((0, 0, 0), (0, -4, 0), (1, 2, 2), (1, 5, 2)),
     ((1, 1, 1), (2, 2, 2), (-1, -1, 1), (-3, -3, -1)),
 ]
+# Nearly: half a degree, and one closest pair all the same.
+NEARLY_PARALLEL = [
+    ((-1, 0, 0), (1, 0, 0), (-1, -0.005, 1), (1, 0.0125, 1)),
+    ((0, -1, 0), (0, 1, 0), (1, 1, -0.0125), (1, -1, 0.004)),
+]
 # Parallel, side by side: many pairs, one distance.
 ALONGSIDE = [
     ((0, 0, 0), (2, 0, 0), (1, 1, 0), (3, 1, 0)),

@@ -5,11 +5,15 @@ import numpy as np
 from labkit.judge import Row, Vector
 from robo47.distance import slowed
 
+from . import where_arm
+
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 # Where the slope is 0 and the arm overlaps, a slope of 1e-12 would ask for any speed.
 row = Row(
     Vector((7,), "rad/s", names=JOINTS),
     at_edge=lambda qd, slope, distance, gain: bool(slope.any()),
+    unnamed=where_arm.kept,
+    before_slips=False,
 )
 
 
@@ -34,13 +38,29 @@ def _(rng):
         (qd - slope * (slope @ qd + 0.3 + off) / (slope @ slope), slope, 0.1, 3.0)
         for off in (0.0005, -0.0005)
     ]  # 0.5 mm/s too fast, and not
+    deep = [
+        (qd - slope * (slope @ qd + speed) / (slope @ slope), slope, -0.05, 3.0)
+        for speed in (0.5, -0.1)
+    ]  # it overlaps: fast towards it, and away, but too slowly
     slow = (0.05 * rng.numbers(-1, 1, 7), slope, 0.2, 5.0)  # towards, and allowed
     return [case, (rng.numbers(-1, 1, 7), np.zeros(7), 0.1, 4.0),
             (rng.numbers(-1, 1, 7), np.zeros(7), -0.1, 4.0), inside, slow,
-            (-far, small, 0.01, 2.0), *hardly, *drawn]  # fmt: skip
+            (-far, small, 0.01, 2.0), *hardly, *deep, *drawn]  # fmt: skip
 
 
-@row.wrongs
+# What changes nothing where the slope is 0.
+MORE = (
+    "left-where-it-overlaps", "no-way-out", "coming-near", "by-the-sizes", "half-of-it",
+    "twice-of-it", "one-joint-only", "one-joint-only 2", "alike", "by-signs",
+    "a-seventh-each", "divided-by-the-sum", "divided-by-the-largest", "divided-by-qd",
+    "those-that-come-near", "those-that-come-near 2", "gain-squared",
+    "distance-squared", "rate-added",
+)  # fmt: skip
+
+
+@row.wrongs(
+    hidden={"coming-near": "hardly a speed in a run comes near and is slow enough"}
+)
 def _(qd, slope, distance, gain):
     """always: it is changed where nothing has to be: speeds that are allowed stay =>
       slope . qd made -gain distance everywhere
@@ -54,6 +74,8 @@ def _(qd, slope, distance, gain):
       too fast => qd times bound / speed
     stops-dead: it stops where it would be too fast; the part that is allowed is lost =>
       0
+    stops-dead 2: it stops where it would be too fast, and where the slope is 0 as well;
+      the part that is allowed is lost
     part-removed: all of the part along the slope is taken away; coming near slowly is
       allowed => without it
     sign-of-the-bound: the bound has the wrong sign: it may come nearer at gain distance
@@ -74,6 +96,39 @@ def _(qd, slope, distance, gain):
     slope-unit: the slope is made a unit vector before the bound: that is another speed
     only-inside: it is slowed only where it overlaps
     standing-still: it is 0 / 0 where the slope is 0; then nothing can be changed
+    part-alone: what is beside the slope is lost; it makes nothing nearer, and stays =>
+      slope bound / slope^2
+    left-where-it-overlaps: where it overlaps nothing is changed; it is to be driven out
+    stopped-where-it-overlaps: where it overlaps it is 0; the part that leads out stays
+    no-way-out: below 0 the distance counts as 0: where it overlaps it is not driven out
+    coming-near: whatever comes nearer is changed; what is slow enough may => where
+      slope . qd < 0
+    by-the-sizes: what moves away too fast counts as too fast, too => with |slope . qd|
+      and |distance|
+    half-of-it: only half of what is lacking is added
+    twice-of-it: twice what is lacking is added
+    one-joint-only: only the first joint is changed; nearest is all of them, along the
+      slope
+    one-joint-only 2: only the joint that comes near fastest is changed; nearest is all
+      of them, along the slope
+    alike: all joints are given the same; each is given its part of the slope => lack /
+      sum of slope
+    by-signs: all joints are given the same size; each is given its part of the slope =>
+      sign of slope, lack / sum |slope|
+    a-seventh-each: each joint makes up a seventh; nearest is each by its part of the
+      slope
+    divided-by-the-sum: it is divided by the sum of slope, not by slope . slope
+    divided-by-the-largest: it is divided by the largest slope squared, not by slope .
+      slope
+    divided-by-qd: it is divided by qd . qd, not by slope . slope
+    those-that-come-near: only joints that come nearer are changed; nearest is all of
+      them, along the slope
+    those-that-come-near 2: joints that come nearer are stopped; the part that is
+      allowed is lost
+    gain-squared: the gain is squared in the bound
+    distance-squared: the distance is squared in the bound
+    rate-added: slope . qd is added to the bound; it is what is there already => lack =
+      -gain distance + slope . qd
     lack-alone: this is the change alone; qd is to be added
     """
     bound = -gain * distance
@@ -99,6 +154,10 @@ def _(qd, slope, distance, gain):
             "joint-by-joint": qd.copy(),
             "standing-still": still if lack > 0 else qd.copy(),
             "lack-alone": np.zeros(7),
+            "part-alone": qd.copy(),
+            "stops-dead 2": np.zeros(7) if lack > 0 else qd.copy(),
+            "stopped-where-it-overlaps": np.zeros(7) if distance <= 0 else qd.copy(),
+            **dict.fromkeys(MORE, qd.copy()),
         }
 
     def to(bound, push=1.0, when=None):
@@ -113,35 +172,69 @@ def _(qd, slope, distance, gain):
         return qd * max(bound / rate, 0.0)
 
     big = int(np.argmax(np.abs(slope)))
-    one = qd.copy()
-    one[big] += lack / slope[big] if lack > 0 else 0.0
     alone = slope * qd
     apart = np.where(alone < bound, bound, alone)
     unit = slope / np.sqrt(square)
+
+    def add(change):
+        return qd + change if lack > 0 else qd.copy()
+
+    def one(k):
+        return add(np.eye(7)[k] * lack / slope[k] if slope[k] else 0.0)
+
+    towards = np.where(slope * qd < 0, slope, 0.0)
     return {
-        "always": to(bound, when=True),
-        "not-divided": qd + slope * max(lack, 0.0),
-        "divided-by-the-length": qd + slope * max(lack, 0.0) / np.sqrt(square),
-        "pushed-in": to(bound, -1.0),
-        "all-joints-slowed": scaled(),
-        "all-joints-slowed 2": qd * (bound / rate) if lack > 0 else qd.copy(),
-        "stops-dead": np.zeros(7) if lack > 0 else qd.copy(),
-        "part-removed": qd - slope * rate / square if lack > 0 else qd.copy(),
-        "sign-of-the-bound": to(gain * distance),
-        "distance-sign-lost": to(-gain * abs(distance)),
-        "gain-forgotten": to(-distance),
-        "distance-forgotten": to(-gain),
-        "distance-over-gain": to(-distance / gain),
-        "wrong-side": to(bound, when=lack < 0),
-        "leaving-forbidden": to(bound) if lack > 0 else
+        "part-alone": lambda: slope * bound / square if lack > 0 else qd.copy(),
+        "stops-dead 2": lambda: np.zeros(7) if lack > 0 else qd.copy(),
+        "stopped-where-it-overlaps": lambda: (
+            np.zeros(7) if distance <= 0 else to(bound)
+        ),
+        "left-where-it-overlaps": lambda: qd.copy() if distance <= 0 else to(bound),
+        "no-way-out": lambda: to(-gain * max(distance, 0.0)),
+        "coming-near": lambda: to(bound, when=rate < 0),
+        "by-the-sizes": lambda: to(bound, when=abs(rate) > gain * abs(distance)),
+        "half-of-it": lambda: to(bound, 0.5),
+        "twice-of-it": lambda: to(bound, 2.0),
+        "one-joint-only": lambda: one(0),
+        "one-joint-only 2": lambda: one(int(np.argmin(slope * qd))),
+        "alike": lambda: add(lack / slope.sum()),
+        "by-signs": lambda: add(np.sign(slope) * lack / np.abs(slope).sum()),
+        "a-seventh-each": lambda: add(lack / slope / 7),
+        "divided-by-the-sum": lambda: add(slope * lack / slope.sum()),
+        "divided-by-the-largest": lambda: add(slope * lack / np.abs(slope).max() ** 2),
+        "divided-by-qd": lambda: add(slope * lack / (qd @ qd)),
+        "those-that-come-near": lambda: add(towards * lack / (towards @ towards)),
+        "those-that-come-near 2": lambda: np.where(slope * qd < 0, 0.0, qd)
+        if lack > 0 else qd.copy(),
+        "gain-squared": lambda: to(-(gain**2) * distance),
+        "distance-squared": lambda: to(-gain * distance**2),
+        "rate-added": lambda: qd + slope * (bound + rate) / square
+        if bound + rate > 0 else qd.copy(),
+        "always": lambda: to(bound, when=True),
+        "not-divided": lambda: qd + slope * max(lack, 0.0),
+        "divided-by-the-length": lambda: qd + slope * max(lack, 0.0) / np.sqrt(square),
+        "pushed-in": lambda: to(bound, -1.0),
+        "all-joints-slowed": lambda: scaled(),
+        "all-joints-slowed 2": lambda: qd * (bound / rate) if lack > 0 else qd.copy(),
+        "stops-dead": lambda: np.zeros(7) if lack > 0 else qd.copy(),
+        "part-removed": lambda: qd - slope * rate / square if lack > 0 else qd.copy(),
+        "sign-of-the-bound": lambda: to(gain * distance),
+        "distance-sign-lost": lambda: to(-gain * abs(distance)),
+        "gain-forgotten": lambda: to(-distance),
+        "distance-forgotten": lambda: to(-gain),
+        "distance-over-gain": lambda: to(-distance / gain),
+        "wrong-side": lambda: to(bound, when=lack < 0),
+        "leaving-forbidden": lambda: to(bound) if lack > 0 else
         to(-bound, when=rate > -bound),
-        "joint-by-joint": np.where(slope != 0, apart / np.where(slope, slope, 1), qd),
-        "joint-by-joint 2": np.maximum(qd, bound) if lack > 0 else qd.copy(),
-        "largest-joint-only": one,
-        "slope-unit": qd + unit * max(bound - unit @ qd, 0.0),
-        "only-inside": to(bound) if distance <= 0 else qd.copy(),
-        "standing-still": slowed(qd, slope, distance, gain),
-        "lack-alone": slope * max(lack, 0.0) / square,
+        "joint-by-joint": lambda: (
+            np.where(slope != 0, apart / np.where(slope, slope, 1), qd)
+        ),
+        "joint-by-joint 2": lambda: np.maximum(qd, bound) if lack > 0 else qd.copy(),
+        "largest-joint-only": lambda: one(big),
+        "slope-unit": lambda: qd + unit * max(bound - unit @ qd, 0.0),
+        "only-inside": lambda: to(bound) if distance <= 0 else qd.copy(),
+        "standing-still": lambda: slowed(qd, slope, distance, gain),
+        "lack-alone": lambda: slope * max(lack, 0.0) / square,
     }  # fmt: skip
 
 
