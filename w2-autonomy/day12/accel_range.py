@@ -5,9 +5,12 @@ import numpy as np
 from labkit.judge import Row, Vector
 from robo47.planning import accel_range
 
+from .where_on import of_a_range
+
 row = Row(
     Vector((2,), "1/s^2", names=("the least", "the greatest")),
     at_edge=lambda a, b, g, limits, sd: bool(np.all(limits > 0)),
+    unnamed=of_a_range,
 )
 
 

@@ -5,7 +5,13 @@ import numpy as np
 from labkit.judge import Row, Vector, rounded
 from robo47.planning import accel_range, fastest_along
 
-row = Row(Vector((None,), "1/s^2"), at_edge=lambda *call: False)
+from .where_on import of_a_motion
+
+row = Row(
+    Vector((None,), "1/s^2"),
+    at_edge=lambda *call: False,
+    unnamed=of_a_motion,
+)
 
 
 def path(rng, n, k, heavy=0.5, fast=1.6):

@@ -6,8 +6,13 @@ from labkit.judge import Row, Waypoints
 from robo47.planning import disc_edge_free, shortcut
 
 from .ways import NONE, Careful, discs, usual
+from .where_on import of_a_cut
 
-row = Row(Waypoints((None, 2)), at_edge=lambda *call: False)
+row = Row(
+    Waypoints((None, 2)),
+    at_edge=lambda *call: False,
+    unnamed=of_a_cut,
+)
 
 
 @row.inputs

@@ -5,10 +5,13 @@ import numpy as np
 from labkit.judge import Row, Vector
 from robo47.planning import wilson
 
+from .where_on import of_shares
+
 row = Row(
     Vector((2,), names=("the low end", "the high end")),
     near=1e-7,  # 1.959964 for 1.96 is 4e-6 away
     at_edge=lambda successes, n: 0 <= successes <= n,
+    unnamed=of_shares,
 )
 
 
