@@ -124,8 +124,6 @@ def _others(a, b, discs, part, away):
         "boxes-overlap": not np.any(boxes.all(axis=1)),
         "x-and-y-exchanged": disc_edge_free(a, b, discs[:, [1, 0, 2]]),
         "no-disc-is-hit": free and len(discs) > 0,
-        "no-length-is-free": free or not length,
-        "no-length-is-hit": free and bool(length),
         "touching-between": bool(np.all((away > r) | (between & (away >= r)))),
         "points-only 7": at_points(a, b, discs, np.linspace(0, 1, 1000)),
         "points-only 8": at_points(a, b, discs, np.arange(0, 1, 0.1)),
@@ -140,8 +138,6 @@ def _others(a, b, discs, part, away):
         "points-only 7": "no disc of the lab is so thin",
         "points-only 9": "no disc of the lab is so thin",
         "no-disc-is-hit": "the lab has no world without discs",
-        "no-length-is-free": "the lab has no edge of no length",
-        "no-length-is-hit": "the lab has no edge of no length",
         "touching-between": "no edge of the lab touches",
     }
 )
@@ -212,10 +208,6 @@ def _(a, b, discs):
       may pass a disc within its box
     x-and-y-exchanged: x and y of the centres are exchanged
     no-disc-is-hit: where there is no disc nothing is hit: the edge is free
-    no-length-is-free: an edge of no length, b = a, is called free; it is hit where it
-      lies in a disc
-    no-length-is-hit: an edge of no length, b = a, is called hit; it is free where it
-      lies in no disc
     touching-between: an edge that touches a disc between its ends is free; it is not
       to be
     points-only 7: only some points of the edge are looked at; a thin disc fits between
@@ -286,8 +278,8 @@ def _(a, b, discs):
 
 @row.wrong(hidden="the lab has no edge of no length")
 def divided_by_nothing(a, b, discs):
-    """an edge of no length, b = a, is answered wrongly: it is a point, hit where it
-    lies in a disc; a share of 0 / 0 is NaN, neither free nor hit"""
+    """an edge of no length, b = a, is called hit also where it lies in no disc: it is a
+    point then (a share of 0 / 0 is NaN, which is not above a radius)"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)
@@ -297,8 +289,8 @@ def divided_by_nothing(a, b, discs):
 
 @row.wrong("divided-by-nothing")
 def _(a, b, discs):
-    """an edge of no length, b = a, is answered wrongly: it is a point, hit where it
-    lies in a disc; a share of 0 / 0 is NaN, neither free nor hit"""
+    """an edge of no length, b = a, is called free also where it lies in a disc: it is a
+    point then (a share of 0 / 0 is NaN, which is not below a radius)"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)

@@ -45,6 +45,15 @@ def _(M, dq, ddq, coriolis, gravity):
       already
     dq-squared: b has dq^2 for ddq
     solved: M is inverted: that turns torques into accelerations
+    coriolis-in-g: the Coriolis torque is added to g; it grows with sd^2, and belongs to
+      b
+    coriolis-in-a: the Coriolis torque is added to a; it grows with sd^2, and belongs to
+      b
+    rows-summed: each row of M is summed before it is multiplied by its own joint's rate
+    lower-half: only M's entries on and below its diagonal are used
+    upper-half: only M's entries on and above its diagonal are used
+    trace: M's trace stands for M
+    first-row: M's first row stands for M, entry by entry
     """
     right = path_dynamics(M, dq, ddq, coriolis, gravity)
     a, b, g = right
@@ -72,6 +81,18 @@ def _(M, dq, ddq, coriolis, gravity):
         "solved": np.array(
             [np.linalg.solve(M, dq), np.linalg.solve(M, ddq) + coriolis, g]
         ),
+        "coriolis-in-g": np.array([a, M @ ddq, g + coriolis]),
+        "coriolis-in-a": np.array([a + coriolis, M @ ddq, g]),
+        **{
+            slug: np.array([of(dq), of(ddq) + coriolis, g])
+            for slug, of in {
+                "rows-summed": lambda x: M.sum(axis=1) * x,
+                "lower-half": lambda x: np.tril(M) @ x,
+                "upper-half": lambda x: np.triu(M) @ x,
+                "trace": lambda x: np.trace(M) * x,
+                "first-row": lambda x: M[0] * x,
+            }.items()
+        },
     }
 
 

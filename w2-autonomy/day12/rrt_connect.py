@@ -7,7 +7,8 @@ import numpy as np
 from labkit.judge import Row, Slip, Waypoints
 from robo47.planning import extend, rrt_connect
 
-from .ways import NONE, of_a_planner, one_tree, planner, ways_asked
+from .planners import of_a_planner, one_tree, planner
+from .ways import NONE, ways_asked
 
 row = Row(
     Waypoints((None, 2)),

@@ -5,8 +5,8 @@ import numpy as np
 from labkit.judge import Row, Waypoints
 from robo47.planning import disc_edge_free, shortcut
 
+from .cuts import cut, of_a_cut
 from .ways import NONE, Careful, discs, usual
-from .where_on import of_a_cut
 
 row = Row(
     Waypoints((None, 2)),
@@ -50,43 +50,6 @@ def _blocked(path, world, pairs):
     """Return whether a disc keeps one of several pairs from cutting."""
     free = len(shortcut(path, NONE, pairs))
     return len(pairs) == 1 or len(shortcut(path, world, pairs)) > free
-
-
-def cut(path, world, pairs, places=None, least=1, check=disc_edge_free, join=None,
-        fixed=False, first=False, order=sorted):  # fmt: skip
-    """Cut in another way.
-
-    Args:
-        path, world, pairs: as the function has them.
-        places: from a pair and the number of points to two rows.
-        least: rows that are no further apart are left.
-        check: whether an edge is free.
-        join: from path, i and j to what is left.
-        fixed: whether places are those of the path as it was at first.
-        first: whether it ends with the first cut.
-        order: what is done with the two rows.
-    """
-    places = places or (lambda pair, m: [int(u * m) for u in pair])
-    join = join or (lambda path, i, j: np.vstack([path[: i + 1], path[j:]]))
-    m = len(path)
-    for pair in pairs:
-        i, j = order(places(pair, m if fixed else len(path)))
-        i, j = (min(max(k, 0), len(path) - 1) for k in (i, j))
-        if j - i > least and check(path[i], path[j], world):
-            path = join(path, i, j)
-            if first:
-                break
-    return path
-
-
-def _fixed(path, world, pairs):
-    """Return the path cut by rows of the path as it was at first."""
-    there = np.ones(len(path), bool)
-    for pair in pairs:
-        i, j = sorted(int(u * len(path)) for u in pair)
-        if j - i > 1 and disc_edge_free(path[i], path[j], world):
-            there[i + 1 : j] = False
-    return path[there]
 
 
 @row.wrongs
@@ -145,9 +108,9 @@ def _(path, world, pairs):
         "end-lost": cut(
             path, world, pairs, join=lambda p, i, j: np.vstack([p[: i + 1], p[j:-1]])
         ),
-        "first-cut-only": cut(path, world, pairs, first=True),
-        "indices-of-the-first-path": _fixed(path, world, pairs),
-        "indices-of-the-first-path 2": cut(path, world, pairs, fixed=True),
+        "first-cut-only": cut(path, world, pairs, ends="cut"),
+        "indices-of-the-first-path": cut(path, world, pairs, fixed="mask"),
+        "indices-of-the-first-path 2": cut(path, world, pairs, fixed="clamped"),
         "not-sorted": cut(path, world, pairs, order=list),
         "rounded": cut(
             path, world, pairs, lambda pair, m: [round(u * m) for u in pair]

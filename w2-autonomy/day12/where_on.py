@@ -4,107 +4,16 @@ As in `where`: all that is said was tried, and is counted.
 """
 
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from labkit.judge import Case, Finding
-from robo47 import planning
 from robo47.checks import Array
 
-from .ways import without_filling
 from .where import NEAR, Asked, Kinds, calls, only
 
 Z = 1.96
-
-
-def of_a_cut(case: Case) -> Finding | None:
-    """Say what is wrong with paths that were cut: points, edges, or too little cut."""
-    asked = calls(case)
-    longer: list[int] = []
-    shorter: list[int] = []
-    for k, one in enumerate(asked, 1):
-        path, world, _ = one.arguments
-        if not one.wrong_rows():
-            continue
-        mine, right = (without_filling(x[0]) for x in (one.mine, one.right))
-        if found := _no_cut(mine, path, world, f"in call {k} of {len(asked)}"):
-            return found
-        (longer if len(mine) > len(right) else shorter).append(k)
-    return _too_much_or_little(asked, longer, shorter)
-
-
-def _no_cut(mine: Array, path: Array, world: Array, where: str) -> Finding | None:
-    """Return what keeps a path from being a cut of another, or None."""
-    rows = [np.flatnonzero(np.abs(path - x).max(axis=1) < NEAR) for x in mine]
-    if odd := [i for i, row in enumerate(rows) if not len(row)]:
-        says = f"Point {odd[0]} of its answer is no point of the path, {where}: only "
-        return Finding("not-its-points", f"{says}points are left out, none is made.")
-    at = [int(row[0]) for row in rows]
-    if not at or at[0] != 0:
-        return Finding("start-lost", f"The path's first point is missing, {where}.")
-    if at[-1] != len(path) - 1:
-        return Finding("end-lost", f"The path's last point is missing, {where}.")
-    if any(j <= i for i, j in pairwise(at)):
-        return Finding("other-order", f"Points stand in another order, {where}.")
-    for i, j in pairwise(at):
-        if j > i + 1 and not planning.disc_edge_free(path[i], path[j], world):
-            says = f"It cuts from row {i} of the path to row {j}, {where}, where the "
-            return Finding("cut-not-free", f"{says}edge between the two is not free.")
-    return None
-
-
-PAIRS: Kinds = {
-    "no-pair": "where there is no pair",
-    "second-larger": "where a pair's first number is the larger",
-    "later-pairs": "where there is more than one pair",
-    "blocked-pairs": "where an edge that a pair names is not free",
-    "to-the-end": "where a pair names the last row",
-}
-
-
-def _too_much_or_little(
-    asked: Sequence[Asked], longer: Sequence[int], shorter: Sequence[int]
-) -> Finding | None:
-    """Say whether valid cuts leave too much or too little, and with which pairs."""
-    if not longer and not shorter:
-        return None
-    what, slug = "it leaves other points than asked for", "other-cuts"
-    if not shorter:
-        what, slug = "it keeps points that go", "cuts-missing"
-    elif not longer and any(_fewer(asked[k - 1]) for k in shorter):
-        what, slug = "it leaves out points that stay", "cuts-too-many"
-    says = (
-        f"What it leaves is a free path each time, but in {len(longer) + len(shorter)} "
-        f"of {len(asked)} calls {what}. Go through call {min([*longer, *shorter])} "
-        "pair by pair: which two rows does each name, of how many rows by then?"
-    )
-    found = only(PAIRS, [_of_pairs(one) for one in asked],
-                 [one.wrong_rows() for one in asked])  # fmt: skip
-    if found:
-        return Finding(f"{slug}-{found.slug}", f"{found.message} {says}")
-    return Finding(slug, says)
-
-
-def _fewer(one: Asked) -> bool:
-    return len(without_filling(one.mine[0])) < len(without_filling(one.right[0]))
-
-
-def _of_pairs(one: Asked) -> dict[str, bool]:
-    path, world, pairs = one.arguments
-    m, blocked, last = len(path), False, False
-    for pair in pairs:
-        i, j = sorted(int(u * m) for u in pair)
-        free = planning.disc_edge_free(path[i], path[j], world)
-        blocked = blocked or (j - i > 1 and not free)
-        last = last or j == m - 1
-        if j - i > 1 and free:
-            path = np.concatenate([path[: i + 1], path[j:]])
-            m = len(path)
-    swapped = bool((pairs[:, 0] > pairs[:, 1]).any())
-    found = not len(pairs), swapped, len(pairs) > 1, blocked, last
-    return dict(zip(PAIRS, found, strict=True))
 
 
 SHARES: Kinds = {
@@ -253,93 +162,4 @@ def _wider(asked: Sequence[Asked]) -> str:
         )
     if all(s[0] >= t[0] - NEAR and s[1] <= t[1] + NEAR for s, t in pairs):
         return " Its ranges lie within the right ones: something limits too much."
-    return ""
-
-
-MOTIONS: Kinds = {
-    "cannot-hold": "where gravity alone is above a limit; zeros are asked for",
-    "can-hold": "where gravity alone is within all limits",
-    "several-joints": "where there are several joints",
-    "slow-motors": "where the motors' speed, x_max, is the limit at some point",
-    "gravity": "where there is gravity",
-    "coriolis": "where B is not 0",
-    "not-at-speed": "where some speed below x_max leaves no sdd",
-}
-
-
-def of_a_motion(case: Case) -> Finding | None:
-    """Say of a motion which limit it breaks first, or where it is too slow."""
-    asked = calls(case)
-    features = [_of_path(one) for one in asked]
-    found = only(MOTIONS, features, [one.wrong() for one in asked])
-    told = found.message + " " if found else ""
-    if found and found.slug == "cannot-hold":
-        return found
-    for k, one in enumerate(asked, 1):
-        if not one.wrong() or not np.isfinite(one.mine[0]).all():
-            continue
-        if broken := _broken(one):
-            slug, says = broken
-            return Finding(slug, f"{told}In call {k} of {len(asked)} {says}")
-    slow = _slow(asked)
-    return Finding("slower-than-possible", told + slow) if slow else found
-
-
-def _of_path(one: Asked) -> dict[str, bool]:
-    A, B, G, limits, x_max = one.arguments
-    right = one.right[0][: len(A)]
-    heavy = bool((np.abs(G) > limits).any())
-    ends = [
-        planning.accel_range(A[i], B[i], G[i], limits, np.sqrt(x_max[i]))
-        for i in range(len(A))
-    ]
-    found = (
-        heavy, not heavy, A.shape[1] > 1,
-        not heavy and bool((np.abs(right - x_max) < NEAR).any()), bool(G.any()),
-        bool(B.any()), any(low > high for low, high in ends),
-    )  # fmt: skip
-    return dict(zip(MOTIONS, found, strict=True))
-
-
-def _broken(one: Asked) -> tuple[str, str] | None:
-    """Return the first limit that a motion breaks: its name and how, or None."""
-    A, B, G, limits, x_max = one.arguments
-    x = one.mine[0][: len(A)]
-    n = len(A) - 1
-    for end, i in (("begins", 0), ("ends", n)):
-        if abs(x[i]) > NEAR:
-            return f"{end}-in-motion", f"it {end} in motion: sd^2 is {x[i]:.3f} there."
-    if (x < -NEAR).any():
-        return "below-zero", f"sd^2 is below 0 at point {int(np.argmax(x < -NEAR))}."
-    if (fast := x > x_max + NEAR).any():
-        i = int(np.argmax(fast))
-        says = f"sd^2 is {x[i]:.3f} at point {i}, and x_max {x_max[i]:.3f}."
-        return "faster-than-the-motors", says
-    for i in range(n):
-        u = (x[i + 1] - x[i]) * n / 2
-        low, high = planning.accel_range(
-            A[i], B[i], G[i], limits, np.sqrt(max(x[i], 0))
-        )
-        if not low - 1e-5 <= u <= high + 1e-5:
-            says = (
-                f"sdd from point {i} to the next is {u:.3f}, (x[{i + 1}] - x[{i}]) / "
-            )
-            allowed = f"the torques allow {low:.3f} to {high:.3f} at point {i}"
-            if low > high:
-                allowed = f"at that speed the torques allow none at point {i}"
-            return "beyond-the-torques", f"{says}(2 ds), and {allowed}."
-    return None
-
-
-def _slow(asked: Sequence[Asked]) -> str:
-    """Return where a motion that keeps all limits is slower than the fastest, or ""."""
-    for k, one in enumerate(asked, 1):
-        mine, right = one.mine[0], one.right[0]
-        if one.wrong() and np.isfinite(mine).all():
-            i = int(np.argmax(right - mine))
-            return (
-                "It keeps all limits, and is slower than need be: in call "
-                f"{k} of {len(asked)} sd^2 is {mine[i]:.3f} at point {i}, and "
-                f"{right[i]:.3f} is possible."
-            )
     return ""
