@@ -19,10 +19,11 @@ row = Row(
             "^stopped",
             r"\bwhile\b|\bfor\b",
             "stopped",
-            "A tree that grows towards the *sample* never stands there, if that is "
-            "further than a step: then `until equal` has no end. The other tree grows "
-            "towards the *new node*: compare what it reached with that, and leave the "
-            "loop where an edge is not free.",
+            "A loop has no end. Towards the *sample* the other tree comes to the "
+            "sample and stays there: further edges have no length and are free, and "
+            "the *new node* is never reached; grow it towards the new node, and "
+            "compare with that. Leave the loop where an edge is not free. On the way "
+            "back to the root no node is its own parent.",
         ),
     ),
 )
