@@ -166,11 +166,15 @@ OPTIONS = [
 ]  # fmt: skip
 
 
+def _made(*call: Any, **how: Any) -> Array:
+    return without_filling(cut(*call, **how))
+
+
 def of_a_cut(case: Case) -> Finding | None:
     """Say what is wrong with paths that were cut: points, edges, or too little cut."""
     asked = calls(case)
     mine = [without_filling(one.mine[0]) for one in asked]
-    if found := together(OPTIONS, cut, [one.arguments for one in asked], mine):
+    if found := together(OPTIONS, _made, [one.arguments for one in asked], mine):
         return found
     longer: list[int] = []
     shorter: list[int] = []

@@ -132,7 +132,7 @@ def _same_limit(choose: Callable[[Array], float]) -> Any:
 
 
 OPTIONS = [
-    *(Option(slug, says, {"two_ds": of}) for slug, says, of in (
+    *(Option(slug, says, {"two_ds": of}, alone="points" in slug or "forgotten" in slug) for slug, says, of in (
         ("ds-for-2-ds", "sd^2 grows by ds u in a step; it is 2 ds u", lambda n: 1 / n),
         ("four-ds", "sd^2 grows by 4 ds u in a step; it is 2 ds u", lambda n: 4 / n),
         ("half-ds", "sd^2 grows by ds u / 2 in a step; it is 2 ds u",
@@ -150,11 +150,11 @@ OPTIONS = [
     Option("sd-for-sd2", "forwards accel_range is given x; it wants sd, its root",
            {"forward_sd": lambda x: x}),
     Option("sd-squared-twice", "accel_range is given x^2; it wants sd, the root of x",
-           {"sd": lambda x: x * x}),
+           {"sd": lambda x: x * x}, alone=True),
     Option("at-rest", "accel_range is given sd 0, forwards and backwards",
-           {"sd": lambda x: 0.0 * x}),
+           {"sd": lambda x: 0.0 * x}, alone=True),
     Option("at-rest", "forwards accel_range is given sd 0",
-           {"forward_sd": lambda x: 0.0 * x}),
+           {"forward_sd": lambda x: 0.0 * x}, alone=True),
     Option("start-not-at-rest", "it begins with the greatest sd^2 from which it can "
            "stop; it begins at rest", {"start": "K"}),
     Option("end-not-at-rest", "the pass backwards begins with x_max; it begins with 0",
@@ -166,7 +166,7 @@ OPTIONS = [
          "both is taken; forwards, it has to go on from what the other one leaves",
          "smaller"))),
     *(Option("few-bisections", f"an interval is halved {n} times; it is still wide "
-             "then", {"bisections": n})
+             "then", {"bisections": n}, alone=True)
       for n in (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 16, 20)),
     Option("bobrow", "backwards the least sdd is read at the point that comes after, "
            "at its speed; a step's limits are those of its first point",
@@ -178,7 +178,7 @@ OPTIONS = [
            "end; they are those of its first point", {"back_at": 1}),
     Option("limits-of-the-next-point", "forwards the limits of a step are read at its "
            "end; they are those of its first point", {"at": 1}),
-    *(Option(slug, says, {"pull": of}) for slug, says, of in (
+    *(Option(slug, says, {"pull": of}, alone=True) for slug, says, of in (
         ("limits-of-the-first-point", "all steps have the first point's A, B and G; "
          "each point has its own",
          lambda *rows: tuple(np.broadcast_to(x[0], x.shape) for x in rows)),
@@ -195,7 +195,7 @@ OPTIONS = [
         ("coriolis-sign", "B has the other sign", lambda A, B, G: (A, -B, G)),
         ("B-and-G-exchanged", "B and G are exchanged", lambda A, B, G: (A, G, B)),
         ("A-and-B-exchanged", "A and B are exchanged", lambda A, B, G: (B, A, G)))),
-    *(Option(slug, says, {"most": of}) for slug, says, of in (
+    *(Option(slug, says, {"most": of}, alone=True) for slug, says, of in (
         ("no-speed-limit", "x_max is not used", lambda x: np.full_like(x, 1e3)),
         ("x-max-of-the-next-point", "x_max is that of the point after; each point has "
          "its own", lambda x: np.append(x[1:], x[-1])),
@@ -219,7 +219,7 @@ OPTIONS = [
         ("gravity-with-sign", "whether gravity is too much is asked without its size: "
          "below 0 it has a limit, too", lambda G, limits: np.any(limits < G)))),
     *(Option(f"without-{what}", f"backwards it is not asked whether {says}",
-             {"without": (what,)}) for what, says in (
+             {"without": (what,)}, alone=True) for what, says in (
         ("allowed", "any sdd is allowed at that speed, low <= high"),
         ("after", "it can come down to what is possible at the next point"),
         ("turning", "sd^2 stays above 0 with the greatest sdd"))),
@@ -228,7 +228,7 @@ OPTIONS = [
     Option("least-for-greatest", "forwards it takes the least sdd that is allowed",
            {"which": 0}),
     *(Option(slug, f"all joints have the {word} limit; each has its own",
-             {"ranges": _same_limit(choose)}) for slug, word, choose in (
+             {"ranges": _same_limit(choose)}, alone=True) for slug, word, choose in (
         ("smallest-limit", "smallest", np.min), ("largest-limit", "largest", np.max),
         ("first-limit", "first joint's", lambda x: x[0]))),
     Option("half-the-torque", "only half of the torque is used",

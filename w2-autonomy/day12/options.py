@@ -23,6 +23,7 @@ class Option(NamedTuple):
     slug: str
     says: str  # what it does, a clause
     how: Mapping[str, Any]  # the arguments that make it so
+    alone: bool = False  # whether it is tried by itself only: pairs cost time
 
 
 def together(
@@ -40,22 +41,30 @@ def together(
         mine: the student's answers, each in its own shape.
     """
     order = sorted(range(len(calls)), key=lambda k: sum(map(np.size, calls[k])))
-    for some in _sets(options):
+
+    def gives(*some: Option) -> bool:
         how = {key: value for one in some for key, value in one.how.items()}
-        if all(_same(make, calls[k], how, mine[k]) for k in order):
-            says = "; ".join(one.says for one in some)
-            what = "Two things at once: " if len(some) > 1 else ""
-            both = "both together give" if len(some) > 1 else "that gives"
-            text = f"{what}{says}. ({both[0].upper()}{both[1:]} your arrays exactly.)"
-            slug = "+".join(one.slug for one in some)
-            return Finding(slug, capitalised(text))
+        return all(_same(make, calls[k], how, mine[k]) for k in order)
+
+    alone = {one.says: one for one in options if gives(one)}
+    if alone:
+        some = list(alone.values())[:2]
+        says = "; or: ".join(one.says for one in some)
+        either = "Either: " if len(some) > 1 else ""
+        text = f"{either}{says}. (That gives your arrays exactly.)"
+        return Finding(some[0].slug, capitalised(text))
+    for pair in _pairs(options):
+        if gives(*pair):
+            says = "; ".join(one.says for one in pair)
+            how = "Both together give your arrays exactly."
+            slug = "+".join(one.slug for one in pair)
+            return Finding(slug, f"Two things at once: {says}. ({how})")
     return None
 
 
-def _sets(options: Sequence[Option]) -> Iterator[tuple[Option, ...]]:
-    """Yield each option, then all pairs that are of different things."""
-    yield from ((one,) for one in options)
-    for pair in combinations(options, 2):
+def _pairs(options: Sequence[Option]) -> Iterator[tuple[Option, Option]]:
+    """Yield all pairs that are of different things."""
+    for pair in combinations([one for one in options if not one.alone], 2):
         if not pair[0].how.keys() & pair[1].how.keys():
             yield pair
 

@@ -55,11 +55,13 @@ class _Trees:
         nodes.append(q)
         return True
 
-    def met(self, other: int, new: Array, step: float) -> bool:
+    def met(self, other: int, new: Array, sample: Array, step: float) -> bool:
         """Return whether the other tree's newest node counts as the new one."""
         last = self.nodes[other][-1]
         if self.how.meets == "equal":
             return bool(np.array_equal(last, new))
+        if self.how.meets == "sample":
+            return bool(np.array_equal(last, sample))
         return bool(np.linalg.norm(last - new) <= step)
 
     def to_root(self, side: int) -> list[Array]:
@@ -96,7 +98,7 @@ def planner(
             grows: the "nearest" node, or the "newest".
             blocked: after a blocked sample the "next" one, "on" with the other tree and
                 the newest node, or "stop".
-            meets: "equal" or "near", within a step.
+            meets: "equal", or "near", within a step, or at the "sample".
             tries: edges that the other tree grows at most; 0 is no limit.
             none: from start and goal to what comes back without a way.
     """
@@ -131,7 +133,7 @@ def _joins(o: Any, trees: _Trees, side: int, sample: Array, step: float) -> bool
     for n in count(1):
         if not trees.grow(other, target, far):
             return False
-        if trees.met(other, new, step):
+        if trees.met(other, new, sample, step):
             return True
         if n >= most or np.array_equal(trees.nodes[other][-1], target):
             return False
@@ -164,6 +166,9 @@ OPTIONS = [
     Option("connect-one-step", "the other tree grows by one edge", {"approach": "one"}),
     Option("connect-to-the-sample", "the other tree grows towards the sample",
            {"approach": "sample"}),
+    Option("joined-at-the-sample", "the other tree grows to the sample, and there the "
+           "way is called found; the first tree ends at its new node, a step towards "
+           "it", {"approach": "sample", "meets": "sample"}),
     Option("connect-to-the-root", "the other tree grows towards the root of the tree "
            "that grew; towards its new node is asked for", {"approach": "root"}),
     Option("connect-in-one-jump", "the other tree joins by one edge, however long",
@@ -220,6 +225,8 @@ OPTIONS = [
            {"joined": lambda a, b: [*a[:0:-1], *b[1:]]}),
     Option("root-lost", "the start's root is not in the way",
            {"joined": lambda a, b: a[::-1][1:] + b[1:]}),
+    Option("both-roots-lost", "neither start nor goal is in the way",
+           {"joined": lambda a, b: a[::-1][1:] + b[1:-1]}),
     Option("goal-lost", "the goal's root is not in the way",
            {"joined": lambda a, b: a[::-1] + b[1:-1]}),
     Option("none-is-the-start", "without a way the start alone comes back; no row is "
@@ -244,18 +251,35 @@ def fault(way: Array, start: Array, goal: Array, world: Array, step: float) -> s
     return ""
 
 
+def _made(*call: Any, **how: Any) -> Array:
+    return without_filling(planner(*call, **how))
+
+
+def _joining(
+    start: Array, goal: Array, world: Array, samples: Array, step: float
+) -> str:
+    """Return after which sample the trees meet, in words."""
+    for k in range(1, len(samples) + 1):
+        if len(planning.rrt_connect(start, goal, world, samples[:k], step)):
+            whose = ("start", "goal")[(k - 1) % 2]
+            return f"they meet after sample {k - 1}, which grows the {whose}'s tree"
+    return "they meet"
+
+
 def of_a_planner(case: Case) -> Finding | None:
     """Say of answers which options make them, or whether they are ways at all."""
     S, T = (list(map(without_filling, x)) for x in (case.S, case.T))
     arguments = list(zip(*case.arguments, strict=True))
-    if found := together(OPTIONS, planner, arguments, S):
+    if found := together(OPTIONS, _made, arguments, S):
         return found
     for k, (way, right, (start, goal, world, _, step)) in enumerate(
         zip(S, T, arguments, strict=True)
     ):
         where = f"in call {k + 1} of {len(S)}"
         if not len(way) and len(right):
-            return Finding("no-way", f"It finds no way {where}, where there is one.")
+            how = _joining(*arguments[k])
+            says = f"It finds no way {where}; with the trees asked for {how}."
+            return Finding("no-way", says)
         if len(way) and (why := fault(way, start, goal, world, step)):
             return Finding("no-valid-way", f"It is no way {where}: it {why}.")
         if len(way) and not len(right):

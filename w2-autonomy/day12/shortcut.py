@@ -25,6 +25,12 @@ def _(rng):
     yield path, NONE, np.array([[0.3, 0.35], [0.45, 0.79]])  # neighbours, and the same
     yield path[:2], NONE, np.array([[0.1, 0.9]])
     yield path, np.array([[1.0, 0.5, 0.9]]), np.array([[0.1, 0.9], [0, 0.5]])
+    line = np.array(
+        [[0.1, 0], [1, 0], [2, 1], [3, 0], [4, 0], [5, 1], [6, 0], [7, 0.0]]
+    )
+    # Cut, cut, neighbours, cut; and neighbours first.
+    yield line, NONE, np.array([[0, 0.3], [0.5, 0.8], [0.1, 0.2], [0.99, 0.5]])
+    yield line, NONE, np.array([[0.1, 0.2], [0.05, 0.3], [0.5, 0.75]])
     rng = usual(rng)
     for m, n, p in (
         (8, 3, 1),

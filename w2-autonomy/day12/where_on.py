@@ -40,11 +40,11 @@ def of_shares(case: Case) -> Finding | None:
     if found := _of_z(trials):
         return found
     told = only(SHARES, features, [one.wrong() for one in asked])
-    ends = _ends(trials)
-    if told and told.slug != "none-or-all":
-        return Finding(told.slug, f"{told.message}{ends}")
-    return Finding("another-interval", f"{told.message if told else ''}{ends}".strip(
-        )) if told or ends else None  # fmt: skip
+    if told and told.slug not in ("none-or-all", "some-of-n"):
+        return told
+    ends = _ends([one for one in trials if one.wrong()])
+    says = f"{told.message} {ends}" if told else ends
+    return Finding(told.slug if told else "another-interval", says) if says else None
 
 
 def _of_z(trials: Sequence[Asked]) -> Finding | None:
@@ -53,14 +53,14 @@ def _of_z(trials: Sequence[Asked]) -> Finding | None:
     for one in trials:
         k, n = one.arguments
         p = k / n
-        with np.errstate(all="ignore"):
-            wilson += list(np.abs(one.mine[0] - p) * np.sqrt(
-                n / (one.mine[0] * (1 - one.mine[0]))))  # fmt: skip
+        for x in one.mine[0]:
+            if NEAR < x < 1 - NEAR:
+                wilson.append(abs(x - p) * np.sqrt(n / (x * (1 - x))))
             if 0 < k < n:
-                wald += list(np.abs(one.mine[0] - p) / np.sqrt(p * (1 - p) / n))
+                wald.append(abs(x - p) / np.sqrt(p * (1 - p) / n))
     kinds = (
-        ("asked for is that", wilson),
-        ("as Wald's, p +- z sqrt(p (1 - p) / n)", wald),
+        ("in the formula that is asked for", wilson),
+        ("in Wald's formula, p +- z sqrt(p (1 - p) / n), which is another", wald),
     )
     for how, some in kinds:
         zs = np.array(some)[np.isfinite(some)]
@@ -71,24 +71,25 @@ def _of_z(trials: Sequence[Asked]) -> Finding | None:
 
 
 def _ends(trials: Sequence[Asked]) -> str:
-    """Return which of middle, width, low and high end are right, in words."""
+    """Return which of ends, middle and width are right, in words, of wrong answers."""
+    if not trials:
+        return ""
     mine, right = (np.array([x[i][0] for x in trials]) for i in (1, 2))
     if not np.isfinite(mine).all():
         return ""
-    says = ""
-    off = [np.abs(f(mine) - f(right)).max() < NEAR for f in (_middle, _width)]
-    if off == [True, False]:
-        says = " The middle is right, the width is not: look at the root."
-    elif off == [False, True]:
-        says = " The width is right, the middle is not."
+    off = np.abs(mine - right).max(axis=0) > NEAR
+    parts = [np.abs(f(mine) - f(right)).max() < NEAR for f in (_middle, _width)]
+    if off.sum() == 1:
+        says = f"Only the {('low', 'high')[int(np.argmax(off))]} end is wrong."
+    elif any(parts):
+        one, other = ("middle", "width") if parts[0] else ("width", "middle")
+        says = f"The {one} is right, the {other} is not."
+    elif np.ptp(right * mine.sum() - mine * right.sum()) < NEAR * abs(mine.sum()):
+        says = f"Each end is {mine.sum() / right.sum():.4g} times what it is to be."
+    else:
+        says = "Neither the middle of the two nor their width is right."
     if (beyond := (mine < -NEAR) | (mine > 1 + NEAR)).any():
         says += f" No share is below 0 or above 1: {mine[beyond][0]:.3f} is none."
-    if not says:
-        by = (np.abs(_width(mine)) > np.abs(_width(right))).mean()
-        how = "wider" if by > 0.5 else "narrower"
-        says = " Neither the middle nor the width is right"
-        says += f"; it is {how} than asked for in {max(by, 1 - by):.0%} of the calls."
-        says += " Work out wilson(18, 60) by hand, term by term."
     return says
 
 
