@@ -40,6 +40,7 @@ def _(rng):
     yield -2 * one, 0 * one, 4 * one, eight, 9 * one[:, 0]
     heavy = np.array([0.0, 2, 9, 3, 0])[:, None]
     yield 2 * one, 0 * one, heavy, eight, 9 * one[:, 0]
+    yield 2 * one, 0 * one, -9 * one, eight, 9 * one[:, 0]  # at all points
     dip = np.array([9.0, 9, 0.4, 9, 9, 9, 9])  # the motors are slow there
     seven = np.ones((7, 1))
     yield 2 * seven, 0.5 * seven, seven, eight, dip
@@ -118,7 +119,8 @@ def _(A, B, G, limits, x_max):
     root: this is sd; its square is asked for
     times: this is when each point is reached, and not sd^2
     half-the-torque: only half of the torque is used
-    least-for-greatest: forwards it takes the least sdd that is allowed
+    never-moves: sd^2 is 0 at every point of every path: look at what the pass backwards
+      leaves, and whether forwards the greatest sdd is taken
     accelerations: this is sdd of each step, and 0
     """
     given = (A, B, G, limits, x_max)
@@ -166,7 +168,7 @@ def _(A, B, G, limits, x_max):
         "root": sd,
         "times": times if not heavy else 0 * times,
         "half-the-torque": fastest_along(A, B, G, limits / 2, x_max),
-        "least-for-greatest": timed(*given, which=0),
+        "never-moves": 0 * right,
         "accelerations": np.append(np.diff(right) * n / 2, 0.0),
     }
 

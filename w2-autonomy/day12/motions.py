@@ -39,7 +39,6 @@ def timed(
             without: conditions of the pass backwards that are left out: "allowed",
                 "after", "turning".
             swept: backwards by the least sdd at the next point, instead of bisection.
-            which: which end of the range is taken, forwards.
             out: what is done with the answer.
     """
     o = SimpleNamespace(**{**USUAL, **how})
@@ -97,7 +96,7 @@ def _forward(
     sd = o.forward_sd or o.sd
     for i in range(n):
         ends = o.ranges(*(row[i + o.at] for row in rows), limits, sd(x[i]))
-        u = o.two_ds(n) * ends[o.which]
+        u = o.two_ds(n) * ends[1]
         x[i + 1] = max(0.0, min(most[i + o.kept], x[i] + u))
     return x
 
@@ -119,7 +118,6 @@ USUAL: dict[str, Any] = {
     "kept": 1,
     "without": (),
     "swept": False,
-    "which": 1,
     "out": lambda x: x,
 }
 
@@ -132,7 +130,8 @@ def _same_limit(choose: Callable[[Array], float]) -> Any:
 
 
 OPTIONS = [
-    *(Option(slug, says, {"two_ds": of}, alone="points" in slug or "forgotten" in slug) for slug, says, of in (
+    *(Option(slug, says, {"two_ds": of}, alone="points" in slug)
+      for slug, says, of in (
         ("ds-for-2-ds", "sd^2 grows by ds u in a step; it is 2 ds u", lambda n: 1 / n),
         ("four-ds", "sd^2 grows by 4 ds u in a step; it is 2 ds u", lambda n: 4 / n),
         ("half-ds", "sd^2 grows by ds u / 2 in a step; it is 2 ds u",
@@ -225,8 +224,6 @@ OPTIONS = [
         ("turning", "sd^2 stays above 0 with the greatest sdd"))),
     Option("most-of-the-point-before", "forwards x[i + 1] is kept below what is "
            "possible at i; that of i + 1 belongs there", {"kept": 0}),
-    Option("least-for-greatest", "forwards it takes the least sdd that is allowed",
-           {"which": 0}),
     *(Option(slug, f"all joints have the {word} limit; each has its own",
              {"ranges": _same_limit(choose)}, alone=True) for slug, word, choose in (
         ("smallest-limit", "smallest", np.min), ("largest-limit", "largest", np.max),

@@ -5,7 +5,9 @@ import numpy as np
 from labkit.judge import Matrix, Row, rounded
 from robo47.planning import path_dynamics
 
-row = Row(Matrix((3, None), "N m", rows=("a", "b", "g")))
+from .where_on import of_a_path
+
+row = Row(Matrix((3, None), "N m", rows=("a", "b", "g")), unnamed=of_a_path)
 
 
 @row.inputs

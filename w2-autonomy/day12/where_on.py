@@ -11,6 +11,8 @@ import numpy as np
 from labkit.judge import Case, Finding
 from robo47.checks import Array
 
+from .intervals import OPTIONS, interval_of
+from .options import together
 from .where import NEAR, Asked, Kinds, calls, only
 
 Z = 1.96
@@ -37,7 +39,11 @@ def of_shares(case: Case) -> Finding | None:
         of = (n == 0, n == 1, n < 10, none, whole, none or whole, 0 < k < n)
         features.append(dict(zip(SHARES, of, strict=True)))
     trials = [one for one in asked if one.arguments[1] > 0]
-    if found := _of_z(trials):
+    given = [(int(one.arguments[0]), int(one.arguments[1])) for one in asked]
+    found = _of_z(trials)
+    if found := found or together(
+        OPTIONS, interval_of, given, [x.mine[0] for x in asked]
+    ):
         return found
     told = only(SHARES, features, [one.wrong() for one in asked])
     if told and told.slug not in ("none-or-all", "some-of-n"):
@@ -164,3 +170,38 @@ def _wider(asked: Sequence[Asked]) -> str:
     if all(s[0] >= t[0] - NEAR and s[1] <= t[1] + NEAR for s, t in pairs):
         return " Its ranges lie within the right ones: something limits too much."
     return ""
+
+
+ROWS: Kinds = {
+    "one-joint": "where there is one joint",
+    "coupled": "where M has entries off its diagonal",
+    "curved": "where ddq is not 0",
+    "many-joints": "where there are more than two joints",
+}
+NAMES = "a", "b", "g"
+
+
+def of_a_path(case: Case) -> Finding | None:
+    """Say which of a, b and g is wrong, and for which arms and paths."""
+    asked = calls(case)
+    features, wrong = [], []
+    for one in asked:
+        M, _, ddq, _, _ = one.arguments
+        k = len(M)
+        coupled = bool((M - np.diag(M.diagonal())).any())
+        of = (k == 1, coupled, bool(ddq.any()), k > 2)
+        features.append(dict(zip(ROWS, of, strict=True)))
+        off = np.abs(one.mine[0][:, :k] - one.right[0][:, :k])
+        wrong.append(~np.all(off <= NEAR, axis=1))
+    rows = np.any(wrong, axis=0)
+    bad = [name for name, is_bad in zip(NAMES, rows, strict=True) if is_bad]
+    good = [name for name, is_bad in zip(NAMES, rows, strict=True) if not is_bad]
+    found = only(ROWS, features, np.any(wrong, axis=1), least=0.5)
+    if not good and not found:
+        return None
+    says = (
+        f"Of a, b and g {' and '.join(good) or 'none'} is right in all calls; look at "
+    )
+    says += f"{' and '.join(bad)}."
+    says += f" {found.message}" if found else ""
+    return Finding(f"wrong-{'-'.join(bad)}", says)
