@@ -58,6 +58,8 @@ def _(rng):
     yield np.array([0.0, 0]), np.array([9.0, 0]), np.array([[2, 1.5, 2.0]])  # large
     yield np.array([0.0, 0]), np.array([9.0, 0]), np.array([[2, 2.5, 2.0]])
     yield np.array([0.0, 0]), np.array([1.1, 0]), np.array([[0.5, 0, 0.2]])
+    for x in (-3.0, 4.0):  # on the line, far off the edge
+        yield np.zeros(2), np.array([1.0, 0]), np.array([[x, 0, 0.5]])
     two = np.array([[5.0, 5, 1], [1, 0, 0.5]])
     yield np.array([0.0, 0]), np.array([2.0, 0]), two
     yield np.array([0.0, 0]), np.array([2.0, 0]), two[::-1]
@@ -160,10 +162,11 @@ def _(a, b, discs):
       two of them => twenty points
     points-only 4: only some points of the edge are looked at; a thin disc fits between
       two of them => eleven points
-    points-only 5: only some points of the edge are looked at; a thin disc fits between
-      two of them => a hundred and one points
-    points-only 6: only some points of the edge are looked at; a thin disc fits between
-      two of them => two hundred points
+    points-only 5: discs that cover little of the edge are missed: some points of
+      it are tried alone, or its nearest point is a little beside => a hundred and
+      one points
+    points-only 6: discs that cover little of the edge are missed: some points of
+      it are tried alone, or its nearest point is a little beside => two hundred points
     inside-is-free: an edge that lies in a disc crosses no circle, and is free; a disc
       is all that is inside => where the edge crosses a circle
     inside-is-free 2: an edge that lies in a disc crosses no circle, and is free, a
@@ -210,14 +213,14 @@ def _(a, b, discs):
     no-disc-is-hit: where there is no disc nothing is hit: the edge is free
     touching-between: an edge that touches a disc between its ends is free; it is not
       to be
-    points-only 7: only some points of the edge are looked at; a thin disc fits between
-      two of them => a thousand points
+    points-only 7: discs that cover little of the edge are missed: some points of
+      it are tried alone, or its nearest point is a little beside => a thousand points
     points-only 8: only some points of the edge are looked at; a thin disc fits between
       two of them => ten points without the end
-    points-only 9: only some points of the edge are looked at; a thin disc fits between
-      two of them => a hundred points
-    points-only 10: only some points of the edge are looked at; a thin disc fits between
-      two of them => fifty points
+    points-only 9: discs that cover little of the edge are missed: some points of
+      it are tried alone, or its nearest point is a little beside => a hundred points
+    points-only 10: discs that cover little of the edge are missed: some points of
+      it are tried alone, or its nearest point is a little beside => fifty points
     """
     along = b - a
     square = along @ along

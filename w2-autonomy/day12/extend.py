@@ -39,7 +39,7 @@ def asked(rng, free, far, n=6):
         start = disc_edge_free(tree[i], tree[i], world)
         if not start or bool(away > step) is not far or open_ is not free:
             continue
-        if (beyond or not far or rng.uniform(0, 1) < 0.3) and definite(
+        if (beyond or not far or rng.uniform(0, 1) < 0.03) and definite(
             tree, sample, step, world
         ):
             return tree, sample, step, world
@@ -55,6 +55,7 @@ def _(rng):
     thin = np.array([[0.25, 0, 0.02]])
     yield np.array([[2.0, 2], [0, 0]]), np.array([0.4, 0]), 0.5, thin
     yield np.array([[0.0, 0], [3, 0]]), np.array([1.0, 0]), 0.5, thin
+    yield np.array([[0.0, 0]]), np.array([0.4, 0]), 0.5, thin  # no other node sees it
     kinds = [(True, True), (False, True), (True, False), (False, False)]
     rng = usual(rng)
     for free, far in kinds[:2] * 5 + kinds[2:] * 2:
@@ -92,6 +93,7 @@ def _(tree, sample, step, world):
     edge-from-the-root: the edge from the root to the new point is checked; it starts at
       the nearest node
     edge-to-the-sample: the edge to the sample is checked; the tree only grows by a step
+    edge-of-two-steps: the edge that is checked is two steps long; the tree grows by one
     edge-on-from-there: the edge from the new point to the sample is checked; the tree
       grows by the one before it
     hit-for-free: True and False are swapped: it says whether the edge is hit
@@ -145,6 +147,7 @@ def _(tree, sample, step, world):
         "never-free": (i, q, False),
         "edge-from-the-root": (i, q, check(root, q)),
         "edge-to-the-sample": (i, q, check(tree[i], sample)),
+        "edge-of-two-steps": (i, q, check(tree[i], 2 * q - tree[i])),
         "edge-on-from-there": (i, q, check(q, sample)),
         "hit-for-free": (i, q, not free),
         "stays-where-blocked": (i, q if free else tree[i], free),
