@@ -140,6 +140,8 @@ def _(a, b, g, limits, sd):
       a = 0 hold: least, then greatest
     none-sorted: where none is allowed the least is above the greatest; here they are
       sorted
+    none-sorted 2: where the joints allow no common sdd the least is above the greatest;
+      here they are sorted
     none-is-zero: where none is allowed this is (0, 0)
     none-is-zero 2: where a joint with a = 0 cannot hold this is (0, 0): that allows sdd
       0; (inf, -inf) allows nothing
@@ -236,6 +238,7 @@ def _(a, b, g, limits, sd):
         "greatest-first": right[::-1],
         "greatest-first 2": right[::-1],
         "none-sorted": np.sort(right),
+        "none-sorted 2": np.sort(right) if held else right,
         "none-is-zero": right if right[0] <= right[1] else np.zeros(2),
         "none-is-zero 2": right if held else np.zeros(2),
         "none-is-one": np.array([min(right), right[1]]),

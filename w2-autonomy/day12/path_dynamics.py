@@ -35,6 +35,10 @@ def _(M, dq, ddq, coriolis, gravity):
     m-forgotten 3: the mass matrix is missing in a and in b
     diagonal-only: only the diagonal of the mass matrix is used: joints move each other,
       too
+    diagonal-only 2: only the diagonal of the mass matrix is used in a: joints move each
+      other, too
+    diagonal-only 3: only the diagonal of the mass matrix is used in b: joints move each
+      other, too
     a-and-b-exchanged: a and b are exchanged: sdd comes with dq, sd^2 with ddq
     g-first: g is the first row: they are a, b and g
     ddq-in-a: M dq and M ddq are exchanged: qdd = dq sdd + ddq sd^2
@@ -70,6 +74,8 @@ def _(M, dq, ddq, coriolis, gravity):
         "diagonal-only": np.array(
             [M.diagonal() * dq, M.diagonal() * ddq + coriolis, g]
         ),
+        "diagonal-only 2": np.array([M.diagonal() * dq, b, g]),
+        "diagonal-only 3": np.array([a, M.diagonal() * ddq + coriolis, g]),
         "a-and-b-exchanged": right[[1, 0, 2]],
         "g-first": right[[2, 0, 1]],
         "ddq-in-a": np.array([M @ ddq, M @ dq + coriolis, g]),

@@ -21,6 +21,7 @@ USUAL = {
     "parent": "nearest",
     "joined": lambda a, b: a[::-1] + b[1:],
     "free": None,
+    "first": "start",
     "used": lambda samples: samples,
     "stride": 1.0,
     "far": 1.0,
@@ -92,6 +93,8 @@ def planner(
             parent: "nearest", or "newest" of each node, or the "root".
             joined: how the way is made of both branches, each from the newest to its
                 root.
+            first: the "start"'s branch comes first, or that of the tree whose "turn" it
+                is.
             free: True takes every edge for free.
             used: from the samples to those that are used.
             stride, far: by what the first tree's step, and the other's, is multiplied.
@@ -119,7 +122,8 @@ def planner(
         if not grew and o.blocked == "stop":
             break
         if (grew or o.blocked == "on") and _joins(o, trees, side, sample, step):
-            return np.array(o.joined(trees.to_root(0), trees.to_root(1)))
+            first = side if o.first == "turn" else 0
+            return np.array(o.joined(trees.to_root(first), trees.to_root(1 - first)))
     return o.none(start, goal)
 
 
@@ -219,6 +223,8 @@ OPTIONS = [
            {"joined": lambda a, b: a[::-1] + b[::-1][1:]}),
     Option("goal-to-start", "the way runs from the goal to the start",
            {"joined": lambda a, b: b[::-1] + a[1:]}),
+    Option("goal-to-start-on-its-turn", "where a sample of the goal's tree finds the "
+           "way, it runs from the goal to the start", {"first": "turn"}),
     Option("meeting-point-twice", "the node where the trees meet stands twice",
            {"joined": lambda a, b: a[::-1] + b}),
     Option("meeting-point-lost", "the node where the trees meet is in neither half",
@@ -236,13 +242,17 @@ OPTIONS = [
 ]  # fmt: skip
 
 
+def _lengths(way: Array) -> Array:
+    return np.linalg.norm(np.diff(way, axis=0), axis=1)
+
+
 def fault(way: Array, start: Array, goal: Array, world: Array, step: float) -> str:
     """Return what keeps a way from being one, in words, or ""."""
     if not np.array_equal(way[0], start):
         return "does not begin at the start"
     if not np.array_equal(way[-1], goal):
         return "does not end at the goal"
-    longest = np.linalg.norm(np.diff(way, axis=0), axis=1).max(initial=0.0)
+    longest = _lengths(way).max(initial=0.0)
     if longest > step * (1 + 1e-9):
         return f"has an edge of length {longest:.3f}, where a step is {step:g}"
     for i, (a, b) in enumerate(pairwise(way)):
@@ -282,6 +292,11 @@ def of_a_planner(case: Case) -> Finding | None:
             return Finding("no-way", says)
         if len(way) and (why := fault(way, start, goal, world, step)):
             return Finding("no-valid-way", f"It is no way {where}: it {why}.")
+        if len(twice := np.flatnonzero(_lengths(way) == 0.0)):
+            says = (
+                f"Way points {twice[0]} and {twice[0] + 1} are one point {where}: it "
+            )
+            return Finding("point-twice", says + "stands in the way once.")
         if len(way) and not len(right):
             says = f"It finds a way {where}, where these samples find none: a valid one"
             return Finding("another-planner", f"{says}, and not the one asked for.")

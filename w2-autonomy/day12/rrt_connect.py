@@ -62,23 +62,23 @@ def _other(**how):
 
 @row.wrongs
 def _(start, goal, world, samples, step):
-    """swap-when-it-grew: yours is another planner: valid, and not the one asked for.
+    """swap-when-it-grew: yours is another planner than the one asked for.
       The trees change places only after a sample that made one grow; here sample 0, 2,
       4 is the start's whatever became of it
-    swap-when-it-failed: yours is another planner: valid, and not the one asked for. The
+    swap-when-it-failed: yours is another planner than the one asked for. The
       trees change places only after a blocked sample; here they take turns
-    trees-not-swapped: yours is another planner: valid, and not the one asked for. All
+    trees-not-swapped: yours is another planner than the one asked for. All
       samples grow the start's tree; 1, 3, 5 are the goal's
-    goal-first: yours is another planner: valid, and not the one asked for. Sample 0
+    goal-first: yours is another planner than the one asked for. Sample 0
       grows the goal's tree; it is the start's
-    connect-one-step: yours is another planner: valid, and not the one asked for. The
+    connect-one-step: yours is another planner than the one asked for. The
       other tree grows by one edge; it goes on, edge after edge, until it is blocked or
       stands at the new node
-    connect-to-the-sample: yours is another planner: valid, and not the one asked for.
+    connect-to-the-sample: yours is another planner than the one asked for.
       The other tree grows towards the sample; it grows towards the new node
-    greedy-samples: yours is another planner: valid, and not the one asked for. Towards
+    greedy-samples: yours is another planner than the one asked for. Towards
       the sample, too, the tree grows edge after edge; one edge is asked for
-    one-tree: yours is another planner: valid, and not the one asked for. Only the
+    one-tree: yours is another planner than the one asked for. Only the
       start's tree grows, and the goal is tried from each new node; two trees grow here
     connect-in-one-jump: the other tree joins by one edge, however long; it grows by
       steps

@@ -206,7 +206,7 @@ def _gone(
     if np.linalg.norm(end - q - along * unit) < NEAR * max(1.0, abs(along)):
         return True, f"it goes {along + 0.0:.3f} far where {least:.3f} is right"
     off = np.linalg.norm(end - q - least * unit)
-    return False, f"{off:.3f} away from where a step of {least:.3f} ends"
+    return False, f"{off:.2g} away from where a step of {least:.3f} ends"
 
 
 EDGES: Kinds = {
