@@ -201,7 +201,9 @@ def _no_cut(mine: Array, path: Array, world: Array, where: str) -> Finding | Non
     if at[-1] != len(path) - 1:
         return Finding("end-lost", f"The path's last point is missing, {where}.")
     if any(j <= i for i, j in pairwise(at)):
-        return Finding("other-order", f"Points stand in another order, {where}.")
+        return Finding(
+            "other-order", f"Points stand twice, or in another order, {where}."
+        )
     for i, j in pairwise(at):
         if j > i + 1 and not planning.disc_edge_free(path[i], path[j], world):
             says = f"It cuts from row {i} of the path to row {j}, {where}, where the "

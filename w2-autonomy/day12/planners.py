@@ -84,8 +84,8 @@ def planner(
         start, goal, world, samples, step: as rrt_connect has them.
         how: what differs from `USUAL`:
             turn: when the trees change: "sample" each time; "grew" only if it grew;
-                "failed" only if not; "never"; "goal": the goal's tree is first; "half"
-                after half of the samples.
+                "failed" only if not; "never"; "goal": the goal's tree is first; or
+                whose turn it is, from k, the samples and both trees' nodes.
             approach: what the other tree does: "connect" edge after edge to the new
                 node; "one" edge; "sample": edge after edge to the sample; "jump" in one
                 edge; "root": to the root of the first tree.
@@ -100,7 +100,7 @@ def planner(
             stride, far: by what the first tree's step, and the other's, is multiplied.
             grows: the "nearest" node, or the "newest".
             blocked: after a blocked sample the "next" one, "on" with the other tree and
-                the newest node, or "stop".
+                the newest node, "stop", or the "other" tree grows towards it.
             meets: "equal", or "near", within a step, or at the "sample".
             tries: edges that the other tree grows at most; 0 is no limit.
             none: from start and goal to what comes back without a way.
@@ -110,17 +110,20 @@ def planner(
     one = int(o.turn == "goal")
     used = o.used(samples)
     for k, sample in enumerate(used):
-        side = int(2 * k >= len(used)) if o.turn == "half" else one
+        side = o.turn(k, used, trees.nodes) if callable(o.turn) else one
         grew = trees.grow(side, sample, step * o.stride)
         while grew and o.mine == "connect":
             if np.array_equal(trees.nodes[side][-1], sample):
                 break
             if not trees.grow(side, sample, step * o.stride):
                 break
-        if {"sample": True, "goal": True, "grew": grew, "failed": not grew}.get(o.turn):
+        turns = {"sample": True, "goal": True, "grew": grew, "failed": not grew}
+        if isinstance(o.turn, str) and turns.get(o.turn):
             one = 1 - one
         if not grew and o.blocked == "stop":
             break
+        if not grew and o.blocked == "other":
+            trees.grow(1 - side, sample, step)
         if (grew or o.blocked == "on") and _joins(o, trees, side, sample, step):
             first = side if o.first == "turn" else 0
             return np.array(o.joined(trees.to_root(first), trees.to_root(1 - first)))
@@ -166,7 +169,18 @@ OPTIONS = [
     Option("trees-not-swapped", "all samples grow the start's tree", {"turn": "never"}),
     Option("goal-first", "sample 0 grows the goal's tree", {"turn": "goal"}),
     Option("halves", "the first half of the samples grows the start's tree, the second "
-           "the goal's; they take turns", {"turn": "half"}),
+           "the goal's; they take turns",
+           {"turn": lambda k, used, nodes: int(2 * k >= len(used))}),
+    Option("two-in-turn", "samples 0 and 1 grow the start's tree, 2 and 3 the goal's; "
+           "they take turns", {"turn": lambda k, used, nodes: k // 2 % 2}),
+    Option("one-of-three", "only every third sample grows the goal's tree; they take "
+           "turns", {"turn": lambda k, used, nodes: int(k % 3 == 2)}),
+    Option("smaller-tree", "the tree that has fewer nodes grows; they take turns",
+           {"turn": lambda k, used, nodes: int(len(nodes[1]) < len(nodes[0]))}),
+    Option("blocked-tries-the-other", "after a blocked sample the other tree grows "
+           "towards it; the next sample's turn is asked for", {"blocked": "other"}),
+    *(Option("few-samples", f"only the first {n} samples are used",
+             {"used": lambda some, n=n: some[:n]}) for n in (5, 10, 20)),
     Option("connect-one-step", "the other tree grows by one edge", {"approach": "one"}),
     Option("connect-to-the-sample", "the other tree grows towards the sample",
            {"approach": "sample"}),

@@ -24,6 +24,7 @@ def _(rng):
     yield path, NONE, np.array([[0.9, 0.1]])  # the other way round, and to the end
     yield path, NONE, np.array([[0.3, 0.35], [0.45, 0.79]])  # neighbours, and the same
     yield path[:2], NONE, np.array([[0.1, 0.9]])
+    yield path[:3], NONE, np.array([[0.1, 0.9]])
     yield path, np.array([[1.0, 0.5, 0.9]]), np.array([[0.1, 0.9], [0, 0.5]])
     line = np.array(
         [[0.1, 0], [1, 0], [2, 1], [3, 0], [4, 0], [5, 1], [6, 0], [7, 0.0]]

@@ -73,7 +73,24 @@ def _of_z(trials: Sequence[Asked]) -> Finding | None:
         if len(zs) > 5 and np.ptp(zs) < 1e-6 and abs(zs[0] - Z) > 1e-5 and zs[0] > 0:
             says = f"z is {zs[0]:.4g} in every call, {how}; 95 % of a normal noise lie "
             return Finding("another-z", f"{says}within 1.96 sigma.")
+    pairs = [z for z in (_both_z(one) for one in trials) if z]
+    if len(pairs) > 5 and all(abs(low - high) < 1e-6 for low, high in pairs):
+        least, most = min(pairs)[0], max(pairs)[0]
+        says = (
+            f"z is {least:.4g} to {most:.4g}, in the formula that is asked for; it is "
+        )
+        return Finding("z-changes", f"{says}1.96 for all n.")
     return None
+
+
+def _both_z(one: Asked) -> tuple[float, float] | None:
+    """Return the z of either end in the formula asked for, where both tell it."""
+    k, n = one.arguments
+    low, high = one.mine[0]
+    if not (NEAR < low < 1 - NEAR and NEAR < high < 1 - NEAR):
+        return None
+    first, other = (abs(x - k / n) * np.sqrt(n / (x * (1 - x))) for x in (low, high))
+    return float(first), float(other)
 
 
 def _ends(trials: Sequence[Asked]) -> str:
@@ -136,7 +153,13 @@ def of_a_range(case: Case) -> Finding | None:
     says += _wider(asked)
     if found:
         return Finding(found.slug, found.message + says)
-    return Finding("another-range", says.strip()) if says else None
+    if not says:
+        says = "; ".join(
+            f"the {name} is wrong in {sum(off)} of {len(asked)} calls"
+            for name, off in zip(("least", "greatest"), ends, strict=True)
+        ).capitalize()
+        says += ". Work out both quotients of one joint, and what all joints allow."
+    return Finding("another-range", says.strip())
 
 
 def _other(mine: Any, right: Any) -> bool:
@@ -199,9 +222,10 @@ def of_a_path(case: Case) -> Finding | None:
     found = only(ROWS, features, np.any(wrong, axis=1), least=0.5)
     if not good and not found:
         return None
-    says = (
-        f"Of a, b and g {' and '.join(good) or 'none'} is right in all calls; look at "
+    right = (
+        f"{' and '.join(good)} {'is' if len(good) == 1 else 'are'} right in all calls"
     )
+    says = f"Of a, b and g {right if good else 'none is right'}; look at "
     says += f"{' and '.join(bad)}."
     says += f" {found.message}" if found else ""
     return Finding(f"wrong-{'-'.join(bad)}", says)
