@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from labkit.base import html
-from labkit.base.text import count, visible, visible_lines
+from labkit.base.text import blocks, count, refill, visible, visible_lines
 
 
 class TestVisible:
@@ -53,3 +53,12 @@ def test_no_page_holds_what_a_reader_would_obey_and_not_see():
 
 def test_a_count_agrees_with_its_noun():
     assert [count(n, "row") for n in (0, 1, 1000)] == ["0 rows", "1 row", "1,000 rows"]
+
+
+@pytest.mark.parametrize("opening", ["<!-- numbers -->\n", "<!-- numbers: x "])
+def test_openings_that_nobody_closes_are_text_and_cost_nothing(opening):
+    many = opening * 10_000  # minutes, were each followed to the end
+    whole = f"<!-- numbers -->\nold\n<!-- end -->{many}"
+    assert blocks(many, "numbers") == []
+    assert blocks(whole, "numbers") == ["old\n"]
+    assert refill(whole, {"numbers": lambda *_: "new\n"}) == whole.replace("old", "new")

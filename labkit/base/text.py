@@ -18,6 +18,7 @@ from collections.abc import Callable, Mapping
 Maker = Callable[[str, str], str]  # from the request and the old content to the new
 
 LENGTH, LINE = 500, 200  # characters
+_END = "<!-- end -->"  # of a block
 # What a terminal or a page obeys instead of showing it: controls, line and paragraph
 # separators, and format characters, which include those of the reading direction.
 _OBEYED = {"Cc", "Cf", "Zl", "Zp"}
@@ -78,14 +79,24 @@ def refill(document: str, makers: Mapping[str, Maker]) -> str:
         new = makers[name](request or "", old).replace("\r\n", "\n")
         return opening + new.replace("\n", newline) + closing
 
-    return _pattern(*makers).sub(fresh, document)
+    closed, rest = _closed(document)
+    return _pattern(*makers).sub(fresh, closed) + rest
 
 
 def blocks(document: str, name: str) -> list[str]:
     """Return what the blocks of a name hold."""
-    return [found[4] for found in _pattern(name).findall(document)]
+    return [found[4] for found in _pattern(name).findall(_closed(document)[0])]
+
+
+def _closed(document: str) -> tuple[str, str]:
+    """Return a document up to its last end of a block, and the rest.
+
+    Each of a thousand openings without an end would be followed to the last line.
+    """
+    closed, end, rest = document.rpartition(_END)
+    return closed + end, rest
 
 
 def _pattern(*names: str) -> re.Pattern[str]:
-    opening = rf"<!-- ({'|'.join(names)})(?:: (.+?))? -->[ \t]*(\r?\n)"
-    return re.compile(rf"({opening})(.*?)(<!-- end -->)", re.DOTALL)
+    opening = rf"<!-- ({'|'.join(names)})(?:: ([^<\n]+?))? -->[ \t]*(\r?\n)"
+    return re.compile(rf"({opening})(.*?)({_END})", re.DOTALL)
