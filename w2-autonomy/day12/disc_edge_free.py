@@ -312,6 +312,15 @@ def touching_and_no_length(a, b, discs):
     return not np.any(np.linalg.norm(discs[:, :2] - foot, axis=1) < discs[:, 2])
 
 
+@row.wrong("free-called-hit")
+def _(a, b, discs):
+    along = b - a
+    share = (discs[:, :2] - a) @ along / max(along @ along, 1e-300)
+    cut = np.clip(share, -0.3, 1.3)
+    foot = a + np.where(np.abs(share - 0.5) < 0.5, share, cut)[:, None] * along
+    return bool(np.all(np.linalg.norm(discs[:, :2] - foot, axis=1) > discs[:, 2]))
+
+
 @row.right  # Disc by disc, by three cases.
 def _(a, b, discs):
     length = np.linalg.norm(b - a)

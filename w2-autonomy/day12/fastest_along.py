@@ -173,6 +173,16 @@ def _(A, B, G, limits, x_max):
     }
 
 
+@row.wrong("without-turning")
+def _(A, B, G, limits, x_max):
+    return timed(A, B, G, limits, x_max, without=("turning",))
+
+
+@row.wrong("slower-than-possible")
+def _(A, B, G, limits, x_max):
+    return timed(A, B, G, limits, x_max, most=lambda x: 0.37 * x)
+
+
 @row.right  # Where straight lines cross, for bisection.
 def _(A, B, G, limits, x_max):
     n = len(A) - 1

@@ -134,6 +134,19 @@ def _(start, goal, world, samples, step):
     }
 
 
+@row.wrong("two-in-turn")
+def _(start, goal, world, samples, step):
+    return planner(
+        start, goal, world, samples, step, turn=lambda k, used, nodes: k // 2 % 2
+    )
+
+
+@row.wrong("no-way")
+def _(start, goal, world, samples, step):
+    some = np.vstack([samples[::3], samples[1::3]])
+    return rrt_connect(start, goal, world, some, step)
+
+
 @row.right  # A branch is kept with each node, and the trees change places.
 def _(start, goal, world, samples, step):
     one = {"nodes": [start], "ways": [[start]]}

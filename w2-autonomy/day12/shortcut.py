@@ -140,6 +140,11 @@ def _(path, world, pairs):
     }
 
 
+@row.wrong("not-sorted+not-checked")
+def _(path, world, pairs):
+    return cut(path, world, pairs, order=list, check=lambda a, b, world: True)
+
+
 @row.right  # A list, cut in place.
 def _(path, world, pairs):
     points = list(path)
