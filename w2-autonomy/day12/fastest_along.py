@@ -173,7 +173,7 @@ def _(A, B, G, limits, x_max):
     }
 
 
-@row.wrong("without-turning")
+@row.wrong("without-turning", hidden="no path of the lab has to turn back")
 def _(A, B, G, limits, x_max):
     return timed(A, B, G, limits, x_max, without=("turning",))
 
