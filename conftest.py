@@ -82,7 +82,7 @@ class Answers:
     def saved(self):
         return False
 
-    def ask(self, questions):
+    def ask(self, questions, version):
         return [
             Reply(self.functions[one.function](*one.args))
             if one.function in self.functions

@@ -1,6 +1,9 @@
 // What a page of the site does besides being read.
 
 // A film takes the place of its picture at a click.
+const dark = () =>
+  document.body.dataset.theme === "dark" ||
+  (document.body.dataset.theme !== "light" && matchMedia("(prefers-color-scheme: dark)").matches);
 const shows = Boolean(document.createElement("canvas").getContext("webgl2"));
 for (const line of document.querySelectorAll("p.film")) {
   const link = line.querySelector("a");
@@ -9,7 +12,8 @@ for (const line of document.querySelectorAll("p.film")) {
   link.addEventListener("click", (event) => {
     event.preventDefault();
     const film = document.createElement("iframe");
-    Object.assign(film, { src: link.href, title: link.textContent, className: "film" });
+    const src = link.href + (dark() ? "?darkMode" : ""); // viser's own word
+    Object.assign(film, { src, title: link.textContent, className: "film" });
     still.replaceWith(film);
     line.textContent = "Drag to turn it; the slider is its time.";
   });
@@ -33,4 +37,4 @@ const sized = new ResizeObserver((all) => {
     if (target.scrollWidth > target.clientWidth) target.tabIndex = 0;
     else target.removeAttribute("tabindex");
 });
-for (const wide of document.querySelectorAll("pre, .table-wrapper, .math-wrapper")) sized.observe(wide);
+for (const wide of document.querySelectorAll("pre, .table-wrapper, .math-wrapper, .long")) sized.observe(wide);

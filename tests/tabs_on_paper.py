@@ -75,7 +75,7 @@ class Loop:
 
     def __init__(self, step: Any, hz: float, changed: Any, work: Any) -> None:
         self.step, self.hz, self.changed, self.work = step, hz, changed, work
-        self.running, self.slow, self.lasts = False, 1.0, np.inf
+        self.running, self.slow, self.lasts, self.due = False, 1.0, np.inf, False
 
     def start(self, *_: float) -> None:
         """Have `play` play it."""
@@ -95,7 +95,7 @@ class Now:
 
     def __init__(self, ended: Any) -> None:
         self.ended = ended
-        self.waits = False  # for the end of the moment
+        self.waits = self.due = False  # for the end of the moment; what it may say
         self.next: tuple[Any, Any] | None = None
 
     def want(self, work: Any, done: Any) -> None:
@@ -149,7 +149,7 @@ class Desk:
         self.tab.on_move(self.q)
         self.settle()
 
-    def ask(self, questions: Any) -> list[Reply]:
+    def ask(self, questions: Any, version: int) -> list[Reply]:
         """Ask the functions; one that stops is told as the sandbox tells it."""
         self.asked |= {one.function for one in questions}
         replies = []

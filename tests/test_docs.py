@@ -17,9 +17,9 @@ import pytest
 from conftest import AUTHORS, ROOT, kits_worksheet, need
 from labkit.base import processes
 from labkit.base.text import blocks
-from labkit.commands import docs, week
+from labkit.commands import capstone, constants, docs, week
 from labkit.lesson.day import all_days, find_day
-from robo47 import __version__
+from robo47 import __version__, delivery
 
 WEEK = ROOT / "w1-foundations"
 DAY = find_day(1)
@@ -42,9 +42,26 @@ DOCUMENTS = [
 def test_every_output_in_the_documents_is_what_the_command_prints_today(
     monkeypatch, tmp_path, capsys
 ):
-    """A lab runs once: for its own document and for the table of its week."""
+    """A lab runs once: for its own document and for the table of its week.
+
+    What needs no process of its own runs in this one, and a delivery that two outputs
+    show is made once.
+    """
     need(shutil.which("make") is not None, "make")
     start = processes.run
+    here = {
+        "run_week.py": week.main,
+        "constants.py": constants.main,
+        "capstone.py": capstone.main,
+    }
+    deliver, made = delivery.deliver, {}
+
+    def delivered(fns, *how):  # with the library's functions: --kit
+        if (key := repr(how)) not in made:
+            made[key] = deliver(fns, *how)
+        return made[key]
+
+    monkeypatch.setattr(delivery, "deliver", delivered)
 
     @functools.cache
     def lab(source):
@@ -62,12 +79,15 @@ def test_every_output_in_the_documents_is_what_the_command_prints_today(
             if "--no-log" not in command:
                 Path(env["ROBO47_METRICS"]).write_bytes(rows)
             return done
-        if script.name != "run_week.py":
+        main = here.get(script.name)
+        if main is None:
             return start(command, env=env, cwd=cwd)
         monkeypatch.setattr(sys, "argv", command[1:])
-        with contextlib.redirect_stdout(io.StringIO()) as printed:
-            code = week.main()
-        return subprocess.CompletedProcess(command, code, printed.getvalue(), "")
+        said = contextlib.redirect_stderr(io.StringIO())
+        with said as wrong, contextlib.redirect_stdout(io.StringIO()) as printed:
+            code = main()
+        texts = printed.getvalue(), wrong.getvalue()
+        return subprocess.CompletedProcess(command, code, *texts)
 
     monkeypatch.setattr(processes, "run", run)
     monkeypatch.setattr(sys, "argv", ["build_docs.py", "--check"])

@@ -1,10 +1,16 @@
 """The student's functions beside the library's, as a tab of the page asks them."""
 
+import asyncio
+import threading
+from functools import partial
+
 import numpy as np
 import pytest
 
 from conftest import Answers
 from labkit.base.exchange import Reply
+from labkit.inspector import words
+from labkit.inspector.animate import Animation, Jobs
 from labkit.inspector.own import NoAnswerError, Own
 
 pytestmark = pytest.mark.kit
@@ -31,6 +37,45 @@ def test_an_answer_is_the_students_and_is_compared_with_the_librarys():
     assert own.says() == ("YOUR functions. Off the library's: both by 8 N m", "bad")
 
 
+def test_how_far_off_is_said_without_a_power_of_ten():
+    _, own = own_of({"double": lambda x: 1e4 * x})
+    own.double(ONE)
+    assert own.says()[0].endswith("double by 40,000")
+    assert [words.digits(x) for x in (0.00123456, 999.6, 67_851.9)] == [
+        "0.00123", "1,000", "67,900",
+    ]  # fmt: skip
+
+
+def test_a_function_that_was_not_asked_before_is_announced():
+    said = []
+    student = Answers({"double": lambda x: 2.0 * x, "both": lambda x: (x, -x)})
+    own = Own(student, LIBRARY, first=lambda: said.append(own.says()[1]))
+    own.double(ONE)
+    own.double(ONE)
+    assert said == ["quiet"]
+    own.many(("double", ONE), ("both", ONE))
+    assert said == ["quiet", "good"]
+    student.version = 2
+    own.double(ONE)
+    assert len(said) == 3
+
+
+def test_what_a_tab_finds_wrong_is_held_against_its_file_alone():
+    student, own = own_of({"double": lambda x: 2.0 * x}, free=("double",))
+    own.double(ONE)
+    own.tell("double", "another way")
+    assert own.says() == (
+        "YOUR functions. Off the library's: double (another way)",
+        "bad",
+    )
+    own.tell("double", "")
+    assert own.says()[1] == "good"
+    own.tell("double", "another way")
+    student.version = 2
+    own.double(ONE)
+    assert own.says()[1] == "good"
+
+
 def test_what_is_not_written_is_the_librarys_and_is_called_that():
     _, own = own_of({"double": lambda x: 2.0 * x})
     assert own.any_root(4.0) == 2.0
@@ -38,6 +83,21 @@ def test_what_is_not_written_is_the_librarys_and_is_called_that():
     assert own.says() == (says, "quiet")
     own.double(ONE)
     assert own.says()[0].startswith("YOUR double: the same as the library's; besides")
+
+
+def test_what_the_library_refuses_is_told_of_who_gave_it():
+    def positive(x):
+        raise ValueError("x is below 0")
+
+    library = {**LIBRARY, "root": positive}
+    own = Own(Answers({"double": lambda x: -2.0 * x}), library)
+    with pytest.raises(NoAnswerError, match="The library's root refuses what it is"):
+        own.root(ONE)
+    own.double(ONE)
+    with pytest.raises(
+        NoAnswerError, match=r"double by 16\. The library's root refuses"
+    ):
+        own.root(ONE)
 
 
 def test_a_name_that_the_tab_did_not_give_is_told():
@@ -80,7 +140,7 @@ def test_what_is_no_answer_is_said_and_nothing_else_is_passed_off_as_it(answer, 
 )
 def test_what_stops_is_told_in_the_words_of_make_check(reply, says):
     student, own = own_of({})
-    student.ask = lambda questions: [reply]
+    student.ask = lambda *_: [reply]
     with pytest.raises(NoAnswerError, match=says):
         own.double(ONE)
 
@@ -126,6 +186,26 @@ def test_who_gave_no_answer_is_not_green_because_another_one_does():
     assert own.says()[1] == "good"
 
 
+def test_a_loop_and_a_job_owe_an_answer_until_their_first_one():
+    async def told():
+        may = threading.Event()
+        said = []
+        loop = Animation(
+            lambda t: said.append(loop.due), 50, lambda e: None, lambda t: may.wait(9)
+        )
+        job = Jobs(lambda error: said.append(job.due))
+        loop.start()
+        job.want(partial(may.wait, 9), lambda found: None)
+        owe = loop.due, job.due
+        may.set()
+        while len(said) < 4:
+            await asyncio.sleep(0.01)
+        loop.stop()
+        return owe, said
+
+    assert asyncio.run(told()) == ((True, True), [False] * 4)
+
+
 def test_a_function_with_many_right_answers_is_not_compared():
     _, own = own_of({"any_root": lambda x: -np.sqrt(x)}, free=("any_root",))
     assert own.any_root(4.0) == -2.0
@@ -155,7 +235,7 @@ def test_what_an_answer_says_cannot_become_part_of_the_page():
 
     student, own = own_of({})
     evil = "<img src=x onerror=alert(1)>"
-    student.ask = lambda questions: [Reply(kind="ValueError", error=evil)]
+    student.ask = lambda *_: [Reply(kind="ValueError", error=evil)]
     with pytest.raises(NoAnswerError) as said:
         own.double(ONE)
     shown = words.judged(str(said.value), "whose", "bad")

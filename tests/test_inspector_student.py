@@ -38,6 +38,9 @@ class Fake:
         scale = 1.0 if self.text == "no path" else float(self.text)
         return [Reply(scale * np.eye(4))] * len(questions)
 
+    def halt(self):
+        self.text = "loop"
+
     def close(self):
         self.alive = False
 
@@ -94,6 +97,23 @@ def test_a_save_is_seen_once_and_the_file_asked_anew(desk):
     assert desk.save("3.5").poses["ee"][0, 0] == 3.5
     desk.see()
     assert desk.student.version == before + 1
+
+
+def test_no_call_that_an_old_file_was_meant_to_answer_reaches_the_new_one(desk):
+    desk.save("2")
+    old = desk.student.version
+    opened = desk.student.sandbox.session
+    seen = []
+    desk.student.sandbox.session = lambda *given, **named: (
+        seen.append((desk.student.saved(), desk.student.version)),
+        opened(*given, **named),
+    )[1]
+    desk.save("loop")
+    desk.fake.alive = True
+    desk.fake.asked.clear()
+    (reply,) = desk.student.ask([Question("view", "f", ())], old)
+    assert (reply.kind, desk.fake.asked) == ("stopped", [])
+    assert seen == [(False, old + 1)]  # a name of its own before it is open
 
 
 def test_a_file_that_does_not_load_is_said_and_the_next_save_is_asked(desk):

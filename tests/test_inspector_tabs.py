@@ -134,6 +134,26 @@ def looked(number, title, functions, used=True):
     return desk
 
 
+def turned(number, *functions):
+    """Return functions of a day with a sign put in, {name: function}."""
+
+    def of(name):
+        return lambda *given: SIGNS.get(name, negative)(lab(number)[name](*given))
+
+    return {name: of(name) for name in functions}
+
+
+def standing(desk):
+    """Return what one sees at the end, {what was set: its value}."""
+    now = dict(desk.log)
+    hidden = tuple(
+        name.removesuffix("visible").removesuffix("ball.")
+        for name, value in now.items()
+        if name.endswith(".visible") and not value
+    )
+    return {name: one for name, one in now.items() if not name.startswith(hidden)}
+
+
 @cache
 def right(number, title):
     """Return the tab of who has everything right."""
@@ -162,14 +182,13 @@ def test_a_tab_asks_the_student_for_what_it_shows_and_finds_it_right(number, tit
 
 @pytest.mark.parametrize(("number", "title", "function"), BOTH)
 def test_a_sign_in_a_function_changes_what_the_tab_shows(number, title, function):
-    def wrong(*given):
-        return SIGNS.get(function, negative)(lab(number)[function](*given))
-
-    desk = looked(number, title, {**lab(number), function: wrong})
+    desk = looked(number, title, {**lab(number), **turned(number, function)})
     assert not same(desk.log, right(number, title).log)
+    assert "r47-bad" in desk.page._whose.content or not desk.problem
     says, kind = desk.whose
     free = f"{function}" in says.partition("at work: ")[2]  # the tab itself tells
-    assert (kind == "bad" and f"{function} by" in says) or free, says
+    named = f"{function} by" in says or f"{function} (another" in says
+    assert (kind == "bad" and named) or free, says
 
 
 def test_the_same_functions_show_the_same():
@@ -199,9 +218,17 @@ def no_number(*given):
 )
 def test_a_tab_without_answers_shows_no_green(number, title):
     desk = looked(number, title, lab(number), used=False)
+    names = SHOWN[number, title].split()
     wrong = stops if number % 2 else no_number
-    desk.save({**lab(number), **dict.fromkeys(SHOWN[number, title].split(), wrong)})
-    desk.play(2)
+    quick = set(names) - {"extend"}  # a wrong one grows its trees for seconds
+    before = {**lab(number), **turned(number, *quick)}
+    other = looked(number, title, before, used=False)
+    for one in (desk, other):
+        one.save({**lab(number), **dict.fromkeys(names, wrong)})
+        one.play(2)
+    ends = standing(desk), standing(other)
+    for name in set(ends[0]) & set(ends[1]):  # nothing is left of who was there before
+        assert same(ends[0][name], ends[1][name]), name
     assert isinstance(desk.problem, NoAnswerError)
     assert "r47-good" not in desk.seen
     assert desk.whose[1] == "bad"
@@ -212,6 +239,19 @@ def test_a_tab_without_answers_shows_no_green(number, title):
     assert desk.problem is None
     assert desk.whose[1] == "good"
     assert "r47-bad" not in desk.seen
+
+
+def test_no_green_stands_while_a_first_answer_has_still_to_come():
+    desk = looked(6, "Touch", lab(6), used=False)
+    whose = desk.page._whose
+    assert "r47-good" in whose.content
+    desk.page.asking()
+    desk.loops[0].due = True  # its first torques are being asked
+    desk.page._ended(None)  # the job has what the hand weighs
+    assert "r47-asking" in whose.content
+    desk.loops[0].due = False
+    desk.page._ended(None)
+    assert "r47-good" in whose.content
 
 
 @pytest.mark.parametrize("number", [1, 2])

@@ -2,6 +2,7 @@
 
 import contextlib
 import sys
+import threading
 
 import numpy as np
 import pytest
@@ -459,6 +460,16 @@ class TestASession:
             assert session.ask(questions)[0].kind == "stopped"
             other = box.session(script)
             assert other.ask(questions[:1])[0].value == 2
+
+    def test_that_loops_ends_when_another_thread_halts_it(self, student):
+        with sandbox.Sandbox() as box:
+            session = box.session(student(self.CODE))
+            session.ask([Question("", "f", (1,))])
+            halts = threading.Timer(0.2, session.halt)
+            halts.start()
+            (reply,) = session.ask([Question("", "loop", ())], seconds=600)
+            halts.join()
+            assert (reply.kind, session.alive) == ("stopped", False)
 
     def test_says_why_the_file_does_not_load(self, student):
         with sandbox.Sandbox() as box, pytest.raises(LoadError, match="division"):

@@ -188,6 +188,8 @@ def test_an_accented_letter_has_its_index_beside_it_and_its_dot_clear_of_it():
 
     assert mathml(r"\dot q_i").count("<msub><mover>") == 1
     assert "accent" not in mathml(r"\ddot q + \hat x")  # set into the letter at 1x
+    assert mathml(r"a \sin q").count("<mspace") == 2  # "asin q" is another function
+    assert "<mspace" not in mathml(r"\sin(q)")
 
 
 def test_an_equation_of_a_docstring_keeps_its_lines():
@@ -212,8 +214,37 @@ def test_a_pages_boxes_have_labels_and_its_captions_a_level():
     assert f"<label>{box} a\nb</label></p>" in made
     wide = '<img alt="b" src="../_images/a.webp">'
     narrow = '<source media="(max-width: 600px)" srcset="../_static/a_tall.webp">'
-    made = access.page(f"{wide}{wide.replace('a.webp', 'b.png')}", ["a_tall.webp"])
+    chart = wide.replace("a.webp", "b.png")
+    made = access.page(f"{wide}{chart}", ["a_tall.webp"], ["b.png"])
     assert made.startswith(f"<picture>{narrow}{wide}</picture><img loading")
+    assert made.count('class="chart"') == 1
+    formula = '<math xmlns="m"><mi>q</mi></math>'
+    assert access.page(f"a {formula}. b") == f'a <span class="kept">{formula}.</span> b'
+    block = formula.replace("xmlns", 'display="block" xmlns')
+    assert access.page(f"{formula} b {block}.") == f"{formula} b {block}."
+
+
+def test_a_command_is_told_in_a_sentence_whose_typed_parts_are_code():
+    from labkit.site.pages import _sentence
+
+    assert _sentence("is it so? TASK=9.3") == "Is it so? `TASK=9.3`."
+    assert _sentence("a/b.html of it; ARGS=--x, --y") == (
+        "`a/b.html` of it; `ARGS=--x`, `--y`."
+    )
+    assert _sentence("does it?") == "Does it?"
+
+
+def test_a_lessons_picture_is_a_chart_on_white_or_dark_itself():
+    from PIL import Image
+
+    from labkit.site import access
+
+    dark = []
+    for path in ROOT.glob("w*/figures/*.png"):
+        grey = np.asarray(Image.open(path).convert("L"))
+        assert access.on_white(path) == (np.median(grey) > 200), path.name
+        dark += [] if access.on_white(path) else [path.name]
+    assert {"day1_reference.png", "day7_pick.png", "week2_delivery.png"} <= {*dark}
 
 
 def test_the_page_says_of_a_mistake_what_the_checker_says():

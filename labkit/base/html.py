@@ -19,6 +19,7 @@ body { margin: 0 auto; max-width: 1240px; padding: 32px 20px 48px; color: var(--
   background: var(--paper); font: 15px/1.45 system-ui, -apple-system, "Segoe UI",
   Roboto, "Noto Sans", "DejaVu Sans", sans-serif; font-variant-numeric: tabular-nums;
   overflow-wrap: anywhere; }
+:where(a) { color: var(--line); }
 h1 { margin: 0; font-size: 28px; letter-spacing: -.01em; }
 h2 { margin: 36px 0 12px; font-size: 19px; }
 p { margin: 4px 0; } .jumps { margin-top: 14px; } .muted { color: var(--muted); }

@@ -120,8 +120,9 @@ def save(picture: Any, path: Path, about: Any = None) -> str:
     part = path.with_suffix(".part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        # 256 colours look the same; MAXCOVERAGE (1) keeps those of thin lines, too.
-        small = picture.quantize(256, 1, dither=0)
+        # 256 colours look the same; MAXCOVERAGE (1) keeps those of thin lines, too, and
+        # four rounds of k-means those of a dark floor, which has no bands so.
+        small = picture.quantize(256, 1, kmeans=4, dither=0)
         small.save(part, "PNG", optimize=True, pnginfo=about)
         part.replace(path)
     except OSError as error:

@@ -8,11 +8,12 @@ clip, abs, max and min left out, the arguments and the answer are clipped or los
 signs, and the answer is rounded to float32. Each change is put to the row's questions,
 in this process; one that they take for right is printed. What is no mistake stands with
 a reason in the function's file: row.same("x < 1e-9 => x < 2e-09", "why").
+The list is another than that of a hand's slips, `labkit/judge/instead.py`: this one
+asks what the questions forgot, that one what a student may have typed.
 Exit code: 0 nothing goes unnoticed, 1 something does, 2 could not run.
 """
 
 import ast
-import copy
 import inspect
 import signal
 import sys
@@ -27,6 +28,7 @@ from labkit.base import cli
 from labkit.base.exchange import Exchange, Reply
 from labkit.judge.answers import gaps, own
 from labkit.judge.ask import Asked, as_plain, asked_of, right_answers
+from labkit.judge.instead import places
 from labkit.judge.mistake import Finding
 from labkit.judge.replies_read import not_accepted, read
 from labkit.judge.row import Row, rows_of
@@ -46,7 +48,7 @@ SEED = 47  # of the drawn inputs: a change that they alone notice is noticed by 
 
 
 class Change(NamedTuple):
-    """A body that differs in one place."""
+    """A body that differs in one place, until the next one is asked for."""
 
     says: str  # "x < 1e-9 => x < 2e-09"
     tree: ast.Module
@@ -59,28 +61,28 @@ def changes(source: str) -> Iterator[Change]:
         source: of the function, as it stands in a file.
     """
     tree = ast.parse(textwrap.dedent(source))
-    places = [node for node in ast.walk(tree) if isinstance(node, ast.expr)]
-    for i, node in enumerate(places):
-        for new in _instead(node):
-            yield _replaced(tree, i, node, new)
     function = tree.body[0]
     assert isinstance(function, ast.FunctionDef)
+    statements = _statements(tree)
+    for place in places(tree):
+        around = statements[id(place.parent)]
+        before = _line(around)
+        for new in _instead(place.node):
+            with place.holding(new):
+                yield Change(f"{before} => {_line(around)}", tree)
+    begins = bool(ast.get_docstring(function))
     for how in PUT_IN:
         for arg in function.args.args if "float32" not in how else []:
             line = f"{arg.arg} = {how.format(arg.arg)}"
-            again = copy.deepcopy(tree)
-            body = again.body[0].body  # type: ignore[attr-defined]
-            body.insert(bool(ast.get_docstring(function)), ast.parse(line).body[0])
-            yield Change(f"first {line}", again)
-        for k, one in enumerate(ast.walk(tree)):
-            if isinstance(one, ast.Return) and one.value and _depends(one.value):
-                again = copy.deepcopy(tree)
-                there = list(ast.walk(again))[k]
-                assert isinstance(there, ast.Return)
-                assert there.value
-                text = how.format(f"({ast.unparse(there.value)})")
-                there.value = ast.parse(text, mode="eval").body
-                yield Change(f"return {text}", again)
+            function.body.insert(begins, ast.parse(line).body[0])
+            yield Change(f"first {line}", tree)
+            del function.body[begins]
+        for place in places(tree):
+            if isinstance(place.parent, ast.Return) and _depends(place.node):
+                text = how.format(f"({ast.unparse(place.node)})")
+                new = ast.parse(text, mode="eval").body
+                with place.holding(new):
+                    yield Change(f"return {text}", tree)
 
 
 def _depends(node: ast.expr) -> bool:
@@ -116,28 +118,12 @@ def _is_0(node: ast.expr) -> bool:
     return isinstance(node, ast.Constant) and node.value == 0
 
 
-def _replaced(tree: ast.Module, i: int, node: ast.expr, new: ast.expr) -> Change:
-    """Return a tree with another expression in the i-th one's place."""
-    again = copy.deepcopy(tree)
-    there = [one for one in ast.walk(again) if isinstance(one, ast.expr)][i]
-
-    class Put(ast.NodeTransformer):
-        def visit(self, one: ast.AST) -> Any:
-            return copy.deepcopy(new) if one is there else super().visit(one)
-
-    changed = Put().visit(again)
-    around = _statement(tree, node)
-    at = next(k for k, one in enumerate(ast.walk(tree)) if one is around)
-    then = list(ast.walk(changed))[at]
-    return Change(f"{_line(around)} => {_line(then)}", changed)
-
-
-def _statement(tree: ast.Module, node: ast.expr) -> ast.AST:
-    """Return the smallest statement around an expression."""
-    found: ast.AST = tree.body[0]
-    for one in ast.walk(tree):
-        if isinstance(one, ast.stmt) and any(x is node for x in ast.walk(one)):
-            found = one
+def _statements(tree: ast.Module) -> dict[int, ast.AST]:
+    """Return the smallest statement around each node, by the node's id."""
+    found: dict[int, ast.AST] = {}
+    for one in ast.walk(tree):  # from the outside in: the smallest comes last
+        if isinstance(one, ast.stmt):
+            found |= {id(node): one for node in ast.walk(one)}
     return found
 
 

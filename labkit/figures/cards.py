@@ -9,16 +9,15 @@ thick; one number or none, and no other letter.
 
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from pathlib import Path
 
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
 
-from labkit.figures import chart, client, portrait
+from labkit.figures import chart, client, fonts, portrait
 from labkit.figures.portrait import link_frames, with_fingers
 from labkit.figures.scene import Box, Camera, Ghost, Scene
 from robo47 import se3
@@ -41,7 +40,7 @@ def arm(
     ghosts: tuple[Ghost, ...] = (),
 ) -> Image.Image:
     """Return the Panda in the dark room, at q (7,) or (9,), with boxes beside it."""
-    scene = Scene(with_fingers(q), SIZE, camera, ghosts, boxes=tuple(boxes), dark=True)
+    scene = Scene(with_fingers(q), SIZE, camera, ghosts, boxes=tuple(boxes))
     return Image.fromarray(client.draw(scene))
 
 
@@ -107,17 +106,11 @@ def card(picture: Image.Image, number: str = "") -> Image.Image:
     """Return a picture small, with a number in its lower left corner."""
     large = picture.resize(SIZE, Image.Resampling.LANCZOS)
     if number:
-        font = _font(NUMBER)
+        font = fonts.font(NUMBER, "Bold")
         wide = font.getlength(number)
-        font = _font(min(NUMBER, NUMBER * 0.92 * SIZE[0] / wide))
+        font = fonts.font(min(NUMBER, NUMBER * 0.92 * SIZE[0] / wide), "Bold")
         ImageDraw.Draw(large).text(
             (24, SIZE[1] - 20), number, PALE, font, "ls",
             stroke_width=12, stroke_fill=PAPER,
         )  # fmt: skip
     return large.resize(TINY, Image.Resampling.LANCZOS)
-
-
-def _font(size: float) -> ImageFont.FreeTypeFont:
-    """Return a bold font, which comes with matplotlib."""
-    fonts = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
-    return ImageFont.truetype(fonts / "DejaVuSans-Bold.ttf", size)

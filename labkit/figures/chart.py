@@ -9,6 +9,8 @@
 
 The colours are those of Okabe and Ito, which colour-blind readers tell apart; draw no
 two lines that differ by colour alone. 390 pixels of a phone show FONT 10 pixels high.
+On a dark page the site turns white into black and keeps hues (site/style.css), so a map
+of colours has one hue.
 """
 
 import io
@@ -49,6 +51,7 @@ STYLE: Any = {
     "lines.markersize": 8.0,
     "legend.frameon": False,
     "figure.constrained_layout.use": True,
+    "figure.constrained_layout.h_pad": 0.1,  # a title is the lower axes', not a label's
 }
 
 Draw = Callable[..., None]  # of a Figure, and of what the picture shows

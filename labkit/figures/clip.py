@@ -19,7 +19,7 @@ from tqdm import tqdm
 from labkit.figures import client
 from labkit.figures.portrait import ghosts, link_frames, with_fingers
 from labkit.figures.scene import Box, Camera, Scene
-from labkit.figures.sheet import INK, with_line
+from labkit.figures.sheet import with_line
 from robo47.attempt import Film
 from robo47.checks import Array
 from robo47.errors import Robo47Error
@@ -30,7 +30,7 @@ SECONDS = 5.0  # of a clip
 CAMERA = Camera(distance=2.3, lookat=(0.2, 0.0, 0.36))
 LARGEST = 1_000_000  # bytes: what a page shows at once
 PIXELS = 0.75  # each try that is too large is followed by one this much smaller
-GOOD, BAD = (0, 102, 75), (179, 38, 30)
+GOOD, BAD = (76, 194, 106), (255, 123, 114)
 PICK_SIZE = (420, 340)
 PICTURE_SIZE = (1200, 800)
 FRAMES = 60
@@ -77,7 +77,7 @@ def drawn(shots: Iterable[Shot]) -> list[Image.Image]:
     waits = tqdm(list(shots), "drawing", delay=1, leave=False, disable=None)
     for scene, (words, good) in waits:
         picture = Image.fromarray(client.draw(scene))
-        colour = INK if good is None else GOOD if good else BAD
+        colour = None if good is None else GOOD if good else BAD
         pictures.append(with_line(picture, words, colour, 15, 26, "mm"))
     return pictures
 
@@ -144,13 +144,13 @@ def _encoded(frames: Sequence[Image.Image], kind: str, each: int | list[int]) ->
     buffer = io.BytesIO()
     if kind == "gif":  # one palette, no dither: what stands still costs nothing; a
         # small cube keeps its colour
-        sheet = frames[len(frames) // 2].quantize(96, Image.Quantize.MAXCOVERAGE)
-        none = Image.Dither.NONE
+        most, none = Image.Quantize.MAXCOVERAGE, Image.Dither.NONE
+        sheet = frames[len(frames) // 2].quantize(96, most, kmeans=4)
         frames = [frame.quantize(palette=sheet, dither=none) for frame in frames]
     first, *rest = frames
     first.save(
         buffer, kind.upper(), save_all=True, append_images=rest, duration=each, loop=0,
-        **({"quality": 70} if kind == "webp" else {}),
+        **({"quality": 70, "method": 6} if kind == "webp" else {}),
     )  # fmt: skip
     return buffer.getvalue()
 
@@ -189,21 +189,16 @@ def phase(film: Film, row: int) -> Caption:
 
 
 def scene_of(
-    film: Film,
-    row: int,
-    size: tuple[int, int],
-    *,
-    fast: bool = False,
-    dark: bool = False,
+    film: Film, row: int, size: tuple[int, int], *, fast: bool = False
 ) -> Scene:
     """Return the arm at an instant, and what stands around it.
 
     Args:
         film: of an attempt.
         row: of its instants.
-        size, fast, dark: as a scene has them.
+        size, fast: as a scene has them.
     """
     qpos = film.qpos[row]
     boxes = tuple(Box(*block) for block in film.blocks(qpos))
     arm = qpos[:ARM]
-    return Scene(arm, size, AT_THE_TABLE, fast=fast, boxes=boxes, dark=dark)
+    return Scene(arm, size, AT_THE_TABLE, fast=fast, boxes=boxes)

@@ -8,12 +8,11 @@ Dark, like an editor: a picture that looks right on a light page and on a dark o
 
 import textwrap
 from dataclasses import dataclass
-from pathlib import Path
 from typing import NamedTuple
 
-import matplotlib
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
 
+from labkit.figures import fonts
 from labkit.figures.sheet import Colour
 
 SHARP = 2  # pixels of the picture for one of the page
@@ -77,7 +76,7 @@ def _code(pen: ImageDraw.ImageDraw, page: Page, box: tuple[int, ...]) -> None:
     """Write the code, what stands out of its last line, and the cursor."""
     x, top = box[0] + EDGE, box[1] + EDGE
     y = top + LINE * (len(page.code) - 1)
-    step = _font().getlength("x") / SHARP
+    step = fonts.font(SHARP * FONT, "Mono").getlength("x") / SHARP
     last = page.code[-1]
     if page.mark:
         start = x + step * last.index(page.mark)
@@ -107,10 +106,4 @@ def _lines(says: tuple[str, ...]) -> list[tuple[str, Colour]]:
 def _write(
     pen: ImageDraw.ImageDraw, x: float, y: float, words: str, colour: Colour
 ) -> None:
-    pen.text((SHARP * x, SHARP * y), words, colour, _font())
-
-
-def _font() -> ImageFont.FreeTypeFont:
-    """Return a font of one width, which comes with matplotlib."""
-    fonts = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
-    return ImageFont.truetype(fonts / "DejaVuSansMono.ttf", SHARP * FONT)
+    pen.text((SHARP * x, SHARP * y), words, colour, fonts.font(SHARP * FONT, "Mono"))

@@ -12,8 +12,8 @@ from PIL import Image, ImageDraw, ImageFont
 from labkit.figures.scene import Camera
 from robo47.checks import Array
 
-X, Y, Z = (224, 49, 49), (47, 158, 68), (28, 100, 242)  # the axes' colours
-INK, LEADER, HALO = (33, 37, 41), (134, 142, 150), (255, 255, 255)
+X, Y, Z = (255, 94, 87), (70, 201, 98), (96, 156, 255)  # the axes' colours
+INK, LEADER, HALO = (240, 243, 246), (152, 163, 174), (27, 31, 36)  # the room is dark
 SMOOTH = 3  # lines are drawn this many times larger, then shrunk: no jagged edges
 AXIS = 0.115  # metres
 SECOND = 0.7  # of that for a frame on top of another
@@ -160,7 +160,7 @@ class Layer:
         self.text((at[0] + gap, at[1]), name, "rm" if left else "lm")
 
     def text(self, at: Pixel, words: str, anchor: str) -> None:
-        """Write on a white halo."""
+        """Write on a halo of the room's colour."""
         self.pen.text(
             at, words, INK, self.font, anchor,
             stroke_width=round(3 * self.unit), stroke_fill=HALO,

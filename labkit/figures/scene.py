@@ -98,4 +98,3 @@ class Scene:
     fast: bool = False  # leave out multisampling, shadows and reflections
     boxes: tuple[Box, ...] = ()  # what else is there
     robot: str = ""  # the path of an MJCF file, instead of the Panda
-    dark: bool = False  # the room: what is to be seen on a page of either colour

@@ -9,8 +9,8 @@ imported, and since a broken driver ends the process that called it.
 import os
 import pickle
 import sys
-from functools import lru_cache, partial
-from typing import Any, NamedTuple
+from functools import lru_cache
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -21,19 +21,8 @@ from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.panda.reading import hangs_on
 
-Colour = tuple[float, float, float]
-
-
-class Room(NamedTuple):
-    """The colours of what stands around the robot."""
-
-    sky: Colour
-    floor: Colour
-    grid: Colour
-
-
-LIGHT = Room((1.0, 1.0, 1.0), (0.93, 0.94, 0.96), (0.84, 0.86, 0.89))
-DARK = Room((0.106, 0.122, 0.141), (0.15, 0.17, 0.19), (0.24, 0.27, 0.30))
+# The room is dark: a picture of it stands on a light page and on a dark one.
+SKY, FLOOR, GRID = (0.106, 0.122, 0.141), (0.15, 0.17, 0.19), (0.24, 0.27, 0.30)
 # Metres behind what the camera looks at: there the floor begins to fade into the sky,
 # and there it is gone. Nearer, the robot and its ghosts would fade, too.
 FADES, GONE = 1.2, 3.2
@@ -43,9 +32,9 @@ WRONG_COLOUR = np.array([0.85, 0.16, 0.16, 0.5], dtype=np.float32)
 VISIBLE = (0, 2)  # geom groups: the twin's shapes, the Menagerie's (3 is collision)
 
 
-def light_up(spec: mujoco.MjSpec, room: Room = LIGHT) -> None:
+def light_up(spec: mujoco.MjSpec) -> None:
     """Put a robot into a room: a sky of one colour, a floor like it, soft shadows."""
-    _add_sky_and_floor(spec, room)
+    _add_sky_and_floor(spec)
     for light in spec.lights:  # the Panda brings one that would glare
         light.active = False
     spec.worldbody.add_light(
@@ -55,21 +44,21 @@ def light_up(spec: mujoco.MjSpec, room: Room = LIGHT) -> None:
     look = spec.visual
     look.headlight.ambient, look.headlight.diffuse = [0.42] * 3, [0.25] * 3
     look.headlight.specular = [0.0] * 3
-    look.rgba.fog = [*room.sky, 1.0]
+    look.rgba.fog = [*SKY, 1.0]
     look.map.shadowscale = 0.3  # spend the shadow map on the robot, not the room
 
 
-def _add_sky_and_floor(spec: mujoco.MjSpec, room: Room) -> None:
+def _add_sky_and_floor(spec: mujoco.MjSpec) -> None:
     texture = mujoco.mjtTexture
     flat = mujoco.mjtBuiltin.mjBUILTIN_FLAT
     spec.add_texture(
         name="sky", type=texture.mjTEXTURE_SKYBOX, builtin=flat,
-        rgb1=room.sky, rgb2=room.sky, width=8, height=48,
+        rgb1=SKY, rgb2=SKY, width=8, height=48,
     )  # fmt: skip
     spec.add_texture(
         name="floor", type=texture.mjTEXTURE_2D, builtin=flat, width=512, height=512,
-        mark=mujoco.mjtMark.mjMARK_EDGE, markrgb=room.grid,
-        rgb1=room.floor, rgb2=room.floor,
+        mark=mujoco.mjtMark.mjMARK_EDGE, markrgb=GRID,
+        rgb1=FLOOR, rgb2=FLOOR,
     )  # fmt: skip
     material = spec.add_material(
         name="floor", texuniform=True, texrepeat=[4, 4], emission=0.36
@@ -83,21 +72,20 @@ def _add_sky_and_floor(spec: mujoco.MjSpec, room: Room) -> None:
 
 @lru_cache(maxsize=2)
 def renderer_for(
-    size: tuple[int, int], fast: bool, robot: str, dark: bool, far: float
+    size: tuple[int, int], fast: bool, robot: str, far: float
 ) -> mujoco.Renderer:
     """Return a renderer, kept for the next picture of the same kind.
 
     Args:
-        size, fast, robot, dark: as a scene has them.
+        size, fast, robot: as a scene has them.
         far: from the camera to what it looks at, metres.
     """
-    lit = partial(light_up, room=DARK if dark else LIGHT)
     if robot:
         spec = mujoco.MjSpec.from_file(robot)
-        lit(spec)
+        light_up(spec)
         model = spec.compile()
     else:
-        model = panda.load("panda", meshes=True, edit=lit)
+        model = panda.load("panda", meshes=True, edit=light_up)
     look = model.vis.map  # read once, by the renderer
     look.fogstart = (far + FADES) / model.stat.extent
     look.fogend = (far + GONE) / model.stat.extent
@@ -111,7 +99,7 @@ def renderer_for(
 def draw(scene: Scene) -> Array:
     """Return the picture of a scene, (height, width, 3), bytes."""
     far = np.ceil(scene.camera.distance / NOTCH) * NOTCH
-    renderer = renderer_for(scene.size, scene.fast, scene.robot, scene.dark, far)
+    renderer = renderer_for(scene.size, scene.fast, scene.robot, far)
     model = renderer.model
     data = mujoco.MjData(model)
     data.qpos[:] = scene.qpos

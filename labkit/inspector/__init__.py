@@ -25,8 +25,8 @@ The page belongs to no day. A day brings tabs in `w1-foundations/dayN/inspector.
         def begin(self) -> None:                   # opened, or saved: play it
             self.loop.start(PLAYS)
 
-        def lost(self) -> None:                    # a function gave no answer
-            self.axes.visible = False
+        def lost(self) -> None:                    # a function gave no answer: nothing
+            self.axes.visible = False              # of the file before may stay
 
         def close(self) -> None:                   # left; whatever `page` made is gone
             ...

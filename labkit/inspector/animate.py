@@ -25,6 +25,7 @@ class Animation:
     task: asyncio.Task[None] | None = None
     slow: float = 1.0  # how many times slower than real time it runs
     lasts: float = math.inf  # seconds; after them it ends by itself
+    due: bool = False  # whether its work has still to give a first answer
 
     @property
     def running(self) -> bool:
@@ -35,6 +36,7 @@ class Animation:
         """Run from t = 0, unless it runs already; call it from a callback."""
         self.lasts = lasts
         if self.task is None:
+            self.due = self.work is not None
             self.task = asyncio.get_running_loop().create_task(self._run())
             self.changed(None)
 
@@ -43,6 +45,7 @@ class Animation:
         if self.task is not None:
             self.task.cancel()
             self.task = None
+            self.due = False
             self.changed(None)
 
     def toggle(self) -> None:
@@ -59,6 +62,7 @@ class Animation:
             while True:
                 if self.work is not None:
                     await asyncio.to_thread(self.work, calls * period)
+                self.due = False
                 seconds = calls * period
                 if self.step(seconds) is False or seconds > self.lasts:
                     break
@@ -71,6 +75,7 @@ class Animation:
         except Exception as error:
             stopped = error
         self.task = None
+        self.due = False
         self.changed(stopped)
 
 
@@ -81,6 +86,7 @@ class Jobs:
     ended: Ended = lambda error: None  # is called after each
     next: tuple[Callable[[], Any], Callable[[Any], None]] | None = None
     task: asyncio.Task[None] | None = None
+    due: bool = False  # whether the first of those that are wanted is at work
 
     def want(self, work: Callable[[], Any], done: Callable[[Any], None]) -> None:
         """Do this next; call it from a callback.
@@ -89,6 +95,7 @@ class Jobs:
         """
         self.next = work, done
         if self.task is None:
+            self.due = True
             self.task = asyncio.get_running_loop().create_task(self._run())
 
     def stop(self) -> None:
@@ -100,10 +107,11 @@ class Jobs:
         while self.next is not None:
             work, done = self.next
             self.next = None
+            stopped = None
             try:
                 done(await asyncio.to_thread(work))
             except Exception as error:
-                self.ended(error)
-            else:
-                self.ended(None)
+                stopped = error
+            self.due = False  # of a stream, as of a slider, the first tells
+            self.ended(stopped)
         self.task = None

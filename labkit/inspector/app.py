@@ -134,6 +134,8 @@ class Inspector:
     def update(self) -> None:
         """Bring everything that is shown to what is wanted."""
         self.scheduled = False
+        if self.student.saved():  # at once, and not when the watch comes round
+            self.forget()
         moved = not np.array_equal(self.q, self.arm.q)
         if moved:
             self.arm.move(self.q)
@@ -287,7 +289,7 @@ class Inspector:
         while True:
             if self.student.saved():
                 self.forget()  # before the look, which may wait for an old answer
-            await asyncio.to_thread(self.student.look)
+                await asyncio.to_thread(self.student.look)
             if self.version != self.student.version:
                 self.version = self.student.version
                 self.unchecked = True
@@ -299,10 +301,11 @@ class Inspector:
         if self.seen.kind != "asking" or self.standing is not ASKING:
             self.stop()
             self.seen, self.standing = asked(self.day.ghost), ASKING
-            self.show_seen()
+            with self.server.atomic():
+                if self.page is not None:
+                    self.page.asking()
+                self.show_seen()
             self.show_tasks()
-            if self.page is not None:
-                self.page.asking()
 
     def ask(self) -> None:
         """Ask the file, once it is open, where it puts the arm."""
@@ -334,9 +337,9 @@ class Inspector:
         """Show the ghost, and what is said of it."""
         end = self.day.ghost.frames[-1] if self.day.ghost else END
         with self.server.atomic():
+            self.show()  # first: a page that is behind has the words before the arms
             self.scene.show_ghost(self.seen.drawn, end)
             self.look()
-            self.show()
 
     def judge(self, version: int, found: Standing) -> None:
         """Show how a file's tasks stand, unless it was saved again meanwhile."""

@@ -11,6 +11,7 @@ from viser import uplot
 
 from robo47.checks import Array
 
+WIDE = 60  # pixels, for the numbers beside a plot: 10,000
 KEPT = 2_000  # points of a plot that is added to
 STROKES = ("#0b57c4", "#d55e00", "#00704f", "#7a3e9d", "#8a6d00", "#4a5560", "#b3261e",
            "#1e2228")  # fmt: skip
@@ -99,7 +100,8 @@ class Plot:
             scales["y"] = uplot.Scale(distr=3, log=10)
         self.handle = gui.add_uplot(
             empty, tuple(series), title=y or None, scales=scales, height=height,
-            padding=(14, 12, 0, 0),  # the top tick is not cut in half
+            axes=(uplot.Axis(), uplot.Axis(size=WIDE)),
+            padding=(14, 20, 0, 0),  # no tick is cut in half
         )  # fmt: skip
 
     def show(self, x: ArrayLike, ys: ArrayLike) -> None:

@@ -19,6 +19,7 @@ import numpy as np
 from labkit.base.exchange import LoadError, Question
 from labkit.check.memory import passing
 from labkit.check.own_functions import statuses
+from labkit.inspector import words
 from labkit.inspector.student import Student, describe
 from labkit.lesson.day import all_days
 from labkit.sandbox.messages import library_of
@@ -41,6 +42,7 @@ class Told(NamedTuple):
     apart: dict[str, float]  # how far from the library's, by function; 0 for the same
     lent: dict[str, str]  # what the library answered instead, and why
     none: dict[str, str]  # what gave no answer when it was asked last, and why
+    other: dict[str, str]  # what the tab found to be wrong, and how
 
 
 class Own:
@@ -53,8 +55,12 @@ class Own:
         free: Collection[str] = (),
         any_rows: Collection[str] = (),
         units: Mapping[str, str] | None = None,
+        first: Callable[[], object] = lambda: None,
     ) -> None:
-        """Ask nobody yet, see `Page.own`."""
+        """Ask nobody yet, see `Page.own`; `first` is called, on the thread that asks,
+        before a file is asked for a function for the first time.
+        """
+        self._first = first
         self._units = units or {}
         self._free = {*free, *any_rows}
         self._any_rows = any_rows
@@ -74,7 +80,9 @@ class Own:
         Where one of them gave none NoAnswerError is raised.
         """
         version = self.version  # a file that comes meanwhile is another one
-        told = Told({}, {}, {})
+        told = Told({}, {}, {}, {})
+        if not {name for name, *_ in calls} <= self._heard(version):
+            self._first()
         try:
             return self._answers(calls, version, told)
         except NoAnswerError as error:
@@ -83,6 +91,11 @@ class Own:
         finally:
             self._keep(version, told)
 
+    def _heard(self, version: int) -> set[str]:
+        """Return the functions that this file has been asked for."""
+        apart, lent, none, _ = self._told.get(version, Told({}, {}, {}, {}))
+        return {*apart, *lent, *none}
+
     @property
     def version(self) -> int:
         """Which file is there: another number after each save; -1 for none."""
@@ -90,7 +103,7 @@ class Own:
 
     def _answers(self, calls: Sequence[Call], version: int, told: Told) -> list[Any]:
         """Return the answers, having noted how they compare."""
-        right = [self._library[name](*args) for name, *args in calls]
+        right = [self._right(name, args) for name, *args in calls]
         student = self._student
         if version < 0:
             looked = student.version
@@ -98,7 +111,7 @@ class Own:
             told.lent.update({name: why for name, *_ in calls})
             return right
         questions = [Question("view", name, tuple(args)) for name, *args in calls]
-        replies = student.ask(questions)
+        replies = student.ask(questions, version)
         if student.problem:
             raise NoAnswerError(f"YOUR {student.problem}")
         answers = []
@@ -110,9 +123,19 @@ class Own:
                 raise
         return answers
 
+    def _right(self, name: str, args: Sequence[Any]) -> Any:
+        """Return the library's answer; what it refuses another of theirs has given."""
+        try:
+            return self._library[name](*args)
+        except Exception as error:
+            says, kind = self.says()
+            known = f"{says}. " if kind == "bad" else ""
+            refused = f"The library's {name} refuses what it is given: {error}"
+            raise NoAnswerError(f"{known}{refused}") from error
+
     def _keep(self, version: int, told: Told) -> None:
         """Keep what was noted of a file; another thread may ask another file."""
-        before = self._told.setdefault(version, Told({}, {}, {}))
+        before = self._told.setdefault(version, Told({}, {}, {}, {}))
         before.lent.update(told.lent)
         for name in {*told.apart, *told.lent}:
             before.none.pop(name, None)
@@ -143,6 +166,11 @@ class Own:
             told.apart[name] = max(told.apart.get(name, 0.0), off if judged else 0.0)
         return _as_drawn(reply.value)
 
+    def tell(self, name: str, how: str) -> None:
+        """Say how an answer is wrong, where the tab compares; "" for a right one."""
+        if told := self._told.get(self.version):
+            told.other[name] = how
+
     def fresh(self) -> bool:
         """Return whether the file that is there has been asked."""
         return self.version in self._told and not self._student.saved()
@@ -150,14 +178,14 @@ class Own:
     def says(self) -> tuple[str, str]:
         """Return whose functions were at work, and how they compare; its kind."""
         units = self._units
-        apart, lent, none = self._told.get(self.version, Told({}, {}, {}))
+        apart, lent, none, other = self._told.get(self.version, Told({}, {}, {}, {}))
         if none:
             return next(iter(none.values())), "bad"
         wrong = [
-            f"{name} by {x:.3g} {units.get(name, '')}".rstrip()
+            f"{name} by {words.digits(x)} {units.get(name, '')}".rstrip()
             for name, x in apart.items()
             if x
-        ]
+        ] + [f"{name} ({how})" for name, how in other.items() if how]
         if wrong:
             return f"YOUR functions. Off the library's: {', '.join(wrong)}", "bad"
         why = next(iter(lent.values()), "")

@@ -74,6 +74,7 @@ class Page:
         self.jobs = self.jobs_apart()
         self._own: Own | None = None
         self._whose: viser.GuiHtmlHandle | None = None
+        self._asking = False  # whether that line says that no answer is known
 
     # The arm
 
@@ -142,8 +143,12 @@ class Page:
         """
         self._whose = self.html()
         self.asking()
-        self._own = Own(self.host.student, library, free, any_rows, units)
-        return self._own
+        student, loop = self.host.student, self.host.server.get_event_loop()
+        own = self._own = Own(
+            student, library, free, any_rows, units,
+            lambda: loop.call_soon_threadsafe(self._asks, own),
+        )  # fmt: skip
+        return own
 
     def jobs_apart(self) -> Jobs:
         """Return a queue of its own, for what shall not wait behind `job`."""
@@ -189,17 +194,34 @@ class Page:
             self.say("")
             self.host.lose()
         elif error is not None:
+            self.host.lose()
+            text, kind = own.says() if own else ("", "")
+            text = text if kind == "bad" else "The tab stopped: see below"
+            self._show_whose(text, "bad")
             self.say(f"stopped: {type(error).__name__}: {error}", "bad")
-        elif self._own is not None:
-            self._show_whose(*self._own.says())
+        elif own is not None:
+            text, kind = own.says()
+            # What a loop or another job still waits for may be wrong, or never come.
+            if kind == "bad" or not (self._asking and self._due()):
+                self._show_whose(text, kind)
         self.host.schedule()
+
+    def _asks(self, own: Own) -> None:
+        """Say that it is asked for what it was not before, unless all was stopped."""
+        if self._own is own and any(one.task for one in self.running):
+            self.asking()
 
     def asking(self) -> None:
         """Say that the student's functions are asked, and that no answer is known."""
         if self._whose is not None:
             self._show_whose("asking YOUR functions ...", "asking")
 
+    def _due(self) -> bool:
+        """Return whether a first answer has still to come."""
+        return any(one.due for one in self.running)
+
     def _show_whose(self, text: str, kind: str) -> None:
+        self._asking = kind == "asking"
         if self._whose is not None:
             self._whose.content = words.judged(text, "whose", kind)
 

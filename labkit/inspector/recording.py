@@ -17,17 +17,18 @@ from numpy.typing import ArrayLike
 from labkit.inspector.draw import Sketch
 from labkit.inspector.guard import LocalServer
 from labkit.inspector.meshes import Skin
-from labkit.inspector.scene import set_stage
+from labkit.inspector.scene import DARK, set_stage
 from labkit.inspector.shapes import shapes, thinned
 from robo47 import se3
 from robo47.checks import Array
 
 FRAMES = 30  # a second
 GRID = 1 / 256  # m; with the robot's own meshes a file would have 3 MB
-OVER = (0.0, 0.0, 1.05)  # m: where words stand
+OVER = (0.0, 0.0, 0.98)  # m: where words stand
 # Out of sight. What is hidden instead would stay so when the film begins again.
 AWAY = se3.make_T(np.eye(3), [0.0, 0.0, -50.0])
-CAMERA, LOOK_AT = (1.35, -1.05, 0.85), (0.25, 0.0, 0.42)
+CAMERA, LOOK_AT = (1.35, -1.05, 0.87), (0.2, 0.0, 0.44)
+FOV = 0.8  # vertical, radians: the arm fills half of the height
 
 
 class Recording:
@@ -41,10 +42,10 @@ class Recording:
         self.model = model
         self.data = mujoco.MjData(model)
         self.server = LocalServer(0)
-        set_stage(self.server)
+        set_stage(self.server, DARK)
         camera = self.server.initial_camera
         position = LOOK_AT + back * np.subtract(CAMERA, LOOK_AT)
-        camera.position, camera.look_at = position, LOOK_AT
+        (camera.position, camera.look_at), camera.fov = (position, LOOK_AT), FOV
         seen = [thinned(shape, GRID) for shape in shapes(model)]
         self.skin = Skin(self.server, "/arm")
         self.skin.put_on(seen)

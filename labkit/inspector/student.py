@@ -36,7 +36,7 @@ class Student:
     ghost: Ghost | None  # what to ask for the arm's poses; None where only tabs ask
     sandbox: Sandbox  # where the file runs
     script: Path  # the file, there or not; `look` opens it
-    seconds: float = 2.0  # for one call; who takes longer is asked again after a save
+    seconds: float = 1.5  # for one call; who takes longer is asked again after a save
     version: int = 0  # of the file: another one after each save
     problem: str = ""  # why the file is not asked, in a sentence
     # A session answers one thread at a time.
@@ -63,14 +63,16 @@ class Student:
 
     def look(self) -> None:
         """Open the file anew where it was saved since the last look."""
+        if (asker := self._asker) and self.saved():
+            asker.halt()  # an old file that hangs keeps nobody waiting
         with self._lock:
             stamp = self._now()
             if stamp == self._stamp:
                 return
+            self.version += 1  # first: while it is opened, nothing told is true of it
             self._stamp = stamp
             self._shut()
             self.problem = self._open() if stamp else ""
-            self.version += 1
 
     def _open(self) -> str:
         """Open the file with the model of the questions; return why it does not."""
@@ -91,10 +93,14 @@ class Student:
             self._asker.close()
             self._asker = None
 
-    def ask(self, questions: Sequence[Question]) -> list[Reply]:
-        """Ask any functions; see `problem` afterwards."""
+    def ask(self, questions: Sequence[Question], version: int = 0) -> list[Reply]:
+        """Ask any functions, of that version of the file alone where one is named.
+
+        See `problem` afterwards.
+        """
+        late = version and self.saved()  # the next look shall not wait for all of it
         with self._lock:
-            if self._asker is None:
+            if late or self._asker is None or version not in (0, self.version):
                 ended = Reply(kind="stopped", error="it is not asked")
                 return [ended] * len(questions)
             try:

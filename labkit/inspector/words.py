@@ -76,6 +76,13 @@ def judged(text: str, key: str, kind: str) -> str:
     )
 
 
+def digits(value: float, count: int = 3) -> str:
+    """Return a number with so many digits, a large one without a power of ten."""
+    rounded = float(f"{value:.{count - 1}e}")
+    large = 10**count <= abs(rounded) < 1e9
+    return f"{rounded:,.0f}" if large else f"{value:.{count}g}"
+
+
 def verdict(difference: float, whose: str) -> str:
     """Return how far someone's pose is from MuJoCo's, by the largest of any entry.
 

@@ -159,8 +159,9 @@ def entry_of(
     def one(*args: Any) -> Any:
         if (answers := table(*args)).keys() != known:
             raise KeyError(*answers.keys() ^ known)
-        answer = answers[slug]
-        return answer() if callable(answer) else own(answer)
+        if callable(answer := answers[slug]):  # made once, as the others are
+            answer = answers[slug] = answer()
+        return own(answer)
 
     return one
 

@@ -3,6 +3,7 @@
 import ast
 import copy
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -32,6 +33,25 @@ class Place(NamedTuple):
             setattr(self.parent, self.field, new)
         else:
             getattr(self.parent, self.field)[self.at] = new
+
+    @contextmanager
+    def holding(self, new: ast.expr) -> Iterator[None]:
+        """Have another expression there for a while."""
+        self.put(new)
+        try:
+            yield
+        finally:
+            self.put(self.node)
+
+
+def places(tree: ast.AST) -> Iterator[Place]:
+    """Yield where each expression in a tree stands, what is around it first."""
+    for parent in ast.walk(tree):
+        for field, value in ast.iter_fields(parent):
+            several = value if isinstance(value, list) else [value]
+            for at, one in enumerate(several):
+                if isinstance(one, ast.expr):
+                    yield Place(one, parent, field, at if value is several else None)
 
 
 def instead(place: Place, names: Sequence[str]) -> Iterator[tuple[str, ast.expr]]:

@@ -30,16 +30,12 @@ from labkit.judge.ask import (
     stacked,
 )
 from labkit.judge.failing_call import failing_call, for_fresh
+from labkit.judge.in_part import by_results, in_some_calls
 from labkit.judge.kinds import Kind
 from labkit.judge.made_again import redone
 from labkit.judge.mistake import Finding, Verdict
 from labkit.judge.one_slip import Slips
-from labkit.judge.pairs import (
-    by_results,
-    in_some_calls,
-    of_other_arguments,
-    two_at_once,
-)
+from labkit.judge.pairs import of_other_arguments, two_at_once
 from labkit.judge.typed import in_words
 from robo47.checks import Array
 

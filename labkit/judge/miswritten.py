@@ -11,7 +11,7 @@ from functools import partial
 from itertools import islice
 from typing import Any, NamedTuple
 
-from labkit.judge.instead import Place, instead
+from labkit.judge.instead import Place, instead, places
 
 SHORT = 44  # characters of a body that are shown, at most
 MOST = 1500  # slips of one function
@@ -129,18 +129,11 @@ def _places(function: ast.FunctionDef) -> Iterator[Place]:
                for t in one.targets]  # fmt: skip
     set_there = {id(node) for target in targets for node in ast.walk(target)}
     for statement in body:
-        for parent in ast.walk(statement):
-            for field, value in ast.iter_fields(parent):
-                if field in ("annotation", "ctx", "targets", "target"):
-                    continue
-                several = value if isinstance(value, list) else [value]
-                for at, one in enumerate(several):
-                    index = isinstance(one, ast.Constant)
-                    if isinstance(one, ast.expr) and (
-                        index or id(one) not in set_there
-                    ):
-                        place = at if isinstance(value, list) else None
-                        yield Place(one, parent, field, place)
+        for place in places(statement):
+            if place.field in ("annotation", "ctx", "targets", "target"):
+                continue
+            if isinstance(place.node, ast.Constant) or id(place.node) not in set_there:
+                yield place
 
 
 def _changes(function: ast.FunctionDef) -> Iterator[Change]:
@@ -154,15 +147,13 @@ def _changes(function: ast.FunctionDef) -> Iterator[Change]:
         decides = _decides(place, above)
         for kind, new in instead(place, names):
             kind = "condition" if decides else "index" if index else kind
-            place.put(ast.fix_missing_locations(ast.copy_location(new, place.node)))
-            try:
+            ast.fix_missing_locations(ast.copy_location(new, place.node))
+            with place.holding(new):
                 yield (
                     kind,
                     _where(_spot(place.node, kind)),
                     partial(_shown, new, place, above),
                 )
-            finally:
-                place.put(place.node)
     yield from _of_lines(function)
 
 

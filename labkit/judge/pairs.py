@@ -1,9 +1,4 @@
-"""Two mistakes at once, and one that is only a part of what is wrong.
-
-They are claimed where made on purpose they give the student's numbers: two mistakes all
-of them, one mistake a result of several, or the numbers of some calls, which are
-counted.
-"""
+"""Two mistakes at once: they are claimed where together they give all numbers."""
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -21,10 +16,6 @@ from labkit.judge.answers import (
     Parts,
     all_match,
     as_one,
-    capitalised,
-    gaps,
-    largest,
-    matches,
     own,
     parts,
     rigid,
@@ -41,8 +32,6 @@ _BUT = re.compile(
 EXACT = 1e-8  # of many pairs one comes near by chance, so two must give more digits
 MOST = 80  # mistakes of a function that are tried two at a time
 QUICK = 2e-3  # seconds of a call that a row may say, for its arguments to be changed
-FEW = 6  # wrong calls at which one mistake is tried, before all of them
-SOME = 3  # calls whose numbers it has to give, at least, and half of the wrong ones
 
 
 def of_other_arguments(case: Case, S: Parts, T: Parts) -> Finding | None:
@@ -58,9 +47,9 @@ def of_other_arguments(case: Case, S: Parts, T: Parts) -> Finding | None:
     i = tried(ask, S, T)[0]
     for move in _moves(case, i):
         asked = ask.in_turn(partial(_after, truth.function, move.change))
-        if not _alike(ask, answer_to(asked, case.arguments, i, T), nth(S, i)):
+        if not alike(ask, answer_to(asked, case.arguments, i, T), nth(S, i)):
             continue
-        if _alike(ask, answers_to(asked, case.arguments), S):
+        if alike(ask, answers_to(asked, case.arguments), S):
             k = worst_part(ask.kinds, S, T, ask.near)
             off = f"Off by up to {ask.kinds[k].apart(S[k], T[k])}"
             says = f"It is the right answer to other arguments: with {move.says}."
@@ -111,7 +100,7 @@ def _two_of(case: Case, S: Parts, T: Parts, i: int) -> Sequence[Mistake] | None:
     answers = {}
     for k, one in enumerate(mistakes):
         answer = answer_to(one.redo, case.arguments, i, T)
-        wrong = _alike(ask, answer, nth(T, i)) is False
+        wrong = alike(ask, answer, nth(T, i)) is False
         if wrong and not _handed_back(answer, case.arguments, i):
             answers[k] = answer
     pairs = _Pairs(case, S, T, i, mistakes, answers)
@@ -123,100 +112,6 @@ def of_its_own_first(ask: Ask) -> list[Mistake]:
     """Return the mistakes that are tried two at a time, a function's own first."""
     mistakes = [one for one in ask.named if isinstance(one.redo, InTurn)]
     return sorted(mistakes, key=lambda one: one.reached)[:MOST]
-
-
-def by_results(case: Case, S: Parts, T: Parts) -> Finding | None:
-    """Return a named mistake for each wrong result of a function that returns several.
-
-    One that has none of its own is said to be wrong besides.
-    """
-    ask = case.ask
-    pairs = list(zip(ask.kinds, S, T, strict=True))
-    wrong = [
-        j
-        for j, (kind, s, t) in enumerate(pairs)
-        if gaps([kind], (s,), (t,)).max() > ask.near
-    ]
-    if len(wrong) < 2 or any(kind.whole for kind in ask.kinds):
-        return None
-    i = int(np.argmax(ask.gaps(S, T)))
-    told: dict[int, Mistake] = {}
-    for one in of_its_own_first(ask):
-        answer = answer_to(one.redo, case.arguments, i, T)
-        for j in [j for j in wrong if j not in told and len(answer) == len(S)]:
-            kind, s, t = pairs[j]
-            if not matches(s[i : i + 1], answer[j], kind.scale):
-                continue
-            every = answers_to(one.redo, case.arguments)
-            is_wrong = gaps([kind], (every[j],), (t,)).max() > ask.near
-            if is_wrong and matches(s, every[j], kind.scale):
-                told[j] = one
-    if not told:
-        return None
-    says = [
-        f"{capitalised(ask.kinds[j].called or f'result {j + 1}')}: "
-        + (f"{told[j].says.rstrip('?')}." if j in told else "it is wrong, too.")
-        for j in sorted(wrong, key=lambda j: j not in told)
-    ]
-    slug = "+".join(dict.fromkeys(one.slug for one in told.values()))
-    return Finding(slug + "+other" * (len(told) < len(wrong)), " ".join(says))
-
-
-def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
-    """Return the named mistake that gives the numbers of half of the wrong calls.
-
-    It is said of these alone: another one may give the same numbers there. Numbers that
-    are 0, or all the same, prove no mistake.
-    """
-    ask = case.ask
-    wrong = np.flatnonzero(ask.gaps(S, T) > ask.near)
-    least = max(SOME, -(-len(wrong) // 2))
-    if any(kind.whole for kind in ask.kinds) or len(wrong) <= least:
-        return None
-    few = wrong[np.unique(np.linspace(0, len(wrong) - 1, FEW).astype(int))]
-    most: tuple[int, Mistake] | None = None
-    for one in of_its_own_first(ask):
-        hits = [_alike(ask, answer_to(one.redo, case.arguments, i, T), nth(S, i))
-                for i in few]  # fmt: skip
-        if sum(map(bool, hits)) < 2:
-            continue
-        given = _given_by(ask, S, answers_to(one.redo, case.arguments))
-        n = int(np.sum(given[wrong])) if _differ(S, wrong[given[wrong]]) else 0
-        # Made every time, it shows nowhere that is right.
-        always = given[ask.gaps(S, T) <= ask.near].all()
-        if always and least <= n < len(wrong) and (most is None or n > most[0]):
-            most = n, one
-    if most is None:
-        return None
-    n, one = most
-    rest = "one is not" if len(wrong) == n + 1 else f"{len(wrong) - n} are not"
-    says = (
-        f"In {n} of your {len(wrong)} wrong answers the numbers are those of one "
-        f"mistake: {one.says.rstrip('?')}. The other {rest}."
-    )
-    return Finding(f"{one.slug}+other", says)
-
-
-def _given_by(ask: Ask, S: Parts, again: Parts) -> Any:
-    """Return of each call whether a mistake gives its answer, within rounding."""
-    if len(again) != len(S) or any(
-        a.shape != s.shape for a, s in zip(again, S, strict=False)
-    ):
-        return np.zeros(len(S[0]), bool)
-    alike = []
-    for s, a, kind in zip(S, again, ask.kinds, strict=True):
-        off = gaps([kind], (s,), (a,))
-        size = np.array([largest(x, kind.scale) for x in s])
-        alike.append(off <= MATCHES * np.maximum(1.0, size))
-    return np.all(alike, axis=0)
-
-
-def _differ(S: Parts, which: Any) -> bool:
-    """Return whether answers to some calls are not all the same, nor 0."""
-    some = [s[which].reshape(len(which), -1) for s in S]
-    flat = np.concatenate(some, axis=1)
-    flat = flat[flat.any(axis=1)]
-    return len(flat) >= SOME and bool(np.ptp(flat, axis=0).max() > 1e-6)
 
 
 @dataclass(frozen=True)
@@ -348,8 +243,8 @@ class _Pairs:
     def _that_give(self, answer: Parts, every: Callable[[], Parts]) -> Iterator[int]:
         """Yield the first mistake that gives an answer at one call, and at all."""
         for k, its in self.answers.items():
-            if answer and _alike(self.case.ask, answer, its):
-                if _alike(self.case.ask, every(), self._every(self.mistakes[k].redo)):
+            if answer and alike(self.case.ask, answer, its):
+                if alike(self.case.ask, every(), self._every(self.mistakes[k].redo)):
                     yield k
                 return
 
@@ -468,7 +363,7 @@ def _one_factor(a: Parts, b: Parts, right: Parts) -> bool:
     return bool(np.abs(y - power * x).max() <= MATCHES * np.abs(y).max())
 
 
-def _alike(ask: Ask, a: Parts, b: Parts) -> bool | None:
+def alike(ask: Ask, a: Parts, b: Parts) -> bool | None:
     """Return whether two answers match; None where there is none."""
     if len(a) != len(b):
         return None

@@ -17,7 +17,7 @@ body { max-width: 980px; }
 td.n, th.n { text-align: right; } td.day { font-weight: 600; }
 tr.first td { border-top: 2px solid var(--grid); } tr.first:nth-child(2) td {
   border-top: 1px solid var(--grid); }
-td.pass, td.fail, td.none { white-space: normal; min-width: 64px; }
+td.pass, td.fail, td.none { white-space: normal; min-width: 84px; }
 table { font-size: 14px; margin-top: 0; } th, td { padding: 6px 14px 6px 0; }
 th:last-child, td:last-child { padding-right: 0; } td.wide { white-space: normal;
   min-width: 160px; }

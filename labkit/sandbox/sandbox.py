@@ -22,6 +22,7 @@ from operator import methodcaller
 from pathlib import Path
 from typing import Any
 
+from labkit.base import processes
 from labkit.base.deadline import Deadline
 from labkit.base.exchange import (
     CHANNEL,
@@ -271,6 +272,10 @@ class Session:
     def used(self) -> tuple[float, float]:
         """Return for how many seconds it had a processor, and waited for one."""
         return self._process.used()
+
+    def halt(self) -> None:
+        """End the process from another thread: who waits for an answer hears so."""
+        processes.end(self._process.process)
 
     def close(self) -> None:
         """End it."""

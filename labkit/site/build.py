@@ -53,6 +53,7 @@ SETTINGS: dict[str, Any] = {
     "napoleon_attr_annotations": False,  # and, as elsewhere, without types
     "default_role": "code",  # `q` in a docstring
 }
+LONG = 55  # letters of LaTeX: a formula that a phone scrolls, since none is broken
 # As an accent, a dot is set into its letter at a screen's size: q with a dot reads q.
 _MELTS = ' accent="true"'
 _MARKUP = (":", "..", "- ", "* ")  # what an indented paragraph belongs to
@@ -62,6 +63,13 @@ _BELOW = re.compile(
     re.DOTALL,
 )
 _BESIDE = r"<msub><mover>\1\3</mover>\2</msub>"
+# A function's name stands off its neighbours, as TeX sets it: a sin x is no asin x.
+_CALL = "<mo>&ApplyFunction;</mo>"
+_NAME = re.compile(
+    r"(</mi>|</mn>|</msub>|</msup>|\)</mo>)(?=\s*<mi[^>]*>\w\w+</mi>\s*" + _CALL + ")"
+)
+_ARGUMENT = re.compile(_CALL + r"(?!\s*<mo[^>]*>[(\[])")
+_THIN = '<mspace width="0.17em"/>'
 
 
 def build(out: Path) -> None:
@@ -132,12 +140,17 @@ def _static(into: Path) -> Path:
 def mathml(formula: str, as_block: bool = False) -> str:
     """Return a formula of LaTeX as MathML."""
     made = _BELOW.sub(_BESIDE, tex2mathml(formula, as_block=as_block))
+    made = _ARGUMENT.sub(_CALL + _THIN, _NAME.sub(rf"\1{_THIN}", made))
     return made.replace(_MELTS, "")
 
 
 def write(page: Any, node: Any, as_block: bool = False) -> None:
     """Write a formula that stands in a line, or alone."""
-    page.body.append(mathml(node.astext(), as_block))
+    formula = node.astext()
+    made = mathml(formula, as_block)
+    if len(formula) > LONG and not as_block:
+        made = f'<span class="long">{made}</span>'
+    page.body.append(made)
     raise nodes.SkipNode
 
 

@@ -43,6 +43,7 @@ TRY = (
 VERB = re.compile(
     r"^([a-z-]+)%?:.*?##(\d?) (.+)$", re.MULTILINE
 )  # as `make help` reads it
+TYPED = re.compile(r"\b[A-Z]+=[^\s,;]+|\B--[\w-]+|\b\w+/[\w.-]*\w")
 COMMANDS = """\
 # What to type: the commands
 
@@ -173,10 +174,16 @@ def _commands(makefile: str) -> str:
     """Return a page with a heading per command of `make`, so that a search finds it."""
     found = VERB.findall(makefile)
     verbs = sorted(found, key=lambda verb: (verb[1] == "", verb[1]))
-    parts = [
-        f"## make {name}\n\n{says[0].upper()}{says[1:]}.\n" for name, _, says in verbs
-    ]
+    parts = [f"## make {name}\n\n{_sentence(says)}\n" for name, _, says in verbs]
     return COMMANDS + "\n".join(parts)
+
+
+def _sentence(words: str) -> str:
+    """Return words with a capital and a full stop; what is typed becomes code."""
+    first = words.split()[0]
+    start = words[0].upper() if "/" not in first else words[0]
+    said = TYPED.sub(r"`\g<0>`", start + words[1:])
+    return said if words.endswith((".", "?")) else f"{said}."
 
 
 def _modules() -> Iterator[tuple[str, Sequence[str]]]:

@@ -80,9 +80,7 @@ def arm(sign: float) -> Image.Image:
     full = portrait.with_fingers(Q)
     red = portrait.ghosts(portrait.link_frames(full), links(sign), wrong=True)
     width, height = (editor.SHARP * n for n in editor.ARM)
-    return Image.fromarray(
-        client.draw(Scene(full, (width, height), CAMERA, red, dark=True))
-    )
+    return Image.fromarray(client.draw(Scene(full, (width, height), CAMERA, red)))
 
 
 def links(sign: float) -> dict[str, np.ndarray]:

@@ -85,8 +85,9 @@ class Chain(common_tabs.Chain):
         return steps
 
     def lost(self) -> None:
-        """Show no factors."""
+        """Show no factors, and no way through them."""
         self.product.content = ""
+        self.page.host.scene.trace(())
 
 
 class Order(Tab):

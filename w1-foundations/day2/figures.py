@@ -24,10 +24,10 @@ SIZE = (1200, 1000)
 LARGE = (SIZE[0] * SMOOTH, SIZE[1] * SMOOTH)  # of the sheet over it
 LINKS = [f"body:link{i}" for i in range(1, 8)]  # each turns about its own z axis
 AXES = [
-    (224, 49, 49), (28, 100, 242), (232, 119, 34), (47, 158, 68),
-    (134, 46, 156), (12, 133, 153), (194, 37, 92),
+    (255, 94, 87), (96, 156, 255), (255, 159, 64), (70, 201, 98),
+    (204, 112, 235), (59, 201, 219), (247, 131, 172),
 ]  # fmt: skip
-GHOSTS = [(224, 49, 49), (232, 119, 34), (134, 46, 156), (28, 100, 242), (33, 37, 41)]
+GHOSTS = [(255, 94, 87), (255, 159, 64), (204, 112, 235), (96, 156, 255), INK]
 SHOWN_Q = np.array([0.4, -0.3, 0.3, -1.9, 0.5, 1.9, 0.6])  # where the five part well
 THIN = 4.0  # of a line, in pixels of a picture 800 high
 LENGTHS = {  # in the model file, metres: from where to where, (x, z) at y = 0

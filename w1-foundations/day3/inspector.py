@@ -54,6 +54,7 @@ class Jacobian(Tab):
         self.truth = page.draw.lines(zeros, "black", 1.5)
         self.columns = page.draw.arrows(zeros, "purple")
         self.wrong = page.draw.arrows(zeros, "red", 0.008)
+        self.library = zeros
         self.names = page.draw.labels([f"J{i + 1}" for i in range(JOINTS)])
         self.ball = page.draw.ellipsoid("grey", 0.25)
         self.ghost = page.draw.ghost("orange")
@@ -93,8 +94,9 @@ class Jacobian(Tab):
             drawn.visible = bool(some.any())
             if some.any():
                 drawn.points = arrows[some]
-        self.truth.points = _arrows(p, right)
-        self.names.show(arrows[:, 1] + 0.03 * (arrows[:, 1] - p))
+        self.library = _arrows(p, right)
+        self.truth.points = self.library
+        self.names.show(_beyond(arrows))
         self.ball.show(J[3:] @ J[3:].T, p, BALL)
         sigma = np.linalg.svd(J, compute_uv=False)
         self.bars.show(sigma, np.linalg.svd(right, compute_uv=False))
@@ -105,7 +107,8 @@ class Jacobian(Tab):
         self.least.content = words.line(says, "sigma", kind)
 
     def lost(self) -> None:
-        """Show no columns, and no second arm."""
+        """Show no columns but the library's, and no second arm."""
+        self.names.show(_beyond(self.library))
         self.columns.visible = self.wrong.visible = self.ball.ball.visible = False
         self.bars.clear()
         self.least.content = self.numbers.content = ""
@@ -169,6 +172,11 @@ def _arrows(p: Array, J: Array) -> Array:
     """Return the columns' velocities as arrows at p, (7, 2, 3)."""
     ends = p + COLUMN * J[3:].T
     return np.stack([np.broadcast_to(p, ends.shape), ends], axis=1).astype(np.float32)
+
+
+def _beyond(arrows: Array) -> Array:
+    """Return where their names stand, (7, 3)."""
+    return arrows[:, 1] + 0.03 * (arrows[:, 1] - arrows[:, 0])
 
 
 TABS = [Jacobian, Circle]

@@ -34,7 +34,7 @@ POSES = {
 }
 
 
-@chart.picture(height=5.2)
+@chart.picture(height=3.9)
 def momentum(figure: Figure) -> None:
     """Draw a body with its centre, its momentum there, and both about the origin."""
     axes = figure.subplots()

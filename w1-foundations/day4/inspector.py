@@ -156,7 +156,10 @@ class Forces(Tab):
         )
 
     def lost(self) -> None:
-        """Show no torques and no M."""
+        """Show no torques and no M, and the arm where it began."""
+        if not self.loop.running:
+            self.data = simulate.start(self.model, self.begun[:JOINTS])
+            self.show_arm(0.0)
         self.page.say("")
         self.bars.clear()
         self.cells.content = self.clock.content = ""

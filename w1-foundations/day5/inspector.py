@@ -232,7 +232,7 @@ class Control(Tab):
         self.bars.show(self.asked[-1])
         self.plot.add(t, [measured, self.predicted])
         chatter = self.chatter()
-        off = f"{measured:.3g}" if measured > LEAST else f"under {LEAST:g}"
+        off = words.digits(measured) if measured > LEAST else f"under {LEAST:g}"
         says = f"t = {t:.2f} s; largest error {off} mrad{chatter}"
         self.clock.content = words.line(says, "clock", "bad" if chatter else "")
         self.show(ref[0])

@@ -61,6 +61,7 @@ class Touch(Tab):
         self.goal_q = page.q[:7].copy()
         self.data = simulate.start(self.robot, self.goal_q)
         self.Lambda: Array | None = None  # the student's, of the last torque
+        self.weighed: tuple[Array, Array]  # where: J and M
         self.own = page.own(task_space, units=UNITS)
         page.buttons([AGAIN, LET_GO, READY], self.press)
         page.slider("spring", 50, 2000, self.k, self.set_k, unit="N/m", step=50)
@@ -131,13 +132,19 @@ class Touch(Tab):
 
     def weigh(self, J: Array, M: Array) -> Array:
         """Return the student's Lambda, and keep it; it waits for them."""
-        self.Lambda = self.own.task_inertia(J, M)
-        return self.Lambda
+        Lambda: Array = self.own.task_inertia(J, M)
+        self.Lambda, self.weighed = Lambda, (J, M)
+        return Lambda
 
     def lost(self) -> None:
-        """Show no numbers, and no mass."""
+        """Show no numbers and no mass, and the arm where it began."""
         self.Lambda = None
+        if not self.loop.running:
+            self.data = simulate.start(self.robot, self.goal_q)
+            self.drawn.show(self.data.qpos)
+            self.arrow.visible = False
         self.mass.ball.visible = False
+        self.bars.clear()
         self.numbers.content = ""
 
     def step(self, seconds: float) -> None:
@@ -198,7 +205,7 @@ class Touch(Tab):
             mass = self.Lambda[3:, 3:]
             self.mass.show(mass, hand, LONG)
             kilograms = ", ".join(f"{m:.1f}" for m in np.diag(mass))
-            truth = task_space.task_inertia(now.J_site, now.M)[3:, 3:]
+            truth = task_space.task_inertia(*self.weighed)[3:, 3:]
             ours = ", ".join(f"{m:.1f}" for m in np.diag(truth))
             weighs = f"By yours the hand weighs {kilograms} kg along x, y, z"
             weighs += "." if kilograms == ours else f"; by the library {ours}."

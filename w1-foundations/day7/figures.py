@@ -39,7 +39,7 @@ ROWS = (
 SAMPLES = 2000  # times at which the curves are drawn
 SIZE = (1200, 900)
 LARGE = (SIZE[0] * SMOOTH, SIZE[1] * SMOOTH)  # of the sheet over it
-WAY = (224, 49, 49)
+WAY = (255, 94, 87)
 WOOD, PAINT = (0.80, 0.72, 0.60, 1.0), (0.95, 0.55, 0.15, 1.0)
 
 

@@ -26,6 +26,7 @@ QUINTIC, TRAPEZOID = "quintic", "trapezoid"
 PLAY, PICK, STOP = "play / stop", "pick it", "stop"
 ARM = slice(0, 7)
 LATE = 1e-9  # of the time
+LEAST = 1e-3  # s, that a way may take
 COUNT = 60  # instants that the student's functions are asked for
 TODAY, ALL = "of today", "of all days"
 UNITS = {"quintic_duration": "s", "joint_move": "(rad, rad/s or rad/s2)",
@@ -75,7 +76,7 @@ class Plan(Tab):
 
     def play(self, seconds: float) -> bool:
         """Go on in real time; return whether there is more."""
-        self.share = min(seconds / self.T, 1.0)
+        self.share = min(seconds / max(abs(self.T), LEAST), 1.0)
         self.slider.value = self.share
         self.show()
         return self.share < 1.0
@@ -96,8 +97,9 @@ class Plan(Tab):
         s = np.linspace(0.0, 1.0, COUNT)
         v, a = self.hurry * simulate.SPEED_LIMITS, self.hurry * simulate.ACC_LIMITS
         if self.kind == QUINTIC:
-            T = max(float(self.own.quintic_duration(dq, v, a)), 1e-3)
-            calls = [("joint_move", q0, GOAL_Q, float(t), T) for t in s * T]
+            T = float(self.own.quintic_duration(dq, v, a))
+            plays = max(abs(T), LEAST)
+            calls = [("joint_move", q0, GOAL_Q, float(t), plays) for t in s * plays]
             moves = np.array(self.own.many(*calls))
             return T, moves[:, 0], moves[:, 1]
         top, ramp = self._top(dq)
@@ -122,7 +124,7 @@ class Plan(Tab):
         p = np.array([self.arm.at(q).T_world_ee[:3, 3] for q in self.q])
         self.way.points = joined(p)
         parts = np.abs(self.qd) / simulate.SPEED_LIMITS
-        times = np.linspace(0.0, self.T, COUNT)
+        times = np.linspace(0.0, abs(self.T), COUNT)
         self.plot.show(times, [*parts.T, np.ones(COUNT)])
         self.show()
         if self.to_play:
@@ -133,6 +135,7 @@ class Plan(Tab):
         """Show no way."""
         self.loop.stop()
         self.ghost.pose({})
+        self.way.points = joined(np.zeros((COUNT, 3)))
         self.bars.clear()
         self.plot.clear()
         self.numbers.content = ""
@@ -145,7 +148,9 @@ class Plan(Tab):
         most = float((np.abs(self.qd) / simulate.SPEED_LIMITS).max())
         t = f"t = {self.share * self.T:.2f} of {self.T:.3f} s"
         says = f"{t}; at most {most:.0%} of a speed limit"
-        kind = "bad" if most > 1 + 1e-6 else ""
+        if self.T <= 0.0:
+            says += "; no way takes that time, it is played all the same"
+        kind = "bad" if most > 1 + 1e-6 or self.T <= 0.0 else ""
         self.numbers.content = words.line(says, "plan", kind)
 
 
@@ -185,7 +190,12 @@ class Pick(Tab):
         ring = np.column_stack([corners + goal[:2], np.full(5, goal[2] + 1e-3)])
         page.draw.curve(ring, "blue", 4.0)
         page.legend({"the cube": "orange", "where it is to stand": "blue"})
+        self.stand()
+
+    def stand(self) -> None:
+        """Stand at the start: nothing is picked yet."""
         self.robot.show(simulate.start(_scene(), panda.READY_Q).qpos)
+        self.bars.clear()
 
     def begin(self) -> None:
         """Have the cube picked."""
@@ -198,6 +208,7 @@ class Pick(Tab):
             says = "the simulation runs: some seconds, of all days up to a minute"
             self.clock.content = words.line(says, "clock", "quiet")
             self.page.say("")
+            self.stand()
             self.page.job(self.pick, self.picked)
 
     def pick(self) -> tuple[Result, str]:
@@ -212,6 +223,8 @@ class Pick(Tab):
 
     def lost(self) -> None:
         """Nothing was picked."""
+        self.loop.stop()
+        self.stand()
         self.clock.content = ""
 
     def picked(self, found: tuple[Result, str]) -> None:

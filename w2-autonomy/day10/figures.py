@@ -49,7 +49,7 @@ def _image(axes: Axes, depth: np.ndarray) -> None:
     height, width = depth.shape
     seen = np.where(np.isfinite(depth), depth, np.nan)
     edge = (0, width, height, 0)  # (0, 0) is the picture's corner, as in the lab
-    axes.imshow(seen, cmap="viridis_r", extent=edge)
+    axes.imshow(seen, cmap="Blues_r", extent=edge)
     axes.set(title="Depth: what is seen", xlabel="u, px", ylabel="v, px")
     axes.set(xlim=(130, 190), ylim=(140, 80))  # the cube is small in it
 

@@ -64,6 +64,7 @@ class Eye(Tab):
         self.y = 60.0
         self.yaw = 0.4
         self.noise = LAB.NOISE
+        self.seen: Seen | None = None  # what is shown
         self.own = page.own(camera, units=UNITS)
         page.slider("cube, x", 350, 600, self.x, self.sets("x"), unit="mm", step=5)
         page.slider("cube, y", -250, 250, self.y, self.sets("y"), unit="mm", step=5)
@@ -144,13 +145,14 @@ class Eye(Tab):
 
     def show(self, seen: Seen) -> None:
         """Show the picture, both clouds of corners, and how far the fit is off."""
+        self.seen = seen
         self.image.image = as_bytes(picture(seen))
         self.found.points = edges(seen.T_world_found)
         self.frustum.points = seen.view
         apart = np.abs(seen.theirs - seen.truth).max()
         across, _, along = fits(seen.off, seen.sigma, *seen.right)
         kind = "good" if apart < SMALL else "bad"
-        said = f"{apart:.2g}" if apart >= SMALL else f"less than {SMALL:g}"
+        said = words.digits(apart, 2) if apart >= SMALL else f"less than {SMALL:g}"
         self.text.content = "".join(
             words.line(text, key, kind)
             for text, key, kind in (
@@ -164,6 +166,9 @@ class Eye(Tab):
     def lost(self) -> None:
         """Show no numbers, and no cube where they would put it."""
         self.text.content = ""
+        if self.seen is not None:  # MuJoCo's corners alone
+            bare = self.seen._replace(theirs=np.zeros((0, 2)))
+            self.image.image = as_bytes(picture(bare))
         self.found.points = np.zeros((12, 2, 3), np.float32)
         self.frustum.points = np.zeros((8, 2, 3), np.float32)
 

@@ -1,5 +1,7 @@
 """11.3 `box_sdf(p, half)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Row, Scalar, rounded
@@ -94,15 +96,15 @@ def _(p, half):
         "box-as-a-ball": far - np.linalg.norm(half),
         "box-as-a-ball 2": far - half.max(),
         "box-as-a-ball 3": far - half.min(),
-        "whole-sides": of(p, half / 2),
-        "twice-the-sides": of(p, 2 * half),
+        "whole-sides": partial(of, p, half / 2),
+        "twice-the-sides": partial(of, p, 2 * half),
         "abs-forgotten": unfolded,
         "abs-forgotten-zero-inside": np.linalg.norm(np.maximum(p - half, 0.0)),
         "not-rooted": length**2 + inside,
         "nearest-corner": np.linalg.norm(np.abs(p) - half),
-        "largest-half": of(p, np.full(3, half.max())),
-        "first-half": of(p, np.full(3, half[0])),
-        "in-the-plane": of(p[:2], half[:2]),
+        "largest-half": partial(of, p, np.full(3, half.max())),
+        "first-half": partial(of, p, np.full(3, half[0])),
+        "in-the-plane": partial(of, p[:2], half[:2]),
         "cut-at-both": np.linalg.norm(np.clip(p, -half, half)),
     }
 

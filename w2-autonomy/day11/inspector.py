@@ -2,7 +2,8 @@
 
 A post stands beside the arm, which is drawn as the lab's capsules. The student's own
 functions find how near it is, where, and how fast each joint changes that; the
-library's line and marks stand beside theirs. `push` drives the pen at the post.
+library's line and marks stand beside theirs. `push` drives the pen at the post; what
+plays at once is a push by their `slowed`.
 """
 
 from typing import NamedTuple
@@ -56,6 +57,8 @@ class Near(Tab):
         self.y = 150.0
         self.radius = 40.0
         self.how = STOP
+        self.begun = page.q
+        self.left = page.q  # where a push left the arm
         self.own = page.own(distance, units=UNITS)
         page.slider("post, x", 250, 700, self.x, self.sets("x"), unit="mm", step=5)
         page.slider("post, y", -400, 400, self.y, self.sets("y"), unit="mm", step=5)
@@ -73,6 +76,14 @@ class Near(Tab):
         self.loop = page.animate(self.shown, HZ, work=self.step)
         self.went = self.look(page.q[:7])
         self.on_move(page.q)
+
+    def begin(self) -> None:
+        """Push by the student's `slowed`, from where the last push began."""
+        self.press(STOP)
+        if np.array_equal(self.page.q, self.left):
+            self.page.move(self.begun)
+        self.begun = self.page.q
+        self.press(SLOWED)
 
     def stands(self) -> tuple[Array, Array, float]:
         """Return the post: its ends and its radius, m."""
@@ -141,7 +152,7 @@ class Near(Tab):
 
     def step(self, seconds: float) -> None:
         """Move the arm by one picture's time; it waits for the student's functions."""
-        q = self.page.q
+        q = self.page.q.copy()
         self.went = self.ask(q[:7], self.stands())
         b0, b1, _ = self.stands()
         tip = self.arm.ends(q[:7])[-1, 1]
@@ -162,6 +173,7 @@ class Near(Tab):
         q = self.page.q
         self.show(self.went, self.look(q[:7]))
         self.page.move(self.next)
+        self.left = self.next
         return seconds < LASTS
 
     def show(self, yours: Pair, right: Pair) -> None:
@@ -184,7 +196,9 @@ class Near(Tab):
         )  # fmt: skip
 
     def lost(self) -> None:
-        """Show no numbers, and no line between points that nobody found."""
+        """Show no numbers, and no line between points but the library's."""
+        right = self.look(self.page.q[:7])
+        self.right.points = right.points[None].astype(np.float32)
         self.text.content = ""
         self.bars.clear()
         self.line.points = np.zeros((1, 2, 3), np.float32)

@@ -106,6 +106,22 @@ def test_a_push_goes_in_and_a_slowed_one_stays_out():
     assert 0.003 < least < 3 * lab.MARGIN  # two pairs are near in places
 
 
+def test_a_save_plays_a_slowed_push_from_where_the_last_one_began():
+    tab = near(vars(lab))
+    start = tab.page.q
+    tab.page.move = lambda q: setattr(tab.page, "q", q)
+    for _ in range(2):  # opened, then saved
+        tab.begin()
+        assert np.array_equal(tab.page.q, start)
+        assert tab.how == "push, slowed"
+        tab.step(0.0)
+        tab.shown(0.0)
+        assert not np.array_equal(tab.page.q, start)
+    tab.page.q = elsewhere = start + 0.1  # by a person
+    tab.begin()
+    assert np.array_equal(tab.page.q, elsewhere)
+
+
 def test_a_push_that_is_slowed_the_wrong_way_goes_in():
     def pushed_in(qd, slope, distance, gain):
         return 2 * qd - lab.slowed(qd, slope, distance, gain)

@@ -1,5 +1,7 @@
 """12.9 `fastest_along(A, B, G, limits, x_max)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Row, Vector, rounded
@@ -136,38 +138,39 @@ def _(A, B, G, limits, x_max):
     with np.errstate(divide="ignore"):
         times = np.append(0, np.cumsum(2 / n / np.maximum(sd[1:] + sd[:-1], 1e-9)))
 
-    def least(*args):
-        return accel_range(*args)[[0, 0]]
+    def fall():
+        return np.append(
+            0.0, np.minimum(timed(*given, most=lambda x: wide)[1:], x_max[1:])
+        )
 
     two = np.minimum(free, back) if not heavy else right
-    fall = np.append(0.0, np.minimum(timed(*given, most=lambda x: wide)[1:], x_max[1:]))
     return {
         "no-braking": free,
         "no-braking 2": stopped,
-        "end-not-at-rest": timed(*given, last=False),
-        "start-not-at-rest": timed(*given, start="K"),
+        "end-not-at-rest": partial(timed, *given, last=False),
+        "start-not-at-rest": partial(timed, *given, start="K"),
         "backward-pass-only": back,
         "backward-pass-only 2": alone,
         "smaller-of-two-passes": two,
-        "ds-for-2-ds": timed(*given, two_ds=lambda n: 1 / n),
-        "four-ds": timed(*given, two_ds=lambda n: 4 / n),
-        "points-for-steps": timed(*given, two_ds=lambda n: 2 / (n + 1)),
-        "sd-for-sd2": timed(*given, sd=lambda x: x),
-        "sd-for-sd2 2": timed(*given, sd=lambda x: x, forward_sd=np.sqrt),
-        "sd-for-sd2 3": timed(*given, forward_sd=lambda x: x),
-        "most-of-the-point-before": timed(*given, kept=0),
-        "no-speed-limit": timed(*given, most=lambda x: wide),
+        "ds-for-2-ds": partial(timed, *given, two_ds=lambda n: 1 / n),
+        "four-ds": partial(timed, *given, two_ds=lambda n: 4 / n),
+        "points-for-steps": partial(timed, *given, two_ds=lambda n: 2 / (n + 1)),
+        "sd-for-sd2": partial(timed, *given, sd=lambda x: x),
+        "sd-for-sd2 2": partial(timed, *given, sd=lambda x: x, forward_sd=np.sqrt),
+        "sd-for-sd2 3": partial(timed, *given, forward_sd=lambda x: x),
+        "most-of-the-point-before": partial(timed, *given, kept=0),
+        "no-speed-limit": partial(timed, *given, most=lambda x: wide),
         "speed-limit-forwards-only": fall,
-        "gravity-forgotten": timed(*given, pull=lambda A, B, G: (A, B, 0 * G)),
-        "coriolis-forgotten": timed(A, 0 * B, G, limits, x_max),
-        "cannot-stand-goes": timed(*given, stands=lambda G, limits: False),
-        "few-bisections": timed(*given, bisections=10),
-        "few-bisections 2": timed(*given, bisections=20),
-        "limits-of-the-next-point": timed(*given, at=1, back_at=1),
-        "bobrow": bobrow(*given),
+        "gravity-forgotten": partial(timed, *given, pull=lambda A, B, G: (A, B, 0 * G)),
+        "coriolis-forgotten": partial(timed, A, 0 * B, G, limits, x_max),
+        "cannot-stand-goes": partial(timed, *given, stands=lambda G, limits: False),
+        "few-bisections": partial(timed, *given, bisections=10),
+        "few-bisections 2": partial(timed, *given, bisections=20),
+        "limits-of-the-next-point": partial(timed, *given, at=1, back_at=1),
+        "bobrow": partial(bobrow, *given),
         "root": sd,
         "times": times if not heavy else 0 * times,
-        "half-the-torque": fastest_along(A, B, G, limits / 2, x_max),
+        "half-the-torque": partial(fastest_along, A, B, G, limits / 2, x_max),
         "never-moves": 0 * right,
         "accelerations": np.append(np.diff(right) * n / 2, 0.0),
     }

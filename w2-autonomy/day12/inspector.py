@@ -65,6 +65,7 @@ class Way(Tab):
         self.world = 2.0
         self.x = 0.0
         self.y = 0.0
+        self.bare: Seen | None = None  # the world, and the library's way, alone
         self.timing = page.jobs_apart()  # what is timed is no reason to drop a plan
         self.own = page.own(planning, any_rows={"rrt_connect", "shortcut"}, units=UNITS)
         page.slider("samples", 0, MOST, self.n, self.sets("n"), unit="", step=1)
@@ -127,6 +128,9 @@ class Way(Tab):
         start, goal, discs = LAB.plane_world(rng)
         discs = np.vstack([discs[:6], [x, y, 0.25]])
         draws = rng.uniform(-1.2, 1.2, (DRAWS + 1, MOST, 2))[:, : int(n)]
+        truth = planning.rrt_connect(start, goal, discs, draws[0], EDGE)
+        none = np.zeros((0, 2))
+        self.bare = Seen(discs, ([], []), none, (none, none), truth, 0, np.zeros(2))
         calls = [("rrt_connect", start, goal, discs, one, EDGE) for one in draws]
         way, *others = self.own.many(*calls)
         found = sum(len(one) > 0 for one in others)
@@ -135,7 +139,7 @@ class Way(Tab):
             self.trees(start, goal, discs, draws[0]),
             way,
             self.cut_of(way, discs),
-            planning.rrt_connect(start, goal, discs, draws[0], EDGE),
+            truth,
             found,
             self.own.wilson(found, DRAWS),
         )
@@ -180,6 +184,8 @@ class Way(Tab):
         self.bars.show(seen.interval, planning.wilson(seen.found, DRAWS))
         told, kind = compared(seen.way, seen.truth)
         cut, kind_cut = compared(*seen.cut, "your shortcut")
+        self.own.tell("rrt_connect", "another way" if kind == "bad" else "")
+        self.own.tell("shortcut", "another cut" if kind_cut == "bad" else "")
         a, b = (len(edges) + 1 for edges in seen.edges)
         share = f"{seen.found} of {DRAWS} draws find a way: {low:.2f} to {high:.2f}"
         self.text.content = "".join(
@@ -245,11 +251,14 @@ class Way(Tab):
         return seconds < self.at[-1]
 
     def lost(self) -> None:
-        """Show no numbers and no trees."""
+        """Show no numbers, no trees, and no arm on the way."""
+        self.loop.stop()
+        self.runner.pose({})
         self.text.content = ""
         self.timed.content = ""
         self.bars.clear()
-        self.image.image = np.zeros((PIXELS, PIXELS, 3), np.uint8)
+        if self.bare is not None:
+            self.image.image = as_bytes(picture(self.bare))
 
 
 def over_the_wall(wall: day12_mujoco.Wall) -> Array:

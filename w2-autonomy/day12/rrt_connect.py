@@ -55,11 +55,6 @@ def _(rng):
     yield from ways_asked(rng)
 
 
-def _other(**how):
-    """Return a planner that differs."""
-    return partial(planner, **how)
-
-
 @row.wrongs
 def _(start, goal, world, samples, step):
     """swap-when-it-grew: yours is another planner than the one asked for.
@@ -108,28 +103,36 @@ def _(start, goal, world, samples, step):
     none = right[:0]
     straight = len(rrt_connect(start, goal, world, np.array([start]), 99.0)) > 0
     return {
-        "swap-when-it-grew": _other(turn="grew")(*given),
-        "swap-when-it-failed": _other(turn="failed")(*given),
-        "trees-not-swapped": _other(turn="never")(*given),
-        "goal-first": _other(turn="goal")(*given),
-        "connect-one-step": _other(approach="one")(*given),
-        "connect-to-the-sample": _other(approach="sample")(*given),
-        "greedy-samples": _other(mine="connect")(*given),
-        "one-tree": one_tree(*given),
-        "connect-in-one-jump": _other(approach="jump")(*given),
-        "parent-is-the-newest": _other(parent="newest")(*given),
-        "not-turned-round": _other(joined=lambda a, b: a + b[1:])(*given),
+        "swap-when-it-grew": partial(planner, *given, turn="grew"),
+        "swap-when-it-failed": partial(planner, *given, turn="failed"),
+        "trees-not-swapped": partial(planner, *given, turn="never"),
+        "goal-first": partial(planner, *given, turn="goal"),
+        "connect-one-step": partial(planner, *given, approach="one"),
+        "connect-to-the-sample": partial(planner, *given, approach="sample"),
+        "greedy-samples": partial(planner, *given, mine="connect"),
+        "one-tree": partial(one_tree, *given),
+        "connect-in-one-jump": partial(planner, *given, approach="jump"),
+        "parent-is-the-newest": partial(planner, *given, parent="newest"),
+        "not-turned-round": partial(planner, *given, joined=lambda a, b: a + b[1:]),
         "goal-to-start": right[::-1],
-        "half-the-path": _other(joined=lambda a, b: a[::-1])(*given),
-        "half-the-path 2": _other(joined=lambda a, b: b)(*given),
-        "not-checked": _other(free=True)(*given),
-        "meeting-point-twice": _other(joined=lambda a, b: a[::-1] + b)(*given),
-        "meeting-point-lost": _other(joined=lambda a, b: [*a[:0:-1], *b[1:]])(*given),
+        "half-the-path": partial(planner, *given, joined=lambda a, b: a[::-1]),
+        "half-the-path 2": partial(planner, *given, joined=lambda a, b: b),
+        "not-checked": partial(planner, *given, free=True),
+        "meeting-point-twice": partial(
+            planner, *given, joined=lambda a, b: a[::-1] + b
+        ),
+        "meeting-point-lost": partial(
+            planner, *given, joined=lambda a, b: [*a[:0:-1], *b[1:]]
+        ),
         "goal-lost": right[:-1],
         "start-lost": right[1:],
         "ends-only": np.array([start, goal]) if there else none,
-        "first-sample-left-out": rrt_connect(start, goal, world, samples[1:], step),
-        "last-sample-left-out": rrt_connect(start, goal, world, samples[:-1], step),
+        "first-sample-left-out": partial(
+            rrt_connect, start, goal, world, samples[1:], step
+        ),
+        "last-sample-left-out": partial(
+            rrt_connect, start, goal, world, samples[:-1], step
+        ),
         "straight-tried-first": np.array([start, goal]) if straight else right,
     }
 

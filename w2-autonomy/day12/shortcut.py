@@ -1,5 +1,7 @@
 """12.5 `shortcut(path, world, pairs)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Row, Waypoints
@@ -88,7 +90,12 @@ def _(path, world, pairs):
     ends-at-i: this is the path up to i and no more
     """
     none = np.empty((0, 2))
-    cut_i = cut(path, world, pairs, join=lambda p, i, j: np.vstack([p[:i], p[j:]]))
+
+    def later(*some, **how):
+        return partial(cut, path, world, pairs, *some, **how)
+
+    def early(p, i, j):
+        return np.vstack([p[:i], p[j:]])
 
     def late(p, i, j):
         return np.vstack([p[: i + 1], p[j + 1 :]])
@@ -107,36 +114,28 @@ def _(path, world, pairs):
 
     return {
         "not-checked": shortcut(path, none[:, [0, 0, 0]], pairs),
-        "one-node-short": cut(path, world, pairs, join=late),
-        "one-node-short 2": cut_i,
-        "one-too-many": cut(
-            path, world, pairs, join=lambda p, i, j: np.vstack([p[: i + 1], p[j - 1 :]])
+        "one-node-short": later(join=late),
+        "one-node-short 2": later(join=early),
+        "one-too-many": later(join=lambda p, i, j: np.vstack([p[: i + 1], p[j - 1 :]])),
+        "end-lost": later(join=lambda p, i, j: np.vstack([p[: i + 1], p[j:-1]])),
+        "first-cut-only": later(ends="cut"),
+        "indices-of-the-first-path": later(fixed="mask"),
+        "indices-of-the-first-path 2": later(fixed="clamped"),
+        "not-sorted": later(order=list),
+        "rounded": later(lambda pair, m: [round(u * m) for u in pair]),
+        "rounded 2": later(lambda pair, m: [round(u * (m - 1)) for u in pair]),
+        "of-m-minus-one": later(halved),
+        "neighbours-too": later(
+            least=0, join=lambda p, i, j: np.vstack([p[:i], p[j:]])
         ),
-        "end-lost": cut(
-            path, world, pairs, join=lambda p, i, j: np.vstack([p[: i + 1], p[j:-1]])
-        ),
-        "first-cut-only": cut(path, world, pairs, ends="cut"),
-        "indices-of-the-first-path": cut(path, world, pairs, fixed="mask"),
-        "indices-of-the-first-path 2": cut(path, world, pairs, fixed="clamped"),
-        "not-sorted": cut(path, world, pairs, order=list),
-        "rounded": cut(
-            path, world, pairs, lambda pair, m: [round(u * m) for u in pair]
-        ),
-        "rounded 2": cut(
-            path, world, pairs, lambda pair, m: [round(u * (m - 1)) for u in pair]
-        ),
-        "of-m-minus-one": cut(path, world, pairs, halved),
-        "neighbours-too": cut(
-            path, world, pairs, least=0, join=lambda p, i, j: np.vstack([p[:i], p[j:]])
-        ),
-        "two-apart-left": cut(path, world, pairs, least=2),
-        "hit-for-free": cut(path, world, pairs, check=hit),
+        "two-apart-left": later(least=2),
+        "hit-for-free": later(check=hit),
         "unchanged": path,
         "all-but-the-ends": path[[0, -1]],
-        "only-the-ends-checked": cut(path, world, pairs, check=ends),
-        "middle-checked": cut(path, world, pairs, check=middle),
+        "only-the-ends-checked": later(check=ends),
+        "middle-checked": later(check=middle),
         "reversed": shortcut(path, world, pairs)[::-1],
-        "ends-at-i": cut(path, world, pairs, join=lambda p, i, j: p[: i + 1]),
+        "ends-at-i": later(join=lambda p, i, j: p[: i + 1]),
     }
 
 

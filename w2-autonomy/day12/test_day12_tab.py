@@ -112,8 +112,13 @@ def test_without_a_file_the_tab_says_that_it_is_the_librarys():
     assert "there is no file yet" in tab.own.says()[0]
 
 
-def test_what_gives_no_answer_leaves_no_numbers():
+def test_what_gives_no_answer_leaves_no_numbers_and_the_librarys_way_alone():
     tab = looked(vars(lab))
+    theirs = [(213, 60, 20), (0, 190, 140), (0, 114, 178)]  # way, cut, a tree
+    drawn = [(tab.image.image == colour).all(axis=2).any() for colour in theirs]
+    assert drawn == [True, True, True]
     tab.lost()
     assert said(tab) == ""
-    assert not tab.image.image.any()
+    for colour in theirs:
+        assert not (tab.image.image == colour).all(axis=2).any()
+    assert (tab.image.image == 255).all(axis=2).any()

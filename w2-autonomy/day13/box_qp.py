@@ -1,6 +1,7 @@
 """13.5 `box_qp(H, g, lo, hi, x)`: its questions and its mistakes."""
 
 import itertools
+from functools import partial
 
 import numpy as np
 
@@ -292,9 +293,6 @@ def _(H, g, lo, hi, x):
     def solve(of, right):
         return np.linalg.solve(H[np.ix_(of, of)], right)
 
-    jacobi = np.clip(x, lo, hi)
-    for _ in range(100):
-        jacobi = np.clip(jacobi - (H @ jacobi + g) / np.diag(H), lo, hi)
     start = np.clip(x, lo, hi)
     way = free - start
     room = np.where(way > 0, hi - start, lo - start)
@@ -303,51 +301,53 @@ def _(H, g, lo, hi, x):
         "clip-the-optimum": np.clip(free, lo, hi),
         "no-limits": free,
         "scaled-back": start + min(1.0, share.min()) * way,
-        "solved-once-more": solved_once_more(*given),
-        "clipped-for-good": clipped_for_good(*given),
-        "held-for-good": held_for_good(*given),
-        "steepest-let-go": guessed(*given, lets_go="steepest"),
-        "all-let-go": guessed(*given, lets_go="all"),
-        "stops-too-early": guessed(*given, enough=1e-4),
-        "stops-too-early 2": guessed(*given, enough=1e-2),
-        "few-rounds": guessed(*given, rounds=4),
-        "few-rounds 2": guessed(*given, rounds=5),
-        "few-rounds 3": guessed(*given, rounds=10),
-        "start-not-clipped": guessed(*given, inside=False),
-        "uphill": guessed(*given, way=lambda x, f: solve(f, (H @ x + g)[f])),
-        "starts-at-0": guessed(*given, way=lambda x, f: solve(f, -g[f])),
-        "upper-limits-passed": guessed(*given, high=np.inf),
-        "held-by-place": newton(*given, frees="never"),
-        "frees-the-wrong-ones": newton(*given, frees="wrong"),
-        "held-left-out": held_for_good(*given, own=False),
-        "held-left-out 2": guessed(*given, way=lambda x, f: solve(f, -g[f]) - x[f]),
-        "one-step": newton(*given, n=1),
-        "two-steps": newton(*given, n=2),
-        "full-hessian": newton(*given, full=True),
-        "whole-steps": newton(*given),
-        "diagonal-hessian": jacobi,
-        "gradient-steps": slid(*given, 50, 0.01),
-        "gradient-steps 2": lambda: slid(*given, 1_000, 0.1),
-        "diagonal-hessian 2": guessed(
-            *given, way=lambda x, f: -(H @ x + g)[f] / np.diag(H)[f]
+        "solved-once-more": partial(solved_once_more, *given),
+        "clipped-for-good": partial(clipped_for_good, *given),
+        "held-for-good": partial(held_for_good, *given),
+        "steepest-let-go": partial(guessed, *given, lets_go="steepest"),
+        "all-let-go": partial(guessed, *given, lets_go="all"),
+        "stops-too-early": partial(guessed, *given, enough=1e-4),
+        "stops-too-early 2": partial(guessed, *given, enough=1e-2),
+        "few-rounds": partial(guessed, *given, rounds=4),
+        "few-rounds 2": partial(guessed, *given, rounds=5),
+        "few-rounds 3": partial(guessed, *given, rounds=10),
+        "start-not-clipped": partial(guessed, *given, inside=False),
+        "uphill": partial(guessed, *given, way=lambda x, f: solve(f, (H @ x + g)[f])),
+        "starts-at-0": partial(guessed, *given, way=lambda x, f: solve(f, -g[f])),
+        "upper-limits-passed": partial(guessed, *given, high=np.inf),
+        "held-by-place": partial(newton, *given, frees="never"),
+        "frees-the-wrong-ones": partial(newton, *given, frees="wrong"),
+        "held-left-out": partial(held_for_good, *given, own=False),
+        "held-left-out 2": partial(
+            guessed, *given, way=lambda x, f: solve(f, -g[f]) - x[f]
         ),
-        "gradient-steps 3": slid(*given, 30, short),
-        "gradient-steps 5": slid(*given, 50, short),
-        "gradient-steps 4": slid(*given, 100, short),
+        "one-step": partial(newton, *given, n=1),
+        "two-steps": partial(newton, *given, n=2),
+        "full-hessian": partial(newton, *given, full=True),
+        "whole-steps": partial(newton, *given),
+        "diagonal-hessian": partial(slid, *given, 100, 1 / np.diag(H)),
+        "gradient-steps": partial(slid, *given, 50, 0.01),
+        "gradient-steps 2": partial(slid, *given, 1_000, 0.1),
+        "diagonal-hessian 2": partial(
+            guessed, *given, way=lambda x, f: -(H @ x + g)[f] / np.diag(H)[f]
+        ),
+        "gradient-steps 3": partial(slid, *given, 30, short),
+        "gradient-steps 5": partial(slid, *given, 50, short),
+        "gradient-steps 4": partial(slid, *given, 100, short),
         "one-gradient-step": np.clip(x - (H @ x + g), lo, hi),
-        "one-gradient-step 2": slid(*given, 1, short),
-        "steps-too-long": slid(*given, 100, 1.0),
-        "few-sweeps": swept(*given, 5),
-        "few-sweeps 2": swept(*given, 20),
-        "few-sweeps 3": swept(*given, 100),
-        "one-sweep": swept(*given, 1),
-        "ten-sweeps": swept(*given, 10),
-        "g-sign": box_qp(H, -g, lo, hi, x),
-        "half-missing": box_qp(2 * H, g, lo, hi, x),
-        "lower-only": box_qp(H, g, lo, far, x),
-        "upper-only": box_qp(H, g, -far, hi, x),
+        "one-gradient-step 2": partial(slid, *given, 1, short),
+        "steps-too-long": partial(slid, *given, 100, 1.0),
+        "few-sweeps": partial(swept, *given, 5),
+        "few-sweeps 2": partial(swept, *given, 20),
+        "few-sweeps 3": partial(swept, *given, 100),
+        "one-sweep": partial(swept, *given, 1),
+        "ten-sweeps": partial(swept, *given, 10),
+        "g-sign": partial(box_qp, H, -g, lo, hi, x),
+        "half-missing": partial(box_qp, 2 * H, g, lo, hi, x),
+        "lower-only": partial(box_qp, H, g, lo, far, x),
+        "upper-only": partial(box_qp, H, g, -far, hi, x),
         "start-returned": start,
-        "H-of-the-diagonal": box_qp(np.diag(np.diag(H)), g, lo, hi, x),
+        "H-of-the-diagonal": partial(box_qp, np.diag(np.diag(H)), g, lo, hi, x),
     }
 
 

@@ -1,5 +1,7 @@
 """13.1 `gravity_slope(J_space, masses, coms, g)`: its questions and its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Row, Symmetric
@@ -139,19 +141,21 @@ def _(J_space, masses, coms, g):
     straight = np.array([0.0, 0.0, -length])
     last = np.zeros_like(right)
     last[-1, -1] = right[-1, -1]
+
+    def of(*some, **how):
+        return lambda: mirrored(felt(*some, **how))
+
     return {
         "sign": -right,
-        "gravity-not-turned": mirrored(felt(*given, np.tile(g, (len(masses), 1)))),
-        "gravity-not-turned 2": felt(*given, np.tile(g, (len(masses), 1))),
-        "g-times-omega": mirrored(felt(*given, g * omega)),
-        "link-i-only": mirrored(felt(*given, turned, np.equal)),
-        "only-links-after": mirrored(felt(*given, turned, np.greater)),
-        "all-links": mirrored(felt(*given, turned, lambda k, i: True)),
-        "no-lever": mirrored(felt(*given, turned, lever=0.0)),
-        "lever-sign": mirrored(felt(*given, turned, lever=-1.0)),
-        "halves-swapped": mirrored(
-            felt(swapped, masses, coms, np.cross(g, swapped[:3].T))
-        ),
+        "gravity-not-turned": of(*given, np.tile(g, (len(masses), 1))),
+        "gravity-not-turned 2": partial(felt, *given, np.tile(g, (len(masses), 1))),
+        "g-times-omega": of(*given, g * omega),
+        "link-i-only": of(*given, turned, np.equal),
+        "only-links-after": of(*given, turned, np.greater),
+        "all-links": of(*given, turned, lambda k, i: True),
+        "no-lever": of(*given, turned, lever=0.0),
+        "lever-sign": of(*given, turned, lever=-1.0),
+        "halves-swapped": of(swapped, masses, coms, np.cross(g, swapped[:3].T)),
         "upper-half-zero": np.tril(right),
         "lower-half-zero": np.triu(right),
         "upper-half-sign": np.tril(right) - np.triu(right, 1),
@@ -164,23 +168,23 @@ def _(J_space, masses, coms, g):
         "other-half": mirrored(full.T),
         "diagonal-doubled": right + np.diag(np.diag(right)),
         "diagonal-only": np.diag(np.diag(right)),
-        "mass-forgotten": mirrored(felt(J_space, 0 * masses + 1, coms, turned)),
-        "first-mass": mirrored(felt(J_space, 0 * masses + masses[0], coms, turned)),
-        "only-z": mirrored(felt(*given, np.cross(g_z, omega))),
-        "minus-9.81": mirrored(felt(*given, np.cross(DOWN, omega))),
-        "minus-9.81 2": mirrored(felt(*given, np.cross(straight, omega))),
+        "mass-forgotten": of(J_space, 0 * masses + 1, coms, turned),
+        "first-mass": of(J_space, 0 * masses + masses[0], coms, turned),
+        "only-z": of(*given, np.cross(g_z, omega)),
+        "minus-9.81": of(*given, np.cross(DOWN, omega)),
+        "minus-9.81 2": of(*given, np.cross(straight, omega)),
         "length-1": right / length,
-        "axis-before": mirrored(felt(*given, turned[np.maximum(at - 1, 0)])),
-        "axes-summed": mirrored(felt(*given, np.cumsum(turned, axis=0))),
-        "g-along-omega": mirrored(felt(*given, (omega @ g)[:, None] * omega)),
-        "total-mass": mirrored(felt(J_space, 0 * masses + masses.sum(), coms, turned)),
-        "differences": mirrored(felt(*given, turned + 0.025 * np.cross(turned, omega))),
-        "last-axis": mirrored(felt(*given, np.cross(g, 0 * omega + omega[-1]))),
-        "z-axis": mirrored(felt(*given, np.cross(g, 0 * omega + [0, 0, 1]))),
+        "axis-before": of(*given, turned[np.maximum(at - 1, 0)]),
+        "axes-summed": of(*given, np.cumsum(turned, axis=0)),
+        "g-along-omega": of(*given, (omega @ g)[:, None] * omega),
+        "total-mass": of(J_space, 0 * masses + masses.sum(), coms, turned),
+        "differences": of(*given, turned + 0.025 * np.cross(turned, omega)),
+        "last-axis": of(*given, np.cross(g, 0 * omega + omega[-1])),
+        "z-axis": of(*given, np.cross(g, 0 * omega + [0, 0, 1])),
         "turned-twice": mirrored(twice),
-        "v-for-omega": mirrored(felt(*given, np.cross(g, J_space[3:].T))),
-        "torque-added": mirrored(felt(*given, g + turned)),
-        "screws-stay": screws_stay(*given, g),
+        "v-for-omega": of(*given, np.cross(g, J_space[3:].T)),
+        "torque-added": of(*given, g + turned),
+        "screws-stay": partial(screws_stay, *given, g),
     }
 
 

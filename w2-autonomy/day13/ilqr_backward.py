@@ -1,5 +1,7 @@
 """13.7 `ilqr_backward(fx, fu, lx, lu, ..., Vx, Vxx, mu)`: questions and mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Matrix, Row, Vector
@@ -172,7 +174,7 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
         parts = dict(zip(names, given, strict=True))
         changed = {name: one for name, one in more.items() if name in parts}
         rest = {name: one for name, one in more.items() if name not in parts}
-        return backward(*(parts | changed).values(), **rest)
+        return partial(backward, *(parts | changed).values(), **rest)
 
     on_V = of(mu=0.0, luu=luu + mu * np.swapaxes(fu, 1, 2) @ fu,
               lux=lux + mu * np.swapaxes(fu, 1, 2) @ fx)  # fmt: skip

@@ -74,7 +74,7 @@ class Best(Tab):
         self.set: dict[str, float] = {
             "damping": LAB.DAMPING, "turn": 1.0, "share": 1.0, "radius": LAB.RADIUS,
         }  # fmt: skip
-        self.slider("radius, m", 0.3, 0.4, "radius", 0.005)
+        self.slider("radius", 0.3, 0.4, "radius", 0.005, "m")
         self.slider("damping", 0.002, 0.05, "damping", 0.001)
         self.slider("a turn weighs", 0.01, 1.0, "turn", 0.01)
         self.slider("share of the speed", 0.3, 1.0, "share", 0.05)
@@ -83,7 +83,7 @@ class Best(Tab):
         title = "what your step asks, in parts of the speed limit"
         self.speeds = page.bars(JOINTS, 1.0, "", title, "up")
         title = (
-            "your limit_prices, the most so far, the library's as marks, mm² per mrad; "
+            "your limit_prices, the most so far, the library's as marks, mm2 per mrad; "
             "below 0: an upper limit"
         )
         self.costs = page.bars(JOINTS, 0.2, "", title, "signed")
@@ -104,11 +104,17 @@ class Best(Tab):
         self.loop.start()
 
     def slider(
-        self, text: str, low: float, high: float, name: str, step: float
+        self,
+        text: str,
+        low: float,
+        high: float,
+        name: str,
+        step: float,
+        unit: str = "",
     ) -> None:
         """Add a slider of one of the settings."""
         to = self.sets(name)
-        self.page.slider(text, low, high, self.set[name], to, unit="", step=step)
+        self.page.slider(text, low, high, self.set[name], to, unit=unit, step=step)
 
     def sets(self, name: str) -> Callable[[float], None]:
         """Return what a slider does: all arms go back to the start."""
@@ -161,21 +167,22 @@ class Best(Tab):
         damping = self.set["damping"]
         clipped, own, best = (self.asked(pen) for pen in self.pens.values())
         asked = ("qp_ik", own.J, own.e, weights, damping, own.low, own.high)
-        priced = [("limit_prices", *self.last)] if self.last else []  # one way there
-        dq, *prices = self.own.many(asked, *priced)
-        best_prices = [optimal.limit_prices(*self.last)] if self.last else []
         H = own.J.T @ (weights[:, None] * own.J) + damping**2 * np.eye(7)
-        self.last = (H, -own.J.T @ (weights * own.e), own.low, own.high, dq)
+        g = -own.J.T @ (weights * own.e)
+        dq, prices = self.own.many(  # at once: one way there
+            asked, ("limit_prices", *(self.last or pressed(H, g)))
+        )
+        if self.last:  # m^2 per rad are 1,000 mm^2 per mrad; box_qp has half a square
+            self.price = larger(self.price, 2_000 * prices)
+            right = optimal.limit_prices(*self.last)
+            self.right = larger(self.right, 2_000 * right)
+        self.last = (H, g, own.low, own.high, dq)
         step = optimal.qp_ik(best.J, best.e, weights, damping, best.low, best.high)
         plain = np.clip(dls_step(clipped.J, clipped.e, damping), *clipped[2:])
         T_now = self.circle[self.steps]
         for pen, one in zip(self.pens.values(), (plain, dq, step), strict=True):
             pen.go(one, T_now)
         self.speed = np.abs(dq) / (LAB.SPEED * LAB.DT * self.set["share"])
-        # m^2 per rad are 1,000 mm^2 per mrad; box_qp's cost is half of a square.
-        for one, right in zip(prices, best_prices, strict=True):
-            self.price = larger(self.price, 2_000 * one)
-            self.right = larger(self.right, 2_000 * right)
         self.steps += 1
 
     def show(self) -> None:
@@ -188,7 +195,7 @@ class Best(Tab):
         self.costs.show(self.price, self.right)
         apart = max(self.pens["yours"].off) - max(self.pens["the library's"].off)
         kind = "bad" if abs(apart) > SMALL else "good"
-        kinds = {"yours": kind if self.steps else ""}
+        kinds = {"yours": kind if self.steps > 1 else ""}  # off is seen a step later
         self.numbers.content = words.line(
             f"{self.steps * LAB.DT:.1f} s of {day13_mujoco.LAP:.0f}", "time"
         ) + "".join(
@@ -205,6 +212,16 @@ class Best(Tab):
         self.numbers.content = ""
         self.speeds.clear()
         self.costs.clear()
+
+
+def pressed(H: Array, g: Array) -> tuple[Array, ...]:
+    """Return what limit_prices is asked first: limits at half of the free step, (7,).
+
+    On the way no limit may press for seconds, and all prices are 0 until then.
+    """
+    most = np.abs(np.linalg.solve(H, g)) / 2.0
+    dq = optimal.box_qp(H, g, -most, most, np.zeros(len(g)))
+    return H, g, -most, most, dq
 
 
 def larger(one: Array, other: Array) -> Array:

@@ -1,5 +1,7 @@
 """13.6 `qp_ik(J, e, weights, damping, dq_lo, dq_hi)`: its questions, its mistakes."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import Row, Vector
@@ -121,36 +123,40 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
         "clipped-twice": np.clip(again, lo, hi),
         "scaled-back": free * min(1.0, share.min()),
         "not-limited": free,
-        "lower-only": solved(*given, lo, far),
-        "upper-only": solved(*given, -far, hi),
-        "limits-mirrored": solved(*given, -np.abs(hi), np.abs(hi)),
-        "limits-mirrored 2": solved(*given, -hi, hi, box=LAB.box_qp),
-        "limits-mirrored 3": solved(*given, -np.abs(lo), np.abs(lo)),
-        "limits-swapped": solved(*given, hi, lo, box=LAB.box_qp),
-        "limits-1": solved(*given, -np.ones(7), np.ones(7)),
-        "damping-not-squared": solved(J, e, weights, damping, lo, hi),
-        "damping-halved": solved(J, e, weights, d / 2, lo, hi),
-        "damping-doubled": solved(J, e, weights, 2 * d, lo, hi),
-        "J-W-J-doubled": solved(J, e / 2, weights, d / 2, lo, hi),
-        "weights-squared": solved(J, e, weights**2, d, lo, hi),
-        "weights-rooted": solved(J, e, np.sqrt(weights), d, lo, hi),
-        "weights-forgotten": solved(J, e, np.ones(6), d, lo, hi),
-        "weights-in-H-only": solved(*given, lo, hi, np.ones(6)),
-        "weights-in-g-only": solved(J, e, np.ones(6), d, lo, hi, weights),
-        "weights-swapped": solved(J, e, weights[HALF], d, lo, hi),
-        "weights-inverted": solved(J, e, 1 / weights, d, lo, hi),
-        "e-halves-swapped": solved(J, e[HALF], weights, d, lo, hi),
-        "error-sign": solved(J, -e, weights, d, lo, hi),
-        "e-halved": solved(J, e / 2, weights, d, lo, hi),
-        "e-doubled": solved(J, 2 * e, weights, d, lo, hi),
-        "mean-weight-in-g": solved(*given, lo, hi, 0 * weights + weights.mean()),
-        "first-weight": solved(J, e, 0 * weights + weights[0], d, lo, hi),
-        "clip-after 2": np.clip(solved(J, e, np.ones(6), d, -far, far), lo, hi),
-        "damping-cubed": solved(J, e, weights, damping**3, lo, hi),
-        "damping-weighted": solved(J, e, weights, weights.mean() * d, lo, hi),
-        "stands-still-allowed": solved(*given, np.minimum(lo, 0), np.maximum(hi, 0)),
-        "translation-only": solved(J, e, weights * down, d, lo, hi),
-        "rotation-only": solved(J, e, weights * (1 - down), d, lo, hi),
+        "lower-only": partial(solved, *given, lo, far),
+        "upper-only": partial(solved, *given, -far, hi),
+        "limits-mirrored": partial(solved, *given, -np.abs(hi), np.abs(hi)),
+        "limits-mirrored 2": partial(solved, *given, -hi, hi, box=LAB.box_qp),
+        "limits-mirrored 3": partial(solved, *given, -np.abs(lo), np.abs(lo)),
+        "limits-swapped": partial(solved, *given, hi, lo, box=LAB.box_qp),
+        "limits-1": partial(solved, *given, -np.ones(7), np.ones(7)),
+        "damping-not-squared": partial(solved, J, e, weights, damping, lo, hi),
+        "damping-halved": partial(solved, J, e, weights, d / 2, lo, hi),
+        "damping-doubled": partial(solved, J, e, weights, 2 * d, lo, hi),
+        "J-W-J-doubled": partial(solved, J, e / 2, weights, d / 2, lo, hi),
+        "weights-squared": partial(solved, J, e, weights**2, d, lo, hi),
+        "weights-rooted": partial(solved, J, e, np.sqrt(weights), d, lo, hi),
+        "weights-forgotten": partial(solved, J, e, np.ones(6), d, lo, hi),
+        "weights-in-H-only": partial(solved, *given, lo, hi, np.ones(6)),
+        "weights-in-g-only": partial(solved, J, e, np.ones(6), d, lo, hi, weights),
+        "weights-swapped": partial(solved, J, e, weights[HALF], d, lo, hi),
+        "weights-inverted": partial(solved, J, e, 1 / weights, d, lo, hi),
+        "e-halves-swapped": partial(solved, J, e[HALF], weights, d, lo, hi),
+        "error-sign": partial(solved, J, -e, weights, d, lo, hi),
+        "e-halved": partial(solved, J, e / 2, weights, d, lo, hi),
+        "e-doubled": partial(solved, J, 2 * e, weights, d, lo, hi),
+        "mean-weight-in-g": partial(
+            solved, *given, lo, hi, 0 * weights + weights.mean()
+        ),
+        "first-weight": partial(solved, J, e, 0 * weights + weights[0], d, lo, hi),
+        "clip-after 2": lambda: np.clip(solved(J, e, np.ones(6), d, -far, far), lo, hi),
+        "damping-cubed": partial(solved, J, e, weights, damping**3, lo, hi),
+        "damping-weighted": partial(solved, J, e, weights, weights.mean() * d, lo, hi),
+        "stands-still-allowed": partial(
+            solved, *given, np.minimum(lo, 0), np.maximum(hi, 0)
+        ),
+        "translation-only": partial(solved, J, e, weights * down, d, lo, hi),
+        "rotation-only": partial(solved, J, e, weights * (1 - down), d, lo, hi),
     }
 
 

@@ -59,6 +59,15 @@ def test_the_joint_that_pays_is_the_elbow():
     np.testing.assert_allclose(*tab.costs.show.call_args.args, atol=1e-9)
 
 
+def test_a_wrong_price_is_told_before_a_limit_meets():
+    def negative(*given):
+        return -lab.limit_prices(*given)
+
+    tab = looked({**vars(lab), "limit_prices": negative}, 1)
+    assert "limit_prices by" in tab.own.says()[0]
+    assert not tab.price.any()  # the way itself met none
+
+
 def test_clipping_afterwards_moves_the_students_arm_away_from_the_librarys():
     def clipped(J, e, weights, damping, lo, hi):
         return np.clip(lab.dls_step(J, e, damping), lo, hi)

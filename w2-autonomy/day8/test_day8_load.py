@@ -175,3 +175,36 @@ def library_rows(now, qd, qdd):
 )
 def test_a_right_lab_passes_with_the_knobs_that_the_exercises_turn(knobs):
     assert run_as_lab(find_day(8), lambda lab: vars(lab).update(knobs)) == 0
+
+
+@pytest.mark.kit
+def test_noise_moves_the_grams_and_another_robot_hardly_does():
+    """The last exercise: of ROBOT_SEED 1 to 8 the two with the least and most grams."""
+
+    def found(robot_seed, *noises):
+        robots = [day8_mujoco.changed(one, robot_seed) for one in (model, hung)]
+        held = {id(one): day8_mujoco.holds(one, arm, lab.POSES, lab.WAIT)
+                for one in robots}  # fmt: skip
+        for seed, noise in noises:
+            rng = np.random.default_rng(seed)
+            rng.normal(size=(600, 7))  # the lab's three motions have these
+            with (
+                patch.object(day8_mujoco, "holds", lambda one, *_: held[id(one)]),
+                patch.object(lab, "NOISE", noise),
+            ):
+                *_, (load, sigma) = lab.weighings(*robots, arm, rng).values()
+            yield 1000 * load[0], 1000 * sigma[0]
+
+    by_noise = found(lab.ROBOT_SEED, *((seed, lab.NOISE) for seed in range(1, 9)))
+    load, sigma = np.array(list(by_noise)).T
+    off = np.abs(load - 500) / sigma
+    assert (np.sum(off < 1), np.sum(off < 2)) == (6, 6)
+    assert "In 6 of 8 it is within sigma, and in the same 6 within two" in SENTENCES
+    assert f"seed 8 finds {load[-1]:.0f} g, {off[-1]:.1f} sigmas off" in SENTENCES
+    assert f"it is {sigma.min():.0f} to {sigma.max():.0f} g" in SENTENCES
+    both = (lab.NOISE_SEED, lab.NOISE), (lab.NOISE_SEED, 0.0)
+    (least, _), (least_still, _) = found(4, *both)
+    (most, _), (most_still, _) = found(8, *both)
+    assert most - least < 2
+    assert f"({least:.1f} to {most:.1f})" in SENTENCES
+    assert f"give {least_still:.1f} to {most_still:.1f}, so most" in SENTENCES
