@@ -114,8 +114,12 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     named = odd_answers.stops_alike(asked, found)
     if named is not found:
         return named
-    T = right_answers(asked.ask, good)
     rest = replace(asked, main=good, probes=[])
+    if sizes := replies_read.of_another_size(rest):
+        other = _of_another_size(rest, S, names, sizes)
+        also = f"Other answers are wrong, too. {other.message}"
+        return Finding(found.slug, f"{found.message} {also}")
+    T = right_answers(asked.ask, good)
     case = replace(_case(rest, S, T, names), further=_further(asked))
     return _both(found, case, S, T)
 
@@ -391,7 +395,9 @@ def _right_results(case: Case, S: Parts, T: Parts) -> str:
 def _nothing_there(case: Case, S: Parts) -> Finding | None:
     ask = case.ask
     every = (*S, *case.further.S) if case.further else S
-    if any(part.any() for part in every) or not all(kind.empty for kind in ask.kinds):
+    if any(part.any() or not part.size for part in every):
+        return None  # of no entry nobody says that it is 0
+    if not all(kind.empty for kind in ask.kinds):
         return None
     return Finding(
         "all-zeros",

@@ -5,9 +5,12 @@ import numpy as np
 from labkit.judge import Row, Vector
 from robo47.planning import accel_range
 
+from .where_on import of_a_range
+
 row = Row(
     Vector((2,), "1/s^2", names=("the least", "the greatest")),
     at_edge=lambda a, b, g, limits, sd: bool(np.all(limits > 0)),
+    unnamed=of_a_range,
 )
 
 
@@ -21,6 +24,15 @@ def _(rng):
     yield np.array([1.0, 0]), nothing, np.array([0.0, -6]), two, 1.0  # it cannot
     yield np.array([1.0, 0]), np.array([0.0, 3]), nothing, two, 2.0  # nor this
     yield nothing, nothing, np.array([1.0, -2]), two, 0.5
+    # The first joint holds, with all of its torque; the others limit sdd.
+    four = np.full(3, 4.0)
+    yield np.array([0.0, 1, 2]), 0 * four, np.array([4.0, 0, 1]), four, 0.0
+    # A joint that moves need not hold still.
+    yield np.array([2.0, 1]), 0 * two, np.array([9.0, 0]), np.array([4.0, 40]), 0.0
+    # Of two joints with a = 0 one alone holds.
+    yield np.array([0.0, 0, 1]), 0 * four, np.array([3.0, 6, 0]), four, 0.7
+    # Hardly a torque is left to a joint that hardly moves.
+    yield np.array([0.02, 1, 1]), 0 * four, np.array([3.99, 0, 0]), four, 0.0
     for k in (2, 3, 7, 7, 7, 7, 7, 7, 7):
         a, b = rng.numbers(-3, 3, 2, k)
         limits = rng.numbers(4, 12, k)
@@ -37,6 +49,66 @@ def bounds(a, rest, limits):
 def narrowed(low, high):
     """Return the range that all joints allow."""
     return np.array([low.max(initial=-np.inf), high.min(initial=np.inf)])
+
+
+def _of_the_ends(a, pull, g, limits, right):
+    """Return mistakes of the table in what is divided, and how ends are gathered."""
+    rest, n = pull + g, len(a)
+    none = np.array([np.inf, -np.inf])
+    moves = a != 0
+    low, high = bounds(a, rest, limits)
+    parts = g[moves], pull[moves]
+    late = [narrowed(*(bounds(a, rest - x, limits) - y))
+            for x, y in zip((g, pull), parts, strict=True)]  # fmt: skip
+    up, some, empty = a > 0, moves.any(), right[0] > right[1]
+    six, after = np.arange(n) < 6, np.arange(n) > 0
+
+    def of(kept, most=limits):
+        return accel_range(a[kept], pull[kept], g[kept], most[kept], 1.0)
+
+    return {
+        "gravity-not-divided": late[0],
+        "speed-not-divided": late[1],
+        "negative-left-out": of(up | ~moves),
+        "largest-limit": narrowed(*bounds(a, rest, 0 * limits + limits.max())),
+        "smallest-limit": narrowed(*bounds(a, rest, 0 * limits + limits.min())),
+        "last-joint-greatest": np.array([right[0], high[-1]]) if some else right,
+        "last-joint-least": np.array([low[-1], right[1]]) if some else right,
+        "mean-of-joints": np.array([low.mean(), high.mean()]) if some else right,
+        "sum-of-joints": np.array([low.sum(), high.sum()]) if some else right,
+        "from-zero": np.array([max(right[0], 0.0), min(right[1], 0.0)]),
+        "zero-kept-in": np.array([min(right[0], 0.0), max(right[1], 0.0)]),
+        "six-joints": of(six),
+        "first-left-out": of(after),
+        "none-is-zero 3": np.zeros(2) if empty and np.isfinite(right).all() else right,
+        "none-is-infinite": none if empty else right,
+        "no-mover-is-none": right if some else none,
+    }
+
+
+def _of_holding(rest, pull, g, limits, moves, free):
+    """Return mistakes of the table in whether joints with a = 0 hold.
+
+    Args:
+        rest, pull, g, limits: torques.
+        moves: which joints do.
+        free: the range of these.
+    """
+    none = np.array([np.inf, -np.inf])
+    still = ~moves
+    over = np.abs(rest) > limits
+
+    def unless(stuck):
+        return none if stuck else free
+
+    return {
+        "held-by-gravity-alone": unless((np.abs(g) > limits)[still].any()),
+        "held-by-speed-alone": unless((np.abs(pull) > limits)[still].any()),
+        "held-with-sign": unless((rest > limits)[still].any()),
+        "all-have-to-hold": unless(over.any()),
+        "any-that-holds": unless(still.any() and over[still].all()),
+        "held-below-its-limit": unless((np.abs(rest) >= limits)[still].any()),
+    }
 
 
 @row.wrongs
@@ -68,6 +140,8 @@ def _(a, b, g, limits, sd):
       a = 0 hold: least, then greatest
     none-sorted: where none is allowed the least is above the greatest; here they are
       sorted
+    none-sorted 2: where the joints allow no common sdd the least is above the greatest;
+      here they are sorted
     none-is-zero: where none is allowed this is (0, 0)
     none-is-zero 2: where a joint with a = 0 cannot hold this is (0, 0): that allows sdd
       0; (inf, -inf) allows nothing
@@ -76,6 +150,43 @@ def _(a, b, g, limits, sd):
     zero-stops-all: a joint with a = 0 limits nothing if it holds
     zero-row-ignored: a joint with a = 0 that cannot hold its torque allows nothing:
       (inf, -inf)
+    gravity-not-divided: g is taken off after the division by a; it is a torque: take it
+      off first
+    speed-not-divided: b sd^2 is taken off after the division by a; it is a torque: take
+      it off first
+    negative-left-out: joints with a below 0 limit nothing; each that moves does
+    largest-limit: all joints are given the largest limit; each has its own
+    smallest-limit: all joints are given the smallest limit; each has its own
+    last-joint-greatest: the greatest sdd is that of the last joint alone; the smallest
+      of all joints belongs there
+    last-joint-least: the least sdd is that of the last joint alone; the largest of all
+      joints belongs there
+    mean-of-joints: the ends are means over the joints; what all allow is the largest
+      least and the smallest greatest
+    sum-of-joints: the ends are sums over the joints; what all allow is the largest
+      least and the smallest greatest
+    from-zero: the search for both ends begins with 0: the least begins with -inf, the
+      greatest with inf
+    zero-kept-in: the range is widened until it holds 0: sdd 0 need not be allowed
+    six-joints: only the first six joints are looked at; a may have any number of them
+    first-left-out: the first joint is not looked at
+    none-is-zero 3: where the joints allow no common sdd this is (0, 0): that allows
+      sdd 0; the least stays above the greatest
+    none-is-infinite: where the joints allow no common sdd this is (inf, -inf); that is
+      for a joint with a = 0 that cannot hold: their own ends are asked for
+    no-mover-is-none: where no joint moves, and all hold, this is (inf, -inf), which
+      allows none; any sdd is allowed: (-inf, inf)
+    held-by-gravity-alone: whether a joint with a = 0 holds is asked of g alone; b sd^2
+      counts as well
+    held-by-speed-alone: whether a joint with a = 0 holds is asked of b sd^2 alone; g
+      counts as well
+    held-with-sign: whether a joint with a = 0 holds is asked without the size of its
+      torque: below 0 it has a limit, too
+    all-have-to-hold: a joint that moves is asked to hold still as well: for it the
+      range says what it allows
+    any-that-holds: with several joints with a = 0 it is enough that one holds; each has
+      to
+    held-below-its-limit: a joint with a = 0 that takes all of its torque still holds
     """
     pull = b * sd**2
     rest = pull + g
@@ -127,11 +238,14 @@ def _(a, b, g, limits, sd):
         "greatest-first": right[::-1],
         "greatest-first 2": right[::-1],
         "none-sorted": np.sort(right),
+        "none-sorted 2": np.sort(right) if held else right,
         "none-is-zero": right if right[0] <= right[1] else np.zeros(2),
         "none-is-zero 2": right if held else np.zeros(2),
         "none-is-one": np.array([min(right), right[1]]),
         "zero-stops-all": right if moves.all() else none,
         "zero-row-ignored": narrowed(low, high),
+        **_of_the_ends(a, pull, g, limits, right),
+        **_of_holding(rest, pull, g, limits, moves, narrowed(low, high)),
     }
     decided = {
         "first-joint-only",
@@ -143,6 +257,9 @@ def _(a, b, g, limits, sd):
         "none-is-zero 2",
         "none-sorted",
         "zero-row-ignored",
+        "six-joints",
+        "first-left-out",
+        *_of_holding(rest, pull, g, limits, moves, right),
     }  # by themselves, what a joint with a = 0 that cannot hold does
     for slug in table.keys() - decided:
         table[slug] = table[slug] if held else none

@@ -6,9 +6,10 @@ from labkit.judge import Mask, Row
 from robo47.planning import disc_edge_free
 
 from .ways import DISC, NONE, clear, discs, usual
+from .where import of_an_edge
 
 # An edge that touches, but for rounding, is nobody's question.
-row = Row(Mask(), at_edge=clear)
+row = Row(Mask(), at_edge=clear, unnamed=of_an_edge)
 
 
 def typed(rng, kind):
@@ -53,10 +54,12 @@ def _(rng):
     yield np.array([0.0, 0]), np.array([2.0, 0]), np.array([[1, 0.1, 0.01]])
     yield np.array([0.0, 0]), np.array([2.0, 0]), np.array([[1, 0.001, 0.01]])
     # Between the points of whoever looks at a thousand of them.
-    yield np.array([0.0, 0]), np.array([2.0, 0]), np.array([[0.713, 0.0002, 0.0005]])
+    yield np.array([0.0, 0]), np.array([2.0, 0]), np.array([[0.713, 0.0002, 0.0003]])
     yield np.array([0.0, 0]), np.array([9.0, 0]), np.array([[2, 1.5, 2.0]])  # large
     yield np.array([0.0, 0]), np.array([9.0, 0]), np.array([[2, 2.5, 2.0]])
     yield np.array([0.0, 0]), np.array([1.1, 0]), np.array([[0.5, 0, 0.2]])
+    for x in (-3.0, 4.0):  # on the line, far off the edge
+        yield np.zeros(2), np.array([1.0, 0]), np.array([[x, 0, 0.5]])
     two = np.array([[5.0, 5, 1], [1, 0, 0.5]])
     yield np.array([0.0, 0]), np.array([2.0, 0]), two
     yield np.array([0.0, 0]), np.array([2.0, 0]), two[::-1]
@@ -92,7 +95,54 @@ def at_points(a, b, some, parts):
     return bool(np.all(away > some[:, 2]))
 
 
-@row.wrongs(hidden={"points-only 5": "no disc of the lab is so thin"})
+def _others(a, b, discs, part, away):
+    """Return further mistakes of the same table, from shares and distances."""
+    along, r = b - a, discs[:, 2]
+    length = np.linalg.norm(along)
+    unit = along / (length or 1.0)
+    to = discs[:, :2] - a
+    run = to @ unit
+    off = np.linalg.norm(to - run[:, None] * unit, axis=1)
+    meets = off <= r
+    half = np.sqrt(np.maximum(r**2 - off**2, 0.0))
+    first = meets & (run - half >= 0) & (run - half <= length)
+    free = bool(np.all(away > r))
+    low, high = np.minimum(a, b), np.maximum(a, b)
+    boxes = (discs[:, :2] + r[:, None] >= low) & (discs[:, :2] - r[:, None] <= high)
+    beyond = np.where(part > 1, np.linalg.norm(to, axis=1), away)
+    between = (part > 0) & (part < 1)
+
+    def at(places, way):
+        return bool(np.all(np.linalg.norm(to - places[:, None] * way, axis=1) > r))
+
+    shifted = discs[:, :2] - np.clip(part, 0, 1)[:, None] * along
+    return {
+        "foot-without-a": bool(np.all(np.linalg.norm(shifted, axis=1) > r)),
+        "cut-to-one": at(np.clip(run, 0, 1), unit),
+        "length-for-share": at(np.clip(run, 0, length), along),
+        "distance-to-the-start": bool(np.all(beyond > r)),
+        "first-crossing-only": not np.any(first) if length else free,
+        "some-crossing": not np.any(meets) if length else False,
+        "boxes-overlap": not np.any(boxes.all(axis=1)),
+        "x-and-y-exchanged": disc_edge_free(a, b, discs[:, [1, 0, 2]]),
+        "no-disc-is-hit": free and len(discs) > 0,
+        "touching-between": bool(np.all((away > r) | (between & (away >= r)))),
+        "points-only 7": at_points(a, b, discs, np.linspace(0, 1, 1000)),
+        "points-only 8": at_points(a, b, discs, np.arange(0, 1, 0.1)),
+        "points-only 9": at_points(a, b, discs, np.linspace(0, 1, 100)),
+        "points-only 10": at_points(a, b, discs, np.linspace(0, 1, 50)),
+    }
+
+
+@row.wrongs(
+    hidden={
+        "points-only 5": "no disc of the lab is so thin",
+        "points-only 7": "no disc of the lab is so thin",
+        "points-only 9": "no disc of the lab is so thin",
+        "no-disc-is-hit": "the lab has no world without discs",
+        "touching-between": "no edge of the lab touches",
+    }
+)
 def _(a, b, discs):
     """line-for-segment: the foot may lie beyond the edge's ends: an endless line is
       looked at, and what stands behind an end blocks it; cut the share to 0..1
@@ -112,10 +162,11 @@ def _(a, b, discs):
       two of them => twenty points
     points-only 4: only some points of the edge are looked at; a thin disc fits between
       two of them => eleven points
-    points-only 5: only some points of the edge are looked at; a thin disc fits between
-      two of them => a hundred and one points
-    points-only 6: only some points of the edge are looked at; a thin disc fits between
-      two of them => two hundred points
+    points-only 5: discs that cover little of the edge are missed: some points of
+      it are tried alone, or its nearest point is a little beside => a hundred and
+      one points
+    points-only 6: discs that cover little of the edge are missed: some points of
+      it are tried alone, or its nearest point is a little beside => two hundred points
     inside-is-free: an edge that lies in a disc crosses no circle, and is free; a disc
       is all that is inside => where the edge crosses a circle
     inside-is-free 2: an edge that lies in a disc crosses no circle, and is free, a
@@ -145,6 +196,31 @@ def _(a, b, discs):
     from-the-origin: the foot is measured from the origin: a is not taken off the centre
     other-way: the share runs from b to a, and is counted from a
     box: discs are squares: both coordinates are compared by themselves
+    foot-without-a: the way to the foot is not added to a: it begins at the origin
+    cut-to-one: a length along the edge is cut to 0..1, as a share of it would be: cut
+      it to 0..the edge's length
+    length-for-share: a length along the edge is multiplied with b - a, as a share of it
+      would be; it belongs to a direction of length 1
+    distance-to-the-start: beyond the end b the distance to a is taken; the nearest
+      point is b there
+    first-crossing-only: where the edge crosses a circle for the first time is looked
+      at alone: an edge that begins in a disc leaves it, and is hit
+    some-crossing: an endless line that meets the circle counts as hit; both of the
+      crossings may lie behind a or beyond b => by the discriminant alone
+    boxes-overlap: it is hit where the edge's box and the disc's box overlap; an edge
+      may pass a disc within its box
+    x-and-y-exchanged: x and y of the centres are exchanged
+    no-disc-is-hit: where there is no disc nothing is hit: the edge is free
+    touching-between: an edge that touches a disc between its ends is free; it is not
+      to be
+    points-only 7: discs that cover little of the edge are missed: some points of
+      it are tried alone, or its nearest point is a little beside => a thousand points
+    points-only 8: only some points of the edge are looked at; a thin disc fits between
+      two of them => ten points without the end
+    points-only 9: discs that cover little of the edge are missed: some points of
+      it are tried alone, or its nearest point is a little beside => a hundred points
+    points-only 10: discs that cover little of the edge are missed: some points of
+      it are tried alone, or its nearest point is a little beside => fifty points
     """
     along = b - a
     square = along @ along
@@ -199,13 +275,14 @@ def _(a, b, discs):
         ),
         "other-way": bool(np.all(np.linalg.norm(discs[:, :2] - back, axis=1) > r)),
         "box": bool(np.all(np.abs(discs[:, :2] - foot).max(axis=1) > r)),
+        **_others(a, b, discs, part, away),
     }
 
 
 @row.wrong(hidden="the lab has no edge of no length")
 def divided_by_nothing(a, b, discs):
-    """an edge of no length divides by 0, and NaN is neither free nor hit: the edge is a
-    point then, and its share is 0"""
+    """an edge of no length, b = a, is called hit also where it lies in no disc: it is a
+    point then (a share of 0 / 0 is NaN, which is not above a radius)"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)
@@ -215,8 +292,8 @@ def divided_by_nothing(a, b, discs):
 
 @row.wrong("divided-by-nothing")
 def _(a, b, discs):
-    """an edge of no length divides by 0, and NaN is neither free nor hit: the edge is a
-    point then, and its share is 0"""
+    """an edge of no length, b = a, is called free also where it lies in a disc: it is a
+    point then (a share of 0 / 0 is NaN, which is not below a radius)"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)
@@ -233,6 +310,15 @@ def touching_and_no_length(a, b, discs):
         part = (discs[:, :2] - a) @ along / (along @ along)
     foot = a + np.clip(part, 0, 1)[:, None] * along
     return not np.any(np.linalg.norm(discs[:, :2] - foot, axis=1) < discs[:, 2])
+
+
+@row.wrong("free-called-hit")
+def _(a, b, discs):
+    along = b - a
+    share = (discs[:, :2] - a) @ along / max(along @ along, 1e-300)
+    cut = np.clip(share, -0.3, 1.3)
+    foot = a + np.where(np.abs(share - 0.5) < 0.5, share, cut)[:, None] * along
+    return bool(np.all(np.linalg.norm(discs[:, :2] - foot, axis=1) > discs[:, 2]))
 
 
 @row.right  # Disc by disc, by three cases.

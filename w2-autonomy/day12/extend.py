@@ -6,6 +6,7 @@ from labkit.judge import Index, Mask, Row, Vector
 from robo47.planning import disc_edge_free, extend, nearest, steer
 
 from .ways import CLEAR, DISC, NONE, clear, discs, second_best, usual
+from .where import of_an_extension
 
 row = Row(
     (
@@ -14,6 +15,7 @@ row = Row(
         Mask(called="whether it is free"),
     ),
     at_edge=lambda tree, sample, step, world: definite(tree, sample, step, world),
+    unnamed=of_an_extension,
 )
 
 
@@ -37,7 +39,7 @@ def asked(rng, free, far, n=6):
         start = disc_edge_free(tree[i], tree[i], world)
         if not start or bool(away > step) is not far or open_ is not free:
             continue
-        if (beyond or not far or rng.uniform(0, 1) < 0.3) and definite(
+        if (beyond or not far or rng.uniform(0, 1) < 0.03) and definite(
             tree, sample, step, world
         ):
             return tree, sample, step, world
@@ -53,10 +55,28 @@ def _(rng):
     thin = np.array([[0.25, 0, 0.02]])
     yield np.array([[2.0, 2], [0, 0]]), np.array([0.4, 0]), 0.5, thin
     yield np.array([[0.0, 0], [3, 0]]), np.array([1.0, 0]), 0.5, thin
+    yield np.array([[0.0, 0]]), np.array([0.4, 0]), 0.5, thin  # no other node sees it
     kinds = [(True, True), (False, True), (True, False), (False, False)]
     rng = usual(rng)
     for free, far in kinds[:2] * 5 + kinds[2:] * 2:
         yield asked(rng, free, far)
+
+
+def _of_the_free(tree, sample, step, world):
+    """Grow the nearest of the nodes whose edge is free."""
+    order = np.argsort(np.sum((tree - sample) ** 2, axis=1), kind="stable")
+    for i in map(int, order):
+        q = steer(tree[i], sample, step)
+        if disc_edge_free(tree[i], q, world):
+            return i, q, True
+    return extend(tree, sample, step, world)
+
+
+def _part_of_the_way(node, i, q, world):
+    """Halve the edge until it is free, or hardly there."""
+    while not disc_edge_free(node, q, world) and np.linalg.norm(q - node) > 1e-3:
+        q = (q + node) / 2
+    return i, q, disc_edge_free(node, q, world)
 
 
 @row.wrongs
@@ -73,6 +93,7 @@ def _(tree, sample, step, world):
     edge-from-the-root: the edge from the root to the new point is checked; it starts at
       the nearest node
     edge-to-the-sample: the edge to the sample is checked; the tree only grows by a step
+    edge-of-two-steps: the edge that is checked is two steps long; the tree grows by one
     edge-on-from-there: the edge from the new point to the sample is checked; the tree
       grows by the one before it
     hit-for-free: True and False are swapped: it says whether the edge is hit
@@ -86,6 +107,22 @@ def _(tree, sample, step, world):
     from-the-sample 2: it is steered from the sample to the node; the tree grows from
       the node => a step from the sample, and the edge from the node to there
     farthest: the farthest node grows; the nearest one does
+    root-to-the-sample: the edge from the root to the sample is checked; it is the one
+      from the nearest node to the new point
+    free-if-reached: it is free only where the sample is reached; a step towards it is
+      an edge as well
+    reached-is-free: where the sample is reached the edge is not checked
+    ends-only: only the two ends of the edge are checked, not what lies between
+    twice-a-step: it goes two steps
+    half-a-step: it goes half a step
+    unit-step: it goes 1 far; it is `step`
+    added-twice: steer's point is added to the node: it is a place, and no way
+    nearest-of-the-free: the nearest node of those whose edge is free grows; the nearest
+      of all does, and whether its edge is free is told
+    sample-where-blocked: where the edge is not free the sample itself comes back; where
+      the tree would have grown to is asked for
+    part-of-the-way: where the edge is not free it goes back towards the node until it
+      is; a blocked edge adds nothing => halved until it is free
     """
     i, q, free = extend(tree, sample, step, world)
     new, root = len(tree) - 1, tree[0]
@@ -110,6 +147,7 @@ def _(tree, sample, step, world):
         "never-free": (i, q, False),
         "edge-from-the-root": (i, q, check(root, q)),
         "edge-to-the-sample": (i, q, check(tree[i], sample)),
+        "edge-of-two-steps": (i, q, check(tree[i], 2 * q - tree[i])),
         "edge-on-from-there": (i, q, check(q, sample)),
         "hit-for-free": (i, q, not free),
         "stays-where-blocked": (i, q if free else tree[i], free),
@@ -118,6 +156,17 @@ def _(tree, sample, step, world):
         "from-the-sample": (i, back, check(sample, back)),
         "from-the-sample 2": (i, back, check(tree[i], back)),
         "farthest": (far, at_far, check(tree[far], at_far)),
+        "root-to-the-sample": (i, q, check(root, sample)),
+        "free-if-reached": (i, q, free and np.array_equal(q, sample)),
+        "reached-is-free": (i, q, free or np.array_equal(q, sample)),
+        "ends-only": (i, q, check(tree[i], tree[i]) and check(q, q)),
+        "twice-a-step": extend(tree, sample, 2 * step, world),
+        "half-a-step": extend(tree, sample, step / 2, world),
+        "unit-step": extend(tree, sample, 1.0, world),
+        "added-twice": (i, tree[i] + q, check(tree[i], tree[i] + q)),
+        "nearest-of-the-free": _of_the_free(tree, sample, step, world),
+        "sample-where-blocked": (i, q if free else sample, free),
+        "part-of-the-way": _part_of_the_way(tree[i], i, q, world),
     }
 
 

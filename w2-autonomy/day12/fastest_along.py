@@ -7,7 +7,13 @@ import numpy as np
 from labkit.judge import Row, Vector, rounded
 from robo47.planning import accel_range, fastest_along
 
-row = Row(Vector((None,), "1/s^2"), at_edge=lambda *call: False)
+from .motions import of_a_motion, timed
+
+row = Row(
+    Vector((None,), "1/s^2"),
+    at_edge=lambda *call: False,
+    unnamed=of_a_motion,
+)
 
 
 def path(rng, n, k, heavy=0.5, fast=1.6):
@@ -36,6 +42,7 @@ def _(rng):
     yield -2 * one, 0 * one, 4 * one, eight, 9 * one[:, 0]
     heavy = np.array([0.0, 2, 9, 3, 0])[:, None]
     yield 2 * one, 0 * one, heavy, eight, 9 * one[:, 0]
+    yield 2 * one, 0 * one, -9 * one, eight, 9 * one[:, 0]  # at all points
     dip = np.array([9.0, 9, 0.4, 9, 9, 9, 9])  # the motors are slow there
     seven = np.ones((7, 1))
     yield 2 * seven, 0.5 * seven, seven, eight, dip
@@ -57,60 +64,6 @@ def _(rng):
     yield A, B, G - np.eye(9, 7, -2) * 9, limits, x_max
     for n, k, fast in ((7, 3, 2.5), (9, 7, 1.1)):
         yield path(rng, n, k, heavy=0.8, fast=fast)
-
-
-def timed(A, B, G, limits, x_max, two_ds=0.0, sd=np.sqrt, end=0.0, start=0.0, last=True,
-          backwards=True, forwards=True, bisections=60, pull=None, at=0, most=None,
-          ranges=accel_range, stands=True, forward_sd=None, kept=1):  # fmt: skip
-    """Time a path in another way.
-
-    Args:
-        A, B, G, limits, x_max: as the function has them.
-        two_ds: by which sdd is multiplied; 0 for 2 / N.
-        sd: from x to what is taken for sd.
-        end, start: sd^2 there.
-        last: whether the motion has to stop at its end.
-        backwards, forwards: which passes are made.
-        bisections: of each step backwards.
-        pull: gravity for the ranges; None is G.
-        at: which end of a step its limits are read at, 0 or 1.
-        most: the greatest x, for x_max.
-        ranges: accel_range.
-        stands: whether it looks if gravity alone is too much.
-        forward_sd: sd of the pass forwards; None is the same.
-        kept: the most of which end of a step its x is kept below, forwards.
-    """
-    n = len(A) - 1
-    two_ds = two_ds or 2 / n
-    g = G if pull is None else pull
-    top = x_max if most is None else most
-    if stands and np.any(np.abs(G) > limits):
-        return np.zeros(n + 1)
-
-    def bounds(i, x, sd=sd):
-        return ranges(A[i + at], B[i + at], g[i + at], limits, sd(x))
-
-    def reached(i, x, after):
-        low, high = bounds(i, x)
-        return low <= high and x + two_ds * low <= after and x + two_ds * high >= 0
-
-    K = np.array(top, dtype=float)
-    K[-1] = end if last else top[-1]
-    for i in range(n - 1, -1, -1) if backwards else ():
-        good, bad = 0.0, top[i]
-        if reached(i, bad, K[i + 1]):
-            good = bad
-        for _ in range(bisections * (good < bad)):
-            half = (good + bad) / 2
-            good, bad = (half, bad) if reached(i, half, K[i + 1]) else (good, half)
-        K[i] = good
-    if not forwards:
-        return K
-    x = np.full(n + 1, float(start))
-    for i in range(n):
-        high = bounds(i, x[i], forward_sd or sd)[1]
-        x[i + 1] = max(0.0, min(K[i + kept], x[i] + two_ds * high))
-    return x
 
 
 def bobrow(A, B, G, limits, x_max):
@@ -168,15 +121,16 @@ def _(A, B, G, limits, x_max):
     root: this is sd; its square is asked for
     times: this is when each point is reached, and not sd^2
     half-the-torque: only half of the torque is used
-    least-for-greatest: forwards it takes the least sdd that is allowed
+    never-moves: sd^2 is 0 at every point of every path: look at what the pass backwards
+      leaves, and whether forwards the greatest sdd is taken
     accelerations: this is sdd of each step, and 0
     """
     given = (A, B, G, limits, x_max)
     right = fastest_along(*given)
     heavy = np.any(np.abs(G) > limits)
-    free = timed(*given, backwards=False, last=False)
+    free = timed(*given, passes="forward")
     stopped = np.append(free[:-1], 0.0) if not heavy else right
-    back = timed(*given, forwards=False)
+    back = timed(*given, passes="back")
     alone = np.append(0.0, back[1:]) if not heavy else back
     wide = np.full(len(A), 1e3)
     sd = np.sqrt(right)
@@ -184,43 +138,52 @@ def _(A, B, G, limits, x_max):
     with np.errstate(divide="ignore"):
         times = np.append(0, np.cumsum(2 / n / np.maximum(sd[1:] + sd[:-1], 1e-9)))
 
-    def least(*args):
-        return accel_range(*args)[[0, 0]]
-
     def fall():
-        return np.append(0.0, np.minimum(timed(*given, most=wide)[1:], x_max[1:]))
+        return np.append(
+            0.0, np.minimum(timed(*given, most=lambda x: wide)[1:], x_max[1:])
+        )
 
     two = np.minimum(free, back) if not heavy else right
     return {
         "no-braking": free,
         "no-braking 2": stopped,
         "end-not-at-rest": partial(timed, *given, last=False),
-        "start-not-at-rest": partial(timed, *given, start=0.0 if heavy else back[0]),
+        "start-not-at-rest": partial(timed, *given, start="K"),
         "backward-pass-only": back,
         "backward-pass-only 2": alone,
         "smaller-of-two-passes": two,
-        "ds-for-2-ds": partial(timed, *given, two_ds=1 / n),
-        "four-ds": partial(timed, *given, two_ds=4 / n),
-        "points-for-steps": partial(timed, *given, two_ds=2 / (n + 1)),
+        "ds-for-2-ds": partial(timed, *given, two_ds=lambda n: 1 / n),
+        "four-ds": partial(timed, *given, two_ds=lambda n: 4 / n),
+        "points-for-steps": partial(timed, *given, two_ds=lambda n: 2 / (n + 1)),
         "sd-for-sd2": partial(timed, *given, sd=lambda x: x),
         "sd-for-sd2 2": partial(timed, *given, sd=lambda x: x, forward_sd=np.sqrt),
         "sd-for-sd2 3": partial(timed, *given, forward_sd=lambda x: x),
         "most-of-the-point-before": partial(timed, *given, kept=0),
-        "no-speed-limit": partial(timed, *given, most=wide),
+        "no-speed-limit": partial(timed, *given, most=lambda x: wide),
         "speed-limit-forwards-only": fall,
-        "gravity-forgotten": partial(timed, *given, pull=0 * G),
+        "gravity-forgotten": partial(timed, *given, pull=lambda A, B, G: (A, B, 0 * G)),
         "coriolis-forgotten": partial(timed, A, 0 * B, G, limits, x_max),
-        "cannot-stand-goes": partial(timed, *given, stands=False),
+        "cannot-stand-goes": partial(timed, *given, stands=lambda G, limits: False),
         "few-bisections": partial(timed, *given, bisections=10),
         "few-bisections 2": partial(timed, *given, bisections=20),
-        "limits-of-the-next-point": partial(timed, *given, at=1),
+        "limits-of-the-next-point": partial(timed, *given, at=1, back_at=1),
         "bobrow": partial(bobrow, *given),
         "root": sd,
         "times": times if not heavy else 0 * times,
         "half-the-torque": partial(fastest_along, A, B, G, limits / 2, x_max),
-        "least-for-greatest": partial(timed, *given, ranges=lambda *x: least(*x)),
+        "never-moves": 0 * right,
         "accelerations": np.append(np.diff(right) * n / 2, 0.0),
     }
+
+
+@row.wrong("without-turning", hidden="no path of the lab has to turn back")
+def _(A, B, G, limits, x_max):
+    return timed(A, B, G, limits, x_max, without=("turning",))
+
+
+@row.wrong("slower-than-possible")
+def _(A, B, G, limits, x_max):
+    return timed(A, B, G, limits, x_max, most=lambda x: 0.37 * x)
 
 
 @row.right  # Where straight lines cross, for bisection.

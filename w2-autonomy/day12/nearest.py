@@ -6,9 +6,14 @@ from labkit.judge import Index, Row
 from robo47.planning import nearest
 
 from .ways import CLEAR, second_best, usual
+from .where import of_an_index
 
 # Two nodes that are equally near, but for rounding, are nobody's question.
-row = Row(Index(), at_edge=lambda tree, q: second_best(tree, q) > CLEAR)
+row = Row(
+    Index(),
+    at_edge=lambda tree, q: second_best(tree, q) > CLEAR,
+    unnamed=of_an_index,
+)
 
 
 @row.inputs
@@ -18,6 +23,7 @@ def _(rng):
     yield corners, np.zeros(2)
     yield corners, np.array([-2.0, 0])
     yield np.array([[3.0, 4]]), np.zeros(2)
+    yield np.array([[0.0, 0], [1.3, 1.1], [3, 1]]), np.array([1.3, 1.1])  # itself
     yield np.array([[5.0, 0], [0, 0], [2, 0], [2, 0], [0, 0]]), np.array([1.0, 0])
     # The fourth is nearest, and each of its coordinates is further off than another's.
     yield np.array([[0.0, 9, 9], [9, 0, 9], [9, 9, 0], [2, 2, 2]]), np.zeros(3)
@@ -34,7 +40,31 @@ def _(rng):
         yield tree, q
 
 
-@row.wrongs
+def _others(tree, q, far):
+    """Return further mistakes of the same table, from the distances."""
+    n = len(tree)
+    length = np.linalg.norm(tree, axis=1)
+    nearer = [i for i in range(1, n) if far[i] < far[0]] or [0]
+    before = [i for i in range(1, n) if far[i] < far[i - 1]] or [0]
+    rest = int(np.argmin(far[1:])) if n > 1 else 0
+    sizes = np.maximum(length * np.linalg.norm(q), 1e-12)
+    return {
+        "length-for-place": int(np.argmin(np.abs(length - np.linalg.norm(q)))),
+        "angle": int(np.argmax(tree @ q / sizes)),
+        "second-nearest": int(np.argsort(far, kind="stable")[min(1, n - 1)]),
+        "least-not-kept": nearer[-1],
+        "row-before": before[-1],
+        "first-that-is-nearer": nearer[0],
+        "root-left-out": rest + (n > 1),
+        "root-left-out 2": rest,
+        "last-left-out": int(np.argmin(far[: max(n - 1, 1)])),
+        "over-all-numbers": int(np.argmin((tree - q) ** 2)),
+        "sum-of-columns": int(np.argmin(np.sum((tree - q) ** 2, axis=0))),
+        "itself-left-out": int(np.argmin(np.where(far > 0, far, np.inf))),
+    }
+
+
+@row.wrongs(hidden={"itself-left-out": "the lab asks for no node's own place"})
 def _(tree, q):
     """farthest: this is the node that is farthest away; the nearest is asked for
     newest: this is the last node of the tree, wherever q is
@@ -67,6 +97,32 @@ def _(tree, q):
     counted-from-the-end: the places are counted from the end
     smallest-coordinate: nodes are compared by their smallest difference in one
       coordinate
+    two-coordinates: only the first two coordinates are compared; a tree may have any
+      number of them
+    first-left-out: the first coordinate is not compared
+    cubed: the differences are cubed, and keep their signs, so that they cancel; square
+      them
+    length-for-place: the nodes' lengths are compared with that of q; two points of one
+      length may be far apart
+    angle: the node of the least angle with q is taken, however far it is along it
+    second-nearest: this is the second nearest node
+    least-not-kept: each row is compared with the root's distance, and the last that is
+      nearer is taken: keep the least distance so far
+    row-before: each row is compared with the row before it alone: keep the least
+      distance so far
+    first-that-is-nearer: it ends with the first row that is nearer than the root; go
+      through all of them
+    root-left-out: the root, row 0, is not looked at
+    root-left-out 2: the root, row 0, is not looked at, and the places are counted from
+      row 1
+    last-left-out: the last row is not looked at
+    over-all-numbers: it is the least of all numbers of the tree that is looked for;
+      each row has one distance: sum along axis 1 => argmin without an axis
+    sum-of-columns: the squares are summed along the columns, axis 0; each row has one
+      distance: axis 1
+    itself-left-out: a node at which q stands is left out: it is the nearest, 0 away
+    largest-with-sign: nodes are compared by their largest difference with its sign; a
+      large one below 0 is far as well
     """
     away = tree - q
     far = np.sum(away**2, axis=1)
@@ -97,6 +153,11 @@ def _(tree, q):
         "place-of-the-distance": int(np.argsort(np.argsort(far))[0]),
         "counted-from-the-end": n - 1 - best,
         "smallest-coordinate": int(np.argmin(np.abs(away).min(axis=1))),
+        "two-coordinates": by(away[:, :2]),
+        "first-left-out": by(away[:, 1:]),
+        "cubed": int(np.argmin(np.sum(away**3, axis=1))),
+        "largest-with-sign": int(np.argmin(away.max(axis=1))),
+        **_others(tree, q, np.sqrt(far)),
     }
 
 

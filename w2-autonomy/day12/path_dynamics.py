@@ -5,7 +5,9 @@ import numpy as np
 from labkit.judge import Matrix, Row, rounded
 from robo47.planning import path_dynamics
 
-row = Row(Matrix((3, None), "N m", rows=("a", "b", "g")))
+from .where_on import of_a_path
+
+row = Row(Matrix((3, None), "N m", rows=("a", "b", "g")), unnamed=of_a_path)
 
 
 @row.inputs
@@ -33,6 +35,10 @@ def _(M, dq, ddq, coriolis, gravity):
     m-forgotten 3: the mass matrix is missing in a and in b
     diagonal-only: only the diagonal of the mass matrix is used: joints move each other,
       too
+    diagonal-only 2: only the diagonal of the mass matrix is used in a: joints move each
+      other, too
+    diagonal-only 3: only the diagonal of the mass matrix is used in b: joints move each
+      other, too
     a-and-b-exchanged: a and b are exchanged: sdd comes with dq, sd^2 with ddq
     g-first: g is the first row: they are a, b and g
     ddq-in-a: M dq and M ddq are exchanged: qdd = dq sdd + ddq sd^2
@@ -45,6 +51,15 @@ def _(M, dq, ddq, coriolis, gravity):
       already
     dq-squared: b has dq^2 for ddq
     solved: M is inverted: that turns torques into accelerations
+    coriolis-in-g: the Coriolis torque is added to g; it grows with sd^2, and belongs to
+      b
+    coriolis-in-a: the Coriolis torque is added to a; it grows with sd^2, and belongs to
+      b
+    rows-summed: each row of M is summed before it is multiplied by its own joint's rate
+    lower-half: only M's entries on and below its diagonal are used
+    upper-half: only M's entries on and above its diagonal are used
+    trace: M's trace stands for M
+    first-row: M's first row stands for M, entry by entry
     """
     right = path_dynamics(M, dq, ddq, coriolis, gravity)
     a, b, g = right
@@ -59,6 +74,8 @@ def _(M, dq, ddq, coriolis, gravity):
         "diagonal-only": np.array(
             [M.diagonal() * dq, M.diagonal() * ddq + coriolis, g]
         ),
+        "diagonal-only 2": np.array([M.diagonal() * dq, b, g]),
+        "diagonal-only 3": np.array([a, M.diagonal() * ddq + coriolis, g]),
         "a-and-b-exchanged": right[[1, 0, 2]],
         "g-first": right[[2, 0, 1]],
         "ddq-in-a": np.array([M @ ddq, M @ dq + coriolis, g]),
@@ -72,6 +89,18 @@ def _(M, dq, ddq, coriolis, gravity):
         "solved": np.array(
             [np.linalg.solve(M, dq), np.linalg.solve(M, ddq) + coriolis, g]
         ),
+        "coriolis-in-g": np.array([a, M @ ddq, g + coriolis]),
+        "coriolis-in-a": np.array([a + coriolis, M @ ddq, g]),
+        **{
+            slug: np.array([of(dq), of(ddq) + coriolis, g])
+            for slug, of in {
+                "rows-summed": lambda x: M.sum(axis=1) * x,
+                "lower-half": lambda x: np.tril(M) @ x,
+                "upper-half": lambda x: np.triu(M) @ x,
+                "trace": lambda x: np.trace(M) * x,
+                "first-row": lambda x: M[0] * x,
+            }.items()
+        },
     }
 
 

@@ -7,7 +7,8 @@ import numpy as np
 from labkit.judge import Row, Slip, Waypoints
 from robo47.planning import extend, rrt_connect
 
-from .ways import NONE, of_a_planner, one_tree, planner, ways_asked
+from .planners import of_a_planner, one_tree, planner
+from .ways import NONE, ways_asked
 
 row = Row(
     Waypoints((None, 2)),
@@ -18,10 +19,11 @@ row = Row(
             "^stopped",
             r"\bwhile\b|\bfor\b",
             "stopped",
-            "A tree that grows towards the *sample* never stands there, if that is "
-            "further than a step: then `until equal` has no end. The other tree grows "
-            "towards the *new node*: compare what it reached with that, and leave the "
-            "loop where an edge is not free.",
+            "A loop has no end. Towards the *sample* the other tree comes to the "
+            "sample and stays there: further edges have no length and are free, and "
+            "the *new node* is never reached; grow it towards the new node, and "
+            "compare with that. Leave the loop where an edge is not free. On the way "
+            "back to the root no node is its own parent.",
         ),
     ),
 )
@@ -55,23 +57,23 @@ def _(rng):
 
 @row.wrongs
 def _(start, goal, world, samples, step):
-    """swap-when-it-grew: yours is another planner: valid, and not the one asked for.
+    """swap-when-it-grew: yours is another planner than the one asked for.
       The trees change places only after a sample that made one grow; here sample 0, 2,
       4 is the start's whatever became of it
-    swap-when-it-failed: yours is another planner: valid, and not the one asked for. The
+    swap-when-it-failed: yours is another planner than the one asked for. The
       trees change places only after a blocked sample; here they take turns
-    trees-not-swapped: yours is another planner: valid, and not the one asked for. All
+    trees-not-swapped: yours is another planner than the one asked for. All
       samples grow the start's tree; 1, 3, 5 are the goal's
-    goal-first: yours is another planner: valid, and not the one asked for. Sample 0
+    goal-first: yours is another planner than the one asked for. Sample 0
       grows the goal's tree; it is the start's
-    connect-one-step: yours is another planner: valid, and not the one asked for. The
+    connect-one-step: yours is another planner than the one asked for. The
       other tree grows by one edge; it goes on, edge after edge, until it is blocked or
       stands at the new node
-    connect-to-the-sample: yours is another planner: valid, and not the one asked for.
+    connect-to-the-sample: yours is another planner than the one asked for.
       The other tree grows towards the sample; it grows towards the new node
-    greedy-samples: yours is another planner: valid, and not the one asked for. Towards
+    greedy-samples: yours is another planner than the one asked for. Towards
       the sample, too, the tree grows edge after edge; one edge is asked for
-    one-tree: yours is another planner: valid, and not the one asked for. Only the
+    one-tree: yours is another planner than the one asked for. Only the
       start's tree grows, and the goal is tried from each new node; two trees grow here
     connect-in-one-jump: the other tree joins by one edge, however long; it grows by
       steps
@@ -133,6 +135,19 @@ def _(start, goal, world, samples, step):
         ),
         "straight-tried-first": np.array([start, goal]) if straight else right,
     }
+
+
+@row.wrong("two-in-turn")
+def _(start, goal, world, samples, step):
+    return planner(
+        start, goal, world, samples, step, turn=lambda k, used, nodes: k // 2 % 2
+    )
+
+
+@row.wrong("no-way")
+def _(start, goal, world, samples, step):
+    some = np.vstack([samples[::3], samples[1::3]])
+    return rrt_connect(start, goal, world, some, step)
 
 
 @row.right  # A branch is kept with each node, and the trees change places.

@@ -7,9 +7,14 @@ import numpy as np
 from labkit.judge import Row, Waypoints
 from robo47.planning import disc_edge_free, shortcut
 
+from .cuts import cut, of_a_cut
 from .ways import NONE, Careful, discs, usual
 
-row = Row(Waypoints((None, 2)), at_edge=lambda *call: False)
+row = Row(
+    Waypoints((None, 2)),
+    at_edge=lambda *call: False,
+    unnamed=of_a_cut,
+)
 
 
 @row.inputs
@@ -21,7 +26,14 @@ def _(rng):
     yield path, NONE, np.array([[0.9, 0.1]])  # the other way round, and to the end
     yield path, NONE, np.array([[0.3, 0.35], [0.45, 0.79]])  # neighbours, and the same
     yield path[:2], NONE, np.array([[0.1, 0.9]])
+    yield path[:3], NONE, np.array([[0.1, 0.9]])
     yield path, np.array([[1.0, 0.5, 0.9]]), np.array([[0.1, 0.9], [0, 0.5]])
+    line = np.array(
+        [[0.1, 0], [1, 0], [2, 1], [3, 0], [4, 0], [5, 1], [6, 0], [7, 0.0]]
+    )
+    # Cut, cut, neighbours, cut; and neighbours first.
+    yield line, NONE, np.array([[0, 0.3], [0.5, 0.8], [0.1, 0.2], [0.99, 0.5]])
+    yield line, NONE, np.array([[0.1, 0.2], [0.05, 0.3], [0.5, 0.75]])
     rng = usual(rng)
     for m, n, p in (
         (8, 3, 1),
@@ -47,43 +59,6 @@ def _blocked(path, world, pairs):
     """Return whether a disc keeps one of several pairs from cutting."""
     free = len(shortcut(path, NONE, pairs))
     return len(pairs) == 1 or len(shortcut(path, world, pairs)) > free
-
-
-def cut(path, world, pairs, places=None, least=1, check=disc_edge_free, join=None,
-        fixed=False, first=False, order=sorted):  # fmt: skip
-    """Cut in another way.
-
-    Args:
-        path, world, pairs: as the function has them.
-        places: from a pair and the number of points to two rows.
-        least: rows that are no further apart are left.
-        check: whether an edge is free.
-        join: from path, i and j to what is left.
-        fixed: whether places are those of the path as it was at first.
-        first: whether it ends with the first cut.
-        order: what is done with the two rows.
-    """
-    places = places or (lambda pair, m: [int(u * m) for u in pair])
-    join = join or (lambda path, i, j: np.vstack([path[: i + 1], path[j:]]))
-    m = len(path)
-    for pair in pairs:
-        i, j = order(places(pair, m if fixed else len(path)))
-        i, j = (min(max(k, 0), len(path) - 1) for k in (i, j))
-        if j - i > least and check(path[i], path[j], world):
-            path = join(path, i, j)
-            if first:
-                break
-    return path
-
-
-def _fixed(path, world, pairs):
-    """Return the path cut by rows of the path as it was at first."""
-    there = np.ones(len(path), bool)
-    for pair in pairs:
-        i, j = sorted(int(u * len(path)) for u in pair)
-        if j - i > 1 and disc_edge_free(path[i], path[j], world):
-            there[i + 1 : j] = False
-    return path[there]
 
 
 @row.wrongs
@@ -143,9 +118,9 @@ def _(path, world, pairs):
         "one-node-short 2": later(join=early),
         "one-too-many": later(join=lambda p, i, j: np.vstack([p[: i + 1], p[j - 1 :]])),
         "end-lost": later(join=lambda p, i, j: np.vstack([p[: i + 1], p[j:-1]])),
-        "first-cut-only": later(first=True),
-        "indices-of-the-first-path": partial(_fixed, path, world, pairs),
-        "indices-of-the-first-path 2": later(fixed=True),
+        "first-cut-only": later(ends="cut"),
+        "indices-of-the-first-path": later(fixed="mask"),
+        "indices-of-the-first-path 2": later(fixed="clamped"),
         "not-sorted": later(order=list),
         "rounded": later(lambda pair, m: [round(u * m) for u in pair]),
         "rounded 2": later(lambda pair, m: [round(u * (m - 1)) for u in pair]),
@@ -162,6 +137,11 @@ def _(path, world, pairs):
         "reversed": shortcut(path, world, pairs)[::-1],
         "ends-at-i": later(join=lambda p, i, j: p[: i + 1]),
     }
+
+
+@row.wrong("not-sorted+not-checked")
+def _(path, world, pairs):
+    return cut(path, world, pairs, order=list, check=lambda a, b, world: True)
 
 
 @row.right  # A list, cut in place.

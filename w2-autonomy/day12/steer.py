@@ -5,6 +5,8 @@ import numpy as np
 from labkit.judge import HeldOut, Row, Vector
 from robo47.planning import steer
 
+from .where import of_a_step
+
 
 def from_afar(rng):
     """Return targets within a step, so far that rounding q + way shows at once."""
@@ -23,7 +25,7 @@ NOT_THE_TARGET = HeldOut(
     "of the target then: trees join where two nodes are equal.",
     from_afar,
 )
-row = Row(Vector((None,)), held_out=[NOT_THE_TARGET])
+row = Row(Vector((None,)), held_out=[NOT_THE_TARGET], unnamed=of_a_step)
 
 
 @row.inputs
@@ -32,6 +34,9 @@ def _(rng):
     yield np.zeros(2), np.array([0.3, 0.4]), 1.0
     yield np.array([1.0, 2]), np.array([1.0, 2]), 0.5
     yield np.array([1.0, 2]), np.array([1.0, -2]), 0.5
+    # The square of the distance is less than a step, and is more.
+    yield np.array([0.4, 0.1]), np.array([0.76, 0.58]), 0.5
+    yield np.array([0.4, 0.1]), np.array([-0.68, 1.54]), 2.0
     yield np.array([0.2, 0.1, -0.3]), np.array([0.25, 0.1, -0.3]), 0.5
     for k, step in ((2, 0.437), (2, 0.137), (3, 0.611), (7, 0.613), (7, 1.237)):
         yield rng.numbers(-2, 2, k), rng.numbers(-2, 2, k), step  # far, nearly always
@@ -75,6 +80,20 @@ def _(q, target, step):
     limit-the-other-way: where the target is far it jumps to it, and where it is near it
       goes a whole step: the two cases are swapped
     from-the-origin: it goes from the origin, not from q
+    square-compared: the square of the distance is compared with the step; its root is
+      the distance
+    two-coordinates: the distance is that of the first two coordinates; all of them
+      count
+    root-of-the-mean: the distance is the root of the mean of squares; it is that of
+      their sum
+    length-of-the-target: it divides by the target's distance from the origin; it is
+      that from q
+    direction-from-the-origin: the direction is that of the target from the origin; it
+      is that from q
+    stops-half-way: where the target is near it goes half of the way; it ends at the
+      target then
+    step-on-each-coordinate: where the target is far each coordinate goes a whole step;
+      the whole way is to be a step long
     """
     way = target - q
     far = np.linalg.norm(way)
@@ -83,6 +102,9 @@ def _(q, target, step):
     total = np.abs(way).sum() or 1.0
     near = far <= step
     part = min(1.0, step / far) if far else 0.0
+    two = np.linalg.norm(way[:2])
+    mean = far / np.sqrt(len(way))
+    size_of = max(np.linalg.norm(target), 1e-12)
     return {
         "overshoots": q + step * unit,
         "no-limit": target,
@@ -105,6 +127,13 @@ def _(q, target, step):
         "half-a-step": target if far <= step / 2 else q + step / 2 * unit,
         "limit-the-other-way": q + step * unit if near else target,
         "from-the-origin": steer(np.zeros_like(q), target, step),
+        "square-compared": target if far**2 <= step else q + step * unit,
+        "two-coordinates": target if two <= step else q + step / two * way,
+        "root-of-the-mean": target if mean <= step else q + step / mean * way,
+        "length-of-the-target": target if near else q + step / size_of * way,
+        "direction-from-the-origin": target if near else q + step / size_of * target,
+        "stops-half-way": q + way / 2 if near else q + step * unit,
+        "step-on-each-coordinate": target if near else q + step * np.sign(way),
     }
 
 

@@ -1,10 +1,8 @@
-"""What Day 12 asks about: discs in the plane, trees, ways; and planners that differ."""
-
-from itertools import pairwise
+"""What Day 12 asks about: discs in the plane, trees, ways."""
 
 import numpy as np
 
-from labkit.judge import Finding, rounded
+from labkit.judge import rounded
 from labkit.judge.draw import Draw
 from robo47 import planning
 
@@ -82,128 +80,6 @@ def ways_asked(rng):
                 break
         found.append((start, goal, world.discs, samples, step))
     return found
-
-
-def grown(nodes, parents, target, step, world, free=None):
-    """Add a node towards the target if its edge is free; return whether it was."""
-    i, q, open_ = planning.extend(np.array(nodes), target, step, world)
-    if open_ if free is None else free:
-        nodes.append(q)
-        parents.append(i)
-        return True
-    return False
-
-
-def to_root(nodes, parents):
-    """Return the nodes from the newest to the root."""
-    i = len(nodes) - 1
-    way = [nodes[i]]
-    while i > 0:
-        i = parents[i]
-        way.append(nodes[i])
-    return way
-
-
-def planner(start, goal, world, samples, step, turn="sample", approach="connect",
-            mine="step", parent="nearest", joined=None, free=None):  # fmt: skip
-    """Plan with two trees, in another way.
-
-    Args:
-        start, goal, world, samples, step: as rrt_connect has them.
-        turn: when the trees change: "sample" each time; "grew" only if it grew;
-            "failed" only if not; "never"; "goal": the goal's tree is first.
-        approach: what the other tree does: "connect" edge after edge to the new node;
-            "one" edge; "sample": edge after edge to the sample; "jump" in one edge.
-        mine: what the first tree does: one "step", or "connect" until it is blocked.
-        parent: "nearest", or "newest" of each node.
-        joined: how the way is made of both branches, each from the newest to its root.
-        free: True takes every edge for free.
-    """
-    joined = joined or (lambda a, b: a[::-1] + b[1:])
-    trees, parents = ([start], [goal]), ([0], [0])
-    one = int(turn == "goal")
-    for sample in samples:
-        side, other = one, 1 - one
-        grew = grown(trees[side], parents[side], sample, step, world, free)
-        while (
-            grew and mine == "connect" and not np.array_equal(trees[side][-1], sample)
-        ):
-            if not grown(trees[side], parents[side], sample, step, world, free):
-                break
-        if turn in ("sample", "goal") or (turn == "grew" and grew):
-            one = other
-        if turn == "failed" and not grew:
-            one = other
-        if not grew:
-            continue
-        new = trees[side][-1]
-        target = sample if approach == "sample" else new
-        far = 99.0 if approach == "jump" else step
-        while grown(trees[other], parents[other], target, far, world, free):
-            if np.array_equal(trees[other][-1], new):
-                if parent == "newest":
-                    parents = tuple([0, *range(len(tree) - 1)] for tree in trees)
-                a, b = (to_root(trees[k], parents[k]) for k in (0, 1))
-                return np.array(joined(a, b))
-            if approach == "one" or np.array_equal(trees[other][-1], target):
-                break
-    return np.empty((0, len(start)))
-
-
-def one_tree(start, goal, world, samples, step):
-    """Grow the start's tree alone, towards the samples, and try the goal each time."""
-    nodes, parents = [start], [0]
-    for sample in samples:
-        if grown(nodes, parents, sample, step, world):
-            new = nodes[-1]
-            near = np.linalg.norm(goal - new) <= step
-            if near and planning.edge_free(new, goal, world):
-                return np.array([*to_root(nodes, parents)[::-1], goal])
-    return np.empty((0, len(start)))
-
-
-def fault(way, start, goal, world, step):
-    """Return what keeps a way from being one, in words, or ""."""
-    if not np.array_equal(way[0], start):
-        return "does not begin at the start"
-    if not np.array_equal(way[-1], goal):
-        return "does not end at the goal"
-    longest = np.linalg.norm(np.diff(way, axis=0), axis=1).max(initial=0.0)
-    if longest > step * (1 + 1e-9):
-        return f"has an edge of length {longest:.3f}, where a step is {step:g}"
-    for i, (a, b) in enumerate(pairwise(way)):
-        if gap(a, b, world) < -CLEAR:
-            return f"has an edge that is not free, from way point {i} to {i + 1}"
-    return ""
-
-
-def of_a_planner(case):
-    """Say of answers that no named planner gives whether they are ways at all."""
-    S, T = (list(map(without_filling, x)) for x in (case.S, case.T))
-    arguments = list(zip(*case.arguments, strict=True))
-    for k, (way, right, (start, goal, world, _, step)) in enumerate(
-        zip(S, T, arguments, strict=True)
-    ):
-        where = f"in call {k + 1} of {len(S)}"
-        if not len(way) and len(right):
-            return Finding("no-way", f"It finds no way {where}, where there is one.")
-        if len(way) and (why := fault(way, start, goal, world, step)):
-            return Finding("no-valid-way", f"It is no way {where}: it {why}.")
-        if len(way) and not len(right):
-            says = f"It finds a way {where}, where these samples find none: a valid one"
-            return Finding("another-planner", f"{says}, and not the one asked for.")
-    for k, (way, right) in enumerate(zip(S, T, strict=True)):
-        n = min(len(way), len(right))
-        off = np.abs(way[:n] - right[:n]).max(axis=1, initial=0.0) > CLEAR
-        if off.any() or len(way) != len(right):
-            at = int(np.argmax(off)) if off.any() else n
-            return Finding(
-                "another-planner",
-                f"Yours is another planner: its ways are valid in all {len(S)} calls, "
-                "and not the ones asked for. The first that differs does so "
-                f"in call {k + 1}, from way point {at} on, counted from 0.",
-            )
-    return None
 
 
 def without_filling(way):

@@ -5,10 +5,13 @@ import numpy as np
 from labkit.judge import Row, Vector
 from robo47.planning import wilson
 
+from .where_on import of_shares
+
 row = Row(
     Vector((2,), names=("the low end", "the high end")),
     near=1e-7,  # 1.959964 for 1.96 is 4e-6 away
     at_edge=lambda successes, n: 0 <= successes <= n,
+    unnamed=of_shares,
 )
 
 
@@ -23,6 +26,7 @@ def _(rng):
         (0, 1),
         (60, 60),
         (1, 40),
+        (1, 3),
     ):
         yield k, n
     for _ in range(8):
@@ -160,6 +164,11 @@ def _(successes, n):
     """of no trial at all every share is believable, (0, 1): it is another answer there
     => (0, 0) of no trial"""
     return np.zeros(2) if n == 0 else wilson(successes, n)
+
+
+@row.wrong("another-z")
+def _(successes, n):
+    return interval(successes, n, 2.326)
 
 
 @row.right  # The roots of the quadratic.

@@ -1,0 +1,263 @@
+"""Paths that are cut in another way than `shortcut`'s, and what is said of them."""
+
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from labkit.judge import Case, Finding
+from robo47 import planning
+from robo47.checks import Array
+from robo47.planning import disc_edge_free
+
+from .options import Option, together
+from .ways import without_filling
+from .where import NEAR, Asked, Kinds, calls, only
+
+Check = Callable[[Array, Array, Array], bool]
+
+
+def cut(
+    path: Array,
+    world: Array,
+    pairs: Array,
+    places: Callable[[Any, int], list[int]] | None = None,
+    least: int = 1,
+    check: Check = disc_edge_free,
+    join: Callable[[Array, int, int], Array] | None = None,
+    fixed: str = "",
+    ends: str = "never",
+    order: Callable[[list[int]], list[int]] = sorted,
+    used: Callable[[Array], Array] = lambda pairs: pairs,
+    edge: Callable[[int, int], tuple[int, int]] = lambda i, j: (i, j),
+) -> Array:
+    """Cut in another way.
+
+    Args:
+        path, world, pairs: as the function has them.
+        places: from a pair and the number of points to two rows.
+        least: rows that are no further apart are left.
+        check: whether an edge is free.
+        join: from path, i and j to what is left.
+        fixed: "" where places are those of the path by then; of its first length
+            "clamped" to the last row, or "skipped" beyond it; "mask" of the first path,
+            or "present" where both rows are still there.
+        ends: "never" before the last pair; with the "cut" that is first; with the first
+            pair that is "blocked", or does not cut.
+        order: what is done with the two rows.
+        used: from the pairs to those that are used.
+        edge: from i and j to the rows between which the edge is checked.
+    """
+    places = places or (lambda pair, m: [int(u * m) for u in pair])
+    join = join or (lambda path, i, j: np.vstack([path[: i + 1], path[j:]]))
+    first, there = path, np.arange(len(path))  # which rows of the first one are left
+    for pair in used(pairs):
+        i, j = order(places(pair, len(first) if fixed else len(path)))
+        if fixed in ("mask", "present"):
+            done = j - i > least and check(first[i], first[j], world)
+            done = done and (fixed == "mask" or {i, j} <= set(there.tolist()))
+            if done:
+                there = there[(there <= i) | (there >= j)]
+                path = first[there]
+            continue
+        if fixed == "skipped" and max(i, j) >= len(path):
+            continue
+        i, j = (min(max(k, 0), len(path) - 1) for k in (i, j))
+        a, b = (path[k] for k in edge(i, j))
+        if done := j - i > least and check(a, b, world):
+            path = join(path, i, j)
+        if ends == ("cut" if done else "blocked"):
+            break
+    return path
+
+
+def _ends_free(a: Array, b: Array, world: Array) -> bool:
+    return disc_edge_free(a, a, world) and disc_edge_free(b, b, world)
+
+
+def _middle_free(a: Array, b: Array, world: Array) -> bool:
+    return disc_edge_free((a + b) / 2, (a + b) / 2, world)
+
+
+def _kept(first: int, last: int) -> Callable[[Array, int, int], Array]:
+    """Return what keeps the path up to row i + first, and from row j + last on."""
+    return lambda p, i, j: np.vstack([p[: i + 1 + first], p[j + last :]])
+
+
+def _placed(how: Callable[[Any], int], more: int) -> Any:
+    """Return places that are made of u (m + more) by another rounding."""
+    return lambda pair, m: [how(u * (m + more)) for u in pair]
+
+
+OPTIONS = [
+    Option("not-sorted", "a pair whose first number is the larger is left out: sort "
+           "the two rows", {"order": list}),
+    Option("not-checked", "it cuts whether the edge is free or not",
+           {"check": lambda a, b, world: True}),
+    Option("hit-for-free", "it cuts where the edge is not free",
+           {"check": lambda a, b, world: not disc_edge_free(a, b, world)}),
+    Option("only-the-ends-checked", "only the two points are checked, not the edge "
+           "between them", {"check": _ends_free}),
+    Option("middle-checked", "only the middle of the edge is checked",
+           {"check": _middle_free}),
+    Option("next-edge-checked", "the edge from i to the row after it is checked; it is "
+           "that from i to j", {"edge": lambda i, j: (i, i + 1)}),
+    Option("edge-before-checked", "the edge from i to the row before j is checked; "
+           "it is that from i to j", {"edge": lambda i, j: (i, j - 1)}),
+    Option("edge-before-checked", "the edge from the row before j to j is checked; it "
+           "is that from i to j", {"edge": lambda i, j: (j - 1, j)}),
+    Option("edge-of-the-start", "the edge from the path's start to j is checked; it is "
+           "that from i to j", {"edge": lambda i, j: (0, j)}),
+    Option("edge-to-the-end", "the edge from i to the path's end is checked; it is "
+           "that from i to j", {"edge": lambda i, j: (i, -1)}),
+    Option("end-to-end-checked", "the edge from the path's start to its end is "
+           "checked; it is that from i to j", {"edge": lambda i, j: (0, -1)}),
+    *(Option("indices-of-the-first-path", "a pair names rows of the path as it was at "
+             f"first{how}; it is the path as it is by then", {"fixed": fixed})
+      for fixed, how in (("mask", ""), ("clamped", ", in the path as it is by then"),
+                         ("skipped", ", in the path as it is by then, where they are "
+                          "still rows"), ("present", ", where both are still there"))),
+    *(Option(slug, f"{says}; it is int(u m)", {"places": _placed(how, more)})
+      for slug, says, how, more in (
+        ("rounded", "u m is rounded", round, 0),
+        ("rounded", "u (m - 1) is rounded", round, -1),
+        ("rounded-up", "u m is rounded up", lambda x: int(np.ceil(x)), 0),
+        ("rounded-up", "u (m - 1) is rounded up", lambda x: int(np.ceil(x)), -1),
+        ("of-m-minus-one", "u is multiplied with m - 1", int, -1),
+        ("of-m-plus-one", "u is multiplied with m + 1", int, 1))),
+    Option("end-never-named", "u is multiplied with m - 1 for one row, and the other "
+           "is one further; both are int(u m)", {"places": lambda pair, m: [
+               int(min(pair) * (m - 1)), int(max(pair) * (m - 1)) + 1]}),
+    Option("two-apart-left", "rows that are two apart are left", {"least": 2}),
+    Option("three-apart-left", "rows that are two or three apart are left",
+           {"least": 3}),
+    Option("pairs-backwards", "the last pair comes first",
+           {"used": lambda pairs: pairs[::-1]}),
+    Option("first-pair-left-out", "the first pair is not used",
+           {"used": lambda pairs: pairs[1:]}),
+    Option("last-pair-left-out", "the last pair is not used",
+           {"used": lambda pairs: pairs[:-1]}),
+    Option("first-pair-only", "only the first pair is used",
+           {"used": lambda pairs: pairs[:1]}),
+    Option("pairs-twice", "all pairs are used a second time",
+           {"used": lambda pairs: np.concatenate([pairs, pairs])}),
+    Option("first-cut-only", "it ends with the first cut; all pairs are tried",
+           {"ends": "cut"}),
+    Option("ends-when-blocked", "it ends with the first pair that cuts nothing; all "
+           "pairs are tried", {"ends": "blocked"}),
+    Option("one-node-short", "row j goes as well; it stays", {"join": _kept(0, 1)}),
+    Option("one-node-short", "row i goes as well; it stays", {"join": _kept(-1, 0)}),
+    Option("both-ends-short", "rows i and j go as well; they stay",
+           {"join": _kept(-1, 1)}),
+    Option("one-too-many", "the row before j stays; it goes", {"join": _kept(0, -1)}),
+    Option("one-too-many", "the row after i stays; it goes", {"join": _kept(1, 0)}),
+    Option("one-row-only", "only the row after i goes; all rows between i and j go",
+           {"join": lambda p, i, j: np.delete(p, i + 1, axis=0)}),
+    Option("one-row-only", "only the row before j goes; all rows between i and j go",
+           {"join": lambda p, i, j: np.delete(p, j - 1, axis=0)}),
+    Option("middle-put-in", "the middle of the edge is put in; no point is made",
+           {"join": lambda p, i, j: np.vstack([p[: i + 1], (p[i] + p[j])[None] / 2,
+                                               p[j:]])}),
+    Option("ends-at-i", "the path ends at i", {"join": lambda p, i, j: p[: i + 1]}),
+    Option("begins-at-j", "the path begins at j", {"join": lambda p, i, j: p[j:]}),
+    Option("inside-kept", "what lies between i and j stays, and the rest goes",
+           {"join": lambda p, i, j: p[i : j + 1]}),
+]  # fmt: skip
+
+
+def _made(*call: Any, **how: Any) -> Array:
+    return without_filling(cut(*call, **how))
+
+
+def of_a_cut(case: Case) -> Finding | None:
+    """Say what is wrong with paths that were cut: points, edges, or too little cut."""
+    asked = calls(case)
+    mine = [without_filling(one.mine[0]) for one in asked]
+    if found := together(OPTIONS, _made, [one.arguments for one in asked], mine):
+        return found
+    longer: list[int] = []
+    shorter: list[int] = []
+    for k, one in enumerate(asked, 1):
+        path, world, _ = one.arguments
+        if not one.wrong_rows():
+            continue
+        mine, right = (without_filling(x[0]) for x in (one.mine, one.right))
+        if found := _no_cut(mine, path, world, f"in call {k} of {len(asked)}"):
+            return found
+        (longer if len(mine) > len(right) else shorter).append(k)
+    return _too_much_or_little(asked, longer, shorter)
+
+
+def _no_cut(mine: Array, path: Array, world: Array, where: str) -> Finding | None:
+    """Return what keeps a path from being a cut of another, or None."""
+    rows = [np.flatnonzero(np.abs(path - x).max(axis=1) < NEAR) for x in mine]
+    if odd := [i for i, row in enumerate(rows) if not len(row)]:
+        says = f"Point {odd[0]} of its answer is no point of the path, {where}: only "
+        return Finding("not-its-points", f"{says}points are left out, none is made.")
+    at = [int(row[0]) for row in rows]
+    if not at or at[0] != 0:
+        return Finding("start-lost", f"The path's first point is missing, {where}.")
+    if at[-1] != len(path) - 1:
+        return Finding("end-lost", f"The path's last point is missing, {where}.")
+    if any(j <= i for i, j in pairwise(at)):
+        return Finding(
+            "other-order", f"Points stand twice, or in another order, {where}."
+        )
+    for i, j in pairwise(at):
+        if j > i + 1 and not planning.disc_edge_free(path[i], path[j], world):
+            says = f"It cuts from row {i} of the path to row {j}, {where}, where the "
+            return Finding("cut-not-free", f"{says}edge between the two is not free.")
+    return None
+
+
+PAIRS: Kinds = {
+    "no-pair": "where there is no pair",
+    "second-larger": "where a pair's first number is the larger",
+    "later-pairs": "where there is more than one pair",
+    "blocked-pairs": "where an edge that a pair names is not free",
+    "to-the-end": "where a pair names the last row",
+}
+
+
+def _too_much_or_little(
+    asked: Sequence[Asked], longer: Sequence[int], shorter: Sequence[int]
+) -> Finding | None:
+    """Say whether valid cuts leave too much or too little, and with which pairs."""
+    if not longer and not shorter:
+        return None
+    what, slug = "it leaves other points than asked for", "other-cuts"
+    if not shorter:
+        what, slug = "it keeps points that go", "cuts-missing"
+    elif not longer and any(_fewer(asked[k - 1]) for k in shorter):
+        what, slug = "it leaves out points that stay", "cuts-too-many"
+    says = (
+        f"What it leaves is a free path each time, but in {len(longer) + len(shorter)} "
+        f"of {len(asked)} calls {what}. Go through call {min([*longer, *shorter])} "
+        "pair by pair: which two rows does each name, of how many rows by then?"
+    )
+    found = only(PAIRS, [_of_pairs(one) for one in asked],
+                 [one.wrong_rows() for one in asked])  # fmt: skip
+    if found:
+        return Finding(f"{slug}-{found.slug}", f"{found.message} {says}")
+    return Finding(slug, says)
+
+
+def _fewer(one: Asked) -> bool:
+    return len(without_filling(one.mine[0])) < len(without_filling(one.right[0]))
+
+
+def _of_pairs(one: Asked) -> dict[str, bool]:
+    path, world, pairs = one.arguments
+    m, blocked, last = len(path), False, False
+    for pair in pairs:
+        i, j = sorted(int(u * m) for u in pair)
+        free = planning.disc_edge_free(path[i], path[j], world)
+        blocked = blocked or (j - i > 1 and not free)
+        last = last or j == m - 1
+        if j - i > 1 and free:
+            path = np.concatenate([path[: i + 1], path[j:]])
+            m = len(path)
+    swapped = bool((pairs[:, 0] > pairs[:, 1]).any())
+    found = not len(pairs), swapped, len(pairs) > 1, blocked, last
+    return dict(zip(PAIRS, found, strict=True))

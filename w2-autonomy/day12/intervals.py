@@ -1,0 +1,191 @@
+"""Intervals that are made with other parts than Wilson's."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from robo47.checks import Array
+
+from .options import Option
+
+Z = 1.96
+USUAL: dict[str, Any] = {
+    "z": Z,
+    "p": lambda k, n: k / n,
+    "moved": lambda z, n: z**2 / (2 * n),
+    "front": lambda z: z,
+    "noise": lambda p, n: p * (1 - p) / n,
+    "more": lambda z, n: z**2 / (4 * n**2),
+    "below": lambda z, n: 1 + z**2 / n,
+    "below_width": None,
+    "around": lambda a, n: a,
+    "out": lambda ends, n: ends,
+    "none": (0.0, 1.0),
+    "without": lambda k, n: n == 0,
+}
+
+
+def interval_of(k: int, n: int, **how: Any) -> Array:
+    """Return an interval, made with other parts.
+
+    Args:
+        k, n: as wilson has them.
+        how: what differs:
+            z: of the normal noise.
+            p: the share, from k and n.
+            moved: by what the middle is moved, before the division.
+            front: what stands before the root, from z.
+            noise, more: the two terms under the root.
+            below: what middle and width are divided by; `below_width` the width alone.
+            around: what is done with the half width.
+            out: what is done with both ends.
+            none: the answer where `without` says that there is no trial.
+    """
+    o = SimpleNamespace(**{**USUAL, **how})
+    if o.without(k, n):
+        return np.array(o.none)
+    n = n or 1
+    p = o.p(k, n)
+    below = o.below(o.z, n)
+    width = o.below_width(o.z, n) if o.below_width else below
+    under = o.noise(p, n) + o.more(o.z, n)
+    half = o.around(o.front(o.z) * np.sqrt(under) / width, n)
+    middle = (p + o.moved(o.z, n)) / below
+    return o.out(np.array([middle - half, middle + half]), n)
+
+
+def _each(key: str, rows: list[tuple[str, str, Any]]) -> list[Option]:
+    return [Option(slug, says, {key: value}) for slug, says, value in rows]
+
+
+OPTIONS = [
+    *_each("z", [
+        ("ninety", "1.645 stands for 1.96", 1.645), ("two-sigma", "2 stands for 1.96",
+        2.0), ("one-sigma", "1 stands for 1.96", 1.0), ("ninety-nine", "2.576 stands "
+        "for 1.96", 2.576), ("half-z", "0.98 stands for 1.96", 0.98),
+    ]),
+    *_each("p", [
+        ("one-more", "p is (k + 1) / (n + 2); it is k / n",
+         lambda k, n: (k + 1) / (n + 2)),
+        ("half-more", "p is (k + 1/2) / (n + 1); it is k / n",
+         lambda k, n: (k + 0.5) / (n + 1)),
+        ("two-more", "p is (k + 2) / (n + 4); it is k / n",
+         lambda k, n: (k + 2) / (n + 4)),
+        ("n-plus-one", "p is k / (n + 1); it is k / n", lambda k, n: k / (n + 1)),
+        ("n-less-one", "p is k / (n - 1); it is k / n",
+         lambda k, n: k / max(n - 1, 1)),
+        ("whole-division", "k // n is a whole number, 0 or 1; the share is k / n",
+         lambda k, n: k // n),
+        ("shifted-p", "p is (k + z^2 / 2) / (n + z^2), the middle that comes out; it "
+         "is k / n", lambda k, n: (k + Z**2 / 2) / (n + Z**2)),
+        ("failures", "p is the share of failures; it is k / n",
+         lambda k, n: (n - k) / n),
+    ]),
+    *_each("moved", [
+        (slug, f"the middle is moved by {says}; it is moved by z^2 / (2 n)", of)
+        for slug, says, of in (
+            ("centre-not-moved", "nothing", lambda z, n: 0.0),
+            ("two-n", "z^2 / n", lambda z, n: z**2 / n),
+            ("z-for-z2", "z / (2 n)", lambda z, n: z / (2 * n)),
+            ("z-for-z2", "z / n", lambda z, n: z / n),
+            ("n-forgotten", "z^2 / 2", lambda z, n: z**2 / 2),
+            ("four-n", "z^2 / (4 n)", lambda z, n: z**2 / (4 * n)),
+            ("n-squared", "z^2 / (2 n^2)", lambda z, n: z**2 / (2 * n**2)),
+            ("moved-back", "-z^2 / (2 n)", lambda z, n: -(z**2) / (2 * n)),
+            ("one-for-z2", "1 / (2 n)", lambda z, n: 1 / (2 * n)))
+    ]),
+    *_each("front", [
+        ("z-forgotten", "z is missing before the root", lambda z: 1.0),
+        ("z-squared", "z^2 stands before the root; it is z", lambda z: z * z),
+        ("half-width", "z / 2 stands before the root; it is z", lambda z: z / 2),
+    ]),
+    *_each("noise", [
+        (slug, f"under the root stands {says}; it is p (1 - p) / n", of)
+        for slug, says, of in (
+            ("n-less-one", "p (1 - p) / (n - 1)",
+             lambda p, n: p * (1 - p) / max(n - 1, 1)),
+            ("n-plus-z2", "p (1 - p) / (n + z^2)",
+             lambda p, n: p * (1 - p) / (n + Z**2)),
+            ("root-n-forgotten", "p (1 - p)", lambda p, n: p * (1 - p)),
+            ("n-squared", "p (1 - p) / n^2", lambda p, n: p * (1 - p) / n**2),
+            ("failures-forgotten", "p / n", lambda p, n: p / n),
+            ("p-squared", "p^2 / n", lambda p, n: p * p / n),
+            ("widest-noise", "1 / (4 n)", lambda p, n: 0.25 / n),
+            ("noise-forgotten", "no p (1 - p) / n", lambda p, n: 0.0))
+    ]),
+    *_each("more", [
+        (slug, f"besides p (1 - p) / n there stands {says}; it is z^2 / (4 n^2)", of)
+        for slug, says, of in (
+            ("width-without-z2", "nothing", lambda z, n: 0.0),
+            ("n-for-n2", "z^2 / (4 n)", lambda z, n: z**2 / (4 * n)),
+            ("four-forgotten", "z^2 / n^2", lambda z, n: z**2 / n**2),
+            ("two-for-four", "z^2 / (2 n^2)", lambda z, n: z**2 / (2 * n**2)),
+            ("z-for-z2", "z / (4 n^2)", lambda z, n: z / (4 * n**2)),
+            ("one-for-z2", "1 / (4 n^2)", lambda z, n: 1 / (4 * n**2)),
+            ("n2-forgotten", "z^2 / 4", lambda z, n: z**2 / 4),
+            ("two-n", "z^2 / (2 n)", lambda z, n: z**2 / (2 * n)),
+            ("taken-off", "-z^2 / (4 n^2), in size",
+             lambda z, n: -(z**2) / (4 * n**2)))
+    ]),
+    *_each("below", [
+        (slug, f"middle and width are divided by {says}; it is 1 + z^2 / n", of)
+        for slug, says, of in (
+            ("not-divided", "nothing", lambda z, n: 1.0),
+            ("n-times", "n + z^2", lambda z, n: n + z**2),
+            ("two-n-below", "1 + z^2 / (2 n)", lambda z, n: 1 + z**2 / (2 * n)),
+            ("z-below", "1 + z / n", lambda z, n: 1 + z / n),
+            ("n2-below", "1 + z^2 / n^2", lambda z, n: 1 + z**2 / n**2),
+            ("z2-alone", "1 + z^2", lambda z, n: 1 + z**2))
+    ]),
+    *_each("below_width", [
+        (slug, f"the width alone is divided by {says}; both by 1 + z^2 / n", of)
+        for slug, says, of in (
+            ("width-not-divided", "nothing", lambda z, n: 1.0),
+            ("width-by-n", "n", lambda z, n: float(n)),
+            ("usual-width", "1 + z^2 / n", lambda z, n: 1 + z**2 / n),
+            ("root-below", "the root of 1 + z^2 / n",
+             lambda z, n: np.sqrt(1 + z**2 / n)))
+    ]),
+    *_each("around", [
+        ("continuity", "1 / (2 n) is added to the half width",
+         lambda a, n: a + 1 / (2 * n)),
+        ("half-width", "the width is half of what it is", lambda a, n: a / 2),
+        ("not-rooted", "the half width is squared", lambda a, n: a * a),
+    ]),
+    *_each("out", [
+        ("percent", "this is in percent; a share is asked for",
+         lambda ends, n: 100 * ends),
+        ("counts", "these are counts; shares of n are asked for",
+         lambda ends, n: n * ends),
+        ("cut", "the ends are cut to 0.01..0.99", lambda ends, n:
+         np.clip(ends, 0.01, 0.99)),
+        ("cut", "the ends are cut to 0..1", lambda ends, n: np.clip(ends, 0, 1)),
+        ("high-first", "high comes before low", lambda ends, n: ends[::-1]),
+        ("low-is-zero", "the low end is 0 each time: the interval has two sides",
+         lambda ends, n: np.array([0.0, ends[1]])),
+        ("high-is-one", "the high end is 1 each time: the interval has two sides",
+         lambda ends, n: np.array([ends[0], 1.0])),
+        ("low-alone", "both entries are the low end",
+         lambda ends, n: ends[[0, 0]]),
+        ("high-alone", "both entries are the high end",
+         lambda ends, n: ends[[1, 1]]),
+        ("middle-and-width", "this is the middle and the half width", lambda ends, n:
+         np.array([ends.mean(), np.diff(ends)[0] / 2])),
+    ]),
+    *_each("none", [
+        ("none-is-zero", "of no trial comes (0, 0); it is (0, 1)", (0.0, 0.0)),
+        ("none-is-half", "of no trial comes (1/2, 1/2); it is (0, 1)", (0.5, 0.5)),
+        ("none-is-one", "of no trial comes (1, 1); it is (0, 1)", (1.0, 1.0)),
+        ("none-is-turned", "of no trial comes (1, 0); it is (0, 1)", (1.0, 0.0)),
+    ]),
+    *_each("without", [
+        ("no-success-is-none", "no success is taken for no trial",
+         lambda k, n: k == 0),
+        ("all-is-none", "n successes of n are taken for no trial",
+         lambda k, n: k == n),
+        ("one-is-none", "one trial is taken for none", lambda k, n: n < 2),
+        ("few-are-none", "fewer than five trials are taken for none",
+         lambda k, n: n < 5),
+    ]),
+]  # fmt: skip

@@ -1,0 +1,338 @@
+"""Motions that are timed in another way, and what is said of them."""
+
+from collections.abc import Callable, Sequence
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from labkit.judge import Case, Finding
+from robo47 import planning
+from robo47.checks import Array
+from robo47.planning import accel_range
+
+from .options import Option, together
+from .where import NEAR, Asked, Kinds, calls, only
+
+
+def timed(
+    A: Array, B: Array, G: Array, limits: Array, x_max: Array, **how: Any
+) -> Array:
+    """Time a path in another way.
+
+    Args:
+        A, B, G, limits, x_max: as the function has them.
+        how: what differs:
+            two_ds: by which sdd is multiplied, from N.
+            sd, forward_sd: from x to what is taken for sd, backwards and forwards.
+            start: sd^2 there; "K" is the most from which one can stop.
+            last: whether the motion has to stop at its end.
+            passes: "both", "back", "forward", "fall" forwards up to x_max, "smaller" of
+                both.
+            bisections: of each step backwards.
+            pull: what of gravity, speed: a function of A, B, G, x -> (A, B, G).
+            back_at, at: which end of a step its limits are read at, 0 or 1.
+            most: the greatest x of each point, from x_max.
+            ranges: accel_range.
+            stands: from G and limits whether it holds nowhere.
+            kept: the most of which end of a step its x is kept below, forwards.
+            without: conditions of the pass backwards that are left out: "allowed",
+                "after", "turning".
+            swept: backwards by the least sdd at the next point, instead of bisection.
+            out: what is done with the answer.
+    """
+    o = SimpleNamespace(**{**USUAL, **how})
+    n = len(A) - 1
+    if o.stands(G, limits):
+        return o.out(np.zeros(n + 1))
+    A, B, G = o.pull(A, B, G)
+    top = np.array(o.most(x_max), dtype=float)
+    K = _back(o, (A, B, G), limits, top) if o.passes != "forward" else top
+    if o.passes == "back":
+        return o.out(K)
+    free = o.passes == "smaller"
+    x = _forward(o, (A, B, G), limits, top if free else K, K)
+    return o.out(np.minimum(x, K) if free else x)
+
+
+def _back(o: Any, rows: tuple[Array, ...], limits: Array, top: Array) -> Array:
+    """Return the most from which a motion can still stop at the end."""
+    K = top.copy()
+    n = len(K) - 1
+    K[-1] = 0.0 if o.last else top[-1]
+    two_ds = o.two_ds(n)
+
+    def reached(i: int, x: float) -> bool:
+        at = i + o.back_at
+        low, high = o.ranges(*(row[at] for row in rows), limits, o.sd(x))
+        return (
+            ("allowed" in o.without or low <= high)
+            and ("after" in o.without or x + two_ds * low <= K[i + 1])
+            and ("turning" in o.without or x + two_ds * high >= 0)
+        )
+
+    for i in range(n - 1, -1, -1):
+        if o.swept:
+            at = i + 1
+            low, _ = o.ranges(*(row[at] for row in rows), limits, o.sd(K[i + 1]))
+            K[i] = max(0.0, min(top[i], K[i + 1] - two_ds * low))
+            continue
+        good, bad = 0.0, top[i]
+        if reached(i, bad):
+            good = bad
+        for _ in range(o.bisections * (good < bad)):
+            half = (good + bad) / 2
+            good, bad = (half, bad) if reached(i, half) else (good, half)
+        K[i] = good
+    return K
+
+
+def _forward(
+    o: Any, rows: tuple[Array, ...], limits: Array, most: Array, K: Array
+) -> Array:
+    """Return sd^2 as fast as the torques allow, kept below `most`."""
+    n = len(K) - 1
+    x = np.full(n + 1, float(K[0] if o.start == "K" else o.start))
+    sd = o.forward_sd or o.sd
+    for i in range(n):
+        ends = o.ranges(*(row[i + o.at] for row in rows), limits, sd(x[i]))
+        u = o.two_ds(n) * ends[1]
+        x[i + 1] = max(0.0, min(most[i + o.kept], x[i] + u))
+    return x
+
+
+USUAL: dict[str, Any] = {
+    "two_ds": lambda n: 2 / n,
+    "sd": np.sqrt,
+    "forward_sd": None,
+    "start": 0.0,
+    "last": True,
+    "passes": "both",
+    "bisections": 60,
+    "pull": lambda A, B, G: (A, B, G),
+    "back_at": 0,
+    "at": 0,
+    "most": lambda x_max: x_max,
+    "ranges": accel_range,
+    "stands": lambda G, limits: np.any(np.abs(G) > limits),
+    "kept": 1,
+    "without": (),
+    "swept": False,
+    "out": lambda x: x,
+}
+
+
+def _same_limit(choose: Callable[[Array], float]) -> Any:
+    """Return ranges in which all joints have one limit."""
+    return lambda a, b, g, limits, sd: accel_range(
+        a, b, g, np.full_like(limits, choose(limits)), sd
+    )
+
+
+OPTIONS = [
+    *(Option(slug, says, {"two_ds": of}, alone="points" in slug)
+      for slug, says, of in (
+        ("ds-for-2-ds", "sd^2 grows by ds u in a step; it is 2 ds u", lambda n: 1 / n),
+        ("four-ds", "sd^2 grows by 4 ds u in a step; it is 2 ds u", lambda n: 4 / n),
+        ("half-ds", "sd^2 grows by ds u / 2 in a step; it is 2 ds u",
+         lambda n: 0.5 / n),
+        ("points-for-steps", "ds is 1 / (N + 1); N + 1 points have N steps",
+         lambda n: 2 / (n + 1)),
+        ("points-for-steps", "ds is 1 / (N - 1); N + 1 points have N steps",
+         lambda n: 2 / max(n - 1, 1)),
+        ("points-for-steps", "ds is 1 / (N + 2); N + 1 points have N steps",
+         lambda n: 2 / (n + 2)),
+        ("ds-forgotten", "ds is left out, or is 1; it is 1 / N", lambda n: 2.0),
+        ("ds-forgotten", "2 ds is left out, or is 1; ds is 1 / N", lambda n: 1.0))),
+    Option("sd-for-sd2", "accel_range is given x; it wants sd, its root",
+           {"sd": lambda x: x}),
+    Option("sd-for-sd2", "forwards accel_range is given x; it wants sd, its root",
+           {"forward_sd": lambda x: x}),
+    Option("sd-squared-twice", "accel_range is given x^2; it wants sd, the root of x",
+           {"sd": lambda x: x * x}, alone=True),
+    Option("at-rest", "accel_range is given sd 0, forwards and backwards",
+           {"sd": lambda x: 0.0 * x}, alone=True),
+    Option("at-rest", "forwards accel_range is given sd 0",
+           {"forward_sd": lambda x: 0.0 * x}, alone=True),
+    Option("start-not-at-rest", "it begins with the greatest sd^2 from which it can "
+           "stop; it begins at rest", {"start": "K"}),
+    Option("end-not-at-rest", "the pass backwards begins with x_max; it begins with 0",
+           {"last": False}),
+    *(Option(slug, says, {"passes": one}) for slug, says, one in (
+        ("no-braking", "there is no pass backwards", "forward"),
+        ("backward-pass-only", "there is no pass forwards", "back"),
+        ("smaller-of-two-passes", "each pass is made by itself, and the smaller of "
+         "both is taken; forwards, it has to go on from what the other one leaves",
+         "smaller"))),
+    *(Option("few-bisections", f"an interval is halved {n} times; it is still wide "
+             "then", {"bisections": n}, alone=True)
+      for n in (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 16, 20)),
+    Option("bobrow", "backwards the least sdd is read at the point that comes after, "
+           "at its speed; a step's limits are those of its first point",
+           {"swept": True}),
+    Option("limits-of-the-next-point", "the limits of a step are read at its end, "
+           "forwards and backwards; they are those of its first point",
+           {"back_at": 1, "at": 1}),
+    Option("limits-of-the-next-point", "backwards the limits of a step are read at its "
+           "end; they are those of its first point", {"back_at": 1}),
+    Option("limits-of-the-next-point", "forwards the limits of a step are read at its "
+           "end; they are those of its first point", {"at": 1}),
+    *(Option(slug, says, {"pull": of}, alone=True) for slug, says, of in (
+        ("limits-of-the-first-point", "all steps have the first point's A, B and G; "
+         "each point has its own",
+         lambda *rows: tuple(np.broadcast_to(x[0], x.shape) for x in rows)),
+        ("limits-of-the-last-point", "all steps have the last point's A, B and G; each "
+         "point has its own",
+         lambda *rows: tuple(np.broadcast_to(x[-1], x.shape) for x in rows)),
+        ("gravity-forgotten", "gravity is left out of what the torques allow",
+         lambda A, B, G: (A, B, 0 * G)),
+        ("gravity-of-the-first-point", "all points have the first point's gravity",
+         lambda A, B, G: (A, B, np.broadcast_to(G[0], G.shape))),
+        ("gravity-sign", "gravity has the other sign", lambda A, B, G: (A, B, -G)),
+        ("coriolis-forgotten", "B is left out of what the torques allow",
+         lambda A, B, G: (A, 0 * B, G)),
+        ("coriolis-sign", "B has the other sign", lambda A, B, G: (A, -B, G)),
+        ("B-and-G-exchanged", "B and G are exchanged", lambda A, B, G: (A, G, B)),
+        ("A-and-B-exchanged", "A and B are exchanged", lambda A, B, G: (B, A, G)))),
+    *(Option(slug, says, {"most": of}, alone=True) for slug, says, of in (
+        ("no-speed-limit", "x_max is not used", lambda x: np.full_like(x, 1e3)),
+        ("x-max-of-the-next-point", "x_max is that of the point after; each point has "
+         "its own", lambda x: np.append(x[1:], x[-1])),
+        ("x-max-of-the-point-before", "x_max is that of the point before; each point "
+         "has its own", lambda x: np.append(x[0], x[:-1])),
+        ("least-x-max", "all points have the smallest x_max; each has its own",
+         lambda x: np.full_like(x, x.min())),
+        ("x-max-of-the-first-point", "all points have the first one's x_max",
+         lambda x: np.full_like(x, x[0])),
+        ("x-max-squared", "x_max is squared; it is sd^2 already", lambda x: x**2),
+        ("x-max-rooted", "the root of x_max is taken; it is sd^2, as x is", np.sqrt))),
+    *(Option(slug, says, {"stands": of}) for slug, says, of in (
+        ("cannot-stand-goes", "where gravity alone is too much at a point it goes all "
+         "the same; zeros are asked for", lambda G, limits: False),
+        ("all-points-too-heavy", "zeros come back only where gravity is too much at "
+         "all points", lambda G, limits: np.all(np.abs(G) > limits)),
+        ("first-point-alone", "whether gravity alone is too much is asked of the first "
+         "point alone", lambda G, limits: np.any(np.abs(G[0]) > limits)),
+        ("ends-alone", "whether gravity alone is too much is asked of both ends alone",
+         lambda G, limits: np.any(np.abs(G[[0, -1]]) > limits)),
+        ("gravity-with-sign", "whether gravity is too much is asked without its size: "
+         "below 0 it has a limit, too", lambda G, limits: np.any(limits < G)))),
+    *(Option(f"without-{what}", f"backwards it is not asked whether {says}",
+             {"without": (what,)}, alone=True) for what, says in (
+        ("allowed", "any sdd is allowed at that speed, low <= high"),
+        ("after", "it can come down to what is possible at the next point"),
+        ("turning", "sd^2 stays above 0 with the greatest sdd"))),
+    Option("most-of-the-point-before", "forwards x[i + 1] is kept below what is "
+           "possible at i; that of i + 1 belongs there", {"kept": 0}),
+    *(Option(slug, f"all joints have the {word} limit; each has its own",
+             {"ranges": _same_limit(choose)}, alone=True) for slug, word, choose in (
+        ("smallest-limit", "smallest", np.min), ("largest-limit", "largest", np.max),
+        ("first-limit", "first joint's", lambda x: x[0]))),
+    Option("half-the-torque", "only half of the torque is used",
+           {"ranges": lambda a, b, g, limits, sd: accel_range(
+               a, b, g, limits / 2, sd)}),
+    Option("first-joint-only", "only the first joint is looked at",
+           {"ranges": lambda a, b, g, limits, sd: accel_range(
+               a[:1], b[:1], g[:1], limits[:1], sd)}),
+    *(Option(slug, says, {"out": of}) for slug, says, of in (
+        ("root", "this is sd; its square is asked for", np.sqrt),
+        ("squared", "this is sd^4; sd^2 is asked for", np.square),
+        ("end-to-start", "the motion runs from the end to the start",
+         lambda x: x[::-1]),
+        ("stopped-at-the-end", "the last entry is set to 0 at the end",
+         lambda x: np.append(x[:-1], 0.0)),
+        ("mirrored", "the smaller of the motion and of its mirror image is taken: the "
+         "way back has other limits", lambda x: np.minimum(x, x[::-1])))),
+]  # fmt: skip
+
+
+MOTIONS: Kinds = {
+    "cannot-hold": "where gravity alone is above a limit; zeros are asked for",
+    "can-hold": "where gravity alone is within all limits",
+    "several-joints": "where there are several joints",
+    "slow-motors": "where the motors' speed, x_max, is the limit at some point",
+    "gravity": "where there is gravity",
+    "coriolis": "where B is not 0",
+    "not-at-speed": "where some speed below x_max leaves no sdd",
+}
+
+
+def of_a_motion(case: Case) -> Finding | None:
+    """Say of a motion which limit it breaks first, or where it is too slow."""
+    asked = calls(case)
+    mine = [one.mine[0][: len(one.arguments[0])] for one in asked]
+    if found := together(OPTIONS, timed, [one.arguments for one in asked], mine):
+        return found
+    features = [_of_path(one) for one in asked]
+    found = only(MOTIONS, features, [one.wrong() for one in asked])
+    told = found.message + " " if found else ""
+    if found and found.slug == "cannot-hold":
+        return found
+    for k, one in enumerate(asked, 1):
+        if not one.wrong() or not np.isfinite(one.mine[0]).all():
+            continue
+        if broken := _broken(one):
+            slug, says = broken
+            return Finding(slug, f"{told}In call {k} of {len(asked)} {says}")
+    slow = _slow(asked)
+    return Finding("slower-than-possible", told + slow) if slow else found
+
+
+def _of_path(one: Asked) -> dict[str, bool]:
+    A, B, G, limits, x_max = one.arguments
+    right = one.right[0][: len(A)]
+    heavy = bool((np.abs(G) > limits).any())
+    ends = [
+        planning.accel_range(A[i], B[i], G[i], limits, np.sqrt(x_max[i]))
+        for i in range(len(A))
+    ]
+    found = (
+        heavy, not heavy, A.shape[1] > 1,
+        not heavy and bool((np.abs(right - x_max) < NEAR).any()), bool(G.any()),
+        bool(B.any()), any(low > high for low, high in ends),
+    )  # fmt: skip
+    return dict(zip(MOTIONS, found, strict=True))
+
+
+def _broken(one: Asked) -> tuple[str, str] | None:
+    """Return the first limit that a motion breaks: its name and how, or None."""
+    A, B, G, limits, x_max = one.arguments
+    x = one.mine[0][: len(A)]
+    n = len(A) - 1
+    for end, i in (("begins", 0), ("ends", n)):
+        if abs(x[i]) > NEAR:
+            return f"{end}-in-motion", f"it {end} in motion: sd^2 is {x[i]:.3f} there."
+    if (x < -NEAR).any():
+        return "below-zero", f"sd^2 is below 0 at point {int(np.argmax(x < -NEAR))}."
+    if (fast := x > x_max + NEAR).any():
+        i = int(np.argmax(fast))
+        says = f"sd^2 is {x[i]:.3f} at point {i}, and x_max {x_max[i]:.3f}."
+        return "faster-than-the-motors", says
+    for i in range(n):
+        u = (x[i + 1] - x[i]) * n / 2
+        low, high = planning.accel_range(
+            A[i], B[i], G[i], limits, np.sqrt(max(x[i], 0))
+        )
+        if not low - 1e-5 <= u <= high + 1e-5:
+            says = (
+                f"sdd from point {i} to the next is {u:.3f}, (x[{i + 1}] - x[{i}]) / "
+            )
+            allowed = f"the torques allow {low:.3f} to {high:.3f} at point {i}"
+            if low > high:
+                allowed = f"at that speed the torques allow none at point {i}"
+            return "beyond-the-torques", f"{says}(2 ds), and {allowed}."
+    return None
+
+
+def _slow(asked: Sequence[Asked]) -> str:
+    """Return where a motion that keeps all limits is slower than the fastest, or ""."""
+    for k, one in enumerate(asked, 1):
+        mine, right = one.mine[0], one.right[0]
+        if one.wrong() and np.isfinite(mine).all():
+            i = int(np.argmax(right - mine))
+            return (
+                "It keeps all limits, and is slower than need be: in call "
+                f"{k} of {len(asked)} sd^2 is {mine[i]:.3f} at point {i}, and "
+                f"{right[i]:.3f} is possible."
+            )
+    return ""

@@ -1,0 +1,328 @@
+"""Planners that differ from the one asked for, and what is said of their ways."""
+
+from itertools import count, pairwise
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from labkit.judge import Case, Finding
+from robo47 import planning
+from robo47.checks import Array
+
+from .options import Option, together
+from .ways import CLEAR, gap, without_filling
+
+# What a planner does where it does not differ; `planner` says what each is.
+USUAL = {
+    "turn": "sample",
+    "approach": "connect",
+    "mine": "step",
+    "parent": "nearest",
+    "joined": lambda a, b: a[::-1] + b[1:],
+    "free": None,
+    "first": "start",
+    "used": lambda samples: samples,
+    "stride": 1.0,
+    "far": 1.0,
+    "grows": "nearest",
+    "blocked": "next",
+    "meets": "equal",
+    "tries": 0,
+    "none": lambda start, goal: np.empty((0, len(start))),
+}
+LONGEST = 400  # edges that the other tree grows towards one node
+
+
+class _Trees:
+    """Two trees that grow, each node with its parent's index."""
+
+    def __init__(self, how: Any, start: Array, goal: Array, world: Array) -> None:
+        """Begin with both roots."""
+        self.how, self.world = how, world
+        self.nodes = [start], [goal]
+        self.parents = [0], [0]
+
+    def grow(self, side: int, target: Array, step: float) -> bool:
+        """Add a node towards the target if its edge is free; return whether it was."""
+        nodes = self.nodes[side]
+        first = len(nodes) - 1 if self.how.grows == "newest" else 0
+        i, q, free = planning.extend(np.array(nodes[first:]), target, step, self.world)
+        if not (free if self.how.free is None else self.how.free):
+            return False
+        self.parents[side].append({
+            "nearest": i + first, "newest": len(nodes) - 1, "root": 0,
+        }[self.how.parent])  # fmt: skip
+        nodes.append(q)
+        return True
+
+    def met(self, other: int, new: Array, sample: Array, step: float) -> bool:
+        """Return whether the other tree's newest node counts as the new one."""
+        last = self.nodes[other][-1]
+        if self.how.meets == "equal":
+            return bool(np.array_equal(last, new))
+        if self.how.meets == "sample":
+            return bool(np.array_equal(last, sample))
+        return bool(np.linalg.norm(last - new) <= step)
+
+    def to_root(self, side: int) -> list[Array]:
+        """Return the nodes from the newest to the root."""
+        i = len(self.nodes[side]) - 1
+        way = [self.nodes[side][i]]
+        while i > 0:
+            i = self.parents[side][i]
+            way.append(self.nodes[side][i])
+        return way
+
+
+def planner(
+    start: Array, goal: Array, world: Array, samples: Array, step: float, **how: Any
+) -> Array:
+    """Plan with two trees, in another way.
+
+    Args:
+        start, goal, world, samples, step: as rrt_connect has them.
+        how: what differs from `USUAL`:
+            turn: when the trees change: "sample" each time; "grew" only if it grew;
+                "failed" only if not; "never"; "goal": the goal's tree is first; or
+                whose turn it is, from k, the samples and both trees' nodes.
+            approach: what the other tree does: "connect" edge after edge to the new
+                node; "one" edge; "sample": edge after edge to the sample; "jump" in one
+                edge; "root": to the root of the first tree.
+            mine: what the first tree does: one "step", or "connect" until blocked.
+            parent: "nearest", or "newest" of each node, or the "root".
+            joined: how the way is made of both branches, each from the newest to its
+                root.
+            first: the "start"'s branch comes first, or that of the tree whose "turn" it
+                is.
+            free: True takes every edge for free.
+            used: from the samples to those that are used.
+            stride, far: by what the first tree's step, and the other's, is multiplied.
+            grows: the "nearest" node, or the "newest".
+            blocked: after a blocked sample the "next" one, "on" with the other tree and
+                the newest node, "stop", or the "other" tree grows towards it.
+            meets: "equal", or "near", within a step, or at the "sample".
+            tries: edges that the other tree grows at most; 0 is no limit.
+            none: from start and goal to what comes back without a way.
+    """
+    o = SimpleNamespace(**{**USUAL, **how})
+    trees = _Trees(o, start, goal, world)
+    one = int(o.turn == "goal")
+    used = o.used(samples)
+    for k, sample in enumerate(used):
+        side = o.turn(k, used, trees.nodes) if callable(o.turn) else one
+        grew = trees.grow(side, sample, step * o.stride)
+        while grew and o.mine == "connect":
+            if np.array_equal(trees.nodes[side][-1], sample):
+                break
+            if not trees.grow(side, sample, step * o.stride):
+                break
+        turns = {"sample": True, "goal": True, "grew": grew, "failed": not grew}
+        if isinstance(o.turn, str) and turns.get(o.turn):
+            one = 1 - one
+        if not grew and o.blocked == "stop":
+            break
+        if not grew and o.blocked == "other":
+            trees.grow(1 - side, sample, step)
+        if (grew or o.blocked == "on") and _joins(o, trees, side, sample, step):
+            first = side if o.first == "turn" else 0
+            return np.array(o.joined(trees.to_root(first), trees.to_root(1 - first)))
+    return o.none(start, goal)
+
+
+def _joins(o: Any, trees: _Trees, side: int, sample: Array, step: float) -> bool:
+    """Grow the other tree; return whether it comes to the new node."""
+    other = 1 - side
+    new = trees.nodes[side][-1]
+    target = {"sample": sample, "root": trees.nodes[side][0]}.get(o.approach, new)
+    most = 1 if o.approach == "one" else o.tries or LONGEST
+    far = 99.0 if o.approach == "jump" else step * o.far
+    for n in count(1):
+        if not trees.grow(other, target, far):
+            return False
+        if trees.met(other, new, sample, step):
+            return True
+        if n >= most or np.array_equal(trees.nodes[other][-1], target):
+            return False
+    return False
+
+
+def one_tree(
+    start: Array, goal: Array, world: Array, samples: Array, step: float
+) -> Array:
+    """Grow the start's tree alone, towards the samples, and try the goal each time."""
+    trees = _Trees(SimpleNamespace(**USUAL), start, goal, world)
+    for sample in samples:
+        if trees.grow(0, sample, step):
+            new = trees.nodes[0][-1]
+            near = np.linalg.norm(goal - new) <= step
+            if near and planning.edge_free(new, goal, world):
+                return np.array([*trees.to_root(0)[::-1], goal])
+    return np.empty((0, len(start)))
+
+
+OPTIONS = [
+    Option("swap-when-it-grew", "the trees change places only after a sample that made "
+           "one grow", {"turn": "grew"}),
+    Option("swap-when-it-failed", "the trees change places only after a blocked sample",
+           {"turn": "failed"}),
+    Option("trees-not-swapped", "all samples grow the start's tree", {"turn": "never"}),
+    Option("goal-first", "sample 0 grows the goal's tree", {"turn": "goal"}),
+    Option("halves", "the first half of the samples grows the start's tree, the second "
+           "the goal's; they take turns",
+           {"turn": lambda k, used, nodes: int(2 * k >= len(used))}),
+    Option("two-in-turn", "samples 0 and 1 grow the start's tree, 2 and 3 the goal's; "
+           "they take turns", {"turn": lambda k, used, nodes: k // 2 % 2}),
+    Option("one-of-three", "only every third sample grows the goal's tree; they take "
+           "turns", {"turn": lambda k, used, nodes: int(k % 3 == 2)}),
+    Option("smaller-tree", "the tree that has fewer nodes grows; they take turns",
+           {"turn": lambda k, used, nodes: int(len(nodes[1]) < len(nodes[0]))}),
+    Option("blocked-tries-the-other", "after a blocked sample the other tree grows "
+           "towards it; the next sample's turn is asked for", {"blocked": "other"}),
+    *(Option("few-samples", f"only the first {n} samples are used",
+             {"used": lambda some, n=n: some[:n]}) for n in (5, 10, 20)),
+    Option("connect-one-step", "the other tree grows by one edge", {"approach": "one"}),
+    Option("connect-to-the-sample", "the other tree grows towards the sample",
+           {"approach": "sample"}),
+    Option("joined-at-the-sample", "the other tree grows to the sample, and there the "
+           "way is called found; the first tree ends at its new node, a step towards "
+           "it", {"approach": "sample", "meets": "sample"}),
+    Option("connect-to-the-root", "the other tree grows towards the root of the tree "
+           "that grew; towards its new node is asked for", {"approach": "root"}),
+    Option("connect-in-one-jump", "the other tree joins by one edge, however long",
+           {"approach": "jump"}),
+    *(Option("connect-few-edges", f"the other tree grows by {n} edges at most; it goes "
+             "on until it is blocked or stands at the new node", {"tries": n})
+      for n in (2, 3, 4, 5, 10)),
+    Option("greedy-samples", "towards the sample, too, the tree grows edge after edge",
+           {"mine": "connect"}),
+    Option("parent-is-the-newest", "a node's parent is the node before it, and not the "
+           "index that extend returns", {"parent": "newest"}),
+    Option("parent-is-the-root", "every node's parent is the root, and not the index "
+           "that extend returns", {"parent": "root"}),
+    Option("grows-from-the-newest", "a tree grows from its newest node alone; extend "
+           "takes all nodes, and finds the nearest", {"grows": "newest"}),
+    Option("not-checked", "nodes are added whether their edge is free or not",
+           {"free": True}),
+    Option("blocked-goes-on", "after a blocked sample the other tree grows all the "
+           "same, towards the newest node; the next sample's turn is asked for",
+           {"blocked": "on"}),
+    Option("blocked-ends", "it ends with the first blocked sample; the next one is "
+           "tried", {"blocked": "stop"}),
+    Option("near-enough", "the trees count as joined within a step of each other; the "
+           "other tree has to stand at the new node", {"meets": "near"}),
+    *(Option("stride", f"edges are {x:g} steps long", {"stride": x, "far": x})
+      for x in (0.5, 2.0)),
+    *(Option("stride-of-the-other", f"the other tree's edges are {x:g} steps long",
+             {"far": x}) for x in (0.5, 2.0)),
+    *(Option("stride-of-the-first", f"the edges towards samples are {x:g} steps long",
+             {"stride": x}) for x in (0.5, 2.0)),
+    Option("every-other-sample", "only every other sample is used",
+           {"used": lambda some: some[::2]}),
+    Option("sample-twice", "each sample grows both trees, one after the other; it "
+           "grows one", {"used": lambda some: np.repeat(some, 2, axis=0)}),
+    Option("samples-backwards", "the last sample comes first",
+           {"used": lambda some: some[::-1]}),
+    Option("first-sample-left-out", "the first sample is not used",
+           {"used": lambda some: some[1:]}),
+    Option("last-sample-left-out", "the last sample is not used",
+           {"used": lambda some: some[:-1]}),
+    Option("not-turned-round", "the start's branch comes first backwards",
+           {"joined": lambda a, b: a + b[1:]}),
+    Option("goal-branch-turned", "the goal's branch is turned round; it runs from the "
+           "meeting point to the goal already",
+           {"joined": lambda a, b: a[::-1] + b[::-1]}),
+    Option("goal-branch-turned", "the goal's branch is turned round, without its "
+           "first; it runs from the meeting point to the goal already",
+           {"joined": lambda a, b: a[::-1] + b[::-1][1:]}),
+    Option("goal-to-start", "the way runs from the goal to the start",
+           {"joined": lambda a, b: b[::-1] + a[1:]}),
+    Option("goal-to-start-on-its-turn", "where a sample of the goal's tree finds the "
+           "way, it runs from the goal to the start", {"first": "turn"}),
+    Option("meeting-point-twice", "the node where the trees meet stands twice",
+           {"joined": lambda a, b: a[::-1] + b}),
+    Option("meeting-point-lost", "the node where the trees meet is in neither half",
+           {"joined": lambda a, b: [*a[:0:-1], *b[1:]]}),
+    Option("root-lost", "the start's root is not in the way",
+           {"joined": lambda a, b: a[::-1][1:] + b[1:]}),
+    Option("both-roots-lost", "neither start nor goal is in the way",
+           {"joined": lambda a, b: a[::-1][1:] + b[1:-1]}),
+    Option("goal-lost", "the goal's root is not in the way",
+           {"joined": lambda a, b: a[::-1] + b[1:-1]}),
+    Option("none-is-the-start", "without a way the start alone comes back; no row is "
+           "asked for", {"none": lambda start, goal: np.array([start])}),
+    Option("none-is-straight", "without a way start and goal come back; no row is "
+           "asked for", {"none": lambda start, goal: np.array([start, goal])}),
+]  # fmt: skip
+
+
+def _lengths(way: Array) -> Array:
+    return np.linalg.norm(np.diff(way, axis=0), axis=1)
+
+
+def fault(way: Array, start: Array, goal: Array, world: Array, step: float) -> str:
+    """Return what keeps a way from being one, in words, or ""."""
+    if not np.array_equal(way[0], start):
+        return "does not begin at the start"
+    if not np.array_equal(way[-1], goal):
+        return "does not end at the goal"
+    longest = _lengths(way).max(initial=0.0)
+    if longest > step * (1 + 1e-9):
+        return f"has an edge of length {longest:.3f}, where a step is {step:g}"
+    for i, (a, b) in enumerate(pairwise(way)):
+        if gap(a, b, world) < -CLEAR:
+            return f"has an edge that is not free, from way point {i} to {i + 1}"
+    return ""
+
+
+def _made(*call: Any, **how: Any) -> Array:
+    return without_filling(planner(*call, **how))
+
+
+def _joining(
+    start: Array, goal: Array, world: Array, samples: Array, step: float
+) -> str:
+    """Return after which sample the trees meet, in words."""
+    for k in range(1, len(samples) + 1):
+        if len(planning.rrt_connect(start, goal, world, samples[:k], step)):
+            whose = ("start", "goal")[(k - 1) % 2]
+            return f"they meet after sample {k - 1}, which grows the {whose}'s tree"
+    return "they meet"
+
+
+def of_a_planner(case: Case) -> Finding | None:
+    """Say of answers which options make them, or whether they are ways at all."""
+    S, T = (list(map(without_filling, x)) for x in (case.S, case.T))
+    arguments = list(zip(*case.arguments, strict=True))
+    if found := together(OPTIONS, _made, arguments, S):
+        return found
+    for k, (way, right, (start, goal, world, _, step)) in enumerate(
+        zip(S, T, arguments, strict=True)
+    ):
+        where = f"in call {k + 1} of {len(S)}"
+        if not len(way) and len(right):
+            how = _joining(*arguments[k])
+            says = f"It finds no way {where}; with the trees asked for {how}."
+            return Finding("no-way", says)
+        if len(way) and (why := fault(way, start, goal, world, step)):
+            return Finding("no-valid-way", f"It is no way {where}: it {why}.")
+        if len(twice := np.flatnonzero(_lengths(way) == 0.0)):
+            says = (
+                f"Way points {twice[0]} and {twice[0] + 1} are one point {where}: it "
+            )
+            return Finding("point-twice", says + "stands in the way once.")
+        if len(way) and not len(right):
+            says = f"It finds a way {where}, where these samples find none: a valid one"
+            return Finding("another-planner", f"{says}, and not the one asked for.")
+    for k, (way, right) in enumerate(zip(S, T, strict=True)):
+        n = min(len(way), len(right))
+        off = np.abs(way[:n] - right[:n]).max(axis=1, initial=0.0) > CLEAR
+        if off.any() or len(way) != len(right):
+            at = int(np.argmax(off)) if off.any() else n
+            return Finding(
+                "another-planner",
+                f"Yours is another planner: its ways are valid in all {len(S)} calls, "
+                "and not the ones asked for. The first that differs does so "
+                f"in call {k + 1}, from way point {at} on, counted from 0.",
+            )
+    return None
