@@ -1,6 +1,5 @@
 """11.3 `box_sdf(p, half)`: its questions and its mistakes."""
 
-
 import numpy as np
 
 from labkit.judge import Row, Scalar, rounded
