@@ -33,6 +33,8 @@ def _(rng):
     yield np.array([0.0, 0, 1]), 0 * four, np.array([3.0, 6, 0]), four, 0.7
     # Hardly a torque is left to a joint that hardly moves.
     yield np.array([0.02, 1, 1]), 0 * four, np.array([3.99, 0, 0]), four, 0.0
+    for small in (5e-3, 5e-4, 5e-6):
+        yield np.array([small, 1]), 0 * two, np.array([4 - small, 0]), two, 0.0
     for k in (2, 3, 7, 7, 7, 7, 7, 7, 7):
         a, b = rng.numbers(-3, 3, 2, k)
         limits = rng.numbers(4, 12, k)
@@ -186,6 +188,12 @@ def _(a, b, g, limits, sd):
       range says what it allows
     any-that-holds: with several joints with a = 0 it is enough that one holds; each has
       to
+    small-is-zero: an a that is small is taken for 0; it limits sdd all the more where
+      hardly a torque is left => with |a| below 0.01
+    small-is-zero 2: an a that is small is taken for 0; it limits sdd all the more where
+      hardly a torque is left => with |a| below 0.001
+    small-is-zero 3: an a that is small is taken for 0; it limits sdd all the more where
+      hardly a torque is left => with |a| below 1e-5
     held-below-its-limit: a joint with a = 0 that takes all of its torque still holds
     """
     pull = b * sd**2
@@ -210,6 +218,9 @@ def _(a, b, g, limits, sd):
     def only(some):
         return accel_range(a[some], b[some], g[some], limits[some], sd)
 
+    def only_above(least):
+        return accel_range(np.where(np.abs(a) < least, 0.0, a), b, g, limits, sd)
+
     table = {
         "not-sorted": narrowed(*raw),
         "sign-of-a-lost": of(rest, np.abs(a)),
@@ -229,6 +240,9 @@ def _(a, b, g, limits, sd):
         "last-joint-only": only(last),
         "half-the-limit": of(rest, limits=limits / 2),
         "not-divided": narrowed(*np.sort(lone, axis=0)),
+        "small-is-zero": only_above(1e-2),
+        "small-is-zero 2": only_above(1e-3),
+        "small-is-zero 3": only_above(1e-5),
         "times-a": narrowed(*np.sort(lone * a[moves], axis=0)),
         "one-limit": narrowed(
             *np.sort(

@@ -63,6 +63,8 @@ def _(rng):
     two = np.array([[5.0, 5, 1], [1, 0, 0.5]])
     yield np.array([0.0, 0]), np.array([2.0, 0]), two
     yield np.array([0.0, 0]), np.array([2.0, 0]), two[::-1]
+    # The nearest centre is that of a small disc; a large one behind it is hit.
+    yield np.array([0.0, 0]), np.array([2.0, 0]), np.array([[1, 0.5, 0.1], [1, -1, 2]])
     kinds = ("beside", "through", "behind", "grazed", "before", "begins", "beside",
              "ends", "behind", "within", "before", "grazed")  # fmt: skip
     rng = usual(rng)
@@ -178,6 +180,8 @@ def _(a, b, discs):
     first-disc-only: only the first disc is looked at
     last-disc-only: only the last disc is looked at, as by a loop that returns too early
       or overwrites what it knew
+    nearest-centre: only the disc whose centre is nearest to the edge is looked at; one
+      further away may be larger
     all-must-hit: it is free as soon as one disc is missed; every disc has to be
     all-must-hit 2: it is free as soon as one disc is missed, and where there is none it
       is not; every disc has to be missed
@@ -260,6 +264,7 @@ def _(a, b, discs):
         ),
         "first-disc-only": disc_edge_free(a, b, discs[:1]),
         "last-disc-only": disc_edge_free(a, b, discs[-1:]),
+        "nearest-centre": bool(many == 0 or np.all((away > r)[np.argmin(away)])),
         "all-must-hit": bool(np.any(away > r)) or not many,
         "all-must-hit 2": bool(np.any(away > r)),
         "squared-for-plain": bool(np.all(away**2 > r)),

@@ -56,6 +56,7 @@ def _(rng):
     yield np.array([[2.0, 2], [0, 0]]), np.array([0.4, 0]), 0.5, thin
     yield np.array([[0.0, 0], [3, 0]]), np.array([1.0, 0]), 0.5, thin
     yield np.array([[0.0, 0]]), np.array([0.4, 0]), 0.5, thin  # no other node sees it
+    yield np.array([[0.0, 0], [3, 0]]), np.array([3.0, 0]), 0.5, DISC  # a node itself
     kinds = [(True, True), (False, True), (True, False), (False, False)]
     rng = usual(rng)
     for free, far in kinds[:2] * 5 + kinds[2:] * 2:
@@ -109,6 +110,8 @@ def _(tree, sample, step, world):
     farthest: the farthest node grows; the nearest one does
     root-to-the-sample: the edge from the root to the sample is checked; it is the one
       from the nearest node to the new point
+    standing-is-blocked: where the sample is a node itself the edge is called blocked;
+      it has no length, and is free where the node is
     free-if-reached: it is free only where the sample is reached; a step towards it is
       an edge as well
     reached-is-free: where the sample is reached the edge is not checked
@@ -157,6 +160,7 @@ def _(tree, sample, step, world):
         "from-the-sample 2": (i, back, check(tree[i], back)),
         "farthest": (far, at_far, check(tree[far], at_far)),
         "root-to-the-sample": (i, q, check(root, sample)),
+        "standing-is-blocked": (i, q, free and not np.array_equal(q, tree[i])),
         "free-if-reached": (i, q, free and np.array_equal(q, sample)),
         "reached-is-free": (i, q, free or np.array_equal(q, sample)),
         "ends-only": (i, q, check(tree[i], tree[i]) and check(q, q)),

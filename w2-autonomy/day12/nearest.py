@@ -23,6 +23,8 @@ def _(rng):
     yield corners, np.zeros(2)
     yield corners, np.array([-2.0, 0])
     yield np.array([[3.0, 4]]), np.zeros(2)
+    for by in (4e-3, 4e-4):  # nearly as near
+        yield np.array([[1 + by, 0], [0, 1 + by / 4]]), np.zeros(2)
     yield np.array([[0.0, 0], [1.3, 1.1], [3, 1]]), np.array([1.3, 1.1])  # itself
     yield np.array([[5.0, 0], [0, 0], [2, 0], [2, 0], [0, 0]]), np.array([1.0, 0])
     # The fourth is nearest, and each of its coordinates is further off than another's.
@@ -55,6 +57,8 @@ def _others(tree, q, far):
         "least-not-kept": nearer[-1],
         "row-before": before[-1],
         "first-that-is-nearer": nearer[0],
+        "rounded": int(np.argmin(np.round(far, 2))),
+        "rounded 2": int(np.argmin(np.round(far, 3))),
         "root-left-out": rest + (n > 1),
         "root-left-out 2": rest,
         "last-left-out": int(np.argmin(far[: max(n - 1, 1)])),
@@ -112,6 +116,8 @@ def _(tree, q):
       distance so far
     first-that-is-nearer: it ends with the first row that is nearer than the root; go
       through all of them
+    rounded: the distances are rounded before they are compared => with 2 decimals
+    rounded 2: the distances are rounded before they are compared => with 3 decimals
     root-left-out: the root, row 0, is not looked at
     root-left-out 2: the root, row 0, is not looked at, and the places are counted from
       row 1

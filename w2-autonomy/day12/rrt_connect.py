@@ -46,6 +46,8 @@ def _(rng):
         np.array([[-0.5, 0.3], [2.8, 0.7], [0.9, 1.7], [2, 2]]),
         0.7,
     )
+    # The other tree comes by many edges.
+    yield start, goal, NONE, np.array([[0.0, 2]]), 0.1
     around = np.linspace(0, 2 * np.pi, 12, endpoint=False)
     ring = np.column_stack([2.5 + np.cos(around), np.sin(around), np.full(12, 0.4)])
     yield start, goal, np.round(ring, 3), rng.numbers(-1, 4, 16, 2), 0.83

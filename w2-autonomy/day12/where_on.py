@@ -16,6 +16,7 @@ from .options import together
 from .where import NEAR, Asked, Kinds, calls, only
 
 Z = 1.96
+FAR = 1e-3  # two z that are not the same
 
 
 SHARES: Kinds = {
@@ -76,10 +77,9 @@ def _of_z(trials: Sequence[Asked]) -> Finding | None:
     pairs = [z for z in (_both_z(one) for one in trials) if z]
     if len(pairs) > 5 and all(abs(low - high) < 1e-6 for low, high in pairs):
         least, most = min(pairs)[0], max(pairs)[0]
-        says = (
-            f"z is {least:.4g} to {most:.4g}, in the formula that is asked for; it is "
-        )
-        return Finding("z-changes", f"{says}1.96 for all n.")
+        says = f"z is {least:.4g} to {most:.4g}, in the formula that is asked for"
+        if most - least > FAR:
+            return Finding("z-changes", f"{says}; it is 1.96 for all n.")
     return None
 
 

@@ -79,9 +79,15 @@ def _(successes, n):
     middle-and-width: this is the middle and the half width; the two ends are asked for
     rule-of-three: with no success at all the high end is 3 / n: that is another
       interval
+    rule-of-three 2: of no success the high end is 3 / n, of n successes the low end is
+      1 - 3 / n: that is another interval
+    rule-of-three 3: of no success the high end is 3 / n, of n successes the low end is
+      1 - 3 / n: that is another interval => cut to 0..1
     plus-four: p is (k + 2) / (n + 4), then Wald's interval: near, and another one
     plus-four 2: p is (k + z^2 / 2) / (n + z^2), then Wald's interval with n + z^2 for n
       (Agresti and Coull's): near, and another one
+    plus-four 3: p is (k + z^2 / 2) / (n + z^2), then Wald's interval with n + z^2 for n
+      (Agresti and Coull's): near, and another one => cut to 0..1
     one-more: p is (k + 1) / (n + 2), one success and one failure more; it is k / n
     half-width: the width is half of what it is
     one-is-none: one trial tells as little as none here; it tells a little: (0, 1) is
@@ -100,6 +106,8 @@ def _(successes, n):
     coull = (k + z**2 / 2) / many
     more = (k + 1) / (n + 2)
     spread = p * (1 - p) / n
+    agresti = coull + two * z * np.sqrt(coull * (1 - coull) / many)
+    three = np.array([0, 3 / n]) if k == 0 else np.array([1 - 3 / n, 1])
 
     def with_root(under, centre=p + z**2 / (2 * n)):
         return (centre + two * z * np.sqrt(under)) / below
@@ -130,8 +138,11 @@ def _(successes, n):
         "high-first 2": right[::-1],
         "middle-and-width": np.array([middle, around]),
         "rule-of-three": np.array([0, 3 / n]) if k == 0 else right,
+        "rule-of-three 2": three if k in (0, n) else right,
+        "rule-of-three 3": np.clip(three, 0, 1) if k in (0, n) else right,
         "plus-four": q + two * z * np.sqrt(q * (1 - q) / (n + 4)),
-        "plus-four 2": coull + two * z * np.sqrt(coull * (1 - coull) / many),
+        "plus-four 2": agresti,
+        "plus-four 3": np.clip(agresti, 0, 1),
         "one-more": with_root(
             more * (1 - more) / n + z**2 / (4 * n**2), more + z**2 / (2 * n)
         ),
