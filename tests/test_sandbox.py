@@ -11,6 +11,7 @@ from labkit.base.exchange import Exchange, LoadError, Path, Question
 from labkit.judge import Robot
 from labkit.lesson.day import Limits
 from labkit.sandbox import messages, process, sandbox
+from labkit.sandbox.inside.fake_world import Balls
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
@@ -420,6 +421,15 @@ class TestWhatItMayImport:
         path = Path((("a", None), ("b", "j")))
         (reply,) = ask(code, Question("1.6", "f", (path,)))
         assert reply.value == (2, True)
+
+    def test_takes_a_world_that_can_only_be_asked(self, ask):
+        code = "def f(world, a, b): return world.edge_free(a, b), str(world)"
+        thin = Balls([[1.0, 0, 0.2], [0, 5, 1]])
+        ends = np.zeros(2), np.array([2.0, 0])
+        for b, free in ((ends[1], False), (ends[1][::-1], True)):
+            (reply,) = ask(code, Question("1.6", "f", (thin, ends[0], b)))
+            assert reply.value == (free, "a world with its own edge_free(a, b)")
+            assert reply.changed == ()
 
 
 @pytest.mark.kit

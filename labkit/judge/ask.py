@@ -366,12 +366,13 @@ def _column(column: tuple[Any, ...], alone: bool) -> Any:
     special = isinstance(column[0], Robot | Path)
     if special and not alone and all(one == column[0] for one in column):
         return plain[0]
-    if special or len({np.shape(one) for one in plain}) > 1:  # of several sizes
+    apart = special or len({np.shape(one) for one in plain}) > 1  # of several sizes
+    whole = None if apart else np.array(column)
+    if whole is None or whole.dtype == object:  # a world is no number
         found = np.empty(len(column), dtype=object)
         for at, one in enumerate(plain):
             found[at] = one
         return found
-    whole = np.array(column)
     return whole if whole.dtype.kind in "biu" else whole.astype(np.float64)
 
 

@@ -33,7 +33,8 @@ def explain(S: Array, T: Array) -> Finding:
         "early leaves it."
         if inside
         else "so a number is rounded (is one typed by hand, such as 3.14 or 0.707?), a "
-        "derivative is a difference quotient, or what is small counts as 0."
+        "derivative is a difference quotient, a search stops too early, or what is "
+        "small counts as 0."
     )
     return Finding(
         "rounded-somewhere",

@@ -24,6 +24,7 @@ from labkit.lesson.own_files import SCRIPT
 from labkit.lesson.starter import function_lines
 from labkit.sandbox.inside import wire
 from labkit.sandbox.inside.fake_model import KINDS
+from labkit.sandbox.inside.fake_world import Balls
 from robo47 import panda
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
@@ -139,6 +140,8 @@ def pack(
             packed[key] = {"model": models.index(_copy_of(arg))}
         elif isinstance(arg, Path):
             packed[key] = {"path": [list(pair) for pair in arg.pairs]}
+        elif isinstance(arg, Balls):
+            packed[key] = {"balls": wire.pack_array(arg.rows)}
     plain = {key: arg for key, arg in args.items() if key not in packed}
     try:
         packed |= zip(plain, map(wire.pack_value, plain.values()), strict=True)

@@ -49,7 +49,8 @@ def _(rng):
             break
     drawn.append((a0, a1, 0.1, T, half))
     drawn.append((a1, a0, 0.1, T, half))
-    return [case, aside, *drawn]
+    ball = (case[1], case[1], 0.2, case[3], one)  # an axis of no length
+    return [case, aside, ball, *drawn]
 
 
 def along(a0, a1, half, shares, R=None, t=None):

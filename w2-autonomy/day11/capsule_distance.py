@@ -30,7 +30,9 @@ def _(rng):
         a0, a1, b0, b1 = pairs.segments(rng, one)
         ra, rb = pairs.radii(rng)
         drawn.append((a0, a1, ra, b0, b1, rb))
-    return [case, *beside, *deep, *drawn]
+    x, y = np.eye(3)[:2]
+    crossing = (-x, x, 0.2, -y, y, 0.3)  # the axes meet
+    return [case, crossing, *beside, *deep, *drawn]
 
 
 @row.wrongs

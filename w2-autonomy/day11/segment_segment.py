@@ -31,8 +31,9 @@ row = Row(
         ),
         HeldOut(
             "point-not-handled",
-            "Right, but not where a segment is a point: its length is 0, and its share "
-            "is 0 / 0. Any share gives that point.",
+            "Right, but not where a segment is a point: its length is 0. Any share "
+            "gives that point (0 / 0 is none), and the other's, cut, is the nearest to "
+            "it.",
             lambda rng: pairs.arrays(pairs.POINTS),
         ),
         HeldOut(
@@ -129,6 +130,8 @@ def _(a0, a1, b0, b1):
     start-where-cut 4: s and t beyond 0..1 are made 0; beyond 1 they are to be 1
     one-end-cut: s is found again where t is below 0, and not where it is beyond 1
     one-end-cut 2: s is found again where t is beyond 1, and not where it is below 0
+    t-one-end-cut: t is cut at 1 and not at 0, so its point may lie before b0
+    t-one-end-cut 2: t is cut at 0 and not at 1, so its point may lie beyond b1
     a-start-alone: the first's start is taken, and the second's nearest point to it
     a-middle-alone: the first's middle is taken, and the second's nearest point to it
     farthest: of the pairs with an end, and that of the lines, the farthest is taken
@@ -215,6 +218,8 @@ def _(a0, a1, b0, b1):
         "start-where-cut 4": lambda: best_s(t_cut if 0 <= t_cut <= 1 else 0.0),
         "one-end-cut": lambda: best_s(0.0) if t_far < 0 else at(s1, t1),
         "one-end-cut 2": lambda: best_s(1.0) if t_far > 1 else at(s1, t1),
+        "t-one-end-cut": lambda: best_s(min(t_far, 1.0)),
+        "t-one-end-cut 2": lambda: best_s(max(t_far, 0.0)),
         "a-start-alone": firsts[0],
         "a-middle-alone": lambda: best_t(0.5),
         "farthest": lambda: max(every, key=lambda x: np.linalg.norm(x[0] - x[1])),

@@ -9,7 +9,7 @@ import numpy as np
 from labkit.judge import Case, Finding
 from robo47 import planning
 from robo47.checks import Array
-from robo47.planning import disc_edge_free
+from robo47.planning import edge_free
 
 from .options import Option, together
 from .ways import without_filling
@@ -24,7 +24,7 @@ def cut(
     pairs: Array,
     places: Callable[[Any, int], list[int]] | None = None,
     least: int = 1,
-    check: Check = disc_edge_free,
+    check: Check = edge_free,
     join: Callable[[Array, int, int], Array] | None = None,
     fixed: str = "",
     ends: str = "never",
@@ -73,11 +73,11 @@ def cut(
 
 
 def _ends_free(a: Array, b: Array, world: Array) -> bool:
-    return disc_edge_free(a, a, world) and disc_edge_free(b, b, world)
+    return edge_free(a, a, world) and edge_free(b, b, world)
 
 
 def _middle_free(a: Array, b: Array, world: Array) -> bool:
-    return disc_edge_free((a + b) / 2, (a + b) / 2, world)
+    return edge_free((a + b) / 2, (a + b) / 2, world)
 
 
 def _kept(first: int, last: int) -> Callable[[Array, int, int], Array]:
@@ -96,7 +96,7 @@ OPTIONS = [
     Option("not-checked", "it cuts whether the edge is free or not",
            {"check": lambda a, b, world: True}),
     Option("hit-for-free", "it cuts where the edge is not free",
-           {"check": lambda a, b, world: not disc_edge_free(a, b, world)}),
+           {"check": lambda a, b, world: not edge_free(a, b, world)}),
     Option("only-the-ends-checked", "only the two points are checked, not the edge "
            "between them", {"check": _ends_free}),
     Option("middle-checked", "only the middle of the edge is checked",
@@ -205,7 +205,7 @@ def _no_cut(mine: Array, path: Array, world: Array, where: str) -> Finding | Non
             "other-order", f"Points stand twice, or in another order, {where}."
         )
     for i, j in pairwise(at):
-        if j > i + 1 and not planning.disc_edge_free(path[i], path[j], world):
+        if j > i + 1 and not planning.edge_free(path[i], path[j], world):
             says = f"It cuts from row {i} of the path to row {j}, {where}, where the "
             return Finding("cut-not-free", f"{says}edge between the two is not free.")
     return None
@@ -252,7 +252,7 @@ def _of_pairs(one: Asked) -> dict[str, bool]:
     m, blocked, last = len(path), False, False
     for pair in pairs:
         i, j = sorted(int(u * m) for u in pair)
-        free = planning.disc_edge_free(path[i], path[j], world)
+        free = planning.edge_free(path[i], path[j], world)
         blocked = blocked or (j - i > 1 and not free)
         last = last or j == m - 1
         if j - i > 1 and free:

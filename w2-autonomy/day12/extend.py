@@ -3,9 +3,20 @@
 import numpy as np
 
 from labkit.judge import Index, Mask, Row, Vector
-from robo47.planning import disc_edge_free, extend, nearest, steer
+from robo47.planning import disc_edge_free, edge_free, extend, nearest, steer
 
-from .ways import CLEAR, DISC, NONE, clear, discs, second_best, usual
+from .ways import (
+    ASKS,
+    CLEAR,
+    DISC,
+    NONE,
+    OWN,
+    clear,
+    discs,
+    discs_of,
+    second_best,
+    usual,
+)
 from .where import of_an_extension
 
 row = Row(
@@ -16,6 +27,7 @@ row = Row(
     ),
     at_edge=lambda tree, sample, step, world: definite(tree, sample, step, world),
     unnamed=of_an_extension,
+    slips=(ASKS,),
 )
 
 
@@ -50,6 +62,8 @@ def _(rng):
     yield np.array([[0.0, 0], [1, 0]]), np.array([1.0, 2]), 0.5, DISC
     yield np.array([[0.0, 0], [1, 0]]), np.array([1.0, 2]), 0.4, DISC
     yield np.array([[0.0, 0]]), np.array([0.0, 0.3]), 0.5, NONE
+    yield np.array([[0.0, 0], [1, 0]]), np.array([1.0, 2]), 0.6, OWN
+    yield np.array([[0.0, 0], [1, 0]]), np.array([1.0, 2]), 0.4, OWN
     yield np.array([[1.0, 1], [3, 0]]), np.array([1.0, 3]), 1.5, DISC  # out of a disc
     # Between two free ends: a thin disc.
     thin = np.array([[0.25, 0, 0.02]])
@@ -65,6 +79,7 @@ def _(rng):
 
 def _of_the_free(tree, sample, step, world):
     """Grow the nearest of the nodes whose edge is free."""
+    world = discs_of(world)
     order = np.argsort(np.sum((tree - sample) ** 2, axis=1), kind="stable")
     for i in map(int, order):
         q = steer(tree[i], sample, step)
@@ -75,6 +90,7 @@ def _of_the_free(tree, sample, step, world):
 
 def _part_of_the_way(node, i, q, world):
     """Halve the edge until it is free, or hardly there."""
+    world = discs_of(world)
     while not disc_edge_free(node, q, world) and np.linalg.norm(q - node) > 1e-3:
         q = (q + node) / 2
     return i, q, disc_edge_free(node, q, world)
@@ -112,6 +128,10 @@ def _(tree, sample, step, world):
       from the nearest node to the new point
     standing-is-blocked: where the sample is a node itself the edge is called blocked;
       it has no length, and is free where the node is
+    own-is-free: a world that has an edge_free of its own is not asked: all edges are
+      free there => True there
+    own-is-blocked: a world that has an edge_free of its own is not asked: no edge is
+      free there => False there
     free-if-reached: it is free only where the sample is reached; a step towards it is
       an edge as well
     reached-is-free: where the sample is reached the edge is not checked
@@ -127,6 +147,8 @@ def _(tree, sample, step, world):
     part-of-the-way: where the edge is not free it goes back towards the node until it
       is; a blocked edge adds nothing => halved until it is free
     """
+    own = world is not discs_of(world)
+    world = discs_of(world)
     i, q, free = extend(tree, sample, step, world)
     new, root = len(tree) - 1, tree[0]
     last = steer(tree[new], sample, step)
@@ -161,6 +183,8 @@ def _(tree, sample, step, world):
         "farthest": (far, at_far, check(tree[far], at_far)),
         "root-to-the-sample": (i, q, check(root, sample)),
         "standing-is-blocked": (i, q, free and not np.array_equal(q, tree[i])),
+        "own-is-free": (i, q, free or own),
+        "own-is-blocked": (i, q, free and not own),
         "free-if-reached": (i, q, free and np.array_equal(q, sample)),
         "reached-is-free": (i, q, free or np.array_equal(q, sample)),
         "ends-only": (i, q, check(tree[i], tree[i]) and check(q, q)),
@@ -179,7 +203,7 @@ def _(tree, sample, step, world):
     i = nearest(tree, sample)
     way = sample - tree[i]
     q = tree[i] + way * min(1.0, step / max(np.linalg.norm(way), 1e-12))
-    return i, q, disc_edge_free(q, tree[i], world)
+    return i, q, edge_free(q, tree[i], world)
 
 
 row.at_least_0(step="a length")

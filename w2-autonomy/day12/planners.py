@@ -11,7 +11,7 @@ from robo47 import planning
 from robo47.checks import Array
 
 from .options import Option, together
-from .ways import CLEAR, gap, without_filling
+from .ways import CLEAR, discs_of, gap, without_filling
 
 # What a planner does where it does not differ; `planner` says what each is.
 USUAL = {
@@ -270,7 +270,7 @@ def fault(way: Array, start: Array, goal: Array, world: Array, step: float) -> s
     if longest > step * (1 + 1e-9):
         return f"has an edge of length {longest:.3f}, where a step is {step:g}"
     for i, (a, b) in enumerate(pairwise(way)):
-        if gap(a, b, world) < -CLEAR:
+        if gap(a, b, discs_of(world)) < -CLEAR:
             return f"has an edge that is not free, from way point {i} to {i + 1}"
     return ""
 
@@ -292,8 +292,12 @@ def _joining(
 
 def of_a_planner(case: Case) -> Finding | None:
     """Say of answers which options make them, or whether they are ways at all."""
-    S, T = (list(map(without_filling, x)) for x in (case.S, case.T))
     arguments = list(zip(*case.arguments, strict=True))
+    sizes = [len(start) for start, *_ in arguments]  # coordinates of a way point
+    S, T = (
+        [without_filling(way)[:, :k] for way, k in zip(ways, sizes, strict=True)]
+        for ways in (case.S, case.T)
+    )
     if found := together(OPTIONS, _made, arguments, S):
         return found
     for k, (way, right, (start, goal, world, _, step)) in enumerate(

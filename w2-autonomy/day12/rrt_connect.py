@@ -8,13 +8,14 @@ from labkit.judge import Row, Slip, Waypoints
 from robo47.planning import extend, rrt_connect
 
 from .planners import of_a_planner, one_tree, planner
-from .ways import NONE, ways_asked
+from .ways import ASKS, BALL, NONE, ways_asked
 
 row = Row(
-    Waypoints((None, 2)),
+    Waypoints((None, None)),
     unnamed=of_a_planner,
     at_edge=lambda *call: False,  # trees on a grid are full of ties
     slips=(
+        ASKS,
         Slip(
             "^stopped",
             r"\bwhile\b|\bfor\b",
@@ -46,6 +47,10 @@ def _(rng):
         np.array([[-0.5, 0.3], [2.8, 0.7], [0.9, 1.7], [2, 2]]),
         0.7,
     )
+    # Over a ball in space, and nowhere.
+    up = np.array([[0.2, 1, 1], [1, 1, 0.3], [2, 1.3, 0]])
+    yield np.zeros(3), np.array([2.5, 0, 0]), BALL, up, 0.7
+    yield np.zeros(3), np.array([2.5, 0, 0]), BALL, up[:0], 0.7
     # The other tree comes by many edges.
     yield start, goal, NONE, np.array([[0.0, 2]]), 0.1
     around = np.linspace(0, 2 * np.pi, 12, endpoint=False)
@@ -175,7 +180,7 @@ def _(start, goal, world, samples, step):
                     way = a[:-1] + b[::-1]
                     return np.array(way if first else way[::-1])
         one, two, first = two, one, not first
-    return np.zeros((0, 2))
+    return np.zeros((0, len(start)))
 
 
 row.at_least_0(step="a length")

@@ -5,15 +5,17 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Row, Waypoints
-from robo47.planning import disc_edge_free, shortcut
+from labkit.sandbox.inside.fake_world import Balls
+from robo47.planning import edge_free, shortcut
 
 from .cuts import cut, of_a_cut
-from .ways import NONE, Careful, discs, usual
+from .ways import ASKS, NONE, Careful, discs, usual
 
 row = Row(
     Waypoints((None, 2)),
     at_edge=lambda *call: False,
     unnamed=of_a_cut,
+    slips=(ASKS,),
 )
 
 
@@ -23,6 +25,7 @@ def _(rng):
     post = np.array([[1.0, 0, 0.5]])
     yield path, post, np.array([[0.1, 0.9], [0, 0.5], [0.3, 0.99]])
     yield path, post, np.empty((0, 2))
+    yield path, Balls(post), np.array([[0.1, 0.9], [0, 0.5], [0.3, 0.99]])
     yield path, NONE, np.array([[0.9, 0.1]])  # the other way round, and to the end
     yield path, NONE, np.array([[0.3, 0.35], [0.45, 0.79]])  # neighbours, and the same
     yield path[:2], NONE, np.array([[0.1, 0.9]])
@@ -101,13 +104,13 @@ def _(path, world, pairs):
         return np.vstack([p[: i + 1], p[j + 1 :]])
 
     def ends(a, b, world):
-        return disc_edge_free(a, a, world) and disc_edge_free(b, b, world)
+        return edge_free(a, a, world) and edge_free(b, b, world)
 
     def middle(a, b, world):
-        return disc_edge_free((a + b) / 2, (a + b) / 2, world)
+        return edge_free((a + b) / 2, (a + b) / 2, world)
 
     def hit(a, b, world):
-        return not disc_edge_free(a, b, world)
+        return not edge_free(a, b, world)
 
     def halved(pair, m):
         return [int(u * (m - 1)) for u in pair]
@@ -150,7 +153,7 @@ def _(path, world, pairs):
     for u, v in pairs:
         m = len(points)
         i, j = min(int(u * m), int(v * m)), max(int(u * m), int(v * m))
-        if j > i + 1 and disc_edge_free(points[i], points[j], world):
+        if j > i + 1 and edge_free(points[i], points[j], world):
             del points[i + 1 : j]
     return np.array(points)
 

@@ -2,12 +2,22 @@
 
 import numpy as np
 
-from labkit.judge import rounded
+from labkit.judge import Slip, rounded
 from labkit.judge.draw import Draw
+from labkit.sandbox.inside.fake_world import Balls
 from robo47 import planning
 
 DISC = np.array([[1.0, 1, 0.5]])  # of the docstrings
 NONE = np.empty((0, 3))
+OWN = Balls(DISC)  # the same, and one has to ask it
+BALL = Balls([[1.0, 0.1, 0, 0.5]])
+ASKS = Slip(
+    "'Balls'",
+    "",
+    "own-checker-not-asked",
+    "A world may have a checker of its own, a method edge_free(a, b), and show no "
+    "discs: edge_free(a, b, world), which is given, asks either.",
+)
 CLEAR = 1e-5  # nothing that is asked comes so near to a tie, or touches so nearly
 LEFT = (np.array([-1.0, -0.9]), np.array([-0.9, -1.0]))
 RIGHT = (np.array([1.1, 0.9]), np.array([0.9, 1.05]))
@@ -23,17 +33,22 @@ def discs(rng, m, least=0.1, most=0.4):
     return rounded(rng.uniform((-1, -1, least), (1, 1, most), (m, 3)))
 
 
+def discs_of(world):
+    """Return the discs of a world, also of one that does not show them."""
+    return world.rows if isinstance(world, Balls) else world
+
+
 def gap(a, b, some):
     """Return how far an edge is from the nearest disc; less than 0 in it."""
     along = b - a
-    part = (some[:, :2] - a) @ along / max(along @ along, 1e-300)
+    part = (some[:, :-1] - a) @ along / max(along @ along, 1e-300)
     foot = a + np.clip(part, 0, 1)[:, None] * along
-    return np.min(np.linalg.norm(some[:, :2] - foot, axis=1) - some[:, 2], initial=9)
+    return np.min(np.linalg.norm(some[:, :-1] - foot, axis=1) - some[:, -1], initial=9)
 
 
 def clear(a, b, some):
     """Return whether rounding cannot decide if the edge from a to b is free."""
-    return all(abs(gap(a, b, one[None])) > CLEAR for one in some)
+    return all(abs(gap(a, b, one[None])) > CLEAR for one in discs_of(some))
 
 
 def second_best(tree, q):

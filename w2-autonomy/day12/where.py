@@ -358,7 +358,7 @@ def _of_its_edge(asked: Sequence[Asked]) -> Finding | None:
         reached = bool(np.linalg.norm(sample - node) <= step)
         features.append({
             "where-reached": reached, "where-not-reached": not reached,
-            "where-the-rest-is-hit": not planning.disc_edge_free(q, sample, world),
+            "where-the-rest-is-hit": not planning.edge_free(q, sample, world),
         })  # fmt: skip
     said = {
         "where-reached": "where the sample is reached",

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import wire
 from fake_model import MjModel
+from fake_world import Balls
 
 KEPT_OUTPUT, MOST_OUTPUT = 2_000, 2_000_000  # characters of what a call printed
 KEPT_TEXT = 2_000  # characters of an exception's text
@@ -97,6 +98,8 @@ class Answers:
             return self.robots[packed["model"]]()
         if packed and "path" in packed:
             return [tuple(pair) for pair in packed["path"]]
+        if packed and "balls" in packed:
+            return Balls(wire.unpack_array(packed["balls"]))
         return wire.unpack_value(packed)
 
     def _shares(self, value: Any, args: list[Any], names: list[str]) -> list[str]:
