@@ -146,10 +146,12 @@ def test_what_stops_is_told_in_the_words_of_make_check(reply, says):
 
 
 def test_a_file_that_is_not_asked_any_more_says_why():
-    student, own = own_of({})
+    student, own = own_of({"both": lambda x: (x, -x)})
+    own.both(ONE)
     student.problem = "double did not return. Save the file to have it asked again."
     with pytest.raises(NoAnswerError, match=r"YOUR double did not return\. Save"):
         own.double(ONE)
+    assert own.says() == (f"YOUR {student.problem}", "bad")  # and not green for both
 
 
 def test_a_save_forgets_what_was_wrong_before():
