@@ -31,10 +31,20 @@ const near = new IntersectionObserver(
 );
 for (const figure of document.querySelectorAll("figure.live")) near.observe(figure);
 
-// Code and tables that are wider than the page are scrolled by keys, too.
+// A formula that is somewhat wider than a phone has smaller letters there, and is whole.
+const SMALLEST = 0.76; // of its size
+function fit(formula) {
+  formula.style.fontSize = "";
+  const share = formula.clientWidth / formula.scrollWidth;
+  if (share < 1 && share >= SMALLEST) formula.style.fontSize = `${Math.floor(99 * share)}%`;
+}
+
+// Code and tables that are wider than the page are scrolled, by keys, too.
 const sized = new ResizeObserver((all) => {
-  for (const { target } of all)
+  for (const { target } of all) {
+    if (target.matches(".math-wrapper")) fit(target);
     if (target.scrollWidth > target.clientWidth) target.tabIndex = 0;
     else target.removeAttribute("tabindex");
+  }
 });
 for (const wide of document.querySelectorAll("pre, .table-wrapper, .math-wrapper, .long")) sized.observe(wide);
