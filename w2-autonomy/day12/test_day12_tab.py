@@ -64,8 +64,8 @@ def test_a_count_of_draws_has_the_students_interval():
 
 
 def test_another_planners_way_is_drawn_beside_the_librarys():
-    ways = DAY.module("ways")
-    wrong = {"rrt_connect": lambda *given: ways.planner(*given, turn="never")}
+    planners = DAY.module("planners")
+    wrong = {"rrt_connect": lambda *given: planners.planner(*given, turn="never")}
     tab = looked({**vars(lab), **wrong})
     tab.sets("n")(100.0)
     right = looked(vars(lab))
