@@ -127,8 +127,9 @@ def test_questions_are_the_same_every_time_and_all_of_a_kind(number, name, ask):
     for one, same in zip(first.exchanges, again.exchanges, strict=True):
         for arg, equal in zip(one.question.args, same.question.args, strict=True):
             np.testing.assert_equal(arg, equal)
-    axes = {tuple(np.ndim(arg) for arg in one.question.args) for one in first.main}
-    assert len(axes) == 1
+    for some in zip(*(one.question.args for one in first.main), strict=True):
+        numbers = [arg for arg in some if np.asarray(arg).dtype != object]  # no worlds
+        assert len({np.ndim(arg) for arg in numbers}) <= 1
 
 
 @every

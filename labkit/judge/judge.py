@@ -1,5 +1,6 @@
 """The judge: from a function's questions and replies to a verdict and its name."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import compress
@@ -269,7 +270,18 @@ def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
         return _with_its_place(case, found)
     if found := found or near_miss.rounded(S[i], T[i]):
         return found
-    return _unnamed(case) or in_some_calls(case, S, T)
+    return _with_its_size(case, S, T) or in_some_calls(case, S, T)
+
+
+def _with_its_size(case: Case, S: Parts, T: Parts) -> Finding | None:
+    """Return what the row says of answers without a name, and how far these are off."""
+    found = _unnamed(case)
+    kinds = case.ask.kinds
+    if found is None or re.search(r"\d", found.message) or any(k.whole for k in kinds):
+        return found
+    k = worst_part(kinds, S, T, case.ask.near)
+    off = f"Off by up to {kinds[k].apart(S[k], T[k])}."
+    return Finding(found.slug, f"{found.message} {off}")
 
 
 def _unnamed(case: Case) -> Finding | None:

@@ -6,7 +6,12 @@ from labkit.judge import Row, Scalar
 
 from . import where_arm
 
-row = Row(Scalar(), unnamed=where_arm.step, before_slips=False)
+row = Row(
+    Scalar(),
+    at_edge=lambda s, distance, dq, reach: distance != 0 or bool(np.any(dq)),
+    unnamed=where_arm.step,
+    before_slips=False,
+)
 
 
 @row.inputs
