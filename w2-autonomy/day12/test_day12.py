@@ -12,6 +12,7 @@ from conftest import ROOT, load_script, printed_by, sentences
 from labkit.check.lab_run import rehearse
 from labkit.check.tasks import check_tasks
 from labkit.lesson.day import find_day
+from labkit.sandbox.inside.fake_world import Balls
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import panda, planning, simulate
 
@@ -328,3 +329,15 @@ def test_behind_the_wall_the_lab_is_run_though_no_world_of_the_arm_travels():
         fault, numbers, unfinished = rehearse(DAY, DAY.source, sandbox)
     assert (fault, unfinished) == ("", "")
     assert numbers["planned", "low_160"] == pytest.approx(0.9398, abs=1e-4)
+
+
+@pytest.mark.kit
+def test_a_world_that_can_only_be_asked_says_what_the_library_says_of_its_discs():
+    rng = np.random.default_rng(7)
+    told = []
+    for _ in range(300):
+        discs = rng.uniform((-1, -1, 0.05), (1, 1, 0.4), (3, 3))
+        a, b = rng.uniform(-1, 1, (2, 2)) if len(told) % 10 else np.zeros((2, 2))
+        told.append(planning.disc_edge_free(a, b, discs))
+        assert Balls(discs).edge_free(a, b) is told[-1]
+    assert 30 < sum(told) < 270

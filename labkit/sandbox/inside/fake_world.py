@@ -8,7 +8,8 @@ import numpy as np
 class Balls:
     """A world as an argument: it has a method `edge_free(a, b)`, and nothing else.
 
-    It stands for a robot among walls, which cannot travel to the sandbox.
+    It stands for a robot among walls, which cannot travel to the sandbox; nor can the
+    library's `disc_edge_free`, which a test of Day 12 holds it against.
     """
 
     def __init__(self, rows: Any) -> None:
