@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 
 import pytest
 
+from conftest import ROOT, need
 from labkit.lesson.day import all_days, find_day
 from labkit.lesson.metric import Metric
 from labkit.log.rows import HEADER as LINE
@@ -54,6 +55,24 @@ def of_values(metric: str, *values: float, limit: Metric | None = None) -> Serie
 def drawn(series: Series, tag: str) -> list:
     """Return the plot's shapes of one kind, back to front."""
     return ElementTree.fromstring(plot.draw(series)).findall(tag)
+
+
+def test_the_log_that_the_kit_is_committed_with_shows_nobodys_work(run, log, tmp_path):
+    """A student's own commits hold rows of theirs: there the kit's are not to be had."""
+
+    def git(*arguments: str) -> str:
+        command = ["git", "-C", ROOT, *arguments]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        need(done.returncode == 0, "a repository with a commit")
+        return done.stdout
+
+    need(not git("ls-files", "w*/work"), "a clone without a student's commits")
+    log.write_text(git("show", "HEAD:metrics/metrics.csv"), "utf-8")
+    assert log.read_text("utf-8") == LINE + "\n"
+    done = run("--out", tmp_path, ROBO47_METRICS=log)
+    assert "\n0 rows; checks: 0 passing, 0 failing" in done.stdout
+    assert "hunts" not in done.stdout
+    assert "Nothing recorded yet" in (tmp_path / "report.html").read_text("utf-8")
 
 
 def test_latest_best_runs_and_status_are_right(log):
