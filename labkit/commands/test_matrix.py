@@ -4,10 +4,12 @@
     python3 scripts/test_matrix.py --mujoco 3.10.0     another MuJoCo
     python3 scripts/test_matrix.py --pytest "-k se3"   only some of the tests
 
-Each pair gets an environment of its own, .venv-matrix/…, made once. A Python that is
-not on this machine's PATH is named and left out.
+Each pair gets an environment of its own, .venv-matrix/…, made once. A Python that this
+machine does not have, on its PATH or from pyenv, is named and left out; in CI
+(ROBO47_CI=1) that is a failure.
 """
 
+import os
 import re
 import shlex
 import shutil
@@ -26,11 +28,17 @@ FOLDER = ROOT / ".venv-matrix"
 def find_python(version: str) -> str | None:
     """Return the path of a Python that starts and has that version."""
     test = f"import sys; sys.exit('%d.%d' % sys.version_info[:2] != {version!r})"
-    known = (f"python{version}", "python3", sys.executable)
-    for path in filter(None, map(shutil.which, known)):
+    known = map(shutil.which, (f"python{version}", "python3", sys.executable))
+    for path in filter(None, [*known, *pyenvs(version)]):
         if processes.run([path, "-c", test]).returncode == 0:
             return path
     return None
+
+
+def pyenvs(version: str) -> list[str]:
+    """Return the Pythons of a version that pyenv has: on PATH is only what it chose."""
+    root = Path(os.environ.get("PYENV_ROOT") or Path.home() / ".pyenv")
+    return [str(path) for path in root.glob(f"versions/{version}*/bin/python")]
 
 
 def environment(python: str, version: str, mujoco: str) -> Path:
@@ -74,6 +82,7 @@ def main() -> int:
         for mujoco in options.mujoco:
             name = f"Python {version}, MuJoCo {mujoco}"
             if path is None:
+                failed = failed or bool(os.environ.get("ROBO47_CI"))
                 lines.append(f"left out  {name}: no such Python on this machine")
                 continue
             print(f"matrix: {name} ...", flush=True)
