@@ -6,6 +6,12 @@ ifeq ($(OS),Windows_NT)
 else
   PY := .venv/bin/python
 endif
+# What a shell sets for another Python, as ROS does, does not reach the kit's; the list
+# is labkit/base/shell.py's. `make doctor` names what was set.
+OTHERS := PYTHONPATH PYTHONHOME PYTHONPLATLIBDIR PYTHONEXECUTABLE PYTHONSAFEPATH \
+  PYTHONINSPECT PYTHONSTARTUP PYTEST_PLUGINS PYTEST_ADDOPTS
+export ROBO47_SHELL := $(strip $(foreach name,$(OTHERS),$(if $($(name)),$(name))) $(ROBO47_SHELL))
+unexport $(OTHERS)
 # The robot: MENAGERIE_ROOT where set, else mujoco_menagerie/ fetched once.
 ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)
 # Without DAY= a script takes the day that you worked on last.

@@ -14,7 +14,9 @@ if sys.version_info < (3, 8):  # labkit cannot be read by it
     print("                   make day1 PYTHON=python3.13")
     sys.exit(1)
 sys.path.insert(0, ROOT)  # bare Pythons too
+from labkit.base import shell
 
+shell.leave(ROOT)
 from labkit.base import cli
 from labkit.commands import doctor
 

@@ -12,6 +12,16 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 NEEDED = ("robo47", "numpy", "mujoco", "tqdm")
 OWN = os.path.join(ROOT, ".venv", "bin", "python")
+SCRIPT = getattr(sys.modules.get("__main__"), "__file__", None) or ""
+FOLDER = os.path.dirname(os.path.abspath(SCRIPT))
+SCRIPTS = os.path.realpath(os.path.join(ROOT, "scripts"))
+if SCRIPT and os.path.realpath(sys.path[0]) == os.path.realpath(FOLDER) != SCRIPTS:
+    # A lab's folder: a practice file named random.py is not Python's random.
+    sys.path.append(sys.path.pop(0))
+sys.path.insert(0, ROOT)
+from labkit.base import shell  # noqa: E402
+
+del sys.path[0]
 if os.name == "nt":
     OWN = os.path.join(ROOT, ".venv", "Scripts", "python.exe")
 
@@ -37,12 +47,7 @@ def go_on():
             + ". Run `make setup` (without make: python3 scripts/setup_env.py --anew)."
         )
     os.environ["ROBO47_HANDED_ON"] = "1"  # once: a broken .venv must not go in circles
-    command = [OWN] + sys.argv
-    if os.name == "nt":  # execv there returns to the shell before the script has ended
-        import subprocess
-
-        sys.exit(subprocess.call(command))
-    os.execv(command[0], command)
+    shell.go_on([OWN] + sys.argv, os.environ)
 
 
 def run(name):
@@ -101,6 +106,7 @@ def end(code, *lines):
     os._exit(code)
 
 
+shell.leave(ROOT)
 sys.excepthook = explain
 if not here():
     go_on()
