@@ -33,9 +33,9 @@ VIEW := $(if $(findstring --screenshot,$(ARGS)),figures,view)
 RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/dev/null),figures,core)
 
 .DEFAULT_GOAL := help
-.PHONY: update edition start watch hunt check hint borrow run doctor bench kernels test-matrix setup robot view grade
-.PHONY: capstone proof fresh help test soak report lint docs site oracle figures notebook
-.PHONY: new author gaps constants
+VERBS := update edition start watch hunt check hint borrow run doctor bench kernels test-matrix setup robot view \
+  grade capstone proof fresh help test soak report lint docs site oracle figures notebook new author gaps constants
+.PHONY: $(VERBS)
 
 help: ## these verbs; ALL=1 lists those of teachers and authors too
 	@echo "robo47: derive it by hand, verify it against MuJoCo, record the number."
@@ -181,3 +181,11 @@ $(PY):
 # A student without a network still gets a lab: the embedded twin is used.
 mujoco_menagerie/PROVENANCE.json: | .venv/.ready-core
 	@$(PY) scripts/fetch_menagerie.py --daily || true
+
+# A goal that is no command.
+NEAR = import difflib, sys; goal, verbs = sys.argv[1], sys.argv[2].split(); \
+  near = difflib.get_close_matches(goal, verbs + ["day1", "week1"], 1); \
+  sys.exit("error: make " + goal + " is no command of the kit. " \
+  + ("Do you mean make " + near[0] + "?" if near else "All commands: make help"))
+.DEFAULT:
+	@$(PYTHON) -c '$(NEAR)' '$@' '$(VERBS)'

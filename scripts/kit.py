@@ -95,7 +95,18 @@ def own_bug(kind, error, frames):
         return ()
     where = "{}, line {}, in {}: {}".format(*own[-1])
     says = "{}: {}".format(kind.__name__, error).splitlines()[0]
+    if (own[-1][3] or "").startswith(("import ", "from ")):  # no function is at fault
+        return (where, says) + taken_names(folder)
     return (where, says, "Which function is it? make check DAY=" + number)
+
+
+def taken_names(folder):
+    """Return a line on each file of a folder that has a module's name."""
+    from pathlib import Path
+
+    from labkit.lesson import clash
+
+    return tuple(map(clash.sentence, clash.clashes(Path(folder))))
 
 
 def end(code, *lines):

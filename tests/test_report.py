@@ -58,7 +58,7 @@ def drawn(series: Series, tag: str) -> list:
 
 
 def test_the_log_that_the_kit_is_committed_with_shows_nobodys_work(run, log, tmp_path):
-    """A student's own commits hold rows of theirs: there the kit's are not to be had."""
+    """Where a student has committed rows, the kit's own log is not to be had."""
 
     def git(*arguments: str) -> str:
         command = ["git", "-C", ROOT, *arguments]

@@ -11,7 +11,7 @@ from itertools import count
 from pathlib import Path
 
 from labkit.base import cli, store
-from labkit.lesson import last_day
+from labkit.lesson import clash, last_day
 from labkit.lesson.day import Day, chosen_day, find_task
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import put_back, require_kits, starter_of
@@ -41,7 +41,10 @@ def start(day: Day) -> int:
 
 
 def require_begun(day: Day) -> None:
-    """Refuse a day without a file, or with an empty one; a lost kit.py comes back."""
+    """Refuse a day without a file, or with an empty one; a lost kit.py comes back.
+
+    A file beside it that has a module's name is told.
+    """
     start = f"make start DAY={day.number}"
     if not day.work.is_file():
         clone = day.folder.parent
@@ -53,6 +56,7 @@ def require_begun(day: Day) -> None:
     if not day.work.read_bytes().strip():
         raise Robo47Error(f"{shown(day.work)} is empty. Delete it, then: {start}")
     copy_kit(day)
+    clash.tell(day.work.parent)
 
 
 def copy_kit(day: Day) -> None:

@@ -28,6 +28,7 @@ from labkit.inspector.ghost import Seen
 from labkit.inspector.student import AGAIN, Student
 from labkit.inspector.tab import day_tabs
 from labkit.judge.ask import model_of
+from labkit.lesson import clash
 from labkit.lesson.day import Day, chosen_day
 from labkit.sandbox.sandbox import CALL_SECONDS, Sandbox
 from robo47 import panda
@@ -222,6 +223,7 @@ def main() -> int:
             raise Robo47Error(f"{why}. The browser needs none of that: make view")
         return native_viewer.show()
     day = chosen_day(options.day)
+    clash.tell(day.work.parent)
     if options.clip:
         return clip(options.clip, day, options.file)
     entry = options.entry or day.week.robot
