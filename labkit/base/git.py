@@ -14,6 +14,7 @@ from __future__ import annotations  # the doctor runs on old Pythons too
 
 import hashlib
 import os
+import re
 import stat
 import subprocess
 import tempfile
@@ -191,6 +192,35 @@ def files_of(clone: Path, commit: str, *names: str) -> dict[str, tuple[str, int]
         if kind == "blob" and mode.startswith("100") and size.isdecimal():
             found[name] = (blob, int(size))
     return found
+
+
+def mode_of(clone: Path, commit: str, name: str) -> str:
+    """Return the mode that a commit has for a path, "160000" a submodule's; or ""."""
+    listing = ("ls-tree", "-z", "--full-tree", commit, "--", name)
+    return (_git(_repository(clone), *listing) or "").partition(" ")[0]
+
+
+def branches_of(clone: Path) -> list[str]:
+    """Return the full names of a clone's branches, those of its servers after them."""
+    listing = ("for-each-ref", "--format=%(refname)", "refs/heads", "refs/remotes")
+    names = (_git(_repository(clone), *listing) or "").splitlines()
+    return [name for name in names if not name.endswith("/HEAD")]
+
+
+def ignored_by(folder: Path, name: str) -> str:
+    """Return which line ignores a path, ".gitignore, line 3", or "".
+
+    Args:
+        folder: a repository of the reader's own.
+        name: a path in it.
+
+    Raises:
+        GitError: git is not there, or takes too long.
+    """
+    command = ("check-ignore", "-v", "--", name)
+    said = run(*command, folder=folder, seconds=SECONDS).stdout
+    found = re.match(r"(.+?):(\d+):", said)
+    return f"{found[1]}, line {found[2]}" if found else ""
 
 
 def blob(clone: Path, name: str) -> bytes:

@@ -11,6 +11,8 @@ from itertools import count
 from pathlib import Path
 
 from labkit.base import cli, store
+from labkit.base.git import GitError
+from labkit.handin.whereabouts import whereabouts
 from labkit.lesson import clash, last_day
 from labkit.lesson.day import Day, chosen_day, find_task
 from labkit.lesson.lab_module import read_script
@@ -52,11 +54,21 @@ def require_begun(day: Day) -> None:
         if old != day.work:
             says = f"the lab {old.name} is called {day.script} now"
             raise Robo47Error(f"{says}; to bring yours over: make update")
+        if where := _elsewhere(day, clone):
+            raise Robo47Error(f"{shown(day.work)} is not there. {where}")
         raise Robo47Error(f"{shown(day.work)} is not there; first: {start}")
     if not day.work.read_bytes().strip():
         raise Robo47Error(f"{shown(day.work)} is empty. Delete it, then: {start}")
     copy_kit(day)
     clash.tell(day.work.parent)
+
+
+def _elsewhere(day: Day, clone: Path) -> str:
+    """Return a sentence on where a student's file is; "" where nobody knows."""
+    try:
+        return whereabouts(day, clone)
+    except (GitError, OSError):
+        return ""
 
 
 def copy_kit(day: Day) -> None:

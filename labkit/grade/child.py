@@ -23,7 +23,7 @@ from labkit.check import report
 from labkit.check.lab_run import check_lab
 from labkit.check.tasks import TaskResult, check_tasks, required_pass
 from labkit.grade.package import Package, unpack
-from labkit.grade.result import Mark, Result, ungraded
+from labkit.grade.result import ELSEWHERE, Mark, Result, ungraded
 from labkit.handin.deliverables import check_files
 from labkit.handin.handin import Item
 from labkit.judge import Verdict
@@ -33,7 +33,7 @@ from robo47.errors import FaultError
 
 MEMORY = 6 * 1024**3  # bytes of addresses: MuJoCo and NumPy take a third of it
 LINES, LINE = 200, 400  # of a text, and characters of one
-NOTHING_TO_RUN = ("does-not-load", "not-started")
+NOTHING_TO_RUN = ("does-not-load", "not-started", ELSEWHERE)
 # What is another at every run would make two grades of the same code differ.
 _ADDRESS = re.compile(r"\b0x[0-9a-fA-F]{6,16}\b")
 _FOLDERS = re.compile(r"robo47-(?:check|grader?)-\w{1,40}[/\\]?")
@@ -105,6 +105,9 @@ def _run(
     if name not in handin.files:
         start = f"{name} is not there. Begin with: make start DAY={day.number}"
         verdict = Verdict("todo", "not-started", start)
+        if package.elsewhere:
+            says = f"{name} is not there. {package.elsewhere}"
+            verdict = Verdict("todo", ELSEWHERE, says)
         if why := handin.unread.get(name):
             verdict = Verdict("todo", "does-not-load", f"{name} {why}.")
         return [TaskResult(task, verdict) for task in day.tasks], []

@@ -24,6 +24,7 @@ from labkit.handin.handin import (
     picture_path,
     read_handin,
 )
+from labkit.handin.whereabouts import whereabouts
 from labkit.lesson.day import Day, find_day
 from labkit.lesson.own_files import HELPERS, NO_NAME
 from robo47 import __version__
@@ -62,6 +63,7 @@ class Package:
     version: str = ""  # of the kit that collected it, in words
     branch: str = ""  # that the clone stands on
     late: int = 0  # how many commits came after the deadline
+    elsewhere: str = ""  # a sentence on where the script is, when it is not in place
 
     @property
     def fingerprint(self) -> str:
@@ -74,6 +76,7 @@ class Package:
             sorted(handin.pictures.items()),
             [item.name, item.status, item.message, self.commit, self.committed],
             self.problem,
+            self.elsewhere,
         ]
         return _hash(json.dumps(facts).encode("ascii"))
 
@@ -116,8 +119,12 @@ def collect(
         return replace(package, problem=problem)
     handin, history, late = read_in_time(day, student.path, deadline, at)
     day = day.named_as(lambda name: name in handin.files)
+    elsewhere = ""
+    if not {*handin.files, *handin.unread} & {day.files["script"]}:
+        elsewhere = whereabouts(day, student.path, history.commit)
     return replace(
         package,
+        elsewhere=elsewhere,
         handin=handin,
         commit_item=check_commit(day, handin, history),
         commit=history.commit,
