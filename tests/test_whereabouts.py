@@ -182,6 +182,6 @@ def test_a_file_that_git_ignores_is_told_with_the_line_that_does_it(one_day):
     says = check_deliverables(day, one_day)[-1].message
     assert f".gitignore, line 2 keeps git from adding {SCRIPT}." in says
     assert f"git add -f {SCRIPT}" in says
-    git(one_day, "add", "-f", SCRIPT)
+    git(one_day, "add", "-f", f"{WEEK}/work")
     git(one_day, "commit", "-qm", "forced")
     assert ".gitignore" not in check_deliverables(day, one_day)[-1].message
