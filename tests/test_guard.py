@@ -1,0 +1,110 @@
+"""A search of the checker that stops costs a student the name, and nothing else."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+from inprocess import verdicts
+from judged import judged, right
+from labkit.check import tasks
+from labkit.judge import judge as judging
+from labkit.judge.ask import Ask
+from labkit.judge.guard import LOUD, REPORT, attempt
+from labkit.judge.judge import judge
+from labkit.judge.kinds import Scalar
+from labkit.lesson.day import find_day
+from robo47.errors import FaultError
+
+SPOTS = ("diagnose", "what_is_wrong", "failing_call", "_further", "_measured", "_case")
+
+
+def stops(*_):
+    """Stop as a search does that meets an answer of which nobody thought."""
+    return int(np.inf)
+
+
+def asking(**hooks):
+    """Return the row of a function that doubles a number."""
+    return Ask(
+        inputs=lambda rng: [(np.array(float(i)),) for i in range(1, 7)],
+        kind=Scalar(),
+        truth=lambda x: 2.0 * x,
+        **hooks,
+    )
+
+
+@pytest.fixture
+def student(monkeypatch):
+    """Let the checker run as a student runs it."""
+    monkeypatch.delenv(LOUD)
+
+
+@pytest.mark.parametrize("hook", ["unnamed", "measured"])
+def test_a_hook_that_stops_leaves_the_general_finding(student, hook):
+    ask = asking(**{hook: stops})
+    found = judged(ask, right(ask)[0] + np.array([0.3, -0.1, 0.7, 0.2, 0.9, 0.4]))
+    assert found.status == "wrong"
+    assert "off by up to 0.9" in found.message
+    assert "OverflowError in tests/test_guard.py, line" in found.message
+    assert found.message.endswith(REPORT)
+    assert found.call
+
+
+def test_the_same_hook_stops_the_check_of_an_author():
+    ask = asking(unnamed=stops)
+    with pytest.raises(OverflowError):
+        judged(ask, right(ask)[0] + np.array([0.3, -0.1, 0.7, 0.2, 0.9, 0.4]))
+
+
+@pytest.mark.parametrize("spot", SPOTS)
+def test_wherever_the_search_stops_a_wrong_answer_is_wrong(student, monkeypatch, spot):
+    monkeypatch.setattr(judging, spot, stops)
+    ask = asking()
+    found = judged(ask, right(ask)[0] + np.array([0.3, -0.1, 0.7, 0.2, 0.9, 0.4]))
+    assert found.status == "wrong"
+    assert found.message.endswith(REPORT)
+
+
+def test_what_cannot_be_compared_is_not_judged(student, monkeypatch):
+    monkeypatch.setattr(judging, "right_answers", stops)
+    found = judged(asking(), np.ones(6))
+    assert (found.status, found.mistake) == ("todo", "unjudged")
+    assert found.message.endswith(REPORT)
+
+
+def test_a_right_answer_is_told_of_no_search():
+    ask = asking(unnamed=stops, measured=None)
+    assert judged(ask, right(ask)[0]).message == ""
+
+
+def test_one_task_without_a_verdict_leaves_the_others_theirs(student, monkeypatch):
+    day = find_day(1)
+
+    def some(asked, *rest):
+        return stops() if asked.function == "quat_to_R" else judge(asked, *rest)
+
+    monkeypatch.setattr(tasks, "judge", some)
+    found = verdicts(day, day.source, fresh=8)
+    assert found["1.4"].mistake == "unjudged"
+    others = {one.status for id, one in found.items() if id != "1.4"}
+    assert others == {"passed"}
+
+
+def test_a_machine_that_fails_is_no_search_that_stops(student):
+    def fails():
+        raise FaultError("no process")
+
+    with pytest.raises(FaultError):
+        attempt(fails)
+
+
+def test_code_that_the_checker_tries_warns_nobody(monkeypatch):
+    def loud(*_):
+        compile("3 is 3", "tried", "eval")
+        warnings.warn("Casting complex values to real", stacklevel=2)
+
+    ask = asking(unnamed=loud)
+    with warnings.catch_warnings(action="error"):
+        found = judged(ask, right(ask)[0] + np.array([0.3, -0.1, 0.7, 0.2, 0.9, 0.4]))
+    assert found.status == "wrong"
