@@ -12,11 +12,20 @@ from labkit.judge import judge as judging
 from labkit.judge.ask import Ask
 from labkit.judge.guard import LOUD, REPORT, attempt
 from labkit.judge.judge import judge
-from labkit.judge.kinds import Scalar
+from labkit.judge.kinds import Scalar, Vector
+from labkit.judge.matrix_kinds import Symmetric
+from labkit.judge.other_kinds import Count, Word
 from labkit.lesson.day import find_day
 from robo47.errors import FaultError
 
 SPOTS = ("diagnose", "what_is_wrong", "failing_call", "_further", "_measured", "_case")
+# Trimmed ICP: only the nearer half of the pairs is fitted.
+TRIMMED = """kabsch(
+        source[away.min(axis=1) <= np.median(away.min(axis=1))],
+        target[np.argmin(away, axis=1)][
+            away.min(axis=1) <= np.median(away.min(axis=1))
+        ],
+    )"""
 
 
 def stops(*_):
@@ -108,3 +117,42 @@ def test_code_that_the_checker_tries_warns_nobody(monkeypatch):
     with warnings.catch_warnings(action="error"):
         found = judged(ask, right(ask)[0] + np.array([0.3, -0.1, 0.7, 0.2, 0.9, 0.4]))
     assert found.status == "wrong"
+
+
+@pytest.mark.parametrize("value", [np.inf, -np.inf, np.nan, 1e300])
+def test_a_count_that_is_no_number_can_be_shown(value):
+    assert isinstance(Count().sent(np.array(value)), float | int)
+    assert Word(words=("yes", "no")).sent(np.array(value)) == "?"
+
+
+def test_truth_values_are_numbers_before_a_row_sees_them():
+    (read,) = Vector((2,)).read([np.array([True, False])])
+    assert read.dtype == np.float64
+
+
+def test_a_matrix_of_the_largest_numbers_has_no_eigenvalue():
+    S = np.full((1, 3, 3), 1e308)
+    with np.errstate(all="ignore"):
+        assert Symmetric((3, 3)).measured(S, np.eye(3)[None])[-1].endswith("nan")
+
+
+@pytest.mark.parametrize(
+    ("number", "function", "old", "new"),
+    [
+        (12, "disc_edge_free", "axis=1) > discs", "axis=1) >= discs"),
+        (12, "disc_edge_free", "np.clip(part, 0.0, 1.0)[:, None]", "part[:, None]"),
+        (10, "icp_step", "kabsch(source, target[np.argmin(away, axis=1)])", TRIMMED),
+    ],
+)
+def test_a_world_without_numbers_and_an_empty_choice_are_judged(
+    tmp_path, number, function, old, new
+):
+    day = find_day(number)
+    text = day.source.read_text("utf-8")
+    assert old in text
+    file = tmp_path / day.source.name
+    file.write_text(text.replace(old, new, 1), "utf-8")
+    found = verdicts(day, file)
+    wrong = next(task.id for task in day.tasks if function in task.functions)
+    assert found[wrong].status == "wrong"
+    assert all(v.status in ("passed", "todo") for t, v in found.items() if t != wrong)

@@ -14,7 +14,7 @@ from labkit.base.deadline import Deadline
 from labkit.base.exchange import Exchange, LoadError, Reply
 from labkit.check.slow import too_slow
 from labkit.judge.ask import Asked, asked_of, replies
-from labkit.judge.guard import attempt, noting
+from labkit.judge.guard import attempt, noting, quiet
 from labkit.judge.judge import judge, unjudged
 from labkit.judge.mistake import Verdict
 from labkit.judge.replies_read import no_answer, not_loaded, refusal
@@ -200,7 +200,7 @@ class _Check:
             brief=True,
             deadline=self.deadline,
         )
-        with contextlib.closing(session):
+        with contextlib.closing(session), quiet():
             names = arguments(self.source, asked.function)
             says = right_when(asked, verdict.wrong_calls, names, session.ask)
         return replace(verdict, message=f"{verdict.message} {says}".strip())

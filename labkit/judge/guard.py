@@ -11,12 +11,16 @@ import functools
 import os
 import sys
 import traceback
+import warnings
 from collections.abc import Callable, Iterator
 from contextvars import ContextVar
 from pathlib import Path
 from typing import Any, TypeVar
 
+import numpy as np
+
 from labkit.base.exchange import LoadError
+from labkit.base.quiet import nothing_printed
 from robo47.errors import FaultError, Robo47Error
 from robo47.paths import ROOT
 
@@ -71,11 +75,24 @@ def noting() -> Iterator[list[str]]:
         _stopped.reset(before)
 
 
+@contextlib.contextmanager
+def quiet() -> Iterator[None]:
+    """Let code that is tried on a student's numbers print and warn of nothing."""
+    with (
+        nothing_printed(),
+        warnings.catch_warnings(action="ignore"),
+        np.errstate(all="ignore"),
+    ):
+        yield
+
+
 def told(stopped: list[str]) -> str:
     """Return two sentences on what stopped, for a student, or ""."""
     if not stopped:
         return ""
-    return f"The checker failed while it searched for the cause ({stopped[0]}). {REPORT}"
+    return (
+        f"The checker failed while it searched for the cause ({stopped[0]}). {REPORT}"
+    )
 
 
 def _in_words(error: Exception) -> str:

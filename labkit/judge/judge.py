@@ -1,7 +1,6 @@
 """The judge: from a function's questions and replies to a verdict and its name."""
 
 import re
-import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import compress
@@ -32,7 +31,7 @@ from labkit.judge.ask import (
     stacked,
 )
 from labkit.judge.failing_call import failing_call, for_fresh
-from labkit.judge.guard import attempt, noting, told
+from labkit.judge.guard import attempt, noting, quiet, told
 from labkit.judge.in_part import by_results, in_some_calls
 from labkit.judge.kinds import Kind
 from labkit.judge.made_again import redone
@@ -56,11 +55,7 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
     Raises:
         ValueError: a question has no reply.
     """
-    with (
-        np.errstate(all="ignore"),  # whatever the student's numbers lead to
-        warnings.catch_warnings(action="ignore"),  # also of code that is tried
-        noting() as stopped,
-    ):
+    with quiet(), noting() as stopped:
         verdict = attempt(_judge, asked, source, names)
         verdict = verdict or attempt(_without_a_name, asked) or unjudged(stopped)
         if verdict.status != "passed" and verdict.mistake not in NO_CALL:
@@ -139,7 +134,8 @@ def _of_another_size(
 ) -> Finding:
     """Return what answers of wrong sizes come from; the row may know more of them."""
     named = attempt(odd_answers.named, asked, found, otherwise=found)
-    if named is not found or not asked.ask.unnamed:
+    telling = asked.ask.unnamed and replies_read.of_another_length(asked)
+    if named is not found or not asked.ask.unnamed or not telling:
         return named
     T = right_answers(asked.ask, asked.main)
     return asked.ask.unnamed(_case(asked, S, T, names)) or found
@@ -228,6 +224,9 @@ def _further(asked: Asked) -> Further | None:
             continue
         if all(np.isfinite(part).all() for part in S):
             good.append(one)
+    sizes = replies_read.sizes(asked.ask, good) if good else ()
+    off = {i for i, _, got, right in sizes if got != right}
+    good = [one for i, one in enumerate(good) if i not in off]
     if not good:
         return None
     S = replies_read.read(good, asked.ask)

@@ -96,16 +96,15 @@ class Kind:
             try:
                 array = np.asarray(value)
             except ValueError:  # parts of different shapes
-                some = value if isinstance(value, tuple | list) else ()
-                shapes = ", ".join(str(np.shape(part)) for part in some)
-                says = f"It returns parts of shapes {shapes}"
+                says = f"It returns {_shapes(value)}"
                 return Finding("shape", f"{says}; expected is {self.expected}.")
             if array.dtype.kind not in "fiub":
                 says = f"It returns {array.dtype} values; expected is {self.expected}"
                 return Finding("not-numbers", f"{says} of real numbers.")
             if not self.fits(array.shape):
                 return self._misfit(array.shape, values)
-            found.append(self.plain(array))
+            # A truth value is 0 or 1: NumPy subtracts none.
+            found.append(self.plain(array.astype(np.float64)))
         return found
 
     def _misfit(self, got: tuple[int, ...], values: Sequence[Any]) -> Finding:
@@ -180,6 +179,15 @@ class Kind:
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:
         """Return lines for --explain."""
         return (f"{self.gap} {self.apart(S, T)}",)
+
+
+def _shapes(value: Any) -> str:
+    """Return what is in a list or tuple whose parts make no one array."""
+    try:
+        shapes = ", ".join(str(np.shape(part)) for part in value)
+    except (TypeError, ValueError):  # a part is no array either
+        return "lists whose parts have different lengths"
+    return f"parts of shapes {shapes}"
 
 
 @dataclass(frozen=True)

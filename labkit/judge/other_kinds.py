@@ -112,12 +112,15 @@ class Count(Scalar):
     usual: ClassVar[tuple[str, ...]] = ()
 
     def _sent(self, answer: Array) -> Any:
-        return int(answer) if answer == np.round(answer) else float(answer)
+        whole = np.isfinite(answer) and answer == np.round(answer)
+        return int(answer) if whole else float(answer)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+        odd = S[np.round(S) != S]
+        if odd.size:
+            says = f"It is {odd[0]:g}; {self.expected} is expected."
+            return Finding("not-whole", says)
         i = int(np.argmax(S != T))
-        if np.any(np.round(S) != S):
-            return Finding("not-whole", f"It is {S[i]:g}; {self.expected} is expected.")
         return Finding("miscounted", f"It is {S[i]:z.0f} where {T[i]:z.0f} is right.")
 
 
@@ -181,7 +184,7 @@ class Word(Kind):
         return np.array(float(self.words.index(value) if there else -1))
 
     def _sent(self, answer: Array) -> Any:
-        place = int(answer)
+        place = int(answer) if np.isfinite(answer) else -1
         return self.words[place] if 0 <= place < len(self.words) else "?"
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
