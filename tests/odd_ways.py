@@ -13,18 +13,18 @@ how many ways were judged, how many passed, and the seconds of a processor.
 import functools
 import sys
 import time
-import traceback
 import zlib
 from collections.abc import Callable, Iterator
 from itertools import count
 from typing import Any, NamedTuple
 
+import inprocess
 import numpy as np
 import pytest
 
-import inprocess
 from conftest import ROOT
 from labkit.judge.mistake import Verdict
+from labkit.judge.written import stop
 from labkit.lesson.day import Day, Task, day_numbers, find_day
 from labkit.lesson.lab_module import load_lab
 
@@ -189,14 +189,7 @@ def soak(day: Day, only: str = "") -> int:
                 passed += judged(odd).status == "passed"
             except Exception as error:
                 stopped += 1
-                last = traceback.extract_tb(error.__traceback__)[-8:]
-                own = [
-                    f
-                    for f in last
-                    if str(ROOT) in f.filename and "lib" not in f.filename
-                ]
-                where = f"{own[-1].filename}:{own[-1].lineno}" if own else ""
-                print(f"{odd.task.id} {odd.function}, {odd.way}: {error!r} {where}")
+                print(f"{odd.task.id} {odd.function}, {odd.way}: it {stop(error)}")
     seconds = time.process_time() - began
     print(
         f"Day {day.number}: {total} ways judged, {passed} passed, {stopped} stop the "

@@ -4,9 +4,9 @@ import warnings
 
 import numpy as np
 import pytest
-
 from inprocess import verdicts
 from judged import judged, right
+
 from labkit.check import tasks
 from labkit.judge import judge as judging
 from labkit.judge.ask import Ask

@@ -1,10 +1,10 @@
 """Whatever a function returns, the checker has a verdict on it."""
 
 import pytest
+from inprocess import worked_out_once
+from odd_ways import judged, soak, some_of
 
 from conftest import days
-from inprocess import worked_out_once
-from odd_ways import judged, some_of, soak
 
 pytestmark = pytest.mark.kit
 
