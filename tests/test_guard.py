@@ -14,7 +14,7 @@ from labkit.judge.guard import LOUD, REPORT, attempt
 from labkit.judge.judge import judge
 from labkit.judge.kinds import Scalar, Vector
 from labkit.judge.matrix_kinds import Symmetric
-from labkit.judge.other_kinds import Count, Word
+from labkit.judge.other_kinds import Count, Points, Word
 from labkit.lesson.day import find_day
 from robo47.errors import FaultError
 
@@ -156,3 +156,39 @@ def test_a_world_without_numbers_and_an_empty_choice_are_judged(
     wrong = next(task.id for task in day.tasks if function in task.functions)
     assert found[wrong].status == "wrong"
     assert all(v.status in ("passed", "todo") for t, v in found.items() if t != wrong)
+
+
+def told_of(ask, values):
+    found = judged(ask, values)
+    return f"{found.message} {found.call}"
+
+
+def test_the_entry_that_is_shown_is_one_that_differs():
+    right_one = np.array([np.inf, -np.inf])
+    ask = Ask(
+        inputs=lambda rng: [(np.array(float(i)),) for i in range(4)],
+        kind=Vector((2,)),
+        truth=lambda x: np.broadcast_to(right_one, (len(x), 2)),
+    )
+    says = told_of(ask, np.tile([np.inf, 4.0], (4, 1)))
+    assert "f(0)[1] is 4, and -inf is right." in says
+    assert "is inf, and inf" not in says
+
+
+def test_a_small_difference_has_a_digit_and_rounding_has_none():
+    kind = Scalar()
+    assert kind.apart(np.array([1.0 + 6.2e-6]), np.ones(1)) == "6e-06"
+    assert kind.apart(np.array([1.0 + 2e-16]), np.ones(1)) == "0"
+    off = np.array([[0.0, 0.0, 6.2e-6]])
+    assert Points((1, 3)).apart(off[None], np.zeros((1, 1, 3))).startswith("6e-06")
+
+
+def test_one_array_is_not_a_number_of_results():
+    ask = Ask(
+        inputs=lambda rng: [(np.array(float(i)),) for i in range(4)],
+        kind=(Scalar(), Scalar()),
+        truth=lambda x: (x, x),
+    )
+    assert "It returns one array of shape (7,); expected are 2" in told_of(
+        ask, np.ones((4, 7))
+    )

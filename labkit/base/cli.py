@@ -158,7 +158,7 @@ def run(main: Callable[[], int]) -> None:
 
 
 def go_on_in(command: list[str]) -> NoReturn:
-    """Become another command, which ends with the codes that this one was to end with."""
+    """Become another command, which ends with the code that make asked for as well."""
     if _asked:
         os.environ[NOT_YET] = _asked[-1]
     os.execv(command[0], command)
@@ -169,7 +169,7 @@ _asked: list[str] = []  # the code of "not yet", where make asked for another
 
 @contextlib.contextmanager
 def _code_of_not_yet() -> Iterator[int]:
-    """Give the code of "not yet"; the programs that the command starts use their own."""
+    """Give the code of "not yet"; programs that are started here use the usual one."""
     asked = os.environ.pop(NOT_YET, "")
     _asked[:] = [asked] if asked.isdecimal() else []
     try:

@@ -15,7 +15,7 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextvars import ContextVar
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
@@ -29,11 +29,10 @@ LOUD = "ROBO47_LOUD"  # the variable; any text but "" raises
 PASSED_ON = (FaultError, LoadError, OSError)
 REPORT = "This is a fault of the kit. Please report it, and include your function."
 _stopped: ContextVar[list[str] | None] = ContextVar("stopped", default=None)
-Result = TypeVar("Result")
 
 
 def attempt(
-    search: Callable[..., Result], *args: Any, otherwise: Result | None = None
+    search: Callable[..., Any], *args: Any, otherwise: Any = None
 ) -> Any:
     """Return what a search returns, or something else where it stops.
 
@@ -54,7 +53,7 @@ def attempt(
         return otherwise
 
 
-def guarded(hook: Callable[..., Result], otherwise: Result | None = None) -> Any:
+def guarded(hook: Callable[..., Any], otherwise: Any = None) -> Callable[..., Any]:
     """Return a hook that returns something else where it stops."""
 
     @functools.wraps(hook)

@@ -136,7 +136,7 @@ class Jacobian(Matrix):
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if found := one_factor(self, S, T):
             return found
-        wrong = np.abs(S - T).max(axis=0) > RIGHT * self.scale
+        wrong = gap(S, T).max(axis=0) > RIGHT * self.scale
         bad = np.flatnonzero(wrong.any(axis=0))
         halves = np.flatnonzero(wrong.reshape(2, -1).any(axis=1))
         where = f" in its {('omega', 'v')[halves[0]]} rows" if len(halves) == 1 else ""
