@@ -5,8 +5,9 @@ import warnings
 import numpy as np
 import pytest
 from inprocess import verdicts
-from judged import judged, right
+from judged import judged, judged_replies, right
 
+from labkit.base.exchange import Reply
 from labkit.check import tasks
 from labkit.judge import judge as judging
 from labkit.judge.ask import Ask
@@ -189,6 +190,5 @@ def test_one_array_is_not_a_number_of_results():
         kind=(Scalar(), Scalar()),
         truth=lambda x: (x, x),
     )
-    assert "It returns one array of shape (7,); expected are 2" in told_of(
-        ask, np.ones((4, 7))
-    )
+    found = judged_replies(ask, [Reply(value=np.ones(7), again=np.ones(7))] * 4)
+    assert "It returns one array of shape (7,); expected are 2" in found.message

@@ -66,7 +66,7 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
     return replace(verdict, message=f"{verdict.message} {told(stopped)}".strip())
 
 
-def unjudged(stopped: Sequence[str]) -> Verdict:
+def unjudged(stopped: list[str]) -> Verdict:
     """Return the verdict on answers that the checker cannot compare."""
     return Verdict("todo", "unjudged", f"The task is not judged. {told(stopped)}")
 
@@ -118,11 +118,12 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     if (off := gap.max()) > ask.near:
         case = replace(case, further=attempt(_further, asked))
         case, S, T = _with_answers(case, S, T)
-        if found := attempt(diagnose, case, S, T):
-            return Verdict("wrong", *found, measured)
+        named: Finding | None = attempt(diagnose, case, S, T)
+        if named:
+            return Verdict("wrong", *named, measured)
         wrong = tuple(np.flatnonzero(gap > ask.near).tolist())
         plainly = _by_how_much(gap, ask.tolerance)
-        found = attempt(what_is_wrong, case, S, T, otherwise=plainly)
+        found: Finding = attempt(what_is_wrong, case, S, T, otherwise=plainly)
         return Verdict("wrong", *found, measured, wrong_calls=wrong)
     if off > ask.tolerance:
         return Verdict("close", *_near_miss(asked, case, S, T, off), measured)
