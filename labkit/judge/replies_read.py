@@ -12,6 +12,7 @@ from labkit.base.exchange import Exchange, Reply
 from labkit.judge import results
 from labkit.judge.answers import InTurn, Parts, as_one, own, parts
 from labkit.judge.ask import Ask, Asked, replies, stacked
+from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Verdict
 from labkit.lesson.starter import function_lines
 from robo47.checks import Array
@@ -165,20 +166,43 @@ def not_accepted(asked: Asked) -> Iterator[tuple[Exchange, Finding]]:
 
 def of_another_size(asked: Asked) -> Finding | None:
     """Return that answers have not the size that their questions ask for, if so."""
-    truth, kinds = asked.ask.truth, asked.ask.kinds
+    for i, kind, got, right in sizes(asked.ask, asked.main):
+        if got != right:
+            says = kind.another_size(got, right)
+            where = f"in call {i + 1} of {len(asked.main)}"
+            return Finding("shape", f"{says}, {where}.")
+    return None
+
+
+def of_another_length(asked: Asked) -> bool:
+    """Return whether answers differ from the right ones in their number of rows alone.
+
+    A row may have more to say of these, since a path can have more points than another.
+    A vector with an entry too few has no such meaning.
+    """
+    return all(
+        got == right or (len(got) > 1 and got[1:] == right[1:])
+        for _, _, got, right in sizes(asked.ask, asked.main)
+    )
+
+
+def sizes(
+    ask: Ask, exchanges: Sequence[Exchange]
+) -> Iterator[tuple[int, Kind, tuple[int, ...], tuple[int, ...]]]:
+    """Yield the place, the kind, the shape and the right shape of each result.
+
+    Nothing is yielded where no question decides them, and of no None.
+    """
+    truth, kinds = ask.truth, ask.kinds
     if not isinstance(truth, InTurn) or all(None not in kind.shape for kind in kinds):
-        return None
-    right = map(parts, truth.each(stacked(asked.main)))
-    given = results.read(asked.ask.kind, [one.value for one in replies(asked.main)])
+        return
+    right = map(parts, truth.each(stacked(exchanges)))
+    given = results.read(ask.kind, [one.value for one in replies(exchanges)])
     assert not isinstance(given, Finding)  # it was read before
     for i, (its, mine) in enumerate(zip(right, zip(*given, strict=True), strict=True)):
         for T, S, kind in zip(its, mine, kinds, strict=True):
-            there = not (kind.is_none(T) or kind.is_none(S))
-            if there and S.shape != T.shape:
-                says = kind.another_size(S.shape, T.shape)
-                where = f"in call {i + 1} of {len(asked.main)}"
-                return Finding("shape", f"{says}, {where}.")
-    return None
+            if not (kind.is_none(T) or kind.is_none(S)):
+                yield i, kind, S.shape, T.shape
 
 
 def kept_state(asked: Asked, source: str = "") -> Finding | None:
