@@ -80,7 +80,7 @@ class Mine:
 
     @property
     def total(self) -> int:
-        """How many functions the days ask for, whether the capstone calls them or not."""
+        """How many functions the days ask for, called by the capstone or not."""
         return len(self.yours) + len(self.replaced)
 
 

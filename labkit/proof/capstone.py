@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from labkit.base.text import visible
-from labkit.check.own_functions import Counted, counted
 from labkit.check.lab_run import FirstFailure, behind_wall
+from labkit.check.own_functions import Counted, counted
 from labkit.check.slow import Budget, EnoughAsked, RunsOn
 from labkit.lesson.lab_module import lab_of
 from labkit.report.week_facts import DayFacts

@@ -13,8 +13,8 @@ import mujoco
 import robo47
 from labkit.base import html
 from labkit.base.text import count, number_of
-from labkit.check.own_functions import Counted, counted
 from labkit.check.lab_run import TRIALS
+from labkit.check.own_functions import Counted, counted
 from labkit.proof import sharing
 from labkit.proof.capstone import Attempt, recorded
 from labkit.proof.facts import RunDay
@@ -239,9 +239,9 @@ def _stayed(attempt: Attempt) -> str:
     if not attempt.stayed:
         return ""
     return (
-        f"<p class=muted>Theirs, but not run here: {_code(sorted(attempt.stayed))}. They"
-        " query a world that cannot be sent into the sandbox, so the kit's own functions"
-        " ran in their place. Theirs pass the check.</p>"
+        f"<p class=muted>Theirs, but not run here: {_code(sorted(attempt.stayed))}."
+        " They query a world that cannot be sent into the sandbox, so the kit's own"
+        " functions ran in their place. Theirs pass the check.</p>"
     )
 
 
