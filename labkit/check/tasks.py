@@ -23,7 +23,7 @@ from labkit.judge.row import row_of
 from labkit.lesson.added_code import kits_functions, kits_own, old_names
 from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
-from labkit.lesson.slips import arguments, renamed, unfinished
+from labkit.lesson.slips import arguments, renamed, twice, unfinished
 from labkit.lesson.starter import function_lines
 from labkit.sandbox.messages import library_of, robots_of
 from labkit.sandbox.sandbox import Sandbox, deadline_of
@@ -271,6 +271,8 @@ def _of_function(day: Day, task: Task, asked: Asked, source: str) -> Verdict:
         refused = [what for reply in came for what in reply.refused]
         if refused:
             return refusal(refused[0], None)
+        if says := twice(source, function):
+            verdict = replace(verdict, message=f"{verdict.message} {says}")
     return _changed_arguments(function, came, verdict)
 
 
@@ -284,6 +286,8 @@ def _unanswered(
             slow = too_slow(day, function, one.question.args, reply)
             return _with_slip(asked, slow, source)
         if early := no_answer(reply, function, task.id):
+            if early.mistake == "unwritten" and (says := twice(source, function)):
+                return Verdict("todo", "defined-twice", says)
             slip = early.mistake == "unwritten" and unfinished(source, function)
             if early.mistake == "missing" and (near := renamed(source, function)):
                 return replace(early, message=near)

@@ -31,9 +31,7 @@ REPORT = "This is a fault of the kit. Please report it, and include your functio
 _stopped: ContextVar[list[str] | None] = ContextVar("stopped", default=None)
 
 
-def attempt(
-    search: Callable[..., Any], *args: Any, otherwise: Any = None
-) -> Any:
+def attempt(search: Callable[..., Any], *args: Any, otherwise: Any = None) -> Any:
     """Return what a search returns, or something else where it stops.
 
     Args:

@@ -14,11 +14,17 @@ from labkit.judge.answers import InTurn, Parts, as_one, own, parts
 from labkit.judge.ask import Ask, Asked, replies, stacked
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Verdict
+from labkit.lesson.slips import OTHER_PACKAGES, no_python
 from labkit.lesson.starter import function_lines
 from robo47.checks import Array
 from robo47.paths import ROOT
 
 ONLY_NUMPY = " The checker has NumPy, the kit and Python's own modules alone."
+ONLY_IN_MAIN = (
+    "A task is solved with NumPy, the kit's library and Python's own modules, so the "
+    "checker has no other package. Use others in main(), where pictures belong: the "
+    "checker does not run it."
+)
 IN_MAIN = 'Keep it below `if __name__ == "__main__":`, or in main().'
 SAME = 1e-9  # how far two answers to one question may differ: a last digit
 
@@ -81,7 +87,9 @@ def stops_with(reply: Reply, often: str = "") -> str:
     called = f", called from {callers}" if callers else ""
     where = f" (line {reply.line}{called})" if reply.line else ""
     text = f"{reply.kind}: {reply.error}".rstrip().removesuffix(":")
-    why = ONLY_NUMPY if reply.kind == "ModuleNotFoundError" else ""
+    why = f" {ONLY_IN_MAIN}" if reply.kind == "ModuleNotFoundError" else ""
+    if reply.kind == "EOFError":
+        why = " Does it call input()? Nobody types during a check: use its arguments."
     return f"It stops with {text}{where}{often}.{why}"
 
 
@@ -96,7 +104,10 @@ def refusal(what: str, line: int | None) -> Verdict:
     for root in (str(ROOT), ROOT.as_posix()):
         what = what.replace(root + "/", "").replace(root + "\\", "")
     slug, why = "refused", "A task needs nothing but its arguments."
-    if what.startswith("call "):
+    package = re.match(r"(?:call|use|load) (\w+)", what)
+    if package and package[1] in OTHER_PACKAGES:
+        slug, why = "other-package", ONLY_IN_MAIN
+    elif what.startswith("call "):
         slug = "not-by-hand"
         why = "Here the point is to work the answer out yourself; MuJoCo is the judge."
     return Verdict("wrong", slug, f"It wants to {what}{where}. {why}")
@@ -115,13 +126,12 @@ def not_loaded(script: Path, reply: Reply) -> str:
         return f"{where}: while being loaded, {reply.error}. {IN_MAIN}"
     why = f"{where}: {reply.kind}: {reply.error}".rstrip(": ")
     if reply.kind == "ModuleNotFoundError":
-        why += f".{ONLY_NUMPY} Import others in the function that uses them."
-    elif reply.kind == "SyntaxError":
+        why += f".{ONLY_NUMPY} Import others in main(), which the checker does not run."
+    elif reply.kind in ("SyntaxError", "NameError"):
         linecache.checkcache(str(script))
-        if linecache.getline(str(script), reply.line or 0).startswith("<<<<<<<"):
-            why += ". This is the mark of a merge that git could not finish: keep one "
-            why += "side."
-    return why
+        lines = linecache.getlines(str(script))
+        why += f". {no_python(lines, (reply.line or 0) - 1)}"
+    return why.removesuffix(". ")
 
 
 def read(exchanges: Iterable[Exchange], ask: Ask, source: str = "") -> Parts | Finding:
@@ -145,7 +155,8 @@ def read(exchanges: Iterable[Exchange], ask: Ask, source: str = "") -> Parts | F
         says = "It returns nothing (None): the result is worked out, but not handed "
         says += "back."
         if nothing < len(replied):
-            says = f"It returns None for {nothing} of {len(replied)} inputs."
+            says = f"It returns None for {nothing} of {len(replied)} inputs; "
+            says += f"{results.expected(ask.kind)}."
         return Finding("nothing-returned", says)
     columns = results.read(ask.kind, [reply.value for reply in replied])
     return columns if isinstance(columns, Finding) else tuple(map(as_one, columns))

@@ -58,9 +58,7 @@ def split(kind: Kinds, value: Any) -> tuple[Any, ...] | Finding:
     whole = isinstance(value, np.ndarray) and value.ndim
     some = tuple(value) if whole else value  # a result in each row
     if not isinstance(some, tuple | list) or len(some) != len(kind):
-        expected = ", ".join(_expected(one) for one in kind)
-        says = f"expected are {len(kind)} results: {expected}"
-        return Finding("parts", f"It returns {_given(value)}; {says}.")
+        return Finding("parts", f"It returns {_given(value)}; {expected(kind)}.")
     parts: tuple[Any, ...] = ()
     for one, item in zip(kind, some, strict=True):
         if isinstance(found := split(one, item), Finding):
@@ -111,6 +109,14 @@ def as_sent(kind: Kinds, parts: Sequence[Any]) -> Any:
         return tuple(map(one, inner))
 
     return one(kind)
+
+
+def expected(kind: Kinds) -> str:
+    """Return what is expected, as the end of a sentence."""
+    if isinstance(kind, Kind):
+        return f"expected is {kind.expected}"
+    every = ", ".join(_expected(one) for one in kind)
+    return f"expected are {len(kind)} results: {every}"
 
 
 def _given(value: Any) -> str:
