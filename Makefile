@@ -10,7 +10,7 @@ endif
 # is labkit/base/shell.py's. `make doctor` names what was set.
 OTHERS := PYTHONPATH PYTHONHOME PYTHONPLATLIBDIR PYTHONEXECUTABLE PYTHONSAFEPATH \
   PYTHONINSPECT PYTHONSTARTUP PYTEST_PLUGINS PYTEST_ADDOPTS
-export ROBO47_SHELL := $(strip $(foreach name,$(OTHERS),$(if $($(name)),$(name))) $(ROBO47_SHELL))
+export ROBO47_SHELL := $(strip $(foreach name,$(OTHERS),$(if $(value $(name)),$(name))) $(ROBO47_SHELL))
 unexport $(OTHERS)
 # The robot: MENAGERIE_ROOT where set, else mujoco_menagerie/ fetched once.
 ROBOT := $(if $(MENAGERIE_ROOT),,mujoco_menagerie/PROVENANCE.json)

@@ -150,9 +150,8 @@ def run(command, doing):
     Of a person's settings pip and uv get what leads them to their packages.
     """
     say(doing + " ...")
-    listed = [command[0], "-m", "pip", "config", "list"] if "pip" in command else None
-    told = processes.run(listed).stdout if listed and command[1] == "-m" else ""
-    settings = shell.for_installer(os.environ, told)
+    pip = command[1:3] == ["-m", "pip"]
+    settings = shell.for_pip(command[0]) if pip else shell.for_installer(os.environ)
     done = processes.run(command, cwd=ROOT, env=settings)
     return done.returncode, done.stdout + done.stderr
 

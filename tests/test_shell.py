@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from conftest import ROOT, need, run_copy
+from conftest import ROOT, SKIPPED, need, run_copy
 from labkit.base import shell
 
 pytestmark = pytest.mark.kit
@@ -154,3 +154,23 @@ def test_a_mistyped_command_is_told_what_it_may_be():
         "error: make chekc is no command of the kit. Do you mean make check?"
     )
     assert "All commands: make help" in make(ROOT, "xyzzy").stderr
+
+
+def test_the_tests_pass_whatever_a_students_folder_holds(clone):
+    """Their own conftest.py and tests, MuJoCo's log, a report, a broken lab."""
+    shutil.copytree(ROOT / "tests", clone / "tests", ignore=SKIPPED)
+    for name in ("conftest.py", "pyproject.toml"):
+        shutil.copy(ROOT / name, clone)
+    work = clone / "w1-foundations" / "work"
+    work.mkdir()
+    (work / "conftest.py").write_text("import nothing_at_all\n")
+    (work / "test_mine.py").write_text("def test_x(): raise ValueError\n")
+    (work / "day1_transforms.py").write_text("this is no ( Python\n")
+    (work / "random.py").write_text("x = 1\n")
+    (clone / "MUJOCO_LOG.TXT").write_text("WARNING: Nan in QACC\n")
+    (clone / "metrics" / "report.html").write_text("of an older run")
+    (clone / "metrics" / "metrics.csv").write_text("not,the,header\n")
+    days = ("w1-foundations", "w2-autonomy", "-k", "explodes or day1")
+    done = run_copy(clone, "-m", "pytest", "-q", "-n", "0", *days)
+    assert done.returncode == 0, done.stdout
+    assert "test_mine" not in done.stdout

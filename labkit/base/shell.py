@@ -108,6 +108,21 @@ def for_installer(environment, listed=""):
     return configured
 
 
+def for_pip(python):
+    """Return the environment in which a Python's pip obeys us alone.
+
+    Args:
+        python: a path; its pip is asked for its settings.
+    """
+    import subprocess
+
+    command = [str(python), "-m", "pip", "config", "list"]
+    asked = subprocess.run(
+        command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False
+    )
+    return for_installer(os.environ, asked.stdout.decode("utf-8", "replace"))
+
+
 def _unquoted(text):
     import ast
 

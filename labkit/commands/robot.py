@@ -24,7 +24,7 @@ import zipfile
 from pathlib import Path
 from typing import Any
 
-from labkit.base import cli, store
+from labkit.base import cli, shell, store
 from robo47.errors import Robo47Error
 from robo47.panda import files
 from robo47.paths import ROOT, menagerie_root, shown
@@ -74,7 +74,12 @@ def from_index(staging: Path) -> dict[str, Any]:
         command.append("--quiet")
     try:
         done = subprocess.run(
-            command, stderr=subprocess.PIPE, text=True, timeout=PIP_SECONDS, check=False
+            command,
+            env=shell.for_pip(sys.executable),
+            stderr=subprocess.PIPE,
+            text=True,
+            timeout=PIP_SECONDS,
+            check=False,
         )
     except subprocess.TimeoutExpired:
         raise Robo47Error(f"the download took over {PIP_SECONDS} s") from None

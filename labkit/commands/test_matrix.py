@@ -16,7 +16,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from labkit.base import cli, processes
+from labkit.base import cli, processes, shell
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
@@ -62,7 +62,9 @@ def environment(python: str, version: str, mujoco: str) -> Path:
 
 def run(command: list[str]) -> None:
     """Run a quiet command in the clone, or say how it failed."""
-    done = processes.run(command, cwd=ROOT)
+    pip = command[1:3] == ["-m", "pip"]
+    settings = shell.for_pip(command[0]) if pip else None
+    done = processes.run(command, cwd=ROOT, env=settings)
     if done.returncode != 0:
         why = done.stderr[-500:].strip()
         raise Robo47Error(f"`{shlex.join(command)}` failed: {why}")
