@@ -9,7 +9,7 @@ class Balls:
     """A world as an argument: it has a method `edge_free(a, b)`, and nothing else.
 
     It stands for a robot among walls, which cannot travel to the sandbox; nor can the
-    library's `disc_edge_free`, which a test of Day 12 holds it against.
+    library's `segment_free_of_discs`, which a test of Day 12 holds it against.
     """
 
     def __init__(self, rows: Any) -> None:
