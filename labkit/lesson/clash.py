@@ -20,6 +20,8 @@ def clashes(folder: Path) -> list[Path]:
     Args:
         folder: in which the labs are; it need not be there.
     """
+    if folder.resolve() == ROOT:  # the names there are the kit's
+        return []
     found = [*folder.glob("*.py"), *(p.parent for p in folder.glob("*/__init__.py"))]
     return sorted(path for path in found if _is_taken(path.stem, folder))
 
