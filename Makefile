@@ -24,8 +24,10 @@ ifeq ($(origin WEEK),command line)
   endif
 endif
 ON_WEEK = $(WEEK) $(ON_DAY)
-# A script's exit code 1 is "not yet", which is no error of make's.
-NOT_YET = || { code=$$?; test $$code -eq 1 || exit $$code; }
+# "Not yet" is no error of make's. Scripts end with this code then, and without make
+# with 1, which is what a Python ends with that cannot even start.
+export ROBO47_NOT_YET := 75
+NOT_YET = || { code=$$?; test $$code -eq $(ROBO47_NOT_YET) || exit $$code; }
 # A picture needs no page in the browser.
 VIEW := $(if $(findstring --screenshot,$(ARGS)),figures,view)
 

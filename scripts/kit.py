@@ -11,6 +11,7 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 NEEDED = ("robo47", "numpy", "mujoco", "tqdm")
+CRASHED = 70  # the exit code where the kit itself failed; 0, 1 and 2 say other things
 OWN = os.path.join(ROOT, ".venv", "bin", "python")
 SCRIPT = getattr(sys.modules.get("__main__"), "__file__", None) or ""
 FOLDER = os.path.dirname(os.path.abspath(SCRIPT))
@@ -41,10 +42,11 @@ def go_on():
     """Start the script again in the kit's own Python, or say how to get one."""
     again = os.path.isfile(sys.argv[0])  # not a line typed at a prompt
     if os.environ.get("ROBO47_HANDED_ON") or not os.path.exists(OWN) or not again:
-        sys.exit(
+        end(
+            2,
             "error: the kit is not set up"
             + (" completely" if os.path.exists(OWN) else "")
-            + ". Run `make setup` (without make: python3 scripts/setup_env.py --anew)."
+            + ". Run `make setup` (without make: python3 scripts/setup_env.py --anew).",
         )
     os.environ["ROBO47_HANDED_ON"] = "1"  # once: a broken .venv must not go in circles
     shell.go_on([OWN] + sys.argv, os.environ)
@@ -71,12 +73,25 @@ def explain(kind, error, trace):
     frames = traceback.extract_tb(trace)
     found = own_bug(kind, error, frames)
     if found:
-        end(1, *found)
+        end(int(os.environ.get("ROBO47_NOT_YET", 1)), *found)
     chosen = os.environ.get("MUJOCO_GL")  # which MuJoCo reads when it is imported
     if chosen and any("gl_context" in frame.filename for frame in frames):
         says = "error: MuJoCo cannot use MUJOCO_GL={} here. Unset it: unset MUJOCO_GL"
         end(2, says.format(chosen))
     sys.__excepthook__(kind, error, trace)
+    if is_kits():
+        says = "This is a fault of the kit. Please report it, with the lines above."
+        end(CRASHED, says)
+
+
+def is_kits():
+    """Return whether one of the kit's own scripts is running, or a lab of the kit."""
+    script = getattr(sys.modules.get("__main__"), "__file__", None) or ""
+    folder = os.path.dirname(os.path.realpath(script))
+    above = os.path.realpath(ROOT)
+    own = folder == os.path.join(above, "scripts")
+    lab = os.path.basename(folder) == "src" and folder.startswith(above + os.sep)
+    return bool(script) and (own or lab)
 
 
 def own_bug(kind, error, frames):

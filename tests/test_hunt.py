@@ -3,6 +3,7 @@
 import ast
 import json
 import re
+from types import SimpleNamespace
 
 import make_hunters
 import pytest
@@ -10,6 +11,7 @@ from restored import Restored
 
 from conftest import copy_kit
 from labkit import log as metrics
+from labkit.commands import hunt
 from labkit.grade import hunts, hunts_page
 from labkit.grade.roster import find_students
 from labkit.hunt import case as cases
@@ -147,6 +149,46 @@ def test_a_hunted_capstone_has_the_weeks_functions_closed():
     text = closed_capstone(last, days_of(last.week), "capstone")
     ast.parse(text)
     assert text.count("def ") == text.count("return hunted(") + 1  # and main
+
+
+def test_a_mistyped_name_is_asked_for_again(tmp_path, monkeypatch, capsys):
+    day = find_day(4)
+    script = tmp_path / "day4_dynamics.py"
+    script.write_text(closed_lab(day), "utf-8")
+    answers = iter(["mas_matrix", "  ", "mass_matrix"])
+    monkeypatch.setattr("builtins.input", lambda question: next(answers))
+    case = SimpleNamespace(of_day=day, level=1, script=script)
+    assert hunt.suspected(case) == ""  # Enter alone still runs all of it
+    said = " ".join(capsys.readouterr().out.split())
+    assert said.startswith("'mas_matrix' is no function of this hunt: ")
+    assert "mass_matrix" in said
+    assert hunt.suspected(case) == "mass_matrix"
+    assert capsys.readouterr().out == ""
+
+
+def test_a_call_passes_lists_of_numbers_as_arrays_and_all_else_as_it_is(
+    tmp_path, capfd
+):
+    script = tmp_path / "hunted_lab.py"
+    script.write_text(
+        "import numpy as np\n"
+        "def twice(x, y=0):\n    return 2 * x + y\n"
+        "def kind(x):\n    return type(x).__name__\n"
+        "class Box:\n    def __init__(self, side):\n        self.side = side\n"
+    )
+    case = SimpleNamespace(script=script)
+    for text, said in (
+        ("twice([0.1, 2])", "[0.2 4. ]"),
+        ("twice(((1, 2), (3, 4)), y=[0, 1])", "[[2. 5.]\n [6. 9.]]"),
+        ("twice(3)", "6"),
+        ("kind([Box([1])])", "list"),
+        ("kind('ab')", "str"),
+        ("Box([1, 2]).side", "[1, 2]"),
+    ):
+        assert experiment.call(case, text) == 0
+        assert capfd.readouterr().out.strip() == said
+    assert experiment.call(case, "twice([1], [1, 2, 3], 4)") != 0
+    assert "it stops: TypeError" in capfd.readouterr().err
 
 
 @pytest.mark.kit

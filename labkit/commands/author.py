@@ -18,6 +18,7 @@ from collections.abc import Iterator
 from labkit.author import docstring, files, seen, student, week
 from labkit.base import cli, processes
 from labkit.commands import docs
+from labkit.judge.guard import LOUD
 from labkit.judge.row import rows_of
 from labkit.lesson import notebook
 from labkit.lesson.constants import TABLE_OF
@@ -219,6 +220,7 @@ def one_task(day: Day, task: Task) -> int:
 
 def main() -> int:
     """Look at a day."""
+    os.environ[LOUD] = "1"  # what stops in the checker is its author's to see
     parser = cli.parser(__doc__)
     parser.add_argument("day", type=cli.day, nargs="?", help="default: the kit's last")
     parser.add_argument("--fast", action="store_true", help="without its tests")

@@ -41,17 +41,17 @@ def chosen(week: Week, kit_only: bool) -> Any:
         return own_functions.capstone_of(week).library()
     with cli.busy("checking your functions"):
         own = own_functions.load(week)
-    print(f"yours: {len(own.yours)} of {own.total}")
-    calls = {
-        name for some in own_functions.capstone_of(week).USES.values() for name in some
-    }
-    driven = [name for name in own.yours if name in calls]
-    listed = ": " + ", ".join(driven) if 0 < len(driven) < MANY else ""
-    says = f"  of the {len(calls)} that it calls, {len(driven)} are yours{listed}"
-    print(cli.wrapped(says, "    "))
+    uses = own_functions.capstone_of(week).USES
+    called = {(day, name) for day, names in uses.items() for name in names}
+    theirs = [n for day, some in own.own.items() for n in some if (day, n) in called]
+    listed = ": " + ", ".join(theirs) if 0 < len(theirs) < MANY else ""
+    counted = own_functions.counted(uses, own.own)
+    says = f"{counted.own} of the {counted.of} functions that it calls are yours"
+    print(cli.wrapped(says + listed, "  "))
     reasons: dict[str, list[tuple[int, str]]] = {}
     for day, name, why in own.replaced:
-        reasons.setdefault(why, []).append((day, name))
+        if (day, name) in called:
+            reasons.setdefault(why, []).append((day, name))
     for why, some in reasons.items():
         names = [name for _, name in some]
         listed = ", ".join(names) if len(names) < FEW else f"{len(names)} functions"

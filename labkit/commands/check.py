@@ -53,12 +53,28 @@ def parse(arguments: Sequence[str] | None = None) -> argparse.Namespace:
 
 def check(day: Day, options: argparse.Namespace) -> int:
     """Check once, print the report and return the exit code."""
+    seed = secrets.randbits(32) if options.seed is None else options.seed
+    found = report_of(day, options, seed)
+    print(_printed(found, options, seed))
+    return cli.EXIT_OK if found.passed else cli.EXIT_FAILED
+
+
+def report_of(day: Day, options: argparse.Namespace, seed: int) -> "Report":
+    """Check once and return the report.
+
+    Args:
+        day: from its manifest.
+        options: as `parse` returns them.
+        seed: of the inputs that are drawn anew.
+
+    Raises:
+        Robo47Error: the day is not begun, or the file that is named is not there.
+    """
     script = options.file or day.work
     if not options.file:
         require_begun(day)
     elif not script.is_file():
         raise Robo47Error(f"{shown(script)} is not there")
-    seed = secrets.randbits(32) if options.seed is None else options.seed
     with cli.busy("checking"):
         warm = Process()  # it gets ready while MuJoCo is imported
         from labkit.check import memory
@@ -79,9 +95,7 @@ def check(day: Day, options: argparse.Namespace) -> int:
         from labkit.handin.deliverables import check_deliverables
 
         lab += check_deliverables(day, tasks_pass=done)
-    found = Report(day, results, lab)
-    print(_printed(found, options, seed))
-    return cli.EXIT_OK if found.passed else cli.EXIT_FAILED
+    return Report(day, results, lab)
 
 
 def _printed(found: "Report", options: argparse.Namespace, seed: int) -> str:

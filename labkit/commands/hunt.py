@@ -162,24 +162,38 @@ def suspect(case: Case, function: str, expected: str) -> None:
 
 
 def ask(case: Case) -> int:
-    """Ask whom one suspects and what one expects, then run."""
+    """Ask for the suspected function and for what it would show, then run."""
     tell(case)
     print(f"\n{HOW}")
     try:
-        function = typed(SUSPECT)
-        while "(" in function:
-            experiment.call(case, function)
-            function = typed(SUSPECT)
+        function = suspected(case)
         if not function:
             experiment.run(case)
             return cli.EXIT_OK
-        known(case, function)
         expected = typed(EXPECT)
     except EOFError:
         print()
         return cli.EXIT_OK
     suspect(case, function, expected)
     return cli.EXIT_OK
+
+
+def suspected(case: Case) -> str:
+    """Return the function that is named at last, "" for none; calls are made meanwhile.
+
+    A name that the script does not have is answered, and the question is asked again.
+    """
+    while function := typed(SUSPECT):
+        if "(" in function:
+            experiment.call(case, function)
+            continue
+        try:
+            known(case, function)
+        except Robo47Error as error:
+            print(cli.wrapped(str(error)))
+        else:
+            break
+    return function
 
 
 def typed(question: str) -> str:

@@ -82,4 +82,4 @@ def main() -> int:
         return run_quietly(command, day, number)
     if os.name == "nt":  # execv there returns to the shell before the script has ended
         return subprocess.run(command, check=False).returncode
-    os.execv(command[0], command)
+    cli.go_on_in(command)

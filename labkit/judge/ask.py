@@ -20,6 +20,7 @@ from labkit.base.exchange import Exchange, Path, Question, Reply
 from labkit.judge import fits
 from labkit.judge.answers import InTurn, Parts, gaps, own, parts
 from labkit.judge.draw import Draw, Edges
+from labkit.judge.guard import guarded
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
 from labkit.judge.miswritten import Miswritten, miswritten
@@ -36,6 +37,8 @@ FRESH, CHEAP_FRESH, CHEAP = 8, 32, 16  # few numbers cost little
 SECONDS = 10.0  # for all calls of a function, where its task does not say
 SLIPPING = 1.5  # seconds for which one slip after the other is made, ...
 SLIPS = 500  # ... and how many are, however slow the function is
+# What a row says of wrong answers, and what counts where that stops: it says nothing.
+HOOKS: dict[str, Any] = {"unnamed": None, "near_miss": None, "measured": ()}
 KNOWN = 20  # right answers of a function's that are kept: a class is asked the same
 
 
@@ -187,6 +190,9 @@ class Ask:
         """
         if (self.truth is None) == (self.accept is None):
             raise ValueError("an Ask has either truth or accept")
+        for name, otherwise in HOOKS.items():
+            if hook := getattr(self, name):
+                object.__setattr__(self, name, guarded(hook, otherwise))
         for held in self.held_out if self.accept else ():
             if held.mistaken is None:
                 raise Robo47Error(

@@ -8,6 +8,7 @@ from labkit.base.exchange import Exchange, Question
 from labkit.judge.answers import (
     Parts,
     difference,
+    gap,
     worst_part,
 )
 from labkit.judge.ask import Asked, HeldOut, right_answers
@@ -112,7 +113,7 @@ def _entry(kind: Kind, mine: Array, its: Array) -> tuple[str, str]:
         return "", f"is {_part(kind, mine)}, and {_part(kind, its)}"
     if mine.shape != its.shape:
         return "", f"has shape {mine.shape}, and {its.shape}"
-    apart = np.nan_to_num(np.abs(mine - its) / kind.scale, nan=np.inf)
+    apart = gap(mine, its) / kind.scale
     at = np.unravel_index(_furthest(apart), mine.shape)
     place = str([int(x) for x in at]) if at else ""
     if kind.whole:

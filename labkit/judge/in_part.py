@@ -112,6 +112,8 @@ def _given_by(ask: Ask, S: Parts, again: Parts) -> Any:
 
 def _differ(S: Parts, which: Any) -> bool:
     """Return whether answers to some calls are not all the same, nor 0."""
+    if len(which) < SOME:
+        return False
     some = [s[which].reshape(len(which), -1) for s in S]
     flat = np.concatenate(some, axis=1)
     flat = flat[flat.any(axis=1)]

@@ -21,6 +21,7 @@ from labkit.judge.ask import Robot
 from labkit.lesson import day_mujoco
 from labkit.lesson.day import NUMBERS, Day, Limits, days_before
 from labkit.lesson.own_files import SCRIPT
+from labkit.lesson.slips import other_packages
 from labkit.lesson.starter import function_lines
 from labkit.sandbox.inside import wire
 from labkit.sandbox.inside.fake_model import KINDS
@@ -230,9 +231,14 @@ def _code_of(script: File, added: str = "") -> dict[str, Any]:
     return {
         "file": script.name,
         "code": _text(script.read_bytes()),
+        "absent": sorted({name for path in {script, *own} for name in _absent(path)}),
         "added": added,
         "beside": {path.stem: _text(path.read_bytes()) for path in own},
     }
+
+
+def _absent(script: File) -> tuple[str, ...]:
+    return other_packages(script.read_text("utf-8", "replace"))
 
 
 def _text(code: bytes) -> str:

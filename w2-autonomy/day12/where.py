@@ -4,6 +4,7 @@ All that is said was tried: it is counted, over what is always asked and what is
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import compress
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -370,9 +371,14 @@ def _of_its_edge(asked: Sequence[Asked]) -> Finding | None:
     start = "Whether it is free: "
     if found := only(said, features, wrong):
         return Finding(found.slug, start + found.message)
+    # Of a world that only answers questions, nobody knows where its obstacles are.
+    shown = [isinstance(one.arguments[3], np.ndarray) for one in asked]
+    if any(one.wrong(2) for one, seen in zip(asked, shown, strict=True) if not seen):
+        return None
+    among = list(compress(asked, shown))
     edges = []
-    for one in asked:
+    for one in among:
         tree, _, _, world = one.arguments
         edges.append(features_of(tree[int(one.right[0])], one.right[1], world))
-    told = wrong_edges(edges, [(one.mine[2], one.right[2]) for one in asked])
+    told = wrong_edges(edges, [(one.mine[2], one.right[2]) for one in among])
     return told and Finding(told.slug, start + told.message)

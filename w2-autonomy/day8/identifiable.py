@@ -23,6 +23,8 @@ def of_what_counts(case: Case) -> Finding | None:
         case.arguments[0], ranks, case.T[0], conditions, strict=True
     ):
         s = np.linalg.svd(Y, compute_uv=False)
+        if not 0 <= n <= len(s):
+            return None  # it is no number of these values
         if n > right and s[int(n) - 1] < 1e-12 * s[0]:
             dust += 1
             continue

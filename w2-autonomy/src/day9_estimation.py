@@ -255,8 +255,9 @@ def tested(name: str, z: np.ndarray, qd: np.ndarray, q: float, R: float) -> dict
         "inside": np.mean(np.abs(off) < 1.96 * said["sigma"]),
     }
     verdict = "yes" if low < nis < high else "no"
-    print(f"  {name:20}{found['off']:8.4f}{found['sigma']:9.4f}{nis:8.3f}{verdict:>5}"
-          f"{found['whiteness']:z8.3f}{found['inside']:8.1%}")  # fmt: skip
+    print(f"  {name:20}{found['off']:8.4f} {found['sigma']:8.4f} {nis:7.3f}"
+          f" {verdict:>4} {found['whiteness']:z7.3f}"
+          f" {found['inside']:7.1%}")  # fmt: skip
     return found
 
 
