@@ -200,7 +200,8 @@ def _write(
                 continue  # git knows names that no folder has
             raise
         if size > largest:  # its size is all that is looked at
-            os.truncate(path, size)
+            # A header may claim more than any disk can hold.
+            os.truncate(path, min(size, largest + 1))
 
 
 @cache
