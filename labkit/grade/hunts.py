@@ -221,7 +221,7 @@ def _said(hunt: Hunt, files: Files) -> tuple[Case | None, str, str]:
 
 
 def _odd(
-    case: Case, said: Case, rows: Sequence[Mapping[str, str]], found: bool
+    case: Case, said: Case, rows: Sequence[Mapping[str, Any]], found: bool
 ) -> Iterator[str]:
     """Yield what a student's own word and the script do not agree on."""
     if said.marks and said.marks != case.marks:

@@ -200,8 +200,10 @@ def _write(
                 continue  # git knows names that no folder has
             raise
         if size > largest:  # its size is all that is looked at
-            # A header may claim more than any disk can hold.
-            os.truncate(path, min(size, largest + 1))
+            try:
+                os.truncate(path, size)
+            except (OSError, OverflowError):  # a claim that no disk can hold
+                os.truncate(path, largest + 1)
 
 
 @cache
