@@ -625,3 +625,63 @@ def test_work_that_is_not_committed_stays_so_where_nothing_is_new(kit, student):
     before = state(student)
     assert "nothing has changed" in update(student).stdout
     assert state(student) == before
+
+
+def test_a_retrospective_keeps_its_answers_where_the_kit_changes_the_same_line(
+    kit, student
+):
+    retro, blank = f"{WEEK}/docs/RETRO_w1.md", "*(your words)*"
+    assert blank in (student / retro).read_text("utf-8")
+    edit(student / retro, (blank, "I would measure first."))
+    edit(kit / retro, (blank, "*(your own words)*"))
+    git(kit, "commit", "-qam", "other words")
+    done = update(student)
+    assert done.returncode == 0, done.stderr
+    assert "I would measure first." in (student / retro).read_text("utf-8")
+    assert "is the kit's now" not in done.stdout
+    if "*(your own words)*" in (student / retro).read_text("utf-8"):
+        assert "your work is as it was" not in done.stdout
+
+
+def test_the_work_is_said_to_be_as_it_was_only_where_it_is(kit, student):
+    edit(kit / "CHANGELOG.md", ("Day 1 is there.", "Day 1 is here."))
+    git(kit, "commit", "-qam", "words")
+    assert "your work is as it was" in update(student).stdout
+    edit(student / SRC, ("TRIALS = 1_000 ", "TRIALS = 7 "))
+    edit(kit / SRC, ("TRIALS = 1_000 ", "TRIALS = 2_000 "))
+    git(kit, "commit", "-qam", "more trials")
+    said = update(student).stdout
+    assert "is the kit's now" in said
+    assert "your work is as it was" not in said
+
+
+@pytest.mark.parametrize("mark", ["--assume-unchanged", "--skip-worktree"])
+def test_a_file_that_git_was_told_to_overlook_is_merged_too(kit, student, mark):
+    git(student, "update-index", mark, SHEET)
+    edit(student / SHEET, ("A pose says", "A pose, I think, says"))
+    with (kit / SHEET).open("a") as file:
+        file.write("\n## More\n")
+    git(kit, "commit", "-qam", "a heading more")
+    done = update(student)
+    assert done.returncode == 0, done.stderr
+    text = (student / SHEET).read_text("utf-8")
+    assert "A pose, I think, says" in text
+    assert "## More" in text
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows asks for rights to link")
+def test_a_work_folder_behind_a_link_is_named_and_not_committed_as_deleted(
+    kit, student, tmp_path
+):
+    mid_term(kit)
+    work, real = (student / WORK).parent, tmp_path / "cloud"
+    work.rename(real)
+    work.symlink_to(real)
+    before = git(student, "rev-parse", "HEAD")
+    done = update(student)
+    work.unlink()
+    assert done.returncode == 2
+    assert f"{WEEK}/work is a symbolic link" in done.stderr
+    assert "Nothing of yours has changed." in done.stderr
+    assert git(student, "rev-parse", "HEAD") == before
+    assert (real / DAY.script).is_file()

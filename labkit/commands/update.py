@@ -20,6 +20,7 @@ from typing import Any
 
 from labkit.base import cli, processes, store
 from labkit.commands.start import free_name
+from labkit.lesson.students_own import is_students
 from labkit.update import git, last_step, merge
 from labkit.update.git import ask, beside, sweep
 from robo47.errors import Robo47Error
@@ -112,6 +113,14 @@ def kept_copies(days: list[dict[str, Any]]) -> Iterator[list[Path]]:
         raise
 
 
+def _of_the_work(files: list[str], taken: list[str]) -> str:
+    """Return what is true of the student's files after an update."""
+    changed = sorted(name for name in files if is_students(name))
+    if changed:
+        return f"; your lines are kept, beside new ones in: {', '.join(changed)}"
+    return "" if taken else "; your work is as it was"
+
+
 def tell(found: dict[str, Any], copies: list[Path], taken: list[str], own: str) -> None:
     """Say what is new and what to run again."""
     now = ask("describe", "--tags", "--always")
@@ -119,7 +128,7 @@ def tell(found: dict[str, Any], copies: list[Path], taken: list[str], own: str) 
     if not files:
         print("This is the kit's newest version; nothing has changed.")
         return
-    print(f"The kit is at {now} now; your work is as it was.")
+    print(f"The kit is at {now} now{_of_the_work(files.splitlines(), taken)}.")
     for line in found["changes"][:CHANGES]:
         print(f"  {line}")
     if len(found["changes"]) > CHANGES:

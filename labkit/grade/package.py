@@ -207,7 +207,10 @@ def _write(
                 continue  # git knows names that no folder has
             raise
         if size > largest:  # its size is all that is looked at
-            os.truncate(path, size)
+            try:
+                os.truncate(path, size)
+            except (OSError, OverflowError):  # a claim that no disk can hold
+                os.truncate(path, largest + 1)
 
 
 @cache
