@@ -84,7 +84,9 @@ def grade(package: Package, day: Day) -> Result:
     items = check_files(day, package.handin, tasks_pass=done)
     for one in lab:  # its numbers cannot be right: every class has the same columns
         items = [_with_lab(item, one) for item in items]
-    return _result(day, results, [*items, package.commit_item])
+    result = _result(day, results, [*items, package.commit_item])
+    told = "; ".join(filter(None, (package.clock, result.error)))
+    return replace(result, error=told)
 
 
 def _with_lab(item: Item, lab: Item) -> Item:
@@ -105,6 +107,10 @@ def _run(
     if name not in handin.files:
         start = f"{name} is not there. Begin with: make start DAY={day.number}"
         verdict = Verdict("todo", "not-started", start)
+        if package.clock:
+            verdict = Verdict(
+                "todo", "does-not-load", f"{name} is in no commit in time."
+            )
         if why := handin.unread.get(name):
             verdict = Verdict("todo", "does-not-load", f"{name} {why}.")
         return [TaskResult(task, verdict) for task in day.tasks], []
