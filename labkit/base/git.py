@@ -182,7 +182,7 @@ def before(clone: Path, moment: int, own: str) -> tuple[str, int]:
 
 
 def _pulled(git: Path | None, moment: int) -> list[str]:
-    """Return the last commit up to a moment, as pulled or by its own clock.
+    """Return the commits that `make grade` had pulled by a moment, the last last."""
     return [commit for time, commit in _pulls(git) if time <= moment]
 
 
