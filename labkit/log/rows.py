@@ -107,7 +107,8 @@ def _other_columns(lines: list[str], save: str) -> str:
         return f"It names none of the log's columns. {_BACK}. They are: {HEADER}"
     order = "Leave the rows under their own names: another line 1 would exchange them."
     if missing := [name for name in COLUMNS if name not in known]:
-        return f"The column {', '.join(missing)} is missing. {order} {_BACK}. All are: {HEADER}"
+        lost = ", ".join(missing)
+        return f"The column {lost} is missing. {order} {_BACK}. All are: {HEADER}"
     if len(names) > len(COLUMNS) or known != list(COLUMNS):
         what = "more columns" if len(names) > len(COLUMNS) else "them in another order"
         return (
