@@ -102,8 +102,8 @@ def back_project(
 def projection_jacobian(K: ArrayLike, p_cam: ArrayLike) -> Array:
     """Return how fast the pixels move per twist of what is seen.
 
-    d(pixel)/dp, f / z (1, 0, -x / z) and f / z (0, 1, -y / z), times dp = omega x p + v
-    = [-[p], 1] (omega; v).
+    d(pixel)/dp, fx / z (1, 0, -x / z) and fy / z (0, 1, -y / z), times dp = omega x p +
+    v = [-[p], 1] (omega; v).
 
     Args:
         K: camera matrix, pixels, (3, 3).

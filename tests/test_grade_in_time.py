@@ -440,3 +440,32 @@ def test_again_means_nobody_everybody_or_who_is_named(typed, asked, kept):
 def test_a_class_of_one_is_one_student(number, said):
     everybody = [Graded(Student("A", "a", Path()), result(4))] * number
     assert command.standings(Course(DAY, everybody)) == f"{said}{number} under way"
+
+
+def test_a_commit_that_was_pulled_in_time_is_in_time_whatever_its_clock_says(clone):
+    save(clone, "kits = 1", DEADLINE - 9 * HOUR)
+    pulled = save(clone, "right = 1", 2_050_000_000)
+    git(clone, "update-ref", f"refs/robo47/pulled/{DEADLINE - HOUR}", pulled)
+    save(clone, "late = 1", DEADLINE + HOUR)
+    package, text = collected(clone)
+    assert (text, package.commit, package.late) == ("right = 1", pulled, 1)
+    assert package.committed == DEADLINE - HOUR
+
+
+def test_a_commit_that_was_pulled_after_the_deadline_is_not(clone):
+    save(clone, "kits = 1", DEADLINE - 9 * HOUR)
+    late = save(clone, "right = 1", 2_050_000_000)
+    git(clone, "update-ref", f"refs/robo47/pulled/{DEADLINE + HOUR}", late)
+    assert collected(clone)[1] == "kits = 1"
+
+
+def test_a_commit_dated_later_than_now_is_named_and_is_not_called_not_started(clone):
+    from labkit.grade.child import grade
+
+    put(clone, {"README.md": "the kit's"})
+    commit(clone, DEADLINE - 9 * HOUR)
+    save(clone, "right = 1", 2_050_000_000)
+    package, _ = collected(clone)
+    result = grade(package, DAY)
+    assert "2034-12-17" in result.error
+    assert "not-started" not in {task.mistake for task in result.tasks}

@@ -685,3 +685,51 @@ def test_a_work_folder_behind_a_link_is_named_and_not_committed_as_deleted(
     assert "Nothing of yours has changed." in done.stderr
     assert git(student, "rev-parse", "HEAD") == before
     assert (real / DAY.script).is_file()
+
+
+def as_template(kit, place):
+    """Return a copy of the kit's files with a history of its own, as a template's."""
+    copy = place / "copy"
+    copytree(kit, copy, ignore=ignore_patterns(".git", "__pycache__", ".robo47"))
+    git(copy, "init", "-q")
+    return copy
+
+
+@pytest.mark.parametrize("edited", [False, True])
+def test_a_copy_of_a_template_gets_what_came_since_it_was_made(kit, edited):
+    copy = as_template(kit, kit.parent)
+    if edited:  # no commit of the kit has just these files
+        edit(copy / ".gitignore", (".robo47/\n", ".robo47/\n/own-notes/\n"))
+    commit(copy, "Initial commit")
+    began = git(kit, "rev-parse", "--short", "HEAD")
+    edit(kit / SRC, ("SEED = 47", "SEED = 48"))
+    commit(kit, "before the first update")
+    done = update(copy, "--from", kit)
+    assert done.returncode == 0, done.stdout + done.stderr
+    says = "is nearest to" if edited else "has the very files of"
+    assert f"Your copy {says} the kit's commit {began}" in done.stdout
+    assert "SEED = 48" in (copy / SRC).read_text("utf-8")
+    assert ("own-notes" in (copy / ".gitignore").read_text("utf-8")) == edited
+    again = update(copy)
+    assert "nothing has changed" in again.stdout
+    assert "Your copy" not in again.stdout
+
+
+def test_a_kit_with_a_rewritten_history_is_still_the_kit(kit, student):
+    git(kit, "commit", "-q", "--amend", "-m", "the kit, written anew")
+    edit(kit / SRC, ("SEED = 47", "SEED = 48"))
+    commit(kit, "after it")
+    done = update(student)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "has the very files of the kit's commit" in done.stdout
+    assert "SEED = 48" in (student / SRC).read_text("utf-8")
+    assert "my inverse" in (student / WORK).read_text("utf-8")
+
+
+def test_a_repository_that_is_not_the_kit_is_refused(kit, student, tmp_path):
+    (tmp_path / "other.txt").write_text("other\n")
+    git(tmp_path, "init", "-q")
+    commit(tmp_path, "another one")
+    done = update(student, "--from", tmp_path)
+    assert done.returncode != 0
+    assert "is another repository" in done.stderr

@@ -21,7 +21,7 @@ from typing import Any
 from labkit.base import cli, processes, store
 from labkit.commands.start import free_name
 from labkit.lesson.students_own import is_students
-from labkit.update import git, last_step, merge
+from labkit.update import base, git, last_step, merge
 from labkit.update.git import ask, beside, sweep
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
@@ -53,7 +53,7 @@ def main() -> int:
 
 def update(
     kit: str | None, to: str | None
-) -> tuple[dict[str, Any], list[Path], list[str], str]:
+) -> tuple[dict[str, Any], list[Path], list[str], str, str]:
     """Fetch, merge and take over; until the last step nothing of the student's moves.
 
     Args:
@@ -68,6 +68,7 @@ def update(
     own = merge.saved_own()
     copies = list[Path]()
     with cli.busy("merging"), beside(own) as worktree:
+        began = base.joined(worktree, own, commit)
         taken = merge.merge(worktree, commit)
         found = renew_labs(worktree, own, commit)
         if ask("status", "--porcelain", at=worktree):
@@ -77,7 +78,7 @@ def update(
         if ask("rev-parse", "HEAD", at=worktree) != own:
             with kept_copies(found["days"]) as copies:
                 last_step.take(worktree, own)
-    return found, copies, taken, own
+    return found, copies, taken, own, began
 
 
 def renew_labs(worktree: Path, own: str, target: str) -> dict[str, Any]:
@@ -121,8 +122,12 @@ def _of_the_work(files: list[str], taken: list[str]) -> str:
     return "" if taken else "; your work is as it was"
 
 
-def tell(found: dict[str, Any], copies: list[Path], taken: list[str], own: str) -> None:
-    """Say what is new and what to run again."""
+def tell(
+    found: dict[str, Any], copies: list[Path], taken: list[str], own: str, began: str
+) -> None:
+    """Say where the update started, what is new and what to run again."""
+    if began:
+        print(began)
     now = ask("describe", "--tags", "--always")
     files = ask("diff", "--name-only", own)
     if not files:

@@ -98,7 +98,9 @@ def grade(package: Package, day: Day) -> Result:
     items = check_files(day, package.handin, tasks_pass=done)
     for one in lab:  # its numbers cannot be right: every class has the same columns
         items = [_with_lab(item, one) for item in items]
-    return _result(day, results, [*items, package.commit_item])
+    result = _result(day, results, [*items, package.commit_item])
+    told = "; ".join(filter(None, (package.clock, result.error)))
+    return replace(result, error=told)
 
 
 def _with_lab(item: Item, lab: Item) -> Item:
@@ -122,6 +124,10 @@ def _run(
         if package.elsewhere:
             says = f"{name} is not there. {package.elsewhere}"
             verdict = Verdict("todo", ELSEWHERE, says)
+        elif package.clock:
+            verdict = Verdict(
+                "todo", "does-not-load", f"{name} is in no commit in time."
+            )
         if why := handin.unread.get(name):
             verdict = Verdict("todo", "does-not-load", f"{name} {why}.")
         return [TaskResult(task, verdict) for task in day.tasks], []

@@ -17,6 +17,7 @@ from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.fast.arm_state import as_one
 from robo47.fast.vectors import times
+from robo47.panda.acting import damper_bit, refuse_unknown
 from robo47.panda.loading import ARM_JOINTS
 from robo47.screws import screw_axis
 
@@ -163,18 +164,23 @@ def arm(model: mujoco.MjModel) -> Arm:
         fingers closed. It ends at `home_pose`.
 
     Raises:
-        Robo47Error: the model has no joint1 to joint7.
+        Robo47Error: the model has no joint1 to joint7, or something acts on them that
+            an `Arm` has no field for: a spring, friction, a fluid, a tendon, ...
     """
     joints = joint_ids(model)
     dofs = model.jnt_dofadr[joints]
+    refuse_unknown(model)
+    off = model.opt.disableflags
+    still = off & int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+    undamped = off & damper_bit()
     bare = Arm(
         screws(model),
         home_pose(model),
         _poses(model, model.jnt_bodyid[joints], _drawn(model)),
         *inertias(model),
         armature=model.dof_armature[dofs],
-        damping=model.dof_damping[dofs],
-        gravity=model.opt.gravity.copy(),
+        damping=model.dof_damping[dofs] * (0.0 if undamped else 1.0),
+        gravity=model.opt.gravity * (0.0 if still else 1.0),
     )
     return bare.carrying(*hand_inertia(model))
 

@@ -381,3 +381,11 @@ def test_axes_in_one_plane_are_as_likely_a_mirror_as_not_and_others_are_none():
     assert "as likely a mirror as not" in SENTENCES
     assert 0.4 < mirrored(0.0) < 0.6
     assert mirrored(1.0) == 0.0
+
+
+def test_the_lab_s_slopes_have_a_focal_length_of_their_own_for_each_row():
+    K = np.array([[300.0, 0, 10], [0, 250, 20], [0, 0, 1]])
+    rows = [[1.5, 303, 15, 150, 0, -15], [-250.625, -1.25, 25, 0, 125, 6.25]]
+    for slopes in (camera.projection_jacobian, lab.projection_jacobian):
+        off = slopes(K, np.array([[0.2, -0.1, 2.0]]))[0] - rows
+        assert np.abs(off).max() < 1e-12

@@ -87,11 +87,12 @@ def projection_jacobian(K: np.ndarray, p_cam: np.ndarray) -> np.ndarray:
     With 10.1's K at (0, 0, 2): v = (1, 0, 0) gives 25 px, omega = (0, 1, 0) gives 50.
     """
     # region 10.4
-    f = K[0, 0]
+    fx, fy = K[0, 0], K[1, 1]
     x, y, z = p_cam.T
     zero = np.zeros(len(p_cam))
     one = np.ones(len(p_cam))
-    by_point = f / z * np.array([[one, zero, -x / z], [zero, one, -y / z]])
+    of_u, of_v = fx * np.array([one, zero, -x / z]), fy * np.array([zero, one, -y / z])
+    by_point = np.array([of_u, of_v]) / z
     by_point = np.moveaxis(by_point, 2, 0)  # (n, 2, 3)
     return np.concatenate([-by_point @ skew(p_cam), by_point], axis=2)
     # endregion 10.4
