@@ -106,10 +106,12 @@ def test_the_autocorrelation_of_the_rounding_error_is_why_12_bits_differ():
         shared.append(np.mean([estimation.lag1_autocorrelation(e) for e in errors]))
     assert np.allclose(ratio, np.sqrt(1 - np.array(shared)), atol=0.025)
     words = re.search(
-        r"is ([^a-z]+ and [\d.]+), and measured / predicted is (.+?)\. A", SENTENCES
+        r"\$ is (.+?), so the factors should be (.+?) Measured / predicted is (.+?) A",
+        SENTENCES,
     )
-    for numbers, found in zip(words.groups(), (shared, ratio), strict=True):
-        assert np.allclose(numbers_in(numbers), found, atol=0.0055)
+    found = shared, np.sqrt(1 - np.array(shared)), ratio
+    for numbers, values in zip(words.groups(), found, strict=True):
+        assert np.allclose(numbers_in(numbers), values, atol=0.0055)
     assert f"prediction is {100 * (1 / ratio[2] - 1):.0f} % too large" in SENTENCES
 
 
