@@ -87,8 +87,7 @@ def delay_margin(kp: float, kd: float) -> float:
     400 1/s^2 and 40 1/s: 0.03237. Critically damped it is 0.6474 / omega.
     """
     # region 9.2
-    # The gain crossover frequency:
-    w = np.sqrt((kd**2 + np.sqrt(kd**4 + 4.0 * kp**2)) / 2.0)
+    w = np.sqrt((kd**2 + np.sqrt(kd**4 + 4.0 * kp**2)) / 2.0)  # gain crossover
     return np.arctan(kd * w / kp) / w  # phase lead over frequency
     # endregion 9.2
 
@@ -101,8 +100,7 @@ def low_pass(x: np.ndarray, dt: float, cutoff: float) -> np.ndarray:
     (0, 1, 1, 1) at 0.002 s through 20 Hz: (0, 0.22223, 0.39508, 0.52951).
     """
     # region 9.3
-    # The fraction of the difference that is gone after dt:
-    alpha = 1.0 - np.exp(-2.0 * np.pi * cutoff * dt)
+    alpha = 1.0 - np.exp(-2.0 * np.pi * cutoff * dt)  # fraction gone after dt
     y = [x[0]]  # no transient at the start
     for now in x[1:]:
         y.append(y[-1] + alpha * (now - y[-1]))  # a step towards the new sample
@@ -155,9 +153,9 @@ def kalman_update(
     # region 9.5
     y = z - H @ x  # the innovation
     S = H @ P @ H.T + R  # its covariance
-    inverse = np.linalg.inv(S)
+    inverse = np.linalg.inv(S)  # of the innovation's covariance
     K = P @ H.T @ inverse  # the Kalman gain
-    return x + K @ y, P - K @ S @ K.T, y @ inverse @ y
+    return x + K @ y, P - K @ S @ K.T, y @ inverse @ y  # and the NIS
     # endregion 9.5
 
 
@@ -172,7 +170,7 @@ def nis_interval(n: int, m: int) -> np.ndarray:
     # region 9.6
     c = 2.0 / (9.0 * n * m)  # the variance of the cube root of chi-square / (n m)
     off = 1.96 * np.sqrt(c)  # 95 % of a Gaussian
-    return m * np.array([1.0 - c - off, 1.0 - c + off]) ** 3
+    return m * np.array([1.0 - c - off, 1.0 - c + off]) ** 3  # without the cube root
     # endregion 9.6
 
 
@@ -184,7 +182,7 @@ def lag1_autocorrelation(y: np.ndarray) -> float:
     (1, -1, 1, -1): -0.75.
     """
     # region 9.7
-    y = y - np.mean(y)
+    y = y - np.mean(y)  # without the offset
     return y[1:] @ y[:-1] / (y @ y)  # products of neighbours over squares
     # endregion 9.7
 
@@ -200,7 +198,7 @@ def kinetic_energy_gradient(
     i to 7; seen from them, the twist V_i changes by -ad(S_i) V_i per radian. At rest 0.
     """
     # region 9.8
-    S = J_space.T
+    S = J_space.T  # the screw of each joint
     V = np.cumsum(S * qd[:, None], axis=0)  # the twist of each link
     momentum = (G @ V[:, :, None])[:, :, 0]  # of each link
     carried = np.cumsum(momentum[::-1], axis=0)[::-1]  # of link i and all distal to it
@@ -228,7 +226,7 @@ def momentum_observer_step(
     # region 9.9
     known = tau + energy_grad - gravity - damping * qd  # of the sample before
     integral = integral + (known + residual) * dt  # the residual is fed back
-    return gain * (momentum - integral), integral
+    return gain * (momentum - integral), integral  # the residual is what is left
     # endregion 9.9
 
 
