@@ -23,8 +23,8 @@ def _(rng):
     Some angles are small and one is beyond pi: the formula needs no case of its own.
     One angle comes with two axes, so that no cache can take it for the whole question.
     """
-    axes = [Z, *np.eye(3), Z, *[OBLIQUE] * 6, Z, *rng.units(6)]
-    angles = [np.pi / 2, 0.5, -1.2, 2.5, 3.3, 1e-4, -5e-3, 0.05, 0.099, 0.5, 9.5]
+    axes = [Z, *np.eye(3), Z, *[OBLIQUE] * 7, Z, *rng.units(6)]
+    angles = [np.pi / 2, 0.5, -1.2, 2.5, 3.3, 1e-4, 3e-7, -5e-3, 0.05, 0.099, 0.5, 9.5]
     angles += [-20.3, 0.0]
     angles += map(float, rng.numbers(-3, 3, 5))
     return zip(axes, angles, strict=True)

@@ -23,6 +23,7 @@ MOTIONS = (
     ((0, 0.6, 0.8, 0.3, -0.2, 0.5), 4.0),
     ((0, 0.6, -0.8, 0.1, 0.5, 0.4), 1e-4),
     ((0.6, 0, 0.8, -0.2, 0.4, 0.7), -5e-3),
+    ((0, 0.6, 0.8, 0.3, -0.2, 0.5), 3e-7),
 )
 # What does not show in an arm of plain hinges, or is a mistake in its angles there.
 NOT_OF_AN_ARM = (

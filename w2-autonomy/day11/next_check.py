@@ -32,6 +32,7 @@ def _(rng):
         (0.0, 3.0, half, half), (0.5, 0.0005, half, half), (0.5, -0.0005, half, half),
         (0.3, -0.05, np.zeros(7), half), (0.4, 0.0, np.zeros(7), half),
         (0.1, 0.02, np.full(7, -0.05), half), (0.3, 0.0001, 0.0002 * half, half),
+        (0.1, 0.7, half, half), (0.2, 1.1, 0.9 * np.ones(7), half),  # far, and not free
         *drawn,
     ]  # fmt: skip
 
