@@ -124,6 +124,11 @@ row.of_argument("theta", *OF_AN_ANGLE, SIGN_LOST, *SMALL_LEFT_OUT)
 row.reached_by("skew", "in [axis], ", but=["made-unit", "p-cross-w"])
 
 
+@row.close("rounded-somewhere")  # Public code: below a millionth there is no turn.
+def _(axis, theta):
+    return rodrigues(axis, theta if abs(theta) >= 1e-6 else 0.0)
+
+
 @row.close("rounded-somewhere")  # The series to the sixteenth term, within +-pi.
 def _(axis, theta):
     theta = np.remainder(theta + np.pi, 2.0 * np.pi) - np.pi

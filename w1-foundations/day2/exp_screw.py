@@ -210,6 +210,11 @@ def _(S, theta):
     return T
 
 
+@row.close("rounded-somewhere")  # Public code: below a millionth there is no motion.
+def _(S, theta):
+    return motion(S, theta if abs(theta) >= 1e-6 else 0.0)
+
+
 @row.close("rounded-somewhere")  # The velocity summed up in small steps.
 def _(S, theta):
     n = 2000

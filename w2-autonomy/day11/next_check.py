@@ -176,6 +176,16 @@ def _(s, distance, dq, reach):
     }  # fmt: skip
 
 
+@row.wrong
+def far_is_free(s, distance, dq, reach):
+    """far away, over half a metre, the rest of the way is taken for free; a long way
+    can use up any distance => 1 where the distance is over 0.5"""
+    if distance <= 0:
+        return s
+    speed = np.abs(dq) @ reach
+    return 1.0 if distance > 0.5 or not speed else min(1.0, s + distance / speed)
+
+
 row.same("first dq = np.abs(dq)", "it takes the size anyway")
 STILL = "return min(1.0, s + distance / speed) if speed > {} else 1.0"
 row.same(f"{STILL.format('0')} => {STILL.format('-0.001 + 0')}", "x / 0. is infinite")
