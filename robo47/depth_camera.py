@@ -42,7 +42,7 @@ def camera(
     return K, se3.make_T(R, data.cam_xpos[i])
 
 
-def middles(width: int, height: int) -> Array:
+def pixel_centres(width: int, height: int) -> Array:
     """Return the middle of every pixel, row by row from the top, (width height, 2)."""
     u, v = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)
     return np.column_stack([u.ravel(), v.ravel()])
@@ -69,7 +69,7 @@ def depth(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> Array:
     K, T_world_cam = camera(model, data, name)
     width, height = map(int, model.cam_resolution[_number(model, name)])
     n = width * height
-    through = np.column_stack([middles(width, height), np.ones(n)])
+    through = np.column_stack([pixel_centres(width, height), np.ones(n)])
     rays = np.linalg.solve(K, through.T).T @ T_world_cam[:3, :3].T
     hit = np.empty(n, np.int32)
     far = np.empty(n)
@@ -81,7 +81,7 @@ def depth(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> Array:
     return np.where(hit < 0, np.inf, far).reshape(height, width)
 
 
-def looking(at: Array, to: Array) -> Array:
+def look_at(at: Array, to: Array) -> Array:
     """Return the pose of a camera whose picture's top is up, (4, 4).
 
     Args:
@@ -107,7 +107,7 @@ def add(body, name: str, at: Array, to: Array, fovy: float, size: tuple[int, int
     Returns:
         The spec's camera.
     """
-    quat = se3.R_to_quat(looking(at, to)[:3, :3] @ FLIP)
+    quat = se3.R_to_quat(look_at(at, to)[:3, :3] @ FLIP)
     return body.add_camera(name=name, pos=at, quat=quat, fovy=fovy, resolution=size)
 
 

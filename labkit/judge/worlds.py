@@ -18,7 +18,7 @@ class _World:
 
 
 class Balls(_World):
-    """A world of balls, as the library's `disc_edge_free` has them."""
+    """A world of balls, as the library's `segment_free_of_discs` has them."""
 
     def __init__(self, rows: Any) -> None:
         """Take centre and radius of each, (m, k + 1)."""

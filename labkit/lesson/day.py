@@ -175,8 +175,8 @@ class Day:
     def module(self, name: str) -> ModuleType:
         """Return a file of its folder, imported by path: the machine names no day.
 
-        `w1-foundations/dayN/gains.py` becomes the module `lesson_dayN.gains`; files of
-        one day import each other as `from .mistakes import ...`.
+        `w1-foundations/dayN/pd_gains.py` becomes the module `lesson_dayN.pd_gains`;
+        files of one day import each other as `from .mistakes import ...`.
 
         Raises:
             Robo47Error: it has no such file, or that stops while it is loaded.

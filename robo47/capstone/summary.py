@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from robo47 import scenes, se3
-from robo47.attempt import Block, Film, Told
+from robo47.attempt import Block, Film, Summary
 from robo47.capstone.phases import Result
 from robo47.checks import Array
 
@@ -30,13 +30,13 @@ def row(name: str, result: Result) -> str:
     )
 
 
-def told(result: Result) -> Told:
+def summary(result: Result) -> Summary:
     """Return what is said of a result besides."""
     lift = [
         f"lifted {1000 * result.lift:.0f} mm; this grip can lift, as predicted,",
         f"  {result.heaviest:.3f} kg; the cube has {scenes.CUBE_MASS:.3f} kg",
     ]
-    return Told(
+    return Summary(
         before=phase_lines(result.phases, result.seconds),
         after=lift,
         number=f"{result.place_mm:.1f} mm",

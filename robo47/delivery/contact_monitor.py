@@ -13,7 +13,7 @@ GAIN = 40.0  # 1/s: a push is felt to 63 % after 25 ms
 THRESHOLD = 0.35  # N m, of any joint
 
 
-class Watch:
+class ContactMonitor:
     """The torque that nobody commanded, sample by sample.
 
     Attributes:
@@ -43,11 +43,11 @@ class Watch:
         if self.integral is None:
             self.integral = p
         else:
-            self.residual, self.integral = self.fns.observer_step(
+            self.residual, self.integral = self.fns.momentum_observer_step(
                 self.residual, self.integral, p, *self.known, GAIN, self.dt
             )
         self.worst = max(self.worst, float(np.abs(self.residual).max()))
-        link = int(self.fns.pushed_link(self.residual, THRESHOLD))
+        link = int(self.fns.contact_link(self.residual, THRESHOLD))
         if link and not self.link:
             self.link = link
         return link

@@ -20,17 +20,17 @@ STEP = 0.6  # rad, the longest edge of a tree
 SAMPLES = 400  # before the planner gives up
 CUTS = 60  # shortcuts that are tried
 SEED = 12  # of samples and shortcuts
-LEAST = 1e-3  # share of an edge between two looks: next_check stands still at a touch
-LOOKS = 2000  # at one edge; over that next_check does not get on
+LEAST = 1e-3  # share of an edge between two looks: at a touch the step is 0
+LOOKS = 2000  # at one edge; over that conservative_advance does not get on
 INSIDE = {  # what to look at where an end of a way lies there
-    "start": "The way before led into it: are next_check (task 11.8) and rrt_connect"
-    " (task 12.4) right?",
+    "start": "The way before led into it: are conservative_advance (task 11.8) and"
+    " rrt_connect (task 12.4) right?",
     "goal": "Is the cube where it was seen: are camera_matrix (task 10.1), back_project"
     " (task 10.3) and icp_step (task 10.9) right?",
 }
 
 
-class Ways:
+class PathPlanner:
     """A planner for the arm among the table and the wall.
 
     Attributes:
@@ -43,7 +43,8 @@ class Ways:
         """Read the arm's shapes.
 
         Args:
-            fns: has `reaches`, `next_check`, `rrt_connect` and `shortcut`.
+            fns: has `distal_radii`, `conservative_advance`, `rrt_connect` and
+                `shortcut`.
             model: the scene.
             wall: whether there is one.
             hand: False: the hand is forgotten.
@@ -56,7 +57,7 @@ class Ways:
         cube = Capsule(7, at, at, np.sqrt(3.0) * scenes.CUBE_HALF)
         known = [one for one in capsules_of(model) if hand or one.link < 7]
         self.shape = Shape(model, [*known, cube] if hand else known)
-        self.reach = fns.reaches(*self.shape.lengths)
+        self.reach = fns.distal_radii(*self.shape.lengths)
         self.limits, _ = simulate.limits(model)
         self.rng = np.random.default_rng(SEED)
         self.looks = 0
@@ -65,7 +66,7 @@ class Ways:
         """Return whether the straight way from a to b keeps its margin, (7,) each.
 
         Raises:
-            Robo47Error: next_check does not get on.
+            Robo47Error: conservative_advance does not get on.
         """
         s = 0.0
         for _ in range(LOOKS):
@@ -75,10 +76,10 @@ class Ways:
                 return False
             if s >= 1.0:
                 return True
-            ahead = float(self.fns.next_check(s, free, b - a, self.reach))
+            ahead = float(self.fns.conservative_advance(s, free, b - a, self.reach))
             s = min(1.0, max(ahead, s + LEAST))
         raise Robo47Error(
-            f"after {LOOKS} looks at one way next_check (task 11.8) is at {s:.3g}"
+            f"after {LOOKS} looks conservative_advance (task 11.8) is at {s:.3g}"
         )
 
     def find(self, a: Array, b: Array) -> Array:

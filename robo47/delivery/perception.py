@@ -8,7 +8,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from robo47 import eye, scenes, se3
+from robo47 import depth_camera, scenes, se3
 from robo47.checks import Array
 from robo47.delivery import scene
 from robo47.errors import Robo47Error
@@ -77,12 +77,14 @@ def _cloud(
     fns: Any, model: mujoco.MjModel, data: mujoco.MjData, noise: float, seed: int
 ) -> Array:
     """Return the world's points of all pixels that meet something, (n, 3)."""
-    far = eye.depth(model, data, "eye").ravel()
+    far = depth_camera.depth(model, data, "eye").ravel()
     far = far + noise * np.random.default_rng(seed).normal(size=far.shape)
     hit = np.isfinite(far)
     K = fns.camera_matrix(np.deg2rad(scene.FOVY), *scene.PIXELS)
-    _, T_world_cam = eye.camera(model, data, "eye")
-    return fns.back_project(K, T_world_cam, eye.middles(*scene.PIXELS)[hit], far[hit])
+    _, T_world_cam = depth_camera.camera(model, data, "eye")
+    return fns.back_project(
+        K, T_world_cam, depth_camera.pixel_centres(*scene.PIXELS)[hit], far[hit]
+    )
 
 
 def _on_table(cloud: Array) -> Array:

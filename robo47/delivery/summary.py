@@ -3,13 +3,13 @@
 Units: metres and seconds, in sentences millimetres, grams and milliseconds.
 """
 
-from robo47 import eye, scenes, se3
-from robo47.attempt import Block, Film, Told
-from robo47.capstone.told import ARM, CUBE, TABLE, phase_lines
+from robo47 import depth_camera, scenes, se3
+from robo47.attempt import Block, Film, Summary
+from robo47.capstone.summary import ARM, CUBE, TABLE, phase_lines
 from robo47.checks import Array
 from robo47.delivery import scene
+from robo47.delivery.contact_monitor import THRESHOLD
 from robo47.delivery.result import Result
-from robo47.delivery.watching import THRESHOLD
 
 HEAD = f"""
 {"":26}{"seen":>7}{"weighed":>9}{"speed":>7}{"clear":>8}{"felt":>7}{"place":>8}
@@ -26,17 +26,17 @@ def row(name: str, result: Result) -> str:
     return line + ("   stops" if result.stopped else f"{result.place_mm:8.1f}")
 
 
-def told(result: Result) -> Told:
+def summary(result: Result) -> Summary:
     """Return what is said of a result besides."""
     after = [f"the planner asked for {result.looks:,} distances"]
     if result.stopped:
         after.append(f"it stopped: {result.stopped}")
     if result.pushed:
-        felt = f"link {result.pushed_link} feels it after {result.noticed_ms:.0f} ms"
+        felt = f"link {result.contact_link} feels it after {result.noticed_ms:.0f} ms"
         felt = felt if result.noticed_ms > 0.0 else "nothing is felt"
         after.append(f"pushed by 10 N in a second carry: {felt}")
     came = "The arm finds a cube that nobody told it about, weighs it and puts it down"
-    return Told(
+    return Summary(
         before=phase_lines(result.phases, result.seconds),
         after=after,
         number=f"{result.grams:.1f} g",
@@ -105,6 +105,6 @@ def _blocks(qpos: Array) -> list[Block]:
     still = zip(scene.boxes(), (TABLE, WALL), strict=True)
     return [
         *[Block(T, tuple(half), colour) for (T, half), colour in still],
-        Block(eye.looking(scene.EYE_AT, scene.EYE_TO), scene.EYE_HALF, EYE),
+        Block(depth_camera.look_at(scene.EYE_AT, scene.EYE_TO), scene.EYE_HALF, EYE),
         Block(cube, (scenes.CUBE_HALF,) * 3, CUBE),
     ]

@@ -35,7 +35,7 @@ class Inertias(NamedTuple):
         """Return the same bodies, the last one with a load that carry makes part of it.
 
         Args:
-            carry: as `robo47.lifting.carry`.
+            carry: as `robo47.lifting.combine_bodies`.
             load: mass, com (3,) and inertia (3, 3) in the last body's frame and axes.
         """
         masses, coms, inertias = (part.copy() for part in self)
@@ -139,7 +139,7 @@ def hand_inertia(
         Robo47Error: the model has no joint1 to joint7.
     """
     link7 = int(model.jnt_bodyid[joint_ids(model)[-1]])
-    bodies = [b for b in range(model.nbody) if hangs_on(model, b, link7)]
+    bodies = [b for b in range(model.nbody) if is_descendant(model, b, link7)]
     q = _drawn(model)
     q[model.jnt_qposadr[np.isin(model.jnt_bodyid, bodies)]] = opening
     T_world_link7, *T_world = _poses(model, [link7, *bodies], q)
@@ -193,7 +193,7 @@ def _about_coms(model: mujoco.MjModel, bodies: list[int]) -> Array:
     return (R * model.body_inertia[bodies][:, None, :]) @ np.swapaxes(R, -1, -2)
 
 
-def hangs_on(model: mujoco.MjModel, body: int, ancestor: int) -> bool:
+def is_descendant(model: mujoco.MjModel, body: int, ancestor: int) -> bool:
     """Return whether a body hangs on another one, however far out."""
     parent = int(model.body_parentid[body])
     while parent > ancestor:  # MuJoCo numbers parents before their children

@@ -1,4 +1,4 @@
-"""1.7 `predict_order(T_world_ee, T_extra)`: its questions and its mistakes."""
+"""1.7 `translations_both_orders(T_world_ee, T_extra)`: questions, mistakes."""
 
 import numpy as np
 
@@ -34,11 +34,11 @@ def right(R_a, t_a, R_b, t_b):
 def both(half, other=None):
     """Return the function that predicts each order with a half of its own."""
 
-    def predict_order(T_world_ee, T_extra):
+    def translations_both_orders(T_world_ee, T_extra):
         ee, extra = split(T_world_ee), split(T_extra)
         return np.array([half(*ee, *extra), (other or half)(*extra, *ee)])
 
-    return predict_order
+    return translations_both_orders
 
 
 row = Row(

@@ -1,4 +1,4 @@
-"""3.8 `null_step(J, dq)`: its questions and its mistakes."""
+"""3.8 `nullspace_projection(J, dq)`: its questions and its mistakes."""
 
 import numpy as np
 

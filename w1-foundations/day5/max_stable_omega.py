@@ -1,4 +1,4 @@
-"""5.9 `stiffest_omega(h)`: its questions and its mistakes."""
+"""5.9 `max_stable_omega(h)`: its questions and its mistakes."""
 
 import numpy as np
 

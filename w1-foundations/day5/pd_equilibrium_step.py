@@ -1,4 +1,4 @@
-"""5.4 `sag_step(q_goal, g_at_q, kp)`: its questions and its mistakes."""
+"""5.4 `pd_equilibrium_step(q_goal, g_at_q, kp)`: its questions and its mistakes."""
 
 import numpy as np
 

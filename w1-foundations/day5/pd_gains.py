@@ -1,4 +1,4 @@
-"""5.2 `gains(omega, zeta)`: its questions and its mistakes."""
+"""5.2 `pd_gains(omega, zeta)`: its questions and its mistakes."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""6.2 `site_bias(J_space, qd, p)`: its questions and its mistakes."""
+"""6.2 `bias_acceleration(J_space, qd, p)`: its questions and its mistakes."""
 
 from collections.abc import Callable
 from functools import partial

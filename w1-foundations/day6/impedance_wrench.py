@@ -1,4 +1,4 @@
-"""6.5 `spring_wrench(e, V_err, K, D)`: its questions and its mistakes."""
+"""6.5 `impedance_wrench(e, V_err, K, D)`: its questions and its mistakes."""
 
 import numpy as np
 

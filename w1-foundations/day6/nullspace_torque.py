@@ -1,4 +1,4 @@
-"""6.4 `null_torque(J_site, M, Lambda, tau)`: its questions and its mistakes."""
+"""6.4 `nullspace_torque(J_site, M, Lambda, tau)`: its questions and its mistakes."""
 
 import numpy as np
 

@@ -1,9 +1,9 @@
-"""7.8 `carry(m1, c1, I1, m2, c2, I2)`: its questions and its mistakes."""
+"""7.8 `combine_bodies(m1, c1, I1, m2, c2, I2)`: its questions and its mistakes."""
 
 import numpy as np
 
 from labkit.judge import Row, Vector, rounded
-from robo47.lifting import carry
+from robo47.lifting import combine_bodies
 
 TEN = ("the mass", "x", "y", "z", "xx", "yy", "zz", "xy", "xz", "yz")
 
@@ -134,13 +134,13 @@ def _(m1, c1, I1, m2, c2, I2):
     mass-of-the-first: the mass is that of the first body alone
     inertia-of-one: the first body's own inertia I1 is missing => the answer without I1
     """
-    right = carry(m1, c1, I1, m2, c2, I2)
+    right = combine_bodies(m1, c1, I1, m2, c2, I2)
     return {
         "by-rows": right[[0, 1, 2, 3, 4, 7, 8, 5, 9, 6]],
         "xy-last": right[[0, 1, 2, 3, 4, 5, 6, 9, 8, 7]],
         "products-negated": right * [1, 1, 1, 1, 1, 1, 1, -1, -1, -1],
         "mass-of-the-first": np.append(m1, right[1:]),
-        "inertia-of-one": carry(m1, c1, 0.0 * I1, m2, c2, I2),
+        "inertia-of-one": combine_bodies(m1, c1, 0.0 * I1, m2, c2, I2),
     }
 
 
@@ -154,7 +154,7 @@ def _(m1, c1, I1, m2, c2, I2):
 
 @row.close("rounded")  # To six digits.
 def _(m1, c1, I1, m2, c2, I2):
-    return np.round(carry(m1, c1, I1, m2, c2, I2), 6)
+    return np.round(combine_bodies(m1, c1, I1, m2, c2, I2), 6)
 
 
 row.at_least_0(m1="a mass", m2="a mass")

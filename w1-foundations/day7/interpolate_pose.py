@@ -1,4 +1,4 @@
-"""7.6 `straight_pose(T0, T1, s)`: its questions and its mistakes."""
+"""7.6 `interpolate_pose(T0, T1, s)`: its questions and its mistakes."""
 
 from functools import partial
 
@@ -8,7 +8,7 @@ from labkit.judge import Pose, Row
 from robo47 import se3
 from robo47.jacobian import log_rotation
 from robo47.screws import exp_rotation, exp_screw, skew
-from robo47.trajectory import straight_pose
+from robo47.trajectory import interpolate_pose
 
 from .turns import TURNS
 
@@ -97,7 +97,7 @@ def _(T0, T1, s):
         "not-turned": lambda: R0,
         "turned-at-once": lambda: R1,
         "whole-turn": lambda: R0 @ exp(log_rotation(R0.T @ R1)),
-        "transposed": lambda: straight_pose(T0, T1, s)[:3, :3].T,
+        "transposed": lambda: interpolate_pose(T0, T1, s)[:3, :3].T,
     }
     return {slug: partial(line, T0, T1, s, turn) for slug, turn in turns.items()}
 
@@ -128,7 +128,7 @@ def _(T0, T1, s):
     backwards: it goes from the last pose to the first => the way back
     """
     p0, p1 = T0[:3, 3], T1[:3, 3]
-    right = straight_pose(T0, T1, s)
+    right = interpolate_pose(T0, T1, s)
     places = {
         "way-in-the-first-frame": p0 + s * T0[:3, :3] @ (p1 - p0),
         "start-place-forgotten": s * (p1 - p0),
@@ -136,7 +136,7 @@ def _(T0, T1, s):
         "not-moved": p0,
     }
     found = {slug: se3.make_T(right[:3, :3], p) for slug, p in places.items()}
-    return {**found, "backwards": straight_pose(T1, T0, s)}
+    return {**found, "backwards": interpolate_pose(T1, T0, s)}
 
 
 @row.right  # Slerp of quaternions.
@@ -150,7 +150,7 @@ def _(T0, T1, s):
 
 @row.close("float32")  # Single precision at the end.
 def _(T0, T1, s):
-    return straight_pose(T0, T1, s).astype(np.float32)
+    return interpolate_pose(T0, T1, s).astype(np.float32)
 
 
 row.at_least_0(s="a share of the way, from 0 to 1")

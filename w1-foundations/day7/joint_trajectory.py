@@ -1,4 +1,4 @@
-"""7.3 `joint_move(q0, q1, t, duration)`: its questions and its mistakes."""
+"""7.3 `joint_trajectory(q0, q1, t, duration)`: its questions and its mistakes."""
 
 import numpy as np
 

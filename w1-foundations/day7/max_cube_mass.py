@@ -1,4 +1,4 @@
-"""7.9 `heaviest_cube(grip, mu, acceleration)`: its questions and its mistakes."""
+"""7.9 `max_cube_mass(grip, mu, acceleration)`: its questions and its mistakes."""
 
 import numpy as np
 

@@ -1,9 +1,9 @@
-"""7.4 `trapezoid(t, L, v, a)`: its questions and its mistakes."""
+"""7.4 `trapezoidal_profile(t, L, v, a)`: its questions and its mistakes."""
 
 import numpy as np
 
 from labkit.judge import Row, Vector
-from robo47.trajectory import trapezoid
+from robo47.trajectory import trapezoidal_profile
 
 
 def between_ends(t, L, v, a):
@@ -134,7 +134,7 @@ def _(t, L, v, a):
         "ramps-way-forgotten": -behind,
         "ramp-at-full-speed": behind,
     }
-    right = trapezoid(t, L, v, a)
+    right = trapezoidal_profile(t, L, v, a)
     return {slug: right + np.array([way, 0.0, 0.0]) for slug, way in farther.items()}
 
 
@@ -153,7 +153,7 @@ def _(t, L, v, a):
     """
     top, ramp, T = timing(L, v, a)
     left = T - t
-    right = trapezoid(t, L, v, a)
+    right = trapezoidal_profile(t, L, v, a)
     up = np.array([a * t**2 / 2, a * t, a])
     down = np.array([L - a * left**2 / 2, a * left, -a])
     stops = down if left <= 0 else right

@@ -1,10 +1,10 @@
-"""10.6 `moved(T, xi)`: its questions and its mistakes."""
+"""10.6 `apply_twist(T, xi)`: its questions and its mistakes."""
 
 import numpy as np
 
 from labkit.judge import Pose, Row, rounded
 from labkit.judge.argument_mistakes import Change
-from robo47.camera import moved
+from robo47.camera import apply_twist
 from robo47.screws import skew
 
 from .seen import HALF
@@ -27,7 +27,7 @@ def _(rng):
 
 def exp_of(xi):
     """Return exp([xi])."""
-    return moved(np.eye(4), xi)
+    return apply_twist(np.eye(4), xi)
 
 
 @row.wrongs

@@ -1,12 +1,12 @@
-"""11.6 `overlaps(A, B)`: its questions and its mistakes."""
+"""11.6 `aabb_overlap(box_a, box_b)`: its questions and its mistakes."""
 
 import numpy as np
 
 from labkit.judge import Mask, Row, rounded
 
-from . import where_boxes
+from . import localise_boxes
 
-row = Row(Mask(), unnamed=where_boxes.both, before_slips=False)
+row = Row(Mask(), unnamed=localise_boxes.both, before_slips=False)
 
 
 def beside(rng, gaps):
@@ -14,8 +14,8 @@ def beside(rng, gaps):
     gaps = np.array(gaps, dtype=np.float64)
     low, sizes, others = rng.numbers(-1, 1, 3), *rng.numbers(0.5, 1.5, 2, 3)
     start = rounded(np.where(gaps > 0, low + sizes + gaps, low - gaps))
-    A = rounded(np.array([low, low + sizes]))
-    return A, rounded(np.array([start, start + others]))
+    box_a = rounded(np.array([low, low + sizes]))
+    return box_a, rounded(np.array([start, start + others]))
 
 
 @row.inputs
@@ -38,19 +38,19 @@ def _(rng):
     for gaps in ((0.2, 0, 0), (0, 0.2, 0), (0, 0, 0.2), (0.2, 0.3, 0), (0.1, 0.1, 0.2),
                  (0, 0.3, 0.2), (-0.2, -0.1, -0.3), (-0.1, -0.2, -0.1),
                  (0, -0.1, -0.2)):  # fmt: skip
-        A, B = beside(rng, gaps)
-        drawn += [(A, B), (B, A)]
+        box_a, box_b = beside(rng, gaps)
+        drawn += [(box_a, box_b), (box_b, box_a)]
     return [*first, *drawn]
 
 
 @row.wrongs(hidden={"nearly-touching": "no two boxes are hardly apart in a run"})
-def _(A, B):
+def _(box_a, box_b):
     """any-for-all: one axis is enough for it; boxes overlap only where they do on all
       three => any for all
-    one-direction: only one of the two comparisons is made: B may lie below A as well as
-      above => A[0] <= B[1] alone
-    one-direction 2: only one of the two comparisons is made: B may lie above A as well
-      as below => B[0] <= A[1] alone
+    one-direction: only one of the two comparisons is made: box_b may lie below box_a as
+      well as above => box_a[0] <= box_b[1] alone
+    one-direction 2: only one of the two comparisons is made: box_b may lie above box_a
+      as well as below => box_b[0] <= box_a[1] alone
     touching-left-out: what only touches counts as apart; it is to overlap => with <
     touching-left-out 2: what only touches counts as apart on one side; it is to overlap
       => with one <
@@ -59,20 +59,23 @@ def _(A, B):
     negated: it is the other way round: True is for those that overlap
     first-axis-only: only x is compared
     two-axes-only: z is not compared
-    contained: A has to lie inside B, or B in A; it is enough to overlap
-    contained 2: B has to lie inside A; it is enough to overlap
-    contained 3: A has to lie inside B; it is enough to overlap
-    a-corner-inside: B's least or greatest corner has to lie in A; boxes may cross
-      without
-    a-corner-inside 2: B's least corner has to lie in A; it may lie below A's
-    a-corner-inside 3: B's greatest corner has to lie in A; it may lie above A's
-    middles-inside: A's middle has to lie in B
+    contained: box_a has to lie inside box_b, or box_b in box_a; it is enough to overlap
+    contained 2: box_b has to lie inside box_a; it is enough to overlap
+    contained 3: box_a has to lie inside box_b; it is enough to overlap
+    a-corner-inside: box_b's least or greatest corner has to lie in box_a; boxes may
+      cross without
+    a-corner-inside 2: box_b's least corner has to lie in box_a; it may lie below
+      box_a's
+    a-corner-inside 3: box_b's greatest corner has to lie in box_a; it may lie above
+      box_a's
+    middles-inside: box_a's middle has to lie in box_b
     middles-inside 2: one box's middle has to lie in the other; boxes overlap by less
-    half-of-one: the middles may be as far apart as half of A; half of B counts, too
+    half-of-one: the middles may be as far apart as half of box_a; half of box_b counts,
+      too
     corners-only: some corner of one has to lie in the other; boxes may cross without =>
       all 8 corners of both
-    corners-only 2: some corner of B has to lie in A, so on each axis one of its ends;
-      boxes may cross, or B hold A, without => all 8 corners of B
+    corners-only 2: some corner of box_b has to lie in box_a, so on each axis one of its
+      ends; boxes may cross, or box_b hold box_a, without => all 8 corners of box_b
     corners-only 3: a least or greatest corner has to lie in the other box; boxes may
       overlap without => two corners of each
     corners-only 4: the least corner of one has to lie in the other; boxes may overlap
@@ -101,31 +104,31 @@ def _(A, B):
     always: it is always True
     never: it is always False
     """
-    low, high = A[0] <= B[1], B[0] <= A[1]
+    low, high = box_a[0] <= box_b[1], box_b[0] <= box_a[1]
     both = low & high
 
     def inside(p, X):
         return bool(np.all((X[0] <= p) & (p <= X[1])))
 
-    holds = (A[0] <= B[0]) & (B[1] <= A[1])
-    held = (B[0] <= A[0]) & (A[1] <= B[1])
-    share = np.minimum(A[1], B[1]) - np.maximum(A[0], B[0])
-    apart = np.abs(A.mean(axis=0) - B.mean(axis=0))
-    sides = A[1] - A[0], B[1] - B[0]
+    holds = (box_a[0] <= box_b[0]) & (box_b[1] <= box_a[1])
+    held = (box_b[0] <= box_a[0]) & (box_a[1] <= box_b[1])
+    share = np.minimum(box_a[1], box_b[1]) - np.maximum(box_a[0], box_b[0])
+    apart = np.abs(box_a.mean(axis=0) - box_b.mean(axis=0))
+    sides = box_a[1] - box_a[0], box_b[1] - box_b[0]
 
     def corners(X, Y):
         ends = (np.where(which, Y[1], Y[0]) for which in np.ndindex(2, 2, 2))
         return any(inside(corner, X) for corner in ends)
 
     def two():
-        return [inside(c, X) for X, Y in ((A, B), (B, A)) for c in Y]
+        return [inside(c, X) for X, Y in ((box_a, box_b), (box_b, box_a)) for c in Y]
 
     def balls(of):
         return bool(np.linalg.norm(apart) <= (of(sides[0]) + of(sides[1])) / 2)
 
     return {
-        "corners-only": lambda: corners(A, B) or corners(B, A),
-        "corners-only 2": lambda: corners(A, B),
+        "corners-only": lambda: corners(box_a, box_b) or corners(box_b, box_a),
+        "corners-only 2": lambda: corners(box_a, box_b),
         "corners-only 3": lambda: any(two()),
         "corners-only 4": lambda: two()[0] or two()[2],
         "balls": lambda: balls(np.linalg.norm),
@@ -142,28 +145,33 @@ def _(A, B):
         "volume": lambda: bool(np.prod(share) > 0),
         "volume 2": lambda: bool(np.prod(share) >= 0),
         "sum-of-overlaps": lambda: bool(share.sum() >= 0),
-        "a-corner-inside 3": lambda: inside(B[1], A),
+        "a-corner-inside 3": lambda: inside(box_b[1], box_a),
         "nearly-touching": lambda: bool(share.min() >= -0.01),
         "any-for-all": lambda: bool(both.any()),
         "one-direction": lambda: bool(low.all()),
         "one-direction 2": lambda: bool(high.all()),
-        "touching-left-out": lambda: bool(np.all((A[0] < B[1]) & (B[0] < A[1]))),
-        "touching-left-out 2": lambda: bool(low.all() and np.all(B[0] < A[1])),
-        "touching-left-out 3": lambda: bool(high.all() and np.all(A[0] < B[1])),
+        "touching-left-out": lambda: bool(
+            np.all((box_a[0] < box_b[1]) & (box_b[0] < box_a[1]))
+        ),
+        "touching-left-out 2": lambda: bool(low.all() and np.all(box_b[0] < box_a[1])),
+        "touching-left-out 3": lambda: bool(high.all() and np.all(box_a[0] < box_b[1])),
         "negated": lambda: not both.all(),
         "first-axis-only": lambda: bool(both[0]),
         "two-axes-only": lambda: bool(both[:2].all()),
         "contained": lambda: bool(holds.all() or held.all()),
         "contained 2": lambda: bool(holds.all()),
         "contained 3": lambda: bool(held.all()),
-        "a-corner-inside": lambda: inside(B[0], A) or inside(B[1], A),
-        "a-corner-inside 2": lambda: inside(B[0], A),
-        "middles-inside": lambda: inside(A.mean(axis=0), B),
+        "a-corner-inside": lambda: inside(box_b[0], box_a) or inside(box_b[1], box_a),
+        "a-corner-inside 2": lambda: inside(box_b[0], box_a),
+        "middles-inside": lambda: inside(box_a.mean(axis=0), box_b),
         "middles-inside 2": lambda: (
-            inside(A.mean(axis=0), B) or inside(B.mean(axis=0), A)
+            inside(box_a.mean(axis=0), box_b) or inside(box_b.mean(axis=0), box_a)
         ),
         "half-of-one": lambda: bool(
-            np.all(np.abs(A.mean(axis=0) - B.mean(axis=0)) <= (A[1] - A[0]) / 2)
+            np.all(
+                np.abs(box_a.mean(axis=0) - box_b.mean(axis=0))
+                <= (box_a[1] - box_a[0]) / 2
+            )
         ),
         "always": True,
         "never": False,
@@ -171,14 +179,16 @@ def _(A, B):
 
 
 @row.right  # By what they have in common.
-def _(A, B):
-    least = np.minimum(A[1], B[1]) - np.maximum(A[0], B[0])
+def _(box_a, box_b):
+    least = np.minimum(box_a[1], box_b[1]) - np.maximum(box_a[0], box_b[0])
     return bool(least.min() >= 0)
 
 
 @row.right  # By middles and half sides: rounded, where they only touch.
-def _(A, B):
-    return not any(A[1][i] < B[0][i] or B[1][i] < A[0][i] for i in range(3))
+def _(box_a, box_b):
+    return not any(
+        box_a[1][i] < box_b[0][i] or box_b[1][i] < box_a[0][i] for i in range(3)
+    )
 
 
 row.at_least_0(answer="yes or no")

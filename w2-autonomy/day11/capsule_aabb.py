@@ -1,14 +1,14 @@
-"""11.6 `aabb(a0, a1, r)`: its questions and its mistakes."""
+"""11.6 `capsule_aabb(a0, a1, r)`: its questions and its mistakes."""
 
 import numpy as np
 
 from labkit.judge import Matrix, Row
 
-from . import where_boxes
+from . import localise_boxes
 
 row = Row(
     Matrix((2, 3), "m", rows=("least", "greatest"), columns=("x", "y", "z")),
-    unnamed=where_boxes.around,
+    unnamed=localise_boxes.around,
     before_slips=False,
 )
 

@@ -1,17 +1,17 @@
-"""11.1 `segment_segment(a0, a1, b0, b1)`: its questions and its mistakes."""
+"""11.1 `closest_points_segments(a0, a1, b0, b1)`: its questions and its mistakes."""
 
 import numpy as np
 
 from labkit.judge import HeldOut, Points, Row
 
-from . import pairs, where_segments
+from . import localise_segments, pairs
 from .bowl import bowl, cut, ends_only, lines, thrice
 
 # Of what has more than one closest pair any is right: it is judged by being one.
 row = Row(
     Points((2, 3), names=("first's point", "second's point")),
     at_edge=pairs.crosses,
-    unnamed=where_segments.closest,
+    unnamed=localise_segments.closest,
     before_slips=False,
     held_out=[
         HeldOut(

@@ -7,8 +7,8 @@ import numpy as np
 from labkit.judge import Case, Finding
 from robo47.checks import Array
 
-from . import where
-from .where import Group, Sorted, number
+from . import localise
+from .localise import Group, Sorted, number
 
 KEPT = {
     "joint 1 to the link's own": lambda i, link: i < link,
@@ -23,7 +23,7 @@ KEPT = {
 
 def terms(case: Case) -> Finding | None:
     """Return which terms and joints a slope is made of, or which entries are right."""
-    all_ = where.seen(case)
+    all_ = localise.seen(case)
     own = np.array(all_.S)
     parts = np.array([_terms(*call) for call in all_.calls])  # (n, 2, 7)
     d = np.array([np.linalg.norm(p - o) for _, p, o, _ in all_.calls])[:, None]
@@ -38,7 +38,7 @@ def terms(case: Case) -> Finding | None:
             (", / |p - o|", 1 / d),
         ):
             columns = np.column_stack([(factor * parts[:, k])[mask] for k in (0, 1)])
-            if (found := where.fitted(columns, own[mask])) is not None:
+            if (found := localise.fitted(columns, own[mask])) is not None:
                 says = (
                     f"Your entries are {number(found[0])} n . v and {number(found[1])} "
                     f"n . (omega x p){times}, for {joints}. They are to be 1 of each, "
@@ -48,14 +48,14 @@ def terms(case: Case) -> Finding | None:
     return _of_another_normal(all_) or _entries(own, np.array(all_.T), link)
 
 
-def _of_another_normal(all_: where.Seen) -> Finding | None:
+def _of_another_normal(all_: localise.Seen) -> Finding | None:
     """Return which normal gives the entries, where joints enough say so."""
     many = all_.some([call[3] > 3 for call in all_.calls])
     first = None
     for (J, p, o, link), S in zip(many.calls, many.S, strict=True):
         n = (p - o) / np.linalg.norm(p - o)
         velocity = J[3:].T + np.cross(J[:3].T, p)
-        own = where.fitted(velocity[:link], S[:link])
+        own = localise.fitted(velocity[:link], S[:link])
         if own is None or not np.allclose(S[link:], 0, 0, 1e-9):
             return None
         if first is None and not np.allclose(own, n, 0, 1e-6):
@@ -88,7 +88,7 @@ def _entries(own: Array, right: Array, link: Array) -> Finding | None:
     bad = [name for name, mask in groups.items() if off[mask].any()]
     good = [name for name in groups if name not in bad]
     if good and bad:
-        says = f"Right are the entries {where.listed(good)}; wrong are some {bad[0]}"
+        says = f"Right are the entries {localise.listed(good)}; wrong are some {bad[0]}"
         return Finding(
             "some-joints", f"{says}{''.join(f', and {b}' for b in bad[1:])}."
         )
@@ -103,7 +103,7 @@ LINKS = ("its own link", "the next link", "a link between", "the last link")
 
 def lengths(case: Case) -> Finding | None:
     """Return for which joints, or farthest links, a reach is wrong."""
-    all_ = where.seen(case)
+    all_ = localise.seen(case)
     if any(s.shape != t.shape for s, t in zip(all_.S, all_.T, strict=True)):
         return None
     places: dict[str, list[bool]] = {}
@@ -129,8 +129,8 @@ def lengths(case: Case) -> Finding | None:
         good = [name for name in order if not any(found.get(name, [True]))]
         bad = [name for name in order if any(found.get(name, []))]
         if good and bad:
-            says = f"An entry is right {lead}{where.listed(good)}; not always {lead}"
-            return Finding(slug, f"{says}{where.listed(bad)}.{large}")
+            says = f"An entry is right {lead}{localise.listed(good)}; not always {lead}"
+            return Finding(slug, f"{says}{localise.listed(bad)}.{large}")
     says = (
         "Entries of all joints are wrong, also the last one's: it is far[-1], and each "
         f"before it is made of the next one's reach.{large}"
@@ -140,7 +140,7 @@ def lengths(case: Case) -> Finding | None:
 
 def step(case: Case) -> Finding | None:
     """Return where a next look is wrong, or how much each joint counts in it."""
-    all_ = where.seen(case)
+    all_ = localise.seen(case)
     touch = "it touches or overlaps"
     still = "nothing moves"
     end = "the rest of the way is free"
@@ -185,8 +185,8 @@ def step(case: Case) -> Finding | None:
         for call, s in zip(all_.calls, np.ravel(all_.S), strict=True)
     ]
     counted = _counted(all_.some(some)) if sum(some) > 10 else ""
-    found = where.apart(all_, *ways)
-    large = where.sizes(all_)
+    found = localise.apart(all_, *ways)
+    large = localise.sizes(all_)
     if found:
         return Finding(found.slug, found.message + large + counted)
     if counted:
@@ -195,14 +195,14 @@ def step(case: Case) -> Finding | None:
     return Finding("wrong-everywhere", small + large) if large else None
 
 
-def _counted(some: where.Seen) -> str:
+def _counted(some: localise.Seen) -> str:
     """Return how much the joints count in the speed that steps were made with."""
     if not some.wrong.any():
         return ""
     given = zip(some.calls, some.S, strict=True)
     speed = np.array([call[1] / float(s - call[0]) for call, s in given])
     parts = np.array([np.abs(call[2]) * call[3] for call in some.calls])
-    found = where.fitted(parts, speed)
+    found = localise.fitted(parts, speed)
     if found is None:
         return ""
     if np.ptp(found) < 1e-6:
@@ -212,12 +212,12 @@ def _counted(some: where.Seen) -> str:
         for i, k in enumerate(found)
         if abs(k - 1) > 1e-6
     ]
-    return f" In the sum |dq| . reach counts {where.listed(off)}."
+    return f" In the sum |dq| . reach counts {localise.listed(off)}."
 
 
 def kept(case: Case) -> Finding | None:
     """Return where slowed speeds are wrong, and what of them is as it is to be."""
-    all_ = where.seen(case)
+    all_ = localise.seen(case)
     free = "the speeds are allowed"
     fast = "they are too fast, and nothing overlaps"
     inside = "they are too fast, and it overlaps"
@@ -240,12 +240,12 @@ def kept(case: Case) -> Finding | None:
     ways = [Sorted(groups, which, "where ")]
     late = [which(*call) in (fast, inside) for call in all_.calls]
     how = _change(all_.some(np.array(late) & all_.wrong))
-    if found := where.apart(all_, *ways):
+    if found := localise.apart(all_, *ways):
         return Finding(found.slug, f"{found.message} {how}".strip())
     return Finding("wrong-change", how) if how else None
 
 
-def _change(bad: where.Seen) -> str:
+def _change(bad: localise.Seen) -> str:
     """Return what is true of all changes of speeds that were too fast."""
     if not bad.calls:
         return ""
@@ -283,4 +283,6 @@ def _change(bad: where.Seen) -> str:
 
 def _only(moved: Any) -> str:
     names = [f"joint{i}" for i in sorted(moved)]
-    return f" Only {where.listed(names)} {'is' if len(names) == 1 else 'are'} changed."
+    return (
+        f" Only {localise.listed(names)} {'is' if len(names) == 1 else 'are'} changed."
+    )

@@ -8,8 +8,8 @@ from labkit.judge import Case, Finding
 from robo47.checks import Array
 from robo47.distance import box_sdf
 
-from . import where
-from .where import Group, Sorted, number
+from . import localise
+from .localise import Group, Sorted, number
 
 DEPTH = "There it is the largest of |p| - half, which are all below 0."
 ALONE = "There it is |p| - half of that one axis."
@@ -18,7 +18,7 @@ ROOT = "There it is the root of the sum of the squares of what is beyond."
 
 def point(case: Case) -> Finding | None:
     """Return beyond how many faces a point's distance from a box is wrong."""
-    all_ = where.seen(case)
+    all_ = localise.seen(case)
     names = ["beyond one face", "inside", "beyond two faces", "beyond three faces"]
     hints = [ALONE, DEPTH, ROOT, ROOT]
     slugs = ["one-face", "inside", "two-faces", "three-faces"]
@@ -47,13 +47,13 @@ def point(case: Case) -> Finding | None:
         "the sides are alike": Group("wrong-cubes", says),
         "the sides differ": Group("wrong-sides", says),
     }
-    found = where.apart(
+    found = localise.apart(
         all_,
         Sorted(groups, faces),
         Sorted(signs, folded, "where "),
         Sorted(cubes, alike, "where "),
     )
-    large = where.sizes(all_)
+    large = localise.sizes(all_)
     if found:
         return Finding(found.slug, found.message + large)
     says = f"It is wrong in all places, already beyond one face. {ALONE}"
@@ -62,9 +62,9 @@ def point(case: Case) -> Finding | None:
 
 def capsule(case: Case) -> Finding | None:
     """Return for which poses, or where along the axis, a capsule's distance fails."""
-    all_ = where.seen(case)
-    large = where.sizes(all_)
-    if found := where.apart(all_, _by_pose(), _by_place()):
+    all_ = localise.seen(case)
+    large = localise.sizes(all_)
+    if found := localise.apart(all_, _by_pose(), _by_place()):
         return Finding(found.slug, found.message + large)
     if found := _of_another_point(all_):
         return found
@@ -111,7 +111,7 @@ def _along(a0: Array, a1: Array, T: Array, half: Array) -> Array:
     return np.array([box_sdf(start + s * (end - start), half) for s in shares])
 
 
-def _of_another_point(all_: where.Seen) -> Finding | None:
+def _of_another_point(all_: localise.Seen) -> Finding | None:
     """Return that all numbers are those of points of the axis, if not the nearest."""
     for (a0, a1, r, T, half), S in zip(all_.calls, all_.S, strict=True):
         far = _along(a0, a1, T, half)
@@ -128,7 +128,7 @@ def _of_another_point(all_: where.Seen) -> Finding | None:
 
 def around(case: Case) -> Finding | None:
     """Return what of a box is right: its middle, its sides, one of its corners."""
-    all_ = where.seen(case)
+    all_ = localise.seen(case)
     own, right = np.array(all_.S), np.array(all_.T)
     if not np.isfinite(own).all():
         return None
@@ -150,12 +150,12 @@ def around(case: Case) -> Finding | None:
             return Finding(f"{other}-corner", says)
     good = [x for x, bad in zip("xyz", wrong.any(axis=0), strict=True) if not bad]
     if good:
-        says = f"It is right in {where.listed(good)} alone{_holds(all_)}"
+        says = f"It is right in {localise.listed(good)} alone{_holds(all_)}"
         return Finding("some-axes", says)
     return Finding("other-box", f"Both corners are wrong{_holds(all_)}")
 
 
-def _holds(all_: where.Seen) -> str:
+def _holds(all_: localise.Seen) -> str:
     """Return whether the student's boxes hold the capsule."""
     pairs = list(zip(all_.S, all_.T, strict=True))
     holds = [bool(np.all(s[0] <= t[0] + 1e-9) and np.all(s[1] >= t[1] - 1e-9))
@@ -172,7 +172,7 @@ def _holds(all_: where.Seen) -> str:
     )
 
 
-def _of_its_sides(all_: where.Seen, half: Array) -> Finding:
+def _of_its_sides(all_: localise.Seen, half: Array) -> Finding:
     """Return what half of the sides is made of, where the middle is right."""
     way = np.array([np.abs(a1 - a0) for a0, a1, _ in all_.calls])
     r = np.array([[r] * 3 for _, _, r in all_.calls])
@@ -182,7 +182,7 @@ def _of_its_sides(all_: where.Seen, half: Array) -> Finding:
     named = {"|a1 - a0| on that axis": way.ravel(), "the longest of |a1 - a0|": longest,
              "the axis' length": length}  # fmt: skip
     for name, column in named.items():
-        found = where.fitted(np.column_stack([column, r.ravel()]), half.ravel())
+        found = localise.fitted(np.column_stack([column, r.ravel()]), half.ravel())
         if found is not None:
             made = f"{number(found[0])} times {name} and {number(found[1])} times r"
             says += f": half of a side is {made}"
@@ -194,7 +194,7 @@ def _of_its_sides(all_: where.Seen, half: Array) -> Finding:
 
 def both(case: Case) -> Finding | None:
     """Return for which boxes True or False is wrong."""
-    all_ = where.seen(case)
+    all_ = localise.seen(case)
     bad = all_.some(all_.wrong)
     of = [_lie(*call) for call in bad.calls]
     every = [_lie(*call) for call in all_.calls]
@@ -205,11 +205,11 @@ def both(case: Case) -> Finding | None:
 
     def told(some: list[str]) -> str:
         part = {one for one in some if of.count(one) < every.count(one)}
-        return where.listed([one + " (some)" * (one in part) for one in some])
+        return localise.listed([one + " (some)" * (one in part) for one in some])
 
     parts = [f"it is True for boxes {told(true)}"] if true else []
     parts += [f"it is False for boxes {told(false)}"] if false else []
-    says = f"{where.listed(parts)}; everywhere else it is right."
+    says = f"{localise.listed(parts)}; everywhere else it is right."
     slug = "both-wrong" if true and false else "true-apart" if true else "false-overlap"
     return Finding(slug, says[0].upper() + says[1:] + _below(bad))
 
@@ -220,7 +220,7 @@ def _lie(A: Array, B: Array) -> str:
     if out.any():
         axes = [x for x, is_out in zip("xyz", out, strict=True) if is_out]
         alone = " alone" if len(axes) == 1 else ""
-        return f"that are apart along {where.listed(axes)}{alone}"
+        return f"that are apart along {localise.listed(axes)}{alone}"
     if np.any((A[0] == B[1]) | (B[0] == A[1])):
         return "that only touch"
     if np.all((A[0] <= B[0]) & (B[1] <= A[1]) | (B[0] <= A[0]) & (A[1] <= B[1])):
@@ -235,7 +235,7 @@ def _lie(A: Array, B: Array) -> str:
     return "that overlap without a least or greatest corner in the other"
 
 
-def _below(bad: where.Seen) -> str:
+def _below(bad: localise.Seen) -> str:
     """Return that B is always on one side of A, where it is so."""
     apart = [(A, B) for A, B in bad.calls if np.any((A[0] > B[1]) | (B[0] > A[1]))]
     if len(apart) < 3:

@@ -4,10 +4,10 @@ import numpy as np
 
 from labkit.judge import Case, Finding
 from robo47.checks import Array
-from robo47.distance import segment_segment
+from robo47.distance import closest_points_segments
 
-from . import where
-from .where import Group, Sorted
+from . import localise
+from .localise import Group, Sorted
 
 BOTH = "between the ends of both"
 FIRST = "an end of the first alone"
@@ -27,7 +27,7 @@ def kind(a0: Array, a1: Array, b0: Array, b1: Array) -> str:
         return POINT
     if np.linalg.norm(np.cross(u, v)) < 1e-6 * np.linalg.norm(u) * np.linalg.norm(v):
         return SIDE
-    p, o = segment_segment(a0, a1, b0, b1)
+    p, o = closest_points_segments(a0, a1, b0, b1)
     first = any(np.allclose(p, x) for x in (a0, a1))
     second = any(np.allclose(o, x) for x in (b0, b1))
     return {(0, 0): BOTH, (1, 0): FIRST, (0, 1): SECOND}.get((first, second), ENDS)
@@ -46,7 +46,7 @@ def _off(found: Array, wanted: Array) -> float:
 
 def closest(case: Case) -> Finding | None:
     """Return which of two points lies off its segment, or is not the nearest one."""
-    all_ = where.seen(case)
+    all_ = localise.seen(case)
     pairs = list(zip(all_.calls, all_.S, strict=True))
     off = np.array([
         (_off(p, nearest(p, a0, a1)), _off(o, nearest(o, b0, b1)))
@@ -70,7 +70,7 @@ def closest(case: Case) -> Finding | None:
     return _not_nearest(all_, bool(s), bool(t)) if s or t else None
 
 
-def _not_nearest(all_: where.Seen, s: bool, t: bool) -> Finding:
+def _not_nearest(all_: localise.Seen, s: bool, t: bool) -> Finding:
     """Return which share is not the best one, and for what kinds of segments."""
     more = max(_off(*x) - _off(*y) for x, y in zip(all_.S, all_.T, strict=True))
     says = (
@@ -78,7 +78,7 @@ def _not_nearest(all_: where.Seen, s: bool, t: bool) -> Finding:
         f"{1000 * more:.3g} mm farther apart than the closest. "
     )
     groups = {name: Group("") for name in (BOTH, FIRST, SECOND, ENDS)}
-    by = where.apart(all_, Sorted(groups, kind, LEAD))
+    by = localise.apart(all_, Sorted(groups, kind, LEAD))
     right = f" {by.message}" if by else ""
     if s and t:
         says += "Neither is always the nearest one to the other"
@@ -97,11 +97,11 @@ def _not_nearest(all_: where.Seen, s: bool, t: bool) -> Finding:
 
 def gap(case: Case) -> Finding | None:
     """Return for which capsules a distance is right, or what is taken off."""
-    all_ = where.seen(case)
-    large = where.sizes(all_)
+    all_ = localise.seen(case)
+    large = localise.sizes(all_)
 
     def overlap(a0: Array, a1: Array, ra: float, *other: Array) -> str:
-        p, o = segment_segment(a0, a1, *other[:2])
+        p, o = closest_points_segments(a0, a1, *other[:2])
         deep = np.linalg.norm(p - o) < ra + other[2]
         return OVERLAP if deep else APART
 
@@ -118,13 +118,13 @@ def gap(case: Case) -> Finding | None:
         name: Group(f"wrong-{slug}", says)
         for name, slug in zip(names, slugs, strict=True)
     }
-    found = where.apart(all_, Sorted(deep, overlap), Sorted(groups, place, LEAD))
+    found = localise.apart(all_, Sorted(deep, overlap), Sorted(groups, place, LEAD))
     if found:
         return Finding(found.slug, found.message + large)
     return _taken_off(all_, large)
 
 
-def _taken_off(all_: where.Seen, large: str) -> Finding | None:
+def _taken_off(all_: localise.Seen, large: str) -> Finding | None:
     """Return what is taken off the axes' distance of equal radii, if one number."""
     same = all_.some([call[2] == 0.25 and call[5] == 0.5 for call in all_.calls])
     if len(same.calls) < 4:
@@ -134,7 +134,7 @@ def _taken_off(all_: where.Seen, large: str) -> Finding | None:
         return None
     if np.ptp(off) < 1e-9:
         says = (
-            f"From the distance of the axes {where.number(off[0])} is taken off for "
+            f"From the distance of the axes {localise.number(off[0])} is taken off for "
             "ra = 0.25 and rb = 0.5, wherever they are; it is to be ra + rb = 0.75."
         )
         return Finding("other-radii", says)

@@ -26,12 +26,12 @@ def wide_cube(a0, a1, r):
 def careless(s, gap, dq, reach):
     """Count the third joint half."""
     counted = np.where(np.arange(7) == 2, 0.5, 1.0)
-    return distance.next_check(s, gap, dq * counted, reach)
+    return distance.conservative_advance(s, gap, dq * counted, reach)
 
 
 def scaled(qd, slope, gap, gain):
     """Change 0.7 times as much as is needed."""
-    return qd + 0.7 * (distance.slowed(qd, slope, gap, gain) - qd)
+    return qd + 0.7 * (distance.velocity_damper(qd, slope, gap, gain) - qd)
 
 
 def two_terms(J, p, o, link):
@@ -42,9 +42,9 @@ def two_terms(J, p, o, link):
 
 CASES = {
     "box_sdf": (shorter_inside, "wrong-inside", "wrong inside"),
-    "aabb": (wide_cube, "other-sides", "0.7 times the longest of |a1 - a0|"),
-    "next_check": (careless, "wrong-on-the-way", "counts joint 3 0.5 times"),
-    "slowed": (scaled, "wrong-where-too-fast", "0.7 times as large as"),
+    "capsule_aabb": (wide_cube, "other-sides", "0.7 times the longest of |a1 - a0|"),
+    "conservative_advance": (careless, "wrong-on-the-way", "counts joint 3 0.5 times"),
+    "velocity_damper": (scaled, "wrong-where-too-fast", "0.7 times as large as"),
     "distance_gradient": (two_terms, "other-terms", "3 n . (omega x p), for all"),
 }
 

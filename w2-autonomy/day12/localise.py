@@ -264,7 +264,7 @@ def features_of(a: Array, b: Array, discs: Array) -> dict[str, bool]:
 
 
 def of_an_edge(case: Case) -> Finding | None:
-    """Say at which kinds of edges `disc_edge_free` is wrong, each way by itself."""
+    """Say at which kinds of edges `segment_free_of_discs` is wrong, each by itself."""
     asked = calls(case)
     features = [features_of(*one.arguments) for one in asked]
     return wrong_edges(features, [(one.mine[0], one.right[0]) for one in asked])

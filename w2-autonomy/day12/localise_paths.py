@@ -12,8 +12,8 @@ from labkit.judge import Case, Finding
 from robo47.checks import Array
 
 from .intervals import OPTIONS, interval_of
+from .localise import NEAR, Asked, Kinds, calls, only
 from .options import together
-from .where import NEAR, Asked, Kinds, calls, only
 
 Z = 1.96
 FAR = 1e-3  # two z that are not the same
@@ -139,7 +139,7 @@ RANGES: Kinds = {
 
 
 def of_a_range(case: Case) -> Finding | None:
-    """Say for which joints and which end `accel_range` is wrong."""
+    """Say for which joints and which end `path_accel_bounds` is wrong."""
     asked = calls(case)
     features = [_of_joints(one) for one in asked]
     found = only(RANGES, features, [one.wrong() for one in asked])

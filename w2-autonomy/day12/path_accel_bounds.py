@@ -1,15 +1,15 @@
-"""12.8 `accel_range(a, b, g, limits, sd)`: its questions and its mistakes."""
+"""12.8 `path_accel_bounds(a, b, c, limits, sd)`: its questions and its mistakes."""
 
 import numpy as np
 
 from labkit.judge import Row, Vector
-from robo47.planning import accel_range
+from robo47.planning import path_accel_bounds
 
-from .where_on import of_a_range
+from .localise_paths import of_a_range
 
 row = Row(
     Vector((2,), "1/s^2", names=("the least", "the greatest")),
-    at_edge=lambda a, b, g, limits, sd: bool(np.all(limits > 0)),
+    at_edge=lambda a, b, c, limits, sd: bool(np.all(limits > 0)),
     unnamed=of_a_range,
 )
 
@@ -53,20 +53,20 @@ def narrowed(low, high):
     return np.array([low.max(initial=-np.inf), high.min(initial=np.inf)])
 
 
-def _of_the_ends(a, pull, g, limits, right):
+def _of_the_ends(a, pull, c, limits, right):
     """Return mistakes of the table in what is divided, and how ends are gathered."""
-    rest, n = pull + g, len(a)
+    rest, n = pull + c, len(a)
     none = np.array([np.inf, -np.inf])
     moves = a != 0
     low, high = bounds(a, rest, limits)
-    parts = g[moves], pull[moves]
+    parts = c[moves], pull[moves]
     late = [narrowed(*(bounds(a, rest - x, limits) - y))
-            for x, y in zip((g, pull), parts, strict=True)]  # fmt: skip
+            for x, y in zip((c, pull), parts, strict=True)]  # fmt: skip
     up, some, empty = a > 0, moves.any(), right[0] > right[1]
     six, after = np.arange(n) < 6, np.arange(n) > 0
 
     def of(kept, most=limits):
-        return accel_range(a[kept], pull[kept], g[kept], most[kept], 1.0)
+        return path_accel_bounds(a[kept], pull[kept], c[kept], most[kept], 1.0)
 
     return {
         "gravity-not-divided": late[0],
@@ -88,11 +88,11 @@ def _of_the_ends(a, pull, g, limits, right):
     }
 
 
-def _of_holding(rest, pull, g, limits, moves, free):
+def _of_holding(rest, pull, c, limits, moves, free):
     """Return mistakes of the table in whether joints with a = 0 hold.
 
     Args:
-        rest, pull, g, limits: torques.
+        rest, pull, c, limits: torques.
         moves: which joints do.
         free: the range of these.
     """
@@ -104,7 +104,7 @@ def _of_holding(rest, pull, g, limits, moves, free):
         return none if stuck else free
 
     return {
-        "held-by-gravity-alone": unless((np.abs(g) > limits)[still].any()),
+        "held-by-gravity-alone": unless((np.abs(c) > limits)[still].any()),
         "held-by-speed-alone": unless((np.abs(pull) > limits)[still].any()),
         "held-with-sign": unless((rest > limits)[still].any()),
         "all-have-to-hold": unless(over.any()),
@@ -114,19 +114,19 @@ def _of_holding(rest, pull, g, limits, moves, free):
 
 
 @row.wrongs
-def _(a, b, g, limits, sd):
+def _(a, b, c, limits, sd):
     """not-sorted: for a below 0 the two quotients change places: sort them
     sign-of-a-lost: a's sign is lost: it is divided by abs(a) alone
     sd-not-squared: b is multiplied with sd; it is sd^2
     speed-forgotten: b sd^2 is missing
     speed-sign: b sd^2 is added to the limits; what it takes is not left for a sdd
-    gravity-forgotten: g is missing
-    gravity-sign: g is added to the limits; what it takes is not left for a sdd
-    rest-added: b sd^2 + g is added to the limits; what it takes is not left for a sdd
-    rest-not-divided: b sd^2 + g is not divided by a
-    one-sided: the lower end takes b sd^2 + g with the other sign: the range is not
+    gravity-forgotten: c is missing
+    gravity-sign: c is added to the limits; what it takes is not left for a sdd
+    rest-added: b sd^2 + c is added to the limits; what it takes is not left for a sdd
+    rest-not-divided: b sd^2 + c is not divided by a
+    one-sided: the lower end takes b sd^2 + c with the other sign: the range is not
       symmetric about 0
-    size-of-rest: b sd^2 + g is taken off the limit on both sides; it helps on one
+    size-of-rest: b sd^2 + c is taken off the limit on both sides; it helps on one
     widest: the widest range is taken, and not what all joints allow
     least-of-both: both ends are the smallest of their quotients
     first-joint-only: only the first joint is looked at
@@ -152,7 +152,7 @@ def _(a, b, g, limits, sd):
     zero-stops-all: a joint with a = 0 limits nothing if it holds
     zero-row-ignored: a joint with a = 0 that cannot hold its torque allows nothing:
       (inf, -inf)
-    gravity-not-divided: g is taken off after the division by a; it is a torque: take it
+    gravity-not-divided: c is taken off after the division by a; it is a torque: take it
       off first
     speed-not-divided: b sd^2 is taken off after the division by a; it is a torque: take
       it off first
@@ -178,9 +178,9 @@ def _(a, b, g, limits, sd):
       for a joint with a = 0 that cannot hold: their own ends are asked for
     no-mover-is-none: where no joint moves, and all hold, this is (inf, -inf), which
       allows none; any sdd is allowed: (-inf, inf)
-    held-by-gravity-alone: whether a joint with a = 0 holds is asked of g alone; b sd^2
+    held-by-gravity-alone: whether a joint with a = 0 holds is asked of c alone; b sd^2
       counts as well
-    held-by-speed-alone: whether a joint with a = 0 holds is asked of b sd^2 alone; g
+    held-by-speed-alone: whether a joint with a = 0 holds is asked of b sd^2 alone; c
       counts as well
     held-with-sign: whether a joint with a = 0 holds is asked without the size of its
       torque: below 0 it has a limit, too
@@ -197,8 +197,8 @@ def _(a, b, g, limits, sd):
     held-below-its-limit: a joint with a = 0 that takes all of its torque still holds
     """
     pull = b * sd**2
-    rest = pull + g
-    right = accel_range(a, b, g, limits, sd)
+    rest = pull + c
+    right = path_accel_bounds(a, b, c, limits, sd)
     moves = a != 0
     held = not np.any(np.abs(rest[~moves]) > limits[~moves])
     none = np.array([np.inf, -np.inf])
@@ -216,19 +216,19 @@ def _(a, b, g, limits, sd):
     last = np.arange(len(a)) == len(a) - 1
 
     def only(some):
-        return accel_range(a[some], b[some], g[some], limits[some], sd)
+        return path_accel_bounds(a[some], b[some], c[some], limits[some], sd)
 
     def only_above(least):
-        return accel_range(np.where(np.abs(a) < least, 0.0, a), b, g, limits, sd)
+        return path_accel_bounds(np.where(np.abs(a) < least, 0.0, a), b, c, limits, sd)
 
     table = {
         "not-sorted": narrowed(*raw),
         "sign-of-a-lost": of(rest, np.abs(a)),
-        "sd-not-squared": accel_range(a, b / sd if sd else b, g, limits, sd),
-        "speed-forgotten": accel_range(a, 0 * b, g, limits, sd),
-        "speed-sign": accel_range(a, -b, g, limits, sd),
-        "gravity-forgotten": accel_range(a, b, 0 * g, limits, sd),
-        "gravity-sign": accel_range(a, b, -g, limits, sd),
+        "sd-not-squared": path_accel_bounds(a, b / sd if sd else b, c, limits, sd),
+        "speed-forgotten": path_accel_bounds(a, 0 * b, c, limits, sd),
+        "speed-sign": path_accel_bounds(a, -b, c, limits, sd),
+        "gravity-forgotten": path_accel_bounds(a, b, 0 * c, limits, sd),
+        "gravity-sign": path_accel_bounds(a, b, -c, limits, sd),
         "rest-added": of(-rest),
         "rest-not-divided": narrowed(-width - rest[moves], width - rest[moves]),
         "one-sided": narrowed(middle - width, width - middle),
@@ -258,8 +258,8 @@ def _(a, b, g, limits, sd):
         "none-is-one": np.array([min(right), right[1]]),
         "zero-stops-all": right if moves.all() else none,
         "zero-row-ignored": narrowed(low, high),
-        **_of_the_ends(a, pull, g, limits, right),
-        **_of_holding(rest, pull, g, limits, moves, narrowed(low, high)),
+        **_of_the_ends(a, pull, c, limits, right),
+        **_of_holding(rest, pull, c, limits, moves, narrowed(low, high)),
     }
     decided = {
         "first-joint-only",
@@ -273,7 +273,7 @@ def _(a, b, g, limits, sd):
         "zero-row-ignored",
         "six-joints",
         "first-left-out",
-        *_of_holding(rest, pull, g, limits, moves, right),
+        *_of_holding(rest, pull, c, limits, moves, right),
     }  # by themselves, what a joint with a = 0 that cannot hold does
     for slug in table.keys() - decided:
         table[slug] = table[slug] if held else none
@@ -281,19 +281,19 @@ def _(a, b, g, limits, sd):
 
 
 @row.wrong
-def zero_divides(a, b, g, limits, sd):
+def zero_divides(a, b, c, limits, sd):
     """a joint with a = 0 is divided by 0: it limits nothing, if it holds => without
     that case"""
     with np.errstate(all="ignore"):
-        ends = np.sort((np.array([-limits, limits]) - b * sd**2 - g) / a, axis=0)
+        ends = np.sort((np.array([-limits, limits]) - b * sd**2 - c) / a, axis=0)
     return np.array([ends[0].max(), ends[1].min()])
 
 
 @row.right  # Joint by joint.
-def _(a, b, g, limits, sd):
+def _(a, b, c, limits, sd):
     low, high = -np.inf, np.inf
     for i in range(len(a)):
-        rest = b[i] * sd * sd + g[i]
+        rest = b[i] * sd * sd + c[i]
         if a[i] == 0:
             if abs(rest) > limits[i]:
                 return np.array([np.inf, -np.inf])

@@ -1,12 +1,12 @@
-"""12.2 `disc_edge_free(a, b, discs)`: its questions and its mistakes."""
+"""12.2 `segment_free_of_discs(a, b, discs)`: its questions and its mistakes."""
 
 import numpy as np
 
 from labkit.judge import Mask, Row
-from robo47.planning import disc_edge_free
+from robo47.planning import segment_free_of_discs
 
+from .localise import of_an_edge
 from .ways import DISC, NONE, clear, discs, usual
-from .where import of_an_edge
 
 # An edge that touches, but for rounding, is nobody's question.
 row = Row(Mask(), at_edge=clear, unnamed=of_an_edge)
@@ -35,7 +35,7 @@ def typed(rng, kind):
         a, b = (np.round(middle + end * along, 3) for end in ends)
         alone = some[(some[:, 0] == x) & (some[:, 1] == y)]
         hit = kind not in ("beside", "behind", "before")
-        told = disc_edge_free(a, b, some), disc_edge_free(a, b, alone)
+        told = segment_free_of_discs(a, b, some), segment_free_of_discs(a, b, alone)
         if told == (not hit, not hit) and clear(a, b, some):
             return a, b, some
 
@@ -126,7 +126,7 @@ def _others(a, b, discs, part, away):
         "first-crossing-only": not np.any(first) if length else free,
         "some-crossing": not np.any(meets) if length else False,
         "boxes-overlap": not np.any(boxes.all(axis=1)),
-        "x-and-y-exchanged": disc_edge_free(a, b, discs[:, [1, 0, 2]]),
+        "x-and-y-exchanged": segment_free_of_discs(a, b, discs[:, [1, 0, 2]]),
         "no-disc-is-hit": free and len(discs) > 0,
         "touching-between": bool(np.all((away > r) | (between & (away >= r)))),
         "points-only 7": at_points(a, b, discs, np.linspace(0, 1, 1000)),
@@ -262,8 +262,8 @@ def _(a, b, discs):
         "inner-only 2": bool(
             np.all((away > r) | ~(point | ((part >= 0) & (part <= 1))))
         ),
-        "first-disc-only": disc_edge_free(a, b, discs[:1]),
-        "last-disc-only": disc_edge_free(a, b, discs[-1:]),
+        "first-disc-only": segment_free_of_discs(a, b, discs[:1]),
+        "last-disc-only": segment_free_of_discs(a, b, discs[-1:]),
         "nearest-centre": bool(many == 0 or np.all((away > r)[np.argmin(away)])),
         "all-must-hit": bool(np.any(away > r)) or not many,
         "all-must-hit 2": bool(np.any(away > r)),

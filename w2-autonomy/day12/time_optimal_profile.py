@@ -1,11 +1,11 @@
-"""12.9 `fastest_along(A, B, G, limits, x_max)`: its questions and its mistakes."""
+"""12.9 `time_optimal_profile(a, b, c, limits, sd2_max)`: questions, mistakes."""
 
 from functools import partial
 
 import numpy as np
 
 from labkit.judge import Row, Vector, rounded
-from robo47.planning import accel_range, fastest_along
+from robo47.planning import path_accel_bounds, time_optimal_profile
 
 from .motions import of_a_motion, timed
 
@@ -24,13 +24,13 @@ def path(rng, n, k, heavy=0.5, fast=1.6):
         n: steps.
         k: joints.
         heavy: largest share of a limit that gravity takes.
-        fast: largest x_max.
+        fast: largest sd2_max.
     """
     walk = np.cumsum(rng.normal(size=(2, n + 1, k)), axis=1) / np.sqrt(n)
     limits = rng.numbers(3, 6, k)
-    G = heavy * limits * rng.uniform(-1, 1, (n + 1, k))
-    x_max = rng.numbers(0.4 * fast, fast, n + 1)
-    return rounded(walk[0] + 1.5), rounded(walk[1]), rounded(G), limits, x_max
+    c = heavy * limits * rng.uniform(-1, 1, (n + 1, k))
+    sd2_max = rng.numbers(0.4 * fast, fast, n + 1)
+    return rounded(walk[0] + 1.5), rounded(walk[1]), rounded(c), limits, sd2_max
 
 
 @row.inputs
@@ -60,35 +60,37 @@ def _(rng):
         (12, 7, 2.0),
     ):
         yield path(rng, n, k, fast=fast)
-    A, B, G, limits, x_max = path(rng, 8, 7, fast=9.0)
-    yield A, B, G - np.eye(9, 7, -2) * 9, limits, x_max
+    a, b, c, limits, sd2_max = path(rng, 8, 7, fast=9.0)
+    yield a, b, c - np.eye(9, 7, -2) * 9, limits, sd2_max
     for n, k, fast in ((7, 3, 2.5), (9, 7, 1.1)):
         yield path(rng, n, k, heavy=0.8, fast=fast)
 
 
-def bobrow(A, B, G, limits, x_max):
+def bobrow(a, b, c, limits, sd2_max):
     """Return it with limits backwards read at the point that is left, not reached."""
-    x = fastest_along(A, B, G, limits, x_max)
-    n = len(A) - 1
+    x = time_optimal_profile(a, b, c, limits, sd2_max)
+    n = len(a) - 1
     if not x.any():
         return x
     K = np.zeros(n + 1)
     for i in range(n - 1, -1, -1):
-        low = accel_range(A[i + 1], B[i + 1], G[i + 1], limits, np.sqrt(K[i + 1]))[0]
-        K[i] = max(0.0, min(x_max[i], K[i + 1] - 2 / n * low))
+        low = path_accel_bounds(
+            a[i + 1], b[i + 1], c[i + 1], limits, np.sqrt(K[i + 1])
+        )[0]
+        K[i] = max(0.0, min(sd2_max[i], K[i + 1] - 2 / n * low))
     for i in range(n):
-        high = accel_range(A[i], B[i], G[i], limits, np.sqrt(x[i]))[1]
+        high = path_accel_bounds(a[i], b[i], c[i], limits, np.sqrt(x[i]))[1]
         x[i + 1] = max(0.0, min(K[i + 1], x[i] + 2 / n * high))
     return x
 
 
 @row.wrongs
-def _(A, B, G, limits, x_max):
+def _(a, b, c, limits, sd2_max):
     """no-braking: there is no pass backwards: it goes as fast as it can, and cannot
-      stop at the end => the pass forwards alone, up to x_max
+      stop at the end => the pass forwards alone, up to sd2_max
     no-braking 2: there is no pass backwards: it goes as fast as it can, and is stopped
       at the end in no time => the pass forwards alone, with 0 at the end
-    end-not-at-rest: the pass backwards starts with x_max at the end; it starts with 0
+    end-not-at-rest: the pass backwards starts with sd2_max at the end; it starts with 0
     start-not-at-rest: it begins with the greatest sd^2 from which it can stop; it
       begins at rest
     backward-pass-only: there is no pass forwards: it begins in motion => the pass
@@ -100,16 +102,16 @@ def _(A, B, G, limits, x_max):
     ds-for-2-ds: sd^2 grows by 2 ds u in a step; here it is ds u
     four-ds: sd^2 grows by 2 ds u in a step; here it is 4 ds u
     points-for-steps: ds is 1 / (N + 1): N + 1 points have N steps
-    sd-for-sd2: accel_range is given x; it wants sd, its root
-    sd-for-sd2 2: backwards accel_range is given x; it wants sd, its root
-    sd-for-sd2 3: forwards accel_range is given x; it wants sd, its root
+    sd-for-sd2: path_accel_bounds is given x; it wants sd, its root
+    sd-for-sd2 2: backwards path_accel_bounds is given x; it wants sd, its root
+    sd-for-sd2 3: forwards path_accel_bounds is given x; it wants sd, its root
     most-of-the-point-before: forwards x[i + 1] is kept below what is possible at i;
       that of i + 1 belongs there
-    no-speed-limit: x_max is not used: the motors' speed is no limit
-    speed-limit-forwards-only: x_max is used forwards alone: what comes after was not
+    no-speed-limit: sd2_max is not used: the motors' speed is no limit
+    speed-limit-forwards-only: sd2_max is used forwards alone: what comes after was not
       looked at
     gravity-forgotten: gravity is left out of what the torques allow
-    coriolis-forgotten: B is left out of what the torques allow
+    coriolis-forgotten: b is left out of what the torques allow
     cannot-stand-goes: where gravity alone is too much at a point the arm cannot hold
       there; zeros are asked for => without that case
     few-bisections: an interval that is halved so seldom is still wide => 10 times
@@ -125,22 +127,22 @@ def _(A, B, G, limits, x_max):
       leaves, and whether forwards the greatest sdd is taken
     accelerations: this is sdd of each step, and 0
     """
-    given = (A, B, G, limits, x_max)
-    right = fastest_along(*given)
-    heavy = np.any(np.abs(G) > limits)
+    given = (a, b, c, limits, sd2_max)
+    right = time_optimal_profile(*given)
+    heavy = np.any(np.abs(c) > limits)
     free = timed(*given, passes="forward")
     stopped = np.append(free[:-1], 0.0) if not heavy else right
     back = timed(*given, passes="back")
     alone = np.append(0.0, back[1:]) if not heavy else back
-    wide = np.full(len(A), 1e3)
+    wide = np.full(len(a), 1e3)
     sd = np.sqrt(right)
-    n = len(A) - 1
+    n = len(a) - 1
     with np.errstate(divide="ignore"):
         times = np.append(0, np.cumsum(2 / n / np.maximum(sd[1:] + sd[:-1], 1e-9)))
 
     def fall():
         return np.append(
-            0.0, np.minimum(timed(*given, most=lambda x: wide)[1:], x_max[1:])
+            0.0, np.minimum(timed(*given, most=lambda x: wide)[1:], sd2_max[1:])
         )
 
     two = np.minimum(free, back) if not heavy else right
@@ -161,66 +163,66 @@ def _(A, B, G, limits, x_max):
         "most-of-the-point-before": partial(timed, *given, kept=0),
         "no-speed-limit": partial(timed, *given, most=lambda x: wide),
         "speed-limit-forwards-only": fall,
-        "gravity-forgotten": partial(timed, *given, pull=lambda A, B, G: (A, B, 0 * G)),
-        "coriolis-forgotten": partial(timed, A, 0 * B, G, limits, x_max),
-        "cannot-stand-goes": partial(timed, *given, stands=lambda G, limits: False),
+        "gravity-forgotten": partial(timed, *given, pull=lambda a, b, c: (a, b, 0 * c)),
+        "coriolis-forgotten": partial(timed, a, 0 * b, c, limits, sd2_max),
+        "cannot-stand-goes": partial(timed, *given, stands=lambda c, limits: False),
         "few-bisections": partial(timed, *given, bisections=10),
         "few-bisections 2": partial(timed, *given, bisections=20),
         "limits-of-the-next-point": partial(timed, *given, at=1, back_at=1),
         "bobrow": partial(bobrow, *given),
         "root": sd,
         "times": times if not heavy else 0 * times,
-        "half-the-torque": partial(fastest_along, A, B, G, limits / 2, x_max),
+        "half-the-torque": partial(time_optimal_profile, a, b, c, limits / 2, sd2_max),
         "never-moves": 0 * right,
         "accelerations": np.append(np.diff(right) * n / 2, 0.0),
     }
 
 
 @row.wrong("without-turning", hidden="no path of the lab has to turn back")
-def _(A, B, G, limits, x_max):
-    return timed(A, B, G, limits, x_max, without=("turning",))
+def _(a, b, c, limits, sd2_max):
+    return timed(a, b, c, limits, sd2_max, without=("turning",))
 
 
 @row.wrong("slower-than-possible")
-def _(A, B, G, limits, x_max):
-    return timed(A, B, G, limits, x_max, most=lambda x: 0.37 * x)
+def _(a, b, c, limits, sd2_max):
+    return timed(a, b, c, limits, sd2_max, most=lambda x: 0.37 * x)
 
 
 @row.right  # Where straight lines cross, for bisection.
-def _(A, B, G, limits, x_max):
-    n = len(A) - 1
+def _(a, b, c, limits, sd2_max):
+    n = len(a) - 1
     x, K = np.zeros(n + 1), np.zeros(n + 1)
-    if np.any(np.abs(G) > limits):
+    if np.any(np.abs(c) > limits):
         return x
     for i in range(n - 1, -1, -1):
-        a, b, g = A[i], B[i], G[i]
-        moves = a != 0
-        size, sign = np.abs(a[moves]), np.sign(a[moves])
-        rest, slope = (g * 1.0)[moves] * sign, (b * 1.0)[moves] * sign
+        a_i, b_i, c_i = a[i], b[i], c[i]
+        moves = a_i != 0
+        size, sign = np.abs(a_i[moves]), np.sign(a_i[moves])
+        rest, slope = (c_i * 1.0)[moves] * sign, (b_i * 1.0)[moves] * sign
         # u between (p - m x) of each joint, and of the next point.
         low = np.append((-limits[moves] - rest) / size, 0.0)
         high = np.append((limits[moves] - rest) / size, K[i + 1] * n / 2)
         slope = np.append(slope / size, n / 2)
-        top = x_max[i]
+        top = sd2_max[i]
         for least, m in zip(low, slope, strict=True):
             for h, k in zip(high, slope, strict=True):
                 if k - m > 1e-12:  # least - m x <= h - k x
                     top = min(top, (h - least) / (k - m))
-        for r, m, lim in zip(g[~moves], b[~moves], limits[~moves], strict=True):
+        for r, m, lim in zip(c_i[~moves], b_i[~moves], limits[~moves], strict=True):
             if m:
                 top = min(top, (lim - np.sign(m) * r) / abs(m))
         K[i] = max(0.0, top)
     for i in range(n):
-        high = accel_range(A[i], B[i], G[i], limits, np.sqrt(x[i]))[1]
+        high = path_accel_bounds(a[i], b[i], c[i], limits, np.sqrt(x[i]))[1]
         x[i + 1] = max(0.0, min(K[i + 1], x[i] + 2 / n * high))
     return x
 
 
-row.at_least_0(limits="of torques, both ways", x_max="a square", answer="a square")
+row.at_least_0(limits="of torques, both ways", sd2_max="a square", answer="a square")
 
 STEP = "return low <= high and x + two_ds * low <= after and (x + two_ds * high >= 0.0)"
 row.same(
-    "for i in range(len(A) - 1): => for i in range(len(A) - 2):",
+    "for i in range(len(a) - 1): => for i in range(len(a) - 2):",
     "the last sd^2 is 0 anyhow",
 )
 for change in (
@@ -230,5 +232,5 @@ for change in (
 ):
     row.same(change, "60 halvings leave the last digit; the count is 60 or none")
 for how in ("np.clip(({}), -1, 1)", "({}).astype(np.float32)"):
-    row.same(f"return {how.format('np.zeros(len(A))')}", "zeros")
+    row.same(f"return {how.format('np.zeros(len(a))')}", "zeros")
     row.same(f"return {how.format(STEP[7:])}", "a truth value")

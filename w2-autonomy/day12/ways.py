@@ -73,7 +73,7 @@ class Careful:
     def edge_free(self, a, b):
         """Return whether it is free, as the library says."""
         self.clear = self.clear and clear(a, b, self.discs)
-        return planning.disc_edge_free(a, b, self.discs)
+        return planning.segment_free_of_discs(a, b, self.discs)
 
 
 def ways_asked(rng):
@@ -90,7 +90,7 @@ def ways_asked(rng):
             samples = rng.numbers(-1.3, 1.3, n, 2)
             ends = min(gap(x, x, world.discs) for x in (start, goal))
             way = planning.rrt_connect(start, goal, world, samples, step)
-            straight = planning.disc_edge_free(start, goal, world.discs)
+            straight = planning.segment_free_of_discs(start, goal, world.discs)
             if (
                 ends > 0.05
                 and world.clear

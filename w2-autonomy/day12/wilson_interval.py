@@ -1,11 +1,11 @@
-"""12.6 `wilson(successes, n)`: its questions and its mistakes."""
+"""12.6 `wilson_interval(successes, n)`: its questions and its mistakes."""
 
 import numpy as np
 
 from labkit.judge import Row, Vector
-from robo47.planning import wilson
+from robo47.planning import wilson_interval
 
-from .where_on import of_shares
+from .localise_paths import of_shares
 
 row = Row(
     Vector((2,), names=("the low end", "the high end")),
@@ -95,7 +95,7 @@ def _(successes, n):
     """
     k, trials = successes, n
     n = n or 1  # of no trial see below
-    right = wilson(k, n)
+    right = wilson_interval(k, n)
     z, p = 1.96, k / n
     middle, around = right.mean(), (right[1] - right[0]) / 2
     below = 1 + z**2 / n
@@ -133,7 +133,7 @@ def _(successes, n):
         "four-forgotten": with_root(spread + z**2 / n**2),
         "n-for-n2": with_root(spread + z**2 / (4 * n)),
         "successes-for-p": with_root(spread + z**2 / (4 * n**2), k + z**2 / (2 * n)),
-        "failures": wilson(n - k, n),
+        "failures": wilson_interval(n - k, n),
         "high-first": right[::-1],
         "high-first 2": right[::-1],
         "middle-and-width": np.array([middle, around]),
@@ -174,7 +174,7 @@ def none_divides(successes, n):
 def _(successes, n):
     """of no trial at all every share is believable, (0, 1): it is another answer there
     => (0, 0) of no trial"""
-    return np.zeros(2) if n == 0 else wilson(successes, n)
+    return np.zeros(2) if n == 0 else wilson_interval(successes, n)
 
 
 @row.wrong("another-z")

@@ -1,4 +1,4 @@
-"""13.9 `limit_prices(H, g, lo, hi, x)`: its questions and its mistakes."""
+"""13.9 `bound_multipliers(H, f, lo, hi, x)`: its questions and its mistakes."""
 
 import numpy as np
 
@@ -18,7 +18,7 @@ def _(rng):
 
 
 @row.wrongs
-def _(H, g, lo, hi, x):
+def _(H, f, lo, hi, x):
     """sign: the signs are turned round: a limit that moves along the slope costs more
       => the right one with the other sign
     absolute: the signs are lost: an upper limit that moves up saves => its sizes
@@ -34,12 +34,12 @@ def _(H, g, lo, hi, x):
     doubled: it is twice as large
     lower-sign: a lower limit's price has the wrong sign => with minus the lower ones
     times-x: the slope is multiplied by x; the limit moves by 1, not by x
-    g-forgotten: g is missing in the slope => with H x
-    g-forgotten 2: g is missing in the slope => H x
-    H-forgotten: H is missing in the slope => with g
-    H-forgotten 2: H is missing in the slope => g
-    H-halved: the slope of x . H x / 2 is H x => with H x / 2 + g
-    H-doubled: the slope of x . H x / 2 is H x => with 2 H x + g
+    g-forgotten: f is missing in the slope => with H x
+    g-forgotten 2: f is missing in the slope => H x
+    H-forgotten: H is missing in the slope => with f
+    H-forgotten 2: H is missing in the slope => f
+    H-halved: the slope of x . H x / 2 is H x => with H x / 2 + f
+    H-doubled: the slope of x . H x / 2 is H x => with 2 H x + f
     divided-by-H: it is divided by H's diagonal: that is how far the entry would go, and
       no cost
     how-far: this is how far x would move without its limits; what the cost changes by
@@ -47,7 +47,7 @@ def _(H, g, lo, hi, x):
     one-each: a limit that holds has a price of its own, not 1 => its sign
     halved: it is half of it
     """
-    slope = H @ x + g
+    slope = H @ x + f
     low = (x <= lo) & (slope > 0)
     high = (x >= hi) & (slope < 0)
     held = low | high
@@ -70,12 +70,12 @@ def _(H, g, lo, hi, x):
         "times-x": at(slope * x),
         "g-forgotten": at(H @ x),
         "g-forgotten 2": H @ x,
-        "H-forgotten": at(g),
-        "H-forgotten 2": g.copy(),
-        "H-halved": at(H @ x / 2 + g),
-        "H-doubled": at(2 * H @ x + g),
+        "H-forgotten": at(f),
+        "H-forgotten 2": f.copy(),
+        "H-halved": at(H @ x / 2 + f),
+        "H-doubled": at(2 * H @ x + f),
         "divided-by-H": right / np.diag(H),
-        "how-far": x - np.linalg.solve(H, -g),
+        "how-far": x - np.linalg.solve(H, -f),
         "one-each": np.sign(right),
         "halved": right / 2,
     }
@@ -93,5 +93,5 @@ row.same("first hi = np.clip(hi, -1, 1)", BEST)
 
 
 @row.right  # At the best x the free ones' slopes are 0 anyway.
-def _(H, g, lo, hi, x):
-    return H @ x + g
+def _(H, f, lo, hi, x):
+    return H @ x + f

@@ -1,4 +1,4 @@
-"""13.3 `lqr_cost(P, x)`: its questions and its mistakes."""
+"""13.3 `cost_to_go(P, x)`: its questions and its mistakes."""
 
 import numpy as np
 

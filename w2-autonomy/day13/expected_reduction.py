@@ -1,4 +1,4 @@
-"""13.8 `expected_drop(drop, alpha)`: its questions and its mistakes."""
+"""13.8 `expected_reduction(dV, alpha)`: its questions and its mistakes."""
 
 import numpy as np
 
@@ -19,20 +19,20 @@ def _(rng):
 
 
 @row.wrongs
-def _(drop, alpha):
+def _(dV, alpha):
     """alpha-not-squared: the second part grows with alpha squared => with alpha in both
     alpha-squared-in-both: the first part grows with alpha => with alpha^2 in both
     alpha-forgotten: alpha is missing: that is what the whole step should save => with
       alpha 1
     alpha-in-the-first-only: alpha is missing in the second part
-    first-order: the second part is missing => without drop[1]
-    second-part-only: the first part is missing => without drop[0]
+    first-order: the second part is missing => without dV[1]
+    second-part-only: the first part is missing => without dV[0]
     sign: the sign is the other way: a drop is what is saved, above 0 when all is well
       => the change of the cost
     second-sign: the second part is added to what is saved; it takes some of it back
-      => with alpha^2 drop[1] added
+      => with alpha^2 dV[1] added
     second-doubled: the second part is doubled; it is whole already
-    alpha-in-the-second-only: alpha is missing in the first part => with drop[0] as it
+    alpha-in-the-second-only: alpha is missing in the first part => with dV[0] as it
       is
     halved: it is half of it: the second part has its half already
     alpha-rooted: the second part grows with alpha's root; it is alpha squared
@@ -42,7 +42,7 @@ def _(drop, alpha):
     alphas-swapped: alpha squared belongs to the second part => with alpha and its
       square swapped
     """
-    first, second = drop
+    first, second = dV
     return {
         "alpha-not-squared": -alpha * (first + second),
         "alpha-squared-in-both": -(alpha**2) * (first + second),
@@ -67,5 +67,5 @@ row.at_least_0(alpha="a share")
 
 
 @row.right  # Horner's way.
-def _(drop, alpha):
-    return -alpha * (drop[0] + alpha * drop[1])
+def _(dV, alpha):
+    return -alpha * (dV[0] + alpha * dV[1])

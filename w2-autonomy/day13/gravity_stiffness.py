@@ -1,4 +1,4 @@
-"""13.1 `gravity_slope(J_space, masses, coms, g)`: its questions and its mistakes."""
+"""13.1 `gravity_stiffness(J_space, masses, coms, g)`: questions, mistakes."""
 
 from functools import partial
 

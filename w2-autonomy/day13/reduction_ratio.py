@@ -1,4 +1,4 @@
-"""13.8 `accept_ratio(before, after, expected)`: its questions and its mistakes."""
+"""13.8 `reduction_ratio(before, after, expected)`: its questions and its mistakes."""
 
 from labkit.judge import Row, Scalar
 

@@ -23,7 +23,7 @@ H = MODEL.opt.timestep
 X = lab.JUDGED * np.append(lab.WAY, np.zeros(7))
 SLOPE, A, B = lab.at_rest(MODEL, lab.READY_Q, H)
 P, K = lab.promise(A, B, H)
-BEST = optimal.lqr_cost(P, X)
+BEST = optimal.cost_to_go(P, X)
 # On a table gravity points down, so these two are right there.
 NOT_HERE = {"only-z", "minus-9.81"}
 
@@ -31,7 +31,7 @@ NOT_HERE = {"only-z", "minus-9.81"}
 def costs(P, K, both=True):
     """Return cost over own promise, and over the best cost, of both sides."""
     sides = [lab.paid(MODEL, K, x) for x in ((X, -X) if both else (X,))]
-    return np.mean(sides) / optimal.lqr_cost(P, X), np.mean(sides) / BEST
+    return np.mean(sides) / optimal.cost_to_go(P, X), np.mean(sides) / BEST
 
 
 def with_slope(slope):
@@ -79,7 +79,7 @@ def test_all_wrong_slopes_but_one_hold_the_arm_and_most_cost_little():
     now = ARM.at(lab.READY_Q)
     given = now.J_space, ARM.masses, now.coms_world, ARM.gravity
     falls, dear, off, seen = [], [], [], set()
-    for way in row_of(DAY, "gravity_slope").named:
+    for way in row_of(DAY, "gravity_stiffness").named:
         if way.slug in NOT_HERE | seen:
             continue
         seen.add(way.slug)
@@ -106,7 +106,7 @@ def test_by_hand_one_hinge_one_joint_one_box():
     g = np.array([0, 0, -9.81])
     assert np.allclose(np.cross(g, J[:3, 0]), (9.81, 0, 0))
     for side, known in ((1, -19.62), (-1, 19.62)):
-        slope = lab.gravity_slope(J, np.array([2.0]), np.array([[0, 0, side]]), g)
+        slope = lab.gravity_stiffness(J, np.array([2.0]), np.array([[0, 0, side]]), g)
         assert slope == pytest.approx(known)
     step = lab.linearise(np.eye(1), 10 * np.eye(1), np.ones(1), 0.1)
     assert np.allclose(step[0], np.array([[10, 1], [-10, 10]]) / 11)
@@ -314,7 +314,7 @@ def test_the_elbow_pays_for_the_limits():
     def priced(J, e, lo, hi):
         dq = lab.best_step()(J, e, lo, hi)
         cost = J.T @ J + lab.DAMPING**2 * np.eye(7)
-        prices = lab.limit_prices(cost, -J.T @ e, lo, hi, dq)
+        prices = lab.bound_multipliers(cost, -J.T @ e, lo, hi, dq)
         nonlocal sums
         sums = sums + np.abs(prices)
         for j in np.flatnonzero(prices):

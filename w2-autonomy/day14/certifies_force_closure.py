@@ -1,4 +1,4 @@
-"""14.4 `closes(W, weights)`: its questions and its mistakes."""
+"""14.4 `certifies_force_closure(W, weights)`: its questions and its mistakes."""
 
 import numpy as np
 
@@ -207,8 +207,8 @@ def _(W, weights):
 
 @row.right  # Day 8's identifiable.
 def _(W, weights):
-    from robo47.identification import identifiable
+    from robo47.identification import rank_and_condition
 
-    rank, _ = identifiable(W, 1e-9)
+    rank, _ = rank_and_condition(W, 1e-9)
     left = np.abs(W @ weights) <= 1e-9 * (np.abs(W) @ np.abs(weights))
     return np.bool_(rank == 6 and left.all() and (weights > 0).all())

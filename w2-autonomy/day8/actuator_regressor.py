@@ -1,4 +1,4 @@
-"""8.4 `motor_features(qd, qdd)`: its questions and its mistakes."""
+"""8.4 `actuator_regressor(qd, qdd)`: its questions and its mistakes."""
 
 import numpy as np
 

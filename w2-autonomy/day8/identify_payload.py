@@ -1,4 +1,4 @@
-"""8.8 `payload_from_holds(J_site, R_site, extra, g)`: questions and mistakes."""
+"""8.8 `identify_payload(J_site, R_site, extra, g)`: questions and mistakes."""
 
 import numpy as np
 

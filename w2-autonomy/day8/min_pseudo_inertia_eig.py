@@ -1,9 +1,9 @@
-"""8.9 `least_pseudo(phi)`: its questions and its mistakes."""
+"""8.9 `min_pseudo_inertia_eig(phi)`: its questions and its mistakes."""
 
 import numpy as np
 
 from labkit.judge import Row, Scalar
-from robo47.identification import inertia_of
+from robo47.identification import spatial_inertia_from_params
 from robo47.screws import skew
 
 from .states import bodies, real_bodies
@@ -22,7 +22,7 @@ def _(rng):
 def pseudo(phi, spread=lambda I: np.trace(I) / 2 * np.eye(3) - I, h=1.0):  # noqa: E741
     """Return the matrix, with another upper left, or h times a factor."""
     first = h * phi[1:4, None]
-    corner = spread(inertia_of(phi)[:3, :3])
+    corner = spread(spatial_inertia_from_params(phi)[:3, :3])
     return np.block([[corner, first], [first.T, phi[0]]])
 
 
@@ -36,7 +36,7 @@ def moved(phi, I):  # noqa: E741
 for slug, says, redone, code in (
     ("only-the-inertia", "this is the least eigenvalue of I; a body also needs Ixx + "
      "Iyy >= Izz, and m c", "that of I",
-     lambda phi: np.linalg.eigvalsh(inertia_of(phi)[:3, :3])[0]),
+     lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi)[:3, :3])[0]),
     ("inertia-not-turned-round", "I stands at the upper left itself; the sum of m r "
      "r^T is tr(I)/2 1 - I", "with I there",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: I))[0]),  # noqa: E741
@@ -72,7 +72,7 @@ for slug, says, redone, code in (
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: moved(phi, I)))[0]),  # noqa: E741
     ("of-the-inertia", "this is the least eigenvalue of the 6x6 inertia; the 4x4 "
      "matrix has tr(I)/2 1 - I and h", "that of the 6x6 inertia",
-     lambda phi: np.linalg.eigvalsh(inertia_of(phi))[0]),
+     lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi))[0]),
     ("unsorted", "numpy.linalg.eigvals returns the eigenvalues in no order, so its "
      "first is any of them", "the first of numpy.linalg.eigvals",
      lambda phi: np.linalg.eigvals(pseudo(phi))[0].real),

@@ -1,4 +1,4 @@
-"""8.5 `identifiable(Y, rtol)`: its questions and its mistakes."""
+"""8.5 `rank_and_condition(Y, rtol)`: its questions and its mistakes."""
 
 import numpy as np
 

@@ -1,11 +1,11 @@
-"""8.1 `inertia_of(phi)`: its questions and its mistakes."""
+"""8.1 `spatial_inertia_from_params(phi)`: its questions and its mistakes."""
 
 from functools import partial
 
 import numpy as np
 
 from labkit.judge import Row, Symmetric
-from robo47.identification import inertia_of as right
+from robo47.identification import spatial_inertia_from_params as right
 from robo47.screws import skew
 
 from .states import SWAP, bodies

@@ -1,13 +1,13 @@
-"""8.6 `fit(Y, tau, rtol)`: its questions and its mistakes."""
+"""8.6 `truncated_svd_fit(Y, tau, rtol)`: its questions and its mistakes."""
 
 import numpy as np
 
 from labkit.judge import Row, Vector
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
-from robo47.identification import fit
+from robo47.identification import truncated_svd_fit
 
-from .identifiable import miscounted
+from .rank_and_condition import miscounted
 from .states import CUT, hidden, regressors, spread, stairs, uneven
 
 
@@ -144,16 +144,18 @@ def _(Y, tau, rtol):
     p = Y.shape[1]
     first = np.linalg.lstsq(Y[:, : len(s)], tau, rcond=None)[0]
     return {
-        "nothing-cut": fit(Y, tau, 1e-12),
+        "nothing-cut": truncated_svd_fit(Y, tau, 1e-12),
         "rtol-absolute": above(Y, tau, rtol),
-        "cut-by-the-sum": fit(Y, tau, rtol * every.sum() / every[0]),
-        "cut-by-the-norm": fit(Y, tau, rtol * np.linalg.norm(every) / every[0]),
+        "cut-by-the-sum": truncated_svd_fit(Y, tau, rtol * every.sum() / every[0]),
+        "cut-by-the-norm": truncated_svd_fit(
+            Y, tau, rtol * np.linalg.norm(every) / every[0]
+        ),
         "cut-by-rows": above(Y, tau, rtol * max(Y.shape) * every[0]),
         "V-for-its-transpose": turned[:, : len(s)] @ (U.T @ tau / s),
-        "cut-not-squared": fit(Y, tau, np.sqrt(rtol)),
+        "cut-not-squared": truncated_svd_fit(Y, tau, np.sqrt(rtol)),
         "ridge": np.linalg.solve(Y.T @ Y + np.eye(p), Y.T @ tau),
         "times-s": Vt.T @ (s * (U.T @ tau)),
-        "mean-taken-off": fit(Y, tau - tau.mean(), rtol),
+        "mean-taken-off": truncated_svd_fit(Y, tau - tau.mean(), rtol),
         "first-columns": np.pad(first, (0, p - len(s))),
     }
 

@@ -1,4 +1,4 @@
-"""9.1 `difference(q, dt)`: its questions and its mistakes."""
+"""9.1 `backward_difference(q, dt)`: its questions and its mistakes."""
 
 import itertools
 from functools import partial

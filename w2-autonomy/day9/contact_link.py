@@ -1,4 +1,4 @@
-"""9.10 `pushed_link(residual, threshold)`: its questions and its mistakes."""
+"""9.10 `contact_link(residual, threshold)`: its questions and its mistakes."""
 
 import numpy as np
 

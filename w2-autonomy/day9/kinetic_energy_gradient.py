@@ -1,4 +1,4 @@
-"""9.8 `energy_slope(J_space, G, qd)`: its questions and its mistakes."""
+"""9.8 `kinetic_energy_gradient(J_space, G, qd)`: its questions and its mistakes."""
 
 from functools import partial
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from labkit.judge import Row, Vector
 from robo47 import dynamics
-from robo47.estimation import energy_slope
+from robo47.estimation import kinetic_energy_gradient
 from robo47.screws import ad
 
 from .signals import JOINTS, moving
@@ -110,7 +110,7 @@ def _(J_space, G, qd):
     times-qd: it is multiplied by qd: that is a power
     """
     C = dynamics.coriolis_matrix(J_space, G, qd)
-    right = energy_slope(J_space, G, qd)
+    right = kinetic_energy_gradient(J_space, G, qd)
     S = J_space.T
     V = np.cumsum(S * qd[:, None], axis=0)
     momenta = (G @ V[:, :, None])[:, :, 0]

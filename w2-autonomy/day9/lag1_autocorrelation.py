@@ -1,11 +1,11 @@
-"""9.7 `whiteness(y)`: its questions and its mistakes."""
+"""9.7 `lag1_autocorrelation(y)`: its questions and its mistakes."""
 
 from functools import partial
 
 import numpy as np
 
 from labkit.judge import Row, Scalar
-from robo47.estimation import whiteness
+from robo47.estimation import lag1_autocorrelation
 
 # An edge value may be the same everywhere: then nothing varies.
 row = Row(Scalar(), at_edge=lambda y: np.ptp(y) > 0.0)
@@ -90,7 +90,7 @@ def _(y):
     d = centred(y)
     return {
         "two-means": lambda: np.corrcoef(y[1:], y[:-1])[0, 1],
-        "of-the-changes": lambda: whiteness(np.diff(y)),
+        "of-the-changes": lambda: lag1_autocorrelation(np.diff(y)),
         "changes-squared": np.sum(np.diff(y) ** 2) / (d @ d),
     }
 

@@ -1,9 +1,9 @@
-"""9.9 `observer_step(residual, integral, p, tau, ..., dt)`: questions and mistakes."""
+"""9.9 `momentum_observer_step`: its questions and its mistakes."""
 
 import numpy as np
 
 from labkit.judge import Row, Vector
-from robo47.estimation import observer_step
+from robo47.estimation import momentum_observer_step
 
 from .signals import JOINTS
 
@@ -26,11 +26,20 @@ def _(rng):
     return [case, *drawn]
 
 
-NAMES = ("residual", "integral", "p", "tau", "slope", "gravity", "damping", "qd")
+NAMES = (
+    "residual",
+    "integral",
+    "momentum",
+    "tau",
+    "energy_grad",
+    "gravity",
+    "damping",
+    "qd",
+)
 
 
 @row.wrongs
-def _(residual, integral, p, tau, slope, gravity, damping, qd, gain, dt):
+def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
     """slope-sign: the slope is subtracted; it pushes the momentum along, as tau does
     slope-forgotten: the slope is missing: at rest it is 0, and nothing shows
     gravity-sign: gravity is added; `gravity` is what holds the arm, so the weight
@@ -43,50 +52,50 @@ def _(residual, integral, p, tau, slope, gravity, damping, qd, gain, dt):
     damping-without-speed: damping is subtracted as it is; times qd it is a torque
     residual-not-fed-back: the residual is not fed back: a steady push is added up for
       ever
-    residual-subtracted: the residual is subtracted from what is known; p moves by it,
-      so it is added
+    residual-subtracted: the residual is subtracted from what is known; momentum moves
+      by it, so it is added
     dt-forgotten: what is known is added without dt: a torque is no momentum
     residual-without-dt: the residual is added without dt
-    sign-of-the-answer: the residual is integral - p: a push forwards then comes out
-      backwards
-    gain-forgotten: the gain is missing: p - integral is a momentum, not a torque
+    sign-of-the-answer: the residual is integral - momentum: a push forwards then comes
+      out backwards
+    gain-forgotten: the gain is missing: momentum - integral is a momentum, not a torque
     gain-divided: it is divided by the gain
-    gain-on-the-integral: the gain multiplies p only
+    gain-on-the-integral: the gain multiplies momentum only
     gain-times-dt: it is multiplied by dt as well
     integral-of-before: the residual is made with the integral of before: that is a
       sample late
     integral-not-kept: the integral begins anew at each step; what was known before is
       lost
     integral-not-handed-on: the integral that is returned is the old one
-    integral-sign: what is known is taken off the integral; it is what moves p, so it is
-      added
+    integral-sign: what is known is taken off the integral; it is what moves momentum,
+      so it is added
     damping-by-size: damping times the size of qd brakes; it is against the motion
     torques-without-dt: only the residual is multiplied by dt; all the torques are
     fed-back-times-gain: the gain multiplies the residual that is fed back, too; it is a
       torque already
     qd-for-damping: qd alone brakes; it is damping times qd
-    low-passed-again: the residual is moved by gain (p - integral) dt; it is gain (p -
-      integral) itself, and the integral does the rest
+    low-passed-again: the residual is moved by gain (momentum - integral) dt; it is gain
+      (momentum - integral) itself, and the integral does the rest
     residual-kept: the old residual is added to the new one
     residual-taken-off: the old residual is taken off the new one
-    new-residual-fed-back: the residual that is fed back is made of p and the old
+    new-residual-fed-back: the residual that is fed back is made of momentum and the old
       integral; it is the one that is given
-    p-added: p is added to the integral as well
+    p-added: momentum is added to the integral as well
     """
     brake = damping * qd
-    known = tau + slope - gravity - brake
+    known = tau + energy_grad - gravity - brake
     now = integral + (known + residual) * dt
 
     def of(changed):
         new = now + changed * dt
-        return gain * (p - new), new
+        return gain * (momentum - new), new
 
     def with_integral(new):
-        return gain * (p - new), new
+        return gain * (momentum - new), new
 
     return {
-        "slope-sign": of(-2 * slope),
-        "slope-forgotten": of(-slope),
+        "slope-sign": of(-2 * energy_grad),
+        "slope-forgotten": of(-energy_grad),
         "gravity-sign": of(2 * gravity),
         "gravity-forgotten": of(gravity),
         "tau-forgotten": of(-tau),
@@ -98,40 +107,51 @@ def _(residual, integral, p, tau, slope, gravity, damping, qd, gain, dt):
         "residual-subtracted": of(-2 * residual),
         "dt-forgotten": with_integral(integral + known + residual),
         "residual-without-dt": with_integral(integral + known * dt + residual),
-        "sign-of-the-answer": (gain * (now - p), now),
-        "gain-forgotten": (p - now, now),
-        "gain-divided": ((p - now) / gain, now),
-        "gain-on-the-integral": (gain * p - now, now),
-        "gain-times-dt": (gain * (p - now) * dt, now),
-        "integral-of-before": (gain * (p - integral), now),
+        "sign-of-the-answer": (gain * (now - momentum), now),
+        "gain-forgotten": (momentum - now, now),
+        "gain-divided": ((momentum - now) / gain, now),
+        "gain-on-the-integral": (gain * momentum - now, now),
+        "gain-times-dt": (gain * (momentum - now) * dt, now),
+        "integral-of-before": (gain * (momentum - integral), now),
         "integral-not-kept": with_integral((known + residual) * dt),
-        "integral-not-handed-on": (gain * (p - now), integral.copy()),
+        "integral-not-handed-on": (gain * (momentum - now), integral.copy()),
         "integral-sign": with_integral(integral - (known + residual) * dt),
         "damping-by-size": of(brake - damping * np.abs(qd)),
         "torques-without-dt": with_integral(integral + known + residual * dt),
         "fed-back-times-gain": of((gain - 1) * residual),
         "qd-for-damping": of(brake - qd),
-        "low-passed-again": (residual + gain * (p - now) * dt, now),
-        "residual-taken-off": (gain * (p - now) - residual, now),
-        "new-residual-fed-back": of(gain * (p - integral) - residual),
-        "residual-kept": (residual + gain * (p - now), now),
-        "p-added": with_integral(now + p),
+        "low-passed-again": (residual + gain * (momentum - now) * dt, now),
+        "residual-taken-off": (gain * (momentum - now) - residual, now),
+        "new-residual-fed-back": of(gain * (momentum - integral) - residual),
+        "residual-kept": (residual + gain * (momentum - now), now),
+        "p-added": with_integral(now + momentum),
     }
 
 
 @row.wrong("answers-swapped", "the two answers are swapped: the residual comes first")
-def _(residual, integral, p, tau, slope, gravity, damping, qd, gain, dt):
-    given = (residual, integral, p, tau, slope, gravity, damping, qd, gain, dt)
-    return observer_step(*given)[::-1]
+def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
+    given = (
+        residual,
+        integral,
+        momentum,
+        tau,
+        energy_grad,
+        gravity,
+        damping,
+        qd,
+        gain,
+        dt,
+    )
+    return momentum_observer_step(*given)[::-1]
 
 
 @row.right  # A joint at a time.
-def _(residual, integral, p, tau, slope, gravity, damping, qd, gain, dt):
+def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
     r, new = np.zeros(7), np.zeros(7)
     for j in range(7):
-        torque = tau[j] + slope[j] - gravity[j] - damping[j] * qd[j]
+        torque = tau[j] + energy_grad[j] - gravity[j] - damping[j] * qd[j]
         new[j] = integral[j] + dt * torque + dt * residual[j]
-        r[j] = gain * p[j] - gain * new[j]
+        r[j] = gain * momentum[j] - gain * new[j]
     return r, new
 
 

@@ -49,7 +49,7 @@ MOTION = 60
 ROUNDS = 3  # of iLQR
 
 
-def gravity_slope(
+def gravity_stiffness(
     J_space: np.ndarray, masses: np.ndarray, coms: np.ndarray, g: np.ndarray
 ) -> np.ndarray:
     """Return how gravity's torque changes when a joint turns, (n, n), N m/rad.
@@ -68,17 +68,18 @@ def gravity_slope(
 
 
 def linearise(
-    M: np.ndarray, slope: np.ndarray, damping: np.ndarray, h: float
+    M: np.ndarray, stiffness: np.ndarray, damping: np.ndarray, h: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return A, (2 n, 2 n), and B, (2 n, n): MuJoCo's next x is A x + B u, near rest.
 
     damping, (n,), N m s/rad, acts on the new speed; h is the time step. One joint with
-    M 1, slope 10, damping 1, h 0.1: A = [[10, 1], [-10, 10]] / 11, B = (0.1, 1) / 11.
+    M 1, stiffness 10, damping 1, h 0.1: A = [[10, 1], [-10, 10]] / 11, B = (0.1, 1) /
+    11.
     """
     # region 13.2
     now = np.eye(len(damping))
     inverse = np.linalg.inv(M + h * np.diag(damping))
-    by_q = -h * inverse @ slope  # what the new speed makes of q, of v and of u
+    by_q = -h * inverse @ stiffness  # what the new speed makes of q, of v and of u
     by_v = inverse @ M
     by_u = h * inverse
     A = np.block([[now + h * by_q, h * by_v], [by_q, by_v]])
@@ -100,10 +101,10 @@ def riccati_step(
     # endregion 13.3
 
 
-def lqr_cost(P: np.ndarray, x: np.ndarray) -> float:
+def cost_to_go(P: np.ndarray, x: np.ndarray) -> float:
     """Return what P promises that a start at x, (n,), will cost.
 
-    lqr_cost([[2, 1], [1, 2.5]], [1, 2]) -> 16
+    cost_to_go([[2, 1], [1, 2.5]], [1, 2]) -> 16
     """
     # region 13.3
     return x @ P @ x
@@ -111,15 +112,15 @@ def lqr_cost(P: np.ndarray, x: np.ndarray) -> float:
 
 
 def kkt_residual(
-    H: np.ndarray, g: np.ndarray, lo: np.ndarray, hi: np.ndarray, x: np.ndarray
+    H: np.ndarray, f: np.ndarray, lo: np.ndarray, hi: np.ndarray, x: np.ndarray
 ) -> float:
-    """Return how far x is from the least of x . H x / 2 + g . x in the box lo, hi.
+    """Return how far x is from the least of x . H x / 2 + f . x in the box lo, hi.
 
     Push x by minus its slope, clip: the largest difference to x. H = [[2, 1], [1, 2]],
-    g = (-2, -10), the box -1 to 1: 0 at (0.5, 1), 2 at (-1, 1), 1 at (0, 0).
+    f = (-2, -10), the box -1 to 1: 0 at (0.5, 1), 2 at (-1, 1), 1 at (0, 0).
     """
     # region 13.4
-    there = np.clip(x - (H @ x + g), lo, hi)
+    there = np.clip(x - (H @ x + f), lo, hi)
     return np.abs(x - there).max()
     # endregion 13.4
 
@@ -142,9 +143,9 @@ def first_limit(
 
 
 def box_qp(
-    H: np.ndarray, g: np.ndarray, lo: np.ndarray, hi: np.ndarray, x: np.ndarray
+    H: np.ndarray, f: np.ndarray, lo: np.ndarray, hi: np.ndarray, x: np.ndarray
 ) -> np.ndarray:
-    """Return the x, (n,), in the box for which x . H x / 2 + g . x is least.
+    """Return the x, (n,), in the box for which x . H x / 2 + f . x is least.
 
     x is where to start, also outside. `kkt_residual`'s case: (0.5, 1), where without
     the box it is (-2, 6).
@@ -155,12 +156,12 @@ def box_qp(
     for _ in range(100):
         free = ~held
         step = np.zeros(len(x))
-        step[free] = np.linalg.solve(H[np.ix_(free, free)], -(H @ x + g)[free])
+        step[free] = np.linalg.solve(H[np.ix_(free, free)], -(H @ x + f)[free])
         x, met = first_limit(x, step, lo, hi)
         if met is not None:
             held[met] = True
             continue
-        leaves = np.abs(x - np.clip(x - (H @ x + g), lo, hi))  # 13.4's
+        leaves = np.abs(x - np.clip(x - (H @ x + f), lo, hi))  # 13.4's
         if leaves.max() < 1e-12:
             break
         held[np.argmax(leaves)] = False
@@ -213,35 +214,35 @@ def ilqr_backward(
     # endregion 13.7
 
 
-def expected_drop(drop: np.ndarray, alpha: float) -> float:
-    """Return what a step of alpha k should save; drop, (2,), is `ilqr_backward`'s.
+def expected_reduction(dV: np.ndarray, alpha: float) -> float:
+    """Return what a step of alpha k should save; dV, (2,), is `ilqr_backward`'s.
 
-    expected_drop([-4, 2], 0.5) -> 1.5
+    expected_reduction([-4, 2], 0.5) -> 1.5
     """
     # region 13.8
-    return -(alpha * drop[0] + alpha**2 * drop[1])
+    return -(alpha * dV[0] + alpha**2 * dV[1])
     # endregion 13.8
 
 
-def accept_ratio(before: float, after: float, expected: float) -> float:
+def reduction_ratio(before: float, after: float, expected: float) -> float:
     """Return what was saved, as a share of what was expected.
 
-    accept_ratio(5, 3.5, 2) -> 0.75
+    reduction_ratio(5, 3.5, 2) -> 0.75
     """
     # region 13.8
     return (before - after) / expected
     # endregion 13.8
 
 
-def limit_prices(
-    H: np.ndarray, g: np.ndarray, lo: np.ndarray, hi: np.ndarray, x: np.ndarray
+def bound_multipliers(
+    H: np.ndarray, f: np.ndarray, lo: np.ndarray, hi: np.ndarray, x: np.ndarray
 ) -> np.ndarray:
     """Return d(least cost) / d(limit), (n,), at the best x: 0 where no limit holds it.
 
     That of `kkt_residual`, where x is (0.5, 1): (0, -7.5).
     """
     # region 13.9
-    slope = H @ x + g
+    slope = H @ x + f
     held = ((x <= lo) & (slope > 0)) | ((x >= hi) & (slope < 0))
     return np.where(held, slope, 0.0)
     # endregion 13.9
@@ -251,7 +252,7 @@ def at_rest(model: mujoco.MjModel, q: np.ndarray, h: float) -> tuple[np.ndarray,
     """Return your slope of gravity at q, and your A and B."""
     arm = panda.arm(model)
     now = arm.at(q)
-    slope = gravity_slope(now.J_space, arm.masses, now.coms_world, arm.gravity)
+    slope = gravity_stiffness(now.J_space, arm.masses, now.coms_world, arm.gravity)
     return slope, *linearise(now.M, slope, arm.damping, h)
 
 
@@ -337,10 +338,10 @@ def off_one_solve(parts: tuple, mu: float, x: np.ndarray) -> dict[str, float]:
             inputs.append(alpha * more + gain @ now)
             now = A @ now + B @ inputs[-1]
         cost = total(dear, np.array(inputs), 0 * x)
-        expected = expected_drop(drop, alpha)
+        expected = expected_reduction(drop, alpha)
         off["drop"] = max(off["drop"], abs(cost + expected))
         for share in (1.0, 0.5, 2.0, -1.0):  # where another saving was expected
-            ratio = share * accept_ratio(0.0, cost, share * expected)
+            ratio = share * reduction_ratio(0.0, cost, share * expected)
             off["ratio"] = max(off["ratio"], abs(ratio - 1))
     best, _ = least(dear, x)
     now = x
@@ -362,7 +363,7 @@ def off_one_riccati(rng: np.random.Generator) -> tuple[float, float]:
         P, K = riccati_step(P, A, B, Q, R)
     x = rng.normal(size=3)
     best, cost = least(parts, x)
-    return abs(lqr_cost(P, x) - cost), np.abs(best[0] + K @ x).max()
+    return abs(cost_to_go(P, x) - cost), np.abs(best[0] + K @ x).max()
 
 
 def promise(A: np.ndarray, B: np.ndarray, h: float, r: float = R_COST) -> tuple:
@@ -394,7 +395,7 @@ def kept(
 ) -> np.ndarray:
     """Return cost over promise of both sides of the rest point, (2,)."""
     x = size * np.append(WAY, np.zeros(7))
-    return np.array([paid(model, K, one) / lqr_cost(P, one) for one in (x, -x)])
+    return np.array([paid(model, K, one) / cost_to_go(P, one) for one in (x, -x)])
 
 
 def boxes(n: int, rng: np.random.Generator) -> list[tuple[np.ndarray, ...]]:
@@ -481,8 +482,8 @@ def reach(model: mujoco.MjModel, rounds: int = ROUNDS) -> list[tuple[float, ...]
         k, K, drop = ilqr_backward(*task.expanded(x, u), 0.0)
         for alpha in 0.5 ** np.arange(10):
             there = task.rolled(u, x, alpha * k, K)
-            expected = expected_drop(drop, alpha)
-            ratio = accept_ratio(found[-1][0], task.cost(*there), expected)
+            expected = expected_reduction(drop, alpha)
+            ratio = reduction_ratio(found[-1][0], task.cost(*there), expected)
             if ratio > 0.1:
                 x, u = there
                 break
@@ -494,7 +495,7 @@ def said(model: mujoco.MjModel, name: str, P: np.ndarray, K: np.ndarray, best: f
     """Print what a gain costs, as a share of its own promise and of the best's cost."""
     x = JUDGED * np.append(WAY, np.zeros(7))
     both = (paid(model, K, x) + paid(model, K, -x)) / 2
-    print(f"  {name:28}{both / lqr_cost(P, x):9.3f}{both / best:11.3f}")
+    print(f"  {name:28}{both / cost_to_go(P, x):9.3f}{both / best:11.3f}")
 
 
 def hold(lab: Lab, model: mujoco.MjModel) -> None:
@@ -514,7 +515,7 @@ def hold(lab: Lab, model: mujoco.MjModel) -> None:
     lab.record("promise_off", np.mean(sides[JUDGED]) - 1, metric="max_abs",
                label=f"|mean of both sides - 1|, {1000 * JUDGED:.0f} mrad")  # fmt: skip
     x = JUDGED * np.append(WAY, np.zeros(7))
-    best = lqr_cost(P, x)
+    best = cost_to_go(P, x)
     print("  held by                     cost / own promise   / the best")
     said(model, "K", P, K, best)
     none = linearise(panda.arm(model).at(READY_Q).M, 0 * slope, model.dof_damping, h)
@@ -557,7 +558,7 @@ def main() -> int:
     asked = [(model, READY_Q), *((model, q) for q in poses[1::2])]
     asked += [(day13_mujoco.on_a_wall(), q) for q in poses[::2]]
     off = [at_rest(one, q, h)[0] - mujoco_gravity(one, q) for one, q in asked]
-    lab.check("|gravity_slope - that of qfrc_bias|, N m/rad", off)
+    lab.check("|gravity_stiffness - that of qfrc_bias|, N m/rad", off)
     off = []
     for one, q in [*asked[:3], *asked[-3:]]:
         ours = np.hstack(at_rest(one, q, h)[1:])
@@ -616,8 +617,10 @@ def main() -> int:
         off = []
         for H, g, lo, hi, _ in some[1:]:
             x = mujoco_box(H, g, lo, hi)
-            off.append(limit_prices(H, g, lo, hi, x) - mujoco_prices(H, g, lo, hi, x))
-        lab.check("|limit_prices - slopes of mju_boxQP's cost|", off, 1e-6)
+            off.append(
+                bound_multipliers(H, g, lo, hi, x) - mujoco_prices(H, g, lo, hi, x)
+            )
+        lab.check("|bound_multipliers - slopes of mju_boxQP's cost|", off, 1e-6)
     return lab.finish()
 
 
