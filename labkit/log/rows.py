@@ -127,7 +127,8 @@ def _other_columns(lines: list[str]) -> str:
     if missing := [name for name in COLUMNS if name not in known]:
         return (
             f"The column {', '.join(missing)} is missing. Leave the rows under their"
-            f" own names: another line 1 would exchange them. {_BACK}. All are: {HEADER}"
+            f" own names: another line 1 would exchange them. {_BACK}. All are:"
+            f" {HEADER}"
         )
     if len(names) > len(COLUMNS) or known != list(COLUMNS):
         what = "more columns" if len(names) > len(COLUMNS) else "them in another order"
