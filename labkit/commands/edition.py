@@ -30,7 +30,9 @@ LEFT_OUT = re.compile(
 )
 COMMANDS = "test|soak|lint|docs|site|oracle|bench|test-matrix|grade|edition"
 NOT_HERE = re.compile(rf"make ({COMMANDS})\b")
-SECTIONS = ("How fast", "Where things are")  # of README: about what is left out
+SECTION = "Where things are"  # of README: it lists what is left out
+FOR_TESTS = re.compile(r"\s+`make test` runs[^.]*\.")  # README's sentence about them
+FOR_AUTHORS = re.compile(r"To change the kit.*", re.DOTALL)  # README's last sentence
 ABOUT = """# Student edition of robo47 {version}
 
 The whole course, its checker and its library, without what gives answers away: the
@@ -107,12 +109,10 @@ def shorten(out: Path) -> None:
     makefile.write_text("\n\n".join(b for b in blocks if not gone.match(b)), "utf-8")
     readme = out / "README.md"
     text = readme.read_text("utf-8")
-    for name in SECTIONS:
-        until = r"\n.*?(?=\n## |\nThe robot is)"
-        text = re.sub(rf"\n## {name}{until}", "", text, flags=re.S)
-    note = f"\nWhat is left out: [{NOTE}]({NOTE}).\n"
-    text = re.sub(r"\nTeaching with it.*", note, text, flags=re.S)
-    text = text.replace(" The kit's own tests: `make test`.", "")
+    until = r"\n.*?(?=\n## |\nThe robot is)"
+    text = re.sub(rf"\n## {SECTION}{until}", "", text, flags=re.S)
+    text = FOR_AUTHORS.sub(f"[{NOTE}]({NOTE}) lists what is left out.\n", text)
+    text = FOR_TESTS.sub("", text)
     lines = [line for line in text.splitlines() if not NOT_HERE.search(line)]
     readme.write_text("\n".join(lines) + "\n", "utf-8")
     for page in out.rglob("*.md"):
