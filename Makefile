@@ -1,5 +1,5 @@
 # Every target is one line over a script that also runs on its own, so a machine
-# without make loses nothing: README, "No make?".
+# without make loses nothing: README, "Commands".
 PYTHON ?= python3
 ifeq ($(OS),Windows_NT)
   PY := .venv/Scripts/python.exe

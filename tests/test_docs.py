@@ -172,9 +172,10 @@ def test_every_command_in_the_teachers_guide_exists(run):
     known = run("scripts/grade_class.py", "--help").stdout
     makefile = (ROOT / "Makefile").read_text("utf-8")
     code = re.findall(r"`[^`]+`|^ *(?:- run: )?make .*", guide, re.MULTILINE)
-    targets = {name for text in code for name in re.findall(r"\bmake (\w+)", text)}
+    targets = {name for text in code for name in re.findall(r"\bmake ([a-z]+)", text)}
     assert targets >= {"grade", "check", "start"}
-    assert {name for name in targets if f"\n{name}:" not in makefile} == set()
+    missing = [n for n in targets if not re.search(rf"^{n}%?:", makefile, re.M)]
+    assert missing == []
     lines = [line for line in guide.splitlines() if "make grade" in line]
     named = {option for line in lines for option in re.findall(r"--[a-z]+", line)}
     assert named >= {"--pull", "--deadline", "--dask"}

@@ -134,7 +134,7 @@ def constants(day: Day) -> Iterator[str]:
     """Yield what moves, or stays, otherwise than the day's list of constants says."""
     if not day.has("constants"):
         file = shown(day.own / "constants.py")
-        yield f"{file} is not there: what the guide's numbers hang on (teaching.md)"
+        yield f"{file} is not there: what the guide's numbers hang on (docs/authors.md)"
         return
     block = f"<!-- run: {TABLE_OF.format(day.number)} -->"
     if block not in (day.folder / day.guide).read_text("utf-8"):

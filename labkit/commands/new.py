@@ -6,7 +6,7 @@
     make new DAY=12 FROM=9 WEEK=w3-x NAME=imitation   there, so called
 
 A week that is not there yet gets its own files too. Nothing is overwritten. What to do
-next: docs/teaching.md.
+next: docs/authors.md.
 """
 
 import re
@@ -193,5 +193,5 @@ def main() -> int:
         print(f"wrote {shown(path)}")
     docs.renew(docs.documents_of(find_day(options.day)))
     n = options.day
-    print(f"Now: make author DAY={n}, and docs/teaching.md")
+    print(f"Now: make author DAY={n}, and docs/authors.md")
     return cli.EXIT_OK
