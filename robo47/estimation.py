@@ -7,8 +7,8 @@ the torque that nobody commanded, from the motors' torques and the arm's momentu
 Conventions:
 
 - Time runs along the first axis, one sample every `dt` seconds; nothing looks ahead.
-- A state x has a covariance P; q is the intensity of the white acceleration that
-  drives a constant-velocity model, (rad/s^2)^2 per Hz, that is rad^2/s^3.
+- A state x has a covariance P; accel_psd is the intensity of the white acceleration
+  that drives a constant-velocity model, (rad/s^2)^2 per Hz, that is rad^2/s^3.
 - Twists are (omega; v); `J_space` is the space Jacobian, G are the links' inertias
   about the world's origin, as in `robo47.dynamics`.
 - Radians, seconds, N m. A wrong shape or a number that is not finite is a ValueError,
@@ -50,7 +50,7 @@ def quantise(q: ArrayLike, counts: float) -> Array:
     return np.round(checks.array(q, "q", ()) / step) * step
 
 
-def difference(q: ArrayLike, dt: float) -> Array:
+def backward_difference(q: ArrayLike, dt: float) -> Array:
     """Return the speed since the sample before, which the first one does not have: 0.
 
     Args:
@@ -108,23 +108,23 @@ def low_pass(x: ArrayLike, dt: float, cutoff: float) -> Array:
     return y
 
 
-def constant_velocity(dt: float, q: float) -> tuple[Array, Array]:
+def constant_velocity(dt: float, accel_psd: float) -> tuple[Array, Array]:
     """Return the model of an angle whose speed is changed by nothing but white noise.
 
-    Over dt the noise adds up to q [[dt^3/3, dt^2/2], [dt^2/2, dt]] (Bar-Shalom,
+    Over dt the noise adds up to accel_psd [[dt^3/3, dt^2/2], [dt^2/2, dt]] (Bar-Shalom,
     chapter 6).
 
     Args:
         dt: s, above 0.
-        q: intensity of the acceleration's noise, rad^2/s^3, not below 0.
+        accel_psd: intensity of the acceleration's noise, rad^2/s^3, not below 0.
 
     Returns:
         (F, Q), (2, 2) each: x = (angle; speed) becomes F x, and is less sure by Q.
     """
     dt = float(checks.positive(dt, "dt"))
-    q = float(checks.not_negative(q, "q"))
+    accel_psd = float(checks.not_negative(accel_psd, "accel_psd"))
     F = np.array([[1.0, dt], [0.0, 1.0]])
-    Q = q * np.array([[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]])
+    Q = accel_psd * np.array([[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]])
     return F, Q
 
 
@@ -205,7 +205,7 @@ def nis_interval(n: float, m: float) -> Array:
     return m * (1.0 - c + np.array([-Z_95, Z_95]) * np.sqrt(c)) ** 3
 
 
-def whiteness(y: ArrayLike) -> float:
+def lag1_autocorrelation(y: ArrayLike) -> float:
     """Return how much each number looks like the one before: 0 for independent ones.
 
     The correlation at a lag of one sample, of y less its mean: the sum of y_k y_(k+1)
@@ -227,7 +227,7 @@ def whiteness(y: ArrayLike) -> float:
     return float(off[1:] @ off[:-1]) / float(off @ off)
 
 
-def energy_slope(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike) -> Array:
+def kinetic_energy_gradient(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike) -> Array:
     """Return how the kinetic energy changes with each angle, the speeds kept.
 
     Turn all links from i on by S_i. Their inertias turn with them, so seen from them
@@ -252,24 +252,24 @@ def energy_slope(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike) -> Array:
     return -(momenta * times(ad(S), V)).sum(axis=-1)
 
 
-def observer_step(
-    residual: ArrayLike, integral: ArrayLike, p: ArrayLike, tau: ArrayLike,
-    slope: ArrayLike, gravity: ArrayLike, damping: ArrayLike, qd: ArrayLike,
+def momentum_observer_step(
+    residual: ArrayLike, integral: ArrayLike, momentum: ArrayLike, tau: ArrayLike,
+    energy_grad: ArrayLike, gravity: ArrayLike, damping: ArrayLike, qd: ArrayLike,
     gain: float, dt: float,
 ) -> tuple[Array, Array]:  # fmt: skip
     """Return the torque that nobody commanded, as it is felt one sample later.
 
-    The momentum p = M qd changes by tau + slope - gravity - damping qd and by what
-    nobody commanded. `integral` adds up what is known, with the residual fed back;
-    gain (p - integral) then follows the unknown torque, 63 % of it after 1 / gain
-    (De Luca and Mattone 2003). Begin with integral = p and residual 0.
+    The momentum M qd changes by tau + energy_grad - gravity - damping qd and by
+    what nobody commanded. `integral` adds up what is known, with the residual fed back;
+    gain (momentum - integral) then follows the unknown torque, 63 % of it after 1 /
+    gain (De Luca and Mattone 2003). Begin with integral = momentum and residual 0.
 
     Args:
         residual: the last one, N m, (..., n).
         integral: the last one, kg m^2/s, (..., n).
-        p: momentum now, kg m^2/s, (..., n).
+        momentum: momentum now, kg m^2/s, (..., n).
         tau: of the motors since the last sample, N m, (..., n).
-        slope: `energy_slope`, N m, (..., n).
+        energy_grad: `kinetic_energy_gradient`, N m, (..., n).
         gravity: torque that holds the arm still, N m, (..., n).
         damping: of the joints, N m s/rad, a number or (n,).
         qd: joint velocities, rad/s, (..., n).
@@ -279,17 +279,17 @@ def observer_step(
     Returns:
         (residual in N m, integral in kg m^2/s), (..., n) each.
     """
-    residual, integral, p, tau, slope, gravity, qd = checks.same_size(
-        residual=residual, integral=integral, p=p, tau=tau, slope=slope,
-        gravity=gravity, qd=qd,
+    residual, integral, momentum, tau, energy_grad, gravity, qd = checks.same_size(
+        residual=residual, integral=integral, momentum=momentum, tau=tau,
+        energy_grad=energy_grad, gravity=gravity, qd=qd,
     )  # fmt: skip
     gain, dt = float(checks.positive(gain, "gain")), float(checks.positive(dt, "dt"))
     brake = checks.per_joint(damping, "damping", qd) * qd
-    integral = integral + (tau + slope - gravity - brake + residual) * dt
-    return gain * (p - integral), integral
+    integral = integral + (tau + energy_grad - gravity - brake + residual) * dt
+    return gain * (momentum - integral), integral
 
 
-def pushed_link(residual: ArrayLike, threshold: ArrayLike) -> int:
+def contact_link(residual: ArrayLike, threshold: ArrayLike) -> int:
     """Return the last joint that feels a push, counted from 1; 0 where none does.
 
     The push is on its link or on one after it: a force whose line meets a joint's axis

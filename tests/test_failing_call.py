@@ -97,7 +97,7 @@ def test_edges_are_the_ends_of_every_range_and_whole_axes():
 
 # Of trees on a grid rounding would say which node is the nearest, a part of a
 # path is below 1, and at gravity's limit zeros begin from one bit to the next.
-NO_EDGES = {"rrt_connect", "shortcut", "fastest_along"}
+NO_EDGES = {"rrt_connect", "shortcut", "time_optimal_profile"}
 
 
 @pytest.mark.parametrize("day", all_days(), ids=lambda day: f"day {day.number}")

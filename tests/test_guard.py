@@ -140,8 +140,13 @@ def test_a_matrix_of_the_largest_numbers_has_no_eigenvalue():
 @pytest.mark.parametrize(
     ("number", "function", "old", "new"),
     [
-        (12, "disc_edge_free", "axis=1) > discs", "axis=1) >= discs"),
-        (12, "disc_edge_free", "np.clip(part, 0.0, 1.0)[:, None]", "part[:, None]"),
+        (12, "segment_free_of_discs", "axis=1) > discs", "axis=1) >= discs"),
+        (
+            12,
+            "segment_free_of_discs",
+            "np.clip(part, 0.0, 1.0)[:, None]",
+            "part[:, None]",
+        ),
         (10, "icp_step", "kabsch(source, target[np.argmin(away, axis=1)])", TRIMMED),
     ],
 )

@@ -11,12 +11,14 @@ from restored import Restored
 
 from conftest import copy_kit
 from labkit import log as metrics
+from labkit.base.deadline import Deadline
 from labkit.commands import hunt
 from labkit.grade import hunts, hunts_page
 from labkit.grade.roster import find_students
 from labkit.hunt import case as cases
 from labkit.hunt import experiment, quarry, tally, written
 from labkit.hunt.script import closed_capstone, closed_lab, is_closed, opened
+from labkit.hunt.verdict import judged
 from labkit.judge.row import rows_of
 from labkit.lesson.day import all_days, days_of, find_day
 from labkit.lesson.starter import function_lines, put_back
@@ -296,3 +298,50 @@ def test_a_class_is_graded_by_its_scripts_and_not_by_its_word(tmp_path):
     assert "the committed script does not repair it" in page
     late = list(hunts.grade(hunt, find_students(tmp_path), deadline=1_000_000_000))
     assert {one.state for one in late} == {hunts.NO_HUNT}
+
+
+def hostile_hunters():
+    """Return one hunt of each kind that once kept a whole class from its grades."""
+    first, second = make_hunters.GUILTY, make_hunters.INNOCENT
+    big = make_hunters.Hunter().suspect(first).botch(first)
+    big.text = big.text.replace("np.zeros(7)", f"np.zeros(7)  # {'x' * 120_000}")
+    infinite = make_hunters.Hunter().suspect(first).botch(first)
+    infinite.text = infinite.text.replace("np.zeros(7)", "np.inf")
+    sleeps = make_hunters.Hunter().suspect(first).botch(first).botch(second)
+    sleep = "__import__('time').sleep(1e3)"
+    sleeps.text = sleeps.text.replace("np.zeros(7)", sleep)
+    return {"big": big, "infinite": infinite, "sleeps": sleeps}
+
+
+@pytest.mark.kit
+def test_a_hostile_hunt_costs_one_grade_and_not_the_classs(tmp_path):
+    for name, hunter in hostile_hunters().items():
+        hunter.write(tmp_path / name)
+    honest = make_hunters.hunters()["found"]
+    for name in ("columns", "zz-honest"):
+        honest.write(tmp_path / name)
+    table = tmp_path / "columns" / "metrics" / "metrics.csv"
+    table.write_text(",".join("a" * 20_000) + "\n" + "1\n" * 20_000)
+    make_hunters.commit(tmp_path / "columns")
+    hunt = hunts.Hunt(make_hunters.DAY, make_hunters.LEVEL, make_hunters.SEED)
+    class_ = {
+        one.student.name: one for one in hunts.grade(hunt, find_students(tmp_path))
+    }
+    assert {name: one.state for name, one in class_.items()} == {
+        "big": hunts.UNGRADED,
+        "columns": hunts.FOUND,
+        "infinite": hunts.NAMED,
+        "sleeps": hunts.NAMED,
+        "zz-honest": hunts.FOUND,
+    }
+    assert class_["big"].why == "the hunted script is over 100 kB"
+    (odd, _) = class_["columns"].odd
+    assert "not the log's header" in odd
+
+
+def test_all_functions_of_a_hunt_have_one_deadline():
+    case = cases.draw(make_hunters.DAY, make_hunters.LEVEL, make_hunters.SEED, [])
+    hunter = hostile_hunters()["sleeps"]
+    none_left = Deadline(-1.0)
+    found = judged(case, hunter.text.encode(), 1, none_left)
+    assert [one.verdict.mistake for one in found] == ["too-slow"] * 2

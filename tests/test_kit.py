@@ -211,7 +211,9 @@ def test_make_asks_for_a_code_of_not_yet_that_no_crash_has(run_in):
 def test_make_takes_not_yet_alone_for_no_error(tmp_path, code, ends):
     need(shutil.which("make") is not None, "make")
     lines = (ROOT / "Makefile").read_text("utf-8").splitlines()
-    own = [line for line in lines if line.startswith(("export ROBO47_", "NOT_YET ="))]
+    own = [
+        line for line in lines if line.startswith(("export ROBO47_NOT", "NOT_YET ="))
+    ]
     assert len(own) == 2
     recipe = ["it:", f"\t@sh -c 'exit {code}' $(NOT_YET)"]
     (tmp_path / "Makefile").write_text("\n".join([*own, *recipe, ""]))

@@ -1,4 +1,4 @@
-"""What the checker says of a file as people really save it: notebooks, imports, merges."""
+"""What the checker says of files as people save them: notebooks, imports, merges."""
 
 import pytest
 

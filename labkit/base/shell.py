@@ -92,9 +92,10 @@ def for_installer(environment, listed=""):
     configured = {}
     for line in listed.splitlines():  # a command's own line follows the global one
         found = _SETTING.match(line)
-        name = "PIP_" + found.group(1).upper().replace("-", "_") if found else ""
-        if _REACHES.match(name):
+        if found:
+            name = "PIP_" + found.group(1).upper().replace("-", "_")
             configured[name] = " ".join(_unquoted(found.group(2)).split())
+    configured = {k: v for k, v in configured.items() if _REACHES.match(k)}
     ours = {
         name: value
         for name, value in environment.items()

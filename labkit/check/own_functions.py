@@ -27,7 +27,7 @@ from robo47.paths import shown
 # What `robo47.attempt` asks of a capstone's module.
 ASKED = (
     "NAME", "THING", "GOAL", "USES", "HEAD",
-    "library", "attempt", "row", "told", "film",
+    "library", "attempt", "row", "summary", "film",
 )  # fmt: skip
 
 

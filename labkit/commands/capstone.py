@@ -148,7 +148,7 @@ def ablations(capstone: ModuleType, fns: Any, week: Week) -> int:
 def one(capstone: ModuleType, fns: Any, clip: Path | None, picture: Path | None) -> int:
     """Attempt the one that is always the same; film it and draw it where asked to."""
     result = attempted(capstone, fns)
-    told = capstone.told(result)
+    told = capstone.summary(result)
     print("", *told.before, capstone.HEAD, sep="\n")
     print(capstone.row(f"one {capstone.THING}", result), *told.after, sep="\n")
     if clip or picture:

@@ -7,7 +7,8 @@
     python3 scripts/check_day.py 1 --json       for tools
 
 Your code runs in a process of its own, on a copy; nothing of yours is changed.
-Exit code: 0 all passed, 1 something to fix, 2 the checker could not run.
+Exit code: 0 all passed, 1 something to fix, 2 the checker could not run, 70 the kit
+itself failed. With make, "something to fix" is no error, and the other codes are.
 """
 
 import argparse

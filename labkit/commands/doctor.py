@@ -298,8 +298,8 @@ def examine() -> list[Line]:
     checks: list[Callable[[], Line]] = [check_kit, lambda: here, check_platform]
     checks += [check_shell]
     if here.status == "good":  # else these only say so again
-        inside = (check_mujoco, check_robot, check_lessons, check_names)
-        inside += (check_wall, check_gl)
+        inside = [check_mujoco, check_robot, check_lessons, check_names]
+        inside += [check_wall, check_gl]
         checks += [functools.partial(check, python) for check in inside]
     checks += [check_display, check_disk, check_git]
     lines = []

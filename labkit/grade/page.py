@@ -45,7 +45,8 @@ _ALIKE = (
 _GROUPS = '<a href="#alike">groups alike</a>: no verdict'
 _HIDDEN = (
     "In an ordinary file each function that a task asks for has its def. Here tasks "
-    "pass without one, or beside what runs a text as code: look at the file, and ask."
+    "pass without one, beside what runs a text as code, or beside long text constants "
+    "that could be code: look at the file, and ask."
 )
 _COUNTED = (
     "Counted where they were made, once per student; a whole bar is the class. Last: "

@@ -47,7 +47,7 @@ CLASS: dict[str, tuple[str, str] | int] = {
     "Luca Bianchi": 3,
 }
 SHOWN = "Farid Rahimi"  # whose feedback file is drawn
-SHEET = """<!doctype html><meta charset="utf-8"><style>
+SHEET = """<meta charset="utf-8"><style>
 body {{ margin: 0; background: #fff; color: #1f2328; }}
 pre {{ font: 15px/1.45 "DejaVu Sans Mono", monospace; margin: 20px 24px; }}
 </style><pre>{}</pre>

@@ -20,6 +20,8 @@ def clashes(folder: Path) -> list[Path]:
     Args:
         folder: in which the labs are; it need not be there.
     """
+    if folder.resolve() == ROOT:  # the names there are the kit's
+        return []
     found = [*folder.glob("*.py"), *(p.parent for p in folder.glob("*/__init__.py"))]
     return sorted(path for path in found if _is_taken(path.stem, folder))
 
@@ -28,9 +30,8 @@ def _is_taken(name: str, folder: Path) -> bool:
     """Return whether Python, or a package that is installed, has a module's name."""
     if name in sys.stdlib_module_names or name in _KITS:
         return True
-    mine = {folder.resolve(), ROOT, ROOT / "scripts", Path.cwd()}
-    others = [one for one in sys.path if Path(one).resolve() not in mine]
-    spec = PathFinder.find_spec(name, others)
+    installed = [one for one in sys.path if "site-packages" in Path(one).parts]
+    spec = PathFinder.find_spec(name, installed)
     return spec is not None and spec.origin is not None
 
 

@@ -1,6 +1,6 @@
 """What shows in a student's file unrun: a gap left in, a function renamed or doubled.
 
-And what is no Python in it: lines of a notebook, marks of a merge, a pointer of Git LFS.
+Also what is no Python: lines of a notebook, marks of a merge, a pointer of Git LFS.
 """
 
 import ast

@@ -43,7 +43,7 @@ def draw(facts: Mapping[str, Any], tried: Attempt) -> Image.Image:
     film = None
     if tried.capstone is not None and tried.result is not None:
         film = tried.capstone.film(tried.result)
-        told = tried.capstone.told(tried.result)
+        told = tried.capstone.summary(tried.result)
         alone = tried.counted.all
         whose = "" if alone else f", with {tried.counted} functions their own"
         rows.append((told.number, told.of + whose, alone and not tried.result.failed))

@@ -19,7 +19,7 @@ from labkit.proof import sharing
 from labkit.proof.capstone import Attempt, recorded
 from labkit.proof.facts import RunDay
 from labkit.report.series import Series, cell_of, limit_of, with_unit
-from robo47.attempt import Told
+from robo47.attempt import Summary
 
 # What viser's player needs of the page's policy. Its workers compile what they run.
 ALLOWED = (
@@ -171,7 +171,7 @@ def _capstone_tiles(attempt: Attempt) -> list[tuple[str, str, str]]:
         return []
     if attempt.result is None:
         return [("none", "–", attempt.capstone.NAME)]
-    told = attempt.capstone.told(attempt.result)
+    told = attempt.capstone.summary(attempt.result)
     role = "pass" if attempt.counted.all else ""
     return [("fail" if attempt.result.failed else role, told.number, told.of)]
 
@@ -180,7 +180,7 @@ def _capstone_in_short(attempt: Attempt) -> str:
     """Return "the pick: 0.9 mm from the cube to its mark", "" without a result."""
     if attempt.capstone is None or attempt.result is None:
         return ""
-    told = attempt.capstone.told(attempt.result)
+    told = attempt.capstone.summary(attempt.result)
     words = f"{attempt.capstone.NAME}: {told.number} {told.of}"
     whose = f", with {attempt.counted} functions their own"
     return words if attempt.counted.all else words + whose
@@ -198,7 +198,7 @@ def _capstone(attempt: Attempt, place: str) -> str:
         why = f"It stopped: {escape(attempt.stopped)}." if attempt.stopped else ""
         words = why or "None of the functions that move the arm is theirs yet."
         return html.section(heading, f"<p>{words}</p>")
-    told = attempt.capstone.told(attempt.result)
+    told = attempt.capstone.summary(attempt.result)
     by = _by(attempt.capstone.USES, attempt)
     words = escape(f"{told.came} {whose}. {told.way} Drag to turn it.")
     player = (
@@ -209,7 +209,7 @@ def _capstone(attempt: Attempt, place: str) -> str:
     return html.section(heading, f"<p>{words}</p>", stayed, film, _figures(told), by)
 
 
-def _figures(told: Told) -> str:
+def _figures(told: Summary) -> str:
     """Return what the capstone measured, each with its unit and what is allowed."""
     rows = [
         f"<tr><td class=wide>{escape(what)}</td><td class=n>{escape(value)}</td>"

@@ -48,7 +48,7 @@ def decay(bench, law, seconds, rate=500.0):
 @pytest.mark.parametrize("zeta", [0.1, 0.5, 1.0, 2.0, 5.0])
 def test_the_error_response_solves_its_equation(zeta):
     t = np.linspace(0, 0.5, 21)
-    kp, kd = lab.gains(12.0, zeta)
+    kp, kd = lab.pd_gains(12.0, zeta)
     truth = solve_ivp(
         lambda _, x: [x[1], -kp * x[0] - kd * x[1]], (0, 0.5), [1.0, 0.0],
         "DOP853", t, rtol=1e-11, atol=1e-13,
@@ -59,7 +59,7 @@ def test_the_error_response_solves_its_equation(zeta):
 def test_the_rounded_numbers_in_the_docstrings_are_true():
     after = lab.error_response(np.array([0.1]), 10.0, 1.0)[0]
     assert after == pytest.approx(0.7358, abs=5e-5)
-    assert lab.stiffest_omega(0.002) == pytest.approx(414.2, abs=0.05)
+    assert lab.max_stable_omega(0.002) == pytest.approx(414.2, abs=0.05)
 
 
 def test_the_reference_starts_and_ends_at_rest_and_is_its_own_derivative():
@@ -98,7 +98,7 @@ def test_gains_outside_m_overdamp_the_light_joints(armature, creeps):
     model.dof_armature[4:] = armature
     arm = panda.arm(model)
     wrist = slice(4, 7)
-    kp, kd = lab.gains(lab.OMEGA, 1.0)
+    kp, kd = lab.pd_gains(lab.OMEGA, 1.0)
     M = np.diag(arm.at(lab.READY_Q).M)[wrist]
     assert (kd / (2.0 * np.sqrt(kp * M)) > 2.5).all() == creeps
     t, e = decay((model, arm), lab.gains_outside, 0.3, rate=250.0)
@@ -171,7 +171,7 @@ def without(part):
 
     def law(arm, q, qd, ref, omega=20.0):
         now = arm.at(q)
-        kp, kd = lab.gains(omega, 1.0)
+        kp, kd = lab.pd_gains(omega, 1.0)
         M = now.M
         bias = now.bias(qd)
         damping = arm.damping

@@ -100,7 +100,7 @@ def smooth(cutoff=50.0, bits=LAB.BITS, reach=1.0):
     """Return the RMS error."""
     run = swung(reach)
     z = LAB.encoder(run.q, bits)[:, LAB.JOINT]
-    raw = LAB.difference(z, LAB.DT)
+    raw = LAB.backward_difference(z, LAB.DT)
     off = LAB.low_pass(raw, LAB.DT, cutoff) - run.qd[:, LAB.JOINT]
     return LAB.rms(off[LAB.SETTLED :])
 
@@ -137,7 +137,7 @@ def nis(wanders=LAB.WANDERS, noise=LAB.NOISE, seed=LAB.SEED, told_q=1.0, told_R=
 def white(wanders=LAB.WANDERS, noise=LAB.NOISE, seed=LAB.SEED, told_q=0.1, told_R=10.0):
     """Return it."""
     said = tracked(wanders, noise, seed, told_q, told_R)
-    return LAB.whiteness(said["surprise"])
+    return LAB.lag1_autocorrelation(said["surprise"])
 
 
 @numbers.add(

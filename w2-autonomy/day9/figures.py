@@ -30,7 +30,7 @@ def felt(figure: Figure) -> None:
     _valley(above, day9_mujoco.moved(model, arm, day9_mujoco.SWING, 2.0))
     push = day9_mujoco.push(lab.FLANGE, lab.FORCE, lab.SINCE)
     held = day9_mujoco.moved(model, arm, day9_mujoco.STAY, 0.8, push)
-    truth = lab.mujoco_push(model, held.q[-1], lab.FLANGE, lab.FORCE)
+    truth = lab.mujoco_external_torque(model, held.q[-1], lab.FLANGE, lab.FORCE)
     _push(below, lab.felt(arm, held), truth)
     for axes in (above, below):
         axes.grid()
@@ -40,7 +40,7 @@ def _valley(axes: Axes, swing) -> None:
     """Draw how far a speed is off behind each low pass, for each encoder."""
     qd = swing.qd[:, lab.JOINT]
     for bits, colour, mark in ENCODERS:
-        raw = lab.difference(lab.encoder(swing.q, bits)[:, lab.JOINT], lab.DT)
+        raw = lab.backward_difference(lab.encoder(swing.q, bits)[:, lab.JOINT], lab.DT)
         off = [
             lab.rms((lab.low_pass(raw, lab.DT, f) - qd)[lab.SETTLED :]) for f in CUTOFFS
         ]

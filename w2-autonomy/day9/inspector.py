@@ -26,7 +26,7 @@ LAB = lab_of(find_day(9))  # its gain and threshold
 RATE, HZ = 100.0, 25.0  # of the observer, and of the picture
 PULL = 100.0  # N per metre that the handle is away
 FULL, MOST = 12.0, 999.0  # N m, where a bar ends; what is shown at most
-UNITS = {"energy_slope": "N m", "observer_step": "(N m or N m s)"}
+UNITS = {"kinetic_energy_gradient": "N m", "momentum_observer_step": "(N m or N m s)"}
 AGAIN, LET_GO, DOWN = "start / stop", "let go", "10 N down"
 PLACES = [day9_mujoco.FLANGE, *[f"link{i}" for i in range(7, 0, -1)]]
 ARM_JOINTS = [f"joint{i}" for i in range(1, 8)]
@@ -141,11 +141,13 @@ class Feel(Tab):
         if self.before is not None:
             known = (*self.before, self.gain, 1.0 / RATE)
             given = self.residual, self.integral, now.M @ qd
-            self.residual, self.integral = self.own.observer_step(*given, *known)
+            self.residual, self.integral = self.own.momentum_observer_step(
+                *given, *known
+            )
         limit = np.full(7, self.threshold)
         slope, self.link = self.own.many(
-            ("energy_slope", now.J_space, now.G, qd),
-            ("pushed_link", self.residual, limit),
+            ("kinetic_energy_gradient", now.J_space, now.G, qd),
+            ("contact_link", self.residual, limit),
         )
         hold = day9_mujoco.tracking(self.arm, day9_mujoco.hold(self.goal_q))
         tau = hold(t, q, qd)
@@ -160,7 +162,7 @@ class Feel(Tab):
         self.arrow.visible = bool(self.force.any())
         if self.force.any():
             self.arrow.points = joined([at, at + self.force / PULL])
-        truth = LAB.mujoco_push(self.model, q, self.place, self.force)
+        truth = LAB.mujoco_external_torque(self.model, q, self.place, self.force)
         self.bars.show(np.clip(self.residual, -MOST, MOST), truth)
         link = int(self.link)
         self.named.visible = 1 <= link <= 7

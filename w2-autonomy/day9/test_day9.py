@@ -94,7 +94,7 @@ def test_twelve_bits_are_too_coarse_for_the_prediction_since_neighbours_share_er
         off = lab.speeds(said)[1:] - swing.qd[1:]
         ratio.append(lab.rms(off) / (step / np.sqrt(6) / lab.DT))
         error = (said - swing.q).T
-        shared.append(np.mean([estimation.whiteness(one) for one in error]))
+        shared.append(np.mean([estimation.lag1_autocorrelation(one) for one in error]))
     assert abs(ratio[0] - 0.95) < 0.01
     assert max(abs(r - 1) for r in ratio[1:]) < 0.01
     assert shared[0] > 0.05 > abs(shared[2])
@@ -123,7 +123,7 @@ def test_a_held_torque_takes_half_a_period_of_the_margin(rate, omega, dies, grow
 def test_noise_and_lag_of_a_low_pass_are_those_of_the_guides_two_formulas(swing):
     qd = swing.qd[:, lab.JOINT]
     z = lab.encoder(swing.q, 16)[:, lab.JOINT]
-    raw = estimation.difference(z, lab.DT)
+    raw = estimation.backward_difference(z, lab.DT)
     sigma = 2 * np.pi / 2**16 / np.sqrt(12)
     qdd = lab.rms(np.gradient(qd, lab.DT)[lab.SETTLED :])
     for f in (10.0, 20.0, 50.0):
@@ -160,7 +160,7 @@ def test_it_is_not_rounding_but_the_motion_that_spoils_the_nis_of_the_swing(swin
         lab.rms(lab.track(z, intensity, R)["speed"] - qd[lab.SETTLED :])
         for intensity in (0.001, 0.01, 0.1, 1.0)
     ]
-    raw = estimation.difference(z, lab.DT)
+    raw = estimation.backward_difference(z, lab.DT)
     best = min(
         lab.rms((estimation.low_pass(raw, lab.DT, f) - qd)[lab.SETTLED :])
         for f in np.geomspace(5, 200, 40)
@@ -177,7 +177,7 @@ def test_whiteness_tells_the_filter_that_nis_lets_pass():
         true.append(lab.track(z, lab.WANDERS, lab.NOISE**2))
         other.append(lab.track(z, lab.WANDERS / 10, 10 * lab.NOISE**2))
     white = [
-        [abs(estimation.whiteness(one["surprise"])) for one in side]
+        [abs(estimation.lag1_autocorrelation(one["surprise"])) for one in side]
         for side in (true, other)
     ]
     off = max(abs(one["nis"].mean() - 1) for one in true)
@@ -268,7 +268,7 @@ def test_what_the_observer_takes_for_a_push(swing):
 
 
 def test_joint_7_does_not_feel_a_push_whose_line_meets_its_axis():
-    torque = lab.mujoco_push(model, Q, lab.FLANGE, lab.FORCE)
+    torque = lab.mujoco_external_torque(model, Q, lab.FLANGE, lab.FORCE)
     assert abs(torque[6]) < 1e-12 < lab.THRESHOLD < abs(torque[5])
     aside = Q.copy()
     aside[4] += 0.8  # the hand no longer hangs straight down ...
@@ -278,7 +278,7 @@ def test_joint_7_does_not_feel_a_push_whose_line_meets_its_axis():
     moment = np.cross(off_axis, lab.FORCE)
     felt = tilted.J_space[:, 6] @ np.concatenate([moment, lab.FORCE])
     assert abs(felt) > 0.1
-    sideways = lab.mujoco_push(model, Q, "link2", np.array([0.0, 20.0, 0.0]))
+    sideways = lab.mujoco_external_torque(model, Q, "link2", np.array([0.0, 20.0, 0.0]))
     assert largest(sideways) < lab.THRESHOLD
 
 

@@ -64,20 +64,23 @@ def test_the_bars_are_the_push_and_the_ball_stands_at_the_link(feel):
 
 def test_a_wrong_sign_in_ones_own_observer_changes_what_the_tab_shows(feel):
     def negative(*given):
-        residual, integral = lab.observer_step(-given[0], *given[1:])
+        residual, integral = lab.momentum_observer_step(-given[0], *given[1:])
         return -residual, integral
 
-    tab = pulled(feel({**vars(lab), "observer_step": negative}))
+    tab = pulled(feel({**vars(lab), "momentum_observer_step": negative}))
     residual, truth = tab.bars.show.call_args.args
     assert_same(-residual, truth, 0.02)
     says, kind = tab.own.says()
-    assert (kind, "observer_step by" in says) == ("bad", True)
+    assert (kind, "momentum_observer_step by" in says) == ("bad", True)
 
 
 def test_without_a_file_the_tab_says_that_it_is_the_librarys(feel):
     tab = pulled(feel(None), 0.1)
     says, _ = tab.own.says()
-    assert "the library's energy_slope, pushed_link, observer_step" in says
+    assert (
+        "the library's kinetic_energy_gradient, contact_link, momentum_observer_step"
+        in says
+    )
     assert "there is no file yet" in says
 
 

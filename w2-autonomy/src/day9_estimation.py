@@ -58,7 +58,7 @@ def quantise(q: np.ndarray, counts: float) -> np.ndarray:
     # endregion 9.1
 
 
-def difference(q: np.ndarray, dt: float) -> np.ndarray:
+def backward_difference(q: np.ndarray, dt: float) -> np.ndarray:
     """Return the speed, (n,), by the sample before; the first, which has none, is 0.
 
     q is (n,), dt in seconds. Of (0, 0.1, 0.3) at 0.1 s: (0, 1, 2).
@@ -93,14 +93,15 @@ def low_pass(x: np.ndarray, dt: float, cutoff: float) -> np.ndarray:
     # endregion 9.3
 
 
-def constant_velocity(dt: float, q: float) -> tuple[np.ndarray, np.ndarray]:
+def constant_velocity(dt: float, accel_psd: float) -> tuple[np.ndarray, np.ndarray]:
     """Return F and Q, (2, 2) each, of an angle whose acceleration is white noise.
 
-    q is its intensity, rad^2/s^3. 1 s and 3: [[1, 1], [0, 1]] and [[1, 1.5], [1.5, 3]].
+    accel_psd is its intensity, rad^2/s^3. 1 s and 3: [[1, 1], [0, 1]] and
+    [[1, 1.5], [1.5, 3]].
     """
     # region 9.4
     F = np.array([[1.0, dt], [0.0, 1.0]])
-    Q = q * np.array([[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]])
+    Q = accel_psd * np.array([[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]])
     return F, Q
     # endregion 9.4
 
@@ -146,7 +147,7 @@ def nis_interval(n: int, m: int) -> np.ndarray:
     # endregion 9.6
 
 
-def whiteness(y: np.ndarray) -> float:
+def lag1_autocorrelation(y: np.ndarray) -> float:
     """Return how much each of y, (n,), looks like the one before: 0 for white noise.
 
     (1, -1, 1, -1): -0.75.
@@ -157,7 +158,9 @@ def whiteness(y: np.ndarray) -> float:
     # endregion 9.7
 
 
-def energy_slope(J_space: np.ndarray, G: np.ndarray, qd: np.ndarray) -> np.ndarray:
+def kinetic_energy_gradient(
+    J_space: np.ndarray, G: np.ndarray, qd: np.ndarray
+) -> np.ndarray:
     """Return how the kinetic energy changes with each angle, (7,), in N m.
 
     J_space is (6, 7), G (7, 6, 6) the links' inertias in the world, qd (7,). At rest 0.
@@ -172,24 +175,24 @@ def energy_slope(J_space: np.ndarray, G: np.ndarray, qd: np.ndarray) -> np.ndarr
     # endregion 9.8
 
 
-def observer_step(
-    residual: np.ndarray, integral: np.ndarray, p: np.ndarray, tau: np.ndarray,
-    slope: np.ndarray, gravity: np.ndarray, damping: np.ndarray, qd: np.ndarray,
+def momentum_observer_step(
+    residual: np.ndarray, integral: np.ndarray, momentum: np.ndarray, tau: np.ndarray,
+    energy_grad: np.ndarray, gravity: np.ndarray, damping: np.ndarray, qd: np.ndarray,
     gain: float, dt: float,
 ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
     """Return the torque that nobody commanded, (7,), and the next integral, (7,).
 
-    p is the momentum M qd now, the rest is of the sample before. All zero but p = 1,
-    gain 50: 50 and 0.
+    momentum is the momentum M qd now, the rest is of the sample before. All zero but
+    momentum = 1, gain 50: 50 and 0.
     """
     # region 9.9
-    known = tau + slope - gravity - damping * qd
+    known = tau + energy_grad - gravity - damping * qd
     integral = integral + (known + residual) * dt
-    return gain * (p - integral), integral
+    return gain * (momentum - integral), integral
     # endregion 9.9
 
 
-def pushed_link(residual: np.ndarray, threshold: np.ndarray) -> int:
+def contact_link(residual: np.ndarray, threshold: np.ndarray) -> int:
     """Return the last joint that feels a push, from 1 to 7; 0 where none does.
 
     residual and threshold are (7,), N m. Only joint 4 over its threshold: 4.
@@ -202,7 +205,7 @@ def pushed_link(residual: np.ndarray, threshold: np.ndarray) -> int:
 
 def speeds(q: np.ndarray) -> np.ndarray:
     """Return the differences of seven joints, rad/s, (n, 7)."""
-    return np.transpose([difference(one, DT) for one in q.T])
+    return np.transpose([backward_difference(one, DT) for one in q.T])
 
 
 def encoder(q: np.ndarray, bits: int) -> np.ndarray:
@@ -251,7 +254,7 @@ def tested(name: str, z: np.ndarray, qd: np.ndarray, q: float, R: float) -> dict
         "off": rms(off),
         "sigma": rms(said["sigma"]),
         "nis": nis,
-        "whiteness": whiteness(said["surprise"]),
+        "whiteness": lag1_autocorrelation(said["surprise"]),
         "inside": np.mean(np.abs(off) < 1.96 * said["sigma"]),
     }
     verdict = "yes" if low < nis < high else "no"
@@ -279,14 +282,14 @@ class Observer:
         if self.before is None:
             self.integral = p
         else:
-            self.residual, self.integral = observer_step(
+            self.residual, self.integral = momentum_observer_step(
                 self.residual, self.integral, p, *self.before, GAIN, DT
             )
         return self.residual
 
     def commanded(self, now, qd: np.ndarray, tau: np.ndarray) -> None:
         """Take what the motors get from now on, N m, (7,)."""
-        slope = self.share * energy_slope(now.J_space, now.G, qd)
+        slope = self.share * kinetic_energy_gradient(now.J_space, now.G, qd)
         self.before = tau, slope, now.gravity_torque, self.arm.damping, qd
 
 
@@ -321,7 +324,9 @@ def mujoco_slope(model, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
     return np.array(slopes)
 
 
-def mujoco_push(model, q: np.ndarray, name: str, force: np.ndarray) -> np.ndarray:
+def mujoco_external_torque(
+    model, q: np.ndarray, name: str, force: np.ndarray
+) -> np.ndarray:
     """Return what a force makes in the joints, J^T F by MuJoCo, N m, (7,)."""
     data = mujoco.MjData(model)
     data.qpos[:] = q
@@ -340,15 +345,18 @@ def off_library() -> dict[str, np.ndarray]:
     six, damping = rng.normal(size=(6, 7)), rng.uniform(1, 2, 7)
     given = {
         "quantise": (quantise, [(six[0], 4096), (six[1], 1000)]),
-        "difference": (difference, [(y, DT)]),
+        "backward_difference": (backward_difference, [(y, DT)]),
         "delay_margin": (delay_margin, [(400.0, 40.0), (90.0, 7.0)]),
         "low_pass": (low_pass, [(y, DT, 20.0)]),
         "constant_velocity": (constant_velocity, [(DT, WANDERS), (0.3, 2.0)]),
         "kalman_predict": (kalman_predict, [(x[:2], R, F, Q)]),
         "kalman_update": (kalman_update, [(x, P, z, H, R)]),
         "nis_interval": (nis_interval, [(1950, 1), (100, 3)]),
-        "whiteness": (whiteness, [(y,), (np.cumsum(y),)]),
-        "observer_step": (observer_step, [(*six, damping, x[0] + six[0], GAIN, DT)]),
+        "lag1_autocorrelation": (lag1_autocorrelation, [(y,), (np.cumsum(y),)]),
+        "momentum_observer_step": (
+            momentum_observer_step,
+            [(*six, damping, x[0] + six[0], GAIN, DT)],
+        ),
     }
     found = {}
     for name, (own, calls) in given.items():
@@ -407,7 +415,7 @@ def main() -> int:
 
     lab.step("3. Filters of a 16-bit encoder: joint 4's speed, rad/s")
     z, qd = encoder(swing.q, BITS)[:, JOINT], swing.qd[:, JOINT]
-    raw = difference(z, DT)
+    raw = backward_difference(z, DT)
     print(f"  difference        {rms(raw[SETTLED:] - qd[SETTLED:]):.4f}")
     print("  low pass              all   lag alone")
     for cutoff in (5.0, 10.0, 20.0, 50.0, 100.0):
@@ -436,11 +444,22 @@ def main() -> int:
     off = []
     for q in verify.random_q(model, TRIALS, SEED):
         now, qd = arm.at(q), rng.uniform(-2, 2, 7)
-        off.append(energy_slope(now.J_space, now.G, qd) - mujoco_slope(model, q, qd))
-    lab.record("slope_by_hand", off, label="|energy_slope - MuJoCo's|, N m", seed=SEED)
+        off.append(
+            kinetic_energy_gradient(now.J_space, now.G, qd) - mujoco_slope(model, q, qd)
+        )
+    lab.record(
+        "slope_by_hand",
+        off,
+        label="|kinetic_energy_gradient - MuJoCo's|, N m",
+        seed=SEED,
+    )
     print("  the swing, which nobody pushes: largest residual, N m")
     way = swing._replace(q=swing.q[:500], qd=swing.qd[:500], tau=swing.tau[:500])
-    for name, share in (("energy_slope", 1), ("none", 0), ("its sign turned", -1)):
+    for name, share in (
+        ("kinetic_energy_gradient", 1),
+        ("none", 0),
+        ("its sign turned", -1),
+    ):
         residual = np.abs(felt(arm, way, share)).max()
         print(f"  {name:18}{residual:8.3f}")
         if share == 1:
@@ -449,9 +468,13 @@ def main() -> int:
     lab.step("6. A push of 10 N on the flange of an arm that holds still, N m")
     push = day9_mujoco.push(FLANGE, FORCE, SINCE)
     held = day9_mujoco.moved(model, arm, STAY, 0.8, push)
-    truth = mujoco_push(model, held.q[-1], FLANGE, FORCE)
+    truth = mujoco_external_torque(model, held.q[-1], FLANGE, FORCE)
     lab.show("J^T F, by mujoco.mj_applyFT", truth, 3)
-    for name, share in (("energy_slope", 1), ("none", 0), ("its sign turned", -1)):
+    for name, share in (
+        ("kinetic_energy_gradient", 1),
+        ("none", 0),
+        ("its sign turned", -1),
+    ):
         residual = felt(arm, held, share)
         lab.show(f"residual with {name}", residual[-1], 3)
         if share == 1:
@@ -466,15 +489,15 @@ def main() -> int:
         rows = rng.normal(size=(20, 7)) * rng.uniform(0, 2, (20, 1))
         limits = rng.uniform(0.5, 1.5, (20, 7))
         pairs = list(zip(rows, limits, strict=True))
-        off = [pushed_link(*one) - library.pushed_link(*one) for one in pairs]
-        lab.check("pushed_link - the library's", off)
+        off = [contact_link(*one) - library.contact_link(*one) for one in pairs]
+        lab.check("contact_link - the library's", off)
         print("  pushed with, N                   link   after, ms   moves on, mm")
         limit = np.full(7, THRESHOLD)
         for name, force in PUSHES:
             push = day9_mujoco.push(name, force, SINCE)
             observer = Observer(arm)
             found = day9_mujoco.stopped(
-                model, arm, observer, lambda r: pushed_link(r, limit), push
+                model, arm, observer, lambda r: contact_link(r, limit), push
             )  # mujoco.mj_step
             after = 1000 * (found.t - SINCE)
             words = f"{name}, {force}"
