@@ -1,12 +1,12 @@
-"""Is a day that you write as it must be? Its files, mistakes, tests, documents, style.
+"""Validate a day that you are writing: files, mistakes, tests, documents, style.
 
-    make author DAY=8                         all of it, that day's alone
+    make author DAY=8                         everything about this day
     python3 scripts/author_day.py 8           the same
     python3 scripts/author_day.py 8 --fast    without its tests
     make author TASK=8.3                      one task alone, in seconds
 
-What is not right is told with its file and line, and with what to do.
-Exit code: 0 all as it must be, 1 something to fix, 2 could not run.
+Each fault is reported with its file, its line and a remedy.
+Exit code: 0 no fault, 1 something to fix, 2 could not run.
 """
 
 import os

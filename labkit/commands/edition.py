@@ -1,11 +1,11 @@
-"""Write the kit for students: no solutions to read, no catalogues, no history.
+"""Write the student edition: solutions sealed, no catalogues, no history.
 
     python3 scripts/edition.py ../robo47-students      (make edition OUT=...)
 
-A repository of its own, one commit a version: run it again after a change, and the
-students' `make update` brings it over. The labs' answers are sealed: they run, so
-`make day1` verifies them, and nobody reads them by chance. EDITION.md in it says what
-the library still shows.
+The edition is a repository of its own, with one commit per version. Run the command
+again after a change, and `make update` brings it to your students. The labs' solutions
+are sealed: they run, so `make day1` verifies them, but nobody reads them by chance.
+EDITION.md lists the solutions that the library still contains.
 """
 
 import re

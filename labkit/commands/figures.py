@@ -3,7 +3,7 @@
     make figures DAY=6                              yours, that the day hands in
     make figures DAY=6 ARGS=--kit                   all of the lesson
     make figures DAY=1 ARGS=--clips                 its clips, where it has some
-    make figures ARGS=--teaching                    the class page of docs/teaching.md
+    make figures ARGS=--teaching                    those of the teachers' page
     python3 scripts/make_figures.py --day 6         the same as the first
     python3 scripts/make_figures.py NAME            one of them
     python3 scripts/make_figures.py --out elsewhere into another folder

@@ -1,6 +1,6 @@
 """Pictures of a graded class for `docs/teaching.md`: its page and a feedback file.
 
-    make figures ARGS=--teaching    docs/figures/class.png and feedback.png
+    make figures ARGS=--teaching    docs/pictures/class.png and feedback.png
 
 The class is invented. Each student hands in the lab of Day 1 with one change, or with
 the first tasks alone. `make grade` grades the class as any other, and Chromium renders
@@ -23,7 +23,7 @@ from labkit.lesson.starter import put_back, starter_of
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
-FOLDER = ROOT / "docs" / "figures"  # where they are kept
+FOLDER = ROOT / "docs" / "pictures"  # where they are kept
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 DEADLINE = 1_788_537_600  # 2026-09-04 16:00 UTC
 INVERSE = ("make_T(R.T, -R.T @ t)", "make_T(R.T, -t)")

@@ -46,8 +46,9 @@ TYPED = re.compile(r"\b[A-Z]+=[^\s,;]+|\B--[\w-]+|\b\w+/[\w.-]*\w")
 COMMANDS = """\
 # What to type: the commands
 
-In a clone of the kit. `DAY=2` names a day, `WEEK=1` a week, `TASK=1.4` a task; without
-it, it is the one you worked on last. The first ten are for a day's work, in its order.
+Type these commands in a clone of the kit. `DAY=2` selects a day, `WEEK=1` a week and
+`TASK=1.4` a task; without it, a command takes the last one you worked on. The first ten
+commands are those of a day, in the order of its work.
 
 """
 LANGUAGE = {".py": "python", ".toml": "toml"}
