@@ -94,7 +94,7 @@ borrow: .venv/.ready-core $(ROBOT) ##4 use the kit's function of TASK=1.4, and w
 run: .venv/.ready-$(RUN) $(ROBOT) ##5 run your lab and log its numbers
 	@$(PY) scripts/run_day.py $(DAY) $(ARGS) $(NOT_YET)
 
-update: .venv/.ready-core ##9 get the kit's newest version, keep your work; FROM=https://...
+update: .venv/.ready-core ##9 get the kit's newest version, keep your work; FROM=URL
 	@$(PY) scripts/update.py $(if $(FROM),--from $(FROM)) $(if $(TO),--to $(TO)) $(ARGS)
 
 doctor: ## test this machine; paste the output when you ask for help
@@ -146,7 +146,7 @@ new: .venv/.ready-core $(ROBOT) ## write a day's skeleton: DAY=8 WEEK=w2-autonom
 	@$(PY) scripts/new_day.py "$(or $(DAY),$(error which day? make new DAY=8 \
 	WEEK=w2-autonomy NAME=my_day))" "$(WEEK)" "$(NAME)" $(if $(FROM),--from $(FROM)) $(ARGS)
 
-author: .venv/.ready-test .venv/.ready-notebook .venv/.ready-view $(ROBOT) ## validate a day that you are writing, or one function: TASK=9.3
+author: .venv/.ready-test .venv/.ready-notebook .venv/.ready-view $(ROBOT) ## validate a day that you are writing; TASK=9.3: one function
 	@$(PY) scripts/author_day.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS) $(NOT_YET)
 
 constants: .venv/.ready-core $(ROBOT) ## sensitivity: double each constant behind a guide's numbers
