@@ -134,7 +134,7 @@ def constants(day: Day) -> Iterator[str]:
     """Yield what moves, or stays, otherwise than the day's list of constants says."""
     if not day.has("constants"):
         file = shown(day.own / "constants.py")
-        yield f"{file} is not there: what the guide's numbers hang on (docs/authors.md)"
+        yield f"{file} is missing: the constants behind a number (docs/authors.md)"
         return
     block = f"<!-- run: {TABLE_OF.format(day.number)} -->"
     if block not in (day.folder / day.guide).read_text("utf-8"):
@@ -241,5 +241,5 @@ def main() -> int:
             first = day.tasks[0].id
             print(f"    the rest comes then; one task now: make author TASK={first}")
             break
-    says = f"not yet as it must be: {', '.join(wrong)}" if wrong else ""
-    return cli.conclude(not wrong, says or "all as it must be")
+    says = f"faults in: {', '.join(wrong)}" if wrong else ""
+    return cli.conclude(not wrong, says or "no faults")

@@ -70,7 +70,7 @@ def draw() -> Iterator[tuple[str, Image.Image]]:
         sheet.write_text(SHEET.format(html.escape(text)), "utf-8")
         pages = {
             "class": (out / "class.html", 1100, 1150),
-            "feedback": (sheet, 860, 656),
+            "feedback": (sheet, 860, 648),
         }
         for name, (page, width, height) in pages.items():
             yield name, seen(browser, page, width, height)
@@ -82,10 +82,11 @@ def graded(folder: Path) -> Path:
     for i, (name, work) in enumerate(CLASS.items()):
         hand_in(folder / "class" / name, day, work, DEADLINE - 3600 * (5 + 7 * i))
     out = folder / "grades-day1"
-    command = [sys.executable, ROOT / "scripts" / "grade_class.py", folder / "class"]
-    options = ["--day", "1", "--seed", "47", "--out", out / "grades.csv"]
-    options += ["--deadline", "2026-09-04T16:00:00+00:00"]
-    subprocess.run([*command, *options], check=True, stdout=subprocess.DEVNULL)
+    script = str(ROOT / "scripts" / "grade_class.py")
+    command = [sys.executable, script, str(folder / "class"), "--day", "1"]
+    command += ["--seed", "47", "--out", str(out / "grades.csv")]
+    command += ["--deadline", "2026-09-04T16:00:00+00:00"]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return out
 
 
