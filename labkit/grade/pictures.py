@@ -81,7 +81,7 @@ def graded(folder: Path) -> Path:
     day = find_day(1)
     for i, (name, work) in enumerate(CLASS.items()):
         hand_in(folder / "class" / name, day, work, DEADLINE - 3600 * (5 + 7 * i))
-    out = folder / "grades-day1"
+    out = folder / "grades"
     script = str(ROOT / "scripts" / "grade_class.py")
     command = [sys.executable, script, str(folder / "class"), "--day", "1"]
     command += ["--seed", "47", "--out", str(out / "grades.csv")]
