@@ -4,8 +4,8 @@
         value=2.2e-16 notes="after the fix"
     python3 scripts/log_metric.py --check      every bad line, and why
     python3 scripts/log_metric.py --restore    rows that were refused, put back
-    python3 scripts/log_metric.py --convert    a log that a spreadsheet saved in another
-                                               form, written as it should be
+    python3 scripts/log_metric.py --convert    a log in a spreadsheet's form,
+                                               converted to the log's own
 
 check=, metric= and value= are needed; date= and git_sha= are filled in. The
 other fields: run_id day seed config method n_trials n_failures notes.

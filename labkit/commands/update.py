@@ -1,4 +1,4 @@
-"""Bring your clone to the kit's newest version; all that is yours stays.
+"""Update your clone to the newest version of the kit, and keep your work.
 
     python3 scripts/update.py                          (make update)
     python3 scripts/update.py --from https://...       (make update FROM=...)
