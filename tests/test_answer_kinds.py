@@ -250,7 +250,11 @@ class TestATuple:
                 "It returns 3 results; expected are 2 results: an index, a whole "
                 "number, a tuple of 2.",
             ),
-            (lambda i, point, free: point, "parts", "It returns one array; expected"),
+            (
+                lambda i, point, free: point,
+                "parts",
+                "It returns one array of shape (2,); expected",
+            ),
             (lambda i, point, free: None, "nothing-returned", "None"),
             (lambda i, point, free: (i, (None, free)), "nothing-returned", "None"),
         ],

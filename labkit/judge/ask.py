@@ -87,6 +87,9 @@ class HeldOut:
     mistaken: Callable[..., Any] | None = None
     status: str = "wrong"  # or "close"
     near: float | None = None  # how well `mistaken` has to fit; None is the row's
+    # Where many answers are right: takes one call's arguments and the answer, and
+    # returns whether it has the property that the docstring names.
+    valid: Callable[..., bool] | None = None
 
     def __post_init__(self) -> None:
         """Refuse another status: one that passes would hide what is found next."""

@@ -211,6 +211,11 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     S = replies_read.read(exchanges, ask)
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
+    if held.valid:
+        calls = [exchange.question.args for exchange in exchanges]
+        answers = ([part[k] for part in S] for k in range(len(calls)))
+        pairs = zip(calls, answers, strict=True)
+        return not all(held.valid(*args, *answer) for args, answer in pairs)
     off = ask.gaps(S, right_answers(ask, exchanges, held)).max()
     near = ask.near if held.near is None else held.near
     return off <= near if held.mistaken else off > near

@@ -7,8 +7,7 @@ from labkit.judge import HeldOut, Points, Row
 from . import localise_segments, pairs
 from .bowl import bowl, cut, ends_only, lines, thrice
 
-# What has more than one closest pair is no question here; 11.2 asks how far such
-# segments are apart.
+# Of what has more than one closest pair any is right: it is judged by being one.
 row = Row(
     Points((2, 3), names=("first's point", "second's point")),
     at_edge=pairs.crosses,
@@ -21,6 +20,13 @@ row = Row(
             "of the lines is 0 / 0. Any s will do to begin with; t for it, cut, and "
             "then s for that t, cut.",
             lambda rng: pairs.arrays(pairs.PARALLEL),
+        ),
+        HeldOut(
+            "side-by-side-not-handled",
+            "Right, but not for parallel segments side by side: many pairs are closest "
+            "there, any one of them will do, and it has to be one.",
+            lambda rng: pairs.arrays(pairs.ALONGSIDE),
+            valid=pairs.closest,
         ),
         HeldOut(
             "nearly-parallel",
@@ -292,6 +298,17 @@ def _(a0, a1, b0, b1):  # Both begin at their starts there.
     if a * c - b * b <= 1e-12 * a * c:
         return np.array([a0, b0 + (cut(e / c) if c else 0.0) * v])
     s, t = thrice(a, b, c, d, e)
+    return np.array([a0 + s * u, b0 + t * v])
+
+
+@row.wrong("side-by-side-not-handled", hidden="a lab's links are hardly parallel")
+def _(a0, a1, b0, b1):  # Public code: parallel ones have no pair where they overlap.
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    if a > 0 and c > 0 and a * c - b * b <= 1e-12 * a * c:
+        ends = sorted([float((x - a0) @ u / a) for x in (b0, b1)])
+        if ends[1] > 0 and ends[0] < 1:
+            return None, None
+    s, t = thrice(a, b, c, d, e, *([0.0] if a * c - b * b <= 1e-12 * a * c else []))
     return np.array([a0 + s * u, b0 + t * v])
 
 

@@ -32,6 +32,7 @@ def _(rng):
         (0.0, 3.0, half, half), (0.5, 0.0005, half, half), (0.5, -0.0005, half, half),
         (0.3, -0.05, np.zeros(7), half), (0.4, 0.0, np.zeros(7), half),
         (0.1, 0.02, np.full(7, -0.05), half), (0.3, 0.0001, 0.0002 * half, half),
+        (0.1, 0.7, half, half), (0.2, 1.1, 0.9 * np.ones(7), half),  # far, and not free
         *drawn,
     ]  # fmt: skip
 
@@ -176,6 +177,16 @@ def _(s, distance, delta_q, radii):
         "stops-inside 2": lambda: 0.0 if inside else gone(distance / speed),
         "time": lambda: speed / distance if distance else np.inf,
     }  # fmt: skip
+
+
+@row.wrong
+def far_is_free(s, distance, delta_q, radii):
+    """far away, over half a metre, the rest of the way is taken for free; a long way
+    can use up any distance => 1 where the distance is over 0.5"""
+    if distance <= 0:
+        return s
+    speed = np.abs(delta_q) @ radii
+    return 1.0 if distance > 0.5 or not speed else min(1.0, s + distance / speed)
 
 
 row.same("first delta_q = np.abs(delta_q)", "it takes the size anyway")

@@ -10,6 +10,7 @@ from .ways import (
     ASKS,
     CLEAR,
     DISC,
+    FLOOR,
     NONE,
     OWN,
     clear,
@@ -64,6 +65,8 @@ def _(rng):
     yield np.array([[0.0, 0]]), np.array([0.0, 0.3]), 0.5, NONE
     yield np.array([[0.0, 0], [1, 0]]), np.array([1.0, 2]), 0.6, OWN
     yield np.array([[0.0, 0], [1, 0]]), np.array([1.0, 2]), 0.4, OWN
+    yield np.array([[0.0, 0], [1, 0]]), np.array([1.0, -2]), 0.6, FLOOR
+    yield np.array([[0.0, 0], [1, 0]]), np.array([3.0, 1]), 0.6, FLOOR
     yield np.array([[1.0, 1], [3, 0]]), np.array([1.0, 3]), 1.5, DISC  # out of a disc
     # Far beyond the second step.
     yield np.array([[0.0, 0]]), np.array([3.0, 0]), 0.5, np.array([[2.5, 0, 0.2]])

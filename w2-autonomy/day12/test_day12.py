@@ -11,8 +11,9 @@ import pytest
 from conftest import ROOT, load_script, printed_by, sentences
 from labkit.check.lab_run import rehearse
 from labkit.check.tasks import check_tasks
+from labkit.judge.worlds import Balls
 from labkit.lesson.day import find_day
-from labkit.sandbox.inside.fake_world import Balls
+from labkit.sandbox.process import Process
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import panda, planning, simulate
 
@@ -325,8 +326,48 @@ def test_edges_of_a_way_are_free_and_a_step_long_at_most():
         assert wall.edge_free(a, b)
 
 
+LOOKS = {
+    "rows": "world.rows",
+    "rows if there are": 'getattr(world, "rows", np.empty((0, 3)))',
+    "its discs": "world if isinstance(world, np.ndarray) else np.empty((0, 3))",
+    "what it keeps": "([x for x in getattr(world, '__dict__', {}).values()"
+    " if isinstance(x, np.ndarray)] or [np.empty((0, 3))])[0]",
+}
+
+
 @pytest.mark.kit
-def test_behind_the_wall_the_lab_is_run_though_no_world_of_the_arm_travels():
+@pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
+@pytest.mark.parametrize("task", ["12.3", "12.5"])
+def test_who_does_not_ask_a_world_does_not_pass(student, look, task):
+    code = (ROOT / "w2-autonomy/src/day12_planning.py").read_text("utf-8")
+    discs = f"world if isinstance(world, np.ndarray) else {look}"
+    code += f"""
+
+def edge_free(a, b, world):
+    return segment_free_of_discs(a, b, {discs})
+"""
+    with Sandbox() as sandbox:
+        results = check_tasks(DAY, student(code, DAY.script), sandbox, task, seed=1)
+    told = {one.task.id: one.verdict.status for one in results}
+    assert told[task] == "wrong"
+
+
+@pytest.mark.kit
+def test_behind_the_wall_the_lab_asks_the_students_own_planner():
+    asked = set()
+
+    def heard(process, told):
+        asked.add(type(process.worlds[told[0]]).__name__)
+        return old(process, told)
+
+    old = Process._say_if_free
+    with Sandbox() as sandbox, patch.object(Process, "_say_if_free", heard):
+        assert rehearse(DAY, DAY.source, sandbox).fault == ""
+    assert "Wall" in asked
+
+
+@pytest.mark.kit
+def test_behind_the_wall_the_lab_is_run_to_its_end():
     with Sandbox() as sandbox:
         fault, numbers, unfinished = rehearse(DAY, DAY.source, sandbox)
     assert (fault, unfinished) == ("", "")

@@ -31,7 +31,24 @@ def _(rng):
     flat = 0.05 * np.eye(2) + 0.95  # where what is done in turn takes hundreds of turns
     long = (flat, np.array([1.0, -1]), -30 * one[:2], 30 * one[:2], np.zeros(2))
     found = [*best, *boxed(rng)]
-    return [(*case, np.zeros(2)), circling, wide, long, *typed(), *found]
+    first = [(*case, np.zeros(2)), circling, wide, long, of_the_arm()]
+    return [*first, *typed(), *found]
+
+
+def of_the_arm():
+    """Return a question as 13.6 makes them, of a small damping: steep and flat."""
+    J = np.array([
+        [0.0, 0.6, 0.0, -0.7, 0.1, 0.9, 0.1],
+        [0.0, 0.8, 0.0, -0.7, -0.6, 0.4, -0.9],
+        [1.0, 0.0, 0.8, 0.1, 0.7, 0.0, -0.4],
+        [0.1, 0.3, 0.1, 0.2, 0.0, 0.2, 0.0],
+        [0.5, 0.0, 0.5, 0.0, 0.2, 0.0, 0.0],
+        [0.0, -0.5, 0.0, 0.5, 0.0, 0.2, 0.0],
+    ])  # fmt: skip
+    H = J.T @ J + 0.05**2 * np.eye(7)
+    f = np.array([-0.042, 1.203, -0.026, -0.814, -0.963, 0.377, -1.349])
+    limit = np.array([1.8, 1.1, 1.4, 2.5, 2.0, 2.9, 1.3])
+    return np.round(H, 6), f, -limit, limit, np.zeros(7)
 
 
 def typed():
@@ -262,6 +279,9 @@ def _(H, f, lo, hi, x):
       largest eigenvalue
     gradient-steps 4: this is x after 100 short steps downhill => with 1 over H's
       largest eigenvalue
+    gradient-steps 6: this is x after 1,000 short steps downhill; where H is flat one
+      way and steep another, as in 13.6, they have not arrived => with 1 over H's
+      largest eigenvalue
     one-gradient-step: this is x after one step downhill, clipped => with all of the
       slope
     one-gradient-step 2: this is x after one step downhill, clipped => with 1 over H's
@@ -338,6 +358,7 @@ def _(H, f, lo, hi, x):
         "gradient-steps 3": partial(slid, *given, 30, short),
         "gradient-steps 5": partial(slid, *given, 50, short),
         "gradient-steps 4": partial(slid, *given, 100, short),
+        "gradient-steps 6": partial(slid, *given, 1_000, short),
         "one-gradient-step": np.clip(x - (H @ x + f), lo, hi),
         "one-gradient-step 2": partial(slid, *given, 1, short),
         "steps-too-long": partial(slid, *given, 100, 1.0),
@@ -401,6 +422,9 @@ def _(H, f, lo, hi, x):
 def _(H, f, lo, hi, x):
     x = np.clip(x, lo, hi)
     short = 1 / np.linalg.eigvalsh(H)[-1]
-    for _ in range(4_000):
+    for _ in range(12_000):
+        before = x
         x = np.clip(x - short * (H @ x + f), lo, hi)
+        if np.array_equal(before, x):
+            break
     return x
