@@ -57,7 +57,7 @@ def quantise(q: np.ndarray, counts: float) -> np.ndarray:
 
     q (7,) are the true angles, rad, and counts is the number of counts in a full
     revolution, so one count is 2 pi / counts.
-    Of 0.1 rad one with 4096 counts says 0.0997088: 65 counts.
+    quantise([0.1], 4096) -> [0.0997088], which is 65 counts.
     """
     # region 9.1
     step = 2.0 * np.pi / counts  # the angle of one count
@@ -70,7 +70,7 @@ def backward_difference(q: np.ndarray, dt: float) -> np.ndarray:
 
     q (n,) are angles, rad, and dt is the sampling period, s. Entry k is the change
     since sample k - 1 divided by dt; no sample precedes the first.
-    Of (0, 0.1, 0.3) at 0.1 s: (0, 1, 2).
+    backward_difference([0, 0.1, 0.3], 0.1) -> [0, 1, 2]
     """
     # region 9.1
     return np.append(0.0, np.diff(q) / dt)  # no sample precedes the first
@@ -84,7 +84,7 @@ def delay_margin(kp: float, kd: float) -> float:
     longer delay of its readings it is unstable. The margin is the phase lead
     atan(kd w / kp) divided by the gain crossover frequency w, where
     w^4 = kp^2 + kd^2 w^2 (Astrom and Murray, Feedback Systems).
-    400 1/s^2 and 40 1/s: 0.03237. Critically damped it is 0.6474 / omega.
+    delay_margin(400, 40) -> 0.03237. With critical damping it is 0.6474 / omega.
     """
     # region 9.2
     w = np.sqrt((kd**2 + np.sqrt(kd**4 + 4.0 * kp**2)) / 2.0)  # gain crossover
@@ -97,7 +97,7 @@ def low_pass(x: np.ndarray, dt: float, cutoff: float) -> np.ndarray:
 
     x (n,) are the samples, dt is the sampling period, s, and cutoff the cutoff
     frequency, Hz: y += alpha (x - y) with alpha = 1 - exp(-2 pi cutoff dt).
-    (0, 1, 1, 1) at 0.002 s through 20 Hz: (0, 0.22223, 0.39508, 0.52951).
+    low_pass([0, 1, 1, 1], 0.002, 20) -> [0, 0.22223, 0.39508, 0.52951]
     """
     # region 9.3
     alpha = 1.0 - np.exp(-2.0 * np.pi * cutoff * dt)  # fraction gone after dt
@@ -115,7 +115,7 @@ def constant_velocity(dt: float, accel_psd: float) -> tuple[np.ndarray, np.ndarr
     spectral density of the white acceleration, rad^2/s^3, which alone changes the
     velocity. F maps the state to the next one, and Q is accel_psd times the integral
     of (s, 1) (s, 1)^T over s from 0 to dt (Bar-Shalom and others, chapter 6).
-    1 s and 3: [[1, 1], [0, 1]] and [[1, 1.5], [1.5, 3]].
+    constant_velocity(1, 3) -> ([[1, 1], [0, 1]], [[1, 1.5], [1.5, 3]])
     """
     # region 9.4
     F = np.array([[1.0, dt], [0.0, 1.0]])  # the angle advances by dt times the velocity
@@ -132,7 +132,7 @@ def kalman_predict(
 
     x (2,) is the estimate and P (2, 2) the covariance of its error; F (2, 2) maps the
     state to the next one, and Q (2, 2) is the covariance of the process noise.
-    (0, 1), P = 1, F and Q as above: (1, 1) and [[3, 2.5], [2.5, 4]].
+    x = (0, 1), P = 1, F and Q of 1 s and 3: (1, 1) and [[3, 2.5], [2.5, 4]].
     """
     # region 9.4
     return F @ x, F @ P @ F.T + Q  # the error becomes F e plus independent noise
@@ -165,7 +165,7 @@ def nis_interval(n: int, m: int) -> np.ndarray:
     m is the number of entries of a reading. n times the mean has the chi-square
     distribution with n m degrees of freedom: take 1.96 standard deviations of its cube
     root, which is nearly Gaussian (Wilson and Hilferty, 1931).
-    1950 of one: (0.93821, 1.06374).
+    nis_interval(1950, 1) -> [0.93821, 1.06374]
     """
     # region 9.6
     c = 2.0 / (9.0 * n * m)  # the variance of the cube root of chi-square / (n m)
@@ -179,7 +179,7 @@ def lag1_autocorrelation(y: np.ndarray) -> float:
 
     Subtract the mean, then divide the sum of the products of neighbours by the sum of
     all n squares.
-    (1, -1, 1, -1): -0.75.
+    lag1_autocorrelation([1, -1, 1, -1]) -> -0.75
     """
     # region 9.7
     y = y - np.mean(y)  # without the offset
@@ -234,7 +234,7 @@ def contact_link(residual: np.ndarray, threshold: np.ndarray) -> int:
     """Return the contact link, 1 to 7: the last joint over its threshold, 0 if none is.
 
     residual and threshold are (7,), N m; a residual of either sign counts.
-    Only joint 4 over its threshold: 4.
+    contact_link([0, 3, 0, -5, 0, 0, 0], [1, 1, 1, 1, 1, 1, 1]) -> 4
     """
     # region 9.10
     felt = np.flatnonzero(np.abs(residual) > threshold)  # a push has either sign
