@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 from conftest import ROOT, load_script
-from robo47 import estimation, panda, simulate
+from robo47 import dynamics, estimation, panda, simulate
 from robo47.references import raised_cosine
+from robo47.screws import skew
 
 import day9_mujoco
 from day9_mujoco import STAY, SWING
@@ -500,3 +501,37 @@ def test_the_claims_of_the_opening_are_what_the_lab_prints(printed):
     assert 1.6 < float(error) / best < 1.72  # two thirds larger than necessary
     assert float(sigma) / float(error) == pytest.approx(1 / 3, abs=0.04)
     assert "46 % of its velocities lie outside" in SENTENCES
+    pushed = [line.split()[-3:] for line in printed.splitlines() if ", (0, " in line]
+    after = [float(row[1]) for row in pushed if row[1] != "inf"]
+    assert f"detected after {min(after):.0f} to {max(after):.0f} ms" in SENTENCES
+    moves = max(float(row[2]) for row in pushed if row[2] != "inf")
+    assert f"moves on by up to {moves:.0f} mm" in SENTENCES
+
+
+def test_the_examples_on_paper_come_out():
+    """Two hinges and a point mass, a critically damped crossover, a half-way lag."""
+    z, along = np.array([0.0, 0.0, 1.0]), np.array([1.0, 1.0, 0.0])
+    second = np.array([1.0, 0.0, 0.0])
+    J = np.column_stack([np.r_[z, 0, 0, 0], np.r_[z, -np.cross(z, second)]])
+    to_point = np.hstack([-skew(along), np.eye(3)])  # a twist's velocity of the mass
+    G = np.array([np.zeros((6, 6)), to_point.T @ to_point])
+    gradient = lab.kinetic_energy_gradient(J, G, np.array([1.0, 0.0]))
+    assert np.allclose(gradient, [0.0, -1.0])
+    w = np.sqrt((4 + np.sqrt(20)) / 2)  # omega is 1
+    assert f"$w = {w:.3f} \\omega$" in SENTENCES
+    assert f"$T_d = {lab.delay_margin(1.0, 2.0):.4f} / \\omega$" in SENTENCES
+    half = np.log(2) / (2 * np.pi)  # the cutoff, with dt = 1, of alpha = 1 / 2
+    ramp = np.arange(60.0)
+    assert ramp[-1] - lab.low_pass(ramp, 1.0, half)[-1] == pytest.approx(1.0)
+
+
+def test_the_gradient_is_the_transposed_coriolis_matrix_times_qd():
+    qd = np.random.default_rng(9).uniform(-2, 2, 7)
+    now = arm.at(Q)
+    C = dynamics.coriolis_matrix(now.J_space, now.G, qd)
+    gradient = lab.kinetic_energy_gradient(now.J_space, now.G, qd)
+    assert np.allclose(gradient, C.T @ qd)
+    assert np.abs(gradient - C @ qd).max() > 0.1
+    h = 1e-6
+    change = (arm.at(Q + h * qd).M - arm.at(Q - h * qd).M) / (2 * h)
+    assert np.allclose(change, C + C.T, atol=1e-6)
