@@ -235,7 +235,7 @@ def distal_radii(link_lengths: ArrayLike, link_radii: ArrayLike) -> Array:
 def conservative_advance(
     s: float, distance: float, delta_q: ArrayLike, radii: ArrayLike
 ) -> float:
-    """Return the next s of the motion q + s delta_q to query; before it is no contact.
+    """Return the next s of q + s delta_q to query; no contact is possible before it.
 
     One step of conservative advancement: no point of the arm moves further than the
     sum of |delta_q_i| radii_i per unit of s, so contact is impossible before this bound

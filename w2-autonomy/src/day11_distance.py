@@ -60,7 +60,7 @@ def closest_points_segments(
     The segments are a0 to a1 and b0 to b1, four points (3,) in metres; a segment with
     a0 = a1 is a point. For parallel segments return any closest pair. Compare a c - b b
     with a c, because it scales with the fourth power of the length. Source: Ericson,
-    Real-Time Collision Detection, section 5.1.9.
+    Real-Time Collision Detection.
     (-1, 0, 0) to (1, 0, 0) and (0, -1, 1) to (0, 1, 1): (0, 0, 0) and (0, 0, 1).
     """
     # region 11.1
@@ -211,14 +211,15 @@ def distal_radii(link_lengths: np.ndarray, link_radii: np.ndarray) -> np.ndarray
 def conservative_advance(
     s: float, distance: float, delta_q: np.ndarray, radii: np.ndarray
 ) -> float:
-    """Return the next s of q + s delta_q to query, at most 1; before it is no contact.
+    """Return the next s of q + s delta_q to query; no contact is possible before it.
 
-    One step of conservative advancement. distance is the arm's distance at s, metres;
-    delta_q (7,) is the joint displacement of the whole motion, s = 0 to 1, radians;
-    radii (7,) are those of `distal_radii`, metres. No point moves further than the sum
-    of |delta_q_i| radii_i per unit of s. If the distance is 0 or negative, return s;
-    otherwise, if no joint moves, return 1. Source: Schwarzer, Saha and Latombe (2005).
-    At s = 0.25 and 0.1 m, for delta_q 1 and radii 0.5 everywhere: 0.278571.
+    One step of conservative advancement; the result is at most 1. distance is the arm's
+    distance at s, metres; delta_q (7,) is the joint displacement of the whole motion, s
+    = 0 to 1, radians; radii (7,) are those of `distal_radii`, metres. No point moves
+    further than the sum of |delta_q_i| radii_i per unit of s. If the distance is 0 or
+    negative, return s; otherwise, if no joint moves, return 1. Source: Schwarzer, Saha
+    and Latombe (2005). At s = 0.25 and 0.1 m, for delta_q 1 and radii 0.5 everywhere:
+    0.278571.
     """
     # region 11.8
     if distance <= 0:  # contact at s
