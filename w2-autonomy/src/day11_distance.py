@@ -214,12 +214,12 @@ def conservative_advance(
     """Return the next s of q + s delta_q to query; no contact is possible before it.
 
     One step of conservative advancement; the result is at most 1. distance is the arm's
-    distance at s, metres; delta_q (7,) is the joint displacement of the whole motion, s
-    = 0 to 1, radians; radii (7,) are those of `distal_radii`, metres. No point moves
-    further than the sum of |delta_q_i| radii_i per unit of s. If the distance is 0 or
-    negative, return s; otherwise, if no joint moves, return 1. Source: Schwarzer, Saha
-    and Latombe (2005). At s = 0.25 and 0.1 m, for delta_q 1 and radii 0.5 everywhere:
-    0.278571.
+    distance at s, metres; delta_q (7,) is the joint displacement of the whole motion,
+    from s = 0 to s = 1, radians; radii (7,) are those of `distal_radii`, metres. No
+    point moves further than the sum of |delta_q_i| radii_i per unit of s. If the
+    distance is 0 or negative, return s; otherwise, if no joint moves, return 1. Source:
+    Schwarzer, Saha and Latombe (2005).
+    At s = 0.25 and 0.1 m, for delta_q 1 and radii 0.5 everywhere: 0.278571.
     """
     # region 11.8
     if distance <= 0:  # contact at s
