@@ -60,7 +60,7 @@ def alone(inertia=2.0, limit=8.0, way=1.0, gravity=0.0, points=LAB.POINTS):
     inertia=times(2**0.5, "2 √(d M / limit)"),
     limit=times(0.5**0.5, "2 √(d M / limit)"),
     way=times(2**0.5, "2 √(d M / limit)"),
-    points=same("the acceleration changes at a point, because the number of steps is even"),
+    points=same("exact for an even number of steps: the acceleration changes at a point"),
 )  # fmt: skip
 def one_joint(inertia=2.0, limit=8.0, way=1.0, points=LAB.POINTS):
     """Return its travel time, s."""
@@ -98,7 +98,7 @@ def with_half(share=0.5, speed=1.0, weight=1.0, points=LAB.POINTS):
 @numbers.add(
     "torque above its limit at the end of a step", "{:.1%}",
     points=times(0.5, "the bounds change half as much in half a step"),
-    share=between(0.8, 2.0, "the excess stays of the same size", to=0.5),
+    share=between(0.8, 2.0, "the steps differ, and the excess is of similar size", to=0.5),
 )  # fmt: skip
 def above(points=LAB.POINTS, share=1.0):
     """Return by which fraction of its limit the largest torque exceeds it."""
@@ -114,7 +114,7 @@ def above(points=LAB.POINTS, share=1.0):
     step=between(1.3, 1.8, "a tree progresses further with each sample"),
     roof=between(1.4, 2.0, "the passage is wider", to=1.0),
     margin=between(0.6, 1.0, "the passage is narrower"),
-    first=between(0.7, 1.4, "other samples: a second count lies within 18 to 40 in 95 % of all cases", to=60),
+    first=between(0.7, 1.4, "other samples: 95 % of second counts lie within about 18 to 40", to=60),
     samples=between(1.5, 2.0, "twice as many samples"),
 )  # fmt: skip
 def found(step=LAB.STEP, roof=DAY.ROOF, margin=DAY.MARGIN, first=0, samples=40):

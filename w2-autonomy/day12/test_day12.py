@@ -161,6 +161,10 @@ def test_half_the_torque_has_two_causes_and_neither_alone_is_root_two():
     assert light[1] / light[0] == pytest.approx(math.sqrt(2), abs=1e-9)
     assert "and without gravity the factor is 1.414" in SENTENCES
     A, B, G, most = lab.along(ARM, READY, lab.TO, lab.POINTS)
+    x = planning.time_optimal_profile(A, B, G, 0.5 * LIMITS, most)
+    assert (
+        f"at its limit at {100 * np.mean(x > most - 1e-9):.0f} % of the points" in GUIDE
+    )
     x = planning.time_optimal_profile(A, B, G, LIMITS, most)
     assert f"{np.mean(x > most - 1e-9):.0%}".replace(
         "%", " % of the points are at it"
