@@ -116,9 +116,9 @@ def _motion(speed: Axes, torques: Axes, path: tuple, limits: np.ndarray) -> None
 def _fastest(*given: np.ndarray) -> tuple[np.ndarray, str]:
     """Return the lab's time-optimal motion, or the library's, and a title."""
     try:
-        return lab.time_optimal_profile(*given), "Day 7's motion, time-optimal"
+        return lab.time_optimal_profile(*given), "Day 7's motion"
     except NotImplementedError:  # the side quest
-        return library.time_optimal_profile(*given), "Day 7's motion, by the library"
+        return library.time_optimal_profile(*given), "The library's motion"
 
 
 def small() -> Image.Image:
