@@ -610,3 +610,14 @@ def test_of_equals_the_last_come_first_and_a_nan_is_best_if_the_order_is_turned(
     scores = np.array([1.0, np.nan, 1.0, 0.5])
     assert list(np.argsort(scores, kind="stable")[::-1]) == [1, 2, 0, 3]
     assert list(np.argsort(-scores, kind="stable")) == [0, 2, 3, 1]
+
+
+def test_the_weeks_third_prediction_is_an_upward_acceleration():
+    week = " ".join((ROOT / "w2-autonomy/README.md").read_text("utf-8").split())
+    most = [2 * 1.0 * 0.93 / mass for mass in (0.08, 0.15)]  # 2 mu F / m
+    up = [one - lab.G for one in most]
+    aside = [np.sqrt(one**2 - lab.G**2) for one in most]
+    words = f"{up[0]:.1f} m/s² for 80 g, {up[1]:.1f} m/s² for 150 g"
+    assert words in week
+    assert f"g²): {aside[0]:.0f} and {aside[1]:.1f} m/s²" in week
+    assert "*upward* acceleration" in week
