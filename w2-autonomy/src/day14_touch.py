@@ -109,7 +109,7 @@ def grasp_matrix(points: np.ndarray, centre: np.ndarray) -> np.ndarray:
     m, in the world frame. G times the forces (f_1; f_2; ...) is (moment; force) about
     the centre; the three columns of a contact are adjacent. Points (0, 0.02, 0) and (0,
     -0.02, 0) about 0, both pushing 1 N up: (0, 0, 0, 0, 0, 2); one up and one down: a
-    moment about x alone. (Murray, Li and Sastry, section 5.2.)
+    moment about x alone. (Murray, Li and Sastry, chapter 5.)
     """
     # region 14.2
     blocks = [
