@@ -38,7 +38,8 @@ SECONDS = 10.0  # for all calls of a function, where its task does not say
 SLIPPING = 1.5  # seconds for which one slip after the other is made, ...
 SLIPS = 500  # ... and how many are, however slow the function is
 # What a row says of wrong answers, and what counts where that stops: it says nothing.
-HOOKS: dict[str, Any] = {"unnamed": None, "near_miss": None, "measured": ()}
+HOOKS: dict[str, Any] = {"unnamed": None, "near_miss": None, "measured": (),
+                         "valid": False}  # fmt: skip
 KNOWN = 20  # right answers of a function's that are kept: a class is asked the same
 
 
@@ -87,9 +88,6 @@ class HeldOut:
     mistaken: Callable[..., Any] | None = None
     status: str = "wrong"  # or "close"
     near: float | None = None  # how well `mistaken` has to fit; None is the row's
-    # Where many answers are right: takes one call's arguments and the answer, and
-    # returns whether it has the property that the docstring names.
-    valid: Callable[..., bool] | None = None
 
     def __post_init__(self) -> None:
         """Refuse another status: one that passes would hide what is found next."""
@@ -154,6 +152,14 @@ class Ask:
     # Instead of `truth` where many answers are right: takes one call's arguments and
     # the answer, and returns what is wrong with it, or None.
     accept: Callable[..., Finding | str | None] | None = None
+    # Beside `truth`: takes the same, and returns whether the answer has the property
+    # that the docstring names; None if that cannot be said. One that has is right,
+    # though it is another ...
+    valid: Callable[..., bool | None] | None = None
+    # ... unless these words are there: the docstring asks for a method, and they say
+    # which, to a function whose answers are valid by another.
+    method: str = ""
+    copies: bool = True  # whether an answer may not be (a part of) an argument itself
     # The named ones, the more general first; a function that returns them where making
     # them costs something.
     mistakes: Sequence[Mistake] | Callable[[], Sequence[Mistake]] = ()

@@ -152,6 +152,25 @@ class Row:
             self.wrong(name, says, called or redone, hidden.get(slug, ""))(one)
         return code
 
+    def valid(self, method: str | Code = "") -> Any:
+        """Take the property of an answer that the docstring names, bare or with words.
+
+        The function takes a call's arguments and the answer, and returns True, False or
+        None, where it cannot say. Bare, any answer that has the property is right.
+
+        Args:
+            method: where the docstring asks for a method as well, what is told if
+                another method's answers have the property.
+        """
+        if callable(method):
+            return self.valid()(method)
+
+        def keep(has: Code) -> Code:
+            self.more |= {"valid": has, "method": method}
+            return has
+
+        return keep
+
     def close(self, slug: str) -> Any:
         """Take a way that is right in its method, but not in all digits."""
         return lambda code: self._keep(Way("close", slug, "", code))
