@@ -40,6 +40,8 @@ SLIPS = 500  # ... and how many are, however slow the function is
 # What a row says of wrong answers, and what counts where that stops: it says nothing.
 HOOKS: dict[str, Any] = {"unnamed": None, "near_miss": None, "measured": (),
                          "valid": False}  # fmt: skip
+SHARE = 1e-6  # of its largest entry an answer may be off where that is what counts
+TINY = 1e-4  # and of this, in units of its kind's scale, where it is smaller
 KNOWN = 20  # right answers of a function's that are kept: a class is asked the same
 
 
@@ -88,6 +90,8 @@ class HeldOut:
     mistaken: Callable[..., Any] | None = None
     status: str = "wrong"  # or "close"
     near: float | None = None  # how well `mistaken` has to fit; None is the row's
+    # Whether what an answer is off is measured in its own size, however small or large.
+    relative: bool = False
 
     def __post_init__(self) -> None:
         """Refuse another status: one that passes would hide what is found next."""
@@ -249,6 +253,20 @@ class Ask:
     def gaps_of(self, j: int, s: Array, t: Array) -> Array:
         """Return per call how far the j-th result is off, likewise."""
         return gaps(self.kinds[j : j + 1], (s,), (t,), self.rtol)
+
+    def shares(self, S: Parts, T: Parts) -> Array:
+        """Return per call how far an answer is off, in units of `SHARE` of its size."""
+        found = []
+        for j, (s, t, kind) in enumerate(zip(S, T, self.kinds, strict=True)):
+            sizes = np.nan_to_num(np.abs(t / kind.scale), posinf=0.0)
+            size = sizes.reshape(len(t), -1).max(axis=1, initial=TINY)
+            found.append(self.gaps_of(j, s, t) / (SHARE * size))
+        return np.max(found, axis=0)
+
+    def too_far(self, held: HeldOut, S: Parts, T: Parts) -> Array:
+        """Return per call of held-out questions whether an answer is not the right one."""
+        near = self.near if held.near is None else held.near
+        return self.shares(S, T) > 1.0 if held.relative else self.gaps(S, T) > near
 
     @cached_property
     def cost(self) -> float:

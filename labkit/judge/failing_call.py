@@ -83,14 +83,15 @@ def _wrong(
         return None
     S = taken(ask, exchanges, S)
     T = right_answers(ask, exchanges, held)
-    gap = ask.gaps(S, T)
+    relative = held is not None and held.relative
+    gap = ask.shares(S, T) if relative else ask.gaps(S, T)
     i = _furthest(gap)
-    if gap[i] <= ask.tolerance:
+    if gap[i] <= (1.0 if relative else ask.tolerance):
         return None
     # What is said is of the first result that is wrong in some call: one of these.
     first = worst_part(ask.kinds, S, T, ask.tolerance)
     of_it = ask.gaps_of(first, S[first], T[first])
-    if of_it.max() > ask.tolerance:
+    if of_it.max() > ask.tolerance and not relative:
         i = _furthest(of_it)
     one = exchanges[i]
     given = read([one], ask)  # alone, in their own shapes

@@ -237,9 +237,8 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
     S = S if held.mistaken else valid.taken(ask, exchanges, S)
-    off = ask.gaps(S, right_answers(ask, exchanges, held)).max()
-    near = ask.near if held.near is None else held.near
-    return off <= near if held.mistaken else off > near
+    off = ask.too_far(held, S, right_answers(ask, exchanges, held)).any()
+    return bool(off) != bool(held.mistaken)
 
 
 def _further(asked: Asked) -> Further | None:

@@ -34,6 +34,15 @@ def _(rng):
     return [(A, A), *motions(rng), *flat_fans(rng), *exact]
 
 
+@row.spans
+def _(rng):  # two of the motions turn by less than 0.2 rad
+    for A, B in motions(rng, 2):
+        small = np.array([_turned(0.1, way, 0.3) for way in (0.2, 1.9)])
+        there = se3.inverse(hand_eye(A, B))
+        more = there @ small @ se3.inverse(there) @ _turned(0.005, 0.7, 0.5)
+        yield np.concatenate([A, small]), np.concatenate([B, more])
+
+
 @row.valid(
     "Valid for exact motions. With noise no X fits all of them, and another method "
     "gives another X: asked is the rotation from the rotation vectors, nearest to the "
@@ -227,3 +236,11 @@ def _(A, B):
     found, *_ = np.linalg.lstsq(np.vstack(rows), np.concatenate(right), rcond=None)
     U, _, Vt = np.linalg.svd(found[:9].reshape(3, 3).T)
     return rigid(proper(U, Vt), found[9:])
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # Motions under 0.2 rad are left out.
+def _(A, B):
+    angles = np.linalg.norm(log_rotation(A[:, :3, :3]), axis=1)
+    return hand_eye(A[angles > 0.2], B[angles > 0.2])

@@ -65,6 +65,14 @@ def _(rng):
     yield from ways_asked(rng)
 
 
+@row.spans
+def _(rng):
+    ends = np.zeros(2), np.array([2.5, 0])
+    yield *ends, NONE, np.array([[0.0, 2]]), 0.01  # a tree of 250 nodes
+    yield *ends, NONE, np.array([[0.0, 2]]), 100.0
+    yield *ends, NONE, np.array([[5e-4, 0.0]]), 1.0  # a sample that is nearly there
+
+
 @row.valid("Your paths are valid, by another planner.")
 def _(start, goal, world, samples, step, path):
     if not len(path):
@@ -227,3 +235,24 @@ def _(start, goal, world, samples, step):
     while at[-1]:
         at.append(parents[at[-1]])
     return np.array([nodes[i] for i in at[::-1]])
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # At most 60 nodes in a tree.
+def _(start, goal, world, samples, step):
+    found = rrt_connect(start, goal, world, samples, step)
+    return found[: 0 if len(found) > 60 else None]
+
+
+@row.wrong("not-at-every-size", hidden="the numbers of the lab stay within its limits")
+def _(start, goal, world, samples, step):
+    return planner(start, goal, world, samples, step, tries=50)
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # Passed over: nearer than 1e-3 to a node.
+def _(start, goal, world, samples, step):
+    away = np.minimum(*(np.linalg.norm(samples - x, axis=1) for x in (start, goal)))
+    return rrt_connect(start, goal, world, samples[away > 1e-3], step)
