@@ -264,7 +264,7 @@ class Ask:
         return np.max(found, axis=0)
 
     def too_far(self, held: HeldOut, S: Parts, T: Parts) -> Array:
-        """Return per call of held-out questions whether an answer is not the right one."""
+        """Return per held-out question whether its answer is not the right one."""
         near = self.near if held.near is None else held.near
         return self.shares(S, T) > 1.0 if held.relative else self.gaps(S, T) > near
 

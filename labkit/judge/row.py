@@ -366,8 +366,8 @@ class Row:
         return HeldOut(
             ANY_SIZE,
             "Your function is right for ordinary inputs, but not for the smallest and "
-            "the largest ones, or at a limit. The lab or a later task uses such inputs. "
-            "Does a guard, a clamp or a tolerance change them?",
+            "the largest ones, or at a limit. The lab or a later task uses such "
+            "inputs. Does a guard, a clamp or a tolerance change them?",
             lambda rng: [tuple(call) for draw in self._spans for call in draw(rng)],
             relative=True,
         )
