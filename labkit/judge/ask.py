@@ -263,10 +263,11 @@ class Ask:
             found.append(self.gaps_of(j, s, t) / (SHARE * size))
         return np.max(found, axis=0)
 
-    def too_far(self, held: HeldOut, S: Parts, T: Parts) -> Array:
+    def too_far(self, held: HeldOut, S: Parts, T: Parts) -> list[bool]:
         """Return per held-out question whether its answer is not the right one."""
         near = self.near if held.near is None else held.near
-        return self.shares(S, T) > 1.0 if held.relative else self.gaps(S, T) > near
+        far = self.shares(S, T) > 1.0 if held.relative else self.gaps(S, T) > near
+        return [bool(one) for one in far]
 
     @cached_property
     def cost(self) -> float:

@@ -102,8 +102,8 @@ def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
         if S.slug == "shape":
             S = attempt(odd_answers.named, asked, S, otherwise=S)
         return Verdict("wrong", *_beside(S, asked, names))
-    if found := attempt(_by_another_method, asked, S, names):
-        return Verdict("wrong", *found, valid=True)
+    if other := attempt(_by_another_method, asked, S, names):
+        return Verdict("wrong", other.slug, other.message, valid=True)
     if found := replies_read.of_another_size(asked):
         return Verdict("wrong", *_of_another_size(asked, S, names, found))
     if found := replies_read.kept_state(asked, source):
@@ -118,6 +118,7 @@ def _by_another_method(asked: Asked, S: Parts, names: Sequence[str]) -> Finding 
     ask = asked.ask
     if not valid.by_another_method(asked):
         return None
+    named: Finding | None
     if sizes := replies_read.of_another_size(asked):
         named = _of_another_size(asked, S, names, sizes)
         named = None if named is sizes else named
@@ -237,8 +238,8 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
     S = S if held.mistaken else valid.taken(ask, exchanges, S)
-    off = ask.too_far(held, S, right_answers(ask, exchanges, held)).any()
-    return bool(off) != bool(held.mistaken)
+    off = any(ask.too_far(held, S, right_answers(ask, exchanges, held)))
+    return off != bool(held.mistaken)
 
 
 def _further(asked: Asked) -> Further | None:

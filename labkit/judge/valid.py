@@ -27,7 +27,7 @@ def taken(ask: Ask, exchanges: Sequence[Exchange], S: Parts) -> Parts:
     if any(s.shape != t.shape for s, t in zip(S, T, strict=True)):
         return S
     S = tuple(map(np.copy, S))
-    for k in np.flatnonzero(ask.gaps(S, T) > ask.tolerance):
+    for k in np.flatnonzero(ask.gaps(S, T) > ask.tolerance).tolist():
         if _has(ask, exchanges[k], [part[k] for part in S]):
             for mine, its in zip(S, T, strict=True):
                 mine[k] = its[k]
