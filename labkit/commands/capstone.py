@@ -1,14 +1,14 @@
-"""The capstone of a week, such as the arm's pick, with your own functions.
+"""Run the final task of a week, such as the pick, with your own functions.
 
-    make capstone                       one, with your functions of all days
+    make capstone                       one attempt, with your functions
     make capstone WEEK=1                of week 1
     make capstone ARGS=--all            twenty random ones
     make capstone ARGS=--kit            the library's functions alone
-    make capstone ARGS=--ablations      what mistakes do, in a table
+    make capstone ARGS=--ablations      the effects of mistakes, in a table
     make capstone ARGS="--clip a.gif"   a short film of it
     make capstone ARGS="--picture a.png"
 
-Each function of yours that `make check` does not pass is replaced by the library's.
+The library replaces each function of yours that does not pass `make check`.
 """
 
 import sys

@@ -1,12 +1,12 @@
-"""Check a day: which tasks and deliverables stand, and what exactly went wrong.
+"""Check a day: which tasks and deliverables pass, and what is wrong with the others.
 
     python3 scripts/check_day.py 1              the whole day (make check DAY=1)
     python3 scripts/check_day.py --task 1.4     one task (make check TASK=1.4)
     python3 scripts/check_day.py 1 --watch      make watch: at each save
-    python3 scripts/check_day.py 1 --explain    what was measured and printed
-    python3 scripts/check_day.py 1 --json       for tools
+    python3 scripts/check_day.py 1 --explain    with all measurements
+    python3 scripts/check_day.py 1 --json       as JSON, for tools
 
-Your code runs in a process of its own, on a copy; nothing of yours is changed.
+Your code runs in a process of its own, on a copy, and changes none of your files.
 Exit code: 0 all passed, 1 something to fix, 2 the checker could not run, 70 the kit
 itself failed. With make, "something to fix" is no error, and the other codes are.
 """

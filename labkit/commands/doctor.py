@@ -1,11 +1,11 @@
-"""What this machine has and lacks for the labs, line by line, and what to do about it.
+"""Test whether this machine has what the labs need, and print a remedy if not.
 
     make doctor                       or, without make:
     python3 scripts/doctor.py
     python3 scripts/doctor.py --json  for tools
 
-Paste the output when you ask for help: it holds no home folder and no user name.
-Exit code: 0 when all is well, 1 when a line says what to do.
+Paste the output when you ask for help: it contains no home folder and no user name.
+Exit code: 0 no problem, 1 a line has a remedy.
 """
 
 from __future__ import annotations  # it runs on old Pythons too

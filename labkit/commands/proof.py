@@ -1,4 +1,4 @@
-"""Write a page to show: a week's numbers, whose functions, its capstone in 3D.
+"""Write a results page to show: a week's numbers and functions, its capstone in 3D.
 
     make proof                            of your week: metrics/proof-week1.html
     make proof WEEK=1                     of this week
@@ -6,10 +6,11 @@
     python3 scripts/proof.py --of CLONE --name NAME --out FILE
                                           of a student's clone, for a teacher
 
-Every function is checked and every finished lab is run again now, in the sandbox; the
-week's capstone is tried with the functions that pass. One file, opened from disk;
-metrics/proof.html leads to those of all weeks. Beside your own page stands its card,
-proof-week1.png: put both on a server, and who shares the page's address shows the card.
+The command checks every function, runs every finished lab again in the sandbox, and
+runs the week's capstone with the functions that pass. The page is one file, which you
+open from disk; metrics/proof.html links the pages of all weeks. Next to your own page
+is its card, proof-week1.png. If you put both on a server, a shared link to the page
+shows the card.
 """
 
 import contextlib

@@ -1,10 +1,10 @@
-"""Start a day: write your copy of its lab script, with the tasks left for you to do.
+"""Start a day: write your copy of its lab script, with empty functions.
 
     python3 scripts/start_day.py 1                 (make start DAY=1)
-    python3 scripts/start_day.py 1 --reset 1.4     put one task's gap back
+    python3 scripts/start_day.py 1 --reset 1.4     empty one task again
                                                   (make start RESET=1.4)
 
-A file that is there is never overwritten, and a reset keeps your old text beside it.
+An existing file is never overwritten, and a reset keeps your old text next to it.
 """
 
 from itertools import count

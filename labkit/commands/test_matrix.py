@@ -1,4 +1,4 @@
-"""Run the tests on the oldest and the newest MuJoCo and Python that the kit claims.
+"""Run the tests on the oldest and the newest MuJoCo and Python that the kit supports.
 
     make test-matrix                                  all four
     python3 scripts/test_matrix.py --mujoco 3.10.0     another MuJoCo
@@ -6,7 +6,7 @@
 
 Each pair gets an environment of its own, .venv-matrix/…, made once. A Python that this
 machine does not have, on its PATH or from pyenv, is named and left out; in CI
-(ROBO47_CI=1) that is a failure.
+(ROBO47_CI=1) it is a failure.
 """
 
 import os

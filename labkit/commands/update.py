@@ -1,4 +1,4 @@
-"""Bring your clone to the kit's newest version; all that is yours stays.
+"""Update your clone to the newest version of the kit, and keep your work.
 
     python3 scripts/update.py                          (make update)
     python3 scripts/update.py --from https://...       (make update FROM=...)
@@ -118,7 +118,9 @@ def _of_the_work(files: list[str], taken: list[str]) -> str:
     """Return what is true of the student's files after an update."""
     changed = sorted(name for name in files if is_students(name))
     if changed:
-        return f"; your lines are kept, beside new ones in: {', '.join(changed)}"
+        return (
+            f"; your lines are kept, and the kit's changes are in: {', '.join(changed)}"
+        )
     return "" if taken else "; your work is as it was"
 
 
@@ -133,7 +135,9 @@ def tell(
     if not files:
         print("This is the kit's newest version; nothing has changed.")
         return
-    print(f"The kit is at {now} now{_of_the_work(files.splitlines(), taken)}.")
+    changed = ask("diff", "--name-only", "--no-renames", "--diff-filter=MD", own)
+    says = _of_the_work(changed.splitlines(), taken)
+    print(cli.wrapped(f"The kit is at {now} now{says}.", "  "))
     for line in found["changes"][:CHANGES]:
         print(f"  {line}")
     if len(found["changes"]) > CHANGES:

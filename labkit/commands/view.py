@@ -1,4 +1,4 @@
-"""See the arm, its frames, and your own code move it, beside MuJoCo's answer.
+"""Show the arm and its frames, moved by your code, next to MuJoCo's answer.
 
     make view                        in your browser; DAY=2: that day's tabs
     make view ARGS=--screenshot      a picture, without a window
@@ -6,9 +6,9 @@
     make view ARGS=--native          MuJoCo's own window
     python3 scripts/view_panda.py 2  without make: the page of Day 2
 
-In the browser: drag a joint. Your own function draws a red arm wherever it
-differs from MuJoCo's, and is asked again at every save; it runs in the checker's
-sandbox. The page listens on this machine alone, at an address nobody else knows.
+In the browser, drag a joint. Where the result of your function differs from MuJoCo's, a
+red arm shows it. Your function is called again after every save, in the checker's
+sandbox. Only this machine can open the page, at an address that contains a secret.
 """
 
 import argparse

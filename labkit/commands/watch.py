@@ -1,16 +1,16 @@
-"""Work through a day in one loop: save, read the verdict, go on.
+"""Work through a day in one loop: save, read the verdict, continue.
 
     make watch                     the day worked on last
     make watch DAY=4
     make watch TASK=4.5            one task alone
 
-It shows the next open task and where it stands in your file. At each save that task is
-checked; when it passes, the next one is shown. Then all others are asked again, for a
-change may have reached them: until that is known, they are shown in brackets. When all
-functions are right it says so, and names what is left to hand in.
+The command shows the next open task and its position in your file. At each save it
+checks that task; when the task passes, it shows the next one. Then it checks all others
+again, because a change may affect them, and shows them in brackets until the result is
+known. When all functions are right, it lists what is left to hand in.
 
 Keys: h hint, r run the lab, v view, b borrow, l list, c check all, q quit. Without a
-keyboard (a pipe, an editor's window) it watches all the same; Ctrl-C ends it.
+keyboard (a pipe, an editor's window) it also watches; Ctrl-C ends it.
 Exit code: 0 all passed, 1 something is left, 2 it could not run.
 """
 

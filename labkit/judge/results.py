@@ -55,7 +55,8 @@ def split(kind: Kinds, value: Any) -> tuple[Any, ...] | Finding:
     """Return an answer's parts as they came, or what it is instead."""
     if isinstance(kind, Kind):
         return (value,)
-    whole = isinstance(value, np.ndarray) and value.ndim
+    flat = all(isinstance(one, Kind) for one in kind)  # no result is a tuple itself
+    whole = isinstance(value, np.ndarray) and value.ndim and flat
     some = tuple(value) if whole else value  # a result in each row
     if not isinstance(some, tuple | list) or len(some) != len(kind):
         return Finding("parts", f"It returns {_given(value)}; {expected(kind)}.")
