@@ -31,9 +31,12 @@ def right(x):
 @pytest.mark.parametrize(
     ("wrong", "call"),
     [
-        (lambda x: right(x) if abs(x) > 1e-6 else 0.0, "f(1e-07) is 0, and 2e-07"),
-        (lambda x: min(right(x), 1e6), "f(10000000.0) is 1e+06, and 1e+07"),
-        (lambda x: 2.0 * x if x <= LIMIT else x, "f(2) is 4, and 2"),
+        (
+            lambda x: right(x) if abs(x) > 1e-6 else 0.0,
+            "f(1e-07) returned 0; expected 2e-07.",
+        ),
+        (lambda x: min(right(x), 1e6), "f(10000000.0) returned 1e+06; expected 1e+07."),
+        (lambda x: 2.0 * x if x <= LIMIT else x, "f(2) returned 4; expected 2."),
     ],
 )
 def test_a_guard_a_cap_and_a_limit_are_found_and_shown(wrong, call):

@@ -44,7 +44,7 @@ def test_an_answer_without_the_property_is_wrong_and_is_the_one_that_is_shown():
 
     found = told(root_row(), function)
     assert found.status == "wrong"
-    assert found.call.startswith("f(9) is 2, and 3 is right.")
+    assert found.call.startswith("f(9) returned 2; expected 3.")
 
 
 def test_a_property_does_not_excuse_another_shape():
