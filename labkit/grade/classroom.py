@@ -15,7 +15,7 @@ from labkit.grade.engine import Engine, grade_all
 from labkit.grade.journal import Journal, Kept
 from labkit.grade.package import Package, collect
 from labkit.grade.pull import pull_all
-from labkit.grade.result import Result, ungraded
+from labkit.grade.result import FAULT, Result, ungraded
 from labkit.grade.roster import Student
 from labkit.grade.sheet import as_csv, nameless, printable, write
 from labkit.grade.similar import Runs
@@ -25,8 +25,6 @@ from labkit.lesson.starter import starter_of
 from labkit.sandbox.messages import file_of
 from robo47.errors import FaultError
 from robo47.paths import shown
-
-FAULT = "this machine failed ({}); the same command tries again"
 
 
 @dataclass(frozen=True)
