@@ -17,6 +17,7 @@ from pathlib import Path
 from labkit.base import cli
 from labkit.lesson.day import Day, chosen_day
 from labkit.lesson.notebook import build, digest
+from labkit.lesson.week import NOTEBOOKS
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -40,7 +41,7 @@ def put_aside(path: Path) -> Path:
 
 def notebook_of(day: Day) -> Path:
     """Return where a day's notebook is."""
-    return day.folder / "notebooks" / Path(day.script).with_suffix(".ipynb").name
+    return day.folder / NOTEBOOKS / Path(day.script).with_suffix(".ipynb").name
 
 
 def main() -> int:

@@ -14,9 +14,10 @@ from pathlib import Path
 from labkit.base import git
 from labkit.base.text import visible
 from labkit.lesson.day import Day
+from labkit.lesson.week import NOTEBOOKS
 
 BRANCHES, FILES = 20, 20_000  # that are looked through
-SKIPPED = (".git", ".venv", "node_modules", "__pycache__", "notebooks")
+SKIPPED = (".git", ".venv", "node_modules", "__pycache__", NOTEBOOKS)
 SUBMODULE = "160000"  # mode of a repository inside a repository
 
 
