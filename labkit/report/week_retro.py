@@ -1,7 +1,7 @@
 """The numbers of the student's retrospective, between two marks of its file.
 
-`<!-- numbers -->` and `<!-- end -->` stand in the files that week.toml names. What is between
-them is written anew; every other byte is the student's and stays as it is.
+`<!-- numbers -->` and `<!-- end -->` stand in the files that week.toml names. What is
+between them is written anew; every other byte is the student's and stays as it is.
 """
 
 from collections.abc import Sequence
