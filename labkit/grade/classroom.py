@@ -103,7 +103,7 @@ class Classroom:
         due = self.journal.reference if self.journal.deadline else None
         try:
             package = collect(student, self.day, self.journal.seed, due)
-        except (OSError, GitError, MemoryError) as error:
+        except (OSError, GitError, MemoryError, RecursionError) as error:
             fault = FaultError(visible(error) or type(error).__name__)
             return Package(self.day.number, ""), fault
         kept = self.frozen or bool(self.again.folders)

@@ -206,7 +206,7 @@ def _graded(
         package = HuntPackage(*numbers, files, kit, journal.seed)
         known = journal.find(student.folder, package)
         return (None, known) if known else (package, grade_package(package))
-    except (OSError, GitError, FaultError, MemoryError) as error:
+    except (OSError, GitError, FaultError, MemoryError, RecursionError) as error:
         why = FAULT.format(visible(error, 200) or type(error).__name__)
         return None, {"state": UNGRADED, "why": why, "fault": True}
     except Robo47Error as error:
