@@ -119,7 +119,8 @@ class Classroom:
             result = ungraded(self.day, FAULT.format(visible(result, 200)))
         elif self.keep == "best":
             given = self.journal.best(student.folder)
-            result = given.result
+            best: Result = given.result
+            result = best
         minutes = None
         if given.committed is not None:
             minutes = (self.journal.reference - given.committed) // 60
