@@ -274,10 +274,10 @@ class TestTheCommand:
         assert "Traceback" not in done.stderr
 
 
-HUNT = hunts.Hunt(make_hunters.DAY, make_hunters.LEVEL, make_hunters.SEED)
+GIVEN = hunts.Hunt(make_hunters.DAY, make_hunters.LEVEL, make_hunters.SEED)
 
 
-def hunters_of(clones, deadline=None, seed=None, hunt=HUNT):
+def hunters_of(clones, deadline=None, seed=None, hunt=GIVEN):
     """Return everybody's hunt and the seed; the journal lies beside the clones."""
     path = clones / "hunting.jsonl"
     with (
@@ -290,7 +290,7 @@ def hunters_of(clones, deadline=None, seed=None, hunt=HUNT):
 @pytest.mark.kit
 def test_a_class_is_graded_by_its_scripts_and_not_by_its_word(tmp_path):
     make_hunters.make(tmp_path)
-    hunt = HUNT
+    hunt = GIVEN
     class_, _ = hunters_of(tmp_path)
     assert {one.student.name: one.state for one in class_} == {
         "another-seed": hunts.NO_HUNT,
@@ -394,10 +394,10 @@ class TestAClassHuntThatIsGradedAgain:
             make_hunters.Hunter().write(tmp_path / name)
         path = tmp_path / "hunting.jsonl"
         with (
-            closing(hunts.HuntJournal(path, HUNT, None, 5)) as journal,
+            closing(hunts.HuntJournal(path, GIVEN, None, 5)) as journal,
             engine.local(1) as it,
         ):
-            next(hunts.grade(HUNT, find_students(tmp_path), it, journal))
+            next(hunts.grade(GIVEN, find_students(tmp_path), it, journal))
         judged_now.clear()
         assert len(hunters_of(tmp_path)[0]) == 2
         assert [one.questions for one in judged_now] == [5]
@@ -405,7 +405,7 @@ class TestAClassHuntThatIsGradedAgain:
     def test_is_not_mixed_with_another_hunt_of_the_day(self, tmp_path, judged_now):
         make_hunters.Hunter().write(tmp_path / "a")
         hunters_of(tmp_path)
-        other = hunts.Hunt(HUNT.day, HUNT.level, HUNT.seed + 1)
+        other = hunts.Hunt(GIVEN.day, GIVEN.level, GIVEN.seed + 1)
         with pytest.raises(Robo47Error, match="another grading of day 4"):
             hunters_of(tmp_path, hunt=other)
 
@@ -436,6 +436,6 @@ def test_a_case_that_cannot_be_drawn_costs_one_grade(monkeypatch):
     hunter = make_hunters.Hunter()
     said = json.dumps(asdict(hunter.case)).encode()
     files = hunts.Files(said, hunter.text.encode(), b"")
-    package = hunts.HuntPackage(4, HUNT.level, HUNT.seed, files, "", 1)
+    package = hunts.HuntPackage(4, GIVEN.level, GIVEN.seed, files, "", 1)
     assert package.answer()["state"] == hunts.UNGRADED
     assert "there is nothing to hunt" in package.answer()["why"]
