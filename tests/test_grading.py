@@ -585,6 +585,30 @@ class TestPulling:
         found = class_.path.parent.rglob("50")  # some object may be named so, too
         assert not [p for p in found if ".git" not in p.parts]
 
+    def test_checks_out_no_folders_deep_in_each_other(self, class_):
+        origin = Path(class_.url)
+        blob = made(origin, "hash-object", "-w", "--stdin", given=b"x")
+        entry = f"100644 blob {blob}\tf\n"
+        for _ in range(git.DEEPEST + 1):
+            tree = made(origin, "mktree", given=entry.encode())
+            entry = f"040000 tree {tree}\td\n"
+        parent = made(origin, "rev-parse", "HEAD")
+        tree = made(origin, "mktree", given=entry.encode())
+        words = ("commit-tree", "-m", "x", "-p", parent, tree)
+        made(origin, "update-ref", "HEAD", made(origin, *words))
+        ((_, problem),) = pull_all([class_])
+        assert f"more than {git.DEEPEST} deep" in problem
+        assert not class_.path.exists()
+
+    def test_folders_that_cannot_be_removed_cost_one_student(self, class_, monkeypatch):
+        def deep(*_, **__):
+            raise RecursionError
+
+        monkeypatch.setattr(shutil, "rmtree", deep)
+        ((student, problem),) = pull_all([class_])
+        assert student is class_
+        assert "too deep" in problem
+
     @pytest.mark.parametrize("how", ["commondir", "config", "link", "elsewhere"])
     def test_pulls_nothing_whose_configuration_is_anothers(self, class_, how, tmp_path):
         list(pull_all([class_]))
