@@ -109,7 +109,7 @@ def wrong_M(metre=1.0, seed=LAB.SEED, n=20):
 
 @numbers.add(
     "position error with Ad(M) instead of Ad(inverse of M)", "{:.0f} mm",
-    metre=times(2.0, "only v is wrong, and the error is a length per radian"),
+    metre=times(2.0, "only v is wrong, and v is a length per radian"),
     seed=between(0.5, 2.0, "twenty other random configurations", to=48),
     tilt=between(4.0, 6.0, "M's rotation is not symmetric then, so omega is wrong too",
                  to=0.3),
