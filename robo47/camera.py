@@ -25,7 +25,9 @@ from robo47.jacobian import SINGULAR
 from robo47.rotation_log import log_rotation
 from robo47.screws import exp_screw, skew
 
-STEPS = 10  # of Gauss and Newton in `refine_pose`; each doubles the right digits
+# Gauss-Newton steps of `refine_pose`: with exact pixels each step doubles the correct
+# digits; a residual of 0.3 px makes the convergence linear, by 1.8 digits a step.
+STEPS = 10
 
 
 def camera_matrix(fovy: float, width: float, height: float) -> Array:
@@ -237,8 +239,8 @@ def hand_eye(A: ArrayLike, B: ArrayLike) -> Array:
     1994).
 
     Args:
-        A: motions of the hand, `T_hand0_hand1`, (k, 4, 4), about two axes at least:
-            what turns about one axis alone fits many X.
+        A: motions of the hand, `T_hand0_hand1`, (k, 4, 4), about axes in at least two
+            different directions: parallel axes do not determine X.
         B: the camera's for the same, `T_cam0_cam1`, (k, 4, 4).
 
     Returns:
