@@ -73,9 +73,9 @@ def fitted(
 @pytest.fixture(scope="module")
 def printed():
     """Return what the lab prints."""
-    told = {"half a pixel, both ways, on the table, mm": "2.3",
-            "mm off along the view, 240 px": "8",
-            "numbers of X that joint 7 alone leaves free": "2"}  # fmt: skip
+    told = {"error from half a pixel in u and v, mm": "2.3",
+            "error along the view with 240 px, mm": "8",
+            "degrees of freedom of X that joint 7 leaves free": "2"}  # fmt: skip
     return printed_by(lab, told)
 
 
@@ -101,11 +101,11 @@ def test_three_predictions_of_the_worksheet_stand_beside_what_is_measured(printe
 
 
 def test_what_the_opening_promises_is_what_the_lab_prints(printed):
-    off = [float(x) for x in re.findall(r"points: ([\d.]+) mm beside", printed)]
+    off = [float(x) for x in re.findall(r"points: ([\d.]+) mm from", printed)]
     mean = re.findall(r"their mean: ([\d.]+) mm", printed)
     assert f"to {max(off)} mm, where the mean of all points" in SENTENCES
     assert f"is {max(mean)} mm off" in SENTENCES
-    aside = re.search(r"middle is (\d+) mm beside", printed)[1]
+    aside = re.search(r"middle is (\d+) mm from", printed)[1]
     assert f"the table is {aside} mm from its true place" in SENTENCES
     alone = re.search(r"joint 7 alone +0\.00 +2 +(\S+)\n", printed)[1]
     assert float(alone) < 1e-15
@@ -127,7 +127,7 @@ def test_half_a_pixel_is_z_over_f_and_grows_with_the_distance(printed):
     far = np.linalg.norm(day10_mujoco.TO - day10_mujoco.AT)
     assert f"hangs {far:.3f} m from the middle" in SENTENCES
     assert f"z / f = 955 / 290 = {1000 * far / F:.1f} mm: 2.33 mm" in SENTENCES
-    assert "half a pixel, both ways, is 2.3 mm" in printed
+    assert "half a pixel in u and v is 2.3 mm (RMS)" in printed
     for z in (far, 2 * far):
         pixels = np.array([[160.0, 120.0], [160.5, 120.5]])
         a, b = camera.back_project(K, T_world_cam, pixels, np.full(2, z))
