@@ -235,9 +235,10 @@ def pose_covariance(J: ArrayLike, sigma: float) -> Array:
 def hand_eye(A: ArrayLike, B: ArrayLike) -> Array:
     """Return where on the hand the camera sits: the X of A X = X B for all pairs.
 
-    A motion's rotation vector is turned by X, a_i = R_X b_i: the rotation nearest to
-    the sum of a_i b_i^T. Then (R_A - 1) t = R_X t_B - t_A, all stacked (Park, Martin,
-    1994).
+    With noise no X fits all pairs, and each method returns another X. This one takes
+    the rotation R_X first: a_i = R_X b_i for the rotation vectors of each pair, so R_X
+    is the rotation nearest to the sum of a_i b_i^T. Then t is the least-squares
+    solution of (R_A - 1) t = R_X t_B - t_A, all stacked (Park, Martin, 1994).
 
     Args:
         A: motions of the hand, `T_hand0_hand1`, (k, 4, 4), about axes in at least two

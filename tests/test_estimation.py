@@ -173,6 +173,19 @@ def test_many_filters_run_at_once():
             assert_same(part[k], own, 1e-12)
 
 
+@pytest.mark.parametrize(("cutoff", "kept"), [(5, 0.71), (50, 0.72), (100, 0.75)])
+def test_the_amplitude_at_the_cutoff_is_what_the_docstring_gives(cutoff, kept):
+    """Where the cutoff is not far below the sampling rate, more than 0.71 is left."""
+    t = np.arange(5000) / 500.0
+    wave = np.exp(2j * np.pi * cutoff * t)
+    parts = [
+        estimation.low_pass(part, 0.002, cutoff) for part in (wave.real, wave.imag)
+    ]
+    settled = np.hypot(*parts)[-1000:]
+    assert f"{settled.mean():.2f}" == f"{kept:.2f}"
+    assert f"{kept:.2f} " in estimation.low_pass.__doc__
+
+
 @pytest.mark.parametrize(("n", "off"), [(10, 3e-3), (100, 8e-5), (1950, 3e-6)])
 def test_the_interval_of_the_nis_comes_near_to_scipys_chi2(n, off):
     for m in (1, 3):
@@ -181,7 +194,7 @@ def test_the_interval_of_the_nis_comes_near_to_scipys_chi2(n, off):
     assert_same(estimation.nis_interval(1950, 1), [0.93821, 1.06374], 1e-5)
 
 
-def test_whiteness_is_numpys_correlation_of_neighbours_and_small_for_noise():
+def test_the_autocorrelation_is_numpys_correlation_of_neighbours_and_small_for_noise():
     noise = np.random.default_rng(9).normal(size=2000)
     said = estimation.lag1_autocorrelation(noise)
     assert said == pytest.approx(np.corrcoef(noise[1:], noise[:-1])[0, 1], abs=1e-3)
@@ -193,7 +206,7 @@ def test_whiteness_is_numpys_correlation_of_neighbours_and_small_for_noise():
 
 
 @given(arrays(np.float64, 12, elements=numbers), st.floats(0.1, 9.0), numbers)
-def test_whiteness_knows_no_unit_and_no_offset(y, scale, offset):
+def test_the_autocorrelation_has_no_unit_and_no_offset(y, scale, offset):
     assume(np.ptp(y) > 0.1)
     said = estimation.lag1_autocorrelation(y)
     assert -1.0 <= said <= 1.0
@@ -202,7 +215,7 @@ def test_whiteness_knows_no_unit_and_no_offset(y, scale, offset):
     )
 
 
-def test_the_energy_slope_is_the_transposed_coriolis_matrix_on_either_panda(
+def test_the_energys_gradient_is_the_transposed_coriolis_matrix_on_either_panda(
     either_panda,
 ):
     _, qd, J, G = moving(either_panda)
@@ -211,7 +224,7 @@ def test_the_energy_slope_is_the_transposed_coriolis_matrix_on_either_panda(
     assert_same(estimation.kinetic_energy_gradient(J, G, qd), truth, 1e-12)
 
 
-def test_pinocchio_agrees_on_the_energy_slope(either_panda):
+def test_pinocchio_agrees_on_the_energys_gradient(either_panda):
     kept = json.loads((DATA / "dynamics_oracle.json").read_text())["panda_nohand"]
     arm = panda.arm(either_panda)
     # MuJoCo 3 reproduces the file's inertias, which Pinocchio reads, to 5e-7.
@@ -222,7 +235,7 @@ def test_pinocchio_agrees_on_the_energy_slope(either_panda):
         assert_same(slope, np.array(truth), tol)
 
 
-def test_the_energy_slope_is_a_difference_of_mujocos_kinetic_energy(either_panda):
+def test_the_energys_gradient_is_a_difference_of_mujocos_kinetic_energy(either_panda):
     q, qd, J, G = moving(either_panda)
     model = either_panda
     data = mujoco.MjData(model)
@@ -243,7 +256,7 @@ def test_the_energy_slope_is_a_difference_of_mujocos_kinetic_energy(either_panda
 
 
 @given(angles, numbers)
-def test_the_energy_slope_grows_with_the_square_of_the_speed(qd, factor):
+def test_the_energys_gradient_grows_with_the_square_of_the_speed(qd, factor):
     now = panda.arm(panda.load("panda_nohand")).at(panda.READY_Q)
     slope = estimation.kinetic_energy_gradient(now.J_space, now.G, qd)
     faster = estimation.kinetic_energy_gradient(now.J_space, now.G, factor * qd)
@@ -282,7 +295,7 @@ def test_the_observer_knows_what_is_known():
 
 
 @given(angles, st.integers(1, 7))
-def test_the_pushed_link_is_the_last_joint_over_its_threshold(residual, joint):
+def test_the_contact_link_is_the_last_joint_over_its_threshold(residual, joint):
     threshold = np.abs(residual)
     assert estimation.contact_link(residual, threshold) == 0
     residual[joint - 1] = -9.0

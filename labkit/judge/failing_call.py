@@ -17,6 +17,7 @@ from labkit.judge.mistake import Finding
 from labkit.judge.replies_read import not_accepted, read
 from labkit.judge.results import places, split
 from labkit.judge.typed import shown, typed, typed_one
+from labkit.judge.valid import taken
 from robo47.checks import Array
 
 # A call whose answer is not right: in a line, "Rz(2.9)[0, 0] is -1, and -0.971 is
@@ -63,7 +64,7 @@ def _misfit(
             if not isinstance(one.reply.value, np.ndarray):
                 return None
             shape = one.reply.value.shape
-            says = f"{typed(one.question, names, LONG)} returns shape {shape}."
+            says = f"{typed(one.question, names, LONG)} returned shape {shape}."
             return says, _given(one.question, names)
     return None
 
@@ -80,15 +81,17 @@ def _wrong(
     S = read(exchanges, ask)
     if isinstance(S, Finding):
         return None
+    S = taken(ask, exchanges, S)
     T = right_answers(ask, exchanges, held)
-    gap = ask.gaps(S, T)
+    relative = held is not None and held.relative
+    gap = ask.shares(S, T) if relative else ask.gaps(S, T)
     i = _furthest(gap)
-    if gap[i] <= ask.tolerance:
+    if gap[i] <= (1.0 if relative else ask.tolerance):
         return None
     # What is said is of the first result that is wrong in some call: one of these.
     first = worst_part(ask.kinds, S, T, ask.tolerance)
     of_it = ask.gaps_of(first, S[first], T[first])
-    if of_it.max() > ask.tolerance:
+    if of_it.max() > ask.tolerance and not relative:
         i = _furthest(of_it)
     one = exchanges[i]
     given = read([one], ask)  # alone, in their own shapes
@@ -104,24 +107,24 @@ def _wrong(
     whole += [f"yours: {shown(value)}" for value in mine]
     pairs = zip(ask.kinds, right, strict=True)
     whole += [f"right: {shown(kind.sent(values[0]))}" for kind, values in pairs]
-    return f"{says} {entries} is right.", tuple(whole)
+    return f"{says} {entries}.", tuple(whole)
 
 
 def _entry(kind: Kind, mine: Array, its: Array) -> tuple[str, str]:
-    """Return the entry that is furthest off, and "is 1, and 2" of it."""
+    """Return the place of the largest error, and "returned 1; expected 2" of it."""
     if kind.is_none(mine) or kind.is_none(its):
-        return "", f"is {_part(kind, mine)}, and {_part(kind, its)}"
+        return "", f"returned {_part(kind, mine)}; expected {_part(kind, its)}"
     if mine.shape != its.shape:
-        return "", f"has shape {mine.shape}, and {its.shape}"
+        return "", f"returned shape {mine.shape}; expected shape {its.shape}"
     apart = gap(mine, its) / kind.scale
     at = np.unravel_index(_furthest(apart), mine.shape)
     place = str([int(x) for x in at]) if at else ""
     if kind.whole:
         yours, right = (shown(kind.sent(x[at])) for x in (mine, its))
-        return place, f"is {yours}, and {right}"
+        return place, f"returned {yours}; expected {right}"
     dust = DUST * np.broadcast_to(kind.scale, its.shape)[at]
     pair = (0.0 if abs(x[at]) < dust else x[at] for x in (mine, its))
-    return place, f"is {_apart(*pair)}"
+    return place, f"returned {_apart(*pair)}"
 
 
 def _furthest(off: Array) -> int:
@@ -142,6 +145,7 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     right = "Right for the inputs that are always asked, but not for"
     if isinstance(S, Finding):
         return Finding("some-inputs", f"{right} fresh ones. {S.message}")
+    S = taken(asked.ask, asked.fresh, S)
     T = right_answers(asked.ask, asked.fresh)
     wrong = asked.ask.gaps(S, T) > asked.ask.near
     says = f"{right} {int(wrong.sum())} of {len(wrong)} fresh ones."
@@ -175,4 +179,4 @@ def _apart(mine: float, its: float) -> str:
         one, other = (f"{x + 0.0:.{digits}g}" for x in (mine, its))
         if one != other:
             break
-    return f"{one}, and {other}"
+    return f"{one}; expected {other}"

@@ -22,6 +22,9 @@ def _(rng):
     return [*asked, *drawn]
 
 
+row.spans(p_cam=(lambda p: 0.02 * p, lambda p: 50.0 * p))
+
+
 def by_point(K, p):
     """Return d(pixel)/dp, (n, 2, 3)."""
     x, y, z = p.T
@@ -172,3 +175,12 @@ def _(K, p_cam):
             [-fy * (1 + y * y), fy * x * y, fy * x, 0, fy / Z, -fy * y / Z],
         ])  # fmt: skip
     return np.array(found)
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # 0.2 m at least in the slopes.
+def _(K, p_cam):
+    p = p_cam.copy()
+    p[:, 2] = np.maximum(p[:, 2], 0.2)
+    return by_point(K, p) @ by_twist(p_cam)

@@ -44,13 +44,13 @@ def pulled(tab, seconds=0.6):
 
 def test_the_bars_are_the_push_and_the_ball_stands_at_the_link(feel):
     tab = feel(vars(lab))
-    assert "it feels nobody" in tab.numbers.content
+    assert "no contact" in tab.numbers.content
     assert not tab.named.visible
     pulled(tab)
     residual, truth = tab.bars.show.call_args.args
     assert_same(residual, truth, 0.02)
     assert truth[3] == pytest.approx(-4.7, abs=0.1)
-    assert "it names link 6" in tab.numbers.content
+    assert "contact on link 6" in tab.numbers.content
     assert tab.named.visible
     assert_same(tab.named.position, tab.arm.at(tab.data.qpos[:7]).coms_world[5], 1e-12)
     assert tab.own.says()[1] == "good"

@@ -182,7 +182,9 @@ def pose_covariance(J: np.ndarray, sigma: float) -> np.ndarray:
 def hand_eye(A: np.ndarray, B: np.ndarray) -> np.ndarray:
     """Return X, (4, 4), with A X = X B for the motions A and B, (k, 4, 4) each.
 
-    B = A: the identity.
+    With noise no X fits all motions. Then R_X is the rotation nearest to the sum of
+    a b^T, with the rotation vectors a of A and b of B, and t is the least-squares
+    solution for this R_X. B = A: the identity.
     """
     # region 10.8
     a = np.array([log_rotation(T[:3, :3]) for T in A])
