@@ -53,7 +53,7 @@ def test_a_mass_matrix_with_a_wrong_sign_is_symmetric_and_positive_definite(arm,
     least = np.linalg.eigvalsh(M).min()
     off = np.abs(M - truth).max()
     assert f"wrong by {off:.3f} kg m²" in SENTENCES
-    assert f"its least eigenvalue is {least:.3f}" in SENTENCES
+    assert f"its smallest eigenvalue is {least:.3f}" in SENTENCES
     assert f"entry of all 100 M ({truth.max():.3f})" in SENTENCES
     assert 5.0 < off / truth.max() < 6.0  # "over five times"
     least = {what: np.linalg.eigvalsh(one).min() for what, one in wrong.items()}
