@@ -914,7 +914,9 @@ def graded(*statuses: str, name: str = "", mistakes: dict[int, str] | None = Non
 def standing(class_: Sequence[Graded]) -> list[tuple[str, ...]]:
     """Return what the page says beside each task, and the colours of its bar."""
     _, _, chart = page.render(Course(DAY, class_)).partition('aria-label="Tasks">')
-    rows = chart.partition("</svg>")[0].split('<text x="0"')[1:]
+    # A long label has a second, narrow text, which is no row of its own.
+    begins = r'<text x="0"(?![^>]*class="narrow")'
+    rows = re.split(begins, chart.partition("</svg>")[0])[1:]
     return [
         (
             re.search(r">([^<]*)</text><rect", row)[1],

@@ -157,7 +157,8 @@ for slug, says, redone, other in (
     ("y-up", "the row of v has the wrong sign; y and v point down here", "with -v",
      {"told": lambda J: J * [[1], [-1]]}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(slopes, **other))
+    one = "the lab's camera has fx = fy" if "-in-both-rows" in slug else ""
+    row.wrong(slug, says, redone, hidden=one)(partial(slopes, **other))
 
 
 row.at_least_0(K="f and the centre are")
