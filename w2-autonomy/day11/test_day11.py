@@ -112,7 +112,7 @@ def test_the_opening_says_what_the_lab_prints_and_what_other_seeds_do(printed):
     assert f"misses a thin wire in {by_20} of 60 motions" in DAY.see
     assert f"median of {looks} distance queries" in DAY.see
     least = re.search(r"with damper: ([\d.]+) mm, ends 0.0 mm", printed)[1]
-    assert "around it at a distance of 10 mm" in SENTENCES
+    assert "around the post at a distance of 10 mm" in SENTENCES
     assert round(float(least)) == 10
 
 
