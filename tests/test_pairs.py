@@ -128,30 +128,30 @@ def test_what_is_said_to_be_right_is_right_to_the_last_digit_that_counts():
 
 
 def test_a_condition_that_no_cut_gives_is_told_nothing_of_a_cut():
-    def identifiable(Y, rtol):
-        rank, condition = right(8, "identifiable")(Y, rtol)
+    def rank_and_condition(Y, rtol):
+        rank, condition = right(8, "rank_and_condition")(Y, rtol)
         return rank, condition**9 * 1e9
 
-    says = told(8, "8.5", identifiable=identifiable)
+    says = told(8, "8.5", rank_and_condition=rank_and_condition)
     assert "rtol" not in says
     assert "values" not in says
 
 
 def test_the_rank_of_what_is_hidden_is_not_a_cut():
-    def identifiable(Y, rtol):
-        rank, condition = right(8, "identifiable")(Y, rtol)
+    def rank_and_condition(Y, rtol):
+        rank, condition = right(8, "rank_and_condition")(Y, rtol)
         return Y.shape[1] - rank, condition
 
-    assert "that are hidden" in told(8, "8.5", identifiable=identifiable)
+    assert "that are hidden" in told(8, "8.5", rank_and_condition=rank_and_condition)
 
 
 def test_a_result_that_is_right_is_said_to_be():
-    def identifiable(Y, rtol):
-        rank, _ = right(8, "identifiable")(Y, rtol)
+    def rank_and_condition(Y, rtol):
+        rank, _ = right(8, "rank_and_condition")(Y, rtol)
         s = np.linalg.svd(Y, compute_uv=False)
         return rank, s[0] / np.mean(s[:rank])
 
-    says = told(8, "8.5", identifiable=identifiable)
+    says = told(8, "8.5", rank_and_condition=rank_and_condition)
     assert says.startswith("The rank is right. The condition: ")
 
 
