@@ -45,7 +45,7 @@ def _named(
                 how = mistake.redone
                 if np.isfinite(S[i]).all():  # of a NaN nobody says how far it is off
                     how = f"{kinds[i].gap} {kinds[i].apart(S[i], T[i])}; {how}"
-                says += f" ({capitalised(how)} gives your numbers exactly.)"
+                says += f" ({capitalised(how)} reproduces your output.)"
             return Finding(mistake.slug, says)
     return None
 

@@ -186,7 +186,7 @@ class Slips:
         texts = [text for one in found if (text := reads(body[0], one))]
         own = ", or ".join(map(_with, texts)) or "with that slip"
         what = f"Either {', or '.join(says)}" if len(says) > 1 else capitalised(says[0])
-        how = f"{self._off()}; the lab's own {own} gives your numbers exactly"
+        how = f"{self._off()}; the lab's own {own} reproduces your output"
         return Finding(f"slip-{found[0].kind}", f"{what}. ({how}.)")
 
     def _told(self, found: Sequence[_Part], first: Miswritten | None = None) -> Finding:
@@ -198,7 +198,7 @@ class Slips:
         slug = "+".join(one.slug for one in found)
         both = zip(found, texts, strict=True)
         says = "; ".join(f"{p.says} ({_with(t)})" if t else p.says for p, t in both)
-        how = f"{self._off()}; both together give your numbers exactly"
+        how = f"{self._off()}; both together reproduce your output"
         return Finding(slug, f"Two things at once: {says}. ({how}.)")
 
 

@@ -53,7 +53,7 @@ def of_other_arguments(case: Case, S: Parts, T: Parts) -> Finding | None:
             k = worst_part(ask.kinds, S, T, ask.near)
             off = f"Off by up to {ask.kinds[k].apart(S[k], T[k])}"
             says = f"It is the right answer to other arguments: with {move.says}."
-            how = f"({off}; that gives your numbers exactly.)"
+            how = f"({off}; that reproduces your output.)"
             return Finding(f"argument-{move.slug}", f"{says} {how}")
     return None
 
@@ -379,6 +379,6 @@ def _both_told(ask: Ask, pair: Sequence[Mistake], S: Parts, T: Parts) -> Finding
     i = worst_part(ask.kinds, S, T, ask.near)
     says = "; ".join(_BUT.sub("", one.says.rstrip("?")) for one in pair)
     off = f"Off by up to {ask.kinds[i].apart(S[i], T[i])}"
-    how = f"{off}; both together give your numbers exactly"
+    how = f"{off}; both together reproduce your output"
     slug = "+".join(one.slug for one in pair)
     return Finding(slug, f"Two things at once: {says}. ({how}.)")
