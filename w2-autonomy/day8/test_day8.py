@@ -449,6 +449,16 @@ def test_any_second_frequency_helps_unless_position_determines_acceleration():
     }
     assert 9_000 < min(seen.values()) < max(seen.values()) < 120_000
     assert "give 4,800,000 and 400,000" in SENTENCES
+    out = np.linspace(0.0, 1.0, 201)  # s: the arm moves out, then back until 2 s
+    for ratio in ratios:
+        along, back = (
+            (1 - np.cos(w * x)) / 2 + 0.05 * np.cos(ratio * w * x)
+            for x in (out, 2.0 - out)
+        )
+        # One position on the path out and back: also one acceleration.
+        same_path = np.allclose(along, back) and (np.diff(along) > 0).all()
+        assert same_path == (ratio in alike)
+    assert "The position then still determines the acceleration" in SENTENCES
 
 
 def test_the_swing_goes_like_the_sixth_to_seventh_power_at_six_poses():
