@@ -2,12 +2,13 @@
 
 Conventions:
 
-- A contact's normal is a unit vector out of the finger into the object; forces act *on
-the object*. Both are expressed in the world frame. - Friction is Coulomb's: a contact
-does not slip as long as |f_t| <= mu f_n. These forces form a cone about the normal;
-`cone_edges` replaces it by a pyramid of k edges, which lies inside the cone. - Wrenches
-are (moment; force), with the moment about a point of the object. - Metres, newtons,
-float64. Contacts broadcast; a grasp is one set of contacts.
+- A contact's normal is a unit vector out of the finger into the object; forces act
+  *on the object*. Both are expressed in the world frame.
+- Friction is Coulomb's: a contact does not slip as long as |f_t| <= mu f_n. These
+  forces form a cone about the normal; `cone_edges` replaces it by a pyramid of k edges,
+  which lies inside the cone.
+- Wrenches are (moment; force), with the moment about a point of the object.
+- Metres, newtons, float64. Contacts broadcast; a grasp is one set of contacts.
 
 Sources: Lynch and Park, *Modern Robotics* (2017), sections 12.1.7 and 12.2; Murray, Li
 and Sastry, *A Mathematical Introduction to Robotic Manipulation* (1994), chapter 5.

@@ -190,6 +190,17 @@ def test_an_address_at_which_git_would_wait_is_refused(server):
     assert server.pull()[0] == "fatal: transport 'fd' not allowed"
 
 
+def fetch_runs(monkeypatch, folder, command):
+    """Put a git on PATH that runs a shell command in place of a fetch."""
+    real, shim = shutil.which("git"), folder / "bin" / "git"
+    shim.parent.mkdir()
+    shim.write_text(
+        f'#!/bin/sh\ncase " $* " in *" fetch "*) {command};; esac\nexec {real} "$@"\n'
+    )
+    shim.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{shim.parent}:{os.environ['PATH']}")
+
+
 @pytest.mark.skipif(os.name == "nt", reason="a shell script stands in for git")
 def test_a_git_that_is_killed_while_it_fetches_costs_that_pull_alone(
     server, tmp_path, monkeypatch
@@ -197,22 +208,18 @@ def test_a_git_that_is_killed_while_it_fetches_costs_that_pull_alone(
     server.push("main", "x = 1")
     server.pull()
     server.push("main", "x = 2")
-    real, shim = shutil.which("git"), tmp_path / "bin" / "git"
-    shim.parent.mkdir()
-    shim.write_text(
-        f'#!/bin/sh\ncase " $* " in *" fetch "*) kill -9 $$;; esac\nexec {real} "$@"\n'
-    )
-    shim.chmod(0o755)
     with monkeypatch.context() as patched:
-        patched.setenv("PATH", f"{shim.parent}:{os.environ['PATH']}")
+        fetch_runs(patched, tmp_path, "kill -9 $$")
         assert server.pull() == ("git was killed", "x = 1", "main")
     assert server.pull() == ("", "x = 2", "main")
 
 
-def test_a_server_that_answers_nothing_is_left_in_time(server, monkeypatch):
+@pytest.mark.skipif(os.name == "nt", reason="a shell script stands in for git")
+def test_a_server_that_answers_nothing_is_left_in_time(server, tmp_path, monkeypatch):
     server.push("main", "x = 1")
     server.pull()
-    monkeypatch.setattr(pull, "SECONDS", 0.001)
+    fetch_runs(monkeypatch, tmp_path, "exec sleep 60")
+    monkeypatch.setattr(pull, "SECONDS", 2)
     problem, text, _ = server.pull()
     assert "took more than" in problem
     assert text == "x = 1"

@@ -49,14 +49,14 @@ def figures() -> set[str]:
     return {day.files["figure"] for day in all_days() if day.figure}
 
 
-def retrospectives(week: Week, root: Path = ROOT) -> list[Path]:
+def retrospectives(week: Week, root: Path | None = None) -> list[Path]:
     """Return a week's retrospectives that are there, sorted.
 
     Args:
         week: from its manifest.
-        root: the clone that they are looked for in.
+        root: the clone to search; None is the one that the manifest is in.
     """
-    folder = root / week.folder.name
+    folder = root / week.folder.name if root else week.folder
     return sorted(path for one in week.retrospectives for path in folder.glob(one))
 
 
