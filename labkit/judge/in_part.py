@@ -9,14 +9,13 @@ from typing import Any
 import numpy as np
 
 from labkit.judge.answers import (
-    MATCHES,
     Parts,
     capitalised,
     gaps,
-    largest,
     matches,
 )
-from labkit.judge.ask import Ask, Case
+from labkit.judge.ask import Case
+from labkit.judge.hypothesis import explained
 from labkit.judge.mistake import Finding, Mistake
 from labkit.judge.pairs import alike, answer_to, answers_to, nth, of_its_own_first
 
@@ -47,8 +46,11 @@ def by_results(case: Case, S: Parts, T: Parts) -> Finding | None:
             if not matches(s[i : i + 1], answer[j], kind.scale):
                 continue
             every = answers_to(one.redo, case.arguments)
+            if len(every) != len(S):
+                continue
+            its = (*S[:j], every[j], *S[j + 1 :])
             is_wrong = gaps([kind], (every[j],), (t,)).max() > ask.near
-            if is_wrong and matches(s, every[j], kind.scale):
+            if is_wrong and explained(ask, S, T, its).all():
                 told[j] = one
     if not told:
         return None
@@ -79,7 +81,7 @@ def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
                 for i in few]  # fmt: skip
         if sum(map(bool, hits)) < 2:
             continue
-        given = _given_by(ask, S, answers_to(one.redo, case.arguments))
+        given = explained(ask, S, T, answers_to(one.redo, case.arguments))
         n = int(np.sum(given[wrong])) if _differ(S, wrong[given[wrong]]) else 0
         # Made every time, it shows nowhere that is right.
         always = given[ask.gaps(S, T) <= ask.near].all()
@@ -96,22 +98,10 @@ def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
     return Finding(f"{one.slug}+other", says)
 
 
-def _given_by(ask: Ask, S: Parts, again: Parts) -> Any:
-    """Return of each call whether a mistake gives its answer, within rounding."""
-    if len(again) != len(S) or any(
-        a.shape != s.shape for a, s in zip(again, S, strict=False)
-    ):
-        return np.zeros(len(S[0]), bool)
-    alike = []
-    for s, a, kind in zip(S, again, ask.kinds, strict=True):
-        off = gaps([kind], (s,), (a,))
-        size = np.array([largest(x, kind.scale) for x in s])
-        alike.append(off <= MATCHES * np.maximum(1.0, size))
-    return np.all(alike, axis=0)
-
-
 def _differ(S: Parts, which: Any) -> bool:
     """Return whether answers to some calls are not all the same, nor 0."""
+    if not len(which):
+        return False
     some = [s[which].reshape(len(which), -1) for s in S]
     flat = np.concatenate(some, axis=1)
     flat = flat[flat.any(axis=1)]

@@ -13,48 +13,56 @@ from labkit.judge.answers import (
     as_one,
     capitalised,
     gaps,
-    largest,
-    matches,
     parts,
     worst_part,
 )
 from labkit.judge.ask import Ask, Further
+from labkit.judge.hypothesis import equals, evidence, explained, explains
 from labkit.judge.mistake import Finding, Mistake
 
 
 def _named(
     mistakes: Sequence[Mistake],
     arguments: tuple[Any, ...],
-    kinds: Sequence[Any],
+    ask: Ask,
     S: Parts,
     T: Parts | None,
-    near: float,
 ) -> Finding | None:
-    """Return the first mistake that, made on purpose, gives the student's answers."""
-    first = -1 if T is None else int(np.argmax(gaps(kinds, S, T)))
+    """Return the first mistake that, made on purpose, explains the answers."""
+    first = -1 if T is None else int(np.argmax(gaps(ask.kinds, S, T)))
     for mistake in mistakes:
         try:
-            again = _made_again(mistake.redo, arguments, kinds, S, first)
+            again = _made_again(mistake.redo, arguments, ask, S, T, first)
         except (ValueError, np.linalg.LinAlgError):  # it has no answer of its own here
             continue
-        if all_match(kinds, S, again):
-            says = capitalised(mistake.says)
-            says += "" if says.endswith("?") else "."
-            if T is not None:
-                i = worst_part(kinds, S, T, near)
-                how = mistake.redone
-                if np.isfinite(S[i]).all():  # of a NaN nobody says how far it is off
-                    how = f"{kinds[i].gap} {kinds[i].apart(S[i], T[i])}; {how}"
-                says += f" ({capitalised(how)} gives your numbers exactly.)"
-            return Finding(mistake.slug, says)
+        if T is None and all_match(ask.kinds, S, again):
+            return Finding(mistake.slug, _sentence(mistake))
+        if T is not None and explains(ask, S, T, again):
+            exact = equals(ask.kinds, S, again)
+            return Finding(mistake.slug, _with_evidence(mistake, ask, S, T, exact))
     return None
+
+
+def _sentence(mistake: Mistake) -> str:
+    says = capitalised(mistake.says)
+    return says + ("" if says.endswith("?") else ".")
+
+
+def _with_evidence(mistake: Mistake, ask: Ask, S: Parts, T: Parts, exact: bool) -> str:
+    """Return what is said of a mistake, and how well it explains the answers."""
+    i = worst_part(ask.kinds, S, T, ask.near)
+    how = mistake.redone
+    if np.isfinite(S[i]).all():  # of a NaN nobody says how far it is off
+        how = f"{ask.kinds[i].gap} {ask.kinds[i].apart(S[i], T[i])}; {how}"
+    return f"{_sentence(mistake)} ({capitalised(how)} {evidence(exact)}.)"
 
 
 def _made_again(
     redo: Callable[..., Any],
     arguments: tuple[Any, ...],
-    kinds: Sequence[Any],
+    ask: Ask,
     S: Parts,
+    T: Parts | None,
     first: int,
 ) -> Parts:
     """Return the answers with a mistake; none where the first is not the student's.
@@ -64,11 +72,14 @@ def _made_again(
     """
     if isinstance(redo, InTurn):
         again = parts(redo.nth(first, arguments))
-        for s, a, kind in zip(S, again, kinds, strict=False):
-            scale = kind.scale * max(1.0, largest(s, kind.scale))
-            mine, its = as_one([s[first], a])
-            if not matches(mine[None], its[None], scale):
-                return ()
+        mine = tuple(s[first : first + 1] for s in S)
+        pairs = list(zip(again, mine, strict=False))
+        if any(a.ndim != s.ndim - 1 for a, s in pairs):
+            return ()
+        whole = [as_one([a, np.zeros(s.shape[1:])])[:1] for a, s in pairs]
+        its = tuple(t[first : first + 1] for t in T) if T is not None else mine
+        if not explained(ask, mine, its, tuple(whole)).all():
+            return ()
     return parts(redo(*arguments))
 
 
@@ -93,7 +104,7 @@ def redone(
     if whole:
         found = _of_whole_numbers(ask, arguments, S, T, further)
     else:
-        found = _named(ask.named, arguments, ask.kinds, S, T, ask.near)
+        found = _named(ask.named, arguments, ask, S, T)
     if found or T is None:
         return found
     if found := _in_another_order(ask, S, T):
@@ -109,7 +120,7 @@ def _in_another_order(ask: Ask, S: Parts, T: Parts) -> Finding | None:
     """Return that a function's results stand in another order, if so."""
     for order in permutations(range(len(T))):
         again = tuple(T[i] for i in order)
-        if order != tuple(range(len(T))) and all_match(ask.kinds, S, again):
+        if order != tuple(range(len(T))) and explains(ask, S, T, again):
             names = [ask.kinds[i].called or f"result {i + 1}" for i in range(len(T))]
             says = f"The results are in another order; it is {', then '.join(names)}."
             return Finding("answers-swapped", says)
@@ -119,13 +130,16 @@ def _in_another_order(ask: Ask, S: Parts, T: Parts) -> Finding | None:
 def _general(ask: Ask, S: Parts, T: Parts) -> Finding | None:
     """Return the mistake of its kind that gives the one part that is wrong."""
     for i, kind in enumerate(ask.kinds):
-        if not all(matches(S[j], T[j]) for j in range(len(T)) if j != i):
-            continue
-        mine = (S[i],)
-        its = (T[i],)
-        if found := _named(kind.general(), its, [kind], mine, its, ask.near):
-            called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
-            return Finding(found.slug, called + found.message)
+        for one in kind.general():
+            try:
+                again = (*T[:i], np.asarray(one.redo(T[i])), *T[i + 1 :])
+            except (ValueError, np.linalg.LinAlgError):  # it has no answer here
+                continue
+            if explains(ask, S, T, again):
+                exact = equals(ask.kinds, S, again)
+                called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
+                says = called + _with_evidence(one, ask, S, T, exact)
+                return Finding(one.slug, says)
     return None
 
 
@@ -139,7 +153,7 @@ def _of_whole_numbers(
     """Return the one or two mistakes that give all of the student's numbers."""
     found: dict[str, Finding] = {}
     for one in ask.named:
-        first = _named([one], arguments, ask.kinds, S, T, ask.near)
+        first = _named([one], arguments, ask, S, T)
         if first is None:
             continue
         if further:

@@ -15,6 +15,7 @@ import numpy as np
 from labkit.base.quiet import nothing_printed
 from labkit.judge.answers import InTurn, Parts, capitalised, worst_part
 from labkit.judge.ask import SLIPPING, Case
+from labkit.judge.hypothesis import explains
 from labkit.judge.mistake import Finding
 from labkit.judge.miswritten import SAYS, Miswritten, besides, overlap, rank, reads
 from labkit.judge.pairs import (
@@ -81,7 +82,7 @@ class Slips:
         pairs = [(known[a][0], known[b][0]) for a, b in sums]
         for pair in sorted(pairs, key=lambda some: sum(map(_rank, some))):
             together = partial(self._together, *pair)
-            if _apart(*pair) and _gives_all(self.case, together, self.S):
+            if _apart(*pair) and _gives_all(self.case, together, self.S, self.T):
                 return self._told(pair)
         return None
 
@@ -131,7 +132,7 @@ class Slips:
 
     def _gives_all(self, slip: Miswritten) -> bool:
         redo = self.case.ask.in_turn(slip.code)
-        return _gives_all(self.case, partial(answers_to, redo), self.S)
+        return _gives_all(self.case, partial(answers_to, redo), self.S, self.T)
 
     def _named(self) -> Iterator[tuple[_Part, Parts]]:
         for one in of_its_own_first(self.case.ask) if self.some else []:
@@ -209,10 +210,11 @@ def _alike(one: Array, other: Array) -> int:
 
 
 def _gives_all(
-    case: Case, answers: Callable[[tuple[Any, ...]], Parts], S: Parts
+    case: Case, answers: Callable[[tuple[Any, ...]], Parts], S: Parts, T: Parts
 ) -> bool:
     """Return whether mistakes give all answers, those to the fresh questions too."""
-    if not exactly(case.ask, answers(case.arguments), S):
+    again = answers(case.arguments)
+    if not (exactly(case.ask, again, S) and explains(case.ask, S, T, again)):
         return False
     more = case.further
     return not more or exactly(case.ask, answers(more.arguments), more.S)

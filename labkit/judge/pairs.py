@@ -22,6 +22,7 @@ from labkit.judge.answers import (
     worst_part,
 )
 from labkit.judge.ask import Ask, Case, as_plain
+from labkit.judge.hypothesis import equals, evidence, explained, explains
 from labkit.judge.mistake import Finding, Mistake
 
 # What one mistake alone leaves right, two need not: "all is right except that ...".
@@ -29,7 +30,6 @@ _BUT = re.compile(
     r"^(?:[^;:]*?\b(?:is|are) right(?: except that|, but|;)"
     r"|right [^;,:]*[;,](?: but)?) "
 )
-EXACT = 1e-8  # of many pairs one comes near by chance, so two must give more digits
 MOST = 80  # mistakes of a function that are tried two at a time
 QUICK = 2e-3  # seconds of a call that a row may say, for its arguments to be changed
 
@@ -47,13 +47,15 @@ def of_other_arguments(case: Case, S: Parts, T: Parts) -> Finding | None:
     i = tried(ask, S, T)[0]
     for move in _moves(case, i):
         asked = ask.in_turn(partial(_after, truth.function, move.change))
-        if not alike(ask, answer_to(asked, case.arguments, i, T), nth(S, i)):
+        answer = answer_to(asked, case.arguments, i, T)
+        if not explained(ask, nth(S, i), nth(T, i), answer).all():
             continue
-        if alike(ask, answers_to(asked, case.arguments), S):
+        again = answers_to(asked, case.arguments)
+        if explains(ask, S, T, again):
             k = worst_part(ask.kinds, S, T, ask.near)
             off = f"Off by up to {ask.kinds[k].apart(S[k], T[k])}"
             says = f"It is the right answer to other arguments: with {move.says}."
-            how = f"({off}; that gives your numbers exactly.)"
+            how = f"({off}; that {evidence(equals(ask.kinds, S, again))}.)"
             return Finding(f"argument-{move.slug}", f"{says} {how}")
     return None
 
@@ -372,7 +374,7 @@ def alike(ask: Ask, a: Parts, b: Parts) -> bool | None:
 
 def exactly(ask: Ask, a: Parts, b: Parts) -> bool:
     """Return whether two answers match in all the digits that rounding leaves."""
-    return all_match(ask.kinds, a, b, EXACT)
+    return equals(ask.kinds, b, a)
 
 
 def _both_told(ask: Ask, pair: Sequence[Mistake], S: Parts, T: Parts) -> Finding:
