@@ -7,7 +7,7 @@ from toyrows import row_of
 from toyrows import told as judged
 
 from labkit.judge import Symmetric, Vector
-from labkit.judge.hypothesis import equals, evidence, explains
+from labkit.judge.hypothesis import Difference, equals, evidence
 
 T = np.array([[1.0, 2.0], [3.0, 50.0], [0.5, 0.0]])
 OFF = np.array([[0.5, 0.0], [0.0, 1.0], [0.0, 0.0]])
@@ -15,7 +15,7 @@ ROW = row_of(Vector((2,)), lambda x: x, lambda rng: [(0.0,)]).ask
 
 
 def holds(S, H, row=ROW):
-    return explains(row, (np.asarray(S),), (T,), (np.asarray(H),))
+    return Difference(row, (np.asarray(S),), (T,)).explains((np.asarray(H),))
 
 
 def test_it_leaves_less_than_a_hundredth_of_the_difference():

@@ -8,7 +8,7 @@ clip, abs, max and min left out, the arguments and the answer are clipped or los
 signs, and the answer is rounded to float32. Each change is put to the row's questions,
 in this process; one that they take for right is printed. What is no mistake stands with
 a reason in the function's file: row.same("x < 1e-9 => x < 2e-09", "why").
-The list is another than that of a hand's slips, `labkit/judge/instead.py`: this one
+The list is another than that of a hand's slips, `labkit/judge/operators.py`: this one
 asks what the questions forgot, that one what a student may have typed.
 Exit code: 0 nothing goes unnoticed, 1 something does, 2 could not run.
 """
@@ -28,8 +28,8 @@ from labkit.base import cli
 from labkit.base.exchange import Exchange, Reply
 from labkit.judge.answers import gaps, own
 from labkit.judge.ask import Asked, as_plain, asked_of, right_answers
-from labkit.judge.instead import places
 from labkit.judge.mistake import Finding
+from labkit.judge.operators import places
 from labkit.judge.replies_read import not_accepted, read
 from labkit.judge.row import Row, rows_of
 from labkit.lesson.day import Day, day_numbers, find_day
@@ -68,8 +68,9 @@ def changes(source: str) -> Iterator[Change]:
         around = statements[id(place.parent)]
         before = _line(around)
         for new in _instead(place.node):
-            with place.holding(new):
-                yield Change(f"{before} => {_line(around)}", tree)
+            place.put(new)
+            yield Change(f"{before} => {_line(around)}", tree)
+            place.put(place.node)
     begins = bool(ast.get_docstring(function))
     for how in PUT_IN:
         for arg in function.args.args if "float32" not in how else []:
@@ -81,8 +82,9 @@ def changes(source: str) -> Iterator[Change]:
             if isinstance(place.parent, ast.Return) and _depends(place.node):
                 text = how.format(f"({ast.unparse(place.node)})")
                 new = ast.parse(text, mode="eval").body
-                with place.holding(new):
-                    yield Change(f"return {text}", tree)
+                place.put(new)
+                yield Change(f"return {text}", tree)
+                place.put(place.node)
 
 
 def _depends(node: ast.expr) -> bool:

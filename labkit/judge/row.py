@@ -17,7 +17,6 @@ it names the mistake; in the lab's place, it is put before the checker and run a
 which proves the name. Nothing else is written of a mistake.
 """
 
-import ast
 import importlib
 import inspect
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -31,6 +30,7 @@ from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, Inputs
 from labkit.judge.draw import Draw
 from labkit.judge.mistake import REDONE, Mistake, told
+from labkit.judge.mutant import Body, body_of
 from labkit.judge.results import checked, numbers
 from labkit.judge.written import Answered, stop, stops_with
 from labkit.lesson.day import Day
@@ -297,7 +297,7 @@ class Row:
         if "inputs" not in self.more:
             raise Robo47Error(f"{self.function}.py has no @row.inputs")
         more = {**self.more, "inputs": self._inputs, "reference": self._reference,
-                "body": self._body}  # fmt: skip
+                "right_bodies": self._bodies}  # fmt: skip
         if "accept" in more:
             more["accept"] = self._accept
         else:
@@ -335,11 +335,15 @@ class Row:
         there = hasattr(self, "_day") and self._day.source.is_file()
         return getattr(self.lab, self.function, None) if there else None
 
-    def _body(self) -> tuple[ast.FunctionDef, dict[str, Any]] | None:
+    def _bodies(self) -> list[Body]:
+        """Return right functions as they are written, the lab's own first."""
         if self._reference() is None:
-            return None
-        found = definition(read_script(self._day.source), self.function)
-        return (found, vars(self.lab)) if found else None
+            return []
+        lab = definition(read_script(self._day.source), self.function)
+        found = [Body(lab, dict(vars(self.lab)))] if lab else []
+        right = [way.code for way in self.ways if way.status == "right"]
+        others = [*([] if "accept" in self.more else [self.truth]), *right]
+        return [*found, *filter(None, map(body_of, others))]
 
     def _accept(self, *args: Any) -> Any:
         try:
