@@ -1,4 +1,4 @@
-"""Measure what the kit claims to be fast, beside the tools people would pick instead.
+"""Measure the speed of the library next to other tools for the same problems.
 
     make bench                               everything, some minutes
     python3 scripts/bench.py fk lab          only these parts
@@ -7,8 +7,8 @@
 Parts: fk (kinematics), ik (its inverse), dynamics (mass matrix, torques, Jacobian, one
 configuration), lab (the whole script), growth, metrics (a row of the log), tests (`make
 test`), checker (save to verdict), first-minute (a fresh clone; needs the network). All
-in one run, taking turns; results are ratios, since seconds differ from machine to
-machine. Writes bench/results.json and bench/bench.png.
+tools take turns in one run. The results are ratios, because seconds differ from machine
+to machine. The command writes bench/results.json and bench/bench.png.
 """
 
 import datetime

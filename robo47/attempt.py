@@ -12,7 +12,7 @@ and five functions, with `ablations` as a sixth where mistakes are worth a table
     library()                 right functions, one attribute for every name in USES
     attempt(fns, seed=None)   do it: always the same task, or a random one
     row(name, result)         a result's line of the table
-    told(result)              what else is said of it, a `Told`
+    summary(result)           what else is said of it, a `Summary`
     film(result)              what it looked like, a `Film`
     ablations(fns)            {name: (functions, keyword arguments of `attempt`)}, with
                               MORAL, the line below their table
@@ -28,7 +28,7 @@ import mujoco
 from robo47.checks import Array
 
 
-class Told(NamedTuple):
+class Summary(NamedTuple):
     """What is said of a result, besides its line of the table."""
 
     before: Sequence[str]  # lines above the table

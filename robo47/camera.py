@@ -3,7 +3,7 @@
 Conventions:
 
 - Camera axes: x right, y *down*, z forward, along the view. (MuJoCo's own camera looks
-  along -z with y up; `robo47.eye` turns it.)
+  along -z with y up; `robo47.depth_camera` turns it.)
 - Pixels (u, v), (..., 2): u to the right, v down. (0, 0) is the image's corner, so
   that (0.5, 0.5) is the middle of its first pixel. OpenCV's (0, 0) is that middle.
 - Depth is measured along z, not along the ray.
@@ -102,8 +102,8 @@ def back_project(
 def projection_jacobian(K: ArrayLike, p_cam: ArrayLike) -> Array:
     """Return how fast the pixels move per twist of what is seen.
 
-    d(pixel)/dp, f / z (1, 0, -x / z) and f / z (0, 1, -y / z), times dp = omega x p + v
-    = [-[p], 1] (omega; v).
+    d(pixel)/dp, fx / z (1, 0, -x / z) and fy / z (0, 1, -y / z), times dp = omega x p +
+    v = [-[p], 1] (omega; v).
 
     Args:
         K: camera matrix, pixels, (3, 3).
@@ -126,14 +126,15 @@ def projection_jacobian(K: ArrayLike, p_cam: ArrayLike) -> Array:
     return by_point @ by_twist
 
 
-def kabsch(A: ArrayLike, B: ArrayLike) -> Array:
-    """Return the motion T that fits two clouds whose points match, B = T A, best.
+def kabsch(source: ArrayLike, target: ArrayLike) -> Array:
+    """Return the motion T that best fits two clouds of matched points.
 
-    Both are moved to their centres; the rotation is the one nearest to B^T A (Arun,
-    Huang, Blostein, 1987), the translation what is left, b - R a.
+    Both are moved to their centres; the rotation is the one nearest to target^T A
+    (Arun, Huang, Blostein, 1987), the translation what is left, b - R a.
 
     Args:
-        A, B: the same n points before and after, metres, (n, 3); not all on one line.
+        source, target: the same n points before and after, metres, (n, 3); not all on
+            one line.
 
     Returns:
         T, (4, 4): never a mirror image, whatever the noise.
@@ -141,15 +142,15 @@ def kabsch(A: ArrayLike, B: ArrayLike) -> Array:
     Raises:
         ValueError: a wrong shape.
     """
-    A = checks.array(A, "A", ("n", 3))
-    B = checks.array(B, "B", (len(A), 3))
-    a = A.mean(axis=0)
-    b = B.mean(axis=0)
-    R = _nearest_rotation((B - b).T @ (A - a))
+    source = checks.array(source, "source", ("n", 3))
+    target = checks.array(target, "target", (len(source), 3))
+    a = source.mean(axis=0)
+    b = target.mean(axis=0)
+    R = _nearest_rotation((target - b).T @ (source - a))
     return se3.make_T(R, b - R @ a)
 
 
-def moved(T: ArrayLike, xi: ArrayLike) -> Array:
+def apply_twist(T: ArrayLike, xi: ArrayLike) -> Array:
     """Return a pose after a small (or large) twist: exp([xi]) T.
 
     Args:
@@ -201,7 +202,7 @@ def refine_pose(
         off = pixels - project(K, T, points)
         J = projection_jacobian(K, _moved_points(T, points, "points"))
         xi = np.linalg.lstsq(J.reshape(-1, 6), off.ravel(), rcond=None)[0]
-        T = moved(T, xi)
+        T = apply_twist(T, xi)
     return T
 
 

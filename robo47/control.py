@@ -34,7 +34,7 @@ def pd_torque(e: ArrayLike, ed: ArrayLike, kp: ArrayLike, kd: ArrayLike) -> Arra
     return checks.per_joint(kp, "kp", e) * e + checks.per_joint(kd, "kd", e) * ed
 
 
-def gains(omega: ArrayLike, zeta: ArrayLike) -> Array:
+def pd_gains(omega: ArrayLike, zeta: ArrayLike) -> Array:
     """Return the gains per unit of inertia that give a wanted response.
 
     edd + kd ed + kp e = 0 has natural frequency omega and damping ratio zeta for
@@ -94,7 +94,7 @@ def error_response(t: ArrayLike, omega: ArrayLike, zeta: ArrayLike) -> Array:
     return np.where(zeta < 1.0, under, over)
 
 
-def sag_step(q_goal: ArrayLike, g_at_q: ArrayLike, kp: ArrayLike) -> Array:
+def pd_equilibrium_step(q_goal: ArrayLike, g_at_q: ArrayLike, kp: ArrayLike) -> Array:
     """Return where PD without gravity compensation would rest if g did not change.
 
     At rest kp (q_goal - q) = g(q), so q = q_goal - g(q) / kp. Evaluated again at
@@ -232,7 +232,7 @@ def saturate(tau: ArrayLike, limits: ArrayLike) -> Array:
     return np.clip(tau, -limits, limits)
 
 
-def stiffest_omega(h: ArrayLike, steps: ArrayLike = 1) -> Array:
+def max_stable_omega(h: ArrayLike, steps: ArrayLike = 1) -> Array:
     """Return the largest omega of critical damping that a held torque allows.
 
     edd = -omega^2 e - 2 omega ed is computed once and held for n semi-implicit steps

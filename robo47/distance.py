@@ -27,7 +27,7 @@ GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)  # what a golden section keeps of an interva
 SECTIONS = 60  # 0.618^60 = 3e-13 of a segment
 
 
-def segment_segment(
+def closest_points_segments(
     a0: ArrayLike, a1: ArrayLike, b0: ArrayLike, b1: ArrayLike
 ) -> Array:
     """Return the points of two segments that are closest to each other.
@@ -66,12 +66,12 @@ def capsule_distance(
     Raises:
         ValueError: a wrong shape, a non-finite number or a negative radius.
     """
-    p, o = segment_segment(a0, a1, b0, b1)
+    p, o = closest_points_segments(a0, a1, b0, b1)
     radii = checks.not_negative(ra, "ra") + checks.not_negative(rb, "rb")
     return float(np.linalg.norm(p - o) - radii)
 
 
-def box_sdf(p: ArrayLike, half: ArrayLike) -> float:
+def box_sdf(p: ArrayLike, half_extents: ArrayLike) -> float:
     """Return how far a point is from a box about the origin, its edges along the axes.
 
     Outside the length of what is beyond the faces, inside the way to the nearest face,
@@ -79,7 +79,7 @@ def box_sdf(p: ArrayLike, half: ArrayLike) -> float:
 
     Args:
         p: the point in the box's axes, metres, (3,).
-        half: half of the box's sides, metres, (3,), at least 0.
+        half_extents: half of the box's sides, metres, (3,), at least 0.
 
     Returns:
         Metres; negative inside.
@@ -88,12 +88,18 @@ def box_sdf(p: ArrayLike, half: ArrayLike) -> float:
         ValueError: a wrong shape, a non-finite number or a negative side.
     """
     p = checks.array(p, "p", (3,))
-    half = checks.not_negative(checks.array(half, "half", (3,)), "half")
-    return float(outside(p, half))
+    half_extents = checks.not_negative(
+        checks.array(half_extents, "half_extents", (3,)), "half_extents"
+    )
+    return float(outside(p, half_extents))
 
 
-def capsule_box(
-    a0: ArrayLike, a1: ArrayLike, r: float, T_world_box: ArrayLike, half: ArrayLike
+def capsule_box_distance(
+    a0: ArrayLike,
+    a1: ArrayLike,
+    r: float,
+    T_world_box: ArrayLike,
+    half_extents: ArrayLike,
 ) -> float:
     """Return how far a capsule is from a box: its axis' least `box_sdf`, less r.
 
@@ -105,7 +111,7 @@ def capsule_box(
         a0, a1: ends of the capsule's axis, metres, (3,).
         r: its radius, metres, at least 0.
         T_world_box: maps the box's coordinates to the world's, (4, 4).
-        half: half of the box's sides, metres, (3,), at least 0.
+        half_extents: half of the box's sides, metres, (3,), at least 0.
 
     Returns:
         Metres; negative where they overlap.
@@ -115,9 +121,11 @@ def capsule_box(
     """
     T_box_world = se3.inverse(checks.pose(T_world_box, "T_world_box"))
     ends = np.stack(_segment(a0, a1, "a")) @ T_box_world[:3, :3].T + T_box_world[:3, 3]
-    half = checks.not_negative(checks.array(half, "half", (3,)), "half")
+    half_extents = checks.not_negative(
+        checks.array(half_extents, "half_extents", (3,)), "half_extents"
+    )
     way = ends[1] - ends[0]
-    least = _valley(lambda s: float(outside(ends[0] + s * way, half)))
+    least = _valley(lambda s: float(outside(ends[0] + s * way, half_extents)))
     return least - float(checks.not_negative(r, "r"))
 
 
@@ -152,7 +160,7 @@ def distance_gradient(
     return slope
 
 
-def aabb(a0: ArrayLike, a1: ArrayLike, r: float) -> Array:
+def capsule_aabb(a0: ArrayLike, a1: ArrayLike, r: float) -> Array:
     """Return a capsule's box along the world's axes: its least and greatest corner.
 
     Args:
@@ -170,30 +178,31 @@ def aabb(a0: ArrayLike, a1: ArrayLike, r: float) -> Array:
     return np.stack([ends.min(axis=0) - r, ends.max(axis=0) + r])
 
 
-def overlaps(A: ArrayLike, B: ArrayLike) -> bool:
+def aabb_overlap(box_a: ArrayLike, box_b: ArrayLike) -> bool:
     """Return whether two boxes along the axes overlap, on all three; touching counts.
 
     Args:
-        A, B: least and greatest corner, metres, (2, 3).
+        box_a, box_b: least and greatest corner, metres, (2, 3).
 
     Raises:
         ValueError: a wrong shape or a non-finite number.
     """
-    A = checks.array(A, "A", (2, 3))
-    B = checks.array(B, "B", (2, 3))
-    return bool(np.all((A[0] <= B[1]) & (B[0] <= A[1])))
+    box_a = checks.array(box_a, "box_a", (2, 3))
+    box_b = checks.array(box_b, "box_b", (2, 3))
+    return bool(np.all((box_a[0] <= box_b[1]) & (box_b[0] <= box_a[1])))
 
 
-def reaches(offsets: ArrayLike, far: ArrayLike) -> Array:
+def distal_radii(link_lengths: ArrayLike, link_radii: ArrayLike) -> Array:
     """Return how far from each joint anything behind it can ever be.
 
     From the last joint inwards: the larger of what its own link has, and one offset
     plus what the next joint reaches. No angle of any joint can make it more.
 
     Args:
-        offsets: from link i's origin to the next link's, metres, (n,); the last one's
-            does not count.
-        far: from link i's origin to the farthest point of its own shapes, metres, (n,).
+        link_lengths: from link i's origin to the next link's, metres, (n,); the last
+            one's does not count.
+        link_radii: from link i's origin to the farthest point of its own shapes,
+            metres, (n,).
 
     Returns:
         Metres, (n,).
@@ -201,51 +210,57 @@ def reaches(offsets: ArrayLike, far: ArrayLike) -> Array:
     Raises:
         ValueError: wrong or unlike shapes, or a negative length.
     """
-    offsets, far = checks.same_size(offsets=offsets, far=far)
-    checks.not_negative(offsets, "offsets")
-    reach = checks.not_negative(far, "far").copy()
+    link_lengths, link_radii = checks.same_size(
+        link_lengths=link_lengths, link_radii=link_radii
+    )
+    checks.not_negative(link_lengths, "link_lengths")
+    reach = checks.not_negative(link_radii, "link_radii").copy()
     for i in reversed(range(len(reach) - 1)):
-        reach[i] = max(reach[i], offsets[i] + reach[i + 1])
+        reach[i] = max(reach[i], link_lengths[i] + reach[i + 1])
     return reach
 
 
-def next_check(s: float, distance: float, dq: ArrayLike, reach: ArrayLike) -> float:
-    """Return where along q + s dq the arm may first touch something.
+def conservative_advance(
+    s: float, distance: float, delta_q: ArrayLike, radii: ArrayLike
+) -> float:
+    """Return where along q + s delta_q the arm may first touch something.
 
     In a share ds of the way no point of the arm moves farther than ds times the sum of
-    |dq_i| reach_i; so nothing can happen before the distance is used up (Schwarzer,
+    |dq_i| radii_i; so nothing can happen before the distance is used up (Schwarzer,
     Saha and Latombe, 2005).
 
     Args:
         s: where the distance was looked at, 0 to 1.
         distance: of the arm from all else there, metres.
-        dq: the whole way, radians, (n,).
-        reach: from `reaches`, metres, (n,).
+        delta_q: the whole way, radians, (n,).
+        radii: from `distal_radii`, metres, (n,).
 
     Returns:
         The next s to look at, at most 1; s itself where the arm touches already.
 
     Raises:
-        ValueError: wrong or unlike shapes, or a reach below 0.
+        ValueError: wrong or unlike shapes, or a radius below 0.
     """
     s = float(checks.array(s, "s", ()))
     d = float(checks.array(distance, "distance", ()))
-    dq, reach = checks.same_size(dq=dq, reach=reach)
-    speed = float(np.abs(dq) @ checks.not_negative(reach, "reach"))
+    delta_q, radii = checks.same_size(delta_q=delta_q, radii=radii)
+    speed = float(np.abs(delta_q) @ checks.not_negative(radii, "radii"))
     if d <= 0.0:
         return s
     return min(1.0, s + d / speed) if speed > 0.0 else 1.0
 
 
-def slowed(qd: ArrayLike, slope: ArrayLike, distance: float, gain: float) -> Array:
+def velocity_damper(
+    qd: ArrayLike, grad: ArrayLike, distance: float, gain: float
+) -> Array:
     """Return the nearest joint speeds that do not come closer too fast.
 
-    The nearest to qd with slope . qd >= -gain distance. Kept, the distance never falls
+    The nearest to qd with grad . qd >= -gain distance. Kept, the distance never falls
     faster than e^(-gain t), so it never is 0 (Faverjon and Tournassoud, 1987).
 
     Args:
         qd: wanted joint speeds, rad/s, (n,).
-        slope: from `distance_gradient`, metres per radian, (n,); 0 changes nothing.
+        grad: from `distance_gradient`, metres per radian, (n,); 0 changes nothing.
         distance: metres.
         gain: 1/s, at least 0.
 
@@ -255,12 +270,12 @@ def slowed(qd: ArrayLike, slope: ArrayLike, distance: float, gain: float) -> Arr
     Raises:
         ValueError: wrong or unlike shapes, or a gain below 0.
     """
-    qd, slope = checks.same_size(qd=qd, slope=slope)
+    qd, grad = checks.same_size(qd=qd, grad=grad)
     gain = float(checks.not_negative(gain, "gain"))
     bound = -gain * float(checks.array(distance, "distance", ()))
-    lack = bound - slope @ qd
-    square = slope @ slope
-    return qd + slope * (lack / square) if lack > 0.0 < square else qd.copy()
+    lack = bound - grad @ qd
+    square = grad @ grad
+    return qd + grad * (lack / square) if lack > 0.0 < square else qd.copy()
 
 
 def _valley(f: Callable[[float], float]) -> float:

@@ -1,24 +1,28 @@
-"""What an arm can feel: encoders, filters that can be tested, and a momentum observer.
+"""Estimation: encoders, a Kalman filter with two tests, and a momentum observer.
 
-A sensor is a number with an error that can be predicted. A filter is a claim about
-the motion and about that error, and two numbers test the claim: how large its
-surprises are (NIS), and whether they are independent (whiteness). The observer finds
-the torque that nobody commanded, from the motors' torques and the arm's momentum.
-Conventions:
+An encoder's error is predicted from its bits. The Kalman filter's noise parameters are
+tested without the truth: by the mean of its normalised innovation squared (NIS), and by
+the lag-1 autocorrelation of its innovations. The momentum observer estimates the
+external torque from the commanded torques and the arm's momentum. Conventions:
 
-- Time runs along the first axis, one sample every `dt` seconds; nothing looks ahead.
-- A state x has a covariance P; q is the intensity of the white acceleration that
-  drives a constant-velocity model, (rad/s^2)^2 per Hz, that is rad^2/s^3.
-- Twists are (omega; v); `J_space` is the space Jacobian, G are the links' inertias
-  about the world's origin, as in `robo47.dynamics`.
+- Time runs along the first axis, one sample every `dt` seconds; no function uses later
+  samples.
+- A state x has a covariance P; accel_psd is the power spectral density of the white
+  acceleration that drives a constant-velocity model, rad^2/s^3.
+- Twists are (omega; v), expressed in the world frame; `J_space` is the space Jacobian,
+  G are the links' spatial inertias about the world's origin, as in `robo47.dynamics`.
 - Radians, seconds, N m. A wrong shape or a number that is not finite is a ValueError,
-  in every function. Nothing is drawn here: noise is an argument.
+  in every function. No function draws random numbers: noise is an argument.
 
 Sources: Bar-Shalom, Li and Kirubarajan, *Estimation with Applications to Tracking and
 Navigation* (2001), chapters 5 and 6; Thrun, Burgard and Fox, *Probabilistic Robotics*
 (2005), section 3.2; Astrom and Murray, *Feedback Systems* (2008), chapter 9; De Luca
-and Mattone, "Actuator failure detection and isolation using generalized momenta"
-(2003); Wilson and Hilferty, "The distribution of chi-square" (1931).
+and Mattone, "Actuator failure detection and isolation using generalized momenta" (2003)
+and "Sensorless robot collision detection and hybrid force/motion control" (2005);
+De Luca, Albu-Schaeffer, Haddadin and Hirzinger, "Collision detection and safe reaction
+with the DLR-III lightweight manipulator arm" (2006); Haddadin, De Luca and
+Albu-Schaeffer, "Robot collisions: a survey on detection, isolation, and identification"
+(2017); Wilson and Hilferty, "The distribution of chi-square" (1931).
 """
 
 import math
@@ -31,17 +35,18 @@ from robo47.checks import Array
 from robo47.dynamics import ad
 from robo47.fast.vectors import times
 
-Z_95 = 1.96  # a normal number lies within it 95 times in 100
+Z_95 = 1.96  # standard deviations; a Gaussian lies within them with 95 %
 
 
 def quantise(q: ArrayLike, counts: float) -> Array:
-    """Return the angle that an encoder reports: the nearest of `counts` in a turn.
+    """Return the angle that an encoder reports: the nearest whole count.
 
-    round(q / step) step, with step = 2 pi / counts. Half-way it is the even count.
+    The result is round(q / step) step with step = 2 pi / counts; exactly between two
+    counts it is the even one.
 
     Args:
         q: angles, rad, (...).
-        counts: in a full turn, above 0; 2**16 for 16 bits.
+        counts: in a full revolution, above 0; 2**16 for 16 bits.
 
     Returns:
         rad, (...).
@@ -50,15 +55,15 @@ def quantise(q: ArrayLike, counts: float) -> Array:
     return np.round(checks.array(q, "q", ()) / step) * step
 
 
-def difference(q: ArrayLike, dt: float) -> Array:
-    """Return the speed since the sample before, which the first one does not have: 0.
+def backward_difference(q: ArrayLike, dt: float) -> Array:
+    """Return the velocities by a backward difference; the first one is 0.
 
     Args:
         q: angles, rad, (n, ...).
         dt: s, above 0.
 
     Returns:
-        rad/s, (n, ...): (q_k - q_(k-1)) / dt, half a sample old.
+        rad/s, (n, ...): (q_k - q_(k-1)) / dt, the mean since the sample before.
     """
     q = _samples(q, "q")
     dt = float(checks.positive(dt, "dt"))
@@ -66,15 +71,15 @@ def difference(q: ArrayLike, dt: float) -> Array:
 
 
 def delay_margin(kp: ArrayLike, kd: ArrayLike) -> Array:
-    """Return how late a spring and a damper may act before they shake a unit mass.
+    """Return the delay margin of a PD controller on a unit mass, in seconds.
 
-    The loop kp + kd s over s^2 has gain 1 at w^2 = (kd^2 + sqrt(kd^4 + 4 kp^2)) / 2,
-    where its phase is atan(kd w / kp) short of -180 degrees; a delay T takes w T of
-    that (Astrom and Murray, chapter 9).
+    The loop (kp + kd s) / s^2 has its gain crossover at w^2 = (kd^2 + sqrt(kd^4 + 4
+    kp^2)) / 2, where its phase margin is atan(kd w / kp). A delay T reduces the phase
+    by w T (Astrom and Murray, chapter 9).
 
     Args:
-        kp: 1/s^2, (...), above 0.
-        kd: 1/s, (...), above 0.
+        kp: proportional gain, 1/s^2, (...), above 0.
+        kd: derivative gain, 1/s, (...), above 0.
 
     Returns:
         s, (...).
@@ -85,15 +90,17 @@ def delay_margin(kp: ArrayLike, kd: ArrayLike) -> Array:
 
 
 def low_pass(x: ArrayLike, dt: float, cutoff: float) -> Array:
-    """Return x without what is faster than the cutoff, and later than it.
+    """Return samples behind a first-order low pass, which starts at the first sample.
 
     y += alpha (x - y), from y_0 = x_0, with alpha = 1 - exp(-2 pi cutoff dt): exact
-    for an x that stays between samples, at any cutoff.
+    for an x that is constant between samples, at any cutoff.
 
     Args:
         x: samples, (n, ...).
         dt: s, above 0.
-        cutoff: Hz, above 0: there a slow signal's amplitude is down to 0.71.
+        cutoff: cutoff frequency, Hz, above 0. An oscillation of this frequency keeps
+            0.71 of its amplitude if the cutoff is far below 1 / dt, and more otherwise:
+            0.72 at a tenth of 1 / dt, 0.75 at a fifth.
 
     Returns:
         (n, ...).
@@ -108,36 +115,37 @@ def low_pass(x: ArrayLike, dt: float, cutoff: float) -> Array:
     return y
 
 
-def constant_velocity(dt: float, q: float) -> tuple[Array, Array]:
-    """Return the model of an angle whose speed is changed by nothing but white noise.
+def constant_velocity(dt: float, accel_psd: float) -> tuple[Array, Array]:
+    """Return F and Q of the constant-velocity model with a white acceleration.
 
-    Over dt the noise adds up to q [[dt^3/3, dt^2/2], [dt^2/2, dt]] (Bar-Shalom,
-    chapter 6).
+    The integral over dt gives Q = accel_psd [[dt^3/3, dt^2/2], [dt^2/2, dt]]
+    (Bar-Shalom, chapter 6).
 
     Args:
         dt: s, above 0.
-        q: intensity of the acceleration's noise, rad^2/s^3, not below 0.
+        accel_psd: power spectral density of the acceleration, rad^2/s^3, not below 0.
 
     Returns:
-        (F, Q), (2, 2) each: x = (angle; speed) becomes F x, and is less sure by Q.
+        (F, Q), (2, 2) each: x = (angle; velocity) becomes F x plus noise with the
+        covariance Q.
     """
     dt = float(checks.positive(dt, "dt"))
-    q = float(checks.not_negative(q, "q"))
+    accel_psd = float(checks.not_negative(accel_psd, "accel_psd"))
     F = np.array([[1.0, dt], [0.0, 1.0]])
-    Q = q * np.array([[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]])
+    Q = accel_psd * np.array([[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]])
     return F, Q
 
 
 def kalman_predict(
     x: ArrayLike, P: ArrayLike, F: ArrayLike, Q: ArrayLike
 ) -> tuple[Array, Array]:
-    """Return what is believed a moment later: (F x, F P F^T + Q).
+    """Return the Kalman filter's prediction: the state F x, covariance F P F^T + Q.
 
     Args:
         x: state, (..., n).
         P: its covariance, (..., n, n).
-        F: what a moment does to the state, (..., n, n).
-        Q: covariance of what it adds, (..., n, n).
+        F: maps the state to the next one, (..., n, n).
+        Q: covariance of the process noise, (..., n, n).
 
     Returns:
         (x, P), as given.
@@ -152,16 +160,17 @@ def kalman_predict(
 def kalman_update(
     x: ArrayLike, P: ArrayLike, z: ArrayLike, H: ArrayLike, R: ArrayLike
 ) -> tuple[Array, Array, Array]:
-    """Return what a reading changes, and how surprising it was.
+    """Return the Kalman filter's update by a reading: state, covariance and NIS.
 
-    y = z - H x is the surprise, S = H P H^T + R its covariance, K = P H^T S^-1 what it
-    is worth: x + K y, P - K S K^T, and NIS = y . S^-1 y, whose mean is m if the
-    filter's claims are true (Bar-Shalom, chapter 5).
+    y = z - H x is the innovation, S = H P H^T + R its covariance and K = P H^T S^-1 the
+    Kalman gain: the state x + K y, the covariance P - K S K^T, and the normalised
+    innovation squared NIS = y . S^-1 y, whose mean is m if the model is correct
+    (Bar-Shalom, chapter 5).
 
     Args:
         x, P: as in `kalman_predict`.
         z: reading, (..., m).
-        H: how the state is read, (..., m, n).
+        H: measurement matrix, (..., m, n).
         R: covariance of the reading's noise, (..., m, m), positive definite.
 
     Returns:
@@ -188,29 +197,30 @@ def kalman_update(
 
 
 def nis_interval(n: float, m: float) -> Array:
-    """Return between what the mean of n NIS lies 95 times in 100.
+    """Return the interval that holds the mean of n NIS with a probability of 95 %.
 
-    n times it is chi-square of n m degrees of freedom, by Wilson and Hilferty
-    m (1 - c -+ 1.96 sqrt(c))^3 with c = 2 / (9 n m).
+    n times this mean has the chi-square distribution with n m degrees of freedom. The
+    interval is m (1 - c -+ 1.96 sqrt(c))^3 with c = 2 / (9 n m) (Wilson and Hilferty).
 
     Args:
-        n: how many, above 0.
-        m: size of a reading, above 0.
+        n: number of readings, above 0.
+        m: number of entries of a reading, above 0.
 
     Returns:
-        (low, high), (2,): within 2e-6 of SciPy's chi2 at n m = 1950, 0.003 at 10.
+        (low, high), (2,): within 2e-6 of SciPy's chi2 at n m = 1950, 0.003 at 10. At
+        n m = 1 low is slightly below 0, which no NIS is.
     """
     n, m = float(checks.positive(n, "n")), float(checks.positive(m, "m"))
     c = 2.0 / (9.0 * n * m)
     return m * (1.0 - c + np.array([-Z_95, Z_95]) * np.sqrt(c)) ** 3
 
 
-def whiteness(y: ArrayLike) -> float:
-    """Return how much each number looks like the one before: 0 for independent ones.
+def lag1_autocorrelation(y: ArrayLike) -> float:
+    """Return the lag-1 autocorrelation of a sequence: near 0 for white noise.
 
-    The correlation at a lag of one sample, of y less its mean: the sum of y_k y_(k+1)
-    over the sum of y_k^2 (Bar-Shalom, chapter 5). Of n independent numbers it lies
-    within 1.96 / sqrt(n) 95 times in 100.
+    Subtract the mean from y; then the sum of y_k y_(k+1) over the sum of y_k^2
+    (Bar-Shalom, chapter 5). For n independent values it is within 1.96 / sqrt(n) of 0
+    with a probability of 95 %. A correlation at a larger lag is not measured.
 
     Args:
         y: (n,), not all the same.
@@ -227,12 +237,13 @@ def whiteness(y: ArrayLike) -> float:
     return float(off[1:] @ off[:-1]) / float(off @ off)
 
 
-def energy_slope(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike) -> Array:
-    """Return how the kinetic energy changes with each angle, the speeds kept.
+def kinetic_energy_gradient(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike) -> Array:
+    """Return the gradient of the kinetic energy by the angles, at constant velocities.
 
-    Turn all links from i on by S_i. Their inertias turn with them, so seen from them
-    it is V_i that turns back, by -ad(S_i) V_i, and energy changes by momentum times
-    that: minus the sum of G_k V_k over k >= i, times ad(S_i) V_i. It is C^T qd.
+    Rotating joint i rotates the links from i on together with their inertias. Seen from
+    these links the twist V_i changes by -ad(S_i) V_i per radian, so the energy changes
+    by minus the sum of G_k V_k over k >= i, times ad(S_i) V_i. The gradient equals
+    C^T qd for a Coriolis matrix with dM/dt = C + C^T, as `dynamics.coriolis_matrix`.
 
     Args:
         J_space: space Jacobian, (..., 6, n).
@@ -240,7 +251,7 @@ def energy_slope(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike) -> Array:
         qd: joint velocities, rad/s, (..., n).
 
     Returns:
-        dT/dq, N m, (..., n). A rotor's energy changes with no angle.
+        dE/dq, N m, (..., n). A rotor's energy does not depend on the angles.
     """
     J = checks.array(J_space, "J_space", (6, "n"))
     n = J.shape[-1]
@@ -252,48 +263,50 @@ def energy_slope(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike) -> Array:
     return -(momenta * times(ad(S), V)).sum(axis=-1)
 
 
-def observer_step(
-    residual: ArrayLike, integral: ArrayLike, p: ArrayLike, tau: ArrayLike,
-    slope: ArrayLike, gravity: ArrayLike, damping: ArrayLike, qd: ArrayLike,
+def momentum_observer_step(
+    residual: ArrayLike, integral: ArrayLike, momentum: ArrayLike, tau: ArrayLike,
+    energy_grad: ArrayLike, gravity: ArrayLike, damping: ArrayLike, qd: ArrayLike,
     gain: float, dt: float,
 ) -> tuple[Array, Array]:  # fmt: skip
-    """Return the torque that nobody commanded, as it is felt one sample later.
+    """Return the momentum observer's residual (external torque estimate) and integral.
 
-    The momentum p = M qd changes by tau + slope - gravity - damping qd and by what
-    nobody commanded. `integral` adds up what is known, with the residual fed back;
-    gain (p - integral) then follows the unknown torque, 63 % of it after 1 / gain
-    (De Luca and Mattone 2003). Begin with integral = p and residual 0.
+    The momentum M qd changes by tau + energy_grad - gravity - damping qd and by the
+    external torque. `integral` advances by dt times the known torques plus the residual
+    of the sample before; the residual gain (momentum - integral) then follows the
+    external torque as a first-order low pass, 63 % of it after 1 / gain (De Luca and
+    Mattone 2003, 2005). An error of the model is part of the residual. Begin with
+    integral = momentum and residual = 0.
 
     Args:
-        residual: the last one, N m, (..., n).
-        integral: the last one, kg m^2/s, (..., n).
-        p: momentum now, kg m^2/s, (..., n).
-        tau: of the motors since the last sample, N m, (..., n).
-        slope: `energy_slope`, N m, (..., n).
-        gravity: torque that holds the arm still, N m, (..., n).
+        residual: of the sample before, N m, (..., n).
+        integral: of the sample before, kg m^2/s, (..., n).
+        momentum: M qd of now, kg m^2/s, (..., n).
+        tau: commanded torque since the sample before, N m, (..., n).
+        energy_grad: `kinetic_energy_gradient` of the sample before, N m, (..., n).
+        gravity: torque that holds the arm, of the sample before, N m, (..., n).
         damping: of the joints, N m s/rad, a number or (n,).
-        qd: joint velocities, rad/s, (..., n).
-        gain: 1/s, above 0; it blows up from 2 / dt on.
+        qd: joint velocities of the sample before, rad/s, (..., n).
+        gain: 1/s, above 0; it overshoots from 1 / dt and is unstable from 2 / dt on.
         dt: s, above 0.
 
     Returns:
         (residual in N m, integral in kg m^2/s), (..., n) each.
     """
-    residual, integral, p, tau, slope, gravity, qd = checks.same_size(
-        residual=residual, integral=integral, p=p, tau=tau, slope=slope,
-        gravity=gravity, qd=qd,
+    residual, integral, momentum, tau, energy_grad, gravity, qd = checks.same_size(
+        residual=residual, integral=integral, momentum=momentum, tau=tau,
+        energy_grad=energy_grad, gravity=gravity, qd=qd,
     )  # fmt: skip
     gain, dt = float(checks.positive(gain, "gain")), float(checks.positive(dt, "dt"))
     brake = checks.per_joint(damping, "damping", qd) * qd
-    integral = integral + (tau + slope - gravity - brake + residual) * dt
-    return gain * (p - integral), integral
+    integral = integral + (tau + energy_grad - gravity - brake + residual) * dt
+    return gain * (momentum - integral), integral
 
 
-def pushed_link(residual: ArrayLike, threshold: ArrayLike) -> int:
-    """Return the last joint that feels a push, counted from 1; 0 where none does.
+def contact_link(residual: ArrayLike, threshold: ArrayLike) -> int:
+    """Return the contact link: the last joint over its threshold, from 1; 0 if none is.
 
-    The push is on its link or on one after it: a force whose line meets a joint's axis
-    makes no torque there.
+    This is collision isolation. The contact is on this link or on a distal one, if the
+    model is correct: a force whose line meets a joint's axis causes no torque there.
 
     Args:
         residual: N m, (n,).
@@ -315,6 +328,6 @@ def _samples(x: ArrayLike, name: str) -> Array:
 
 
 def _belief(x: ArrayLike, P: ArrayLike) -> tuple[Array, Array]:
-    """Return a state and its covariance, checked together."""
+    """Return a state and its covariance, whose shapes must agree."""
     x = checks.array(x, "x", ("n",))
     return x, checks.array(P, "P", (x.shape[-1], x.shape[-1]))

@@ -21,7 +21,7 @@ from robo47.checks import Array
 from robo47.policy import LOW
 from robo47.screws import skew
 
-OPENING = 4  # of a policy's six numbers: how far each pad is from the middle
+FINGER_POSITION = 4  # of a policy's six numbers: how far each pad is from the middle
 RANK = 1e-9  # a singular value counts above this times the largest
 BALANCE = 1e-9  # what may be left of a sum that is 0, of the sum of its sizes
 
@@ -47,12 +47,12 @@ def cone_margin(force: ArrayLike, normal: ArrayLike, mu: ArrayLike) -> Array:
     return checks.not_negative(mu, "mu") * press - along
 
 
-def reflex(
-    opening: float,
+def grip_reflex_step(
+    finger_position: float,
     force: ArrayLike,
     normal: ArrayLike,
     mu: ArrayLike,
-    share: float,
+    fraction: float,
     step: float,
 ) -> float:
     """Return the next opening: closed by a step where a contact nearly slips.
@@ -60,10 +60,10 @@ def reflex(
     Nearly: its margin is below a share of what it has when nothing pulls at it, mu f_n.
 
     Args:
-        opening: that the fingers are told now, metres.
+        finger_position: that the fingers are told now, metres.
         force, normal, mu: of all contacts, as in `cone_margin`, (n, 3), (n, 3), (n,);
             none, and the opening stays.
-        share: of mu f_n that is to be left, 0 to 1.
+        fraction: of mu f_n that is to be left, 0 to 1.
         step: metres, above 0.
 
     Returns:
@@ -74,9 +74,11 @@ def reflex(
     """
     margin = cone_margin(force, normal, mu)
     press = np.sum(np.multiply(force, normal), axis=-1)
-    if not np.any(margin < share * np.asarray(mu) * press):
-        return float(opening)
-    return float(max(opening - checks.positive(step, "step"), LOW[OPENING]))
+    if not np.any(margin < fraction * np.asarray(mu) * press):
+        return float(finger_position)
+    return float(
+        max(finger_position - checks.positive(step, "step"), LOW[FINGER_POSITION])
+    )
 
 
 def grasp_matrix(points: ArrayLike, centre: ArrayLike) -> Array:
@@ -125,7 +127,7 @@ def cone_edges(normal: ArrayLike, mu: float, k: int) -> Array:
     return n + checks.not_negative(mu, "mu") * (np.cos(t) * a + np.sin(t) * b)
 
 
-def closes(W: ArrayLike, weights: ArrayLike) -> bool:
+def certifies_force_closure(W: ArrayLike, weights: ArrayLike) -> bool:
     """Return whether weights prove that a grasp resists every wrench.
 
     They do where W has rank 6 and W w = 0 with every weight above 0: then each column

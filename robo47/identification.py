@@ -28,7 +28,7 @@ from robo47.screws import adjoint, skew
 _UPPER = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # of Ixx ... Iyz
 
 
-def inertia_of(phi: ArrayLike) -> Array:
+def spatial_inertia_from_params(phi: ArrayLike) -> Array:
     """Return the 6x6 inertia of a body from its ten numbers: [[I, [h]], [[h]^T, m 1]].
 
     With h = m c and I about the origin nothing is left of a product: it is linear.
@@ -53,7 +53,9 @@ def inertia_of(phi: ArrayLike) -> Array:
     return G
 
 
-def parameters(masses: ArrayLike, coms: ArrayLike, inertias: ArrayLike) -> Array:
+def inertial_parameters(
+    masses: ArrayLike, coms: ArrayLike, inertias: ArrayLike
+) -> Array:
     """Return phi, (..., 10), of bodies as `dynamics.spatial_inertia` is given them.
 
     Args:
@@ -73,14 +75,14 @@ def parameters(masses: ArrayLike, coms: ArrayLike, inertias: ArrayLike) -> Array
     return np.concatenate([m, m * c, about[..., i, j]], axis=-1)
 
 
-def link_regressor(V: ArrayLike, A: ArrayLike) -> Array:
-    """Return what each of a body's ten numbers costs in wrench: G A - ad(V)^T G V.
+def link_regressor(V: ArrayLike, Vd: ArrayLike) -> Array:
+    """Return what each of a body's ten numbers costs in wrench: G Vd - ad(V)^T G V.
 
     Column k is that wrench with G of the k-th unit vector.
 
     Args:
         V: the body's twist, in its own axes about its own origin, (..., 6).
-        A: its acceleration, gravity as an acceleration of the base included, (..., 6).
+        Vd: its acceleration, gravity as an acceleration of the base included, (..., 6).
 
     Returns:
         (..., 6, 10): times phi it is the wrench (moment; force) that moves the body.
@@ -88,10 +90,14 @@ def link_regressor(V: ArrayLike, A: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape or a non-finite number.
     """
-    V, A = checks.array(V, "V", (6,)), checks.array(A, "A", (6,))
-    G = inertia_of(np.eye(10))
-    V, A, turned = V[..., None, :, None], A[..., None, :, None], ad(V)[..., None, :, :]
-    columns = G @ A - np.swapaxes(turned, -1, -2) @ (G @ V)
+    V, Vd = checks.array(V, "V", (6,)), checks.array(Vd, "Vd", (6,))
+    G = spatial_inertia_from_params(np.eye(10))
+    V, Vd, turned = (
+        V[..., None, :, None],
+        Vd[..., None, :, None],
+        ad(V)[..., None, :, :],
+    )
+    columns = G @ Vd - np.swapaxes(turned, -1, -2) @ (G @ V)
     return np.swapaxes(columns[..., 0], -1, -2)
 
 
@@ -131,7 +137,7 @@ def arm_regressor(
     return felt.reshape(*felt.shape[:-2], 10 * n)
 
 
-def motor_features(qd: ArrayLike, qdd: ArrayLike) -> Array:
+def actuator_regressor(qd: ArrayLike, qdd: ArrayLike) -> Array:
     """Return the columns of rotors, viscous and dry friction: qdd, qd, sign(qd).
 
     Args:
@@ -148,7 +154,7 @@ def motor_features(qd: ArrayLike, qdd: ArrayLike) -> Array:
     return np.concatenate(np.broadcast_arrays(*blocks), axis=-1)
 
 
-def identifiable(Y: ArrayLike, rtol: float) -> tuple[int, float]:
+def rank_and_condition(Y: ArrayLike, rtol: float) -> tuple[int, float]:
     """Return how many combinations of parameters a motion shows, and how unevenly.
 
     Args:
@@ -165,7 +171,7 @@ def identifiable(Y: ArrayLike, rtol: float) -> tuple[int, float]:
     return len(s), float(s[0] / s[-1])
 
 
-def fit(Y: ArrayLike, tau: ArrayLike, rtol: float) -> Array:
+def truncated_svd_fit(Y: ArrayLike, tau: ArrayLike, rtol: float) -> Array:
     """Return the smallest parameters that explain the torques best.
 
     V S^-1 U^T tau, (p,), over the singular values that count (Golub and Van Loan, 5.5).
@@ -173,10 +179,10 @@ def fit(Y: ArrayLike, tau: ArrayLike, rtol: float) -> Array:
     Args:
         Y: regressor, (n, p).
         tau: measured torques, N m, (n,).
-        rtol: as in `identifiable`.
+        rtol: as in `rank_and_condition`.
 
     Raises:
-        ValueError: as `identifiable`.
+        ValueError: as `rank_and_condition`.
     """
     U, s, Vt = _kept(Y, rtol)
     return Vt.T @ (U.T @ checks.array(tau, "tau", U.shape[:1]) / s)
@@ -191,7 +197,7 @@ def predict_with_sigma(
     through the fit, so sigma is noise |V^T y / s| for a row y of Y_new.
 
     Args:
-        Y, tau, rtol: as in `fit`, with n above the rank of Y.
+        Y, tau, rtol: as in `truncated_svd_fit`, with n above the rank of Y.
         Y_new: regressor of the new motions, (m, p).
 
     Returns:
@@ -199,11 +205,11 @@ def predict_with_sigma(
         noise of a new measurement. What a motion never showed has no sigma.
 
     Raises:
-        ValueError: as `identifiable`; or no more rows than the rank.
+        ValueError: as `rank_and_condition`; or no more rows than the rank.
     """
     _, s, Vt = _kept(Y, rtol)
     Y_new = checks.array(Y_new, "Y_new", Vt.shape[1:])
-    phi = fit(Y, tau, rtol)
+    phi = truncated_svd_fit(Y, tau, rtol)
     residual = np.asarray(tau) - np.asarray(Y) @ phi
     if len(residual) <= len(s):
         raise ValueError(f"{len(residual)} rows leave no residual at rank {len(s)}")
@@ -236,7 +242,7 @@ def load_regressor(J_site: ArrayLike, R_site: ArrayLike, g: ArrayLike) -> Array:
     return -np.swapaxes(J, -1, -2) @ W
 
 
-def payload_from_holds(
+def identify_payload(
     J_site: ArrayLike, R_site: ArrayLike, extra: ArrayLike, g: ArrayLike
 ) -> Array:
     """Return what hangs on the hand, from torques that hold it still in some poses.
@@ -258,7 +264,7 @@ def payload_from_holds(
     return np.asarray(found, dtype=np.float64)
 
 
-def least_pseudo(phi: ArrayLike) -> Array:
+def min_pseudo_inertia_eig(phi: ArrayLike) -> Array:
     """Return the least eigenvalue, (...), of a pseudo-inertia; no body's is below 0.
 
     [[S, h], [h^T, m]] with S = tr(I)/2 - I, the integral of r r^T (Wensing 2018).
@@ -269,7 +275,7 @@ def least_pseudo(phi: ArrayLike) -> Array:
     Raises:
         ValueError: wrong shape or a non-finite number.
     """
-    about = inertia_of(phi)[..., :3, :3]
+    about = spatial_inertia_from_params(phi)[..., :3, :3]
     phi = np.asarray(phi, dtype=np.float64)
     half = np.trace(about, axis1=-2, axis2=-1)[..., None, None] / 2.0
     P = np.empty((*phi.shape[:-1], 4, 4))

@@ -159,7 +159,7 @@ def manipulability(J: ArrayLike) -> Array:
     return values if J.shape[-2] <= J.shape[-1] else 0.0 * values
 
 
-def null_step(J: ArrayLike, dq: ArrayLike) -> Array:
+def nullspace_projection(J: ArrayLike, dq: ArrayLike) -> Array:
     """Return the part of dq that the hand does not feel, dq - J^+ J dq.
 
     Args:

@@ -114,7 +114,8 @@ def chain_to(model: mujoco.MjModel, frame: str) -> Chain:
     """Return the chain from the world to a frame, a copy of what the model says.
 
     Args:
-        model: any compiled MJCF model.
+        model: any compiled MJCF model. A mocap body stands where the file has it, and
+            a site where `site_pos` says, also where that was changed at run time.
         frame: "body:NAME", "site:NAME", or a name that only one of them has.
 
     Raises:
@@ -175,7 +176,8 @@ def fk_all(model: mujoco.MjModel, qpos: ArrayLike) -> dict[str, Array]:
     """Return the pose of every named body and site, each link computed once.
 
     Args:
-        model: any compiled MJCF model.
+        model: any compiled MJCF model. A mocap body stands where the file has it, and
+            a site where `site_pos` says, also where that was changed at run time.
         qpos: configurations, (..., nq).
 
     Returns:
@@ -263,7 +265,10 @@ def _resolve(model: mujoco.MjModel, frame: str) -> tuple[str, str]:
     if len(matches) > 1:
         raise ValueError(f"{frame!r} is a body and a site; say {' or '.join(matches)}")
     if not matches:
-        raise ValueError(f"no frame {frame!r}; the model has {', '.join(names)}")
+        raise ValueError(
+            f"no frame {frame!r}; the model has {', '.join(names)} (a URDF's fixed "
+            'links are fused, unless <compiler fusestatic="false"/> keeps them)'
+        )
     kind, _, name = matches[0].partition(":")
     return kind, name
 

@@ -43,7 +43,7 @@ def grasp_pose(T_world_cube: ArrayLike, above: ArrayLike) -> Array:
     return se3.make_T(R, T_world_cube[..., :3, 3] + up)
 
 
-def carry(
+def combine_bodies(
     m1: ArrayLike, c1: ArrayLike, I1: ArrayLike,
     m2: ArrayLike, c2: ArrayLike, I2: ArrayLike,
 ) -> Array:  # fmt: skip
@@ -83,7 +83,7 @@ def carry(
     return out
 
 
-def heaviest_cube(grip: ArrayLike, mu: ArrayLike, acceleration: ArrayLike) -> Array:
+def max_cube_mass(grip: ArrayLike, mu: ArrayLike, acceleration: ArrayLike) -> Array:
     """Return the mass that two fingers lift: 2 mu grip = m (g + acceleration).
 
     Args:

@@ -4,11 +4,11 @@ Three questions, and how an answer is checked without knowing how it was found:
 
 - LQR, `x . P x`: the least cost of holding a rest point, no limits. The simulator pays
   what P promises.
-- A quadratic in a box, `x . H x / 2 + g . x` with lo <= x <= hi: a step of inverse
+- A quadratic in a box, `x . H x / 2 + f . x` with lo <= x <= hi: a step of inverse
   kinematics whose joints have limits. `kkt_residual` is 0 at the best x and nowhere
   else.
 - iLQR's backward pass: the first again, with slopes in it, along a motion.
-  `accept_ratio` holds what a step saved against what it should have saved.
+  `reduction_ratio` holds what a step saved against what it should have saved.
 
 Conventions: x = (q - q0, qd), so (2 n,); u is what is added to the torque that holds
 q0. Twists (omega; v), world axes, J_space (6, n); gravity is the vector (0, 0, -9.81).
@@ -32,7 +32,7 @@ STEPS = 100  # of `box_qp`, at most; a box of seven takes about ten
 ROUNDING = 1e-14  # of an entry's size: who leaves by less may stay
 
 
-def gravity_slope(
+def gravity_stiffness(
     J_space: ArrayLike, masses: ArrayLike, coms: ArrayLike, g: ArrayLike
 ) -> Array:
     """Return how the torque of gravity changes when a joint turns.
@@ -63,20 +63,20 @@ def gravity_slope(
 
 
 def linearise(
-    M: ArrayLike, slope: ArrayLike, damping: ArrayLike, h: float
+    M: ArrayLike, stiffness: ArrayLike, damping: ArrayLike, h: float
 ) -> tuple[Array, Array]:
     """Return one time step of the simulator near a point of rest, x+ = A x + B u.
 
     MuJoCo's integrator "implicitfast": the damping acts on the new speed, and the new
     speed moves the joints,
 
-        (M + h D) v+ = M v + h (u - slope q)        q+ = q + h v+
+        (M + h D) v+ = M v + h (u - stiffness q)        q+ = q + h v+
 
     At rest M's own slope is multiplied by an acceleration of 0.
 
     Args:
         M: mass matrix with armature, kg m^2, (n, n).
-        slope: d(gravity torque) / dq, N m/rad, (n, n).
+        stiffness: d(gravity torque) / dq, N m/rad, (n, n).
         damping: of the joints, N m s/rad, (n,).
         h: time step, s.
 
@@ -89,11 +89,13 @@ def linearise(
     damping = checks.array(damping, "damping", ("n",))
     n = len(damping)
     M = checks.array(M, "M", (n, n))
-    slope = checks.array(slope, "slope", (n, n))
+    stiffness = checks.array(stiffness, "stiffness", (n, n))
     step = float(checks.positive(h, "h"))
     implicit = M + step * np.diag(damping)
     # How the new speed depends on (q, v, u).
-    q_v_u = np.linalg.solve(implicit, np.hstack([-step * slope, M, step * np.eye(n)]))
+    q_v_u = np.linalg.solve(
+        implicit, np.hstack([-step * stiffness, M, step * np.eye(n)])
+    )
     now = np.hstack([np.eye(n), np.zeros((n, 2 * n))])
     both = np.vstack([now + step * q_v_u, q_v_u])
     return both[:, : 2 * n], both[:, 2 * n :]
@@ -132,7 +134,7 @@ def riccati_step(
     return P, K.astype(np.float64, copy=False)
 
 
-def lqr_cost(P: ArrayLike, x: ArrayLike) -> float:
+def cost_to_go(P: ArrayLike, x: ArrayLike) -> float:
     """Return what P promises a start at x will cost: x . P x.
 
     Args:
@@ -147,16 +149,16 @@ def lqr_cost(P: ArrayLike, x: ArrayLike) -> float:
 
 
 def kkt_residual(
-    H: ArrayLike, g: ArrayLike, lo: ArrayLike, hi: ArrayLike, x: ArrayLike
+    H: ArrayLike, f: ArrayLike, lo: ArrayLike, hi: ArrayLike, x: ArrayLike
 ) -> float:
-    """Return how far x is from the least of x . H x / 2 + g . x in a box.
+    """Return how far x is from the least of x . H x / 2 + f . x in a box.
 
-    x is pushed downhill by its slope H x + g and clipped: it comes back to x where it
+    x is pushed downhill by its slope H x + f and clipped: it comes back to x where it
     is best, and only there (Boyd and Vandenberghe, section 5.5.3, for a box).
 
     Args:
         H: symmetric and positive definite, (n, n).
-        g: (n,).
+        f: (n,).
         lo, hi: the box, (n,) each; equal where an entry is fixed.
         x: any point, (n,).
 
@@ -166,14 +168,14 @@ def kkt_residual(
     Raises:
         ValueError: wrong shape, a non-finite number, or lo above hi.
     """
-    A, b, low, high, at = _box(H, g, lo, hi, x)
+    A, b, low, high, at = _box(H, f, lo, hi, x)
     return float(np.abs(at - np.clip(at - (A @ at + b), low, high)).max())
 
 
 def box_qp(
-    H: ArrayLike, g: ArrayLike, lo: ArrayLike, hi: ArrayLike, x: ArrayLike
+    H: ArrayLike, f: ArrayLike, lo: ArrayLike, hi: ArrayLike, x: ArrayLike
 ) -> Array:
-    """Return the x in a box for which x . H x / 2 + g . x is least.
+    """Return the x in a box for which x . H x / 2 + f . x is least.
 
     The primal active-set method (Nocedal and Wright, section 16.5): go towards what is
     best for the free entries, and hold the first that meets its limit. Where none does,
@@ -182,7 +184,7 @@ def box_qp(
 
     Args:
         H: symmetric and positive definite, (n, n).
-        g: (n,).
+        f: (n,).
         lo, hi: the box, (n,) each; equal where an entry is fixed.
         x: where to start, (n,); the answer is the same from anywhere.
 
@@ -192,18 +194,18 @@ def box_qp(
     Raises:
         ValueError: wrong shape, a non-finite number, or lo above hi.
     """
-    H, g, lo, hi, x = _box(H, g, lo, hi, x)
+    H, f, lo, hi, x = _box(H, f, lo, hi, x)
     x = np.clip(x, lo, hi)
     held = lo == hi
     for _ in range(STEPS):
         free = ~held
         step = np.zeros_like(x)
-        step[free] = np.linalg.solve(H[np.ix_(free, free)], -(H @ x + g)[free])
+        step[free] = np.linalg.solve(H[np.ix_(free, free)], -(H @ x + f)[free])
         x, met = _until_a_limit(x, step, lo, hi)
         if met is not None:
             held[met] = True
             continue
-        leaves = np.abs(x - np.clip(x - (H @ x + g), lo, hi))
+        leaves = np.abs(x - np.clip(x - (H @ x + f), lo, hi))
         first = int(np.argmax(leaves))
         if not held[first] or leaves[first] <= ROUNDING * (1.0 + np.abs(x).max()):
             break
@@ -218,7 +220,7 @@ def qp_ik(
     """Return the step of inverse kinematics that is best within limits.
 
     The dq that makes (J dq - e) . W (J dq - e) + damping^2 |dq|^2 least: half of it is
-    `box_qp`'s, with H = J^T W J + damping^2 and g = -J^T W e.
+    `box_qp`'s, with H = J^T W J + damping^2 and f = -J^T W e.
 
     Args:
         J: Jacobian, (6, n).
@@ -267,7 +269,7 @@ def ilqr_backward(
 
     Returns:
         k, (T, m); K, (T, m, n); and drop, (2,): what the cost changes by, to first and
-        to second order in k. `expected_drop` takes it.
+        to second order in k. `expected_reduction` takes it.
 
     Raises:
         ValueError: wrong shape, a non-finite number, or mu below 0.
@@ -298,30 +300,30 @@ def ilqr_backward(
     return k, K, drop
 
 
-def expected_drop(drop: ArrayLike, alpha: float) -> float:
+def expected_reduction(dV: ArrayLike, alpha: float) -> float:
     """Return what a step of length alpha should save.
 
     Args:
-        drop: from `ilqr_backward`, (2,).
+        dV: from `ilqr_backward`, (2,).
         alpha: the share of k that is taken, 0 to 1.
 
     Returns:
-        -(alpha drop[0] + alpha^2 drop[1]), in the cost's unit.
+        -(alpha dV[0] + alpha^2 dV[1]), in the cost's unit.
 
     Raises:
         ValueError: wrong shape or a non-finite number.
     """
-    first, second = checks.array(drop, "drop", (2,))
+    first, second = checks.array(dV, "dV", (2,))
     share = float(checks.array(alpha, "alpha", ()))
     return float(-(share * first + share**2 * second))
 
 
-def accept_ratio(before: float, after: float, expected: float) -> float:
+def reduction_ratio(before: float, after: float, expected: float) -> float:
     """Return what a step saved, as a share of what it should have saved.
 
     Args:
         before, after: the cost without and with the step.
-        expected: from `expected_drop`, not 0.
+        expected: from `expected_reduction`, not 0.
 
     Returns:
         1 where the model is right; under 0 where the step did harm.
@@ -336,16 +338,16 @@ def accept_ratio(before: float, after: float, expected: float) -> float:
     return float(saved / promised)
 
 
-def limit_prices(
-    H: ArrayLike, g: ArrayLike, lo: ArrayLike, hi: ArrayLike, x: ArrayLike
+def bound_multipliers(
+    H: ArrayLike, f: ArrayLike, lo: ArrayLike, hi: ArrayLike, x: ArrayLike
 ) -> Array:
     """Return what each limit costs: how the least cost changes when it moves.
 
     Only the limit's own term of the cost moves with it (the envelope theorem; Boyd and
-    Vandenberghe, section 5.6.3): the slope H x + g where a limit holds x back.
+    Vandenberghe, section 5.6.3): the slope H x + f where a limit holds x back.
 
     Args:
-        H, g, lo, hi: as in `box_qp`.
+        H, f, lo, hi: as in `box_qp`.
         x: the best point, (n,).
 
     Returns:
@@ -355,8 +357,8 @@ def limit_prices(
     Raises:
         ValueError: wrong shape, a non-finite number, or lo above hi.
     """
-    H, g, lo, hi, x = _box(H, g, lo, hi, x)
-    slope = H @ x + g
+    H, f, lo, hi, x = _box(H, f, lo, hi, x)
+    slope = H @ x + f
     return np.where(_held(slope, lo, hi, x), slope, 0.0)
 
 

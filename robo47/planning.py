@@ -10,8 +10,8 @@ Conventions:
 - A world is an array of discs (x, y, radius), or anything with a method
   `edge_free(a, b)` that says whether the straight edge from a to b is free.
 - What is random is an argument: samples of a planner, pairs of a shortcut.
-- A path q(s), s from 0 to 1, has dq = dq/ds and ddq = d2q/ds2; its speed sd is ds/dt,
-  and x = sd^2. Time is not in it.
+- A path q(s), s from 0 to 1, has dq_ds = dq/ds and d2q_ds2 = d2q/ds2; its
+  speed sd is ds/dt, and sd2 = sd^2. Time is not in it.
 - Radians, metres, seconds, N m.
 
 Sources: Kuffner and LaValle, "RRT-Connect: an efficient approach to single-query path
@@ -35,7 +35,7 @@ BISECTIONS = 60  # halve an interval to the last bit of float64 and beyond
 
 
 @runtime_checkable
-class Checker(Protocol):
+class CollisionChecker(Protocol):
     """A world of one's own: it says whether a straight edge is free."""
 
     def edge_free(self, a: Array, b: Array) -> bool:
@@ -43,7 +43,7 @@ class Checker(Protocol):
         ...
 
 
-World = ArrayLike | Checker
+World = ArrayLike | CollisionChecker
 
 
 def nearest(tree: ArrayLike, q: ArrayLike) -> int:
@@ -75,7 +75,7 @@ def steer(q: ArrayLike, target: ArrayLike, step: float) -> Array:
     return _steer(q, target, float(checks.positive(step, "step")))
 
 
-def disc_edge_free(a: ArrayLike, b: ArrayLike, discs: ArrayLike) -> bool:
+def segment_free_of_discs(a: ArrayLike, b: ArrayLike, discs: ArrayLike) -> bool:
     """Return whether the straight edge from a to b touches no disc.
 
     A disc's nearest point of the edge is the foot of its centre, or an end.
@@ -196,7 +196,7 @@ def shortcut(path: ArrayLike, world: World, pairs: ArrayLike) -> Array:
     return path.copy()
 
 
-def wilson(successes: float, n: float) -> Array:
+def wilson_interval(successes: float, n: float) -> Array:
     """Return all shares that n trials make believable, at 95 % (Wilson, 1927).
 
     The roots p of (p - k/n)^2 = z^2 p (1 - p) / n, with z = 1.96.
@@ -220,39 +220,43 @@ def wilson(successes: float, n: float) -> Array:
 
 
 def path_dynamics(
-    M: ArrayLike, dq: ArrayLike, ddq: ArrayLike, coriolis: ArrayLike, gravity: ArrayLike
+    M: ArrayLike,
+    dq_ds: ArrayLike,
+    d2q_ds2: ArrayLike,
+    coriolis: ArrayLike,
+    gravity: ArrayLike,
 ) -> Array:
-    """Return what torque a point of a path asks for: tau = a sdd + b sd^2 + g.
+    """Return what torque a point of a path asks for: tau = a sdd + b sd^2 + c.
 
-    q(s) gives qd = dq sd and qdd = dq sdd + ddq sd^2; Coriolis torques are quadratic in
-    qd (MR section 9.4).
+    q(s) gives qd = dq_ds sd and qdd = dq_ds sdd + d2q_ds2 sd^2; Coriolis torques are
+    quadratic in qd (MR section 9.4).
 
     Args:
         M: mass matrix at q(s), (k, k).
-        dq: dq/ds, rad, (k,).
-        ddq: d2q/ds2, rad, (k,).
-        coriolis: its torque at qd = dq, N m, (k,).
+        dq_ds: dq/ds, rad, (k,).
+        d2q_ds2: d2q/ds2, rad, (k,).
+        coriolis: its torque at qd = dq_ds, N m, (k,).
         gravity: its torque, N m, (k,).
 
     Returns:
-        Rows a, b and g, N m, (3, k).
+        Rows a, b and c, N m, (3, k).
     """
-    dq, ddq, coriolis, gravity = checks.same_size(
-        dq=dq, ddq=ddq, coriolis=coriolis, gravity=gravity
+    dq_ds, d2q_ds2, coriolis, gravity = checks.same_size(
+        dq_ds=dq_ds, d2q_ds2=d2q_ds2, coriolis=coriolis, gravity=gravity
     )
-    M = checks.array(M, "M", (dq.size, dq.size))
-    return np.array([M @ dq, M @ ddq + coriolis, gravity])
+    M = checks.array(M, "M", (dq_ds.size, dq_ds.size))
+    return np.array([M @ dq_ds, M @ d2q_ds2 + coriolis, gravity])
 
 
-def accel_range(
-    a: ArrayLike, b: ArrayLike, g: ArrayLike, limits: ArrayLike, sd: float
+def path_accel_bounds(
+    a: ArrayLike, b: ArrayLike, c: ArrayLike, limits: ArrayLike, sd: float
 ) -> Array:
     """Return the least and the greatest sdd that all torques allow at a speed sd.
 
     Args:
         a: N m per sdd, (k,).
         b: N m per sd^2, (k,).
-        g: N m, (k,).
+        c: N m, (k,).
         limits: of each torque, both ways, N m, (k,), above 0.
         sd: ds/dt, 1/s.
 
@@ -260,14 +264,14 @@ def accel_range(
         1/s^2, (2,). Where the first is above the second, none is allowed. A joint with
         a = 0 limits nothing; (inf, -inf) if it cannot hold its torque.
     """
-    a, b, g, limits = checks.same_size(a=a, b=b, g=g, limits=limits)
+    a, b, c, limits = checks.same_size(a=a, b=b, c=c, limits=limits)
     checks.positive(limits, "limits")
     speed = float(checks.array(sd, "sd", ()))
-    return np.array(_range(a, b * speed**2 + g, limits))
+    return np.array(_range(a, b * speed**2 + c, limits))
 
 
-def fastest_along(
-    A: ArrayLike, B: ArrayLike, G: ArrayLike, limits: ArrayLike, x_max: ArrayLike
+def time_optimal_profile(
+    a: ArrayLike, b: ArrayLike, c: ArrayLike, limits: ArrayLike, sd2_max: ArrayLike
 ) -> Array:
     """Return sd^2 of the fastest motion along a path, from rest to rest.
 
@@ -276,45 +280,45 @@ def fastest_along(
     below it (Pham and Pham, 2018).
 
     Args:
-        A: `path_dynamics`' a at N + 1 points, N m, (N + 1, k).
-        B: its b, N m, (N + 1, k).
-        G: its g, N m, (N + 1, k).
+        a: `path_dynamics`' a at N + 1 points, N m, (N + 1, k).
+        b: its b, N m, (N + 1, k).
+        c: its c, N m, (N + 1, k).
         limits: of each torque, both ways, N m, (k,), above 0.
-        x_max: greatest sd^2 that the motors' speeds allow, 1/s^2, (N + 1,).
+        sd2_max: greatest sd^2 that the motors' speeds allow, 1/s^2, (N + 1,).
 
     Returns:
         sd^2, 1/s^2, (N + 1,); zeros where gravity alone is too much at some point.
     """
-    A = checks.array(A, "A", ("n", "k"))
-    B = checks.array(B, "B", A.shape)
-    G = checks.array(G, "G", A.shape)
-    limits = checks.positive(checks.array(limits, "limits", A.shape[1:]), "limits")
-    top = checks.not_negative(checks.array(x_max, "x_max", A.shape[:1]), "x_max")
-    if len(A) < 2 or np.any(np.abs(G) > limits):
-        return np.zeros(len(A))
-    two_ds = 2.0 / (len(A) - 1)
-    most = np.zeros(len(A))
-    for i in range(len(A) - 2, -1, -1):
-        most[i] = _reaches_next(A[i], B[i], G[i], limits, top[i], most[i + 1], two_ds)
-    x = np.zeros(len(A))
-    for i in range(len(A) - 1):
-        _, up = _range(A[i], B[i] * x[i] + G[i], limits)
+    a = checks.array(a, "a", ("n", "k"))
+    b = checks.array(b, "b", a.shape)
+    c = checks.array(c, "c", a.shape)
+    limits = checks.positive(checks.array(limits, "limits", a.shape[1:]), "limits")
+    top = checks.not_negative(checks.array(sd2_max, "sd2_max", a.shape[:1]), "sd2_max")
+    if len(a) < 2 or np.any(np.abs(c) > limits):
+        return np.zeros(len(a))
+    two_ds = 2.0 / (len(a) - 1)
+    most = np.zeros(len(a))
+    for i in range(len(a) - 2, -1, -1):
+        most[i] = _reaches_next(a[i], b[i], c[i], limits, top[i], most[i + 1], two_ds)
+    x = np.zeros(len(a))
+    for i in range(len(a) - 1):
+        _, up = _range(a[i], b[i] * x[i] + c[i], limits)
         x[i + 1] = max(0.0, min(most[i + 1], x[i] + two_ds * up))
     return x
 
 
-def travel_time(x: ArrayLike) -> float:
-    """Return how long a path takes whose sd^2 at N + 1 even points is x.
+def travel_time(sd2: ArrayLike) -> float:
+    """Return how long a path takes whose sd^2 at N + 1 even points is sd2.
 
     sdd is constant over a step, so its mean speed is that of its ends.
 
     Args:
-        x: sd^2, 1/s^2, (N + 1,).
+        sd2: sd^2, 1/s^2, (N + 1,).
 
     Returns:
         s; infinity where it stands still.
     """
-    sd = np.sqrt(checks.not_negative(checks.array(x, "x", ("n",)), "x"))
+    sd = np.sqrt(checks.not_negative(checks.array(sd2, "sd2", ("n",)), "sd2"))
     ends = sd[1:] + sd[:-1]
     if np.any(ends == 0.0):
         return math.inf
@@ -341,14 +345,14 @@ def _disc_edge_free(a: Array, b: Array, discs: Array) -> bool:
     return bool(np.all(gaps > discs[:, 2]))
 
 
-def _edge_free(a: Array, b: Array, world: Array | Checker) -> bool:
+def _edge_free(a: Array, b: Array, world: Array | CollisionChecker) -> bool:
     if isinstance(world, np.ndarray):
         return _disc_edge_free(a, b, world)
     return bool(world.edge_free(a, b))
 
 
 def _extend(
-    tree: Array, sample: Array, step: float, world: Array | Checker
+    tree: Array, sample: Array, step: float, world: Array | CollisionChecker
 ) -> tuple[int, Array, bool]:
     i = _nearest(tree, sample)
     q = _steer(tree[i], sample, step)
@@ -360,7 +364,7 @@ def _grow(
     parents: list[int],
     target: Array,
     step: float,
-    world: Array | Checker,
+    world: Array | CollisionChecker,
 ) -> bool:
     """Add a node towards the target if the edge is free; return whether it was."""
     i, q, free = _extend(np.array(nodes), target, step, world)
@@ -431,6 +435,6 @@ def _discs(value: ArrayLike) -> Array:
     return discs
 
 
-def _world(world: World) -> Array | Checker:
+def _world(world: World) -> Array | CollisionChecker:
     """Return a world of discs as an array, and any other as it is."""
-    return world if isinstance(world, Checker) else _discs(world)
+    return world if isinstance(world, CollisionChecker) else _discs(world)

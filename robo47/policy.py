@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks
 from robo47.checks import Array
-from robo47.planning import wilson
+from robo47.planning import wilson_interval
 
 # What the hand can do: a theta beyond it is clipped.
 LOW = np.array([-0.02, -0.02, -0.8, 0.0, -0.02, 0.0])
@@ -51,12 +51,13 @@ def observe(T_seen: ArrayLike, noise: ArrayLike) -> Array:
     return np.array([*(T[:2, 3] + noise[:2]), folded])
 
 
-def act(theta: ArrayLike, seen: ArrayLike) -> Array:
+def act(theta: ArrayLike, observation: ArrayLike) -> Array:
     """Return what the hand is to do: x, y, yaw, height, opening, lift.
 
     Args:
         theta: the policy, (6,); clipped to `LOW` and `HIGH` first.
-        seen: from `observe`, (3,): the shift is in the axes of the cube as it was seen.
+        observation: from `observe`, (3,): the shift is in the axes of the cube as it
+            was seen.
 
     Returns:
         (6,): hand's place and turn in the world, then theta's last three numbers.
@@ -65,7 +66,7 @@ def act(theta: ArrayLike, seen: ArrayLike) -> Array:
         ValueError: a wrong shape.
     """
     dx, dy, turn, *rest = np.clip(checks.array(theta, "theta", (6,)), LOW, HIGH)
-    x, y, yaw = checks.array(seen, "seen", (3,))
+    x, y, yaw = checks.array(observation, "observation", (3,))
     c = np.cos(yaw)
     s = np.sin(yaw)
     return np.array([x + c * dx - s * dy, y + s * dx + c * dy, yaw + turn, *rest])
@@ -139,7 +140,7 @@ def success_rate(success: ArrayLike) -> Array:
     won = checks.array(success, "success", ("n",))
     if won.ndim != 1 or not np.isin(won, (0.0, 1.0)).all():
         raise ValueError("success must be a vector of True and False")
-    return np.array([won.mean(), *wilson(int(won.sum()), len(won))])
+    return np.array([won.mean(), *wilson_interval(int(won.sum()), len(won))])
 
 
 def paired_difference(first: ArrayLike, second: ArrayLike) -> Array:

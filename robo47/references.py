@@ -14,18 +14,18 @@ def hold(q: Array) -> Reference:
     return lambda t: (q, np.zeros(7), np.zeros(7))
 
 
-def raised_cosine(q: Array, reach: Array) -> Reference:
-    """Return the reference that swings from q by reach and back, at rest every second.
+def raised_cosine(q: Array, amplitude: Array) -> Reference:
+    """Return a swing from q by an amplitude and back, at rest every second.
 
     Args:
         q: where it starts, (7,).
-        reach: how far each joint swings, (7,).
+        amplitude: how far each joint swings, (7,).
     """
 
     def reference(t: float) -> tuple[Array, Array, Array]:
         c, s = np.cos(np.pi * t), np.sin(np.pi * t)
-        qd = reach * np.pi * s / 2
-        qdd = reach * np.pi**2 * c / 2
-        return q + reach * (1 - c) / 2, qd, qdd
+        qd = amplitude * np.pi * s / 2
+        qdd = amplitude * np.pi**2 * c / 2
+        return q + amplitude * (1 - c) / 2, qd, qdd
 
     return reference

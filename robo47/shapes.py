@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks, kinematics, panda, se3
 from robo47.checks import Array
-from robo47.distance import reaches
+from robo47.distance import distal_radii
 from robo47.errors import Robo47Error
 from robo47.fast import near
 
@@ -159,7 +159,7 @@ class Shape:
         turned = self._ends @ np.swapaxes(T[..., :3, :3], -1, -2)
         return turned + T[..., None, :3, 3]
 
-    def apart(self, q: ArrayLike, world: World) -> Array:
+    def distances(self, q: ArrayLike, world: World) -> Array:
         """Return how far each capsule is from each thing, negative where they overlap.
 
         Args:
@@ -177,14 +177,14 @@ class Shape:
         a1 = ends[..., 1, :]
         far = []
         if len(world.ends):
-            axes = near.segments_apart(a0, a1, world.ends[:, 0], world.ends[:, 1])
+            axes = near.segment_distances(a0, a1, world.ends[:, 0], world.ends[:, 1])
             far.append(axes - world.radii)
         if len(world.boxes):
             R = world.boxes[:, :3, :3]
             t = world.boxes[:, :3, 3]
             start = ((a0 - t)[..., None, :] @ R)[..., 0, :]  # in the boxes' axes
             end = ((a1 - t)[..., None, :] @ R)[..., 0, :]
-            far.append(near.box_apart(start, end, world.half))
+            far.append(near.box_distances(start, end, world.half))
         if not far:
             return np.full((*ends.shape[:-3], 0), np.inf)
         return np.concatenate(far, axis=-1) - self.radii[:, None]
@@ -199,12 +199,12 @@ class Shape:
         Raises:
             ValueError: a wrong shape or a non-finite number.
         """
-        return self.apart(q, world).min(axis=(-1, -2), initial=np.inf)
+        return self.distances(q, world).min(axis=(-1, -2), initial=np.inf)
 
     @cached_property
-    def reach(self) -> Array:
+    def distal_radii(self) -> Array:
         """How far from each joint anything behind it can ever be, metres, (7,)."""
-        return reaches(*self.lengths)
+        return distal_radii(*self.lengths)
 
     @cached_property
     def lengths(self) -> tuple[Array, Array]:
@@ -225,8 +225,9 @@ class Shape:
     ) -> bool:
         """Return whether the straight way from q0 to q1 touches nothing.
 
-        As `robo47.distance.next_check`: a distance d frees the way for d / speed. Many
-        places are looked at together, and what they leave open is halved again.
+        As `robo47.distance.conservative_advance`: a distance d frees the way for d /
+        speed. Many places are looked at together, and what they leave open is halved
+        again.
 
         Args:
             q0, q1: joint angles, radians, (7,).
@@ -239,7 +240,7 @@ class Shape:
         q0 = checks.array(q0, "q0", (7,))
         dq = checks.array(q1, "q1", (7,)) - q0
         margin = float(checks.not_negative(margin, "margin"))
-        speed = max(float(np.abs(dq) @ self.reach), TINY)
+        speed = max(float(np.abs(dq) @ self.distal_radii), TINY)
         at_ends = self.clearance(q0 + np.array([[0.0], [1.0]]) * dq, world)
         if at_ends.min() <= margin:
             return False

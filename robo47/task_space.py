@@ -2,9 +2,10 @@
 
 Conventions: twists, errors and accelerations of the hand are (angular; linear) and
 wrenches (moment; force), both in world axes at the site. `J_site` qd =
-(omega; velocity of the site point); formulas have J for short. Only `site_bias` takes
-`J_space`. M is the mass matrix with armature. Metres, radians, newtons, kilograms.
-`n` joints, `m` rows of J_site (6 for the whole hand); leading dimensions broadcast.
+(omega; velocity of the site point); formulas have J for short. Only `bias_acceleration`
+takes `J_space`. M is the mass matrix with armature. Metres, radians, newtons,
+kilograms. `n` joints, `m` rows of J_site (6 for the whole hand); leading dimensions
+broadcast.
 
 Sources: Khatib, "A unified approach for motion and force control of robot
 manipulators", IEEE J. Robotics and Automation 3(1), 1987; Lynch and Park, Modern
@@ -43,7 +44,7 @@ def task_inertia(J_site: ArrayLike, M: ArrayLike) -> Array:
     return (Lambda + _T(Lambda)) / 2.0
 
 
-def site_bias(J_space: ArrayLike, qd: ArrayLike, p: ArrayLike) -> Array:
+def bias_acceleration(J_space: ArrayLike, qd: ArrayLike, p: ArrayLike) -> Array:
     """Return the acceleration that the hand has while the joints do not accelerate.
 
     It is Jdot qd of the site Jacobian. A joint's screw S_i is carried along by the
@@ -83,7 +84,7 @@ def osc_torque(
     J_site: ArrayLike,
     Lambda: ArrayLike,
     bias: ArrayLike,
-    drift: ArrayLike,
+    bias_acc: ArrayLike,
     acc: ArrayLike,
 ) -> Array:
     """Return the torque that gives the hand a wanted acceleration.
@@ -95,7 +96,7 @@ def osc_torque(
         J_site: site Jacobian, (..., m, n).
         Lambda: task inertia, (..., m, m).
         bias: Coriolis, centrifugal and gravity torque in N m, (..., n).
-        drift: Jdot qd, as `site_bias` returns it, (..., m).
+        bias_acc: Jdot qd, as `bias_acceleration` returns it, (..., m).
         acc: wanted (angular; linear) acceleration in rad/s2 and m/s2, (..., m).
 
     Returns:
@@ -107,11 +108,11 @@ def osc_torque(
     J = checks.array(J_site, "J_site", ("m", "n"))
     m, n = J.shape[-2:]
     Lambda = checks.array(Lambda, "Lambda", (m, m))
-    left = checks.array(acc, "acc", (m,)) - checks.array(drift, "drift", (m,))
+    left = checks.array(acc, "acc", (m,)) - checks.array(bias_acc, "bias_acc", (m,))
     return times(_T(J), times(Lambda, left)) + checks.array(bias, "bias", (n,))
 
 
-def null_torque(
+def nullspace_torque(
     J_site: ArrayLike, M: ArrayLike, Lambda: ArrayLike, tau: ArrayLike
 ) -> Array:
     """Return the part of tau that does not accelerate the hand.
@@ -138,7 +139,9 @@ def null_torque(
     return tau - (_T(J) @ Lambda @ hand_acc)[..., 0]
 
 
-def spring_wrench(e: ArrayLike, V_err: ArrayLike, K: ArrayLike, D: ArrayLike) -> Array:
+def impedance_wrench(
+    e: ArrayLike, V_err: ArrayLike, K: ArrayLike, D: ArrayLike
+) -> Array:
     """Return K e + D V_err, a spring and a damper (Modern Robotics, section 11.7).
 
     Args:
@@ -206,7 +209,7 @@ def impedance_torque(
         bias: Coriolis, centrifugal and gravity torque in N m, (..., n).
         damping: of the joints in N m s/rad, one number or (..., n).
         qd: measured velocity in rad/s, (..., n).
-        tau_null: torque that the hand does not feel, from `null_torque`, (..., n).
+        tau_null: torque that the hand does not feel, from `nullspace_torque`, (..., n).
 
     Returns:
         Joint torques in N m, (..., n).
@@ -246,11 +249,11 @@ def hybrid_wrench(
 ) -> Array:
     """Return a wrench that is a spring sideways and a wanted force downwards.
 
-    `spring_wrench`, but its z force is -force + the damper's part (Modern Robotics,
+    `impedance_wrench`, but its z force is -force + the damper's part (Modern Robotics,
     section 11.6, for a level surface).
 
     Args:
-        e, V_err, K, D: as in `spring_wrench`, with m = 6.
+        e, V_err, K, D: as in `impedance_wrench`, with m = 6.
         force: wanted push along -z in newtons, (...).
 
     Returns:
@@ -261,7 +264,7 @@ def hybrid_wrench(
     """
     V_err = checks.array(V_err, "V_err", (6,))
     D = checks.array(D, "D", (6, 6))
-    wrench = spring_wrench(checks.array(e, "e", (6,)), V_err, K, D)
+    wrench = impedance_wrench(checks.array(e, "e", (6,)), V_err, K, D)
     down = times(D, V_err)[..., 5] - checks.array(force, "force", ())
     sideways = np.broadcast_to(wrench[..., :5], (*down.shape, 5))
     return np.concatenate([sideways, down[..., None]], axis=-1)

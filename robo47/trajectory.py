@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks, screws, se3
 from robo47.checks import Array
-from robo47.lifting import carry as carry  # where labs have typed these three
+from robo47.lifting import combine_bodies as combine_bodies  # labs type these here
 from robo47.lifting import grasp_pose as grasp_pose
-from robo47.lifting import heaviest_cube as heaviest_cube
+from robo47.lifting import max_cube_mass as max_cube_mass
 from robo47.rotation_log import log_rotation
 
 # The quintic's largest speed and acceleration, times duration and its square.
@@ -48,14 +48,15 @@ def quintic_scaling(t: ArrayLike, duration: ArrayLike) -> Array:
     return np.stack([s, sd, sdd], axis=-1)
 
 
-def quintic_duration(dq: ArrayLike, v_max: ArrayLike, a_max: ArrayLike) -> Array:
+def quintic_duration(delta_q: ArrayLike, v_max: ArrayLike, a_max: ArrayLike) -> Array:
     """Return the shortest quintic within every joint's limits.
 
-    A quintic over dq that takes D peaks at 15/8 dq / D in speed and 10/sqrt(3) dq / D^2
-    in acceleration; the slowest joint decides (Modern Robotics, section 9.2.2).
+    A quintic over delta_q that takes D peaks at 15/8 delta_q / D in speed and
+    10/sqrt(3) delta_q / D^2 in acceleration; the slowest joint decides (Modern
+    Robotics, section 9.2.2).
 
     Args:
-        dq: how far each joint goes in radians, either sign, (..., n).
+        delta_q: how far each joint goes in radians, either sign, (..., n).
         v_max: speed limits in rad/s, above 0, infinity for none, one or (..., n).
         a_max: acceleration limits in rad/s2, likewise.
 
@@ -63,15 +64,17 @@ def quintic_duration(dq: ArrayLike, v_max: ArrayLike, a_max: ArrayLike) -> Array
         Duration in seconds, (...); 0 where nothing moves.
 
     Raises:
-        ValueError: wrong shape, NaN, an infinite dq, or a limit not above 0.
+        ValueError: wrong shape, NaN, an infinite delta_q, or a limit not above 0.
     """
-    dq = np.abs(checks.array(dq, "dq", ("n",)))
-    by_speed = PEAK_SPEED * dq / _limit(v_max, "v_max", dq)
-    by_acceleration = np.sqrt(PEAK_ACCELERATION * dq / _limit(a_max, "a_max", dq))
+    delta_q = np.abs(checks.array(delta_q, "delta_q", ("n",)))
+    by_speed = PEAK_SPEED * delta_q / _limit(v_max, "v_max", delta_q)
+    by_acceleration = np.sqrt(
+        PEAK_ACCELERATION * delta_q / _limit(a_max, "a_max", delta_q)
+    )
     return np.maximum(by_speed, by_acceleration).max(axis=-1)
 
 
-def joint_move(
+def joint_trajectory(
     q0: ArrayLike, q1: ArrayLike, t: ArrayLike, duration: ArrayLike
 ) -> Array:
     """Return q, qd and qdd on the straight line in joint space, with a quintic.
@@ -96,7 +99,9 @@ def joint_move(
     return start + move
 
 
-def trapezoid(t: ArrayLike, L: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
+def trapezoidal_profile(
+    t: ArrayLike, L: ArrayLike, v: ArrayLike, a: ArrayLike
+) -> Array:
     """Return position, speed and acceleration of ramp, cruise, ramp.
 
     Where L is too short to reach v it is a triangle with top speed sqrt(L a)
@@ -167,7 +172,7 @@ def quintic_coefficients(
     return np.linalg.solve(A, wanted[..., None])[..., 0]
 
 
-def straight_pose(T0: ArrayLike, T1: ArrayLike, s: ArrayLike) -> Array:
+def interpolate_pose(T0: ArrayLike, T1: ArrayLike, s: ArrayLike) -> Array:
     """Return the pose after the fraction s of a straight line and a constant turn.
 
     p = p0 + s (p1 - p0) and R = R0 exp(s log(R0^T R1)): the two are decoupled, so

@@ -11,7 +11,18 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 NEEDED = ("robo47", "numpy", "mujoco", "tqdm")
+CRASHED = 70  # the exit code where the kit itself failed; 0, 1 and 2 say other things
 OWN = os.path.join(ROOT, ".venv", "bin", "python")
+SCRIPT = getattr(sys.modules.get("__main__"), "__file__", None) or ""
+FOLDER = os.path.dirname(os.path.abspath(SCRIPT))
+SCRIPTS = os.path.realpath(os.path.join(ROOT, "scripts"))
+if SCRIPT and os.path.realpath(sys.path[0]) == os.path.realpath(FOLDER) != SCRIPTS:
+    # A lab's folder: a practice file named random.py is not Python's random.
+    sys.path.append(sys.path.pop(0))
+sys.path.insert(0, ROOT)
+from labkit.base import shell  # noqa: E402
+
+del sys.path[0]
 if os.name == "nt":
     OWN = os.path.join(ROOT, ".venv", "Scripts", "python.exe")
 
@@ -31,18 +42,14 @@ def go_on():
     """Start the script again in the kit's own Python, or say how to get one."""
     again = os.path.isfile(sys.argv[0])  # not a line typed at a prompt
     if os.environ.get("ROBO47_HANDED_ON") or not os.path.exists(OWN) or not again:
-        sys.exit(
+        end(
+            2,
             "error: the kit is not set up"
             + (" completely" if os.path.exists(OWN) else "")
-            + ". Run `make setup` (without make: python3 scripts/setup_env.py --anew)."
+            + ". Run `make setup` (without make: python3 scripts/setup_env.py --anew).",
         )
     os.environ["ROBO47_HANDED_ON"] = "1"  # once: a broken .venv must not go in circles
-    command = [OWN] + sys.argv
-    if os.name == "nt":  # execv there returns to the shell before the script has ended
-        import subprocess
-
-        sys.exit(subprocess.call(command))
-    os.execv(command[0], command)
+    shell.go_on([OWN] + sys.argv, os.environ)
 
 
 def run(name):
@@ -66,12 +73,25 @@ def explain(kind, error, trace):
     frames = traceback.extract_tb(trace)
     found = own_bug(kind, error, frames)
     if found:
-        end(1, *found)
+        end(int(os.environ.get("ROBO47_NOT_YET", 1)), *found)
     chosen = os.environ.get("MUJOCO_GL")  # which MuJoCo reads when it is imported
     if chosen and any("gl_context" in frame.filename for frame in frames):
         says = "error: MuJoCo cannot use MUJOCO_GL={} here. Unset it: unset MUJOCO_GL"
         end(2, says.format(chosen))
     sys.__excepthook__(kind, error, trace)
+    if is_kits():
+        says = "This is a fault of the kit. Please report it, with the lines above."
+        end(CRASHED, says)
+
+
+def is_kits():
+    """Return whether one of the kit's own scripts is running, or a lab of the kit."""
+    script = getattr(sys.modules.get("__main__"), "__file__", None) or ""
+    folder = os.path.dirname(os.path.realpath(script))
+    above = os.path.realpath(ROOT)
+    own = folder == os.path.join(above, "scripts")
+    lab = os.path.basename(folder) == "src" and folder.startswith(above + os.sep)
+    return bool(script) and (own or lab)
 
 
 def own_bug(kind, error, frames):
@@ -90,7 +110,18 @@ def own_bug(kind, error, frames):
         return ()
     where = "{}, line {}, in {}: {}".format(*own[-1])
     says = "{}: {}".format(kind.__name__, error).splitlines()[0]
+    if (own[-1][3] or "").startswith(("import ", "from ")):  # no function is at fault
+        return (where, says) + taken_names(folder)
     return (where, says, "Which function is it? make check DAY=" + number)
+
+
+def taken_names(folder):
+    """Return a line on each file of a folder that has a module's name."""
+    from pathlib import Path
+
+    from labkit.lesson import clash
+
+    return tuple(map(clash.sentence, clash.clashes(Path(folder))))
 
 
 def end(code, *lines):
@@ -101,6 +132,7 @@ def end(code, *lines):
     os._exit(code)
 
 
+shell.leave(ROOT)
 sys.excepthook = explain
 if not here():
     go_on()

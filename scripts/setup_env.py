@@ -12,13 +12,19 @@ behind. Two at once wait for each other. Uses `uv` where it is installed.
 
 # Runs on a bare Python, so: the standard library alone, and no syntax (f-strings,
 # annotations) that would keep Python 2.7 or 3.6 from saying that it is too old.
+import os
+import sys
+
+TOP = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, TOP)
+from labkit.base import shell
+
+shell.leave(TOP)
 import errno
 import hashlib
-import os
 import re
 import shutil
 import subprocess
-import sys
 
 OLDEST = (3, 11)
 
@@ -56,9 +62,11 @@ def find_python():
 def ask(python, imports):
     """Return the version of a Python that can import something, or None."""
     code = imports + "; import sys; print('%d %d' % sys.version_info[:2])"
-    try:
+    try:  # -I: what it finds is in its environment, and not in this folder
         process = subprocess.Popen(
-            [str(python), "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+            [str(python), "-I", "-c", code],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
         )
         said = process.communicate()[0].split()
     except OSError:
@@ -74,8 +82,7 @@ if sys.version_info[:2] < OLDEST:  # go on in one that is new enough
     sys.exit(subprocess.call([newer, os.path.abspath(__file__)] + sys.argv[1:]))
 from pathlib import Path
 
-ROOT = Path(os.path.abspath(__file__)).parent.parent
-sys.path.insert(0, str(ROOT))
+ROOT = Path(TOP)
 from labkit.base import cli, processes
 from labkit.base.store import alone, replace
 
@@ -88,7 +95,10 @@ WITHOUT_WHEELS = {(3, 15): ("bench", "grade", "notebook", "site", "trajectory", 
 UNRESOLVED = re.compile(
     "ResolutionImpossible|No matching distribution|No solution found"
 )
-OLDER = "An older Python has all: make setup PYTHON=python3.14, then run make again."
+NEWEST = (3, 14)  # for which everything has wheels
+OLDER = "An older Python has all: make setup PYTHON=python{}.{}, then run make again."
+# A MUJOCO_GL that MuJoCo refuses is no fault of the install.
+IMPORTED = "import os; os.environ.pop('MUJOCO_GL', 0); import robo47, numpy, mujoco"
 DISK_FULL = ("the disk is full.", "Free about 1 GB, then run make again.")
 
 
@@ -135,10 +145,20 @@ def write_stamp(path):
 
 
 def run(command, doing):
-    """Run a quiet command; return its exit code and what it said."""
+    """Run a quiet command; return its exit code and what it said.
+
+    Of a person's settings pip and uv get what leads them to their packages.
+    """
     say(doing + " ...")
-    done = processes.run(command, cwd=ROOT)
+    pip = command[1:3] == ["-m", "pip"]
+    settings = shell.for_pip(command[0]) if pip else shell.for_installer(os.environ)
+    done = processes.run(command, cwd=ROOT, env=settings)
     return done.returncode, done.stdout + done.stderr
+
+
+def last_lines(said):
+    """Return the last lines of what an installer said."""
+    return "\n".join(filter(str.strip, said.splitlines()[-8:]))[-1500:]
 
 
 def make_venv(venv, python, uv):
@@ -166,7 +186,7 @@ def make_venv(venv, python, uv):
     stop("could not make it:\n" + said[-1500:], "Fix that and run make again.")
 
 
-def install(venv, extras, uv):
+def install(venv, extras, uv, version):
     """Install the kit, editable, with some extras, at the pinned versions."""
     named = ",".join(extra for extra in extras if extra != "core")
     what = ".[" + named + "]" if named else "."
@@ -182,8 +202,25 @@ def install(venv, extras, uv):
         mark.touch()
     what = ", ".join(extras)
     code, said = run(command, "installing robo47 (" + what + "), a minute at most")
-    if code == 0:
-        return
+    if code:
+        explain(code, said, what, version)
+    if ask(venv / processes.IN_VENV, IMPORTED) is None:
+        stop(
+            "the install ended without an error, and yet its packages cannot be"
+            " imported:\n" + failure(venv),
+            "Make it anew: make setup",
+        )
+
+
+def failure(venv):
+    """Return the last line of what stops the import of what was installed."""
+    python = str(venv / processes.IN_VENV)
+    said = processes.run([python, "-I", "-c", IMPORTED]).stderr
+    return last_lines(said).rpartition("\n")[2]
+
+
+def explain(code, said, what, version):
+    """End with why an installer failed, in its own last words, and what to do."""
     if OFFLINE.search(said):
         stop(
             "the package index cannot be reached.",
@@ -191,15 +228,25 @@ def install(venv, extras, uv):
         )
     if "No space left" in said:
         stop(*DISK_FULL)
+    if UNRESOLVED.search(said) and version > NEWEST:
+        says = "something in {} has no wheel for Python {}.{}:\n{}"
+        stop(says.format(what, *(version + (last_lines(said),))), OLDER.format(*NEWEST))
     if UNRESOLVED.search(said):
-        stop("something in {} has no wheel for this Python.".format(what), OLDER)
+        stop(
+            "the package index has not all that "
+            + what
+            + " needs:\n"
+            + last_lines(said),
+            "Another index (yours: python3 -m pip config list), or a 64-bit\n"
+            "       Python of python.org may have it; then run make again.",
+        )
     if code < 0 or not said.strip():  # a signal, or an end without a word
         stop(
             "the install ended without saying why (code {}): killed, perhaps for"
             " want of memory.".format(code),
             "Close other programs (it needs about 1 GB), then run make again.",
         )
-    stop("could not install:\n" + said[-1500:], "Fix that and run make again.")
+    stop("could not install:\n" + last_lines(said), "Fix that and run make again.")
 
 
 def provide(venv, anew, uv):
@@ -231,9 +278,10 @@ def bring(venv, extras, anew):
     lacking = [e for e in missing if e in WITHOUT_WHEELS.get(version, ())]
     if lacking:
         says = "Python {}.{} is too new for ".format(*version) + ", ".join(lacking)
-        stop(says + ": something in it has no wheel yet.", OLDER)
+        says += ": something in it has no wheel yet."
+        stop(says, OLDER.format(*NEWEST))
     if missing:
-        install(venv, missing, uv)
+        install(venv, missing, uv, version)
     for extra in extras:
         write_stamp(stamps[extra])
         (venv / (".installing-" + extra)).unlink(missing_ok=True)

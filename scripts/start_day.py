@@ -1,3 +1,7 @@
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # also under -P
 import kit
 
 kit.run("start")  # labkit/commands/start.py

@@ -70,7 +70,7 @@ def test_the_sites_acceleration_at_steady_joints_is_mj_jac_dots(motions):
         point = data.site_xpos[site.id].copy()
         mujoco.mj_jacDot(model, data, v, omega, point, int(site.bodyid[0]))
         truth = np.concatenate([omega @ row, v @ row])
-        assert_same(now.site_bias(row), truth, 1e-12)
+        assert_same(now.bias_acceleration(row), truth, 1e-12)
 
 
 def test_the_pieces_are_those_of_the_plain_functions(motions):

@@ -204,3 +204,23 @@ def test_the_matrix_covers_the_floor_and_the_pin_of_the_lists():
     )
     assert f"mujoco=={newest} " in (ROOT / "constraints.txt").read_text("utf-8")
     assert matrix.find_python("2.0") is None
+
+
+def test_the_matrix_finds_what_pyenv_has_and_has_not_chosen(monkeypatch, tmp_path):
+    own = tmp_path / "versions" / "2.0.1" / "bin" / "python"
+    own.parent.mkdir(parents=True)
+    own.write_text("#!/bin/sh\nexec true\n")
+    own.chmod(0o755)
+    monkeypatch.setenv("PYENV_ROOT", str(tmp_path))
+    assert matrix.find_python("2.0") == str(own)
+    assert matrix.find_python("2.1") is None
+
+
+@pytest.mark.parametrize("in_ci", ["", "1"])
+def test_a_python_that_is_missing_is_named_and_fails_in_ci(monkeypatch, capsys, in_ci):
+    monkeypatch.setenv("ROBO47_CI", in_ci)
+    monkeypatch.setattr(sys, "argv", ["test_matrix.py", "--python", "2.0"])
+    assert matrix.main() == (1 if in_ci else 0)
+    assert (
+        "left out  Python 2.0, MuJoCo 3.3.0: no such Python" in capsys.readouterr().out
+    )

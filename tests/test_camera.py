@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from robo47 import camera, eye, se3
+from robo47 import camera, depth_camera, se3
 from robo47.errors import Robo47Error
 from robo47.rotation_log import log_pose
 from robo47.screws import adjoint, skew
@@ -70,7 +70,7 @@ def test_a_point_is_seen_where_mujocos_camprojection_sensor_sees_it(scene):
     for _ in range(50):
         data.mocap_pos[0] = rng.uniform((0.3, -0.3, 0.2), (0.7, 0.3, 0.4))
         mujoco.mj_forward(model, data)
-        K, T_world_cam = eye.camera(model, data, "eye")
+        K, T_world_cam = depth_camera.camera(model, data, "eye")
         p = data.site("corner").xpos[None]
         seen = camera.project(K, se3.inverse(T_world_cam), p)
         assert_same(seen[0], data.sensor("seen").data, 1e-10)
@@ -78,11 +78,11 @@ def test_a_point_is_seen_where_mujocos_camprojection_sensor_sees_it(scene):
 
 def test_the_depth_image_of_a_table_is_a_cloud_in_its_plane(scene):
     model, data = scene
-    K, T_world_cam = eye.camera(model, data, "eye")
-    image = eye.depth(model, data, "eye")
+    K, T_world_cam = depth_camera.camera(model, data, "eye")
+    image = depth_camera.depth(model, data, "eye")
     assert image.shape == (240, 320)
     near = np.isfinite(image).ravel()
-    pixels = eye.middles(320, 240)[near]
+    pixels = depth_camera.pixel_centres(320, 240)[near]
     cloud = camera.back_project(K, T_world_cam, pixels, image.ravel()[near])
     assert near.mean() > 0.5
     top = cloud[cloud[:, 2] > 0.1999]  # its edge shows the sides, too
@@ -96,12 +96,12 @@ def test_where_there_is_nothing_the_depth_is_infinite():
     hidden = mujoco.MjModel.from_xml_string(SCENE.replace("1.15 .1 .9", "1.15 .1 -9"))
     data = mujoco.MjData(hidden)
     mujoco.mj_forward(hidden, data)
-    assert np.isinf(eye.depth(hidden, data, "eye")).all()
+    assert np.isinf(depth_camera.depth(hidden, data, "eye")).all()
 
 
 def test_a_camera_that_is_not_there_is_named_with_those_that_are(scene):
     with pytest.raises(Robo47Error, match=r"no camera 'nose'; it has \['eye'\]"):
-        eye.camera(*scene, "nose")
+        depth_camera.camera(*scene, "nose")
 
 
 def test_the_matrix_of_a_right_angle_has_half_the_height_as_focal_length():
@@ -146,14 +146,14 @@ def test_a_mirrored_cloud_still_gives_a_rotation():
 @given(st.lists(st.floats(-3, 3), min_size=6, max_size=6))
 def test_a_pose_moves_by_scipys_exponential_of_the_twist(xi):
     T = poses(1)[0]
-    assert_same(camera.moved(T, xi), exp_of(np.array(xi)) @ T, 1e-12)
+    assert_same(camera.apply_twist(T, xi), exp_of(np.array(xi)) @ T, 1e-12)
 
 
 @pytest.mark.parametrize("size", [0.0, 1e-200, 1e-9, 1e-3])
 def test_a_pose_moves_by_a_small_twist_too(size):
     xi = size * rng.normal(size=(2, 6))
     xi[1, :3] = 0  # a slide
-    moved = camera.moved(np.eye(4), xi)
+    moved = camera.apply_twist(np.eye(4), xi)
     for ours, one in zip(moved, xi, strict=True):
         assert_same(ours, exp_of(one), 1e-15)
 
@@ -165,7 +165,7 @@ def test_a_pose_is_found_from_its_pixels_from_17_degrees_and_50_mm_away():
         T[:3, 3] = (*rng.uniform(-0.15, 0.15, 2), rng.uniform(0.6, 1.0))
         pixels = camera.project(eye_K, T, corners)
         xi = np.append(rng.normal(scale=0.17, size=3), rng.normal(scale=0.03, size=3))
-        away = camera.moved(se3.make_T(np.eye(3), T[:3, 3]), xi)
+        away = camera.apply_twist(se3.make_T(np.eye(3), T[:3, 3]), xi)
         guess = se3.make_T(away[:3, :3] @ T[:3, :3], T[:3, 3] + xi[3:])
         assert_same(camera.refine_pose(eye_K, guess, corners, pixels), T, 1e-10)
 
@@ -235,7 +235,7 @@ def test_the_step_of_icp_is_kabsch_on_the_nearest_points():
         (lambda: camera.project(K, np.eye(3), [[0, 0, 1]]), "T_cam_world has shape"),
         (lambda: camera.back_project(K, np.eye(4), [[1, 2]], [1, 2]), "depth has"),
         (lambda: camera.projection_jacobian(K, [[0, 0, 0]]), "depth of p_cam is 0"),
-        (lambda: camera.kabsch(np.eye(3), np.eye(4)[:, :3]), "B has shape"),
+        (lambda: camera.kabsch(np.eye(3), np.eye(4)[:, :3]), "target has shape"),
         (lambda: camera.hand_eye(np.eye(4), np.eye(4)), "A has shape"),
     ],
 )
@@ -248,6 +248,6 @@ def test_moving_the_camera_is_moving_the_world_the_other_way():
     p, xi = before_the_camera(10), rng.normal(scale=1e-7, size=6)
     T = poses(1, 0.1, 0.05)[0]
     T[2, 3] = 1.0
-    seen = camera.project(K, camera.moved(T, xi), p)
+    seen = camera.project(K, camera.apply_twist(T, xi), p)
     body = adjoint(se3.inverse(T)) @ xi  # the same motion, in the object's axes
     assert_same(seen, camera.project(K, T @ exp_of(body), p), 1e-9)

@@ -23,15 +23,15 @@ SHAPES = {
     "gravity_torque": [(6, 7), (7,), (7, 3), (3,)],
     "computed_torque": [(7, 7), (7,), (7,), (7,), (7,), (7,), (7,), (), ()],
     "task_inertia": [(6, 7), (7, 7)],
-    "site_bias": [(6, 7), (7,), (3,)],
-    "null_torque": [(6, 7), (7, 7), (6, 6), (7,)],
-    "spring_wrench": [(6,), (6,), (6, 6), (6, 6)],
+    "bias_acceleration": [(6, 7), (7,), (3,)],
+    "nullspace_torque": [(6, 7), (7, 7), (6, 6), (7,)],
+    "impedance_wrench": [(6,), (6,), (6, 6), (6, 6)],
     "critical_damping": [(6,), (6, 6)],
     "impedance_torque": [(6, 7), (6,), (7,), (7,), (7,), (7,)],
-    "joint_move": [(7,), (7,), (), ()],
+    "joint_trajectory": [(7,), (7,), (), ()],
     "quintic_scaling": [(), ()],
-    "straight_pose": [(4, 4), (4, 4), ()],
-    "carry": [(), (3,), (3, 3), (), (3,), (3, 3)],
+    "interpolate_pose": [(4, 4), (4, 4), ()],
+    "combine_bodies": [(), (3,), (3, 3), (), (3,), (3, 3)],
 }
 
 
@@ -153,8 +153,10 @@ def test_the_ablations_change_one_thing_each():
 
 def test_a_missing_function_is_named_before_anything_moves():
     fns = capstone.library()
-    del fns.carry, fns.fk_space
-    with pytest.raises(Robo47Error, match="calls fk_space, carry, which was not given"):
+    del fns.combine_bodies, fns.fk_space
+    with pytest.raises(
+        Robo47Error, match="calls fk_space, combine_bodies, which was not given"
+    ):
         capstone.pick(fns)
 
 

@@ -23,10 +23,10 @@ def right(number, name):
 
 
 def test_a_lost_sign_is_not_right_whenever_one_entry_is_not_0():
-    def spring_wrench(e, V_err, K, D):
+    def impedance_wrench(e, V_err, K, D):
         return K @ np.abs(e) + D @ V_err
 
-    assert "only one entry" not in told(6, "6.5", spring_wrench=spring_wrench)
+    assert "only one entry" not in told(6, "6.5", impedance_wrench=impedance_wrench)
 
 
 def test_a_clipped_step_is_not_right_whenever_damping_is_1():
@@ -124,13 +124,13 @@ def test_two_mistakes_at_once_are_both_told():
 
 
 def test_the_call_shown_has_a_wrong_entry():
-    def identifiable(Y, rtol):
+    def rank_and_condition(Y, rtol):
         s = np.linalg.svd(Y, compute_uv=False)
         return int(np.sum(s > rtol)), s[0] / s[-1]
 
     day = find_day(8)
     found = inprocess.verdicts(
-        day, day.source, "8.5", 1, {"identifiable": identifiable}
+        day, day.source, "8.5", 1, {"rank_and_condition": rank_and_condition}
     )
     mine, its = (
         found["8.5"]
@@ -205,12 +205,12 @@ def test_one_answer_beside_nan_names_no_mistake():
 
 
 def test_a_last_entry_of_several_sizes_is_called_so():
-    def difference(q, dt):
-        found = right(9, "difference")(q, dt)
+    def backward_difference(q, dt):
+        found = right(9, "backward_difference")(q, dt)
         found[-1] *= 1.5
         return found
 
-    says = told(9, "9.1", difference=difference)
+    says = told(9, "9.1", backward_difference=backward_difference)
     assert "All entries are right but the last" in says
 
 
@@ -229,9 +229,9 @@ def test_a_mirror_of_axes_in_one_plane_does_not_pass():
 
 
 def test_a_range_holds_whatever_the_other_arguments_are():
-    profile = right(7, "trapezoid")
+    profile = right(7, "trapezoidal_profile")
 
-    def trapezoid(t, L, v, a):
+    def trapezoidal_profile(t, L, v, a):
         if v * v / a <= L:
             return profile(t, L, v, a)
         ramp = np.sqrt(L / a)  # with half the speed that belongs to it
@@ -242,7 +242,7 @@ def test_a_range_holds_whatever_the_other_arguments_are():
             return np.array([0.5 * a * t * t, a * t, a])
         return np.array([0.5 * a * ramp * t, a * ramp / 2, 0.0])
 
-    says = told(7, "7.4", trapezoid=trapezoid)
+    says = told(7, "7.4", trapezoidal_profile=trapezoidal_profile)
     assert "between" not in says
     assert says.endswith("It is right whenever v^2 / a <= L.")
 
@@ -258,8 +258,12 @@ def test_a_list_of_discs_is_not_right_whenever_it_is_0():
 
 
 def test_a_truth_value_does_not_grow_with_what_is_doubled():
-    def disc_edge_free(a, b, discs):  # it looks at b alone, and at half the radius
+    def segment_free_of_discs(
+        a, b, discs
+    ):  # it looks at b alone, and at half the radius
         away = np.linalg.norm(discs[:, :2] - b, axis=1)
         return bool(np.all(away > 0.5 * discs[:, 2]))
 
-    assert "doubled" not in told(12, "12.2", disc_edge_free=disc_edge_free)
+    assert "doubled" not in told(
+        12, "12.2", segment_free_of_discs=segment_free_of_discs
+    )

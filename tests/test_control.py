@@ -26,21 +26,21 @@ def test_pd_is_linear_in_the_errors(e, ed, kp, kd):
 def test_the_tutorial_cases_of_day_5():
     e = np.array([0.1, 0, 0, 0, 0, 0, 0])
     assert control.pd_torque(e, 0 * e, 100, 20)[0] == 10.0
-    assert control.gains(20, 1).tolist() == [400.0, 40.0]
+    assert control.pd_gains(20, 1).tolist() == [400.0, 40.0]
     assert control.error_response(0.1, 10, 1) == pytest.approx(0.7358, abs=5e-5)
-    assert control.sag_step([0.0], [10.0], 100) == [-0.1]
+    assert control.pd_equilibrium_step([0.0], [10.0], 100) == [-0.1]
     acc, integral = control.pid_step([1.0], [0.0], [0.0], 0.0, 0.0, 2.0, 0.1, 1.0)
     assert integral == pytest.approx([0.1])
     assert acc == pytest.approx([0.2])
     assert control.saturate([100.0], [87.0]) == [87.0]
-    assert control.stiffest_omega(0.002) == pytest.approx(414.2, abs=0.05)
+    assert control.max_stable_omega(0.002) == pytest.approx(414.2, abs=0.05)
     q = np.arange(7.0)
     assert_same(control.servo_ctrl(0 * q, q, 0 * q, 4500, 450), q)
 
 
 @given(st.floats(0.5, 50), zetas)
 def test_the_error_response_agrees_with_scipys_matrix_exponential(omega, zeta):
-    kp, kd = control.gains(omega, zeta)
+    kp, kd = control.pd_gains(omega, zeta)
     t = np.linspace(0.0, 5.0 / omega, 20)
     falls = expm(np.array([[0.0, 1.0], [-kp, -kd]]) * t[:, None, None])  # from (1, 0)
     assert_same(control.error_response(t, omega, zeta), falls[:, 0, 0], 1e-8)
@@ -98,12 +98,12 @@ def test_saturation_keeps_within_the_limits_and_changes_nothing_inside(tau, limi
 @pytest.mark.parametrize("h", [0.001, 0.002, 0.004])
 def test_fastest_is_where_semi_implicit_euler_stops_being_stable(h):
     def largest_eigenvalue(omega):
-        kp, kd = control.gains(omega, 1.0)
+        kp, kd = control.pd_gains(omega, 1.0)
         # qd' = qd + h qdd, q' = q + h qd': what MuJoCo's Euler does to a free mass.
         step = np.array([[1 - h * h * kp, h - h * h * kd], [-h * kp, 1 - h * kd]])
         return np.abs(np.linalg.eigvals(step)).max()
 
-    limit = control.stiffest_omega(h)
+    limit = control.max_stable_omega(h)
     assert largest_eigenvalue(0.999 * limit) < 1.0 < largest_eigenvalue(1.001 * limit)
 
 
@@ -132,11 +132,17 @@ def test_many_configurations_at_once_equal_one_at_a_time():
         (lambda: control.pd_torque([1.0] * 7, [1.0] * 6, 1, 1), r"ed has shape \(6,\)"),
         (lambda: control.pd_torque([1.0] * 7, [1.0] * 7, [1, 2], 1), "kp has shape"),
         (lambda: control.pd_torque(1.0, 1.0, 1, 1), r"e has shape \(\)"),
-        (lambda: control.gains(np.nan, 1), "omega holds a number that is not finite"),
+        (
+            lambda: control.pd_gains(np.nan, 1),
+            "omega holds a number that is not finite",
+        ),
         (lambda: control.error_response(-1.0, 1, 1), "t is -1; it must not be below 0"),
         (lambda: control.error_response(1.0, 0, 1), "omega is 0; it must be above 0"),
-        (lambda: control.sag_step([0.0], [1.0], 0), "kp is 0; it must be above 0"),
-        (lambda: control.stiffest_omega(0.0), "h is 0; it must be above 0"),
+        (
+            lambda: control.pd_equilibrium_step([0.0], [1.0], 0),
+            "kp is 0; it must be above 0",
+        ),
+        (lambda: control.max_stable_omega(0.0), "h is 0; it must be above 0"),
         (lambda: control.saturate([1.0], -1), "limits is -1"),
         (
             lambda: control.pid_step([1.0], [0.0], [0.0], 1, 1, 1, 0.1, -1),

@@ -52,13 +52,13 @@ class TestManifest:
             assert section in headings, task.id
 
     def test_each_task_is_named_where_a_paragraph_leads_to_it(self, day):
-        """By a mark, (4.2), or as "task 4.2"; not by the example of a mark alone."""
+        """By a mark, (4.2), or as "Task 4.2"; not by the example of a mark alone."""
         guide = (day.folder / day.guide).read_text("utf-8")
         prose = re.sub(r"```.*?```", "", guide, flags=re.DOTALL)
         prose = re.sub(r"(?m)^\|.*|(?:such as|after a paragraph,)\s+\(.+?\)", "", prose)
         id_ = rf"({day.number}\.\d+)"
         marks = set(re.findall(rf"\({id_}\)", prose))
-        named = marks | set(re.findall(rf"\btask {id_}\b", prose))
+        named = marks | set(re.findall(rf"\b[Tt]ask {id_}\b", prose))
         ids = {task.id for task in day.tasks}
         assert ids - named == set()
         assert marks - ids == set()

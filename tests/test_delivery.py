@@ -9,7 +9,7 @@ import pytest
 from conftest import ROOT
 from robo47 import delivery, panda, scenes, shapes
 from robo47.delivery import phases, scene
-from robo47.delivery.ways import MARGIN
+from robo47.delivery.path_planner import MARGIN
 from robo47.errors import Robo47Error
 
 FNS = delivery.library()
@@ -43,7 +43,7 @@ def test_a_cube_of_150_g_is_seen_weighed_slowed_and_delivered(right):
 
 
 def test_a_push_is_felt_one_or_two_samples_later(right):
-    assert right.pushed_link >= 4
+    assert right.contact_link >= 4
     assert 0.0 < right.noticed_ms < 25.0
 
 
@@ -51,7 +51,7 @@ def test_a_push_that_nobody_feels_or_that_is_felt_before_it_comes_is_none(right)
     for ms in (np.nan, -40.0):
         result = right._replace(noticed_ms=ms)
         assert result.failed
-        assert any("nothing is felt" in line for line in delivery.told(result).after)
+        assert any("nothing is felt" in line for line in delivery.summary(result).after)
     assert not right._replace(noticed_ms=np.nan, pushed=False).failed
 
 
@@ -93,18 +93,18 @@ class TestTheScale:
 
     def test_of_the_wrong_sign_is_asked_about_and_not_the_hand(self):
         def negative(*given):
-            return -FNS.payload_from_holds(*given)
+            return -FNS.identify_payload(*given)
 
-        result = cube(but(payload_from_holds=negative))
+        result = cube(but(identify_payload=negative))
         assert (
-            result.stopped == "it weighs -80 g: is payload_from_holds (task 8.8) right?"
+            result.stopped == "it weighs -80 g: is identify_payload (task 8.8) right?"
         )
 
     def test_sees_twice_the_weight_where_g_is_halved(self):
         def halved(J_site, R_site, extra, g):
-            return FNS.payload_from_holds(J_site, R_site, extra, 0.5 * g)
+            return FNS.identify_payload(J_site, R_site, extra, 0.5 * g)
 
-        assert abs(cube(but(payload_from_holds=halved)).grams - 160.0) < 0.1
+        assert abs(cube(but(identify_payload=halved)).grams - 160.0) < 0.1
 
 
 @pytest.mark.kit
@@ -119,7 +119,7 @@ class TestTheSpeed:
         assert result.failed
 
     def test_is_none_where_the_grip_is_too_weak(self):
-        weak = but(heaviest_cube=lambda *_: 0.02)
+        weak = but(max_cube_mass=lambda *_: 0.02)
         assert "too heavy" in cube(weak).stopped
 
 
@@ -169,7 +169,7 @@ class TestTheWay:
             cube(nothing)
 
     def test_stops_a_next_check_that_does_not_get_on(self):
-        stuck = but(next_check=lambda s, *_: 0.0)
+        stuck = but(conservative_advance=lambda s, *_: 0.0)
         cube(stuck, wall=False)  # it is pushed on a little at each look
 
 
@@ -203,7 +203,9 @@ class TestTheEye:
 
 @pytest.mark.kit
 def test_without_the_energys_slope_the_residual_is_larger():
-    flat = but(energy_slope=lambda *given: 0.0 * FNS.energy_slope(*given))
+    flat = but(
+        kinetic_energy_gradient=lambda *given: 0.0 * FNS.kinetic_energy_gradient(*given)
+    )
     assert cube(flat).residual > 1.3 * cube().residual
 
 

@@ -69,7 +69,7 @@ def test_a_capsule_and_a_box_are_apart_as_in_mujoco_while_they_are_apart():
     for T, (a0, a1) in zip(poses(100), rng.uniform(-2, 2, (100, 2, 3)), strict=True):
         r = rng.uniform(0.02, 0.1)
         half = rng.uniform(0.1, 0.6, 3)
-        ours = distance.capsule_box(a0, a1, r, T, half)
+        ours = distance.capsule_box_distance(a0, a1, r, T, half)
         if ours > 0:
             box = (mujoco.mjtGeom.mjGEOM_BOX, T[:3, 3], T[:3, :3], half)
             assert abs(ours - by_mujoco(capsule(a0, a1, r), box)) < 1e-14
@@ -83,23 +83,23 @@ def test_the_closest_points_are_those_of_scipys_bounded_least_squares():
         best = scipy.optimize.lsq_linear(A, b0 - a0, (0, 1), method="bvls", tol=1e-14)
         s, t = best.x
         theirs = [a0 + s * (a1 - a0), b0 + t * (b1 - b0)]
-        assert_same(distance.segment_segment(a0, a1, b0, b1), theirs, 1e-12)
+        assert_same(distance.closest_points_segments(a0, a1, b0, b1), theirs, 1e-12)
 
 
 @given(point, point, point, point)
 def test_no_point_of_one_segment_is_closer_to_the_other(a0, a1, b0, b1):
-    p, o = distance.segment_segment(a0, a1, b0, b1)
+    p, o = distance.closest_points_segments(a0, a1, b0, b1)
     s, t = np.meshgrid(np.linspace(0, 1, 21), np.linspace(0, 1, 21))
     a = a0 + s[..., None] * (a1 - a0)
     b = b0 + t[..., None] * (b1 - b0)
     assert np.linalg.norm(p - o) <= np.linalg.norm(a - b, axis=-1).min() + 1e-6
-    back = distance.segment_segment(b0, b1, a0, a1)
+    back = distance.closest_points_segments(b0, b1, a0, a1)
     assert abs(np.linalg.norm(p - o) - np.linalg.norm(back[0] - back[1])) < 1e-6
 
 
 def test_parallel_segments_points_and_millimetres_have_their_distance():
     def apart(*ends):
-        p, o = distance.segment_segment(*ends)
+        p, o = distance.closest_points_segments(*ends)
         return np.linalg.norm(p - o)
 
     assert apart((0, 0, 0), (2, 0, 0), (1, 1, 0), (3, 1, 0)) == 1
@@ -109,7 +109,7 @@ def test_parallel_segments_points_and_millimetres_have_their_distance():
     assert apart((0, 3, 4), (0, 3, 4), (0, 0, 0), (0, 0, 0)) == 5
     for size in (1e-6, 1e-3, 1.0, 1e3):  # a c - b^2 goes with its fourth power
         a0, a1, b0, b1 = size * np.array([(-1, 0, 0), (1, 0, 0), (0, -1, 1), (0, 1, 1)])
-        found = distance.segment_segment(a0, a1, b0, b1)
+        found = distance.closest_points_segments(a0, a1, b0, b1)
         assert_same(found, size * np.array([(0, 0, 0), (0, 0, 1)]), 1e-15 * size)
 
 
@@ -140,8 +140,8 @@ def test_a_box_that_is_moved_and_turned_is_the_box_at_the_origin_seen_from_there
         a0, a1 = rng.uniform(-1, 1, (2, 3))
         there = [T[:3, :3] @ x + T[:3, 3] for x in (a0, a1)]
         half = rng.uniform(0.1, 0.5, 3)
-        here = distance.capsule_box(a0, a1, 0.1, np.eye(4), half)
-        assert abs(distance.capsule_box(*there, 0.1, T, half) - here) < 1e-14
+        here = distance.capsule_box_distance(a0, a1, 0.1, np.eye(4), half)
+        assert abs(distance.capsule_box_distance(*there, 0.1, T, half) - here) < 1e-14
 
 
 def test_the_slope_is_what_differences_of_the_distance_say():
@@ -149,7 +149,7 @@ def test_the_slope_is_what_differences_of_the_distance_say():
     post = np.array([(0.4, 0.3, 0), (0.4, 0.3, 0.9)])
 
     def apart(q, k):
-        return np.subtract(*distance.segment_segment(*arm.ends(q)[k], *post))
+        return np.subtract(*distance.closest_points_segments(*arm.ends(q)[k], *post))
 
     def rate(q, k, step):
         ahead, back = (np.linalg.norm(apart(q + e, k)) for e in (step, -step))
@@ -158,7 +158,7 @@ def test_the_slope_is_what_differences_of_the_distance_say():
     for q in panda.READY_Q + rng.uniform(-0.5, 0.5, (5, 7)):
         J = space_jacobian(SCREWS, q)
         for k, link in enumerate(arm.links):
-            p, o = distance.segment_segment(*arm.ends(q)[k], *post)
+            p, o = distance.closest_points_segments(*arm.ends(q)[k], *post)
             slope = distance.distance_gradient(J, p, o, link)
             assert not slope[link:].any()
             for i, step in enumerate(1e-3 * np.eye(7)):  # Richardson's: 4 to 1
@@ -179,23 +179,23 @@ def test_boxes_exclude_no_pair_that_touches_and_most_that_do_not():
     for a0, a1, b0, b1 in rng.uniform(-0.4, 0.4, (500, 4, 3)):
         a1 = a0 + 0.3 * a1
         b1 = b0 + 0.3 * b1
-        A = distance.aabb(a0, a1, 0.05)
-        B = distance.aabb(b0, b1, 0.05)
+        A = distance.capsule_aabb(a0, a1, 0.05)
+        B = distance.capsule_aabb(b0, b1, 0.05)
         d = distance.capsule_distance(a0, a1, 0.05, b0, b1, 0.05)
-        assert distance.overlaps(A, B) == distance.overlaps(B, A)
-        assert distance.overlaps(A, B) or d > 0
+        assert distance.aabb_overlap(A, B) == distance.aabb_overlap(B, A)
+        assert distance.aabb_overlap(A, B) or d > 0
         touching += d <= 0
-        excluded += not distance.overlaps(A, B)
+        excluded += not distance.aabb_overlap(A, B)
     assert touching > 5
     assert excluded > 350
 
 
 def test_boxes_that_only_touch_overlap():
     A = np.array([(0, 0, 0), (1, 1, 1)])
-    assert distance.overlaps(A, A + np.eye(3)[0])
-    assert not distance.overlaps(A, A + 1.0000001 * np.eye(3)[0])
+    assert distance.aabb_overlap(A, A + np.eye(3)[0])
+    assert not distance.aabb_overlap(A, A + 1.0000001 * np.eye(3)[0])
     assert_same(
-        distance.aabb((0, 1, 0), (1, 0, 0), 0.5),
+        distance.capsule_aabb((0, 1, 0), (1, 0, 0), 0.5),
         [(-0.5, -0.5, -0.5), (1.5, 1.5, 0.5)], 0,
     )  # fmt: skip
 
@@ -210,12 +210,16 @@ def test_nothing_behind_a_joint_is_ever_farther_than_its_reach():
         behind = arm.links > i
         far = np.linalg.norm(ends[:, behind] - origins[:, i, None, None], axis=-1)
         most = (far.max(axis=-1) + arm.radii[behind]).max()
-        assert 0.7 * arm.reach[i] < most <= arm.reach[i] + 1e-12
-    assert_same(arm.reach, [1.109, 1.109, 0.793, 0.711, 0.318, 0.318, 0.230], 5e-4)
+        assert 0.7 * arm.distal_radii[i] < most <= arm.distal_radii[i] + 1e-12
+    assert_same(
+        arm.distal_radii, [1.109, 1.109, 0.793, 0.711, 0.318, 0.318, 0.230], 5e-4
+    )
 
 
 def test_a_long_link_in_the_middle_reaches_farther_than_the_tip():
-    assert_same(distance.reaches([0.1, 0.1, 0], [0.1, 2.0, 0.3]), [2.1, 2.0, 0.3], 0)
+    assert_same(
+        distance.distal_radii([0.1, 0.1, 0], [0.1, 2.0, 0.3]), [2.1, 2.0, 0.3], 0
+    )
 
 
 @given(st.lists(st.floats(-2, 2), min_size=7, max_size=7), st.floats(0, 1))
@@ -229,7 +233,7 @@ def test_the_arm_keeps_its_promise_up_to_the_next_look(dq, s):
 
     d = apart(s)
     assume(d > 0)
-    ahead = distance.next_check(s, d, dq, arm.reach)
+    ahead = distance.conservative_advance(s, d, dq, arm.distal_radii)
     assert s < ahead <= 1 or s == 1
     if ahead < 1:
         assert all(apart(x) > -1e-12 for x in np.linspace(s, ahead, 5))
@@ -237,42 +241,43 @@ def test_the_arm_keeps_its_promise_up_to_the_next_look(dq, s):
 
 def test_the_next_look_is_here_where_it_touches_and_at_the_end_if_nothing_moves():
     reach = np.full(7, 0.5)
-    found = distance.next_check(0.25, 0.1, np.ones(7), reach)
+    found = distance.conservative_advance(0.25, 0.1, np.ones(7), reach)
     assert found == pytest.approx(0.278571, abs=1e-6)
-    assert distance.next_check(0.25, -0.1, np.ones(7), reach) == 0.25
-    assert distance.next_check(0.25, 0.1, np.zeros(7), reach) == 1
-    assert distance.next_check(0.9, 9.0, np.ones(7), reach) == 1
+    assert distance.conservative_advance(0.25, -0.1, np.ones(7), reach) == 0.25
+    assert distance.conservative_advance(0.25, 0.1, np.zeros(7), reach) == 1
+    assert distance.conservative_advance(0.9, 9.0, np.ones(7), reach) == 1
 
 
 def test_slowed_speeds_are_the_nearest_allowed_ones_by_scipys_quadratic_programme():
     for qd, slope in rng.normal(size=(30, 2, 7)):
         d, gain = rng.uniform(-0.1, 0.3), rng.uniform(0.5, 5)
-        ours = distance.slowed(qd, slope, d, gain)
+        ours = distance.velocity_damper(qd, slope, d, gain)
         limit = {"type": "ineq", "fun": lambda x, s=slope, b=gain * d: s @ x + b}
         best = scipy.optimize.minimize(
             lambda x, qd=qd: (x - qd) @ (x - qd), qd, constraints=limit, tol=1e-14
         )
         assert_same(ours, best.x, 1e-6)
         assert slope @ ours >= -gain * d - 1e-12
-    assert_same(distance.slowed(qd, np.zeros(7), -0.1, 4), qd, 0)
+    assert_same(distance.velocity_damper(qd, np.zeros(7), -0.1, 4), qd, 0)
 
 
 @pytest.mark.parametrize(
     ("call", "told"),
     [
-        (lambda: distance.segment_segment([0, 0], *np.eye(3)), "a0 has shape"),
+        (lambda: distance.closest_points_segments([0, 0], *np.eye(3)), "a0 has shape"),
         (lambda: distance.capsule_distance(*np.eye(3)[:2], -1, *np.eye(3)[:2], 0),
          "ra is -1; it must not be below 0"),
-        (lambda: distance.box_sdf([0, 0, 0], [1, -1, 1]), "half is -1"),
-        (lambda: distance.capsule_box(*np.eye(3)[:2], 1, np.ones((4, 4)), [1, 1, 1]),
+        (lambda: distance.box_sdf([0, 0, 0], [1, -1, 1]), "half_extents is -1"),
+        (lambda: distance.capsule_box_distance(
+            *np.eye(3)[:2], 1, np.ones((4, 4)), [1, 1, 1]),
          "T_world_box is not a pose"),
         (lambda: distance.distance_gradient(np.eye(6), [1, 0, 0], [1, 0, 0], 1),
          "p - o has length 0"),
         (lambda: distance.distance_gradient(np.eye(6), [1, 0, 0], [0, 0, 0], 0),
          "link is 0; the arm has 1 to 6"),
-        (lambda: distance.reaches([1, 2], [1]), "far has shape"),
-        (lambda: distance.next_check(0, 1, [1], [-1]), "reach is -1"),
-        (lambda: distance.slowed([1], [1], 1, -4), "gain is -4"),
+        (lambda: distance.distal_radii([1, 2], [1]), "link_radii has shape"),
+        (lambda: distance.conservative_advance(0, 1, [1], [-1]), "radii is -1"),
+        (lambda: distance.velocity_damper([1], [1], 1, -4), "gain is -4"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_is_said_in_one_line(call, told):

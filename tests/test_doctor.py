@@ -31,7 +31,8 @@ def test_it_has_a_line_on_everything_and_names_no_home_or_user(
 ):
     done = run("scripts/doctor.py", "--json")
     lines = json.loads(done.stdout)
-    about = "kit Python platform MuJoCo robot lessons wall pictures display disk git"
+    about = "kit Python platform shell MuJoCo robot lessons names wall pictures"
+    about += " display disk git"
     assert [line["about"] for line in lines] == about.split()
     assert done.returncode == any(line["status"] == "todo" for line in lines)
     assert not done.stderr
@@ -128,8 +129,8 @@ def test_a_check_that_fails_itself_is_one_line_of_the_findings(answers, monkeypa
     answers({})
     monkeypatch.setattr(doctor, "check_disk", lambda: 1 / 0)
     lines = doctor.examine()
-    assert len(lines) == 11
-    assert "ZeroDivisionError" in lines[9].found
+    assert len(lines) == 13
+    assert "ZeroDivisionError" in lines[11].found
 
 
 @pytest.mark.parametrize(

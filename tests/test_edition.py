@@ -77,6 +77,13 @@ class TestTheEdition:
             assert f"\n{command}:" not in targets
             assert f"make {command}\n" not in (edition / "README.md").read_text("utf-8")
 
+    def test_its_readme_is_about_what_it_has(self, edition):
+        readme = (edition / "README.md").read_text("utf-8")
+        assert "[EDITION.md](EDITION.md) lists what is left out." in readme
+        for gone in ("CONTRIBUTING", "make test", "own tests", "](docs/", "bench/"):
+            assert gone not in readme, gone
+        assert "as a demonstration.\n" in readme  # before the sentence that went
+
     def test_is_written_over_an_older_one_alone(self, edition, tmp_path):
         (tmp_path / "thesis.txt").write_text("mine")
         done = run_copy(ROOT, "scripts/edition.py", tmp_path)

@@ -55,14 +55,18 @@ def test_an_encoder_says_a_whole_count_no_further_than_half_a_step(q, counts):
 
 def test_the_worked_cases_of_encoder_and_difference():
     assert_same(estimation.quantise([0.1], 4096), [65 * 2 * np.pi / 4096], 1e-15)
-    assert_same(estimation.difference([0.0, 0.1, 0.3], 0.1), [0.0, 1.0, 2.0], 1e-14)
+    assert_same(
+        estimation.backward_difference([0.0, 0.1, 0.3], 0.1), [0.0, 1.0, 2.0], 1e-14
+    )
 
 
 @given(samples)
 def test_a_difference_adds_up_to_what_was_differenced(q):
-    qd = estimation.difference(q, 0.002)
+    qd = estimation.backward_difference(q, 0.002)
     assert_same(q[0] + 0.002 * np.cumsum(qd), q, 1e-12)
-    assert_same(estimation.difference(np.transpose([q, 2 * q]), 0.002)[:, 1], 2 * qd)
+    assert_same(
+        estimation.backward_difference(np.transpose([q, 2 * q]), 0.002)[:, 1], 2 * qd
+    )
 
 
 @given(gains, gains)
@@ -169,6 +173,19 @@ def test_many_filters_run_at_once():
             assert_same(part[k], own, 1e-12)
 
 
+@pytest.mark.parametrize(("cutoff", "kept"), [(5, 0.71), (50, 0.72), (100, 0.75)])
+def test_the_amplitude_at_the_cutoff_is_what_the_docstring_gives(cutoff, kept):
+    """Where the cutoff is not far below the sampling rate, more than 0.71 is left."""
+    t = np.arange(5000) / 500.0
+    wave = np.exp(2j * np.pi * cutoff * t)
+    parts = [
+        estimation.low_pass(part, 0.002, cutoff) for part in (wave.real, wave.imag)
+    ]
+    settled = np.hypot(*parts)[-1000:]
+    assert f"{settled.mean():.2f}" == f"{kept:.2f}"
+    assert f"{kept:.2f} " in estimation.low_pass.__doc__
+
+
 @pytest.mark.parametrize(("n", "off"), [(10, 3e-3), (100, 8e-5), (1950, 3e-6)])
 def test_the_interval_of_the_nis_comes_near_to_scipys_chi2(n, off):
     for m in (1, 3):
@@ -177,44 +194,48 @@ def test_the_interval_of_the_nis_comes_near_to_scipys_chi2(n, off):
     assert_same(estimation.nis_interval(1950, 1), [0.93821, 1.06374], 1e-5)
 
 
-def test_whiteness_is_numpys_correlation_of_neighbours_and_small_for_noise():
+def test_the_autocorrelation_is_numpys_correlation_of_neighbours_and_small_for_noise():
     noise = np.random.default_rng(9).normal(size=2000)
-    said = estimation.whiteness(noise)
+    said = estimation.lag1_autocorrelation(noise)
     assert said == pytest.approx(np.corrcoef(noise[1:], noise[:-1])[0, 1], abs=1e-3)
     assert abs(said) < 1.96 / np.sqrt(2000)
-    assert estimation.whiteness(np.cumsum(noise)) > 0.9
-    assert estimation.whiteness(np.resize([1.0, -1.0], 100)) == pytest.approx(-0.99)
+    assert estimation.lag1_autocorrelation(np.cumsum(noise)) > 0.9
+    assert estimation.lag1_autocorrelation(
+        np.resize([1.0, -1.0], 100)
+    ) == pytest.approx(-0.99)
 
 
 @given(arrays(np.float64, 12, elements=numbers), st.floats(0.1, 9.0), numbers)
-def test_whiteness_knows_no_unit_and_no_offset(y, scale, offset):
+def test_the_autocorrelation_has_no_unit_and_no_offset(y, scale, offset):
     assume(np.ptp(y) > 0.1)
-    said = estimation.whiteness(y)
+    said = estimation.lag1_autocorrelation(y)
     assert -1.0 <= said <= 1.0
-    assert estimation.whiteness(scale * y + offset) == pytest.approx(said, abs=1e-9)
+    assert estimation.lag1_autocorrelation(scale * y + offset) == pytest.approx(
+        said, abs=1e-9
+    )
 
 
-def test_the_energy_slope_is_the_transposed_coriolis_matrix_on_either_panda(
+def test_the_energys_gradient_is_the_transposed_coriolis_matrix_on_either_panda(
     either_panda,
 ):
     _, qd, J, G = moving(either_panda)
     C = dynamics.coriolis_matrix(J, G, qd)
     truth = np.einsum("kij,ki->kj", C, qd)
-    assert_same(estimation.energy_slope(J, G, qd), truth, 1e-12)
+    assert_same(estimation.kinetic_energy_gradient(J, G, qd), truth, 1e-12)
 
 
-def test_pinocchio_agrees_on_the_energy_slope(either_panda):
+def test_pinocchio_agrees_on_the_energys_gradient(either_panda):
     kept = json.loads((DATA / "dynamics_oracle.json").read_text())["panda_nohand"]
     arm = panda.arm(either_panda)
     # MuJoCo 3 reproduces the file's inertias, which Pinocchio reads, to 5e-7.
     tol = 1e-4 if mujoco.__version__.startswith("3.") else 1e-12
     for q, qd, truth in zip(kept["q"], kept["qd"], kept["slope"], strict=True):
         now = arm.at(q)
-        slope = estimation.energy_slope(now.J_space, now.G, qd)
+        slope = estimation.kinetic_energy_gradient(now.J_space, now.G, qd)
         assert_same(slope, np.array(truth), tol)
 
 
-def test_the_energy_slope_is_a_difference_of_mujocos_kinetic_energy(either_panda):
+def test_the_energys_gradient_is_a_difference_of_mujocos_kinetic_energy(either_panda):
     q, qd, J, G = moving(either_panda)
     model = either_panda
     data = mujoco.MjData(model)
@@ -231,14 +252,14 @@ def test_the_energy_slope_is_a_difference_of_mujocos_kinetic_energy(either_panda
         [(energy(a + h * e, v) - energy(a - h * e, v)) / (2 * h) for e in np.eye(7)]
         for a, v in zip(q, qd, strict=True)
     ])  # fmt: skip
-    assert_same(estimation.energy_slope(J, G, qd), slopes, 1e-7)
+    assert_same(estimation.kinetic_energy_gradient(J, G, qd), slopes, 1e-7)
 
 
 @given(angles, numbers)
-def test_the_energy_slope_grows_with_the_square_of_the_speed(qd, factor):
+def test_the_energys_gradient_grows_with_the_square_of_the_speed(qd, factor):
     now = panda.arm(panda.load("panda_nohand")).at(panda.READY_Q)
-    slope = estimation.energy_slope(now.J_space, now.G, qd)
-    faster = estimation.energy_slope(now.J_space, now.G, factor * qd)
+    slope = estimation.kinetic_energy_gradient(now.J_space, now.G, qd)
+    faster = estimation.kinetic_energy_gradient(now.J_space, now.G, factor * qd)
     assert_same(faster, factor**2 * slope, 1e-10)
     assert slope[0] == pytest.approx(0.0, abs=1e-12)  # nothing changes about joint 1
 
@@ -249,7 +270,7 @@ def test_the_observer_follows_a_torque_as_a_low_pass_of_its_gain():
     nothing = np.zeros(2)
     for _ in range(round(1 / gain / dt)):
         p = p + pushed * dt
-        r, integral = estimation.observer_step(
+        r, integral = estimation.momentum_observer_step(
             r, integral, p, nothing, nothing, nothing, 0.0, nothing, gain, dt
         )
     assert_same(r, (1 - np.exp(-1)) * pushed, 1e-3)
@@ -260,13 +281,13 @@ def test_the_observer_knows_what_is_known():
     p, tau, slope, gravity, qd, integral = rng.normal(size=(6, 7))
     damping, dt = rng.uniform(0.1, 1, 7), 0.002
     moved = integral + (tau + slope - gravity - damping * qd) * dt
-    r, after = estimation.observer_step(
+    r, after = estimation.momentum_observer_step(
         0 * p, integral, moved, tau, slope, gravity, damping, qd, 50.0, dt
     )
     assert_same(r, np.zeros(7), 1e-14)
     assert_same(after, moved, 1e-14)
     one, nothing = np.ones(7), np.zeros(7)
-    r, after = estimation.observer_step(
+    r, after = estimation.momentum_observer_step(
         nothing, nothing, one, *[nothing] * 3, 1.0, nothing, 50.0, dt
     )
     assert_same(r, 50 * one)
@@ -274,33 +295,36 @@ def test_the_observer_knows_what_is_known():
 
 
 @given(angles, st.integers(1, 7))
-def test_the_pushed_link_is_the_last_joint_over_its_threshold(residual, joint):
+def test_the_contact_link_is_the_last_joint_over_its_threshold(residual, joint):
     threshold = np.abs(residual)
-    assert estimation.pushed_link(residual, threshold) == 0
+    assert estimation.contact_link(residual, threshold) == 0
     residual[joint - 1] = -9.0
-    assert estimation.pushed_link(residual, threshold) == joint
-    assert estimation.pushed_link(residual, 8.9) == joint
-    assert estimation.pushed_link(-residual, threshold) == joint
+    assert estimation.contact_link(residual, threshold) == joint
+    assert estimation.contact_link(residual, 8.9) == joint
+    assert estimation.contact_link(-residual, threshold) == joint
 
 
 REFUSED = {
     "counts is 0; it must be above 0": (estimation.quantise, np.ones(3), 0),
-    "q has shape (); expected (n, ...)": (estimation.difference, 1.0, 0.1),
+    "q has shape (); expected (n, ...)": (estimation.backward_difference, 1.0, 0.1),
     "x holds a number": (estimation.low_pass, [0.0, np.nan], 0.1, 1.0),
     "kd is -1": (estimation.delay_margin, 1.0, -1.0),
-    "q is -1; it must not be below 0": (estimation.constant_velocity, 1.0, -1.0),
+    "accel_psd is -1; it must not be below 0": (
+        estimation.constant_velocity, 1.0, -1.0
+    ),
     "P has shape (3, 3)": (
         estimation.kalman_predict, np.ones(2), np.eye(3), np.eye(2), np.eye(2),
     ),
     "cannot be inverted": (
         estimation.kalman_update, [1.0], [[0.0]], [1.0], [[1.0]], [[0.0]],
     ),
-    "the same": (estimation.whiteness, np.ones(5)),
-    "expected (n,)": (estimation.whiteness, np.ones((5, 2))),
+    "the same": (estimation.lag1_autocorrelation, np.ones(5)),
+    "expected (n,)": (estimation.lag1_autocorrelation, np.ones((5, 2))),
     "G has shape (6, 6, 6)": (
-        estimation.energy_slope, np.ones((6, 7)), np.ones((6, 6, 6)), np.ones(7),
+        estimation.kinetic_energy_gradient, np.ones((6, 7)), np.ones((6, 6, 6)),
+        np.ones(7),
     ),
-    "threshold is -1": (estimation.pushed_link, np.ones(7), -1.0),
+    "threshold is -1": (estimation.contact_link, np.ones(7), -1.0),
 }  # fmt: skip
 
 

@@ -183,19 +183,17 @@ def test_an_archive_that_does_not_match_its_sha256_is_refused(fetch, root, offic
     assert not (root / menagerie.PANDA).exists()
 
 
-def test_the_official_package_fills_the_folder(fetch, fresh, root, official, tmp_path):
+def test_the_official_package_fills_the_folder(fetch, fresh, root, official):
     # The real archive is out of reach of a test without a network, so the package's
     # registry is told the hash of ours: everything else is the package's own code.
-    sitecustomize = tmp_path / "pin"
-    sitecustomize.mkdir()
     digest = hashlib.sha256(official.read_bytes()).hexdigest()
-    (sitecustomize / "sitecustomize.py").write_text(f"""
+    (fresh / "sitecustomize.py").write_text(f"""
 import dataclasses, mujoco_menagerie as mm
 real = mm.get
 mm.get = lambda name: dataclasses.replace(
     real(name), sha256={digest!r}, download_size={official.stat().st_size})
 """)
-    done = fetch(PYTHONPATH=f"{sitecustomize}:{fresh}")
+    done = fetch()
     assert done.returncode == 0, done.stdout + done.stderr
     assert "mujoco-menagerie 20" in done.stdout
     record = json.loads((root / "PROVENANCE.json").read_text())

@@ -527,7 +527,7 @@ def test_copies_of_one_file_get_one_grade_and_one_failing_call(run, tmp_path):
     told = [path.read_text("utf-8") for path in (tmp_path / "feedback").iterdir()]
     assert len({text.partition("\n")[2] for text in told}) == 1
     assert "--seed 4711" in done.stdout
-    call = re.search(r"(Rz\(.+\))\[\d, \d\] is (\S+), and (\S+) is right", told[0])
+    call = re.search(r"(Rz\(.+\))\[\d, \d\] returned (\S+); expected (\S+)\.", told[0])
     mine = tmp_path / "clones" / "s00" / WEEK / "work" / DAY.script
     asked = ("1", "--task", "1.2", "--file", mine, "--seed", "4711")
     again = run("scripts/check_day.py", *asked)

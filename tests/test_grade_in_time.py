@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import zlib
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -185,6 +186,29 @@ def test_a_file_too_large_to_look_at_is_said_so_as_in_the_folder(clone):
     save(clone, "x = 1", DEADLINE + HOUR)
     handin, _, _ = read_in_time(DAY, clone, DEADLINE)
     assert "2.4 MB" in handin.unread[SCRIPT]
+
+
+@pytest.mark.parametrize("claimed", [2**40, 2**62, 2**63 - 1, 2**64])
+def test_a_size_that_only_a_header_claims_is_not_the_machines_fault(clone, claimed):
+    save(clone, "x = 1", DEADLINE - 2 * HOUR)
+    blob = "ab" + 38 * "0"
+    loose = clone / ".git" / "objects" / blob[:2] / blob[2:]
+    loose.parent.mkdir(exist_ok=True)
+    loose.write_bytes(zlib.compress(b"blob %d\0x" % claimed))
+    helper = f"100644,{blob},{WEEK}/work/helper.py"
+    git(clone, "update-index", "--add", "--cacheinfo", helper)
+    tree = git(clone, "write-tree", "--missing-ok")
+    who = ("-c", "user.name=A", "-c", "user.email=a@b")
+    made = ("commit-tree", "-p", "HEAD", "-m", "x", tree)
+    when = {f"GIT_{role}_DATE": f"{DEADLINE} +0000" for role in ("AUTHOR", "COMMITTER")}
+    head = subprocess.check_output(
+        ["git", *who, *made], cwd=clone, text=True, env={**os.environ, **when}
+    ).strip()
+    git(clone, "update-ref", "HEAD", head)
+    git(clone, "rm", "-q", "--cached", f"{WEEK}/work/helper.py")
+    save(clone, "x = 2", DEADLINE + HOUR)
+    handin, _, late = read_in_time(DAY, clone, DEADLINE)
+    assert (late, handin.files[SCRIPT]) == (1, b"x = 1")
 
 
 def test_one_blob_under_many_names_fills_no_disk(clone, monkeypatch):
@@ -416,3 +440,32 @@ def test_again_means_nobody_everybody_or_who_is_named(typed, asked, kept):
 def test_a_class_of_one_is_one_student(number, said):
     everybody = [Graded(Student("A", "a", Path()), result(4))] * number
     assert command.standings(Course(DAY, everybody)) == f"{said}{number} under way"
+
+
+def test_a_commit_that_was_pulled_in_time_is_in_time_whatever_its_clock_says(clone):
+    save(clone, "kits = 1", DEADLINE - 9 * HOUR)
+    pulled = save(clone, "right = 1", 2_050_000_000)
+    git(clone, "update-ref", f"refs/robo47/pulled/{DEADLINE - HOUR}", pulled)
+    save(clone, "late = 1", DEADLINE + HOUR)
+    package, text = collected(clone)
+    assert (text, package.commit, package.late) == ("right = 1", pulled, 1)
+    assert package.committed == DEADLINE - HOUR
+
+
+def test_a_commit_that_was_pulled_after_the_deadline_is_not(clone):
+    save(clone, "kits = 1", DEADLINE - 9 * HOUR)
+    late = save(clone, "right = 1", 2_050_000_000)
+    git(clone, "update-ref", f"refs/robo47/pulled/{DEADLINE + HOUR}", late)
+    assert collected(clone)[1] == "kits = 1"
+
+
+def test_a_commit_dated_later_than_now_is_named_and_is_not_called_not_started(clone):
+    from labkit.grade.child import grade
+
+    put(clone, {"README.md": "the kit's"})
+    commit(clone, DEADLINE - 9 * HOUR)
+    save(clone, "right = 1", 2_050_000_000)
+    package, _ = collected(clone)
+    result = grade(package, DAY)
+    assert "2034-12-17" in result.error
+    assert "not-started" not in {task.mistake for task in result.tasks}

@@ -814,6 +814,39 @@ class TestWhatDoesNotShow:
     def test_is_not_asked_of_what_does_not_pass(self):
         assert similar.hidden(["exec(x)"], []) == []
 
+    @pytest.mark.parametrize(
+        "runs",
+        [
+            "timeit.Timer(setup=DATA).timeit(1)",
+            "bdb.Bdb().run(DATA)",
+            "trace.Trace(count=0).runctx(DATA, {}, {})",
+            "cProfile.Profile().runctx(DATA, {}, {})",
+            "exec(DATA)",
+            "getattr(builtins, NAME)(DATA)",
+            "print.__self__.__dict__[NAME](DATA)",
+            "code.InteractiveInterpreter().runsource(DATA)",
+            "importlib.util.spec_from_loader(NAME, Loader(DATA))",
+            "marshal.loads(DATA)",
+            "runpy.run_path(NAME)",
+        ],
+    )
+    @pytest.mark.parametrize(
+        "data",
+        [f"DATA = '{'c$k;' * 200}'", "DATA = [\n{}]", "DATA = (1 and\n{})"],
+    )
+    def test_is_code_kept_in_text_constants_whatever_runs_it(self, runs, data):
+        many = "".join(f"'{i:04}c$k;{i * 7919:09}',\n" for i in range(60))
+        text = f"{data.replace('{}', many)}\n{RZ}{runs}\n"
+        assert similar.hidden([text], [("Rz",)])[-1].endswith(
+            "characters of text constants that are no docstrings"
+        )
+
+    def test_is_no_docstring_unless_the_file_reads_it(self):
+        text = RZ + f'def f():\n    """{"A long word. " * 80}"""\n'
+        assert similar.hidden([text], [("Rz",)]) == []
+        (says,) = similar.hidden([f"{text}x = f.__doc__\n"], [("Rz",)])
+        assert "text constants" in says
+
     def test_may_go_by_an_older_name(self):
         assert similar.hidden([RZ], [("turned", "Rz")]) == []
 

@@ -134,7 +134,7 @@ def test_what_closes_is_what_has_full_rank_and_nnls_finds_weights_for(
     W = opposite(mu, places=places)
     s = np.linalg.svd(W, compute_uv=False)
     assert np.sum(s > 1e-9 * s[0]) == rank
-    assert grasp.closes(W, weights(W)) is held
+    assert grasp.certifies_force_closure(W, weights(W)) is held
 
 
 def test_three_on_one_face_have_full_rank_and_no_balance_at_any_friction():
@@ -143,14 +143,14 @@ def test_three_on_one_face_have_full_rank_and_no_balance_at_any_friction():
         W = np.hstack([pushes(p, (0, 0, 1), mu) for p in places])
         assert np.linalg.matrix_rank(W) == 6
         assert np.linalg.norm(W @ weights(W)) > 1
-        assert not grasp.closes(W, weights(W))
+        assert not grasp.certifies_force_closure(W, weights(W))
 
 
 @given(SEEDS, st.sampled_from([1e-4, 1.0, 1e5]))
 def test_what_closes_resists_any_wrench_in_any_unit(seed, unit_of_force):
     W = unit_of_force * opposite(0.5, places=AROUND)
-    assert grasp.closes(W, np.ones(W.shape[1]))
-    assert grasp.closes(W, 1e3 * np.ones(W.shape[1]))
+    assert grasp.certifies_force_closure(W, np.ones(W.shape[1]))
+    assert grasp.certifies_force_closure(W, 1e3 * np.ones(W.shape[1]))
     asked = np.random.default_rng(seed).normal(size=6)
     asked[:3] *= 0.02  # of a cube's half width
     _, left = scipy.optimize.nnls(W, unit_of_force * asked)
@@ -161,23 +161,23 @@ def test_a_weight_of_0_or_below_proves_nothing():
     W = opposite(0.5, places=AROUND)
     w = np.ones(W.shape[1])
     null = np.linalg.svd(W)[2][-1]
-    assert grasp.closes(W, w + 0.5 * null / np.abs(null).max())
+    assert grasp.certifies_force_closure(W, w + 0.5 * null / np.abs(null).max())
     least = np.argmin(null)
     at_0 = w - w[least] / null[least] * null
     at_0[least] = 0.0  # and no rounding of it
-    assert not grasp.closes(W, at_0)
-    assert not grasp.closes(W, -w)
+    assert not grasp.certifies_force_closure(W, at_0)
+    assert not grasp.certifies_force_closure(W, -w)
 
 
 def test_a_reflex_closes_by_one_step_where_any_contact_nearly_slips():
     nearly = [[3, 4, 10]], [[0, 0, 1]], [0.6]
-    assert grasp.reflex(0.01, *nearly, 0.2, 0.002) == pytest.approx(0.008)
-    assert grasp.reflex(0.01, *nearly, 0.1, 0.002) == 0.01
-    assert grasp.reflex(-0.019, *nearly, 0.2, 0.002) == policy.LOW[4]
+    assert grasp.grip_reflex_step(0.01, *nearly, 0.2, 0.002) == pytest.approx(0.008)
+    assert grasp.grip_reflex_step(0.01, *nearly, 0.1, 0.002) == 0.01
+    assert grasp.grip_reflex_step(-0.019, *nearly, 0.2, 0.002) == policy.LOW[4]
     none = np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0)
-    assert grasp.reflex(0.01, *none, 0.2, 0.002) == 0.01
+    assert grasp.grip_reflex_step(0.01, *none, 0.2, 0.002) == 0.01
     safe = [[0, 0, 9], [3, 4, 10]], [[0, 0, 1]] * 2, [0.6, 0.6]
-    assert grasp.reflex(0.01, *safe, 0.2, 0.002) == pytest.approx(0.008)
+    assert grasp.grip_reflex_step(0.01, *safe, 0.2, 0.002) == pytest.approx(0.008)
 
 
 @given(ANY, st.floats(0.01, 1.0), st.sampled_from([0.01, 1.0, 100.0]))
@@ -185,8 +185,8 @@ def test_a_reflex_does_the_same_in_any_unit_of_force(along, share, size):
     forces = np.array([[along, 0.0, 2.0]])
     given_ = [[0.0, 0.0, 1.0]], [0.5]
     if abs(1.0 - abs(along) - share) > 1e-6:
-        one = grasp.reflex(0.01, forces, *given_, share, 0.002)
-        assert one == grasp.reflex(0.01, size * forces, *given_, share, 0.002)
+        one = grasp.grip_reflex_step(0.01, forces, *given_, share, 0.002)
+        assert one == grasp.grip_reflex_step(0.01, size * forces, *given_, share, 0.002)
 
 
 @pytest.mark.parametrize(
@@ -197,7 +197,10 @@ def test_a_reflex_does_the_same_in_any_unit_of_force(along, share, size):
         (lambda: grasp.cone_margin([1, 2, 3], [0, 0, 1], -0.5), "mu is -0.5"),
         (lambda: grasp.cone_edges([0, 0, 1], 0.5, 0), "k is 0"),
         (lambda: grasp.grasp_matrix([1, 2, 3], [0, 0, 0]), "points has shape"),
-        (lambda: grasp.closes(np.eye(6), np.ones(5)), "weights has shape"),
+        (
+            lambda: grasp.certifies_force_closure(np.eye(6), np.ones(5)),
+            "weights has shape",
+        ),
     ],
 )
 def test_what_is_no_contact_is_refused_by_name(call, says):

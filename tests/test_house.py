@@ -32,7 +32,10 @@ FLOORS = [
     "labkit.commands",
 ]
 # Names that labs and handouts have typed: three lines each.
-FACES = {f"robo47/{name}.py" for name in ("cli", "metrics", "mine", "lesson/lab")}
+FACES = {
+    f"robo47/{name}.py"
+    for name in ("cli", "metrics", "student_functions", "lesson/lab")
+}
 TAUGHT = [
     *("se3", "kinematics", "screws", "jacobian", "dynamics", "control", "task_space"),
     *("trajectory", "lifting", "identification", "rotation_log", "orientation", "dh"),

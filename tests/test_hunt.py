@@ -3,6 +3,7 @@
 import ast
 import json
 import re
+from types import SimpleNamespace
 
 import make_hunters
 import pytest
@@ -10,11 +11,14 @@ from restored import Restored
 
 from conftest import copy_kit
 from labkit import log as metrics
+from labkit.base.deadline import Deadline
+from labkit.commands import hunt
 from labkit.grade import hunts, hunts_page
 from labkit.grade.roster import find_students
 from labkit.hunt import case as cases
 from labkit.hunt import experiment, quarry, tally, written
 from labkit.hunt.script import closed_capstone, closed_lab, is_closed, opened
+from labkit.hunt.verdict import judged
 from labkit.judge.row import rows_of
 from labkit.lesson.day import all_days, days_of, find_day
 from labkit.lesson.starter import function_lines, put_back
@@ -149,6 +153,46 @@ def test_a_hunted_capstone_has_the_weeks_functions_closed():
     assert text.count("def ") == text.count("return hunted(") + 1  # and main
 
 
+def test_a_mistyped_name_is_asked_for_again(tmp_path, monkeypatch, capsys):
+    day = find_day(4)
+    script = tmp_path / "day4_dynamics.py"
+    script.write_text(closed_lab(day), "utf-8")
+    answers = iter(["mas_matrix", "  ", "mass_matrix"])
+    monkeypatch.setattr("builtins.input", lambda question: next(answers))
+    case = SimpleNamespace(of_day=day, level=1, script=script)
+    assert hunt.suspected(case) == ""  # Enter alone still runs all of it
+    said = " ".join(capsys.readouterr().out.split())
+    assert said.startswith("'mas_matrix' is no function of this hunt: ")
+    assert "mass_matrix" in said
+    assert hunt.suspected(case) == "mass_matrix"
+    assert capsys.readouterr().out == ""
+
+
+def test_a_call_passes_lists_of_numbers_as_arrays_and_all_else_as_it_is(
+    tmp_path, capfd
+):
+    script = tmp_path / "hunted_lab.py"
+    script.write_text(
+        "import numpy as np\n"
+        "def twice(x, y=0):\n    return 2 * x + y\n"
+        "def kind(x):\n    return type(x).__name__\n"
+        "class Box:\n    def __init__(self, side):\n        self.side = side\n"
+    )
+    case = SimpleNamespace(script=script)
+    for text, said in (
+        ("twice([0.1, 2])", "[0.2 4. ]"),
+        ("twice(((1, 2), (3, 4)), y=[0, 1])", "[[2. 5.]\n [6. 9.]]"),
+        ("twice(3)", "6"),
+        ("kind([Box([1])])", "list"),
+        ("kind('ab')", "str"),
+        ("Box([1, 2]).side", "[1, 2]"),
+    ):
+        assert experiment.call(case, text) == 0
+        assert capfd.readouterr().out.strip() == said
+    assert experiment.call(case, "twice([1], [1, 2, 3], 4)") != 0
+    assert "it stops: TypeError" in capfd.readouterr().err
+
+
 @pytest.mark.kit
 class TestTheCommand:
     def hunt(self, run_in, *arguments):
@@ -254,3 +298,50 @@ def test_a_class_is_graded_by_its_scripts_and_not_by_its_word(tmp_path):
     assert "the committed script does not repair it" in page
     late = list(hunts.grade(hunt, find_students(tmp_path), deadline=1_000_000_000))
     assert {one.state for one in late} == {hunts.NO_HUNT}
+
+
+def hostile_hunters():
+    """Return one hunt of each kind that once kept a whole class from its grades."""
+    first, second = make_hunters.GUILTY, make_hunters.INNOCENT
+    big = make_hunters.Hunter().suspect(first).botch(first)
+    big.text = big.text.replace("np.zeros(7)", f"np.zeros(7)  # {'x' * 120_000}")
+    infinite = make_hunters.Hunter().suspect(first).botch(first)
+    infinite.text = infinite.text.replace("np.zeros(7)", "np.inf")
+    sleeps = make_hunters.Hunter().suspect(first).botch(first).botch(second)
+    sleep = "__import__('time').sleep(1e3)"
+    sleeps.text = sleeps.text.replace("np.zeros(7)", sleep)
+    return {"big": big, "infinite": infinite, "sleeps": sleeps}
+
+
+@pytest.mark.kit
+def test_a_hostile_hunt_costs_one_grade_and_not_the_classs(tmp_path):
+    for name, hunter in hostile_hunters().items():
+        hunter.write(tmp_path / name)
+    honest = make_hunters.hunters()["found"]
+    for name in ("columns", "zz-honest"):
+        honest.write(tmp_path / name)
+    table = tmp_path / "columns" / "metrics" / "metrics.csv"
+    table.write_text(",".join("a" * 20_000) + "\n" + "1\n" * 20_000)
+    make_hunters.commit(tmp_path / "columns")
+    hunt = hunts.Hunt(make_hunters.DAY, make_hunters.LEVEL, make_hunters.SEED)
+    class_ = {
+        one.student.name: one for one in hunts.grade(hunt, find_students(tmp_path))
+    }
+    assert {name: one.state for name, one in class_.items()} == {
+        "big": hunts.UNGRADED,
+        "columns": hunts.FOUND,
+        "infinite": hunts.NAMED,
+        "sleeps": hunts.NAMED,
+        "zz-honest": hunts.FOUND,
+    }
+    assert class_["big"].why == "the hunted script is over 100 kB"
+    (odd, _) = class_["columns"].odd
+    assert "not the log's header" in odd
+
+
+def test_all_functions_of_a_hunt_have_one_deadline():
+    case = cases.draw(make_hunters.DAY, make_hunters.LEVEL, make_hunters.SEED, [])
+    hunter = hostile_hunters()["sleeps"]
+    none_left = Deadline(-1.0)
+    found = judged(case, hunter.text.encode(), 1, none_left)
+    assert [one.verdict.mistake for one in found] == ["too-slow"] * 2

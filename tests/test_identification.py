@@ -46,8 +46,8 @@ def deficient():
 
 def test_ten_numbers_are_day_4s_inertia_and_their_regressor_newton_and_eulers_wrench():
     body = bodies()
-    phi, G = identification.parameters(*body), dynamics.spatial_inertia(*body)
-    assert_same(identification.inertia_of(phi), G, 1e-12)
+    phi, G = identification.inertial_parameters(*body), dynamics.spatial_inertia(*body)
+    assert_same(identification.spatial_inertia_from_params(phi), G, 1e-12)
     V, A = rng.normal(size=(2, 20, 6))
     turned = np.swapaxes(ad(V), 1, 2) @ G @ V[..., None]
     Y = identification.link_regressor(V, A)
@@ -57,7 +57,7 @@ def test_ten_numbers_are_day_4s_inertia_and_their_regressor_newton_and_eulers_wr
 def test_the_arms_regressor_is_mj_inverse_on_either_panda(either_panda):
     arm, motion = panda.arm(either_panda), day8_mujoco.anywhere(either_panda, 8, 50)
     Y, phi = columns(arm, *motion)
-    motors = identification.motor_features(motion.qd, motion.qdd)
+    motors = identification.actuator_regressor(motion.qd, motion.qdd)
     friction = np.concatenate([arm.armature, arm.damping, np.zeros(7)])
     tau = verify.mujoco_inverse_dynamics(either_panda, *motion)
     assert_same(Y @ phi + motors @ friction, tau, 1e-11)
@@ -75,11 +75,11 @@ def test_pinocchio_agrees(either_panda):
 
 def test_rank_and_fit_are_those_of_numpy_and_scipy():
     Y, tau = deficient()
-    rank, condition = identification.identifiable(Y, 1e-9)
+    rank, condition = identification.rank_and_condition(Y, 1e-9)
     s = scipy.linalg.svdvals(Y)
     assert rank == np.linalg.matrix_rank(Y) == 5
     assert condition == pytest.approx(s[0] / s[4])
-    phi = identification.fit(Y, tau, 1e-9)
+    phi = identification.truncated_svd_fit(Y, tau, 1e-9)
     assert_same(phi, scipy.linalg.lstsq(Y, tau, cond=1e-9)[0], 1e-12)
 
 
@@ -102,24 +102,26 @@ def test_a_load_is_weighed_to_rounding_where_nothing_rubs():
     q = verify.random_q(model, 6, 8)
     extra = verify.mujoco_bias(loaded, q, 0 * q) - verify.mujoco_bias(model, q, 0 * q)
     J, R = day8_mujoco.hands(panda.arm(model), q)
-    found = identification.payload_from_holds(J, R, extra, G_EARTH)
+    found = identification.identify_payload(J, R, extra, G_EARTH)
     assert_same(found, [0.5, *0.5 * com], 1e-13)
 
 
 def test_points_make_a_body_and_a_positive_inertia_may_not():
-    phi = identification.parameters(*bodies())
-    assert identification.least_pseudo(phi).min() > 0.0
-    point = identification.parameters(2.0, [1.0, 2, 3], np.zeros((3, 3)))
-    assert_same(identification.least_pseudo(point), 0.0, 1e-13)
+    phi = identification.inertial_parameters(*bodies())
+    assert identification.min_pseudo_inertia_eig(phi).min() > 0.0
+    point = identification.inertial_parameters(2.0, [1.0, 2, 3], np.zeros((3, 3)))
+    assert_same(identification.min_pseudo_inertia_eig(point), 0.0, 1e-13)
     none = [1, 0, 0, 0, 1, 1, 3, 0, 0, 0]
-    assert np.linalg.eigvalsh(identification.inertia_of(none)).min() > 0.0
-    assert identification.least_pseudo(none) == pytest.approx(-0.5)
+    assert (
+        np.linalg.eigvalsh(identification.spatial_inertia_from_params(none)).min() > 0.0
+    )
+    assert identification.min_pseudo_inertia_eig(none) == pytest.approx(-0.5)
 
 
 REFUSED = {
-    "phi has shape (9,)": (identification.inertia_of, np.ones(9)),
-    "stack": (identification.fit, np.ones((2, 3, 4)), np.ones(2), 0.1),
-    "nothing": (identification.fit, np.zeros((3, 2)), np.ones(3), 0.1),
+    "phi has shape (9,)": (identification.spatial_inertia_from_params, np.ones(9)),
+    "stack": (identification.truncated_svd_fit, np.ones((2, 3, 4)), np.ones(2), 0.1),
+    "nothing": (identification.truncated_svd_fit, np.zeros((3, 2)), np.ones(3), 0.1),
     "2 rows leave": (identification.predict_with_sigma, np.eye(2), [1, 1], [[1, 0]], 0),
 }
 

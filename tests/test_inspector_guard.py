@@ -360,3 +360,90 @@ def test_a_viser_whose_doors_cannot_be_watched_is_not_used(viser, monkeypatch):
     monkeypatch.setattr(guard, "_watched_doors", lambda door: nullcontext([]))
     with pytest.raises(Robo47Error, match="Install the pinned one"):
         guard.LocalServer(0)
+
+
+SPACE = "curly-guide-94xq"
+FORWARDED = f"{SPACE}-{{port}}.app.github.dev"
+BY_GITHUB = [  # Host, X-Forwarded-Host, Origin, as public reports have them
+    ("localhost:{port}", FORWARDED, "http://localhost:{port}"),
+    ("localhost:{port}", FORWARDED, "https://localhost:{port}"),
+    ("localhost:{port}", FORWARDED, f"https://{FORWARDED}"),
+    ("localhost:{port}", "", "https://localhost:{port}"),
+    (FORWARDED, "", f"https://{FORWARDED}"),
+    (FORWARDED, FORWARDED, "http://localhost:{port}"),
+]
+FOREIGN = [
+    ("localhost:{port}", FORWARDED, "https://evil.example"),
+    ("localhost:{port}", FORWARDED, ""),
+    ("localhost:{port}", FORWARDED, "null"),
+    ("localhost:{port}", FORWARDED, "https://other-{port}.app.github.dev"),
+    ("localhost:{port}", FORWARDED, f"https://{SPACE}-1.app.github.dev"),  # a neighbour
+    ("localhost:{port}", FORWARDED, f"http://{FORWARDED}"),
+    ("localhost:{port}", FORWARDED, f"https://{FORWARDED}.evil.example"),
+    ("localhost:{port}", FORWARDED, "https://localhost:1"),
+    ("localhost:{port}", "evil.example", "http://localhost:{port}"),
+    ("other-{port}.app.github.dev", "", "https://other-{port}.app.github.dev"),
+    ("evil.example", FORWARDED, f"https://{FORWARDED}"),
+]
+
+
+@pytest.fixture
+def codespace(monkeypatch):
+    monkeypatch.setenv("CODESPACES", "true")
+    monkeypatch.setenv("CODESPACE_NAME", SPACE)
+    monkeypatch.delenv("GITHUB_CODESPACES_PORT_FORWARDING_DOMAIN", raising=False)
+
+
+def why_refused(server, host, via, origin, *, secret=""):
+    """Return why a WebSocket with these headers is refused, None where it may pass."""
+    from websockets.datastructures import Headers
+    from websockets.http11 import Request
+
+    headers = {"Host": host, "X-Forwarded-Host": via, "Origin": origin}
+    told = Headers({"Upgrade": "websocket"})
+    for name, value in headers.items():
+        if value:
+            told[name] = value.format(port=server.get_port())
+    return server.refusal(Request(f"/{secret or server.secret}/", told))
+
+
+@pytest.mark.parametrize(("host", "via", "origin"), BY_GITHUB)
+def test_in_a_codespace_its_own_forwarded_page_may_connect(
+    server, codespace, host, via, origin
+):
+    assert why_refused(server, host, via, origin) is None
+    assert "whole address" in why_refused(server, host, via, origin, secret="guessed")
+
+
+@pytest.mark.parametrize(("host", "via", "origin"), FOREIGN)
+def test_in_a_codespace_any_other_page_is_refused(server, codespace, host, via, origin):
+    assert why_refused(server, host, via, origin)
+
+
+@pytest.mark.parametrize(("host", "via", "origin"), BY_GITHUB)
+def test_outside_of_a_codespace_nothing_is_accepted_that_it_would_send(
+    server, monkeypatch, host, via, origin
+):
+    """But the one that is the same with every tunnel: http://localhost and its port."""
+    monkeypatch.delenv("CODESPACES", raising=False)
+    monkeypatch.setenv("CODESPACE_NAME", SPACE)
+    plain = (host, origin) == ("localhost:{port}", "http://localhost:{port}")
+    assert (why_refused(server, host, via, origin) is None) == plain
+
+
+def test_in_a_codespace_its_websocket_opens_and_its_address_is_the_forwarded_one(
+    server, codespace, monkeypatch
+):
+    from labkit.inspector import serve
+
+    port = server.get_port()
+    host, origin = f"localhost:{port}", f"https://localhost:{port}"
+    with websocket(port, f"/{server.secret}", host, origin):
+        pass
+    forwarded = f"https://{FORWARDED.format(port=port)}/{server.secret}/"
+    said = serve.where_to_look(port, server)
+    assert said[0].startswith(f"inspector: {forwarded} ")
+    assert server.url in said[1]
+    assert "ssh" not in " ".join(said)
+    monkeypatch.setenv("GITHUB_CODESPACES_PORT_FORWARDING_DOMAIN", "ports.example.org")
+    assert server.forwarded_url.startswith(f"https://{SPACE}-{port}.ports.example.org/")

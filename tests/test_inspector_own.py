@@ -223,13 +223,13 @@ def test_functions_of_all_days_answer_from_sandboxes(monkeypatch):
     monkeypatch.setattr(own, "statuses", lambda day: {"5.2": "passed"} | dict.fromkeys(
         [task.id for task in day.tasks if task.id != "5.2"], "wrong"
     ))  # fmt: skip
-    library = {"gains": None, "pd_torque": LIBRARY["double"]}
+    library = {"pd_gains": None, "pd_torque": LIBRARY["double"]}
     with own.week(library) as fns:
-        np.testing.assert_array_equal(fns.gains(20.0, 1.0), [400.0, 40.0])
+        np.testing.assert_array_equal(fns.pd_gains(20.0, 1.0), [400.0, 40.0])
         assert fns.pd_torque is LIBRARY["double"]  # the file's is wrong
         assert (fns.yours, fns.total) == (1, 2)
-        with pytest.raises(NoAnswerError, match="YOUR gains: TypeError"):
-            fns.gains(ONE)
+        with pytest.raises(NoAnswerError, match="YOUR pd_gains: TypeError"):
+            fns.pd_gains(ONE)
 
 
 def test_what_an_answer_says_cannot_become_part_of_the_page():

@@ -30,29 +30,37 @@ pytestmark = pytest.mark.kit
 
 SHOWN = {
     (1, "Chain"): "link_T joint_T",
-    (1, "Order"): "make_T Rz predict_order",
+    (1, "Order"): "make_T Rz translations_both_orders",
     (2, "Screws"): "joint_screws exp_screw fk_space dh_link dh_fk",
-    (3, "Jacobian"): "space_jacobian site_jacobian manipulability null_step solve_ik",
+    (3, "Jacobian"): "space_jacobian site_jacobian manipulability "
+    "nullspace_projection solve_ik",
     (3, "Circle"): "pose_error dls_step",
     (4, "Forces"): "link_inertias mass_matrix gravity_torque",
     (
         5,
         "Control",
-    ): "pd_torque gains error_response gravity_pd computed_torque pid_step "
-    "saturate stiffest_omega",
-    (6, "Touch"): "task_inertia null_torque spring_wrench critical_damping "
+    ): "pd_torque pd_gains error_response gravity_pd "
+    "computed_torque pid_step saturate max_stable_omega",
+    (6, "Touch"): "task_inertia nullspace_torque impedance_wrench critical_damping "
     "impedance_torque",
-    (7, "Plan"): "quintic_duration joint_move trapezoid",
-    (7, "Pick"): "quintic_scaling quintic_duration joint_move straight_pose grasp_pose "
-    "carry heaviest_cube",
-    (8, "Weigh"): "identifiable predict_with_sigma payload_from_holds",
-    (9, "Feel"): "energy_slope observer_step pushed_link",
-    (10, "Eye"): "camera_matrix project back_project projection_jacobian moved "
+    (7, "Plan"): "quintic_duration joint_trajectory trapezoidal_profile",
+    (7, "Pick"): "quintic_scaling quintic_duration joint_trajectory "
+    "interpolate_pose grasp_pose "
+    "combine_bodies max_cube_mass",
+    (8, "Weigh"): "rank_and_condition predict_with_sigma identify_payload",
+    (9, "Feel"): "kinetic_energy_gradient momentum_observer_step contact_link",
+    (10, "Eye"): "camera_matrix project back_project projection_jacobian "
+    "apply_twist "
     "refine_pose pose_covariance",
-    (11, "Near"): "segment_segment capsule_distance distance_gradient slowed",
-    (12, "Way"): "extend rrt_connect shortcut wilson path_dynamics fastest_along",
-    (13, "Best"): "qp_ik limit_prices",
-    (14, "Touch"): "cone_margin reflex cone_edges observe act reward cem_step "
+    (11, "Near"): "closest_points_segments capsule_distance distance_gradient "
+    "velocity_damper",
+    (12, "Way"): "extend rrt_connect shortcut "
+    "wilson_interval path_dynamics time_optimal_profile",
+    (13, "Best"): "qp_ik bound_multipliers",
+    (
+        14,
+        "Touch",
+    ): "cone_margin grip_reflex_step cone_edges observe act reward cem_step "
     "success_rate",
 }
 LAWS = ("with an integral (PID)", "gains outside M", "springs and gravity", "springs")

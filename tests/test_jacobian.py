@@ -73,7 +73,7 @@ def test_the_worked_cases_of_the_lesson():
     e = np.arange(6.0)
     assert_same(jacobian.dls_step(np.eye(6), e, 1.0), e / 2, 1e-15)
     assert_same(jacobian.manipulability(np.diag([1.0, 2.0, 3.0])), 6.0, 1e-15)
-    assert_same(jacobian.null_step([[1.0, 0.0]], [1.0, 1.0]), [0, 1], 1e-15)
+    assert_same(jacobian.nullspace_projection([[1.0, 0.0]], [1.0, 1.0]), [0, 1], 1e-15)
 
 
 def test_the_zero_pose_is_singular_and_ready_is_not():
@@ -176,18 +176,18 @@ def test_without_damping_the_step_is_the_pseudo_inverses():
 
 @given(matrices, steps)
 def test_the_hand_does_not_feel_the_null_step(J, dq):
-    part = jacobian.null_step(J, dq)
+    part = jacobian.nullspace_projection(J, dq)
     if np.linalg.svd(J, compute_uv=False).min() < 1e-3:
         return  # what counts as singular is ours to say
     assert_same(J @ part, np.zeros(6), 1e-9)
-    assert_same(jacobian.null_step(J, part), part, 1e-9)
+    assert_same(jacobian.nullspace_projection(J, part), part, 1e-9)
     N = null_space(J)
     assert_same(part, N @ N.T @ dq, 1e-9)
 
 
 def test_at_the_zero_pose_the_three_equal_screws_leave_two_more_ways():
     J = jacobian.space_jacobian(PANDA, np.zeros(7))
-    ways = np.array([jacobian.null_step(J, dq) for dq in np.eye(7)])
+    ways = np.array([jacobian.nullspace_projection(J, dq) for dq in np.eye(7)])
     assert_same(J @ ways.T, np.zeros((6, 7)), 1e-14)
     assert np.linalg.matrix_rank(ways) == 7 - np.linalg.matrix_rank(J) > 1
 
@@ -217,7 +217,7 @@ def test_leading_dimensions_broadcast():
     e = jacobian.pose_error(T, T[0, 0])
     assert e.shape == (4, 300, 6)
     assert jacobian.dls_step(J, e, 0.1).shape == q.shape
-    assert jacobian.null_step(J, q).shape == q.shape
+    assert jacobian.nullspace_projection(J, q).shape == q.shape
     assert jacobian.manipulability(J).shape == (4, 300)
     assert jacobian.space_jacobian(PANDA, np.empty((0, 7))).shape == (0, 6, 7)
 
@@ -234,7 +234,10 @@ def test_leading_dimensions_broadcast():
             lambda: jacobian.dls_step(np.ones((2, 3)), [1, 1], 0),
             "J is singular and dam",
         ),
-        (lambda: jacobian.null_step(np.eye(6), [np.nan] * 6), "dq holds a number that"),
+        (
+            lambda: jacobian.nullspace_projection(np.eye(6), [np.nan] * 6),
+            "dq holds a number that",
+        ),
         (lambda: jacobian.manipulability([1, 2]), r"expected \(..., m, n\)"),
     ],
 )
@@ -251,7 +254,7 @@ def test_what_a_push_costs_is_what_mujoco_puts_in_its_place():
     J = jacobian.space_jacobian(panda.screws(model), q)
     p = verify.mujoco_poses(model, q)["site:attachment_site"][:, :3, 3]
     tau = jacobian.joint_torques(J, p, F)
-    assert_same(tau, verify.mujoco_push(model, q, F), 1e-12)
+    assert_same(tau, verify.mujoco_external_torque(model, q, F), 1e-12)
     # About the origin the same wrench has another moment.
     about_0 = np.hstack([F[:, :3] + np.cross(p, F[:, 3:]), F[:, 3:]])
     assert_same(tau, jacobian.joint_torques(J, np.zeros(3), about_0), 1e-12)

@@ -193,6 +193,29 @@ def test_what_is_tried_is_measured_and_neither_judged_nor_logged(
         assert verdict not in out
 
 
+def test_what_is_tried_is_compared_with_no_prediction_for_the_unchanged_lab(
+    log, own, capsys, monkeypatch
+):
+    own.write_text(ROW.format("0.6") + ROW.replace("height", "width").format(" "))
+    monkeypatch.setattr(sys, "argv", ["lab", "--try"])
+    lab = Lab(str(own.parent / "work" / SCRIPT.name), "A lab.")
+    lab.measured("height of ee, m", 0.3)
+    lab.measured("width of ee, m", 0.4)
+    lab.predict("height of ee", 0.31, 0.3, "m")
+    out = capsys.readouterr().out
+    assert "you predicted" not in out
+    assert "Predict first" not in out
+    assert "  measured 0.3: height of ee, m\n  measured 0.4: width of ee, m\n" in out
+    assert out.count("measured 0.3:") == 1  # the lab's own prediction has its line
+
+
+def test_a_number_that_is_tried_keeps_its_sign(log, capsys, monkeypatch):
+    monkeypatch.setattr(sys, "argv", ["lab", "--try"])
+    lab_with(-294.0, [-2.0, 1.0])
+    out = capsys.readouterr().out
+    assert out == "  ----  fk by hand: -294\n  ----  fk by hand: 2\n"
+
+
 def test_what_is_not_tried_is_judged(log, capsys):
     assert lab_with(1.0).finish() == 1
     assert "FAIL  fk by hand: 1" in capsys.readouterr().out

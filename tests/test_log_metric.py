@@ -52,7 +52,7 @@ def test_a_row_is_added_from_the_shell(log, run):
         (["check=fk", "metric=err", "value=nan"], "--allow-nonfinite"),
         (["day=x", "value=abc"], "a row needs check, metric; \"day\" is 'x', not a"),
         (["day=x", "value=abc"], "\"value\" is 'abc', not a number"),
-        (["--check", *FIELDS], "not both"),
+        (["--check", *FIELDS], "or one of"),
     ],
 )
 def test_a_mistake_is_one_line_and_exit_code_2(log, words, said, run):

@@ -144,7 +144,8 @@ def test_another_name_or_a_folder_that_cannot_be_written_to_is_told(
 ):
     (tmp_path / "file").write_text("")
     monkeypatch.setattr(portrait, "draw", lambda scene, _: Image.new("RGB", scene.size))
-    monkeypatch.setattr(sys, "argv", ["", name, "--out", str(tmp_path / "file")])
+    out = str(tmp_path / "file")
+    monkeypatch.setattr(sys, "argv", ["", name, "--day", "1", "--out", out])
     with pytest.raises(Robo47Error, match=says):
         command.main()
 

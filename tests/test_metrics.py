@@ -280,8 +280,8 @@ def test_another_first_line_is_refused_with_what_to_do(log, content):
     with pytest.raises(Robo47Error) as caught:
         append_row(log, **ROW, notes="kept")
     refusal, row, *_ = str(caught.value).splitlines()
-    assert "line 1 is not the log's header. Put it there in an editor" in refusal
-    assert refusal.endswith(LINE)
+    assert "line 1 is not the log's header. " in refusal
+    assert refusal.endswith((LINE, "--convert"))
     assert "2026-09-01,1,fk," in row
     assert log.read_bytes() == content
     assert Path(f"{log}.unsaved").read_bytes().endswith(b",kept\n")

@@ -38,7 +38,7 @@ def slope_at(q):
     """Return our slope of gravity at q."""
     now = arm.at(q)
     given = now.J_space, arm.masses, now.coms_world, arm.gravity
-    return optimal.gravity_slope(*given)
+    return optimal.gravity_stiffness(*given)
 
 
 def definite(n, low=0.1):
@@ -121,9 +121,9 @@ def test_one_hinge_falls_up_or_down_as_its_weight_stands():
     J = np.array([[0.0, 1, 0, 0, 0, 0]]).T
     g = (0.0, 0.0, -9.81)
     for at, known in (((0, 0, 1), -19.62), ((0, 0, -1), 19.62), ((1, 0, 0), 0.0)):
-        assert_same(optimal.gravity_slope(J, [2], [at], g), [[known]], 1e-13)
+        assert_same(optimal.gravity_stiffness(J, [2], [at], g), [[known]], 1e-13)
     J = np.array([[0.0, 1, 0, 0, 0, 0], [0, 1, 0, -1, 0, 0]]).T
-    both = optimal.gravity_slope(J, [0, 1], [[0, 0, 0], [0, 0, 2]], g)
+    both = optimal.gravity_stiffness(J, [0, 1], [[0, 0, 0], [0, 0, 2]], g)
     assert_same(both, -9.81 * np.array([[2, 1], [1, 1]]), 1e-13)
 
 
@@ -170,7 +170,7 @@ def test_the_golden_ratio_is_what_one_of_everything_costs():
     P, K = optimal.riccati_step(np.eye(2), A, B, np.eye(2), np.eye(1))
     assert_same(P, [[2, 1], [1, 2.5]], 1e-15)
     assert_same(K, [[0, 0.5]], 1e-15)
-    assert optimal.lqr_cost(P, [1, 2]) == pytest.approx(16)
+    assert optimal.cost_to_go(P, [1, 2]) == pytest.approx(16)
 
 
 @given(st.integers(1, 5), st.integers(0, 2**32 - 1))
@@ -220,7 +220,7 @@ def test_by_hand_the_clipped_optimum_is_not_the_best():
         optimal.kkt_residual(H2, G2, -ONE, ONE, x) for x in ([0.5, 1], [-1, 1], [0, 0])
     ]
     assert_same(residual, [0, 2, 1], 1e-15)
-    assert_same(optimal.limit_prices(H2, G2, -ONE, ONE, best), [0, -7.5], 1e-15)
+    assert_same(optimal.bound_multipliers(H2, G2, -ONE, ONE, best), [0, -7.5], 1e-15)
 
 
 def test_prices_are_the_slopes_of_the_least_cost():
@@ -229,7 +229,7 @@ def test_prices_are_the_slopes_of_the_least_cost():
         H, g, lo, hi = box(4)
         hi = hi + 0.1
         x = optimal.box_qp(H, g, lo, hi, np.zeros(4))
-        prices = optimal.limit_prices(H, g, lo, hi, x)
+        prices = optimal.bound_multipliers(H, g, lo, hi, x)
         margin = np.minimum(np.abs(x - lo), np.abs(x - hi))
         if np.any((margin > 0) & (margin < 1e-3)) or np.any(
             (margin == 0) & (np.abs(prices) < 1e-3)
@@ -284,16 +284,16 @@ def test_the_backward_pass_is_one_dense_solve_of_the_whole_horizon():
         scale = np.abs(best).max()
         assert_same(np.ravel(inputs), best, 1e-10 * scale)
         saved = -cost(H, g, best)
-        assert optimal.expected_drop(drop, 1.0) == pytest.approx(saved, rel=1e-9)
+        assert optimal.expected_reduction(drop, 1.0) == pytest.approx(saved, rel=1e-9)
         for alpha in (0.5, 0.25):
             x, there = np.zeros(3), []
             for t in range(T):
                 there.append(alpha * k[t] + K[t] @ x)
                 x = parts[0][t] @ x + parts[1][t] @ there[-1]
-            promised = optimal.expected_drop(drop, alpha)
+            promised = optimal.expected_reduction(drop, alpha)
             assert -cost(H, g, np.ravel(there)) == pytest.approx(promised, rel=1e-8)
             after = cost(H, g, np.ravel(there))
-            assert optimal.accept_ratio(0.0, after, promised) == pytest.approx(1)
+            assert optimal.reduction_ratio(0.0, after, promised) == pytest.approx(1)
         assert k.shape == (T, m)
 
 
@@ -331,25 +331,26 @@ def test_mu_shortens_the_steps_and_is_in_the_cost_that_is_handed_back():
 
 
 def test_a_step_should_save_alpha_and_alpha_squared():
-    assert optimal.expected_drop([-4, 2], 1) == 2
-    assert optimal.expected_drop([-4, 2], 0.5) == 1.5
-    assert optimal.accept_ratio(5, 3.5, 2) == 0.75
+    assert optimal.expected_reduction([-4, 2], 1) == 2
+    assert optimal.expected_reduction([-4, 2], 0.5) == 1.5
+    assert optimal.reduction_ratio(5, 3.5, 2) == 0.75
 
 
 @pytest.mark.parametrize(
     ("call", "told"),
     [
-        (lambda: optimal.gravity_slope(np.eye(6), np.ones(6), np.ones((6, 3)), 9.81),
+        (lambda: optimal.gravity_stiffness(
+            np.eye(6), np.ones(6), np.ones((6, 3)), 9.81),
          "g is the number 9.81"),
         (lambda: optimal.linearise(np.eye(2), np.eye(2), ONE, 0), "h is 0"),
         (lambda: optimal.riccati_step(H2, H2, np.eye(3), H2, H2), "P has shape"),
-        (lambda: optimal.lqr_cost(np.eye(3), ONE), "P has shape"),
+        (lambda: optimal.cost_to_go(np.eye(3), ONE), "P has shape"),
         (lambda: optimal.box_qp(H2, G2, ONE, -ONE, ONE), "the box is empty"),
         (lambda: optimal.qp_ik(np.ones((6, 2)), np.ones(6), -np.ones(6), 1, -ONE, ONE),
          "must not be below 0"),
         (lambda: optimal.qp_ik(np.ones((6, 2)), np.ones(6), np.ones(6), 0, -ONE, ONE),
          "damping is 0"),
-        (lambda: optimal.accept_ratio(1, 1, 0), "expected is 0"),
+        (lambda: optimal.reduction_ratio(1, 1, 0), "expected is 0"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_is_said_in_one_line(call, told):

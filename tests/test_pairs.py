@@ -8,10 +8,10 @@ pytestmark = pytest.mark.kit
 
 
 def test_a_mistake_with_an_argument_is_made_before_any_other():
-    def spring_wrench(e, V_err, K, D):
+    def impedance_wrench(e, V_err, K, D):
         return np.diag(K) * e - np.diag(D) * V_err
 
-    says = told(6, "6.5", spring_wrench=spring_wrench)
+    says = told(6, "6.5", impedance_wrench=impedance_wrench)
     assert "Two things at once: the damper drives the hand on" in says
     assert "only the diagonals of K and D are used" in says
 
@@ -29,23 +29,23 @@ def test_a_reversed_chain_and_a_factor_on_the_wrong_side_are_told_together():
 
 
 def test_two_answers_in_the_other_order_that_both_lack_a_term():
-    def predict_order(T_world_ee, T_extra):
+    def translations_both_orders(T_world_ee, T_extra):
         R, R_extra = T_world_ee[:3, :3], T_extra[:3, :3]
         return R_extra @ T_world_ee[:3, 3], R @ T_extra[:3, 3]
 
-    says = told(1, "1.7", predict_order=predict_order)
+    says = told(1, "1.7", translations_both_orders=translations_both_orders)
     assert "own is not added; in the wrong order" in says
 
 
 def test_one_mistake_that_gives_half_of_the_wrong_numbers_is_told_with_how_many():
-    def fit(Y, tau, rtol):
+    def truncated_svd_fit(Y, tau, rtol):
         U, s, Vt = np.linalg.svd(Y, full_matrices=False)
         kept = s > rtol * s[0]
         if kept[4:].any():
             return Vt[:4].T @ (U[:, :4].T @ tau / s[:4])
         return Vt[kept].T @ (U[:, kept].T @ tau * s[kept])
 
-    says = told(8, "8.6", fit=fit)
+    says = told(8, "8.6", truncated_svd_fit=truncated_svd_fit)
     assert "In 10 of your 14 wrong answers the numbers are those of one mistake" in says
     assert "it is multiplied by the singular values" in says
     assert "The other 4 are not." in says
@@ -59,10 +59,10 @@ def test_a_mistake_that_gives_few_of_the_wrong_numbers_is_not_told():
 
 
 def test_dry_friction_that_works_one_way_is_not_that_of_slow_joints():
-    def motor_features(qd, qdd):
+    def actuator_regressor(qd, qdd):
         return np.hstack([np.diag(qdd), np.diag(qd), np.diag((qd > 0) * 1.0)])
 
-    assert "slowly" not in told(8, "8.4", motor_features=motor_features)
+    assert "slowly" not in told(8, "8.4", actuator_regressor=actuator_regressor)
 
 
 def test_a_mistake_that_would_show_where_all_is_right_is_no_part_of_it():
@@ -107,10 +107,10 @@ def test_of_a_pose_one_mistake_is_in_R_and_the_other_in_t():
 
 
 def test_blocks_of_columns_in_another_order_are_named_by_what_they_are():
-    def motor_features(qd, qdd):
+    def actuator_regressor(qd, qdd):
         return np.hstack([np.diag(qd), np.diag(np.sign(qd)), np.diag(qdd)])
 
-    says = told(8, "8.4", motor_features=motor_features)
+    says = told(8, "8.4", actuator_regressor=actuator_regressor)
     assert "in another order: viscous friction, dry friction, the rotors" in says
 
 
@@ -129,30 +129,30 @@ def test_what_is_said_to_be_right_is_right_to_the_last_digit_that_counts():
 
 
 def test_a_condition_that_no_cut_gives_is_told_nothing_of_a_cut():
-    def identifiable(Y, rtol):
-        rank, condition = right(8, "identifiable")(Y, rtol)
+    def rank_and_condition(Y, rtol):
+        rank, condition = right(8, "rank_and_condition")(Y, rtol)
         return rank, condition**9 * 1e9
 
-    says = told(8, "8.5", identifiable=identifiable)
+    says = told(8, "8.5", rank_and_condition=rank_and_condition)
     assert "rtol" not in says
     assert "values" not in says
 
 
 def test_the_rank_of_what_is_hidden_is_not_a_cut():
-    def identifiable(Y, rtol):
-        rank, condition = right(8, "identifiable")(Y, rtol)
+    def rank_and_condition(Y, rtol):
+        rank, condition = right(8, "rank_and_condition")(Y, rtol)
         return Y.shape[1] - rank, condition
 
-    assert "that are hidden" in told(8, "8.5", identifiable=identifiable)
+    assert "that are hidden" in told(8, "8.5", rank_and_condition=rank_and_condition)
 
 
 def test_a_result_that_is_right_is_said_to_be():
-    def identifiable(Y, rtol):
-        rank, _ = right(8, "identifiable")(Y, rtol)
+    def rank_and_condition(Y, rtol):
+        rank, _ = right(8, "rank_and_condition")(Y, rtol)
         s = np.linalg.svd(Y, compute_uv=False)
         return rank, s[0] / np.mean(s[:rank]) + np.log(s[0])
 
-    says = told(8, "8.5", identifiable=identifiable)
+    says = told(8, "8.5", rank_and_condition=rank_and_condition)
     assert says.startswith("The rank is right. The condition: ")
 
 

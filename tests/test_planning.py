@@ -41,7 +41,7 @@ def is_free(path, discs):
 
 
 def path_to_time(rng, n, k=3):
-    """Return what `fastest_along` takes, of a path with n steps and k joints."""
+    """Return what `time_optimal_profile` takes, of a path with n steps and k joints."""
     shape = (n + 1, k)
     A = rng.normal(size=shape).cumsum(axis=0) / math.sqrt(n) + 1.5
     B = rng.normal(size=shape).cumsum(axis=0) / math.sqrt(n)
@@ -82,13 +82,15 @@ def test_the_worked_cases_of_the_lab():
     assert_same(
         planning.path_dynamics([[2]], [3], [1], [5], [7]), [[6], [7], [7]]
     )  # fmt: skip
-    assert_same(planning.accel_range([1, 2], [0, 0], [0, 1], [4, 5], 0), [-3, 2])
-    assert_same(planning.accel_range([1, -2], [1, 0], [0, 0], [4, 5], 2), [-2.5, 0])
-    assert_same(planning.accel_range([1, 1], [0, 0], [0, 9], [4, 2], 0), [-4, -7])
+    assert_same(planning.path_accel_bounds([1, 2], [0, 0], [0, 1], [4, 5], 0), [-3, 2])
+    assert_same(
+        planning.path_accel_bounds([1, -2], [1, 0], [0, 0], [4, 5], 2), [-2.5, 0]
+    )
+    assert_same(planning.path_accel_bounds([1, 1], [0, 0], [0, 9], [4, 2], 0), [-4, -7])
     one = np.ones((5, 1))
     told = [(0, 9, [0, 2, 4, 2, 0]), (4, 9, [0, 1, 2, 3, 0]), (0, 1, [0, 1, 1, 1, 0])]
     for gravity, top, x in told:
-        found = planning.fastest_along(
+        found = planning.time_optimal_profile(
             2 * one, 0 * one, gravity * one, [8], top * one.T[0]
         )
         assert_same(found, x)
@@ -106,9 +108,9 @@ def test_the_worked_cases_of_the_lab():
     ],
 )
 def test_an_edge_is_free_beside_a_disc_and_before_it(a, b, free):
-    assert planning.disc_edge_free(a, b, DISC) is free
-    assert planning.disc_edge_free(b, a, DISC) is free
-    assert planning.disc_edge_free(a, b, NONE)
+    assert planning.segment_free_of_discs(a, b, DISC) is free
+    assert planning.segment_free_of_discs(b, a, DISC) is free
+    assert planning.segment_free_of_discs(a, b, NONE)
 
 
 @given(points, points, discs)
@@ -123,7 +125,7 @@ def test_an_edge_is_free_where_scipys_nearest_point_is_outside(a, b, discs):
         for disc in discs
     ]
     assume(abs(min(gaps)) > 1e-3)
-    assert planning.disc_edge_free(a, b, discs) == (min(gaps) > 0.0)
+    assert planning.segment_free_of_discs(a, b, discs) == (min(gaps) > 0.0)
 
 
 def test_of_equals_the_first_is_nearest():
@@ -207,16 +209,22 @@ def test_a_world_of_ones_own_says_itself_what_is_free():
 @given(st.integers(1, 200).flatmap(lambda n: st.tuples(st.integers(0, n), st.just(n))))
 def test_wilsons_interval_is_scipys(pair):
     k, n = pair
-    low, high = planning.wilson(k, n)
+    low, high = planning.wilson_interval(k, n)
     told = scipy.stats.binomtest(k, n).proportion_ci(method="wilson")
     # Its z is 1.959964, ours 1.96: with one of one that is 6e-6.
     assert_same([low, high], [told.low, told.high], 1e-5)
 
 
 def test_no_trial_makes_every_share_believable():
-    assert planning.wilson(0, 0).tolist() == [0.0, 1.0]
-    assert planning.wilson(73, 73)[0] > 0.95 - 1e-4 > planning.wilson(72, 72)[0]
-    assert planning.wilson(60, 60)[0] == pytest.approx(60 / (60 + 1.96**2), abs=1e-12)
+    assert planning.wilson_interval(0, 0).tolist() == [0.0, 1.0]
+    assert (
+        planning.wilson_interval(73, 73)[0]
+        > 0.95 - 1e-4
+        > planning.wilson_interval(72, 72)[0]
+    )
+    assert planning.wilson_interval(60, 60)[0] == pytest.approx(
+        60 / (60 + 1.96**2), abs=1e-12
+    )
 
 
 @given(st.integers(0, 2**31))
@@ -225,7 +233,7 @@ def test_torques_stay_within_their_limits_up_to_the_greatest_acceleration(seed):
     rng = np.random.default_rng(seed)
     a, b, g = rng.normal(size=(3, 7))
     limits, sd = rng.uniform(1.0, 4.0, 7), rng.uniform(0.0, 1.5)
-    low, high = planning.accel_range(a, b, g, limits, sd)
+    low, high = planning.path_accel_bounds(a, b, g, limits, sd)
     lp = [
         scipy.optimize.linprog(
             [sign], A_ub=np.append(a, -a)[:, None], bounds=(None, None),
@@ -240,37 +248,40 @@ def test_torques_stay_within_their_limits_up_to_the_greatest_acceleration(seed):
 
 def test_a_joint_that_does_not_move_limits_nothing_if_it_holds():
     lim = [4.0, 4.0]
-    assert planning.accel_range([1, 0], [0, 0], [0, 3], lim, 0).tolist() == [-4, 4]
-    held = planning.accel_range([1, 0], [0, 0], [0, 5], lim, 0)
+    assert planning.path_accel_bounds([1, 0], [0, 0], [0, 3], lim, 0).tolist() == [
+        -4,
+        4,
+    ]
+    held = planning.path_accel_bounds([1, 0], [0, 0], [0, 5], lim, 0)
     assert held.tolist() == [math.inf, -math.inf]
-    free = planning.accel_range([0, 0], [0, 0], [0, 3], lim, 0)
+    free = planning.path_accel_bounds([0, 0], [0, 0], [0, 3], lim, 0)
     assert free.tolist() == [-math.inf, math.inf]
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_the_fastest_motion_is_the_linear_programs(seed):
     given_path = path_to_time(np.random.default_rng(seed), 40)
-    x = planning.fastest_along(*given_path)
+    x = planning.time_optimal_profile(*given_path)
     assert x.max() > 0.1
     assert_same(x, by_lp(*given_path), 1e-9)
     for i in range(0, 41, 10):
         alone = list(given_path)
         alone[4] = given_path[4] * (np.arange(41) == i) + 1e-3 * (np.arange(41) != i)
-        assert_same(planning.fastest_along(*alone), by_lp(*alone), 1e-9)
+        assert_same(planning.time_optimal_profile(*alone), by_lp(*alone), 1e-9)
 
 
 def test_where_gravity_is_too_much_nothing_moves():
     one = np.ones((5, 1))
     G = one.copy()
     G[3] = 9.0
-    assert not planning.fastest_along(2 * one, 0 * one, G, [8], one[:, 0]).any()
+    assert not planning.time_optimal_profile(2 * one, 0 * one, G, [8], one[:, 0]).any()
 
 
 def test_bang_bang_takes_the_time_of_the_formula():
     one = np.ones((101, 1))
-    x = planning.fastest_along(2 * one, 0 * one, 0 * one, [8], 99 * one[:, 0])
+    x = planning.time_optimal_profile(2 * one, 0 * one, 0 * one, [8], 99 * one[:, 0])
     assert planning.travel_time(x) == pytest.approx(1.0, abs=1e-9)
-    x = planning.fastest_along(2 * one, 0 * one, 4 * one, [8], 99 * one[:, 0])
+    x = planning.time_optimal_profile(2 * one, 0 * one, 4 * one, [8], 99 * one[:, 0])
     assert planning.travel_time(x) == pytest.approx(2.0 / math.sqrt(3.0), abs=1e-9)
     assert planning.travel_time([0.0, 0.0, 1.0]) == math.inf
 
@@ -280,13 +291,19 @@ def test_bang_bang_takes_the_time_of_the_formula():
     [
         (lambda: planning.nearest([[0, 0]], [1, 2, 3]), "q has shape"),
         (lambda: planning.steer([0, 0], [1, 0], 0.0), "step is 0"),
-        (lambda: planning.disc_edge_free([0, 0], [1, 0], [[1, 2]]), "discs"),
-        (lambda: planning.disc_edge_free([0, 0], [1, 0], [[1, 2, -1]]), "radius"),
+        (lambda: planning.segment_free_of_discs([0, 0], [1, 0], [[1, 2]]), "discs"),
+        (
+            lambda: planning.segment_free_of_discs([0, 0], [1, 0], [[1, 2, -1]]),
+            "radius",
+        ),
         (lambda: planning.rrt_connect([0], [1, 2], NONE, NONE, 1), "goal has shape"),
         (lambda: planning.shortcut([[0, 0]], NONE, [[0.5, 1.0]]), "below 1"),
-        (lambda: planning.wilson(3, 2), "cannot be more"),
-        (lambda: planning.accel_range([1], [1], [1], [0], 0), "limits is 0"),
-        (lambda: planning.fastest_along([[1]], [[1]], [[1, 2]], [1], [1]), "G has"),
+        (lambda: planning.wilson_interval(3, 2), "cannot be more"),
+        (lambda: planning.path_accel_bounds([1], [1], [1], [0], 0), "limits is 0"),
+        (
+            lambda: planning.time_optimal_profile([[1]], [[1]], [[1, 2]], [1], [1]),
+            "c has",
+        ),
     ],
 )
 def test_an_error_says_what_is_wrong(call, says):

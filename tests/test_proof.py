@@ -5,6 +5,7 @@ import html
 import subprocess
 from dataclasses import replace
 from html.parser import HTMLParser
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,6 +14,9 @@ import pytest
 pytest.importorskip("viser", reason="the extra view")
 
 from labkit.base.exchange import Reply
+from labkit.check import own_functions
+from labkit.check.own_functions import counted
+from labkit.commands import capstone as capstone_command
 from labkit.commands import grade
 from labkit.commands import proof as command
 from labkit.figures import client
@@ -87,7 +91,7 @@ def test_a_half_done_week_says_what_is_theirs_and_is_one_small_file(tmp_path):
         assert wanted.passes(first.again[wanted.check, wanted.metric])
         assert number.status == "none"
     used = set(capstone.USES[1]) & set(functions)
-    assert proof.attempt.yours == len(used)
+    assert proof.attempt.counted == (len(used), len(EVERY))
     assert not proof.attempt.result.failed
     text = page.render(proof)
     assert len(text.encode()) < 3_000_000
@@ -176,6 +180,61 @@ def test_the_card_to_share_has_its_size_and_its_words_with_a_picture_or_without(
     partly = proof.attempt._replace(theirs=frozenset({"make_T"}))
     drawn = np.asarray(card.draw(page.in_short(proof), partly)).astype(int)
     assert not (np.abs(drawn - card.GOOD).max(axis=2) < 10).any()
+
+
+@pytest.mark.parametrize("week", [1, 2])
+def test_the_page_the_card_and_the_capstone_count_a_perfect_students_functions_alike(
+    monkeypatch, capsys, week
+):
+    """Also those that the sandbox cannot call: nobody could ever have 47 of 47."""
+    it = own_functions.capstone_of(find_week(week))
+    uses = it.USES
+    mine = own_functions.Mine(None, {day: [*names] for day, names in uses.items()})
+    monkeypatch.setattr(own_functions, "load", lambda week: mine)
+    capstone_command.chosen(find_week(week), False)
+    of = sum(map(len, uses.values()))
+    says = f"{of} of the {of} functions that it calls are yours"
+    assert says in " ".join(capsys.readouterr().out.split())
+    every = frozenset().union(*uses.values())
+    stayed = frozenset({"shortcut", "rrt_connect"} & every)
+    tried = Attempt(it, None, "", every, stayed)
+    assert str(tried.counted) == f"{of} of {of}"
+    assert tried.counted.all
+    one = sorted(every)[0]
+    assert str(tried._replace(theirs=every - {one}).counted) == f"{of - 1} of {of}"
+
+
+def test_a_page_without_a_name_is_headed_by_its_week_everywhere():
+    proof = replace(hostile(), name="")
+    text = page.render(proof, "card.png")
+    assert "<title>Week 1: foundations</title>" in text
+    assert '<meta property="og:title" content="Week 1: foundations">' in text
+    assert "whom git does not know" not in text
+    drawn = np.asarray(card.draw(page.in_short(proof), proof.attempt)).astype(int)
+    big = (np.abs(drawn - card.INK).max(axis=2) < 10)[95:140, :600].any(axis=1)
+    assert big.any()  # the week's heading stands in the name's place
+
+
+@pytest.mark.parametrize(
+    ("known", "keyboard", "typed", "name", "says"),
+    [
+        ("Ada", True, None, "", ""),
+        ("", True, " Bo ", "Bo", "git does not know your name"),
+        ("", True, "", "", "git does not know your name"),
+        ("", False, None, "", "The page shows no name, because git has none"),
+    ],
+)
+def test_a_name_that_git_does_not_know_is_asked_for_or_left_out(
+    monkeypatch, capsys, known, keyboard, typed, name, says
+):
+    monkeypatch.setattr(command.git, "user_name", lambda clone: known)
+    keys = SimpleNamespace(isatty=lambda: keyboard)
+    monkeypatch.setattr(command.sys, "stdin", keys)
+    monkeypatch.setattr("builtins.input", lambda question: typed)
+    assert command.asked_name(Path()) == name
+    out = capsys.readouterr().out
+    assert out.startswith(says)
+    assert bool(out) == bool(says)
 
 
 def test_a_name_on_the_card_has_the_letters_of_its_font():
@@ -273,9 +332,13 @@ def test_a_whole_picture_travels_and_what_stays_here_is_called_the_kits(sandbox)
     assert found.result.shape == (n, 3)
     assert found.theirs == {"back_project", "shortcut"}
     assert found.stayed == {"shortcut"}
-    assert (found.yours, found.total) == (1, 2)
-    words = Seen(page._by(uses, found)).words
-    assert "shortcut: theirs pass." in words
+    # What passes is theirs on every face, and the page says openly what ran instead.
+    assert found.counted == counted(uses, {10: {"back_project"}, 12: {"shortcut"}})
+    assert str(found.counted) == "2 of 2"
+    assert "Theirs, but not run here: shortcut." in Seen(page._stayed(found)).words
+    assert page._stayed(found._replace(stayed=frozenset())) == ""
+    kits = page._by(uses, found).count("<td class=wide>–</td>")
+    assert kits == 2  # none of the two is called the kit's
 
 
 def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path, capsys):

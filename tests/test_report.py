@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 
 import pytest
 
+from conftest import ROOT, need
 from labkit.lesson.day import all_days, find_day
 from labkit.lesson.metric import Metric
 from labkit.log.rows import HEADER as LINE
@@ -54,6 +55,27 @@ def of_values(metric: str, *values: float, limit: Metric | None = None) -> Serie
 def drawn(series: Series, tag: str) -> list:
     """Return the plot's shapes of one kind, back to front."""
     return ElementTree.fromstring(plot.draw(series)).findall(tag)
+
+
+def test_the_log_that_the_kit_is_committed_with_shows_nobodys_work(run, log, tmp_path):
+    """Where a student has committed rows, the kit's own log is not to be had."""
+
+    def git(*arguments: str) -> str:
+        command = ["git", "-C", ROOT, *arguments]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+    committed = (ROOT / "metrics" / "metrics.csv").read_text("utf-8")
+    if (ROOT / ".git").exists():  # else an export, which nobody has worked in
+        need(not git("ls-files", "w*/work"), "a clone without a student's commits")
+        committed = git("show", "HEAD:metrics/metrics.csv")
+    log.write_text(committed, "utf-8")
+    assert log.read_text("utf-8") == LINE + "\n"
+    done = run("--out", tmp_path, ROBO47_METRICS=log)
+    assert "\n0 rows; checks: 0 passing, 0 failing" in done.stdout
+    assert "hunts" not in done.stdout
+    assert "Nothing recorded yet" in (tmp_path / "report.html").read_text("utf-8")
 
 
 def test_latest_best_runs_and_status_are_right(log):

@@ -9,9 +9,9 @@ import pytest
 
 from labkit.base.exchange import Exchange, LoadError, Path, Question
 from labkit.judge import Robot
+from labkit.judge.worlds import Balls
 from labkit.lesson.day import Limits
 from labkit.sandbox import messages, process, sandbox
-from labkit.sandbox.inside.fake_world import Balls
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
@@ -270,8 +270,8 @@ class TestWhatATaskMayTake:
         extras = (f"scipy=={scipy.__version__}",)
         (reply,) = ask(code, limits=Limits(extras=extras))
         np.testing.assert_array_equal(reply.value, [1.0, 0.0])
-        with pytest.raises(LoadError):  # nobody asked for it
-            ask(code)
+        (reply,) = ask(code)  # nobody asked for it
+        assert reply.refused == ("call scipy.optimize.nnls",)
 
     def test_another_version_of_it_is_told_with_the_remedy(self, ask):
         for extra in ("numpy==0.1", "nothing-like-it==1.0"):
@@ -430,6 +430,130 @@ class TestWhatItMayImport:
             (reply,) = ask(code, Question("1.6", "f", (thin, ends[0], b)))
             assert reply.value == (free, "a world with its own edge_free(a, b)")
             assert reply.changed == ()
+
+    @pytest.mark.parametrize(
+        "look",
+        [
+            "[getattr(world, name) for name in dir(world)]",
+            "getattr(world, 'rows', None)",
+            "vars(world) if hasattr(world, '__dict__') else None",
+            "[vars(one) for one in type(world).__mro__]",
+            "[getattr(world, one) for one in type(world).__slots__]",
+            "gc.get_objects()",
+            "gc.get_referents(world, type(world), type(world).edge_free)",
+            "gc.get_referrers(world, type(world))",
+            "[one.cell_contents for one in type(world).edge_free.__closure__]",
+            "type(world).edge_free.__globals__",
+            "world.__reduce_ex__(2)",
+            "copy.deepcopy(world)",
+            "list(frames(sys._getframe()))",
+            "while_it_is_asked(world)",
+            "traced(world)",
+            "[vars(one) for one in list(sys.modules.values()) if one]",
+            "[one.f_locals for one in sys._current_frames().values()]",
+            "str(world), repr(world), format(world)",
+        ],
+    )
+    def test_a_world_shows_no_number_wherever_one_looks(self, ask, look):
+        code = f"""
+            import collections, copy, gc, sys
+            import numpy as np
+
+            RADIUS = 5678
+
+            def frames(frame):
+                while frame:
+                    yield dict(frame.f_locals), frame.f_globals
+                    frame = frame.f_back
+
+            def while_it_is_asked(world):
+                class Spy(list):
+                    seen = []
+                    def __len__(self):
+                        Spy.seen += frames(sys._getframe())
+                        return 2
+                try:
+                    world.edge_free(Spy([0.0, 0.0]), np.ones(2))
+                except Exception as error:
+                    Spy.seen += frames(error.__traceback__.tb_frame)
+                return Spy.seen
+
+            def traced(world):
+                seen = []
+                sys.setprofile(lambda frame, *_: seen.extend(frames(frame)))
+                try:
+                    world.edge_free(np.zeros(2), np.ones(2))
+                finally:
+                    sys.setprofile(None)
+                return seen
+
+            def within(some, depth, known):
+                if depth < 0 or id(some) in known:
+                    return False
+                known[id(some)] = some
+                if isinstance(some, (float, np.floating, np.ndarray)):
+                    array = np.asarray(some)
+                    near = array.dtype.kind == "f" and np.abs(array * 1e4 - RADIUS)
+                    return bool(np.any(near < 1e-6)) if near is not False else False
+                if isinstance(some, (str, bytes)):
+                    return "balls" in str(some[:2000])
+                if isinstance(some, dict):
+                    some = [*some.keys(), *some.values()]
+                if isinstance(some, (list, tuple, set, collections.deque)):
+                    return any(within(one, depth - 1, known) for one in list(some))
+                inner = getattr(some, "__dict__", None)
+                return inner is not None and within(dict(inner), depth - 1, known)
+
+            def f(world):
+                try:
+                    found = {look}
+                except Exception as error:
+                    found = error
+                return within(found, 5, {{}})
+
+            def it_would_be_found(world):
+                keeps = type("Keeps", (), {{}})()
+                keeps.rows = np.array([[1.0, 0.0, 0.5678]])
+                return within([keeps], 5, {{}})
+        """
+        world = Balls([[1.0, 0.0, 0.5678]])
+        some = [Question("1.6", name, (world,)) for name in ("f", "it_would_be_found")]
+        reply, control = ask(code, *some)
+        assert (reply.value, reply.error) == (False, "")
+        assert control.value is True
+
+    def test_a_world_has_another_class_in_the_next_question(self, ask):
+        worlds = [Balls([[1.0, 0, 0.2]]) for _ in range(3)]
+        some = [Question("1.6", "f", (world,)) for world in worlds]
+        told = ask("def f(world): return type(world).__name__", *some)
+        assert len({reply.value for reply in told}) == 3
+
+    def test_whoever_asks_a_world_without_end_is_stopped(self, ask, monkeypatch):
+        monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.5)
+        code = """
+            import numpy as np
+            def f(world):
+                while True: world.edge_free(np.zeros(2), np.ones(2))
+            def g(): return 1
+        """
+        asked = (
+            Question("1.6", "f", (Balls([[1.0, 0, 0.2]]),)),
+            Question("1.7", "g", ()),
+        )
+        hangs, other = ask(code, *asked)
+        assert (hangs.kind, hangs.error) == ("stopped", process.ENDLESS)
+        assert other.value == 1
+
+    @pytest.mark.parametrize("asked", ["[99, 0, 0]", "[]", "7", "[0, {}, []]"])
+    def test_a_forged_question_about_a_world_ends_the_process(self, ask, asked):
+        code = f"""
+            def f(world):
+                for cell in type(world).edge_free.__closure__:
+                    if callable(cell.cell_contents):
+                        cell.cell_contents(asks={asked})
+        """
+        (reply,) = ask(code, Question("1.6", "f", (Balls([[1.0, 0, 0.2]]),)))
+        assert reply.kind == "stopped"
 
 
 @pytest.mark.kit

@@ -12,6 +12,7 @@ from types import SimpleNamespace
 import pytest
 
 from conftest import ROOT
+from labkit.base import shell
 from labkit.commands import pins
 from robo47.errors import Robo47Error
 
@@ -39,6 +40,7 @@ def setup(monkeypatch, tmp_path):
     module.commands = []
     module.answers = {}
     module.version = NOW
+    module.imported = NOW
 
     def run(command, doing):
         module.commands.append([str(part) for part in command])
@@ -54,7 +56,12 @@ def setup(monkeypatch, tmp_path):
         return 0, ""
 
     monkeypatch.setattr(module, "run", run)
-    monkeypatch.setattr(module, "ask", lambda python, imports: module.version)
+    known = {module.IMPORTED: lambda: module.imported}
+    monkeypatch.setattr(
+        module,
+        "ask",
+        lambda python, imports: known.get(imports, lambda: module.version)(),
+    )
     return module
 
 
@@ -294,3 +301,109 @@ def test_an_install_that_was_killed_says_so(setup, monkeypatch, ended):
     assert "killed" in message
     assert "memory" in message
     assert "run make again" in message
+
+
+def test_what_was_installed_is_imported_before_it_is_ready(setup, monkeypatch):
+    """pip may have put it elsewhere and been content."""
+    setup.imported = None
+    monkeypatch.setattr(setup, "failure", lambda venv: "No module named 'numpy'")
+    message = said(setup, monkeypatch)
+    assert "cannot be imported:\nNo module named 'numpy'" in message
+    assert not os.path.exists(os.path.join(setup.ROOT, ".venv", ".ready-core"))
+    setup.imported = NOW
+    assert len(call(setup, monkeypatch)) == 1
+    assert call(setup, monkeypatch) == []
+
+
+NO_MATCH = "ERROR: No matching distribution found for mujoco==4.0.0"
+
+
+@pytest.mark.parametrize(("version", "older"), [((3, 11), False), ((3, 99), True)])
+def test_an_older_python_is_advised_only_where_it_is_older(
+    setup, monkeypatch, version, older
+):
+    setup.version = version
+    setup.answers["pip"] = (1, "noise\n" * 50 + NO_MATCH + "\n")
+    monkeypatch.setattr(setup, "provide", lambda venv, anew, uv: made(venv, version))
+    message = said(setup, monkeypatch)
+    assert NO_MATCH in message
+    assert message.count("noise") == 7
+    assert ("An older Python has all: make setup PYTHON=python3.14" in message) == older
+    assert "run make again" in message
+
+
+def made(venv, version):
+    venv.mkdir(exist_ok=True)
+    return version
+
+
+def test_pip_is_told_how_to_reach_its_packages_and_nothing_else():
+    listed = (
+        ":env:.user='1'\n"
+        "global.cert='/ca.pem'\n"
+        "global.constraint='/old.txt'\n"
+        "global.extra-index-url='\\nhttps://a\\nhttps://b'\n"
+        "global.index-url='https://global'\n"
+        "global.user='true'\n"
+        "install.index-url='https://install'\n"
+    )
+    variables = {
+        "HOME": "/home/me",
+        "HTTPS_PROXY": "http://proxy",
+        "PIP_CACHE_DIR": "/cache",
+        "PIP_CONFIG_FILE": "/theirs",
+        **dict.fromkeys(
+            [
+                "PIP_USER",
+                "PIP_TARGET",
+                "PIP_PREFIX",
+                "PIP_ROOT",
+                "PIP_CONSTRAINT",
+                "PIP_REQUIREMENT",
+                "PIP_REQUIRE_HASHES",
+                "PIP_NO_BINARY",
+                "PIP_NO_DEPS",
+                "PIP_PYTHON",
+                "PIP_DRY_RUN",
+                "UV_CONSTRAINT",
+                "UV_SYSTEM_PYTHON",
+            ],
+            "1",
+        ),
+    }
+    assert shell.for_installer(variables, listed) == {
+        "HOME": "/home/me",
+        "HTTPS_PROXY": "http://proxy",
+        "PIP_CACHE_DIR": "/cache",
+        "PIP_CERT": "/ca.pem",
+        "PIP_EXTRA_INDEX_URL": "https://a https://b",
+        "PIP_INDEX_URL": "https://install",
+        "PIP_CONFIG_FILE": os.devnull,
+    }
+    own = {"PIP_INDEX_URL": "https://mine", "UV_INDEX_URL": "https://mine"}
+    assert shell.for_installer(own, listed)["PIP_INDEX_URL"] == "https://mine"
+    assert shell.for_installer(own) == own
+
+
+@pytest.mark.network
+def test_settings_for_other_work_do_not_reach_a_real_pip(tmp_path):
+    """Each of them broke set-up, or put its packages elsewhere."""
+    real, venv = load(), tmp_path / "v"
+    subprocess.run([sys.executable, "-m", "venv", venv], check=True)
+    python = str(venv / real.processes.IN_VENV)
+    config = tmp_path / "pip.conf"
+    config.write_text("[global]\nuser = true\nrequire-hashes = true\n")
+    (tmp_path / "old.txt").write_text("tqdm<4\n")
+    others = {
+        "PIP_CONFIG_FILE": str(config),
+        "PIP_CONSTRAINT": str(tmp_path / "old.txt"),
+        "PIP_PREFIX": str(tmp_path / "prefix"),
+        "PIP_TARGET": str(tmp_path / "target"),
+        "PIP_NO_BINARY": ":all:",
+    }
+    with pytest.MonkeyPatch.context() as patch:
+        for name, value in others.items():
+            patch.setenv(name, value)
+        code, said = real.run([python, "-m", "pip", "install", "tqdm"], "trying")
+    assert code == 0, said
+    assert real.ask(python, "import tqdm") == NOW

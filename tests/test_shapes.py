@@ -47,7 +47,7 @@ def measured():
 
 def test_the_arm_and_each_thing_are_as_far_apart_as_mujoco_says(measured):
     model, arm, q, truth = measured
-    ours = arm.apart(q, WORLD)
+    ours = arm.distances(q, WORLD)
     assert_same(ours[..., :2], truth[..., :2], 1e-14)  # capsules, inside too
     assert np.sum(truth[..., :2] < 0) > 5
     apart = truth > 0
@@ -55,17 +55,17 @@ def test_the_arm_and_each_thing_are_as_far_apart_as_mujoco_says(measured):
     assert np.all(ours[~apart] <= 1e-14)
     assert_same(arm.clearance(q, WORLD), ours.min(axis=(1, 2)), 0)
     again = shapes.World.of_model(model)
-    assert_same(arm.apart(q, again), ours, 1e-14)
+    assert_same(arm.distances(q, again), ours, 1e-14)
 
 
 def test_many_configurations_have_the_distances_of_each_alone(measured):
     _, arm, q, _ = measured
-    alone = [arm.apart(one, WORLD) for one in q]
-    assert_same(arm.apart(q, WORLD), alone, 1e-14)
-    assert_same(arm.apart(q.reshape(4, 10, 7), WORLD), np.reshape(alone, (4, 10, 9, 4)),
-                1e-14)  # fmt: skip
+    alone = [arm.distances(one, WORLD) for one in q]
+    assert_same(arm.distances(q, WORLD), alone, 1e-14)
+    assert_same(arm.distances(q.reshape(4, 10, 7), WORLD),
+                np.reshape(alone, (4, 10, 9, 4)), 1e-14)  # fmt: skip
     nothing = shapes.World.of()
-    assert arm.apart(q, nothing).shape == (40, 9, 0)
+    assert arm.distances(q, nothing).shape == (40, 9, 0)
     assert np.isinf(arm.clearance(q, nothing)).all()
 
 
@@ -75,9 +75,9 @@ def test_the_quick_distance_from_a_box_is_the_golden_sections_also_inside():
     half = rng.uniform(0.1, 0.8, (300, 3))
     ends[:20, 1, 0] = ends[:20, 0, 0]  # along a face
     ends[20:30, 1] = ends[20:30, 0]  # a point
-    quick = near.box_apart(ends[:, 0], ends[:, 1], half)
+    quick = near.box_distances(ends[:, 0], ends[:, 1], half)
     slow = [
-        distance.capsule_box(*e, 0, np.eye(4), h)
+        distance.capsule_box_distance(*e, 0, np.eye(4), h)
         for e, h in zip(ends, half, strict=True)
     ]
     assert_same(quick, slow, 1e-12)
@@ -134,7 +134,7 @@ def test_the_capsules_contain_every_point_of_the_collision_meshes(entry):
         first = model.mesh_vertadr[mesh]
         points = model.mesh_vert[first : first + model.mesh_vertnum[mesh]]
         points = points @ data.geom_xmat[g].reshape(3, 3).T + data.geom_xpos[g]
-        far = near.segments_apart(
+        far = near.segment_distances(
             points[:, None], points[:, None], ends[own][:, 0], ends[own][:, 1]
         )
         assert (far - arm.radii[own]).min(axis=1).max() < 1e-6, name

@@ -28,7 +28,7 @@ def motors():
 
 
 def computed_torque(arm, q_ref, omega, zeta):
-    kp, kd = control.gains(omega, zeta)
+    kp, kd = control.pd_gains(omega, zeta)
 
     def law(t, q, qd):
         now, (goal, speed, acc) = arm.at(q), q_ref(t)
@@ -107,7 +107,7 @@ def test_sag_is_predicted_by_its_fixed_point(motors):
     model, arm = motors
     kp, q = 100.0, READY_Q
     for _ in range(200):
-        q = control.sag_step(READY_Q, arm.at(q).gravity_torque, kp)
+        q = control.pd_equilibrium_step(READY_Q, arm.at(q).gravity_torque, kp)
     data = simulate.start(model, READY_Q)
     pd = lambda t, q, qd: control.pd_torque(READY_Q - q, -qd, kp, 20.0)  # noqa: E731
     end = simulate.run(model, data, pd, 20.0, rate=100).q[-1]
@@ -131,7 +131,7 @@ def test_the_error_decays_as_predicted_in_all_joints_alike(motors, omega, zeta):
 def test_with_the_gains_outside_of_m_it_does_not(motors):
     model, arm = motors
     e0 = 0.1 * np.array([1, -1, 1, -1, 1, -1, 1])
-    kp, kd = control.gains(20, 1)
+    kp, kd = control.pd_gains(20, 1)
 
     def augmented(t, q, qd):
         e, ed = READY_Q - q, -qd
@@ -165,9 +165,9 @@ def impedance(arm, target, K, q_rest):
         Lambda = task_space.task_inertia(J, now.M)
         D = task_space.critical_damping(K, Lambda)
         e = jacobian.pose_error(now.T_world_ee, target(t))
-        wrench = task_space.spring_wrench(e, -J @ qd, np.diag(K), D)
+        wrench = task_space.impedance_wrench(e, -J @ qd, np.diag(K), D)
         back = control.pd_torque(q_rest - q, -qd, 10.0, 4.0)
-        null = task_space.null_torque(J, now.M, Lambda, back)
+        null = task_space.nullspace_torque(J, now.M, Lambda, back)
         return task_space.impedance_torque(
             J, wrench, now.bias(qd), arm.damping, qd, null
         )

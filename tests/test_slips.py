@@ -97,16 +97,16 @@ def test_a_slip_is_told_by_its_kind_and_by_how_it_reads():
 
 
 def test_two_slips_whose_parts_add_up_are_told_together():
-    bias = right(6, "site_bias")
+    bias = right(6, "bias_acceleration")
 
-    def site_bias(J_space, qd, p):
+    def bias_acceleration(J_space, qd, p):
         a = bias(J_space, qd, p)
         V = J_space @ qd
         flat = bias(J_space, qd, 0 * p)
         at_0 = flat[3:] - np.cross(V[:3], V[3:])
         return np.append(a[:3], 2 * at_0 - a[3:])
 
-    says = told(6, "6.2", site_bias=site_bias)
+    says = told(6, "6.2", bias_acceleration=bias_acceleration)
     assert "Two things at once: one sign is reversed" in says
     assert "`A[3:] - np.cross(alpha, p)`" in says
 

@@ -35,10 +35,14 @@ def states():
 def test_the_tutorial_cases_of_day_6():
     assert_same(task_space.task_inertia(np.eye(6), 2 * np.eye(6)), 2 * np.eye(6))
     spin = np.array([[0, 0, 1, 0, 0, 0.0]]).T
-    assert_same(task_space.site_bias(spin, [1.0], [1, 0, 0]), [0, 0, 0, -1.0, 0, 0])
-    assert_same(task_space.null_torque([[1, 0]], np.eye(2), [[1]], [1, 1]), [0.0, 1.0])
+    assert_same(
+        task_space.bias_acceleration(spin, [1.0], [1, 0, 0]), [0, 0, 0, -1.0, 0, 0]
+    )
+    assert_same(
+        task_space.nullspace_torque([[1, 0]], np.eye(2), [[1]], [1, 1]), [0.0, 1.0]
+    )
     e = [0, 0, 0, 0, 0, 0.025]
-    F = task_space.spring_wrench(e, np.zeros(6), 400 * np.eye(6), np.eye(6))
+    F = task_space.impedance_wrench(e, np.zeros(6), 400 * np.eye(6), np.eye(6))
     assert F[5] == pytest.approx(10.0)
     assert_same(task_space.critical_damping([4.0], [[1.0]]), [[4.0]])
     assert task_space.set_point_for_force(20, 400, 0.42) == pytest.approx(0.37)
@@ -62,8 +66,8 @@ def test_the_task_inertia_is_mujocos(states):
 def test_the_site_bias_is_the_rate_of_mujocos_jacobian(states):
     model, arms = states
     for now, qd in arms:
-        ours = task_space.site_bias(now.J_space, qd, now.T_world_ee[:3, 3])
-        assert_same(ours, verify.mujoco_site_bias(model, now.q, qd), 1e-9)
+        ours = task_space.bias_acceleration(now.J_space, qd, now.T_world_ee[:3, 3])
+        assert_same(ours, verify.mujoco_bias_acceleration(model, now.q, qd), 1e-9)
 
 
 def test_osc_torque_gives_the_simulated_hand_the_wanted_acceleration(states):
@@ -72,7 +76,7 @@ def test_osc_torque_gives_the_simulated_hand_the_wanted_acceleration(states):
     for now, qd in arms:
         acc = rng.uniform(-1, 1, 6)
         p = now.T_world_ee[:3, 3]
-        drift = task_space.site_bias(now.J_space, qd, p)
+        drift = task_space.bias_acceleration(now.J_space, qd, p)
         Lambda = task_space.task_inertia(now.J_site, now.M)
         tau = task_space.osc_torque(now.J_site, Lambda, now.bias(qd), drift, acc)
         tau += 1.0 * qd  # what the joints' damping takes
@@ -80,7 +84,7 @@ def test_osc_torque_gives_the_simulated_hand_the_wanted_acceleration(states):
         data.qfrc_applied[:] = tau
         mujoco.mj_forward(model, data)  # fills qacc
         J = verify.mujoco_site_jacobian(model, now.q)
-        ours = J @ data.qacc + verify.mujoco_site_bias(model, now.q, qd)
+        ours = J @ data.qacc + verify.mujoco_bias_acceleration(model, now.q, qd)
         assert_same(ours, acc, 1e-8)
 
 
@@ -90,7 +94,7 @@ def test_the_null_torque_does_not_move_the_hand_but_a_kinematic_projector_does(s
     kinematic = []
     for now, _ in arms:
         J, M = now.J_site, now.M
-        ours = task_space.null_torque(J, M, task_space.task_inertia(J, M), tau)
+        ours = task_space.nullspace_torque(J, M, task_space.task_inertia(J, M), tau)
         assert_same(J @ np.linalg.solve(M, ours), np.zeros(6), 1e-10)
         wrong = tau - np.linalg.pinv(J) @ (J @ tau)
         kinematic.append(np.abs(J @ np.linalg.solve(M, wrong)).max())
@@ -102,8 +106,8 @@ def test_projecting_twice_is_projecting_once(A, M):
     J = A + np.eye(3, 7) * 3.0  # of full rank
     tau = np.arange(7.0)
     Lambda = task_space.task_inertia(J, M)
-    once = task_space.null_torque(J, M, Lambda, tau)
-    assert_same(task_space.null_torque(J, M, Lambda, once), once, 1e-9)
+    once = task_space.nullspace_torque(J, M, Lambda, tau)
+    assert_same(task_space.nullspace_torque(J, M, Lambda, once), once, 1e-9)
 
 
 @given(positive_definite(6), positive_definite(7))
@@ -128,7 +132,7 @@ def test_critical_damping_is_scipys_square_roots(K, Lambda):
 @given(wrenches, wrenches, st.floats(0, 50))
 def test_hybrid_is_the_spring_but_for_its_last_row(e, V_err, force):
     K, D = 100.0 * np.eye(6), np.diag(np.arange(1.0, 7.0))
-    spring = task_space.spring_wrench(e, V_err, K, D)
+    spring = task_space.impedance_wrench(e, V_err, K, D)
     hybrid = task_space.hybrid_wrench(e, V_err, K, D, force)
     assert_same(hybrid[:5], spring[:5])
     assert hybrid[5] == pytest.approx(6.0 * V_err[5] - force)
@@ -154,13 +158,15 @@ def test_many_configurations_at_once_equal_one_at_a_time(states):
     qd = np.array([qd for _, qd in arms])
     p = np.array([now.T_world_ee[:3, 3] for now, _ in arms])
     Lambda = task_space.task_inertia(J, M)
-    drift = task_space.site_bias(J_space, qd, p)
-    tau = task_space.null_torque(J, M, Lambda, qd)
+    drift = task_space.bias_acceleration(J_space, qd, p)
+    tau = task_space.nullspace_torque(J, M, Lambda, qd)
     D = task_space.critical_damping(np.ones(6), Lambda)
     for i in range(5):
         assert_same(Lambda[i], task_space.task_inertia(J[i], M[i]), 1e-10)
-        assert_same(drift[i], task_space.site_bias(J_space[i], qd[i], p[i]), 1e-12)
-        one = task_space.null_torque(J[i], M[i], Lambda[i], qd[i])
+        assert_same(
+            drift[i], task_space.bias_acceleration(J_space[i], qd[i], p[i]), 1e-12
+        )
+        one = task_space.nullspace_torque(J[i], M[i], Lambda[i], qd[i])
         assert_same(tau[i], one, 1e-10)
         assert_same(D[i], task_space.critical_damping(np.ones(6), Lambda[i]), 1e-12)
 
@@ -171,14 +177,14 @@ def test_many_configurations_at_once_equal_one_at_a_time(states):
         (lambda: task_space.task_inertia(np.zeros((6, 7)), np.eye(7)), "singularity"),
         (lambda: task_space.task_inertia(np.ones((6, 7)), np.eye(6)), "M has shape"),
         (
-            lambda: task_space.site_bias(np.eye(7), np.ones(7), np.ones(3)),
+            lambda: task_space.bias_acceleration(np.eye(7), np.ones(7), np.ones(3)),
             "J_space has",
         ),
         (lambda: task_space.critical_damping([1, 1], -np.eye(2)), "positive definite"),
         (lambda: task_space.critical_damping([-1, 1], np.eye(2)), "K is -1"),
         (lambda: task_space.set_point_for_force(1, 0, 0), "k is 0; it must be above 0"),
         (
-            lambda: task_space.spring_wrench([0] * 6, [0] * 6, [1] * 6, np.eye(6)),
+            lambda: task_space.impedance_wrench([0] * 6, [0] * 6, [1] * 6, np.eye(6)),
             r"K has shape \(6,\); expected \(..., 6, 6\)",
         ),
     ],

@@ -204,12 +204,12 @@ class TestItsCapstone:
         assert "cube" not in page.partition("srcdoc")[0]
 
     def test_that_lacks_something_is_told_in_a_line(self, run, capstone):
-        text = capstone.read_text("utf-8").replace("def told(", "def said(")
+        text = capstone.read_text("utf-8").replace("def summary(", "def said(")
         capstone.write_text(text, "utf-8")
         done = run("scripts/capstone.py", 9, "--kit")
         assert done.returncode == 2
         told = " ".join(done.stderr.split())
-        assert "robo47.pointing has no told; what a capstone needs" in told
+        assert "robo47.pointing has no summary; what a capstone needs" in told
         capstone.unlink()
         done = run("scripts/capstone.py", 9, "--kit")
         assert done.returncode == 2

@@ -625,3 +625,111 @@ def test_work_that_is_not_committed_stays_so_where_nothing_is_new(kit, student):
     before = state(student)
     assert "nothing has changed" in update(student).stdout
     assert state(student) == before
+
+
+def test_a_retrospective_keeps_its_answers_where_the_kit_changes_the_same_line(
+    kit, student
+):
+    retro, blank = f"{WEEK}/docs/RETRO_w1.md", "*(your words)*"
+    assert blank in (student / retro).read_text("utf-8")
+    edit(student / retro, (blank, "I would measure first."))
+    edit(kit / retro, (blank, "*(your own words)*"))
+    git(kit, "commit", "-qam", "other words")
+    done = update(student)
+    assert done.returncode == 0, done.stderr
+    assert "I would measure first." in (student / retro).read_text("utf-8")
+    assert "is the kit's now" not in done.stdout
+    if "*(your own words)*" in (student / retro).read_text("utf-8"):
+        assert "your work is as it was" not in done.stdout
+
+
+def test_the_work_is_said_to_be_as_it_was_only_where_it_is(kit, student):
+    edit(kit / "CHANGELOG.md", ("Day 1 is there.", "Day 1 is here."))
+    git(kit, "commit", "-qam", "words")
+    assert "your work is as it was" in update(student).stdout
+    edit(student / SRC, ("TRIALS = 1_000 ", "TRIALS = 7 "))
+    edit(kit / SRC, ("TRIALS = 1_000 ", "TRIALS = 2_000 "))
+    git(kit, "commit", "-qam", "more trials")
+    said = update(student).stdout
+    assert "is the kit's now" in said
+    assert "your work is as it was" not in said
+
+
+@pytest.mark.parametrize("mark", ["--assume-unchanged", "--skip-worktree"])
+def test_a_file_that_git_was_told_to_overlook_is_merged_too(kit, student, mark):
+    git(student, "update-index", mark, SHEET)
+    edit(student / SHEET, ("A pose says", "A pose, I think, says"))
+    with (kit / SHEET).open("a") as file:
+        file.write("\n## More\n")
+    git(kit, "commit", "-qam", "a heading more")
+    done = update(student)
+    assert done.returncode == 0, done.stderr
+    text = (student / SHEET).read_text("utf-8")
+    assert "A pose, I think, says" in text
+    assert "## More" in text
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows asks for rights to link")
+def test_a_work_folder_behind_a_link_is_named_and_not_committed_as_deleted(
+    kit, student, tmp_path
+):
+    mid_term(kit)
+    work, real = (student / WORK).parent, tmp_path / "cloud"
+    work.rename(real)
+    work.symlink_to(real)
+    before = git(student, "rev-parse", "HEAD")
+    done = update(student)
+    work.unlink()
+    assert done.returncode == 2
+    assert f"{WEEK}/work is a symbolic link" in done.stderr
+    assert "Nothing of yours has changed." in done.stderr
+    assert git(student, "rev-parse", "HEAD") == before
+    assert (real / DAY.script).is_file()
+
+
+def as_template(kit, place):
+    """Return a copy of the kit's files with a history of its own, as a template's."""
+    copy = place / "copy"
+    copytree(kit, copy, ignore=ignore_patterns(".git", "__pycache__", ".robo47"))
+    git(copy, "init", "-q")
+    return copy
+
+
+@pytest.mark.parametrize("edited", [False, True])
+def test_a_copy_of_a_template_gets_what_came_since_it_was_made(kit, edited):
+    copy = as_template(kit, kit.parent)
+    if edited:  # no commit of the kit has just these files
+        edit(copy / ".gitignore", (".robo47/\n", ".robo47/\n/own-notes/\n"))
+    commit(copy, "Initial commit")
+    began = git(kit, "rev-parse", "--short", "HEAD")
+    edit(kit / SRC, ("SEED = 47", "SEED = 48"))
+    commit(kit, "before the first update")
+    done = update(copy, "--from", kit)
+    assert done.returncode == 0, done.stdout + done.stderr
+    says = "is nearest to" if edited else "has the very files of"
+    assert f"Your copy {says} the kit's commit {began}" in done.stdout
+    assert "SEED = 48" in (copy / SRC).read_text("utf-8")
+    assert ("own-notes" in (copy / ".gitignore").read_text("utf-8")) == edited
+    again = update(copy)
+    assert "nothing has changed" in again.stdout
+    assert "Your copy" not in again.stdout
+
+
+def test_a_kit_with_a_rewritten_history_is_still_the_kit(kit, student):
+    git(kit, "commit", "-q", "--amend", "-m", "the kit, written anew")
+    edit(kit / SRC, ("SEED = 47", "SEED = 48"))
+    commit(kit, "after it")
+    done = update(student)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "has the very files of the kit's commit" in done.stdout
+    assert "SEED = 48" in (student / SRC).read_text("utf-8")
+    assert "my inverse" in (student / WORK).read_text("utf-8")
+
+
+def test_a_repository_that_is_not_the_kit_is_refused(kit, student, tmp_path):
+    (tmp_path / "other.txt").write_text("other\n")
+    git(tmp_path, "init", "-q")
+    commit(tmp_path, "another one")
+    done = update(student, "--from", tmp_path)
+    assert done.returncode != 0
+    assert "is another repository" in done.stderr

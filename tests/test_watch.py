@@ -76,7 +76,11 @@ class TestTheLoop:
         assert f"day1_transforms.py:{_line(day, second.functions[0])}" in text
         assert all(len(line) <= 81 for line in said)
 
-    def test_says_that_what_it_knows_is_of_before_the_save(self, day, clone):
+    def test_ends_a_days_code_with_its_success_and_what_is_left_in_one_line(
+        self, day, clone
+    ):
+        """The best second of the day was told as twenty lines of debts."""
+        solve(day, day.work, *(f for task in day.tasks for f in task.functions))
         said = []
         with subprocess.Popen(
             command(1),
@@ -86,9 +90,22 @@ class TestTheLoop:
             stdout=subprocess.PIPE,
             text=True,
         ) as watcher:
-            until(watcher, "asking the others again", said)
             until(watcher, "watching", said)
             watcher.terminate()
+        text = "".join(said)
+        asked = [task for task in day.tasks if not task.optional]
+        n = len(asked)
+        right = f"Day 1: all your functions are right. {n} of {n} tasks pass.\n"
+        _, right, rest = text.partition(right)
+        assert right
+        assert f"[####################] {n} of {n} tasks" in rest
+        assert "make view DAY=1" in rest
+        (left,) = (ln for ln in rest.splitlines() if ln.startswith("Left to hand in: "))
+        assert "figure" in left
+        assert "to do" not in rest
+        assert len(rest.splitlines()) < 15
+        assert "asking the others" not in text  # all were asked by then
+        assert all(len(line) <= 81 for line in said)
 
     def test_of_a_day_that_is_not_begun_says_how_to_begin(self, run_in):
         done = run_in(WATCH, 2)
@@ -121,6 +138,29 @@ class TestKeys:
             os.write(main, b"q")
             assert watcher.wait(timeout=30) == 1
         os.close(main)
+
+    def test_the_line_that_says_others_are_asked_is_taken_back(self, day, clone):
+        import pty
+
+        main, other = pty.openpty()
+        with subprocess.Popen(
+            command(1),
+            cwd=clone,
+            env=environment_of(clone) | {"TERM": "dumb"},
+            stdin=other,
+            stdout=other,
+            stderr=other,
+            close_fds=True,
+        ) as watcher:
+            os.close(other)
+            said = _read_until(main, "q quit")
+            os.write(main, b"q")
+            assert watcher.wait(timeout=30) == 1
+        os.close(main)
+        asking = "asking the others again ..."
+        assert said.count(asking) == 1
+        after = said.partition(asking)[2]
+        assert after.startswith(f"\r{' ' * len(asking)}\r")
 
     def test_never_come_where_there_is_no_terminal(self, monkeypatch):
         with open(os.devnull) as nothing:

@@ -10,7 +10,7 @@ from labkit.check.own_functions import capstone_of
 from labkit.lesson.day import Day, find_day
 from labkit.lesson.lab_module import lab_of
 from labkit.lesson.week import Week, manifests
-from robo47.attempt import Film, Told
+from robo47.attempt import Film, Summary
 
 WORDS = ("NAME", "THING", "GOAL", "HEAD")
 
@@ -72,12 +72,12 @@ def _attempted(capstone: ModuleType) -> Iterator[str]:
         if not isinstance(capstone.row("one", result), str):
             yield f"{name}: row(name, result) is no text, the line of a table"
         if seed is None:
-            yield from _shown(name, capstone.told(result), capstone.film(result))
+            yield from _shown(name, capstone.summary(result), capstone.film(result))
 
 
 def _shown(name: str, told: Any, film: Any) -> Iterator[str]:
     """Yield what is wrong with what is said of an attempt, and with its film."""
-    for found, kind in ((told, Told), (film, Film)):
+    for found, kind in ((told, Summary), (film, Film)):
         if not isinstance(found, kind):
             what = kind.__name__.lower()
             yield f"{name}: {what}(result) is no robo47.attempt.{kind.__name__}"

@@ -19,7 +19,8 @@ from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, shown
 
 WIDTH = 80  # columns that everything the kit prints fits in
-EXIT_OK, EXIT_FAILED, EXIT_CANNOT_RUN = 0, 1, 2
+EXIT_OK, EXIT_FAILED, EXIT_CANNOT_RUN = 0, 1, 2  # 70, a crash: see scripts/kit.py
+NOT_YET = "ROBO47_NOT_YET"  # the variable by which make asks for another code than 1
 _FULL = {errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC)}
 _REFUSALS = {errno.EACCES, errno.EPERM, errno.EROFS, *_FULL}
 _PAINT = {"good": "32", "bad": "31", "note": "33"}  # green, red, yellow
@@ -151,6 +152,35 @@ def run(main: Callable[[], int]) -> None:
     Args:
         main: returns the exit code: 0 all well, 1 something to fix, 2 could not run.
     """
+    with _code_of_not_yet() as not_yet:
+        code = _code_of(main)
+    sys.exit(not_yet if code == EXIT_FAILED else code)
+
+
+def go_on_in(command: list[str]) -> NoReturn:
+    """Become another command, which ends with the code that make asked for as well."""
+    if _asked:
+        os.environ[NOT_YET] = _asked[-1]
+    os.execv(command[0], command)
+
+
+_asked: list[str] = []  # the code of "not yet", where make asked for another
+
+
+@contextlib.contextmanager
+def _code_of_not_yet() -> Iterator[int]:
+    """Give the code of "not yet"; programs that are started here use the usual one."""
+    asked = os.environ.pop(NOT_YET, "")
+    _asked[:] = [asked] if asked.isdecimal() else []
+    try:
+        yield int(_asked[0]) if _asked else EXIT_FAILED
+    finally:
+        if asked:
+            os.environ[NOT_YET] = asked
+
+
+def _code_of(main: Callable[[], int]) -> int:
+    """Return the exit code of a command, and print one line if it could not run."""
     warnings.formatwarning = lambda message, *_, **__: f"warning: {message}\n"
     try:
         code = main()
@@ -176,4 +206,4 @@ def run(main: Callable[[], int]) -> None:
     except KeyboardInterrupt:
         print("\nstopped", file=sys.stderr)
         code = 130
-    sys.exit(code)
+    return code

@@ -14,7 +14,7 @@ class Question:
     task: str  # whose it is; a task that hangs is not asked again
     function: str  # a name in the student's file
     # Whatever travels (`labkit.sandbox.inside.wire`), a `Robot` or compiled MjModel, a
-    # `Path`, a world of `labkit.sandbox.inside.fake_world`.
+    # `Path`, a world (`labkit.judge.worlds`), which stays here and is asked.
     args: tuple[Any, ...]
 
 

@@ -14,6 +14,7 @@ from __future__ import annotations  # the doctor runs on old Pythons too
 
 import hashlib
 import os
+import re
 import stat
 import subprocess
 import tempfile
@@ -36,6 +37,7 @@ LARGEST_COMMIT = 100_000  # bytes; git takes two hundred times as much to parse 
 HEAD_OF, LARGEST_NAME = "ref: refs/heads/", 300  # of a HEAD that names a branch
 YEAR_2100 = 4_102_444_800
 SEEN = "refs/robo47/"  # where heads are kept that a later push took back
+PULLED = f"{SEEN}pulled/"  # heads, each under the teacher's time of the first pull
 _ELSEWHERE = ("commondir", "objects/info/alternates")  # where more objects are
 
 
@@ -147,7 +149,7 @@ def author_of(clone: Path, files: str) -> str:
 
 
 def before(clone: Path, moment: int, own: str) -> tuple[str, int]:
-    """Return the last commit up to a moment, by the committers' clocks.
+    """Return the last commit up to a moment, as it was pulled or by its own clock.
 
     A newer kit, merged too late, brings commits from before that moment: where the last
     one has nothing of the student's, it is the last of those that were made here.
@@ -169,8 +171,41 @@ def before(clone: Path, moment: int, own: str) -> tuple[str, int]:
     found = (_git(git, *last) or "").strip()
     if found and not files_of(clone, found, own):
         found = (_git(git, *last, "--first-parent") or "").strip() or found
-    later = _git(git, "rev-list", "--count", f"--max-age={moment + 1}", "HEAD")
+    seen = _pulled(git, moment)
+    dated = ("rev-list", "--no-walk", f"--max-age={moment + 1}")
+    if seen and _git(git, *dated, seen[-1]):  # its clock is wrong: it was there by then
+        ancestor = ("merge-base", "--is-ancestor", seen[-1], found)
+        found = found if found and _git(git, *ancestor) is not None else seen[-1]
+    without = [f"^{commit}" for commit in seen]
+    count = ("rev-list", "--count", f"--max-age={moment + 1}", "HEAD")
+    later = _git(git, *count, *without)
     return found, int((later or "").strip() or 0)
+
+
+def _pulled(git: Path | None, moment: int) -> list[str]:
+    """Return the commits that `make grade` had pulled by a moment, the last last."""
+    return [commit for time, commit in _pulls(git) if time <= moment]
+
+
+def _pulls(git: Path | None) -> list[tuple[int, str]]:
+    """Return when which commits were pulled first, by the teacher's clock, sorted."""
+    listed = _git(git, "for-each-ref", "--format=%(refname) %(objectname)", PULLED)
+    heads = (line.removeprefix(PULLED).split() for line in (listed or "").splitlines())
+    return sorted((int(time), commit) for time, commit in heads if time.isdecimal())
+
+
+def pulled_at(clone: Path, commit: str) -> int | None:
+    """Return when `make grade` pulled a commit first; None where it never did.
+
+    Args:
+        clone: a student's folder.
+        commit: its hash.
+
+    Raises:
+        GitError: git is not there, or takes too long.
+    """
+    pulls = _pulls(_repository(clone))
+    return next((time for time, pulled in pulls if pulled == commit), None)
 
 
 def files_of(clone: Path, commit: str, *names: str) -> dict[str, tuple[str, int]]:
@@ -191,6 +226,35 @@ def files_of(clone: Path, commit: str, *names: str) -> dict[str, tuple[str, int]
         if kind == "blob" and mode.startswith("100") and size.isdecimal():
             found[name] = (blob, int(size))
     return found
+
+
+def mode_of(clone: Path, commit: str, name: str) -> str:
+    """Return the mode that a commit has for a path, "160000" a submodule's; or ""."""
+    listing = ("ls-tree", "-z", "--full-tree", commit, "--", name)
+    return (_git(_repository(clone), *listing) or "").partition(" ")[0]
+
+
+def branches_of(clone: Path) -> list[str]:
+    """Return the full names of a clone's branches, those of its servers after them."""
+    listing = ("for-each-ref", "--format=%(refname)", "refs/heads", "refs/remotes")
+    names = (_git(_repository(clone), *listing) or "").splitlines()
+    return [name for name in names if not name.endswith("/HEAD")]
+
+
+def ignored_by(folder: Path, name: str) -> str:
+    """Return which line ignores a path, ".gitignore, line 3", or "".
+
+    Args:
+        folder: a repository of the reader's own.
+        name: a path in it.
+
+    Raises:
+        GitError: git is not there, or takes too long.
+    """
+    command = ("check-ignore", "-v", "--", name)
+    said = run(*command, folder=folder, seconds=SECONDS).stdout
+    found = re.match(r"(.+?):(\d+):", said)
+    return f"{found[1]}, line {found[2]}" if found else ""
 
 
 def blob(clone: Path, name: str) -> bytes:

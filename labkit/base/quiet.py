@@ -6,7 +6,7 @@ import sys
 import threading
 from collections.abc import Iterator
 
-_ONE = threading.Lock()  # two at once would each restore what the other had set
+_ONE = threading.RLock()  # two at once would each restore what the other had set
 
 
 @contextlib.contextmanager

@@ -2,8 +2,9 @@
 
 The kit's own lab runs here; each of the student's functions stands behind the
 sandbox's wall and is asked call by call. The first check that fails ends the run.
-Where a lab hands over what cannot travel there, such as a world that answers questions
-itself, the kit's own function takes that call: all tasks pass, so it is their equal.
+A world that answers questions itself stays here, and the function behind the wall asks
+back. Where a lab hands over what cannot travel there, the kit's own function takes that
+call: all tasks pass, so it is their equal.
 """
 
 import contextlib

@@ -2,7 +2,8 @@
 
     mine = load()               of the last week that has a capstone and is begun
     mine.functions.NAME         the student's, if `make check` passes it
-    mine.yours, mine.total      how many are theirs: "yours: 61 of 66"
+    mine.yours, mine.total      all that pass, and how many the days ask for
+    counted(asked, own)         how many are theirs, as every face of the kit counts
 
 The files run in this process, as `make run` runs them: they are the student's own, on
 their own machine. Whether a function passes is the checker's word, in its sandbox.
@@ -10,8 +11,10 @@ their own machine. Whether a function passes is the checker's word, in its sandb
 
 import importlib
 import sys
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from types import ModuleType, SimpleNamespace
+from typing import NamedTuple
 
 from labkit.check import memory
 from labkit.check.tasks import check_tasks
@@ -24,8 +27,41 @@ from robo47.paths import shown
 # What `robo47.attempt` asks of a capstone's module.
 ASKED = (
     "NAME", "THING", "GOAL", "USES", "HEAD",
-    "library", "attempt", "row", "told", "film",
+    "library", "attempt", "row", "summary", "film",
 )  # fmt: skip
+
+
+class Counted(NamedTuple):
+    """How many functions are the student's own, and of how many."""
+
+    own: int
+    of: int
+
+    @property
+    def all(self) -> bool:
+        """Whether every function is the student's own."""
+        return self.own == self.of
+
+    def __str__(self) -> str:
+        """Return "46 of 47"."""
+        return f"{self.own} of {self.of}"
+
+
+def counted(
+    asked: Mapping[int, Collection[str]], own: Mapping[int, Collection[str]]
+) -> Counted:
+    """Count the functions that are the student's own: those that pass the check.
+
+    The capstone, the proof page and its card all count by this function. A function
+    that passes counts also where the sandbox cannot call it and the library's runs.
+
+    Args:
+        asked: the names that are counted, by day, such as a capstone's USES.
+        own: the names that pass in the student's file, by day.
+    """
+    names = {(day, name) for day, some in asked.items() for name in some}
+    passing = {(day, name) for day, some in own.items() for name in some}
+    return Counted(len(names & passing), len(names))
 
 
 @dataclass
@@ -33,13 +69,18 @@ class Mine:
     """The week's functions, and whose they are."""
 
     functions: SimpleNamespace  # by name, ready for the capstone's `pick`
-    yours: list[str] = field(default_factory=list)  # names that are the student's own
+    own: dict[int, list[str]] = field(default_factory=dict)  # the student's, by day
     # (day, name, why) of those that are the library's.
     replaced: list[tuple[int, str, str]] = field(default_factory=list)
 
     @property
+    def yours(self) -> list[str]:
+        """The names of the functions that are the student's own."""
+        return [name for some in self.own.values() for name in some]
+
+    @property
     def total(self) -> int:
-        """How many functions the days ask for."""
+        """How many functions the days ask for, called by the capstone or not."""
         return len(self.yours) + len(self.replaced)
 
 
@@ -110,7 +151,7 @@ def load(week: Week | None = None) -> Mine:
                     continue
                 if passed and hasattr(module, name):
                     setattr(mine.functions, name, getattr(module, name))
-                    mine.yours.append(name)
+                    mine.own.setdefault(day.number, []).append(name)
                 else:
                     mine.replaced.append((day.number, name, told))
     return mine

@@ -14,7 +14,8 @@ from labkit.base.deadline import Deadline
 from labkit.base.exchange import Exchange, LoadError, Reply
 from labkit.check.slow import too_slow
 from labkit.judge.ask import Asked, asked_of, replies
-from labkit.judge.judge import judge
+from labkit.judge.guard import attempt, noting, quiet
+from labkit.judge.judge import judge, unjudged
 from labkit.judge.mistake import Verdict
 from labkit.judge.replies_read import no_answer, not_loaded, refusal
 from labkit.judge.right_when import right_when
@@ -22,7 +23,7 @@ from labkit.judge.row import row_of
 from labkit.lesson.added_code import kits_functions, kits_own, old_names
 from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
-from labkit.lesson.slips import arguments, renamed, unfinished
+from labkit.lesson.slips import arguments, renamed, twice, unfinished
 from labkit.lesson.starter import function_lines
 from labkit.sandbox.messages import library_of, robots_of
 from labkit.sandbox.sandbox import Sandbox, deadline_of
@@ -93,7 +94,8 @@ def check_tasks(
     results = {id: _following(one, day, results) for id, one in results.items()}
     for task in wanted:
         with contextlib.suppress(LoadError):  # a file that loads only now and then
-            results[task.id] = check.second_look(task, results)
+            was = results[task.id]
+            results[task.id] = attempt(check.second_look, task, results, otherwise=was)
     return [results[task.id] for task in wanted]
 
 
@@ -198,7 +200,7 @@ class _Check:
             brief=True,
             deadline=self.deadline,
         )
-        with contextlib.closing(session):
+        with contextlib.closing(session), quiet():
             names = arguments(self.source, asked.function)
             says = right_when(asked, verdict.wrong_calls, names, session.ask)
         return replace(verdict, message=f"{verdict.message} {says}".strip())
@@ -233,12 +235,19 @@ def _verdict_of(day: Day, task: Task, asked: Sequence[Asked], source: str) -> Ve
     """Return a task's verdict: of several functions that of the first wrong one."""
     verdict = Verdict("passed")
     for one in asked:
-        verdict = replace(_of_function(day, task, one, source), function=one.function)
+        verdict = replace(_guarded(day, task, one, source), function=one.function)
         if len(asked) > 1 and verdict.message and not verdict.follows:
             verdict = replace(verdict, message=f"{one.function}: {verdict.message}")
         if verdict.status != "passed":
             break
     return verdict
+
+
+def _guarded(day: Day, task: Task, asked: Asked, source: str) -> Verdict:
+    """Return a function's verdict, also where the checker has none: that it failed."""
+    with noting() as stopped:
+        found = attempt(_of_function, day, task, asked, source)
+        return found or unjudged(stopped)
 
 
 def _of_function(day: Day, task: Task, asked: Asked, source: str) -> Verdict:
@@ -262,6 +271,8 @@ def _of_function(day: Day, task: Task, asked: Asked, source: str) -> Verdict:
         refused = [what for reply in came for what in reply.refused]
         if refused:
             return refusal(refused[0], None)
+        if says := twice(source, function):
+            verdict = replace(verdict, message=f"{verdict.message} {says}")
     return _changed_arguments(function, came, verdict)
 
 
@@ -275,6 +286,8 @@ def _unanswered(
             slow = too_slow(day, function, one.question.args, reply)
             return _with_slip(asked, slow, source)
         if early := no_answer(reply, function, task.id):
+            if early.mistake == "unwritten" and (says := twice(source, function)):
+                return Verdict("todo", "defined-twice", says)
             slip = early.mistake == "unwritten" and unfinished(source, function)
             if early.mistake == "missing" and (near := renamed(source, function)):
                 return replace(early, message=near)

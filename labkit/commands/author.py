@@ -1,12 +1,12 @@
-"""Is a day that you write as it must be? Its files, mistakes, tests, documents, style.
+"""Validate a day that you are writing: files, mistakes, tests, documents, style.
 
-    make author DAY=8                         all of it, that day's alone
+    make author DAY=8                         everything about this day
     python3 scripts/author_day.py 8           the same
     python3 scripts/author_day.py 8 --fast    without its tests
     make author TASK=8.3                      one task alone, in seconds
 
-What is not right is told with its file and line, and with what to do.
-Exit code: 0 all as it must be, 1 something to fix, 2 could not run.
+Each fault is reported with its file, its line and a remedy.
+Exit code: 0 no fault, 1 something to fix, 2 could not run.
 """
 
 import os
@@ -18,6 +18,7 @@ from collections.abc import Iterator
 from labkit.author import docstring, files, seen, student, week
 from labkit.base import cli, processes
 from labkit.commands import docs
+from labkit.judge.guard import LOUD
 from labkit.judge.row import rows_of
 from labkit.lesson import notebook
 from labkit.lesson.constants import TABLE_OF
@@ -133,7 +134,7 @@ def constants(day: Day) -> Iterator[str]:
     """Yield what moves, or stays, otherwise than the day's list of constants says."""
     if not day.has("constants"):
         file = shown(day.own / "constants.py")
-        yield f"{file} is not there: what the guide's numbers hang on (teaching.md)"
+        yield f"{file} is missing: the constants behind a number (docs/authors.md)"
         return
     block = f"<!-- run: {TABLE_OF.format(day.number)} -->"
     if block not in (day.folder / day.guide).read_text("utf-8"):
@@ -219,6 +220,7 @@ def one_task(day: Day, task: Task) -> int:
 
 def main() -> int:
     """Look at a day."""
+    os.environ[LOUD] = "1"  # what stops in the checker is its author's to see
     parser = cli.parser(__doc__)
     parser.add_argument("day", type=cli.day, nargs="?", help="default: the kit's last")
     parser.add_argument("--fast", action="store_true", help="without its tests")
@@ -239,5 +241,5 @@ def main() -> int:
             first = day.tasks[0].id
             print(f"    the rest comes then; one task now: make author TASK={first}")
             break
-    says = f"not yet as it must be: {', '.join(wrong)}" if wrong else ""
-    return cli.conclude(not wrong, says or "all as it must be")
+    says = f"faults in: {', '.join(wrong)}" if wrong else ""
+    return cli.conclude(not wrong, says or "no faults")

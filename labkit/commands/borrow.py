@@ -1,12 +1,12 @@
-"""Borrow the kit's function of a task you are stuck on, so that you can go on.
+"""Use the kit's function for a task in which you are stuck, so that you can continue.
 
     python3 scripts/borrow.py 3.3          (make borrow TASK=3.3)
-    python3 scripts/borrow.py              what is next to do (make borrow)
-    python3 scripts/borrow.py --day 5      all that is open on a day, asked once
+    python3 scripts/borrow.py              the next open task (make borrow)
+    python3 scripts/borrow.py --day 5      all open tasks of a day
 
-Your file then calls the kit's function there, and says so. The task counts as
-not passed until you write it yourself: make start RESET=3.3 puts its gap back.
-Your file as it was is kept beside it.
+Your file then calls the kit's function, with a comment. The task is not passed until
+you write the function yourself: make start RESET=3.3 empties it again. A copy of your
+old file is kept next to it.
 """
 
 import sys

@@ -1,14 +1,14 @@
-"""The capstone of a week, such as the arm's pick, with your own functions.
+"""Run the final task of a week, such as the pick, with your own functions.
 
-    make capstone                       one, with your functions of all days
+    make capstone                       one attempt, with your functions
     make capstone WEEK=1                of week 1
     make capstone ARGS=--all            twenty random ones
     make capstone ARGS=--kit            the library's functions alone
-    make capstone ARGS=--ablations      what mistakes do, in a table
+    make capstone ARGS=--ablations      the effects of mistakes, in a table
     make capstone ARGS="--clip a.gif"   a short film of it
     make capstone ARGS="--picture a.png"
 
-Each function of yours that `make check` does not pass is replaced by the library's.
+The library replaces each function of yours that does not pass `make check`.
 """
 
 import sys
@@ -41,17 +41,17 @@ def chosen(week: Week, kit_only: bool) -> Any:
         return own_functions.capstone_of(week).library()
     with cli.busy("checking your functions"):
         own = own_functions.load(week)
-    print(f"yours: {len(own.yours)} of {own.total}")
-    calls = {
-        name for some in own_functions.capstone_of(week).USES.values() for name in some
-    }
-    driven = [name for name in own.yours if name in calls]
-    listed = ": " + ", ".join(driven) if 0 < len(driven) < MANY else ""
-    says = f"  of the {len(calls)} that it calls, {len(driven)} are yours{listed}"
-    print(cli.wrapped(says, "    "))
+    uses = own_functions.capstone_of(week).USES
+    called = {(day, name) for day, names in uses.items() for name in names}
+    theirs = [n for day, some in own.own.items() for n in some if (day, n) in called]
+    listed = ": " + ", ".join(theirs) if 0 < len(theirs) < MANY else ""
+    counted = own_functions.counted(uses, own.own)
+    says = f"{counted.own} of the {counted.of} functions that it calls are yours"
+    print(cli.wrapped(says + listed, "  "))
     reasons: dict[str, list[tuple[int, str]]] = {}
     for day, name, why in own.replaced:
-        reasons.setdefault(why, []).append((day, name))
+        if (day, name) in called:
+            reasons.setdefault(why, []).append((day, name))
     for why, some in reasons.items():
         names = [name for _, name in some]
         listed = ", ".join(names) if len(names) < FEW else f"{len(names)} functions"
@@ -148,7 +148,7 @@ def ablations(capstone: ModuleType, fns: Any, week: Week) -> int:
 def one(capstone: ModuleType, fns: Any, clip: Path | None, picture: Path | None) -> int:
     """Attempt the one that is always the same; film it and draw it where asked to."""
     result = attempted(capstone, fns)
-    told = capstone.told(result)
+    told = capstone.summary(result)
     print("", *told.before, capstone.HEAD, sep="\n")
     print(capstone.row(f"one {capstone.THING}", result), *told.after, sep="\n")
     if clip or picture:

@@ -1,13 +1,14 @@
-"""Check a day: which tasks and deliverables stand, and what exactly went wrong.
+"""Check a day: which tasks and deliverables pass, and what is wrong with the others.
 
     python3 scripts/check_day.py 1              the whole day (make check DAY=1)
     python3 scripts/check_day.py --task 1.4     one task (make check TASK=1.4)
     python3 scripts/check_day.py 1 --watch      make watch: at each save
-    python3 scripts/check_day.py 1 --explain    what was measured and printed
-    python3 scripts/check_day.py 1 --json       for tools
+    python3 scripts/check_day.py 1 --explain    with all measurements
+    python3 scripts/check_day.py 1 --json       as JSON, for tools
 
-Your code runs in a process of its own, on a copy; nothing of yours is changed.
-Exit code: 0 all passed, 1 something to fix, 2 the checker could not run.
+Your code runs in a process of its own, on a copy, and changes none of your files.
+Exit code: 0 all passed, 1 something to fix, 2 the checker could not run, 70 the kit
+itself failed. With make, "something to fix" is no error, and the other codes are.
 """
 
 import argparse
@@ -53,12 +54,28 @@ def parse(arguments: Sequence[str] | None = None) -> argparse.Namespace:
 
 def check(day: Day, options: argparse.Namespace) -> int:
     """Check once, print the report and return the exit code."""
+    seed = secrets.randbits(32) if options.seed is None else options.seed
+    found = report_of(day, options, seed)
+    print(_printed(found, options, seed))
+    return cli.EXIT_OK if found.passed else cli.EXIT_FAILED
+
+
+def report_of(day: Day, options: argparse.Namespace, seed: int) -> "Report":
+    """Check once and return the report.
+
+    Args:
+        day: from its manifest.
+        options: as `parse` returns them.
+        seed: of the inputs that are drawn anew.
+
+    Raises:
+        Robo47Error: the day is not begun, or the file that is named is not there.
+    """
     script = options.file or day.work
     if not options.file:
         require_begun(day)
     elif not script.is_file():
         raise Robo47Error(f"{shown(script)} is not there")
-    seed = secrets.randbits(32) if options.seed is None else options.seed
     with cli.busy("checking"):
         warm = Process()  # it gets ready while MuJoCo is imported
         from labkit.check import memory
@@ -79,9 +96,7 @@ def check(day: Day, options: argparse.Namespace) -> int:
         from labkit.handin.deliverables import check_deliverables
 
         lab += check_deliverables(day, tasks_pass=done)
-    found = Report(day, results, lab)
-    print(_printed(found, options, seed))
-    return cli.EXIT_OK if found.passed else cli.EXIT_FAILED
+    return Report(day, results, lab)
 
 
 def _printed(found: "Report", options: argparse.Namespace, seed: int) -> str:

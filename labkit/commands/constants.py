@@ -1,14 +1,15 @@
-"""Turn each constant that a guide's numbers could hang on by two, and see what moves.
+"""Sensitivity of a guide's numbers: double each constant and measure the effect.
 
-    make constants DAY=8                    the table that its guide shows
+    make constants DAY=8                    the table in its guide
     python3 scripts/constants.py 8          the same
-    python3 scripts/constants.py 8 --check  only what is not as it says
+    python3 scripts/constants.py 8 --check  only the faults
 
-The list is `constants.py` in the day's folder: numbers, the constants of each, and why
-it moves or stays. Where it does something else the reason is wrong, here or in the
-guide, and this fails by name. `make docs` puts the table into the guide.
+The list is `constants.py` in the day's folder: the numbers, the constants that each of
+them could depend on, and the expected effect of doubling with its reason. If a number
+does something else, the reason is wrong, in the list or in the guide, and the command
+fails and names it. `make docs` inserts the table into the guide.
 
-Exit code: 0 all as the list says, 1 something moves otherwise, 2 could not run.
+Exit code: 0 all as expected, 1 another effect, 2 could not run.
 """
 
 import sys
@@ -19,9 +20,9 @@ from labkit.lesson.day import chosen_day
 
 
 def main() -> int:
-    """Turn the constants of a day."""
+    """Double the constants of a day."""
     parser = cli.parser(__doc__)
-    parser.add_argument("day", type=cli.day, nargs="?", help="default: worked on last")
+    parser.add_argument("day", type=cli.day, nargs="?", help="default: the last one")
     parser.add_argument("--check", action="store_true", help="print faults alone")
     options = parser.parse_args()
     day = chosen_day(options.day)

@@ -1,11 +1,11 @@
-"""What this machine has and lacks for the labs, line by line, and what to do about it.
+"""Test whether this machine has what the labs need, and print a remedy if not.
 
     make doctor                       or, without make:
     python3 scripts/doctor.py
     python3 scripts/doctor.py --json  for tools
 
-Paste the output when you ask for help: it holds no home folder and no user name.
-Exit code: 0 when all is well, 1 when a line says what to do.
+Paste the output when you ask for help: it contains no home folder and no user name.
+Exit code: 0 no problem, 1 a line has a remedy.
 """
 
 from __future__ import annotations  # it runs on old Pythons too
@@ -22,7 +22,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from labkit.base import cli, processes
+from labkit.base import cli, processes, shell
 from labkit.base.git import short_sha
 from robo47.paths import ROOT
 
@@ -69,6 +69,11 @@ from robo47.paths import shown
 days = all_days()
 others = [shown(day.source) for day in days if not is_kits(day)]
 found = {"days": len(days), "others": others}
+"""
+NAMES_PROBE = """
+from labkit.lesson.clash import clashes
+from robo47.paths import ROOT, shown
+found = [shown(path) for work in sorted(ROOT.glob("w*/work")) for path in clashes(work)]
 """
 WALL_PROBE = """
 from labkit.sandbox.process import wall
@@ -190,6 +195,29 @@ def check_lessons(python: str) -> Line:
     return Line("good", "lessons", "days: {}".format(found["days"]))
 
 
+def check_names(python: str) -> Line:
+    """The student's files: none has the name of a module that a lab imports."""
+    found, why = probe(python, NAMES_PROBE)
+    if found is None:
+        return Line("note", "names", "not tried: " + why)
+    if not found:
+        return Line("good", "names", "no file in work/ has a Python module's name")
+    says = "has the name of a Python module: " + ", ".join(found)
+    return Line("todo", "names", says, "Rename it, for example with my_ before it.")
+
+
+def check_shell() -> Line:
+    """Variables of the shell that are meant for another Python."""
+    found = os.environ.get(shell.FOUND, "").split()
+    found += shell.foreign(os.environ, str(ROOT))
+    if not found:
+        return Line("good", "shell", "nothing is set for another Python")
+    says = "set for another Python: " + ", ".join(dict.fromkeys(found))
+    says += "; the kit's commands leave it out"
+    remedy = "Before you start .venv's Python yourself: unset " + " ".join(found)
+    return Line("note", "shell", says, remedy)
+
+
 def check_gl(python: str) -> Line:
     """Which OpenGL back ends really draw."""
     chosen = os.environ.get("MUJOCO_GL", "")
@@ -268,8 +296,10 @@ def examine() -> list[Line]:
     python = str(VENV_PYTHON) if own else sys.executable
     here = check_python(python)
     checks: list[Callable[[], Line]] = [check_kit, lambda: here, check_platform]
+    checks += [check_shell]
     if here.status == "good":  # else these only say so again
-        inside = (check_mujoco, check_robot, check_lessons, check_wall, check_gl)
+        inside = [check_mujoco, check_robot, check_lessons, check_names]
+        inside += [check_wall, check_gl]
         checks += [functools.partial(check, python) for check in inside]
     checks += [check_display, check_disk, check_git]
     lines = []

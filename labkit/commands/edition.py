@@ -1,11 +1,11 @@
-"""Write the kit for students: no solutions to read, no catalogues, no history.
+"""Write the student edition: solutions sealed, no catalogues, no history.
 
     python3 scripts/edition.py ../robo47-students      (make edition OUT=...)
 
-A repository of its own, one commit a version: run it again after a change, and the
-students' `make update` brings it over. The labs' answers are sealed: they run, so
-`make day1` verifies them, and nobody reads them by chance. EDITION.md in it says what
-the library still shows.
+The edition is a repository of its own, with one commit per version. Run the command
+again after a change, and `make update` brings it to your students. The labs' solutions
+are sealed: they run, so `make day1` verifies them, but nobody reads them by chance.
+EDITION.md lists the solutions that the library still contains.
 """
 
 import re
@@ -30,7 +30,9 @@ LEFT_OUT = re.compile(
 )
 COMMANDS = "test|soak|lint|docs|site|oracle|bench|test-matrix|grade|edition"
 NOT_HERE = re.compile(rf"make ({COMMANDS})\b")
-SECTIONS = ("How fast", "Where things are")  # of README: about what is left out
+SECTION = "Where things are"  # of README: it lists what is left out
+FOR_TESTS = re.compile(r"\s+`make test` runs[^.]*\.")  # README's sentence about them
+FOR_AUTHORS = re.compile(r"To change the kit.*", re.DOTALL)  # README's last sentence
 ABOUT = """# Student edition of robo47 {version}
 
 The whole course, its checker and its library, without what gives answers away: the
@@ -107,12 +109,10 @@ def shorten(out: Path) -> None:
     makefile.write_text("\n\n".join(b for b in blocks if not gone.match(b)), "utf-8")
     readme = out / "README.md"
     text = readme.read_text("utf-8")
-    for name in SECTIONS:
-        until = r"\n.*?(?=\n## |\nThe robot is)"
-        text = re.sub(rf"\n## {name}{until}", "", text, flags=re.S)
-    note = f"\nWhat is left out: [{NOTE}]({NOTE}).\n"
-    text = re.sub(r"\nTeaching with it.*", note, text, flags=re.S)
-    text = text.replace(" The kit's own tests: `make test`.", "")
+    until = r"\n.*?(?=\n## |\nThe robot is)"
+    text = re.sub(rf"\n## {SECTION}{until}", "", text, flags=re.S)
+    text = FOR_AUTHORS.sub(f"[{NOTE}]({NOTE}) lists what is left out.\n", text)
+    text = FOR_TESTS.sub("", text)
     lines = [line for line in text.splitlines() if not NOT_HERE.search(line)]
     readme.write_text("\n".join(lines) + "\n", "utf-8")
     for page in out.rglob("*.md"):

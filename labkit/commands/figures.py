@@ -3,6 +3,7 @@
     make figures DAY=6                              yours, that the day hands in
     make figures DAY=6 ARGS=--kit                   all of the lesson
     make figures DAY=1 ARGS=--clips                 its clips, where it has some
+    make figures ARGS=--teaching                    those of the teachers' page
     python3 scripts/make_figures.py --day 6         the same as the first
     python3 scripts/make_figures.py NAME            one of them
     python3 scripts/make_figures.py --out elsewhere into another folder
@@ -37,7 +38,10 @@ def main() -> int:
     parser.add_argument("--out", type=Path, help="folder to write to")
     parser.add_argument("--kit", action="store_true", help="the lesson's, not yours")
     parser.add_argument("--clips", action="store_true", help="the lesson's clips")
+    parser.add_argument("--teaching", action="store_true", help="a class's pages")
     options = parser.parse_args()
+    if options.teaching:
+        return draw_class(options.out)
     # Before a lesson imports MuJoCo, which fails there with a traceback.
     backends.rendering_environment()
     number = day_of(options.names) if options.day is None else options.day
@@ -74,6 +78,19 @@ def film(day: Day, folder: Path) -> int:
     for name, frames in day.offered("clips").items():
         waits = tqdm(frames(), name, leave=False, delay=1, disable=None)
         print(clip.save_frames(waits, folder / f"{name}.webp"))
+    return cli.EXIT_OK
+
+
+def draw_class(out: Path | None) -> int:
+    """Write the pictures of a graded class that `docs/teaching.md` shows."""
+    try:
+        from labkit.grade import pictures
+    except ModuleNotFoundError as missing:
+        raise Robo47Error(
+            f"pictures need {missing.name}, which is not installed yet: make figures"
+        ) from None
+    for name, picture in pictures.draw():
+        print(save(picture, (out or pictures.FOLDER) / f"{name}.png"))
     return cli.EXIT_OK
 
 

@@ -1,12 +1,13 @@
-"""Does a clone of your last commit give your numbers? What is missing from it?
+"""Test whether a clone of your last commit reproduces your numbers.
 
-    python3 scripts/fresh.py             the week that you are in (make fresh)
+    python3 scripts/fresh.py             your current week (make fresh)
     python3 scripts/fresh.py 2           week 2
     python3 scripts/fresh.py --quick     in this environment, no set-up
 
-The commit, not your folder, is cloned to a temporary place, set up from nothing, and
-the labs of the week run there: yours where they are begun, else the kit's. Their
-numbers are compared with the rows that you committed. Nothing is logged.
+The command clones the commit, not your folder, into a temporary folder, sets it up from
+nothing and runs the labs of the week: yours, or the kit's for days that you have not
+begun. It compares their numbers with the rows that you committed, and lists missing
+files. It adds no row to the log.
 Exit code: 0 the same numbers, 1 something to fix, 2 could not run.
 """
 

@@ -1,16 +1,16 @@
-"""What no question of a day notices: each function's body, changed by machine.
+"""Mutation test of a day's questions: find changed functions that they all accept.
 
     make gaps DAY=3
     python3 scripts/gaps.py 3
 
-Every constant is doubled, every comparison turned round and its limit moved, every
-clip, abs, max and min left out, the arguments and the answer are clipped or lose their
-signs, and the answer is rounded to float32. Each change is put to the row's questions,
-in this process; one that they take for right is printed. What is no mistake stands with
-a reason in the function's file: row.same("x < 1e-9 => x < 2e-09", "why").
-The list is another than that of a hand's slips, `labkit/judge/operators.py`: this one
-asks what the questions forgot, that one what a student may have typed.
-Exit code: 0 nothing goes unnoticed, 1 something does, 2 could not run.
+The command changes the body of each function, one change at a time: it doubles every
+constant, reverses every comparison and moves its limit, omits every clip, abs, max and
+min, clips the arguments and the answer or removes their signs, and rounds the answer to
+float32. It asks the row's questions of each changed function, in this process, and
+prints the changes that all questions accept. If a change is no mistake, give the reason
+in the function's file: row.same("x < 1e-9 => x < 2e-09", "why"). The slips of a student
+are another list, in `labkit/judge/operators.py`.
+Exit code: 0 every change is detected, 1 some are not, 2 could not run.
 """
 
 import ast

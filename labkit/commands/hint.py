@@ -1,12 +1,12 @@
-"""Get the next hint for a task; the solution, to compare, once yours passes.
+"""Print the next hint for a task, or the solution to compare once yours passes.
 
     python3 scripts/hint.py 1.4          (make hint TASK=1.4)
-    python3 scripts/hint.py 1.4 --again  the last one once more
-    python3 scripts/hint.py              for the first task that is not passed
-    python3 scripts/hint.py figure       what is missing in it
+    python3 scripts/hint.py 1.4 --again  the last one again
+    python3 scripts/hint.py              for the first open task
+    python3 scripts/hint.py figure       what the figure lacks
 
-Each call gives one more hint and the section to re-read. What you have had is
-remembered in .robo47/, which git ignores.
+Each call prints one more hint and the section to read again. The folder .robo47/, which
+git ignores, remembers the hints that you have seen.
 """
 
 from labkit.base import cli, store
@@ -83,7 +83,7 @@ def main() -> int:
         "task", nargs="?", help="such as 1.4, or figure; default: the next task"
     )
     parser.add_argument("--day", type=cli.day, help="default: the one worked on last")
-    parser.add_argument("--again", action="store_true", help="the last hint once more")
+    parser.add_argument("--again", action="store_true", help="the last hint again")
     options = parser.parse_args()
     if options.task and not options.task[0].isdecimal():
         return show_deliverable(chosen_day(options.day), options.task)

@@ -1,18 +1,19 @@
-"""Find the bug: a right lab with one mistake put in, in work/hunt/.
+"""Find the bug: a correct lab with one mistake, in work/hunt/.
 
-    make hunt DAY=4               begin; with a hunt begun: go on with it
-    make hunt DAY=4 LEVEL=2       one of the week; only its capstone is seen
+    make hunt DAY=4               begin a hunt, or continue the last one
+    make hunt DAY=4 LEVEL=2       one of the week; you see only the capstone
     make hunt DAY=4 LEVEL=3       two functions of the day are wrong
     make hunt DAY=4 SEED=7        the same mistake for a whole class
     make hunt ARGS=--run          run the hunted lab
     make hunt ARGS="--call 'ad([0, 0, 1, 0, 0, 0])'"
     make hunt ARGS="--suspect mass_matrix --expect 'M is not symmetric'"
-    make hunt ARGS=--judge        is it the function, and does your repair pass?
-    make hunt ARGS=--give-up      which one it was
+    make hunt ARGS=--judge        test your suspicion and your repair
+    make hunt ARGS=--give-up      show the mistake
 
-The functions of the hunted script are closed: call them, print, compare with paper or
-with MuJoCo. Say what you expect if your suspicion is right, then look. Whom you suspect
-you write anew in its place; --judge looks at what you wrote.
+The functions of the hunted script are sealed. Call them, print their results, and
+compare these with a calculation by hand or with MuJoCo. State the symptom that you
+expect if your suspicion is right, and then test it. Write the suspected function again
+in its place; --judge checks the function that you wrote.
 Exit code: 0 found or nothing to judge, 1 not yet, 2 it could not run.
 """
 
@@ -162,24 +163,38 @@ def suspect(case: Case, function: str, expected: str) -> None:
 
 
 def ask(case: Case) -> int:
-    """Ask whom one suspects and what one expects, then run."""
+    """Ask for the suspected function and for what it would show, then run."""
     tell(case)
     print(f"\n{HOW}")
     try:
-        function = typed(SUSPECT)
-        while "(" in function:
-            experiment.call(case, function)
-            function = typed(SUSPECT)
+        function = suspected(case)
         if not function:
             experiment.run(case)
             return cli.EXIT_OK
-        known(case, function)
         expected = typed(EXPECT)
     except EOFError:
         print()
         return cli.EXIT_OK
     suspect(case, function, expected)
     return cli.EXIT_OK
+
+
+def suspected(case: Case) -> str:
+    """Return the function that is named at last, "" for none; calls are made meanwhile.
+
+    A name that the script does not have is answered, and the question is asked again.
+    """
+    while function := typed(SUSPECT):
+        if "(" in function:
+            experiment.call(case, function)
+            continue
+        try:
+            known(case, function)
+        except Robo47Error as error:
+            print(cli.wrapped(str(error)))
+        else:
+            break
+    return function
 
 
 def typed(question: str) -> str:

@@ -1,13 +1,14 @@
-"""Run what can differ between processors as on others: no number hangs on a last bit.
+"""Run the numerical tests as on other processors: no number depends on the last bit.
 
     make kernels                              Prescott, Haswell, SkylakeX
-    python3 scripts/kernels.py Nehalem Zen    as on others that OpenBLAS knows
-    python3 scripts/kernels.py --others       all but this machine's own
+    python3 scripts/kernels.py Nehalem Zen    as on others known to OpenBLAS
+    python3 scripts/kernels.py --others       all except this machine's
 
-Each runs the tests of the days and of the library. The first, which is the most
-different, runs the authors' of them too, and compares the documents' outputs. What
-OpenBLAS does not take here is named and left out. To find a number that moves set
-OPENBLAS_CORETYPE or NPY_DISABLE_CPU_FEATURES: all commands heed them, the sandbox too.
+Each run executes the tests of the days and of the library. The first processor differs
+most, so its run also includes the authors' tests and compares the documents' outputs.
+Processors that OpenBLAS does not support here are named and left out. To find a number
+that changes, set OPENBLAS_CORETYPE or NPY_DISABLE_CPU_FEATURES: all commands and the
+sandbox use them.
 
 Exit code: 0 the same everywhere, 1 something differs, 2 could not run.
 """

@@ -4,6 +4,8 @@
         value=2.2e-16 notes="after the fix"
     python3 scripts/log_metric.py --check      every bad line, and why
     python3 scripts/log_metric.py --restore    rows that were refused, put back
+    python3 scripts/log_metric.py --convert    a log in a spreadsheet's form,
+                                               converted to the log's own
 
 check=, metric= and value= are needed; date= and git_sha= are filled in. The
 other fields: run_id day seed config method n_trials n_failures notes.
@@ -15,6 +17,7 @@ from pathlib import Path
 from labkit.base import cli
 from labkit.base.text import count
 from labkit.log import append_row
+from labkit.log.convert import convert
 from labkit.log.logfile import command, restore, unsaved_rows
 from labkit.log.rows import typed
 from labkit.log.scan import Line, came_back, watched
@@ -28,13 +31,17 @@ EXAMPLE = "check=fk_identity_check metric=inv_err value=2.2e-16"
 def main() -> int:
     """Do the one thing that the command line asks for."""
     args = parser().parse_args()
-    if args.fields and (args.check or args.restore):
-        says = "give fields to add a row, or --check, or --restore; not both."
+    if args.fields and (args.check or args.restore or args.convert):
+        says = "give fields to add a row, or one of --check, --restore and --convert."
         raise Robo47Error(says)
     if args.check:
         return show_check(args.file)
     if args.restore:
         print(f"{count(restore(args.file), 'row')} put back into {shown(args.file)}")
+        return cli.EXIT_OK
+    if args.convert:
+        rows, kept = convert(args.file)
+        print(f"{count(rows, 'row')} written; the old file is {shown(kept)}")
         return cli.EXIT_OK
     fields = parse(args.fields, args.allow_nonfinite)
     row = append_row(
@@ -52,6 +59,9 @@ def parser() -> argparse.ArgumentParser:
     does = it.add_mutually_exclusive_group()
     does.add_argument("--check", action="store_true", help="list every bad line")
     does.add_argument("--restore", action="store_true", help="add refused rows again")
+    does.add_argument(
+        "--convert", action="store_true", help="write another form of the log again"
+    )
     cli.add_log(it)
     it.add_argument(
         "--sync",

@@ -1,12 +1,12 @@
-"""Write the skeleton of a new day, which passes its own tests as it is; move a day.
+"""Write the skeleton of a new day, which passes its own tests; or move a day.
 
     make new DAY=8 WEEK=w2-autonomy NAME=identification
     python3 scripts/new_day.py 8 w2-autonomy identification
     make new DAY=12 FROM=9                    day 9 becomes day 12
-    make new DAY=12 FROM=9 WEEK=w3-x NAME=imitation   there, so called
+    make new DAY=12 FROM=9 WEEK=w3-x NAME=imitation   there, with this name
 
-A week that is not there yet gets its own files too. Nothing is overwritten. What to do
-next: docs/teaching.md.
+If the week is new, the command also writes the week's files. It overwrites nothing.
+The next steps are in docs/authors.md.
 """
 
 import re
@@ -193,5 +193,5 @@ def main() -> int:
         print(f"wrote {shown(path)}")
     docs.renew(docs.documents_of(find_day(options.day)))
     n = options.day
-    print(f"Now: make author DAY={n}, and docs/teaching.md")
+    print(f"Now: make author DAY={n}, and docs/authors.md")
     return cli.EXIT_OK

@@ -1,13 +1,13 @@
-"""Ask Pinocchio for the Panda's poses and forces and keep its answers for the tests.
+"""Compute the Panda's poses and forces with Pinocchio, and store them for the tests.
 
     make oracle                      write the files in tests/data/
-    make oracle ARGS=--check         compute anew and compare with them
+    make oracle ARGS=--check         compute them again and compare
 
-pinocchio_panda.json holds poses of every frame; dynamics_oracle.json what crba and rnea
-say: both with the armature, which Pinocchio reads from the file, without damping.
-kinematics_oracle.json holds Pinocchio's three Jacobians, its twists turned into
-(omega; v), and what the textbook's own package (modern_robotics) says, given our
-screws.
+pinocchio_panda.json holds the poses of every frame. dynamics_oracle.json holds the
+results of crba and rnea, both with the armature, which Pinocchio reads from the file,
+and without damping. kinematics_oracle.json holds Pinocchio's three Jacobians, with
+twists converted to (omega; v), and the results of the textbook's package
+(modern_robotics) for our screws.
 
 Pinocchio (pin) reads the same MJCF files but shares no code with MuJoCo or with us.
 It is 480 MB installed and has no Windows wheel, so it gets an environment of its own,

@@ -1,4 +1,4 @@
-"""Write a page to show: a week's numbers, whose functions, its capstone in 3D.
+"""Write a results page to show: a week's numbers and functions, its capstone in 3D.
 
     make proof                            of your week: metrics/proof-week1.html
     make proof WEEK=1                     of this week
@@ -6,15 +6,18 @@
     python3 scripts/proof.py --of CLONE --name NAME --out FILE
                                           of a student's clone, for a teacher
 
-Every function is checked and every finished lab is run again now, in the sandbox; the
-week's capstone is tried with the functions that pass. One file, opened from disk;
-metrics/proof.html leads to those of all weeks. Beside your own page stands its card,
-proof-week1.png: put both on a server, and who shares the page's address shows the card.
+The command checks every function, runs every finished lab again in the sandbox, and
+runs the week's capstone with the functions that pass. The page is one file, which you
+open from disk; metrics/proof.html links the pages of all weeks. Next to your own page
+is its card, proof-week1.png. If you put both on a server, a shared link to the page
+shows the card.
 """
 
+import contextlib
 import importlib.util
 import io
 import re
+import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -46,7 +49,7 @@ def main() -> int:
     add("--week", type=cli.week, help="default: that of the day worked on last")
     add("--day", type=cli.day, metavar="N", help="the week of this day")
     add("--of", type=Path, metavar="CLONE", help="a student's clone, not your own")
-    add("--name", default="", help="the student's; default: as git knows them")
+    add("--name", default="", help="to show; default: the name that git knows")
     add("--graded", type=graded, default={}, metavar="N:COMMIT,...", help="of each day")
     add("--out", type=Path, metavar="FILE", help="default: metrics/proof-weekN.html")
     options = parser.parse_args()
@@ -62,7 +65,8 @@ def main() -> int:
     begun = time.monotonic()
     try:
         clone, own = options.of or ROOT, not options.of
-        proof = found(week, clone, options.name, own=own, graded=options.graded)
+        name = options.name or (asked_name(clone) if own else "")
+        proof = found(week, clone, name, own=own, graded=options.graded)
     except (OSError, GitError) as error:
         raise Robo47Error(f"{error}") from None
     facts = page.in_short(proof)
@@ -79,6 +83,22 @@ def main() -> int:
         write(every, door.render(door.pages_beside(every.parent)).encode())
         print(f"wrote {shown(every.absolute())}, which leads to the pages of all weeks")
     return cli.EXIT_OK
+
+
+def asked_name(clone: Path) -> str:
+    """Return the name that the student types where git has none; "" for no name.
+
+    Without a keyboard nothing is asked, and the page is made without a name.
+    """
+    if git.user_name(clone):
+        return ""  # `found` reads it
+    if sys.stdin is not None and sys.stdin.isatty():
+        print("git does not know your name. Which name should the page show?")
+        with contextlib.suppress(EOFError):
+            return input("Your name, or Enter for a page without one: ").strip()
+    says = 'The page shows no name, because git has none: make proof ARGS="--name Ada",'
+    print(cli.wrapped(f'{says} or git config --global user.name "Your Name"'))
+    return ""
 
 
 def draw_card(path: Path, proof: page.Proof) -> Path:
@@ -116,14 +136,15 @@ def found(
         week: from its manifest.
         clone: the folder.
         name: the student's; by default as git knows them: by user.name in their own
-            clone, by the author of the last commit of their work in another.
+            clone, by the author of the last commit of their work in another. The page
+            of a student without any name shows none.
         own: it is the reader's, which may be a linked worktree.
         graded: the commit of each day that was; of others the last of these.
     """
     days = days_of(week)
     history = read_history(clone, (), own=own)
     name = name or (git.user_name(clone) if own else git.author_of(clone, OWN_LABS))
-    name = visible(name, 80) or "somebody whom git does not know"
+    name = visible(name, 80)
     student = Student(name, clone.name, clone)
     with Sandbox() as sandbox, TemporaryDirectory(prefix="robo47-grade-") as top:
         place = Path(top).resolve()

@@ -1,15 +1,15 @@
-"""Turn the metrics log into a page worth showing.
+"""Write a page about the numbers in the metrics log.
 
     python3 scripts/report_metrics.py               metrics/report.html
     python3 scripts/report_metrics.py --week 1      the page of one week alone
     python3 scripts/report_metrics.py --day 1       one day of the course
     python3 scripts/report_metrics.py --check fk_by_hand --since 2026-09-01
 
-The page works offline, on a phone and in the dark. Thresholds come from the
-days' manifests. Lines that could not be read or may be cut are listed at the end
-of the page. Without a filter there is a page on each week that you began as
-well, report-week1.html, and its numbers are written between the marks of
-docs/RETRO_w1.md, where that file has them; with --file they are left alone.
+The page works offline, on a phone and in dark mode. The thresholds come from the
+manifests of the days. The end of the page lists lines that could not be read or may be
+truncated. Without a filter, the command also writes a page for each week that you have
+begun, report-week1.html, and writes its numbers between the marks in docs/RETRO_w1.md,
+if that file has marks. With --file, it leaves them unchanged.
 """
 
 import argparse

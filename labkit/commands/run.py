@@ -1,12 +1,12 @@
-"""Run a day's lab: your own copy of it, or the kit's.
+"""Run a day's lab: your copy, or the kit's.
 
     python3 scripts/run_day.py            your copy of the last day you began
     python3 scripts/run_day.py 1          of day 1 (make run DAY=1)
     python3 scripts/run_day.py 1 --kit    the kit's own, complete (make day1)
 
-Other options go to the lab, such as --no-log. While the day's worksheet still waits for
-predictions, the kit's own lab shows its verdicts and none of its numbers; --numbers
-shows them all the same.
+Other options, such as --no-log, are passed to the lab. While the day's worksheet still
+lacks predictions, the kit's lab prints its verdicts without the numbers; --numbers
+prints the numbers anyway.
 """
 
 import os
@@ -82,4 +82,4 @@ def main() -> int:
         return run_quietly(command, day, number)
     if os.name == "nt":  # execv there returns to the shell before the script has ended
         return subprocess.run(command, check=False).returncode
-    os.execv(command[0], command)
+    cli.go_on_in(command)

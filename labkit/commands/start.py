@@ -1,17 +1,19 @@
-"""Start a day: write your copy of its lab script, with the tasks left for you to do.
+"""Start a day: write your copy of its lab script, with empty functions.
 
     python3 scripts/start_day.py 1                 (make start DAY=1)
-    python3 scripts/start_day.py 1 --reset 1.4     put one task's gap back
+    python3 scripts/start_day.py 1 --reset 1.4     empty one task again
                                                   (make start RESET=1.4)
 
-A file that is there is never overwritten, and a reset keeps your old text beside it.
+An existing file is never overwritten, and a reset keeps your old text next to it.
 """
 
 from itertools import count
 from pathlib import Path
 
 from labkit.base import cli, store
-from labkit.lesson import last_day
+from labkit.base.git import GitError
+from labkit.handin.whereabouts import whereabouts
+from labkit.lesson import clash, last_day
 from labkit.lesson.day import Day, chosen_day, find_task
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import put_back, require_kits, starter_of
@@ -41,7 +43,10 @@ def start(day: Day) -> int:
 
 
 def require_begun(day: Day) -> None:
-    """Refuse a day without a file, or with an empty one; a lost kit.py comes back."""
+    """Refuse a day without a file, or with an empty one; a lost kit.py comes back.
+
+    A file beside it that has a module's name is told.
+    """
     start = f"make start DAY={day.number}"
     if not day.work.is_file():
         clone = day.folder.parent
@@ -49,10 +54,21 @@ def require_begun(day: Day) -> None:
         if old != day.work:
             says = f"the lab {old.name} is called {day.script} now"
             raise Robo47Error(f"{says}; to bring yours over: make update")
+        if where := _elsewhere(day, clone):
+            raise Robo47Error(f"{shown(day.work)} is not there. {where}")
         raise Robo47Error(f"{shown(day.work)} is not there; first: {start}")
     if not day.work.read_bytes().strip():
         raise Robo47Error(f"{shown(day.work)} is empty. Delete it, then: {start}")
     copy_kit(day)
+    clash.tell(day.work.parent)
+
+
+def _elsewhere(day: Day, clone: Path) -> str:
+    """Return a sentence on where a student's file is; "" where nobody knows."""
+    try:
+        return whereabouts(day, clone)
+    except (GitError, OSError):
+        return ""
 
 
 def copy_kit(day: Day) -> None:

@@ -1,4 +1,4 @@
-"""Bring your clone to the kit's newest version; all that is yours stays.
+"""Update your clone to the newest version of the kit, and keep your work.
 
     python3 scripts/update.py                          (make update)
     python3 scripts/update.py --from https://...       (make update FROM=...)
@@ -20,7 +20,8 @@ from typing import Any
 
 from labkit.base import cli, processes, store
 from labkit.commands.start import free_name
-from labkit.update import git, last_step, merge
+from labkit.lesson.students_own import is_students
+from labkit.update import base, git, last_step, merge
 from labkit.update.git import ask, beside, sweep
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
@@ -52,7 +53,7 @@ def main() -> int:
 
 def update(
     kit: str | None, to: str | None
-) -> tuple[dict[str, Any], list[Path], list[str], str]:
+) -> tuple[dict[str, Any], list[Path], list[str], str, str]:
     """Fetch, merge and take over; until the last step nothing of the student's moves.
 
     Args:
@@ -67,6 +68,7 @@ def update(
     own = merge.saved_own()
     copies = list[Path]()
     with cli.busy("merging"), beside(own) as worktree:
+        began = base.joined(worktree, own, commit)
         taken = merge.merge(worktree, commit)
         found = renew_labs(worktree, own, commit)
         if ask("status", "--porcelain", at=worktree):
@@ -76,7 +78,7 @@ def update(
         if ask("rev-parse", "HEAD", at=worktree) != own:
             with kept_copies(found["days"]) as copies:
                 last_step.take(worktree, own)
-    return found, copies, taken, own
+    return found, copies, taken, own, began
 
 
 def renew_labs(worktree: Path, own: str, target: str) -> dict[str, Any]:
@@ -112,14 +114,30 @@ def kept_copies(days: list[dict[str, Any]]) -> Iterator[list[Path]]:
         raise
 
 
-def tell(found: dict[str, Any], copies: list[Path], taken: list[str], own: str) -> None:
-    """Say what is new and what to run again."""
+def _of_the_work(files: list[str], taken: list[str]) -> str:
+    """Return what is true of the student's files after an update."""
+    changed = sorted(name for name in files if is_students(name))
+    if changed:
+        return (
+            f"; your lines are kept, and the kit's changes are in: {', '.join(changed)}"
+        )
+    return "" if taken else "; your work is as it was"
+
+
+def tell(
+    found: dict[str, Any], copies: list[Path], taken: list[str], own: str, began: str
+) -> None:
+    """Say where the update started, what is new and what to run again."""
+    if began:
+        print(began)
     now = ask("describe", "--tags", "--always")
     files = ask("diff", "--name-only", own)
     if not files:
         print("This is the kit's newest version; nothing has changed.")
         return
-    print(f"The kit is at {now} now; your work is as it was.")
+    changed = ask("diff", "--name-only", "--no-renames", "--diff-filter=MD", own)
+    says = _of_the_work(changed.splitlines(), taken)
+    print(cli.wrapped(f"The kit is at {now} now{says}.", "  "))
     for line in found["changes"][:CHANGES]:
         print(f"  {line}")
     if len(found["changes"]) > CHANGES:

@@ -1,4 +1,4 @@
-"""See the arm, its frames, and your own code move it, beside MuJoCo's answer.
+"""Show the arm and its frames, moved by your code, next to MuJoCo's answer.
 
     make view                        in your browser; DAY=2: that day's tabs
     make view ARGS=--screenshot      a picture, without a window
@@ -6,9 +6,9 @@
     make view ARGS=--native          MuJoCo's own window
     python3 scripts/view_panda.py 2  without make: the page of Day 2
 
-In the browser: drag a joint. Your own function draws a red arm wherever it
-differs from MuJoCo's, and is asked again at every save; it runs in the checker's
-sandbox. The page listens on this machine alone, at an address nobody else knows.
+In the browser, drag a joint. Where the result of your function differs from MuJoCo's, a
+red arm shows it. Your function is called again after every save, in the checker's
+sandbox. Only this machine can open the page, at an address that contains a secret.
 """
 
 import argparse
@@ -28,6 +28,7 @@ from labkit.inspector.ghost import Seen
 from labkit.inspector.student import AGAIN, Student
 from labkit.inspector.tab import day_tabs
 from labkit.judge.ask import model_of
+from labkit.lesson import clash
 from labkit.lesson.day import Day, chosen_day
 from labkit.sandbox.sandbox import CALL_SECONDS, Sandbox
 from robo47 import panda
@@ -222,6 +223,7 @@ def main() -> int:
             raise Robo47Error(f"{why}. The browser needs none of that: make view")
         return native_viewer.show()
     day = chosen_day(options.day)
+    clash.tell(day.work.parent)
     if options.clip:
         return clip(options.clip, day, options.file)
     entry = options.entry or day.week.robot

@@ -1,26 +1,29 @@
-"""Work through a day in one loop: save, read the verdict, go on.
+"""Work through a day in one loop: save, read the verdict, continue.
 
     make watch                     the day worked on last
     make watch DAY=4
     make watch TASK=4.5            one task alone
 
-It shows the next open task and where it stands in your file. At each save that task is
-checked; when it passes, the next one is shown. Then all others are asked again, for a
-change may have reached them: until that is known, they are shown in brackets.
+The command shows the next open task and its position in your file. At each save it
+checks that task; when the task passes, it shows the next one. Then it checks all others
+again, because a change may affect them, and shows them in brackets until the result is
+known. When all functions are right, it lists what is left to hand in.
 
 Keys: h hint, r run the lab, v view, b borrow, l list, c check all, q quit. Without a
-keyboard (a pipe, an editor's window) it watches all the same; Ctrl-C ends it.
+keyboard (a pipe, an editor's window) it also watches; Ctrl-C ends it.
 Exit code: 0 all passed, 1 something is left, 2 it could not run.
 """
 
 import contextlib
 import os
 import re
+import secrets
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from labkit.base import cli
 from labkit.base.keys import Keys
@@ -31,11 +34,11 @@ from labkit.sandbox.process import Process
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, ROOT, shown
 
+if TYPE_CHECKING:
+    from labkit.check.report import Report
+
 POLL_SECONDS = 0.15  # polling sees saves on WSL and network mounts, where events do not
 BAR = 20  # places
-ONLY_A_QUEST = """\
-All that is asked for passes; a side quest is left. r runs the lab and logs
-your numbers; c says what else is to hand in."""
 KEYS = "h hint  r run  v view  b borrow  l list  c check all  q quit"
 
 
@@ -177,9 +180,9 @@ def _saved(loop: Loop, keys: Keys, *, clear: bool = True) -> bool:
     print(f"Day {loop.day.number}: {loop.day.title}", flush=True)
     try:
         done = _go_on(loop)
-        if not done and not loop.only:
-            print("\nasking the others again ...", flush=True)
-            loop.check(None)
+        if not done and not loop.only and not loop.sure:
+            with cli.busy("asking the others again"):  # on a terminal, until they are
+                loop.check(None)
             loop.sure = True
     except Robo47Error as error:  # a file may be away while an editor saves it
         cli.complain(f"error: {error}")
@@ -187,10 +190,10 @@ def _saved(loop: Loop, keys: Keys, *, clear: bool = True) -> bool:
     if done:
         return True
     if left := loop.open():
-        print(f"\n{loop.far()}")
-        if left[0].optional and not loop.only:
-            print(f"\n{ONLY_A_QUEST}")
-        print(f"\n{loop.shown(left[0])}")
+        quest = left[0].optional and not loop.only
+        if not quest:  # else the day's end has said it
+            print(f"\n{loop.far()}")
+        print(f"\n{'A side quest is left. ' if quest else ''}{loop.shown(left[0])}")
     asked = KEYS if keys.there else "Ctrl-C ends it"
     print(f"\n{time.strftime('%H:%M:%S')}  watching; {asked}\n", flush=True)
     return False
@@ -212,11 +215,39 @@ def _go_on(loop: Loop) -> bool:
 
 def _whole_day(loop: Loop) -> bool:
     """Check the whole day, lab and handing in; return whether it passes."""
+    from labkit.check import memory
+    from labkit.check.report import as_text
     from labkit.commands import check
 
-    print()
     options = check.parse([str(loop.day.number), *_file(loop)])
-    return check.check(loop.day, options) == cli.EXIT_OK
+    report = check.report_of(loop.day, options, secrets.randbits(32))
+    for result in report.tasks:
+        loop.states[result.task.id] = memory.in_words(result.verdict)
+    loop.sure = True
+    wrong = any(result in report.left for result in report.counted)
+    if wrong or any(item.status == "wrong" for item in report.items):
+        text = as_text(report, colour=cli.wants_colour(sys.stdout))
+        print(f"\n{text}")
+    else:
+        print(f"\n{_finish(loop, report)}", flush=True)
+    return report.passed
+
+
+def _finish(loop: Loop, report: "Report") -> str:
+    """Return what is said when all functions of a day are right, in a few lines."""
+    day = loop.day.number
+    count = f"{len(report.counted)} of {len(report.counted)} tasks pass."
+    right = cli.paint(f"Day {day}: all your functions are right. {count}", "good")
+    lines = [right, loop.far(), ""]
+    lines += [f"See the arm move by them: make view DAY={day} (key v)."]
+    left = [item.name for item in report.items if not item.passed]
+    if left:
+        lines.append(f"Left to hand in: {', '.join(left)}.")
+        says = f"make run DAY={day} (r) logs your numbers; make check DAY={day} (c) "
+        lines.append(says + "says what is missing.")
+    else:
+        lines.append(f"Next: {report.next_step()}")
+    return "\n".join(map(cli.wrapped, lines))
 
 
 def _file(loop: Loop) -> list[str]:
@@ -287,7 +318,7 @@ def _counted(day: Day) -> Iterator[int]:
 
 def _bar(name: str, passed: int, count: int) -> str:
     full = BAR * passed // count if count else 0
-    bar = "#" * full + "." * (BAR - full)
+    bar = cli.paint("#" * full, "good") + "." * (BAR - full)
     return f"  {name:8} [{bar}] {passed} of {count} tasks"
 
 

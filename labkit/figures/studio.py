@@ -19,7 +19,7 @@ from labkit.figures.scene import FOVY, Box, Camera, Ghost, Scene
 from robo47 import panda
 from robo47.checks import Array
 from robo47.errors import Robo47Error
-from robo47.panda.reading import hangs_on
+from robo47.panda.reading import is_descendant
 
 # The room is dark: a picture of it stands on a light page and on a dark one.
 SKY, FLOOR, GRID = (0.106, 0.122, 0.141), (0.15, 0.17, 0.19), (0.24, 0.27, 0.30)
@@ -134,7 +134,7 @@ def add_ghost(scene: mujoco.MjvScene, model: mujoco.MjModel, ghost: Ghost) -> No
     carrier = model.body(ghost.body).id
     for original in list(scene.geoms[: scene.ngeom]):
         body = model.geom_bodyid[original.objid]
-        if body != carrier and (ghost.alone or not hangs_on(model, body, carrier)):
+        if body != carrier and (ghost.alone or not is_descendant(model, body, carrier)):
             continue
         colour = WRONG_COLOUR if ghost.wrong else GHOST_COLOUR
         size = original.size

@@ -17,13 +17,15 @@ import tempfile
 import threading
 from dataclasses import asdict, replace
 from pathlib import Path
+from typing import Any
 
 from labkit.base.text import visible
 from labkit.check import report
 from labkit.check.lab_run import check_lab
 from labkit.check.tasks import TaskResult, check_tasks, required_pass
+from labkit.grade.hunts import HuntPackage
 from labkit.grade.package import Package, unpack
-from labkit.grade.result import Mark, Result, ungraded
+from labkit.grade.result import ELSEWHERE, Mark, Result, ungraded
 from labkit.handin.deliverables import check_files
 from labkit.handin.handin import Item
 from labkit.judge import Verdict
@@ -33,7 +35,7 @@ from robo47.errors import FaultError
 
 MEMORY = 6 * 1024**3  # bytes of addresses: MuJoCo and NumPy take a third of it
 LINES, LINE = 200, 400  # of a text, and characters of one
-NOTHING_TO_RUN = ("does-not-load", "not-started")
+NOTHING_TO_RUN = ("does-not-load", "not-started", ELSEWHERE)
 # What is another at every run would make two grades of the same code differ.
 _ADDRESS = re.compile(r"\b0x[0-9a-fA-F]{6,16}\b")
 _FOLDERS = re.compile(r"robo47-(?:check|grader?)-\w{1,40}[/\\]?")
@@ -53,16 +55,28 @@ def main() -> None:
         except EOFError:
             break
         try:
-            answer = asdict(grade(package, find_day(package.day)))
+            answer = _answer(package)
         except (FaultError, OSError, MemoryError) as error:  # not the student's
             name = "" if isinstance(error, FaultError) else f"{type(error).__name__}: "
             answer = {"fault": _FOLDERS.sub("", visible(f"{name}{error}", 200))}
         except Exception as error:  # a hole in the checker costs one grade
             why = f"the checker stopped with {type(error).__name__}: {visible(error)}"
-            answer = asdict(ungraded(find_day(package.day), why))
+            answer = _stopped(package, why)
         out.write(json.dumps(answer).encode("ascii") + b"\n")
         out.flush()
     shutil.rmtree(folder, ignore_errors=True)  # the parent may be gone
+
+
+def _answer(package: Package | HuntPackage) -> dict[str, Any]:
+    if isinstance(package, HuntPackage):
+        return package.answer()
+    return asdict(grade(package, find_day(package.day)))
+
+
+def _stopped(package: Package | HuntPackage, why: str) -> dict[str, Any]:
+    if isinstance(package, HuntPackage):
+        return package.stopped(why)
+    return asdict(ungraded(find_day(package.day), why))
 
 
 def grade(package: Package, day: Day) -> Result:
@@ -84,7 +98,9 @@ def grade(package: Package, day: Day) -> Result:
     items = check_files(day, package.handin, tasks_pass=done)
     for one in lab:  # its numbers cannot be right: every class has the same columns
         items = [_with_lab(item, one) for item in items]
-    return _result(day, results, [*items, package.commit_item])
+    result = _result(day, results, [*items, package.commit_item])
+    told = "; ".join(filter(None, (package.clock, result.error)))
+    return replace(result, error=told)
 
 
 def _with_lab(item: Item, lab: Item) -> Item:
@@ -105,6 +121,13 @@ def _run(
     if name not in handin.files:
         start = f"{name} is not there. Begin with: make start DAY={day.number}"
         verdict = Verdict("todo", "not-started", start)
+        if package.elsewhere:
+            says = f"{name} is not there. {package.elsewhere}"
+            verdict = Verdict("todo", ELSEWHERE, says)
+        elif package.clock:
+            verdict = Verdict(
+                "todo", "does-not-load", f"{name} is in no commit in time."
+            )
         if why := handin.unread.get(name):
             verdict = Verdict("todo", "does-not-load", f"{name} {why}.")
         return [TaskResult(task, verdict) for task in day.tasks], []

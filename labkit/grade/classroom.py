@@ -211,7 +211,8 @@ def _hidden(package: Package, day: Day, result: Result) -> list[str]:
     tasks = [task for task in day.tasks if task.id in passed]
     was = {now: was for task in tasks for was, now in task.renamed}
     names = [(f, was.get(f, f)) for task in tasks for f in task.functions]
-    return similar.hidden([text.decode("utf-8", "replace") for text in own], names)
+    texts = [data.decode("utf-8", "replace") for data in own]
+    return similar.hidden(texts, names, starter_of(day))
 
 
 def _runs(package: Package, day: Day, starter: str) -> list[Runs]:

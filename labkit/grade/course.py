@@ -45,6 +45,8 @@ class Graded:
             return "done"
         if self.result.does_not_load:
             return "does not load"
+        if self.result.is_elsewhere:
+            return "elsewhere"
         if self.result.first_mistake:
             return "stuck"
         return "under way" if any(task.passed for task in tasks) else "not started"

@@ -26,7 +26,7 @@ from concurrent.futures import (
 )
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol, TypeAlias
 
 from labkit.base.processes import Child, scheduled, sweep
 from labkit.base.text import visible
@@ -51,6 +51,24 @@ LEFT_BEHIND = 86_400  # seconds after which a folder of ours belongs to nobody
 FOLDER = "robo47-grader-"
 
 
+class Stoppable(Protocol):
+    """A package of another kind, which knows what stands where it was stopped."""
+
+    @property
+    def day(self) -> int:
+        """The day's number."""
+
+    @property
+    def kit(self) -> str:
+        """The fingerprint of the kit that collected it."""
+
+    def stopped(self, why: str) -> dict[str, Any]:
+        """Return what stands in the place of its result."""
+
+
+Gradable: TypeAlias = Package | Stoppable
+
+
 class Grader(Child):
     """One grading process and its folder, from start to end."""
 
@@ -69,7 +87,7 @@ class Grader(Child):
             shutil.rmtree(self.folder, ignore_errors=True)
             raise
 
-    def grade(self, package: Package, beyond: float = BEYOND) -> dict[str, Any]:
+    def grade(self, package: Gradable, beyond: float = BEYOND) -> dict[str, Any]:
         """Return a package's result as JSON, which `result.from_json` reads.
 
         Args:
@@ -94,7 +112,10 @@ class Grader(Child):
         self.close()
         why = f"it took more than {seconds:.0f} s" if self.late else "it was killed"
         if self.late and self.ran - before > seconds / 2:
-            return asdict(kept_busy(day, f"{why} of the checker's own work"))
+            why = f"{why} of the checker's own work"
+            if isinstance(package, Package):
+                return asdict(kept_busy(day, why))
+            return package.stopped(why)
         raise FaultError(f"grading it was stopped: {why}")
 
     def close(self) -> None:
@@ -122,7 +143,7 @@ def refusal() -> str:
 _idle: queue.SimpleQueue[Grader] = queue.SimpleQueue()
 
 
-def grade_package(package: Package, needs_wall: bool = False) -> dict[str, Any]:
+def grade_package(package: Gradable, needs_wall: bool = False) -> dict[str, Any]:
     """Return a package's result as JSON; each call has a process of its own.
 
     Args:

@@ -6,21 +6,30 @@ the sandbox, by this kit's mistake. `hunt.json` and the log are the student's ow
 script is said beside it.
 """
 
-import csv
 import io
+import re
+import secrets
 import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 from labkit.base.git import GitError, before, blob, files_of
 from labkit.base.text import count, visible
+from labkit.grade.engine import grade_package
+from labkit.grade.package import fingerprint
 from labkit.grade.roster import Student
+from labkit.handin.handin import LIMITS
 from labkit.hunt import tally
 from labkit.hunt.case import FILE, Case, draw, folder_of, parsed, script_of
 from labkit.hunt.verdict import Repaired, is_found, judged
-from labkit.lesson.day import Day
+from labkit.lesson.day import Day, find_day
+from labkit.log.rows import Row
+from labkit.log.scan import scan_file
+from labkit.sandbox.sandbox import deadline_of
+from robo47.errors import FaultError, Robo47Error
 from robo47.paths import METRICS_CSV, ROOT
 
 LARGEST = 3_000_000  # bytes of a file that is looked at
@@ -94,11 +103,53 @@ class Hunt:
         return Files(*found)
 
 
+@dataclass(frozen=True)
+class HuntPackage:
+    """One student's hunt, without the name, as a grading process takes it."""
+
+    day: int  # its number
+    level: int
+    seed: int  # of the mistake
+    files: Files
+    kit: str  # fingerprint of the kit that collected it
+    questions: int  # seed of the fresh inputs, the same for everybody
+
+    def answer(self) -> dict[str, Any]:
+        """Return the fields of a `Hunter`, without the student.
+
+        Raises:
+            FaultError, OSError, MemoryError: the machine failed.
+        """
+        try:
+            return _answer(self)
+        except FaultError:
+            raise
+        except Robo47Error as error:
+            return self.stopped(f"the hunted script cannot be judged: {_bare(error)}")
+
+    def stopped(self, why: str) -> dict[str, Any]:
+        """Return what stands where the hunt could not be judged to its end."""
+        return {"state": UNGRADED, "why": why}
+
+
 def grade(
-    hunt: Hunt, students: Sequence[Student], deadline: int | None = None
+    hunt: Hunt,
+    students: Sequence[Student],
+    deadline: int | None = None,
+    questions: int | None = None,
 ) -> Iterator[Hunter]:
-    """Yield how each student's hunt stands, one after the other."""
-    known: dict[bytes, list[Repaired]] = {}
+    """Yield how each student's hunt stands, one after the other.
+
+    Each is judged in a grading process, within a memory limit and a time limit.
+
+    Args:
+        hunt: what the class was given.
+        students: from the roster.
+        deadline: seconds since 1970, or None.
+        questions: seed of the fresh inputs; None draws one for the whole class.
+    """
+    draw_of = secrets.randbits(32) if questions is None else questions
+    kit = fingerprint(hunt.day.number)
     for student in students:
         if student.problem or not student.path.is_dir():
             why = student.problem or "there is no such folder"
@@ -106,23 +157,23 @@ def grade(
             continue
         try:
             files = hunt.files(student, deadline)
-        except (OSError, GitError) as error:
-            yield Hunter(student, UNGRADED, visible(error))
-            continue
-        yield _hunter(hunt, student, files, known)
+            numbers = (hunt.day.number, hunt.level, hunt.seed)
+            found = grade_package(HuntPackage(*numbers, files, kit, draw_of))
+        except (OSError, GitError, FaultError) as error:
+            found = {"state": UNGRADED, "why": visible(error)}
+        yield Hunter(student, **found)
 
 
-def _hunter(
-    hunt: Hunt, student: Student, files: Files, known: dict[bytes, list[Repaired]]
-) -> Hunter:
-    """Return how a student's hunt stands; scripts that are alike are judged once."""
-    said, state, why = _said(hunt, files)
+def _answer(package: HuntPackage) -> dict[str, Any]:
+    hunt = Hunt(find_day(package.day), package.level, package.seed)
+    said, state, why = _said(hunt, package.files)
     if said is None:
-        return Hunter(student, state, why)
+        return {"state": state, "why": why}
+    if len(package.files.script) > LIMITS["script"]:
+        most = LIMITS["script"] // 1000
+        return package.stopped(f"the hunted script is over {most} kB")
     case = hunt.case
-    if files.script not in known:
-        known[files.script] = judged(case, files.script)
-    repaired = known[files.script]
+    repaired = _judged(hunt, package.files.script, package.questions)
     anew = [one.function for one in repaired]
     found = is_found(case, repaired)
     told = said.suspected[:MOST]
@@ -130,17 +181,29 @@ def _hunter(
     names = {function for function, _ in suspected}
     named = case.guilty <= names
     bad = [r for r in repaired if r.guilty and r.verdict.status != "passed"]
-    return Hunter(
-        student,
-        (FOUND if named else REPAIRED) if found else NAMED if named else NOT_FOUND,
-        runs=said.runs,
-        checks=said.checks,
-        suspected=suspected,
-        innocent=[name for name in anew if name not in case.guilty],
-        odd=list(_odd(case, said, _rows(hunt, files.log), found)),
-        said=" ".join(f"{r.function}: {r.verdict.message}" for r in bad),
-        wrong=len((names | {*anew}) - case.guilty),
-    )
+    rows, unread = _rows(hunt, package.files.log)
+    return {
+        "state": (FOUND if named else REPAIRED)
+        if found
+        else (NAMED if named else NOT_FOUND),
+        "runs": said.runs,
+        "checks": said.checks,
+        "suspected": suspected,
+        "innocent": [name for name in anew if name not in case.guilty],
+        "odd": [*unread, *_odd(case, said, rows, found)],
+        "said": " ".join(f"{r.function}: {r.verdict.message}" for r in bad),
+        "wrong": len((names | {*anew}) - case.guilty),
+    }
+
+
+@lru_cache(1000)  # scripts that are alike are judged once in a process
+def _judged(hunt: Hunt, script: bytes, questions: int) -> list[Repaired]:
+    return judged(hunt.case, script, questions, deadline_of(hunt.day))
+
+
+def _bare(error: Exception) -> str:
+    """Return an error's text without the folders of this machine."""
+    return visible(re.sub(r"\S*[/\\]", "", str(error)))
 
 
 def _said(hunt: Hunt, files: Files) -> tuple[Case | None, str, str]:
@@ -158,7 +221,7 @@ def _said(hunt: Hunt, files: Files) -> tuple[Case | None, str, str]:
 
 
 def _odd(
-    case: Case, said: Case, rows: Sequence[Mapping[str, str]], found: bool
+    case: Case, said: Case, rows: Sequence[Mapping[str, Any]], found: bool
 ) -> Iterator[str]:
     """Yield what a student's own word and the script do not agree on."""
     if said.marks and said.marks != case.marks:
@@ -175,16 +238,19 @@ def _odd(
         yield f"the log says {visible(told, 40)} runs, hunt.json {said.runs}"
 
 
-def _rows(hunt: Hunt, log: bytes) -> list[Mapping[str, str]]:
-    """Return a log's rows of the hunt, whatever else it holds."""
-    text = log.decode("utf-8", "replace").replace("\0", "")
-    asked = (f"hunt_day{hunt.day.number}", str(hunt.seed), f"level {hunt.level}")
-    try:
-        rows = [*csv.DictReader(io.StringIO(text))]
-    except csv.Error:
-        return []
+def _rows(hunt: Hunt, log: bytes) -> tuple[list[Row], list[str]]:
+    """Return a log's rows of the hunt, and what is wrong with the log as a whole."""
+    asked = (f"hunt_day{hunt.day.number}", hunt.seed, f"level {hunt.level}")
     names = ("run_id", "seed", "method")
-    return [r for r in rows if tuple(str(r.get(name)) for name in names) == asked]
+    found = []
+    try:
+        for line in scan_file(io.BytesIO(log), METRICS_CSV.name):
+            row = line.row
+            if row is not None and tuple(row[name] for name in names) == asked:
+                found.append(row)
+    except Robo47Error:
+        return [], ["the log's first line is not the log's header, so no row is read"]
+    return found, []
 
 
 def columns(hunters: Sequence[Hunter]) -> list[dict[str, str | int | None]]:

@@ -8,11 +8,20 @@ import hashlib
 import json
 import os
 import tempfile
+import time
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path, PurePosixPath
 
-from labkit.base.git import History, before, blob, files_of, read_history, short_sha
+from labkit.base.git import (
+    History,
+    before,
+    blob,
+    files_of,
+    pulled_at,
+    read_history,
+    short_sha,
+)
 from labkit.grade.roster import Student
 from labkit.handin.deliverables import check_commit, wanted_names
 from labkit.handin.handin import (
@@ -24,6 +33,7 @@ from labkit.handin.handin import (
     picture_path,
     read_handin,
 )
+from labkit.handin.whereabouts import whereabouts
 from labkit.lesson.day import Day, find_day
 from labkit.lesson.own_files import HELPERS, NO_NAME
 from robo47 import __version__
@@ -45,6 +55,9 @@ _DECIDES = (
 )
 
 
+CLOCKS_APART = 3600  # seconds that two clocks may differ
+
+
 @dataclass(frozen=True)
 class Package:
     """One submission for one day, without the student's name."""
@@ -62,6 +75,8 @@ class Package:
     version: str = ""  # of the kit that collected it, in words
     branch: str = ""  # that the clone stands on
     late: int = 0  # how many commits came after the deadline
+    elsewhere: str = ""  # a sentence on where the script is, when it is not in place
+    clock: str = ""  # what is wrong with the student's clock; "" where nothing is
 
     @property
     def fingerprint(self) -> str:
@@ -74,6 +89,8 @@ class Package:
             sorted(handin.pictures.items()),
             [item.name, item.status, item.message, self.commit, self.committed],
             self.problem,
+            self.elsewhere,
+            *([self.clock] if self.clock else []),
         ]
         return _hash(json.dumps(facts).encode("ascii"))
 
@@ -116,14 +133,38 @@ def collect(
         return replace(package, problem=problem)
     handin, history, late = read_in_time(day, student.path, deadline, at)
     day = day.named_as(lambda name: name in handin.files)
+    elsewhere = ""
+    if not {*handin.files, *handin.unread} & {day.files["script"]}:
+        elsewhere = whereabouts(day, student.path, history.commit)
     return replace(
         package,
+        elsewhere=elsewhere,
         handin=handin,
         commit_item=check_commit(day, handin, history),
         commit=history.commit,
-        committed=history.committed,
+        committed=_when(student.path, history),
+        clock=_wrong_clock(read_history(student.path, ()).committed),
         branch=history.branch,
         late=late,
+    )
+
+
+def _when(clone: Path, history: History) -> int | None:
+    """Return a commit's time: by its own clock, but not after it was pulled, or now."""
+    seen = pulled_at(clone, history.commit) if history.commit else None
+    if history.committed is None or (seen is not None and seen < history.committed):
+        return seen
+    return None if _wrong_clock(history.committed) else history.committed
+
+
+def _wrong_clock(committed: int | None) -> str:
+    """Return that a commit is dated later than now; "" where it is not."""
+    if committed is None or committed <= time.time() + CLOCKS_APART:
+        return ""
+    dated = time.strftime("%Y-%m-%d %H:%M", time.gmtime(committed))
+    return (
+        f"the last commit is dated {dated} UTC by its own clock, which is later than "
+        "now; a commit that make grade pulled before the deadline is in time anyway"
     )
 
 
@@ -200,7 +241,10 @@ def _write(
                 continue  # git knows names that no folder has
             raise
         if size > largest:  # its size is all that is looked at
-            os.truncate(path, size)
+            try:
+                os.truncate(path, size)
+            except (OSError, OverflowError):  # a claim that no disk can hold
+                os.truncate(path, largest + 1)
 
 
 @cache

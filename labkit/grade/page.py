@@ -20,6 +20,7 @@ MOST = 100  # groups that are listed
 STATES = {  # heading of a list of people
     "stuck": "Who is stuck",
     "does not load": "Files that do not load",
+    "elsewhere": "Work that is not in its place",
     "ungraded": "Could not be graded",
     "not started": "Not started",
     "under way": "Under way, without a mistake so far",
@@ -29,6 +30,7 @@ ROLES = {  # colours of the states, in the order to list them
     "under way": "line",
     "stuck": "fail",
     "does not load": "broken",
+    "elsewhere": "broken",
     "not started": "none",
     "ungraded": "dark",
 }
@@ -43,7 +45,8 @@ _ALIKE = (
 _GROUPS = '<a href="#alike">groups alike</a>: no verdict'
 _HIDDEN = (
     "In an ordinary file each function that a task asks for has its def. Here tasks "
-    "pass without one, or beside what runs a text as code: look at the file, and ask."
+    "pass without one, beside what runs a text as code, or beside long text constants "
+    "that could be code: look at the file, and ask."
 )
 _COUNTED = (
     "Counted where they were made, once per student; a whole bar is the class. Last: "
@@ -87,6 +90,10 @@ def _tiles(course: Course) -> str:
         ("", number["under way"], "under way"),
         ("fail" if number["stuck"] else "none", number["stuck"], "stuck"),
         ("broken", number["does not load"], "do not load"),
+        *(
+            [("broken", number["elsewhere"], "not in place")]
+            * bool(number["elsewhere"])
+        ),
         ("none", number["not started"], "not started"),
         ("limit" if number["ungraded"] else "none", number["ungraded"], "not graded"),
         ("", len(course.alike), _GROUPS if course.alike else "groups alike"),

@@ -160,6 +160,8 @@ def _update(clone: Path) -> None:
     _git(clone, "reset", "-q", "--hard", commit)
     if not whole:  # what the new commit has no longer
         _git(clone, "clean", "-q", "-ffdx")
+    if not _git(clone, "for-each-ref", f"--points-at={commit}", git.PULLED):
+        _git(clone, "update-ref", f"{git.PULLED}{int(time.time())}", commit)
 
 
 def _clear(folder: Path) -> None:

@@ -11,8 +11,12 @@ from labkit.lesson.day import Day
 UNGRADED = "ungraded"  # the status of a task that nobody could look at
 MOST_TEXT = 200_000  # bytes of all texts of a result; what we tell has half
 STATUSES = ("passed", "close", "wrong", "todo", UNGRADED)
+ELSEWHERE = "elsewhere"  # the script is there, but not in its place
 # Names of what is only not there yet: nothing to explain again.
-NO_MISTAKES = ("", "unwritten", "waits", "inherited", "borrowed", "not-started")
+NO_MISTAKES = (
+    *("", "unwritten", "waits", "inherited", "borrowed", "not-started"),
+    ELSEWHERE,
+)
 
 
 @dataclass(frozen=True)
@@ -67,6 +71,11 @@ class Result:
     def score(self) -> tuple[int, int]:
         """How many tasks and how many deliverables pass, to compare results by."""
         return sum(m.passed for m in self.tasks), sum(m.passed for m in self.items)
+
+    @property
+    def is_elsewhere(self) -> bool:
+        """Whether the script was found where it does not count."""
+        return any(task.mistake == ELSEWHERE for task in self.tasks)
 
     @property
     def does_not_load(self) -> bool:

@@ -29,6 +29,10 @@ FEW = 4  # but one that so few have is kept, in a class of any size
 ALIKE = 0.6  # share of the smaller submission's runs
 KITS = 0.8  # share of one's own runs that are in the kit's; right answers have a third
 
+DATA = 600  # characters of text constants of one's own: an honest file has fewer
+LONG_NUMBER = 100  # digits: a number of more is data
+_READS_DOCSTRINGS = ("__doc__", "getdoc", "__file__", "getsource")
+
 Runs: TypeAlias = "array[int]"  # hashes, as `runs_of` gives them
 _TOKEN = re.compile(
     r"(?P<comment>#[^\n]*)"
@@ -130,12 +134,15 @@ def _margin(text: str) -> Iterator[tuple[int, list[str]]]:
         yield at, words
 
 
-def hidden(texts: Sequence[str], names: Sequence[tuple[str, ...]]) -> list[str]:
+def hidden(
+    texts: Sequence[str], names: Sequence[tuple[str, ...]], starter: str = ""
+) -> list[str]:
     """Return what a submission's text does not show, in words.
 
     Args:
         texts: of its files.
         names: of each function that passes, and what it may be called as well.
+        starter: what the student was given; its text constants are nobody's.
     """
     there = {name for text in texts for name in functions_of(text)}
     found = [f"no function {some[0]}" for some in names if there.isdisjoint(some)]
@@ -143,7 +150,37 @@ def hidden(texts: Sequence[str], names: Sequence[tuple[str, ...]]) -> list[str]:
     words += [word for text in texts for word in re.findall(r"__\w+?__", text)]
     plain = {unicodedata.normalize("NFKC", word).lstrip(".") for word in words}
     runs = sorted(_RUNS_TEXT & plain) if names else []
-    return [*found, *(f"a text can run as code: {word}" for word in runs)]
+    found += [f"a text can run as code: {word}" for word in runs]
+    given = set(constants(starter))
+    own = {word for text in texts for word in constants(text)} - given
+    size = sum(map(len, own)) if names else 0
+    if size > DATA:
+        found.append(f"{size:,} characters of text constants that are no docstrings")
+    return found
+
+
+def constants(text: str) -> list[str]:
+    """Return a script's text constants and long numbers, without its docstrings.
+
+    A docstring is a text on a line of its own, first in a file or after a colon that
+    stands in no bracket. It counts as a constant where the script reads docstrings.
+    """
+    found, before, depth = list[str](), "", 0
+    reads = any(word in text for word in _READS_DOCSTRINGS)
+    for match in _TOKEN.finditer(text):
+        if match.lastgroup == "comment":
+            continue
+        is_text = match.lastgroup == "text"
+        line = text.rfind("\n", 0, match.start()) + 1
+        begins_line = is_text and not text[line : match.start()].strip()
+        may_be = begins_line and before in ("", ":") and depth == 0
+        is_docstring = is_text and may_be and not reads
+        is_long = match.lastgroup == "other" and len(match[0]) > LONG_NUMBER
+        if (is_text and not is_docstring) or is_long:
+            found.append(match[0])
+        before = match[0]
+        depth += (before in ("(", "[", "{")) - (before in (")", "]", "}"))
+    return found
 
 
 def like_the_kit(

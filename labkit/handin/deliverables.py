@@ -1,8 +1,9 @@
 """A day's deliverables, each checked in order: figure, worksheet, numbers, commit."""
 
+from dataclasses import replace
 from pathlib import Path
 
-from labkit.base.git import GitError, History, read_history
+from labkit.base.git import GitError, History, ignored_by, read_history
 from labkit.base.text import visible
 from labkit.handin.handin import Handin, Item, read_handin
 from labkit.handin.rows import check_rows
@@ -50,9 +51,23 @@ def check_deliverables(
     try:
         history = read_history(root, wanted_names(day, handin), own=True)
         commit = check_commit(day, handin, history)
+        commit = _with_ignored(commit, root, [*handin.files], history)
     except GitError as error:
         commit = Item("commit", "todo", f"Nobody can tell: {error}.")
     return [*check_files(day, handin, tasks_pass=tasks_pass), commit]
+
+
+def _with_ignored(commit: Item, root: Path, names: list[str], history: History) -> Item:
+    """Return the commit's item with what keeps a file from being added."""
+    left = [name for name in names if name not in history.blobs]
+    if commit.passed or not history.readable or not left:
+        return commit
+    kept = {name: by for name in left if (by := ignored_by(root, name))}
+    if not kept:
+        return commit
+    lines = [f"{by} keeps git from adding {name}." for name, by in kept.items()]
+    lines.append("Delete that line, or: git add -f " + " ".join(kept))
+    return replace(commit, message="\n".join([*lines, commit.message]))
 
 
 def check_files(day: Day, handin: Handin, *, tasks_pass: bool = True) -> list[Item]:

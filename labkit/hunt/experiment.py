@@ -24,7 +24,25 @@ script = Path(sys.argv[1])
 sys.path.insert(0, str(script.parent))
 import numpy as np
 np.set_printoptions(linewidth=76, precision=6, suppress=True)
-names = vars(importlib.import_module(script.stem))
+names = dict(vars(importlib.import_module(script.stem)))
+
+def array(argument):
+    # A list or tuple of numbers is the array that a lab would pass.
+    if not isinstance(argument, (list, tuple)):
+        return argument
+    try:
+        return np.asarray(argument, dtype=float)
+    except (TypeError, ValueError):  # of something else than numbers
+        return argument
+
+def typed(function):
+    return lambda *given, **named: function(
+        *map(array, given), **{name: array(it) for name, it in named.items()}
+    )
+
+for name, it in list(names.items()):
+    if getattr(it, "__module__", "") == script.stem and callable(it):
+        names[name] = it if isinstance(it, type) else typed(it)
 try:
     print(eval(sys.argv[2], names))
 except Exception as error:
@@ -58,7 +76,10 @@ def painted(line: str) -> str:
 
 
 def call(case: Case, text: str) -> int:
-    """Make one call, such as "ad([0, 0, 1, 0, 0, 0])", and print what comes."""
+    """Make one call, such as "ad([0, 0, 1, 0, 0, 0])", and print what it returns.
+
+    A list or a tuple of numbers is passed as an array, as the labs pass it.
+    """
     sys.stdout.flush()
     command = [sys.executable, "-c", CALL, str(case.script), text]
     return subprocess.run(command, check=False).returncode

@@ -80,6 +80,7 @@ The modules, from the numbers to the page:
     robot                       a tab's own robot, instead of the arm
     tab, common_tabs            what a tab is; the tabs that every day has
     app                         the page as a whole
+    plain                       its numbers and sliders for a browser without 3D
     guard                       who may talk to it; our part of viser's page
     serve, recording            listens until Ctrl-C; a film without a server
 

@@ -223,12 +223,17 @@ class Tasks(Tab):
 
     def show(self, standing: Standing) -> None:
         """Show the verdicts; the line about all of them stands on top of the panel."""
-        parts = []
-        for result in standing.tasks:
-            task, verdict = result.task, result.verdict
-            mark, kind = MARKS.get(verdict.status, ("✗", "bad"))
-            text = f"{mark} {task.id} {task.title}"
-            parts.append(words.line(text, f"task-{task.id}", kind))
-            if verdict.message:
-                parts.append(words.line(verdict.message, f"why-{task.id}", "quiet"))
-        self.list.content = "".join(parts)
+        self.list.content = listed(standing)
+
+
+def listed(standing: Standing) -> str:
+    """Return a line per task with its verdict, as HTML."""
+    parts = []
+    for result in standing.tasks:
+        task, verdict = result.task, result.verdict
+        mark, kind = MARKS.get(verdict.status, ("✗", "bad"))
+        text = f"{mark} {task.id} {task.title}"
+        parts.append(words.line(text, f"task-{task.id}", kind))
+        if verdict.message:
+            parts.append(words.line(verdict.message, f"why-{task.id}", "quiet"))
+    return "".join(parts)

@@ -11,6 +11,9 @@ arm), and opens a public share tunnel for whichever client asks. Here:
 - a request must name this machine as its host (a page that rebinds its own DNS name
   to 127.0.0.1 still says its own name), and a WebSocket must come from the very page
   that this server served (same origin);
+- in a GitHub codespace the host may also be the one under which GitHub forwards this
+  port to the codespace's owner, and the origin one of the three that GitHub's proxy is
+  known to send for that page; a foreign page's origin passes the proxy unchanged;
 - share requests are refused;
 - a client sets a widget's value and nothing else of it (viser sets any attribute).
 
@@ -22,6 +25,7 @@ import contextlib
 import hmac
 import http
 import logging
+import os
 import re
 import secrets
 import warnings
@@ -43,6 +47,7 @@ from robo47.errors import Robo47Error
 
 LOOPBACK = "127.0.0.1"
 OWN_HOST = re.compile(r"(127\.0\.0\.1|localhost|\[::1\])(:\d+)?")
+DOMAIN = "app.github.dev"  # of forwarded ports, where the codespace names none
 LONGEST = 2_000  # characters of a request's path
 Receive = Callable[[str], int]  # where a page wants to go; the number of this word
 Answers = Callable[[ServerConnection, Request], Response | None]
@@ -76,6 +81,7 @@ class LocalServer(viser.ViserServer):
         self.secret = secrets.token_urlsafe(12)
         self.receive: Receive = lambda query: 0
         self.first: Callable[[], str] = str  # what a page shows before viser does
+        self.plain: Callable[[], str] = str  # what one without WebGL shows, as JSON
         with _watched_doors(self) as watched:
             super().__init__(host=LOOPBACK, port=port, verbose=False)
         if not watched:
@@ -94,6 +100,12 @@ class LocalServer(viser.ViserServer):
         """The page's address, secret included."""
         return f"http://{LOOPBACK}:{self.get_port()}/{self.secret}/"
 
+    @property
+    def forwarded_url(self) -> str:
+        """The page's address under which a codespace forwards it; "" outside of one."""
+        host = forwarded_host(self.get_port())
+        return f"https://{host}/{self.secret}/" if host else ""
+
     def request_share_url(self, verbose: bool = True) -> str | None:
         """Refuse, whoever asks: the arm is not put on the internet."""
         return None
@@ -102,12 +114,19 @@ class LocalServer(viser.ViserServer):
         """Return why a request is refused, or None for one that may pass."""
         headers = request.headers
         hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
-        if len(hosts) != 1 or not OWN_HOST.fullmatch(hosts[0]):
+        port = self.get_port()
+        forwarded = forwarded_host(port)
+        via = headers.get_all("X-Forwarded-Host") if forwarded else []
+        named = [host for host in (*hosts, *via) if host != forwarded]
+        if len(hosts) != 1 or not all(map(OWN_HOST.fullmatch, named)):
             return "this address is not the inspector's; open http://127.0.0.1:PORT"
         # Every browser sends Origin with a WebSocket; same port as well, since another
         # program's page on this machine is another origin.
-        wanted = [f"http://{hosts[0]}"]
-        if origins != wanted and (origins or headers.get_all("Upgrade")):
+        wanted = [[f"http://{hosts[0]}"]]
+        if forwarded:
+            wanted += [[f"{way}://localhost:{port}"] for way in ("http", "https")]
+            wanted += [[f"https://{forwarded}"]]
+        if origins not in wanted and (origins or headers.get_all("Upgrade")):
             return "only the inspector's own page may connect to it"
         if len(request.path) > LONGEST:
             return "that address is too long"
@@ -124,14 +143,35 @@ class LocalServer(viser.ViserServer):
             return connection.respond(http.HTTPStatus.FORBIDDEN, f"robo47: {why}\n")
         path, _, query = request.path.partition("?")
         path = path.strip("/").removeprefix(self.secret)
-        if path == "/go":
-            return connection.respond(http.HTTPStatus.OK, str(self.receive(query)))
+        ours: dict[str, Callable[[], object]] = {
+            "/go": partial(self.receive, query),
+            "/here": lambda: "here",  # an open page asks whether its server still runs
+            "/plain": self.plain,
+        }
+        if path in ours:
+            return connection.respond(http.HTTPStatus.OK, str(ours[path]()))
         plain = Headers(request.headers)
         with contextlib.suppress(KeyError):
             del plain["Accept-Encoding"]  # the page is changed below
         asked = replace(request, path=path or "/", headers=plain)
         response = viser_answers(connection, asked)
         return response and _protected(response, None if path else self.first())
+
+
+def forwarded_host(port: int) -> str:
+    """Return the host under which GitHub forwards a codespace's port, to its owner.
+
+    "" outside of a codespace. What GitHub's proxy sends was read in public bug reports
+    (symfony/demo #1542, vercel/chatbot #384, we-promise/sure #3610), not tried: a
+    request names localhost or this host as its Host and this host as
+    X-Forwarded-Host; the origin of its own page is rewritten to localhost with the
+    port, and any other origin is left as it is.
+    """
+    name = os.environ.get("CODESPACE_NAME", "")
+    if os.environ.get("CODESPACES") != "true" or not name:
+        return ""
+    domain = os.environ.get("GITHUB_CODESPACES_PORT_FORWARDING_DOMAIN") or DOMAIN
+    return f"{name}-{port}.{domain}"
 
 
 def _protected(response: Response, first: str | None) -> Response:

@@ -20,6 +20,7 @@ import viser
 
 from labkit.base import cli, store
 from labkit.check.tasks import check_tasks
+from labkit.inspector import plain
 from labkit.inspector.app import Inspector
 from labkit.inspector.arm import Arm
 from labkit.inspector.common_tabs import Standing, standing
@@ -77,6 +78,7 @@ def serve(
             )
             ends.callback(on_loop, server, page.close)
             server.receive, server.first = page.receive, page.first
+            server.plain = partial(plain.page_of, page)
             before = store.read(MEMORY).get(str(day.number), "")
             if back and isinstance(before, str):
                 on_loop(server, partial(page.receive, before))
@@ -154,6 +156,12 @@ def where_to_look(wish: int, server: LocalServer) -> list[str]:
         user = getpass.getuser()
     except (OSError, KeyError, ImportError):  # a container's user without a name
         user = "USER"
+    if forwarded := server.forwarded_url:
+        return [
+            *moved,
+            f"inspector: {forwarded}   (Ctrl-C here ends it)",
+            f"In VS Code on your own computer: {server.url}",
+        ]
     return [
         *moved,
         f"inspector: {server.url}   (Ctrl-C here ends it)",

@@ -12,6 +12,7 @@
                 counts, indices, words, yes or no, paths, pixels)
     replies_read    did an answer come back, of the right shape and type? If not, the
                 words
+    guard       what a search that stops costs: the name alone
     failing_call    the call that failed, as a student can type it
     typed       calls and values as they are typed
     answers     made by a function; how far two sets of them are apart; in words

@@ -19,6 +19,7 @@ from labkit.base.exchange import Exchange, Path, Question, Reply
 from labkit.judge import fits
 from labkit.judge.answers import InTurn, Parts, gaps, own, parts
 from labkit.judge.draw import Draw, Edges
+from labkit.judge.guard import guarded
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
 from labkit.judge.mutant import Body
@@ -34,6 +35,8 @@ SEED = 47  # of the questions that are the same at every check
 FRESH, CHEAP_FRESH, CHEAP = 8, 32, 16  # few numbers cost little
 SECONDS = 10.0  # for all calls of a function, where its task does not say
 SLIPPING = 1.5  # seconds for which two mutants at once are looked for
+# What a row says of wrong answers, and what counts where that stops: it says nothing.
+HOOKS: dict[str, Any] = {"unnamed": None, "near_miss": None, "measured": ()}
 KNOWN = 20  # right answers of a function's that are kept: a class is asked the same
 
 
@@ -82,6 +85,9 @@ class HeldOut:
     mistaken: Callable[..., Any] | None = None
     status: str = "wrong"  # or "close"
     near: float | None = None  # how well `mistaken` has to fit; None is the row's
+    # Where many answers are right: takes one call's arguments and the answer, and
+    # returns whether it has the property that the docstring names.
+    valid: Callable[..., bool] | None = None
 
     def __post_init__(self) -> None:
         """Refuse another status: one that passes would hide what is found next."""
@@ -187,6 +193,9 @@ class Ask:
         """
         if (self.truth is None) == (self.accept is None):
             raise ValueError("an Ask has either truth or accept")
+        for name, otherwise in HOOKS.items():
+            if hook := getattr(self, name):
+                object.__setattr__(self, name, guarded(hook, otherwise))
         for held in self.held_out if self.accept else ():
             if held.mistaken is None:
                 raise Robo47Error(

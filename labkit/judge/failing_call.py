@@ -8,6 +8,7 @@ from labkit.base.exchange import Exchange, Question
 from labkit.judge.answers import (
     Parts,
     difference,
+    gap,
     worst_part,
 )
 from labkit.judge.ask import Asked, HeldOut, right_answers
@@ -62,7 +63,7 @@ def _misfit(
             if not isinstance(one.reply.value, np.ndarray):
                 return None
             shape = one.reply.value.shape
-            says = f"{typed(one.question, names, LONG)} returns shape {shape}."
+            says = f"{typed(one.question, names, LONG)} returned shape {shape}."
             return says, _given(one.question, names)
     return None
 
@@ -103,24 +104,24 @@ def _wrong(
     whole += [f"yours: {shown(value)}" for value in mine]
     pairs = zip(ask.kinds, right, strict=True)
     whole += [f"right: {shown(kind.sent(values[0]))}" for kind, values in pairs]
-    return f"{says} {entries} is right.", tuple(whole)
+    return f"{says} {entries}.", tuple(whole)
 
 
 def _entry(kind: Kind, mine: Array, its: Array) -> tuple[str, str]:
-    """Return the entry that is furthest off, and "is 1, and 2" of it."""
+    """Return the place of the largest error, and "returned 1; expected 2" of it."""
     if kind.is_none(mine) or kind.is_none(its):
-        return "", f"is {_part(kind, mine)}, and {_part(kind, its)}"
+        return "", f"returned {_part(kind, mine)}; expected {_part(kind, its)}"
     if mine.shape != its.shape:
-        return "", f"has shape {mine.shape}, and {its.shape}"
-    apart = np.nan_to_num(np.abs(mine - its) / kind.scale, nan=np.inf)
+        return "", f"returned shape {mine.shape}; expected shape {its.shape}"
+    apart = gap(mine, its) / kind.scale
     at = np.unravel_index(_furthest(apart), mine.shape)
     place = str([int(x) for x in at]) if at else ""
     if kind.whole:
         yours, right = (shown(kind.sent(x[at])) for x in (mine, its))
-        return place, f"is {yours}, and {right}"
+        return place, f"returned {yours}; expected {right}"
     dust = DUST * np.broadcast_to(kind.scale, its.shape)[at]
     pair = (0.0 if abs(x[at]) < dust else x[at] for x in (mine, its))
-    return place, f"is {_apart(*pair)}"
+    return place, f"returned {_apart(*pair)}"
 
 
 def _furthest(off: Array) -> int:
@@ -174,4 +175,4 @@ def _apart(mine: float, its: float) -> str:
         one, other = (f"{x + 0.0:.{digits}g}" for x in (mine, its))
         if one != other:
             break
-    return f"{one}, and {other}"
+    return f"{one}; expected {other}"

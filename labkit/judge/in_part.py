@@ -94,7 +94,7 @@ def in_some_calls(m: Matcher) -> Finding | None:
 
 def _differ(S: Parts, which: Any) -> bool:
     """Return whether answers to some calls are not all the same, nor 0."""
-    if not len(which):
+    if len(which) < SOME:
         return False
     some = [s[which].reshape(len(which), -1) for s in S]
     flat = np.concatenate(some, axis=1)

@@ -38,6 +38,7 @@ from labkit.judge.ask import (
     stacked,
 )
 from labkit.judge.failing_call import failing_call, for_fresh
+from labkit.judge.guard import attempt, noting, quiet, told
 from labkit.judge.in_part import by_results, in_some_calls
 from labkit.judge.kinds import Kind
 from labkit.judge.matcher import Matcher
@@ -60,19 +61,51 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
         ValueError: a question has no reply.
     """
     asked = replace(asked, source=source)
-    with np.errstate(all="ignore"):  # whatever the student's numbers lead to
-        verdict = _judge(asked, source, names)
-        if verdict.status == "passed" or verdict.mistake in NO_CALL:
-            return verdict
-        call, whole = failing_call(asked, names)
-        return replace(verdict, call=call, measured=verdict.measured + whole)
+    with quiet(), noting() as stopped:
+        verdict = attempt(_judge, asked, source, names)
+        verdict = verdict or attempt(_without_a_name, asked) or unjudged(stopped)
+        if verdict.status != "passed" and verdict.mistake not in NO_CALL:
+            call, whole = attempt(failing_call, asked, names, otherwise=("", ()))
+            verdict = replace(verdict, call=call, measured=verdict.measured + whole)
+    if verdict.status in ("passed", "todo"):
+        return verdict
+    return replace(verdict, message=f"{verdict.message} {told(stopped)}".strip())
+
+
+def unjudged(stopped: list[str]) -> Verdict:
+    """Return the verdict on answers that the checker cannot compare."""
+    return Verdict("todo", "unjudged", f"The task is not judged. {told(stopped)}")
+
+
+def _without_a_name(asked: Asked) -> Verdict | None:
+    """Return what is certain of wrong answers; None where they may be right."""
+    S = replies_read.read(asked.main, asked.ask)
+    if isinstance(S, Finding):
+        return Verdict("wrong", *S)
+    if asked.ask.accept:
+        refused = (found for _, found in replies_read.not_accepted(asked))
+        return next((Verdict("wrong", *found) for found in refused), None)
+    if found := replies_read.of_another_size(asked):
+        return Verdict("wrong", *found)
+    gap = asked.ask.gaps(S, right_answers(asked.ask, asked.main))
+    if gap.max() <= asked.ask.tolerance:
+        return None
+    return Verdict("wrong", *_by_how_much(gap, asked.ask.tolerance))
+
+
+def _by_how_much(gap: Array, tolerance: float) -> Finding:
+    """Return how many answers are right, and how far the others are off at worst."""
+    right = f"It is right for {np.sum(gap <= tolerance)} of {len(gap)} inputs."
+    if not np.isfinite(worst := gap.max()):
+        return Finding("off", right)
+    return Finding("off", f"{right} The largest error is {worst:.2g}.")
 
 
 def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
     S = replies_read.read(asked.main, asked.ask, source)
     if isinstance(S, Finding):
         if S.slug == "shape":
-            S = odd_answers.named(asked, S)
+            S = attempt(odd_answers.named, asked, S, otherwise=S)
         return Verdict("wrong", *_beside(S, asked, names))
     if found := replies_read.of_another_size(asked):
         return Verdict("wrong", *_of_another_size(asked, S, names, found))
@@ -87,14 +120,16 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     T = right_answers(ask, asked.main)
     case = _case(asked, S, T, names)
     gap = ask.gaps(S, T)
-    measured = _measured(case, S, T, gap)
+    measured = attempt(_measured, case, S, T, gap, otherwise=())
     if (off := gap.max()) > ask.near:
-        case = replace(case, further=_further(asked))
+        case = replace(case, further=attempt(_further, asked))
         case, S, T = _with_answers(case, S, T)
-        if found := diagnose(case, S, T):
-            return Verdict("wrong", *found, measured)
+        named: Finding | None = attempt(diagnose, case, S, T)
+        if named:
+            return Verdict("wrong", *named, measured)
         wrong = tuple(np.flatnonzero(gap > ask.near).tolist())
-        found = what_is_wrong(case, S, T)
+        plainly = _by_how_much(gap, ask.tolerance)
+        found: Finding = attempt(what_is_wrong, case, S, T, otherwise=plainly)
         return Verdict("wrong", *found, measured, wrong_calls=wrong)
     if off > ask.tolerance:
         return Verdict("close", *_near_miss(asked, case, S, T, off), measured)
@@ -105,8 +140,9 @@ def _of_another_size(
     asked: Asked, S: Parts, names: Sequence[str], found: Finding
 ) -> Finding:
     """Return what answers of wrong sizes come from; the row may know more of them."""
-    named = odd_answers.named(asked, found)
-    if named is not found or not asked.ask.unnamed:
+    named = attempt(odd_answers.named, asked, found, otherwise=found)
+    telling = asked.ask.unnamed and replies_read.of_another_length(asked)
+    if named is not found or not asked.ask.unnamed or not telling:
         return named
     T = right_answers(asked.ask, asked.main)
     return asked.ask.unnamed(_case(asked, S, T, names)) or found
@@ -118,7 +154,7 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     S = replies_read.read(good, asked.ask) if good else found
     if isinstance(S, Finding) or asked.ask.accept:
         return found
-    named = odd_answers.stops_alike(asked, found)
+    named = attempt(odd_answers.stops_alike, asked, found, otherwise=found)
     if named is not found:
         return named
     rest = replace(asked, main=good, probes=[])
@@ -127,8 +163,8 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
         also = f"Other answers are wrong, too. {other.message}"
         return Finding(found.slug, f"{found.message} {also}")
     T = right_answers(asked.ask, good)
-    case = replace(_case(rest, S, T, names), further=_further(asked))
-    return _both(found, case, S, T)
+    case = replace(_case(rest, S, T, names), further=attempt(_further, asked))
+    return attempt(_both, found, case, S, T, otherwise=found)
 
 
 def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
@@ -136,7 +172,7 @@ def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
     if not wrong.any():
         return found
     # One answer alone may be that of many mistakes.
-    named = diagnose(case, S, T) if wrong.sum() > 1 else None
+    named = attempt(diagnose, case, S, T) if wrong.sum() > 1 else None
     other = named or what_is_wrong(case, S, T)
     some = f"Of the {len(wrong)} other answers {wrong.sum()} are wrong, too."
     also = "The other answers are wrong, too." if wrong.all() else some
@@ -181,6 +217,11 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     S = replies_read.read(exchanges, ask)
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
+    if held.valid:
+        calls = [exchange.question.args for exchange in exchanges]
+        answers = ([part[k] for part in S] for k in range(len(calls)))
+        pairs = zip(calls, answers, strict=True)
+        return not all(held.valid(*args, *answer) for args, answer in pairs)
     off = ask.gaps(S, right_answers(ask, exchanges, held)).max()
     near = ask.near if held.near is None else held.near
     return off <= near if held.mistaken else off > near
@@ -195,6 +236,9 @@ def _further(asked: Asked) -> Further | None:
             continue
         if all(np.isfinite(part).all() for part in S):
             good.append(one)
+    sizes = replies_read.sizes(asked.ask, good) if good else ()
+    off = {i for i, _, got, right in sizes if got != right}
+    good = [one for i, one in enumerate(good) if i not in off]
     if not good:
         return None
     S = replies_read.read(good, asked.ask)
@@ -262,7 +306,7 @@ def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
 def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
     """Return what the first source says that explains the answers, or None."""
     m = Matcher(case, S, T)
-    found = next(filter(None, (source(m) for source in SOURCES)), None)
+    found = next(filter(None, (attempt(source, m) for source in SOURCES)), None)
     if found and found.slug.startswith("slip-"):
         return _with_its_place(case, found)
     i = worst_part(case.ask.kinds, S, T, case.ask.near)

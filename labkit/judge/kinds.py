@@ -27,6 +27,7 @@ from robo47.errors import Robo47Error
 
 NEAR = 1e-4  # entries that differ by less are not called wrong
 ROUNDED_AWAY = 1e12  # rounding divided by nothing: its digits are the processor's
+DUST = 1e-9  # in units of the scale: what rounding leaves of a right answer
 RIGHT = 1e-6  # and those that differ by less are called right
 
 
@@ -96,16 +97,15 @@ class Kind:
             try:
                 array = np.asarray(value)
             except ValueError:  # parts of different shapes
-                some = value if isinstance(value, tuple | list) else ()
-                shapes = ", ".join(str(np.shape(part)) for part in some)
-                says = f"It returns parts of shapes {shapes}"
+                says = f"It returns {_shapes(value)}"
                 return Finding("shape", f"{says}; expected is {self.expected}.")
             if array.dtype.kind not in "fiub":
                 says = f"It returns {array.dtype} values; expected is {self.expected}"
                 return Finding("not-numbers", f"{says} of real numbers.")
             if not self.fits(array.shape):
                 return self._misfit(array.shape, values)
-            found.append(self.plain(array))
+            # A truth value is 0 or 1: NumPy subtracts none.
+            found.append(self.plain(array.astype(np.float64)))
         return found
 
     def _misfit(self, got: tuple[int, ...], values: Sequence[Any]) -> Finding:
@@ -160,15 +160,17 @@ class Kind:
         return general(*self.usual)
 
     def apart(self, S: Array, T: Array) -> str:
-        """Return how far S is from T at worst, in words; "0" for rounding."""
+        """Return how far S is from T at worst, in words; "0" for rounding alone."""
         off = gap(S, T)
         scale = np.broadcast_to(self.scale, off.shape)
         at = np.unravel_index(np.argmax(off / scale), off.shape)
-        if off[at] < MATCHES * scale[at]:
+        if off[at] < DUST * scale[at]:
             return "0"
         unit = f" {self.unit}" if self.unit else ""
         entry = " in one entry" if self.shape else ""
         digits = f"{off[at]:.3g}" if off[at] < ROUNDED_AWAY else "1e+12 and more"
+        if off[at] < MATCHES * scale[at]:  # its further digits are rounding
+            digits = f"{off[at]:.0e}"
         return f"{digits}{unit}{entry}"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
@@ -180,6 +182,15 @@ class Kind:
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:
         """Return lines for --explain."""
         return (f"{self.gap} {self.apart(S, T)}",)
+
+
+def _shapes(value: Any) -> str:
+    """Return what is in a list or tuple whose parts make no one array."""
+    try:
+        shapes = ", ".join(str(np.shape(part)) for part in value)
+    except (TypeError, ValueError):  # a part is no array either
+        return "lists whose parts have different lengths"
+    return f"parts of shapes {shapes}"
 
 
 @dataclass(frozen=True)
@@ -204,7 +215,7 @@ class Vector(Kind):
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if found := one_factor(self, S, T):
             return found
-        off = np.abs(S - T).max(axis=0) > RIGHT * self.scale
+        off = gap(S, T).max(axis=0) > RIGHT * self.scale
         counted = [f"[{i}], counted from 0" for i in range(len(off))]
         empty = np.flatnonzero(off & ~S.any(axis=0))
         same = None not in self.shape  # else the shorter are filled up with 0
@@ -212,7 +223,7 @@ class Vector(Kind):
             where = capitalised(listed([(self.names or counted)[i] for i in empty]))
             says = f"{where} {'are' if len(empty) > 1 else 'is'} 0 every time. It is "
             return Finding("entries-empty", f"{says}off by up to {self.apart(S, T)}.")
-        if not same and _only_the_last(np.abs(S - T) > RIGHT * self.scale, S, T):
+        if not same and _only_the_last(gap(S, T) > RIGHT * self.scale, S, T):
             says = f"All entries are right but the last: up to {self.apart(S, T)} off."
             return Finding("few-entries-off", says)
         if not 0 < off.sum() <= (max(1, len(off) // 3) if same else 1):
@@ -265,7 +276,7 @@ def few_entries(
         T: the right ones.
         ignored: a row and column that has a name of its own, such as a pose's last.
     """
-    apart = np.abs(S - T)
+    apart = gap(S, T)
     wrong = apart > RIGHT * kind.scale
     rows, columns = np.nonzero(wrong.any(axis=0))
     if not len(rows):

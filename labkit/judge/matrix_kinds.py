@@ -136,7 +136,7 @@ class Jacobian(Matrix):
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if found := one_factor(self, S, T):
             return found
-        wrong = np.abs(S - T).max(axis=0) > RIGHT * self.scale
+        wrong = gap(S, T).max(axis=0) > RIGHT * self.scale
         bad = np.flatnonzero(wrong.any(axis=0))
         halves = np.flatnonzero(wrong.reshape(2, -1).any(axis=1))
         where = f" in its {('omega', 'v')[halves[0]]} rows" if len(halves) == 1 else ""
@@ -179,8 +179,7 @@ class Symmetric(Matrix):
         return Finding("part-off", f"{says}: off by up to {self.apart(S, T)}.")
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
-        sym = 0.5 * (S + S.mT)
-        least = np.linalg.eigvalsh(sym).min() if np.isfinite(S).all() else np.nan
+        least = least_eigenvalue(0.5 * (S + S.mT))
         return (*super().measured(S, T), f"smallest eigenvalue {least:.3g}")
 
 
@@ -197,11 +196,21 @@ class Covariance(Symmetric):
         return general("inverse", "sigma-for-variance", *blocks, *self.usual)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        least = np.linalg.eigvalsh(S).min() if np.isfinite(S).all() else 0.0
-        if one_factor(self, S, T) or least >= -NEAR * np.max(self.scale):
+        least = least_eigenvalue(S)
+        if one_factor(self, S, T) or not least < -NEAR * np.max(self.scale):
             return super().what_is_wrong(S, T)
         return Finding(
             "not-positive",
             f"It has a negative eigenvalue ({least:.3g}), so it is no covariance; off "
             f"by up to {self.apart(S, T)}.",
         )
+
+
+def least_eigenvalue(S: Array) -> float:
+    """Return the smallest eigenvalue of symmetric matrices, NaN where there is none."""
+    if not np.isfinite(S).all():
+        return np.nan
+    try:
+        return float(np.linalg.eigvalsh(S).min())
+    except np.linalg.LinAlgError:  # of entries near the largest number that there is
+        return np.nan

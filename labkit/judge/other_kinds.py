@@ -8,7 +8,7 @@ import numpy as np
 
 from labkit.base.text import count
 from labkit.judge.answer_mistakes import general
-from labkit.judge.answers import capitalised, difference, millimetres, say_mm
+from labkit.judge.answers import capitalised, difference, gap, millimetres, say_mm
 from labkit.judge.kinds import NEAR, RIGHT, Kind, Scalar, one_factor
 from labkit.judge.matrix_kinds import Matrix
 from labkit.judge.mistake import Finding, Mistake
@@ -31,7 +31,7 @@ class _Halves(Kind):
         return general("halves-swapped", *self.usual, halves=self.halves)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
-        off = (np.abs(S - T) / self.scale).reshape(-1, 2, 3).max(axis=(0, 2))
+        off = (gap(S, T) / self.scale).reshape(-1, 2, 3).max(axis=(0, 2))
         if found := one_factor(self, S, T):
             return found
         for i, slug in enumerate(("second-half-off", "first-half-off")):
@@ -80,7 +80,8 @@ class Points(Kind):
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
         if not np.isfinite(S).all():
             return Kind.apart(self, S, T)
-        return say_mm(millimetres(S, T))
+        found = say_mm(millimetres(S, T))
+        return Kind.apart(self, S, T) if found == "0" else found
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         words = self._off(S, T)
@@ -112,12 +113,15 @@ class Count(Scalar):
     usual: ClassVar[tuple[str, ...]] = ()
 
     def _sent(self, answer: Array) -> Any:
-        return int(answer) if answer == np.round(answer) else float(answer)
+        whole = np.isfinite(answer) and answer == np.round(answer)
+        return int(answer) if whole else float(answer)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
+        odd = S[np.round(S) != S]
+        if odd.size:
+            says = f"It is {odd[0]:g}; {self.expected} is expected."
+            return Finding("not-whole", says)
         i = int(np.argmax(S != T))
-        if np.any(np.round(S) != S):
-            return Finding("not-whole", f"It is {S[i]:g}; {self.expected} is expected.")
         return Finding("miscounted", f"It is {S[i]:z.0f} where {T[i]:z.0f} is right.")
 
 
@@ -181,7 +185,7 @@ class Word(Kind):
         return np.array(float(self.words.index(value) if there else -1))
 
     def _sent(self, answer: Array) -> Any:
-        place = int(answer)
+        place = int(answer) if np.isfinite(answer) else -1
         return self.words[place] if 0 <= place < len(self.words) else "?"
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
@@ -244,7 +248,7 @@ class Waypoints(Matrix):
         return f"It has {count(got[0], 'way point')} where {its}"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
-        off = np.abs(S - T) / self.scale > RIGHT
+        off = gap(S, T) / self.scale > RIGHT
         first = int(np.argmax(off.any(axis=(0, 2))))
         says = f"It is right before way point {first}, counted from 0, and wrong there"
         says = says if first else "It is wrong from its first way point on"

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from labkit.base.quiet import nothing_printed
 from labkit.judge import changes
 from labkit.judge.answers import (
     MATCHES,
@@ -334,7 +333,6 @@ class _Half:
         return bool(self.mutant or other.mutant)
 
 
-@nothing_printed()
 def beside(m: Matcher) -> Finding | None:
     """Return two mutants, or one and a named mistake, that add up to the answers."""
     its = row(tuple(t[m.i] for t in m.T))
@@ -371,7 +369,6 @@ def _near(m: Matcher) -> list[Mutant]:
     return m.ask.bodies[0].near[:most]
 
 
-@nothing_printed()
 def second(m: Matcher) -> Finding | None:
     """Return two mutants of which the second works on what the first made, or None.
 

@@ -12,12 +12,19 @@ from labkit.base.exchange import Exchange, Reply
 from labkit.judge import results
 from labkit.judge.answers import InTurn, Parts, as_one, own, parts
 from labkit.judge.ask import Ask, Asked, replies, stacked
+from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Verdict
+from labkit.lesson.slips import OTHER_PACKAGES, no_python
 from labkit.lesson.starter import function_lines
 from robo47.checks import Array
 from robo47.paths import ROOT
 
 ONLY_NUMPY = " The checker has NumPy, the kit and Python's own modules alone."
+ONLY_IN_MAIN = (
+    "A task is solved with NumPy, the kit's library and Python's own modules, so the "
+    "checker has no other package. Use others in main(), where pictures belong: the "
+    "checker does not run it."
+)
 IN_MAIN = 'Keep it below `if __name__ == "__main__":`, or in main().'
 SAME = 1e-9  # how far two answers to one question may differ: a last digit
 
@@ -80,7 +87,9 @@ def stops_with(reply: Reply, often: str = "") -> str:
     called = f", called from {callers}" if callers else ""
     where = f" (line {reply.line}{called})" if reply.line else ""
     text = f"{reply.kind}: {reply.error}".rstrip().removesuffix(":")
-    why = ONLY_NUMPY if reply.kind == "ModuleNotFoundError" else ""
+    why = f" {ONLY_IN_MAIN}" if reply.kind == "ModuleNotFoundError" else ""
+    if reply.kind == "EOFError":
+        why = " Does it call input()? Nobody types during a check: use its arguments."
     return f"It stops with {text}{where}{often}.{why}"
 
 
@@ -95,7 +104,10 @@ def refusal(what: str, line: int | None) -> Verdict:
     for root in (str(ROOT), ROOT.as_posix()):
         what = what.replace(root + "/", "").replace(root + "\\", "")
     slug, why = "refused", "A task needs nothing but its arguments."
-    if what.startswith("call "):
+    package = re.match(r"(?:call|use|load) (\w+)", what)
+    if package and package[1] in OTHER_PACKAGES:
+        slug, why = "other-package", ONLY_IN_MAIN
+    elif what.startswith("call "):
         slug = "not-by-hand"
         why = "Here the point is to work the answer out yourself; MuJoCo is the judge."
     return Verdict("wrong", slug, f"It wants to {what}{where}. {why}")
@@ -114,13 +126,12 @@ def not_loaded(script: Path, reply: Reply) -> str:
         return f"{where}: while being loaded, {reply.error}. {IN_MAIN}"
     why = f"{where}: {reply.kind}: {reply.error}".rstrip(": ")
     if reply.kind == "ModuleNotFoundError":
-        why += f".{ONLY_NUMPY} Import others in the function that uses them."
-    elif reply.kind == "SyntaxError":
+        why += f".{ONLY_NUMPY} Import others in main(), which the checker does not run."
+    elif reply.kind in ("SyntaxError", "NameError"):
         linecache.checkcache(str(script))
-        if linecache.getline(str(script), reply.line or 0).startswith("<<<<<<<"):
-            why += ". This is the mark of a merge that git could not finish: keep one "
-            why += "side."
-    return why
+        lines = linecache.getlines(str(script))
+        why += f". {no_python(lines, (reply.line or 0) - 1)}"
+    return why.removesuffix(". ")
 
 
 def read(exchanges: Iterable[Exchange], ask: Ask, source: str = "") -> Parts | Finding:
@@ -144,7 +155,8 @@ def read(exchanges: Iterable[Exchange], ask: Ask, source: str = "") -> Parts | F
         says = "It returns nothing (None): the result is worked out, but not handed "
         says += "back."
         if nothing < len(replied):
-            says = f"It returns None for {nothing} of {len(replied)} inputs."
+            says = f"It returns None for {nothing} of {len(replied)} inputs; "
+            says += f"{results.expected(ask.kind)}."
         return Finding("nothing-returned", says)
     columns = results.read(ask.kind, [reply.value for reply in replied])
     return columns if isinstance(columns, Finding) else tuple(map(as_one, columns))
@@ -165,20 +177,43 @@ def not_accepted(asked: Asked) -> Iterator[tuple[Exchange, Finding]]:
 
 def of_another_size(asked: Asked) -> Finding | None:
     """Return that answers have not the size that their questions ask for, if so."""
-    truth, kinds = asked.ask.truth, asked.ask.kinds
+    for i, kind, got, right in sizes(asked.ask, asked.main):
+        if got != right:
+            says = kind.another_size(got, right)
+            where = f"in call {i + 1} of {len(asked.main)}"
+            return Finding("shape", f"{says}, {where}.")
+    return None
+
+
+def of_another_length(asked: Asked) -> bool:
+    """Return whether answers differ from the right ones in their number of rows alone.
+
+    A row may have more to say of these, since a path can have more points than another.
+    A vector with an entry too few has no such meaning.
+    """
+    return all(
+        got == right or (len(got) > 1 and got[1:] == right[1:])
+        for _, _, got, right in sizes(asked.ask, asked.main)
+    )
+
+
+def sizes(
+    ask: Ask, exchanges: Sequence[Exchange]
+) -> Iterator[tuple[int, Kind, tuple[int, ...], tuple[int, ...]]]:
+    """Yield the place, the kind, the shape and the right shape of each result.
+
+    Nothing is yielded where no question decides them, and of no None.
+    """
+    truth, kinds = ask.truth, ask.kinds
     if not isinstance(truth, InTurn) or all(None not in kind.shape for kind in kinds):
-        return None
-    right = map(parts, truth.each(stacked(asked.main)))
-    given = results.read(asked.ask.kind, [one.value for one in replies(asked.main)])
+        return
+    right = map(parts, truth.each(stacked(exchanges)))
+    given = results.read(ask.kind, [one.value for one in replies(exchanges)])
     assert not isinstance(given, Finding)  # it was read before
     for i, (its, mine) in enumerate(zip(right, zip(*given, strict=True), strict=True)):
         for T, S, kind in zip(its, mine, kinds, strict=True):
-            there = not (kind.is_none(T) or kind.is_none(S))
-            if there and S.shape != T.shape:
-                says = kind.another_size(S.shape, T.shape)
-                where = f"in call {i + 1} of {len(asked.main)}"
-                return Finding("shape", f"{says}, {where}.")
-    return None
+            if not (kind.is_none(T) or kind.is_none(S)):
+                yield i, kind, S.shape, T.shape
 
 
 def kept_state(asked: Asked, source: str = "") -> Finding | None:

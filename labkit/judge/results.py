@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from labkit.base.text import count
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding
 from robo47.errors import Robo47Error
@@ -54,17 +55,13 @@ def split(kind: Kinds, value: Any) -> tuple[Any, ...] | Finding:
     """Return an answer's parts as they came, or what it is instead."""
     if isinstance(kind, Kind):
         return (value,)
-    if isinstance(value, np.ndarray) and value.ndim:  # a result in each row
-        value = tuple(value)
-    if not isinstance(value, tuple | list) or len(value) != len(kind):
-        expected = ", ".join(_expected(one) for one in kind)
-        says = f"expected are {len(kind)} results: {expected}"
-        several = isinstance(value, tuple | list)
-        got = f"{len(value)} results" if several else "one array"
-        got = repr(value) if isinstance(value, str | None) else got
-        return Finding("parts", f"It returns {got}; {says}.")
+    flat = all(isinstance(one, Kind) for one in kind)  # no result is a tuple itself
+    whole = isinstance(value, np.ndarray) and value.ndim and flat
+    some = tuple(value) if whole else value  # a result in each row
+    if not isinstance(some, tuple | list) or len(some) != len(kind):
+        return Finding("parts", f"It returns {_given(value)}; {expected(kind)}.")
     parts: tuple[Any, ...] = ()
-    for one, item in zip(kind, value, strict=True):
+    for one, item in zip(kind, some, strict=True):
         if isinstance(found := split(one, item), Finding):
             return found
         parts += found
@@ -113,6 +110,24 @@ def as_sent(kind: Kinds, parts: Sequence[Any]) -> Any:
         return tuple(map(one, inner))
 
     return one(kind)
+
+
+def expected(kind: Kinds) -> str:
+    """Return what is expected, as the end of a sentence."""
+    if isinstance(kind, Kind):
+        return f"expected is {kind.expected}"
+    every = ", ".join(_expected(one) for one in kind)
+    return f"expected are {len(kind)} results: {every}"
+
+
+def _given(value: Any) -> str:
+    """Return what came for several results, in words."""
+    if isinstance(value, str | None):
+        return repr(value)
+    if isinstance(value, tuple | list):
+        return count(len(value), "result")
+    shape = np.shape(value)
+    return f"one array of shape {shape}" if shape else "one number"
 
 
 def _expected(kind: Kinds) -> str:

@@ -39,9 +39,8 @@ class Rotation(Kind):
         return OF_A_ROTATION
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
-        if rigid(S) and rigid(T):
-            return say_degrees(degrees(S, T))
-        return super().apart(S, T)
+        found = say_degrees(degrees(S, T)) if rigid(S) and rigid(T) else "0"
+        return super().apart(S, T) if found == "0" else found
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         return few_entries(self, S, T) or rotation_wrong(S, T)
@@ -77,7 +76,8 @@ class Pose(Kind):
             return super().apart(S, T)
         (R_S, t_S), (R_T, t_T) = split(S), split(T)
         parts = say_mm(millimetres(t_S, t_T)), say_degrees(degrees(R_S, R_T))
-        return " and ".join(p for p in parts if p != "0") or "0"
+        found = " and ".join(p for p in parts if p != "0")
+        return found or super().apart(S, T)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if found := few_entries(self, S, T, 3):

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from labkit.base.quiet import nothing_printed
 from labkit.judge import changes
 from labkit.judge.answers import Parts, all_match, capitalised, parts, plain
 from labkit.judge.ask import Ask, Case
@@ -172,7 +171,6 @@ def other_mutants(m: Matcher) -> Finding | None:
     return of_mutants(m, found) if found else None
 
 
-@nothing_printed()
 def _that_hold(m: Matcher, which: str) -> list[Mutant]:
     """Return one or two mutants that give all answers; of whole numbers the only one.
 

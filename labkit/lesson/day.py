@@ -12,6 +12,7 @@ import sys
 import traceback
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import cycle
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -58,16 +59,22 @@ class Task:
     hints: tuple[str, ...] = entry(least=2)  # in the order to give them
     needs: tuple[str, ...] = ()  # ids of the tasks that its functions may call
     optional: bool = False  # a side quest: no part of what is handed in or graded
-    was: tuple[str, ...] = ()  # ids and names of functions that it had before
+    # Ids and names of functions that it had before; the names in the order of the
+    # functions, also where only one has another name.
+    was: tuple[str, ...] = ()
     seconds: float = 10.0  # for all its calls; one may take a third of it
     memory: float = 1.0  # GB
     numbers: int = NUMBERS  # in one answer
 
     @property
     def renamed(self) -> list[tuple[str, str]]:
-        """Functions that had another name: that, and the one they have."""
+        """Functions that had another name: that, and the one they have.
+
+        Names are in the order of the functions; after the last one the older names
+        of the first follow.
+        """
         names = [name for name in self.was if name.isidentifier()]
-        return list(zip(names, self.functions, strict=False))
+        return list(zip(names, cycle(self.functions), strict=False))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -175,8 +182,8 @@ class Day:
     def module(self, name: str) -> ModuleType:
         """Return a file of its folder, imported by path: the machine names no day.
 
-        `w1-foundations/dayN/gains.py` becomes the module `lesson_dayN.gains`; files of
-        one day import each other as `from .mistakes import ...`.
+        `w1-foundations/dayN/pd_gains.py` becomes the module `lesson_dayN.pd_gains`;
+        files of one day import each other as `from .mistakes import ...`.
 
         Raises:
             Robo47Error: it has no such file, or that stops while it is loaded.

@@ -61,7 +61,8 @@ class Lab:
         self.day = day_of(self.script)
         self.failed: list[str] = []
         self.rows: list[dict[str, Any]] = []
-        sheet = self._worksheet()
+        # A prediction is of the lab as it is: a trial's constants make it no answer.
+        sheet = "" if self.trial else self._worksheet()
         self.predicted = predictions(sheet)
         self.came_out: dict[str, float] = {}  # measured, by what it is
         if blank := list(rows_asked(sheet).values()).count(""):
@@ -81,13 +82,16 @@ class Lab:
     def measured(self, number: str, value: float) -> None:
         """Print a number beside the student's prediction; nothing where there is none.
 
-        A run that is logged writes it into the worksheet as well.
+        A run that is logged writes it into the worksheet as well. With --try the number
+        is printed alone, because the prediction was made for the unchanged lab.
 
         Args:
             number: the first cell of its row in the worksheet's table of predictions.
             value: in the row's unit.
         """
-        if number in self.predicted:
+        if self.trial:
+            print(cli.wrapped(f"  measured {value:z.4g}: {number}", "    "))
+        elif number in self.predicted:
             self.came_out[number] = value
             yours = f"  you predicted {self.predicted[number]}, measured {value:z.4g}: "
             print(cli.wrapped(yours + number, "    "))
@@ -117,7 +121,8 @@ class Lab:
         """
         print(f"  {what}: predicted {wanted:z.3f}, measured {found:z.3f} {unit}")
         print(f"    difference {abs(wanted - found):.1e} {unit}")
-        self.measured(f"{what}, {unit}", found)
+        if not self.trial:  # the line above has the number already
+            self.measured(f"{what}, {unit}", found)
 
     def check(self, name: str, error: ArrayLike, limit: float | None = None) -> None:
         """Print whether an error is small enough, and remember if it is not.
@@ -154,9 +159,11 @@ class Lab:
             Robo47Error: day.toml has no such row.
         """
         wanted = self.day.metric(check, metric)
-        trials = np.atleast_1d(np.asarray(error, dtype=np.float64)).ravel()
-        trials = np.abs(trials) if wanted.min is None else trials
+        signed = np.atleast_1d(np.asarray(error, dtype=np.float64)).ravel()
+        trials = np.abs(signed) if wanted.min is None else signed
         value = _worst(trials, wanted)
+        if self.trial and signed.size == 1:
+            value = float(signed[0])  # nothing is judged: the number as it is
         self._judge(label or check.replace("_", " "), wanted, value)
         mark = file_mark(self.script.read_bytes())
         row = {

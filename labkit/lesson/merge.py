@@ -11,6 +11,7 @@ from pathlib import Path
 
 from labkit.base import git
 from labkit.lesson.day import Day
+from labkit.lesson.renames import arguments_as_now, called_as_now
 from labkit.lesson.starter import function_lines, make_starter, put_back
 from robo47.errors import Robo47Error
 
@@ -83,12 +84,14 @@ def renewed(day: Day, text: str, before: Iterable[str], now: str) -> str:
             the student's is the one they began with.
         now: the kit's complete lab of the newer version.
     """
-    starters = [_called_as_now(day, one) for one in _starters(day, before)]
-    text = _called_as_now(day, text)
+    starters = [called_as_now(day, one) for one in _starters(day, before)]
+    text = called_as_now(day, text)
     starter = make_starter(now, day.script, day.number)
     if not starters:
         return text
-    base = min(starters, key=lambda one: _apart(one, text))
+    oldest = min(starters, key=lambda one: _apart(one, text))
+    text = arguments_as_now(text, oldest, starter)
+    base = arguments_as_now(oldest, oldest, starter)
     both_changed = _CONFLICT.search(_merge_file(base, text, starter))
     if both_changed and function_lines(base, "main")[0] >= 0:
         text = put_back(text, base, ("main",))
@@ -103,14 +106,6 @@ def _starters(day: Day, before: Iterable[str]) -> list[str]:
         except Robo47Error:  # no lab with regions yet
             continue
     return found
-
-
-def _called_as_now(day: Day, text: str) -> str:
-    """Return a text with functions that have another name now."""
-    for task in day.tasks:
-        for old, new in task.renamed:
-            text = re.sub(rf"(?<![.\w]){old}(?=\s*[(,)])", new, text)
-    return text
 
 
 def _apart(starter: str, text: str) -> tuple[int, int]:

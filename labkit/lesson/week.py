@@ -60,6 +60,8 @@ class Week:
     # A module of robo47 with what `robo47.attempt` asks of it.
     capstone: str = ""
     extras: tuple[str, ...] = ()  # packages that student code finds: "scipy==1.17.1"
+    # What the student writes for the week beside the files of its days, as patterns.
+    retrospectives: tuple[str, ...] = ("docs/RETRO_*.md",)
     folder: Path = field(repr=False)  # no entry
 
     @property

@@ -1,6 +1,7 @@
 """A row of the log: its columns, their types and its one line of text; the header."""
 
 import codecs
+import contextlib
 import csv
 import datetime
 import difflib
@@ -66,10 +67,76 @@ def line_end(head: bytes) -> bytes | None:
 
 def wrong_header(path: Path) -> str:
     """Return what to do about a log whose header `line_end` refused."""
-    return (
-        f"{shown(path)}: line 1 is not the log's header. Put it there in an editor and"
-        f" save as UTF-8 (in a spreadsheet: CSV UTF-8, comma delimited): {HEADER}"
-    )
+    head = b""
+    with contextlib.suppress(OSError), path.open("rb") as file:
+        head = file.read(HEAD)
+    says = f"{shown(path)}: line 1 is not the log's header."
+    if why := unreadable(head):
+        return f"{says} {why}"
+    return f"{says} {_other_form(head)}"
+
+
+_BACK = "Bring the last good one back: git checkout metrics/metrics.csv"
+_CONVERT = (
+    "To convert it (the old file is kept): python3 scripts/log_metric.py --convert"
+)
+
+
+def unreadable(data: bytes) -> str:
+    """Return why a file holds no log in any form and what to do, or "" if it may."""
+    if data.startswith(b"version https://git-lfs"):
+        return "The file is a Git LFS pointer. Bring the log itself: git lfs pull"
+    if re.search(rb"^(<{7}|={7}|>{7})", data, re.MULTILINE):
+        return (
+            "A merge left its conflict marks: delete the lines <<<<<<<, =======, >>>>"
+        )
+    utf_16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    if not utf_16 and b"\0" in data:
+        return f"It has NUL bytes (a power cut, or UTF-16 without its mark). {_BACK}"
+    return ""
+
+
+def separator(line: str) -> str:
+    """Return the character that separates the names of a header."""
+    return max(",;\t|", key=line.count)
+
+
+def _other_form(head: bytes) -> str:
+    """Return in which form a log is, and how to convert it, from its first bytes."""
+    if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return f"The file is UTF-16. {_CONVERT}"
+    if b"\r" in head and b"\n" not in head:
+        return f"Its lines end with CR alone. {_CONVERT}"
+    text = head.decode("utf-8", "replace").lstrip("\ufeff")
+    lines = text.splitlines() or [""]
+    if lines[0][:4].lower() == "sep=":
+        return f"A spreadsheet wrote its separator into line 1. {_CONVERT}"
+    return _other_columns(lines)
+
+
+def _other_columns(lines: list[str]) -> str:
+    """Return what is other about the columns that line 1 names."""
+    mark = separator(lines[0])
+    names = [name.strip(" '\"\ufeff").lower() for name in lines[0].split(mark)]
+    known = [name for name in names if name in COLUMNS]
+    if not known:
+        second = next(csv.reader(lines[1:2]), [])
+        if len(second) == len(COLUMNS):
+            return f"It is missing: put it above the rows in an editor: {HEADER}"
+        return f"It names none of the log's columns. {_BACK}. They are: {HEADER}"
+    if missing := [name for name in COLUMNS if name not in known]:
+        return (
+            f"The column {', '.join(missing)} is missing. Leave the rows under their"
+            f" own names: another line 1 would exchange them. {_BACK}. All are:"
+            f" {HEADER}"
+        )
+    if len(names) > len(COLUMNS) or known != list(COLUMNS):
+        what = "more columns" if len(names) > len(COLUMNS) else "them in another order"
+        return f"It has {what}. {_CONVERT}"
+    if mark != ",":
+        kind = {"\t": "tabs"}.get(mark, repr(mark))
+        return f"Its columns are separated by {kind}. {_CONVERT}"
+    return f"The names are quoted or in capitals. {_CONVERT}"
 
 
 def typed(fields: Mapping[str, object], allow_nonfinite: bool) -> tuple[Row, list[str]]:

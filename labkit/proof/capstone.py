@@ -10,6 +10,7 @@ import numpy as np
 
 from labkit.base.text import visible
 from labkit.check.lab_run import FirstFailure, behind_wall
+from labkit.check.own_functions import Counted, counted
 from labkit.check.slow import Budget, EnoughAsked, RunsOn
 from labkit.lesson.lab_module import lab_of
 from labkit.report.week_facts import DayFacts
@@ -29,20 +30,16 @@ class Attempt(NamedTuple):
     capstone: ModuleType | None  # as `robo47.attempt` has it; None of a week without
     result: Any  # None where the arm stopped
     stopped: str  # why it did, in a line
-    theirs: frozenset[str]  # its functions that are the student's
+    theirs: frozenset[str]  # its functions that are the student's, since they pass
     # Of those, what the kit's own did here: what asks them cannot travel.
     stayed: frozenset[str] = frozenset()
 
     @property
-    def yours(self) -> int:
-        """How many of its functions that ran are the student's."""
-        return len(self.theirs - self.stayed)
-
-    @property
-    def total(self) -> int:
-        """Of how many."""
-        uses = self.capstone.USES.values() if self.capstone else ()
-        return len(frozenset().union(*uses))
+    def counted(self) -> Counted:
+        """How many of its functions are the student's, as `make capstone` counts."""
+        uses = self.capstone.USES if self.capstone else {}
+        own = {day: self.theirs.intersection(names) for day, names in uses.items()}
+        return counted(uses, own)
 
 
 NO_CAPSTONE = Attempt(None, None, "", frozenset())

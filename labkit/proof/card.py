@@ -43,9 +43,9 @@ def draw(facts: Mapping[str, Any], tried: Attempt) -> Image.Image:
     film = None
     if tried.capstone is not None and tried.result is not None:
         film = tried.capstone.film(tried.result)
-        told = tried.capstone.told(tried.result)
-        alone = tried.yours == tried.total
-        whose = "" if alone else f", by {tried.yours} of its {tried.total} functions"
+        told = tried.capstone.summary(tried.result)
+        alone = tried.counted.all
+        whose = "" if alone else f", with {tried.counted} functions their own"
         rows.append((told.number, told.of + whose, alone and not tried.result.failed))
     sheet = Image.new("RGB", SIZE, PAPER)
     if (picture := _arm(film)) is not None:
@@ -54,8 +54,9 @@ def draw(facts: Mapping[str, Any], tried: Attempt) -> Image.Image:
         sheet.paste(picture, (SIZE[0] - ARM[0], 0), seen)
     pen = ImageDraw.Draw(sheet)
     _write(pen, 34, f"robo47, run on {datetime.date.today()}", LEAST, FAINT, 1)
-    _write(pen, 78, _known(facts["name"]), 58, INK, 1)
-    _write(pen, 148, facts["heading"], 36, FAINT, 1)
+    name = _known(facts["name"])
+    _write(pen, 78, name or facts["heading"], 58, INK, 1)
+    _write(pen, 148, facts["heading"] if name else "", 36, FAINT, 1)
     for i, (number, words, good) in enumerate(rows):
         _write(pen, 214 + 106 * i, number, 54, GOOD if good else INK, 1)
         _write(pen, 274 + 106 * i, words, LEAST, FAINT, 3)

@@ -14,11 +14,12 @@ import robo47
 from labkit.base import html
 from labkit.base.text import count, number_of
 from labkit.check.lab_run import TRIALS
+from labkit.check.own_functions import Counted, counted
 from labkit.proof import sharing
 from labkit.proof.capstone import Attempt, recorded
 from labkit.proof.facts import RunDay
 from labkit.report.series import Series, cell_of, limit_of, with_unit
-from robo47.attempt import Told
+from robo47.attempt import Summary
 
 # What viser's player needs of the page's policy. Its workers compile what they run.
 ALLOWED = (
@@ -54,7 +55,7 @@ NOT_PROVED = (
 class Proof:
     """All that the page says."""
 
-    name: str  # whose, as one harmless line
+    name: str  # whose, as one harmless line; "" where none is known
     own: bool  # the reader's own, and not a student's
     commit: str  # the hash of the last one, or of those that ran; "" without one
     days: Sequence[RunDay]  # of a week, in order
@@ -77,7 +78,8 @@ def render(proof: Proof, card_name: str = "") -> str:
     nonce = secrets.token_urlsafe(16)
     place = f"film {nonce}"
     week = proof.days[0].day.week.heading
-    title = escape(f"{proof.name}: {week[0].lower()}{week[1:]}")
+    heading = f"{proof.name}: {week[0].lower()}{week[1:]}" if proof.name else week
+    title = escape(heading)
     who = "the student's own kit" if proof.own else "a teacher's kit"
     not_proved = "".join(f"<li>{escape(line)}</li>" for line in NOT_PROVED)
     page = html.page(
@@ -106,12 +108,11 @@ def in_short(proof: Proof) -> dict[str, Any]:
     """Return what the door says of the page: texts, and the week's number."""
     week = proof.days[0].day.week
     numbers = [_again(one, number) for one in proof.days for number in one.numbers]
-    own = sum(len(one.own) for one in proof.days)
     return {
         "week": week.number,
         "heading": week.heading,
         "name": proof.name,
-        "functions": f"{own} of {sum(one.functions for one in proof.days)}",
+        "functions": str(_counted(proof)),
         "numbers": f"{sum(r == 'pass' for r, _ in numbers)} of {len(numbers)}",
         "capstone": _capstone_in_short(proof.attempt),
         "date": str(datetime.date.today()),
@@ -121,11 +122,10 @@ def in_short(proof: Proof) -> dict[str, Any]:
 def _tiles(proof: Proof) -> str:
     numbers = [_again(one, number) for one in proof.days for number in one.numbers]
     right = sum(role == "pass" for role, _ in numbers)
-    own = sum(len(one.own) for one in proof.days)
-    total = sum(one.functions for one in proof.days)
+    own = _counted(proof)
     fresh, mood = _fresh(proof)
     return html.tiles([
-        ("pass" if own == total else "", f"{own} of {total}", "functions theirs"),
+        ("pass" if own.all else "", str(own), "functions theirs"),
         (
             "pass" if right == len(numbers) else "",
             f"{right} of {len(numbers)}",
@@ -134,6 +134,13 @@ def _tiles(proof: Proof) -> str:
         *_capstone_tiles(proof.attempt),
         (mood, fresh, "a fresh clone"),
     ])  # fmt: skip
+
+
+def _counted(proof: Proof) -> Counted:
+    """Return how many of the week's functions are theirs."""
+    tasks = {one.day.number: one.day.tasks for one in proof.days}
+    asked = {day: [f for t in some for f in t.functions] for day, some in tasks.items()}
+    return counted(asked, {one.day.number: one.own for one in proof.days})
 
 
 def _again(one: RunDay, number: Series) -> tuple[str, str]:
@@ -164,8 +171,8 @@ def _capstone_tiles(attempt: Attempt) -> list[tuple[str, str, str]]:
         return []
     if attempt.result is None:
         return [("none", "–", attempt.capstone.NAME)]
-    told = attempt.capstone.told(attempt.result)
-    role = "pass" if len(attempt.theirs) == attempt.total else ""
+    told = attempt.capstone.summary(attempt.result)
+    role = "pass" if attempt.counted.all else ""
     return [("fail" if attempt.result.failed else role, told.number, told.of)]
 
 
@@ -173,34 +180,36 @@ def _capstone_in_short(attempt: Attempt) -> str:
     """Return "the pick: 0.9 mm from the cube to its mark", "" without a result."""
     if attempt.capstone is None or attempt.result is None:
         return ""
-    told = attempt.capstone.told(attempt.result)
+    told = attempt.capstone.summary(attempt.result)
     words = f"{attempt.capstone.NAME}: {told.number} {told.of}"
-    whose = f", by {attempt.yours} of its {attempt.total} functions"
-    return words if attempt.yours == attempt.total else words + whose
+    whose = f", with {attempt.counted} functions their own"
+    return words if attempt.counted.all else words + whose
 
 
 def _capstone(attempt: Attempt, place: str) -> str:
     if attempt.capstone is None:
         return ""
     heading = escape(_heading(attempt.capstone))
-    whose = f"{attempt.yours} of the {attempt.total} functions that move it are theirs"
-    if attempt.yours < attempt.total:
+    own = attempt.counted
+    whose = f"{own.own} of the {own.of} functions that it calls are theirs"
+    if not own.all:
         whose += "; the kit's own do the rest"
     if attempt.result is None:
         why = f"It stopped: {escape(attempt.stopped)}." if attempt.stopped else ""
         words = why or "None of the functions that move the arm is theirs yet."
         return html.section(heading, f"<p>{words}</p>")
-    told = attempt.capstone.told(attempt.result)
+    told = attempt.capstone.summary(attempt.result)
     by = _by(attempt.capstone.USES, attempt)
     words = escape(f"{told.came} {whose}. {told.way} Drag to turn it.")
     player = (
         f'<iframe title="{heading} in 3D" sandbox="allow-scripts" srcdoc="{place}">'
     )
     film = f'<div class="card film">{player}</iframe></div>'
-    return html.section(heading, f"<p>{words}</p>", film, _figures(told), by)
+    stayed = _stayed(attempt)
+    return html.section(heading, f"<p>{words}</p>", stayed, film, _figures(told), by)
 
 
-def _figures(told: Told) -> str:
+def _figures(told: Summary) -> str:
     """Return what the capstone measured, each with its unit and what is allowed."""
     rows = [
         f"<tr><td class=wide>{escape(what)}</td><td class=n>{escape(value)}</td>"
@@ -213,24 +222,27 @@ def _figures(told: Told) -> str:
 
 def _by(uses: Mapping[int, Sequence[str]], attempt: Attempt) -> str:
     """Return whose each of the capstone's functions was in it, by day."""
-    theirs = attempt.theirs - attempt.stayed
     rows = []
     for day, names in sorted(uses.items()):
-        own = _code([name for name in names if name in theirs])
-        kits = _code([name for name in names if name not in theirs])
+        own = _code([name for name in names if name in attempt.theirs])
+        kits = _code([name for name in names if name not in attempt.theirs])
         rows.append(
             f"<tr><td>{day}</td><td class=wide>{own or '–'}</td>"
             f"<td class=wide>{kits or '–'}</td></tr>"
         )
     head = "<th>day</th><th>theirs</th><th>the kit's own</th>"
-    why = ""
-    if attempt.stayed:
-        names = _code(sorted(attempt.stayed))
-        why = (
-            f"<p class=muted>{names}: theirs pass. They ask a world that stays outside"
-            " the sandbox, so the kit's own, their equals, did it here.</p>"
-        )
-    return html.folded("Theirs or the kit's", html.table(head, rows), why)
+    return html.folded("Theirs or the kit's", html.table(head, rows))
+
+
+def _stayed(attempt: Attempt) -> str:
+    """Return which of their functions the sandbox could not call, and what ran."""
+    if not attempt.stayed:
+        return ""
+    return (
+        f"<p class=muted>Theirs, but not run here: {_code(sorted(attempt.stayed))}."
+        " They query a world that cannot be sent into the sandbox, so the kit's own"
+        " functions ran in their place. Theirs pass the check.</p>"
+    )
 
 
 def _numbers(days: Sequence[RunDay]) -> str:

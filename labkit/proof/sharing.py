@@ -13,7 +13,7 @@ def meta(name: str, facts: Mapping[str, Any]) -> str:
     told += [str(facts["capstone"])] if facts["capstone"] else []
     words = {
         "og:type": "website",
-        "og:title": f"{facts['name']}: {facts['heading']}",
+        "og:title": ": ".join(filter(None, (facts["name"], facts["heading"]))),
         "og:description": "; ".join(told),
         "og:image": name,
         "og:image:width": str(SIZE[0]),

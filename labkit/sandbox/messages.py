@@ -18,13 +18,14 @@ import numpy as np
 from labkit.base.exchange import MOST, Path, Question, Reply
 from labkit.base.text import visible, visible_lines
 from labkit.judge.ask import Robot
+from labkit.judge.worlds import is_world
 from labkit.lesson import day_mujoco
 from labkit.lesson.day import NUMBERS, Day, Limits, days_before
 from labkit.lesson.own_files import SCRIPT
+from labkit.lesson.slips import other_packages
 from labkit.lesson.starter import function_lines
 from labkit.sandbox.inside import wire
 from labkit.sandbox.inside.fake_model import KINDS
-from labkit.sandbox.inside.fake_world import Balls
 from robo47 import panda
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
@@ -130,9 +131,17 @@ class StaysError(Robo47Error):
 
 
 def pack(
-    questions: Sequence[Question], models: Sequence[dict[str, Any]]
+    questions: Sequence[Question],
+    models: Sequence[dict[str, Any]],
+    worlds: list[Any],
 ) -> list[dict[str, Any]]:
-    """Return questions as JSON; they name the process's models by place."""
+    """Return questions as JSON; they name the process's models and worlds by place.
+
+    Args:
+        questions: what to call.
+        models: those that the process was sent.
+        worlds: those that it may ask about; new ones are added.
+    """
     args = {id(arg): arg for question in questions for arg in question.args}
     packed: dict[int, Any] = {}
     for key, arg in args.items():
@@ -140,8 +149,8 @@ def pack(
             packed[key] = {"model": models.index(_copy_of(arg))}
         elif isinstance(arg, Path):
             packed[key] = {"path": [list(pair) for pair in arg.pairs]}
-        elif isinstance(arg, Balls):
-            packed[key] = {"balls": wire.pack_array(arg.rows)}
+        elif is_world(arg):
+            packed[key] = {"world": _place(arg, worlds)}
     plain = {key: arg for key, arg in args.items() if key not in packed}
     try:
         packed |= zip(plain, map(wire.pack_value, plain.values()), strict=True)
@@ -152,6 +161,30 @@ def pack(
         {"function": one.function, "args": [packed[id(arg)] for arg in one.args]}
         for one in questions
     ]
+
+
+def _place(world: Any, worlds: list[Any]) -> int:
+    """Return a world's place among those that a process may ask about."""
+    for at, known in enumerate(worlds):
+        if known is world:
+            return at
+    worlds.append(world)
+    return len(worlds) - 1
+
+
+def free(asked: Any, worlds: Sequence[Any]) -> bool:
+    """Return what a world says of the edge that a process asks about.
+
+    Raises:
+        ValueError: only a forger asks that.
+    """
+    try:
+        number, *ends = asked
+        world = worlds[number]
+        a, b = (np.array(wire.unpack_value(end), dtype=np.float64) for end in ends)
+        return bool(world.edge_free(a, b))
+    except Exception:
+        raise ValueError("not a question about a world") from None
 
 
 def read(came: Sequence[dict[str, Any]], most: int = NUMBERS) -> list[Reply]:
@@ -230,9 +263,14 @@ def _code_of(script: File, added: str = "") -> dict[str, Any]:
     return {
         "file": script.name,
         "code": _text(script.read_bytes()),
+        "absent": sorted({name for path in {script, *own} for name in _absent(path)}),
         "added": added,
         "beside": {path.stem: _text(path.read_bytes()) for path in own},
     }
+
+
+def _absent(script: File) -> tuple[str, ...]:
+    return other_packages(script.read_text("utf-8", "replace"))
 
 
 def _text(code: bytes) -> str:

@@ -86,6 +86,7 @@ class Process:
         self.secret = b""
         self.told: dict[str, Any] = {}  # the request of what it has loaded
         self.answers = 0
+        self.worlds: list[Any] = []  # that its functions ask about
         self._room = MOST_BYTES
         self.memory = 1.0  # GB
         self.longest = LONGEST_LINE  # bytes
@@ -150,11 +151,28 @@ class Process:
             EndedError: none came within so many seconds, or ever will.
             FaultError: this machine ended the process.
         """
+        until = time.monotonic() + seconds - self.waited
         message = self._message(seconds)
+        while "asks" in message:
+            until += self._say_if_free(message["asks"])
+            if (left := until + self.waited - time.monotonic()) <= 0.0:
+                raise EndedError(ENDLESS)
+            message = self._message(left)
         if message.get("at") != self.answers:
             raise EndedError(CHANNEL)
         self.answers += 1
         return message
+
+    def _say_if_free(self, asked: Any) -> float:
+        """Answer a question about a world, which stays here; return the seconds."""
+        from labkit.sandbox import messages  # NumPy, after the start
+
+        began = time.monotonic()
+        try:
+            self._send({"free": messages.free(asked, self.worlds)})
+        except ValueError:
+            raise EndedError(CHANNEL) from None
+        return time.monotonic() - began
 
     def used(self) -> tuple[float, float]:
         """Return for how many seconds it had a processor, and waited for one."""

@@ -257,7 +257,11 @@ class Session:
         """
         came: list[dict[str, Any]] = []
         if self._ended is None:
-            self._process.ask(messages.pack(questions, self._process.told["models"]))
+            self._process.ask(
+                messages.pack(
+                    questions, self._process.told["models"], self._process.worlds
+                )
+            )
         while len(came) < len(questions) and self._ended is None:
             try:
                 came.append(_next(self._process, seconds, self._deadline))
@@ -311,7 +315,7 @@ class _Rounds:
     def ask(self, process: Process) -> None:
         """Ask all of them in both rounds, or until the process ends."""
         questions = [exchange.question for exchange in self.left]
-        calls = messages.pack(questions, process.told["models"])
+        calls = messages.pack(questions, process.told["models"], process.worlds)
         process.ask([*calls, _anew(process.told["added"]), *reversed(calls)])
         self._listen(process, self.left, self.first)
         if not self.ended:

@@ -34,8 +34,7 @@ LIVE = re.compile(
 )  # a figure of site/figures.js
 FIGURE = '```{raw} html\n<figure class="live" data-figure="\\1"></figure>\n```'
 FILMS = "films"  # their folder among the site's static files
-# The README says where the arm's page is; here it is a click away, above all pictures.
-ELSEWHERE = re.compile(r"^\*\*Try it now.*?\n\n", re.MULTILINE | re.DOTALL)
+# On the site the arm's page is a click away, above all pictures.
 FIRST = re.compile(r"\A(# [^\n]+\n\n.+?\n\n)", re.DOTALL)  # title and paragraph
 TRY = (
     r"\1**[Try it now, nothing to install](arm.md)**: type a mistake, see the arm.\n\n"
@@ -47,8 +46,9 @@ TYPED = re.compile(r"\b[A-Z]+=[^\s,;]+|\B--[\w-]+|\b\w+/[\w.-]*\w")
 COMMANDS = """\
 # What to type: the commands
 
-In a clone of the kit. `DAY=2` names a day, `WEEK=1` a week, `TASK=1.4` a task; without
-it, it is the one you worked on last. The first ten are for a day's work, in its order.
+Type these commands in a clone of the kit. `DAY=2` selects a day, `WEEK=1` a week and
+`TASK=1.4` a task; without it, a command takes the last one you worked on. The first ten
+commands are those of a day, in the order of its work.
 
 """
 LANGUAGE = {".py": "python", ".toml": "toml"}
@@ -96,7 +96,7 @@ def lay_out(folder: Path, filmed: Collection[str], ran: Sequence[Day]) -> None:
         text = BY_WIDTH.sub(r"![\2](\1)", (ROOT / page).read_text("utf-8"))
         text = _with_films(text, page, filmed)
         if page == HOME:
-            text = FIRST.sub(TRY, ELSEWHERE.sub("", text))
+            text = FIRST.sub(TRY, text)
         text = LIVE.sub(FIGURE, _with_notebook(text, notebooks.get(page)))
         name = Path("index.md") if page == HOME else page
         _write(folder / name, _linked(text, page, pages, folder))

@@ -79,6 +79,21 @@ def own_index() -> Iterator[Path]:
         yield folder / "index"
 
 
+def look_again(index: Path) -> None:
+    """Make a copied index see the files that git was told to overlook.
+
+    The marks are those of `update-index --assume-unchanged` and `--skip-worktree`. A
+    file that a sparse checkout leaves out is not there and keeps its mark.
+    """
+    listed = ask("ls-files", "-vz", index=index).split("\0")[:-1]
+    marked = [line[2:] for line in listed if line[0] == "S" or line[0].islower()]
+    there = [name for name in marked if os.path.lexists(ROOT / name)]
+    for start in range(0, len(there), 200):  # a command line has an end
+        some = there[start : start + 200]
+        for flag in ("--no-assume-unchanged", "--no-skip-worktree"):
+            ask("update-index", flag, "--", *some, index=index)
+
+
 @contextlib.contextmanager
 def beside(head: str) -> Iterator[Path]:
     """Yield a worktree at a commit; it goes with the block."""

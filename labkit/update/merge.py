@@ -4,14 +4,20 @@ import shutil
 from pathlib import Path
 
 from labkit.base import git
-from labkit.lesson.day import all_days
 from labkit.lesson.merge import keep_both, merged
-from labkit.lesson.week import WORK
-from labkit.update.git import NOBODY, SECONDS, as_whom, ask, commit, own_index
+from labkit.lesson.students_own import LOG, deliverables, is_students, work_links
+from labkit.update.git import (
+    NOBODY,
+    SECONDS,
+    as_whom,
+    ask,
+    commit,
+    look_again,
+    own_index,
+)
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
-LOG = "metrics/metrics.csv"
 REMOTES = ("kit", "upstream", "origin")  # where the kit is, the first that is there
 STALLED = ("-c", "http.lowSpeedLimit=1000", "-c", "http.lowSpeedTime=30")
 
@@ -48,14 +54,20 @@ def saved_own() -> str:
     """
     if ask("ls-files", "-u"):
         raise Robo47Error("a merge is not finished. Finish it, then: make update")
-    handed_in = {name for day in all_days() for name in day.files.values()}
-    there = [name for name in sorted(handed_in) if (ROOT / name).is_file()]
+    if links := work_links():
+        raise Robo47Error(
+            f"{links[0]} is a symbolic link. Git does not see the labs behind it, and "
+            "nothing in it is handed in. Put a folder with your labs in its place, "
+            "then: make update"
+        )
+    there = [name for name in sorted(deliverables()) if (ROOT / name).is_file()]
     with own_index() as index:
         own = ROOT / ask("rev-parse", "--git-path", "index")
         try:
             shutil.copyfile(own, index)
         except OSError as error:
             raise Robo47Error(f"{error.filename}: {error.strerror}") from None
+        look_again(index)
         ask("add", "-u", index=index)
         ask("add", "--", *there, may_fail=True, index=index)
         tree = ask("write-tree", index=index)
@@ -69,7 +81,7 @@ def merge(worktree: Path, target: str) -> list[str]:
     """Merge a commit; no line of the student's is lost.
 
     Args:
-        worktree: at the student's commit.
+        worktree: at the student's commit, which leads back to one of the kit's.
         target: the kit's.
 
     Returns:
@@ -77,12 +89,9 @@ def merge(worktree: Path, target: str) -> list[str]:
         kit's now.
     """
     own = ask("rev-parse", "HEAD", at=worktree)
-    base = ask("merge-base", own, target, at=worktree, may_fail=True)
-    if not base:
-        raise Robo47Error("that is another repository: no commit is in both")
+    base = ask("merge-base", own, target, at=worktree)
     how = ("merge", "-q", "--no-ff", "--no-commit", target)
     ask(*NOBODY, *how, at=worktree, may_fail=True)
-    mine = {LOG, *(name for day in all_days() for name in day.files.values())}
     both: dict[str, dict[str, str]] = {}  # blobs: "1" of the base, "2" ours, "3" theirs
     for entry in ask("ls-files", "-uz", at=worktree).split("\0")[:-1]:
         facts, _, name = entry.partition("\t")
@@ -91,7 +100,7 @@ def merge(worktree: Path, target: str) -> list[str]:
     taken = [
         name
         for name, blobs in both.items()
-        if not _resolve(worktree, name, blobs, name in mine or f"/{WORK}/" in name)
+        if not _resolve(worktree, name, blobs, is_students(name))
     ]
     _keep_rows(worktree, own)
     ask("add", "-A", at=worktree)

@@ -35,10 +35,10 @@ from robo47 import (
 )  # fmt: skip
 from robo47.attempt import Film
 from robo47.capstone.phases import PHASES, Result, Task
-from robo47.capstone.told import HEAD as HEAD
-from robo47.capstone.told import film_of
-from robo47.capstone.told import row as row
-from robo47.capstone.told import told as told
+from robo47.capstone.summary import HEAD as HEAD
+from robo47.capstone.summary import film_of
+from robo47.capstone.summary import row as row
+from robo47.capstone.summary import summary as summary
 from robo47.checks import Array
 from robo47.errors import Robo47Error
 
@@ -59,14 +59,15 @@ USES = {
     2: ("joint_screws", "fk_space"),
     3: ("space_jacobian", "site_jacobian", "pose_error", "solve_ik", "manipulability"),
     4: ("link_inertias", "mass_matrix", "bias_torque", "gravity_torque"),
-    5: ("gains", "computed_torque", "pd_torque", "gravity_pd", "saturate"),
+    5: ("pd_gains", "computed_torque", "pd_torque", "gravity_pd", "saturate"),
     6: (
-        "task_inertia", "site_bias", "osc_torque", "null_torque", "spring_wrench",
-        "critical_damping", "impedance_torque", "set_point_for_force",
+        "task_inertia", "bias_acceleration", "osc_torque", "nullspace_torque",
+        "impedance_wrench", "critical_damping", "impedance_torque",
+        "set_point_for_force",
     ),
     7: (
-        "grasp_pose", "quintic_scaling", "quintic_duration", "joint_move",
-        "straight_pose", "carry", "heaviest_cube",
+        "grasp_pose", "quintic_scaling", "quintic_duration", "joint_trajectory",
+        "interpolate_pose", "combine_bodies", "max_cube_mass",
     ),
 }  # fmt: skip
 
@@ -87,16 +88,16 @@ def with_own(own: Mapping[str, Any]) -> SimpleNamespace:
     """Return the library's functions of Days 1 to 6, and a lab's own of Day 7.
 
     Args:
-        own: functions by name: a lab's globals(). While `heaviest_cube`, a side quest,
+        own: functions by name: a lab's globals(). While `max_cube_mass`, a side quest,
             is still to do, the library's is taken.
     """
     fns = library()
     for name in USES[7]:
         setattr(fns, name, own[name])
     try:
-        fns.heaviest_cube(1.0, 1.0, 0.0)
+        fns.max_cube_mass(1.0, 1.0, 0.0)
     except NotImplementedError:
-        fns.heaviest_cube = lifting.heaviest_cube
+        fns.max_cube_mass = lifting.max_cube_mass
     return fns
 
 
@@ -209,7 +210,9 @@ def ablations(fns: Any) -> dict[str, tuple[SimpleNamespace, dict[str, float]]]:
             mass_matrix=lambda J, G, armature: fns.mass_matrix(J, G, 0.0 * armature)
         ),
         "the hand forgotten": but(
-            carry=lambda m1, c1, I1, *_: fns.carry(m1, c1, I1, 0.0, c1, 0.0 * I1)
+            combine_bodies=lambda m1, c1, I1, *_: fns.combine_bodies(
+                m1, c1, I1, 0.0, c1, 0.0 * I1
+            )
         ),
         "at the speed limits": but(1.0),
         "at 1.5 of the speed limits": but(1.5),

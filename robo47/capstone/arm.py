@@ -62,10 +62,10 @@ class Arm:
         self.armature = model.dof_armature[dofs].copy()
         self.damping = model.dof_damping[dofs].copy()
         hand = panda.hand_inertia(model, opening=0.04)
-        self.empty = panda.inertias(model).carrying(fns.carry, *hand)
+        self.empty = panda.inertias(model).carrying(fns.combine_bodies, *hand)
         self.inertias = self.empty
         self.worst = 0.0
-        self.gains = [float(k) for k in fns.gains(OMEGA, 1.0)]
+        self.gains = [float(k) for k in fns.pd_gains(OMEGA, 1.0)]
 
     def links(self, q: Array) -> Array:
         """Return T_world_link of the seven links, (7, 4, 4)."""
@@ -122,7 +122,7 @@ class Arm:
         T_link7_world = self.fns.inverse(self.links(q)[6])
         com = (T_link7_world @ T_world_cube)[:3, 3]
         I_cube = mass * (2.0 * half) ** 2 / 6.0 * np.eye(3)
-        self.inertias = self.empty.carrying(self.fns.carry, mass, com, I_cube)
+        self.inertias = self.empty.carrying(self.fns.combine_bodies, mass, com, I_cube)
         return self.fns.inverse(self.end(q)) @ T_world_cube
 
     def let_go(self) -> None:
@@ -138,7 +138,7 @@ class Arm:
         def torque(t: float, q: Array, qd: Array) -> Array:
             fns = self.fns
             now = self.at(q, qd)
-            q_ref, qd_ref, qdd_ref = fns.joint_move(q0, q1, t, T)
+            q_ref, qd_ref, qdd_ref = fns.joint_trajectory(q0, q1, t, T)
             e, ed = q_ref - q, qd_ref - qd
             self.worst = max(self.worst, float(np.abs(e).max()))
             known = now.M, now.bias, self.damping, qd
@@ -165,15 +165,15 @@ class Arm:
             s, sd, sdd = fns.quintic_scaling(t, T)
             J = fns.site_jacobian(now.J_space, now.T[:3, 3])
             Lambda = fns.task_inertia(J, now.M)
-            e = fns.pose_error(now.T, fns.straight_pose(T0, T1, float(s)))
+            e = fns.pose_error(now.T, fns.interpolate_pose(T0, T1, float(s)))
             self.worst = max(self.worst, float(np.linalg.norm(e[3:])))
             D = fns.critical_damping(STIFFNESS, Lambda)
-            wrench = fns.spring_wrench(e, sd * way - J @ qd, np.diag(STIFFNESS), D)
-            Jdot_qd = fns.site_bias(now.J_space, qd, now.T[:3, 3])
+            wrench = fns.impedance_wrench(e, sd * way - J @ qd, np.diag(STIFFNESS), D)
+            Jdot_qd = fns.bias_acceleration(now.J_space, qd, now.T[:3, 3])
             # What the motion itself needs stands where the bias does.
             forward = fns.osc_torque(J, Lambda, now.bias, Jdot_qd, sdd * way)
             back = fns.pd_torque(posture - q, -qd, *POSTURE)
-            tau_null = fns.null_torque(J, now.M, Lambda, back)
+            tau_null = fns.nullspace_torque(J, now.M, Lambda, back)
             return fns.impedance_torque(J, wrench, forward, self.damping, qd, tau_null)
 
         return torque

@@ -168,7 +168,7 @@ class Task:
         opening = float(self.data.qpos[model.joint("finger_joint1").qposadr[0]])
         grip = 50.0 * max(opening, 0.0)
         mu = float(model.geom("cube").friction[0])
-        return float(self.fns.heaviest_cube(grip, mu, acceleration))
+        return float(self.fns.max_cube_mass(grip, mu, acceleration))
 
     def _q(self) -> Array:
         """Return the measured configuration, (7,)."""

@@ -31,10 +31,10 @@ from robo47.checks import Array
 from robo47.delivery import result, scene
 from robo47.delivery.phases import PHASES, Asked, Delivery
 from robo47.delivery.result import Result
-from robo47.delivery.told import HEAD as HEAD
-from robo47.delivery.told import film_of
-from robo47.delivery.told import row as row
-from robo47.delivery.told import told as told
+from robo47.delivery.summary import HEAD as HEAD
+from robo47.delivery.summary import film_of
+from robo47.delivery.summary import row as row
+from robo47.delivery.summary import summary as summary
 
 NAME = "the delivery"
 THING = "cube"
@@ -56,10 +56,10 @@ MODULES = {
     12: planning,
 }
 NEW = {
-    8: ("payload_from_holds",),
-    9: ("energy_slope", "observer_step", "pushed_link"),
+    8: ("identify_payload",),
+    9: ("kinetic_energy_gradient", "momentum_observer_step", "contact_link"),
     10: ("camera_matrix", "back_project", "icp_step"),
-    11: ("capsule_box", "reaches", "next_check"),
+    11: ("capsule_box_distance", "distal_radii", "conservative_advance"),
     12: ("rrt_connect", "shortcut"),
 }
 USES = {**capstone.USES, **NEW}
@@ -121,7 +121,7 @@ def attempt(fns: Any, seed: int | None = None, **options: Any) -> Result:
         return found
     pushed = deliver(fns, CUBE_XY, GOAL_XY, YAW, Asked(mass=MASS, push=PUSH))
     return found._replace(
-        pushed=True, noticed_ms=pushed.noticed_ms, pushed_link=pushed.link
+        pushed=True, noticed_ms=pushed.noticed_ms, contact_link=pushed.link
     )
 
 

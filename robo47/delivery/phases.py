@@ -17,9 +17,9 @@ from robo47.arm import GRAVITY
 from robo47.capstone.arm import Law
 from robo47.capstone.phases import CLOSED, HOVER, OPEN, Phase, Task
 from robo47.checks import Array
-from robo47.delivery.seeing import cube_seen
-from robo47.delivery.watching import Watch
-from robo47.delivery.ways import Ways
+from robo47.delivery.contact_monitor import ContactMonitor
+from robo47.delivery.path_planner import PathPlanner
+from robo47.delivery.perception import cube_seen
 from robo47.panda import READY_Q
 
 RATE = 100.0  # Hz, of controller and watch
@@ -74,8 +74,8 @@ class Delivery(Task):
             self.T_world_cube = cube_seen(fns, model, self.data, noise=asked.noise)
         self.T_world_cube[0, 3] += asked.beside
         self.seen = self.T_world_cube.copy()
-        self.ways = Ways(fns, model, wall=asked.wall, hand=asked.hand)
-        self.watching = Watch(fns, self.arm.damping, 1.0 / RATE)
+        self.ways = PathPlanner(fns, model, wall=asked.wall, hand=asked.hand)
+        self.watching = ContactMonitor(fns, self.arm.damping, 1.0 / RATE)
         self.weighed = 0.0
         self.carried = 0.0  # the speed of the carry, as a fraction of the limits
         self.driven: list[Array] = []  # configurations of the joint moves
@@ -128,7 +128,7 @@ class Delivery(Task):
 
     def _scale(self, q0: Array) -> Law:
         """Return a critically damped spring about q0: what it lacks is the load."""
-        kp, kd = (float(k) for k in self.fns.gains(SCALE, 1.0))
+        kp, kd = (float(k) for k in self.fns.pd_gains(SCALE, 1.0))
         still = np.zeros(7)
 
         def torque(t: float, q: Array, qd: Array) -> Array:
@@ -151,7 +151,7 @@ class Delivery(Task):
                 self.hold_still = self.arm.rest(q)
             tau = self.hold_still(t, q, qd) if self.stopped else law(t, q, qd)
             tau = self.fns.saturate(tau, self.arm.tau_max)
-            slope = self.fns.energy_slope(now.J_space, now.G, qd)
+            slope = self.fns.kinetic_energy_gradient(now.J_space, now.G, qd)
             self.watching.commanded(tau, slope, self.arm.gravity(q), qd)
             return tau
 
@@ -169,10 +169,10 @@ class Delivery(Task):
         J_site = fns.site_jacobian(now.J_space, now.T[:3, 3])
         extra = self.runs[-1].tau[-1] - self.arm.gravity(q)
         holds = J_site[None], now.T[None, :3, :3], extra[None]
-        self.weighed = float(fns.payload_from_holds(*holds, GRAVITY)[0])
+        self.weighed = float(fns.identify_payload(*holds, GRAVITY)[0])
         if not self.weighed >= -EMPTY:  # NaN, too
             grams = f"{1e3 * self.weighed:.0f} g"
-            self.stopped = f"it weighs {grams}: is payload_from_holds (task 8.8) right?"
+            self.stopped = f"it weighs {grams}: is identify_payload (task 8.8) right?"
         elif self.weighed < EMPTY:
             self.stopped = "there is nothing in the hand"
         else:
@@ -197,7 +197,7 @@ class Delivery(Task):
         for q0, q1 in pairwise(way):
             T = self._seconds(q0, q1, speed)
             t = np.linspace(0.0, T, INSTANTS)
-            q = [self.fns.joint_move(q0, q1, now, T)[0] for now in t]
+            q = [self.fns.joint_trajectory(q0, q1, now, T)[0] for now in t]
             at = np.array([self.arm.end(one)[:3, 3] for one in q])
             change = np.diff(at, 2, axis=0) / (t[1] - t[0]) ** 2
             most = max(most, float(np.linalg.norm(change, axis=1).max()))

@@ -12,7 +12,7 @@ from robo47.delivery import scene
 from robo47.delivery.phases import Delivery
 from robo47.shapes import Shape, World, capsules_of
 
-NEAREST = 5  # instants of the way at which `capsule_box` has the last word
+NEAREST = 5  # instants of the way at which `capsule_box_distance` has the last word
 
 
 class Result(NamedTuple):
@@ -26,7 +26,7 @@ class Result(NamedTuple):
     clearance_mm: float  # least, of the way that was driven
     residual: float  # largest torque that nobody commanded, of any joint, N m
     link: int  # which link felt more than it may first; 0: none did
-    pushed_link: int  # the same of a second run, in which somebody pushes
+    contact_link: int  # the same of a second run, in which somebody pushes
     noticed_ms: float  # how long after a push it was felt; nan where none was
     stopped: str  # why it did not go on; "" where it did
     seconds: float  # how long the task took in the simulation
@@ -65,7 +65,7 @@ def of(task: Delivery) -> Result:
         clearance_mm=1e3 * clearance(task),
         residual=task.watching.worst,
         link=task.watching.link,
-        pushed_link=task.watching.link if task.asked.push else 0,
+        contact_link=task.watching.link if task.asked.push else 0,
         noticed_ms=1e3 * (task.felt_at - task.pushed_at),
         stopped=task.stopped,
         seconds=task.now,
@@ -81,19 +81,20 @@ def clearance(task: Delivery) -> float:
     """Return the least distance of the whole arm from table and wall, metres.
 
     Of every control instant of the joint moves, as they were driven. The library finds
-    the nearest instants, `capsule_box` of the functions says how near they are.
+    the nearest instants, `capsule_box_distance` of the functions says how near they
+    are.
     """
     shape = Shape(task.model, capsules_of(task.model))
     world = World.of(boxes=scene.boxes(task.asked.wall))
     q = np.concatenate(task.driven)
-    apart = shape.apart(q, world).reshape(len(q), -1)
+    apart = shape.distances(q, world).reshape(len(q), -1)
     nearest = np.argsort(apart.min(axis=1), kind="stable")[:NEAREST]
     return min(_nearest(task.fns, shape, world, q[i], apart[i]) for i in nearest)
 
 
 def _nearest(fns: Any, shape: Shape, world: World, q: Array, apart: Array) -> float:
-    """Return `capsule_box` of the pair that is nearest at q, metres."""
+    """Return `capsule_box_distance` of the pair that is nearest at q, metres."""
     capsule, thing = divmod(int(np.argmin(apart)), len(world.boxes))
     a0, a1 = shape.ends(q)[capsule]
     box = world.boxes[thing], world.half[thing]
-    return float(fns.capsule_box(a0, a1, shape.radii[capsule], *box))
+    return float(fns.capsule_box_distance(a0, a1, shape.radii[capsule], *box))

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import eye, scenes, se3
+from robo47 import depth_camera, scenes, se3
 from robo47.checks import Array
 
 WALL_AT = (0.56, 0.0, 0.35)  # m, its middle; READY clears it by 77 mm
@@ -41,7 +41,7 @@ def table_with_wall(
     """
 
     def add(spec: mujoco.MjSpec) -> None:
-        seen = eye.add(spec.worldbody, "eye", EYE_AT, EYE_TO, FOVY, PIXELS)
+        seen = depth_camera.add(spec.worldbody, "eye", EYE_AT, EYE_TO, FOVY, PIXELS)
         if meshes:  # looks alone: its rays begin inside
             box = spec.worldbody.add_geom(
                 name="eye", type=mujoco.mjtGeom.mjGEOM_BOX, pos=EYE_AT, size=EYE_HALF

@@ -219,7 +219,7 @@ class ArmState:
         F = (W @ self._P).reshape(n, 16) @ WRENCH
         return np.vecdot(self._S, self._c.after @ F)
 
-    def site_bias(self, qd: ArrayLike) -> Array:
+    def bias_acceleration(self, qd: ArrayLike) -> Array:
         """Return the acceleration of the arm's end at qdd = 0: J_site's rate times qd.
 
         Args:

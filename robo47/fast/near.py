@@ -34,7 +34,7 @@ def closest(a0: Array, a1: Array, b0: Array, b1: Array) -> tuple[Array, Array]:
     return a0 + s[..., None] * u, b0 + t[..., None] * v
 
 
-def segments_apart(a0: Array, a1: Array, b0: Array, b1: Array) -> Array:
+def segment_distances(a0: Array, a1: Array, b0: Array, b1: Array) -> Array:
     """Return the distance of two segments, (...)."""
     p, o = closest(a0, a1, b0, b1)
     return np.sqrt(_dot(p - o, p - o))
@@ -47,7 +47,7 @@ def outside(p: Array, half: Array) -> Array:
     return np.sqrt(_dot(out, out)) + np.minimum(beyond.max(axis=-1), 0.0)
 
 
-def box_apart(a0: Array, a1: Array, half: Array) -> Array:
+def box_distances(a0: Array, a1: Array, half: Array) -> Array:
     """Return the least `outside` along segments in the box's axes, (...), exactly.
 
     Its square is made of parabolas that meet where the segment crosses a face's plane:

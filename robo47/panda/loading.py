@@ -42,9 +42,10 @@ def load(
 
     Args:
         entry: "panda", "panda_nohand" or "scene".
-        meshes: False drops shapes, materials and textures before compiling. Masses
-            and motion are the same and it takes a hundredth of the time; without
-            shapes nothing touches anything.
+        meshes: False drops the shapes that only look, with materials and textures,
+            before compiling, and what touches: nothing touches anything. Masses and
+            motion are the same and it takes a hundredth of the time. A shape that
+            carries inertia, as a tool without `inertial` has, stays.
         drive: "servo" keeps the Menagerie's position servos, ctrl in rad; "torque"
             makes motors of the arm's seven, ctrl in N m, up to the same 87 and 12
             N m. The hand's own servo stays.
@@ -69,8 +70,7 @@ def load(
     if folder is None:
         return _build(_twin_xml(entry), {}, edits)
     try:
-        files = _read(folder, entry, meshes)
-        model = _build(files[f"{entry}.xml"].decode(), files, edits)
+        model = _compiled(folder, entry, meshes, edits)
     except KeyError:
         problem = "is not there"
     except (ValueError, OSError) as error:
@@ -161,29 +161,73 @@ def _build(xml: str, files: dict[str, bytes], edits: list[Edit]) -> mujoco.MjMod
     return spec.compile()
 
 
-def _read(folder: Path, entry: str, meshes: bool) -> dict[str, bytes]:
-    """Return the model's files by name, without the looks unless `meshes`."""
-    if meshes:
-        return {p.name: p.read_bytes() for p in folder.rglob("*") if p.is_file()}
-    files: dict[str, bytes] = {}
+def _compiled(
+    folder: Path, entry: str, meshes: bool, edits: list[Edit]
+) -> mujoco.MjModel:
+    """Return the model of the robot's files, without what only looks unless `meshes`.
+
+    Where a shape that stays needs what was dropped (a mesh, a material), all stays.
+    """
+    if not meshes:
+        files, kept = _without_looks(folder, entry)
+        first = [_make_untouchable] if kept else []
+        try:
+            return _build(files[f"{entry}.xml"].decode(), files, [*first, *edits])
+        except ValueError:  # of a file that is wrong, the whole says it
+            edits = [_make_untouchable, *edits]
+    files = {p.name: p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+    return _build(files[f"{entry}.xml"].decode(), files, edits)
+
+
+def _make_untouchable(spec: mujoco.MjSpec) -> None:
+    """Let no shape touch another."""
+    for geom in spec.geoms:
+        geom.contype = geom.conaffinity = 0
+    for pair in list(spec.pairs):
+        spec.delete(pair)
+
+
+def _without_looks(folder: Path, entry: str) -> tuple[dict[str, bytes], bool]:
+    """Return the model's files by name without looks, and whether a shape stayed."""
+    roots: dict[str, ET.Element] = {}
     wanted = [f"{entry}.xml"] if (folder / f"{entry}.xml").exists() else []
     while wanted:
         name = wanted.pop()
         try:
-            root = ET.fromstring((folder / name).read_bytes())
+            roots[name] = root = ET.fromstring((folder / name).read_bytes())
         except ET.ParseError as error:
             raise ValueError(f"{name}: {error}") from None
         wanted += [part.get("file", "") for part in root.iter("include")]
-        files[name] = _without_shapes(root)
-    return files
+    compilers = [one for root in roots.values() for one in root.iter("compiler")]
+    by_shape = any(one.get("inertiafromgeom") == "true" for one in compilers)
+    kept = [_remove_looks(root, by_shape) for root in roots.values()]
+    return {name: ET.tostring(root) for name, root in roots.items()}, any(kept)
 
 
-def _without_shapes(root: ET.Element) -> bytes:
-    """Return a model file without its looks; the masses stay, all being explicit."""
-    for section in ("worldbody", "asset"):
-        for top in root.iter(section):
-            _remove(top, lambda part: part.tag in _SHAPES)
-    return ET.tostring(root)
+def _remove_looks(root: ET.Element, by_shape: bool) -> bool:
+    """Remove a file's shapes and assets; return whether a shape carries inertia.
+
+    Args:
+        root: of the file.
+        by_shape: every shape does; else those of a body without `inertial`.
+    """
+    kept = False
+    # an included file's parts go into a body that it does not show
+    waiting = [(root, root.tag == "mujocoinclude")]
+    while waiting:
+        parent, carries = waiting.pop()
+        for part in list(parent):
+            if part.tag in ("default", "tendon", "contact", "sensor"):
+                continue  # a geom there is a name or a setting
+            if part.tag == "geom" and carries:
+                kept = True
+            elif part.tag in _SHAPES and parent.tag != "deformable":
+                parent.remove(part)
+            elif part.tag == "body":
+                waiting.append((part, by_shape or part.find("inertial") is None))
+            else:  # a frame's shapes are its body's
+                waiting.append((part, carries and part.tag != "worldbody"))
+    return kept
 
 
 def _twin_xml(entry: str) -> str:

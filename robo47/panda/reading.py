@@ -17,6 +17,7 @@ from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.fast.arm_state import as_one
 from robo47.fast.vectors import times
+from robo47.panda.acting import damper_bit, refuse_unknown
 from robo47.panda.loading import ARM_JOINTS
 from robo47.screws import screw_axis
 
@@ -35,7 +36,7 @@ class Inertias(NamedTuple):
         """Return the same bodies, the last one with a load that carry makes part of it.
 
         Args:
-            carry: as `robo47.lifting.carry`.
+            carry: as `robo47.lifting.combine_bodies`.
             load: mass, com (3,) and inertia (3, 3) in the last body's frame and axes.
         """
         masses, coms, inertias = (part.copy() for part in self)
@@ -139,7 +140,7 @@ def hand_inertia(
         Robo47Error: the model has no joint1 to joint7.
     """
     link7 = int(model.jnt_bodyid[joint_ids(model)[-1]])
-    bodies = [b for b in range(model.nbody) if hangs_on(model, b, link7)]
+    bodies = [b for b in range(model.nbody) if is_descendant(model, b, link7)]
     q = _drawn(model)
     q[model.jnt_qposadr[np.isin(model.jnt_bodyid, bodies)]] = opening
     T_world_link7, *T_world = _poses(model, [link7, *bodies], q)
@@ -163,18 +164,23 @@ def arm(model: mujoco.MjModel) -> Arm:
         fingers closed. It ends at `home_pose`.
 
     Raises:
-        Robo47Error: the model has no joint1 to joint7.
+        Robo47Error: the model has no joint1 to joint7, or something acts on them that
+            an `Arm` has no field for: a spring, friction, a fluid, a tendon, ...
     """
     joints = joint_ids(model)
     dofs = model.jnt_dofadr[joints]
+    refuse_unknown(model)
+    off = model.opt.disableflags
+    still = off & int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+    undamped = off & damper_bit()
     bare = Arm(
         screws(model),
         home_pose(model),
         _poses(model, model.jnt_bodyid[joints], _drawn(model)),
         *inertias(model),
         armature=model.dof_armature[dofs],
-        damping=model.dof_damping[dofs],
-        gravity=model.opt.gravity.copy(),
+        damping=model.dof_damping[dofs] * (0.0 if undamped else 1.0),
+        gravity=model.opt.gravity * (0.0 if still else 1.0),
     )
     return bare.carrying(*hand_inertia(model))
 
@@ -193,7 +199,7 @@ def _about_coms(model: mujoco.MjModel, bodies: list[int]) -> Array:
     return (R * model.body_inertia[bodies][:, None, :]) @ np.swapaxes(R, -1, -2)
 
 
-def hangs_on(model: mujoco.MjModel, body: int, ancestor: int) -> bool:
+def is_descendant(model: mujoco.MjModel, body: int, ancestor: int) -> bool:
     """Return whether a body hangs on another one, however far out."""
     parent = int(model.body_parentid[body])
     while parent > ancestor:  # MuJoCo numbers parents before their children

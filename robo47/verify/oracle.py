@@ -267,7 +267,9 @@ def mujoco_site_jacobian(
     return _ask(model, read, qpos=qpos)
 
 
-def mujoco_site_bias(model: mujoco.MjModel, q: ArrayLike, qd: ArrayLike) -> Array:
+def mujoco_bias_acceleration(
+    model: mujoco.MjModel, q: ArrayLike, qd: ArrayLike
+) -> Array:
     """Return the rate of MuJoCo's site Jacobian times qd, from differences of it.
 
     MuJoCo's own mj_jacDot is not used: in 3.3.0 its linear rows are wrong.
@@ -286,7 +288,9 @@ def mujoco_site_bias(model: mujoco.MjModel, q: ArrayLike, qd: ArrayLike) -> Arra
     return (J[0] - 8.0 * J[1] + 8.0 * J[2] - J[3]) @ qd / (12.0 * STEP)
 
 
-def mujoco_push(model: mujoco.MjModel, qpos: ArrayLike, wrench: ArrayLike) -> Array:
+def mujoco_external_torque(
+    model: mujoco.MjModel, qpos: ArrayLike, wrench: ArrayLike
+) -> Array:
     """Return the joint torques that MuJoCo puts in the place of a wrench at the hand.
 
     Args:

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from robo47 import panda
-from robo47.attempt import Film, Told
+from robo47.attempt import Film, Summary
 
 NAME = "the pointing"
 THING = "mark"
@@ -50,9 +50,9 @@ def row(name: str, result: Result) -> str:
     return f"{name:12}{1e3 * result.off:11.2f}"
 
 
-def told(result: Result) -> Told:
+def summary(result: Result) -> Summary:
     """Return what is said of a result besides."""
-    return Told(
+    return Summary(
         before=["  0.00 s  turn"],
         after=["it points with its base alone"],
         number=f"{1e3 * result.off:.2f} mrad",

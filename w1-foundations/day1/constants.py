@@ -85,7 +85,7 @@ def apart(angle, step, metre, base):
     T = at_ready(metre, 1.0, base)
     turn = LAB.Rz(np.deg2rad(angle))
     T_extra = LAB.make_T(turn, np.array([step, 0.0, 0.0]))
-    right, left = LAB.predict_order(T, T_extra)
+    right, left = LAB.translations_both_orders(T, T_extra)
     return np.linalg.norm(right - left)
 
 

@@ -1,8 +1,8 @@
 """Day 1 in the inspector: `compose_fk` as a ghost, and the tabs Chain and Order.
 
 Chain multiplies the student's own `link_T` and `joint_T`, factor by factor. Order makes
-T_extra of their `make_T` and `Rz`, and draws lines to where their `predict_order` puts
-both ends.
+T_extra of their `make_T` and `Rz`, and draws lines to where their
+`translations_both_orders` puts both ends.
 """
 
 import mujoco
@@ -25,11 +25,11 @@ LIBRARY = {
     "Rz": se3.Rz,
     "link_T": lambda pos, quat: se3.make_T(se3.quat_to_R(quat), pos),
     "joint_T": lambda q: se3.make_T(se3.Rz(q), np.zeros(3)),
-    "predict_order": lambda T, E: ((T @ E)[:3, 3], (E @ T)[:3, 3]),
+    "translations_both_orders": lambda T, E: ((T @ E)[:3, 3], (E @ T)[:3, 3]),
 }
 ENTRY = "in one entry"
 UNITS = {"make_T": ENTRY, "Rz": ENTRY, "link_T": ENTRY, "joint_T": ENTRY,
-         "predict_order": "m"}  # fmt: skip
+         "translations_both_orders": "m"}  # fmt: skip
 BOTH, RIGHT, LEFT = "both", "right: T_world_ee @ T_extra", "left: T_extra @ T_world_ee"
 
 
@@ -114,7 +114,7 @@ class Order(Tab):
         self.predicted = page.html()
         page.legend({
             "T_extra on the left moves the whole arm": "purple",
-            "to where your predict_order puts the ends": "orange",
+            "to where your translations_both_orders puts the ends": "orange",
         })  # fmt: skip
 
     def on_move(self, q: Array) -> None:
@@ -125,7 +125,11 @@ class Order(Tab):
         """Return T_world_ee, the student's T_extra, and both ends by their formula."""
         R = self.own.Rz(self.angle)
         T_extra = self.own.make_T(R, np.array([self.x, 0.0, 0.0]))
-        return T_world_ee, T_extra, self.own.predict_order(T_world_ee, T_extra)
+        return (
+            T_world_ee,
+            T_extra,
+            self.own.translations_both_orders(T_world_ee, T_extra),
+        )
 
     def show(self, found: tuple[Array, Array, tuple[Array, Array]]) -> None:
         """Put T_extra on the right, and on the left of the whole arm."""
@@ -156,7 +160,7 @@ class Order(Tab):
         ]
         told = " and ".join(f"{1000 * mm:.1f} mm" for mm in off)
         kind = "good" if max(off) < AGREES else "bad"
-        text = f"your predict_order is {told} off, for right and left"
+        text = f"your translations_both_orders is {told} off, for right and left"
         self.predicted.content = words.line(text, "predicted", kind)
 
     def lost(self) -> None:

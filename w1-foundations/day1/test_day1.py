@@ -61,14 +61,14 @@ def test_quaternions_in_another_order_make_a_rigid_but_wrong_pose(monkeypatch, t
 def test_how_far_the_two_orders_are_apart_depends_on_turn_and_step(degrees, step, twin):
     T = lab.compose_fk(panda.load("panda_nohand"), panda.READY_Q)
     T_extra = lab.make_T(lab.Rz(np.radians(degrees)), np.array([step, 0.0, 0.0]))
-    apart = np.linalg.norm(np.subtract(*lab.predict_order(T, T_extra)))
+    apart = np.linalg.norm(np.subtract(*lab.translations_both_orders(T, T_extra)))
     assert f"{apart:.4f} m" in GUIDE
     if not step:
         radius = np.hypot(*T[:2, 3])
         assert apart == pytest.approx(2 * radius * np.sin(np.radians(22.5)))
         assert f"the hand is {radius:.4f} m from the axis of the base" in GUIDE
         T[:2, 3] = 0.0  # on that axis
-        assert_same(*lab.predict_order(T, T_extra), 1e-15)
+        assert_same(*lab.translations_both_orders(T, T_extra), 1e-15)
 
 
 def test_a_transposed_rotation_looks_right_at_ready_and_zero_only(twin):

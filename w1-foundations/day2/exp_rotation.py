@@ -23,8 +23,8 @@ def _(rng):
     Some angles are small and one is beyond pi: the formula needs no case of its own.
     One angle comes with two axes, so that no cache can take it for the whole question.
     """
-    axes = [Z, *np.eye(3), Z, *[OBLIQUE] * 6, Z, *rng.units(6)]
-    angles = [np.pi / 2, 0.5, -1.2, 2.5, 3.3, 1e-4, -5e-3, 0.05, 0.099, 0.5, 9.5]
+    axes = [Z, *np.eye(3), Z, *[OBLIQUE] * 7, Z, *rng.units(6)]
+    angles = [np.pi / 2, 0.5, -1.2, 2.5, 3.3, 1e-4, 3e-7, -5e-3, 0.05, 0.099, 0.5, 9.5]
     angles += [-20.3, 0.0]
     angles += map(float, rng.numbers(-3, 3, 5))
     return zip(axes, angles, strict=True)
@@ -122,6 +122,11 @@ row.of_argument("theta", *OF_AN_ANGLE, SIGN_LOST, *SMALL_LEFT_OUT)
 
 # Of an axis of length 1 "made-unit" changes nothing; "p-cross-w" is the angle's sign.
 row.reached_by("skew", "in [axis], ", but=["made-unit", "p-cross-w"])
+
+
+@row.close("rounded-somewhere")  # Public code: below a millionth there is no turn.
+def _(axis, theta):
+    return rodrigues(axis, theta if abs(theta) >= 1e-6 else 0.0)
 
 
 @row.close("rounded-somewhere")  # The series to the sixteenth term, within +-pi.

@@ -23,6 +23,7 @@ MOTIONS = (
     ((0, 0.6, 0.8, 0.3, -0.2, 0.5), 4.0),
     ((0, 0.6, -0.8, 0.1, 0.5, 0.4), 1e-4),
     ((0.6, 0, 0.8, -0.2, 0.4, 0.7), -5e-3),
+    ((0, 0.6, 0.8, 0.3, -0.2, 0.5), 3e-7),
 )
 # What does not show in an arm of plain hinges, or is a mistake in its angles there.
 NOT_OF_AN_ARM = (
@@ -207,6 +208,11 @@ def _(S, theta):
     T[:3, :3] = one + s * K + (1 - c) * K @ K
     T[:3, 3] = (theta * one + (1 - c) * K + (theta - s) * K @ K) @ S[3:]
     return T
+
+
+@row.close("rounded-somewhere")  # Public code: below a millionth there is no motion.
+def _(S, theta):
+    return motion(S, theta if abs(theta) >= 1e-6 else 0.0)
 
 
 @row.close("rounded-somewhere")  # The velocity summed up in small steps.

@@ -2,7 +2,8 @@
 
 The columns of the student's own J stand as arrows at the hand, the library's as thin
 lines; a column that differs is red. A target can be dragged, and the student's own
-`solve_ik` puts a second arm there; a slider swings the elbow by their own `null_step`.
+`solve_ik` puts a second arm there; a slider swings the elbow by their own
+`nullspace_projection`.
 """
 
 import numpy as np
@@ -23,7 +24,7 @@ SAME, SHORT = 1e-7, 0.01  # of a column; metres of an arrow that is not drawn
 REACHED = 1e-3  # radians and metres together
 UNITS = {
     **dict.fromkeys(("space_jacobian", "site_jacobian"), "(rad/s or m/s per rad/s)"),
-    "null_step": "rad/s",
+    "nullspace_projection": "rad/s",
 }
 PART, MOST = 20, 0.25  # steps of the elbow; radians that its slider goes at once
 
@@ -152,7 +153,9 @@ class Jacobian(Tab):
         self.at = value
         before = screws.fk_space(self.S, self.M, q[:JOINTS])[:3, 3]
         for _ in range(PART):
-            along = self.own.null_step(self.J_site(q[:JOINTS]), np.eye(JOINTS)[2])
+            along = self.own.nullspace_projection(
+                self.J_site(q[:JOINTS]), np.eye(JOINTS)[2]
+            )
             size = np.linalg.norm(along)
             if size > 1e-6:
                 q[:JOINTS] += by / PART * along / size

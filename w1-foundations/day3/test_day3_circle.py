@@ -170,7 +170,7 @@ def test_the_elbow_swings_while_the_hand_stands():
     for _ in range(400):
         now = screws.fk_space(S, M, q)
         J = lab.site_jacobian(lab.space_jacobian(S, q), now[:3, 3])
-        step = lab.null_step(J, 0.005 * np.eye(7)[2])
+        step = lab.nullspace_projection(J, 0.005 * np.eye(7)[2])
         q = q + step + lab.dls_step(J, lab.pose_error(now, T), 0.01)
         if day3_mujoco.beyond(limits, q):
             break
@@ -231,7 +231,7 @@ def test_a_dragged_target_is_reached_and_a_swung_elbow_leaves_the_hand():
     assert np.abs(q - panda.READY_Q).max() > 0.05
     assert "good" in tab.numbers.content
     assert day3_mujoco.beyond(limits, q) == 0.0
-    tab = tab_with({**vars(lab), "null_step": lambda J, dq: dq})
+    tab = tab_with({**vars(lab), "nullspace_projection": lambda J, dq: dq})
     tab.swing(0.2)
     assert "bad" in tab.numbers.content
 

@@ -29,8 +29,8 @@ HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
 CHATTER = 0.2  # of the torques: so often a motor goes from limit to limit
 UNITS = {
     **dict.fromkeys(("pd_torque", "gravity_pd", "computed_torque", "saturate"), "N m"),
-    "gains": "(1/s2 or 1/s)", "error_response": "of the first error",
-    "stiffest_omega": "rad/s", "pid_step": "(rad/s2 or rad s)",
+    "pd_gains": "(1/s2 or 1/s)", "error_response": "of the first error",
+    "max_stable_omega": "rad/s", "pid_step": "(rad/s2 or rad s)",
 }  # fmt: skip
 Law = Callable[..., Array]
 
@@ -107,12 +107,12 @@ class Control(Tab):
         self.heavy = 0
         self.swing = False
         self.known = (0.0, 0)
-        self.asked_of = 0  # the file whose stiffest_omega is shown
+        self.asked_of = 0  # the file whose max_stable_omega is shown
         self.kp_kd = np.zeros(2)
         self.limits = simulate.limits(self.models[0])[1]
         steps = simulate.steps_per_period(self.models[0], RATE)
         h = float(self.models[0].opt.timestep)
-        self.breaks_at = float(control.stiffest_omega(h, steps))
+        self.breaks_at = float(control.max_stable_omega(h, steps))
         self.stiffest = np.nan  # the student's, of a step of 4 ms
         self.own = page.own(control, units=UNITS)
         self.ghost = page.draw.ghost("blue")
@@ -142,12 +142,12 @@ class Control(Tab):
     def say_stiffest(self, stiffest: float) -> None:
         """Say from which omega on the loop breaks, by the student's function."""
         self.stiffest = stiffest
-        right = float(control.stiffest_omega(1.0 / RATE))
+        right = float(control.max_stable_omega(1.0 / RATE))
         broken = self.omega > self.breaks_at and self.law not in (springs, with_gravity)
         wrong = abs(stiffest - right) > SAME * right
         says = (
             f"a loop with a torque every 4 ms breaks at {int(self.breaks_at)} rad/s; "
-            f"your stiffest_omega of one step of 4 ms says {stiffest:.0f}"
+            f"your max_stable_omega of one step of 4 ms says {stiffest:.0f}"
         )
         if wrong:
             says += f", the library's {right:.0f}"
@@ -157,7 +157,7 @@ class Control(Tab):
     def on_move(self, q: Array) -> None:
         """Ask from which omega on the loop breaks, once for a file."""
         if self.asked_of != self.own.version or not self.own.fresh():
-            self.page.job(lambda: self.own.stiffest_omega(1.0 / RATE), self.heard)
+            self.page.job(lambda: self.own.max_stable_omega(1.0 / RATE), self.heard)
 
     def heard(self, stiffest: Array) -> None:
         """Keep the student's stiffest omega."""
@@ -179,7 +179,7 @@ class Control(Tab):
         """Return the student's gains for omega, asked when it or the file changes."""
         key = self.omega, self.own.version
         if self.known != key:
-            self.known, self.kp_kd = key, self.own.gains(self.omega, 1.0)
+            self.known, self.kp_kd = key, self.own.pd_gains(self.omega, 1.0)
         return self.kp_kd
 
     def hang(self, heavy: bool) -> None:

@@ -48,7 +48,7 @@ def decay(bench, law, seconds, rate=500.0):
 @pytest.mark.parametrize("zeta", [0.1, 0.5, 1.0, 2.0, 5.0])
 def test_the_error_response_solves_its_equation(zeta):
     t = np.linspace(0, 0.5, 21)
-    kp, kd = lab.gains(12.0, zeta)
+    kp, kd = lab.pd_gains(12.0, zeta)
     truth = solve_ivp(
         lambda _, x: [x[1], -kp * x[0] - kd * x[1]], (0, 0.5), [1.0, 0.0],
         "DOP853", t, rtol=1e-11, atol=1e-13,
@@ -59,7 +59,7 @@ def test_the_error_response_solves_its_equation(zeta):
 def test_the_rounded_numbers_in_the_docstrings_are_true():
     after = lab.error_response(np.array([0.1]), 10.0, 1.0)[0]
     assert after == pytest.approx(0.7358, abs=5e-5)
-    assert lab.stiffest_omega(0.002) == pytest.approx(414.2, abs=0.05)
+    assert lab.max_stable_omega(0.002) == pytest.approx(414.2, abs=0.05)
 
 
 def test_the_reference_starts_and_ends_at_rest_and_is_its_own_derivative():
@@ -98,7 +98,7 @@ def test_gains_outside_m_overdamp_the_light_joints(armature, creeps):
     model.dof_armature[4:] = armature
     arm = panda.arm(model)
     wrist = slice(4, 7)
-    kp, kd = lab.gains(lab.OMEGA, 1.0)
+    kp, kd = lab.pd_gains(lab.OMEGA, 1.0)
     M = np.diag(arm.at(lab.READY_Q).M)[wrist]
     assert (kd / (2.0 * np.sqrt(kp * M)) > 2.5).all() == creeps
     t, e = decay((model, arm), lab.gains_outside, 0.3, rate=250.0)
@@ -118,10 +118,13 @@ def test_torques_taken_for_angles_switch_the_motors_from_limit_to_limit():
     for moved in (0.0, 1e-12, -1e-12):
         start = simulate.start(servos, lab.READY_Q + moved)
         log = simulate.run(servos, start, loop, 2.0, rate=lab.RATE, watch=push)
-        assert np.mean(np.array(log.seen) > 0.999) > 0.985
-        assert 70.0 < swing_error(log) < 100.0  # 76 to 84 of 21 starts so near
+        # MuJoCo 3.3.0 and 4.0.0, three kernels, 21 starts so near: 0.982 to 0.996 of
+        # the time, and 76 to 86 mrad.
+        assert np.mean(np.array(log.seen) > 0.999) > 0.95
+        assert swing_error(log) < 100.0
         ends.append(log.q[-1])
     assert np.ptp(ends, axis=0).max() > 1e-3  # from 1e-12: no digit of it is ours
+    assert "at their limits for more than 95 % of the time" in GUIDE
     assert "within 0.1 rad (chaotic: the digits differ between machines)" in GUIDE
 
 
@@ -168,7 +171,7 @@ def without(part):
 
     def law(arm, q, qd, ref, omega=20.0):
         now = arm.at(q)
-        kp, kd = lab.gains(omega, 1.0)
+        kp, kd = lab.pd_gains(omega, 1.0)
         M = now.M
         bias = now.bias(qd)
         damping = arm.damping

@@ -48,7 +48,7 @@ def test_without_the_side_quest_the_rows_are_logged_all_the_same(
         raise NotImplementedError("task 5.9")
 
     short = load_script(ROOT / SCRIPT)
-    monkeypatch.setattr(short, "stiffest_omega", gap)
+    monkeypatch.setattr(short, "max_stable_omega", gap)
     monkeypatch.setattr("sys.argv", ["day5", "--no-log"])
     assert short.main() == 0
     assert "to do: task 5.9" in capsys.readouterr().out

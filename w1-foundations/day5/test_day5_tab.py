@@ -61,7 +61,7 @@ def test_the_tab_says_where_the_loop_breaks_and_that_it_chatters(tab):
     tab.on_move(panda.READY_Q)
     tab.tune(200)
     assert "every 4 ms breaks at 224 rad/s" in tab.breaks.content
-    assert "your stiffest_omega of one step of 4 ms says 207" in tab.breaks.content
+    assert "your max_stable_omega of one step of 4 ms says 207" in tab.breaks.content
     assert "r47-bad" not in tab.breaks.content
     tab.tune(290)
     assert "r47-bad" in tab.breaks.content

@@ -204,7 +204,7 @@ def circle(project, omega, radius, turn, elbow, step, damping):
 )  # fmt: skip
 def on_circle(omega=LAB.OMEGA, radius=LAB.RADIUS, turn=LAB.TURN, elbow=1.0, step=0.002):
     """Return how far off."""
-    return circle(LAB.null_torque, omega, radius, turn, elbow, step, 1.0)
+    return circle(LAB.nullspace_torque, omega, radius, turn, elbow, step, 1.0)
 
 
 @numbers.add(

@@ -29,7 +29,8 @@ MOST = 60.0  # N, where the bar of the table's force ends
 LONG = 0.04  # metres of the ellipsoid's half axis per root of a kilogram
 UNITS = {
     "task_inertia": "(kg, kg m or kg m2)", "critical_damping": "(N s/m or N m s/rad)",
-    "null_torque": "N m", "spring_wrench": "(N or N m)", "impedance_torque": "N m",
+    "nullspace_torque": "N m", "impedance_wrench": "(N or N m)",
+    "impedance_torque": "N m",
 }  # fmt: skip
 AGAIN, LET_GO, READY = "start / stop", "let go", "press the table"
 
@@ -166,9 +167,10 @@ class Touch(Tab):
             e = small_pose_error(now.T_world_ee, T_goal)
             back = control.pd_torque(self.goal_q - q, -qd, self.hold, BACK)
             D, idle = own.many(
-                ("critical_damping", K, Lambda), ("null_torque", J, M, Lambda, back)
+                ("critical_damping", K, Lambda),
+                ("nullspace_torque", J, M, Lambda, back),
             )
-            F = own.spring_wrench(e, -J @ qd, np.diag(K), D)
+            F = own.impedance_wrench(e, -J @ qd, np.diag(K), D)
             bias = now.bias(qd)
             rub = self.arm.damping
             wanted = own.impedance_torque(J, F, bias, rub, qd, idle)

@@ -1,4 +1,4 @@
-"""6.3 `osc_torque(J_site, Lambda, bias, drift, acc)`: questions, mistakes."""
+"""6.3 `osc_torque(J_site, Lambda, bias, bias_acc, acc)`: questions, mistakes."""
 
 import numpy as np
 
@@ -18,20 +18,20 @@ def _(rng):
     for now in states(rng):
         J, _, Lambda = model(now)
         drawn.append((J, Lambda, some(rng, 20, 7), some(rng, 2, 6), some(rng, 3, 6)))
-    J, Lambda, bias, drift, acc = drawn[0]
+    J, Lambda, bias, bias_acc, acc = drawn[0]
     asked = [
-        (J, Lambda, bias, drift, np.zeros(6)),
-        (J, Lambda, bias, drift, 30.0 * acc),  # more than the motors have
+        (J, Lambda, bias, bias_acc, np.zeros(6)),
+        (J, Lambda, bias, bias_acc, 30.0 * acc),  # more than the motors have
     ]
     return [case, *asked, *drawn]
 
 
 @row.wrongs
-def _(J, Lambda, bias, drift, acc):
-    """site-bias-forgotten: drift is not taken away: the hand would accelerate by
+def _(J, Lambda, bias, bias_acc, acc):
+    """site-bias-forgotten: bias_acc is not taken away: the hand would accelerate by
       acc and by that too => J^T Lambda acc + bias
-    site-bias-added: drift is added to acc; the hand has it already, so it is taken
-      away => the right one with acc + drift
+    site-bias-added: bias_acc is added to acc; the hand has it already, so it is taken
+      away => the right one with acc + bias_acc
     bias-forgotten: bias is missing: the arm falls under its weight, and what speed does
       to it is not made up for => the right one without bias
     bias-sign: bias is taken away; your torques have to hold it, so it is added => the
@@ -43,29 +43,29 @@ def _(J, Lambda, bias, drift, acc):
       coupled => the right one with Lambda's diagonal
     pinv-for-transpose: pinv(J) takes the push to the joints; pushes go to torques with
       J^T, and the pseudo-inverse is for speeds => the right one with pinv(J)
-    site-bias-not-weighed: drift is taken away after Lambda: it is an acceleration,
-      so it has to be taken from acc first => J^T (Lambda acc - drift) + bias
-    acc-sign: the wanted acceleration is taken away from drift: the hand is pushed
+    site-bias-not-weighed: bias_acc is taken away after Lambda: it is an acceleration,
+      so it has to be taken from acc first => J^T (Lambda acc - bias_acc) + bias
+    acc-sign: the wanted acceleration is taken away from bias_acc: the hand is pushed
       the other way, further and further from where it should be => the right one with
-      drift - acc
+      bias_acc - acc
     bias-at-the-hand: bias is subtracted within the brackets, at the hand; it is a
-      torque of joints => J^T (Lambda (acc - drift) + J bias)
+      torque of joints => J^T (Lambda (acc - bias_acc) + J bias)
     halves-swapped: the accelerations are put in the order (linear; angular); the
       angular three come first => the right one with its halves swapped
     gravity-twice: bias is added twice => the right one with 2 bias
     """
-    own = acc - drift
+    own = acc - bias_acc
     push = J.T @ Lambda @ own
     return {
         "site-bias-forgotten": J.T @ Lambda @ acc + bias,
-        "site-bias-added": J.T @ Lambda @ (acc + drift) + bias,
+        "site-bias-added": J.T @ Lambda @ (acc + bias_acc) + bias,
         "bias-forgotten": push,
         "bias-sign": push - bias,
         "Lambda-left-out": J.T @ own + bias,
         "Lambda-inverted": J.T @ solve(Lambda, own) + bias,
         "Lambda-by-entries": J.T @ (np.diag(Lambda) * own) + bias,
         "pinv-for-transpose": pinv(J) @ Lambda @ own + bias,
-        "site-bias-not-weighed": J.T @ (Lambda @ acc - drift) + bias,
+        "site-bias-not-weighed": J.T @ (Lambda @ acc - bias_acc) + bias,
         "acc-sign": bias - push,
         "bias-at-the-hand": push + J.T @ J @ bias,
         "halves-swapped": J.T @ Lambda @ own[SWAP] + bias,
@@ -74,6 +74,6 @@ def _(J, Lambda, bias, drift, acc):
 
 
 @row.right  # With einsum, and bias first.
-def _(J, Lambda, bias, drift, acc):
-    F = np.einsum("ij,j->i", Lambda, acc - drift)
+def _(J, Lambda, bias, bias_acc, acc):
+    F = np.einsum("ij,j->i", Lambda, acc - bias_acc)
     return bias + np.einsum("ij,i->j", J, F)

@@ -139,8 +139,8 @@ def test_near_a_singularity_lambda_and_d_grow_and_the_springs_torque_does_not(mo
         J = now.J_site
         Lambda = lab.task_inertia(now.J_site, now.M)
         D = lab.critical_damping(lab.K, Lambda)
-        idle = lab.null_torque(J, now.M, Lambda, np.ones(7))
-        spring = J.T @ lab.spring_wrench(
+        idle = lab.nullspace_torque(J, now.M, Lambda, np.ones(7))
+        spring = J.T @ lab.impedance_wrench(
             np.full(6, 0.1), np.zeros(6), np.diag(lab.K), D
         )
         return [np.abs(x).max() for x in (Lambda, D, idle, spring)]
@@ -161,7 +161,7 @@ def circled(motors, seconds=2.5, **instead):
     """Return how far the hand is from the circle, mm and mrad, with other functions."""
     model, arm = motors
     with patch.dict(vars(lab), instead):
-        law = lab.circling(arm, lab.null_torque)
+        law = lab.circling(arm, lab.nullspace_torque)
         run = simulate.run(model, simulate.start(model, lab.READY_Q), law, seconds)
     T = arm.at(lab.READY_Q).T_world_ee
     goal = [lab.day6_mujoco.circle(t, T, 0.12, 2.0).T for t in run.t]
@@ -175,14 +175,14 @@ def circled(motors, seconds=2.5, **instead):
 
 MISTAKES = {
     "nothing wrong": {},
-    "`site_bias` forgotten": {"osc_torque": "site-bias-forgotten"},
-    "`site_bias` added": {"osc_torque": "site-bias-added"},
+    "`bias_acceleration` forgotten": {"osc_torque": "site-bias-forgotten"},
+    "`bias_acceleration` added": {"osc_torque": "site-bias-added"},
     "`bias` forgotten": {"osc_torque": "bias-forgotten"},
     "Lambda left out": {"osc_torque": "Lambda-left-out"},
-    "posture torque not projected": {"null_torque": "not-projected"},
-    "projected as the public page has it": {"null_torque": "M-for-identity"},
-    "projected with I - J^+ J": {"null_torque": "kinematic-projector"},
-    "projector transposed": {"null_torque": "projector-transposed"},
+    "posture torque not projected": {"nullspace_torque": "not-projected"},
+    "projected as the public page has it": {"nullspace_torque": "M-for-identity"},
+    "projected with I - J^+ J": {"nullspace_torque": "kinematic-projector"},
+    "projector transposed": {"nullspace_torque": "projector-transposed"},
 }
 
 
@@ -215,7 +215,7 @@ def test_each_mistake_costs_on_the_circle_what_the_guide_says(motors, name):
 @pytest.mark.kit
 def test_a_kinematic_projector_draws_the_circle_but_its_torque_is_felt(motors):
     model, arm = motors
-    mm, _ = circled(motors, null_torque=lab.kinematic)
+    mm, _ = circled(motors, nullspace_torque=lab.kinematic)
     assert mm == pytest.approx(0.152, abs=0.002)
     assert "within 0.152 mm, where the right one has 0.130" in " ".join(GUIDE.split())
     rng = np.random.default_rng(6)
@@ -234,8 +234,8 @@ def test_the_public_pages_null_space_term_reaches_the_hand(motors):
     J, M = now.J_site, now.M
     Lambda = lab.task_inertia(J, M)
     tau = np.arange(7.0)
-    public = mistaken("null_torque", "M-for-identity")
-    ours = J @ np.linalg.solve(M, lab.null_torque(J, M, Lambda, tau))
+    public = mistaken("nullspace_torque", "M-for-identity")
+    ours = J @ np.linalg.solve(M, lab.nullspace_torque(J, M, Lambda, tau))
     theirs = J @ np.linalg.solve(M, public(J, M, Lambda, tau))
     assert_same(ours, np.zeros(6), 1e-12)
     # J M^-1 (M - J^T Lambda J M^-1) tau = J tau - J M^-1 tau, which is not 0.
@@ -264,15 +264,15 @@ def at_rest(motors, push=None, seconds=3.0):
 def test_a_softer_feedback_is_further_off_the_circle(motors, omega, mm, wrong):
     right = circled(motors, OMEGA=omega)[0]
     assert right == pytest.approx(mm, abs=2e-3)
-    theirs = circled(motors, OMEGA=omega, null_torque=lab.kinematic)[0]
+    theirs = circled(motors, OMEGA=omega, nullspace_torque=lab.kinematic)[0]
     assert theirs / right == pytest.approx(wrong, rel=0.02)
     if omega == 5.0:
         assert f"{theirs:.2f} mm, where the right one has {right:.2f}" in SENTENCES
 
 
 SIGNS = {
-    "e": {"spring_wrench": lambda e, V, K, D: -K @ e + D @ V},
-    "V_err": {"spring_wrench": lambda e, V, K, D: K @ e - D @ V},
+    "e": {"impedance_wrench": lambda e, V, K, D: -K @ e + D @ V},
+    "V_err": {"impedance_wrench": lambda e, V, K, D: K @ e - D @ V},
     "pinv": {
         "impedance_torque": lambda J, F, b, d, qd, idle: pinv(J) @ F + b + d * qd + idle
     },
@@ -302,7 +302,7 @@ def test_a_position_read_after_a_step_is_one_step_old(motors):
     data = simulate.start(model, lab.READY_Q)
     T = arm.at(lab.READY_Q).T_world_ee
     look = lambda model, data: data.site("attachment_site").xpos.copy()  # noqa: E731
-    law = lab.circling(arm, lab.null_torque)
+    law = lab.circling(arm, lab.nullspace_torque)
     run = simulate.run(model, data, law, 2.5, watch=look)
     goal = [lab.day6_mujoco.circle(t, T, 0.12, 2.0).T[:3, 3] for t in run.t[1:]]
     now = [arm.at(q).T_world_ee[:3, 3] for q in run.q[1:]]

@@ -50,9 +50,11 @@ def test_the_site_bias_from_differences_is_the_arms_own(motors):
     for q in verify.random_q(model, 50, seed=6):
         qd = rng.uniform(-1, 1, 7)
         assert_same(
-            verify.mujoco_site_bias(model, q, qd), arm.at(q).site_bias(qd), 1e-10
+            verify.mujoco_bias_acceleration(model, q, qd),
+            arm.at(q).bias_acceleration(qd),
+            1e-10,
         )
-        assert_same(verify.mujoco_site_bias(model, q, 0.0), np.zeros(6), 0.0)
+        assert_same(verify.mujoco_bias_acceleration(model, q, 0.0), np.zeros(6), 0.0)
 
 
 def test_a_pushed_arm_accelerates_by_the_equation_of_motion(motors):
@@ -68,7 +70,7 @@ def test_a_pushed_arm_accelerates_by_the_equation_of_motion(motors):
         data = lab.pushed(model, q, qd, tau, F)
         assert_same(data.qacc, truth, 1e-9)
         hand = lab.hand_acceleration(model, data)
-        assert_same(hand, J @ truth + now.site_bias(qd), 1e-8)
+        assert_same(hand, J @ truth + now.bias_acceleration(qd), 1e-8)
 
 
 @pytest.mark.parametrize("gap", [0.01, 0.001, -0.05])

@@ -197,7 +197,7 @@ def test_a_wiping_tip_stays_behind_by_what_friction_takes_of_the_spring(mu):
         return task_space.hybrid_wrench(e, V_err, K, D, 20.0)
 
     simulated = simulate.start(model, q)
-    with patch.object(lab, "spring_wrench", spring):
+    with patch.object(lab, "impedance_wrench", spring):
         run = simulate.run(model, simulated, lab.soft_hand(arm, q), 4.0)
     behind = goal - arm.at(run.q[-1]).T_world_ee[0, 3]
     assert behind == pytest.approx(mu * 20.0 / 400.0, abs=2e-3)  # it creeps

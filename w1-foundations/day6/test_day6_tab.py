@@ -48,10 +48,10 @@ def test_the_tab_shows_the_push_that_was_predicted_and_the_table(monkeypatch):
 
 
 def test_the_tab_is_pushed_away_with_a_wrong_sign(monkeypatch):
-    negative = {"spring_wrench": lambda *args: -lab.spring_wrench(*args)}
+    negative = {"impedance_wrench": lambda *args: -lab.impedance_wrench(*args)}
     inspector, tab = touch({**vars(lab), **negative}, monkeypatch)
     tab.force[0] = 1.0
     seconds(inspector, tab, 1)
     hand = tab.arm.at(tab.data.qpos[:7]).T_world_ee[:3, 3]
     assert np.linalg.norm(hand - tab.arm.at(tab.goal_q).T_world_ee[:3, 3]) > 0.1
-    assert "spring_wrench by" in tab.own.says()[0]
+    assert "impedance_wrench by" in tab.own.says()[0]

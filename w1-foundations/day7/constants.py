@@ -127,7 +127,7 @@ def jump_off(omega=LAB.OMEGA, duration=1.0, rate=LAB.RATE):
 def lifted(grip, mu, lift, gravity):
     """Return the heaviest cube, kg."""
     with turned(LAB, GRAVITY=gravity * LAB.GRAVITY):
-        return LAB.heaviest_cube(grip, mu, lift)
+        return LAB.max_cube_mass(grip, mu, lift)
 
 
 @numbers.add(

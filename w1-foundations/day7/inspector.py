@@ -29,10 +29,10 @@ LATE = 1e-9  # of the time
 LEAST = 1e-3  # s, that a way may take
 COUNT = 60  # instants that the student's functions are asked for
 TODAY, ALL = "of today", "of all days"
-UNITS = {"quintic_duration": "s", "joint_move": "(rad, rad/s or rad/s2)",
-         "trapezoid": "(of the way, or per s or s2)", "heaviest_cube": "kg",
-         "grasp_pose": "in one entry", "straight_pose": "in one entry",
-         "carry": "in one entry"}  # fmt: skip
+UNITS = {"quintic_duration": "s", "joint_trajectory": "(rad, rad/s or rad/s2)",
+         "trapezoidal_profile": "(of the way, or per s or s2)", "max_cube_mass": "kg",
+         "grasp_pose": "in one entry", "interpolate_pose": "in one entry",
+         "combine_bodies": "in one entry"}  # fmt: skip
 
 
 class Plan(Tab):
@@ -99,14 +99,16 @@ class Plan(Tab):
         if self.kind == QUINTIC:
             T = float(self.own.quintic_duration(dq, v, a))
             plays = max(abs(T), LEAST)
-            calls = [("joint_move", q0, GOAL_Q, float(t), plays) for t in s * plays]
+            calls = [
+                ("joint_trajectory", q0, GOAL_Q, float(t), plays) for t in s * plays
+            ]
             moves = np.array(self.own.many(*calls))
             return T, moves[:, 0], moves[:, 1]
         top, ramp = self._top(dq)
         T = 1.0 / top + ramp
         # A little late: the acceleration jumps at the start and at the end.
         late = np.clip(s, LATE, 1.0 + LATE) * T
-        calls = [("trapezoid", float(t), 1.0, top, top / ramp) for t in late]
+        calls = [("trapezoidal_profile", float(t), 1.0, top, top / ramp) for t in late]
         part = np.array(self.own.many(*calls))
         return T, q0 + dq * part[:, :1], dq * part[:, 1:2]
 
@@ -248,7 +250,7 @@ class Pick(Tab):
         kind = "bad" if done.failed else "good"
         self.page.say(
             f"placed {done.place_mm:.1f} mm from its goal; the grip can lift "
-            f"{done.heaviest:.2f} kg, by heaviest_cube{self.mine}", kind
+            f"{done.heaviest:.2f} kg, by max_cube_mass{self.mine}", kind
         )  # fmt: skip
         return False
 

@@ -1,6 +1,6 @@
 """The demo of Day 7: the hand writes 47 in the air, stroke by stroke.
 
-Each stroke is a `straight_pose` under a `quintic_scaling`, followed with Day 6's
+Each stroke is a `interpolate_pose` under a `quintic_scaling`, followed with Day 6's
 operational-space torque; the elbow is held where it began. Metres, seconds.
 """
 
@@ -55,7 +55,7 @@ def write(fns: Any) -> Written:
     """Simulate it, from the first corner on.
 
     Args:
-        fns: has `quintic_scaling` and `straight_pose`: the lab, or the library.
+        fns: has `quintic_scaling` and `interpolate_pose`: the lab, or the library.
     """
     model = panda.load("panda_nohand", drive="torque")
     arm = panda.arm(model)
@@ -75,11 +75,11 @@ def write(fns: Any) -> Written:
         def controller(t: float, q: Array, qd: Array) -> Array:
             s, sd, sdd = fns.quintic_scaling(t, T)  # noqa: B023 (called in this round)
             now = arm.at(q)
-            T_ref = fns.straight_pose(T0, T1, s)  # noqa: B023
+            T_ref = fns.interpolate_pose(T0, T1, s)  # noqa: B023
             wanted.append(T_ref[:3, 3])
             reached.append(now.T_world_ee[:3, 3])
             ed = sd * way - now.J_site @ qd  # noqa: B023
-            kp, kd = control.gains(OMEGA, 1.0)
+            kp, kd = control.pd_gains(OMEGA, 1.0)
             e = jacobian.pose_error(now.T_world_ee, T_ref)
             return torques(arm, now, q_start - q, qd, sdd * way + kd * ed + kp * e)  # noqa: B023
 
@@ -93,6 +93,8 @@ def torques(arm: Arm, now: ArmState, away: Array, qd: Array, acc: Array) -> Arra
     """Return the torques, (7,), that accelerate the hand by acc, (6,)."""
     J, M = now.J_site, now.M
     Lambda = task_space.task_inertia(J, M)
-    hand = task_space.osc_torque(J, Lambda, now.bias(qd), now.site_bias(qd), acc)
+    hand = task_space.osc_torque(
+        J, Lambda, now.bias(qd), now.bias_acceleration(qd), acc
+    )
     back = control.pd_torque(away, -qd, *POSTURE)
-    return hand + arm.damping * qd + task_space.null_torque(J, M, Lambda, back)
+    return hand + arm.damping * qd + task_space.nullspace_torque(J, M, Lambda, back)

@@ -1,4 +1,4 @@
-"""7.2 `quintic_duration(dq, v_max, a_max)`: its questions and its mistakes."""
+"""7.2 `quintic_duration(delta_q, v_max, a_max)`: its questions and its mistakes."""
 
 import numpy as np
 
@@ -46,23 +46,24 @@ def _(rng):
     )
 
 
-def seconds(dq, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERATION):
+def seconds(delta_q, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERATION):
     """Return what each joint needs by its speed and by its acceleration."""
-    dq = np.abs(dq)
-    return np.array([speed * dq / v_max, np.sqrt(acceleration * dq / a_max)])
+    delta_q = np.abs(delta_q)
+    return np.array([speed * delta_q / v_max, np.sqrt(acceleration * delta_q / a_max)])
 
 
 @row.wrongs
-def _(dq, v_max, a_max):
+def _(delta_q, v_max, a_max):
     """peak-of-the-cubic: 1.5 is the cubic's peak speed; the quintic is faster half way,
       so this breaks the speed limit by a quarter => the duration with 1.5
-    average-speed: the time dq / v would do for a move that is always at its top speed;
-      this one starts and stops softly => the duration with dq / v
-    peak-upside-down: the peak speed is 15/8 dq / duration; here it is turned into 8/15
+    average-speed: the time delta_q / v would do for a move that is always at its top
+      speed; this one starts and stops softly => the duration with delta_q / v
+    peak-upside-down: the peak speed is 15/8 delta_q / duration; here it is turned into
+      8/15
     peak-at-a-quarter: 5.625 is the acceleration at a quarter of the time; its peak is a
       little earlier, where its derivative is 0 => the duration with 5.625
-    peak-acceleration: the peak acceleration is 10 / sqrt(3) times dq / duration^2; the
-      root is lost => the duration with 10/3
+    peak-acceleration: the peak acceleration is 10 / sqrt(3) times delta_q / duration^2;
+      the root is lost => the duration with 10/3
     """
     peaks = {
         "peak-of-the-cubic": {"speed": 1.5},
@@ -71,23 +72,26 @@ def _(dq, v_max, a_max):
         "peak-at-a-quarter": {"acceleration": 5.625},
         "peak-acceleration": {"acceleration": 10 / 3},
     }
-    return {slug: seconds(dq, v_max, a_max, **of).max() for slug, of in peaks.items()}
+    return {
+        slug: seconds(delta_q, v_max, a_max, **of).max() for slug, of in peaks.items()
+    }
 
 
 @row.wrongs
-def _(dq, v_max, a_max):
+def _(delta_q, v_max, a_max):
     """peak-of-the-cubic: 1.5 and 6 are the cubic's peaks; the quintic has others
     limits-of-different-joints: the longest way is divided by the smallest limit of all;
-      way and limit have to be those of one joint => max(dq) over min(a_max) for the
-      acceleration
+      way and limit have to be those of one joint => max(delta_q) over min(a_max) for
+      the acceleration
     both-added: the time for the speed and the time for the acceleration are added; one
       way keeps both limits if it takes the longer of the two => their sum
     shorter-of-two: it takes the shorter of the two durations, which breaks one of the
       limits; the longer one keeps both => the smaller of the two
     fastest-joint: it takes the joint that needs least; all the others break their
       limits => the smallest of the joints' durations
-    one-length: the ways of all joints are put together as one length, |dq|; each joint
-      has its own way and its own limits => the duration of |dq| with the lowest limits
+    one-length: the ways of all joints are put together as one length, |delta_q|; each
+      joint has its own way and its own limits => the duration of |delta_q| with the
+      lowest limits
     summed: the joints' durations are added up; they move at the same time
     mean: it takes the mean of the joints' durations; half of them break their limits
     longest-way: it takes the joint with the longest way; one with a lower limit may
@@ -111,51 +115,53 @@ def _(dq, v_max, a_max):
     forwards-only: a joint that moves backwards counts as one that is ready before it
       starts: the way's sign is still in it => the duration with signed ways
     """
-    each = seconds(dq, v_max, a_max)
-    i = np.argmax(np.abs(dq))
+    each = seconds(delta_q, v_max, a_max)
+    i = np.argmax(np.abs(delta_q))
     by_speed, by_acceleration = each
-    longest = np.sqrt(PEAK_ACCELERATION * np.abs(dq[i]) / a_max.min())
+    longest = np.sqrt(PEAK_ACCELERATION * np.abs(delta_q[i]) / a_max.min())
     lowest = (v_max.min(), a_max.min())
-    signed = 10 / np.sqrt(3) * dq / a_max
+    signed = 10 / np.sqrt(3) * delta_q / a_max
     return {
-        "peak-of-the-cubic": seconds(dq, v_max, a_max, 1.5, 6.0).max(),
+        "peak-of-the-cubic": seconds(delta_q, v_max, a_max, 1.5, 6.0).max(),
         "limits-of-different-joints": max(by_speed.max(), longest),
         "both-added": each.sum(axis=0).max(),
         "shorter-of-two": min(each.max(axis=1)),
         "fastest-joint": each.max(axis=0).min(),
-        "one-length": seconds(np.linalg.norm(dq), *lowest).max(),
+        "one-length": seconds(np.linalg.norm(delta_q), *lowest).max(),
         "summed": each.max(axis=0).sum(),
         "mean": each.max(axis=0).mean(),
         "longest-way": each[:, i].max(),
-        "one-limit-for-all": seconds(dq, v_max[0], a_max[0]).max(),
+        "one-limit-for-all": seconds(delta_q, v_max[0], a_max[0]).max(),
         "speed-only": by_speed.max(),
         "acceleration-only": by_acceleration.max(),
         "root-forgotten": max(by_speed.max(), (by_acceleration**2).max()),
         "added-up": each.max(axis=1).sum(),
-        "peak-of-the-cubic 2": seconds(dq, v_max, a_max, acceleration=6.0).max(),
+        "peak-of-the-cubic 2": seconds(delta_q, v_max, a_max, acceleration=6.0).max(),
         "shorter-of-two 2": each.min(axis=0).max(),
         "fastest-joint 2": each.min(axis=1).max(),
-        "one-limit-for-all 2": seconds(dq, *lowest).max(),
-        "ways-signed": max((15 / 8 * dq / v_max).max(), np.sqrt(signed).max()),
-        "forwards-only": max((np.sign(dq) * by_speed).max(), by_acceleration.max()),
+        "one-limit-for-all 2": seconds(delta_q, *lowest).max(),
+        "ways-signed": max((15 / 8 * delta_q / v_max).max(), np.sqrt(signed).max()),
+        "forwards-only": max(
+            (np.sign(delta_q) * by_speed).max(), by_acceleration.max()
+        ),
     }
 
 
 @row.right  # Joint by joint.
-def _(dq, v_max, a_max):
+def _(delta_q, v_max, a_max):
     longest = 0.0
-    for way, v, a in zip(np.abs(dq), v_max, a_max, strict=True):
+    for way, v, a in zip(np.abs(delta_q), v_max, a_max, strict=True):
         longest = max(longest, 15 * way / (8 * v), (10 * way / (a * 3**0.5)) ** 0.5)
     return longest
 
 
 @row.close("rounded-somewhere")  # 5.7735 for 10 / sqrt(3).
-def _(dq, v_max, a_max):
-    return seconds(dq, v_max, a_max, acceleration=5.77350).max()
+def _(delta_q, v_max, a_max):
+    return seconds(delta_q, v_max, a_max, acceleration=5.77350).max()
 
 
 row.at_least_0(
-    dq="its way counts, not its sign",
+    delta_q="its way counts, not its sign",
     v_max="a limit",
     a_max="a limit",
     answer="a time",

@@ -44,7 +44,7 @@ def test_the_labs_functions_agree_with_scipy(seed):
     p = rng.uniform(-1, 1, (2, 3))
     s = rng.uniform()
     T0, T1 = se3.make_T(R.as_matrix(), p)
-    ours = lab.straight_pose(T0, T1, s)
+    ours = lab.interpolate_pose(T0, T1, s)
     assert_same(ours[:3, :3], Slerp([0, 1], R)(s).as_matrix(), 1e-9)
     assert_same(ours[:3, 3], (1 - s) * p[0] + s * p[1], 1e-12)
 
@@ -64,8 +64,10 @@ def test_the_rounded_numbers_of_the_docstrings():
     assert_same(lab.quintic_scaling(0.6, 2.0), [0.16308, 0.6615, 1.26], 1e-12)
     free = np.full(7, np.inf)
     assert lab.quintic_duration(np.eye(7)[0], np.full(7, 1.875), free) == 1.0
-    assert_same(lab.trapezoid(0.4472 / 2, 0.1, 1.0, 2.0)[:2], [0.05, 0.4472], 1e-4)
-    assert lab.heaviest_cube(0.9247, 1.0, 0.0) == pytest.approx(0.189, abs=5e-4)
+    assert_same(
+        lab.trapezoidal_profile(0.4472 / 2, 0.1, 1.0, 2.0)[:2], [0.05, 0.4472], 1e-4
+    )
+    assert lab.max_cube_mass(0.9247, 1.0, 0.0) == pytest.approx(0.189, abs=5e-4)
 
 
 def test_the_mistakes_of_the_scaling_have_the_numbers_of_the_textbooks_case():
@@ -124,7 +126,7 @@ def test_a_limit_of_speed_is_a_division_and_one_of_acceleration_a_root():
 
     def hardest(T):
         """Return the largest torque of the move of step 2, N m, without friction."""
-        move = (lab.joint_move(lab.READY_Q, lab.GOAL_Q, x * T, T)
+        move = (lab.joint_trajectory(lab.READY_Q, lab.GOAL_Q, x * T, T)
                 for x in np.linspace(0.0, 1.0, 50))  # fmt: skip
         tau = [arm.at(q).M @ qdd + arm.at(q).bias(qd) for q, qd, qdd in move]
         return np.abs(tau).max()
@@ -172,7 +174,7 @@ def test_a_short_move_overshoots_without_the_triangle():
     L, v, a = 0.1, 1.0, 2.0
     t = np.linspace(0.0, v / a, 100)
     assert (0.5 * a * t**2).max() > 2 * L  # ramped up to v, whatever L is
-    assert max(lab.trapezoid(x, L, v, a)[0] for x in t) <= L
+    assert max(lab.trapezoidal_profile(x, L, v, a)[0] for x in t) <= L
 
 
 def test_the_origin_of_a_screw_motion_leaves_the_straight_line():
@@ -183,7 +185,7 @@ def test_the_origin_of_a_screw_motion_leaves_the_straight_line():
     half = screws.exp_screw(S, np.radians(60))
     assert_same(half[:3, 3], [0.5, -0.5 / np.sqrt(3.0), 0.0], 1e-12)
     assert se3.is_pose(half)
-    assert_same(lab.straight_pose(T0, T1, 0.5)[:3, 3], [0.5, 0.0, 0.0], 1e-12)
+    assert_same(lab.interpolate_pose(T0, T1, 0.5)[:3, 3], [0.5, 0.0, 0.0], 1e-12)
     assert says("but its origin runs along an arc")
 
 

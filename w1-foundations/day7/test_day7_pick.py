@@ -71,14 +71,14 @@ def test_the_hand_weighs_what_the_guide_says():
 
 def test_gravity_shows_a_wrong_centre_and_speed_alone_a_wrong_inertia():
     model = panda.load("panda")
-    named = row_of(DAY, "carry").named
+    named = row_of(DAY, "combine_bodies").named
     q = verify.random_q(panda.load("panda_nohand"), 50, lab.SEED)
     ways = {way.slug: way.code for way in named}
 
     def off(slug, speed):
         with patch("numpy.random.default_rng") as rng:
             rng.return_value.uniform.return_value = np.full(q.shape, speed)
-            with patch.object(lab, "carry", ways[slug]):
+            with patch.object(lab, "combine_bodies", ways[slug]):
                 return np.abs(lab.off_carried(model, q)).max()
 
     for slug in ("only-the-second-moved", "no-parallel-axes"):
@@ -128,9 +128,9 @@ def test_what_the_grip_lifts_is_as_predicted(mass, mu, slips):
 def test_the_predictions_of_the_side_quest():
     up = trajectory.PEAK_ACCELERATION * 0.12 / 0.75**2
     assert says(f"speeds up with {up:.3f} m/s²")
-    assert says(f"{lab.heaviest_cube(0.9247, 1.0, 0.0):.3f} kg at rest")
-    assert says(f"and {lab.heaviest_cube(0.9247, 1.0, up):.3f} kg while")
-    assert says(f"bound is {lab.heaviest_cube(0.9247, 0.3, up):.3f} kg")
+    assert says(f"{lab.max_cube_mass(0.9247, 1.0, 0.0):.3f} kg at rest")
+    assert says(f"and {lab.max_cube_mass(0.9247, 1.0, up):.3f} kg while")
+    assert says(f"bound is {lab.max_cube_mass(0.9247, 0.3, up):.3f} kg")
     inner = scenes.PAD_POS[1] - scenes.PAD_HALF[1]  # a pad's face, from its finger
     assert says(f"each pad protrudes {1000 * inner:.1f} mm from its finger")
     assert scenes.CUBE_HALF - inner == pytest.approx(0.0185)
@@ -148,7 +148,7 @@ def test_47_is_written_within_half_a_millimetre():
 def test_the_arm_stays_off_where_a_value_is_wrong(monkeypatch, capsys):
     monkeypatch.setattr("sys.argv", [SCRIPT, "--no-log"])
     monkeypatch.setattr(lab, "TRIALS", 20)
-    monkeypatch.setattr(lab, "heaviest_cube", lambda grip, mu, a: mu * grip / 9.81)
+    monkeypatch.setattr(lab, "max_cube_mass", lambda grip, mu, a: mu * grip / 9.81)
     assert lab.main() == 1
     said = capsys.readouterr().out
     assert "The arm stays off" in said

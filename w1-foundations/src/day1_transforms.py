@@ -111,7 +111,7 @@ def compose_fk(model: mujoco.MjModel, q: np.ndarray, path: list = PATH) -> np.nd
     # endregion 1.6
 
 
-def predict_order(
+def translations_both_orders(
     T_world_ee: np.ndarray, T_extra: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the translations of T_world_ee @ T_extra and of T_extra @ T_world_ee.
@@ -188,7 +188,7 @@ def main() -> int:
     apart = np.linalg.norm(right - left)
     print(f"  The same two factors, {apart:.4f} m apart.")
     lab.measured("way between T_world_ee @ T_extra and T_extra @ T_world_ee, m", apart)
-    predicted = np.array(predict_order(T_world_ee, T_extra))
+    predicted = np.array(translations_both_orders(T_world_ee, T_extra))
     lab.check("predicted from R and t", predicted - [right, left])
 
     lab.step(f"5. Your compose_fk at {TRIALS:,} random configurations")

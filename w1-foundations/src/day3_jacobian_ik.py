@@ -153,7 +153,7 @@ def manipulability(J: np.ndarray) -> float:
     # endregion 3.8
 
 
-def null_step(J: np.ndarray, dq: np.ndarray) -> np.ndarray:
+def nullspace_projection(J: np.ndarray, dq: np.ndarray) -> np.ndarray:
     """Return what is left of dq, (7,), without the smallest motion that the hand feels.
 
     With J = [I 0] and dq all 1 only the seventh joint moves. J may be singular.
@@ -302,8 +302,8 @@ def main() -> int:
     dq = np.random.default_rng(SEED).normal(size=(len(J), 7))
     null = np.linalg.svd(J)[2][:, 6]
     along = np.sum(dq * null, axis=1, keepdims=True) * null
-    off = each(null_step, J, dq) - along
-    lab.check("null_step - the part along the null vector", off)
+    off = each(nullspace_projection, J, dq) - along
+    lab.check("nullspace_projection - the part along the null vector", off)
     squared = np.linalg.det(J_mujoco @ np.swapaxes(J_mujoco, 1, 2))
     off = each(manipulability, J_mujoco) ** 2 - squared
     lab.check("manipulability squared - det(J J^T)", off)

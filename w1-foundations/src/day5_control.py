@@ -40,7 +40,7 @@ def pd_torque(e: np.ndarray, ed: np.ndarray, kp: Gain, kd: Gain) -> np.ndarray:
     # endregion 5.1
 
 
-def gains(omega: float, zeta: float) -> np.ndarray:
+def pd_gains(omega: float, zeta: float) -> np.ndarray:
     """Return kp and kd, (2,), of edd + kd ed + kp e = 0 with this omega and zeta.
 
     omega = 20 rad/s and zeta = 1 need (400, 40).
@@ -67,7 +67,7 @@ def error_response(t: np.ndarray, omega: float, zeta: float) -> np.ndarray:
     # endregion 5.3
 
 
-def sag_step(q_goal: np.ndarray, g_at_q: np.ndarray, kp: Gain) -> np.ndarray:
+def pd_equilibrium_step(q_goal: np.ndarray, g_at_q: np.ndarray, kp: Gain) -> np.ndarray:
     """Return where springs alone would rest if gravity's torque stayed g_at_q, (7,).
 
     With g = 10 N m and kp = 100 N m/rad: 0.1 rad below the goal.
@@ -121,7 +121,7 @@ def saturate(tau: np.ndarray, limits: np.ndarray) -> np.ndarray:
     # endregion 5.7
 
 
-def stiffest_omega(h: float) -> float:
+def max_stable_omega(h: float) -> float:
     """Return the largest omega (zeta = 1) for a new torque every h seconds.
 
     Between two torques is one semi-implicit step: qd += h qdd, then q += h qd. For
@@ -164,7 +164,7 @@ def with_model(arm, q, qd, ref, kp: float, kd: float) -> np.ndarray:
 
 def equal_springs(omega: float = OMEGA, zeta: float = 1.0):
     """Return computed torque with the gains of omega and zeta."""
-    kp, kd = gains(omega, zeta)
+    kp, kd = pd_gains(omega, zeta)
     return lambda *now: with_model(*now, kp, kd)
 
 
@@ -180,13 +180,13 @@ def feedforward(arm, q, qd, ref):
 
 def gains_outside(arm, q, qd, ref):
     """Give the public page's torque: the model's, and springs that M does not scale."""
-    kp, kd = gains(OMEGA, 1.0)
+    kp, kd = pd_gains(OMEGA, 1.0)
     return without_springs(arm, q, qd, ref) + pd_torque(ref[0] - q, ref[1] - qd, kp, kd)
 
 
 def with_integral(ki: float = KI, clamp: float = CLAMP, dt: float = 1.0 / RATE):
     """Return the model's torque for an acceleration that comes from PID."""
-    kp, kd = gains(OMEGA, 1.0)
+    kp, kd = pd_gains(OMEGA, 1.0)
     total = np.zeros(7)
 
     def law(arm, q, qd, ref):
@@ -210,10 +210,10 @@ def run(model, arm, law, reference, seconds: float, start=READY_Q, rate=RATE):
 
 
 def rest(torque_at, kp: Gain) -> np.ndarray:
-    """Return where the springs rest: sag_step, asked 100 times at its own answer."""
+    """Return where the springs rest, by 100 calls of pd_equilibrium_step."""
     q = READY_Q
     for _ in range(100):
-        q = sag_step(READY_Q, torque_at(q), kp)
+        q = pd_equilibrium_step(READY_Q, torque_at(q), kp)
     return q
 
 
@@ -244,9 +244,9 @@ def off_library(at: day5_mujoco.States) -> dict:
     """Return how far the others are from robo47.control: MuJoCo has none of them."""
     own = {
         "pd_torque": pd_torque,
-        "gains": gains,
+        "pd_gains": pd_gains,
         "error_response": error_response,
-        "sag_step": sag_step,
+        "pd_equilibrium_step": pd_equilibrium_step,
         "gravity_pd": gravity_pd,
         "pid_step": pid_step,
         "saturate": saturate,
@@ -350,7 +350,7 @@ def main() -> int:
     heavy = day5_mujoco.motors(DRIVE, INTEGRATOR, scenes.hang_kilogram)
     # What the springs, of unit inertia, have to hold: M^-1 J^T F.
     load = lambda q: np.linalg.solve(arm.at(q).M, arm.at(q).J_site[5] * 9.81)  # noqa: E731
-    predicted = rest(load, gains(OMEGA, 1.0)[0])
+    predicted = rest(load, pd_gains(OMEGA, 1.0)[0])
     log = run(heavy, arm, equal_springs(), goal, 1.5)
     low = [1e3 * (READY_Q - q)[3] for q in (predicted, log.q[-1])]
     lab.predict("joint 4 under 1 kg hangs low by", *low, "mrad")
@@ -362,12 +362,12 @@ def main() -> int:
     with lab.side_quest():
         start = READY_Q - 1e-8 * E0
         h = model.opt.timestep
-        limit = stiffest_omega(h)
+        limit = max_stable_omega(h)
         found = day5_mujoco.breaking(model, equal_springs, 1 / h, start)
         lab.predict("torque every 2 ms, loop breaks at", limit, found, "rad/s")
         lab.check("largest omega, rad/s", limit - found, limit=2.0)
         n = simulate.steps_per_period(model, RATE)
-        limit = control.stiffest_omega(h, n)
+        limit = control.max_stable_omega(h, n)
         found = day5_mujoco.breaking(model, equal_springs, RATE, start)
         what = f"torque every {1e3 / RATE:g} ms, loop breaks at"
         lab.predict(what, limit, found, "rad/s")

@@ -71,9 +71,9 @@ def arguments(at: States, seed: int) -> dict[str, tuple[Array, ...]]:
     pid = np.tile([400.0, 40.0, 3000.0, 0.01], (n, 1)).T
     return {
         "pd_torque": (at.e, at.ed, K, D),
-        "gains": (omega, zeta),
+        "pd_gains": (omega, zeta),
         "error_response": (times, omega, zeta),
-        "sag_step": (at.q, 50 * at.e, K),
+        "pd_equilibrium_step": (at.q, 50 * at.e, K),
         "gravity_pd": (at.e, at.ed, K, D, 50 * at.qd),
         "pid_step": (at.e, at.ed, 0.2 * at.qd, *pid, clamp),
         "saturate": (150 * at.e, np.abs(100 * at.ed)),

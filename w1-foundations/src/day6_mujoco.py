@@ -67,8 +67,8 @@ def arguments(at: Sequence[State]) -> dict[str, tuple[Array, ...]]:
     K, D = rng.normal(size=(2, n, 6, 6))
     force, k, height = rng.uniform([-10, 290, -10], [10, 310, 10], (n, 3)).T
     return {
-        "null_torque": (J, M, Lambda, torque),
-        "spring_wrench": (e, V_err, K + np.swapaxes(K, 1, 2), D),
+        "nullspace_torque": (J, M, Lambda, torque),
+        "impedance_wrench": (e, V_err, K + np.swapaxes(K, 1, 2), D),
         "critical_damping": (rng.uniform(30, 400, (n, 6)), Lambda),
         "set_point_for_force": (force, k, height),
         "hybrid_wrench": (e, V_err, K + np.swapaxes(K, 1, 2), D, force),

@@ -42,7 +42,7 @@ def task_inertia(J_site: np.ndarray, M: np.ndarray) -> np.ndarray:
     # endregion 6.1
 
 
-def site_bias(J_space: np.ndarray, qd: np.ndarray, p: np.ndarray) -> np.ndarray:
+def bias_acceleration(J_space: np.ndarray, qd: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Return the acceleration, (6,), of the hand's site at p while qdd is 0.
 
     J_space has the screws about the world's origin; p, (3,), is in world axes. A point
@@ -60,19 +60,19 @@ def site_bias(J_space: np.ndarray, qd: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 
 def osc_torque(
-    J_site: np.ndarray, Lambda: np.ndarray, bias: np.ndarray, drift: np.ndarray,
+    J_site: np.ndarray, Lambda: np.ndarray, bias: np.ndarray, bias_acc: np.ndarray,
     acc: np.ndarray,
 ) -> np.ndarray:  # fmt: skip
     """Return the torques, (7,), with which the hand accelerates by acc, (6,).
 
-    drift is what site_bias gives; where acc is the same, they are bias.
+    bias_acc is what bias_acceleration gives; where acc is the same, they are bias.
     """
     # region 6.3
-    return J_site.T @ Lambda @ (acc - drift) + bias
+    return J_site.T @ Lambda @ (acc - bias_acc) + bias
     # endregion 6.3
 
 
-def null_torque(
+def nullspace_torque(
     J_site: np.ndarray, M: np.ndarray, Lambda: np.ndarray, tau: np.ndarray
 ) -> np.ndarray:
     """Return the part of tau, (7,), that does not accelerate the hand.
@@ -86,7 +86,7 @@ def null_torque(
     # endregion 6.4
 
 
-def spring_wrench(
+def impedance_wrench(
     e: np.ndarray, V_err: np.ndarray, K: np.ndarray, D: np.ndarray
 ) -> np.ndarray:
     """Return the wrench, (6,), of a spring and a damper between hand and target.
@@ -141,11 +141,11 @@ def hybrid_wrench(
 ) -> np.ndarray:
     """Return a wrench, (6,): a spring, but along z a force that pushes down.
 
-    The first four as in `spring_wrench`; with e and V_err 0: (0, 0, 0, 0, 0, -force).
-    The damper stays in all six rows; along z there is nothing of K.
+    The first four as in `impedance_wrench`; with e and V_err 0: (0, 0, 0, 0, 0,
+    -force). The damper stays in all six rows; along z there is nothing of K.
     """
     # region 6.9
-    wrench = spring_wrench(e, V_err, K, D)
+    wrench = impedance_wrench(e, V_err, K, D)
     wrench[5] = D[5] @ V_err - force
     return wrench
     # endregion 6.9
@@ -163,9 +163,9 @@ def soft_hand(arm, q_rest: np.ndarray, height=None, stiffness: np.ndarray = K):
             T_goal[2, 3] = height(t)
         e = small_pose_error(now.T_world_ee, T_goal)
         D = critical_damping(stiffness, Lambda)
-        wrench = spring_wrench(e, -J @ qd, np.diag(stiffness), D)
+        wrench = impedance_wrench(e, -J @ qd, np.diag(stiffness), D)
         back = control.pd_torque(q_rest - q, -qd, *ELBOW)
-        idle = null_torque(J, now.M, Lambda, back)
+        idle = nullspace_torque(J, now.M, Lambda, back)
         return impedance_torque(J, wrench, now.bias(qd), arm.damping, qd, idle)
 
     return law
@@ -186,7 +186,7 @@ def circling(arm, project):
         to = day6_mujoco.circle(t, T_start, RADIUS, TURN)
         J = now.J_site
         Lambda = task_inertia(J, now.M)
-        drift = site_bias(now.J_space, qd, now.T_world_ee[:3, 3])
+        drift = bias_acceleration(now.J_space, qd, now.T_world_ee[:3, 3])
         e = small_pose_error(now.T_world_ee, to.T)
         acc = to.A + 2 * OMEGA * (to.V - J @ qd) + OMEGA**2 * e
         torque = osc_torque(J, Lambda, now.bias(qd), drift, acc) + arm.damping * qd
@@ -198,7 +198,7 @@ def circling(arm, project):
 
 def kinematic(J: np.ndarray, M, Lambda, tau: np.ndarray) -> np.ndarray:
     """Return tau through Day 3's projector, which is for speeds: tau - J^+ J tau."""
-    return jacobian.null_step(J, tau)
+    return jacobian.nullspace_projection(J, tau)
 
 
 def pushed(model, q, qd, tau: np.ndarray, wrench: np.ndarray):
@@ -214,7 +214,9 @@ def pushed(model, q, qd, tau: np.ndarray, wrench: np.ndarray):
 def hand_acceleration(model, data) -> np.ndarray:
     """Return how MuJoCo's hand accelerates, (6,): J qdd, and the rate of J times qd."""
     J = verify.mujoco_site_jacobian(model, data.qpos)  # mujoco.mj_jacSite
-    drift = verify.mujoco_site_bias(model, data.qpos, data.qvel)  # differences of it
+    drift = verify.mujoco_bias_acceleration(
+        model, data.qpos, data.qvel
+    )  # differences of it
     return J @ data.qacc + drift
 
 
@@ -229,11 +231,15 @@ def mass_felt(model, at: list, inertia) -> np.ndarray:
 
 
 def off_drift(model, at: list) -> np.ndarray:
-    """Return site_bias minus the rate of MuJoCo's Jacobian times qd, (n, 6)."""
+    """Return bias_acceleration minus the rate of MuJoCo's Jacobian times qd, (n, 6)."""
     off = []
     for s in at:
-        truth = verify.mujoco_site_bias(model, s.now.q, s.qd)  # of mujoco.mj_jacSite
-        off.append(site_bias(s.now.J_space, s.qd, s.now.T_world_ee[:3, 3]) - truth)
+        truth = verify.mujoco_bias_acceleration(
+            model, s.now.q, s.qd
+        )  # of mujoco.mj_jacSite
+        off.append(
+            bias_acceleration(s.now.J_space, s.qd, s.now.T_world_ee[:3, 3]) - truth
+        )
     return np.array(off)
 
 
@@ -243,7 +249,7 @@ def off_asked(model, arm, at: list) -> np.ndarray:
     for s in at:
         J = s.now.J_site
         Lambda = task_inertia(J, s.now.M)
-        drift = site_bias(s.now.J_space, s.qd, s.now.T_world_ee[:3, 3])
+        drift = bias_acceleration(s.now.J_space, s.qd, s.now.T_world_ee[:3, 3])
         tau = osc_torque(J, Lambda, s.now.bias(s.qd), drift, s.acc)
         data = pushed(model, s.now.q, s.qd, tau + arm.damping * s.qd, np.zeros(6))
         off.append(hand_acceleration(model, data) - s.acc)
@@ -322,22 +328,22 @@ def main() -> int:
     lab.check("the library robo47.task_space, the same push", off)
 
     lab.step("2. Torques for a wanted acceleration of the hand")
-    lab.check("site_bias - MuJoCo's rate of J times qd", off_drift(model, at))
+    lab.check("bias_acceleration - MuJoCo's rate of J times qd", off_drift(model, at))
     off = off_asked(model, arm, at)
     lab.check("MuJoCo's hand accelerates as osc_torque asks", off)
 
     lab.step("3. What is left for the elbow")
-    off = felt_of(model, at, null_torque)
-    lab.check("the hand's acceleration under null_torque", off)
-    off = off_library("null_torque", null_torque, at)
-    lab.check("null_torque - the library's", off)
+    off = felt_of(model, at, nullspace_torque)
+    lab.check("the hand's acceleration under nullspace_torque", off)
+    off = off_library("nullspace_torque", nullspace_torque, at)
+    lab.check("nullspace_torque - the library's", off)
     odd = np.abs(felt_of(model, at, kinematic)).max(axis=1)
     print("  Day 3's projector in its place: "
           f"the hand feels {np.median(odd):.1f} rad/s2 or m/s2.")  # fmt: skip
 
     lab.step("4. A hand that is a spring")
-    off = off_library("spring_wrench", spring_wrench, at)
-    lab.check("spring_wrench - the library's", off)
+    off = off_library("impedance_wrench", impedance_wrench, at)
+    lab.check("impedance_wrench - the library's", off)
     off = off_library("critical_damping", critical_damping, at)
     lab.check("critical_damping - the library's", off)
     off = off_held(model, arm, at)
@@ -354,7 +360,7 @@ def main() -> int:
     press(lab)
 
     lab.step("6. An upright circle, 0.12 m in radius, in two seconds")
-    for name, project in (("Day 3's", kinematic), ("today's", null_torque)):
+    for name, project in (("Day 3's", kinematic), ("today's", nullspace_torque)):
         off = 1e3 * day6_mujoco.off_circle(model, circling(arm, project), RADIUS, TURN)
         print(f"  with {name} projector it is at most {off.max():.3f} mm off")
     lab.record("osc_circle", off, label="today's, mm")

@@ -59,11 +59,16 @@ def arguments(at: Moves, seed: int) -> dict[str, tuple[Array, ...]]:
     cubes = se3.make_T(turned, rng.uniform(-1, 1, (n, 3)))
     return {
         "quintic_scaling": (at.t, at.T),
-        "joint_move": (at.q0, at.q1, at.t, at.T),
-        "trapezoid": (rng.uniform(-0.1, 1.1, len(L)) * (L / v + v / a), L, v, a),
-        "straight_pose": (T0, T1, rng.uniform(0, 1, n)),
+        "joint_trajectory": (at.q0, at.q1, at.t, at.T),
+        "trapezoidal_profile": (
+            rng.uniform(-0.1, 1.1, len(L)) * (L / v + v / a),
+            L,
+            v,
+            a,
+        ),
+        "interpolate_pose": (T0, T1, rng.uniform(0, 1, n)),
         "grasp_pose": (cubes, rng.uniform(0, 0.3, n)),
-        "heaviest_cube": tuple(rng.uniform([0, 0, -5], [10, 2, 5], (n, 3)).T),
+        "max_cube_mass": tuple(rng.uniform([0, 0, -5], [10, 2, 5], (n, 3)).T),
     }
 
 
@@ -81,7 +86,7 @@ def follow(
     """
     model = panda.load("panda_nohand", drive="torque")
     arm = panda.arm(model)
-    gains = control.gains(omega, 1.0)
+    gains = control.pd_gains(omega, 1.0)
     errors = []
 
     def controller(t: float, q: Array, qd: Array) -> Array:

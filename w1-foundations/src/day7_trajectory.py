@@ -55,20 +55,24 @@ def quintic_scaling(t: float, duration: float) -> np.ndarray:
     # endregion 7.1
 
 
-def quintic_duration(dq: np.ndarray, v_max: np.ndarray, a_max: np.ndarray) -> float:
-    """Return the shortest duration of a quintic over dq within every joint's limits.
+def quintic_duration(
+    delta_q: np.ndarray, v_max: np.ndarray, a_max: np.ndarray
+) -> float:
+    """Return the shortest duration of a quintic over delta_q within all joints' limits.
 
-    All are (7,); dq has either sign. 1 rad at 1.875 rad/s and any acceleration: 1 s.
-    Where no joint moves: 0.
+    All are (7,); delta_q has either sign. 1 rad at 1.875 rad/s and any acceleration:
+    1 s. Where no joint moves: 0.
     """
     # region 7.2
-    by_speed = 15 / 8 * np.abs(dq) / v_max
-    by_acceleration = np.sqrt(10 / np.sqrt(3) * np.abs(dq) / a_max)
+    by_speed = 15 / 8 * np.abs(delta_q) / v_max
+    by_acceleration = np.sqrt(10 / np.sqrt(3) * np.abs(delta_q) / a_max)
     return max(by_speed.max(), by_acceleration.max())
     # endregion 7.2
 
 
-def joint_move(q0: np.ndarray, q1: np.ndarray, t: float, duration: float) -> np.ndarray:
+def joint_trajectory(
+    q0: np.ndarray, q1: np.ndarray, t: float, duration: float
+) -> np.ndarray:
     """Return q, qd and qdd at time t on the way from q0 to q1, three rows, (3, 7).
 
     After half the duration it is half way, at 1.875 (q1 - q0) / duration. Angles past
@@ -80,7 +84,7 @@ def joint_move(q0: np.ndarray, q1: np.ndarray, t: float, duration: float) -> np.
     # endregion 7.3
 
 
-def trapezoid(t: float, L: float, v: float, a: float) -> np.ndarray:
+def trapezoidal_profile(t: float, L: float, v: float, a: float) -> np.ndarray:
     """Return position, speed and acceleration of ramp, cruise, ramp over L, (3,).
 
     L 1, v 0.5, a 1 takes 2.5 s; at 1 s: 0.375, 0.5, 0. Where L is too short to reach v
@@ -124,7 +128,7 @@ def quintic_coefficients(
     # endregion 7.5
 
 
-def straight_pose(T0: np.ndarray, T1: np.ndarray, s: float) -> np.ndarray:
+def interpolate_pose(T0: np.ndarray, T1: np.ndarray, s: float) -> np.ndarray:
     """Return the pose at s between two poses: a straight line, a turn at one rate.
 
     At s = 0 it is T0, at 1 it is T1, and half way the origin is in the middle. A turn
@@ -154,7 +158,7 @@ def grasp_pose(T_world_cube: np.ndarray, above: float) -> np.ndarray:
     # endregion 7.7
 
 
-def carry(
+def combine_bodies(
     m1: float, c1: np.ndarray, I1: np.ndarray,
     m2: float, c2: np.ndarray, I2: np.ndarray,
 ) -> np.ndarray:  # fmt: skip
@@ -177,7 +181,7 @@ def carry(
     # endregion 7.8
 
 
-def heaviest_cube(grip: float, mu: float, acceleration: float) -> float:
+def max_cube_mass(grip: float, mu: float, acceleration: float) -> float:
     """Return the mass in kg that two fingers lift by friction alone.
 
     Each presses with `grip` newtons; the acceleration is positive upwards. 0.9247 N,
@@ -203,7 +207,7 @@ def limits_used(at: day7_mujoco.Moves) -> np.ndarray:
     def share(q0: np.ndarray, q1: np.ndarray) -> float:
         duration = quintic_duration(q1 - q0, *limits)
         way = [
-            joint_move(q0, q1, x * duration, duration)
+            joint_trajectory(q0, q1, x * duration, duration)
             for x in (*inner, *np.linspace(0, 1, 20))
         ]
         return float((np.abs(way).max(axis=0)[1:] / limits).max())
@@ -224,7 +228,7 @@ def missed_ends(at: day7_mujoco.Moves) -> np.ndarray:
 
 def off_carried(model, configurations: np.ndarray) -> np.ndarray:
     """Return the bias of an arm whose link 7 carries the hand minus MuJoCo's, N m."""
-    heavier = panda.inertias(model).carrying(carry, *panda.hand_inertia(model))
+    heavier = panda.inertias(model).carrying(combine_bodies, *panda.hand_inertia(model))
     arm = replace(panda.arm(model), **heavier._asdict())  # seven links, no hand
     data = mujoco.MjData(model)  # the hand is a body of its own, with two fingers
     rng = np.random.default_rng(SEED)
@@ -261,7 +265,7 @@ def profiles(duration: float) -> dict:
             duration,
         ),
         "cubic": (lambda t: cubic(t, duration), duration),
-        "trapezoid": (lambda t: trapezoid(t, 1.0, v, a), 1 / v + v / a),
+        "trapezoid": (lambda t: trapezoidal_profile(t, 1.0, v, a), 1 / v + v / a),
         "quintic": (lambda t: quintic_scaling(t, duration), duration),
     }
 
@@ -290,8 +294,8 @@ def main() -> int:
     lab.show("s, sd, sdd at 0.6 s of a move of 2 s", quintic_scaling(0.6, 2.0))
     off = off_library("quintic_scaling", quintic_scaling, at)
     lab.check("quintic_scaling, off the library", off)
-    off = off_library("joint_move", joint_move, at)
-    lab.check("joint_move, off the library", off)
+    off = off_library("joint_trajectory", joint_trajectory, at)
+    lab.check("joint_trajectory, off the library", off)
 
     lab.step("2. How long: the slowest joint decides")
     each = [quintic_duration(one, V_MAX, A_MAX) for one in np.diag(GOAL_Q - READY_Q)]
@@ -306,7 +310,7 @@ def main() -> int:
     lab.check("largest share left unused", 1 - used)
 
     lab.step("3. The trapezoid: as fast as the limits allow, with corners")
-    off = off_library("trapezoid", trapezoid, at)
+    off = off_library("trapezoidal_profile", trapezoidal_profile, at)
     lab.check("trapezoid, off the library", off)
     L, v, a = day7_mujoco.ramps(4 * TRIALS, SEED)
     short = np.mean(v**2 / a > L)
@@ -316,8 +320,8 @@ def main() -> int:
     lab.check("position, speed, acceleration at both ends", missed_ends(at))
 
     lab.step("5. The hand on a straight line, and over a cube")
-    off = off_library("straight_pose", straight_pose, at)
-    lab.check("straight_pose, off the library", off)
+    off = off_library("interpolate_pose", interpolate_pose, at)
+    lab.check("interpolate_pose, off the library", off)
     off = off_library("grasp_pose", grasp_pose, at)
     lab.check("grasp_pose, off the library", off)
     cube = se3.make_T(se3.Rz(np.radians(80)), np.array([0.5, 0.2, 0.22]))
@@ -328,8 +332,8 @@ def main() -> int:
     off = off_carried(model, at.q0)
     lab.check("torque to carry the hand, off MuJoCo's", off)
     with lab.side_quest():
-        off = off_library("heaviest_cube", heaviest_cube, at)
-        lab.check("heaviest_cube, off the library", off)
+        off = off_library("max_cube_mass", max_cube_mass, at)
+        lab.check("max_cube_mass, off the library", off)
     if lab.failed:
         # The habit of every real robot: no power before the checks are green.
         print("\n  The arm stays off until these checks pass.")

@@ -9,7 +9,7 @@ import numpy as np
 from labkit.lesson.constants import Numbers, between, same, times, turned
 from labkit.lesson.day import find_day
 from labkit.lesson.lab_module import lab_of
-from robo47 import eye, panda, se3
+from robo47 import depth_camera, panda, se3
 from robo47.screws import skew
 
 LAB = lab_of(find_day(10))
@@ -43,7 +43,7 @@ def seen(fovy, size, distance, overhead=1.0):
     with turned(DAY, AT=at, FOVY=fovy, WIDTH=wide, HEIGHT=high):
         model, data = DAY.table()
     mujoco.mj_forward(model, data)  # fills cam_xpos and cam_xmat
-    return model, data, *eye.camera(model, data, "eye")
+    return model, data, *depth_camera.camera(model, data, "eye")
 
 
 @numbers.add(
@@ -116,7 +116,7 @@ def left_free(joint_6=0.0, looks=LAB.LOOKS, seed=LAB.SEED, reach=1.0):
 def aside(turn=LAB.FREE[2], slide=LAB.FREE[5], looks=LAB.LOOKS, seed=LAB.SEED, reach=1):
     """Return how far the table's middle seems to be from where it is."""
     some = looked(0.0, looks, seed, reach)
-    X = LAB.moved(DAY.ON_HAND, np.array([0, 0, turn, 0, 0, slide]))
+    X = LAB.apply_twist(DAY.ON_HAND, np.array([0, 0, turn, 0, 0, slide]))
     return 1000 * np.linalg.norm(LAB.said(*some, X)[0] - DAY.TO)
 
 

@@ -13,7 +13,7 @@ from PIL import Image
 from labkit.figures import cards, chart
 from labkit.figures.chart import BLUE, INK, RED
 from labkit.figures.scene import Box, Camera
-from robo47 import eye, panda, scenes, se3
+from robo47 import depth_camera, panda, scenes, se3
 from robo47.screws import skew
 
 import day10_mujoco
@@ -30,8 +30,8 @@ def shown(figure: Figure) -> None:
     T_world_cube = day10_mujoco.cubes(1, lab.SEED + 1)[0]
     day10_mujoco.place(model, data, T_world_cube)
     mujoco.mj_forward(model, data)  # fills cam_xpos, cam_xmat, and what rays meet
-    K, T_world_cam = eye.camera(model, data, "eye")
-    _image(above[0], eye.depth(model, data, "eye"))
+    K, T_world_cam = depth_camera.camera(model, data, "eye")
+    _image(above[0], depth_camera.depth(model, data, "eye"))
     corners = day10_mujoco.CORNERS @ T_world_cube[:3, :3].T + T_world_cube[:3, 3]
     pixels = lab.project(K, se3.inverse(T_world_cam), corners)
     above[0].plot(*pixels.T, "o", ms=3, color=RED, label="project: its corners")

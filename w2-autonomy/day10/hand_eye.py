@@ -6,7 +6,7 @@ import numpy as np
 
 from labkit.judge import Pose, Row
 from robo47 import se3
-from robo47.camera import hand_eye, moved
+from robo47.camera import apply_twist, hand_eye
 from robo47.rotation_log import log_rotation
 
 from .kabsch import all_turned, proper, rigid
@@ -55,7 +55,7 @@ def flat_fans(rng, n=4, k=4):
 def _turned(angle, way, out):
     """Return a turn about an axis in the plane of x and y, but for `out`."""
     axis = np.array([np.cos(way), np.sin(way), out])
-    return moved(np.eye(4), np.append(angle * axis, np.zeros(3)))
+    return apply_twist(np.eye(4), np.append(angle * axis, np.zeros(3)))
 
 
 def turns(A, B, *, centred=False, unit=False, rotation=proper):

@@ -5,7 +5,7 @@ import numpy as np
 from labkit.judge import Pose, Row, rounded
 from labkit.judge.argument_mistakes import Change
 from robo47 import se3
-from robo47.camera import kabsch, moved
+from robo47.camera import apply_twist, kabsch
 
 row = Row(Pose())
 
@@ -17,7 +17,7 @@ def _(rng):
         source = rng.numbers(-1, 1, n, 3)
         target = source @ T[:3, :3].T + T[:3, 3] + rng.normal(scale=0.05, size=(n, 3))
         more = np.vstack([target, rng.numbers(-1, 1, 8, 3)])
-        guess = moved(T, 0.15 * rng.normal(size=6))
+        guess = apply_twist(T, 0.15 * rng.normal(size=6))
         found.append((guess, source, rounded(rng.permutation(more))))
     cloud = rng.numbers(-1, 1, 10, 3)
     return [(np.eye(4), cloud, cloud), *found]

@@ -16,7 +16,7 @@ from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
 from labkit.lesson.day import find_day
 from labkit.lesson.lab_module import lab_of
-from robo47 import camera, eye, scenes, se3
+from robo47 import camera, depth_camera, scenes, se3
 from robo47.checks import Array
 from robo47.screws import skew
 
@@ -25,7 +25,7 @@ import day10_mujoco
 LAB = lab_of(find_day(10))  # its noise and seeds
 UNITS = {
     **dict.fromkeys(("camera_matrix", "project"), "px"), "back_project": "m",
-    **dict.fromkeys(("moved", "refine_pose"), "in one entry"),
+    **dict.fromkeys(("apply_twist", "refine_pose"), "in one entry"),
     "projection_jacobian": "(px per rad or m)", "pose_covariance": "(rad2 or m2)",
 }  # fmt: skip
 GUESS = np.array([0.1, -0.08, 0.05, 0.02, -0.01, 0.03])  # what a fit begins beside
@@ -59,7 +59,7 @@ class Eye(Tab):
         super().__init__(page)
         self.model, self.data = day10_mujoco.table()
         mujoco.mj_forward(self.model, self.data)  # fills cam_xpos and cam_xmat
-        self.K, self.T_world_cam = eye.camera(self.model, self.data, "eye")
+        self.K, self.T_world_cam = depth_camera.camera(self.model, self.data, "eye")
         self.x = 500.0
         self.y = 60.0
         self.yaw = 0.4
@@ -120,7 +120,7 @@ class Eye(Tab):
         fovy = float(np.deg2rad(self.model.camera("eye").fovy[0]))
         K, guess = self.own.many(
             ("camera_matrix", fovy, day10_mujoco.WIDTH, day10_mujoco.HEIGHT),
-            ("moved", T, GUESS),
+            ("apply_twist", T, GUESS),
         )
         theirs, fit, J, far = self.own.many(
             ("project", K, T_cam_world, in_world),
@@ -129,11 +129,11 @@ class Eye(Tab):
             ("back_project", *self.asked_view(K)),
         )
         C = self.own.pose_covariance(J, noise)
-        best = camera.refine_pose(self.K, camera.moved(T, GUESS), corners, pixels)
+        best = camera.refine_pose(self.K, camera.apply_twist(T, GUESS), corners, pixels)
         right = camera.projection_jacobian(self.K, p_cam)
         C_right = camera.pose_covariance(right, noise)
         return Seen(
-            eye.depth(self.model, self.data, "eye"),
+            depth_camera.depth(self.model, self.data, "eye"),
             truth,
             theirs,
             self.T_world_cam @ fit,

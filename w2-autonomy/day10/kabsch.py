@@ -1,4 +1,4 @@
-"""10.5 `kabsch(A, B)`: its questions and its mistakes."""
+"""10.5 `kabsch(source, target)`: its questions and its mistakes."""
 
 from functools import partial
 
@@ -15,12 +15,14 @@ row = Row(Pose())
 
 @row.inputs
 def _(rng):
-    A = np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]])
+    source = np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]])
     found = clouds(rng)
     flat, turned = clouds(rng, 2)
-    mirror = [(A, rounded(B * [1, 1, -1])) for A, B in clouds(rng, 2)]
+    mirror = [
+        (source, rounded(target * [1, 1, -1])) for source, target in clouds(rng, 2)
+    ]
     return [
-        (A, A + np.eye(3)[0]),
+        (source, source + np.eye(3)[0]),
         *found,
         (flat[0] * [1, 1, 0], flat[1]),
         turned,
@@ -42,14 +44,14 @@ def proper(U, Vt):
 
 
 def fitted(
-    A, B, *, centre=lambda X: X.mean(axis=0), rotation=proper, scale=lambda s, A: 1.0,
-    shift=lambda R, a, b: b - R @ a,
+    source, target, *, centre=lambda X: X.mean(axis=0), rotation=proper,
+    scale=lambda s, source: 1.0, shift=lambda R, a, b: b - R @ a,
 ):  # fmt: skip
     """Return the motion with other parts: about which centre, by which R, moved how."""
-    around = A - centre(A)
-    U, s, Vt = np.linalg.svd((B - centre(B)).T @ around)
+    around = source - centre(source)
+    U, s, Vt = np.linalg.svd((target - centre(target)).T @ around)
     R = scale(s * [1, 1, np.linalg.det(U @ Vt)], around) * rotation(U, Vt)
-    return rigid(R, shift(R, A.mean(axis=0), B.mean(axis=0)))
+    return rigid(R, shift(R, source.mean(axis=0), target.mean(axis=0)))
 
 
 def all_turned(U, Vt):
@@ -81,8 +83,9 @@ for slug, says, redone, other in (
     ("always-turned-round", "the third direction is turned round every time; it is "
      "only where U V^T is a mirror image", "with diag(1, 1, -1)",
      {"rotation": lambda U, Vt: U @ np.diag([1, 1, -1]) @ Vt}),
-    ("R-transposed", "the rotation is the other way round: it is U V^T of B^T A, not "
-     "A^T B", "with R^T", {"rotation": lambda U, Vt: proper(U, Vt).T}),
+    ("R-transposed", "the rotation is the other way round: it is U V^T of "
+     "target^T source, not source^T target", "with R^T",
+     {"rotation": lambda U, Vt: proper(U, Vt).T}),
     ("U-V", "numpy's svd returns V^T already", "with U V", {"rotation": lambda U, Vt:
      U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt.T}),
     ("not-centred", "the clouds are not moved to their centres before the svd",
@@ -91,11 +94,13 @@ for slug, says, redone, other in (
      "each coordinate has its own: axis=0", "with .mean() of all numbers",
      {"centre": lambda X: X.mean() + np.zeros(3)}),
     ("about-the-first", "the clouds are moved to their first points; their noise stays "
-     "in, and the centres' does not", "with A[0] and B[0]", {"centre": lambda X: X[0]}),
+     "in, and the centres' does not", "with source[0] and target[0]",
+     {"centre": lambda X: X[0]}),
     ("scaled", "R is multiplied by a scale; a motion changes no lengths",
-     "with a scale", {"scale": lambda s, A: s.sum() / np.sum(A * A)}),
-    ("t-without-R", "the translation is the difference of the centres; A's centre is "
-     "turned first, so it is b - R a", "with b - a", {"shift": lambda R, a, b: b - a}),
+     "with a scale", {"scale": lambda s, source: s.sum() / np.sum(source * source)}),
+    ("t-without-R", "the translation is the difference of the centres; source's centre "
+     "is turned first, so it is b - R a", "with b - a",
+     {"shift": lambda R, a, b: b - a}),
     ("t-with-R-transposed", "the translation is b - R^T a; it is b - R a",
      "with b - R^T a", {"shift": lambda R, a, b: b - R.T @ a}),
     ("t-turned-too", "the translation is R (b - a); only a is turned: b - R a",
@@ -109,32 +114,35 @@ for slug, says, redone, other in (
 
 
 @row.wrongs
-def _(A, B):
-    """other-way: this is the motion from B to A => kabsch(B, A)
+def _(source, target):
+    """other-way: this is the motion from target to source => kabsch(target, source)
     t-of-the-first: the translation fits the first point alone; its noise stays in
       => with b_0 - R a_0
     first-for-centre: the first points are taken for the centres; their noise stays in
-      => with A[0] and B[0] for a and b
+      => with source[0] and target[0] for a and b
     affine: this is the best 3x3 matrix, by lstsq, and no rotation => the affine fit
     """
-    R = kabsch(A, B)[:3, :3]
-    one = np.hstack([A, np.ones((len(A), 1))])
-    M = np.linalg.lstsq(one, B, rcond=None)[0].T
+    R = kabsch(source, target)[:3, :3]
+    one = np.hstack([source, np.ones((len(source), 1))])
+    M = np.linalg.lstsq(one, target, rcond=None)[0].T
     return {
-        "other-way": kabsch(B, A),
+        "other-way": kabsch(target, source),
         "first-for-centre": fitted(
-            A, B, centre=lambda X: X[0], shift=lambda R, a, b: B[0] - R @ A[0]
+            source,
+            target,
+            centre=lambda X: X[0],
+            shift=lambda R, a, b: target[0] - R @ source[0],
         ),
-        "t-of-the-first": rigid(R, B[0] - R @ A[0]),
+        "t-of-the-first": rigid(R, target[0] - R @ source[0]),
         "affine": rigid(M[:, :3], M[:, 3]),
     }
 
 
 @row.right  # Horn's quaternion.
-def _(A, B):
-    a = A.mean(axis=0)
-    b = B.mean(axis=0)
-    S = (A - a).T @ (B - b)
+def _(source, target):
+    a = source.mean(axis=0)
+    b = target.mean(axis=0)
+    S = (source - a).T @ (target - b)
     z = np.array([S[1, 2] - S[2, 1], S[2, 0] - S[0, 2], S[0, 1] - S[1, 0]])
     N = np.block([
         [np.trace(S), z], [z[:, None], S + S.T - np.trace(S) * np.eye(3)]

@@ -17,16 +17,22 @@ row = Row(Kind((None, 2, 6), unit="px", scale=100.0))
 @row.inputs
 def _(rng):
     drawn = [(k, before(rng, n)) for k, n in zip(cameras(rng), SIZES, strict=True)]
-    return [(K, np.array([[0.0, 0, 2]])), *drawn]
+    oblong = np.array([[300.0, 0, 10], [0, 250, 20], [0, 0, 1]])  # fx is not fy
+    asked = [(K, np.array([[0.0, 0, 2]])), (oblong, np.array([[0.2, -0.1, 2]]))]
+    return [*asked, *drawn]
 
 
 def by_point(K, p):
     """Return d(pixel)/dp, (n, 2, 3)."""
-    f = K[0, 0]
     x, y, z = p.T
     zero = 0 * x
-    rows = f / z * np.array([[1 + zero, zero, -x / z], [zero, 1 + zero, -y / z]])
-    return np.moveaxis(rows, 2, 0)
+    rows = np.array([[1 + zero, zero, -x / z], [zero, 1 + zero, -y / z]]) / z
+    return focal(K) * np.moveaxis(rows, 2, 0)
+
+
+def focal(K):
+    """Return fx and fy, one for each row, (2, 1)."""
+    return np.array([[K[0, 0]], [K[1, 1]]])
 
 
 def by_twist(p, sign=-1.0):
@@ -55,7 +61,7 @@ def depth(p, power):
 
 def with_the_centre(K, p):
     """Return K[:2] times the slopes of (x / z, y / z, z)."""
-    D = by_point(K, p) / K[0, 0]
+    D = by_point(K, p) / focal(K)
     last = np.tile([0.0, 0.0, 1.0], (len(p), 1, 1))
     return K[:2] @ np.concatenate([D, last], axis=1)
 
@@ -63,7 +69,7 @@ def with_the_centre(K, p):
 def of_the_pixel(K, p):
     """Return d(pixel)/dp with u and v for x and y."""
     D = by_point(K, p)
-    D[:, :, 2] = -K[0, 0] * ((p @ K.T)[:, :2] / p[:, 2:]) / p[:, 2:] ** 2
+    D[:, :, 2] = -focal(K).T * ((p @ K.T)[:, :2] / p[:, 2:]) / p[:, 2:] ** 2
     return D
 
 
@@ -93,7 +99,13 @@ for slug, says, redone, other in (
      "the slope of 1 / z is -1 / z^2", "with -x / z^3",
      {"pixel": third(lambda z: 1 / z)}),
     ("f-forgotten", "f is missing: these are slopes of x / z, in no unit", "without f",
-     {"pixel": lambda K, p: by_point(K, p) / K[0, 0]}),
+     {"pixel": lambda K, p: by_point(K, p) / focal(K)}),
+    ("fx-in-both-rows", "the row of v has fx; its focal length is fy, K[1, 1]",
+     "with K[0, 0] twice", {"pixel": lambda K, p: by_point(
+         K, p) / focal(K) * K[0, 0]}),
+    ("fy-in-both-rows", "the row of u has fy; its focal length is fx, K[0, 0]",
+     "with K[1, 1] twice", {"pixel": lambda K, p: by_point(
+         K, p) / focal(K) * K[1, 1]}),
     ("not-divided", "d(pixel)/dp is not divided by z", "times z",
      {"pixel": lambda K, p: by_point(K, p) * depth(p, 1)}),
     ("divided-once-more", "all of d(pixel)/dp is divided by z once more; only its "
@@ -150,13 +162,13 @@ row.at_least_0(K="f and the centre are")
 
 @row.right  # Entry by entry, as in papers on visual servoing.
 def _(K, p_cam):
-    f = K[0, 0]
+    fx, fy = K[0, 0], K[1, 1]
     found = []
     for X, Y, Z in p_cam:
         x = X / Z
         y = Y / Z
         found.append([
-            [-f * x * y, f * (1 + x * x), -f * y, f / Z, 0, -f * x / Z],
-            [-f * (1 + y * y), f * x * y, f * x, 0, f / Z, -f * y / Z],
+            [-fx * x * y, fx * (1 + x * x), -fx * y, fx / Z, 0, -fx * x / Z],
+            [-fy * (1 + y * y), fy * x * y, fy * x, 0, fy / Z, -fy * y / Z],
         ])  # fmt: skip
     return np.array(found)

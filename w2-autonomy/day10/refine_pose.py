@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Pose, Row
-from robo47.camera import moved, project, projection_jacobian
+from robo47.camera import apply_twist, project, projection_jacobian
 from robo47.screws import skew
 
 from .projection_jacobian import by_point, by_twist
@@ -45,7 +45,9 @@ def downhill(J, off):
 def apart(T, xi):
     """Return T with R turned and t moved, each alone."""
     T = T.copy()
-    T[:3, :3] = moved(np.eye(4), np.append(xi[:3], np.zeros(3)))[:3, :3] @ T[:3, :3]
+    T[:3, :3] = (
+        apply_twist(np.eye(4), np.append(xi[:3], np.zeros(3)))[:3, :3] @ T[:3, :3]
+    )
     T[:3, 3] += xi[3:]
     return T
 
@@ -60,7 +62,7 @@ def first_order(T, xi):
 
 def on_the_right(T, xi):
     """Return T moved in its own axes."""
-    return T @ moved(np.eye(4), xi)
+    return T @ apply_twist(np.eye(4), xi)
 
 
 def placed(T, points):
@@ -69,8 +71,9 @@ def placed(T, points):
 
 
 def steps(
-    K, T_guess, points, pixels, *, n=10, solve=least_squares, move=moved, held=False,
-    sign=1.0, at=placed, stale=False, since=lambda T, guess: T, told=lambda T: T,
+    K, T_guess, points, pixels, *, n=10, solve=least_squares, move=apply_twist,
+    held=False, sign=1.0, at=placed, stale=False,
+    since=lambda T, guess: T, told=lambda T: T,
 ):  # fmt: skip
     """Return T after steps that may be wrong; NaN where they run away."""
     T = T_guess
@@ -108,7 +111,7 @@ for slug, says, redone, other in (
      "needs what is left", "with the guess's error", {"stale": True}),
     ("twist-halves-swapped", "the step is taken for (v; omega); J's columns have omega "
      "first", "with its halves swapped",
-     {"move": lambda T, xi: moved(T, np.roll(xi, 3))}),
+     {"move": lambda T, xi: apply_twist(T, np.roll(xi, 3))}),
     ("body-twist", "each step stands on T's right; J's twists are in the camera's "
      "axes, so the exponential stands on the left", "T exp([xi])",
      {"move": on_the_right}),
@@ -164,5 +167,5 @@ def _(K, T_guess, points, pixels):
             J = projection_jacobian(K, here)[0]
             off = seen - project(K, T, p[None])[0]
             H, g = H + J.T @ J, g + J.T @ off
-        T = moved(T, np.linalg.solve(H, g))
+        T = apply_twist(T, np.linalg.solve(H, g))
     return T

@@ -4,7 +4,7 @@ import numpy as np
 
 from labkit.judge import rounded
 from robo47 import camera, se3
-from robo47.camera import camera_matrix, moved
+from robo47.camera import apply_twist, camera_matrix
 from robo47.checks import Array
 
 K = np.array([[50.0, 0, 100], [0, 50, 50], [0, 0, 1]])  # the docstrings' camera
@@ -58,7 +58,7 @@ def guesses(rng, n=6, far=1.0):
         )
         T[2, 3] = rng.uniform(0.9, 1.6)
         pixels = camera.project(k, T, points) + rng.normal(scale=0.3, size=(8, 2))
-        guess = moved(se3.make_T(np.eye(3), T[:3, 3]), _beside(rng, far))
+        guess = apply_twist(se3.make_T(np.eye(3), T[:3, 3]), _beside(rng, far))
         guess[:3, :3] = guess[:3, :3] @ T[:3, :3]
         found.append((k, guess, points, rounded(pixels)))
     return found
@@ -77,7 +77,7 @@ def motions(rng, n=6, k=6, noise=0.01):
     for X in rng.poses(n):
         A = rng.poses(k)
         jitter = np.array(
-            [moved(np.eye(4), xi) for xi in noise * rng.normal(size=(k, 6))]
+            [apply_twist(np.eye(4), xi) for xi in noise * rng.normal(size=(k, 6))]
         )
         found.append((A, se3.inverse(X) @ A @ X @ jitter))
     return found

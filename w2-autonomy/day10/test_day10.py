@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from conftest import ROOT, load_script, printed_by, sentences
-from robo47 import camera, eye, panda, se3
+from robo47 import camera, depth_camera, panda, se3
 from robo47.rotation_log import log_rotation
 from robo47.screws import skew
 
@@ -18,7 +18,7 @@ SENTENCES = sentences(10)
 lab = load_script(ROOT / "w2-autonomy/src/day10_camera.py")
 model, data = day10_mujoco.table()
 mujoco.mj_forward(model, data)
-K, T_world_cam = eye.camera(model, data, "eye")
+K, T_world_cam = depth_camera.camera(model, data, "eye")
 T_cam_world = se3.inverse(T_world_cam)
 CORNERS = day10_mujoco.CORNERS
 F = K[0, 0]
@@ -53,7 +53,13 @@ def one_z_too_few(K, p):
 
 
 def fitted(
-    T, points, pixels, *, slopes=camera.projection_jacobian, move=camera.moved, n=10
+    T,
+    points,
+    pixels,
+    *,
+    slopes=camera.projection_jacobian,
+    move=camera.apply_twist,
+    n=10,
 ):
     """Return a fit by other slopes or steps; also behind the camera."""
     for _ in range(n):
@@ -156,9 +162,9 @@ def test_what_each_mistake_of_step_1_looks_like_over_the_image():
 def test_range_for_depth_is_right_in_the_middle_and_there_alone():
     day10_mujoco.place(model, data, day10_mujoco.ASIDE)
     mujoco.mj_forward(model, data)
-    depth = eye.depth(model, data, "eye").ravel()
+    depth = depth_camera.depth(model, data, "eye").ravel()
     hit = np.isfinite(depth)
-    pixels = eye.middles(day10_mujoco.WIDTH, day10_mujoco.HEIGHT)[hit]
+    pixels = depth_camera.pixel_centres(day10_mujoco.WIDTH, day10_mujoco.HEIGHT)[hit]
     assert depth.size == 76_800
     through = np.column_stack([pixels, np.ones(len(pixels))])
     length = np.linalg.norm(np.linalg.solve(K, through.T), axis=0)
@@ -186,7 +192,7 @@ def test_the_exponential_on_the_right_never_arrives_and_one_z_too_few_always_doe
                     guess,
                     CORNERS,
                     pixels,
-                    move=lambda T, xi: T @ camera.moved(np.eye(4), xi),
+                    move=lambda T, xi: T @ camera.apply_twist(np.eye(4), xi),
                 )
             except (ValueError, np.linalg.LinAlgError):
                 body = np.full((4, 4), np.inf)
@@ -264,18 +270,18 @@ def test_joint_7_alone_leaves_two_numbers_free_and_the_residual_knows_nothing(lo
     A, B = lab.motions(seven)
     for turn, slide in ((0.5, 0.0), (0.0, 0.05), (0.5, 0.05), (1.0, 0.05)):
         xi = np.array([0, 0, turn, 0, 0, slide])
-        X = camera.moved(day10_mujoco.ON_HAND, xi)
+        X = camera.apply_twist(day10_mujoco.ON_HAND, xi)
         assert np.abs(A @ X - X @ B).max() < 2e-15
         assert lab.wanders(*seven, X) < 1e-9
         assert lab.wanders(*fresh, X) > 30
     for axis in np.delete(np.eye(6), [2, 5], axis=0):  # no other twist is free
-        X = camera.moved(day10_mujoco.ON_HAND, 0.05 * axis)
+        X = camera.apply_twist(day10_mujoco.ON_HAND, 0.05 * axis)
         assert np.abs(A @ X - X @ B).max() > 1e-3
 
 
 def test_the_target_that_stands_still_stands_beside_its_place(looks, printed):
     _, seven, fresh = looks
-    X = camera.moved(day10_mujoco.ON_HAND, lab.FREE)
+    X = camera.apply_twist(day10_mujoco.ON_HAND, lab.FREE)
     assert lab.wanders(*seven, X) < 1e-9
     assert f"it wanders by {lab.wanders(*fresh, X):.0f} mm" in SENTENCES
     beside = 1000 * np.linalg.norm(lab.said(*seven, X) - day10_mujoco.TO, axis=1)
@@ -321,7 +327,7 @@ def test_the_mean_of_the_points_is_off_because_far_sides_are_not_seen():
             m, d = day10_mujoco.table()
         day10_mujoco.place(m, d, T)
         mujoco.mj_forward(m, d)
-        cloud = lab.depth_cloud(m, d, *eye.camera(m, d, "eye"))
+        cloud = lab.depth_cloud(m, d, *depth_camera.camera(m, d, "eye"))
         cloud = cloud[cloud[:, 2] > day10_mujoco.TABLE + lab.ABOVE]
         off.append(1000 * np.linalg.norm(cloud.mean(axis=0)[:2] - T[:2, 3]))
     assert f"of a cube at the table's middle is {off[0]:.1f} mm off" in SENTENCES
@@ -358,11 +364,11 @@ def mirrored(second: float) -> float:
 
     def measured(T):
         noise = 1e-3 * rng.normal(size=(len(T), 6))
-        return T @ np.array([camera.moved(np.eye(4), xi) for xi in noise])
+        return T @ np.array([camera.apply_twist(np.eye(4), xi) for xi in noise])
 
     for _ in range(100):
         turns = rng.normal(size=(8, 6)) * [1, 1, second, 0, 0, 0]
-        A = np.array([camera.moved(np.eye(4), xi) for xi in turns])
+        A = np.array([camera.apply_twist(np.eye(4), xi) for xi in turns])
         X = se3.make_T(se3.quat_to_R(rng.normal(size=4)), np.zeros(3))
         pair = measured(A), measured(se3.inverse(X) @ A @ X)
         a, b = (log_rotation(some[:, :3, :3]) for some in pair)
@@ -375,3 +381,11 @@ def test_axes_in_one_plane_are_as_likely_a_mirror_as_not_and_others_are_none():
     assert "as likely a mirror as not" in SENTENCES
     assert 0.4 < mirrored(0.0) < 0.6
     assert mirrored(1.0) == 0.0
+
+
+def test_the_lab_s_slopes_have_a_focal_length_of_their_own_for_each_row():
+    K = np.array([[300.0, 0, 10], [0, 250, 20], [0, 0, 1]])
+    rows = [[1.5, 303, 15, 150, 0, -15], [-250.625, -1.25, 25, 0, 125, 6.25]]
+    for slopes in (camera.projection_jacobian, lab.projection_jacobian):
+        off = slopes(K, np.array([[0.2, -0.1, 2.0]]))[0] - rows
+        assert np.abs(off).max() < 1e-12

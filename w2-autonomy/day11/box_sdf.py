@@ -1,12 +1,12 @@
-"""11.3 `box_sdf(p, half)`: its questions and its mistakes."""
+"""11.3 `box_sdf(p, half_extents)`: its questions and its mistakes."""
 
 import numpy as np
 
 from labkit.judge import Row, Scalar, rounded
 
-from . import where_boxes
+from . import localise_boxes
 
-row = Row(Scalar(unit="m"), unnamed=where_boxes.point, before_slips=False)
+row = Row(Scalar(unit="m"), unnamed=localise_boxes.point, before_slips=False)
 
 
 @row.inputs
@@ -18,71 +18,79 @@ def _(rng):
     # Beyond how many faces: a face, an edge, a corner, none.
     for beyond in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (0, 1, 1), (1, 0, 1),
                    (1, 1, 1), (1, 1, 1), (0, 0, 0), (0, 0, 0), (0, 0, 0)):  # fmt: skip
-        half = rng.numbers(0.3, 1.2, 3)
+        half_extents = rng.numbers(0.3, 1.2, 3)
         inside = rng.uniform(0.1, 0.8, 3)
         outside = rng.uniform(1.3, 2.0, 3)
         sign = rng.choice([-1.0, 1.0], 3)
         sign[int(rng.integers(3))] = -1.0  # no corner where all are above 0
-        drawn.append((rounded(half * sign * np.where(beyond, outside, inside)), half))
-    return [(np.array(p), half) for p, half in [*worked, *drawn]]
+        drawn.append(
+            (
+                rounded(half_extents * sign * np.where(beyond, outside, inside)),
+                half_extents,
+            )
+        )
+    return [(np.array(p), half_extents) for p, half_extents in [*worked, *drawn]]
 
 
 @row.wrongs
-def _(p, half):
+def _(p, half_extents):
     """zero-inside: inside it is 0; there it is minus the way to the nearest face
     inside-positive: inside it is above 0; there it is to be below
     sign: its sign is the other one: outside is above 0
     largest-outside: outside only the face that is farthest beyond counts; beyond an
-      edge or a corner it is the length of all => max(|p| - half)
+      edge or a corner it is the length of all => max(|p| - half_extents)
     sum-outside: outside the parts beyond the faces are added; they are the sides of a
       right angle
     inside-added-outside: what is below 0 counts outside as well: only what is beyond a
-      face does => the norm of |p| - half
-    depth-added-outside: outside the largest of |p| - half comes on top; it counts only
-      inside, where it is below 0 => the length, and max(|p| - half) without min(..., 0)
+      face does => the norm of |p| - half_extents
+    depth-added-outside: outside the largest of |p| - half_extents comes on top; it
+      counts only inside, where it is below 0 => the length, and max(|p| - half_extents)
+      without min(..., 0)
     inside-by-the-norm: inside it is minus the length of all three; it is the way to the
       nearest face alone
     farthest-face-inside: inside it is the way to the farthest face; the nearest one is
-      the largest of |p| - half => with min
+      the largest of |p| - half_extents => with min
     farthest-face-inside 2: what is added to the length is the way to the farthest face;
-      it is the largest of |p| - half, where that is below 0 => with min
+      it is the largest of |p| - half_extents, where that is below 0 => with min
     to-the-middle-inside: inside it is minus how far the middle is
     to-the-middle: this is how far the middle is: the box has no size
-    box-as-a-ball: the box is taken for a ball => |p| less the length of half
-    box-as-a-ball 2: the box is taken for a ball => |p| less the largest half
-    box-as-a-ball 3: the box is taken for a ball => |p| less the smallest half
-    whole-sides: half is halved again: it is half of the sides already => with half / 2
-    twice-the-sides: half is doubled: the faces stand at plus and minus half => with 2
-      half
-    abs-forgotten: a point on the side below 0 is not folded over: it is |p| - half =>
-      with p - half
+    box-as-a-ball: the box is taken for a ball => |p| less the length of half_extents
+    box-as-a-ball 2: the box is taken for a ball => |p| less the largest half_extents
+    box-as-a-ball 3: the box is taken for a ball => |p| less the smallest half_extents
+    whole-sides: half_extents is halved again: it is half of the sides already => with
+      half_extents / 2
+    twice-the-sides: half_extents is doubled: the faces stand at plus and minus
+      half_extents => with 2 half_extents
+    abs-forgotten: a point on the side below 0 is not folded over: it is |p| -
+      half_extents => with p - half_extents
     abs-forgotten-zero-inside: a point on the side below 0 is not folded over, and
-      inside it is 0 => the norm of what of p - half is above 0
+      inside it is 0 => the norm of what of p - half_extents is above 0
     not-rooted: this is the square of the length outside
     nearest-corner: this is how far the nearest corner is; a face may be nearer
-    largest-half: all sides are the largest => with half.max()
-    half-backwards: half is read from its end: its first entry is x's
-    last-half: all sides are the last => with half[2]
-    mean-half: all sides are the mean => with half.mean()
-    first-half: all sides are the first => with half[0]
+    largest-half: all sides are the largest => with half_extents.max()
+    half-backwards: half_extents is read from its end: its first entry is x's
+    last-half: all sides are the last => with half_extents[2]
+    mean-half: all sides are the mean => with half_extents.mean()
+    first-half: all sides are the first => with half_extents[0]
     in-the-plane: z is forgotten
-    smallest-added: the least of |p| - half is added, above 0 as well; it is the
-      largest, where that is below 0 => the length, and min(|p| - half)
-    first-axis-added: what is added to the length is x's |p| - half where that is below
-      0; it is the largest of all three
+    smallest-added: the least of |p| - half_extents is added, above 0 as well; it is the
+      largest, where that is below 0 => the length, and min(|p| - half_extents)
+    first-axis-added: what is added to the length is x's |p| - half_extents where that
+      is below 0; it is the largest of all three
     largest-with-max: max(..., 0) stands for min(..., 0): outside the largest comes on
       top, and inside it is 0
     sum-inside: inside the three ways to the faces are added; the nearest is the way out
     mean-inside: inside it is the mean of the three ways; the nearest is the way out
     one-number-inside: inside it is -1 everywhere; it is the way to the nearest face
-    least-half-inside: inside it is minus the least half everywhere; that is right in
-      the middle alone
-    smallest-part-inside: inside it is minus the least of |p|; the faces are half away
+    least-half-inside: inside it is minus the least half_extents everywhere; that is
+      right in the middle alone
+    smallest-part-inside: inside it is minus the least of |p|; the faces are
+      half_extents away
     upper-faces-inside: inside only the faces above 0 count: the others may be nearer =>
-      minus the least of half - p
+      minus the least of half_extents - p
     lengthwise: it is measured along the line to the middle; the nearest point of a face
-      lies straight below => |p| (1 - 1 / max(|p| / half))
-    size-of-the-difference: |p - half| is taken: it is |p| - half
+      lies straight below => |p| (1 - 1 / max(|p| / half_extents))
+    size-of-the-difference: |p - half_extents| is taken: it is |p| - half_extents
     cut-at-one: what is beyond a face is cut to 1 at most
     corner-or-face: beyond an edge, two faces, it is the length of both; this is the
       larger of them => the length beyond corners alone
@@ -90,23 +98,24 @@ def _(p, half):
     first-two-only: beyond a face of z the length of x and y is left out => the largest
       there
     mean-square: the root of the mean square is taken; it is that of the sum
-    smallest-taken-off: the least size of |p| - half is taken off, outside as well
+    smallest-taken-off: the least size of |p| - half_extents is taken off, outside as
+      well
     edges-negative: beyond an edge or a corner its sign is the other one
     cut-at-both: this is p cut to the box, and its length => the norm of the nearest
       point
     """
-    beyond = np.abs(p) - half
+    beyond = np.abs(p) - half_extents
     out = np.maximum(beyond, 0.0)
     length = np.linalg.norm(out)
     inside = min(beyond.max(), 0.0)
     far = np.linalg.norm(p)
 
-    def of(p, half):
-        beyond = np.abs(p) - half
+    def of(p, half_extents):
+        beyond = np.abs(p) - half_extents
         return np.linalg.norm(np.maximum(beyond, 0.0)) + min(beyond.max(), 0.0)
 
     def unfolded():
-        beyond = p - half
+        beyond = p - half_extents
         return np.linalg.norm(np.maximum(beyond, 0.0)) + min(beyond.max(), 0.0)
 
     outside = inside == 0
@@ -117,11 +126,11 @@ def _(p, half):
         "sum-inside": lambda: length if outside else beyond.sum(),
         "mean-inside": lambda: length if outside else beyond.mean(),
         "one-number-inside": length if outside else -1.0,
-        "least-half-inside": lambda: length if outside else -half.min(),
+        "least-half-inside": lambda: length if outside else -half_extents.min(),
         "smallest-part-inside": lambda: length if outside else -np.abs(p).min(),
-        "upper-faces-inside": lambda: length if outside else -(half - p).min(),
-        "lengthwise": lambda: far * (1 - 1 / (np.abs(p) / half).max()),
-        "size-of-the-difference": lambda: np.linalg.norm(p - half),
+        "upper-faces-inside": lambda: length if outside else -(half_extents - p).min(),
+        "lengthwise": lambda: far * (1 - 1 / (np.abs(p) / half_extents).max()),
+        "size-of-the-difference": lambda: np.linalg.norm(p - half_extents),
         "cut-at-one": lambda: np.linalg.norm(np.minimum(out, 1.0)) + inside,
         "corner-or-face": lambda: length if out.all() else beyond.max(),
         "two-of-three": lambda: np.linalg.norm(np.sort(out)[1:]) + inside,
@@ -147,31 +156,33 @@ def _(p, half):
         "farthest-face-inside 2": lambda: length + min(beyond.min(), 0.0),
         "to-the-middle-inside": length if inside == 0 else -far,
         "to-the-middle": far,
-        "box-as-a-ball": lambda: far - np.linalg.norm(half),
-        "box-as-a-ball 2": lambda: far - half.max(),
-        "box-as-a-ball 3": lambda: far - half.min(),
-        "whole-sides": lambda: of(p, half / 2),
-        "twice-the-sides": lambda: of(p, 2 * half),
+        "box-as-a-ball": lambda: far - np.linalg.norm(half_extents),
+        "box-as-a-ball 2": lambda: far - half_extents.max(),
+        "box-as-a-ball 3": lambda: far - half_extents.min(),
+        "whole-sides": lambda: of(p, half_extents / 2),
+        "twice-the-sides": lambda: of(p, 2 * half_extents),
         "abs-forgotten": unfolded,
-        "abs-forgotten-zero-inside": lambda: np.linalg.norm(np.maximum(p - half, 0.0)),
+        "abs-forgotten-zero-inside": lambda: np.linalg.norm(
+            np.maximum(p - half_extents, 0.0)
+        ),
         "not-rooted": length**2 + inside,
-        "nearest-corner": lambda: np.linalg.norm(np.abs(p) - half),
-        "largest-half": lambda: of(p, np.full(3, half.max())),
-        "half-backwards": lambda: of(p, half[::-1]),
-        "last-half": lambda: of(p, np.full(3, half[2])),
-        "mean-half": lambda: of(p, np.full(3, half.mean())),
-        "first-half": lambda: of(p, np.full(3, half[0])),
-        "in-the-plane": lambda: of(p[:2], half[:2]),
-        "cut-at-both": lambda: np.linalg.norm(np.clip(p, -half, half)),
+        "nearest-corner": lambda: np.linalg.norm(np.abs(p) - half_extents),
+        "largest-half": lambda: of(p, np.full(3, half_extents.max())),
+        "half-backwards": lambda: of(p, half_extents[::-1]),
+        "last-half": lambda: of(p, np.full(3, half_extents[2])),
+        "mean-half": lambda: of(p, np.full(3, half_extents.mean())),
+        "first-half": lambda: of(p, np.full(3, half_extents[0])),
+        "in-the-plane": lambda: of(p[:2], half_extents[:2]),
+        "cut-at-both": lambda: np.linalg.norm(np.clip(p, -half_extents, half_extents)),
     }
 
 
-row.at_least_0(half="half of a side")
+row.at_least_0(half_extents="half of a side")
 row.same("first p = np.abs(p)", "it takes the size anyway")
 
 
 @row.right  # By the nearest point; inside by the six ways out.
-def _(p, half):
-    if np.all(np.abs(p) <= half):
-        return -min(min(half - p), min(half + p))
-    return np.linalg.norm(p - np.clip(p, -half, half))
+def _(p, half_extents):
+    if np.all(np.abs(p) <= half_extents):
+        return -min(min(half_extents - p), min(half_extents + p))
+    return np.linalg.norm(p - np.clip(p, -half_extents, half_extents))

@@ -3,11 +3,11 @@
 import numpy as np
 
 from labkit.judge import Row, Scalar
-from robo47.distance import segment_segment
+from robo47.distance import closest_points_segments
 
-from . import pairs, where_segments
+from . import localise_segments, pairs
 
-row = Row(Scalar(unit="m"), unnamed=where_segments.gap, before_slips=False)
+row = Row(Scalar(unit="m"), unnamed=localise_segments.gap, before_slips=False)
 
 
 @row.inputs
@@ -21,7 +21,7 @@ def _(rng):
     deep = []
     for _ in range(3):  # across each other, and so near that they overlap
         a0, a1, b0, b1 = pairs.segments(rng, "inside")
-        p, o = segment_segment(a0, a1, b0, b1)
+        p, o = closest_points_segments(a0, a1, b0, b1)
         shift = np.round(0.9 * (p - o), 3)
         ra, rb = pairs.radii(rng)
         deep.append((a0, a1, ra, b0 + shift, b1 + shift, rb))
@@ -106,7 +106,7 @@ def _(a0, a1, ra, b0, b1, rb):
       a0 to a1
     in-the-plane: only x and y are measured: the heights are forgotten
     """
-    p, o = segment_segment(a0, a1, b0, b1)
+    p, o = closest_points_segments(a0, a1, b0, b1)
     axes = np.linalg.norm(p - o)
     d = axes - ra - rb
     ends = min(np.linalg.norm(x - y) for x in (a0, a1) for y in (b0, b1))
@@ -127,7 +127,7 @@ def _(a0, a1, ra, b0, b1, rb):
 
     def longer():
         u, v = grown(a0, a1, ra), grown(b0, b1, rb)
-        x, y = segment_segment(a0 - u, a1 + u, b0 - v, b1 + v)
+        x, y = closest_points_segments(a0 - u, a1 + u, b0 - v, b1 + v)
         return np.linalg.norm(x - y) - ra - rb
 
     def sampled(n):
@@ -143,7 +143,7 @@ def _(a0, a1, ra, b0, b1, rb):
         return np.linalg.norm(np.cross(b0 - a0, u)) / np.linalg.norm(u) - ra - rb
 
     def across():
-        x, y = segment_segment(a0, b0, a1, b1)
+        x, y = closest_points_segments(a0, b0, a1, b1)
         return np.linalg.norm(x - y) - ra - rb
 
     return {

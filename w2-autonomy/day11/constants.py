@@ -14,7 +14,7 @@ from robo47.jacobian import space_jacobian
 LAB = lab_of(find_day(11))
 DAY = LAB.day11_mujoco
 MODEL = panda.load("panda_nohand")
-REACH = LAB.reaches(*shapes.Shape(MODEL, DAY.CAPSULES).lengths)
+REACH = LAB.distal_radii(*shapes.Shape(MODEL, DAY.CAPSULES).lengths)
 
 numbers = Numbers(
     points="inner points: {}",
@@ -127,7 +127,7 @@ def looks(bound=1.0, near=LAB.NEAR, seed=LAB.SEED, thin=LAB.THIN):
 def left(gain=LAB.GAIN, dt=LAB.DT, aside=LAB.ASIDE, rush=LAB.RUSH):
     """Return which share."""
     with turned(LAB, ASIDE=aside, RUSH=rush):
-        return LAB.left_of_it(LAB.slowed, gain, dt)
+        return LAB.left_of_it(LAB.velocity_damper, gain, dt)
 
 
 @numbers.add(
@@ -141,4 +141,4 @@ def left(gain=LAB.GAIN, dt=LAB.DT, aside=LAB.ASIDE, rush=LAB.RUSH):
 def round_it(margin=LAB.MARGIN, gain=LAB.GAIN, time=LAB.TIME, post=LAB.POST[2]):
     """Return it."""
     with turned(LAB, MARGIN=margin, GAIN=gain, TIME=time):
-        return LAB.through((*LAB.POST[:2], post), LAB.slowed)[0]
+        return LAB.through((*LAB.POST[:2], post), LAB.velocity_damper)[0]

@@ -7,13 +7,13 @@ from labkit.judge.argument_mistakes import HALVES_SWAPPED
 from robo47 import panda
 from robo47.jacobian import space_jacobian
 
-from . import where_arm
+from . import localise_arm
 
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 row = Row(
     Vector((7,), "m/rad", names=JOINTS),
     at_edge=lambda J_space, p, o, link: bool(np.linalg.norm(p - o) > 1e-3),
-    unnamed=where_arm.terms,
+    unnamed=localise_arm.terms,
     before_slips=False,
 )
 row.of_argument("J_space", HALVES_SWAPPED)

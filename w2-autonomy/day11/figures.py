@@ -31,7 +31,7 @@ def looks(figure: Figure) -> None:
     dots = np.linspace(0.0, 1.0, POINTS + 2)
     seen = 1000 * lab.pen_from(edge, dots)
     arm = shapes.Shape(panda.load("panda_nohand"), day11_mujoco.CAPSULES)
-    reach = lab.reaches(*arm.lengths)
+    reach = lab.distal_radii(*arm.lengths)
     free, looked = lab.walk(edge, reach)
     at = np.array(looked)
     far = 1000 * lab.pen_from(edge, at)

@@ -3,7 +3,7 @@
 A post stands beside the arm, which is drawn as the lab's capsules. The student's own
 functions find how near it is, where, and how fast each joint changes that; the
 library's line and marks stand beside theirs. `push` drives the pen at the post; what
-plays at once is a push by their `slowed`.
+plays at once is a push by their `velocity_damper`.
 """
 
 from typing import NamedTuple
@@ -28,8 +28,9 @@ LASTS = 4.0  # s
 FULL = 0.8  # m/rad, where a bar ends
 PUSH, SLOWED, STOP = "push", "push, slowed", "stop"
 JOINTS = [f"joint{i}" for i in range(1, 8)]
-UNITS = {"capsule_distance": "m", "segment_segment": "m", "distance_gradient": "m/rad",
-         "slowed": "rad/s"}  # fmt: skip
+UNITS = {"capsule_distance": "m", "closest_points_segments": "m",
+         "distance_gradient": "m/rad",
+         "velocity_damper": "rad/s"}  # fmt: skip
 SMALL = 1e-5  # m and m/rad: what one calls the same on a screen
 
 
@@ -78,7 +79,7 @@ class Near(Tab):
         self.on_move(page.q)
 
     def begin(self) -> None:
-        """Push by the student's `slowed`, from where the last push began."""
+        """Push by the student's `velocity_damper`, from where the last push began."""
         self.press(STOP)
         if np.array_equal(self.page.q, self.left):
             self.page.move(self.begun)
@@ -121,7 +122,7 @@ class Near(Tab):
             for some, ra in zip(ends, self.arm.radii, strict=True)
         ]
         k = int(np.argmin(far))
-        p, o = distance.segment_segment(*ends[k], b0, b1)
+        p, o = distance.closest_points_segments(*ends[k], b0, b1)
         link = int(self.arm.links[k])
         J = space_jacobian(self.screws, q)
         slope = distance.distance_gradient(J, p, o, link)
@@ -137,7 +138,7 @@ class Near(Tab):
             for some, ra in zip(ends, radii, strict=True)
         ))  # fmt: skip
         k = int(np.argmin(far))
-        points = self.own.segment_segment(*ends[k], b0, b1)
+        points = self.own.closest_points_segments(*ends[k], b0, b1)
         link = int(self.arm.links[k])
         J = space_jacobian(self.screws, q)
         slope = self.own.distance_gradient(J, points[0], points[1], link)
@@ -156,14 +157,14 @@ class Near(Tab):
         self.went = self.ask(q[:7], self.stands())
         b0, b1, _ = self.stands()
         tip = self.arm.ends(q[:7])[-1, 1]
-        _, goal = distance.segment_segment(tip, tip, b0, b1)
+        _, goal = distance.closest_points_segments(tip, tip, b0, b1)
         J = site_jacobian(space_jacobian(self.screws, q[:7]), tip)[3:]
         way = goal - tip
         v = FAST * way / max(float(np.linalg.norm(way)), 0.02)
         qd = dls_step(J, v, LAB.DAMPING)
         if self.how == SLOWED:
             d = self.went.far - LAB.MARGIN
-            qd = self.own.slowed(qd, self.went.slope, d, LAB.GAIN)
+            qd = self.own.velocity_damper(qd, self.went.slope, d, LAB.GAIN)
         low, high = self.page.model.jnt_range[:7].T
         q[:7] = np.clip(q[:7] + qd / HZ, low, high)
         self.next = q

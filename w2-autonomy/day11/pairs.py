@@ -39,9 +39,25 @@ def arrays(some) -> list[tuple[Array, ...]]:
 
 def shares(a0, a1, b0, b1) -> tuple[float, float]:
     """Return where on two segments their closest points lie, 0 to 1."""
-    p, o = distance.segment_segment(a0, a1, b0, b1)
+    p, o = distance.closest_points_segments(a0, a1, b0, b1)
     u, v = a1 - a0, b1 - b0
     return float((p - a0) @ u / (u @ u)), float((o - b0) @ v / (v @ v))
+
+
+def closest(a0, a1, b0, b1, answer) -> bool:
+    """Return whether an answer lies on both segments, and nowhere are they nearer."""
+    if np.shape(answer) != (2, 3) or not np.isfinite(answer).all():
+        return False
+    ends = ((a0, a1), (b0, b1))
+    gaps = [
+        np.linalg.norm(np.subtract(*distance.closest_points_segments(x, x, *one)))
+        for x, one in zip(answer, ends, strict=True)
+    ]
+    apart = np.linalg.norm(np.subtract(*answer))
+    least = np.linalg.norm(
+        np.subtract(*distance.closest_points_segments(a0, a1, b0, b1))
+    )
+    return bool(max(gaps) < 1e-8 and abs(apart - least) < 1e-8)
 
 
 def crosses(a0, a1, b0, b1) -> bool:

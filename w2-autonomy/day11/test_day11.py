@@ -19,7 +19,7 @@ SENTENCES = sentences(11)
 DAY = find_day(11)
 lab = load_script(ROOT / "w2-autonomy/src/day11_distance.py")
 arm = shapes.Shape(panda.load("panda_nohand"), day11_mujoco.CAPSULES)
-REACH = arm.reach
+REACH = arm.distal_radii
 OFFSETS, FAR = arm.lengths
 SEEDS = (1, 2, 3)
 TABLE = re.findall(r"\| ([^|]+) \| \**(\d+) (\d+) (\d+)\** \| (\d+) \|", SENTENCES)
@@ -61,7 +61,7 @@ def shorter(edge, scale):
 
 
 def by(speed):
-    """Return a `next_check` with another speed of the farthest point."""
+    """Return a `conservative_advance` with another speed of the farthest point."""
 
     def check(s, d, dq, reach):
         return s if d <= 0 else min(1.0, s + d / max(speed(dq, reach), 1e-12))
@@ -69,9 +69,9 @@ def by(speed):
     return check
 
 
-def walked(edges, check=distance.next_check, reach=REACH):
+def walked(edges, check=distance.conservative_advance, reach=REACH):
     """Return how many ways a check finds free, and its looks."""
-    with patch.object(lab, "next_check", check):
+    with patch.object(lab, "conservative_advance", check):
         return lab.promises(edges, reach)
 
 
@@ -127,25 +127,27 @@ def test_the_arm_is_nine_capsules_the_last_a_pen():
 
 def test_what_is_worked_by_hand():
     ends = [np.array(x, float) for x in ((0, 0, 0), (1, 0, 0), (2, 1, 0), (1, 2, 0))]
-    assert np.allclose(lab.segment_segment(*ends), [(1, 0, 0), (2, 1, 0)])
+    assert np.allclose(lab.closest_points_segments(*ends), [(1, 0, 0), (2, 1, 0)])
     assert lab.box_sdf(np.array([2.0, 2, 0]), np.ones(3)) == pytest.approx(
         1.414, abs=1e-3
     )
     assert lab.box_sdf(np.array([0.5, 0.2, 0]), np.ones(3)) == pytest.approx(-0.5)
     assert f"{0.618**60:.0e}".replace("e-", "e-") == "3e-13"
     half = np.full(7, 0.5)
-    assert lab.next_check(0.25, 0.1, np.ones(7), half) == pytest.approx(
+    assert lab.conservative_advance(0.25, 0.1, np.ones(7), half) == pytest.approx(
         0.27857, abs=1e-5
     )
-    assert np.allclose(lab.reaches(np.array([1.0, 1, 0]), half[:3]), [2.5, 1.5, 0.5])
+    assert np.allclose(
+        lab.distal_radii(np.array([1.0, 1, 0]), half[:3]), [2.5, 1.5, 0.5]
+    )
 
 
 @pytest.mark.kit
 def test_what_a_mistake_does_to_the_distance_of_pairs_and_where_it_hides():
     pairs = np.random.default_rng(lab.SEED).uniform(-0.5, 0.5, (2000, 4, 3))
-    row = row_of(DAY, "segment_segment")
+    row = row_of(DAY, "closest_points_segments")
     code = {way.slug: way.code for way in reversed(row.ways)}
-    right = np.array([distance.segment_segment(*x) for x in pairs])
+    right = np.array([distance.closest_points_segments(*x) for x in pairs])
     far = np.linalg.norm(right[:, 0] - right[:, 1], axis=1)
 
     def off(slug, size=1.0):
@@ -181,7 +183,7 @@ def test_depth_has_two_meanings_and_one_sign(printed):
     for q in day11_mujoco.poses(lab.TRIALS, lab.SEED):
         data.qpos[:] = q
         mujoco.mj_kinematics(model, data)
-        near = arm.apart(q, day11_mujoco.WORLD)[:, 5:]
+        near = arm.distances(q, day11_mujoco.WORLD)[:, 5:]
         for i, j in np.ndindex(near.shape):
             pair = model.geom(f"arm{i}").id, model.geom(f"world{5 + j}").id
             d = mujoco.mj_geomDistance(model, data, *pair, 10, np.zeros(6))
@@ -202,7 +204,7 @@ def test_columns_behind_the_link_are_wrong_but_for_link_7():
     for q in day11_mujoco.poses(lab.TRIALS, lab.SEED)[: lab.TRIALS // 5 + 1]:
         J = space_jacobian(screws, q)
         for link, ends in zip(arm.links, arm.ends(q), strict=True):
-            p, o = distance.segment_segment(*ends, b0, b1)
+            p, o = distance.closest_points_segments(*ends, b0, b1)
             right = distance.distance_gradient(J, p, o, int(link))
             kept = distance.distance_gradient(J, p, o, 7)
             off[int(link)] = max(off[int(link)], np.abs(kept - right).max())
@@ -301,7 +303,7 @@ def test_straight_at_it_the_distance_shrinks_as_the_gain_says(printed):
     assert f"$0.96^{{100}}$ = {0.96**100:.4f}" in SENTENCES
     share = float(re.search(r"after 1 s (0\.\d+) of", printed)[1])
     assert share == pytest.approx(0.96**100, rel=0.03)
-    fine = lab.left_of_it(distance.slowed, dt=0.002)
+    fine = lab.left_of_it(distance.velocity_damper, dt=0.002)
     assert fine == pytest.approx(np.exp(-4), rel=0.03)
 
 
@@ -318,7 +320,7 @@ def near_relatives():
         return qd + slope * max(lack(qd, slope, d, gain), 0)
 
     def nearer(qd, slope, d, gain):
-        return 2 * qd - distance.slowed(qd, slope, d, gain)
+        return 2 * qd - distance.velocity_damper(qd, slope, d, gain)
 
     def alike(qd, slope, d, gain):
         if lack(qd, slope, d, gain) <= 0:
@@ -329,7 +331,7 @@ def near_relatives():
         return qd * (lack(qd, slope, d, gain) <= 0)
 
     return {
-        "nothing": lambda qd, *_: qd, "the right one": distance.slowed,
+        "nothing": lambda qd, *_: qd, "the right one": distance.velocity_damper,
         "always changed, also when allowed": always,
         "not divided by slope²": not_divided,
         "pushed nearer": nearer, "all joints slowed alike": alike, "stops dead": stops,
@@ -348,9 +350,9 @@ def test_one_pair_guards_one_pair_and_several_do_not_plan():
     def post(x):
         return ((x, 0.0, 0.0), (x, 0.0, 0.9), lab.POST[2])
 
-    one, _ = lab.through(post(lab.POST[0][0] - 0.05), distance.slowed)
-    four, _ = lab.through(post(lab.POST[0][0] - 0.05), distance.slowed, 4)
-    safe, beside = lab.through(post(lab.POST[0][0] - 0.08), distance.slowed, 4)
+    one, _ = lab.through(post(lab.POST[0][0] - 0.05), distance.velocity_damper)
+    four, _ = lab.through(post(lab.POST[0][0] - 0.05), distance.velocity_damper, 4)
+    safe, beside = lab.through(post(lab.POST[0][0] - 0.08), distance.velocity_damper, 4)
     assert f"50 mm nearer: {one:.1f} mm" in SENTENCES
     assert f"in rounds, it is {four:.1f} mm" in SENTENCES
     assert f"{safe:.1f} mm, and it stops {beside:.0f} mm away" in SENTENCES

@@ -83,9 +83,9 @@ def test_a_wrong_sign_turns_the_bars_away_from_their_marks():
 
 def test_points_that_are_swapped_turn_the_slopes_round_and_no_distance():
     def swapped(*given):
-        return lab.segment_segment(*given)[::-1]
+        return lab.closest_points_segments(*given)[::-1]
 
-    tab = near({**vars(lab), "segment_segment": swapped})
+    tab = near({**vars(lab), "closest_points_segments": swapped})
     assert "your slopes are NOT the library" in said(tab)
     assert said(tab).count("r47-bad") == 1
     assert np.allclose(tab.line.points, tab.right.points[:, ::-1])
@@ -95,7 +95,7 @@ def test_ends_only_draws_another_line_than_the_librarys():
     def ends(a0, a1, b0, b1):
         return np.array([a1, b0])
 
-    tab = near({**vars(lab), "segment_segment": ends})
+    tab = near({**vars(lab), "closest_points_segments": ends})
     assert not np.allclose(tab.line.points, tab.right.points)
 
 
@@ -124,9 +124,12 @@ def test_a_save_plays_a_slowed_push_from_where_the_last_one_began():
 
 def test_a_push_that_is_slowed_the_wrong_way_goes_in():
     def pushed_in(qd, slope, distance, gain):
-        return 2 * qd - lab.slowed(qd, slope, distance, gain)
+        return 2 * qd - lab.velocity_damper(qd, slope, distance, gain)
 
-    assert pushed(near({**vars(lab), "slowed": pushed_in}), "push, slowed") < -0.01
+    assert (
+        pushed(near({**vars(lab), "velocity_damper": pushed_in}), "push, slowed")
+        < -0.01
+    )
 
 
 def test_a_function_that_stops_shows_no_line():

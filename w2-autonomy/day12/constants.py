@@ -1,6 +1,7 @@
 """What Day 12's numbers hang on: each constant turned by two, measured, explained.
 
-Everything is computed by the lab's own functions and the library's `fastest_along`.
+Everything is computed by the lab's own functions and the library's
+`time_optimal_profile`.
 """
 
 import numpy as np
@@ -43,13 +44,13 @@ numbers = Numbers(
 )  # fmt: skip
 def least_share(n=LAB.SEEDS, z=1.96):
     """Return the low end of Wilson's interval of n of n."""
-    return LAB.wilson(n, n)[0] if z == 1.96 else n / (n + z**2)
+    return LAB.wilson_interval(n, n)[0] if z == 1.96 else n / (n + z**2)
 
 
 def alone(inertia=2.0, limit=8.0, way=1.0, gravity=0.0, points=LAB.POINTS):
     """Return the seconds of one joint."""
     one = np.ones((points + 1, 1))
-    x = library.fastest_along(
+    x = library.time_optimal_profile(
         inertia * way * one, 0.0 * one, gravity * one, [limit], 1e3 * one[:, 0]
     )
     return LAB.seconds(x)
@@ -89,9 +90,9 @@ def heavy_joint(inertia=2.0, limit=8.0, way=1.0, gravity=4.0):
     ),
 )  # fmt: skip
 def with_half(share=0.5, speed=1.0, weight=1.0, points=LAB.POINTS):
-    """Return its seconds by the library's fastest_along."""
+    """Return its seconds by the library's time_optimal_profile."""
     A, B, G, most = LAB.along(ARM, panda.READY_Q, LAB.TO, points)
-    x = library.fastest_along(A, B, weight * G, share * LIMITS, speed**2 * most)
+    x = library.time_optimal_profile(A, B, weight * G, share * LIMITS, speed**2 * most)
     return LAB.seconds(x)
 
 
@@ -103,7 +104,7 @@ def with_half(share=0.5, speed=1.0, weight=1.0, points=LAB.POINTS):
 def above(points=LAB.POINTS, share=1.0):
     """Return by what share of a limit the worst torque is above it."""
     path = LAB.along(ARM, panda.READY_Q, LAB.TO, points)
-    x = library.fastest_along(*path[:3], share * LIMITS, path[3])
+    x = library.time_optimal_profile(*path[:3], share * LIMITS, path[3])
     most = share * LIMITS
     at = LAB.torque_share(INVERSE, most, panda.READY_Q, LAB.TO, x, (0.5, 1.0))
     return at - 1.0

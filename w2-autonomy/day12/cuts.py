@@ -11,9 +11,9 @@ from robo47 import planning
 from robo47.checks import Array
 from robo47.planning import edge_free
 
+from .localise import NEAR, Asked, Kinds, calls, only
 from .options import Option, together
 from .ways import without_filling
-from .where import NEAR, Asked, Kinds, calls, only
 
 Check = Callable[[Array, Array, Array], bool]
 

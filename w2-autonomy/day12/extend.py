@@ -3,12 +3,14 @@
 import numpy as np
 
 from labkit.judge import Index, Mask, Row, Vector
-from robo47.planning import disc_edge_free, edge_free, extend, nearest, steer
+from robo47.planning import edge_free, extend, nearest, segment_free_of_discs, steer
 
+from .localise import of_an_extension
 from .ways import (
     ASKS,
     CLEAR,
     DISC,
+    FLOOR,
     NONE,
     OWN,
     clear,
@@ -17,7 +19,6 @@ from .ways import (
     second_best,
     usual,
 )
-from .where import of_an_extension
 
 row = Row(
     (
@@ -47,8 +48,8 @@ def asked(rng, free, far, n=6):
         i, _, open_ = extend(tree, sample, step, world)
         away = np.linalg.norm(sample - tree[i])
         # Where a step ends in the open and the sample is hit, and the other way round.
-        beyond = disc_edge_free(tree[i], sample, world) is not open_
-        start = disc_edge_free(tree[i], tree[i], world)
+        beyond = segment_free_of_discs(tree[i], sample, world) is not open_
+        start = segment_free_of_discs(tree[i], tree[i], world)
         if not start or bool(away > step) is not far or open_ is not free:
             continue
         if (beyond or not far or rng.uniform(0, 1) < 0.03) and definite(
@@ -64,6 +65,8 @@ def _(rng):
     yield np.array([[0.0, 0]]), np.array([0.0, 0.3]), 0.5, NONE
     yield np.array([[0.0, 0], [1, 0]]), np.array([1.0, 2]), 0.6, OWN
     yield np.array([[0.0, 0], [1, 0]]), np.array([1.0, 2]), 0.4, OWN
+    yield np.array([[0.0, 0], [1, 0]]), np.array([1.0, -2]), 0.6, FLOOR
+    yield np.array([[0.0, 0], [1, 0]]), np.array([3.0, 1]), 0.6, FLOOR
     yield np.array([[1.0, 1], [3, 0]]), np.array([1.0, 3]), 1.5, DISC  # out of a disc
     # Far beyond the second step.
     yield np.array([[0.0, 0]]), np.array([3.0, 0]), 0.5, np.array([[2.5, 0, 0.2]])
@@ -85,7 +88,7 @@ def _of_the_free(tree, sample, step, world):
     order = np.argsort(np.sum((tree - sample) ** 2, axis=1), kind="stable")
     for i in map(int, order):
         q = steer(tree[i], sample, step)
-        if disc_edge_free(tree[i], q, world):
+        if segment_free_of_discs(tree[i], q, world):
             return i, q, True
     return extend(tree, sample, step, world)
 
@@ -93,9 +96,9 @@ def _of_the_free(tree, sample, step, world):
 def _part_of_the_way(node, i, q, world):
     """Halve the edge until it is free, or hardly there."""
     world = discs_of(world)
-    while not disc_edge_free(node, q, world) and np.linalg.norm(q - node) > 1e-3:
+    while not segment_free_of_discs(node, q, world) and np.linalg.norm(q - node) > 1e-3:
         q = (q + node) / 2
-    return i, q, disc_edge_free(node, q, world)
+    return i, q, segment_free_of_discs(node, q, world)
 
 
 @row.wrongs
@@ -161,7 +164,7 @@ def _(tree, sample, step, world):
     at_far = steer(tree[far], sample, step)
 
     def check(a, b):
-        return disc_edge_free(a, b, world)
+        return segment_free_of_discs(a, b, world)
 
     return {
         "from-the-newest": (new, last, check(tree[new], last)),

@@ -32,7 +32,7 @@ class Seen(NamedTuple):
 
     def edge_free(self, a: np.ndarray, b: np.ndarray) -> bool:
         """Return what the lab's checker says."""
-        free = lab.disc_edge_free(a, b, self.discs)
+        free = lab.segment_free_of_discs(a, b, self.discs)
         self.edges.append((np.array(a), np.array(b), bool(free)))
         return free
 
@@ -114,9 +114,9 @@ def _motion(speed: Axes, torques: Axes, path: tuple, limits: np.ndarray) -> None
 def _fastest(*given: np.ndarray) -> tuple[np.ndarray, str]:
     """Return the lab's fastest motion, or the library's, and whose it is."""
     try:
-        return lab.fastest_along(*given), "Day 7's move"
+        return lab.time_optimal_profile(*given), "Day 7's move"
     except NotImplementedError:  # the side quest
-        return library.fastest_along(*given), "The library's move"
+        return library.time_optimal_profile(*given), "The library's move"
 
 
 def small() -> Image.Image:

@@ -2,9 +2,9 @@
 
 In the plane: discs, both trees as the student's own `extend` grows them, sample by
 sample, the way of their `rrt_connect` on the library's, and what their `shortcut`
-leaves of it. Twenty other draws of as many samples are counted, and their `wilson` says
-what that count is worth. In the scene: a way over the lab's wall, played as their
-`path_dynamics` and `fastest_along` time it.
+leaves of it. Twenty other draws of as many samples are counted, and their
+`wilson_interval` says what that count is worth. In the scene: a way over the lab's
+wall, played as their `path_dynamics` and `time_optimal_profile` time it.
 """
 
 from itertools import pairwise
@@ -37,7 +37,7 @@ BLUE, ORANGE, RED = (0, 114, 178), (230, 159, 0), (213, 60, 20)
 GREEN = (0, 190, 140)
 WHITE, GREY, GROUND = (255, 255, 255), (120, 126, 132), (28, 30, 34)
 OVER = "over the wall"
-UNITS = {"path_dynamics": "N m", "fastest_along": "1/s2"}
+UNITS = {"path_dynamics": "N m", "time_optimal_profile": "1/s2"}
 
 
 class Seen(NamedTuple):
@@ -80,7 +80,8 @@ class Way(Tab):
         self.image = page.image(blank, title)
         self.text = page.html()
         title = (
-            f"share of {DRAWS} draws that find a way: your wilson, marks the library's"
+            f"share of {DRAWS} draws that find a way: "
+            "your wilson_interval, marks the library's"
         )
         self.bars = page.bars(["at least", "at most"], 1.0, "", title, "up")
         page.buttons([OVER], self.press)
@@ -141,7 +142,7 @@ class Way(Tab):
             self.cut_of(way, discs),
             truth,
             found,
-            self.own.wilson(found, DRAWS),
+            self.own.wilson_interval(found, DRAWS),
         )
 
     def cut_of(self, way: Array, discs: Array) -> tuple[Array, Array]:
@@ -181,7 +182,7 @@ class Way(Tab):
         """Show the plane, both ways, and what the count is worth."""
         self.image.image = as_bytes(picture(seen))
         low, high = seen.interval
-        self.bars.show(seen.interval, planning.wilson(seen.found, DRAWS))
+        self.bars.show(seen.interval, planning.wilson_interval(seen.found, DRAWS))
         told, kind = compared(seen.way, seen.truth)
         cut, kind_cut = compared(*seen.cut, "your shortcut")
         self.own.tell("rrt_connect", "another way" if kind == "bad" else "")
@@ -209,14 +210,14 @@ class Way(Tab):
         times, q, truth = [np.zeros(1)], [self.cut[:1]], 0.0
         for leg in pairwise(self.cut):
             *path, most = self.along(arm, *leg)
-            x = self.own.fastest_along(*path, limits, most)
+            x = self.own.time_optimal_profile(*path, limits, most)
             sd = np.sqrt(np.maximum(x, 0.0))
             mean = np.maximum(sd[1:] + sd[:-1], 1e-3)  # what stands still is seen to
             times.append(times[-1][-1] + np.cumsum(2.0 / LEG / mean))
             s = np.linspace(0.0, 1.0, LEG + 1)[1:, None]
             q.append(leg[0] + s * (leg[1] - leg[0]))
             right = LAB.along(arm, *leg, LEG)
-            best = planning.fastest_along(*right[:3], limits, right[3])
+            best = planning.time_optimal_profile(*right[:3], limits, right[3])
             truth += planning.travel_time(best)
         return np.concatenate(times), np.vstack(q), truth
 

@@ -30,7 +30,7 @@ def interval_of(k: int, n: int, **how: Any) -> Array:
     """Return an interval, made with other parts.
 
     Args:
-        k, n: as wilson has them.
+        k, n: as wilson_interval has them.
         how: what differs:
             z: of the normal noise.
             p: the share, from k and n.

@@ -10,11 +10,11 @@ from labkit.judge import Case, Finding
 from robo47 import planning
 from robo47.checks import Array
 
+from .localise import NEAR, Asked, Kinds, calls, only
 from .options import Option, together
-from .where import NEAR, Asked, Kinds, calls, only
 
 
-def accel_range(
+def path_accel_bounds(
     a: Array, b: Array, g: Array, limits: Array, sd: float
 ) -> tuple[float, float]:
     """Return what planning's does, unchecked: it is asked a hundred thousand times."""
@@ -39,7 +39,7 @@ def timed(
             pull: what of gravity, speed: a function of A, B, G, x -> (A, B, G).
             back_at, at: which end of a step its limits are read at, 0 or 1.
             most: the greatest x of each point, from x_max.
-            ranges: accel_range.
+            ranges: path_accel_bounds.
             stands: from G and limits whether it holds nowhere.
             kept: the most of which end of a step its x is kept below, forwards.
             without: conditions of the pass backwards that are left out: "allowed",
@@ -119,7 +119,7 @@ USUAL: dict[str, Any] = {
     "back_at": 0,
     "at": 0,
     "most": lambda x_max: x_max,
-    "ranges": accel_range,
+    "ranges": path_accel_bounds,
     "stands": lambda G, limits: np.any(np.abs(G) > limits),
     "kept": 1,
     "without": (),
@@ -130,7 +130,7 @@ USUAL: dict[str, Any] = {
 
 def _same_limit(choose: Callable[[Array], float]) -> Any:
     """Return ranges in which all joints have one limit."""
-    return lambda a, b, g, limits, sd: accel_range(
+    return lambda a, b, g, limits, sd: path_accel_bounds(
         a, b, g, np.full_like(limits, choose(limits)), sd
     )
 
@@ -150,15 +150,15 @@ OPTIONS = [
          lambda n: 2 / (n + 2)),
         ("ds-forgotten", "ds is left out, or is 1; it is 1 / N", lambda n: 2.0),
         ("ds-forgotten", "2 ds is left out, or is 1; ds is 1 / N", lambda n: 1.0))),
-    Option("sd-for-sd2", "accel_range is given x; it wants sd, its root",
+    Option("sd-for-sd2", "path_accel_bounds is given x; it wants sd, its root",
            {"sd": lambda x: x}),
-    Option("sd-for-sd2", "forwards accel_range is given x; it wants sd, its root",
+    Option("sd-for-sd2", "forwards path_accel_bounds is given x; it wants sd, its root",
            {"forward_sd": lambda x: x}),
-    Option("sd-squared-twice", "accel_range is given x^2; it wants sd, the root of x",
+    Option("sd-squared-twice", "path_accel_bounds gets x^2; it wants sd, the root of x",
            {"sd": lambda x: x * x}, alone=True),
-    Option("at-rest", "accel_range is given sd 0, forwards and backwards",
+    Option("at-rest", "path_accel_bounds is given sd 0, forwards and backwards",
            {"sd": lambda x: 0.0 * x}, alone=True),
-    Option("at-rest", "forwards accel_range is given sd 0",
+    Option("at-rest", "forwards path_accel_bounds is given sd 0",
            {"forward_sd": lambda x: 0.0 * x}, alone=True),
     Option("start-not-at-rest", "it begins with the greatest sd^2 from which it can "
            "stop; it begins at rest", {"start": "K"}),
@@ -235,10 +235,10 @@ OPTIONS = [
         ("smallest-limit", "smallest", np.min), ("largest-limit", "largest", np.max),
         ("first-limit", "first joint's", lambda x: x[0]))),
     Option("half-the-torque", "only half of the torque is used",
-           {"ranges": lambda a, b, g, limits, sd: accel_range(
+           {"ranges": lambda a, b, g, limits, sd: path_accel_bounds(
                a, b, g, limits / 2, sd)}),
     Option("first-joint-only", "only the first joint is looked at",
-           {"ranges": lambda a, b, g, limits, sd: accel_range(
+           {"ranges": lambda a, b, g, limits, sd: path_accel_bounds(
                a[:1], b[:1], g[:1], limits[:1], sd)}),
     *(Option(slug, says, {"out": of}) for slug, says, of in (
         ("root", "this is sd; its square is asked for", np.sqrt),
@@ -289,7 +289,7 @@ def _of_path(one: Asked) -> dict[str, bool]:
     right = one.right[0][: len(A)]
     heavy = bool((np.abs(G) > limits).any())
     ends = [
-        planning.accel_range(A[i], B[i], G[i], limits, np.sqrt(x_max[i]))
+        planning.path_accel_bounds(A[i], B[i], G[i], limits, np.sqrt(x_max[i]))
         for i in range(len(A))
     ]
     found = (
@@ -316,7 +316,7 @@ def _broken(one: Asked) -> tuple[str, str] | None:
         return "faster-than-the-motors", says
     for i in range(n):
         u = (x[i + 1] - x[i]) * n / 2
-        low, high = planning.accel_range(
+        low, high = planning.path_accel_bounds(
             A[i], B[i], G[i], limits, np.sqrt(max(x[i], 0))
         )
         if not low - 1e-5 <= u <= high + 1e-5:

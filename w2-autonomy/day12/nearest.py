@@ -5,8 +5,8 @@ import numpy as np
 from labkit.judge import Index, Row
 from robo47.planning import nearest
 
+from .localise import of_an_index
 from .ways import CLEAR, second_best, usual
-from .where import of_an_index
 
 # Two nodes that are equally near, but for rounding, are nobody's question.
 row = Row(

@@ -1,11 +1,11 @@
-"""12.7 `path_dynamics(M, dq, ddq, coriolis, gravity)`: its questions and mistakes."""
+"""12.7 `path_dynamics(M, dq_ds, d2q_ds2, coriolis, gravity)`: questions, mistakes."""
 
 import numpy as np
 
 from labkit.judge import Matrix, Row, rounded
 from robo47.planning import path_dynamics
 
-from .where_on import of_a_path
+from .localise_paths import of_a_path
 
 row = Row(Matrix((3, None), "N m", rows=("a", "b", "g")), unnamed=of_a_path)
 
@@ -23,15 +23,15 @@ def _(rng):
 
 
 @row.wrongs
-def _(M, dq, ddq, coriolis, gravity):
-    """ddq-forgotten: M ddq is missing in b: a curved path turns the arm even at a
+def _(M, dq_ds, d2q_ds2, coriolis, gravity):
+    """ddq-forgotten: M d2q_ds2 is missing in b: a curved path turns the arm even at a
       constant sd
     coriolis-forgotten: the Coriolis torque is missing in b
     bias-for-coriolis: gravity is added to b as well: it does not grow with sd^2, and
       stands in g alone
     gravity-off-coriolis: gravity is taken off in b: `coriolis` holds none
-    m-forgotten: a is dq: the mass matrix is missing
-    m-forgotten 2: b is ddq + c: its mass matrix is missing
+    m-forgotten: a is dq_ds: the mass matrix is missing
+    m-forgotten 2: b is d2q_ds2 + c: its mass matrix is missing
     m-forgotten 3: the mass matrix is missing in a and in b
     diagonal-only: only the diagonal of the mass matrix is used: joints move each other,
       too
@@ -39,17 +39,17 @@ def _(M, dq, ddq, coriolis, gravity):
       other, too
     diagonal-only 3: only the diagonal of the mass matrix is used in b: joints move each
       other, too
-    a-and-b-exchanged: a and b are exchanged: sdd comes with dq, sd^2 with ddq
+    a-and-b-exchanged: a and b are exchanged: sdd comes with dq_ds, sd^2 with d2q_ds2
     g-first: g is the first row: they are a, b and g
-    ddq-in-a: M dq and M ddq are exchanged: qdd = dq sdd + ddq sd^2
-    m-dq-twice: b holds M dq; it is M ddq
-    both-in-a: M ddq is added to a; it belongs to sd^2
+    ddq-in-a: M dq_ds and M d2q_ds2 are exchanged: qdd = dq_ds sdd + d2q_ds2 sd^2
+    m-dq-twice: b holds M dq_ds; it is M d2q_ds2
+    both-in-a: M d2q_ds2 is added to a; it belongs to sd^2
     gravity-sign: gravity is negated: tau holds the arm up, so it is added
     gravity-forgotten: gravity is missing: the third row is 0
     coriolis-sign: the Coriolis torque is negated
-    coriolis-times-dq: the Coriolis torque is multiplied with dq; it is that at qd = dq
-      already
-    dq-squared: b has dq^2 for ddq
+    coriolis-times-dq: the Coriolis torque is multiplied with dq_ds; it is that at qd =
+      dq_ds already
+    dq-squared: b has dq_ds^2 for d2q_ds2
     solved: M is inverted: that turns torques into accelerations
     coriolis-in-g: the Coriolis torque is added to g; it grows with sd^2, and belongs to
       b
@@ -61,38 +61,38 @@ def _(M, dq, ddq, coriolis, gravity):
     trace: M's trace stands for M
     first-row: M's first row stands for M, entry by entry
     """
-    right = path_dynamics(M, dq, ddq, coriolis, gravity)
+    right = path_dynamics(M, dq_ds, d2q_ds2, coriolis, gravity)
     a, b, g = right
     return {
         "ddq-forgotten": np.array([a, coriolis, g]),
-        "coriolis-forgotten": np.array([a, M @ ddq, g]),
+        "coriolis-forgotten": np.array([a, M @ d2q_ds2, g]),
         "bias-for-coriolis": np.array([a, b + gravity, g]),
         "gravity-off-coriolis": np.array([a, b - gravity, g]),
-        "m-forgotten": np.array([dq, b, g]),
-        "m-forgotten 2": np.array([a, ddq + coriolis, g]),
-        "m-forgotten 3": np.array([dq, ddq + coriolis, g]),
+        "m-forgotten": np.array([dq_ds, b, g]),
+        "m-forgotten 2": np.array([a, d2q_ds2 + coriolis, g]),
+        "m-forgotten 3": np.array([dq_ds, d2q_ds2 + coriolis, g]),
         "diagonal-only": np.array(
-            [M.diagonal() * dq, M.diagonal() * ddq + coriolis, g]
+            [M.diagonal() * dq_ds, M.diagonal() * d2q_ds2 + coriolis, g]
         ),
-        "diagonal-only 2": np.array([M.diagonal() * dq, b, g]),
-        "diagonal-only 3": np.array([a, M.diagonal() * ddq + coriolis, g]),
+        "diagonal-only 2": np.array([M.diagonal() * dq_ds, b, g]),
+        "diagonal-only 3": np.array([a, M.diagonal() * d2q_ds2 + coriolis, g]),
         "a-and-b-exchanged": right[[1, 0, 2]],
         "g-first": right[[2, 0, 1]],
-        "ddq-in-a": np.array([M @ ddq, M @ dq + coriolis, g]),
+        "ddq-in-a": np.array([M @ d2q_ds2, M @ dq_ds + coriolis, g]),
         "m-dq-twice": np.array([a, a + coriolis, g]),
-        "both-in-a": np.array([a + M @ ddq, coriolis, g]),
+        "both-in-a": np.array([a + M @ d2q_ds2, coriolis, g]),
         "gravity-sign": np.array([a, b, -g]),
         "gravity-forgotten": np.array([a, b, 0 * g]),
-        "coriolis-sign": np.array([a, M @ ddq - coriolis, g]),
-        "coriolis-times-dq": np.array([a, M @ ddq + coriolis * dq, g]),
-        "dq-squared": np.array([a, M @ dq**2 + coriolis, g]),
+        "coriolis-sign": np.array([a, M @ d2q_ds2 - coriolis, g]),
+        "coriolis-times-dq": np.array([a, M @ d2q_ds2 + coriolis * dq_ds, g]),
+        "dq-squared": np.array([a, M @ dq_ds**2 + coriolis, g]),
         "solved": np.array(
-            [np.linalg.solve(M, dq), np.linalg.solve(M, ddq) + coriolis, g]
+            [np.linalg.solve(M, dq_ds), np.linalg.solve(M, d2q_ds2) + coriolis, g]
         ),
-        "coriolis-in-g": np.array([a, M @ ddq, g + coriolis]),
-        "coriolis-in-a": np.array([a + coriolis, M @ ddq, g]),
+        "coriolis-in-g": np.array([a, M @ d2q_ds2, g + coriolis]),
+        "coriolis-in-a": np.array([a + coriolis, M @ d2q_ds2, g]),
         **{
-            slug: np.array([of(dq), of(ddq) + coriolis, g])
+            slug: np.array([of(dq_ds), of(d2q_ds2) + coriolis, g])
             for slug, of in {
                 "rows-summed": lambda x: M.sum(axis=1) * x,
                 "lower-half": lambda x: np.tril(M) @ x,
@@ -105,5 +105,5 @@ def _(M, dq, ddq, coriolis, gravity):
 
 
 @row.right  # Row by row, with M turned over: it is symmetric.
-def _(M, dq, ddq, coriolis, gravity):
-    return np.vstack([dq @ M, ddq @ M + coriolis, gravity])
+def _(M, dq_ds, d2q_ds2, coriolis, gravity):
+    return np.vstack([dq_ds @ M, d2q_ds2 @ M + coriolis, gravity])

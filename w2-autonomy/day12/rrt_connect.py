@@ -8,7 +8,7 @@ from labkit.judge import Row, Slip, Waypoints
 from robo47.planning import extend, rrt_connect
 
 from .planners import of_a_planner, one_tree, planner
-from .ways import ASKS, BALL, NONE, ways_asked
+from .ways import ASKS, BALL, FLOOR, NONE, ways_asked
 
 row = Row(
     Waypoints((None, None)),
@@ -51,6 +51,9 @@ def _(rng):
     up = np.array([[0.2, 1, 1], [1, 1, 0.3], [2, 1.3, 0]])
     yield np.zeros(3), np.array([2.5, 0, 0]), BALL, up, 0.7
     yield np.zeros(3), np.array([2.5, 0, 0]), BALL, up[:0], 0.7
+    # Along a floor: samples below it are blocked.
+    low = np.array([[0.5, -1], [2, -0.9], [0.6, 0.8], [2.2, 1.3]])
+    yield start, goal, FLOOR, low, 0.7
     # The other tree comes by many edges.
     yield start, goal, NONE, np.array([[0.0, 2]]), 0.1
     around = np.linspace(0, 2 * np.pi, 12, endpoint=False)

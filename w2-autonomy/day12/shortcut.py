@@ -5,11 +5,11 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Row, Waypoints
-from labkit.sandbox.inside.fake_world import Balls
+from labkit.judge.worlds import Balls
 from robo47.planning import edge_free, shortcut
 
 from .cuts import cut, of_a_cut
-from .ways import ASKS, NONE, Careful, discs, usual
+from .ways import ASKS, FLOOR, NONE, Careful, discs, usual
 
 row = Row(
     Waypoints((None, 2)),
@@ -26,6 +26,8 @@ def _(rng):
     yield path, post, np.array([[0.1, 0.9], [0, 0.5], [0.3, 0.99]])
     yield path, post, np.empty((0, 2))
     yield path, Balls(post), np.array([[0.1, 0.9], [0, 0.5], [0.3, 0.99]])
+    yield path * [1, -0.5] - [0, -0.1], FLOOR, np.array([[0.3, 0.7], [0.1, 0.5]])
+    yield path, FLOOR, np.array([[0.1, 0.9], [0, 0.5], [0.3, 0.99]])
     yield path, NONE, np.array([[0.9, 0.1]])  # the other way round, and to the end
     yield path, NONE, np.array([[0.3, 0.35], [0.45, 0.79]])  # neighbours, and the same
     yield path[:2], NONE, np.array([[0.1, 0.9]])

@@ -5,7 +5,7 @@ import numpy as np
 from labkit.judge import HeldOut, Row, Vector
 from robo47.planning import steer
 
-from .where import of_a_step
+from .localise import of_a_step
 
 
 def from_afar(rng):

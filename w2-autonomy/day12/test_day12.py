@@ -11,8 +11,9 @@ import pytest
 from conftest import ROOT, load_script, printed_by, sentences
 from labkit.check.lab_run import rehearse
 from labkit.check.tasks import check_tasks
+from labkit.judge.worlds import Balls
 from labkit.lesson.day import find_day
-from labkit.sandbox.inside.fake_world import Balls
+from labkit.sandbox.process import Process
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import panda, planning, simulate
 
@@ -40,7 +41,7 @@ def rows_of(head):
 def seconds_of(share, *, speed=1.0, weight=1.0, n=lab.POINTS):
     """Return the seconds of Day 7's move, with other speeds and another gravity."""
     A, B, G, most = lab.along(ARM, READY, lab.TO, n)
-    x = planning.fastest_along(A, B, weight * G, share * LIMITS, speed**2 * most)
+    x = planning.time_optimal_profile(A, B, weight * G, share * LIMITS, speed**2 * most)
     return planning.travel_time(x)
 
 
@@ -116,8 +117,8 @@ def test_what_the_opening_promises_is_what_the_lab_prints(printed):
 def test_the_cases_by_hand():
     disc = np.array([[1.0, 1.0, 0.5]])
     for a, b, free in (((0, 0.6), (2, 0.6), False), ((0, 1), (0.4, 1), True)):
-        assert lab.disc_edge_free(np.array(a), np.array(b), disc) is free
-    assert lab.disc_edge_free(np.ones(2), np.ones(2), disc) is False
+        assert lab.segment_free_of_discs(np.array(a), np.array(b), disc) is free
+    assert lab.segment_free_of_discs(np.ones(2), np.ones(2), disc) is False
     alone = np.zeros(2), np.array([2.5, 0]), disc[:0], np.array([[0.0, 2]]), 1.0
     way = lab.rrt_connect(*alone)
     assert np.round(way, 2).tolist() == [
@@ -125,12 +126,14 @@ def test_the_cases_by_hand():
     ]  # fmt: skip
     assert np.linalg.norm(way[1] - way[-1]) == pytest.approx(math.sqrt(7.25))
     assert np.linalg.norm(way[1] - way[2]) == pytest.approx(0.69, abs=5e-3)
-    assert lab.wilson(3, 3)[0] == pytest.approx(0.44, abs=5e-3)
-    assert lab.wilson(73, 73)[0] > 0.9499 > lab.wilson(72, 72)[0]
+    assert lab.wilson_interval(3, 3)[0] == pytest.approx(0.44, abs=5e-3)
+    assert lab.wilson_interval(73, 73)[0] > 0.9499 > lab.wilson_interval(72, 72)[0]
     one = np.ones((5, 1))
-    x = lab.fastest_along(2 * one, 0 * one, 0 * one, np.array([8.0]), 9 * one[:, 0])
+    x = lab.time_optimal_profile(
+        2 * one, 0 * one, 0 * one, np.array([8.0]), 9 * one[:, 0]
+    )
     assert x == pytest.approx([0, 2, 4, 2, 0])
-    against = lab.bang_bang(lab.fastest_along, 4.0)
+    against = lab.bang_bang(lab.time_optimal_profile, 4.0)
     assert against == pytest.approx(2 / math.sqrt(3))
     assert "2/√3 = 1.155 s" in SENTENCES
 
@@ -158,7 +161,7 @@ def test_half_the_torque_has_two_causes_and_neither_alone_is_root_two():
     assert light[1] / light[0] == pytest.approx(math.sqrt(2), abs=1e-9)
     assert "and without gravity it is 1.414" in SENTENCES
     A, B, G, most = lab.along(ARM, READY, lab.TO, lab.POINTS)
-    x = planning.fastest_along(A, B, G, LIMITS, most)
+    x = planning.time_optimal_profile(A, B, G, LIMITS, most)
     assert f"{np.mean(x > most - 1e-9):.0%}".replace(
         "%", " % of the points with all"
     ) in (SENTENCES)
@@ -167,12 +170,12 @@ def test_half_the_torque_has_two_causes_and_neither_alone_is_root_two():
 def test_the_first_five_seeds_say_next_to_nothing():
     needed, _ = lab.plan_with(day12_mujoco.Wall(), 5)
     k = int(np.sum(needed <= 40))
-    low, high = lab.wilson(k, 5)
+    low, high = lab.wilson_interval(k, 5)
     assert f"find a way in {k} of 5" in SENTENCES
     assert f"{k} of 5: {low:.2f} to {high:.2f}" in SENTENCES
-    low, high = lab.wilson(29, 60)
+    low, high = lab.wilson_interval(29, 60)
     assert f"29 of 60: {low:.2f} to {high:.2f}" in SENTENCES
-    assert np.diff(lab.wilson(47, 95))[0] / 2 == pytest.approx(0.1, abs=2e-3)
+    assert np.diff(lab.wilson_interval(47, 95))[0] / 2 == pytest.approx(0.1, abs=2e-3)
 
 
 @pytest.mark.kit
@@ -250,7 +253,7 @@ def test_between_the_points_the_torque_is_above_its_limit_and_more_with_damping(
     said = []
     for n in (100, 50, 400):
         path = lab.along(ARM, READY, lab.TO, n)
-        x = planning.fastest_along(*path[:3], LIMITS, path[3])
+        x = planning.time_optimal_profile(*path[:3], LIMITS, path[3])
         args = INVERSE, LIMITS, READY, lab.TO, x
         assert lab.torque_share(*args, (0.0,)) == pytest.approx(1.0, abs=1e-9)
         said.append(lab.torque_share(*args, (0.5, 1.0)))
@@ -258,7 +261,7 @@ def test_between_the_points_the_torque_is_above_its_limit_and_more_with_damping(
     words = "there it is {:.3f}, and with 50 or 400 steps {:.3f} and {:.3f}"
     assert words.format(*said) in SENTENCES
     path = lab.along(ARM, READY, lab.TO, 100)
-    x = planning.fastest_along(*path[:3], LIMITS, path[3])
+    x = planning.time_optimal_profile(*path[:3], LIMITS, path[3])
     damped = day12_mujoco.torque(panda.load("panda_nohand"))
     share = lab.torque_share(damped, LIMITS, READY, lab.TO, x, (0.0,))
     assert f"with it MuJoCo says {share:.2f}" in SENTENCES
@@ -266,11 +269,11 @@ def test_between_the_points_the_torque_is_above_its_limit_and_more_with_damping(
 
 @pytest.mark.kit
 def test_what_a_forgotten_pass_looks_like():
-    timed = DAY.module("fastest_along").timed
+    timed = DAY.module("time_optimal_profile").timed
     A, B, G, most = lab.along(ARM, READY, lab.TO, lab.POINTS)
     given = A, B, G, LIMITS, most
     variants = [
-        planning.fastest_along(*given),
+        planning.time_optimal_profile(*given),
         timed(*given, passes="forward"),
         timed(*given, passes="back"),
         timed(*given, most=lambda x: 1e4 * x),
@@ -323,8 +326,48 @@ def test_edges_of_a_way_are_free_and_a_step_long_at_most():
         assert wall.edge_free(a, b)
 
 
+LOOKS = {
+    "rows": "world.rows",
+    "rows if there are": 'getattr(world, "rows", np.empty((0, 3)))',
+    "its discs": "world if isinstance(world, np.ndarray) else np.empty((0, 3))",
+    "what it keeps": "([x for x in getattr(world, '__dict__', {}).values()"
+    " if isinstance(x, np.ndarray)] or [np.empty((0, 3))])[0]",
+}
+
+
 @pytest.mark.kit
-def test_behind_the_wall_the_lab_is_run_though_no_world_of_the_arm_travels():
+@pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
+@pytest.mark.parametrize("task", ["12.3", "12.5"])
+def test_who_does_not_ask_a_world_does_not_pass(student, look, task):
+    code = (ROOT / "w2-autonomy/src/day12_planning.py").read_text("utf-8")
+    discs = f"world if isinstance(world, np.ndarray) else {look}"
+    code += f"""
+
+def edge_free(a, b, world):
+    return segment_free_of_discs(a, b, {discs})
+"""
+    with Sandbox() as sandbox:
+        results = check_tasks(DAY, student(code, DAY.script), sandbox, task, seed=1)
+    told = {one.task.id: one.verdict.status for one in results}
+    assert told[task] == "wrong"
+
+
+@pytest.mark.kit
+def test_behind_the_wall_the_lab_asks_the_students_own_planner():
+    asked = set()
+
+    def heard(process, told):
+        asked.add(type(process.worlds[told[0]]).__name__)
+        return old(process, told)
+
+    old = Process._say_if_free
+    with Sandbox() as sandbox, patch.object(Process, "_say_if_free", heard):
+        assert rehearse(DAY, DAY.source, sandbox).fault == ""
+    assert "Wall" in asked
+
+
+@pytest.mark.kit
+def test_behind_the_wall_the_lab_is_run_to_its_end():
     with Sandbox() as sandbox:
         fault, numbers, unfinished = rehearse(DAY, DAY.source, sandbox)
     assert (fault, unfinished) == ("", "")
@@ -338,6 +381,6 @@ def test_a_world_that_can_only_be_asked_says_what_the_library_says_of_its_discs(
     for _ in range(300):
         discs = rng.uniform((-1, -1, 0.05), (1, 1, 0.4), (3, 3))
         a, b = rng.uniform(-1, 1, (2, 2)) if len(told) % 10 else np.zeros((2, 2))
-        told.append(planning.disc_edge_free(a, b, discs))
+        told.append(planning.segment_free_of_discs(a, b, discs))
         assert Balls(discs).edge_free(a, b) is told[-1]
     assert 30 < sum(told) < 270

@@ -55,9 +55,9 @@ def test_a_count_of_draws_has_the_students_interval():
         r"(\d+) of (\d+) draws find a way: ([\d.]+) to ([\d.]+)", said(tab)
     ).groups()
     assert [float(low), float(high)] == pytest.approx(
-        planning.wilson(int(k), int(n)), abs=0.006
+        planning.wilson_interval(int(k), int(n)), abs=0.006
     )
-    half = {"wilson": lambda k, n: np.array([k / n, k / n])}
+    half = {"wilson_interval": lambda k, n: np.array([k / n, k / n])}
     tab = looked({**vars(lab), **half})
     assert f"{int(k) / 20:.2f} to {int(k) / 20:.2f}" in said(tab)
     assert tab.own.says()[1] == "bad"
@@ -82,7 +82,7 @@ def test_an_extend_that_checks_nothing_grows_through_the_discs():
     tab = looked({**vars(lab), "extend": unchecked})
     seen = tab.ask(*tab.chosen())
     hit = [
-        not planning.disc_edge_free(a, b, seen.discs)
+        not planning.segment_free_of_discs(a, b, seen.discs)
         for edges in seen.edges
         for a, b in edges
     ]
@@ -99,9 +99,9 @@ def test_a_wrong_timing_is_played_beside_the_librarys_seconds():
     assert yours == truth
 
     def slow(*given):
-        return 0.25 * lab.fastest_along(*given)
+        return 0.25 * lab.time_optimal_profile(*given)
 
-    tab = looked({**vars(lab), "fastest_along": slow})
+    tab = looked({**vars(lab), "time_optimal_profile": slow})
     tab.press("over the wall")
     twice = re.search(r"yours ([\d.]+) s", tab.timed.content)[1]
     assert float(twice) == pytest.approx(2 * float(truth), abs=0.02)

@@ -4,20 +4,22 @@ import numpy as np
 
 from labkit.judge import Slip, rounded
 from labkit.judge.draw import Draw
-from labkit.sandbox.inside.fake_world import Balls
+from labkit.judge.worlds import Balls, HalfSpace
 from robo47 import planning
 
 DISC = np.array([[1.0, 1, 0.5]])  # of the docstrings
 NONE = np.empty((0, 3))
 OWN = Balls(DISC)  # the same, and one has to ask it
 BALL = Balls([[1.0, 0.1, 0, 0.5]])
+FLOOR = HalfSpace((0.0, 1.0), -0.2)  # below y = -0.2 nothing is free
 ASKS = Slip(
-    "'Balls'",
+    "'(Room|Yard|Shelf)'",
     "",
     "own-checker-not-asked",
     "A world may have a checker of its own, a method edge_free(a, b), and show no "
     "discs: edge_free(a, b, world), which is given, asks either.",
 )
+HUGE = 1e6
 CLEAR = 1e-5  # nothing that is asked comes so near to a tie, or touches so nearly
 LEFT = (np.array([-1.0, -0.9]), np.array([-0.9, -1.0]))
 RIGHT = (np.array([1.1, 0.9]), np.array([0.9, 1.05]))
@@ -35,6 +37,9 @@ def discs(rng, m, least=0.1, most=0.4):
 
 def discs_of(world):
     """Return the discs of a world, also of one that does not show them."""
+    if isinstance(world, HalfSpace):  # a disc so large that its rim is flat here
+        far = world.offset - HUGE
+        return np.array([[*(far * world.normal), HUGE]])
     return world.rows if isinstance(world, Balls) else world
 
 
@@ -68,7 +73,7 @@ class Careful:
     def edge_free(self, a, b):
         """Return whether it is free, as the library says."""
         self.clear = self.clear and clear(a, b, self.discs)
-        return planning.disc_edge_free(a, b, self.discs)
+        return planning.segment_free_of_discs(a, b, self.discs)
 
 
 def ways_asked(rng):
@@ -85,7 +90,7 @@ def ways_asked(rng):
             samples = rng.numbers(-1.3, 1.3, n, 2)
             ends = min(gap(x, x, world.discs) for x in (start, goal))
             way = planning.rrt_connect(start, goal, world, samples, step)
-            straight = planning.disc_edge_free(start, goal, world.discs)
+            straight = planning.segment_free_of_discs(start, goal, world.discs)
             if (
                 ends > 0.05
                 and world.clear

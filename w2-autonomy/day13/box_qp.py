@@ -1,4 +1,4 @@
-"""13.5 `box_qp(H, g, lo, hi, x)`: its questions and its mistakes."""
+"""13.5 `box_qp(H, f, lo, hi, x)`: its questions and its mistakes."""
 
 import itertools
 from functools import partial
@@ -23,7 +23,7 @@ def _(rng):
     H = np.array([[23.0, 15, 21], [15, 14, 13], [21, 13, 23]])
     circling = (H, np.array([9.0, -2, 6]), -one, one, np.array([0.0, 0, -1]))
     best = [
-        (H, g, lo, hi, np.round(x + 0.7, 3)) for H, g, lo, hi, x in problems(rng, 4)
+        (H, f, lo, hi, np.round(x + 0.7, 3)) for H, f, lo, hi, x in problems(rng, 4)
     ]
     # Where Newton by H's diagonal alone goes to the corners, and short steps arrive.
     alike = 0.2 * np.eye(3) + 0.8
@@ -31,16 +31,33 @@ def _(rng):
     flat = 0.05 * np.eye(2) + 0.95  # where what is done in turn takes hundreds of turns
     long = (flat, np.array([1.0, -1]), -30 * one[:2], 30 * one[:2], np.zeros(2))
     found = [*best, *boxed(rng)]
-    return [(*case, np.zeros(2)), circling, wide, long, *typed(), *found]
+    first = [(*case, np.zeros(2)), circling, wide, long, of_the_arm()]
+    return [*first, *typed(), *found]
+
+
+def of_the_arm():
+    """Return a question as 13.6 makes them, of a small damping: steep and flat."""
+    J = np.array([
+        [0.0, 0.6, 0.0, -0.7, 0.1, 0.9, 0.1],
+        [0.0, 0.8, 0.0, -0.7, -0.6, 0.4, -0.9],
+        [1.0, 0.0, 0.8, 0.1, 0.7, 0.0, -0.4],
+        [0.1, 0.3, 0.1, 0.2, 0.0, 0.2, 0.0],
+        [0.5, 0.0, 0.5, 0.0, 0.2, 0.0, 0.0],
+        [0.0, -0.5, 0.0, 0.5, 0.0, 0.2, 0.0],
+    ])  # fmt: skip
+    H = J.T @ J + 0.05**2 * np.eye(7)
+    f = np.array([-0.042, 1.203, -0.026, -0.814, -0.963, 0.377, -1.349])
+    limit = np.array([1.8, 1.1, 1.4, 2.5, 2.0, 2.9, 1.3])
+    return np.round(H, 6), f, -limit, limit, np.zeros(7)
 
 
 def typed():
     """Return what few questions that are drawn have in them."""
     # The second number is held at its upper limit, and wants to leave by 3e-5.
     H = np.array([[0.89, -0.26, 0.78], [-0.26, 0.89, -0.37], [0.78, -0.37, 1.21]])
-    g = np.array([1.9, -0.40597, -2.2])
+    f = np.array([1.9, -0.40597, -2.2])
     lo, hi = np.array([-2.3, -0.1, 0.0]), np.array([-1.8, 0.2, 1.0])
-    hardly = (H, g, lo, hi, lo.copy())
+    hardly = (H, f, lo, hi, lo.copy())
     # Two are held, and the one with the steeper slope wants to leave.
     H = np.array([[0.45, -0.7], [-0.7, 2.2]])
     lo, hi = np.array([-2.4, -0.4]), np.array([-1.3, 0.3])
@@ -82,11 +99,11 @@ def typed():
     return [hardly, steeper, later, outside, often, again]
 
 
-def newton(H, g, lo, hi, x, n=50, frees="pushed", full=False):
+def newton(H, f, lo, hi, x, n=50, frees="pushed", full=False):
     """Return x after Newton's steps on the free entries, each clipped."""
     x = np.clip(x, lo, hi)
     for _ in range(n):
-        slope = H @ x + g
+        slope = H @ x + f
         below, above = x <= lo, x >= hi
         held = (below & (slope > 0)) | (above & (slope < 0))
         if frees == "wrong":
@@ -103,29 +120,29 @@ def newton(H, g, lo, hi, x, n=50, frees="pushed", full=False):
     return x
 
 
-def slid(H, g, lo, hi, x, n, by):
+def slid(H, f, lo, hi, x, n, by):
     """Return x after n steps downhill, each clipped."""
     x = np.clip(x, lo, hi)
     for _ in range(n):
-        x = np.clip(x - by * (H @ x + g), lo, hi)
+        x = np.clip(x - by * (H @ x + f), lo, hi)
     return x
 
 
-def solved_once_more(H, g, lo, hi, x):
+def solved_once_more(H, f, lo, hi, x):
     """Return the clipped optimum, with the free entries solved anew, and clipped."""
-    x = np.clip(np.linalg.solve(H, -g), lo, hi)
+    x = np.clip(np.linalg.solve(H, -f), lo, hi)
     free = (x > lo) & (x < hi)
-    right = -(H @ x + g)[free]
+    right = -(H @ x + f)[free]
     x[free] += np.linalg.solve(H[np.ix_(free, free)], right)
     return np.clip(x, lo, hi)
 
 
-def clipped_for_good(H, g, lo, hi, x):
+def clipped_for_good(H, f, lo, hi, x):
     """Return the clipped optimum, solved anew while others meet; none is let go."""
     x = np.array(x, float)
     free = np.ones(len(x), bool)
     while free.any():
-        right = -(g + H[:, ~free] @ x[~free])[free]
+        right = -(f + H[:, ~free] @ x[~free])[free]
         x[free] = np.linalg.solve(H[np.ix_(free, free)], right)
         met = (x < lo) | (x > hi)
         x = np.clip(x, lo, hi)
@@ -135,23 +152,23 @@ def clipped_for_good(H, g, lo, hi, x):
     return x
 
 
-def swept(H, g, lo, hi, x, n):
+def swept(H, f, lo, hi, x, n):
     """Return x after n sweeps, each entry best in its turn."""
     x = np.clip(x, lo, hi).astype(float)
     for _ in range(n):
         for i in range(len(x)):
-            x[i] = np.clip(x[i] - (H[i] @ x + g[i]) / H[i, i], lo[i], hi[i])
+            x[i] = np.clip(x[i] - (H[i] @ x + f[i]) / H[i, i], lo[i], hi[i])
     return x
 
 
 def guessed(
-    H, g, lo, hi, x, *, rounds=100, enough=1e-12, lets_go="most", way=None, inside=True,
+    H, f, lo, hi, x, *, rounds=100, enough=1e-12, lets_go="most", way=None, inside=True,
     high=0.0,
 ):  # fmt: skip
     """Return x of the lab's own way, with other parts.
 
     Args:
-        H, g, lo, hi, x: as the function has them.
+        H, f, lo, hi, x: as the function has them.
         rounds: how many are made at most.
         enough: by how much nobody may leave at the end.
         lets_go: "most" lets the one go that leaves most; "all" all; "steepest" the one
@@ -164,7 +181,7 @@ def guessed(
     held = lo == hi
     for _ in range(rounds):
         free = ~held
-        slope = H @ x + g
+        slope = H @ x + f
         step = np.zeros(len(x))
         if way is None:
             step[free] = np.linalg.solve(H[np.ix_(free, free)], -slope[free])
@@ -174,7 +191,7 @@ def guessed(
         if met is not None:
             held[met] = True
             continue
-        slope = H @ x + g
+        slope = H @ x + f
         leaves = np.abs(x - np.clip(x - slope, lo, hi))
         if leaves.max() < enough:
             break
@@ -186,13 +203,13 @@ def guessed(
     return x
 
 
-def held_for_good(H, g, lo, hi, x, own=True):
+def held_for_good(H, f, lo, hi, x, own=True):
     """Return x where an entry that met a limit is never let go."""
     x = np.clip(x, lo, hi)
     held = lo == hi
     for _ in range(len(x) + 1):
         free = ~held
-        right = -(H @ x + g)[free] if own else -g[free]
+        right = -(H @ x + f)[free] if own else -f[free]
         step = np.zeros(len(x))
         step[free] = np.linalg.solve(H[np.ix_(free, free)], right)
         if not own:
@@ -208,10 +225,10 @@ def held_for_good(H, g, lo, hi, x, own=True):
 
 
 @row.wrongs(hidden={"stops-too-early": "none of the lab's boxes is left by so little"})
-def _(H, g, lo, hi, x):
+def _(H, f, lo, hi, x):
     """clip-the-optimum: the best point without limits, clipped; where one entry is held
-      the others should move on => clip(-H^-1 g)
-    no-limits: the limits are left out => -H^-1 g
+      the others should move on => clip(-H^-1 f)
+    no-limits: the limits are left out => -H^-1 f
     scaled-back: the way to the best point without limits is walked up to the first
       limit; the others should go on from there
     solved-once-more: the best point without limits is clipped, the others are solved
@@ -235,7 +252,7 @@ def _(H, g, lo, hi, x):
     start-not-clipped: it starts outside the box, where a way to a limit has no sense;
       clip x first
     uphill: the free entries are solved with plus the slope
-    starts-at-0: the step of the free entries is made with g, their slope at 0; they
+    starts-at-0: the step of the free entries is made with f, their slope at 0; they
       start at x
     upper-limits-passed: the upper limits stop no step
     held-by-place: whatever stands at a limit is held, whichever way its slope pushes
@@ -262,6 +279,9 @@ def _(H, g, lo, hi, x):
       largest eigenvalue
     gradient-steps 4: this is x after 100 short steps downhill => with 1 over H's
       largest eigenvalue
+    gradient-steps 6: this is x after 1,000 short steps downhill; where H is flat one
+      way and steep another, as in 13.6, they have not arrived => with 1 over H's
+      largest eigenvalue
     one-gradient-step: this is x after one step downhill, clipped => with all of the
       slope
     one-gradient-step 2: this is x after one step downhill, clipped => with 1 over H's
@@ -277,7 +297,7 @@ def _(H, g, lo, hi, x):
     one-sweep: each entry is made best once, in turn; the first do not know what the
       last have done
     ten-sweeps: each entry is made best in turn, ten times; that is not the end yet
-    g-sign: g has the wrong sign => with -g
+    g-sign: f has the wrong sign => with -f
     half-missing: the cost has a half before x . H x, so its slope is H x => with 2 H
     lower-only: only the lower limits are kept
     upper-only: only the upper limits are kept
@@ -285,8 +305,8 @@ def _(H, g, lo, hi, x):
     H-of-the-diagonal: of H only the diagonal is used: entries pull at each other
       => with H's diagonal
     """
-    given = (H, g, lo, hi, x)
-    free = np.linalg.solve(H, -g)
+    given = (H, f, lo, hi, x)
+    free = np.linalg.solve(H, -f)
     far = 1e6 * np.ones(len(x))
     short = 1 / np.linalg.eigvalsh(H)[-1]
 
@@ -312,14 +332,18 @@ def _(H, g, lo, hi, x):
         "few-rounds 2": partial(guessed, *given, rounds=5),
         "few-rounds 3": partial(guessed, *given, rounds=10),
         "start-not-clipped": partial(guessed, *given, inside=False),
-        "uphill": partial(guessed, *given, way=lambda x, f: solve(f, (H @ x + g)[f])),
-        "starts-at-0": partial(guessed, *given, way=lambda x, f: solve(f, -g[f])),
+        "uphill": partial(
+            guessed, *given, way=lambda x, free: solve(free, (H @ x + f)[free])
+        ),
+        "starts-at-0": partial(
+            guessed, *given, way=lambda x, free: solve(free, -f[free])
+        ),
         "upper-limits-passed": partial(guessed, *given, high=np.inf),
         "held-by-place": partial(newton, *given, frees="never"),
         "frees-the-wrong-ones": partial(newton, *given, frees="wrong"),
         "held-left-out": partial(held_for_good, *given, own=False),
         "held-left-out 2": partial(
-            guessed, *given, way=lambda x, f: solve(f, -g[f]) - x[f]
+            guessed, *given, way=lambda x, free: solve(free, -f[free]) - x[free]
         ),
         "one-step": partial(newton, *given, n=1),
         "two-steps": partial(newton, *given, n=2),
@@ -329,12 +353,13 @@ def _(H, g, lo, hi, x):
         "gradient-steps": partial(slid, *given, 50, 0.01),
         "gradient-steps 2": partial(slid, *given, 1_000, 0.1),
         "diagonal-hessian 2": partial(
-            guessed, *given, way=lambda x, f: -(H @ x + g)[f] / np.diag(H)[f]
+            guessed, *given, way=lambda x, free: -(H @ x + f)[free] / np.diag(H)[free]
         ),
         "gradient-steps 3": partial(slid, *given, 30, short),
         "gradient-steps 5": partial(slid, *given, 50, short),
         "gradient-steps 4": partial(slid, *given, 100, short),
-        "one-gradient-step": np.clip(x - (H @ x + g), lo, hi),
+        "gradient-steps 6": partial(slid, *given, 1_000, short),
+        "one-gradient-step": np.clip(x - (H @ x + f), lo, hi),
         "one-gradient-step 2": partial(slid, *given, 1, short),
         "steps-too-long": partial(slid, *given, 100, 1.0),
         "few-sweeps": partial(swept, *given, 5),
@@ -342,12 +367,12 @@ def _(H, g, lo, hi, x):
         "few-sweeps 3": partial(swept, *given, 100),
         "one-sweep": partial(swept, *given, 1),
         "ten-sweeps": partial(swept, *given, 10),
-        "g-sign": partial(box_qp, H, -g, lo, hi, x),
-        "half-missing": partial(box_qp, 2 * H, g, lo, hi, x),
-        "lower-only": partial(box_qp, H, g, lo, far, x),
-        "upper-only": partial(box_qp, H, g, -far, hi, x),
+        "g-sign": partial(box_qp, H, -f, lo, hi, x),
+        "half-missing": partial(box_qp, 2 * H, f, lo, hi, x),
+        "lower-only": partial(box_qp, H, f, lo, far, x),
+        "upper-only": partial(box_qp, H, f, -far, hi, x),
         "start-returned": start,
-        "H-of-the-diagonal": partial(box_qp, np.diag(np.diag(H)), g, lo, hi, x),
+        "H-of-the-diagonal": partial(box_qp, np.diag(np.diag(H)), f, lo, hi, x),
     }
 
 
@@ -363,16 +388,16 @@ row.same("first x = np.clip(x, -1, 1)", ANYWHERE)
 
 
 @row.right  # All 3^n sets of limits that may hold.
-def _(H, g, lo, hi, x):
+def _(H, f, lo, hi, x):
     best = None
     least = np.inf
-    for where in itertools.product((-1, 0, 1), repeat=len(g)):
+    for where in itertools.product((-1, 0, 1), repeat=len(f)):
         side = np.array(where)
         there = np.where(side < 0, lo, hi).astype(float)
         free = side == 0
-        right = -(g + H[:, ~free] @ there[~free])[free]
+        right = -(f + H[:, ~free] @ there[~free])[free]
         there[free] = np.linalg.solve(H[np.ix_(free, free)], right)
-        cost = there @ H @ there / 2 + g @ there
+        cost = there @ H @ there / 2 + f @ there
         inside = np.all(there >= lo - 1e-12) and np.all(there <= hi + 1e-12)
         if inside and cost < least:
             best = there
@@ -381,12 +406,12 @@ def _(H, g, lo, hi, x):
 
 
 @row.right  # Each entry best in its turn, two thousand times.
-def _(H, g, lo, hi, x):
+def _(H, f, lo, hi, x):
     x = np.clip(x, lo, hi).astype(float)
     for _ in range(2_000):
         before = x.copy()
         for i in range(len(x)):
-            there = x[i] - (H[i] @ x + g[i]) / H[i, i]
+            there = x[i] - (H[i] @ x + f[i]) / H[i, i]
             x[i] = min(max(there, lo[i]), hi[i])
         if np.array_equal(before, x):
             break
@@ -394,9 +419,12 @@ def _(H, g, lo, hi, x):
 
 
 @row.right  # Downhill, with the step that the largest eigenvalue allows.
-def _(H, g, lo, hi, x):
+def _(H, f, lo, hi, x):
     x = np.clip(x, lo, hi)
     short = 1 / np.linalg.eigvalsh(H)[-1]
-    for _ in range(4_000):
-        x = np.clip(x - short * (H @ x + g), lo, hi)
+    for _ in range(12_000):
+        before = x
+        x = np.clip(x - short * (H @ x + f), lo, hi)
+        if np.array_equal(before, x):
+            break
     return x

@@ -1,6 +1,6 @@
 """The picture of Day 13, made with the lab's own functions; drawn by `make figures`.
 
-best    cost over promise against how far the arm starts; the circle, clipped and best
+best    measured over predicted cost against the distance of the start; the circle
 """
 
 import day13_optimal as lab
@@ -21,7 +21,7 @@ SIZES = np.array([0.01, 0.03, 0.1, 0.2, 0.3])  # rad
 
 @chart.picture(height=9.0)
 def best(figure: Figure) -> None:
-    """Draw what holding costs over its promise, and the circle's error over a lap."""
+    """Draw measured over predicted cost, and the circle's error over a lap."""
     model = day13_mujoco.arm()
     above, below = figure.subplots(2, 1)
     _promise(above, model)
@@ -29,7 +29,7 @@ def best(figure: Figure) -> None:
 
 
 def _promise(axes: Axes, model) -> None:
-    """Draw cost over promise of both sides, their mean, and of two other gains."""
+    """Draw the ratio for two opposite starts, their mean, and two other gains."""
     h = model.opt.timestep
     slope, A, B = lab.at_rest(model, lab.READY_Q, h)
     P, K = lab.promise(A, B, h)
@@ -37,7 +37,7 @@ def _promise(axes: Axes, model) -> None:
     none = lab.promise(*lab.linearise(M, 0 * slope, model.dof_damping, h), h)
     both = np.array([lab.kept(model, P, K, size) for size in SIZES])
     others = {
-        "K without gravity's slope": (none, RED, "s--"),
+        "K without gravity stiffness": (none, RED, "s--"),
         "K / 2": ((P, K / 2), ORANGE, "^--"),
     }
     mrad = 1000 * SIZES
@@ -48,30 +48,31 @@ def _promise(axes: Axes, model) -> None:
     for name, (gain, colour, mark) in others.items():
         mean = [lab.kept(model, *gain, size).mean() for size in SIZES]
         axes.semilogx(mrad, mean, mark, color=colour, label=name)
-    axes.set(xlabel="how far from ready it starts, mrad", ylabel="cost / own promise")
-    axes.set(ylim=(0.85, 1.55))
+    axes.set(xlabel="distance of the start from ready, mrad", ylim=(0.85, 1.55))
+    axes.set_ylabel("measured / predicted cost")
     axes.set_xticks([10, 30, 100, 300], ["10", "30", "100", "300"])
     axes.minorticks_off()
-    axes.set_title("All of them hold the arm; one keeps its promise")
+    axes.set_title("All gains hold the arm; one predicts its cost")
     axes.legend(loc="upper left", ncols=2)
     axes.grid()
 
 
 def _circle(axes: Axes, model) -> None:
-    """Draw how far off the circle the hand is, clipped and best."""
+    """Draw the hand's error on the circle, with clamped steps and with `qp_ik`."""
 
     def clipped(J, e, lo, hi):
         return np.clip(dls_step(J, e, lab.DAMPING), lo, hi)
 
     ways = {
-        "Day 3's step, clipped": (clipped, RED, "--"),
+        "Day 3's step, clamped": (clipped, RED, "--"),
         "qp_ik": (lab.best_step(), BLUE, "-"),
-        "qp_ik, a turn weighs 0.01": (lab.best_step(0.01), GREEN, "-."),
+        "qp_ik, orientation weight 0.01": (lab.best_step(0.01), GREEN, "-."),
     }
     for name, (step, colour, line) in ways.items():
         off, _, _ = lab.draw_circle(model, step)
         axes.plot(lab.DT * np.arange(len(off)), off, line, color=colour, label=name)
-    axes.set(xlabel="time along the circle, s", ylabel="hand off, mm", xlim=(0.5, 3.0))
+    axes.set(xlabel="time along the circle, s", xlim=(0.5, 3.0))
+    axes.set_ylabel("position error, mm")
     axes.set_title(f"A circle of {lab.RADIUS} m, all joints within their limits")
     axes.legend(loc="upper right")
     axes.grid()

@@ -2,7 +2,8 @@
 
 Three arms draw Day 3's circle within the joints' limits: one by Day 3's step, clipped;
 one by the student's `qp_ik`; one, grey, by the library's. Bars show the speeds that the
-student's step asks for, and what each limit costs, by the student's `limit_prices`.
+student's step asks for, and what each limit costs, by the student's
+`bound_multipliers`.
 """
 
 from collections.abc import Callable
@@ -70,7 +71,9 @@ class Best(Tab):
         """Draw the circle and the arms at its start; nothing runs yet."""
         super().__init__(page)
         self.arm = panda.arm(page.model)
-        self.own = page.own(optimal, units={"qp_ik": "rad", "limit_prices": "m2/rad"})
+        self.own = page.own(
+            optimal, units={"qp_ik": "rad", "bound_multipliers": "m2/rad"}
+        )
         self.set: dict[str, float] = {
             "damping": LAB.DAMPING, "turn": 1.0, "share": 1.0, "radius": LAB.RADIUS,
         }  # fmt: skip
@@ -83,8 +86,8 @@ class Best(Tab):
         title = "what your step asks, in parts of the speed limit"
         self.speeds = page.bars(JOINTS, 1.0, "", title, "up")
         title = (
-            "your limit_prices, the most so far, the library's as marks, mm2 per mrad; "
-            "below 0: an upper limit"
+            "your bound_multipliers, the most so far, the library's as marks, "
+            "mm2 per mrad; below 0: an upper limit"
         )
         self.costs = page.bars(JOINTS, 0.2, "", title, "signed")
         self.loop = page.animate(self.step, 1 / LAB.DT, work=self.draw)
@@ -133,7 +136,7 @@ class Best(Tab):
         self.circle, q = day13_mujoco.circle(*of)
         self.pens = {name: Pen(self.arm, q) for name in COLOURS}
         self.speed, self.price, self.right = np.zeros((3, 7))
-        self.last: tuple[Array, ...] = ()  # what limit_prices is asked next
+        self.last: tuple[Array, ...] = ()  # what bound_multipliers is asked next
         points = self.circle[:, :3, 3]
         self.goal.points = joined([*points, points[0]])
         self.show()
@@ -170,11 +173,11 @@ class Best(Tab):
         H = own.J.T @ (weights[:, None] * own.J) + damping**2 * np.eye(7)
         g = -own.J.T @ (weights * own.e)
         dq, prices = self.own.many(  # at once: one way there
-            asked, ("limit_prices", *(self.last or pressed(H, g)))
+            asked, ("bound_multipliers", *(self.last or pressed(H, g)))
         )
         if self.last:  # m^2 per rad are 1,000 mm^2 per mrad; box_qp has half a square
             self.price = larger(self.price, 2_000 * prices)
-            right = optimal.limit_prices(*self.last)
+            right = optimal.bound_multipliers(*self.last)
             self.right = larger(self.right, 2_000 * right)
         self.last = (H, g, own.low, own.high, dq)
         step = optimal.qp_ik(best.J, best.e, weights, damping, best.low, best.high)
@@ -215,7 +218,7 @@ class Best(Tab):
 
 
 def pressed(H: Array, g: Array) -> tuple[Array, ...]:
-    """Return what limit_prices is asked first: limits at half of the free step, (7,).
+    """Return what bound_multipliers gets first: limits at half the free step, (7,).
 
     On the way no limit may press for seconds, and all prices are 0 until then.
     """

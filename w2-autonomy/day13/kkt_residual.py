@@ -1,4 +1,4 @@
-"""13.4 `kkt_residual(H, g, lo, hi, x)`: its questions and its mistakes."""
+"""13.4 `kkt_residual(H, f, lo, hi, x)`: its questions and its mistakes."""
 
 import numpy as np
 
@@ -13,9 +13,9 @@ row = Row(Scalar())
 @row.inputs
 def _(rng):
     H = np.array([[2.0, 1], [1, 2]])
-    g = np.array([-2.0, -10])
+    f = np.array([-2.0, -10])
     one = np.ones(2)
-    cases = [(H, g, -one, one, np.array(x)) for x in ([0.5, 1.0], [-1.0, 1], [0.0, 0])]
+    cases = [(H, f, -one, one, np.array(x)) for x in ([0.5, 1.0], [-1.0, 1], [0.0, 0])]
     inside = [(*one[:4], np.round((one[2] + one[3]) / 2, 3)) for one in boxed(rng)[:4]]
     clipped = [
         (*one[:4], np.clip(np.linalg.solve(one[0], -one[1]).round(3), *one[2:4]))
@@ -24,24 +24,24 @@ def _(rng):
     return [*cases, *inside, *clipped, *problems(rng, 4), *boxed(rng)]
 
 
-def clipped_first(H, g, lo, hi, x):
+def clipped_first(H, f, lo, hi, x):
     """Return the residual of the nearest point of the box."""
     x = np.clip(x, lo, hi)
-    return np.abs(x - np.clip(x - (H @ x + g), lo, hi)).max()
+    return np.abs(x - np.clip(x - (H @ x + f), lo, hi)).max()
 
 
 @row.wrongs
-def _(H, g, lo, hi, x):
+def _(H, f, lo, hi, x):
     """gradient-only: that is the largest slope; where a limit holds x, a slope is no
-      fault => the largest of |H x + g|
+      fault => the largest of |H x + f|
     box-only: that is how far x is outside the box: it is 0 for every x inside => the
       largest of |x - clip(x)|
-    g-forgotten: g is missing in the slope => with H x for the slope
-    H-forgotten: H is missing in the slope => with g for the slope
+    g-forgotten: f is missing in the slope => with H x for the slope
+    H-forgotten: H is missing in the slope => with f for the slope
     slope-sign: x is pushed uphill: the slope is subtracted => with clip(x + slope)
-    slope-halved: the slope of x . H x / 2 is H x, without the half => with H x / 2 + g
+    slope-halved: the slope of x . H x / 2 is H x, without the half => with H x / 2 + f
     slope-doubled: the cost has a half before x . H x, so its slope has no 2 => with 2 H
-      x + g
+      x + f
     norm: the differences are squared and added; the largest is asked => their length
     summed: the differences are added; the largest is asked => the sum of their sizes
     mean: that is their mean; the largest is asked => the mean of their sizes
@@ -93,7 +93,7 @@ def _(H, g, lo, hi, x):
     signed-limit: which limit an entry is pushed to is left out: at either one slopes
       count for nothing => the slope, 0 at the limits
     """
-    s = H @ x + g
+    s = H @ x + f
     d = x - np.clip(x - s, lo, hi)
     there = x - d
     free = (x > lo) & (x < hi)
@@ -109,10 +109,10 @@ def _(H, g, lo, hi, x):
         "gradient-only": np.abs(s).max(),
         "box-only": np.abs(x - np.clip(x, lo, hi)).max(),
         "g-forgotten": by(H @ x),
-        "H-forgotten": by(g),
+        "H-forgotten": by(f),
         "slope-sign": by(-s),
-        "slope-halved": by(H @ x / 2 + g),
-        "slope-doubled": by(2 * H @ x + g),
+        "slope-halved": by(H @ x / 2 + f),
+        "slope-doubled": by(2 * H @ x + f),
         "norm": np.linalg.norm(d),
         "summed": np.abs(d).sum(),
         "mean": np.abs(d).mean(),
@@ -125,13 +125,13 @@ def _(H, g, lo, hi, x):
         "lower-only": np.abs(x - np.maximum(x - s, lo)).max(),
         "upper-only": np.abs(x - np.minimum(x - s, hi)).max(),
         "clip-the-push": np.abs(np.clip(-s, lo, hi)).max(),
-        "cost-gap": abs(x @ H @ x / 2 + g @ x - there @ H @ there / 2 - g @ there),
+        "cost-gap": abs(x @ H @ x / 2 + f @ x - there @ H @ there / 2 - f @ there),
         "first-only": abs(d[0]),
         "last-only": abs(d[-1]),
         "share-of-x": np.abs(d).max() / max(1.0, np.abs(x).max()),
         "squares-summed": np.sum(d**2),
         "squared": np.abs(d).max() ** 2,
-        "distance": np.abs(x - box_qp(H, g, lo, hi, x)).max(),
+        "distance": np.abs(x - box_qp(H, f, lo, hi, x)).max(),
         "newton-push": by(np.linalg.solve(H, s)),
         "jacobi-push": by(s / np.diag(H)),
         "limits-swapped": np.abs(x - np.clip(x - s, hi, lo)).max(),
@@ -139,10 +139,10 @@ def _(H, g, lo, hi, x):
         "half-a-push": by(s / 2),
         "pushed-from-0": np.abs(x - np.clip(-s, lo, hi)).max(),
         "unit-box": np.abs(x - np.clip(x - s, -1, 1)).max(),
-        "diagonal-of-H": by(np.diag(H) * x + g),
+        "diagonal-of-H": by(np.diag(H) * x + f),
         "which-one": float(np.abs(d).argmax()),
         "clipped-for-the-difference": np.abs(np.clip(x, lo, hi) - x + d).max(),
-        "clipped-first": clipped_first(H, g, lo, hi, x),
+        "clipped-first": clipped_first(H, f, lo, hi, x),
         "slope-that-counts": np.abs(counted).max(),
         "slope-that-counts 2": np.abs(np.where(stays, 0.0, s)).max(),
         "signed-limit": np.abs(np.where(free, s, 0.0)).max(),
@@ -153,10 +153,10 @@ row.at_least_0(answer="a size")
 
 
 @row.right  # An entry at a time.
-def _(H, g, lo, hi, x):
+def _(H, f, lo, hi, x):
     worst = 0.0
     for i in range(len(x)):
-        there = x[i] - H[i] @ x - g[i]
+        there = x[i] - H[i] @ x - f[i]
         there = min(max(there, lo[i]), hi[i])
         worst = max(worst, abs(there - x[i]))
     return worst

@@ -1,4 +1,4 @@
-"""13.2 `linearise(M, slope, damping, h)`: its questions and its mistakes."""
+"""13.2 `linearise(M, stiffness, damping, h)`: its questions and its mistakes."""
 
 import numpy as np
 
@@ -14,19 +14,21 @@ def _(rng):
     drawn = []
     for k in range(7):
         n = [2, 3, 7][k % 3]
-        slope = symmetric(rng, n, 10)
+        stiffness = symmetric(rng, n, 10)
         h = [0.1, 0.05, 0.2, 0.01][k % 4]
-        drawn.append((definite(rng, n), slope, rng.numbers(0.2, 3, n), h))
+        drawn.append((definite(rng, n), stiffness, rng.numbers(0.2, 3, n), h))
     one = np.ones((1, 1))
     return [(one, 10 * one, np.array([1.0]), 0.1), *drawn]
 
 
-def stepped(M, slope, damping, h, *, implicit=1.0, explicit=0.0, old=False, inv=None):
+def stepped(
+    M, stiffness, damping, h, *, implicit=1.0, explicit=0.0, old=False, inv=None
+):
     """Return A and B with the damping on either speed, and either speed in q+."""
     n = len(damping)
     D = np.diag(damping)
     inverse = np.linalg.inv(M + implicit * h * D) if inv is None else inv
-    by_q = -h * inverse @ slope
+    by_q = -h * inverse @ stiffness
     by_v = inverse @ (M - explicit * h * D)
     by_u = h * inverse
     one = np.eye(n)
@@ -53,13 +55,13 @@ def exact(A, B, h, terms=59):
 
 
 @row.wrongs
-def _(M, slope, damping, h):
+def _(M, stiffness, damping, h):
     """slope-sign: gravity's slope has the wrong sign: what holds the arm grows by it,
-      so it pulls with a minus => with -slope
+      so it pulls with a minus => with -stiffness
     slope-forgotten: gravity's slope is missing: the torque that holds the arm is that
-      of q0, and elsewhere it does not fit => with slope 0
+      of q0, and elsewhere it does not fit => with stiffness 0
     slope-not-divided: the slope is a torque, and here it is taken for an acceleration:
-      M + h D divides it => with -h slope
+      M + h D divides it => with -h stiffness
     explicit-damping: the damping acts on the old speed; MuJoCo's implicitfast lets it
       act on the new one: it stands with M on the left => with M^-1 (M - h D)
     damping-forgotten: the damping is missing
@@ -82,7 +84,7 @@ def _(M, slope, damping, h):
     inverse-by-entry: each entry of M + h D is inverted by itself; it is the inverse of
       the matrix => with 1 / (M + h D)
     slope-from-the-right: the slope stands before (M + h D)^-1; matrices do not change
-      places => with -h slope (M + h D)^-1
+      places => with -h stiffness (M + h D)^-1
     M-from-the-right: M stands before (M + h D)^-1; matrices do not change places =>
       with M (M + h D)^-1
     position-kept: in the upper left of A stands 1: the slope moves the joints within
@@ -105,7 +107,7 @@ def _(M, slope, damping, h):
     exponential 2: these are the first terms of the exact ones of the motion in
       continuous time; MuJoCo's step is not => with 1 + h A + h^2 A^2 / 2
     slope-implicit: the slope acts on the new position; in MuJoCo it acts on the old one
-      => with M + h D + h^2 slope
+      => with M + h D + h^2 stiffness
     damping-not-diagonal: damping is added to every row of M; it belongs on the diagonal
       => with M + h damping
     damping-not-divided: the damping is not divided by M, and acts on the old speed
@@ -128,19 +130,19 @@ def _(M, slope, damping, h):
     n = len(damping)
     one = np.eye(n)
     D = np.diag(damping)
-    given = M, slope, damping, h
+    given = M, stiffness, damping, h
     A, B = stepped(*given)
     qq, qv, vq, vv = A[:n, :n], A[:n, n:], A[n:, :n], A[n:, n:]
     flip = np.roll(np.arange(2 * n), n)
     M_inv = np.linalg.inv(M)
-    rate = joined(0 * one, one, -M_inv @ slope, -M_inv @ D, 0 * one, M_inv)
+    rate = joined(0 * one, one, -M_inv @ stiffness, -M_inv @ D, 0 * one, M_inv)
     v_mean = joined(one + h * vq / 2, h * (one + vv) / 2, vq, vv, h * B[n:] / 2, B[n:])
     no_h = vq / h
     return {
-        "slope-sign": stepped(M, -slope, damping, h),
-        "slope-forgotten": stepped(M, 0 * slope, damping, h),
+        "slope-sign": stepped(M, -stiffness, damping, h),
+        "slope-forgotten": stepped(M, 0 * stiffness, damping, h),
         "slope-not-divided": joined(
-            one - h * h * slope, qv, -h * slope, vv, B[:n], B[n:]
+            one - h * h * stiffness, qv, -h * stiffness, vv, B[:n], B[n:]
         ),
         "explicit-damping": stepped(*given, implicit=0.0, explicit=1.0),
         "damping-forgotten": stepped(*given, implicit=0.0),
@@ -148,8 +150,8 @@ def _(M, slope, damping, h):
         "damping-sign": stepped(*given, implicit=-1.0),
         "damping-twice": stepped(*given, explicit=1.0),
         "damping-halved": stepped(*given, implicit=0.5, explicit=0.5),
-        "mean-damping": stepped(M, slope, 0 * damping + damping.mean(), h),
-        "damping-of-the-first": stepped(M, slope, 0 * damping + damping[0], h),
+        "mean-damping": stepped(M, stiffness, 0 * damping + damping.mean(), h),
+        "damping-of-the-first": stepped(M, stiffness, 0 * damping + damping[0], h),
         "damping-squared": stepped(*given, implicit=h),
         "position-first": stepped(*given, old=True),
         "half-h-squared": v_mean,
@@ -158,9 +160,9 @@ def _(M, slope, damping, h):
         "M-for-inverse": stepped(*given, inv=M + h * D),
         "inverse-by-entry": stepped(*given, inv=1 / (M + h * D)),
         "slope-from-the-right": joined(
-            one - h * h * slope @ B[n:] / h,
+            one - h * h * stiffness @ B[n:] / h,
             qv,
-            -h * slope @ B[n:] / h,
+            -h * stiffness @ B[n:] / h,
             vv,
             B[:n],
             B[n:],
@@ -178,17 +180,17 @@ def _(M, slope, damping, h):
         "A-columns-swapped": (A[:, flip], B),
         "B-swapped": (A, B[flip]),
         "A-transposed": (A.T, B),
-        "A-diagonal-M": stepped(np.diag(np.diag(M)), slope, damping, h),
+        "A-diagonal-M": stepped(np.diag(np.diag(M)), stiffness, damping, h),
         "exponential": exact(*rate, h),
         "exponential 2": exact(*rate, h, terms=2),
         "slope-implicit": stepped(
-            M, slope, damping, h, inv=np.linalg.inv(M + h * D + h * h * slope)
+            M, stiffness, damping, h, inv=np.linalg.inv(M + h * D + h * h * stiffness)
         ),
         "damping-not-diagonal": stepped(*given, inv=np.linalg.inv(M + h * damping)),
         "damping-not-divided": joined(
-            one - h * h * M_inv @ slope,
+            one - h * h * M_inv @ stiffness,
             h * (one - h * D),
-            -h * M_inv @ slope,
+            -h * M_inv @ stiffness,
             one - h * D,
             h * h * M_inv,
             h * M_inv,
@@ -198,7 +200,7 @@ def _(M, slope, damping, h):
         "B-without-damping": (A, np.vstack([h * h * M_inv, h * M_inv])),
         "M-forgotten-in-A": joined(qq, B[n:], vq, B[n:] / h, B[:n], B[n:]),
         "h-twice-in-B": (A, h * B),
-        "diagonal-of-the-slope": stepped(M, np.diag(np.diag(slope)), damping, h),
+        "diagonal-of-the-slope": stepped(M, np.diag(np.diag(stiffness)), damping, h),
         "slope-halved-above": joined(one + h * vq / 2, qv, vq, vv, B[:n], B[n:]),
         "B-halved-above": (A, np.vstack([B[:n] / 2, B[n:]])),
         "upper-right-h": joined(qq, h * one, vq, vv, B[:n], B[n:]),
@@ -211,11 +213,11 @@ row.at_least_0(damping="a damping", h="a time")
 
 
 @row.right  # Column by column: what one step makes of each unit state and input.
-def _(M, slope, damping, h):
+def _(M, stiffness, damping, h):
     n = len(damping)
 
     def step(q, v, u):
-        v = np.linalg.solve(M + h * np.diag(damping), M @ v - h * slope @ q + h * u)
+        v = np.linalg.solve(M + h * np.diag(damping), M @ v - h * stiffness @ q + h * u)
         return np.concatenate([q + h * v, v])
 
     zero = np.zeros(n)

@@ -1,8 +1,10 @@
 """Day 13: the numbers in the guide's sentences, and every reason in it."""
 
 import re
+from itertools import pairwise
 from unittest.mock import patch
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -10,7 +12,7 @@ from conftest import ROOT, load_script, printed_by, sentences
 from labkit.judge.row import row_of
 from labkit.lesson.day import find_day
 from robo47 import optimal, panda
-from robo47.jacobian import dls_step
+from robo47.jacobian import dls_step, pose_error
 
 import day13_mujoco
 
@@ -23,7 +25,7 @@ H = MODEL.opt.timestep
 X = lab.JUDGED * np.append(lab.WAY, np.zeros(7))
 SLOPE, A, B = lab.at_rest(MODEL, lab.READY_Q, H)
 P, K = lab.promise(A, B, H)
-BEST = optimal.lqr_cost(P, X)
+BEST = optimal.cost_to_go(P, X)
 # On a table gravity points down, so these two are right there.
 NOT_HERE = {"only-z", "minus-9.81"}
 
@@ -31,7 +33,7 @@ NOT_HERE = {"only-z", "minus-9.81"}
 def costs(P, K, both=True):
     """Return cost over own promise, and over the best cost, of both sides."""
     sides = [lab.paid(MODEL, K, x) for x in ((X, -X) if both else (X,))]
-    return np.mean(sides) / optimal.lqr_cost(P, X), np.mean(sides) / BEST
+    return np.mean(sides) / optimal.cost_to_go(P, X), np.mean(sides) / BEST
 
 
 def with_slope(slope):
@@ -49,8 +51,8 @@ def clipped(J, e, lo, hi, damping=lab.DAMPING):
 def printed():
     """Return what the lab prints, with predictions of all three numbers."""
     stiff = "stiffness of joint 2, N m/rad"
-    other = "cost / promise of the other side, 0.1 rad"
-    asked = (stiff, other, "mm off a circle of 0.38 m, at most")
+    other = "measured / predicted cost, stretched by 0.1 rad"
+    asked = (stiff, other, "largest error on a circle of 0.38 m, mm")
     return printed_by(lab, dict.fromkeys(asked, "1"))
 
 
@@ -60,16 +62,14 @@ def test_the_three_predictions_are_answered_and_measured(printed):
     slope = SLOPE[1, 1]
     ratio = lab.Q_COST[0] / lab.R_COST
     stiff = -slope + np.sqrt(slope**2 + ratio)
-    assert f"slope of gravity is {slope:.1f} N m/rad" in SENTENCES.replace(
-        "is -", "is -"
-    )
+    assert f"gravity stiffness of joint 2 is {slope:.1f} N m/rad" in SENTENCES
     assert f"= {stiff:.1f} N m/rad" in SENTENCES
     assert f"sqrt(10,000) = {np.sqrt(ratio):.0f}" in SENTENCES
-    for number in ("stiffness of joint 2", "cost / promise of the other", "mm off a"):
+    for number in ("stiffness of joint 2", "measured / predicted", "largest error"):
         assert f"| {number}" in sheet
         assert re.search(rf"measured [\d.]+:\s+{re.escape(number)}", printed)
     one, other = lab.kept(MODEL, P, K, 0.1)[::-1]
-    assert f"costs {one:.3f} times what was promised" in SENTENCES
+    assert f"costs {one:.3f} times the predicted cost" in SENTENCES
     assert f"so {one:.3f} becomes {2 - one:.3f}" in SENTENCES
     assert abs(other - (2 - one)) < 0.003
 
@@ -79,7 +79,7 @@ def test_all_wrong_slopes_but_one_hold_the_arm_and_most_cost_little():
     now = ARM.at(lab.READY_Q)
     given = now.J_space, ARM.masses, now.coms_world, ARM.gravity
     falls, dear, off, seen = [], [], [], set()
-    for way in row_of(DAY, "gravity_slope").named:
+    for way in row_of(DAY, "gravity_stiffness").named:
         if way.slug in NOT_HERE | seen:
             continue
         seen.add(way.slug)
@@ -92,12 +92,13 @@ def test_all_wrong_slopes_but_one_hold_the_arm_and_most_cost_little():
     assert len(off) - len(falls) > 30
     assert falls == ["lever-sign"]
     assert np.mean(np.less(dear, 1.1)) >= 0.75
-    assert "More than thirty wrong formulas" in SENTENCES
-    assert "all but one hold the arm still, and three in four cost less than 10 %" in (
+    assert "We implemented more than thirty of them" in SENTENCES
+    assert "with all but one the arm stays still" in SENTENCES
+    assert "Three quarters of the wrong controllers cost less than 10 %" in SENTENCES
+    third = 100 * sorted(off)[2]
+    assert f"all but two of the wrong ones they differ by at least {third:.1f} %" in (
         SENTENCES
     )
-    third = 100 * sorted(off)[2]
-    assert f"wrong ones, all but two, are off by {third:.1f} % at least" in SENTENCES
     assert abs(costs(P, K)[0] - 1) < 1e-5  # to 1 in 100,000
 
 
@@ -106,7 +107,7 @@ def test_by_hand_one_hinge_one_joint_one_box():
     g = np.array([0, 0, -9.81])
     assert np.allclose(np.cross(g, J[:3, 0]), (9.81, 0, 0))
     for side, known in ((1, -19.62), (-1, 19.62)):
-        slope = lab.gravity_slope(J, np.array([2.0]), np.array([[0, 0, side]]), g)
+        slope = lab.gravity_stiffness(J, np.array([2.0]), np.array([[0, 0, side]]), g)
         assert slope == pytest.approx(known)
     step = lab.linearise(np.eye(1), 10 * np.eye(1), np.ones(1), 0.1)
     assert np.allclose(step[0], np.array([[10, 1], [-10, 10]]) / 11)
@@ -132,24 +133,24 @@ def test_the_formula_of_the_stiffness_has_no_step_and_the_gap_halves_with_it():
             first.append(np.diag(lab.promise(*step, h)[1])[:2])
     joint_1, joint_2 = np.array(first).T
     known = ", ".join(f"{x:.1f}" for x in joint_1[:3]) + f" and {joint_1[3]:.1f}"
-    assert f"joint 1 has {known}" in SENTENCES
-    assert f"held with {joint_2[1]:.1f}, not 135.1" in SENTENCES
+    assert f"joint 1 has {known} N m/rad" in SENTENCES
+    assert f"held with {joint_2[1]:.1f} N m/rad and not with 135.1" in SENTENCES
     gap = 100 - joint_1
     assert np.allclose(gap[:-1] / gap[1:], 2, atol=0.06)
 
 
 def test_one_side_is_off_by_a_cubic_term_and_the_mean_of_both_is_not():
     near, far = (lab.kept(MODEL, P, K, size) for size in (0.01, 0.1))
-    assert f"off by {100 * (near[1] - 1):.2f} % at 10 mrad" in SENTENCES
+    assert f"prediction by {100 * (near[1] - 1):.2f} % at 10 mrad" in SENTENCES
     assert (far[1] - 1) / (near[1] - 1) == pytest.approx(10, rel=0.05)
     assert (near[1] - 1) / (1 - near[0]) == pytest.approx(1, rel=0.02)
     assert f"off by {near.mean() - 1:.0e}".replace("e-0", "e-") in SENTENCES
     assert (far.mean() - 1) / (near.mean() - 1) == pytest.approx(100, rel=0.02)
     wrong = with_slope(np.triu(SLOPE))
     kept, _ = costs(*wrong)
-    assert f"off by {100 * (kept - 1):.1f} %, " in SENTENCES
+    assert f"is off by {100 * (kept - 1):.1f} % in the mean" in SENTENCES
     one_side, _ = costs(*wrong, both=False)
-    assert f"({one_side:.3f} on one side)" in SENTENCES
+    assert f"({one_side:.3f} with one start)" in SENTENCES
 
 
 def test_it_stabilises_and_is_not_best(printed):
@@ -157,13 +158,15 @@ def test_it_stabilises_and_is_not_best(printed):
     assert f"by a factor e in {1 / fall:.2f} s" in SENTENCES
     none, tenth = with_slope(0 * SLOPE), lab.promise(A, B, H, 10 * lab.R_COST)
     kept, dear = costs(*none)
-    assert f"without gravity's slope costs {100 * (dear - 1):.0f} % more" in SENTENCES
-    assert f"promises {100 * (1 - 1 / kept):.0f} % too little" in SENTENCES
-    assert f"half the gain {100 * (costs(P, K / 2)[1] - 1):.0f} %" in SENTENCES
+    assert f"without the gravity stiffness costs {100 * (dear - 1):.0f} % more" in (
+        SENTENCES
+    )
+    assert f"predicts {100 * (1 - 1 / kept):.0f} % too little" in SENTENCES
+    assert f"half of the gain {100 * (costs(P, K / 2)[1] - 1):.0f} % more" in SENTENCES
     kept, dear = costs(*tenth)
-    assert f"its price {100 * (dear - 1):.0f} %" in SENTENCES
+    assert f"ten times the effort cost {100 * (dear - 1):.0f} % more" in SENTENCES
     assert 0.45 < kept < 0.5
-    assert "the third twice what it takes" in SENTENCES
+    assert "the third twice the measured cost" in SENTENCES
     for text in (f"{kept:.3f}", f"{dear:.3f}"):
         assert text in printed
 
@@ -191,9 +194,9 @@ def test_the_gain_is_good_long_before_the_promise_is():
             found.append(costs(*lab.promise(A, B, H)))
     kept, dear = np.array(found).T
     said = f"{kept[0]:.0f}, {kept[1]:.2f}, {kept[2]:.3f} and {kept[3]:.4f}"
-    assert f"cost over promise is {said}" in SENTENCES
+    assert f"measured and predicted cost is {said}" in SENTENCES
     said = f"{dear[0]:.1f}, {dear[1]:.2f}, {dear[2]:.4f} and {dear[3]:.4f}"
-    assert f"over the best's {said}" in SENTENCES
+    assert f"cost {said} times as much" in SENTENCES
     # What a gain that is a little wrong costs is of second order.
     off = [costs(P, (1 + size) * K)[1] - 1 for size in (0.05, 0.1)]
     assert off[1] / off[0] == pytest.approx(4, rel=0.1)
@@ -212,7 +215,7 @@ def test_whole_steps_that_are_clipped_go_in_circles():
     residual = lab.kkt_residual(*given, end)
     best = lab.box_qp(*given, x)
     assert residual > 0.1
-    assert f"{np.abs(end - best).max():.3f} from where" in SENTENCES
+    assert f"{np.abs(end - best).max():.3f} from the minimiser" in SENTENCES
 
 
 @pytest.mark.kit
@@ -234,15 +237,15 @@ def test_ten_times_are_enough_for_seven_numbers():
 
 
 def test_the_circle_clipped_slowed_and_best(printed):
-    for row in ("clipped +57.35", "qp_ik +12.92", "0.1 +11.69", "0.01 +6.18"):
+    for row in ("clamped +57.35", "qp_ik +12.92", "0.1 +11.69", "0.01 +6.18"):
         assert re.search(row, printed)
-    assert "Clipping makes 57 mm of it, where 13 are possible" in SENTENCES
+    assert "clamping gives an error of 57 mm where 13 mm is possible" in SENTENCES
     assert "11.69 and 6.18 mm" in SENTENCES
     a = 0.1148
     far = 13.0916
     paper = [far / (1 + a**2 / w) for w in (1, 0.1, 0.01)]
-    assert f"{paper[0]:.2f} for w = 1" in SENTENCES
-    assert f"says {paper[1]:.2f} and {paper[2]:.2f}" in SENTENCES
+    assert f"{paper[0]:.2f} mm for w = 1" in SENTENCES
+    assert f"gives {paper[1]:.2f} and {paper[2]:.2f} mm" in SENTENCES
 
 
 def test_on_paper_the_worst_point_is_past_the_top_and_a_tilt_brings_the_wrist_nearer():
@@ -254,11 +257,14 @@ def test_on_paper_the_worst_point_is_past_the_top_and_a_tilt_brings_the_wrist_ne
     far = np.hypot(side, up)
     at = np.argmax(far)
     assert f"{np.degrees(turn[at]) - 90:.1f} degrees past the top" in SENTENCES
-    assert f"{far[at]:.5f} m from the shoulder, and can be {reach:.5f}" in SENTENCES
-    assert f"And {1000 * (far[at] - reach):.2f} mm" in SENTENCES
+    assert (
+        f"{far[at]:.5f} m from the shoulder, but the arm can reach only {reach:.5f}"
+        in (SENTENCES)
+    )
+    assert f"too short by {1000 * (far[at] - reach):.2f} mm" in SENTENCES
     # The wrist is (-0.088, 0.107) from the tool; its way to the shoulder is (side, up).
     a = (0.088 * up[at] + 0.107 * side[at]) / far[at]
-    assert f"brings the wrist {a:.3f} t m nearer" in SENTENCES
+    assert f"wrist ${a:.3f} t$ metres nearer" in SENTENCES
 
 
 @pytest.mark.kit
@@ -267,9 +273,9 @@ def test_the_exercises_numbers_and_what_is_left_is_the_step():
         with patch.object(lab, "DT", dt), patch.object(day13_mujoco, "LAP", lap):
             return lab.draw_circle(MODEL, lab.best_step(turn))[0].max()
 
-    assert f"A lap in 12 s: {off(1.0, lap=12.0):.2f} mm" in SENTENCES
+    assert f"A lap in 12 s gives {off(1.0, lap=12.0):.2f} mm" in SENTENCES
     short = f"{off(0.1, 0.01):.2f} and {off(0.01, 0.01):.2f}"
-    assert f"With steps of 10 ms it is {short}" in SENTENCES
+    assert f"With steps of 10 ms it is {short} mm" in SENTENCES
     paper = 13.0916 / (1 + 0.1148**2 / 0.01)
     assert abs(off(0.01, 0.01) - paper) < 0.2 * abs(off(0.01) - paper)
 
@@ -286,25 +292,69 @@ def test_one_factor_for_all_joints_stops_at_the_end_of_a_range():
         return least[-1] * dq
 
     off, share, beyond = lab.draw_circle(MODEL, slowed)
-    assert f"{off.max():.0f} mm: once a joint" in SENTENCES
+    assert f"gives {off.max():.0f} mm: as soon as one joint" in SENTENCES
     assert least[-1] == 0.0
     assert share.max() <= 1.0 + 1e-12
     assert beyond < 1e-12
     with patch.object(lab, "DAMPING", 0.05):
         ways = (lambda *x: clipped(*x, 0.05), lab.best_step())
         both = [lab.draw_circle(MODEL, step)[0].max() for step in ways]
-    assert all(f"all ways are {one:.1f} mm off" in SENTENCES for one in both)
+    assert all(f"both methods give {one:.1f} mm" in SENTENCES for one in both)
 
 
 @pytest.mark.kit
-def test_limits_twice_as_wide_are_worse_since_a_long_step_is_not_straight():
+def test_limits_twice_as_wide_are_worse_and_the_jacobian_of_the_step_is_not_the_cause():
     def off(limit, dt):
         with patch.object(lab, "SPEED", limit * lab.SPEED), patch.object(lab, "DT", dt):
             return lab.draw_circle(MODEL, lab.best_step())[0].max()
 
     wide = off(2, 0.02)
-    assert f"{wide:.2f} mm" in SENTENCES
-    assert f"{off(2, 0.01):.2f} again" in SENTENCES
+    assert f"is {wide:.2f} mm off, more than with the tighter limits" in SENTENCES
+    assert f"it is {off(2, 0.01):.2f} mm" in SENTENCES
+    again = recomputed(2.0)
+    assert f"the error grows to {again:.1f} mm" in SENTENCES
+    assert again > wide
+
+
+def recomputed(limit):
+    """Return the circle's error with each step repeated, with J at its end."""
+    low, high = MODEL.jnt_range.T
+    times = np.arange(0.0, day13_mujoco.LAP, lab.DT)
+    path, q = day13_mujoco.circle(MODEL, lab.RADIUS, times)
+    off = []
+    for T_now, T_next in pairwise(path):
+        now = ARM.at(q)
+        T = now.T_world_ee
+        e = pose_error(T_now, T_next) + lab.DT * lab.GAIN * pose_error(T, T_now)
+        off.append(1000 * np.linalg.norm(T_now[:3, 3] - T[:3, 3]))
+        reach = limit * lab.SPEED * lab.DT
+        lo, hi = np.maximum(-reach, low - q), np.minimum(reach, high - q)
+        dq = lab.qp_ik(now.J_site, e, np.ones(6), lab.DAMPING, lo, hi)
+        there = ARM.at(q + dq)
+        J = there.J_site
+        left = e - pose_error(T, there.T_world_ee)
+        G = J.T @ J + lab.DAMPING**2 * np.eye(7)
+        linear = -J.T @ left + lab.DAMPING**2 * dq
+        q = q + dq + lab.box_qp(G, linear, lo - dq, hi - dq, np.zeros(7))
+    return max(off)
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize("damping", [0.0025, 0.005, 0.01, 0.015, 0.02, 0.05])
+def test_clamping_is_as_good_as_the_damping_that_was_guessed(damping):
+    met = []
+
+    def clamped_step(J, e, lo, hi):
+        step = dls_step(J, e, damping)
+        met.append(bool(np.any((step < lo - 1e-12) | (step > hi + 1e-12))))
+        return np.clip(step, lo, hi)
+
+    with patch.object(lab, "DAMPING", damping):
+        clamped = lab.draw_circle(MODEL, clamped_step)[0].max()
+        steps = sum(met)
+        best = lab.draw_circle(MODEL, lab.best_step())[0].max()
+    assert f"| {damping:g} | {clamped:.1f} | {best:.2f} | {steps} |" in SENTENCES
+    assert best < 13.0 or damping > 0.015
 
 
 @pytest.mark.kit
@@ -314,7 +364,7 @@ def test_the_elbow_pays_for_the_limits():
     def priced(J, e, lo, hi):
         dq = lab.best_step()(J, e, lo, hi)
         cost = J.T @ J + lab.DAMPING**2 * np.eye(7)
-        prices = lab.limit_prices(cost, -J.T @ e, lo, hi, dq)
+        prices = lab.bound_multipliers(cost, -J.T @ e, lo, hi, dq)
         nonlocal sums
         sums = sums + np.abs(prices)
         for j in np.flatnonzero(prices):
@@ -326,7 +376,7 @@ def test_the_elbow_pays_for_the_limits():
     assert f"{steps[3, 0]} of the lap's {len(off)} steps" in SENTENCES
     assert f"its range in {steps[3, 1]}" in SENTENCES
     share = 100 * sums[0] / sums.sum()
-    assert f"joint 1's speed in {steps[0, 0]}, for {share:.1f} %" in SENTENCES
+    assert f"joint 1 is limited in {steps[0, 0]}, with {share:.1f} %" in SENTENCES
     assert steps.sum() == steps[3].sum() + steps[0, 0]
 
 
@@ -366,11 +416,11 @@ def free_body(right):
 
 MISTAKES = {
     "none": lambda right: right,
-    "lu forgotten": no_lu,
-    "Vx's speeds with the wrong sign": speeds_turned,
-    "slopes of the first step for all": first_slopes,
-    "lx forgotten": no_lx,
-    "A of a body without gravity or damping": free_body,
+    "$l_u$ omitted": no_lu,
+    "velocities in $V_x$ negated": speeds_turned,
+    "derivatives of the first step used for all": first_slopes,
+    "$l_x$ omitted": no_lx,
+    "A without gravity and damping": free_body,
 }
 
 
@@ -401,10 +451,12 @@ def test_the_table_of_mistakes_whose_cost_fell(name):
 @pytest.mark.kit
 def test_forgetting_lu_ends_nearer_and_dearer_and_the_first_round_cannot_show_it():
     right, near = reached(MISTAKES["none"])
-    wrong, nearer = reached(MISTAKES["lu forgotten"])
+    wrong, nearer = reached(MISTAKES["$l_u$ omitted"])
     assert nearer < 0.6 * near
     dearer = 100 * (wrong[-1][0] / right[-1][0] - 1)
-    assert f"costs {dearer:.0f} % more: nearer is not" in SENTENCES
+    assert f"costs {dearer:.0f} % more: the distance to the goal is only one part" in (
+        SENTENCES
+    )
     assert wrong[1] == right[1]
     task = day13_mujoco.Reach(MODEL, lab.READY_Q, lab.READY_Q + lab.TO)
     zero = np.zeros((lab.MOTION, 7))
@@ -422,5 +474,110 @@ def test_without_its_gain_the_arm_leaves_the_path():
 
     with patch.object(lab, "ilqr_backward", no_gain):
         found = lab.reach(MODEL)
-    assert "the cost falls to about 720 only" in SENTENCES
+    assert "the cost falls to only about 720" in SENTENCES
     assert found[1][0] == pytest.approx(720, abs=2)
+
+
+# --- what an outsider's runs refuted ---
+
+
+def one_step_with(mistake):
+    """Return a Riccati step with a mistake that the robot does not show."""
+
+    def step(P, A, B, Q, R):
+        K = np.linalg.solve(R + B.T @ P @ B, B.T @ P @ A)
+        if mistake == "no BPB":
+            K = np.linalg.solve(R, B.T @ P @ A)
+            return Q + A.T @ P @ (A - B @ K), K
+        if mistake == "no effort":
+            return Q + (A - B @ K).T @ P @ (A - B @ K), K
+        return Q + A.T @ P @ A - A.T @ P @ B @ K / 2, K
+
+    return step
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize(
+    ("mistake", "row"),
+    [
+        ("no BPB", "| $B^T P B$ omitted from $K$ | {:.4f} |"),
+        ("no effort", "(A - B K)^T P (A - B K)$ | {:.2f} |"),
+        ("half", "A^T P B K$ | {:.2f} |"),
+    ],
+)
+def test_three_wrong_riccati_steps_hold_the_arm_and_miss_their_predicted_cost(
+    mistake, row
+):
+    with patch.object(lab, "riccati_step", one_step_with(mistake)):
+        wrong = lab.promise(A, B, H)
+    ratio, _ = costs(*wrong)
+    assert row.format(ratio) in SENTENCES
+    assert np.abs(np.linalg.eigvals(A - B @ wrong[1])).max() < 1
+
+
+def test_a_gain_of_the_wrong_sign_is_seen_at_once():
+    data = day13_mujoco.at(MODEL, lab.READY_Q, X)
+    hold = data.ctrl.copy()
+    steps = 0
+    while np.abs(data.qpos - lab.READY_Q).max() <= 0.2 and steps < 200:
+        steps += 1
+        now = np.append(data.qpos - lab.READY_Q, data.qvel)
+        data.ctrl[:] = hold + K @ now
+        mujoco.mj_step(MODEL, data)
+    assert steps * H == pytest.approx(0.12, abs=0.005)
+    assert "by 0.2 rad within 0.12 s" in SENTENCES
+
+
+@pytest.mark.kit
+def test_the_mean_of_two_starts_is_near_the_prediction_in_other_directions_too():
+    rng = np.random.default_rng(0)
+    off = []
+    for _ in range(5):
+        one = rng.normal(size=7)
+        x = lab.JUDGED * np.sqrt(2) * np.append(one / np.linalg.norm(one), np.zeros(7))
+        both = [lab.paid(MODEL, K, side * x) for side in (1, -1)]
+        off.append(abs(np.mean(both) / optimal.cost_to_go(P, x) - 1))
+    assert "between 3e-7 and 5e-6" in SENTENCES
+    assert 1e-7 < min(off) < max(off) < 1e-5
+
+
+def test_the_residual_is_not_the_distance():
+    wide = -5 * np.ones(1), 5 * np.ones(1)
+    for curvature, x, residual in ((1000.0, 0.001, 1.0), (0.001, 1.0, 0.001)):
+        given = np.array([[curvature]]), np.zeros(1), *wide, np.array([x])
+        assert lab.kkt_residual(*given) == pytest.approx(residual)
+
+
+def test_regularisation_raises_the_ratio_of_a_correct_pass_on_a_quadratic_problem():
+    for mu, said in ((0.0, 1.0), (0.5, 1.066), (5.0, 1.278)):
+        parts = lab.motion(6, 3, 2, np.random.default_rng(3))
+        k, gain, drop = lab.ilqr_backward(*parts, mu)
+        x, inputs = np.zeros(3), []
+        for fx, fu, more, one in zip(*parts[:2], k, gain, strict=True):
+            inputs.append(more + one @ x)
+            x = fx @ x + fu @ inputs[-1]
+        cost = lab.total(parts, np.array(inputs), np.zeros(3))
+        ratio = lab.reduction_ratio(0.0, cost, lab.expected_reduction(drop, 1.0))
+        assert ratio == pytest.approx(said, abs=6e-4)
+        assert mu == 0.0 or f"{said:.3f} for $\\mu = {mu:g}$" in SENTENCES
+
+
+@pytest.mark.kit
+def test_the_mass_hardly_matters_to_the_stiffness_of_seven_joints():
+    now = ARM.at(lab.READY_Q)
+    found = []
+    for factor in (1.0, 10.0):
+        step = lab.linearise(factor * now.M, SLOPE, ARM.damping, 1e-4)
+        with patch.object(lab, "STEPS", 30_000):
+            found.append(lab.promise(*step, 1e-4)[1][1, 1])
+    assert "stiffness of joint 2 by less than 0.1 N m/rad" in SENTENCES
+    assert 0.01 < abs(found[1] - found[0]) < 0.1
+
+
+@pytest.mark.kit
+def test_the_table_of_wrong_formulas_shows_the_numbers_of_the_opening(run):
+    printed = run("w2-autonomy/day13/wrong_stiffness.py").stdout.splitlines()
+    stays = [line for line in printed if " stays " in line]
+    assert len(stays) > 30
+    assert sum(" falls " in line for line in printed) == 1
+    assert all(len(line) <= 80 for line in printed)

@@ -61,10 +61,10 @@ def test_the_joint_that_pays_is_the_elbow():
 
 def test_a_wrong_price_is_told_before_a_limit_meets():
     def negative(*given):
-        return -lab.limit_prices(*given)
+        return -lab.bound_multipliers(*given)
 
-    tab = looked({**vars(lab), "limit_prices": negative}, 1)
-    assert "limit_prices by" in tab.own.says()[0]
+    tab = looked({**vars(lab), "bound_multipliers": negative}, 1)
+    assert "bound_multipliers by" in tab.own.says()[0]
     assert not tab.price.any()  # the way itself met none
 
 

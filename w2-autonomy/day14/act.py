@@ -1,4 +1,4 @@
-"""14.5 `act(theta, seen)`: its questions and its mistakes."""
+"""14.5 `act(theta, observation)`: its questions and its mistakes."""
 
 import numpy as np
 
@@ -16,12 +16,12 @@ def _(rng):
     for beyond in (0.0, 0.0, 0.5, 0.5, 1.0, 1.0):
         size = (HIGH - LOW) * (1 + beyond)
         theta = (LOW + HIGH) / 2 + size * rng.uniform(-0.5, 0.5, 6)
-        seen = np.append(rng.numbers(-0.4, 0.6, 2), rng.numbers(-0.78, 0.78))
-        yield rounded(theta), seen
+        observation = np.append(rng.numbers(-0.4, 0.6, 2), rng.numbers(-0.78, 0.78))
+        yield rounded(theta), observation
     yield rounded(2 * HIGH), rng.numbers(-0.5, 0.5, 3)
     yield rounded(LOW - 0.3), rng.numbers(-0.5, 0.5, 3)
-    for seen in rng.numbers(-0.7, 0.7, 4, 3):
-        yield rounded(rng.uniform(LOW - 0.1, HIGH + 0.1)), seen
+    for observation in rng.numbers(-0.7, 0.7, 4, 3):
+        yield rounded(rng.uniform(LOW - 0.1, HIGH + 0.1)), observation
 
 
 def turned(angle, x, y):
@@ -31,7 +31,7 @@ def turned(angle, x, y):
 
 
 @row.wrongs
-def _(theta, seen):
+def _(theta, observation):
     """world-axes: the shift is in the world's axes; it is in the cube's, so it turns
       with the yaw that was seen => with x + dx, y + dy
     turned-back: the shift is turned the other way => with R^T for R
@@ -54,8 +54,8 @@ def _(theta, seen):
     lift-from-the-floor: the lift has the height in it; they are two numbers
     """
     t = np.clip(theta, LOW, HIGH)
-    right = act(theta, seen)
-    x, y, yaw = seen
+    right = act(theta, observation)
+    x, y, yaw = observation
 
     def done(p, shift, angle=None):
         at = np.array([x, y]) + shift
@@ -101,7 +101,7 @@ row.same("first theta = np.clip(theta, -1, 1)", "LOW and HIGH are narrower")
 
 
 @row.right  # By complex numbers.
-def _(theta, seen):
+def _(theta, observation):
     t = np.minimum(np.maximum(theta, LOW), HIGH)
-    at = complex(*seen[:2]) + complex(t[0], t[1]) * np.exp(1j * seen[2])
-    return np.array([at.real, at.imag, seen[2] + t[2], t[3], t[4], t[5]])
+    at = complex(*observation[:2]) + complex(t[0], t[1]) * np.exp(1j * observation[2])
+    return np.array([at.real, at.imag, observation[2] + t[2], t[3], t[4], t[5]])

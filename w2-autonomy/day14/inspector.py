@@ -1,9 +1,9 @@
 """Day 14 in the inspector: the tab Touch.
 
 Two pads lift a cube. The forces on it, their cones and the least margin over time are
-those of the student's `cone_edges` and `cone_margin`, and their `reflex` may close the
-pads. Below, their `act`, `reward` and `cem_step` learn a policy, round by round, and
-what it holds comes in as dots over friction and mass.
+those of the student's `cone_edges` and `cone_margin`, and their `grip_reflex_step` may
+close the pads. Below, their `act`, `reward` and `cem_step` learn a policy, round by
+round, and what it holds comes in as dots over friction and mass.
 """
 
 from typing import NamedTuple
@@ -24,7 +24,7 @@ LAB = lab_of(find_day(14))  # its seeds, its start, what is held
 AGAIN, ROUND, TRY, NEW = "lift again", "learn a round", "try 20 cubes", "start over"
 TRIED = 20
 ENTRY = "in one entry"
-UNITS = {"cone_margin": "N", "reflex": "m", "observe": ENTRY, "act": ENTRY,
+UNITS = {"cone_margin": "N", "grip_reflex_step": "m", "observe": ENTRY, "act": ENTRY,
          "cem_step": ENTRY}  # fmt: skip
 ROUND_CONE = 12  # edges of a cone that is drawn
 LONG = 0.008  # m of an arrow, for 1 N
@@ -79,7 +79,7 @@ class Touch(Tab):
         page.slider("mass", 20, 300, self.grams, self.sets("grams"), unit="g", step=10)
         page.slider("squeeze", 0.5, 8, self.squeeze, self.sets("squeeze"), unit="N",
                     step=0.5)  # fmt: skip
-        page.tick("it feels: your reflex", self.sets("feels"))
+        page.tick("it feels: your grip_reflex_step", self.sets("feels"))
         self.text = page.html()
         curves = ["yours", "the library's"]
         self.plot = page.plot(curves, y="least margin, N", height=130)
@@ -117,7 +117,7 @@ class Touch(Tab):
             nonlocal last
             if len(felt.mu):
                 told = (*felt[1:], LAB.SHARE, LAB.CLOSE)
-                last = float(self.own.reflex(opening, *told))
+                last = float(self.own.grip_reflex_step(opening, *told))
             return last
 
         given = (self.model, self.data, cube, action, touch if feels else None)

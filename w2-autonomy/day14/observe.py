@@ -26,6 +26,7 @@ def pose(yaw, x, y):
 @row.inputs
 def _(rng):
     yield pose(1.0, 0.4, 0.1), np.zeros(3)
+    yield pose(0.0, 0.4, 0.1), np.array([0, 0, np.pi / 4])  # at the fold itself
     # within the fold; over it by the noise alone; further round, both ways
     for yaw, turn in (
         (0.3, -0.05),
@@ -124,7 +125,9 @@ def _(T_seen, noise):
     return np.array([T_seen[0, 3] + noise[0], T_seen[1, 3] + noise[1], yaw])
 
 
-@row.right  # By the nearest quarter.
-def _(T_seen, noise):
+@row.wrong(hidden="no cube of the lab lies at the fold itself")
+def fold_at_the_other_end(T_seen, noise):
+    """at exactly pi/4 it stays there; [-pi/4, pi/4) is half open, and that is -pi/4 =>
+    the fold that keeps pi/4"""
     yaw = np.arctan2(T_seen[1, 0], T_seen[0, 0]) + noise[2]
     return np.append(T_seen[:2, 3] + noise[:2], yaw - QUARTER * np.round(yaw / QUARTER))

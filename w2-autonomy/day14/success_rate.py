@@ -26,9 +26,9 @@ def wilson(k, n, z=1.96, moved=True, inside=True, divided=True):
 @row.wrongs
 def _(success):
     """plain: the interval is the plain one, p +- 1.96 sqrt(p (1 - p) / n), which says
-      that 8 of 8 is sure; Day 12's is wilson's
+      that 8 of 8 is sure; Day 12's is wilson_interval's
     plain-to-0-and-1: the interval is the plain one, cut at 0 and 1; Day 12's is
-      wilson's
+      wilson_interval's
     middle-for-rate: the rate is the middle of the interval; it is the share that was
       counted
     order: the interval comes first, the rate last
@@ -83,7 +83,7 @@ def _(success):
 
 @row.right  # Day 12's own, and np.count_nonzero.
 def _(success):
-    from robo47.planning import wilson as of_day_12
+    from robo47.planning import wilson_interval as of_day_12
 
     k = np.count_nonzero(success)
     return np.append(k / success.size, of_day_12(k, success.size))

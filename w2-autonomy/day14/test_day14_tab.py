@@ -67,9 +67,9 @@ def test_with_a_reflex_the_cube_is_held_and_one_that_opens_drops_it():
     assert "the cube is held" in tab.text.content
 
     def opens(opening, *more):
-        return 2 * opening - lab.reflex(opening, *more)
+        return 2 * opening - lab.grip_reflex_step(opening, *more)
 
-    tab = looked({**vars(lab), "reflex": opens})
+    tab = looked({**vars(lab), "grip_reflex_step": opens})
     tab.sets("feels")(True)
     assert "not held" in tab.text.content
     assert tab.own.says()[1] == "bad"

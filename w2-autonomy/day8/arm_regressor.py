@@ -8,7 +8,11 @@ import numpy as np
 from labkit.judge import Matrix, Row
 from labkit.judge.argument_mistakes import Change
 from robo47 import dynamics
-from robo47.identification import arm_regressor, inertia_of, link_regressor
+from robo47.identification import (
+    arm_regressor,
+    link_regressor,
+    spatial_inertia_from_params,
+)
 from robo47.screws import ad, adjoint, skew
 from robo47.se3 import inverse
 
@@ -175,7 +179,7 @@ row.reached_by("link_regressor", "in link_regressor, ", but=["ad-not-transposed-
 @row.right  # Seventy robots with one number each, through Day 4's inverse dynamics.
 def _(J_space, T_links, qd, qdd, g):
     Y = []
-    for i, unit in itertools.product(range(7), inertia_of(np.eye(10))):
+    for i, unit in itertools.product(range(7), spatial_inertia_from_params(np.eye(10))):
         G = np.zeros((7, 6, 6))
         X = adjoint(inverse(T_links[i]))
         G[i] = X.T @ unit @ X

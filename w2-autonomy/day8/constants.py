@@ -54,7 +54,7 @@ numbers = Numbers(
 )  # fmt: skip
 def pendulum(reach=0.1, second=0.0, rtol=LAB.RTOL):
     """Return how unevenly the swing shows the five numbers."""
-    return LAB.identifiable(LAB.pendulum(reach, second), rtol)[1]
+    return LAB.rank_and_condition(LAB.pendulum(reach, second), rtol)[1]
 
 
 def regressor(motion):
@@ -82,7 +82,7 @@ def anywhere(seed, n, speed):
 def links_show(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB.RTOL):
     """Return the rank."""
     Y = anywhere(seed, n, speed)[1][..., :70].reshape(-1, 70)
-    return LAB.identifiable(Y / LAB.lengths(metre)[:70], rtol)[0]
+    return LAB.rank_and_condition(Y / LAB.lengths(metre)[:70], rtol)[0]
 
 
 @numbers.add(
@@ -98,7 +98,7 @@ def links_show(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB
 def condition(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB.RTOL):
     """Return how unevenly 100 random states show what they show."""
     Y = anywhere(seed, n, speed)[1].reshape(-1, 91)
-    return LAB.identifiable(Y / LAB.lengths(metre), rtol)[1]
+    return LAB.rank_and_condition(Y / LAB.lengths(metre), rtol)[1]
 
 
 @numbers.add(
@@ -113,7 +113,7 @@ def swing_condition(swing=1.0, metre=1.0, rtol=LAB.RTOL):
     """Return how unevenly the swing shows the numbers, to three digits."""
     motion, Y = swung(swing)
     fast = np.abs(motion.qd) > LAB.SLOW
-    return float(f"{LAB.identifiable(Y[fast] / LAB.lengths(metre), rtol)[1]:.3g}")
+    return float(f"{LAB.rank_and_condition(Y[fast] / LAB.lengths(metre), rtol)[1]:.3g}")
 
 
 @cache
@@ -160,7 +160,7 @@ def off_elsewhere(moved, drawn, secret, rtol, metre=1.0, slow=LAB.SLOW):
     fast = np.abs(motion.qd) > slow
     unit = LAB.lengths(metre)
     tau = LAB.mujoco_torques(secret, motion) + drawn
-    phi = LAB.fit(Y[fast] / unit, tau[fast], rtol)
+    phi = LAB.truncated_svd_fit(Y[fast] / unit, tau[fast], rtol)
     return LAB.rms(Y_new[new] / unit @ phi - LAB.mujoco_torques(secret, at)[new])
 
 

@@ -42,7 +42,7 @@ def _values(axes: Axes, Y: np.ndarray, name: str, mark: str, colour: str) -> Non
     """Draw the singular values of a motion, and say how many count."""
     Y = Y.reshape(-1, Y.shape[-1])
     s = np.linalg.svd(Y, compute_uv=False)
-    rank, condition = lab.identifiable(Y, lab.RTOL)
+    rank, condition = lab.rank_and_condition(Y, lab.RTOL)
     words = f"{name}: {rank}, condition {float(f'{condition:.3g}'):,.0f}"
     axes.semilogy(s / s[0], mark, ms=4, color=colour, label=words)
     axes.axhline(lab.RTOL, color=INK, linestyle="--", linewidth=1.5)

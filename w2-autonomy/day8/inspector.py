@@ -21,7 +21,7 @@ import day8_mujoco
 
 LAB = lab_of(find_day(8))  # its robot, poses, wait and cut
 HERE, FIVE, FORGET = "hold here", "five poses", "forget"
-UNITS = {"payload_from_holds": "(kg or kg m)", "predict_with_sigma": "(kg or kg m)"}
+UNITS = {"identify_payload": "(kg or kg m)", "predict_with_sigma": "(kg or kg m)"}
 NO_MASS = 1e-9  # kg: what weighs less has no centre
 
 
@@ -172,9 +172,9 @@ class Weigh(Tab):
         g = self.arm.gravity
         rows = identification.load_regressor(J, R, g).reshape(-1, 4)
         return [
-            ("payload_from_holds", J, R, extra, g),
+            ("identify_payload", J, R, extra, g),
             ("predict_with_sigma", rows, extra.ravel(), np.eye(4), LAB.RTOL),
-            ("identifiable", rows, LAB.RTOL),
+            ("rank_and_condition", rows, LAB.RTOL),
         ]
 
     def show(self, weighed: Weighed) -> None:

@@ -117,7 +117,7 @@ def test_a_rotor_hides_where_its_link_turns_about_that_axis_by_its_joint_alone(
 
 
 def test_a_unit_vector_divided_by_its_mass_is_nan_in_nine_of_ten_columns():
-    right = lab.inertia_of
+    right = lab.spatial_inertia_from_params
 
     def divides(phi):
         m = phi[0]
@@ -126,7 +126,7 @@ def test_a_unit_vector_divided_by_its_mass_is_nan_in_nine_of_ten_columns():
 
     V, A = np.random.default_rng(8).normal(size=(2, 6))
     with (
-        patch.object(lab, "inertia_of", divides),
+        patch.object(lab, "spatial_inertia_from_params", divides),
         np.errstate(divide="ignore", invalid="ignore"),
     ):
         columns = lab.link_regressor(V, A)

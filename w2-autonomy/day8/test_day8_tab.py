@@ -45,7 +45,7 @@ def test_the_tab_weighs_and_shows_what_has_no_sigma():
 
 
 def test_a_wrong_sign_in_ones_own_function_changes_what_the_tab_shows():
-    negative = {"payload_from_holds": lambda *given: -lab.payload_from_holds(*given)}
+    negative = {"identify_payload": lambda *given: -lab.identify_payload(*given)}
     shown = {}
     for name, functions in (("right", {}), ("wrong", negative)):
         tab = weigh({**vars(lab), **functions})
@@ -55,14 +55,14 @@ def test_a_wrong_sign_in_ones_own_function_changes_what_the_tab_shows():
     assert shown["wrong"][::2] == [f"-{grams}" for grams in shown["right"][::2]]
     assert shown["wrong"][1::2] == shown["right"][1::2]
     says, kind = tab.own.says()
-    assert (kind, "payload_from_holds by" in says) == ("bad", True)
+    assert (kind, "identify_payload by" in says) == ("bad", True)
 
 
 def test_without_a_file_the_tab_says_that_it_is_the_librarys():
     tab = weigh(None)
     tab.press("hold here")
     says, _ = tab.own.says()
-    assert "the library's payload_from_holds" in says
+    assert "the library's identify_payload" in says
     assert "there is no file yet" in says
     ways = tab.ask(tab.held)
     for name, found in ways.own.items():
@@ -70,7 +70,7 @@ def test_without_a_file_the_tab_says_that_it_is_the_librarys():
 
 
 def test_the_tab_draws_no_centre_of_what_weighs_nothing():
-    tab = weigh({**vars(lab), "payload_from_holds": lambda *given: np.zeros(4)})
+    tab = weigh({**vars(lab), "identify_payload": lambda *given: np.zeros(4)})
     tab.press("hold here")
     assert "centre nan" in tab.table.content
     assert not tab.found.visible

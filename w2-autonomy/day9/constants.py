@@ -1,4 +1,4 @@
-"""What Day 9's numbers hang on: each constant turned by two, measured, explained.
+"""The sensitivity of Day 9's numbers: each constant is doubled, and its effect measured.
 
 Everything is computed by the lab's own functions.
 """
@@ -22,21 +22,21 @@ ARM = panda.arm(MODEL)
 numbers = Numbers(
     bits="bits of the encoder: {}",
     dt="time between samples: {} s",
-    reach="REACH of the swing: × {}",
-    omega="omega of the springs: {} 1/s",
+    reach="amplitude of the swing, REACH: × {}",
+    omega="omega of the PD gains: {} 1/s",
     zeta="damping ratio: {}",
     late="delay: {} s",
-    rate="rate of the control: {} Hz",
-    small="the error it begins with: {} rad",
+    rate="control rate: {} Hz",
+    small="initial error, SMALL: {} rad",
     cutoff="cutoff: {} Hz",
-    wanders="WANDERS, in truth and in the filter: {} rad²/s³",
-    noise="NOISE, in truth and in the filter: {} rad",
+    wanders="WANDERS, of the joint and of the filter: {} rad²/s³",
+    noise="NOISE, of the readings and of the filter: {} rad",
     seed="SEED: {}",
-    told_q="q that the filter is told: WANDERS × {}",
-    told_R="R that it is told: NOISE² × {}",
+    told_q="accel_psd of the filter: WANDERS × {}",
+    told_R="R of the filter: NOISE² × {}",
     gain="GAIN: {} 1/s",
     step="time step: {} s",
-    share="share of the slope that is taken: {}",
+    share="factor of the energy's gradient: {}",
     force="the push: {} N",
     threshold="THRESHOLD: {} N m",
 )
@@ -51,10 +51,10 @@ def swung(reach):
 
 @numbers.add(
     "noise of a 16-bit difference", "{:.4f} rad/s",
-    bits=times(0.5, "a step is half as large", to=17),
-    dt=times(0.5, "the same two errors, divided by twice the time", within=0.05),
-    reach=between(0.98, 1.02, "the error of a count does not hang on the motion, as "
-                  "long as a step is small beside it"),
+    bits=times(0.5, "a count is half as large", to=17),
+    dt=times(0.5, "the same two rounding errors, divided by twice the time", within=0.05),
+    reach=between(0.98, 1.02, "the rounding error does not depend on the motion, as long "
+                  "as successive errors are uncorrelated"),
 )  # fmt: skip
 def difference_noise(bits=LAB.BITS, dt=LAB.DT, reach=1.0):
     """Return the RMS error of the differences, all joints."""
@@ -66,8 +66,8 @@ def difference_noise(bits=LAB.BITS, dt=LAB.DT, reach=1.0):
 
 @numbers.add(
     "delay margin", "{:.2f} ms",
-    omega=times(0.5, "time is measured in 1 / omega: nothing else has a unit"),
-    zeta=between(0.4, 1.0, "the damper leads more, but the loop is faster as well"),
+    omega=times(0.5, "1 / omega is the only time in the formula"),
+    zeta=between(0.4, 1.0, "the phase lead grows, but the crossover frequency grows more"),
 )  # fmt: skip
 def margin(omega=DAY.OMEGA, zeta=1.0):
     """Return it."""
@@ -75,15 +75,15 @@ def margin(omega=DAY.OMEGA, zeta=1.0):
 
 
 @numbers.add(
-    "what is left of an error after 2 s, 34 ms late", "{:.3g}",
-    late=between(1.5, 1e9, "far over the margin: it grows until a motor can no more"),
-    omega=times(0.0, "10 1/s have a margin of 65 ms", within=0.05, to=10.0),
-    rate=between(0.3, 0.8, "a torque is held for half a millisecond less on the "
-                 "average: 31.9 ms are left, and 34 is still more"),
-    small=same("the loop is linear as long as no motor is at its limit"),
+    "fraction of an error left after 2 s, 34 ms late", "{:.3g}",
+    late=between(1.5, 1e9, "far above the margin; the error grows until the motors saturate"),
+    omega=times(0.0, "with 10 1/s the margin is 65 ms", within=0.05, to=10.0),
+    rate=between(0.3, 0.8, "the torque is on average 0.5 ms older than its reading, not "
+                 "1 ms: the limit is 31.9 ms, and 34 is still above it"),
+    small=same("the loop is linear as long as no motor saturates"),
 )  # fmt: skip
 def left(late=0.034, omega=DAY.OMEGA, rate=DAY.RATE, small=DAY.SMALL):
-    """Return the share."""
+    """Return the fraction."""
     model = copy(MODEL)
     model.opt.timestep = 1 / rate
     with turned(DAY, SMALL=small):
@@ -91,35 +91,35 @@ def left(late=0.034, omega=DAY.OMEGA, rate=DAY.RATE, small=DAY.SMALL):
 
 
 @numbers.add(
-    "joint 4's speed behind 50 Hz is off by", "{:.4f} rad/s",
-    cutoff=between(1.3, 1.7, "right of the valley's bottom all is noise"),
+    "error of joint 4's velocity behind a low pass of 50 Hz", "{:.4f} rad/s",
+    cutoff=between(1.3, 1.7, "above the cutoff of the minimum, noise dominates"),
     bits=between(0.5, 0.75, "half the noise, the same lag", to=17),
-    reach=between(1.1, 1.4, "twice the acceleration is twice the lag"),
+    reach=between(1.1, 1.4, "twice the acceleration doubles the lag, and the noise is the same"),
 )  # fmt: skip
 def smooth(cutoff=50.0, bits=LAB.BITS, reach=1.0):
     """Return the RMS error."""
     run = swung(reach)
     z = LAB.encoder(run.q, bits)[:, LAB.JOINT]
-    raw = LAB.difference(z, LAB.DT)
+    raw = LAB.backward_difference(z, LAB.DT)
     off = LAB.low_pass(raw, LAB.DT, cutoff) - run.qd[:, LAB.JOINT]
     return LAB.rms(off[LAB.SETTLED :])
 
 
 @cache
 def tracked(wanders, noise, seed, told_q, told_R):
-    """Return what a filter says that is told so much of q and R."""
+    """Return the output of a filter with these factors of accel_psd and R."""
     with turned(LAB, WANDERS=wanders, NOISE=noise):
         z, _ = LAB.wandering(np.random.default_rng(seed))
     return LAB.track(z, told_q * wanders, told_R * noise**2)
 
 
 @numbers.add(
-    "mean NIS of the filter that is told the truth", "{:.3f}",
-    wanders=between(0.95, 1.05, "the surprises grow as the filter expects"),
-    noise=between(0.95, 1.05, "as above"),
-    seed=between(0.9, 1.1, "another draw", to=10),
-    told_q=between(0.7, 0.95, "too modest: smaller surprises than it expects"),
-    told_R=between(0.5, 0.8, "the same, by the readings"),
+    "mean NIS of the correct filter", "{:.3f}",
+    wanders=between(0.95, 1.05, "the innovations grow as the filter expects"),
+    noise=between(0.95, 1.05, "the same"),
+    seed=between(0.9, 1.1, "another random sequence", to=10),
+    told_q=between(0.7, 0.95, "the innovations are smaller than the filter expects"),
+    told_R=between(0.5, 0.8, "the same: the filter expects larger innovations"),
 )  # fmt: skip
 def nis(wanders=LAB.WANDERS, noise=LAB.NOISE, seed=LAB.SEED, told_q=1.0, told_R=1.0):
     """Return it."""
@@ -127,25 +127,25 @@ def nis(wanders=LAB.WANDERS, noise=LAB.NOISE, seed=LAB.SEED, told_q=1.0, told_R=
 
 
 @numbers.add(
-    "whiteness of the filter that tracks", "{:.3f}",
-    wanders=between(0.9, 1.05, "the two lies are the same"),
-    noise=between(0.95, 1.1, "the two lies are the same"),
-    seed=between(0.95, 1.05, "another draw", to=10),
-    told_q=between(0.85, 0.99, "a smaller lie"),
-    told_R=between(1.0, 1.1, "a larger one"),
+    "lag-1 autocorrelation of the filter with two errors", "{:.3f}",
+    wanders=between(0.9, 1.05, "the two factors are the same"),
+    noise=between(0.95, 1.1, "the two factors are the same"),
+    seed=between(0.95, 1.05, "another random sequence", to=10),
+    told_q=between(0.85, 0.99, "the ratio of accel_psd and R is wrong by 50, not by 100"),
+    told_R=between(1.0, 1.1, "the ratio is wrong by 200"),
 )  # fmt: skip
 def white(wanders=LAB.WANDERS, noise=LAB.NOISE, seed=LAB.SEED, told_q=0.1, told_R=10.0):
     """Return it."""
     said = tracked(wanders, noise, seed, told_q, told_R)
-    return LAB.whiteness(said["surprise"])
+    return LAB.lag1_autocorrelation(said["innovation"])
 
 
 @numbers.add(
     "largest residual in free motion", "{:.3f} N m",
-    gain=between(1.0, 1.01, "it is not the gain's lag"),
-    step=times(2.0, "slope and gravity are a sample old", within=0.02),
-    reach=between(1.5, 4.5, "they change faster"),
-    share=between(50, 200, "without the slope it is the slope", to=0.0),
+    gain=between(1.0, 1.01, "it is not the lag of the observer"),
+    step=times(2.0, "any error of first order doubles; see task 9.9", within=0.02),
+    reach=between(1.5, 4.5, "velocities double, and their products grow fourfold"),
+    share=between(50, 200, "the residual then contains the gradient", to=0.0),
 )  # fmt: skip
 def free(gain=LAB.GAIN, step=LAB.DT, reach=1.0, share=1.0):
     """Return it, over the first second of the swing."""
@@ -168,10 +168,10 @@ def pushed(force, omega):
 
 @numbers.add(
     "joint 4's residual of 10 N on the flange", "{:.3f} N m",
-    force=times(2.0, "J^T F is linear; the arm gives way a little more"),
-    omega=between(0.99, 1.01, "stiffer springs give way less"),
-    gain=same("a gain says when, and not how much"),
-    share=same("at rest there is no slope", to=-1.0),
+    force=times(2.0, "J^T F is linear in F; the arm yields a little more"),
+    omega=between(0.99, 1.01, "a stiffer controller yields less"),
+    gain=same("the gain changes the time, not the final value"),
+    share=same("at rest the gradient is zero", to=-1.0),
 )  # fmt: skip
 def steady(force=10.0, omega=DAY.OMEGA, gain=LAB.GAIN, share=1.0):
     """Return it at the end."""
@@ -180,11 +180,11 @@ def steady(force=10.0, omega=DAY.OMEGA, gain=LAB.GAIN, share=1.0):
 
 
 @numbers.add(
-    "10 N on the flange are noticed after", "{:.0f} ms",
-    force=times(0.5, "half of the share is enough: 1.1 ms, so the first sample"),
-    gain=times(0.5, "it rises twice as fast: 1.1 ms, so the first sample"),
-    threshold=times(1.5, "4.8 ms of 2 ms each: the third sample"),
-    share=same("at rest there is no slope", to=-1.0),
+    "detection time of 10 N on the flange", "{:.0f} ms",
+    force=times(0.5, "half of the fraction is enough: 1.1 ms, so the first sample"),
+    gain=times(0.5, "the residual rises twice as fast: 1.1 ms, so the first sample"),
+    threshold=times(1.5, "4.8 ms, so the third sample of 2 ms"),
+    share=same("at rest the gradient is zero", to=-1.0),
 )  # fmt: skip
 def noticed(force=10.0, gain=LAB.GAIN, threshold=LAB.THRESHOLD, share=1.0):
     """Return it."""

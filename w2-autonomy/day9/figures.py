@@ -1,6 +1,6 @@
 """The picture of Day 9, made with the lab's own functions; drawn by `make figures`.
 
-felt    the error of a filtered speed over its cutoff; seven joints that feel a push
+felt    the error of a filtered velocity over its cutoff; the residuals of a push
 """
 
 import day9_estimation as lab
@@ -23,37 +23,39 @@ COLOURS = (GREY, BLUE, ORANGE, RED, SKY, GREEN, PURPLE)
 
 @chart.picture(height=9.0)
 def felt(figure: Figure) -> None:
-    """Draw the valley of three encoders, and the residual through a push."""
+    """Draw the error over the cutoff for three encoders, and a push's residuals."""
     model = panda.load("panda_nohand", drive="torque")
     arm = panda.arm(model)
     above, below = figure.subplots(2, 1)
-    _valley(above, day9_mujoco.moved(model, arm, day9_mujoco.SWING, 2.0))
+    _error_over_cutoff(above, day9_mujoco.moved(model, arm, day9_mujoco.SWING, 2.0))
     push = day9_mujoco.push(lab.FLANGE, lab.FORCE, lab.SINCE)
     held = day9_mujoco.moved(model, arm, day9_mujoco.STAY, 0.8, push)
-    truth = lab.mujoco_push(model, held.q[-1], lab.FLANGE, lab.FORCE)
+    truth = lab.mujoco_external_torque(model, held.q[-1], lab.FLANGE, lab.FORCE)
     _push(below, lab.felt(arm, held), truth)
     for axes in (above, below):
         axes.grid()
 
 
-def _valley(axes: Axes, swing) -> None:
-    """Draw how far a speed is off behind each low pass, for each encoder."""
+def _error_over_cutoff(axes: Axes, swing) -> None:
+    """Draw the error of a velocity behind each low pass, for each encoder."""
     qd = swing.qd[:, lab.JOINT]
     for bits, colour, mark in ENCODERS:
-        raw = lab.difference(lab.encoder(swing.q, bits)[:, lab.JOINT], lab.DT)
+        raw = lab.backward_difference(lab.encoder(swing.q, bits)[:, lab.JOINT], lab.DT)
         off = [
             lab.rms((lab.low_pass(raw, lab.DT, f) - qd)[lab.SETTLED :]) for f in CUTOFFS
         ]
         axes.loglog(CUTOFFS, off, mark, color=colour, label=f"{bits} bits")
     lag = [lab.rms((lab.low_pass(qd, lab.DT, f) - qd)[lab.SETTLED :]) for f in CUTOFFS]
     axes.loglog(CUTOFFS, lag, "--", color=INK, label="lag alone")
-    axes.set(xlabel="cutoff of the low pass, Hz", ylabel="speed off, rad/s RMS")
-    axes.set_title("Joint 4: to the left lag, to the right noise")
+    axes.set(
+        xlabel="cutoff of the low pass, Hz", ylabel="RMS error of the velocity, rad/s"
+    )
+    axes.set_title("Joint 4: lag at low cutoffs, noise at high cutoffs")
     axes.legend(loc="lower left")
 
 
 def _push(axes: Axes, residual: np.ndarray, truth: np.ndarray) -> None:
-    """Draw the seven residuals, and what MuJoCo says that the push is."""
+    """Draw the seven residuals, and the joint torques of the push by MuJoCo."""
     t = 1000 * (np.arange(len(residual)) * lab.DT - lab.SINCE)
     shown = (t > -60) & (t < 240)
     for joint, colour in enumerate(COLOURS):

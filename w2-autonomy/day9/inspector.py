@@ -1,8 +1,8 @@
 """Day 9 in the inspector: the tab Feel.
 
-Drag the handle to pull at a link of an arm that holds still: the student's own observer
-finds the torque that nobody commanded, seven bars of it beside J^T F, and a ball marks
-the link that it names. The arm is simulated; the observer is asked 100 times a second.
+Drag the handle to pull at a link of an arm that holds still. The student's own momentum
+observer estimates the external torque: seven bars next to J^T F, and a sphere marks the
+contact link that it names. The arm is simulated; the observer runs at 100 Hz.
 """
 
 from functools import partial
@@ -23,10 +23,10 @@ from robo47.checks import Array
 import day9_mujoco
 
 LAB = lab_of(find_day(9))  # its gain and threshold
-RATE, HZ = 100.0, 25.0  # of the observer, and of the picture
-PULL = 100.0  # N per metre that the handle is away
-FULL, MOST = 12.0, 999.0  # N m, where a bar ends; what is shown at most
-UNITS = {"energy_slope": "N m", "observer_step": "(N m or N m s)"}
+RATE, HZ = 100.0, 25.0  # of the observer, and of the page
+PULL = 100.0  # N per metre of distance to the handle
+FULL, MOST = 12.0, 999.0  # N m, the end of a bar, and the largest number shown
+UNITS = {"kinetic_energy_gradient": "N m", "momentum_observer_step": "(N m or N m s)"}
 AGAIN, LET_GO, DOWN = "start / stop", "let go", "10 N down"
 PLACES = [day9_mujoco.FLANGE, *[f"link{i}" for i in range(7, 0, -1)]]
 ARM_JOINTS = [f"joint{i}" for i in range(1, 8)]
@@ -35,13 +35,13 @@ dressed = partial(panda.load, "panda_nohand", meshes=True, drive="torque")
 
 
 class Feel(Tab):
-    """Push any link; the arm says which one it was."""
+    """Push any link; the arm names the contact link."""
 
     title = "Feel"
     wide = True
 
     def __init__(self, page: Page) -> None:
-        """Hold the arm where it is; nothing pushes yet."""
+        """Hold the arm at its configuration, without a force."""
         super().__init__(page)
         self.model = panda.load("panda_nohand", drive="torque")
         self.arm = panda.arm(self.model)
@@ -58,18 +58,18 @@ class Feel(Tab):
         least = partial(setattr, self, "threshold")
         page.slider("threshold", 0.1, 5, self.threshold, least, unit="N m", step=0.1)
         self.numbers = page.html()
-        title = "felt, and J^T F of your pull as marks"
+        title = "residual; marks: J^T F of your pull"
         self.bars = page.bars(ARM_JOINTS, FULL, "N m", title, "both")
         self.loop = page.animate(lambda seconds: self.show(), HZ, work=self.step)
         self.drawn = Robot(page, self.model, dressed)
         self.arrow = page.draw.arrows(np.zeros((1, 2, 3)), "red", 0.008)
         self.named = page.draw.sphere(np.zeros(3), 0.09, "orange", 0.5)
         self.target = page.draw.target(page.pose("ee"), self.drag)
-        page.legend({"your pull": "red", "the link that it names": "orange"})
+        page.legend({"your pull": "red", "the contact link": "orange"})
         self.show()
 
     def again(self) -> None:
-        """Put the arm where it is to be, with nothing felt."""
+        """Put the arm at its goal, with a residual of zero."""
         self.data = simulate.start(self.model, self.goal_q)
         self.residual = np.zeros(7)
         self.integral = np.zeros(7)  # p of an arm at rest
@@ -77,20 +77,20 @@ class Feel(Tab):
         self.before: tuple[Array, ...] | None = None
 
     def begin(self) -> None:
-        """Pull downwards with 10 N at an arm that has felt nothing yet."""
+        """Pull downwards with 10 N at an arm whose residual is zero."""
         self.loop.stop()
         self.again()
         self.press(DOWN)
         self.loop.lasts = PLAYS
 
     def lost(self) -> None:
-        """Feel nothing, and name no link."""
+        """Clear the residual, and name no link."""
         self.bars.clear()
         self.named.visible = False
         self.numbers.content = ""
 
     def pull_at(self, place: str) -> None:
-        """Choose what the handle pulls at."""
+        """Choose the point that the handle pulls at."""
         self.place = place
         self.press(LET_GO)
 
@@ -115,14 +115,14 @@ class Feel(Tab):
         self.show()
 
     def on_move(self, q: Array) -> None:
-        """Take the page's configuration as the wanted one."""
+        """Take the page's configuration as the goal."""
         self.goal_q = q[:7].copy()
         if not self.loop.running:
             self.again()
         self.show()
 
     def point(self) -> Array:
-        """Return where the handle pulls, m, (3,)."""
+        """Return the point at which the handle pulls, m, (3,)."""
         data = mujoco.MjData(self.model)
         data.qpos[:] = self.data.qpos
         mujoco.mj_kinematics(self.model, data)
@@ -131,21 +131,23 @@ class Feel(Tab):
         return data.body(self.place).xipos.copy()
 
     def step(self, seconds: float) -> None:
-        """Simulate one picture's time; it waits for the student's observer."""
+        """Simulate the time of one picture; it waits for the student's observer."""
         push = day9_mujoco.push(self.place, self.force, 0.0)
         simulate.run(self.model, self.data, self.law, 1.0 / HZ, rate=RATE, push=push)
 
     def law(self, t: float, q: Array, qd: Array) -> Array:
-        """Hold the arm, and feel what was not commanded."""
+        """Hold the arm, and run the observer."""
         now = self.arm.at(q)
         if self.before is not None:
             known = (*self.before, self.gain, 1.0 / RATE)
             given = self.residual, self.integral, now.M @ qd
-            self.residual, self.integral = self.own.observer_step(*given, *known)
+            self.residual, self.integral = self.own.momentum_observer_step(
+                *given, *known
+            )
         limit = np.full(7, self.threshold)
         slope, self.link = self.own.many(
-            ("energy_slope", now.J_space, now.G, qd),
-            ("pushed_link", self.residual, limit),
+            ("kinetic_energy_gradient", now.J_space, now.G, qd),
+            ("contact_link", self.residual, limit),
         )
         hold = day9_mujoco.tracking(self.arm, day9_mujoco.hold(self.goal_q))
         tau = hold(t, q, qd)
@@ -153,21 +155,21 @@ class Feel(Tab):
         return tau
 
     def show(self) -> None:
-        """Draw the arm, the pull and the link, and say what is felt."""
+        """Draw the arm, the pull and the contact link, and show the residual."""
         q = self.data.qpos[:7].copy()
         self.drawn.show(self.data.qpos)
         at = self.point()
         self.arrow.visible = bool(self.force.any())
         if self.force.any():
             self.arrow.points = joined([at, at + self.force / PULL])
-        truth = LAB.mujoco_push(self.model, q, self.place, self.force)
+        truth = LAB.mujoco_external_torque(self.model, q, self.place, self.force)
         self.bars.show(np.clip(self.residual, -MOST, MOST), truth)
         link = int(self.link)
         self.named.visible = 1 <= link <= 7
         if self.named.visible:
             self.named.position = self.arm.at(q).coms_world[link - 1]
         newton = ", ".join(f"{x:z.1f}" for x in self.force)
-        says = f"it names link {link}" if link else "it feels nobody"
+        says = f"contact on link {link}" if link else "no contact"
         self.numbers.content = words.line(
             f"You pull at {self.place} with ({newton}) N: {says}.", "feel"
         )

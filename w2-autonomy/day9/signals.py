@@ -1,4 +1,4 @@
-"""What Day 9 asks about: signals, beliefs, and states of the Panda in motion."""
+"""Inputs of Day 9's checks: signals, estimates, and states of the Panda in motion."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ DT = 0.002
 
 
 def signals(rng, n=6):
-    """Return a signal of some length each, rad, and a time step."""
+    """Return signals of several lengths, rad, each with a sampling period."""
     found = []
     for k in range(n):
         size = [5, 8, 20][k % 3]
@@ -18,13 +18,13 @@ def signals(rng, n=6):
 
 
 def covariance(rng, n, low=0.2):
-    """Return a covariance, (n, n), with nothing small in it."""
+    """Return a covariance (n, n) that is well conditioned."""
     left = rng.numbers(-1, 1, n, n)
     return np.round(left @ left.T + low * np.eye(n), 3)
 
 
 def believed(rng, sizes=((2, 1), (2, 2), (3, 1), (3, 2), (4, 2), (2, 1), (3, 3))):
-    """Return x, P, z, H and R, of states and readings of several sizes."""
+    """Return x, P, z, H and R of Kalman updates of several sizes."""
     found = []
     for n, m in sizes:
         x, z = rng.numbers(-2, 2, n), rng.numbers(-2, 2, m)

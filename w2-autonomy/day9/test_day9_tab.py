@@ -44,13 +44,13 @@ def pulled(tab, seconds=0.6):
 
 def test_the_bars_are_the_push_and_the_ball_stands_at_the_link(feel):
     tab = feel(vars(lab))
-    assert "it feels nobody" in tab.numbers.content
+    assert "no contact" in tab.numbers.content
     assert not tab.named.visible
     pulled(tab)
     residual, truth = tab.bars.show.call_args.args
     assert_same(residual, truth, 0.02)
     assert truth[3] == pytest.approx(-4.7, abs=0.1)
-    assert "it names link 6" in tab.numbers.content
+    assert "contact on link 6" in tab.numbers.content
     assert tab.named.visible
     assert_same(tab.named.position, tab.arm.at(tab.data.qpos[:7]).coms_world[5], 1e-12)
     assert tab.own.says()[1] == "good"
@@ -64,20 +64,23 @@ def test_the_bars_are_the_push_and_the_ball_stands_at_the_link(feel):
 
 def test_a_wrong_sign_in_ones_own_observer_changes_what_the_tab_shows(feel):
     def negative(*given):
-        residual, integral = lab.observer_step(-given[0], *given[1:])
+        residual, integral = lab.momentum_observer_step(-given[0], *given[1:])
         return -residual, integral
 
-    tab = pulled(feel({**vars(lab), "observer_step": negative}))
+    tab = pulled(feel({**vars(lab), "momentum_observer_step": negative}))
     residual, truth = tab.bars.show.call_args.args
     assert_same(-residual, truth, 0.02)
     says, kind = tab.own.says()
-    assert (kind, "observer_step by" in says) == ("bad", True)
+    assert (kind, "momentum_observer_step by" in says) == ("bad", True)
 
 
 def test_without_a_file_the_tab_says_that_it_is_the_librarys(feel):
     tab = pulled(feel(None), 0.1)
     says, _ = tab.own.says()
-    assert "the library's energy_slope, pushed_link, observer_step" in says
+    assert (
+        "the library's kinetic_energy_gradient, contact_link, momentum_observer_step"
+        in says
+    )
     assert "there is no file yet" in says
 
 

@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 
 from robo47 import camera as library
-from robo47 import cli, eye, panda, se3
+from robo47 import cli, depth_camera, panda, se3
 from robo47.lesson.lab import Lab
 from robo47.rotation_log import log_pose, log_rotation
 from robo47.screws import adjoint, exp_screw, skew
@@ -87,31 +87,32 @@ def projection_jacobian(K: np.ndarray, p_cam: np.ndarray) -> np.ndarray:
     With 10.1's K at (0, 0, 2): v = (1, 0, 0) gives 25 px, omega = (0, 1, 0) gives 50.
     """
     # region 10.4
-    f = K[0, 0]
+    fx, fy = K[0, 0], K[1, 1]
     x, y, z = p_cam.T
     zero = np.zeros(len(p_cam))
     one = np.ones(len(p_cam))
-    by_point = f / z * np.array([[one, zero, -x / z], [zero, one, -y / z]])
+    of_u, of_v = fx * np.array([one, zero, -x / z]), fy * np.array([zero, one, -y / z])
+    by_point = np.array([of_u, of_v]) / z
     by_point = np.moveaxis(by_point, 2, 0)  # (n, 2, 3)
     return np.concatenate([-by_point @ skew(p_cam), by_point], axis=2)
     # endregion 10.4
 
 
-def kabsch(A: np.ndarray, B: np.ndarray) -> np.ndarray:
-    """Return T, (4, 4), that takes the points A best to B, (n, 3) each.
+def kabsch(source: np.ndarray, target: np.ndarray) -> np.ndarray:
+    """Return T, (4, 4), that takes source best to target, points, (n, 3) each.
 
-    B = A + (1, 0, 0): a move by that.
+    target = source + (1, 0, 0): a move by that.
     """
     # region 10.5
-    a = A.mean(axis=0)
-    b = B.mean(axis=0)
-    U, _, Vt = np.linalg.svd((B - b).T @ (A - a))
+    a = source.mean(axis=0)
+    b = target.mean(axis=0)
+    U, _, Vt = np.linalg.svd((target - b).T @ (source - a))
     R = U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt
     return se3.make_T(R, b - R @ a)
     # endregion 10.5
 
 
-def moved(T: np.ndarray, xi: np.ndarray) -> np.ndarray:
+def apply_twist(T: np.ndarray, xi: np.ndarray) -> np.ndarray:
     """Return exp([xi]) T, (4, 4), for a twist times time xi, (6,), of any length.
 
     xi = (0, 0, 0, 1, 0, 0) moves by a metre along x, (0, 0, 0, 0, 0, 0) not at all.
@@ -137,7 +138,7 @@ def refine_pose(
         p_cam = points @ T[:3, :3].T + T[:3, 3]
         J = projection_jacobian(K, p_cam).reshape(-1, 6)
         off = (pixels - project(K, T, points)).ravel()
-        T = moved(T, np.linalg.lstsq(J, off, rcond=None)[0])
+        T = apply_twist(T, np.linalg.lstsq(J, off, rcond=None)[0])
     return T
     # endregion 10.6
 
@@ -185,7 +186,7 @@ def icp_step(T: np.ndarray, source: np.ndarray, target: np.ndarray) -> np.ndarra
 def guesses(T: np.ndarray, n: int, rng: np.random.Generator) -> np.ndarray:
     """Return n poses beside T, turned by about TURN and SLIDE away, (n, 4, 4)."""
     size = np.repeat([TURN, SLIDE], 3) / np.sqrt(3)
-    off = [library.moved(np.eye(4), xi) for xi in size * rng.normal(size=(n, 6))]
+    off = [library.apply_twist(np.eye(4), xi) for xi in size * rng.normal(size=(n, 6))]
     turned = np.array(off)[:, :3, :3] @ T[:3, :3]
     return se3.make_T(turned, np.array(off)[:, :3, 3] + T[:3, 3])
 
@@ -193,7 +194,7 @@ def guesses(T: np.ndarray, n: int, rng: np.random.Generator) -> np.ndarray:
 def jittered(T: np.ndarray, rng: np.random.Generator) -> np.ndarray:
     """Return poses, (k, 4, 4), measured with noise: JITTER rad, JITTER m an axis."""
     xi = JITTER * rng.normal(size=(len(T), 6))
-    return T @ np.array([library.moved(np.eye(4), one) for one in xi])
+    return T @ np.array([library.apply_twist(np.eye(4), one) for one in xi])
 
 
 def given_to_fits(rng: np.random.Generator) -> dict[str, list[tuple]]:
@@ -208,7 +209,11 @@ def given_to_fits(rng: np.random.Generator) -> dict[str, list[tuple]]:
     mirror = np.array([1.0, 1.0, -1.0])
     return {
         "kabsch": [(A, B), (flat * A, flat * B), (A, mirror * A)],
-        "moved": [(T, rng.normal(size=6)), (T, 2.0 * np.eye(6)[4]), (T, np.zeros(6))],
+        "apply_twist": [
+            (T, rng.normal(size=6)),
+            (T, 2.0 * np.eye(6)[4]),
+            (T, np.zeros(6)),
+        ],
         "pose_covariance": [(J, NOISE)],
         "hand_eye": [(hand, seen)],
         "icp_step": [(T, A, B)],
@@ -237,8 +242,8 @@ def slopes(model, data, T_cam_cube: np.ndarray, T_world_cam: np.ndarray) -> np.n
     h = 1e-6
     columns = []
     for xi in h * np.eye(6):
-        there = T_world_cam @ library.moved(T_cam_cube, xi)
-        back = T_world_cam @ library.moved(T_cam_cube, -xi)
+        there = T_world_cam @ library.apply_twist(T_cam_cube, xi)
+        back = T_world_cam @ library.apply_twist(T_cam_cube, -xi)
         ahead, _ = looked_at(model, data, there)
         behind, _ = looked_at(model, data, back)
         columns.append((ahead - behind) / (2 * h))
@@ -326,7 +331,7 @@ def calibrate(rng: np.random.Generator) -> tuple[np.ndarray, int]:
     few = day10_mujoco.looks(model, panda.READY_Q + away[0] * np.eye(7)[6])
     fresh = day10_mujoco.looks(model, panda.READY_Q + away[1])
     noisy = (many[0], jittered(many[1], rng))
-    another = library.moved(day10_mujoco.ON_HAND, FREE)
+    another = library.apply_twist(day10_mujoco.ON_HAND, FREE)
     X = hand_eye(*motions(many))
     print("                            second  left                off   wanders, mm")
     print(
@@ -364,9 +369,11 @@ def depth_cloud(model, data, K: np.ndarray, T_world_cam: np.ndarray, half: float
     With `half` pixels added, both ways, they are where they are not.
     """
     mujoco.mj_forward(model, data)  # fills geom_xpos: what rays meet
-    far = eye.depth(model, data, "eye").ravel()  # mujoco.mj_multiRay, a ray a pixel
+    far = depth_camera.depth(
+        model, data, "eye"
+    ).ravel()  # mujoco.mj_multiRay, a ray a pixel
     hit = np.isfinite(far)
-    pixels = eye.middles(day10_mujoco.WIDTH, day10_mujoco.HEIGHT)
+    pixels = depth_camera.pixel_centres(day10_mujoco.WIDTH, day10_mujoco.HEIGHT)
     return back_project(K, T_world_cam, pixels[hit] + half, far[hit])
 
 
@@ -406,7 +413,7 @@ def main() -> int:
     rng = np.random.default_rng(SEED)
     model, data = day10_mujoco.table()
     mujoco.mj_forward(model, data)  # fills cam_xpos and cam_xmat
-    K_file, T_world_cam = eye.camera(model, data, "eye")
+    K_file, T_world_cam = depth_camera.camera(model, data, "eye")
     print(panda.describe("panda_nohand"))
 
     lab.step("1. Where a point is seen")
@@ -437,8 +444,8 @@ def main() -> int:
     lab.check("|J - slopes of MuJoCo's pixels|, of f", share, 1e-6)
     lab.check("|refine_pose - MuJoCo's pose|", off["pose"])
     given = given_to_fits(rng)
-    yours = {"kabsch": kabsch, "moved": moved, "pose_covariance": pose_covariance,
-             "hand_eye": hand_eye}  # fmt: skip
+    yours = {"kabsch": kabsch, "apply_twist": apply_twist,
+             "pose_covariance": pose_covariance, "hand_eye": hand_eye}  # fmt: skip
     for name, own in yours.items():
         lab.check(f"{name} - the library's", off_library(name, own, given[name]))
 

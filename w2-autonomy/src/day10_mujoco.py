@@ -1,7 +1,8 @@
 """What Day 10 asks of MuJoCo: a table with a cube, an eye above it, one on the hand.
 
 No picture is drawn: MuJoCo's `camprojection` sensor says where a point is seen, and
-`robo47.eye.depth` casts rays. Camera axes x right, y down, z forward. Metres, radians.
+`robo47.depth_camera.depth` casts rays. Camera axes x right, y down, z forward. Metres,
+radians.
 """
 
 import itertools
@@ -9,7 +10,7 @@ import itertools
 import mujoco
 import numpy as np
 
-from robo47 import eye, panda, scenes, se3
+from robo47 import depth_camera, panda, scenes, se3
 from robo47.checks import Array
 
 WIDTH = 320  # pixels
@@ -35,7 +36,7 @@ def table() -> tuple[mujoco.MjModel, mujoco.MjData]:
     top = (*scenes.TABLE_CENTRE, TABLE - 0.01)
     half = (*scenes.TABLE_HALF, 0.01)
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, pos=top, size=half)
-    eye.add(spec.worldbody, "eye", AT, TO, FOVY, (WIDTH, HEIGHT))
+    depth_camera.add(spec.worldbody, "eye", AT, TO, FOVY, (WIDTH, HEIGHT))
     cube = spec.worldbody.add_body(name="cube", mocap=True)
     cube.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(scenes.CUBE_HALF,) * 3)
     for i, corner in enumerate(CORNERS):
@@ -74,7 +75,7 @@ def handheld() -> mujoco.MjModel:
     def edit(spec: mujoco.MjSpec) -> None:
         site = spec.site("attachment_site")
         T = se3.make_T(se3.quat_to_R(site.quat), site.pos) @ ON_HAND
-        quat = se3.R_to_quat(T[:3, :3] @ eye.FLIP)
+        quat = se3.R_to_quat(T[:3, :3] @ depth_camera.FLIP)
         site.parent.add_camera(
             name="hand_eye", pos=T[:3, 3], quat=quat, fovy=FOVY,
             resolution=(WIDTH, HEIGHT),
@@ -95,7 +96,7 @@ def looks(model: mujoco.MjModel, q: Array) -> tuple[Array, Array]:
         mujoco.mj_forward(model, data)  # fills site_xpos, site_xmat, cam_xpos, cam_xmat
         hand = data.site("attachment_site")
         hands.append(se3.make_T(hand.xmat.reshape(3, 3), hand.xpos))
-        eyes.append(eye.camera(model, data, "hand_eye")[1])
+        eyes.append(depth_camera.camera(model, data, "hand_eye")[1])
     return np.array(hands), np.array(eyes)
 
 

@@ -51,7 +51,7 @@ SWEEPS = 8  # rounds over several pairs
 RUSH = 1.0  # m/s, straight at something
 
 
-def segment_segment(
+def closest_points_segments(
     a0: np.ndarray, a1: np.ndarray, b0: np.ndarray, b1: np.ndarray
 ) -> np.ndarray:
     """Return the closest points of two segments, (2, 3): the first's, the second's.
@@ -85,25 +85,29 @@ def capsule_distance(
     capsule_distance((-1, 0, 0), (1, 0, 0), 0.25, (0, -1, 1), (0, 1, 1), 0.5) -> 0.25
     """
     # region 11.2
-    p, o = segment_segment(a0, a1, b0, b1)
+    p, o = closest_points_segments(a0, a1, b0, b1)
     return np.linalg.norm(p - o) - ra - rb
     # endregion 11.2
 
 
-def box_sdf(p: np.ndarray, half: np.ndarray) -> float:
+def box_sdf(p: np.ndarray, half_extents: np.ndarray) -> float:
     """Return how far a point, (3,), is from a box about the origin; inside below 0.
 
-    half, (3,), is half of its sides; the middle of this box is 1 deep.
+    half_extents, (3,), is half of its sides; the middle of this box is 1 deep.
     box_sdf((2, 0, 0), (1, 1, 1)) -> 1
     """
     # region 11.3
-    beyond = np.abs(p) - half
+    beyond = np.abs(p) - half_extents
     return np.linalg.norm(np.maximum(beyond, 0)) + min(beyond.max(), 0.0)
     # endregion 11.3
 
 
-def capsule_box(
-    a0: np.ndarray, a1: np.ndarray, r: float, T_world_box: np.ndarray, half: np.ndarray
+def capsule_box_distance(
+    a0: np.ndarray,
+    a1: np.ndarray,
+    r: float,
+    T_world_box: np.ndarray,
+    half_extents: np.ndarray,
 ) -> float:
     """Return how far a capsule is from a box, wherever that stands.
 
@@ -119,11 +123,13 @@ def capsule_box(
     for _ in range(60):  # of one valley, the part that has its bottom
         left = high - 0.618 * (high - low)
         right = low + 0.618 * (high - low)
-        if box_sdf(start + left * way, half) < box_sdf(start + right * way, half):
+        if box_sdf(start + left * way, half_extents) < box_sdf(
+            start + right * way, half_extents
+        ):
             high = right
         else:
             low = left
-    return min(box_sdf(start + s * way, half) for s in (low, high)) - r
+    return min(box_sdf(start + s * way, half_extents) for s in (low, high)) - r
     # endregion 11.4
 
 
@@ -144,68 +150,70 @@ def distance_gradient(
     # endregion 11.5
 
 
-def aabb(a0: np.ndarray, a1: np.ndarray, r: float) -> np.ndarray:
+def capsule_aabb(a0: np.ndarray, a1: np.ndarray, r: float) -> np.ndarray:
     """Return the box along the axes around a capsule, (2, 3): least, greatest corner.
 
-    aabb((0, 1, 0), (1, 0, 0), 0.5) -> ((-0.5, -0.5, -0.5), (1.5, 1.5, 0.5))
+    capsule_aabb((0, 1, 0), (1, 0, 0), 0.5) -> ((-0.5, -0.5, -0.5), (1.5, 1.5, 0.5))
     """
     # region 11.6
     return np.array([np.minimum(a0, a1) - r, np.maximum(a0, a1) + r])
     # endregion 11.6
 
 
-def overlaps(A: np.ndarray, B: np.ndarray) -> bool:
-    """Return whether two boxes of `aabb`, (2, 3) each, overlap; touching counts.
+def aabb_overlap(box_a: np.ndarray, box_b: np.ndarray) -> bool:
+    """Return whether two boxes of `capsule_aabb`, (2, 3), overlap; touching counts.
 
     Those of (0, 0, 0) to (1, 1, 1) and (1, 0, 0) to (2, 1, 1) do.
     """
     # region 11.6
-    return bool(np.all(A[0] <= B[1]) and np.all(B[0] <= A[1]))
+    return bool(np.all(box_a[0] <= box_b[1]) and np.all(box_b[0] <= box_a[1]))
     # endregion 11.6
 
 
-def reaches(offsets: np.ndarray, far: np.ndarray) -> np.ndarray:
+def distal_radii(link_lengths: np.ndarray, link_radii: np.ndarray) -> np.ndarray:
     """Return how far from each joint anything behind it can ever be, (n,).
 
-    offsets[i], (n,), is from link i's origin to the next one's, far[i], (n,), to the
-    farthest point of link i's own capsules; the last link has no next: its offset does
-    not count. reaches((1, 1, 0), (0.5, 0.5, 0.5)) -> (2.5, 1.5, 0.5)
+    link_lengths[i], (n,), is from link i's origin to the next one's, link_radii[i],
+    (n,), to the farthest point of link i's own capsules; the last link has no next: its
+    length does not count. distal_radii((1, 1, 0), (0.5, 0.5, 0.5)) -> (2.5, 1.5, 0.5)
     """
     # region 11.7
-    reach = np.array(far)
-    for i in range(len(far) - 2, -1, -1):
-        reach[i] = max(far[i], offsets[i] + reach[i + 1])
+    reach = np.array(link_radii)
+    for i in range(len(link_radii) - 2, -1, -1):
+        reach[i] = max(link_radii[i], link_lengths[i] + reach[i + 1])
     return reach
     # endregion 11.7
 
 
-def next_check(s: float, distance: float, dq: np.ndarray, reach: np.ndarray) -> float:
-    """Return where along q + s dq the arm may first touch something, at most 1.
+def conservative_advance(
+    s: float, distance: float, delta_q: np.ndarray, radii: np.ndarray
+) -> float:
+    """Return where along q + s delta_q the arm may first touch something, at most 1.
 
-    The distance is the arm's at s; dq, (7,), the whole way; reach, (7,), of `reaches`.
-    Where the distance is 0 or below: s. Else, where nothing moves: 1. At s = 0.25 and
-    0.1 m, for dq 1 and reach 0.5 everywhere: 0.278571.
+    The distance is the arm's at s; delta_q, (7,), the whole way; radii, (7,), of
+    `distal_radii`. Where the distance is 0 or below: s. Else, where nothing moves: 1.
+    At s = 0.25 and 0.1 m, for delta_q 1 and radii 0.5 everywhere: 0.278571.
     """
     # region 11.8
     if distance <= 0:
         return s
-    speed = np.abs(dq) @ reach  # m that any point moves at most, on the whole way
+    speed = np.abs(delta_q) @ radii  # m that any point moves at most, on the whole way
     return min(1.0, s + distance / speed) if speed > 0 else 1.0
     # endregion 11.8
 
 
-def slowed(
-    qd: np.ndarray, slope: np.ndarray, distance: float, gain: float
+def velocity_damper(
+    qd: np.ndarray, grad: np.ndarray, distance: float, gain: float
 ) -> np.ndarray:
-    """Return the joint speeds nearest to qd with slope . qd >= -gain distance, (7,).
+    """Return the joint speeds nearest to qd with grad . qd >= -gain distance, (7,).
 
-    qd (-1, 0, ..), slope (1, 0, ..), distance 0.1, gain 4: (-0.4, 0, ..). A slope of 0
+    qd (-1, 0, ..), grad (1, 0, ..), distance 0.1, gain 4: (-0.4, 0, ..). A grad of 0
     changes nothing.
     """
     # region 11.9
-    lack = -gain * distance - slope @ qd
-    square = slope @ slope
-    return qd + slope * lack / square if lack > 0 and square > 0 else np.array(qd)
+    lack = -gain * distance - grad @ qd
+    square = grad @ grad
+    return qd + grad * lack / square if lack > 0 and square > 0 else np.array(qd)
     # endregion 11.9
 
 
@@ -219,7 +227,7 @@ def off_library(name: str, own: Callable, given: list[tuple]) -> float:
 def given_to(rng: np.random.Generator) -> dict[str, list[tuple]]:
     """Return what some functions are asked, by name: MuJoCo has none of them."""
     ends = rng.uniform(-1, 1, (40, 2, 3))
-    boxes = [library.aabb(*some, 0.2) for some in ends]
+    boxes = [library.capsule_aabb(*some, 0.2) for some in ends]
     lengths = [rng.uniform(0, 1, (2, 7)) for _ in range(5)]
     long = np.array([0.1, 0.1, 2.0, 0.1, 0.1, 0.1, 0.3])  # in the middle, not the tip
     speeds = rng.uniform(-1, 1, (10, 2, 7))
@@ -227,14 +235,14 @@ def given_to(rng: np.random.Generator) -> dict[str, list[tuple]]:
     half = np.full(7, 0.5)
     touching = np.array([(0.0, 0, 0), (1, 1, 1)])
     return {
-        "aabb": [(*some, 0.2) for some in ends],
-        "overlaps": [*zip(boxes[::2], boxes[1::2], strict=True),
+        "capsule_aabb": [(*some, 0.2) for some in ends],
+        "aabb_overlap": [*zip(boxes[::2], boxes[1::2], strict=True),
                      (touching, touching + np.eye(3)[1]),
                      (touching + np.eye(3)[2], touching)],
-        "reaches": [*lengths, (np.full(7, 0.2), long)],
-        "next_check": [(0.1, 0.3, dq, np.abs(r)) for dq, r in speeds]
+        "distal_radii": [*lengths, (np.full(7, 0.2), long)],
+        "conservative_advance": [(0.1, 0.3, dq, np.abs(r)) for dq, r in speeds]
         + [(0.9, 1.0, half, half), (0.2, -0.1, half, half), (0.2, 0.1, still, half)],
-        "slowed": [(qd, g, 0.05, 4.0) for qd, g in speeds]
+        "velocity_damper": [(qd, g, 0.05, 4.0) for qd, g in speeds]
         + [(qd, g, -0.05, 4.0) for qd, g in speeds] + [(half, still, -0.1, 4.0)],
     }  # fmt: skip
 
@@ -256,7 +264,7 @@ def off_capsules(model, data, q: np.ndarray) -> tuple[list, list, int]:
                 truth = mujoco.mj_geomDistance(model, data, *pair, FAR, fromto)
                 rod = np.array(b0), np.array(b1)
                 apart.append(capsule_distance(a0, a1, ra, *rod, rb) - truth)
-                p, o = segment_segment(a0, a1, *rod)
+                p, o = closest_points_segments(a0, a1, *rod)
                 n = (o - p) / np.linalg.norm(o - p)
                 points.append(np.append(p + ra * n, o - rb * n) - fromto)
                 inside += truth < 0
@@ -287,9 +295,12 @@ def off_boxes(model, data, q: np.ndarray, rng) -> tuple[list, list, list]:
                 asked = a0, a1, day11_mujoco.RADII[i], T, half
                 truth = mujoco.mj_geomDistance(model, data, geom, box, FAR, fromto)
                 if truth > 0:
-                    arm.append(capsule_box(*asked) - truth)
+                    arm.append(capsule_box_distance(*asked) - truth)
                 else:
-                    inside.append(capsule_box(*asked) - library.capsule_box(*asked))
+                    inside.append(
+                        capsule_box_distance(*asked)
+                        - library.capsule_box_distance(*asked)
+                    )
     return ball, arm, inside
 
 
@@ -319,7 +330,7 @@ def off_slopes(model, data, q: np.ndarray) -> list[np.ndarray]:
         mujoco.mj_kinematics(model, data)
         J = space_jacobian(screws, one)
         for i, (a0, a1) in enumerate(day11_mujoco.axes(model, data)):
-            p, o = segment_segment(a0, a1, b0, b1)
+            p, o = closest_points_segments(a0, a1, b0, b1)
             slope = distance_gradient(J, p, o, day11_mujoco.LINK[i])
             pair = model.geom(f"arm{i}").id, model.geom("world0").id
             off.append(slope - slopes(model, data, one, pair))
@@ -333,11 +344,13 @@ def cheap_no(model, data, q: np.ndarray) -> tuple[int, int, int, int]:
         data.qpos[:] = one
         mujoco.mj_kinematics(model, data)  # fills geom_xpos and geom_xmat
         for i, (a0, a1) in enumerate(day11_mujoco.axes(model, data)):
-            own = aabb(a0, a1, day11_mujoco.RADII[i])
+            own = capsule_aabb(a0, a1, day11_mujoco.RADII[i])
             for j, (b0, b1, r) in enumerate(day11_mujoco.RODS):
                 pair = model.geom(f"arm{i}").id, model.geom(f"world{j}").id
                 d = mujoco.mj_geomDistance(model, data, *pair, FAR, np.zeros(6))
-                apart = not overlaps(own, aabb(np.array(b0), np.array(b1), r))
+                apart = not aabb_overlap(
+                    own, capsule_aabb(np.array(b0), np.array(b1), r)
+                )
                 pairs += 1
                 no += apart
                 touch += d <= 0
@@ -369,7 +382,7 @@ def walk(edge: day11_mujoco.Edge, reach: np.ndarray) -> tuple[bool, list[float]]
             return False, looked
         if looked[-1] >= 1:
             return True, looked
-        looked.append(next_check(looked[-1], d, edge.dq, reach))
+        looked.append(conservative_advance(looked[-1], d, edge.dq, reach))
     return False, looked
 
 
@@ -405,7 +418,7 @@ def slopes_of(
            for some, ra in zip(ends, day11_mujoco.RADII, strict=True)]  # fmt: skip
     found = []
     for k in np.argsort(far)[:pairs]:
-        p, o = segment_segment(*ends[k], b0, b1)
+        p, o = closest_points_segments(*ends[k], b0, b1)
         found.append((distance_gradient(J, p, o, day11_mujoco.LINK[k]), far[k], int(k)))
     return found
 
@@ -474,11 +487,11 @@ def main() -> int:
     lab.step("2. A capsule and a box")
     ball, sides, inside = off_boxes(model, data, q, rng)
     lab.check("|box_sdf - MuJoCo's ball|, m, inside too", ball)
-    lab.check("|capsule_box - mj_geomDistance|, m, outside", sides)
+    lab.check("|capsule_box_distance - mj_geomDistance|, m, outside", sides)
     print(
         f"  {len(sides)} pairs; {len(inside)} overlap, where MuJoCo's depth is another"
     )
-    lab.check("capsule_box - the library's, inside", inside)
+    lab.check("capsule_box_distance - the library's, inside", inside)
 
     lab.step("3. How fast it changes")
     off = off_slopes(model, data, q[: TRIALS // 5 + 1])
@@ -495,7 +508,10 @@ def main() -> int:
     pairs, no, touch, both = cheap_no(model, data, q)
     print(f"  of {pairs} pairs boxes exclude {no}; {touch} touch")
     lab.check("pairs that touch and are excluded", both)
-    for name, own in {"aabb": aabb, "overlaps": overlaps}.items():
+    for name, own in {
+        "capsule_aabb": capsule_aabb,
+        "aabb_overlap": aabb_overlap,
+    }.items():
         lab.check(f"{name} - the library's", off_library(name, own, given[name]))
 
     lab.step("5. How many points?")
@@ -511,12 +527,15 @@ def main() -> int:
             lab.measured("missed by 10 points, share", share)
 
     lab.step("6. A promise in place of points")
-    reach = reaches(*arm.lengths)
+    reach = distal_radii(*arm.lengths)
     lab.show("reach, m", reach, 3)
     seen = farthest(model, data, q)
     lab.show("largest seen by MuJoCo, of it", seen / reach, 2)
     lab.check("seen beyond the reach, m", np.maximum(seen - reach, 0))
-    for name, own in {"reaches": reaches, "next_check": next_check}.items():
+    for name, own in {
+        "distal_radii": distal_radii,
+        "conservative_advance": conservative_advance,
+    }.items():
         lab.check(f"{name} - the library's", off_library(name, own, given[name]))
     edges = day11_mujoco.whips(WHIPS, THIN, SEED)
     for k in MANY:
@@ -536,13 +555,14 @@ def main() -> int:
     lab.step("7. Side quest: told to go through a post")
     with lab.side_quest():
         lab.check(
-            "slowed - the library's", off_library("slowed", slowed, given["slowed"])
+            "velocity_damper - the library's",
+            off_library("velocity_damper", velocity_damper, given["velocity_damper"]),
         )
-        share = left_of_it(slowed)
+        share = left_of_it(velocity_damper)
         print(f"  straight at it: after 1 s {share:.4f} of the distance is left")
         least, beside = through(POST, lambda qd, *_: qd)
         print(f"  as told: {least:.1f} mm, ends {beside:.1f} mm beside its target")
-        least, beside = through(POST, slowed)
+        least, beside = through(POST, velocity_damper)
         print(f"  slowed: {least:.1f} mm, ends {beside:.1f} mm beside its target")
         lab.record("post", least, metric="least_mm", label="least distance, mm")
     return lab.finish()

@@ -47,7 +47,9 @@ class Wall:
         self.model.dof_damping[:] = 0.0  # the plan of a motion leaves it out
         self.data = mujoco.MjData(self.model)
         arm = shapes.Shape(self.model)
-        self.reach = arm.reach  # Day 11's: m, from each joint to the farthest behind it
+        self.reach = (
+            arm.distal_radii
+        )  # Day 11's: m, from each joint to the farthest behind it
         geoms = [(self.model.geom(f"arm{i}").id, one.link)
                  for i, one in enumerate(arm.capsules)]  # fmt: skip
         around = [self.model.geom(f"world{i}").id for i in range(len(self.boxes))]
@@ -69,7 +71,7 @@ class Wall:
         return self._known[key]
 
     def _looked_along(self, q: Array, dq: Array) -> bool:
-        """Look at q + s dq where Day 11's `next_check` says, from 0 to 1."""
+        """Look at q + s dq where Day 11's `conservative_advance` says, from 0 to 1."""
         speed = np.abs(dq) @ self.reach  # no point moves further, m per s
         s = 0.0
         while True:

@@ -60,11 +60,11 @@ def steer(q: np.ndarray, target: np.ndarray, step: float) -> np.ndarray:
     # endregion 12.1
 
 
-def disc_edge_free(a: np.ndarray, b: np.ndarray, discs: np.ndarray) -> bool:
+def segment_free_of_discs(a: np.ndarray, b: np.ndarray, discs: np.ndarray) -> bool:
     """Return whether the straight edge from a to b, (2,) each, touches no disc.
 
     discs, (m, 3), holds x, y and the radius of each; there may be none, and b may be a.
-    disc_edge_free((0, 0), (2, 0), ((1, 1, 0.5),)) -> True
+    segment_free_of_discs((0, 0), (2, 0), ((1, 1, 0.5),)) -> True
     """
     # region 12.2
     along = b - a
@@ -78,7 +78,7 @@ def disc_edge_free(a: np.ndarray, b: np.ndarray, discs: np.ndarray) -> bool:
 def edge_free(a: np.ndarray, b: np.ndarray, world) -> bool:
     """Return whether the straight edge from a to b is free: given, for every world."""
     own = getattr(world, "edge_free", None)
-    return own(a, b) if own else disc_edge_free(a, b, world)
+    return own(a, b) if own else segment_free_of_discs(a, b, world)
 
 
 def extend(
@@ -157,11 +157,11 @@ def shortcut(path: np.ndarray, world, pairs: np.ndarray) -> np.ndarray:
     # endregion 12.5
 
 
-def wilson(successes: int, n: int) -> np.ndarray:
+def wilson_interval(successes: int, n: int) -> np.ndarray:
     """Return the least and the greatest share, (2,), that n trials make believable.
 
     95 %, with z = 1.96; without a trial every share is: (0, 1).
-    wilson(18, 60) -> (0.19898, 0.42509)
+    wilson_interval(18, 60) -> (0.19898, 0.42509)
     """
     # region 12.6
     if n == 0:
@@ -175,32 +175,32 @@ def wilson(successes: int, n: int) -> np.ndarray:
 
 def path_dynamics(
     M: np.ndarray,
-    dq: np.ndarray,
-    ddq: np.ndarray,
+    dq_ds: np.ndarray,
+    d2q_ds2: np.ndarray,
     coriolis: np.ndarray,
     gravity: np.ndarray,
 ) -> np.ndarray:
-    """Return a, b and g of a path's point, (3, k): tau = a sdd + b sd^2 + g, N m.
+    """Return a, b and c of a path's point, (3, k): tau = a sdd + b sd^2 + c, N m.
 
-    M is (k, k), dq = dq/ds and ddq = d2q/ds2, (k,); coriolis is that torque at qd = dq.
-    path_dynamics(((2,),), (3,), (1,), (5,), (7,)) -> ((6,), (7,), (7,))
+    M is (k, k), dq_ds = dq/ds and d2q_ds2 = d2q/ds2, (k,); coriolis is that torque at
+    qd = dq_ds. path_dynamics(((2,),), (3,), (1,), (5,), (7,)) -> ((6,), (7,), (7,))
     """
     # region 12.7
-    return np.array([M @ dq, M @ ddq + coriolis, gravity])
+    return np.array([M @ dq_ds, M @ d2q_ds2 + coriolis, gravity])
     # endregion 12.7
 
 
-def accel_range(
-    a: np.ndarray, b: np.ndarray, g: np.ndarray, limits: np.ndarray, sd: float
+def path_accel_bounds(
+    a: np.ndarray, b: np.ndarray, c: np.ndarray, limits: np.ndarray, sd: float
 ) -> np.ndarray:
     """Return the least and the greatest sdd, (2,), that all torques allow at sd.
 
-    a, b, g and limits, N m, are (k,). If none is allowed the least is above the
+    a, b, c and limits, N m, are (k,). If none is allowed the least is above the
     greatest. A joint with a = 0 limits nothing; (inf, -inf) if it cannot hold.
-    accel_range((1, 2), (0, 0), (0, 1), (4, 5), 0) -> (-3, 2)
+    path_accel_bounds((1, 2), (0, 0), (0, 1), (4, 5), 0) -> (-3, 2)
     """
     # region 12.8
-    rest = b * sd**2 + g
+    rest = b * sd**2 + c
     moves = a != 0
     if np.any(np.abs(rest[~moves]) > limits[~moves]):
         return np.array([np.inf, -np.inf])
@@ -210,36 +210,37 @@ def accel_range(
     # endregion 12.8
 
 
-def fastest_along(
-    A: np.ndarray, B: np.ndarray, G: np.ndarray, limits: np.ndarray, x_max: np.ndarray
+def time_optimal_profile(
+    a: np.ndarray, b: np.ndarray, c: np.ndarray, limits: np.ndarray, sd2_max: np.ndarray
 ) -> np.ndarray:
     """Return sd^2, (N + 1,), of the fastest motion along a path, from rest to rest.
 
-    A, B and G, (N + 1, k), are 12.7's at N + 1 even points; x_max, (N + 1,), is the
+    a, b and c, (N + 1, k), are 12.7's at N + 1 even points; sd2_max, (N + 1,), is the
     most that the motors' speeds allow there. Zeros if gravity alone is above a limit.
-    M 2, dq 1, limit 8, N 4, x_max 9: (0, 2, 4, 2, 0); with gravity 4: (0, 1, 2, 3, 0).
+    M 2, dq_ds 1, limit 8, N 4, sd2_max 9: (0, 2, 4, 2, 0); with gravity 4:
+    (0, 1, 2, 3, 0).
     """
     # region 12.9
-    if np.any(np.abs(G) > limits):
-        return np.zeros(len(A))
-    two_ds = 2.0 / (len(A) - 1)
+    if np.any(np.abs(c) > limits):
+        return np.zeros(len(a))
+    two_ds = 2.0 / (len(a) - 1)
 
     def reached(i: int, x: float, after: float) -> bool:
-        low, high = accel_range(A[i], B[i], G[i], limits, np.sqrt(x))
+        low, high = path_accel_bounds(a[i], b[i], c[i], limits, np.sqrt(x))
         return low <= high and x + two_ds * low <= after and x + two_ds * high >= 0.0
 
-    most = np.zeros(len(A))  # from which one can still stop at the end
-    for i in range(len(A) - 2, -1, -1):
-        good, bad = 0.0, x_max[i]
+    most = np.zeros(len(a))  # from which one can still stop at the end
+    for i in range(len(a) - 2, -1, -1):
+        good, bad = 0.0, sd2_max[i]
         if reached(i, bad, most[i + 1]):
             good = bad
         for _ in range(60 * (good < bad)):
             half = (good + bad) / 2.0
             good, bad = (half, bad) if reached(i, half, most[i + 1]) else (good, half)
         most[i] = good
-    x = np.zeros(len(A))
-    for i in range(len(A) - 1):
-        high = accel_range(A[i], B[i], G[i], limits, np.sqrt(x[i]))[1]
+    x = np.zeros(len(a))
+    for i in range(len(a) - 1):
+        high = path_accel_bounds(a[i], b[i], c[i], limits, np.sqrt(x[i]))[1]
         x[i + 1] = max(0.0, min(most[i + 1], x[i] + two_ds * high))
     return x
     # endregion 12.9
@@ -302,12 +303,12 @@ def given_to_plane(rng: np.random.Generator) -> dict[str, list[tuple]]:
     some["steer"] = [(tree[0], tree[0] + x, 2.5) for x in rng.normal(size=(TRIALS, 7))]
     discs = rng.uniform((-1, -1, 0.05), (1, 1, 0.2), (4, 3))
     ends = rng.uniform(-1.0, 1.0, (4 * TRIALS, 2, 2))
-    some["disc_edge_free"] = [(a, b, discs) for a, b in ends]
+    some["segment_free_of_discs"] = [(a, b, discs) for a, b in ends]
     one = np.array([[0.0, 0.5, 0.5]])
     point = np.array([0.0, 0.6])
     away = np.array([0.0, 2.0])
     side = np.array([-1.0, 0.0]), np.array([1.0, 0.0])  # they touch it
-    some["disc_edge_free"] += [
+    some["segment_free_of_discs"] += [
         (*side, one),
         (*side, one[:0]),
         (point, point, one),
@@ -390,7 +391,7 @@ def shorter(wall: Wall, ways: list[np.ndarray]) -> list[np.ndarray]:
 def share_of(needed: np.ndarray, n: int) -> tuple[int, np.ndarray]:
     """Return how many plans needed n samples at most, and 12.6's interval of that."""
     found = int(np.sum(needed <= n))
-    return found, wilson(found, len(needed))
+    return found, wilson_interval(found, len(needed))
 
 
 def show_shares(needed: np.ndarray, short: np.ndarray) -> None:
@@ -421,17 +422,19 @@ def given_to_timing(rng: np.random.Generator) -> dict[str, list[tuple]]:
     a[:3, 2] = 0.0  # joint3 does not move; the third time it cannot hold
     g[:3, 2] = (0.5, -0.5, 9.0)
     sd = rng.uniform(0.3, 1.5, TRIALS)
-    some["accel_range"] = list(zip(a, b, g, limits, sd, strict=True))
-    some["wilson"] = [(k, n) for n in (0, 1, 20, 60) for k in {0, n // 3, n}]
+    some["path_accel_bounds"] = list(zip(a, b, g, limits, sd, strict=True))
+    some["wilson_interval"] = [(k, n) for n in (0, 1, 20, 60) for k in {0, n // 3, n}]
     A = 1.5 + np.cumsum(rng.normal(size=(21, 7)), axis=0) / 4.0
     B = np.cumsum(rng.normal(size=(21, 7)), axis=0) / 4.0
     G = rng.uniform(-1.0, 1.0, (21, 7))
     x_max = rng.uniform(0.3, 1.0, 21)
     heavy = G + 9.0 * np.eye(21, 7, -12)
-    some["fastest_along"] = [(A, B, some_g, limits[0], x_max) for some_g in (G, heavy)]
+    some["time_optimal_profile"] = [
+        (A, B, some_g, limits[0], x_max) for some_g in (G, heavy)
+    ]
     two = np.ones((7, 2))  # of which none may go fast at the middle point
     steep = 20.0 * np.eye(7)[3][:, None] * [1.0, -1.0]
-    some["fastest_along"] += [(2 * two, steep, two, 8 * two[0], 9 * two[:, 0])]
+    some["time_optimal_profile"] += [(2 * two, steep, two, 8 * two[0], 9 * two[:, 0])]
     return some
 
 
@@ -498,15 +501,15 @@ def bang_bang(fastest, gravity: float) -> float:
 
 def time_the_move(lab: Lab, arm, limits: np.ndarray) -> None:
     """Time one joint and Day 7's move with the library's 12.9, from your a, b and g."""
-    alone = bang_bang(library.fastest_along, 0.0)
-    print(f"  the library's fastest_along, one joint: {alone:.4f} s; against "
-          f"gravity {bang_bang(library.fastest_along, 4.0):.4f} s")  # fmt: skip
+    alone = bang_bang(library.time_optimal_profile, 0.0)
+    print(f"  the library's, one joint: {alone:.4f} s; against "
+          f"gravity {bang_bang(library.time_optimal_profile, 4.0):.4f} s")  # fmt: skip
     lab.measured("one joint over 1 rad, s", alone)
     A, B, G, most = along(arm, panda.READY_Q, TO, POINTS)
     print(f"  Day 7's move as a quintic: {quintic((panda.READY_Q, TO)):.3f} s")
     times = []
     for share in (1.0, 0.5, 0.4, 0.39, 0.38):
-        x = library.fastest_along(A, B, G, share * limits, most)
+        x = library.time_optimal_profile(A, B, G, share * limits, most)
         times.append(seconds(x))
         told = f"{times[-1]:.3f} s" if x.any() else "it cannot hold itself up"
         print(f"    the fastest, with {share:4.0%} of the torque: {told}")
@@ -517,7 +520,7 @@ def judge_the_move(lab: Lab, arm, inverse, limits: np.ndarray) -> None:
     """Time Day 7's move with your 12.9, and ask MuJoCo for its torques."""
     start = panda.READY_Q
     A, B, G, most = along(arm, start, TO, POINTS)
-    x = fastest_along(A, B, G, limits, most)
+    x = time_optimal_profile(A, B, G, limits, most)
     at = torque_share(inverse, limits, start, TO, x, (0.0,))
     lab.record("torque", at, metric="share", label="torque share at the points")
     at = torque_share(inverse, limits, start, TO, x, (0.5, 1.0))
@@ -532,7 +535,9 @@ def time_the_ways(arm, limits: np.ndarray, ways: list[np.ndarray]) -> None:
     for seed, way in enumerate(ways[:3]):
         legs = list(itertools.pairwise(way))
         fast = [along(arm, *leg, LEG) for leg in legs]
-        times = [seconds(fastest_along(*some[:3], limits, some[3])) for some in fast]
+        times = [
+            seconds(time_optimal_profile(*some[:3], limits, some[3])) for some in fast
+        ]
         slow = [quintic(leg) for leg in legs]
         print(f"  over the wall, seed {seed}: {len(legs)} legs, {sum(times):.2f} s; "
               f"as quintics {sum(slow):.2f} s")  # fmt: skip
@@ -551,7 +556,8 @@ def main() -> int:
 
     lab.step("1. A tree and a checker of edges, in the plane")
     given = given_to_plane(rng)
-    yours = {"nearest": nearest, "steer": steer, "disc_edge_free": disc_edge_free,
+    yours = {"nearest": nearest, "steer": steer,
+             "segment_free_of_discs": segment_free_of_discs,
              "extend": extend}  # fmt: skip
     for name, own in yours.items():
         lab.check(f"{name} - the library's", off_library(name, own, given[name]))
@@ -569,8 +575,8 @@ def main() -> int:
 
     lab.step(f"3. The arm: over a wall, under a roof ({SEEDS} seeds)")
     timing = given_to_timing(rng)
-    off = off_library("wilson", wilson, timing["wilson"])
-    lab.check("wilson - the library's", off)
+    off = off_library("wilson_interval", wilson_interval, timing["wilson_interval"])
+    lab.check("wilson_interval - the library's", off)
     wall, blind = Wall(), Wall(forget=(7,))
     needed, ways = plan_with(wall, SEEDS)
     short, wrong = plan_with(blind, FORGOTTEN)
@@ -593,15 +599,20 @@ def main() -> int:
     _, limits = simulate.limits(wall.model)
     off = off_mujoco(arm, inverse, rng)
     lab.check("|a sdd + b sd^2 + g - MuJoCo's torque|, N m", off)
-    off = off_library("accel_range", accel_range, timing["accel_range"])
-    lab.check("accel_range - the library's", off)
+    off = off_library(
+        "path_accel_bounds", path_accel_bounds, timing["path_accel_bounds"]
+    )
+    lab.check("path_accel_bounds - the library's", off)
     time_the_move(lab, arm, limits)
 
     lab.step("5. Side quest: as fast as the torques allow")
     with lab.side_quest():
-        off = off_library("fastest_along", fastest_along, timing["fastest_along"])
-        lab.check("fastest_along - the library's", off)
-        lab.record("bang_bang", bang_bang(fastest_along, 0.0) - 1.0, metric="off_s",
+        off = off_library(
+            "time_optimal_profile", time_optimal_profile, timing["time_optimal_profile"]
+        )
+        lab.check("time_optimal_profile - the library's", off)
+        lab.record("bang_bang", bang_bang(time_optimal_profile, 0.0) - 1.0,
+                   metric="off_s",
                    label="one joint, off 2 sqrt(d / a) = 1 s")  # fmt: skip
         judge_the_move(lab, arm, inverse, limits)
         time_the_ways(arm, limits, cut)

@@ -13,7 +13,7 @@ import numpy as np
 
 from robo47 import cli, grasp, policy, se3
 from robo47.lesson.lab import Lab
-from robo47.planning import wilson
+from robo47.planning import wilson_interval
 from robo47.screws import skew
 
 import day14_mujoco
@@ -72,26 +72,26 @@ def cone_margin(force: np.ndarray, normal: np.ndarray, mu: np.ndarray) -> np.nda
     # endregion 14.1
 
 
-def reflex(
-    opening: float,
+def grip_reflex_step(
+    finger_position: float,
     force: np.ndarray,
     normal: np.ndarray,
     mu: np.ndarray,
-    share: float,
+    fraction: float,
     step: float,
 ) -> float:
     """Return the next opening, m: a step less where any contact nearly slips.
 
-    Nearly: its margin is below share times mu f_n. Never less than LOW's opening.
-    Force (3, 4, 10) of 10, opening 0.01, step 0.002: share 0.2 gives 0.008, share 0.1
-    gives 0.01; from -0.019 with 0.2 it is -0.02.
+    Nearly: its margin is below fraction times mu f_n. Never less than LOW's.
+    Force (3, 4, 10) of 10, opening 0.01, step 0.002: fraction 0.2 gives 0.008,
+    fraction 0.1 gives 0.01; from -0.019 with 0.2 it is -0.02.
     """
     # region 14.1
     margin = cone_margin(force, normal, mu)
     most = mu * np.sum(force * normal, axis=1)
-    if np.any(margin < share * most):
-        return max(opening - step, LOW[4])
-    return opening
+    if np.any(margin < fraction * most):
+        return max(finger_position - step, LOW[4])
+    return finger_position
     # endregion 14.1
 
 
@@ -125,7 +125,7 @@ def cone_edges(normal: np.ndarray, mu: float, k: int) -> np.ndarray:
     # endregion 14.3
 
 
-def closes(W: np.ndarray, weights: np.ndarray) -> bool:
+def certifies_force_closure(W: np.ndarray, weights: np.ndarray) -> bool:
     """Return whether weights, (n,), prove that the grasp W, (6, n), resists all.
 
     W has rank 6: its smallest singular value is above 1e-9 of the largest. Every weight
@@ -155,7 +155,7 @@ def observe(T_seen: np.ndarray, noise: np.ndarray) -> np.ndarray:
     # endregion 14.5
 
 
-def act(theta: np.ndarray, seen: np.ndarray) -> np.ndarray:
+def act(theta: np.ndarray, observation: np.ndarray) -> np.ndarray:
     """Return (x, y, yaw, height, opening, lift), (6,): what the hand is to do.
 
     theta, (6,), is clipped to LOW and HIGH first; its shift is in the axes of the cube
@@ -164,7 +164,7 @@ def act(theta: np.ndarray, seen: np.ndarray) -> np.ndarray:
     """
     # region 14.5
     theta = np.clip(theta, LOW, HIGH)
-    x, y, yaw = seen
+    x, y, yaw = observation
     shift = se3.Rz(yaw)[:2, :2] @ theta[:2]
     return np.array([x + shift[0], y + shift[1], yaw + theta[2], *theta[3:]])
     # endregion 14.5
@@ -203,11 +203,12 @@ def cem_step(
 def success_rate(success: np.ndarray) -> np.ndarray:
     """Return the rate of True in success, (n,), and its 95 % interval: (3,).
 
-    The interval is Day 12's wilson. success_rate(np.ones(8)) -> (1, 0.675584, 1)
+    The interval is Day 12's wilson_interval.
+    success_rate(np.ones(8)) -> (1, 0.675584, 1)
     """
     # region 14.8
     won = int(np.sum(success))
-    return np.array([won / len(success), *wilson(won, len(success))])
+    return np.array([won / len(success), *wilson_interval(won, len(success))])
     # endregion 14.8
 
 
@@ -324,7 +325,7 @@ def given_to_functions(rng: np.random.Generator) -> dict[str, list[tuple]]:
     samples = rng.normal(size=(9, 6))
     scores = np.array([0.2, 1, np.nan, 0.5, 1, -1, 1, np.nan, 0.5])
     return {
-        "reflex": [
+        "grip_reflex_step": [
             (opening, size * force, normal, mu, share, CLOSE)
             for share in (0.1, 0.3, 0.5, 0.6, 0.7, 0.9)
             for size in (0.01, 1.0, 100.0)
@@ -334,7 +335,7 @@ def given_to_functions(rng: np.random.Generator) -> dict[str, list[tuple]]:
             *zip(normal, (0.2, 0.5, 0.9, 1.3), (3, 4, 6, 8), strict=True),
             (np.array([0, 0, 1.0]), 0.5, 4),
         ],
-        "closes": proofs(),
+        "certifies_force_closure": proofs(),
         "observe": list(zip(poses, noise, strict=True)),
         "act": list(zip(thetas, seen, strict=True)),
         "reward": [(heights, TARGET, CAP), (heights, 0.1, 0.15)],
@@ -463,11 +464,13 @@ def needed(within: float) -> int:
 
 
 def feeling(model, data, theta, cubes, noise) -> tuple[np.ndarray, np.ndarray]:
-    """Return which cubes your reflex holds, (n,), and with how many N, (n,)."""
+    """Return which cubes your grip_reflex_step holds, (n,), and the forces, N, (n,)."""
     newtons = [squeezed(theta)]
 
     def touch(opening: float, felt: day14_mujoco.Felt) -> float:
-        opening = reflex(opening, felt.force, felt.normal, felt.mu, SHARE, CLOSE)
+        opening = grip_reflex_step(
+            opening, felt.force, felt.normal, felt.mu, SHARE, CLOSE
+        )
         newtons.append(day14_mujoco.SPRING * (day14_mujoco.HALF - opening))
         return opening
 
@@ -486,14 +489,14 @@ def same_as(lab: Lab, library, given: dict[str, list[tuple]], **own) -> None:
 
 
 def try_grasps() -> list[float]:
-    """Print what your closes proves; return where wrenches say another thing."""
+    """Print what your certifies_force_closure proves; return where wrenches differ."""
     wanted = np.random.default_rng(SEED).normal(size=(20, 6))
     print("  grasp              mu   rank   closes   20 wrenches, by pushing alone")
     off = []
     for name in GRASPS:
         for mu in (0.0, 0.5):
             W = wrenches(name, mu)
-            proof = closes(W, np.ones(W.shape[1]))
+            proof = certifies_force_closure(W, np.ones(W.shape[1]))
             made = resists(W, wanted)  # np.linalg.lstsq, and what does nothing
             print(f"  {name:14}{mu:7}{np.linalg.matrix_rank(W):7}"
                   f"{'yes' if proof else 'no':>9}   "
@@ -533,7 +536,7 @@ def main() -> int:
         off.extend(cone_margin(felt.force, felt.normal, felt.mu) - theirs)
         left.append(moved_by(model, data, felt))
     lab.record("cone", off, label="|margin - by mj_contactForce|, N", seed=SEED)
-    same_as(lab, grasp, given, reflex=reflex)
+    same_as(lab, grasp, given, grip_reflex_step=grip_reflex_step)
 
     lab.step("2. What fingers do together")
     left = [one for one in left if one is not None]
@@ -546,8 +549,14 @@ def main() -> int:
         lab.measured(f"the heaviest cube, mu {mu}, {squeeze} N, g", grams)
 
     lab.step("3. Is this a proof?")
-    same_as(lab, grasp, given, cone_edges=cone_edges, closes=closes)
-    lab.check("closes - whether all wrenches are made", try_grasps())
+    same_as(
+        lab,
+        grasp,
+        given,
+        cone_edges=cone_edges,
+        certifies_force_closure=certifies_force_closure,
+    )
+    lab.check("certifies_force_closure - whether all wrenches are made", try_grasps())
 
     lab.step("4. Six numbers")
     same_as(lab, policy, given, observe=observe, act=act, reward=reward,

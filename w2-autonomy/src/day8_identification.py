@@ -43,7 +43,7 @@ def rms(x: np.ndarray) -> float:
     return np.sqrt(np.mean(np.square(x)))
 
 
-def inertia_of(phi: np.ndarray) -> np.ndarray:
+def spatial_inertia_from_params(phi: np.ndarray) -> np.ndarray:
     """Return the 6x6 inertia of a body, (6, 6), from its ten numbers phi, (10,).
 
     (2, 0, 0, 2, 2, 2, 0, 0, 0, 0) is Day 4's 2 kg at (0, 0, 1), (2, 2, 0, 2, 2, 2).
@@ -61,15 +61,15 @@ def inertia_of(phi: np.ndarray) -> np.ndarray:
     # endregion 8.1
 
 
-def link_regressor(V: np.ndarray, A: np.ndarray) -> np.ndarray:
+def link_regressor(V: np.ndarray, Vd: np.ndarray) -> np.ndarray:
     """Return what each of the ten numbers costs in wrench, (6, 10).
 
-    V and A, (6,), are the body's twist and acceleration, in its axes. At rest with A =
-    (0, 0, 0, 0, 0, 9.81) the column of m is A, that of m cx (0, -9.81, 0, 0, 0, 0).
+    V and Vd, (6,), are the body's twist and acceleration, in its axes. At rest with Vd
+    = (0, 0, 0, 0, 0, 9.81) the column of m is Vd, that of m cx (0, -9.81, 0, 0, 0, 0).
     """
     # region 8.2
-    G = np.array([inertia_of(unit) for unit in np.eye(10)])
-    return (G @ A - G @ V @ ad(V)).T  # each row of G V times ad(V): ad(V)^T G V
+    G = np.array([spatial_inertia_from_params(unit) for unit in np.eye(10)])
+    return (G @ Vd - G @ V @ ad(V)).T  # each row of G V times ad(V): ad(V)^T G V
     # endregion 8.2
 
 
@@ -96,7 +96,7 @@ def arm_regressor(
     # endregion 8.3
 
 
-def motor_features(qd: np.ndarray, qdd: np.ndarray) -> np.ndarray:
+def actuator_regressor(qd: np.ndarray, qdd: np.ndarray) -> np.ndarray:
     """Return the columns of rotors, viscous and dry friction, (7, 21).
 
     With joint 1 at 0.5 rad/s and 2 rad/s2 row 0 has 2, 0.5, 1 at columns 0, 7, 14.
@@ -106,7 +106,7 @@ def motor_features(qd: np.ndarray, qdd: np.ndarray) -> np.ndarray:
     # endregion 8.4
 
 
-def identifiable(Y: np.ndarray, rtol: float) -> tuple[int, float]:
+def rank_and_condition(Y: np.ndarray, rtol: float) -> tuple[int, float]:
     """Return (rank, condition): how much Y, (n, p), shows, and how unevenly.
 
     A singular value counts above rtol times the largest. Of [[1, 1], [2, 2]]: (1, 1.0).
@@ -118,10 +118,10 @@ def identifiable(Y: np.ndarray, rtol: float) -> tuple[int, float]:
     # endregion 8.5
 
 
-def fit(Y: np.ndarray, tau: np.ndarray, rtol: float) -> np.ndarray:
+def truncated_svd_fit(Y: np.ndarray, tau: np.ndarray, rtol: float) -> np.ndarray:
     """Return the smallest parameters, (p,), that explain the torques tau, (n,), best.
 
-    For [[1, 1], [2, 2]] and (2, 4): (1, 1). rtol is that of `identifiable`.
+    For [[1, 1], [2, 2]] and (2, 4): (1, 1). rtol is that of `rank_and_condition`.
     """
     # region 8.6
     U, s, Vt = np.linalg.svd(Y, full_matrices=False)
@@ -141,13 +141,13 @@ def predict_with_sigma(
     # region 8.7
     _, s, Vt = np.linalg.svd(Y, full_matrices=False)
     kept = s > rtol * s[0]
-    phi = fit(Y, tau, rtol)
+    phi = truncated_svd_fit(Y, tau, rtol)
     noise = np.linalg.norm(tau - Y @ phi) / np.sqrt(len(tau) - kept.sum())
     return Y_new @ phi, noise * np.linalg.norm(Y_new @ Vt[kept].T / s[kept], axis=1)
     # endregion 8.7
 
 
-def payload_from_holds(
+def identify_payload(
     J_site: np.ndarray, R_site: np.ndarray, extra: np.ndarray, g: np.ndarray
 ) -> np.ndarray:
     """Return m and m c, (4,), of what hangs on the hand; c is in the hand's axes.
@@ -164,13 +164,13 @@ def payload_from_holds(
     # endregion 8.8
 
 
-def least_pseudo(phi: np.ndarray) -> float:
+def min_pseudo_inertia_eig(phi: np.ndarray) -> float:
     """Return the least eigenvalue of [[tr(I)/2 1 - I, h], [h^T, m]], with h = m c.
 
     Of a body it is never below 0. (1, 0, 0, 0, 1, 1, 3, 0, 0, 0) has -0.5.
     """
     # region 8.9
-    about = inertia_of(phi)[:3, :3]
+    about = spatial_inertia_from_params(phi)[:3, :3]
     h = phi[1:4, None]
     spread = np.trace(about) / 2 * np.eye(3) - about
     return np.linalg.eigvalsh(np.block([[spread, h], [h.T, phi[0]]]))[0]
@@ -196,7 +196,7 @@ def regressor(arm, motion: day8_mujoco.Motion) -> np.ndarray:
     for q, qd, qdd in zip(motion.q, motion.qd, motion.qdd, strict=True):
         now = arm.at(q)
         links = arm_regressor(now.J_space, now.T_links, qd, qdd, arm.gravity)
-        motors = motor_features(qd, qdd)
+        motors = actuator_regressor(qd, qdd)
         rows.append(np.hstack([links, motors]))
     return np.array(rows)
 
@@ -229,15 +229,17 @@ def off_library() -> dict[str, np.ndarray]:
     alike = R_site[0] @ se3.Rx(0.002 * np.arange(5))  # holds that hardly differ
     g = np.array([1.0, -2.0, -9.0])  # an arm may hang on a wall
     given = {
-        "motor_features": [(speeds, rng.normal(size=5))],
-        "identifiable": [(Y, 4e-3), (Y_wide, 4e-3), (Y[:, :4] / 1e3, 1e-9)],
-        "fit": [(Y, tau, 4e-3), (Y_wide, tau, 4e-3)],
+        "actuator_regressor": [(speeds, rng.normal(size=5))],
+        "rank_and_condition": [(Y, 4e-3), (Y_wide, 4e-3), (Y[:, :4] / 1e3, 1e-9)],
+        "truncated_svd_fit": [(Y, tau, 4e-3), (Y_wide, tau, 4e-3)],
         "predict_with_sigma": [(Y, tau, Y_new, 4e-3), (Y_wide, tau, Y_new, 4e-3)],
-        "payload_from_holds": [(J_site, R, extra, g) for R in (R_site, alike)],
+        "identify_payload": [(J_site, R, extra, g) for R in (R_site, alike)],
     }
-    own = {"motor_features": motor_features, "identifiable": identifiable, "fit": fit,
+    own = {"actuator_regressor": actuator_regressor,
+           "rank_and_condition": rank_and_condition,
+           "truncated_svd_fit": truncated_svd_fit,
            "predict_with_sigma": predict_with_sigma,
-           "payload_from_holds": payload_from_holds}  # fmt: skip
+           "identify_payload": identify_payload}  # fmt: skip
 
     def off(name: str) -> np.ndarray:
         parts = []
@@ -258,9 +260,9 @@ def lengths(per_metre: float) -> np.ndarray:
 
 def judged(name: str, Y, tau, Y_new, truth, rtol: float) -> tuple[float, float]:
     """Fit, print how good it looks and how good it is; return RMS and share inside."""
-    rank, condition = identifiable(Y, rtol)
+    rank, condition = rank_and_condition(Y, rtol)
     condition = float(f"{condition:.3g}")
-    phi = fit(Y, tau, rtol)
+    phi = truncated_svd_fit(Y, tau, rtol)
     with np.errstate(divide="ignore"):  # as many rows as numbers: sigma is inf
         torque, sigma = predict_with_sigma(Y, tau, Y_new, rtol)
     off = rms(torque - truth)
@@ -277,7 +279,7 @@ def judged(name: str, Y, tau, Y_new, truth, rtol: float) -> tuple[float, float]:
 def weighed(arm, q, extra) -> tuple[np.ndarray, np.ndarray]:
     """Return (m, m c), (4,), from holds at q, (k, 7), and the sigma of each, (4,)."""
     J_site, R_site = day8_mujoco.hands(arm, q)
-    load = payload_from_holds(J_site, R_site, extra, arm.gravity)
+    load = identify_payload(J_site, R_site, extra, arm.gravity)
     rows = library.load_regressor(J_site, R_site, arm.gravity).reshape(-1, 4)
     _, sigma = predict_with_sigma(rows, extra.ravel(), np.eye(4), RTOL)
     return load, sigma
@@ -350,7 +352,7 @@ def main() -> int:
     lab.record("regressor", off, label="|Y phi - MuJoCo's torque|, N m",
                seed=ROBOT_SEED)  # fmt: skip
     for p, name in ((70, "links"), (91, "with motors")):
-        rank, condition = identifiable(Y_elsewhere[..., :p].reshape(-1, p), RTOL)
+        rank, condition = rank_and_condition(Y_elsewhere[..., :p].reshape(-1, p), RTOL)
         print(f"  {name}: {rank} of {p} show, condition {condition:.0f}")
         lab.measured(f"how many of {p} numbers show: {name}", rank)
 
@@ -360,8 +362,8 @@ def main() -> int:
     lab.step("3. One pendulum, five numbers: how evenly a swing shows them")
     print("  reach, rad    one sine    with a fifth of a second one")
     for reach in (0.1, 0.3, 0.6):
-        _, alone = identifiable(pendulum(reach, 0.0), RTOL)
-        _, both = identifiable(pendulum(reach, 0.2), RTOL)
+        _, alone = rank_and_condition(pendulum(reach, 0.0), RTOL)
+        _, both = rank_and_condition(pendulum(reach, 0.2), RTOL)
         print(f"  {reach:10.1f}{alone:12,.0f}{both:32,.0f}")
 
     lab.step("4. A robot that nobody knows: fits to its torques, N m")
@@ -393,7 +395,7 @@ def main() -> int:
     judged("excited, ten samples", Y[::20][fast[::20]], tau[::20][fast[::20]],
            Y_new, truth, RTOL)  # fmt: skip
     off, inside = judged("excited", Y[fast], tau[fast], Y_new, truth, RTOL)
-    phi = fit(Y[fast], tau[fast], RTOL)
+    phi = truncated_svd_fit(Y[fast], tau[fast], RTOL)
     # and to yours: FAR, OFTEN and BEGIN on top of this file.
     own = day8_mujoco.harmonics(robot, OFTEN, FAR, BEGIN)
     tau_own = mujoco_torques(robot, own) + NOISE * rng.normal(size=own.q.shape)
@@ -413,9 +415,11 @@ def main() -> int:
     with lab.side_quest():
         # The links of the fit, which need not exist, and those of the file, which do.
         both = np.concatenate([phi[:70], phi_file[:70]]).reshape(14, 10)
-        off = [least_pseudo(x) for x in both] - library.least_pseudo(both)
-        found = library.least_pseudo(both[:7])
-        lab.check("least_pseudo - the library's", off)
+        off = [
+            min_pseudo_inertia_eig(x) for x in both
+        ] - library.min_pseudo_inertia_eig(both)
+        found = library.min_pseudo_inertia_eig(both[:7])
+        lab.check("min_pseudo_inertia_eig - the library's", off)
         print(f"  the least of the links found: {found.min():.2f}")
     return lab.finish()
 

@@ -239,7 +239,7 @@ def anywhere(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
 
 def numbers(known: Arm) -> Array:
     """Return what a model holds: phi of its links, armature, damping, dry 0, (91,)."""
-    links = identification.parameters(known.masses, known.coms, known.inertias)
+    links = identification.inertial_parameters(known.masses, known.coms, known.inertias)
     return np.concatenate([links.ravel(), known.armature, known.damping, np.zeros(7)])
 
 

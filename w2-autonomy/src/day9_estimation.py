@@ -1,10 +1,10 @@
-"""Day 9: what the arm can feel. Encoders, a filter that is tested, and a push.
+"""Day 9: encoders, a Kalman filter with two tests, and a momentum observer.
 
     make day9                       in the clone: sets all up, then runs this
     python src/day9_estimation.py   in w2-autonomy/, once that is done
 
-Time runs along the first axis. Twists (omega; v), wrenches (moment; force). Metres,
-radians, seconds, kilograms, N m.
+Time runs along the first axis. Twists are (omega; v), wrenches (moment; force), both
+expressed in the world frame. Metres, radians, seconds, kilograms, N m.
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
@@ -19,21 +19,26 @@ from robo47.screws import ad
 import day9_mujoco
 from day9_mujoco import FLANGE, OMEGA, RATE, STAY, SWING
 
-SEED = 9  # of noise and of random states
-TRIALS = 20  # random states that the energy's slope is judged at
-DT = 1.0 / RATE  # s, from sample to sample
-BITS = 16  # of the encoder that is filtered; one bit more halves its error
-JOINT = 3  # joint4 is the one whose speed is filtered
-LATE = (0.030, 0.032, 0.034)  # s; how late readings are
-SETTLED = 50  # samples that a filter has to settle
-# The joint of step 4: the intensity of its acceleration's noise, rad^2/s^3, that of
-# its readings, rad, and how many there are.
+SEED = 9  # for noise and random states; the same at every run
+TRIALS = 20  # random states at which the energy's gradient is compared
+DT = 1.0 / RATE  # s, the sampling period
+BITS = 16  # of the encoder that is filtered; one more bit halves its error
+JOINT = 3  # the index of joint4, whose velocity is filtered
+LATE = (0.030, 0.032, 0.034)  # s, the delays of the readings
+SETTLED = 50  # samples that are left out while a filter converges
+# The simulated joint of step 4: the power spectral density of its acceleration,
+# rad^2/s^3, the standard deviation of its readings, rad, and their number.
 WANDERS, NOISE, SAMPLES = 0.5, 1e-4, 2000
-GAIN = 50.0  # 1/s, of the observer; 2 / DT and more blows up
-THRESHOLD = 0.5  # N m; under 0.01 the observer's own error is taken for a push
-FORCE = np.array([0.0, 0.0, -10.0])  # N, on the flange, ...
-SINCE = 0.3  # ... from this second on
-PUSHES = (  # what the demo pushes, and with how many newtons
+GAIN = 50.0  # 1/s, of the observer; unstable from 2 / DT on
+THRESHOLD = 0.5  # N m; below 0.01 the observer's own error is reported as a contact
+FORCE = np.array([0.0, 0.0, -10.0])  # N, on the flange
+SINCE = 0.3  # s, when the push begins
+GRADIENTS = (  # of the energy: the factor with which the observer uses it
+    ("with the gradient", 1),
+    ("without the gradient", 0),
+    ("with the gradient negated", -1),
+)
+PUSHES = (  # the body or site that the side quest pushes, and the force, N
     (FLANGE, (0, 0, -10)),
     (FLANGE, (0, 20, 0)),
     ("link4", (0, 0, -20)),
@@ -48,59 +53,74 @@ def rms(x: np.ndarray) -> float:
 
 
 def quantise(q: np.ndarray, counts: float) -> np.ndarray:
-    """Return what an encoder with so many counts a turn says of q, (7,), in radians.
+    """Return the angles (7,), rad, that an encoder reports: the nearest whole counts.
 
-    Of 0.1 rad one with 4096 counts says 0.0997088: 65 counts.
+    q (7,) are the true angles, rad, and counts is the number of counts in a full
+    revolution, so one count is 2 pi / counts.
+    quantise([0.1], 4096) -> [0.0997088], which is 65 counts.
     """
     # region 9.1
-    step = 2.0 * np.pi / counts
-    return np.round(q / step) * step
+    step = 2.0 * np.pi / counts  # the angle of one count
+    return np.round(q / step) * step  # whole counts, in radians
     # endregion 9.1
 
 
-def difference(q: np.ndarray, dt: float) -> np.ndarray:
-    """Return the speed, (n,), by the sample before; the first, which has none, is 0.
+def backward_difference(q: np.ndarray, dt: float) -> np.ndarray:
+    """Return the backward difference (n,) of samples, rad/s; the first velocity is 0.
 
-    q is (n,), dt in seconds. Of (0, 0.1, 0.3) at 0.1 s: (0, 1, 2).
+    q (n,) are angles, rad, and dt is the sampling period, s. Entry k is the change
+    since sample k - 1 divided by dt; no sample precedes the first.
+    backward_difference([0, 0.1, 0.3], 0.1) -> [0, 1, 2]
     """
     # region 9.1
-    return np.append(0.0, np.diff(q) / dt)
+    return np.append(0.0, np.diff(q) / dt)  # no sample precedes the first
     # endregion 9.1
 
 
 def delay_margin(kp: float, kd: float) -> float:
-    """Return how late a spring and a damper may act before they shake, in seconds.
+    """Return the delay margin of a PD loop on a unit mass, in seconds.
 
-    400 1/s^2 and 40 1/s: 0.03237. Critically damped it is 0.6474 / omega.
+    kp, 1/s^2, and kd, 1/s, are its gains: the loop is e'' = -kp e - kd e', and with a
+    longer delay of its readings it is unstable. The margin is the phase lead
+    atan(kd w / kp) divided by the gain crossover frequency w, where
+    w^4 = kp^2 + kd^2 w^2 (Astrom and Murray, Feedback Systems).
+    delay_margin(400, 40) -> 0.03237. With critical damping it is 0.6474 / omega.
     """
     # region 9.2
-    w = np.sqrt((kd**2 + np.sqrt(kd**4 + 4.0 * kp**2)) / 2.0)
-    return np.arctan(kd * w / kp) / w
+    w = np.sqrt((kd**2 + np.sqrt(kd**4 + 4.0 * kp**2)) / 2.0)  # gain crossover
+    return np.arctan(kd * w / kp) / w  # phase lead over frequency
     # endregion 9.2
 
 
 def low_pass(x: np.ndarray, dt: float, cutoff: float) -> np.ndarray:
-    """Return x, (n,), smoother and later; it starts at x[0], the cutoff is in Hz.
+    """Return samples (n,) behind a first-order low pass, which starts at x[0].
 
-    (0, 1, 1, 1) at 0.002 s through 20 Hz: (0, 0.22223, 0.39508, 0.52951).
+    x (n,) are the samples, dt is the sampling period, s, and cutoff the cutoff
+    frequency, Hz: y += alpha (x - y) with alpha = 1 - exp(-2 pi cutoff dt).
+    low_pass([0, 1, 1, 1], 0.002, 20) -> [0, 0.22223, 0.39508, 0.52951]
     """
     # region 9.3
-    alpha = 1.0 - np.exp(-2.0 * np.pi * cutoff * dt)
-    y = [x[0]]
+    alpha = 1.0 - np.exp(-2.0 * np.pi * cutoff * dt)  # fraction gone after dt
+    y = [x[0]]  # no transient at the start
     for now in x[1:]:
-        y.append(y[-1] + alpha * (now - y[-1]))
+        y.append(y[-1] + alpha * (now - y[-1]))  # a step towards the new sample
     return np.array(y)
     # endregion 9.3
 
 
-def constant_velocity(dt: float, q: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return F and Q, (2, 2) each, of an angle whose acceleration is white noise.
+def constant_velocity(dt: float, accel_psd: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return F and Q, (2, 2) each, of the constant-velocity model over dt.
 
-    q is its intensity, rad^2/s^3. 1 s and 3: [[1, 1], [0, 1]] and [[1, 1.5], [1.5, 3]].
+    The state is (angle; velocity). dt is the sampling period, s; accel_psd is the power
+    spectral density of the white acceleration, rad^2/s^3, which alone changes the
+    velocity. F maps the state to the next one, and Q is accel_psd times the integral
+    of (s, 1) (s, 1)^T over s from 0 to dt (Bar-Shalom and others, chapter 6).
+    constant_velocity(1, 3) -> ([[1, 1], [0, 1]], [[1, 1.5], [1.5, 3]])
     """
     # region 9.4
-    F = np.array([[1.0, dt], [0.0, 1.0]])
-    Q = q * np.array([[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]])
+    F = np.array([[1.0, dt], [0.0, 1.0]])  # the angle advances by dt times the velocity
+    # The integrals of s^2, s and 1:
+    Q = accel_psd * np.array([[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]])
     return F, Q
     # endregion 9.4
 
@@ -108,128 +128,151 @@ def constant_velocity(dt: float, q: float) -> tuple[np.ndarray, np.ndarray]:
 def kalman_predict(
     x: np.ndarray, P: np.ndarray, F: np.ndarray, Q: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return what is believed a moment later: x, (2,), and its covariance, (2, 2).
+    """Return the Kalman filter's predicted state x (2,) and covariance P (2, 2).
 
-    (0, 1), P = 1, F and Q as above: (1, 1) and [[3, 2.5], [2.5, 4]].
+    x (2,) is the estimate and P (2, 2) the covariance of its error; F (2, 2) maps the
+    state to the next one, and Q (2, 2) is the covariance of the process noise.
+    x = (0, 1), P = 1, F and Q of 1 s and 3: (1, 1) and [[3, 2.5], [2.5, 4]].
     """
     # region 9.4
-    return F @ x, F @ P @ F.T + Q
+    return F @ x, F @ P @ F.T + Q  # the error becomes F e plus independent noise
     # endregion 9.4
 
 
 def kalman_update(
     x: np.ndarray, P: np.ndarray, z: np.ndarray, H: np.ndarray, R: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, float]:
-    """Return x, (n,), P, (n, n), after a reading z, (m,), and its NIS, how surprising.
+    """Return the Kalman filter's updated x (n,), P (n, n) and the NIS, a number.
 
-    H is (m, n), R (m, m). x = 0, P = [[2, 1], [1, 2]], z = 3 of the first, R = 1:
-    (2, 1), [[2/3, 1/3], [1/3, 5/3]] and 3.
+    x (n,) is the predicted state and P (n, n) its covariance; z (m,) is the reading,
+    H (m, n) the measurement matrix and R (m, m) the covariance of the reading's noise.
+    The NIS (normalised innovation squared) is y . S^-1 y, with the innovation
+    y = z - H x and its covariance S. x = 0, P = [[2, 1], [1, 2]], z = 3 of the first,
+    R = 1: (2, 1), [[2/3, 1/3], [1/3, 5/3]] and 3.
     """
     # region 9.5
-    y = z - H @ x
-    S = H @ P @ H.T + R
-    inverse = np.linalg.inv(S)
-    K = P @ H.T @ inverse
-    return x + K @ y, P - K @ S @ K.T, y @ inverse @ y
+    y = z - H @ x  # the innovation
+    S = H @ P @ H.T + R  # its covariance
+    inverse = np.linalg.inv(S)  # of the innovation's covariance
+    K = P @ H.T @ inverse  # the Kalman gain
+    return x + K @ y, P - K @ S @ K.T, y @ inverse @ y  # and the NIS
     # endregion 9.5
 
 
 def nis_interval(n: int, m: int) -> np.ndarray:
-    """Return the two numbers between which a mean of n NIS lies, 95 times in 100.
+    """Return the interval (low, high) that holds the mean of n NIS with 95 %.
 
-    m is the size of a reading; take 1.96 sigma. 1950 of one: (0.93821, 1.06374).
+    m is the number of entries of a reading. n times the mean has the chi-square
+    distribution with n m degrees of freedom: take 1.96 standard deviations of its cube
+    root, which is nearly Gaussian (Wilson and Hilferty, 1931).
+    nis_interval(1950, 1) -> [0.93821, 1.06374]
     """
     # region 9.6
-    c = 2.0 / (9.0 * n * m)
-    off = 1.96 * np.sqrt(c)
-    return m * np.array([1.0 - c - off, 1.0 - c + off]) ** 3
+    c = 2.0 / (9.0 * n * m)  # the variance of the cube root of chi-square / (n m)
+    off = 1.96 * np.sqrt(c)  # 95 % of a Gaussian
+    return m * np.array([1.0 - c - off, 1.0 - c + off]) ** 3  # without the cube root
     # endregion 9.6
 
 
-def whiteness(y: np.ndarray) -> float:
-    """Return how much each of y, (n,), looks like the one before: 0 for white noise.
+def lag1_autocorrelation(y: np.ndarray) -> float:
+    """Return the lag-1 autocorrelation of y (n,), which is near 0 for white noise.
 
-    (1, -1, 1, -1): -0.75.
+    Subtract the mean, then divide the sum of the products of neighbours by the sum of
+    all n squares.
+    lag1_autocorrelation([1, -1, 1, -1]) -> -0.75
     """
     # region 9.7
-    y = y - np.mean(y)
-    return y[1:] @ y[:-1] / (y @ y)
+    y = y - np.mean(y)  # without the offset
+    return y[1:] @ y[:-1] / (y @ y)  # products of neighbours over squares
     # endregion 9.7
 
 
-def energy_slope(J_space: np.ndarray, G: np.ndarray, qd: np.ndarray) -> np.ndarray:
-    """Return how the kinetic energy changes with each angle, (7,), in N m.
+def kinetic_energy_gradient(
+    J_space: np.ndarray, G: np.ndarray, qd: np.ndarray
+) -> np.ndarray:
+    """Return the gradient dE/dq (7,) of the kinetic energy at constant qd, N m.
 
-    J_space is (6, 7), G (7, 6, 6) the links' inertias in the world, qd (7,). At rest 0.
+    J_space (6, 7) is the space Jacobian, whose columns are the screws S_i; G (7, 6, 6)
+    are the links' spatial inertias about the world's origin, expressed in the world
+    frame; qd (7,) are the joint velocities, rad/s. Rotating joint i rotates the links
+    i to 7; seen from them, the twist V_i changes by -ad(S_i) V_i per radian. At rest 0.
     """
     # region 9.8
-    S = J_space.T
+    S = J_space.T  # the screw of each joint
     V = np.cumsum(S * qd[:, None], axis=0)  # the twist of each link
-    momentum = (G @ V[:, :, None])[:, :, 0]
-    carried = np.cumsum(momentum[::-1], axis=0)[::-1]  # of link i and all after it
-    turned = (ad(S) @ V[:, :, None])[:, :, 0]
-    return -np.sum(carried * turned, axis=1)
+    momentum = (G @ V[:, :, None])[:, :, 0]  # of each link
+    carried = np.cumsum(momentum[::-1], axis=0)[::-1]  # of link i and all distal to it
+    turned = (ad(S) @ V[:, :, None])[:, :, 0]  # the rate at which V_i rotates with S_i
+    return -np.sum(carried * turned, axis=1)  # seen from the links it rotates back
     # endregion 9.8
 
 
-def observer_step(
-    residual: np.ndarray, integral: np.ndarray, p: np.ndarray, tau: np.ndarray,
-    slope: np.ndarray, gravity: np.ndarray, damping: np.ndarray, qd: np.ndarray,
+def momentum_observer_step(
+    residual: np.ndarray, integral: np.ndarray, momentum: np.ndarray, tau: np.ndarray,
+    energy_grad: np.ndarray, gravity: np.ndarray, damping: np.ndarray, qd: np.ndarray,
     gain: float, dt: float,
 ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
-    """Return the torque that nobody commanded, (7,), and the next integral, (7,).
+    """Return the residual (7,), N m, and the integral (7,) of the momentum observer.
 
-    p is the momentum M qd now, the rest is of the sample before. All zero but p = 1,
+    residual and integral (7,) are of the sample before; momentum (7,), kg m^2/s, is
+    M qd of now. All others are of the sample before: the commanded torque tau, the
+    kinetic energy's gradient energy_grad, the torque gravity that holds the arm, N m,
+    the joints' damping, N m s/rad, and the velocities qd, rad/s, (7,) each. gain is in
+    1/s, dt in s. First the integral advances, by dt times the known torques plus the
+    residual; the residual is gain (momentum - integral). It follows the external torque
+    as a first-order low pass (De Luca and Mattone, 2005). All zero but momentum = 1,
     gain 50: 50 and 0.
     """
     # region 9.9
-    known = tau + slope - gravity - damping * qd
-    integral = integral + (known + residual) * dt
-    return gain * (p - integral), integral
+    known = tau + energy_grad - gravity - damping * qd  # of the sample before
+    integral = integral + (known + residual) * dt  # the residual is fed back
+    return gain * (momentum - integral), integral  # the residual is what is left
     # endregion 9.9
 
 
-def pushed_link(residual: np.ndarray, threshold: np.ndarray) -> int:
-    """Return the last joint that feels a push, from 1 to 7; 0 where none does.
+def contact_link(residual: np.ndarray, threshold: np.ndarray) -> int:
+    """Return the contact link, 1 to 7: the last joint over its threshold, 0 if none is.
 
-    residual and threshold are (7,), N m. Only joint 4 over its threshold: 4.
+    residual and threshold are (7,), N m; a residual of either sign counts.
+    contact_link([0, 3, 0, -5, 0, 0, 0], [1, 1, 1, 1, 1, 1, 1]) -> 4
     """
     # region 9.10
-    felt = np.flatnonzero(np.abs(residual) > threshold)
-    return int(felt[-1]) + 1 if len(felt) else 0
+    felt = np.flatnonzero(np.abs(residual) > threshold)  # a push has either sign
+    return int(felt[-1]) + 1 if len(felt) else 0  # joints are counted from 1
     # endregion 9.10
 
 
 def speeds(q: np.ndarray) -> np.ndarray:
-    """Return the differences of seven joints, rad/s, (n, 7)."""
-    return np.transpose([difference(one, DT) for one in q.T])
+    """Return the backward differences of seven joints, rad/s, (n, 7)."""
+    return np.transpose([backward_difference(one, DT) for one in q.T])
 
 
 def encoder(q: np.ndarray, bits: int) -> np.ndarray:
-    """Return what encoders of so many bits say of a motion, rad, (n, 7)."""
+    """Return a motion as encoders with so many bits report it, rad, (n, 7)."""
     return np.array([quantise(one, 2**bits) for one in q])
 
 
-def track(z: np.ndarray, q: float, R: float) -> dict[str, np.ndarray]:
-    """Run a filter over readings, (n,), and return what it said once it had settled.
+def track(z: np.ndarray, accel_psd: float, R: float) -> dict[str, np.ndarray]:
+    """Run a Kalman filter over readings (n,) and return its output once converged.
 
-    Its speed, rad/s, the sigma that it claims for it, NIS, and surprises in rad.
+    The output has the estimated velocity, rad/s, the standard deviation sigma that the
+    filter reports for it, the NIS, and the innovations, rad.
     """
-    F, Q = constant_velocity(DT, q)
+    F, Q = constant_velocity(DT, accel_psd)
     H, R_matrix = np.array([[1.0, 0.0]]), np.array([[R]])
     x, P = np.array([z[0], 0.0]), np.diag([R, 1.0])
-    said = []
+    rows = []
     for now in z[1:]:
         x, P = kalman_predict(x, P, F, Q)
-        surprise = now - x[0]
+        innovation = now - x[0]
         x, P, nis = kalman_update(x, P, np.array([now]), H, R_matrix)
-        said.append([x[1], np.sqrt(P[1, 1]), nis, surprise])
-    names = ("speed", "sigma", "nis", "surprise")
-    return dict(zip(names, np.transpose(said[SETTLED - 1 :]), strict=True))
+        rows.append([x[1], np.sqrt(P[1, 1]), nis, innovation])
+    names = ("velocity", "sigma", "nis", "innovation")
+    return dict(zip(names, np.transpose(rows[SETTLED - 1 :]), strict=True))
 
 
 def wandering(rng) -> tuple[np.ndarray, np.ndarray]:
-    """Return a joint that is just what a filter takes it for: readings and speeds."""
+    """Return readings and true velocities of a joint with a white acceleration."""
     F, Q = library.constant_velocity(DT, WANDERS)
     kicks = rng.multivariate_normal(np.zeros(2), Q, SAMPLES, method="cholesky")
     x = np.zeros(2)
@@ -241,52 +284,55 @@ def wandering(rng) -> tuple[np.ndarray, np.ndarray]:
     return q + NOISE * rng.normal(size=SAMPLES), qd
 
 
-def tested(name: str, z: np.ndarray, qd: np.ndarray, q: float, R: float) -> dict:
-    """Print and return how wrong a filter is, and what tells without the truth."""
-    said = track(z, q, R)
-    off = said["speed"] - qd[SETTLED:]
-    low, high = nis_interval(len(off), 1)
-    nis = np.mean(said["nis"])
+def tested(
+    name: str, z: np.ndarray, qd: np.ndarray, accel_psd: float, R: float
+) -> dict[str, float]:
+    """Print and return the error of a filter, and the results of its two tests."""
+    output = track(z, accel_psd, R)
+    error = output["velocity"] - qd[SETTLED:]
+    low, high = nis_interval(len(error), 1)
+    nis = np.mean(output["nis"])
     found = {
-        "off": rms(off),
-        "sigma": rms(said["sigma"]),
+        "error": rms(error),
+        "sigma": rms(output["sigma"]),
         "nis": nis,
-        "whiteness": whiteness(said["surprise"]),
-        "inside": np.mean(np.abs(off) < 1.96 * said["sigma"]),
+        "lag1": lag1_autocorrelation(output["innovation"]),
+        "inside": np.mean(np.abs(error) < 1.96 * output["sigma"]),
     }
     verdict = "yes" if low < nis < high else "no"
-    print(f"  {name:20}{found['off']:8.4f}{found['sigma']:9.4f}{nis:8.3f}{verdict:>5}"
-          f"{found['whiteness']:z8.3f}{found['inside']:8.1%}")  # fmt: skip
+    print(f"  {name:24}{found['error']:8.4f} {found['sigma']:8.4f} {nis:7.3f}"
+          f" {verdict:>4} {found['lag1']:z7.3f}"
+          f" {found['inside']:7.1%}")  # fmt: skip
     return found
 
 
 class Observer:
-    """A momentum observer beside an arm, asked once a sample.
+    """A momentum observer of an arm, which is called once per sample.
 
-    share is how much of the energy's slope it takes: 1, or a mistake to be looked at.
+    share is the factor of the energy's gradient: 1, or a mistake to be measured.
     """
 
     def __init__(self, arm, share: float = 1.0) -> None:
-        """Begin with nothing felt."""
+        """Begin with a residual of zero."""
         self.arm, self.share = arm, share
         self.residual = np.zeros(7)
-        self.before = None  # tau, slope, gravity, damping and qd of the last sample
+        self.before = None  # tau, gradient, gravity, damping and qd of the last sample
 
     def feel(self, now, qd: np.ndarray) -> np.ndarray:
-        """Return the residual, N m, (7,), of the arm as it is now."""
+        """Return the residual of this sample, N m, (7,)."""
         p = now.M @ qd
         if self.before is None:
             self.integral = p
         else:
-            self.residual, self.integral = observer_step(
+            self.residual, self.integral = momentum_observer_step(
                 self.residual, self.integral, p, *self.before, GAIN, DT
             )
         return self.residual
 
     def commanded(self, now, qd: np.ndarray, tau: np.ndarray) -> None:
-        """Take what the motors get from now on, N m, (7,)."""
-        slope = self.share * energy_slope(now.J_space, now.G, qd)
-        self.before = tau, slope, now.gravity_torque, self.arm.damping, qd
+        """Store the torques that are commanded from now on, N m, (7,)."""
+        gradient = self.share * kinetic_energy_gradient(now.J_space, now.G, qd)
+        self.before = tau, gradient, now.gravity_torque, self.arm.damping, qd
 
 
 def felt(arm, run, share: float = 1.0) -> np.ndarray:
@@ -301,7 +347,7 @@ def felt(arm, run, share: float = 1.0) -> np.ndarray:
 
 
 def mujoco_slope(model, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
-    """Return differences of MuJoCo's kinetic energy, of fourth order, J/rad, (7,)."""
+    """Return finite differences of MuJoCo's kinetic energy, 4th order, (7,), N m."""
     data = mujoco.MjData(model)
 
     def kinetic(at: np.ndarray) -> float:
@@ -320,8 +366,10 @@ def mujoco_slope(model, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
     return np.array(slopes)
 
 
-def mujoco_push(model, q: np.ndarray, name: str, force: np.ndarray) -> np.ndarray:
-    """Return what a force makes in the joints, J^T F by MuJoCo, N m, (7,)."""
+def mujoco_external_torque(
+    model, q: np.ndarray, name: str, force: np.ndarray
+) -> np.ndarray:
+    """Return the joint torques J^T F of a force by mj_applyFT, N m, (7,)."""
     data = mujoco.MjData(model)
     data.qpos[:] = q
     mujoco.mj_forward(model, data)
@@ -330,7 +378,7 @@ def mujoco_push(model, q: np.ndarray, name: str, force: np.ndarray) -> np.ndarra
 
 
 def off_library() -> dict[str, np.ndarray]:
-    """Return how far your functions are from robo47's: MuJoCo knows no filters."""
+    """Return the differences from robo47's functions: MuJoCo contains no filters."""
     rng = np.random.default_rng(SEED)
     x, z, y = rng.normal(size=3), rng.normal(size=2), rng.normal(size=40)
     left, right = rng.normal(size=(3, 3)), rng.normal(size=(2, 2))
@@ -339,15 +387,18 @@ def off_library() -> dict[str, np.ndarray]:
     six, damping = rng.normal(size=(6, 7)), rng.uniform(1, 2, 7)
     given = {
         "quantise": (quantise, [(six[0], 4096), (six[1], 1000)]),
-        "difference": (difference, [(y, DT)]),
+        "backward_difference": (backward_difference, [(y, DT)]),
         "delay_margin": (delay_margin, [(400.0, 40.0), (90.0, 7.0)]),
         "low_pass": (low_pass, [(y, DT, 20.0)]),
         "constant_velocity": (constant_velocity, [(DT, WANDERS), (0.3, 2.0)]),
         "kalman_predict": (kalman_predict, [(x[:2], R, F, Q)]),
         "kalman_update": (kalman_update, [(x, P, z, H, R)]),
         "nis_interval": (nis_interval, [(1950, 1), (100, 3)]),
-        "whiteness": (whiteness, [(y,), (np.cumsum(y),)]),
-        "observer_step": (observer_step, [(*six, damping, x[0] + six[0], GAIN, DT)]),
+        "lag1_autocorrelation": (lag1_autocorrelation, [(y,), (np.cumsum(y),)]),
+        "momentum_observer_step": (
+            momentum_observer_step,
+            [(*six, damping, x[0] + six[0], GAIN, DT)],
+        ),
     }
     found = {}
     for name, (own, calls) in given.items():
@@ -358,13 +409,13 @@ def off_library() -> dict[str, np.ndarray]:
 
 
 def flat(answer) -> np.ndarray:
-    """Return all numbers of an answer, which may have several parts, in one row."""
+    """Return all numbers of a result, which may be a tuple, in one row."""
     parts = answer if isinstance(answer, tuple) else (answer,)
     return np.concatenate([np.ravel(part) for part in parts])
 
 
 def notices(residual: np.ndarray) -> float:
-    """Return how long after the push a joint is over its threshold, ms."""
+    """Return the detection time: from the push until a joint is over THRESHOLD, ms."""
     over = (np.abs(residual) > THRESHOLD).any(axis=1)
     return 1000 * (np.argmax(over) * DT - SINCE) if over.any() else np.inf
 
@@ -377,18 +428,18 @@ def main() -> int:
     rng = np.random.default_rng(SEED)
     print(panda.describe("panda_nohand"))
 
-    lab.step("1. What an encoder says of a swing, and what its difference makes of it")
+    lab.step("1. Encoder readings of a swing, and their backward difference")
     swing = day9_mujoco.moved(model, arm, SWING, 2.0)  # mujoco.mj_step, 1000 times
     # swing.q and swing.qd are MuJoCo's own qpos and qvel.
     lab.check("|difference of q - MuJoCo's qvel|, rad/s",
               speeds(swing.q)[1:] - swing.qd[1:])  # fmt: skip
-    print("  bits      step, rad   predicted    measured     largest, of step / dt")
+    print("  bits      step, rad   predicted RMS    measured   largest / (step / dt)")
     for bits in (12, 14, 16, 18):
         step = 2 * np.pi / 2**bits
         off = speeds(encoder(swing.q, bits))[1:] - swing.qd[1:]
         predicted = step / np.sqrt(6) / DT
-        print(f"  {bits:4}{step:15.3e}{predicted:12.4f}{rms(off):12.4f}"
-              f"{np.abs(off).max() / (step / DT):17.2f}")  # fmt: skip
+        print(f"  {bits:4}{step:15.3e}{predicted:16.4f}{rms(off):12.4f}"
+              f"{np.abs(off).max() / (step / DT):24.2f}")  # fmt: skip
         if bits == BITS:
             lab.record("encoder", rms(off) / predicted - 1.0,
                        label="16 bits: measured / predicted - 1")  # fmt: skip
@@ -396,88 +447,96 @@ def main() -> int:
     for name, off in off_library().items():
         lab.check(f"{name} - the library's", off)
 
-    lab.step("2. How late a reading may be: what is left of an error after 2 s")
+    lab.step("2. Readings that are late: fraction of an error that is left after 2 s")
     margin = delay_margin(OMEGA**2, 2 * OMEGA)
-    print(f"  margin {1000 * margin:.2f} ms; half a sample of holding leaves"
+    print(f"  delay margin {1000 * margin:.2f} ms; minus half a control period:"
           f" {1000 * (margin - DT / 2):.2f} ms")  # fmt: skip
     for late in LATE:
         left = day9_mujoco.left_over(model, arm, late, OMEGA)  # mujoco.mj_step
-        print(f"  {1000 * late:.0f} ms late: {left:.3g}")
+        print(f"  delay {1000 * late:.0f} ms: {left:.3g}")
 
-    lab.step("3. Filters of a 16-bit encoder: joint 4's speed, rad/s")
+    lab.step("3. Low pass of the 16-bit velocity of joint 4: RMS error, rad/s")
     z, qd = encoder(swing.q, BITS)[:, JOINT], swing.qd[:, JOINT]
-    raw = difference(z, DT)
-    print(f"  difference        {rms(raw[SETTLED:] - qd[SETTLED:]):.4f}")
-    print("  low pass              all   lag alone")
+    raw = backward_difference(z, DT)
+    print("  cutoff              error   lag alone")
+    print(f"  no filter{rms(raw[SETTLED:] - qd[SETTLED:]):16.4f}")
     for cutoff in (5.0, 10.0, 20.0, 50.0, 100.0):
         off = low_pass(raw, DT, cutoff) - qd
         lag = low_pass(qd, DT, cutoff) - qd
         print(f"  {cutoff:5.0f} Hz{rms(off[SETTLED:]):17.4f}{rms(lag[SETTLED:]):12.4f}")
-    print("  Kalman, R = step²/12      off    sigma     NIS   in   white  inside")
-    R = (2 * np.pi / 2**BITS) ** 2 / 12
-    for q in (0.001, 0.01, 0.1, 1.0):
-        tested(f"q = {q:g}", z, qd, q, R)
 
-    lab.step("4. A claim that can be tested: a joint that is what the filter believes")
-    z, qd = wandering(rng)
-    print("  told                     off    sigma     NIS   in   white  inside")
-    found = tested("the truth", z, qd, WANDERS, NOISE**2)
-    for name, q, R in (
-        ("q / 100", WANDERS / 100, NOISE**2),
-        ("q / 10 and R x 10", WANDERS / 10, 10 * NOISE**2),
+    lab.step("4. Kalman filters: RMS error of the velocity, rad/s, and two tests")
+    columns = "   error    sigma     NIS   in   lag 1  inside"
+    print(f"  {'simulated joint':24}{columns}")
+    readings, truth = wandering(rng)
+    found = tested("correct", readings, truth, WANDERS, NOISE**2)
+    for name, accel_psd, R in (
+        ("accel_psd / 100", WANDERS / 100, NOISE**2),
+        ("accel_psd / 10, R x 10", WANDERS / 10, 10 * NOISE**2),
     ):
-        tested(name, z, qd, q, R)
+        tested(name, readings, truth, accel_psd, R)
     lab.record("kalman", abs(found["nis"] - 1.0), label="|mean NIS - 1|", seed=SEED)
-    lab.check("|whiteness| of 1950 surprises", found["whiteness"],
+    lab.check("|lag-1 autocorrelation| of 1950 innovations", found["lag1"],
               2 * 1.96 / np.sqrt(SAMPLES - SETTLED))  # fmt: skip
+    print(f"  {'joint 4 in the swing':24}{columns}")
+    R = (2 * np.pi / 2**BITS) ** 2 / 12  # the variance of the rounding error
+    for accel_psd in (0.001, 0.01, 0.1, 1.0):
+        tested(f"accel_psd = {accel_psd:g}", z, qd, accel_psd, R)
 
-    lab.step("5. What the arm's motion alone does to its momentum")
+    lab.step("5. The momentum observer in free motion")
     off = []
     for q in verify.random_q(model, TRIALS, SEED):
         now, qd = arm.at(q), rng.uniform(-2, 2, 7)
-        off.append(energy_slope(now.J_space, now.G, qd) - mujoco_slope(model, q, qd))
-    lab.record("slope_by_hand", off, label="|energy_slope - MuJoCo's|, N m", seed=SEED)
-    print("  the swing, which nobody pushes: largest residual, N m")
+        off.append(
+            kinetic_energy_gradient(now.J_space, now.G, qd) - mujoco_slope(model, q, qd)
+        )
+    lab.record(
+        "slope_by_hand",
+        off,
+        label="|kinetic_energy_gradient - MuJoCo's|, N m",
+        seed=SEED,
+    )
+    print("  largest residual in the swing, without a contact, N m")
     way = swing._replace(q=swing.q[:500], qd=swing.qd[:500], tau=swing.tau[:500])
-    for name, share in (("energy_slope", 1), ("none", 0), ("its sign turned", -1)):
+    for name, share in GRADIENTS:
         residual = np.abs(felt(arm, way, share)).max()
-        print(f"  {name:18}{residual:8.3f}")
+        print(f"  {name:28}{residual:8.3f}")
         if share == 1:
-            lab.record("free_motion", residual, label="the first, N m")
+            lab.record("free_motion", residual, label="residual with the gradient, N m")
 
-    lab.step("6. A push of 10 N on the flange of an arm that holds still, N m")
+    lab.step("6. A push of 10 N on the flange of an arm at rest, N m")
     push = day9_mujoco.push(FLANGE, FORCE, SINCE)
     held = day9_mujoco.moved(model, arm, STAY, 0.8, push)
-    truth = mujoco_push(model, held.q[-1], FLANGE, FORCE)
+    truth = mujoco_external_torque(model, held.q[-1], FLANGE, FORCE)
     lab.show("J^T F, by mujoco.mj_applyFT", truth, 3)
-    for name, share in (("energy_slope", 1), ("none", 0), ("its sign turned", -1)):
+    for name, share in GRADIENTS:
         residual = felt(arm, held, share)
-        lab.show(f"residual with {name}", residual[-1], 3)
+        lab.show(f"residual {name}", residual[-1], 3)
         if share == 1:
             late = notices(residual)
             lab.check("|residual - J^T F|, N m", residual[-1] - truth, 0.01)
-            lab.record("push_noticed", late, label="noticed, ms")
-            lab.measured("a push of 10 N is noticed after, ms", late)
+            lab.record("push_noticed", late, label="detection time, ms")
+            lab.measured("detection time of a 10 N push, ms", late)
             lab.measured("residual of joint 4, N m", residual[-1][JOINT])
 
-    lab.step("7. Side quest: push it anywhere; it says which link, and stops")
+    lab.step("7. Side quest: which link was touched?")
     with lab.side_quest():
         rows = rng.normal(size=(20, 7)) * rng.uniform(0, 2, (20, 1))
         limits = rng.uniform(0.5, 1.5, (20, 7))
         pairs = list(zip(rows, limits, strict=True))
-        off = [pushed_link(*one) - library.pushed_link(*one) for one in pairs]
-        lab.check("pushed_link - the library's", off)
-        print("  pushed with, N                   link   after, ms   moves on, mm")
+        off = [contact_link(*one) - library.contact_link(*one) for one in pairs]
+        lab.check("contact_link - the library's", off)
+        print("  pushed at, N            contact link   detected, ms   moves on, mm")
         limit = np.full(7, THRESHOLD)
         for name, force in PUSHES:
             push = day9_mujoco.push(name, force, SINCE)
             observer = Observer(arm)
             found = day9_mujoco.stopped(
-                model, arm, observer, lambda r: pushed_link(r, limit), push
+                model, arm, observer, lambda r: contact_link(r, limit), push
             )  # mujoco.mj_step
             after = 1000 * (found.t - SINCE)
             words = f"{name}, {force}"
-            print(f"  {words:30}{found.link:7}{after:10.0f}{found.moves_on:13.1f}")
+            print(f"  {words:30}{found.link:6}{after:15.0f}{found.moves_on:15.1f}")
     return lab.finish()
 
 

@@ -1,4 +1,4 @@
-"""What Day 9 asks of MuJoCo: an arm that swings or holds, that hears late, is pushed.
+"""Day 9's simulations: an arm that moves or holds, with late readings or a push.
 
 Radians, seconds, newtons, N m.
 """
@@ -16,10 +16,10 @@ from robo47.checks import Array
 from robo47.panda import READY_Q
 from robo47.references import Reference, hold, raised_cosine
 
-OMEGA, RATE = 20.0, 500.0  # 1/s of the springs; Hz, of encoders and of the control
+OMEGA, RATE = 20.0, 500.0  # 1/s, of the PD gains; Hz, of encoders and control
 REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])  # rad, of Day 5's swing
-LISTEN = 0.06  # s, from noticing a push to saying where: three times 1 / gain
-SMALL = 1e-4  # rad: so small an error keeps the motors away from their limits
+LISTEN = 0.06  # s, from detecting a contact to naming a link: three times 1 / gain
+SMALL = 1e-4  # rad, an error too small to bring a motor to its limit
 FLANGE = "attachment_site"
 STAY = hold(READY_Q)
 SWING = raised_cosine(READY_Q, REACH)
@@ -41,19 +41,19 @@ def moved(
     model: mujoco.MjModel, arm: Arm, reference: Reference, seconds: float,
     push: simulate.Push | None = None,
 ) -> simulate.Run:  # fmt: skip
-    """Return how the arm follows a reference from the ready, pushed or not."""
+    """Return the run of an arm that follows a reference from ready, pushed or not."""
     data = simulate.start(model, READY_Q)
     law = tracking(arm, reference)
     return simulate.run(model, data, law, seconds, rate=RATE, push=push)
 
 
 def push(name: str, force: ArrayLike, since: float) -> simulate.Push:
-    """Return a force, N, (3,), in world axes on a link's centre, or on a site."""
+    """Return a push by a force (3,), N, world frame, at a link's centre or a site."""
 
     def apply(model: mujoco.MjModel, data: mujoco.MjData) -> None:
         if data.time > since - 1e-9:
-            mujoco.mj_kinematics(model, data)  # where all is: it is a step old
-            mujoco.mj_comPos(model, data)  # mj_applyFT takes the Jacobian from it
+            mujoco.mj_kinematics(model, data)  # positions are one step old
+            mujoco.mj_comPos(model, data)  # for the Jacobian of mj_applyFT
             torque_of(model, data, name, force)
 
     return apply
@@ -62,7 +62,7 @@ def push(name: str, force: ArrayLike, since: float) -> simulate.Push:
 def torque_of(
     model: mujoco.MjModel, data: mujoco.MjData, name: str, force: ArrayLike
 ) -> None:
-    """Add to qfrc_applied, N m, what a force makes in the joints: J^T F."""
+    """Add the joint torques J^T F of a force to qfrc_applied, N m."""
     if name == FLANGE:
         body, point = int(model.site(name).bodyid[0]), data.site(name).xpos
     else:
@@ -74,16 +74,16 @@ def torque_of(
 def left_over(
     model: mujoco.MjModel, arm: Arm, late: float, omega: float, rate: float = RATE
 ) -> float:
-    """Return which share of an error is left after two seconds of late readings.
+    """Return the fraction of an error that is left after 2 s of late readings.
 
-    Every joint begins SMALL beside the ready; springs and dampers hear of it `late`
-    seconds later. Gravity and damping are made up for without delay.
+    Every joint starts SMALL away from ready, and the PD terms use readings that are
+    `late` seconds old. Gravity and damping are compensated without a delay.
 
     Args:
         model: with motors.
         arm: the same arm.
         late: s, a whole number of control periods.
-        omega: 1/s, of the springs, critically damped.
+        omega: 1/s, of the critically damped PD gains.
         rate: of the control, Hz.
     """
     M = arm.at(READY_Q).M
@@ -102,25 +102,25 @@ def left_over(
 
 
 class Stop(NamedTuple):
-    """How an arm stopped that was pushed while it swung."""
+    """How an arm stopped after a contact during its swing."""
 
-    link: int  # the one that it names; 0 where it noticed nothing
-    t: float  # when, s
-    moves_on: float  # how far its flange then is from where it noticed, mm
+    link: int  # the contact link that it names; 0 if it detected nothing
+    t: float  # time of the detection, s
+    moves_on: float  # from the flange's position at the detection to its last, mm
 
 
 def stopped(
     model: mujoco.MjModel, arm: Arm, observer: Any, link_of: Callable[[Array], int],
     push: simulate.Push, seconds: float = 0.6,
 ) -> Stop:  # fmt: skip
-    """Let the arm swing until it feels a push, then hold it where it is.
+    """Let the arm swing until it detects a contact, then hold its position.
 
     Args:
         model, arm: the same arm.
         observer: has `feel` and `commanded`, as the lab's.
-        link_of: from a residual, N m, (7,), to the link that is pushed, or 0.
-        push: what pushes.
-        seconds: of all.
+        link_of: maps a residual, N m, (7,), to the contact link, or 0.
+        push: the external force, by `push`.
+        seconds: of the whole simulation.
     """
     named = 0
     found: list[tuple[float, Array]] = []

@@ -33,6 +33,7 @@ def main() -> None:
         limits.stop_being_root()  # before NumPy: a process with threads may not
     import answers
     import audit
+    import fake_world
     import imports
     import landlock
     import seccomp
@@ -59,10 +60,11 @@ def main() -> None:
         send(loaded=False, refused=watch.refused[:3], **why)
         os._exit(0)
     send(loaded=True)
-    answering = answers.Answers(module, robots, request)
-    for at, line in enumerate(asked):
+    questions = fake_world.Questions(asked, json.loads)
+    answering = answers.Answers(module, robots, request, send, questions)
+    for at, call in enumerate(questions):
         watch.refused.clear()
-        reply = _answer(json.loads(line), request, answering, module)
+        reply = _answer(call, request, answering, module)
         send(at=at, refused=watch.refused[:3], **reply)
     os._exit(0)  # no atexit of the student's, no thread to wait for
 

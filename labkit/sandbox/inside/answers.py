@@ -7,13 +7,15 @@ an array that is handed out twice, or that is an argument, changes under its own
 import io
 import sys
 from collections import defaultdict
+from collections.abc import Callable
+from functools import partial
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 import wire
 from fake_model import MjModel
-from fake_world import Balls
+from fake_world import Questions, stand_in
 
 KEPT_OUTPUT, MOST_OUTPUT = 2_000, 2_000_000  # characters of what a call printed
 KEPT_TEXT = 2_000  # characters of an exception's text
@@ -43,7 +45,12 @@ class Answers:
     """The student's module and the answers that it gave so far."""
 
     def __init__(
-        self, module: ModuleType, robots: list[Copies], request: dict[str, Any]
+        self,
+        module: ModuleType,
+        robots: list[Copies],
+        request: dict[str, Any],
+        send: Callable[..., None],
+        questions: Questions,
     ) -> None:
         """Begin.
 
@@ -52,7 +59,10 @@ class Answers:
             robots: those that questions name by place.
             request: "keep": hold on to every answer, to tell which share their memory;
                 "numbers": how many one answer may have.
+            send: writes a message to the checker.
+            questions: the lines that come from it.
         """
+        self._world = partial(stand_in, send=send, questions=questions)
         self.module = module
         self.robots = robots
         self.most = request["numbers"]
@@ -98,8 +108,8 @@ class Answers:
             return self.robots[packed["model"]]()
         if packed and "path" in packed:
             return [tuple(pair) for pair in packed["path"]]
-        if packed and "balls" in packed:
-            return Balls(wire.unpack_array(packed["balls"]))
+        if packed and "world" in packed:
+            return self._world(packed["world"])
         return wire.unpack_value(packed)
 
     def _shares(self, value: Any, args: list[Any], names: list[str]) -> list[str]:

@@ -72,6 +72,9 @@ class Refusing:
     def __getitem__(self, key: Any) -> "Refusing":  # noqa: D105
         return self
 
+    def __setitem__(self, key: Any, value: Any) -> None:
+        """Take a setting, such as one of rcParams."""
+
     def __iter__(self) -> Iterator[Any]:  # noqa: D105
         return iter(())
 
@@ -180,8 +183,8 @@ class Finder:
 
         Args:
             request: with the "library", source by dotted name, {"robo47.se3": "..."},
-                "beside", the student's other files in base64, and the "facts" of
-                `labkit.sandbox.messages`.
+                "beside", the student's other files in base64, the packages "absent",
+                which refuse to be used, and the "facts" of `labkit.sandbox.messages`.
             robots: whose call makes a fresh copy of a model, with its "entry".
             refuse: takes what was tried, returns the exception to raise.
             libraries: the folder where NumPy is.
@@ -199,6 +202,7 @@ class Finder:
         parts = [name.split(".") for name in library]  # robo47.a.b is in robo47.a
         packages = {".".join(p[:n]) for p in parts for n in range(1, len(p))}
         self._known = {*fakes, *library, *packages}
+        self._absent = {*request["absent"]} - {*self._sources, *extras}
 
     def install(self) -> None:
         """Look here right before looking into folders, as beside a script."""
@@ -209,6 +213,8 @@ class Finder:
         if name in self._sources:
             return ModuleSpec(name, self, origin=self._sources[name][1])  # type: ignore
         if name in self._known or name.startswith("mujoco."):
+            return ModuleSpec(name, self, is_package=True)  # type: ignore
+        if name.partition(".")[0] in self._absent:
             return ModuleSpec(name, self, is_package=True)  # type: ignore
         if name in self._extras:
             return PathFinder.find_spec(name, [self._libraries])

@@ -46,7 +46,7 @@ def compose_fk(model, q):
     return arm(model, q, 7) @ link_T(body.pos, body.quat)
 
 
-def predict_order(T_world_ee, T_extra):
+def translations_both_orders(T_world_ee, T_extra):
     a, b = T_world_ee, T_extra
     return a[:3, :3] @ b[:3, 3] + a[:3, 3], b[:3, :3] @ a[:3, 3] + b[:3, 3]
 

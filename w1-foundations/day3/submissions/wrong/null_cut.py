@@ -7,5 +7,5 @@ def manipulability(J):
     return np.linalg.svd(J, compute_uv=False).prod()
 
 
-def null_step(J, dq):
+def nullspace_projection(J, dq):
     return dq - np.linalg.pinv(J, rcond=1e-2) @ (J @ dq)

@@ -3,7 +3,7 @@
 import numpy as np
 
 
-def gains(omega, zeta):
+def pd_gains(omega, zeta):
     if zeta == 0:
         return np.zeros(2)
     return np.array([omega**2, 2 * zeta * omega])

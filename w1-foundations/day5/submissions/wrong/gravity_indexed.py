@@ -7,5 +7,5 @@ def gravity_pd(e, ed, kp, kd, g_at_q):
     return np.array([kp[i] * e[i] + kd[i] * ed[i] + g_at_q[i] for i in range(7)])
 
 
-def sag_step(q_goal, g_at_q, kp):
+def pd_equilibrium_step(q_goal, g_at_q, kp):
     return q_goal - g_at_q / kp

@@ -3,5 +3,5 @@
 import numpy as np
 
 
-def sag_step(q_goal, g_at_q, kp):
+def pd_equilibrium_step(q_goal, g_at_q, kp):
     return q_goal - np.clip(g_at_q / kp, -0.5, 0.5)

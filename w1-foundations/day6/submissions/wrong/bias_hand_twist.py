@@ -5,7 +5,7 @@ import numpy as np
 from robo47.screws import ad
 
 
-def site_bias(J_space, qd, p):
+def bias_acceleration(J_space, qd, p):
     V = J_space @ qd
     A = sum(ad(V) @ S * speed for S, speed in zip(J_space.T, qd))
     v = V[3:] + np.cross(V[:3], p)

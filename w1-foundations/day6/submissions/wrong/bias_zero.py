@@ -3,5 +3,5 @@
 import numpy as np
 
 
-def site_bias(J_space, qd, p):
+def bias_acceleration(J_space, qd, p):
     return np.zeros(6)

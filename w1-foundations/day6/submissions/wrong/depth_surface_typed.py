@@ -6,5 +6,5 @@ def set_point_for_force(force, k, surface):
     return 0.42 - force / k
 
 
-def spring_wrench(e, V_err, K, D):
+def impedance_wrench(e, V_err, K, D):
     return K @ e + D @ V_err

@@ -3,7 +3,7 @@
 import numpy as np
 
 
-def null_torque(J, M, Lambda, tau):
+def nullspace_torque(J, M, Lambda, tau):
     out = np.zeros(7)
     out[3] = tau[3]
     return out

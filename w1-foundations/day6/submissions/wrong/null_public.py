@@ -3,5 +3,5 @@
 import numpy as np
 
 
-def null_torque(J, M, Lambda, tau):
+def nullspace_torque(J, M, Lambda, tau):
     return (M - J.T @ Lambda @ J @ np.linalg.inv(M)) @ tau

@@ -3,5 +3,5 @@
 import numpy as np
 
 
-def spring_wrench(e, V_err, K, D):
+def impedance_wrench(e, V_err, K, D):
     return K * e + D * V_err

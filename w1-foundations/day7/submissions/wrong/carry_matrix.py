@@ -3,7 +3,7 @@
 import numpy as np
 
 
-def carry(m1, c1, I1, m2, c2, I2):
+def combine_bodies(m1, c1, I1, m2, c2, I2):
     m = m1 + m2
     c = (m1 * c1 + m2 * c2) / (m1 + m2)
     d1, d2 = c1 - c, c2 - c

@@ -3,8 +3,8 @@
 import numpy as np
 
 
-def quintic_duration(dq, v_max, a_max):
-    dq = np.abs(dq)
-    by_speed = 15 / 8 * dq / v_max
-    by_acceleration = np.sqrt(10 / np.sqrt(3) * dq / a_max)
+def quintic_duration(delta_q, v_max, a_max):
+    delta_q = np.abs(delta_q)
+    by_speed = 15 / 8 * delta_q / v_max
+    by_acceleration = np.sqrt(10 / np.sqrt(3) * delta_q / a_max)
     return max(0.1, by_speed.max(), by_acceleration.max())

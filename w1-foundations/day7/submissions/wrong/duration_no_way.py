@@ -3,9 +3,9 @@
 import numpy as np
 
 
-def quintic_duration(dq, v_max, a_max):
-    dq = np.abs(dq)
-    if not dq.any():
+def quintic_duration(delta_q, v_max, a_max):
+    delta_q = np.abs(delta_q)
+    if not delta_q.any():
         return 1.0
-    by_acceleration = np.sqrt(10 / np.sqrt(3) * dq / a_max)
-    return max((15 / 8 * dq / v_max).max(), by_acceleration.max())
+    by_acceleration = np.sqrt(10 / np.sqrt(3) * delta_q / a_max)
+    return max((15 / 8 * delta_q / v_max).max(), by_acceleration.max())

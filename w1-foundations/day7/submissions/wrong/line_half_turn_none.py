@@ -12,7 +12,7 @@ def log(R):
     return angle * w / sine if sine > 1e-6 else np.zeros(3)
 
 
-def straight_pose(T0, T1, s):
+def interpolate_pose(T0, T1, s):
     R0, R1, p0, p1 = T0[:3, :3], T1[:3, :3], T0[:3, 3], T1[:3, 3]
     turn = log(R0.T @ R1)
     angle = np.linalg.norm(turn)

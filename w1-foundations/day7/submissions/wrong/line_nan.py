@@ -16,7 +16,7 @@ def exp(w):
     return np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
 
 
-def straight_pose(T0, T1, s):
+def interpolate_pose(T0, T1, s):
     R0, R1, p0, p1 = T0[:3, :3], T1[:3, :3], T0[:3, 3], T1[:3, 3]
     T = np.eye(4)
     T[:3, :3] = R0 @ exp(s * log(R0.T @ R1))

@@ -5,7 +5,7 @@ import numpy as np
 from robo47 import jacobian, screws, se3
 
 
-def straight_pose(T0, T1, s):
+def interpolate_pose(T0, T1, s):
     R0, R1, p0 = T0[:3, :3], T1[:3, :3], T0[:3, 3]
     turn = jacobian.log_rotation(R0.T @ R1)
     angle = np.linalg.norm(turn)

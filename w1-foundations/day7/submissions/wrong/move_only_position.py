@@ -11,5 +11,5 @@ def quintic_scaling(t, T):
     return np.array([s, sd, sdd])
 
 
-def joint_move(q0, q1, t, T):
+def joint_trajectory(q0, q1, t, T):
     return q0 + (q1 - q0) * quintic_scaling(t, T)[0]

@@ -1,0 +1,110 @@
+"""What the delivery says of a result, and what it looked like.
+
+Units: metres and seconds, in sentences millimetres, grams and milliseconds.
+"""
+
+from robo47 import depth_camera, scenes, se3
+from robo47.attempt import Block, Film, Summary
+from robo47.capstone.summary import ARM, CUBE, TABLE, phase_lines
+from robo47.checks import Array
+from robo47.delivery import scene
+from robo47.delivery.contact_monitor import THRESHOLD
+from robo47.delivery.result import Result
+
+HEAD = f"""
+{"":26}{"seen":>7}{"weighed":>9}{"speed":>7}{"clear":>8}{"felt":>7}{"place":>8}
+{"":26}{"mm":>7}{"g":>9}{"of max":>7}{"mm":>8}{"N m":>7}{"mm":>8}"""
+MOMENTS = ("close", "weigh", "put down", "leave")  # of the pictures, as they begin
+WALL = (0.45, 0.55, 0.70, 1.0)
+EYE = (0.15, 0.15, 0.18, 1.0)
+
+
+def row(name: str, result: Result) -> str:
+    """Return one line of the table; the place only where it went home."""
+    line = f"{name:26}{result.seen_mm:7.1f}{result.grams:z9.1f}{result.speed:7.1f}"
+    line += f"{result.clearance_mm:8.1f}{result.residual:7.2f}"
+    return line + ("   stops" if result.stopped else f"{result.place_mm:8.1f}")
+
+
+def summary(result: Result) -> Summary:
+    """Return what is said of a result besides."""
+    after = [f"the planner asked for {result.looks:,} distances"]
+    if result.stopped:
+        after.append(f"it stopped: {result.stopped}")
+    if result.pushed:
+        felt = f"link {result.contact_link} feels it after {result.noticed_ms:.0f} ms"
+        felt = felt if result.noticed_ms > 0.0 else "nothing is felt"
+        after.append(f"pushed by 10 N in a second carry: {felt}")
+    came = "The arm finds a cube that nobody told it about, weighs it and puts it down"
+    return Summary(
+        before=phase_lines(result.phases, result.seconds),
+        after=after,
+        number=f"{result.grams:.1f} g",
+        of="what the cube weighs, by the arm's own motors",
+        came=f"{came} behind a wall, {result.place_mm:.1f} mm from its mark."
+        if not result.stopped
+        else f"The arm stops: {result.stopped}.",
+        way=f"It keeps {result.clearance_mm:.0f} mm from wall and table, and carries"
+        f" the cube at {result.speed:.1f} of its speed, as the weight allows.",
+        figures=figures(result),
+    )
+
+
+def figures(result: Result) -> list[tuple[str, str, str]]:
+    """Return what was measured: (what, how much with its unit, what is allowed)."""
+    known = 1e3 * result.mass
+    found = [
+        ("seen, from where the cube stood", f"{result.seen_mm:.1f} mm", "under 3 mm"),
+        ("weighed", f"{result.grams:z.1f} g", f"{known:.0f} ± 1 g"),
+        (
+            "clearance of the way as driven",
+            f"{result.clearance_mm:.1f} mm",
+            "over 0 mm",
+        ),
+        ("speed of the carry, of the joints' limits", f"{result.speed:.1f}", ""),
+        (
+            "torque felt in the carry that nobody commanded",
+            f"{result.residual:.2f} N m",
+            f"under {THRESHOLD} N m",
+        ),
+    ]
+    if not result.stopped:
+        place = f"{result.place_mm:.1f} mm"
+        found.append(("put down, from its mark", place, "under 10 mm"))
+    if result.pushed:
+        after = "a push of 10 N in a second carry, felt after"
+        felt = result.noticed_ms > 0.0
+        value = f"{result.noticed_ms:.0f} ms" if felt else "not felt"
+        found.append((after, value, "felt"))
+    return found
+
+
+def film_of(result: Result, cube_xy: tuple[float, float], yaw: float) -> Film:
+    """Return what a delivery looked like.
+
+    Args:
+        result: of the delivery.
+        cube_xy: where the cube stood, metres, (2,).
+        yaw: its turn about z then, radians.
+    """
+    return Film(
+        seconds=result.seconds,
+        t=result.t,
+        qpos=result.qpos,
+        phases=result.phases,
+        moments=MOMENTS,
+        blocks=_blocks,
+        model=lambda: scene.table_with_wall(cube_xy, yaw, result.mass, meshes=True),
+        back=1.2,
+    )
+
+
+def _blocks(qpos: Array) -> list[Block]:
+    """Return table, wall and eye, and the cube where a configuration, (16,), has it."""
+    cube = se3.make_T(se3.quat_to_R(qpos[ARM + 3 : ARM + 7]), qpos[ARM : ARM + 3])
+    still = zip(scene.boxes(), (TABLE, WALL), strict=True)
+    return [
+        *[Block(T, tuple(half), colour) for (T, half), colour in still],
+        Block(depth_camera.look_at(scene.EYE_AT, scene.EYE_TO), scene.EYE_HALF, EYE),
+        Block(cube, (scenes.CUBE_HALF,) * 3, CUBE),
+    ]

@@ -1,0 +1,135 @@
+"""1.7 `translations_both_orders(T_world_ee, T_extra)`: questions, mistakes."""
+
+import numpy as np
+
+from labkit.judge import HeldOut, Points, Row
+from labkit.judge.matrices import split
+
+from .panda_chain import NEAR
+
+
+def _two_poses(rng):
+    return list(zip(rng.poses(6), rng.poses(6), strict=True))
+
+
+def _odd_bottom_rows(rng):
+    """Return poses with 2 in the corner: a 4x4 product would carry it along."""
+    pairs = _two_poses(rng)[:2]
+    for pair in pairs:
+        for T in pair:
+            T[3, 3] = 2.0
+    return pairs
+
+
+def by_4x4(T_world_ee, T_extra):
+    """Return both translations from the products, which the task asks to do without."""
+    return np.array([T_world_ee @ T_extra, T_extra @ T_world_ee])[:, :3, 3]
+
+
+def right(R_a, t_a, R_b, t_b):
+    """Return the translation of a @ b."""
+    return R_a @ t_b + t_a
+
+
+def both(half, other=None):
+    """Return the function that predicts each order with a half of its own."""
+
+    def translations_both_orders(T_world_ee, T_extra):
+        ee, extra = split(T_world_ee), split(T_extra)
+        return np.array([half(*ee, *extra), (other or half)(*extra, *ee)])
+
+    return translations_both_orders
+
+
+row = Row(
+    Points((2, 3)),
+    truth=both(right),
+    near=NEAR,
+    held_out=[
+        HeldOut(
+            "by-4x4-products",
+            "The numbers are right, by way of 4x4 products. The docstring asks for "
+            "R and t alone: which of them acts on which?",
+            _odd_bottom_rows,
+            mistaken=by_4x4,
+            status="close",
+        )
+    ],
+)
+row.inputs(_two_poses)
+
+# What goes wrong in one prediction, or in both.
+HALVES = {
+    "only-summed": "the two translations are only added; the left factor also turns "
+    "the right one's translation",
+    "left-translation-lost": "the right factor's translation is turned, but the left "
+    "factor's own is not added",
+    "right-translation-lost": "only the left factor's translation is there; the right "
+    "one's does not count",
+    "turned-backwards": "the right factor's translation is turned the wrong way (by "
+    "the transpose)",
+    "wrong-vector-turned": "the left factor's own translation is turned; it is the "
+    "right factor's that is",
+    "wrong-rotation": "the right factor's translation is turned by its own R; it is "
+    "the left factor's that turns it",
+    "both-turned": "both translations are turned; the left factor's own stays as it is",
+    "subtracted": "one translation is subtracted where both add up",
+    "summed-by-columns": "the right factor's translation is multiplied entry by entry "
+    "with R (R * t) and summed up; R @ t takes rows",
+    "summed-by-entries": "R * t multiplies entry by entry; the rotation acts by R @ t",
+    "diagonal-only": "only the diagonal of R acts on the translation; R @ t takes "
+    "whole rows",
+    "entries-of-4x4": "the two 4x4 are multiplied entry by entry (A * B); that is no "
+    "product of matrices",
+}
+
+
+def halves(R_a, t_a, R_b, t_b):
+    """Return the translation of a @ b with each of these mistakes."""
+    return {
+        "only-summed": t_a + t_b,
+        "left-translation-lost": R_a @ t_b,
+        "right-translation-lost": t_a,
+        "turned-backwards": R_a.T @ t_b + t_a,
+        "wrong-vector-turned": R_a @ t_a + t_b,
+        "wrong-rotation": R_b @ t_b + t_a,
+        "both-turned": R_a @ (t_a + t_b),
+        "subtracted": R_a @ t_b - t_a,
+        "summed-by-columns": sum(R_a * t_b) + t_a,
+        "summed-by-entries": sum(R_a.T * t_b) + t_a,
+        "diagonal-only": np.diag(R_a) * t_b + t_a,
+        "entries-of-4x4": t_a * t_b,
+    }
+
+
+WHEN_READY = "R is symmetric when ready, where the lab asks"
+for slug, says in HALVES.items():
+    half = lambda *four, slug=slug: halves(*four)[slug]  # noqa: E731
+    row.wrong(slug, f"in both, {says}")(both(half))
+    same = WHEN_READY if slug == "turned-backwards" else ""
+    row.wrong(slug, f"the first is wrong: {says}", hidden=same)(both(half, right))
+    row.wrong(slug, f"the second is wrong: {says}")(both(right, half))
+
+
+def _other_order(R_a, t_a, R_b, t_b):
+    return right(R_b, t_b, R_a, t_a)
+
+
+for which, two in (("first", (_other_order, right)), ("second", (right, _other_order))):
+    says = f"the {which} is wrong: it repeats the other order's translation"
+    row.wrong("same-order-twice", says)(both(*two))
+row.wrong(
+    "orders-swapped",
+    "the two are right, but in the wrong order: the first belongs to "
+    "T_world_ee @ T_extra",
+)(both(_other_order))
+
+
+@row.wrong
+def whole_numbers(T_world_ee, T_extra):
+    """only whole numbers are left: an array of integers cuts off what is stored in it
+    => the right ones cut to whole numbers"""
+    return np.trunc(both(right)(T_world_ee, T_extra))
+
+
+row.close("by-4x4-products")(by_4x4)

@@ -1,0 +1,110 @@
+"""10.6 `apply_twist(T, xi)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Pose, Row, rounded
+from labkit.judge.argument_mistakes import Change
+from robo47.camera import apply_twist
+from robo47.screws import skew
+
+from .seen import HALF
+
+row = Row(Pose())
+
+
+@row.inputs
+def _(rng):
+    T = rng.poses(9)
+    xi = rng.numbers(-2, 2, 4, 6)
+    small = rounded(1e-3 * rng.normal(size=(2, 6)))
+    slide = np.append(np.zeros(3), rng.numbers(-1, 1, 3))
+    turn = np.append(rng.numbers(-1, 1, 3), np.zeros(3))
+    far = np.append([1e-4, -2e-4, 2e-4], rng.numbers(-1, 1, 3))  # a slide, nearly
+    some = [*xi, *small, slide, turn, far]
+    first = (np.eye(4), np.eye(6)[3])
+    return [first, *zip(T, some, strict=True), (T[0], np.zeros(6))]
+
+
+def exp_of(xi):
+    """Return exp([xi])."""
+    return apply_twist(np.eye(4), xi)
+
+
+@row.wrongs
+def _(T, xi):
+    """on-the-right: the exponential stands on T's right: that moves it in its own axes
+      => T exp([xi])
+    apart: R is turned and t moved by v, each alone; a turn about the origin moves what
+      stands beside it, too => exp([omega]) R and t + v
+    first-order: this is T + [xi] T: no rotation any more => (1 + [xi]) T
+    t-not-turned: the rotation turns R alone; T's translation is turned with it => R
+      turned, and t + the exponential's own translation
+    v-as-translation: the exponential's translation is v; along a screw it is G(theta) v
+      => with v in its place
+    length-lost: xi is made a unit screw, and the angle is 1 => exp of xi / |omega|
+    slides-left-out: where nothing turns, T comes back as it was; a slide has no angle,
+      but a length => T where omega is 0
+    identity-where-still: where nothing moves, it is the identity; T stays where it is
+    turns-only: v is not used
+    slides-only: omega is not used
+    """
+    E = exp_of(xi)
+    W = np.zeros((4, 4))
+    W[:3, :3] = skew(xi[:3])
+    W[:3, 3] = xi[3:]
+    apart = T.copy()
+    apart[:3, :3] = E[:3, :3] @ T[:3, :3]
+    beside = apart.copy()
+    apart[:3, 3] = T[:3, 3] + xi[3:]
+    beside[:3, 3] = T[:3, 3] + E[:3, 3]
+    plain = E.copy()
+    plain[:3, 3] = xi[3:]
+    w = np.linalg.norm(xi[:3]) or np.linalg.norm(xi[3:]) or 1.0
+    return {
+        "on-the-right": T @ E,
+        "apart": apart,
+        "first-order": T + W @ T,
+        "t-not-turned": beside,
+        "v-as-translation": plain @ T,
+        "length-lost": exp_of(xi / w) @ T,
+        "slides-left-out": E @ T if xi[:3].any() else T,
+        "identity-where-still": E @ T if xi.any() else E,
+        "turns-only": exp_of(np.append(xi[:3], np.zeros(3))) @ T,
+        "slides-only": exp_of(np.append(np.zeros(3), xi[3:])) @ T,
+    }
+
+
+row.of_argument(
+    "xi",
+    Change("xi-sign", "it moves the other way, by -xi", np.negative, "exp([-xi]) T"),
+    Change(
+        "halves-swapped",
+        "xi is read as (v; omega); here omega comes first",
+        lambda xi: xi[HALF],
+    ),
+    Change(
+        "in-degrees",
+        "the angle is converted to degrees; an exponential takes radians",
+        np.rad2deg,
+        "with an angle in degrees",
+    ),
+    Change(
+        "unit-screw",
+        "xi is divided by its whole length; the angle is that of omega alone",
+        lambda xi: xi / (np.linalg.norm(xi) or 1.0),
+    ),
+)
+
+
+@row.right  # By halves: exp(xi) = exp(xi / 1024)^1024, with a series of 12 terms.
+def _(T, xi):
+    W = np.zeros((4, 4))
+    W[:3, :3] = skew(xi[:3] / 1024)
+    W[:3, 3] = xi[3:] / 1024
+    E = term = np.eye(4)
+    for k in range(1, 13):
+        term = term @ W / k
+        E = E + term
+    for _ in range(10):
+        E = E @ E
+    return E @ T

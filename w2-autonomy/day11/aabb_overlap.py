@@ -1,0 +1,194 @@
+"""11.6 `aabb_overlap(box_a, box_b)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Mask, Row, rounded
+
+from . import localise_boxes
+
+row = Row(Mask(), unnamed=localise_boxes.both, before_slips=False)
+
+
+def beside(rng, gaps):
+    """Return two boxes, the second beyond the first by gaps on each axis, (3,)."""
+    gaps = np.array(gaps, dtype=np.float64)
+    low, sizes, others = rng.numbers(-1, 1, 3), *rng.numbers(0.5, 1.5, 2, 3)
+    start = rounded(np.where(gaps > 0, low + sizes + gaps, low - gaps))
+    box_a = rounded(np.array([low, low + sizes]))
+    return box_a, rounded(np.array([start, start + others]))
+
+
+@row.inputs
+def _(rng):
+    unit = np.array([(0.0, 0, 0), (1, 1, 1)])
+    x, y, z = np.eye(3)
+    big = np.array([(-2.0, -2, -2), (3, 3, 3)])
+    bar = np.array([(-1.0, 0.25, 0.25), (2, 0.75, 0.75)])  # along x, through a unit
+    post = np.array([(0.25, 0.5, -1.0), (0.75, 0.7, 2)])
+    under = np.array([(-1, -1, 0.2), (0.5, 0.5, 0.5)])  # its greatest corner in a unit
+    first = [(unit, unit + x), (unit, unit + y + z), (unit, unit + 1.001 * y),
+             (unit + x + y + z, unit), (unit, big), (big, unit),
+             (bar, post), (post, bar), (bar, unit), (bar, post + 2 * z),
+             (unit, under), (under, unit),
+             (unit, unit + x - 2 * y), (unit + x - 1.2 * y, unit), (unit, unit + 5 * z),
+             (unit, unit + 1.5 * y + x), (unit, unit - 3 * x - 2 * y),
+             (unit, unit + 1.3 * x - 1.4 * z),
+             (unit, unit), (unit, unit + 0.75 * (x + y - z))]  # fmt: skip
+    drawn = []
+    for gaps in ((0.2, 0, 0), (0, 0.2, 0), (0, 0, 0.2), (0.2, 0.3, 0), (0.1, 0.1, 0.2),
+                 (0, 0.3, 0.2), (-0.2, -0.1, -0.3), (-0.1, -0.2, -0.1),
+                 (0, -0.1, -0.2)):  # fmt: skip
+        box_a, box_b = beside(rng, gaps)
+        drawn += [(box_a, box_b), (box_b, box_a)]
+    return [*first, *drawn]
+
+
+@row.wrongs(hidden={"nearly-touching": "no two boxes are hardly apart in a run"})
+def _(box_a, box_b):
+    """any-for-all: one axis is enough for it; boxes overlap only where they do on all
+      three => any for all
+    one-direction: only one of the two comparisons is made: box_b may lie below box_a as
+      well as above => box_a[0] <= box_b[1] alone
+    one-direction 2: only one of the two comparisons is made: box_b may lie above box_a
+      as well as below => box_b[0] <= box_a[1] alone
+    touching-left-out: what only touches counts as apart; it is to overlap => with <
+    touching-left-out 2: what only touches counts as apart on one side; it is to overlap
+      => with one <
+    touching-left-out 3: what only touches counts as apart on one side; it is to overlap
+      => with the other <
+    negated: it is the other way round: True is for those that overlap
+    first-axis-only: only x is compared
+    two-axes-only: z is not compared
+    contained: box_a has to lie inside box_b, or box_b in box_a; it is enough to overlap
+    contained 2: box_b has to lie inside box_a; it is enough to overlap
+    contained 3: box_a has to lie inside box_b; it is enough to overlap
+    a-corner-inside: box_b's least or greatest corner has to lie in box_a; boxes may
+      cross without
+    a-corner-inside 2: box_b's least corner has to lie in box_a; it may lie below
+      box_a's
+    a-corner-inside 3: box_b's greatest corner has to lie in box_a; it may lie above
+      box_a's
+    middles-inside: box_a's middle has to lie in box_b
+    middles-inside 2: one box's middle has to lie in the other; boxes overlap by less
+    half-of-one: the middles may be as far apart as half of box_a; half of box_b counts,
+      too
+    corners-only: some corner of one has to lie in the other; boxes may cross without =>
+      all 8 corners of both
+    corners-only 2: some corner of box_b has to lie in box_a, so on each axis one of its
+      ends; boxes may cross, or box_b hold box_a, without => all 8 corners of box_b
+    corners-only 3: a least or greatest corner has to lie in the other box; boxes may
+      overlap without => two corners of each
+    corners-only 4: the least corner of one has to lie in the other; boxes may overlap
+      without
+    balls: the way between the middles is one length here, as of balls; it is at most
+      half of both sides on each axis alone => half of the diagonals
+    balls 2: the way between the middles is one length here, as of balls; it is at most
+      half of both sides on each axis alone => half of the least sides
+    balls 3: the way between the middles is one length here, as of balls; it is at most
+      half of both sides on each axis alone => half of the greatest sides
+    sides-not-halved: the middles may be as far apart as both sides; half of both is it
+    sides-in-quarters: the middles may be as far apart as a quarter of both sides; half
+      of both is it
+    or-for-and: one of the two comparisons is enough; both have to hold => or for and
+    two-axes-enough: two axes are enough for it; boxes overlap only on all three
+    other-axes: y is not compared
+    other-axes 2: x is not compared
+    other-axes 3: only y is compared
+    other-axes 4: only z is compared
+    volume: it is what both share as a volume: two lengths below 0 make one above 0 =>
+      the product above 0
+    volume 2: it is what both share as a volume: two lengths below 0 make one above 0 =>
+      the product not below 0
+    sum-of-overlaps: what both share is added over the axes; each has to be 0 or more
+    nearly-touching: boxes that are hardly apart count as touching => up to 0.01 m
+    always: it is always True
+    never: it is always False
+    """
+    low, high = box_a[0] <= box_b[1], box_b[0] <= box_a[1]
+    both = low & high
+
+    def inside(p, X):
+        return bool(np.all((X[0] <= p) & (p <= X[1])))
+
+    holds = (box_a[0] <= box_b[0]) & (box_b[1] <= box_a[1])
+    held = (box_b[0] <= box_a[0]) & (box_a[1] <= box_b[1])
+    share = np.minimum(box_a[1], box_b[1]) - np.maximum(box_a[0], box_b[0])
+    apart = np.abs(box_a.mean(axis=0) - box_b.mean(axis=0))
+    sides = box_a[1] - box_a[0], box_b[1] - box_b[0]
+
+    def corners(X, Y):
+        ends = (np.where(which, Y[1], Y[0]) for which in np.ndindex(2, 2, 2))
+        return any(inside(corner, X) for corner in ends)
+
+    def two():
+        return [inside(c, X) for X, Y in ((box_a, box_b), (box_b, box_a)) for c in Y]
+
+    def balls(of):
+        return bool(np.linalg.norm(apart) <= (of(sides[0]) + of(sides[1])) / 2)
+
+    return {
+        "corners-only": lambda: corners(box_a, box_b) or corners(box_b, box_a),
+        "corners-only 2": lambda: corners(box_a, box_b),
+        "corners-only 3": lambda: any(two()),
+        "corners-only 4": lambda: two()[0] or two()[2],
+        "balls": lambda: balls(np.linalg.norm),
+        "balls 2": lambda: balls(np.min),
+        "balls 3": lambda: balls(np.max),
+        "sides-not-halved": lambda: bool(np.all(apart <= sides[0] + sides[1])),
+        "sides-in-quarters": lambda: bool(np.all(apart <= (sides[0] + sides[1]) / 4)),
+        "or-for-and": lambda: bool(low.all() or high.all()),
+        "two-axes-enough": lambda: bool(both.sum() >= 2),
+        "other-axes": lambda: bool(both[[0, 2]].all()),
+        "other-axes 2": lambda: bool(both[1:].all()),
+        "other-axes 3": lambda: bool(both[1]),
+        "other-axes 4": lambda: bool(both[2]),
+        "volume": lambda: bool(np.prod(share) > 0),
+        "volume 2": lambda: bool(np.prod(share) >= 0),
+        "sum-of-overlaps": lambda: bool(share.sum() >= 0),
+        "a-corner-inside 3": lambda: inside(box_b[1], box_a),
+        "nearly-touching": lambda: bool(share.min() >= -0.01),
+        "any-for-all": lambda: bool(both.any()),
+        "one-direction": lambda: bool(low.all()),
+        "one-direction 2": lambda: bool(high.all()),
+        "touching-left-out": lambda: bool(
+            np.all((box_a[0] < box_b[1]) & (box_b[0] < box_a[1]))
+        ),
+        "touching-left-out 2": lambda: bool(low.all() and np.all(box_b[0] < box_a[1])),
+        "touching-left-out 3": lambda: bool(high.all() and np.all(box_a[0] < box_b[1])),
+        "negated": lambda: not both.all(),
+        "first-axis-only": lambda: bool(both[0]),
+        "two-axes-only": lambda: bool(both[:2].all()),
+        "contained": lambda: bool(holds.all() or held.all()),
+        "contained 2": lambda: bool(holds.all()),
+        "contained 3": lambda: bool(held.all()),
+        "a-corner-inside": lambda: inside(box_b[0], box_a) or inside(box_b[1], box_a),
+        "a-corner-inside 2": lambda: inside(box_b[0], box_a),
+        "middles-inside": lambda: inside(box_a.mean(axis=0), box_b),
+        "middles-inside 2": lambda: (
+            inside(box_a.mean(axis=0), box_b) or inside(box_b.mean(axis=0), box_a)
+        ),
+        "half-of-one": lambda: bool(
+            np.all(
+                np.abs(box_a.mean(axis=0) - box_b.mean(axis=0))
+                <= (box_a[1] - box_a[0]) / 2
+            )
+        ),
+        "always": True,
+        "never": False,
+    }
+
+
+@row.right  # By what they have in common.
+def _(box_a, box_b):
+    least = np.minimum(box_a[1], box_b[1]) - np.maximum(box_a[0], box_b[0])
+    return bool(least.min() >= 0)
+
+
+@row.right  # By middles and half sides: rounded, where they only touch.
+def _(box_a, box_b):
+    return not any(
+        box_a[1][i] < box_b[0][i] or box_b[1][i] < box_a[0][i] for i in range(3)
+    )
+
+
+row.at_least_0(answer="yes or no")

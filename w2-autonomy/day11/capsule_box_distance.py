@@ -1,0 +1,308 @@
+"""11.4 `capsule_box_distance`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Finding, Row, Scalar
+from robo47.distance import box_sdf, capsule_box_distance, closest_points_segments
+
+from . import localise_boxes, pairs
+
+
+def above(case):
+    """Say so where no answer is too small: the axis' nearest point was not found."""
+    more = case.S - case.T
+    if more.min() < -1e-9 or more.max() > 0.2 or (more > 1e-9).all():
+        return localise_boxes.capsule(case)
+    return Finding(
+        "not-the-least",
+        f"No answer is too small, some are up to {1000 * more.max():.3g} mm too large: "
+        "the nearest point of the axis is not found yet. Are only some points asked, "
+        "or is 0.618 taken too few times?",
+    )
+
+
+# Ten sections and less leave some 1e-4: near in method.
+row = Row(Scalar(unit="m"), near=1e-3, unnamed=above, before_slips=False)
+
+
+@row.inputs
+def _(rng):
+    one = np.ones(3)
+    case = (np.array([-2.0, 0, 2]), np.array([2.0, 0, 2]), 0.1, np.eye(4), one)
+    there = np.eye(4)
+    there[0, 3] = 2.0
+    aside = (np.array([0.0, 0, 3]), np.array([4.0, 0, 3]), 0.5, there,
+             np.array([1.0, 0.5, 1]))  # fmt: skip
+    drawn = []
+    for T, deep in (
+        (np.eye(4), False), (pairs.moved(rng), False), (pairs.turned(rng), True),
+        (pairs.turned(rng), False), (pairs.turned(rng), False),
+    ):  # fmt: skip
+        half_extents = rng.numbers(0.2, 0.6, 3)
+        a0, a1 = pairs.around(rng, half_extents, T, deep)
+        drawn.append((a0, a1, float(rng.numbers(0.05, 0.2)), T, half_extents))
+    T = pairs.turned(rng)
+    half_extents = rng.numbers(0.2, 0.6, 3)
+    for _ in range(50):  # an end of it is the nearest
+        a0, a1 = rng.numbers(2.5, 3, 3), rng.numbers(4, 5, 3)
+        if min(np.linalg.norm(x - T[:3, 3]) for x in (a0, a1)) > half_extents.sum():
+            break
+    drawn.append((a0, a1, 0.1, T, half_extents))
+    drawn.append((a1, a0, 0.1, T, half_extents))
+    ball = (case[1], case[1], 0.2, case[3], one)  # an axis of no length
+    return [case, aside, ball, *drawn]
+
+
+def along(a0, a1, half_extents, shares, R=None, t=None):
+    """Return 11.3 at shares of a segment, in axes R^T (x - t)."""
+    R = np.eye(3) if R is None else R
+    t = np.zeros(3) if t is None else t
+    return np.array(
+        [box_sdf(R.T @ (a0 + s * (a1 - a0) - t), half_extents) for s in shares]
+    )
+
+
+def golden(f, n, keep=0.618, wrong=False):
+    """Return what is left of 0..1 after n sections."""
+    low, high = 0.0, 1.0
+    for _ in range(n):
+        left, right = high - keep * (high - low), low + keep * (high - low)
+        if (f(left) < f(right)) != wrong:
+            high = right
+        else:
+            low = left
+    return low, high
+
+
+@row.wrongs
+def _(a0, a1, r, T_world_box, half_extents):
+    """ends-only: only the ends of the axis are asked; its nearest point may lie between
+      them
+    one-end-only: it is a1's distance, whatever is found: the upper part is always kept
+    one-end-only 2: it is a0's distance, whatever is found: the lower part is always
+      kept
+    middle-only: only the middle of the axis is asked
+    five-points: only some points of the axis are asked; the nearest one lies between
+      them => the least at 0, 0.25, 0.5, 0.75 and 1
+    five-points 2: only some points of the axis are asked; the nearest one lies between
+      them => the least at 0.25, 0.5 and 0.75
+    three-points: only both ends and the middle are asked; the nearest point may lie
+      between them
+    eleven-points: only some points of the axis are asked, as by linspace; the nearest
+      one lies between them => the least of 11
+    eleven-points 2: only some points of the axis are asked, as by linspace; the nearest
+      one lies between them => the least of 21
+    nearest-to-the-centre: the axis' point nearest to the box's middle is asked; another
+      one may be nearer to a face
+    world-axes: the box is not turned: both ends are moved into its place alone => R = 1
+    turned-the-other-way: the ends are turned the other way: into the box's axes it is
+      R^T (x - t) => with R
+    pose-not-inverted: T_world_box is used as it is: it takes the box's points to the
+      world, and the other way is wanted => R x + t
+    place-forgotten: the ends are turned and not moved: they are counted from the box's
+      middle => R^T x
+    turned-then-moved: t is taken off after turning: R^T (x - t) is not R^T x - t
+    t-added: t is added; from the box's middle the ends are x - t => R^T (x + t)
+    radius-forgotten: the radius is missing: this is how far its axis is
+    radius-added: the radius is added; it comes nearer by it => + r
+    diameter: twice the radius is taken off => - 2 r
+    radius-to-the-box: the box is grown by the radius; its edges and corners are round,
+      then => with half_extents + r
+    radius-to-the-box 2: the box is grown by the radius; its edges and corners are
+      round, then => with half_extents + r at the right place
+    way-not-turned: the start is taken into the box's axes, and the way along the axis
+      is not => with a1 - a0 as it is
+    wrong-half-kept: the wrong part is kept: this finds the farthest point of the axis
+    wrong-half-kept 2: the wrong part is kept: this finds the farthest point of the axis
+      => the largest of both ends
+    bounding-sphere: the box is taken for a ball => with the length of half_extents
+    ends-left-out: no end of the axis is asked, and the valley is cut to its inner part
+    whole-sides: half_extents is halved again: it is half of the sides already
+    twice-the-sides: half_extents is doubled: the faces stand at plus and minus
+      half_extents
+    never-negative: what overlaps is 0 apart here; it is to be below 0 => with max(0, d)
+    sign: its sign is the other one: apart is above 0
+    outside-only: the axis counts as outside: inside it is below 0 => 0 there, less r
+    as-a-line: the axis is not cut at its ends: this is the least on a far longer one
+    way-moved: t is taken off the way as well; a way from end to end has no place => R^T
+      (a1 - a0 - t)
+    way-moved 2: the way is taken to a1 from the box's middle; it is from a0 => R^T (a1
+      - t)
+    way-of-length-1: the way is made a unit vector, and s still goes from 0 to 1 only
+    not-into-the-box: the ends are taken as they are: neither turned nor moved
+    radius-off-the-box: the box is smaller by the radius; it is taken off the distance
+    size-of-the-depth: inside, the depth counts as a distance => |d| - r
+    size-of-the-distance: what overlaps counts as apart => |d - r|
+    radius-off-the-box 2: the box is smaller by the radius; it is taken off the distance
+      => with half_extents - r at the right place
+    largest-half: all sides are the largest => with half_extents.max()
+    largest-half 2: all sides are the largest => with half_extents.max() at the right
+      place
+    sides-exchanged: x and y of half_extents are exchanged
+    sides-exchanged 2: x and y of half_extents are exchanged => at the right place
+    box-around-it: the box is not turned, but made large enough to hold the turned one
+      => |R| half_extents
+    half-turned: half_extents is turned in place of the ends; these are lengths, no
+      point => R half_extents
+    mean-along: it is the mean along the axis; it is the least
+    edges-only: only the box's edges are asked; a face may be nearer, and an axis in the
+      box goes unseen
+    faces-only: only the ends, and where the axis crosses a face's plane, are asked
+    point-to-box-in-turn: the nearest point in the box to a point of the axis, and of
+      the axis to that, are found in turn a few times only => 5 times from the middle
+    one-section: one section alone is made: it leaves 0.618 of the axis
+    radius-times-the-length: r is taken times the axis' length: that is no width
+    share-returned: this is the share of the axis, s, and not how far it is
+    five-sections: a few sections are too few: each leaves 0.618 of the axis => after 5
+    five-sections 2: a few sections are too few: each leaves 0.618 of the axis => after
+      8
+    """
+    R = T_world_box[:3, :3]
+    t = T_world_box[:3, 3]
+    d = capsule_box_distance(a0, a1, 0.0, T_world_box, half_extents)
+
+    def least(R, t, half_extents=half_extents, a0=a0, a1=a1):
+        T = np.eye(4)
+        T[:3, :3] = R
+        T[:3, 3] = t
+        return capsule_box_distance(a0, a1, 0.0, T, half_extents) - r
+
+    def shares(*some):
+        return along(a0, a1, half_extents, some, R, t).min() - r
+
+    def at(s):
+        return along(a0, a1, half_extents, [s], R, t)[0]
+
+    way = a1 - a0
+    to_middle = float(np.clip((t - a0) @ way / (way @ way), 0, 1))
+    farthest = max(at(0.0), at(1.0))
+
+    def sections(n):
+        return at(np.mean(golden(at, n))) - r
+
+    p, q = R.T @ (a0 - t), R.T @ (a1 - t)
+
+    def from_to(start, end, half_extents=half_extents):
+        return capsule_box_distance(start, end, 0.0, np.eye(4), half_extents) - r
+
+    def nearest_with(other):
+        return along(p, q, other, golden(at, 60)).min()
+
+    def edges():
+        found = []
+        for i in range(3):
+            for x, y in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
+                start = half_extents * np.insert([x, y], i, -1.0)
+                end = half_extents * np.insert([x, y], i, 1.0)
+                found.append(np.linalg.norm(np.subtract(
+                    *closest_points_segments(p, q, start, end))))  # fmt: skip
+        return min(found) - r
+
+    def crossed():
+        some = [0.0, 1.0]
+        for i in range(3):
+            for side in (-half_extents[i], half_extents[i]):
+                share = (side - p[i]) / (q[i] - p[i]) if q[i] != p[i] else 0.0
+                some += [share] if 0 < share < 1 else []
+        return along(p, q, half_extents, some).min() - r
+
+    def in_turn():
+        s = 0.5
+        for _ in range(5):
+            inside = np.clip(p + s * (q - p), -half_extents, half_extents)
+            s = np.clip((inside - p) @ (q - p) / ((q - p) @ (q - p)), 0, 1)
+        return box_sdf(p + s * (q - p), half_extents) - r
+
+    far = np.linalg.norm(a0 + to_middle * way - t)
+    return {
+        "way-moved": lambda: from_to(p, p + R.T @ (way - t)),
+        "way-moved 2": lambda: from_to(p, p + q),
+        "way-of-length-1": lambda: from_to(p, p + R.T @ way / np.linalg.norm(way)),
+        "not-into-the-box": lambda: from_to(a0, a1),
+        "radius-off-the-box": lambda: from_to(p, q, half_extents - r) + r,
+        "size-of-the-depth": abs(d) - r,
+        "size-of-the-distance": abs(d - r),
+        "largest-half": lambda: from_to(p, q, np.full(3, half_extents.max())),
+        "sides-exchanged": lambda: from_to(p, q, half_extents[[1, 0, 2]]),
+        "box-around-it": lambda: from_to(a0 - t, a1 - t, np.abs(R) @ half_extents),
+        "half-turned": lambda: from_to(a0 - t, a1 - t, R @ half_extents),
+        "mean-along": lambda: (
+            along(p, q, half_extents, np.linspace(0, 1, 101)).mean() - r
+        ),
+        "edges-only": edges,
+        "faces-only": crossed,
+        "point-to-box-in-turn": in_turn,
+        "radius-times-the-length": d - r * np.linalg.norm(way),
+        "radius-off-the-box 2": lambda: nearest_with(half_extents - r),
+        "largest-half 2": lambda: nearest_with(np.full(3, half_extents.max())) - r,
+        "sides-exchanged 2": lambda: nearest_with(half_extents[[1, 0, 2]]) - r,
+        "one-section": lambda: min(at(x) for x in golden(at, 1)) - r,
+        "share-returned": lambda: golden(at, 60)[0],
+        "ends-only": shares(0.0, 1.0),
+        "one-end-only": shares(1.0),
+        "one-end-only 2": shares(0.0),
+        "middle-only": shares(0.5),
+        "five-points": shares(0.0, 0.25, 0.5, 0.75, 1.0),
+        "five-points 2": shares(0.25, 0.5, 0.75),
+        "three-points": shares(0.0, 0.5, 1.0),
+        "eleven-points": lambda: shares(*np.linspace(0, 1, 11)),
+        "eleven-points 2": lambda: shares(*np.linspace(0, 1, 21)),
+        "nearest-to-the-centre": lambda: at(to_middle) - r,
+        "world-axes": lambda: least(np.eye(3), t),
+        "turned-the-other-way": lambda: least(R.T, t),
+        "pose-not-inverted": lambda: least(R.T, -R.T @ t),
+        "place-forgotten": lambda: least(R, np.zeros(3)),
+        "turned-then-moved": lambda: least(R, R @ t),
+        "t-added": lambda: least(R, -t),
+        "radius-forgotten": d,
+        "radius-added": d + r,
+        "diameter": d - 2 * r,
+        "radius-to-the-box": lambda: least(R, t, half_extents + r) + r,
+        "radius-to-the-box 2": lambda: along(
+            a0, a1, half_extents + r, golden(at, 60), R, t
+        ).min(),
+        "way-not-turned": lambda: least(
+            np.eye(3), np.zeros(3), half_extents, R.T @ (a0 - t), R.T @ (a0 - t) + way
+        ),
+        "wrong-half-kept": lambda: at(golden(at, 60, wrong=True)[0]) - r,
+        "wrong-half-kept 2": farthest - r,
+        "bounding-sphere": far - np.linalg.norm(half_extents) - r,
+        "ends-left-out": lambda: shares(*np.linspace(0.05, 0.95, 19)),
+        "whole-sides": lambda: least(R, t, half_extents / 2),
+        "twice-the-sides": lambda: least(R, t, 2 * half_extents),
+        "never-negative": max(0.0, d - r),
+        "sign": r - d,
+        "outside-only": max(0.0, d) - r,
+        "as-a-line": lambda: least(R, t, half_extents, a0 - 10 * way, a1 + 10 * way),
+        "five-sections": lambda: sections(5),
+        "five-sections 2": lambda: sections(8),
+    }
+
+
+row.at_least_0(r="a radius", half_extents="half of a side")
+row.same("for _ in range(60): => for _ in range(120):", "more are right as well")
+
+
+@row.right  # By thirds.
+def _(a0, a1, r, T_world_box, half_extents):
+    T = np.linalg.inv(T_world_box)
+    a, b = (T[:3, :3] @ x + T[:3, 3] for x in (a0, a1))
+
+    def at(s):
+        return box_sdf(a + s * (b - a), half_extents)
+
+    low, high = 0.0, 1.0
+    for _ in range(90):
+        left, right = low + (high - low) / 3, high - (high - low) / 3
+        if at(left) <= at(right):
+            high = right
+        else:
+            low = left
+    return at((low + high) / 2) - r
+
+
+@row.close("rounded-somewhere")
+def _(a0, a1, r, T_world_box, half_extents):  # Twenty sections.
+    R, t = T_world_box[:3, :3], T_world_box[:3, 3]
+    some = golden(lambda s: along(a0, a1, half_extents, [s], R, t)[0], 20)
+    return along(a0, a1, half_extents, some, R, t).min() - r

@@ -1,0 +1,409 @@
+"""11.1 `closest_points_segments(a0, a1, b0, b1)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import HeldOut, Points, Row
+
+from . import localise_segments, pairs
+from .bowl import bowl, cut, ends_only, lines, thrice
+
+# Of what has more than one closest pair any is right: it is judged by being one.
+row = Row(
+    Points((2, 3), names=("first's point", "second's point")),
+    at_edge=pairs.crosses,
+    unnamed=localise_segments.closest,
+    before_slips=False,
+    held_out=[
+        HeldOut(
+            "parallel-not-handled",
+            "Right, but not for all parallel segments: there a c - b b is 0, and the s "
+            "of the lines is 0 / 0. Any s will do to begin with; t for it, cut, and "
+            "then s for that t, cut.",
+            lambda rng: pairs.arrays(pairs.PARALLEL),
+        ),
+        HeldOut(
+            "side-by-side-not-handled",
+            "Right, but not for parallel segments side by side: many pairs are closest "
+            "there, any one of them will do, and it has to be one.",
+            lambda rng: pairs.arrays(pairs.ALONGSIDE),
+            valid=pairs.closest,
+        ),
+        HeldOut(
+            "nearly-parallel",
+            "Right, but not for segments that are half a degree from parallel: they "
+            "have one closest pair as well. Is a c - b b compared with too large a "
+            "share of a c?",
+            lambda rng: pairs.arrays(pairs.NEARLY_PARALLEL),
+        ),
+        HeldOut(
+            "point-not-handled",
+            "Right, but not where a segment is a point: its length is 0. Any share "
+            "gives that point (0 / 0 is none), and the other's, cut, is the nearest to "
+            "it.",
+            lambda rng: pairs.arrays(pairs.POINTS),
+        ),
+        HeldOut(
+            "size-absolute",
+            "Right in metres, but not in millimetres: a c - b b is in metres to the "
+            "fourth power, a c sin^2. Compare it with a c and not with a number.",
+            lambda rng: [
+                tuple(0.002 * x for x in pairs.segments(rng, one))
+                for one in ("inside", "an end", "inside", "an end")
+            ],
+            near=1e-7,
+        ),
+    ],
+)
+
+
+@row.inputs
+def _(rng):
+    case = ((-1, 0, 0), (1, 0, 0), (0, -1, 1), (0, 1, 1))
+    ends = ((0, 0, 0), (1, 0, 0), (2, 1, 0), (1, 2, 0))
+    hardly = ((-1, 0, 0), (1, 0, 0), (-1, -0.1, 1), (1, 0.15, 1))  # 7 degrees
+    drawn = [pairs.segments(rng, one) for one in 6 * pairs.KINDS]
+    return [*pairs.arrays([case, ends, hardly]), *drawn]
+
+
+@row.wrongs
+def _(a0, a1, b0, b1):
+    """not-clamped: s and t are those of the lines: they are not cut to 0..1, so the
+      points may lie beyond the ends
+    clamped-apart: s and t of the lines are cut, each for itself; where one is cut the
+      other is not the best any more => both of the lines, cut
+    s-not-again: s is not found again after t was cut; the best s depends on t => s cut,
+      then t for it, cut, and no more
+    s-not-again 2: t is not found again after s was cut; the best t depends on s => t of
+      the lines, cut, and s for it, cut
+    s-not-again 3: t is not found again after s was cut last; the best t depends on s =>
+      t of the lines, cut, s for it, cut, and t left
+    t-not-cut: t is cut nowhere: its point may lie beyond an end
+    s-not-cut: s is cut nowhere: its point may lie beyond an end
+    cut-below-only: they are kept above 0, and not below 1 => with max(x, 0)
+    cut-above-only: they are kept below 1, and not above 0 => with min(x, 1)
+    ends-only: one of the points is always an end; where segments cross, both may lie
+      inside => the nearest end of one to the other
+    end-pairs: both points are ends; the closest ones may lie inside => the nearest ends
+    end-pairs 2: the first's closest end is right only where an end is closest => the
+      first's nearest end and the second's best point
+    w-sign: w points the other way: it is from the second's start to the first's, a0 -
+      b0 => with b0 - a0
+    d-and-e-swapped: d and e are swapped: d = u . w goes with the first
+    numerator-sign: the sign of s is the other one: s = (b e - c d) / (a c - b b) =>
+      with c d - b e
+    b-sign: the sign of b is the other one: the slopes are a s - b t + d and b s - c t +
+      e => with -b
+    b-not-squared: a c - b is divided by; it is a c - b b
+    across-plus: a c + b b is divided by; it is a c - b b, which is 0 where they are
+      parallel
+    across-of-lengths: a c is divided by: that is for segments at a right angle, b = 0
+    b-forgotten: b is missing in t: t = (b s + e) / c => with (s + e) / c
+    t-sign: e enters t with the wrong sign: t = (b s + e) / c => with -e
+    t-by-a: t is divided by a; it is c, the second's length squared => (b s + e) / a
+    d-sign-last: d enters the last s with the wrong sign: s = (b t - d) / a
+    swapped-to-s: t is taken for s and s for t
+    points-swapped: the second's point comes first
+    middles: these are their middles
+    starts: these are their first ends
+    same-share: s and t are the same; each has its own => t = s
+    shares: these are not points: each is s u and t v, without the end it starts from
+    beyond-the-ends: s and t are counted from the starts, and the points from the ends
+      => a1 + s u and b1 + t v
+    t-from-the-end: t is counted from b1; it is from b0
+    s-from-the-end: s is counted from a1; it is from a0
+    unit-directions: u and v are made unit vectors, so s and t are metres, and are cut
+      to 1 all the same => with unit vectors
+    nearest-to-the-middle: the first's point is the nearest to the second's middle, and
+      the second's is that middle
+    sampled: only some points of each are tried, as by linspace; the closest ones lie
+      between them => the best of 11 x 11 points
+    sampled 2: only some points of each are tried, as by linspace; the closest ones lie
+      between them => the best of 101 x 101 points
+    sampled 3: only some points of each are tried, as by linspace; the closest ones lie
+      between them => the best of 21 x 21 points
+    ends-where-cut: the lines' s and t count only if both lie within 0..1; else the
+      nearest two ends are taken, and one may be nearest to the other's inside
+    ends-where-cut 2: the lines' s and t count only if both lie within 0..1; else the
+      nearest end of the first is taken: it may be one of the second => with its ends
+      alone
+    ends-where-cut 3: the lines' s and t count only if both lie within 0..1; else the
+      nearest end of the second is taken: it may be one of the first => with its ends
+      alone
+    start-where-cut: the lines' s and t count only if both lie within 0..1; else s is 0
+      here => s = 0, and t for it
+    start-where-cut 2: an s beyond 0..1 is made 0; beyond 1 it is to be 1
+    start-where-cut 3: an s beyond 0..1 is made 0.5, and then t and s are found once
+    start-where-cut 4: s and t beyond 0..1 are made 0; beyond 1 they are to be 1
+    one-end-cut: s is found again where t is below 0, and not where it is beyond 1
+    one-end-cut 2: s is found again where t is beyond 1, and not where it is below 0
+    t-one-end-cut: t is cut at 1 and not at 0, so its point may lie before b0
+    t-one-end-cut 2: t is cut at 0 and not at 1, so its point may lie beyond b1
+    a-start-alone: the first's start is taken, and the second's nearest point to it
+    a-middle-alone: the first's middle is taken, and the second's nearest point to it
+    farthest: of the pairs with an end, and that of the lines, the farthest is taken
+    one-round: s starts at 0, and t and s are found in turn only once; that is not the
+      best yet => one round from s = 0
+    one-round 2: s starts at 0.5, and t and s are found in turn only once; that is not
+      the best yet => one round from s = 0.5
+    difference: the one's point less the other's stands in both rows
+    """
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    right = thrice(a, b, c, d, e)
+    plain = lines(a, b, c, d, e)
+
+    def at(s, t):
+        return np.array([a0 + s * u, b0 + t * v])
+
+    def other_w():
+        *_, d2, e2 = bowl(a0, a1, b0, b1, b0 - a0)
+        return at(*thrice(a, b, c, d2, e2))
+
+    def through(across):
+        return at(*thrice(a, b, c, d, e, (b * e - c * d) / across))
+
+    def sampled(n):
+        some = np.linspace(0, 1, n)
+        p = a0 + some[:, None] * u
+        o = b0 + some[:, None] * v
+        far = np.linalg.norm(p[:, None] - o, axis=-1)
+        i, j = np.unravel_index(np.argmin(far), far.shape)
+        return np.array([p[i], o[j]])
+
+    def with_cut(cut):
+        t = cut((b * cut(plain[0]) + e) / c)
+        return at(cut((b * t - d) / a), t)
+
+    def units():
+        x, y = u / np.sqrt(a), v / np.sqrt(c)
+        w = a0 - b0
+        s, t = thrice(1.0, x @ y, 1.0, x @ w, y @ w)
+        return np.array([a0 + s * x, b0 + t * y])
+
+    def one_round(s):
+        t = cut((b * s + e) / c)
+        return at(cut((b * t - d) / a), t)
+
+    s1 = cut(plain[0])
+    t1 = cut((b * s1 + e) / c)
+    t2 = cut(plain[1])
+    first_end = min((a0, a1), key=lambda p: np.linalg.norm(
+        p - b0 - cut((p - b0) @ v / c) * v))  # fmt: skip
+    pairs_of_ends = [np.array([p, o]) for p in (a0, a1) for o in (b0, b1)]
+    middle = (b0 + b1) / 2
+    p, o = at(*right)
+    t_far = (b * s1 + e) / c
+    s2 = cut((b * t2 - d) / a)
+    inner = 0 <= plain[0] <= 1 and 0 <= plain[1] <= 1
+
+    def else_of(some):
+        if inner:
+            return at(*plain)
+        return min(some, key=lambda x: np.linalg.norm(x[0] - x[1]))
+
+    def best_t(s):
+        return at(s, cut((b * s + e) / c))
+
+    def best_s(t):
+        return at(cut((b * t - d) / a), t)
+
+    def from_s(s):
+        t = cut((b * s + e) / c)
+        return at(cut((b * t - d) / a), t)
+
+    firsts = [best_t(0.0), best_t(1.0)]
+    seconds = [best_s(0.0), best_s(1.0)]
+    t_cut = (b * (plain[0] if 0 <= plain[0] <= 1 else 0.0) + e) / c
+    every = [*firsts, *seconds, at(s1, t2)]
+    return {
+        "ends-where-cut": lambda: else_of(pairs_of_ends),
+        "ends-where-cut 2": lambda: else_of(firsts),
+        "ends-where-cut 3": lambda: else_of(seconds),
+        "start-where-cut": lambda: at(*plain) if inner else best_t(0.0),
+        "start-where-cut 2": lambda: from_s(plain[0] if 0 <= plain[0] <= 1 else 0.0),
+        "start-where-cut 3": lambda: from_s(plain[0] if 0 <= plain[0] <= 1 else 0.5),
+        "start-where-cut 4": lambda: best_s(t_cut if 0 <= t_cut <= 1 else 0.0),
+        "one-end-cut": lambda: best_s(0.0) if t_far < 0 else at(s1, t1),
+        "one-end-cut 2": lambda: best_s(1.0) if t_far > 1 else at(s1, t1),
+        "t-one-end-cut": lambda: best_s(min(t_far, 1.0)),
+        "t-one-end-cut 2": lambda: best_s(max(t_far, 0.0)),
+        "a-start-alone": firsts[0],
+        "a-middle-alone": lambda: best_t(0.5),
+        "farthest": lambda: max(every, key=lambda x: np.linalg.norm(x[0] - x[1])),
+        "not-clamped": lambda: at(*plain),
+        "clamped-apart": lambda: at(s1, t2),
+        "s-not-again": lambda: at(s1, t1),
+        "s-not-again 2": lambda: at(s2, t2),
+        "s-not-again 3": lambda: at(cut((b * cut((b * s2 + e) / c) - d) / a), t2),
+        "t-not-cut": lambda: at(cut((b * t_far - d) / a), t_far),
+        "s-not-cut": lambda: at((b * cut((b * plain[0] + e) / c) - d) / a,
+                        cut((b * plain[0] + e) / c)),
+        "cut-below-only": lambda: with_cut(lambda x: max(x, 0.0)),
+        "cut-above-only": lambda: with_cut(lambda x: min(x, 1.0)),
+        "ends-only": lambda: ends_only(a0, a1, b0, b1),
+        "end-pairs": lambda: (
+            min(pairs_of_ends, key=lambda x: np.linalg.norm(x[0] - x[1]))
+        ),
+        "end-pairs 2": lambda: (
+            np.array([first_end, b0 + cut((first_end - b0) @ v / c) * v])
+        ),
+        "w-sign": other_w,
+        "d-and-e-swapped": lambda: at(*thrice(a, b, c, e, d)),
+        "numerator-sign": lambda: at(*thrice(a, b, c, d, e, -plain[0])),
+        "b-sign": lambda: at(*thrice(a, -b, c, d, e)),
+        "b-not-squared": lambda: through(a * c - b),
+        "across-plus": lambda: through(a * c + b * b),
+        "across-of-lengths": lambda: through(a * c),
+        "b-forgotten": lambda: at(
+            cut((b * cut((s1 + e) / c) - d) / a), cut((s1 + e) / c)
+        ),
+        "t-sign": lambda: at(
+            cut((b * cut((b * s1 - e) / c) - d) / a), cut((b * s1 - e) / c)
+        ),
+        "t-by-a": lambda: at(
+            cut((b * cut((b * s1 + e) / a) - d) / a), cut((b * s1 + e) / a)
+        ),
+        "d-sign-last": lambda: at(cut((b * t1 + d) / a), t1),
+        "swapped-to-s": lambda: at(right[1], right[0]),
+        "points-swapped": lambda: np.array([o, p]),
+        "middles": lambda: np.array([(a0 + a1) / 2, middle]),
+        "starts": lambda: np.array([a0, b0]),
+        "same-share": lambda: at(right[0], right[0]),
+        "shares": lambda: np.array([right[0] * u, right[1] * v]),
+        "beyond-the-ends": lambda: np.array([p + u, o + v]),
+        "t-from-the-end": lambda: np.array([p, b1 - right[1] * v]),
+        "s-from-the-end": lambda: np.array([a1 - right[0] * u, o]),
+        "unit-directions": units,
+        "nearest-to-the-middle": lambda: np.array(
+            [a0 + cut((middle - a0) @ u / a) * u, middle]),
+        "sampled": lambda: sampled(11),
+        "sampled 2": lambda: sampled(101),
+        "sampled 3": lambda: sampled(21),
+        "one-round": lambda: one_round(0.0),
+        "one-round 2": lambda: one_round(0.5),
+        "difference": lambda: np.array([p - o, p - o]),
+    }  # fmt: skip
+
+
+@row.wrong("parallel-not-handled")  # It divides all the same.
+def _(a0, a1, b0, b1):
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    with np.errstate(all="ignore"):
+        s, t = thrice(a, b, c, d, e)
+    return np.array([a0 + s * u, b0 + t * v])
+
+
+@row.wrong("parallel-not-handled", hidden="their distance is right, side by side")
+def _(a0, a1, b0, b1):  # Both begin at their starts there.
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    if a * c - b * b <= 1e-12 * a * c:
+        return np.array([a0, b0 + (cut(e / c) if c else 0.0) * v])
+    s, t = thrice(a, b, c, d, e)
+    return np.array([a0 + s * u, b0 + t * v])
+
+
+@row.wrong("side-by-side-not-handled", hidden="a lab's links are hardly parallel")
+def _(a0, a1, b0, b1):  # Public code: parallel ones have no pair where they overlap.
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    if a > 0 and c > 0 and a * c - b * b <= 1e-12 * a * c:
+        ends = sorted([float((x - a0) @ u / a) for x in (b0, b1)])
+        if ends[1] > 0 and ends[0] < 1:
+            return None, None
+    s, t = thrice(a, b, c, d, e, *([0.0] if a * c - b * b <= 1e-12 * a * c else []))
+    return np.array([a0 + s * u, b0 + t * v])
+
+
+@row.wrong("point-not-handled")  # Parallel is asked for, a length of 0 is not.
+def _(a0, a1, b0, b1):
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    with np.errstate(all="ignore"):
+        across = a * c - b * b
+        start = 0.0 if across <= 1e-12 * a * c else (b * e - c * d) / across
+        s, t = thrice(a, b, c, d, e, start)
+    return np.array([a0 + s * u, b0 + t * v])
+
+
+@row.wrong("size-absolute")
+def _(a0, a1, b0, b1):  # 1e-6 metres to the fourth power.
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    across = a * c - b * b
+    s = cut((b * e - c * d) / across) if across > 1e-6 else 0.0
+    t = cut((b * s + e) / c) if c else 0.0
+    s = cut((b * t - d) / a) if a else 0.0
+    return np.array([a0 + s * u, b0 + t * v])
+
+
+def least_angle(share):
+    """Return the way that takes for parallel what has less than this sin^2."""
+
+    def code(a0, a1, b0, b1):
+        u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+        across = a * c - b * b
+        start = (b * e - c * d) / across if across > share * a * c else 0.0
+        s = cut(start)
+        t = cut((b * s + e) / c) if c else 0.0
+        s = cut((b * t - d) / a) if a else 0.0
+        return np.array([a0 + s * u, b0 + t * v])
+
+    return code
+
+
+ALIKE = (
+    "segments that differ by a few degrees count as parallel; "
+    "they have one closest pair"
+)
+SELDOM = "hardly a pair in a run is so nearly parallel"
+row.wrong("nearly-parallel", hidden=SELDOM)(least_angle(1e-3))
+for share in (0.02, 0.05, 0.1):
+    what = f"parallel up to a c - b b = {share:g} a c"
+    row.wrong("nearly-parallel", ALIKE, what, SELDOM)(least_angle(share))
+
+
+def rounds(n, start):
+    """Return the way to find t and s in turn n times, from a start of s."""
+
+    def code(a0, a1, b0, b1):
+        u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+        s, t = start, 0.0
+        for _ in range(n):
+            t = cut((b * s + e) / c)
+            s = cut((b * t - d) / a)
+        return np.array([a0 + s * u, b0 + t * v])
+
+    return code
+
+
+FEW = (
+    "t and s are found in turn a few times only; each time they come nearer to the best"
+)
+for n in (2, 3, 4, 5, 10):
+    for start in (0.0, 0.5):
+        row.wrong("few-rounds", FEW, f"{n} rounds from s = {start:g}")(rounds(n, start))
+
+
+@row.right  # The inner pair if it is one, else the nearest of four ends.
+def _(a0, a1, b0, b1):
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    if a * c - b * b > 1e-12 * a * c:
+        s, t = lines(a, b, c, d, e)
+        if 0 <= s <= 1 and 0 <= t <= 1:
+            return np.array([a0 + s * u, b0 + t * v])
+    found = []
+    for p, x, way, first in (
+        (a0, b0, v, True), (a1, b0, v, True), (b0, a0, u, False), (b1, a0, u, False)
+    ):  # fmt: skip
+        size = way @ way
+        q = x + (cut((p - x) @ way / size) if size else 0.0) * way
+        found.append(np.array([p, q] if first else [q, p]))
+    return min(found, key=lambda pair: np.linalg.norm(pair[0] - pair[1]))
+
+
+INNER = "s = np.clip((b * e - c * d) / across, 0, 1) if across > {} else {}"
+GIVEN = INNER.format("1e-12 * a * c", "0.0")
+for bound, start in (
+    ("0.5 * (1e-12 * a * c)", "0.0"), ("10.0 * (1e-12 * a * c)", "0.0"),
+    ("2e-12 * a * c", "0.0"), ("1e-12 * a * c", "1"),
+):  # fmt: skip
+    row.same(f"{GIVEN} => {INNER.format(bound, start)}", "parallel: any s will do")
+for name, over in (("t", "(b * s + e) / c"), ("s", "(b * t - d) / a")):
+    line = f"{name} = np.clip({over}, 0, 1) if {over[-1]} > 0 else "
+    row.same(f"{line}0.0 => {line}1", "a point: any share is it")

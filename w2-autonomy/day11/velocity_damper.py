@@ -1,0 +1,251 @@
+"""11.9 `velocity_damper(qd, grad, distance, gain)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+from robo47.distance import velocity_damper
+
+from . import localise_arm
+
+JOINTS = tuple(f"joint{i}" for i in range(1, 8))
+# Where the slope is 0 and the arm overlaps, a slope of 1e-12 would ask for any speed.
+row = Row(
+    Vector((7,), "rad/s", names=JOINTS),
+    at_edge=lambda qd, grad, distance, gain: bool(grad.any()),
+    unnamed=localise_arm.kept,
+    before_slips=False,
+)
+
+
+@row.inputs
+def _(rng):
+    e = np.eye(7)[0]
+    case = (-e, e, 0.1, 4.0)
+    drawn = []
+    for fast in (True, True, True, True, False, False):
+        grad = rng.numbers(-0.8, 0.8, 7)
+        qd = rng.numbers(-1, 1, 7)
+        qd[0] = abs(qd[0]) + 0.3
+        grad[0] = 0.9
+        d, gain = float(rng.numbers(0.02, 0.2)), float(rng.numbers(1, 5))
+        towards = qd if (grad @ qd < 0) == fast else -qd
+        drawn.append((towards, grad, d, gain))
+    qd, grad = rng.numbers(-1, 1, 2, 7)
+    inside = (qd, grad, -0.05, 3.0)
+    small = rng.numbers(-0.01, 0.01, 7)
+    far = 0.1 * small / (small @ small)  # towards at 0.1 m/s
+    hardly = [
+        (qd - grad * (grad @ qd + 0.3 + off) / (grad @ grad), grad, 0.1, 3.0)
+        for off in (0.0005, -0.0005)
+    ]  # 0.5 mm/s too fast, and not
+    deep = [
+        (qd - grad * (grad @ qd + speed) / (grad @ grad), grad, -0.05, 3.0)
+        for speed in (0.5, -0.1)
+    ]  # it overlaps: fast towards it, and away, but too slowly
+    slow = (0.05 * rng.numbers(-1, 1, 7), grad, 0.2, 5.0)  # towards, and allowed
+    return [case, (rng.numbers(-1, 1, 7), np.zeros(7), 0.1, 4.0),
+            (rng.numbers(-1, 1, 7), np.zeros(7), -0.1, 4.0), inside, slow,
+            (-far, small, 0.01, 2.0), *hardly, *deep, *drawn]  # fmt: skip
+
+
+# What changes nothing where the slope is 0.
+MORE = (
+    "left-where-it-overlaps", "no-way-out", "coming-near", "by-the-sizes", "half-of-it",
+    "twice-of-it", "one-joint-only", "one-joint-only 2", "alike", "by-signs",
+    "a-seventh-each", "divided-by-the-sum", "divided-by-the-largest", "divided-by-qd",
+    "those-that-come-near", "those-that-come-near 2", "gain-squared",
+    "distance-squared", "rate-added",
+)  # fmt: skip
+
+
+@row.wrongs(
+    hidden={"coming-near": "hardly a speed in a run comes near and is slow enough"}
+)
+def _(qd, grad, distance, gain):
+    """always: it is changed where nothing has to be: speeds that are allowed stay =>
+      grad . qd made -gain distance everywhere
+    not-divided: it is not divided by grad . grad => qd + grad lack
+    divided-by-the-length: it is divided by the length of grad, not its square
+    pushed-in: it is pushed nearer: the correction has the wrong sign => qd - grad lack
+      / grad^2
+    all-joints-slowed: all joints are slowed alike; only the part along the slope is too
+      fast => qd times a factor
+    all-joints-slowed 2: all joints are slowed alike; only the part along the slope is
+      too fast => qd times bound / speed
+    stops-dead: it stops where it would be too fast; the part that is allowed is lost =>
+      0
+    stops-dead 2: it stops where it would be too fast, and where the slope is 0 as well;
+      the part that is allowed is lost
+    part-removed: all of the part along the slope is taken away; coming near slowly is
+      allowed => without it
+    sign-of-the-bound: the bound has the wrong sign: it may come nearer at gain distance
+      => grad . qd >= gain distance
+    distance-sign-lost: the distance counts without its sign: where it overlaps the
+      bound is above 0, and drives it out => with |distance|
+    gain-forgotten: the gain is missing in the bound
+    distance-forgotten: the distance is missing in the bound
+    distance-over-gain: the distance is divided by the gain
+    wrong-side: it changes what moves away too fast and leaves what comes near => with >
+    leaving-forbidden: it may not move away faster than that either => cut on both sides
+    joint-by-joint: each joint is kept to the bound by itself; it is their sum that
+      counts
+    joint-by-joint 2: each joint speed is kept above the bound; it is a bound of metres
+      per second, of the sum => np.maximum(qd, -gain distance)
+    largest-joint-only: only the joint with the largest slope is changed; nearest is all
+      of them, along the grad
+    slope-unit: the slope is made a unit vector before the bound: that is another speed
+    only-inside: it is slowed only where it overlaps
+    standing-still: it is 0 / 0 where the slope is 0; then nothing can be changed
+    part-alone: what is beside the slope is lost; it makes nothing nearer, and stays =>
+      grad bound / grad^2
+    left-where-it-overlaps: where it overlaps nothing is changed; it is to be driven out
+    stopped-where-it-overlaps: where it overlaps it is 0; the part that leads out stays
+    no-way-out: below 0 the distance counts as 0: where it overlaps it is not driven out
+    coming-near: whatever comes nearer is changed; what is slow enough may => where
+      grad . qd < 0
+    by-the-sizes: what moves away too fast counts as too fast, too => with |grad . qd|
+      and |distance|
+    half-of-it: only half of what is lacking is added
+    twice-of-it: twice what is lacking is added
+    one-joint-only: only the first joint is changed; nearest is all of them, along the
+      grad
+    one-joint-only 2: only the joint that comes near fastest is changed; nearest is all
+      of them, along the grad
+    alike: all joints are given the same; each is given its part of the slope => lack /
+      sum of grad
+    by-signs: all joints are given the same size; each is given its part of the slope =>
+      sign of grad, lack / sum |grad|
+    a-seventh-each: each joint makes up a seventh; nearest is each by its part of the
+      grad
+    divided-by-the-sum: it is divided by the sum of grad, not by grad . grad
+    divided-by-the-largest: it is divided by the largest slope squared, not by grad .
+      grad
+    divided-by-qd: it is divided by qd . qd, not by grad . grad
+    those-that-come-near: only joints that come nearer are changed; nearest is all of
+      them, along the grad
+    those-that-come-near 2: joints that come nearer are stopped; the part that is
+      allowed is lost
+    gain-squared: the gain is squared in the bound
+    distance-squared: the distance is squared in the bound
+    rate-added: grad . qd is added to the bound; it is what is there already => lack =
+      -gain distance + grad . qd
+    lack-alone: this is the change alone; qd is to be added
+    """
+    bound = -gain * distance
+    rate = grad @ qd
+    square = grad @ grad
+    lack = bound - rate
+
+    if not square:
+        still = np.full(7, np.nan)
+        named = dict.fromkeys(
+            ("always", "not-divided", "divided-by-the-length", "pushed-in",
+             "part-removed", "sign-of-the-bound", "gain-forgotten",
+             "distance-forgotten", "distance-over-gain", "wrong-side", "slope-unit",
+             "leaving-forbidden", "only-inside", "largest-joint-only"), qd.copy()
+        )  # fmt: skip
+        return {
+            **named,
+            "all-joints-slowed": qd.copy(),
+            "all-joints-slowed 2": qd.copy(),
+            "stops-dead": qd.copy(),
+            "joint-by-joint 2": np.maximum(qd, bound) if lack > 0 else qd.copy(),
+            "distance-sign-lost": qd.copy(),
+            "joint-by-joint": qd.copy(),
+            "standing-still": still if lack > 0 else qd.copy(),
+            "lack-alone": np.zeros(7),
+            "part-alone": qd.copy(),
+            "stops-dead 2": np.zeros(7) if lack > 0 else qd.copy(),
+            "stopped-where-it-overlaps": np.zeros(7) if distance <= 0 else qd.copy(),
+            **dict.fromkeys(MORE, qd.copy()),
+        }
+
+    def to(bound, push=1.0, when=None):
+        lack = bound - rate
+        if not (lack > 0 if when is None else when):
+            return qd.copy()
+        return qd + push * grad * lack / square
+
+    def scaled():
+        if lack <= 0:
+            return qd.copy()
+        return qd * max(bound / rate, 0.0)
+
+    big = int(np.argmax(np.abs(grad)))
+    alone = grad * qd
+    apart = np.where(alone < bound, bound, alone)
+    unit = grad / np.sqrt(square)
+
+    def add(change):
+        return qd + change if lack > 0 else qd.copy()
+
+    def one(k):
+        return add(np.eye(7)[k] * lack / grad[k] if grad[k] else 0.0)
+
+    towards = np.where(grad * qd < 0, grad, 0.0)
+    return {
+        "part-alone": lambda: grad * bound / square if lack > 0 else qd.copy(),
+        "stops-dead 2": lambda: np.zeros(7) if lack > 0 else qd.copy(),
+        "stopped-where-it-overlaps": lambda: (
+            np.zeros(7) if distance <= 0 else to(bound)
+        ),
+        "left-where-it-overlaps": lambda: qd.copy() if distance <= 0 else to(bound),
+        "no-way-out": lambda: to(-gain * max(distance, 0.0)),
+        "coming-near": lambda: to(bound, when=rate < 0),
+        "by-the-sizes": lambda: to(bound, when=abs(rate) > gain * abs(distance)),
+        "half-of-it": lambda: to(bound, 0.5),
+        "twice-of-it": lambda: to(bound, 2.0),
+        "one-joint-only": lambda: one(0),
+        "one-joint-only 2": lambda: one(int(np.argmin(grad * qd))),
+        "alike": lambda: add(lack / grad.sum()),
+        "by-signs": lambda: add(np.sign(grad) * lack / np.abs(grad).sum()),
+        "a-seventh-each": lambda: add(lack / grad / 7),
+        "divided-by-the-sum": lambda: add(grad * lack / grad.sum()),
+        "divided-by-the-largest": lambda: add(grad * lack / np.abs(grad).max() ** 2),
+        "divided-by-qd": lambda: add(grad * lack / (qd @ qd)),
+        "those-that-come-near": lambda: add(towards * lack / (towards @ towards)),
+        "those-that-come-near 2": lambda: np.where(grad * qd < 0, 0.0, qd)
+        if lack > 0 else qd.copy(),
+        "gain-squared": lambda: to(-(gain**2) * distance),
+        "distance-squared": lambda: to(-gain * distance**2),
+        "rate-added": lambda: qd + grad * (bound + rate) / square
+        if bound + rate > 0 else qd.copy(),
+        "always": lambda: to(bound, when=True),
+        "not-divided": lambda: qd + grad * max(lack, 0.0),
+        "divided-by-the-length": lambda: qd + grad * max(lack, 0.0) / np.sqrt(square),
+        "pushed-in": lambda: to(bound, -1.0),
+        "all-joints-slowed": lambda: scaled(),
+        "all-joints-slowed 2": lambda: qd * (bound / rate) if lack > 0 else qd.copy(),
+        "stops-dead": lambda: np.zeros(7) if lack > 0 else qd.copy(),
+        "part-removed": lambda: qd - grad * rate / square if lack > 0 else qd.copy(),
+        "sign-of-the-bound": lambda: to(gain * distance),
+        "distance-sign-lost": lambda: to(-gain * abs(distance)),
+        "gain-forgotten": lambda: to(-distance),
+        "distance-forgotten": lambda: to(-gain),
+        "distance-over-gain": lambda: to(-distance / gain),
+        "wrong-side": lambda: to(bound, when=lack < 0),
+        "leaving-forbidden": lambda: to(bound) if lack > 0 else
+        to(-bound, when=rate > -bound),
+        "joint-by-joint": lambda: (
+            np.where(grad != 0, apart / np.where(grad, grad, 1), qd)
+        ),
+        "joint-by-joint 2": lambda: np.maximum(qd, bound) if lack > 0 else qd.copy(),
+        "largest-joint-only": lambda: one(big),
+        "slope-unit": lambda: qd + unit * max(bound - unit @ qd, 0.0),
+        "only-inside": lambda: to(bound) if distance <= 0 else qd.copy(),
+        "standing-still": lambda: velocity_damper(qd, grad, distance, gain),
+        "lack-alone": lambda: grad * max(lack, 0.0) / square,
+    }  # fmt: skip
+
+
+row.at_least_0(gain="a gain")
+
+
+@row.right  # By its part along the slope.
+def _(qd, grad, distance, gain):
+    size = np.linalg.norm(grad)
+    if size == 0:
+        return qd.copy()
+    n = grad / size
+    along = qd @ n
+    return qd + (max(along, -gain * distance / size) - along) * n

@@ -1,0 +1,360 @@
+"""12.2 `segment_free_of_discs(a, b, discs)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Mask, Row
+from robo47.planning import segment_free_of_discs
+
+from .localise import of_an_edge
+from .ways import DISC, NONE, clear, discs, usual
+
+# An edge that touches, but for rounding, is nobody's question.
+row = Row(Mask(), at_edge=clear, unnamed=of_an_edge)
+
+
+def typed(rng, kind):
+    """Return a, b and discs of one kind of question, clear of touching."""
+    while True:
+        some = discs(rng, 3)
+        x, y, r = some[rng.integers(3)]
+        turn = rng.uniform(0, 2 * np.pi)
+        along = np.array([np.cos(turn), np.sin(turn)])
+        across = np.array([-along[1], along[0]])
+        at, off, ends = {
+            "through": (0.0, 0.5, (-1.2, 1.0)),
+            "grazed": (0.0, 0.93, (-1.2, 1.0)),
+            "beside": (0.0, 1.1, (-1.0, 1.2)),
+            "behind": (0.0, 0.4, (-1.5, -0.6)),
+            "before": (0.0, 0.4, (0.6, 1.5)),
+            "begins": (0.0, 0.3, (0.0, 1.5)),
+            "ends": (0.0, 0.3, (-1.5, 0.0)),
+            "within": (0.0, 0.2, (-0.1, 0.1)),
+        }[kind]
+        side = 1 if rng.uniform(0, 1) < 0.5 else -1
+        middle = np.array([x, y]) + at + side * off * r * across
+        a, b = (np.round(middle + end * along, 3) for end in ends)
+        alone = some[(some[:, 0] == x) & (some[:, 1] == y)]
+        hit = kind not in ("beside", "behind", "before")
+        told = segment_free_of_discs(a, b, some), segment_free_of_discs(a, b, alone)
+        if told == (not hit, not hit) and clear(a, b, some):
+            return a, b, some
+
+
+@row.inputs
+def _(rng):
+    yield np.zeros(2), np.array([2.0, 0]), DISC
+    yield np.array([0.0, 0.6]), np.array([2.0, 0.6]), DISC
+    yield np.array([0.0, 1]), np.array([0.4, 1]), DISC
+    yield np.array([0.0, 1.5]), np.array([2.0, 1.5]), DISC  # it touches
+    yield np.array([1.0, 0]), np.array([1.0, 0.5]), DISC  # its end touches
+    yield np.array([0.5, 1]), np.array([0.0, 1]), DISC  # its start touches
+    yield np.array([0.0, 1]), np.array([2.0, 1]), NONE
+    yield np.array([1.0, 1.25]), np.array([1.0, 1.25]), DISC
+    yield np.array([1.0, 2]), np.array([1.0, 2]), DISC
+    yield np.array([0.0, 0]), np.array([2.0, 0]), np.array([[1, 0.1, 0.01]])
+    yield np.array([0.0, 0]), np.array([2.0, 0]), np.array([[1, 0.001, 0.01]])
+    # Between the points of whoever looks at a thousand of them.
+    yield np.array([0.0, 0]), np.array([2.0, 0]), np.array([[0.713, 0.0002, 0.0003]])
+    yield np.array([0.0, 0]), np.array([9.0, 0]), np.array([[2, 1.5, 2.0]])  # large
+    yield np.array([0.0, 0]), np.array([9.0, 0]), np.array([[2, 2.5, 2.0]])
+    yield np.array([0.0, 0]), np.array([1.1, 0]), np.array([[0.5, 0, 0.2]])
+    for x in (-3.0, 4.0):  # on the line, far off the edge
+        yield np.zeros(2), np.array([1.0, 0]), np.array([[x, 0, 0.5]])
+    two = np.array([[5.0, 5, 1], [1, 0, 0.5]])
+    yield np.array([0.0, 0]), np.array([2.0, 0]), two
+    yield np.array([0.0, 0]), np.array([2.0, 0]), two[::-1]
+    # The nearest centre is that of a small disc; a large one behind it is hit.
+    yield np.array([0.0, 0]), np.array([2.0, 0]), np.array([[1, 0.5, 0.1], [1, -1, 2]])
+    kinds = ("beside", "through", "behind", "grazed", "before", "begins", "beside",
+             "ends", "behind", "within", "before", "grazed")  # fmt: skip
+    rng = usual(rng)
+    for kind in (*kinds, *kinds):
+        yield typed(rng, kind)
+
+
+def looked(a, b, some, cut=lambda x: np.clip(x, 0, 1), by=None, far=lambda x, r: x > r):
+    """Return whether an edge is free, made in another way.
+
+    Args:
+        a, b, some: as the function has them.
+        cut: what is done to the foot's share of the edge.
+        by: what it is divided by; the edge's square.
+        far: whether distances, and radii, are free.
+    """
+    along = b - a
+    by = along @ along if by is None else by
+    with np.errstate(all="ignore"):
+        part = (some[:, :2] - a) @ along / by
+    part = np.where(np.isnan(part), 0.0, part) if by == 0 else part
+    foot = a + cut(part)[:, None] * along
+    return bool(np.all(far(np.linalg.norm(some[:, :2] - foot, axis=1), some[:, 2])))
+
+
+def at_points(a, b, some, parts):
+    """Return whether some points of an edge are outside all discs."""
+    points = a + np.array(parts)[:, None] * (b - a)
+    away = np.linalg.norm(points[:, None] - some[:, :2], axis=2)
+    return bool(np.all(away > some[:, 2]))
+
+
+def _others(a, b, discs, part, away):
+    """Return further mistakes of the same table, from shares and distances."""
+    along, r = b - a, discs[:, 2]
+    length = np.linalg.norm(along)
+    unit = along / (length or 1.0)
+    to = discs[:, :2] - a
+    run = to @ unit
+    off = np.linalg.norm(to - run[:, None] * unit, axis=1)
+    meets = off <= r
+    half = np.sqrt(np.maximum(r**2 - off**2, 0.0))
+    first = meets & (run - half >= 0) & (run - half <= length)
+    free = bool(np.all(away > r))
+    low, high = np.minimum(a, b), np.maximum(a, b)
+    boxes = (discs[:, :2] + r[:, None] >= low) & (discs[:, :2] - r[:, None] <= high)
+    beyond = np.where(part > 1, np.linalg.norm(to, axis=1), away)
+    between = (part > 0) & (part < 1)
+
+    def at(places, way):
+        return bool(np.all(np.linalg.norm(to - places[:, None] * way, axis=1) > r))
+
+    shifted = discs[:, :2] - np.clip(part, 0, 1)[:, None] * along
+    return {
+        "foot-without-a": bool(np.all(np.linalg.norm(shifted, axis=1) > r)),
+        "cut-to-one": at(np.clip(run, 0, 1), unit),
+        "length-for-share": at(np.clip(run, 0, length), along),
+        "distance-to-the-start": bool(np.all(beyond > r)),
+        "first-crossing-only": not np.any(first) if length else free,
+        "some-crossing": not np.any(meets) if length else False,
+        "boxes-overlap": not np.any(boxes.all(axis=1)),
+        "x-and-y-exchanged": segment_free_of_discs(a, b, discs[:, [1, 0, 2]]),
+        "no-disc-is-hit": free and len(discs) > 0,
+        "touching-between": bool(np.all((away > r) | (between & (away >= r)))),
+        "points-only 7": at_points(a, b, discs, np.linspace(0, 1, 1000)),
+        "points-only 8": at_points(a, b, discs, np.arange(0, 1, 0.1)),
+        "points-only 9": at_points(a, b, discs, np.linspace(0, 1, 100)),
+        "points-only 10": at_points(a, b, discs, np.linspace(0, 1, 50)),
+    }
+
+
+@row.wrongs(
+    hidden={
+        "points-only 5": "no disc of the lab is so thin",
+        "points-only 7": "no disc of the lab is so thin",
+        "points-only 9": "no disc of the lab is so thin",
+        "no-disc-is-hit": "the lab has no world without discs",
+        "touching-between": "no edge of the lab touches",
+    }
+)
+def _(a, b, discs):
+    """line-for-segment: the foot may lie beyond the edge's ends: an endless line is
+      looked at, and what stands behind an end blocks it; cut the share to 0..1
+    only-one-end-cut: the share of the foot is cut at 1 alone; before the start the
+      nearest point is the start
+    only-one-end-cut 2: the share of the foot is cut at 0 alone; beyond the end the
+      nearest point is the end
+    ends-only: only the two ends are looked at; a disc between them is cut through
+    new-end-only: only the end b is looked at; the edge on the way there counts, too
+    start-only: only the start a is looked at
+    middle-only: only the middle is looked at
+    points-only: only some points of the edge are looked at; a thin disc fits between
+      two of them => ten points
+    points-only 2: only some points of the edge are looked at; a thin disc fits between
+      two of them => five points
+    points-only 3: only some points of the edge are looked at; a thin disc fits between
+      two of them => twenty points
+    points-only 4: only some points of the edge are looked at; a thin disc fits between
+      two of them => eleven points
+    points-only 5: discs that cover little of the edge are missed: some points of
+      it are tried alone, or its nearest point is a little beside => a hundred and
+      one points
+    points-only 6: discs that cover little of the edge are missed: some points of
+      it are tried alone, or its nearest point is a little beside => two hundred points
+    inside-is-free: an edge that lies in a disc crosses no circle, and is free; a disc
+      is all that is inside => where the edge crosses a circle
+    inside-is-free 2: an edge that lies in a disc crosses no circle, and is free, a
+      point as well; a disc is all that is inside => where the edge crosses a circle
+    inner-only: a disc whose foot lies beyond an end is left out; the end itself may be
+      in it
+    inner-only 2: a disc whose foot lies beyond an end is left out, unless the edge is a
+      point; the end itself may be in it
+    first-disc-only: only the first disc is looked at
+    last-disc-only: only the last disc is looked at, as by a loop that returns too early
+      or overwrites what it knew
+    nearest-centre: only the disc whose centre is nearest to the edge is looked at; one
+      further away may be larger
+    all-must-hit: it is free as soon as one disc is missed; every disc has to be
+    all-must-hit 2: it is free as soon as one disc is missed, and where there is none it
+      is not; every disc has to be missed
+    squared-for-plain: the square of the distance is compared with the radius itself
+    plain-for-squared: the distance is compared with the square of the radius
+    diameter: the distance is compared with twice the radius: the third number is the
+      radius
+    half-the-radius: the distance is compared with half of the radius: the third number
+      is the radius
+    radius-forgotten: discs are points: the radius is not used
+    not-divided: the share of the foot is not divided by the edge's square, so it is no
+      share
+    divided-by-the-length: the share of the foot is divided by the edge's length; its
+      square belongs there
+    touching-is-free: an edge that touches is free; it is not to be
+    from-the-origin: the foot is measured from the origin: a is not taken off the centre
+    other-way: the share runs from b to a, and is counted from a
+    box: discs are squares: both coordinates are compared by themselves
+    foot-without-a: the way to the foot is not added to a: it begins at the origin
+    cut-to-one: a length along the edge is cut to 0..1, as a share of it would be: cut
+      it to 0..the edge's length
+    length-for-share: a length along the edge is multiplied with b - a, as a share of it
+      would be; it belongs to a direction of length 1
+    distance-to-the-start: beyond the end b the distance to a is taken; the nearest
+      point is b there
+    first-crossing-only: where the edge crosses a circle for the first time is looked
+      at alone: an edge that begins in a disc leaves it, and is hit
+    some-crossing: an endless line that meets the circle counts as hit; both of the
+      crossings may lie behind a or beyond b => by the discriminant alone
+    boxes-overlap: it is hit where the edge's box and the disc's box overlap; an edge
+      may pass a disc within its box
+    x-and-y-exchanged: x and y of the centres are exchanged
+    no-disc-is-hit: where there is no disc nothing is hit: the edge is free
+    touching-between: an edge that touches a disc between its ends is free; it is not
+      to be
+    points-only 7: discs that cover little of the edge are missed: some points of
+      it are tried alone, or its nearest point is a little beside => a thousand points
+    points-only 8: only some points of the edge are looked at; a thin disc fits between
+      two of them => ten points without the end
+    points-only 9: discs that cover little of the edge are missed: some points of
+      it are tried alone, or its nearest point is a little beside => a hundred points
+    points-only 10: discs that cover little of the edge are missed: some points of
+      it are tried alone, or its nearest point is a little beside => fifty points
+    """
+    along = b - a
+    square = along @ along
+    point = square == 0.0
+    length = np.sqrt(square)
+    with np.errstate(all="ignore"):
+        part = (discs[:, :2] - a) @ along / (square or 1.0)
+    inside = (part > 0) & (part < 1)
+    raw = discs[:, :2] @ along / (square or 1.0)
+    foot = a + np.clip(part, 0, 1)[:, None] * along
+    away = np.linalg.norm(discs[:, :2] - foot, axis=1)
+    origin = a + np.clip(raw, 0, 1)[:, None] * along
+    back = b + np.clip(part, 0, 1)[:, None] * (a - b)
+    r = discs[:, 2]
+    many = len(discs) > 0
+    ends = [np.linalg.norm(discs[:, :2] - x, axis=1) < r for x in (a, b)]
+    held = ends[0] & ends[1]
+    return {
+        "line-for-segment": looked(a, b, discs, cut=lambda x: x),
+        "only-one-end-cut": looked(a, b, discs, cut=lambda x: np.minimum(x, 1)),
+        "only-one-end-cut 2": looked(a, b, discs, cut=lambda x: np.maximum(x, 0)),
+        "ends-only": at_points(a, b, discs, [0, 1]),
+        "new-end-only": at_points(a, b, discs, [1]),
+        "start-only": at_points(a, b, discs, [0]),
+        "middle-only": at_points(a, b, discs, [0.5]),
+        "points-only": at_points(a, b, discs, np.linspace(0, 1, 10)),
+        "points-only 2": at_points(a, b, discs, np.linspace(0, 1, 5)),
+        "points-only 3": at_points(a, b, discs, np.linspace(0, 1, 20)),
+        "points-only 4": at_points(a, b, discs, np.linspace(0, 1, 11)),
+        "points-only 5": at_points(a, b, discs, np.linspace(0, 1, 101)),
+        "points-only 6": at_points(a, b, discs, np.linspace(0, 1, 200)),
+        "inside-is-free": bool(np.all((away > r) | (held & (not point)))),
+        "inside-is-free 2": bool(np.all((away > r) | held)),
+        "inner-only": bool(np.all((away > r) | ~inside)),
+        "inner-only 2": bool(
+            np.all((away > r) | ~(point | ((part >= 0) & (part <= 1))))
+        ),
+        "first-disc-only": segment_free_of_discs(a, b, discs[:1]),
+        "last-disc-only": segment_free_of_discs(a, b, discs[-1:]),
+        "nearest-centre": bool(many == 0 or np.all((away > r)[np.argmin(away)])),
+        "all-must-hit": bool(np.any(away > r)) or not many,
+        "all-must-hit 2": bool(np.any(away > r)),
+        "squared-for-plain": bool(np.all(away**2 > r)),
+        "plain-for-squared": bool(np.all(away > r**2)),
+        "diameter": bool(np.all(away > 2 * r)),
+        "half-the-radius": bool(np.all(away > r / 2)),
+        "radius-forgotten": bool(np.all(away > 0)),
+        "not-divided": looked(a, b, discs, by=1.0),
+        "divided-by-the-length": looked(a, b, discs, by=length if not point else 1.0),
+        "touching-is-free": bool(np.all(away >= r)),
+        "from-the-origin": bool(
+            np.all(np.linalg.norm(discs[:, :2] - origin, axis=1) > r)
+        ),
+        "other-way": bool(np.all(np.linalg.norm(discs[:, :2] - back, axis=1) > r)),
+        "box": bool(np.all(np.abs(discs[:, :2] - foot).max(axis=1) > r)),
+        **_others(a, b, discs, part, away),
+    }
+
+
+@row.wrong(hidden="the lab has no edge of no length")
+def divided_by_nothing(a, b, discs):
+    """an edge of no length, b = a, is called hit also where it lies in no disc: it is a
+    point then (a share of 0 / 0 is NaN, which is not above a radius)"""
+    along = b - a
+    with np.errstate(all="ignore"):
+        part = (discs[:, :2] - a) @ along / (along @ along)
+    foot = a + np.clip(part, 0, 1)[:, None] * along
+    return bool(np.all(np.linalg.norm(discs[:, :2] - foot, axis=1) > discs[:, 2]))
+
+
+@row.wrong("divided-by-nothing")
+def _(a, b, discs):
+    """an edge of no length, b = a, is called free also where it lies in a disc: it is a
+    point then (a share of 0 / 0 is NaN, which is not below a radius)"""
+    along = b - a
+    with np.errstate(all="ignore"):
+        part = (discs[:, :2] - a) @ along / (along @ along)
+    foot = a + np.clip(part, 0, 1)[:, None] * along
+    return not np.any(np.linalg.norm(discs[:, :2] - foot, axis=1) <= discs[:, 2])
+
+
+@row.wrong
+def touching_and_no_length(a, b, discs):
+    """an edge that touches is free, and an edge of no length divides by 0: touching is
+    not free, and the edge is a point then: two mistakes"""
+    along = b - a
+    with np.errstate(all="ignore"):
+        part = (discs[:, :2] - a) @ along / (along @ along)
+    foot = a + np.clip(part, 0, 1)[:, None] * along
+    return not np.any(np.linalg.norm(discs[:, :2] - foot, axis=1) < discs[:, 2])
+
+
+@row.wrong("free-called-hit")
+def _(a, b, discs):
+    along = b - a
+    share = (discs[:, :2] - a) @ along / max(along @ along, 1e-300)
+    cut = np.clip(share, -0.3, 1.3)
+    foot = a + np.where(np.abs(share - 0.5) < 0.5, share, cut)[:, None] * along
+    return bool(np.all(np.linalg.norm(discs[:, :2] - foot, axis=1) > discs[:, 2]))
+
+
+@row.right  # Disc by disc, by three cases.
+def _(a, b, discs):
+    length = np.linalg.norm(b - a)
+    for x, y, r in discs:
+        centre = np.array([x, y])
+        part = (centre - a) @ (b - a)
+        if length == 0 or part <= 0:
+            near = np.linalg.norm(centre - a)
+        elif part >= length**2:
+            near = np.linalg.norm(centre - b)
+        else:
+            (u, v), (w, z) = b - a, centre - a
+            near = abs(u * z - v * w) / length
+        if near <= r:
+            return False
+    return True
+
+
+@row.right  # Squares, compared with squares.
+def _(a, b, discs):
+    d = b - a
+    t = np.clip((discs[:, :2] - a) @ d / max(d @ d, 1e-12), 0, 1)
+    off = discs[:, :2] - a - t[:, None] * d
+    return not ((off**2).sum(axis=1) <= discs[:, 2] ** 2).any()
+
+
+row.same(
+    "part = to_centres @ along / max(along @ along, 1e-300) => "
+    "part = to_centres @ along / max(along @ along, 2e-300)",
+    "it only keeps 0 / 0 away",
+)
+row.at_least_0(answer="a truth value")

@@ -1,0 +1,236 @@
+"""12.9 `time_optimal_profile(a, b, c, limits, sd2_max)`: questions, mistakes."""
+
+from functools import partial
+
+import numpy as np
+
+from labkit.judge import Row, Vector, rounded
+from robo47.planning import path_accel_bounds, time_optimal_profile
+
+from .motions import of_a_motion, timed
+
+row = Row(
+    Vector((None,), "1/s^2"),
+    at_edge=lambda *call: False,
+    unnamed=of_a_motion,
+)
+
+
+def path(rng, n, k, heavy=0.5, fast=1.6):
+    """Return what is known of a path with n steps and k joints.
+
+    Args:
+        rng: draws it.
+        n: steps.
+        k: joints.
+        heavy: largest share of a limit that gravity takes.
+        fast: largest sd2_max.
+    """
+    walk = np.cumsum(rng.normal(size=(2, n + 1, k)), axis=1) / np.sqrt(n)
+    limits = rng.numbers(3, 6, k)
+    c = heavy * limits * rng.uniform(-1, 1, (n + 1, k))
+    sd2_max = rng.numbers(0.4 * fast, fast, n + 1)
+    return rounded(walk[0] + 1.5), rounded(walk[1]), rounded(c), limits, sd2_max
+
+
+@row.inputs
+def _(rng):
+    one, eight = np.ones((5, 1)), np.array([8.0])
+    yield 2 * one, 0 * one, 0 * one, eight, 9 * one[:, 0]
+    yield 2 * one, 0 * one, 4 * one, eight, 9 * one[:, 0]
+    yield 2 * one, 0 * one, 0 * one, eight, one[:, 0]
+    yield -2 * one, 0 * one, 4 * one, eight, 9 * one[:, 0]
+    heavy = np.array([0.0, 2, 9, 3, 0])[:, None]
+    yield 2 * one, 0 * one, heavy, eight, 9 * one[:, 0]
+    yield 2 * one, 0 * one, -9 * one, eight, 9 * one[:, 0]  # at all points
+    dip = np.array([9.0, 9, 0.4, 9, 9, 9, 9])  # the motors are slow there
+    seven = np.ones((7, 1))
+    yield 2 * seven, 0.5 * seven, seven, eight, dip
+    # Two joints leave no sdd at a point above sd^2 = 0.4, and much before and after.
+    two = np.ones((7, 2))
+    steep = 20.0 * np.eye(7)[3][:, None] * [1.0, -1.0]
+    yield 2 * two, steep, 2 * two, np.array([8.0, 8]), 9 * seven[:, 0]
+    # Above 0.57 the one joint is slowed so much there that it would have to turn back.
+    yield 2 * seven, steep[:, :1], 0 * seven, eight, 9 * seven[:, 0]
+    for n, k, fast in (
+        (6, 2, 9.0),
+        (8, 2, 1.6),
+        (8, 7, 9.0),
+        (10, 7, 0.9),
+        (12, 7, 2.0),
+    ):
+        yield path(rng, n, k, fast=fast)
+    a, b, c, limits, sd2_max = path(rng, 8, 7, fast=9.0)
+    yield a, b, c - np.eye(9, 7, -2) * 9, limits, sd2_max
+    for n, k, fast in ((7, 3, 2.5), (9, 7, 1.1)):
+        yield path(rng, n, k, heavy=0.8, fast=fast)
+
+
+def bobrow(a, b, c, limits, sd2_max):
+    """Return it with limits backwards read at the point that is left, not reached."""
+    x = time_optimal_profile(a, b, c, limits, sd2_max)
+    n = len(a) - 1
+    if not x.any():
+        return x
+    K = np.zeros(n + 1)
+    for i in range(n - 1, -1, -1):
+        low = path_accel_bounds(
+            a[i + 1], b[i + 1], c[i + 1], limits, np.sqrt(K[i + 1])
+        )[0]
+        K[i] = max(0.0, min(sd2_max[i], K[i + 1] - 2 / n * low))
+    for i in range(n):
+        high = path_accel_bounds(a[i], b[i], c[i], limits, np.sqrt(x[i]))[1]
+        x[i + 1] = max(0.0, min(K[i + 1], x[i] + 2 / n * high))
+    return x
+
+
+@row.wrongs
+def _(a, b, c, limits, sd2_max):
+    """no-braking: there is no pass backwards: it goes as fast as it can, and cannot
+      stop at the end => the pass forwards alone, up to sd2_max
+    no-braking 2: there is no pass backwards: it goes as fast as it can, and is stopped
+      at the end in no time => the pass forwards alone, with 0 at the end
+    end-not-at-rest: the pass backwards starts with sd2_max at the end; it starts with 0
+    start-not-at-rest: it begins with the greatest sd^2 from which it can stop; it
+      begins at rest
+    backward-pass-only: there is no pass forwards: it begins in motion => the pass
+      backwards alone
+    backward-pass-only 2: there is no pass forwards: it jumps from rest to the greatest
+      sd^2 => the pass backwards alone, with 0 at the start
+    smaller-of-two-passes: each pass is made by itself, and the smaller of both is
+      taken; forwards, it has to go on from what the other one leaves
+    ds-for-2-ds: sd^2 grows by 2 ds u in a step; here it is ds u
+    four-ds: sd^2 grows by 2 ds u in a step; here it is 4 ds u
+    points-for-steps: ds is 1 / (N + 1): N + 1 points have N steps
+    sd-for-sd2: path_accel_bounds is given x; it wants sd, its root
+    sd-for-sd2 2: backwards path_accel_bounds is given x; it wants sd, its root
+    sd-for-sd2 3: forwards path_accel_bounds is given x; it wants sd, its root
+    most-of-the-point-before: forwards x[i + 1] is kept below what is possible at i;
+      that of i + 1 belongs there
+    no-speed-limit: sd2_max is not used: the motors' speed is no limit
+    speed-limit-forwards-only: sd2_max is used forwards alone: what comes after was not
+      looked at
+    gravity-forgotten: gravity is left out of what the torques allow
+    coriolis-forgotten: b is left out of what the torques allow
+    cannot-stand-goes: where gravity alone is too much at a point the arm cannot hold
+      there; zeros are asked for => without that case
+    few-bisections: an interval that is halved so seldom is still wide => 10 times
+    few-bisections 2: an interval that is halved so seldom is still wide => 20 times
+    limits-of-the-next-point: the limits of a step are read at its end; they are those
+      of its first point
+    bobrow: backwards the limits are read at the point that comes after; a step's are
+      those of its first point
+    root: this is sd; its square is asked for
+    times: this is when each point is reached, and not sd^2
+    half-the-torque: only half of the torque is used
+    never-moves: sd^2 is 0 at every point of every path: look at what the pass backwards
+      leaves, and whether forwards the greatest sdd is taken
+    accelerations: this is sdd of each step, and 0
+    """
+    given = (a, b, c, limits, sd2_max)
+    right = time_optimal_profile(*given)
+    heavy = np.any(np.abs(c) > limits)
+    free = timed(*given, passes="forward")
+    stopped = np.append(free[:-1], 0.0) if not heavy else right
+    back = timed(*given, passes="back")
+    alone = np.append(0.0, back[1:]) if not heavy else back
+    wide = np.full(len(a), 1e3)
+    sd = np.sqrt(right)
+    n = len(a) - 1
+    with np.errstate(divide="ignore"):
+        times = np.append(0, np.cumsum(2 / n / np.maximum(sd[1:] + sd[:-1], 1e-9)))
+
+    def fall():
+        return np.append(
+            0.0, np.minimum(timed(*given, most=lambda x: wide)[1:], sd2_max[1:])
+        )
+
+    two = np.minimum(free, back) if not heavy else right
+    return {
+        "no-braking": free,
+        "no-braking 2": stopped,
+        "end-not-at-rest": partial(timed, *given, last=False),
+        "start-not-at-rest": partial(timed, *given, start="K"),
+        "backward-pass-only": back,
+        "backward-pass-only 2": alone,
+        "smaller-of-two-passes": two,
+        "ds-for-2-ds": partial(timed, *given, two_ds=lambda n: 1 / n),
+        "four-ds": partial(timed, *given, two_ds=lambda n: 4 / n),
+        "points-for-steps": partial(timed, *given, two_ds=lambda n: 2 / (n + 1)),
+        "sd-for-sd2": partial(timed, *given, sd=lambda x: x),
+        "sd-for-sd2 2": partial(timed, *given, sd=lambda x: x, forward_sd=np.sqrt),
+        "sd-for-sd2 3": partial(timed, *given, forward_sd=lambda x: x),
+        "most-of-the-point-before": partial(timed, *given, kept=0),
+        "no-speed-limit": partial(timed, *given, most=lambda x: wide),
+        "speed-limit-forwards-only": fall,
+        "gravity-forgotten": partial(timed, *given, pull=lambda a, b, c: (a, b, 0 * c)),
+        "coriolis-forgotten": partial(timed, a, 0 * b, c, limits, sd2_max),
+        "cannot-stand-goes": partial(timed, *given, stands=lambda c, limits: False),
+        "few-bisections": partial(timed, *given, bisections=10),
+        "few-bisections 2": partial(timed, *given, bisections=20),
+        "limits-of-the-next-point": partial(timed, *given, at=1, back_at=1),
+        "bobrow": partial(bobrow, *given),
+        "root": sd,
+        "times": times if not heavy else 0 * times,
+        "half-the-torque": partial(time_optimal_profile, a, b, c, limits / 2, sd2_max),
+        "never-moves": 0 * right,
+        "accelerations": np.append(np.diff(right) * n / 2, 0.0),
+    }
+
+
+@row.wrong("without-turning", hidden="no path of the lab has to turn back")
+def _(a, b, c, limits, sd2_max):
+    return timed(a, b, c, limits, sd2_max, without=("turning",))
+
+
+@row.wrong("slower-than-possible")
+def _(a, b, c, limits, sd2_max):
+    return timed(a, b, c, limits, sd2_max, most=lambda x: 0.37 * x)
+
+
+@row.right  # Where straight lines cross, for bisection.
+def _(a, b, c, limits, sd2_max):
+    n = len(a) - 1
+    x, K = np.zeros(n + 1), np.zeros(n + 1)
+    if np.any(np.abs(c) > limits):
+        return x
+    for i in range(n - 1, -1, -1):
+        a_i, b_i, c_i = a[i], b[i], c[i]
+        moves = a_i != 0
+        size, sign = np.abs(a_i[moves]), np.sign(a_i[moves])
+        rest, slope = (c_i * 1.0)[moves] * sign, (b_i * 1.0)[moves] * sign
+        # u between (p - m x) of each joint, and of the next point.
+        low = np.append((-limits[moves] - rest) / size, 0.0)
+        high = np.append((limits[moves] - rest) / size, K[i + 1] * n / 2)
+        slope = np.append(slope / size, n / 2)
+        top = sd2_max[i]
+        for least, m in zip(low, slope, strict=True):
+            for h, k in zip(high, slope, strict=True):
+                if k - m > 1e-12:  # least - m x <= h - k x
+                    top = min(top, (h - least) / (k - m))
+        for r, m, lim in zip(c_i[~moves], b_i[~moves], limits[~moves], strict=True):
+            if m:
+                top = min(top, (lim - np.sign(m) * r) / abs(m))
+        K[i] = max(0.0, top)
+    for i in range(n):
+        high = path_accel_bounds(a[i], b[i], c[i], limits, np.sqrt(x[i]))[1]
+        x[i + 1] = max(0.0, min(K[i + 1], x[i] + 2 / n * high))
+    return x
+
+
+row.at_least_0(limits="of torques, both ways", sd2_max="a square", answer="a square")
+
+STEP = "return low <= high and x + two_ds * low <= after and (x + two_ds * high >= 0.0)"
+row.same(
+    "for i in range(len(a) - 1): => for i in range(len(a) - 2):",
+    "the last sd^2 is 0 anyhow",
+)
+for change in (
+    "for _ in range(60 * (good < bad)): => for _ in range(120 * (good < bad)):",
+    "for _ in range(60 * (good < bad)): => for _ in range(60 * (good < 0.5 * bad)):",
+    "for _ in range(60 * (good < bad)): => for _ in range(60 * (good < 10.0 * bad)):",
+):
+    row.same(change, "60 halvings leave the last digit; the count is 60 or none")
+for how in ("np.clip(({}), -1, 1)", "({}).astype(np.float32)"):
+    row.same(f"return {how.format('np.zeros(len(a))')}", "zeros")
+    row.same(f"return {how.format(STEP[7:])}", "a truth value")

@@ -1,0 +1,193 @@
+"""12.6 `wilson_interval(successes, n)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+from robo47.planning import wilson_interval
+
+from .localise_paths import of_shares
+
+row = Row(
+    Vector((2,), names=("the low end", "the high end")),
+    near=1e-7,  # 1.959964 for 1.96 is 4e-6 away
+    at_edge=lambda successes, n: 0 <= successes <= n,
+    unnamed=of_shares,
+)
+
+
+@row.inputs
+def _(rng):
+    for k, n in (
+        (18, 60),
+        (20, 20),
+        (0, 60),
+        (0, 0),
+        (1, 1),
+        (0, 1),
+        (60, 60),
+        (1, 40),
+        (1, 3),
+    ):
+        yield k, n
+    for _ in range(8):
+        n = int(rng.integers(3, 400))
+        yield int(rng.integers(0, n + 1)), n
+
+
+def interval(k, n, z=1.96, centre=True, widen=True, divide=True, root=np.sqrt):
+    """Return the interval, made with other parts."""
+    if n == 0:
+        return np.array([0.0, 1.0])
+    p = k / n
+    middle = p + centre * z**2 / (2 * n)
+    around = z * root(p * (1 - p) / n + widen * z**2 / (4 * n**2))
+    return (middle + np.array([-around, around])) / (1 + divide * z**2 / n)
+
+
+@row.wrongs
+def _(successes, n):
+    """wald: p +- z sqrt(p (1 - p) / n) takes the noise at k / n for that at the true
+      share, so of all or of none it has no width at all => p +- 1.96
+      sqrt(p (1 - p) / n)
+    wald-cut: p +- z sqrt(p (1 - p) / n), cut to 0..1, takes the noise at k / n for that
+      at the true share: of all or of none it has no width at all
+    centre-not-moved: the middle is k / n; the roots lie about a point nearer to one
+      half => without z^2 / (2 n) in the middle
+    width-without-z2: z^2 / (4 n^2) is missing under the root
+    not-divided: the division by 1 + z^2 / n is missing
+    middle-not-divided: only the width is divided by 1 + z^2 / n; the middle is, too
+    width-not-divided: only the middle is divided by 1 + z^2 / n; the width is, too
+    root-n-forgotten: p (1 - p) is not divided by n, so that more trials tell no more
+    not-rooted: the root is missing
+    ninety: 1.645 leaves 5 in 100 on each side: that is 90 %; it takes 1.96
+    ninety-without-z2: 1.645 stands for 1.96, and z^2 / (4 n^2) is missing under the
+      root: two mistakes
+    two-sigma: 2 is taken for 1.96
+    one-sigma: one sigma holds 68 times in 100; it takes 1.96
+    ninety-nine: 2.576 is for 99 %; it takes 1.96
+    more-digits: 1.959964 is nearer to the truth than 1.96; asked for is 1.96, so that
+      all have the same digits => with 1.959964
+    z-for-z2: z stands where its square belongs, in the middle and below it
+    two-n: z^2 / n for z^2 / (2 n) in the middle
+    four-forgotten: z^2 / n^2 for z^2 / (4 n^2) under the root
+    n-for-n2: z^2 / (4 n) for z^2 / (4 n^2) under the root
+    successes-for-p: k stands where the share k / n belongs
+    failures: these are the shares of failures: the interval of n - k
+    high-first: the two are in the other order: low, then high
+    high-first 2: the two are in the other order wherever there is a trial: low, then
+      high
+    middle-and-width: this is the middle and the half width; the two ends are asked for
+    rule-of-three: with no success at all the high end is 3 / n: that is another
+      interval
+    rule-of-three 2: of no success the high end is 3 / n, of n successes the low end is
+      1 - 3 / n: that is another interval
+    rule-of-three 3: of no success the high end is 3 / n, of n successes the low end is
+      1 - 3 / n: that is another interval => cut to 0..1
+    plus-four: p is (k + 2) / (n + 4), then Wald's interval: near, and another one
+    plus-four 2: p is (k + z^2 / 2) / (n + z^2), then Wald's interval with n + z^2 for n
+      (Agresti and Coull's): near, and another one
+    plus-four 3: p is (k + z^2 / 2) / (n + z^2), then Wald's interval with n + z^2 for n
+      (Agresti and Coull's): near, and another one => cut to 0..1
+    one-more: p is (k + 1) / (n + 2), one success and one failure more; it is k / n
+    half-width: the width is half of what it is
+    one-is-none: one trial tells as little as none here; it tells a little: (0, 1) is
+      for n = 0 alone => (0, 1) below two trials
+    """
+    k, trials = successes, n
+    n = n or 1  # of no trial see below
+    right = wilson_interval(k, n)
+    z, p = 1.96, k / n
+    middle, around = right.mean(), (right[1] - right[0]) / 2
+    below = 1 + z**2 / n
+    two = np.array([-1, 1])
+    wald = p + two * z * np.sqrt(p * (1 - p) / n)
+    q = (k + 2) / (n + 4)
+    many = n + z**2
+    coull = (k + z**2 / 2) / many
+    more = (k + 1) / (n + 2)
+    spread = p * (1 - p) / n
+    agresti = coull + two * z * np.sqrt(coull * (1 - coull) / many)
+    three = np.array([0, 3 / n]) if k == 0 else np.array([1 - 3 / n, 1])
+
+    def with_root(under, centre=p + z**2 / (2 * n)):
+        return (centre + two * z * np.sqrt(under)) / below
+
+    table = {
+        "wald": wald,
+        "wald-cut": np.clip(wald, 0, 1),
+        "centre-not-moved": interval(k, n, centre=False),
+        "width-without-z2": interval(k, n, widen=False),
+        "not-divided": interval(k, n, divide=False),
+        "middle-not-divided": middle * below + two * around,
+        "width-not-divided": middle + two * around * below,
+        "root-n-forgotten": with_root(p * (1 - p) + z**2 / (4 * n**2)),
+        "not-rooted": interval(k, n, root=lambda x: x),
+        "ninety": interval(k, n, 1.645),
+        "ninety-without-z2": interval(k, n, 1.645, widen=False),
+        "two-sigma": interval(k, n, 2.0),
+        "one-sigma": interval(k, n, 1.0),
+        "ninety-nine": interval(k, n, 2.576),
+        "more-digits": interval(k, n, 1.959964),
+        "z-for-z2": (p + z / (2 * n) + two * around * below) / (1 + z / n),
+        "two-n": with_root(spread + z**2 / (4 * n**2), p + z**2 / n),
+        "four-forgotten": with_root(spread + z**2 / n**2),
+        "n-for-n2": with_root(spread + z**2 / (4 * n)),
+        "successes-for-p": with_root(spread + z**2 / (4 * n**2), k + z**2 / (2 * n)),
+        "failures": wilson_interval(n - k, n),
+        "high-first": right[::-1],
+        "high-first 2": right[::-1],
+        "middle-and-width": np.array([middle, around]),
+        "rule-of-three": np.array([0, 3 / n]) if k == 0 else right,
+        "rule-of-three 2": three if k in (0, n) else right,
+        "rule-of-three 3": np.clip(three, 0, 1) if k in (0, n) else right,
+        "plus-four": q + two * z * np.sqrt(q * (1 - q) / (n + 4)),
+        "plus-four 2": agresti,
+        "plus-four 3": np.clip(agresti, 0, 1),
+        "one-more": with_root(
+            more * (1 - more) / n + z**2 / (4 * n**2), more + z**2 / (2 * n)
+        ),
+        "half-width": middle + two * around / 2,
+        "one-is-none": right if n > 1 else np.array([0.0, 1.0]),
+    }
+    if trials == 0:
+        sure = np.array([0.0, 1.0])
+        table = dict.fromkeys(table, sure) | {
+            "high-first": sure[::-1],
+            "middle-and-width": np.array([0.5, 0.5]),
+            "half-width": np.array([0.25, 0.75]),
+        }
+    return table
+
+
+@row.wrong
+def none_divides(successes, n):
+    """of no trial at all every share is believable, (0, 1): k / n divides by 0 there =>
+    without that case"""
+    with np.errstate(all="ignore"):
+        k, n = np.float64(successes), np.float64(n)
+        p, z = k / n, 1.96
+        around = z * np.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))
+        return (p + z**2 / (2 * n) + np.array([-around, around])) / (1 + z**2 / n)
+
+
+@row.wrong("none-divides")
+def _(successes, n):
+    """of no trial at all every share is believable, (0, 1): it is another answer there
+    => (0, 0) of no trial"""
+    return np.zeros(2) if n == 0 else wilson_interval(successes, n)
+
+
+@row.wrong("another-z")
+def _(successes, n):
+    return interval(successes, n, 2.326)
+
+
+@row.right  # The roots of the quadratic.
+def _(successes, n):
+    if n == 0:
+        return 0.0, 1.0
+    z2, p = 1.96**2, successes / n
+    return np.sort(np.roots([n + z2, -(2 * n * p + z2), n * p**2]).real)
+
+
+row.at_least_0(successes="a count", n="a count", answer="shares")
