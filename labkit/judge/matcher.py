@@ -151,7 +151,7 @@ class Matcher:
             body.calibrate(list(map(own, self.main.each[self.i])))
 
     @cached_property
-    def wrong(self) -> Array:
+    def wrong(self) -> Any:
         """Which main calls have a wrong answer."""
         return np.flatnonzero(self.ask.gaps(self.S, self.T) > self.ask.near)
 

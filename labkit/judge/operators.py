@@ -6,7 +6,7 @@ are other steps: a clamp, a norm, a root, a unit, a usual constant.
 
 import ast
 import copy
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from itertools import combinations
 from typing import Any, NamedTuple
@@ -165,7 +165,8 @@ def far(place: Place, names: Sequence[str]) -> Iterator[Mutation]:
             yield "name", ast.Name(name, ast.Load())
             yield from filled(WITH_A_NAME, X=node, N=ast.Name(name, ast.Load()))
     if isinstance(node, ast.Constant) and type(node.value) in (int, float):
-        for value in (10 * node.value, node.value / 10, node.value**2, 3 * node.value):
+        n: Any = node.value
+        for value in (10 * n, n / 10, n**2, 3 * n):
             yield "number", ast.Constant(value)
         yield from (("number", ast.Name(name, ast.Load())) for name in names)
     elif isinstance(node, ast.Call):
@@ -210,7 +211,7 @@ def _read(table: str) -> list[tuple[str, ast.expr, set[str]]]:
     return found
 
 
-def _filled(template: Any, nodes: dict[str, ast.expr]) -> Any:
+def _filled(template: Any, nodes: Mapping[str, ast.expr]) -> Any:
     """Return a copy of a template with some names replaced; these are not copied."""
     if isinstance(template, ast.Name) and template.id in nodes:
         return nodes[template.id]

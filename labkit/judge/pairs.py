@@ -295,8 +295,8 @@ def _one_factor(a: Parts, b: Parts, right: Parts) -> bool:
 
 def _add_up(m: Matcher, one: Code, other: Code, both: Together = _sum) -> bool:
     """Return whether the differences of two hypotheses give all answers together."""
-    for calls, order in ((m.main, m.order), (m.fresh, None)):
-        for i in (order or range(len(calls))) if calls else ():
+    for calls in filter(None, (m.main, m.fresh)):
+        for i in m.order if calls is m.main else range(len(calls)):
             its = tuple(t[i] for t in calls.T)
             pair = calls.answer(one, i), calls.answer(other, i)
             if not all(pair) or not calls.difference.fits(i, both(*pair, its), True):
@@ -382,7 +382,9 @@ def second(m: Matcher) -> Finding | None:
     for first in _likely(m, near):
         for other in m.ask.bodies[0].besides(first):
             code = other.code
-            answer = m.main.answer(code, m.i) if code else ()
+            if code is None:
+                continue
+            answer = m.main.answer(code, m.i)
             if m.main.difference.fits(m.i, answer, digits=True) and m.holds(code):
                 says = [half(m, first), half(m, other)]
                 if all(says):
