@@ -33,9 +33,9 @@ def test_signs_factors_names_and_lines_are_changed_one_at_a_time():
 def test_a_function_is_put_back_as_it_was():
     one = body()
     before = ast.dump(one.function, include_attributes=True)
-    mutants = [*one.near, *one.further()]
+    mutants = [*one.near, *(mutant for mutant, _ in one.further())]
     assert all(mutant.code for mutant in one.near)
-    assert all(other.code for other in one.besides(mutants[0]))
+    assert all(other.code for other, _ in one.besides(mutants[0]))
     assert all(isinstance(mutant.text, str) for mutant in mutants)
     assert ast.dump(one.function, include_attributes=True) == before
 
@@ -46,17 +46,32 @@ def test_a_mutant_computes_what_it_reads():
     assert np.array_equal(code["z = 2.0 * x - y"](x, y), 2 * x - y - x @ y)
 
 
+def test_mutants_that_are_compiled_together_compute_what_each_does_alone():
+    one = body()
+    x, y = np.array([1.0, 2.0]), np.array([3.0, 5.0])
+    some = [*one.ready(one.near), *one.further()]
+    assert len(some) > 500
+    for mutant, code in some:
+        answers = []
+        for tried in (code, mutant.code):
+            try:
+                answers.append(tried(x.copy(), y.copy()))
+            except Exception as error:
+                answers.append(type(error))
+        assert np.array_equal(*map(repr, answers)), mutant.text
+
+
 def test_a_second_mutant_is_never_in_the_place_of_the_first():
     one = body()
     first = one.near[0]
     others = one.besides(first)
     assert others
-    assert not any(first.overlaps(other) for other in others)
+    assert not any(first.overlaps(other) for other, _ in others)
 
 
 def test_one_change_is_made_at_every_place_of_its_kind():
     text = "def f(x, y):\n    z = x.T @ y\n    return x.T @ z\n"
-    every = [one for one in body(text).further() if len(one.edits) > 1]
+    every = [one for one, _ in body(text).further() if len(one.edits) > 1]
     A, b = np.array([[1.0, 2.0], [3.0, 4.0]]), np.array([1.0, -1.0])
     assert any(np.array_equal(one.code(A, b), A @ A @ b) for one in every)
 
@@ -67,10 +82,10 @@ def test_one_change_is_made_at_every_place_of_its_kind():
 def test_a_loop_that_would_never_end_stops(loop):
     one = body(f"def f(x):\n    {loop}\n    return x\n")
     one.calibrate([0])
-    ended, mutants = 0, [*one.near, *one.further()]
-    for mutant in mutants:
+    ended, mutants = 0, [*one.ready(one.near), *one.further()]
+    for _, code in mutants:
         with contextlib.suppress(Exception):
-            mutant.code(0)
+            code(0)
             ended += 1
     assert 0 < ended < len(mutants)
 

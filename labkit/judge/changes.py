@@ -30,16 +30,14 @@ class Change(NamedTuple):
     change: Callable[..., Call]  # a function of all of them
 
 
-def of_arguments(call: Call, names: Sequence[str]) -> Iterator[Change]:
-    """Yield changes of a call's arguments, those first that are made most often.
+def likely(call: Call, names: Sequence[str]) -> Iterator[Change]:
+    """Yield the changes of a call's arguments that are made most often.
 
     Args:
         call: one call, which says what an argument may be changed into.
         names: of the arguments; without them they are counted.
     """
-    if len(names) != len(call):
-        names = [f"argument {k + 1}" for k in range(len(call))]
-    call = tuple(map(own, call))
+    call, names = tuple(map(own, call)), _named(call, names)
     for k, x in enumerate(call):
         yield from _made(k, names[k], _near(x))
     for k, m in combinations(range(len(call)), 2):
@@ -54,8 +52,19 @@ def of_arguments(call: Call, names: Sequence[str]) -> Iterator[Change]:
         alike = [f"{name}" for name, x in zip(names, call, strict=True) if _long(x, n)]
         says = f"{listed(alike)} read from the end"
         yield Change("backwards", says, partial(_backwards, n))
+
+
+def others(call: Call, names: Sequence[str]) -> Iterator[Change]:
+    """Yield other changes; the arguments are those of `likely`."""
+    names = _named(call, names)
     for k, x in enumerate(call):
-        yield from _made(k, names[k], _far(x))
+        yield from _made(k, names[k], _far(own(x)))
+
+
+def _named(call: Call, names: Sequence[str]) -> Sequence[str]:
+    if len(names) == len(call):
+        return names
+    return [f"argument {k + 1}" for k in range(len(call))]
 
 
 def of_answer() -> Iterator[tuple[str, Callable[[Array], Any]]]:

@@ -493,6 +493,7 @@ SOURCES: Sequence[Callable[[Matcher], Finding | None]] = (
     pairs.two_at_once,
     sources.of_answers,
     sources.other_mutants,
+    sources.nearly,
     pairs.beside,
     by_results,
     pairs.second,

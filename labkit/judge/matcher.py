@@ -63,6 +63,11 @@ class Calls:
             for i in range(len(self))
         ]
 
+    @cached_property
+    def _sized(self) -> bool:
+        """Whether the size of an answer follows the question."""
+        return any(None in kind.shape for kind in self.ask.kinds)
+
     def answer(self, code: Code, i: int) -> Parts:
         """Return the answer to one call; () where there is none."""
         try:
@@ -89,7 +94,7 @@ class Calls:
 
     def _filled(self, answer: Parts) -> Parts:
         """Return an answer filled up with 0 to the size of the largest."""
-        if len(answer) != len(self.T):
+        if not self._sized or len(answer) != len(self.T):
             return answer
         return tuple(
             part

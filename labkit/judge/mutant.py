@@ -21,6 +21,9 @@ from labkit.judge.operators import Place, places
 
 SHORT = 44  # characters of a body that are shown, at most
 FAR = 100  # rank of the far operators, after all near ones
+TOGETHER = 40  # mutants of one place that are compiled together
+CHOICE = "_choice_"  # the name that says which of them is called
+Code = Callable[..., Any]
 Span = tuple[int, int, int, int]  # line and column, and those of the end
 # The kinds of change, those first that are made most often.
 KINDS = [
@@ -171,26 +174,67 @@ class Body:
         found = [*self._by(operators.near, 0), *self._of_lines(far=False)]
         return sorted(found, key=lambda one: one.rank)
 
-    def further(self) -> Iterator[Mutant]:
-        """Yield all other mutants."""
-        yield from _everywhere(self.near)
-        yield from self._of_lines(far=True)
-        yield from self._by(operators.far, FAR)
+    def further(self) -> Iterator[tuple[Mutant, Code]]:
+        """Yield all other mutants with their functions."""
+        yield from self.ready(list(_everywhere(self.near)))
+        yield from self.ready(list(self._of_lines(far=True)))
+        for place in self.places:
+            yield from self.ready(list(self._at(operators.far, place, FAR)))
 
-    def besides(self, first: Mutant) -> list[Mutant]:
+    def besides(self, first: Mutant) -> list[tuple[Mutant, Code]]:
         """Return the near mutants that have another change as well, elsewhere."""
         with first.made():
             changed = Body(self.function, self.space, self.own, self.steps)
             some = [Mutant(o.kind, self, o.rank, o.edits, first) for o in changed.near]
-        return [one for one in some if not one.overlaps(first)]
+            return self.ready([one for one in some if not one.overlaps(first)])
+
+    def ready(self, some: Sequence[Mutant]) -> list[tuple[Mutant, Code]]:
+        """Return mutants with their functions, those of one place compiled together."""
+        there: dict[int, list[Mutant]] = defaultdict(list)
+        for one in some:
+            place, new = one.edits[0]
+            if len(one.edits) == 1 and isinstance(place, Place) and _alone(place, new):
+                there[id(place.node)].append(one)
+        codes: dict[int, Code] = {}
+        for alike in there.values():
+            for at in range(0, len(alike), TOGETHER):
+                codes |= self._together(alike[at : at + TOGETHER])
+        found = ((one, codes.get(id(one)) or one.code) for one in some)
+        return [(one, code) for one, code in found if code]
+
+    def _together(self, some: Sequence[Mutant]) -> dict[int, Code]:
+        """Return the functions of mutants of one place, by the mutants' ids."""
+        place = some[0].edits[0][0]
+        whole: ast.expr = place.node
+        for k, one in enumerate(some):
+            new = one.edits[0][1]
+            chosen = ast.Compare(ast.Name(CHOICE, ast.Load()), [ast.Eq()],
+                                 [ast.Constant(k)])  # fmt: skip
+            whole = ast.IfExp(chosen, new, whole)
+        with Mutant("", self, 0, [(place, whole)]).made():
+            code = self.compiled()
+        if code is None:  # one of them is no Python
+            return {}
+        return {id(one): self._chosen(code, k) for k, one in enumerate(some)}
+
+    def _chosen(self, code: Code, k: int) -> Code:
+        def call(*args: Any) -> Any:
+            self.space[CHOICE] = k
+            return code(*args)
+
+        return call
 
     def _by(self, some: Any, later: int) -> Iterator[Mutant]:
         """Yield the mutants that a set of operators makes."""
         for place in self.places:
-            filled = self._filled_by(place)
-            names = [name for name in self.names if name != filled]
-            for kind, new in some(place, names):
-                yield self._mutant(self._kind(kind, place), place, new, later)
+            yield from self._at(some, place, later)
+
+    def _at(self, some: Any, place: Place, later: int) -> Iterator[Mutant]:
+        """Yield those of one place."""
+        filled = self._filled_by(place)
+        names = [name for name in self.names if name != filled]
+        for kind, new in some(place, names):
+            yield self._mutant(self._kind(kind, place), place, new, later)
 
     def _filled_by(self, place: Place) -> str:
         """Return the list that a place is appended to, by its name; "" where none is.
@@ -274,8 +318,18 @@ def _located(new: ast.AST, where: ast.AST) -> None:
         if hasattr(new, "lineno"):
             return
         ast.copy_location(new, where)
-    for one in ast.iter_child_nodes(new):
-        _located(one, where)
+    for name in new._fields:
+        value = getattr(new, name)
+        for one in value if isinstance(value, list) else (value,):
+            if isinstance(one, ast.AST):
+                _located(one, where)
+
+
+def _alone(place: Place, new: ast.expr) -> bool:
+    """Return whether an expression may stand wherever one may: a slice may not."""
+    some = (place.node, new)
+    inner = (n for one in some if isinstance(one, ast.Tuple) for n in one.elts)
+    return not any(isinstance(n, ast.Slice | ast.Starred) for n in (*some, *inner))
 
 
 def _spot(place: Place | statements.Block, kind: str) -> Any:

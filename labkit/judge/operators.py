@@ -30,32 +30,28 @@ OF_A_NAME = "squared: X ** 2; factor: 2.0 * X | 0.5 * X; left-out: 1; transpose:
 IN_A_PRODUCT = "transpose: X.mT; inverse: np.linalg.inv(X)"
 # What may happen to a value as a whole.
 OF_A_VALUE = """
-    clamp: np.maximum(X, 0.0) | np.minimum(X, 0.0) | np.minimum(X, 1.0)
-        | np.clip(X, 0.0, 1.0) | np.clip(X, -1.0, 1.0);
-    sign-lost: np.abs(X) | np.sign(X); negated: -X;
+    clamp: np.maximum(X, 0.0) | np.minimum(X, 1.0) | np.clip(X, 0.0, 1.0)
+        | np.clip(X, -1.0, 1.0);
+    sign-lost: np.abs(X); negated: -X;
     norm: X / np.linalg.norm(X) | np.linalg.norm(X) | np.sum(np.square(X));
     root: np.sqrt(X); squared: X ** 2;
     inverse: 1.0 / X | np.linalg.inv(X); operation: 1.0 - X;
     transpose: X.mT; unit: np.rad2deg(X) | np.deg2rad(X) | 1000.0 * X | X / 1000.0;
-    rounded: np.round(X) | np.floor(X) | np.ceil(X) | np.round(X, 1) | np.round(X, 2)
-        | np.round(X, 3);
-    factor: 2.0 * X | 0.5 * X | X / 3.0 | X * np.pi;
-    diagonal: np.diag(np.diag(X)) | np.eye(len(X)) | np.trace(X) * np.eye(len(X))
-        | np.triu(X) | np.tril(X) | 0.5 * (X + X.mT);
+    rounded: np.round(X) | np.floor(X) | np.ceil(X) | np.round(X, 1) | np.round(X, 3);
+    factor: 2.0 * X | 0.5 * X;
+    diagonal: np.diag(np.diag(X)) | np.eye(len(X)) | 0.5 * (X + X.mT);
     left-out: np.zeros_like(X) | np.ones_like(X);
     entries: X[::-1] | X[:1] | X[-1:] | np.roll(X, 1, axis=0)
-        | np.roll(X, -1, axis=0) | np.roll(X, 3, axis=0) | np.sort(X)
+        | np.roll(X, -1, axis=0) | np.roll(X, 3, axis=0)
         | X[1:] | X[:-1] | X[0] | X[-1] | np.append(0.0 * X[:1], X[1:])
         | np.append(X[:-1], 0.0 * X[-1:]);
-    function: np.cumsum(X, axis=0) | np.mean(X) | np.sin(X) | np.tan(X);
-    number: 9.8 | 9.80665 | 1.645 | 1.96 | 1.0 | 0.0
+    number: 1.0 | 0.0
 """
 WITH_A_NAME = "scaled: X * N | X / N | X @ N | N @ X; added: X + N | X - N | N - X"
 OF_TWO = """
-    function: np.cross(A, B) | np.outer(A, B) | np.maximum(A, B) | np.minimum(A, B)
-        | np.hypot(A, B);
+    function: np.cross(A, B) | np.outer(A, B) | np.maximum(A, B) | np.minimum(A, B);
     transpose: A @ B.mT | A.mT @ B | B.mT @ A; order: B @ A;
-    operation: A * B | A / B | A ** B | A // B | A % B | A * B / (A + B);
+    operation: A * B | A / B | A // B | A % B;
     diagonal: np.diag(A) * B
 """
 OF_A_CALL = {

@@ -194,7 +194,7 @@ class _Pairs:
         if self.m.ask.seconds > QUICK or self.m.right is None:
             return found
         call, names = self.m.main.each[self.i], self.m.case.names
-        for one in changes.of_arguments(call, names):
+        for one in changes.likely(call, names):
             code = partial(after, self.m.right, one.change)
             if answer := self.m.main.answer(code, self.i):
                 for k in self._that_give(answer, self.m.main.answers, code):
@@ -355,9 +355,9 @@ def _halves(m: Matcher) -> Iterator[_Half]:
     near = _near(m)
     for one in of_its_own_first(m) if near else []:
         yield _Half(one.slug, one.says.rstrip("?"), one.redo)
-    for mutant in near:
-        code = mutant.code if mutant.kind in ALONG else None
-        if code and (says := half(m, mutant)):
+    along = [one for one in near if one.kind in ALONG]
+    for mutant, code in m.ask.bodies[0].ready(along) if near else ():
+        if says := half(m, mutant):
             yield _Half(f"slip-{mutant.kind}", says, code, mutant)
 
 
@@ -380,10 +380,7 @@ def second(m: Matcher) -> Finding | None:
         return None
     ends = time.process_time() + SLIPPING
     for first in _likely(m, near):
-        for other in m.ask.bodies[0].besides(first):
-            code = other.code
-            if code is None:
-                continue
+        for other, code in m.ask.bodies[0].besides(first):
             answer = m.main.answer(code, m.i)
             if m.main.difference.fits(m.i, answer, digits=True) and m.holds(code):
                 says = [half(m, first), half(m, other)]
@@ -400,16 +397,15 @@ def _likely(m: Matcher, near: Sequence[Mutant]) -> list[Mutant]:
     few = m.wrong[np.unique(np.linspace(0, len(m.wrong) - 1, FEW).astype(int))]
     mine = [row(tuple(s[i] for s in m.S)) for i in few]
     its = [row(tuple(t[i] for t in m.T)) for i in few]
-    scores = [_score(m, one, few, mine) for one in near]
+    some = m.ask.bodies[0].ready(near) if near else []
+    scores = [_score(m, code, few, mine) for _, code in some]
     least = sum(map(_common, its, mine))
     best = sorted(range(len(scores)), key=lambda k: -scores[k])[:LIKELY]
-    return [near[k] for k in best if scores[k] > least]
+    return [some[k][0] for k in best if scores[k] > least]
 
 
-def _score(m: Matcher, one: Mutant, few: Array, mine: Sequence[Array]) -> int:
+def _score(m: Matcher, code: Code, few: Array, mine: Sequence[Array]) -> int:
     """Return how many numbers of some calls a mutant gives."""
-    if (code := one.code) is None:
-        return 0
     pairs = zip(few, mine, strict=True)
     return sum(_common(row(m.main.answer(code, i)), s) for i, s in pairs)
 

@@ -22,18 +22,23 @@ from labkit.judge.mutant import Mutant
 from labkit.judge.sentence import known_text, of_mutants
 
 NEAR, FURTHER = "near", "further"  # mutants
-SECONDS = {NEAR: 0.7, FURTHER: 0.7}  # of the processor
+SECONDS = {NEAR: 0.5, FURTHER: 0.3}  # of the processor
 QUICK = 2e-3  # seconds of a call that a row may say, for its arguments to be changed
 SEVERAL = 20  # mutants that give one answer, of which some give all
 AGREE = 3  # calls with a wrong answer that a mutant of whole numbers has to give
 
 
-def authors(m: Matcher) -> Finding | None:
+def authors(m: Matcher, digits: bool = True) -> Finding | None:
     """Return the first of the author's mistakes that explains all answers.
 
     Whole numbers that are equal prove little, so there it must be the only one.
+
+    Args:
+        m: the matcher.
+        digits: whether it has to give every digit; two mistakes may be as alike as
+            metres and millimetres beside a kilometre.
     """
-    that_hold = (one for one in m.ask.named if m.holds(one.redo, digits=False))
+    that_hold = (one for one in m.ask.named if m.holds(one.redo, digits))
     if not m.whole:
         return next((with_evidence(m, one) for one in that_hold), None)
     found: dict[str, Finding] = {}
@@ -58,8 +63,18 @@ def of_accepted(ask: Ask, arguments: tuple[Any, ...], S: Parts) -> Finding | Non
 def named(ask: Ask, arguments: tuple[Any, ...], S: Parts, T: Parts) -> Finding | None:
     """Return what is said of answers to the main questions that have a name."""
     m = Matcher(Case(ask, arguments, plain(S), plain(T), ()), S, T)
-    some = (authors, in_another_order, of_the_kind)
-    return next(filter(None, (source(m) for source in some)), None)
+    return authors(m) or in_another_order(m) or of_the_kind(m)
+
+
+def nearly(m: Matcher) -> Finding | None:
+    """Return what explains all but a hundredth of the difference, and not all digits.
+
+    Such as a named mistake in single precision, or beside a small one.
+    """
+    if m.whole:
+        return None
+    some = (authors, of_the_kind, of_arguments)
+    return next(filter(None, (source(m, False) for source in some)), None)
 
 
 def _sentence(one: Mistake) -> str:
@@ -86,13 +101,14 @@ def in_another_order(m: Matcher) -> Finding | None:
     return None
 
 
-def of_the_kind(m: Matcher) -> Finding | None:
+def of_the_kind(m: Matcher, digits: bool = True) -> Finding | None:
     """Return what any answer of this kind may have: one result is changed."""
     for i, kind in enumerate(m.ask.kinds):
         for one in kind.general():
             made = partial(_with_result, i, one.redo)
-            if again := _as_made(m, made):
-                exact = equals(m.ask.kinds, m.S, again)
+            again = _as_made(m, made)
+            exact = equals(m.ask.kinds, m.S, again)
+            if again and (exact or not digits):
                 found = with_evidence(m, one, exact)
                 called = f"{kind.called}: " if len(m.S) > 1 and kind.called else ""
                 return Finding(found.slug, called + found.message)
@@ -138,15 +154,16 @@ def _as_made(m: Matcher, made: Any) -> Parts:
     return found if m.main.difference.differs(found) else ()
 
 
-def of_arguments(m: Matcher) -> Finding | None:
+def of_arguments(m: Matcher, digits: bool = True) -> Finding | None:
     """Return that the answers are the right ones to other arguments.
 
     Such as two exchanged, or one of the other sign: it needs no name.
     """
     if m.whole or m.ask.seconds > QUICK or m.right is None:
         return None
-    for one in changes.of_arguments(m.main.each[m.i], m.case.names):
-        if m.holds(partial(after, m.right, one.change), digits=False):
+    call, names = m.main.each[m.i], m.case.names
+    for one in chain(changes.likely(call, names), changes.others(call, names)):
+        if m.holds(partial(after, m.right, one.change), digits):
             exact = m.exact(partial(after, m.right, one.change))
             says = f"It is the right answer to other arguments: with {one.says}."
             how = f"({capitalised(m.off())}; that {evidence(exact)}.)"
@@ -183,7 +200,8 @@ def _that_hold(m: Matcher, which: str) -> list[Mutant]:
     m.known[which] = found = list[Mutant]()
     if m.whole and _wrong_calls(m) < AGREE:
         return found
-    for one in islice(_screened(m, which), SEVERAL):
+    screened = (one for one, answer in answered(m, which) if _fits(m, answer))
+    for one in islice(screened, SEVERAL):
         apart = not any(one.overlaps(other) for other in found)
         code = one.code
         if code and apart and m.holds(code):
@@ -202,15 +220,17 @@ def _wrong_calls(m: Matcher) -> int:
     )
 
 
-def _screened(m: Matcher, which: str) -> Iterator[Mutant]:
-    """Yield the mutants that give the answer to one call, within a limit of time."""
-    fits, i = m.main.difference.fits, m.i
+def _fits(m: Matcher, answer: Parts) -> bool:
+    return m.main.difference.fits(m.i, answer, digits=True)
+
+
+def answered(m: Matcher, which: str) -> Iterator[tuple[Mutant, Parts]]:
+    """Yield the mutants with their answers to one call, within a limit of time."""
     m.calibrate()
     ends = time.process_time() + SECONDS[which]
-    some = (b.near if which == NEAR else b.further() for b in m.ask.bodies)
-    for one in chain.from_iterable(some):
-        code = one.code
-        if code and fits(i, m.main.answer(code, i), digits=True):
-            yield one
+    near = which == NEAR
+    some = (b.ready(b.near) if near else b.further() for b in m.ask.bodies)
+    for one, code in chain.from_iterable(some):
+        yield one, m.main.answer(code, m.i)
         if time.process_time() > ends:
             return
