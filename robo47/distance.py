@@ -1,15 +1,18 @@
-"""How far two things are apart, how that changes, and what it promises.
+"""Signed distances, their gradient, conservative advancement and a velocity damper.
 
 Conventions:
 
-- A capsule is a segment, its axis, from a0 to a1, and a radius: all points within the
-  radius of the axis. A ball is one with a0 = a1.
-- A distance is signed: negative where the things overlap. Touching is 0.
-- Points, normals and Jacobians are in world axes. J_space is Day 3's, (omega; v).
-- Metres, radians, float64. One pair at a time; `robo47.shapes` has the whole arm's.
+- A capsule is the set of all points within a radius of a segment, its axis, from a0 to
+  a1. A sphere is a capsule with a0 = a1.
+- A distance is signed: positive where two shapes are apart, 0 where they touch and
+  negative where they overlap.
+- Points, normals and Jacobians are expressed in the world frame. J_space is the space
+  Jacobian of Day 3 with the columns (omega; v).
+- Metres, radians, float64. One pair at a time; `robo47.shapes` computes the distances
+  of a whole arm.
 
 Sources: Ericson, *Real-Time Collision Detection* (2005), section 5.1.9 (two segments);
-Quilez, "Distance functions" (a box); Schwarzer, Saha and Latombe, "Adaptive dynamic
+Quilez, "Distance functions" (box); Schwarzer, Saha and Latombe, "Adaptive dynamic
 collision checking" (2005); Faverjon and Tournassoud, "A local based approach for path
 planning of manipulators with a high number of degrees of freedom" (1987).
 """
@@ -23,23 +26,23 @@ from robo47 import checks, se3
 from robo47.checks import Array
 from robo47.fast.near import closest, outside
 
-GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)  # what a golden section keeps of an interval
+GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)  # fraction of an interval that is kept
 SECTIONS = 60  # 0.618^60 = 3e-13 of a segment
 
 
 def closest_points_segments(
     a0: ArrayLike, a1: ArrayLike, b0: ArrayLike, b1: ArrayLike
 ) -> Array:
-    """Return the points of two segments that are closest to each other.
+    """Return the closest points of two segments.
 
-    Where more than one pair is closest (parallel segments), any of them.
+    For parallel segments with more than one closest pair, any of these pairs.
 
     Args:
-        a0, a1: ends of the one, metres, (3,); a point where both are the same.
-        b0, b1: ends of the other, metres, (3,).
+        a0, a1: ends of the first segment, metres, (3,); equal ends are a point.
+        b0, b1: ends of the second segment, metres, (3,).
 
     Returns:
-        The point of the first and that of the second, metres, (2, 3).
+        The point of the first and the point of the second segment, metres, (2, 3).
 
     Raises:
         ValueError: a wrong shape or a non-finite number.
@@ -52,16 +55,18 @@ def closest_points_segments(
 def capsule_distance(
     a0: ArrayLike, a1: ArrayLike, ra: float, b0: ArrayLike, b1: ArrayLike, rb: float
 ) -> float:
-    """Return how far two capsules are apart: their axes' distance, less both radii.
+    """Return the signed distance of two capsules.
+
+    This is the distance of the axes minus both radii.
 
     Args:
-        a0, a1: ends of the one's axis, metres, (3,).
-        ra: its radius, metres, at least 0.
-        b0, b1: ends of the other's, metres, (3,).
-        rb: its radius, metres, at least 0.
+        a0, a1: ends of the first axis, metres, (3,).
+        ra: radius of the first capsule, metres, at least 0.
+        b0, b1: ends of the second axis, metres, (3,).
+        rb: radius of the second capsule, metres, at least 0.
 
     Returns:
-        Metres; negative where they overlap.
+        The signed distance, metres; negative for capsules that overlap.
 
     Raises:
         ValueError: a wrong shape, a non-finite number or a negative radius.
@@ -72,17 +77,18 @@ def capsule_distance(
 
 
 def box_sdf(p: ArrayLike, half_extents: ArrayLike) -> float:
-    """Return how far a point is from a box about the origin, its edges along the axes.
+    """Return the signed distance of a point from a box (a signed distance function).
 
-    Outside the length of what is beyond the faces, inside the way to the nearest face,
-    negative (Quilez, "Distance functions").
+    Outside, the distance to the box; inside, minus the distance to the nearest face
+    (Quilez, "Distance functions").
 
     Args:
-        p: the point in the box's axes, metres, (3,).
+        p: the point in the box frame, whose origin is the centre of the box and whose
+            axes are parallel to its edges, metres, (3,).
         half_extents: half of the box's sides, metres, (3,), at least 0.
 
     Returns:
-        Metres; negative inside.
+        The signed distance, metres; negative inside.
 
     Raises:
         ValueError: a wrong shape, a non-finite number or a negative side.
@@ -101,20 +107,22 @@ def capsule_box_distance(
     T_world_box: ArrayLike,
     half_extents: ArrayLike,
 ) -> float:
-    """Return how far a capsule is from a box: its axis' least `box_sdf`, less r.
+    """Return the signed distance of a capsule and a box in any pose.
 
-    Along a segment the distance from a convex set is convex, so a golden section finds
-    its one valley. Inside, it is the depth of the deepest point of the axis, and not
-    how far the whole capsule would have to move to be out.
+    This is the minimum of `box_sdf` along the axis, minus the radius. The signed
+    distance from a convex body is a convex function of the point, so golden-section
+    search finds its single minimum. Where the shapes overlap, the result is the depth
+    of the deepest point of the axis plus the radius, and not the shortest translation
+    that separates them.
 
     Args:
         a0, a1: ends of the capsule's axis, metres, (3,).
-        r: its radius, metres, at least 0.
-        T_world_box: maps the box's coordinates to the world's, (4, 4).
+        r: radius of the capsule, metres, at least 0.
+        T_world_box: pose of the box in the world frame, (4, 4).
         half_extents: half of the box's sides, metres, (3,), at least 0.
 
     Returns:
-        Metres; negative where they overlap.
+        The signed distance, metres; negative where they overlap.
 
     Raises:
         ValueError: a wrong shape, not a pose, or a negative length.
@@ -132,20 +140,23 @@ def capsule_box_distance(
 def distance_gradient(
     J_space: ArrayLike, p: ArrayLike, o: ArrayLike, link: int
 ) -> Array:
-    """Return how fast a point of the arm leaves an obstacle, per joint speed.
+    """Return the gradient of the distance |p - o| in the joint angles.
 
-    d = |p - o|, so d' = n . p' with n = (p - o) / d, and p' = v + omega x p of each
-    joint that moves the link. That the closest points slide along their surfaces does
-    not count: they slide across n.
+    The derivative of the distance is the component of the velocity of p along the
+    normal n = (p - o) / |p - o|, and joint i moves p with v_i + omega_i x p. That the
+    closest points slide along their surfaces does not change the distance to first
+    order. This holds for a unique closest pair; where there are several (parallel
+    capsules side by side), the distance has a kink, and the result is one of the
+    one-sided derivatives or lies between them.
 
     Args:
-        J_space: from Day 3, (6, n).
-        p: the arm's point, world coordinates, metres, (3,).
-        o: the obstacle's, which stands still, metres, (3,); not the same point.
-        link: which link p belongs to: 1 is moved by the first joint alone.
+        J_space: space Jacobian, (6, n).
+        p: closest point on the arm, in the world frame, metres, (3,).
+        o: closest point of an obstacle at rest, metres, (3,); different from p.
+        link: the link of p; link 1 is moved by the first joint alone.
 
     Returns:
-        Metres per radian, (n,); 0 for the joints behind the link.
+        The gradient, metres per radian, (n,); 0 for the joints distal to the link.
 
     Raises:
         ValueError: a wrong shape, no such link, or p = o, where there is no direction.
@@ -161,14 +172,14 @@ def distance_gradient(
 
 
 def capsule_aabb(a0: ArrayLike, a1: ArrayLike, r: float) -> Array:
-    """Return a capsule's box along the world's axes: its least and greatest corner.
+    """Return the axis-aligned bounding box (AABB) of a capsule.
 
     Args:
         a0, a1: ends of the capsule's axis, metres, (3,).
-        r: its radius, metres, at least 0.
+        r: radius of the capsule, metres, at least 0.
 
     Returns:
-        Least and greatest x, y, z, metres, (2, 3).
+        Lower and upper corner, metres, (2, 3).
 
     Raises:
         ValueError: a wrong shape, a non-finite number or a negative radius.
@@ -179,10 +190,10 @@ def capsule_aabb(a0: ArrayLike, a1: ArrayLike, r: float) -> Array:
 
 
 def aabb_overlap(box_a: ArrayLike, box_b: ArrayLike) -> bool:
-    """Return whether two boxes along the axes overlap, on all three; touching counts.
+    """Return whether two axis-aligned boxes overlap; boxes that only touch overlap.
 
     Args:
-        box_a, box_b: least and greatest corner, metres, (2, 3).
+        box_a, box_b: lower and upper corner, metres, (2, 3).
 
     Raises:
         ValueError: a wrong shape or a non-finite number.
@@ -193,19 +204,20 @@ def aabb_overlap(box_a: ArrayLike, box_b: ArrayLike) -> bool:
 
 
 def distal_radii(link_lengths: ArrayLike, link_radii: ArrayLike) -> Array:
-    """Return how far from each joint anything behind it can ever be.
+    """Return for each joint an upper bound on the distance to any distal point.
 
-    From the last joint inwards: the larger of what its own link has, and one offset
-    plus what the next joint reaches. No angle of any joint can make it more.
+    From the last joint inwards: the larger of the radius of the joint's own link, and
+    the link length plus the result for the next joint. The bound holds for all joint
+    angles, because it is the distance in the stretched arm.
 
     Args:
-        link_lengths: from link i's origin to the next link's, metres, (n,); the last
-            one's does not count.
-        link_radii: from link i's origin to the farthest point of its own shapes,
-            metres, (n,).
+        link_lengths: distance from the origin of link i to the origin of the next
+            link, metres, (n,); the last entry is not used.
+        link_radii: distance from the origin of link i to the farthest point of its own
+            shapes, metres, (n,).
 
     Returns:
-        Metres, (n,).
+        The distal radii, metres, (n,).
 
     Raises:
         ValueError: wrong or unlike shapes, or a negative length.
@@ -223,20 +235,20 @@ def distal_radii(link_lengths: ArrayLike, link_radii: ArrayLike) -> Array:
 def conservative_advance(
     s: float, distance: float, delta_q: ArrayLike, radii: ArrayLike
 ) -> float:
-    """Return where along q + s delta_q the arm may first touch something.
+    """Return the next s of q + s delta_q to query; no contact is possible before it.
 
-    In a share ds of the way no point of the arm moves farther than ds times the sum of
-    |dq_i| radii_i; so nothing can happen before the distance is used up (Schwarzer,
-    Saha and Latombe, 2005).
+    One step of conservative advancement: no point of the arm moves further than the
+    sum of |delta_q_i| radii_i per unit of s, so contact is impossible before this bound
+    has used up the distance (Schwarzer, Saha and Latombe, 2005).
 
     Args:
-        s: where the distance was looked at, 0 to 1.
-        distance: of the arm from all else there, metres.
-        delta_q: the whole way, radians, (n,).
+        s: where the distance was queried, 0 to 1.
+        distance: signed distance of the arm from all obstacles there, metres.
+        delta_q: joint displacement of the whole motion, radians, (n,).
         radii: from `distal_radii`, metres, (n,).
 
     Returns:
-        The next s to look at, at most 1; s itself where the arm touches already.
+        The next s to query, at most 1; s itself where the arm touches already.
 
     Raises:
         ValueError: wrong or unlike shapes, or a radius below 0.
@@ -253,19 +265,22 @@ def conservative_advance(
 def velocity_damper(
     qd: ArrayLike, grad: ArrayLike, distance: float, gain: float
 ) -> Array:
-    """Return the nearest joint speeds that do not come closer too fast.
+    """Return the joint velocities nearest to qd with grad . qd >= -gain distance.
 
-    The nearest to qd with grad . qd >= -gain distance. Kept, the distance never falls
-    faster than e^(-gain t), so it never is 0 (Faverjon and Tournassoud, 1987).
+    In continuous time the distance then falls no faster than e^(-gain t), so it never
+    reaches 0. With time steps this is approximate and needs a gain well below 1 / step.
+    The condition is the velocity damper of Faverjon and Tournassoud (1987); today it is
+    called a control barrier function with a linear bound.
 
     Args:
-        qd: wanted joint speeds, rad/s, (n,).
-        grad: from `distance_gradient`, metres per radian, (n,); 0 changes nothing.
-        distance: metres.
+        qd: wanted joint velocities, rad/s, (n,).
+        grad: gradient of the distance from `distance_gradient`, metres per radian,
+            (n,); if it is 0, qd is returned.
+        distance: distance minus the margin to keep, metres.
         gain: 1/s, at least 0.
 
     Returns:
-        Joint speeds, rad/s, (n,).
+        Joint velocities, rad/s, (n,).
 
     Raises:
         ValueError: wrong or unlike shapes, or a gain below 0.
@@ -279,7 +294,7 @@ def velocity_damper(
 
 
 def _valley(f: Callable[[float], float]) -> float:
-    """Return the least value of a convex function on 0 to 1, ends included."""
+    """Return the minimum of a convex function on 0 to 1 by golden-section search."""
     low = 0.0
     high = 1.0
     for _ in range(SECTIONS):

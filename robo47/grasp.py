@@ -1,15 +1,15 @@
-"""What a finger feels, and what a grasp can resist.
+"""Contact forces, friction cones and force closure.
 
 Conventions:
 
-- A contact's normal, of length 1, points out of the finger into the thing that is
-  held; forces act *on the thing*. Both in world axes.
-- Friction is Coulomb's: a contact holds while |f_t| <= mu f_n. That is a cone about the
-  normal; `cone_edges` cuts it to a pyramid of k edges.
-- Wrenches are (moment; force), the moment about a point of the thing.
-- Metres, newtons, float64. Contacts broadcast; a grasp is one set of contacts.
+- A contact's normal is a unit vector out of the finger into the object; forces act *on
+the object*. Both are expressed in the world frame. - Friction is Coulomb's: a contact
+does not slip as long as |f_t| <= mu f_n. These forces form a cone about the normal;
+`cone_edges` replaces it by a pyramid of k edges, which lies inside the cone. - Wrenches
+are (moment; force), with the moment about a point of the object. - Metres, newtons,
+float64. Contacts broadcast; a grasp is one set of contacts.
 
-Sources: Lynch and Park, *Modern Robotics* (2017), sections 12.1.3 and 12.2; Murray, Li
+Sources: Lynch and Park, *Modern Robotics* (2017), sections 12.1.7 and 12.2; Murray, Li
 and Sastry, *A Mathematical Introduction to Robotic Manipulation* (1994), chapter 5.
 """
 
@@ -21,24 +21,24 @@ from robo47.checks import Array
 from robo47.policy import LOW
 from robo47.screws import skew
 
-FINGER_POSITION = 4  # of a policy's six numbers: how far each pad is from the middle
-RANK = 1e-9  # a singular value counts above this times the largest
-BALANCE = 1e-9  # what may be left of a sum that is 0, of the sum of its sizes
+FINGER_POSITION = 4  # index in theta: the distance of each pad from the middle
+RANK = 1e-9  # smallest singular value of a full rank, relative to the largest
+BALANCE = 1e-9  # largest sum that is treated as 0, relative to the sum of its terms
 
 
 def cone_margin(force: ArrayLike, normal: ArrayLike, mu: ArrayLike) -> Array:
-    """Return how far contacts are from slipping: mu f_n - |f_t| (Coulomb).
+    """Return each contact's friction cone margin, mu f_n - |f_t| (Coulomb's law).
 
     Args:
-        force: on the thing, newtons, (..., 3).
-        normal: out of the finger, of length 1, (..., 3).
-        mu: friction, at least 0, (...).
+        force: on the object, newtons, (..., 3).
+        normal: unit vectors out of the finger, (..., 3).
+        mu: coefficients of friction, at least 0, (...).
 
     Returns:
-        Newtons, (...): negative outside the cone; a pull is outside.
+        Margins in newtons, (...): negative outside the cone, so for every pull.
 
     Raises:
-        ValueError: a wrong shape or number, or a normal that has another length.
+        ValueError: a wrong shape or number, or a normal that is no unit vector.
     """
     f = checks.array(force, "force", (3,))
     n = checks.unit_vector(normal, "normal")
@@ -55,19 +55,20 @@ def grip_reflex_step(
     fraction: float,
     step: float,
 ) -> float:
-    """Return the next opening: closed by a step where a contact nearly slips.
+    """Return the next finger position: closed by a step if any contact nearly slips.
 
-    Nearly: its margin is below a share of what it has when nothing pulls at it, mu f_n.
+    A contact nearly slips if its margin is below a fraction of mu f_n, its margin
+    without tangential force.
 
     Args:
-        finger_position: that the fingers are told now, metres.
+        finger_position: commanded distance of each pad from the middle, metres.
         force, normal, mu: of all contacts, as in `cone_margin`, (n, 3), (n, 3), (n,);
-            none, and the opening stays.
-        fraction: of mu f_n that is to be left, 0 to 1.
+            without a contact the position does not change.
+        fraction: of mu f_n, 0 to 1.
         step: metres, above 0.
 
     Returns:
-        The opening, metres; never closed beyond `policy.LOW`'s.
+        The next finger position, metres; never below the limit in `policy.LOW`.
 
     Raises:
         ValueError: as `cone_margin`.
@@ -82,14 +83,14 @@ def grip_reflex_step(
 
 
 def grasp_matrix(points: ArrayLike, centre: ArrayLike) -> Array:
-    """Return what forces at points do to a thing: G times all forces is a wrench.
+    """Return the grasp matrix G, which maps the contact forces to one wrench.
 
     Args:
-        points: where the contacts are, metres, (n, 3).
-        centre: about which moments are taken, metres, (3,).
+        points: contact points, metres, (n, 3).
+        centre: reference point c of the moment, metres, (3,).
 
     Returns:
-        G, (6, 3 n): [[p - c]; 1] for each point, one after the other.
+        G, (6, 3 n): the blocks [[p - c]; 1] of the contacts, side by side.
 
     Raises:
         ValueError: a wrong shape.
@@ -101,21 +102,22 @@ def grasp_matrix(points: ArrayLike, centre: ArrayLike) -> Array:
 
 
 def cone_edges(normal: ArrayLike, mu: float, k: int) -> Array:
-    """Return k edges of a friction cone, so that their positive sums are inside it.
+    """Return the k edges of a friction pyramid, which lies inside the friction cone.
 
-    n + mu (cos t a + sin t b), t = 2 pi i / k, with a = n x axis of length 1, for the
-    axis least along n (the first of equals), and b = n x a.
+    The edges are n + mu (cos t a + sin t b) with t = 2 pi i / k. Here a is the unit
+    vector along n x axis, where axis is the coordinate axis with the smallest
+    |component| of n (the first of equals), and b = n x a.
 
     Args:
-        normal: of length 1, (3,).
-        mu: friction, at least 0.
+        normal: unit vector n, (3,).
+        mu: coefficient of friction, at least 0.
         k: number of edges, at least 1.
 
     Returns:
-        (k, 3): each presses with 1, so it is longer than 1 where mu is above 0.
+        (k, 3): each edge has a normal force of 1, so its norm is above 1 if mu is.
 
     Raises:
-        ValueError: a wrong shape or number, or a normal that has another length.
+        ValueError: a wrong shape or number, or a normal that is no unit vector.
     """
     n = checks.unit_vector(checks.array(normal, "normal", (3,)), "normal")
     if k < 1:
@@ -128,18 +130,19 @@ def cone_edges(normal: ArrayLike, mu: float, k: int) -> Array:
 
 
 def certifies_force_closure(W: ArrayLike, weights: ArrayLike) -> bool:
-    """Return whether weights prove that a grasp resists every wrench.
+    """Return whether the weights are a certificate of force closure.
 
-    They do where W has rank 6 and W w = 0 with every weight above 0: then each column
-    can be undone by the others, and any wrench is a sum of columns with weights of one
-    sign (Modern Robotics, 12.1.7). Not to find such weights proves nothing.
+    They are if W has rank 6 and W w = 0 with every weight above 0. Then W (y + s w) =
+    W y for any s, so every wrench is a sum of columns with weights of at least 0
+    (Modern Robotics, section 12.1.7). False proves nothing: other weights may be a
+    certificate.
 
     Args:
         W: wrenches of all edges of all contacts, in columns, (6, n).
         weights: of the columns, (n,).
 
     Returns:
-        True or False; the same in any unit of force or length that serves all columns.
+        True or False; the unit of force, or the scale of the weights, has no effect.
 
     Raises:
         ValueError: a wrong shape.

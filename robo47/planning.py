@@ -1,17 +1,17 @@
-"""Finding a way: a random tree, a checker of edges, and how fast a path may be run.
+"""Sampling-based path planning, and the time-optimal motion along a path.
 
-A planner is a search with a checker: it knows of the world what the checker says of
-an edge, and nothing else. How often it finds a way is a share, and a share has an
-interval. A path becomes a motion when each torque's limit is divided by what it has to
-move.
+RRT-Connect with shortcutting, the confidence interval of a success rate, the torques
+along a path, and time-optimal path parameterisation (TOPP). A planner knows the world
+only through its collision checker, so verify its paths with an independent check.
 Conventions:
 
 - A configuration is a row of k numbers: (x, y) in the plane, joint angles of an arm.
-- A world is an array of discs (x, y, radius), or anything with a method
-  `edge_free(a, b)` that says whether the straight edge from a to b is free.
-- What is random is an argument: samples of a planner, pairs of a shortcut.
-- A path q(s), s from 0 to 1, has dq_ds = dq/ds and d2q_ds2 = d2q/ds2; its
-  speed sd is ds/dt, and sd2 = sd^2. Time is not in it.
+- An edge is a straight segment between two configurations.
+- A world is an array of discs (x, y, radius), or a collision checker: any object with a
+  method `edge_free(a, b)` that returns whether the edge from a to b is collision-free.
+- Random numbers are arguments: the samples of a planner, the pairs of a shortcut.
+- A path q(s), s from 0 to 1, has the derivatives dq_ds = dq/ds and d2q_ds2 = d2q/ds2.
+  The path speed sd is ds/dt, sdd is its time derivative, and sd2 = sd^2.
 - Radians, metres, seconds, N m.
 
 Sources: Kuffner and LaValle, "RRT-Connect: an efficient approach to single-query path
@@ -30,16 +30,16 @@ from numpy.typing import ArrayLike
 from robo47 import checks
 from robo47.checks import Array
 
-Z_95 = 1.96  # a normal number lies within it 95 times in 100
+Z_95 = 1.96  # standard deviations that contain 95 % of a normal distribution
 BISECTIONS = 60  # halve an interval to the last bit of float64 and beyond
 
 
 @runtime_checkable
 class CollisionChecker(Protocol):
-    """A world of one's own: it says whether a straight edge is free."""
+    """A world that tests edges by its own method."""
 
     def edge_free(self, a: Array, b: Array) -> bool:
-        """Return whether the edge from a to b is free."""
+        """Return whether the edge from a to b is collision-free."""
         ...
 
 
@@ -47,46 +47,48 @@ World = ArrayLike | CollisionChecker
 
 
 def nearest(tree: ArrayLike, q: ArrayLike) -> int:
-    """Return which node of the tree is nearest to q; the first of equals.
+    """Return the index of the node that is nearest to q, the first of equal ones.
 
     Args:
         tree: nodes, (n, k).
-        q: (k,).
+        q: configuration, (k,).
 
     Returns:
-        Its row, from 0.
+        The row of the node, from 0. The distance is Euclidean.
     """
     tree = checks.array(tree, "tree", ("n", "k"))
     return _nearest(tree, checks.array(q, "q", (tree.shape[-1],)))
 
 
 def steer(q: ArrayLike, target: ArrayLike, step: float) -> Array:
-    """Return the point on the way from q to the target, no further than a step.
+    """Return the point at the distance `step` from q on the segment to the target.
 
     Args:
-        q: (k,).
-        target: (k,).
-        step: the length of a step, in the units of q, above 0.
+        q: configuration, (k,).
+        target: configuration, (k,).
+        step: length of the step in the units of q, above 0.
 
     Returns:
-        (k,): a copy of the target, to the last bit, where it is no further away.
+        (k,). If the target is not further away than a step, this is a copy of the
+        target with exactly its numbers.
     """
     q, target = checks.same_size(q=q, target=target)
     return _steer(q, target, float(checks.positive(step, "step")))
 
 
 def segment_free_of_discs(a: ArrayLike, b: ArrayLike, discs: ArrayLike) -> bool:
-    """Return whether the straight edge from a to b touches no disc.
+    """Return whether the straight edge from a to b is collision-free.
 
-    A disc's nearest point of the edge is the foot of its centre, or an end.
+    The point of the edge that is nearest to a centre is the foot of the perpendicular,
+    clamped to the edge.
 
     Args:
         a: (2,).
-        b: (2,); it may be a.
-        discs: rows (x, y, radius), (m, 3), also none. Touching is not free.
+        b: (2,); it may equal a.
+        discs: rows (x, y, radius), (m, 3); m may be 0.
 
     Returns:
-        True or False.
+        True or False. An edge that touches a disc is not collision-free.
     """
     a = checks.array(a, "a", (2,))
     b = checks.array(b, "b", (2,))
@@ -94,12 +96,12 @@ def segment_free_of_discs(a: ArrayLike, b: ArrayLike, discs: ArrayLike) -> bool:
 
 
 def edge_free(a: ArrayLike, b: ArrayLike, world: World) -> bool:
-    """Return whether the straight edge from a to b is free in this world.
+    """Return whether the straight edge from a to b is collision-free in this world.
 
     Args:
-        a: (k,).
-        b: (k,).
-        world: discs (m, 3), or what has a method `edge_free(a, b)`.
+        a: configuration, (k,).
+        b: configuration, (k,).
+        world: discs (m, 3), or a collision checker with a method `edge_free(a, b)`.
 
     Returns:
         True or False.
@@ -111,17 +113,17 @@ def edge_free(a: ArrayLike, b: ArrayLike, world: World) -> bool:
 def extend(
     tree: ArrayLike, sample: ArrayLike, step: float, world: World
 ) -> tuple[int, Array, bool]:
-    """Return how a tree would grow towards a sample: from where, to where, and if free.
+    """Return how a tree grows by one edge towards a sample: (index, point, free).
 
     Args:
         tree: nodes, (n, k).
-        sample: (k,).
-        step: of an edge at most, above 0.
-        world: discs (m, 3), or what has a method `edge_free(a, b)`.
+        sample: configuration, (k,).
+        step: largest length of an edge, above 0.
+        world: discs (m, 3), or a collision checker with a method `edge_free(a, b)`.
 
     Returns:
-        The row of the nearest node; the point a step from it towards the sample, (k,);
-        whether the edge between the two is free.
+        The row of the nearest node; the point one step from it towards the sample,
+        (k,); whether the edge between the two is collision-free.
     """
     tree = checks.array(tree, "tree", ("n", "k"))
     sample = checks.array(sample, "sample", (tree.shape[-1],))
@@ -132,21 +134,22 @@ def extend(
 def rrt_connect(
     start: ArrayLike, goal: ArrayLike, world: World, samples: ArrayLike, step: float
 ) -> Array:
-    """Return a way from start to goal, found by two trees (Kuffner, LaValle, 2000).
+    """Return a path from start to goal by RRT-Connect (Kuffner and LaValle, 2000).
 
-    Sample 0, 2, 4, ... grows the tree of the start, sample 1, 3, ... that of the goal,
-    by one edge, if it is free. Then the other tree grows towards the new node, edge
-    after edge, until one is not free or it stands at that very node: the way is found.
+    The samples 0, 2, 4, ... grow the start's tree by one edge each, the samples 1, 3,
+    ... the goal's tree. If the edge is collision-free, the other tree grows towards the
+    new node, edge after edge, until an edge collides or the two trees meet at that
+    node. Then the path is found.
 
     Args:
-        start: (k,).
-        goal: (k,).
-        world: discs (m, 3), or what has a method `edge_free(a, b)`.
-        samples: drawn by the caller and used in order, (n, k).
-        step: of an edge at most, above 0.
+        start: configuration, (k,).
+        goal: configuration, (k,).
+        world: discs (m, 3), or a collision checker with a method `edge_free(a, b)`.
+        samples: configurations, used in their order, (n, k).
+        step: largest length of an edge, above 0.
 
     Returns:
-        The way from start to goal, (m, k); (0, k) if these samples find none.
+        The path from start to goal, (m, k); (0, k) if these samples find none.
     """
     start, goal = checks.same_size(start=start, goal=goal)
     samples = _rows(samples, "samples", start.size)
@@ -170,25 +173,27 @@ def rrt_connect(
 
 
 def shortcut(path: ArrayLike, world: World, pairs: ArrayLike) -> Array:
-    """Return a path without the corners that a straight free edge can leave out.
+    """Return the path after shortcutting: unnecessary waypoints are removed.
 
-    Each pair (u, v) names two points of the path as it is by then: rows int(u m) and
-    int(v m) of its m. If they are more than one apart and the edge between them is
-    free, what lies between them goes.
+    Each pair (u, v) names the rows int(u m) and int(v m) of the path, where m is its
+    number of rows at that moment. If these rows are more than one apart and the edge
+    between them is collision-free, all rows between them are removed.
 
     Args:
-        path: (m, k).
-        world: discs (m, 3), or what has a method `edge_free(a, b)`.
-        pairs: of numbers from 0 to below 1, in any order, (p, 2).
+        path: waypoints, (m, k).
+        world: discs (m, 3), or a collision checker with a method `edge_free(a, b)`.
+        pairs: numbers from 0 to below 1, in any order, (p, 2).
 
     Returns:
-        The shorter path, with the same ends, (m', k).
+        The shorter path with the same ends, (m', k).
     """
     path = checks.array(path, "path", ("m", "k"))
     world = _world(world)
     pairs = _rows(pairs, "pairs", 2)
     if not np.all((pairs >= 0.0) & (pairs < 1.0)):
-        raise ValueError("pairs are from 0 to below 1: parts of the path's length")
+        raise ValueError(
+            "pairs must be from 0 to below 1: fractions of the path's rows"
+        )
     for pair in pairs:
         i, j = sorted((pair * len(path)).astype(int))
         if j - i > 1 and _edge_free(path[i], path[j], world):
@@ -197,21 +202,21 @@ def shortcut(path: ArrayLike, world: World, pairs: ArrayLike) -> Array:
 
 
 def wilson_interval(successes: float, n: float) -> Array:
-    """Return all shares that n trials make believable, at 95 % (Wilson, 1927).
+    """Return Wilson's 95 % confidence interval for a success rate (Wilson, 1927).
 
-    The roots p of (p - k/n)^2 = z^2 p (1 - p) / n, with z = 1.96.
+    The ends are the roots p of (p - k/n)^2 = z^2 p (1 - p) / n, with z = 1.96.
 
     Args:
-        successes: k of the n, from 0 to n.
-        n: trials; with none every share is believable.
+        successes: number k of successful trials, from 0 to n.
+        n: number of trials; without a trial the interval is (0, 1).
 
     Returns:
-        The least and the greatest share, (2,).
+        The lower and the upper end, (2,).
     """
     n = float(checks.not_negative(n, "n"))
     k = float(checks.not_negative(successes, "successes"))
     if k > n:
-        raise ValueError(f"{k:g} successes of {n:g} trials; there cannot be more")
+        raise ValueError(f"successes is {k:g} of {n:g} trials; expected 0 to {n:g}")
     if n == 0.0:
         return np.array([0.0, 1.0])
     middle = k + Z_95**2 / 2.0
@@ -226,17 +231,17 @@ def path_dynamics(
     coriolis: ArrayLike,
     gravity: ArrayLike,
 ) -> Array:
-    """Return what torque a point of a path asks for: tau = a sdd + b sd^2 + c.
+    """Return a, b and c of the torques along a path: tau = a sdd + b sd^2 + c.
 
-    q(s) gives qd = dq_ds sd and qdd = dq_ds sdd + d2q_ds2 sd^2; Coriolis torques are
-    quadratic in qd (MR section 9.4).
+    q(s) gives qd = dq_ds sd and qdd = dq_ds sdd + d2q_ds2 sd^2, and the Coriolis torque
+    is quadratic in qd (MR section 9.4).
 
     Args:
-        M: mass matrix at q(s), (k, k).
+        M: mass matrix at q(s), kg m^2, (k, k).
         dq_ds: dq/ds, rad, (k,).
         d2q_ds2: d2q/ds2, rad, (k,).
-        coriolis: its torque at qd = dq_ds, N m, (k,).
-        gravity: its torque, N m, (k,).
+        coriolis: Coriolis torque at qd = dq_ds, N m, (k,).
+        gravity: gravity torque, N m, (k,).
 
     Returns:
         Rows a, b and c, N m, (3, k).
@@ -251,18 +256,20 @@ def path_dynamics(
 def path_accel_bounds(
     a: ArrayLike, b: ArrayLike, c: ArrayLike, limits: ArrayLike, sd: float
 ) -> Array:
-    """Return the least and the greatest sdd that all torques allow at a speed sd.
+    """Return the lower and the upper bound of the path acceleration sdd at a speed sd.
+
+    Between them all torques a sdd + b sd^2 + c are within their limits.
 
     Args:
-        a: N m per sdd, (k,).
-        b: N m per sd^2, (k,).
-        c: N m, (k,).
-        limits: of each torque, both ways, N m, (k,), above 0.
-        sd: ds/dt, 1/s.
+        a: `path_dynamics`' a at one point, N m, (k,).
+        b: its b, N m, (k,).
+        c: its c, the gravity torque, N m, (k,).
+        limits: torque limits, the same in both directions, N m, (k,), above 0.
+        sd: path speed ds/dt, 1/s.
 
     Returns:
-        1/s^2, (2,). Where the first is above the second, none is allowed. A joint with
-        a = 0 limits nothing; (inf, -inf) if it cannot hold its torque.
+        1/s^2, (2,). If the lower bound is above the upper one, no sdd is permitted. A
+        joint with a = 0 bounds nothing; (inf, -inf) if its torque exceeds its limit.
     """
     a, b, c, limits = checks.same_size(a=a, b=b, c=c, limits=limits)
     checks.positive(limits, "limits")
@@ -273,21 +280,21 @@ def path_accel_bounds(
 def time_optimal_profile(
     a: ArrayLike, b: ArrayLike, c: ArrayLike, limits: ArrayLike, sd2_max: ArrayLike
 ) -> Array:
-    """Return sd^2 of the fastest motion along a path, from rest to rest.
+    """Return sd^2 of the time-optimal motion along a path, from rest to rest.
 
-    Over a step ds = 1/N with sdd = u, sd^2 grows by 2 ds u. Backwards: the greatest
-    sd^2 from which the next one can be reached. Forwards: as much as the joints give
-    below it (Pham and Pham, 2018).
+    Over a step ds = 1/N with sdd = u, sd^2 grows by 2 ds u. The backward pass computes
+    the largest sd^2 from which the motion can still stop at the end, the forward pass
+    the largest sd^2 below it that the torques permit (Pham and Pham, 2018).
 
     Args:
         a: `path_dynamics`' a at N + 1 points, N m, (N + 1, k).
         b: its b, N m, (N + 1, k).
         c: its c, N m, (N + 1, k).
-        limits: of each torque, both ways, N m, (k,), above 0.
-        sd2_max: greatest sd^2 that the motors' speeds allow, 1/s^2, (N + 1,).
+        limits: torque limits, the same in both directions, N m, (k,), above 0.
+        sd2_max: largest sd^2 that the velocity limits permit, 1/s^2, (N + 1,).
 
     Returns:
-        sd^2, 1/s^2, (N + 1,); zeros where gravity alone is too much at some point.
+        sd^2, 1/s^2, (N + 1,); zeros if gravity alone exceeds a limit at any point.
     """
     a = checks.array(a, "a", ("n", "k"))
     b = checks.array(b, "b", a.shape)
@@ -308,15 +315,16 @@ def time_optimal_profile(
 
 
 def travel_time(sd2: ArrayLike) -> float:
-    """Return how long a path takes whose sd^2 at N + 1 even points is sd2.
+    """Return the travel time of a path with sd^2 = sd2 at equally spaced points.
 
-    sdd is constant over a step, so its mean speed is that of its ends.
+    sdd is constant over a step, so the mean speed of a step is the mean of the speeds
+    at its ends.
 
     Args:
-        sd2: sd^2, 1/s^2, (N + 1,).
+        sd2: sd^2 at N + 1 points, 1/s^2, (N + 1,).
 
     Returns:
-        s; infinity where it stands still.
+        s; infinity if the motion rests over a whole step.
     """
     sd = np.sqrt(checks.not_negative(checks.array(sd2, "sd2", ("n",)), "sd2"))
     ends = sd[1:] + sd[:-1]
@@ -366,7 +374,7 @@ def _grow(
     step: float,
     world: Array | CollisionChecker,
 ) -> bool:
-    """Add a node towards the target if the edge is free; return whether it was."""
+    """Add a node towards the target if the edge is collision-free; return whether."""
     i, q, free = _extend(np.array(nodes), target, step, world)
     if free:
         nodes.append(q)
@@ -385,7 +393,7 @@ def _to_root(nodes: list[Array], parents: list[int]) -> list[Array]:
 
 
 def _range(a: Array, rest: Array, limits: Array) -> tuple[float, float]:
-    """Return the least and greatest u with |a u + rest| <= limits for every joint."""
+    """Return the bounds of u with |a u + rest| <= limits for every joint."""
     pulls = a != 0.0
     if np.any(np.abs(rest[~pulls]) > limits[~pulls]):
         return math.inf, -math.inf
@@ -399,10 +407,10 @@ def _range(a: Array, rest: Array, limits: Array) -> tuple[float, float]:
 def _reaches_next(
     a: Array, b: Array, g: Array, limits: Array, top: float, after: float, two_ds: float
 ) -> float:
-    """Return the greatest x up to `top` from which 0 to `after` can be reached.
+    """Return the largest sd^2 = x up to `top` from which 0 to `after` can be reached.
 
-    All limits are straight lines in (x, sdd), so these x are an interval, and the arm
-    can stand still: 0 is one of them.
+    All limits are linear in (x, sdd), so these x form an interval. It contains 0,
+    because the arm can stand still.
     """
 
     def reached(x: float) -> bool:

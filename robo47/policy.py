@@ -1,11 +1,12 @@
-"""A policy of six numbers, what it is worth, and how it learns.
+"""A grasp policy with six parameters, its reward, and the cross-entropy method.
 
-theta = (shift x, shift y, turn, height, opening, lift), (6,): where the hand goes
-beside a cube, in the *cube's* axes, how high it grasps, how far each finger is told to
-close (less than the cube's half width: it presses), how far it lifts. Conventions:
+theta = (shift x, shift y, rotation, height, opening, lift), (6,): the pose of the hand
+relative to a cube, expressed in the *cube's* frame; the height of the grasp; the
+commanded distance of each pad from the middle (below the cube's half width the pads
+press); the height of the lift. Conventions:
 
-- What is random is an argument: a camera's noise, a search's samples.
-- A policy is judged by cubes that it has not been trained on, with an interval.
+- Random quantities are arguments: a camera's noise, a search's samples.
+- A policy is tested on cubes that had no part in training, with an interval.
 - Metres, radians, float64.
 
 Sources: Rubinstein, "The cross-entropy method for combinatorial and continuous
@@ -20,7 +21,7 @@ from robo47 import checks
 from robo47.checks import Array
 from robo47.planning import wilson_interval
 
-# What the hand can do: a theta beyond it is clipped.
+# The limits of the hand: theta is clipped to them.
 LOW = np.array([-0.02, -0.02, -0.8, 0.0, -0.02, 0.0])
 HIGH = np.array([0.02, 0.02, 0.8, 0.04, 0.04, 0.25])
 LOW.setflags(write=False)
@@ -28,14 +29,14 @@ HIGH.setflags(write=False)
 
 
 def observe(T_seen: ArrayLike, noise: ArrayLike) -> Array:
-    """Return what a policy is told of a cube: where it is, and how it is turned.
+    """Return the policy's observation of an upright cube: position and yaw.
 
-    A cube looks the same four times a turn, so its yaw, with the noise in it, is folded
-    into [-pi / 4, pi / 4).
+    A cube looks the same after a quarter turn, so its yaw, with the noise added, is
+    reduced modulo pi / 2 to [-pi / 4, pi / 4).
 
     Args:
-        T_seen: the cube's pose, upright, (4, 4).
-        noise: of x, y, yaw: metres, metres, radians, (3,).
+        T_seen: the cube's pose in the world frame, upright, (4, 4).
+        noise: added to x, y, yaw: metres, metres, radians, (3,).
 
     Returns:
         (x, y, yaw), (3,).
@@ -52,15 +53,16 @@ def observe(T_seen: ArrayLike, noise: ArrayLike) -> Array:
 
 
 def act(theta: ArrayLike, observation: ArrayLike) -> Array:
-    """Return what the hand is to do: x, y, yaw, height, opening, lift.
+    """Return the policy's action: x, y, yaw, height, opening, lift.
 
     Args:
-        theta: the policy, (6,); clipped to `LOW` and `HIGH` first.
-        observation: from `observe`, (3,): the shift is in the axes of the cube as it
-            was seen.
+        theta: the policy's parameters, (6,); clipped to `LOW` and `HIGH` first.
+        observation: from `observe`, (3,); theta's shift is expressed in the frame of
+            the cube as it was seen.
 
     Returns:
-        (6,): hand's place and turn in the world, then theta's last three numbers.
+        (6,): position and yaw of the hand in the world frame, then the last three
+        parameters of theta.
 
     Raises:
         ValueError: a wrong shape.
@@ -73,15 +75,15 @@ def act(theta: ArrayLike, observation: ArrayLike) -> Array:
 
 
 def reward(heights: ArrayLike, target: float, cap: float) -> Array:
-    """Return what episodes are worth: 1 where a cube was lifted to the target.
+    """Return the reward of each episode: 1 if the cube was lifted to the target.
 
     Args:
-        heights: at the end of each, metres, (n,); NaN where the simulation was lost.
-        target: metres, above 0: more is worth no more.
-        cap: metres: what is higher was thrown.
+        heights: final heights, metres, (n,); NaN if the simulation diverged.
+        target: metres, above 0; a greater height has the same reward.
+        cap: metres; a cube above it was thrown.
 
     Returns:
-        (n,): 0 to 1; -1 for what was thrown or lost.
+        (n,): 0 to 1, linear in the height; -1 if the cube was thrown or lost.
 
     Raises:
         ValueError: heights that are no vector, or a target that is not above 0.
@@ -97,17 +99,18 @@ def reward(heights: ArrayLike, target: float, cap: float) -> Array:
 def cem_step(
     mean: ArrayLike, std: ArrayLike, noise: ArrayLike, scores: ArrayLike, elite: int
 ) -> tuple[Array, Array]:
-    """Return the next bell of policies: that of the best of this one's samples.
+    """Return the next mean and std of the cross-entropy method (Rubinstein, 1999).
 
     Args:
-        mean, std: of each number, (d,).
-        noise: from which the samples mean + std noise were made, (n, d).
-        scores: of the samples, (n,); a NaN is worse than all others, of equals the
-            first is better.
-        elite: how many are kept, 1 to n.
+        mean, std: of the present Gaussian, one entry per parameter, (d,).
+        noise: the samples are mean + std noise, (n, d).
+        scores: of the samples, (n,); a NaN is worse than all other scores, and of
+            equal scores the first is better.
+        elite: number of samples that are kept, 1 to n.
 
     Returns:
-        (mean, std), (d,) each: those of the elite (Rubinstein, 1999), over its number.
+        (mean, std), (d,) each: mean and standard deviation of the elite, the latter
+        divided by their number.
 
     Raises:
         ValueError: a wrong shape or number.
@@ -126,10 +129,10 @@ def cem_step(
 
 
 def success_rate(success: ArrayLike) -> Array:
-    """Return a rate and its 95 % interval (Wilson's).
+    """Return the success rate and its 95 % confidence interval (Wilson's).
 
     Args:
-        success: True or 1 where it was one, (n,).
+        success: True or 1 for each trial that succeeded, (n,).
 
     Returns:
         (rate, low, high), (3,).
@@ -144,14 +147,14 @@ def success_rate(success: ArrayLike) -> Array:
 
 
 def paired_difference(first: ArrayLike, second: ArrayLike) -> Array:
-    """Return by how much the first is better than the second, on the same cubes.
+    """Return the mean paired difference of two policies and its standard error.
 
     Args:
-        first, second: success or worth of each, cube by cube, (n,) each.
+        first, second: success or reward of each, on the same cubes, (n,) each.
 
     Returns:
-        (mean, sigma), (2,): the mean of the differences, and how sure it is, their
-        standard deviation (over n) divided by sqrt(n).
+        (mean, standard error), (2,), of first minus second; the standard error is the
+        standard deviation (divided by n) over sqrt(n).
 
     Raises:
         ValueError: wrong shapes.

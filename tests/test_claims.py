@@ -134,9 +134,9 @@ def test_the_call_shown_has_a_wrong_entry():
     )
     mine, its = (
         found["8.5"]
-        .call.removesuffix(" is right.")
-        .rsplit(" is ", 1)[1]
-        .split(", and ")
+        .call.removesuffix(".")
+        .rsplit(" returned ", 1)[1]
+        .split("; expected ")
     )
     assert mine != its
 

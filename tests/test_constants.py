@@ -96,9 +96,9 @@ def test_what_nothing_moves_and_what_is_rounding_are_said_so():
     numbers.add("off", "{:.0e}", wait=same("by hand"))(lambda wait=1.0: wait * 1e-15)
     text = table(numbers.measured())
     assert (
-        "| legs: **4** (hangs on none of these) | it waits 1 → 2 s | the same" in text
+        "| legs: **4** (depends on none of these) | it waits 1 → 2 s | the same" in text
     )
-    assert "| off: **rounding** (hangs on none of these) |" in text
+    assert "| off: **rounding** (depends on none of these) |" in text
     drawn = between(0.5, 2.0, "another draw", to=48.0)
     numbers = Numbers(wait="seed {}")
     numbers.add("mean", "{:.0f}", wait=drawn)(lambda wait=47.0: wait)

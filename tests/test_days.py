@@ -95,6 +95,7 @@ class TestManifest:
         """A term, or two that people confuse: "screw axis or twist"."""
         guide = (day.folder / day.guide).read_text("utf-8")
         words = {word.lower() for word in re.findall(r"\*\*(.+?)\*\*", guide)}
+        words |= {word.removesuffix("s") for word in words}  # the plural defines, too
         asked = {word.lower() for term in day.terms for word in term.split(" or ")}
         assert asked <= words
 

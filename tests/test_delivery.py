@@ -64,7 +64,7 @@ def test_what_the_week_predicts_on_paper_is_what_its_page_says(right):
     assert f"= {LIGHT * 9.81 * 0.5:.2f} N m" in page
     closed = right.qpos[np.searchsorted(right.t, dict(right.phases)["lift"]), 7]
     grip = 50.0 * closed
-    assert f"press with {grip:.2f} N each" in page
+    assert f"presses with {grip:.2f} N" in page
     heavy = 2.0 * grip / 0.15 - 9.81
     assert (
         f"{2.0 * grip / LIGHT - 9.81:.1f} m/s² for 80 g, {heavy:.1f} m/s² for" in page

@@ -38,6 +38,18 @@ DOCUMENTS = [
 ]
 
 
+def test_no_line_of_a_paragraph_becomes_a_list_item():
+    """In Markdown a line that begins with "1." ends a paragraph and begins a list."""
+    item = re.compile(r"\s*(?:[0-9]+[.)]|[-*+]) ")
+    for path in DOCUMENTS:
+        text = re.sub(r"```.*?```", "", path.read_text("utf-8"), flags=re.DOTALL)
+        for block in re.split(r"\n\s*\n", text):
+            first, *others = block.strip("\n").splitlines() or [""]
+            if not item.match(first):
+                broken = [line for line in others if re.match(r" {0,3}1[.)] ", line)]
+                assert not broken, f"{path.name}: {broken[0]}"
+
+
 @pytest.mark.kit
 def test_every_output_in_the_documents_is_what_the_command_prints_today(
     monkeypatch, tmp_path, capsys

@@ -124,6 +124,16 @@ def test_whom_the_platform_cannot_know_is_named_before_anybody_is_graded(tmp_pat
         known(CANVAS, find_students(tmp_path))
 
 
+@pytest.mark.parametrize("twice", ["7", "007@X.org"])
+def test_two_students_of_one_name_there_are_named_before_anybody_is_graded(
+    tmp_path, twice
+):
+    table = f"name,folder,ID,email\nMia,a,{twice},{twice}\nTom,b,{twice.lower()},c\n"
+    (tmp_path / "roster.csv").write_text(table, "utf-8")
+    with pytest.raises(Robo47Error, match="Canvas cannot tell Mia from Tom: both have"):
+        known(CANVAS, find_students(tmp_path))
+
+
 def test_the_teachers_guide_shows_what_is_written(tmp_path):
     guide = (ROOT / "docs" / "teaching.md").read_text("utf-8")
     tables = re.findall(r"```text\n((?:Student|ID number),.*?)```", guide, re.DOTALL)

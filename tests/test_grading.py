@@ -585,6 +585,30 @@ class TestPulling:
         found = class_.path.parent.rglob("50")  # some object may be named so, too
         assert not [p for p in found if ".git" not in p.parts]
 
+    def test_checks_out_no_folders_deep_in_each_other(self, class_):
+        origin = Path(class_.url)
+        blob = made(origin, "hash-object", "-w", "--stdin", given=b"x")
+        entry = f"100644 blob {blob}\tf\n"
+        for _ in range(git.DEEPEST + 1):
+            tree = made(origin, "mktree", given=entry.encode())
+            entry = f"040000 tree {tree}\td\n"
+        parent = made(origin, "rev-parse", "HEAD")
+        tree = made(origin, "mktree", given=entry.encode())
+        words = ("commit-tree", "-m", "x", "-p", parent, tree)
+        made(origin, "update-ref", "HEAD", made(origin, *words))
+        ((_, problem),) = pull_all([class_])
+        assert f"more than {git.DEEPEST} deep" in problem
+        assert not class_.path.exists()
+
+    def test_folders_that_cannot_be_removed_cost_one_student(self, class_, monkeypatch):
+        def deep(*_, **__):
+            raise RecursionError
+
+        monkeypatch.setattr(shutil, "rmtree", deep)
+        ((student, problem),) = pull_all([class_])
+        assert student is class_
+        assert "too deep" in problem
+
     @pytest.mark.parametrize("how", ["commondir", "config", "link", "elsewhere"])
     def test_pulls_nothing_whose_configuration_is_anothers(self, class_, how, tmp_path):
         list(pull_all([class_]))
@@ -890,7 +914,9 @@ def graded(*statuses: str, name: str = "", mistakes: dict[int, str] | None = Non
 def standing(class_: Sequence[Graded]) -> list[tuple[str, ...]]:
     """Return what the page says beside each task, and the colours of its bar."""
     _, _, chart = page.render(Course(DAY, class_)).partition('aria-label="Tasks">')
-    rows = chart.partition("</svg>")[0].split('<text x="0"')[1:]
+    # A long label has a second, narrow text, which is no row of its own.
+    begins = r'<text x="0"(?![^>]*class="narrow")'
+    rows = re.split(begins, chart.partition("</svg>")[0])[1:]
     return [
         (
             re.search(r">([^<]*)</text><rect", row)[1],

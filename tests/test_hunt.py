@@ -3,6 +3,8 @@
 import ast
 import json
 import re
+from contextlib import closing
+from dataclasses import asdict
 from types import SimpleNamespace
 
 import make_hunters
@@ -13,7 +15,7 @@ from conftest import copy_kit
 from labkit import log as metrics
 from labkit.base.deadline import Deadline
 from labkit.commands import hunt
-from labkit.grade import hunts, hunts_page
+from labkit.grade import engine, hunts, hunts_page
 from labkit.grade.roster import find_students
 from labkit.hunt import case as cases
 from labkit.hunt import experiment, quarry, tally, written
@@ -25,7 +27,7 @@ from labkit.lesson.starter import function_lines, put_back
 from labkit.lesson.week import weeks
 from labkit.report.page import render
 from labkit.report.series import Report
-from robo47.errors import Robo47Error
+from robo47.errors import FaultError, Robo47Error
 
 HUNT = "scripts/hunt_bug.py"
 
@@ -272,11 +274,24 @@ class TestTheCommand:
         assert "Traceback" not in done.stderr
 
 
+GIVEN = hunts.Hunt(make_hunters.DAY, make_hunters.LEVEL, make_hunters.SEED)
+
+
+def hunters_of(clones, deadline=None, seed=None, hunt=GIVEN):
+    """Return everybody's hunt and the seed; the journal lies beside the clones."""
+    path = clones / "hunting.jsonl"
+    with (
+        closing(hunts.HuntJournal(path, hunt, deadline, seed)) as journal,
+        engine.local(2) as it,
+    ):
+        return list(hunts.grade(hunt, find_students(clones), it, journal)), journal.seed
+
+
 @pytest.mark.kit
 def test_a_class_is_graded_by_its_scripts_and_not_by_its_word(tmp_path):
     make_hunters.make(tmp_path)
-    hunt = hunts.Hunt(make_hunters.DAY, make_hunters.LEVEL, make_hunters.SEED)
-    class_ = list(hunts.grade(hunt, find_students(tmp_path)))
+    hunt = GIVEN
+    class_, _ = hunters_of(tmp_path)
     assert {one.student.name: one.state for one in class_} == {
         "another-seed": hunts.NO_HUNT,
         "broken": hunts.UNGRADED,
@@ -296,7 +311,7 @@ def test_a_class_is_graded_by_its_scripts_and_not_by_its_word(tmp_path):
     assert odd["runs-edited-0"] == ["the log says 1 runs, hunt.json 4"]
     page = hunts_page.render(hunt, class_)
     assert "the committed script does not repair it" in page
-    late = list(hunts.grade(hunt, find_students(tmp_path), deadline=1_000_000_000))
+    late, _ = hunters_of(tmp_path, deadline=1_000_000_000)
     assert {one.state for one in late} == {hunts.NO_HUNT}
 
 
@@ -318,19 +333,20 @@ def test_a_hostile_hunt_costs_one_grade_and_not_the_classs(tmp_path):
     for name, hunter in hostile_hunters().items():
         hunter.write(tmp_path / name)
     honest = make_hunters.hunters()["found"]
-    for name in ("columns", "zz-honest"):
+    for name in ("columns", "rows", "zz-honest"):
         honest.write(tmp_path / name)
+    short = tmp_path / "rows" / "metrics" / "metrics.csv"
+    short.write_text(short.read_text("utf-8") + "1\n" * 20_000, "utf-8")
+    make_hunters.commit(tmp_path / "rows")
     table = tmp_path / "columns" / "metrics" / "metrics.csv"
     table.write_text(",".join("a" * 20_000) + "\n" + "1\n" * 20_000)
     make_hunters.commit(tmp_path / "columns")
-    hunt = hunts.Hunt(make_hunters.DAY, make_hunters.LEVEL, make_hunters.SEED)
-    class_ = {
-        one.student.name: one for one in hunts.grade(hunt, find_students(tmp_path))
-    }
+    class_ = {one.student.name: one for one in hunters_of(tmp_path)[0]}
     assert {name: one.state for name, one in class_.items()} == {
         "big": hunts.UNGRADED,
         "columns": hunts.FOUND,
         "infinite": hunts.NAMED,
+        "rows": hunts.FOUND,
         "sleeps": hunts.NAMED,
         "zz-honest": hunts.FOUND,
     }
@@ -345,3 +361,81 @@ def test_all_functions_of_a_hunt_have_one_deadline():
     none_left = Deadline(-1.0)
     found = judged(case, hunter.text.encode(), 1, none_left)
     assert [one.verdict.mistake for one in found] == ["too-slow"] * 2
+
+
+class TestAClassHuntThatIsGradedAgain:
+    @pytest.fixture
+    def judged_now(self, monkeypatch):
+        """Count the hunts that go to a grading process."""
+        sent = []
+
+        def counted(package):
+            sent.append(package)
+            return {"state": hunts.NOT_FOUND}
+
+        monkeypatch.setattr(hunts, "grade_package", counted)
+        return sent
+
+    def test_keeps_its_seed_and_judges_only_what_has_changed(
+        self, tmp_path, judged_now
+    ):
+        for name in ("a", "b"):
+            make_hunters.Hunter().write(tmp_path / name)
+        first, seed = hunters_of(tmp_path)
+        make_hunters.Hunter().suspect(make_hunters.GUILTY).write(tmp_path / "b")
+        assert hunters_of(tmp_path) == (first, seed)
+        assert len(judged_now) == 3
+        assert {one.questions for one in judged_now} == {seed}
+        assert hunters_of(tmp_path, seed=seed + 1)[1] == seed + 1
+        assert len(judged_now) == 5
+
+    def test_goes_on_where_it_was_stopped(self, tmp_path, judged_now):
+        for name in ("a", "b"):
+            make_hunters.Hunter().write(tmp_path / name)
+        path = tmp_path / "hunting.jsonl"
+        with (
+            closing(hunts.HuntJournal(path, GIVEN, None, 5)) as journal,
+            engine.local(1) as it,
+        ):
+            next(hunts.grade(GIVEN, find_students(tmp_path), it, journal))
+        judged_now.clear()
+        assert len(hunters_of(tmp_path)[0]) == 2
+        assert [one.questions for one in judged_now] == [5]
+
+    def test_is_not_mixed_with_another_hunt_of_the_day(self, tmp_path, judged_now):
+        make_hunters.Hunter().write(tmp_path / "a")
+        hunters_of(tmp_path)
+        other = hunts.Hunt(GIVEN.day, GIVEN.level, GIVEN.seed + 1)
+        with pytest.raises(Robo47Error, match="another grading of day 4"):
+            hunters_of(tmp_path, hunt=other)
+
+
+@pytest.mark.parametrize("wrong", [Robo47Error("this kit"), FaultError("no room")])
+def test_what_a_worker_says_of_one_hunt_costs_that_hunt(tmp_path, monkeypatch, wrong):
+    for name in ("a", "b"):
+        make_hunters.Hunter().write(tmp_path / name)
+    make_hunters.Hunter().suspect(make_hunters.GUILTY).write(tmp_path / "b")
+
+    def refuses(package):
+        if b"too small" in package.files.case:
+            raise wrong
+        return {"state": hunts.NOT_FOUND}
+
+    monkeypatch.setattr(hunts, "grade_package", refuses)
+    first, second = hunters_of(tmp_path)[0]
+    assert (first.state, second.state) == (hunts.NOT_FOUND, hunts.UNGRADED)
+    assert str(wrong) in second.why
+    assert second.fault == isinstance(wrong, FaultError)
+
+
+def test_a_case_that_cannot_be_drawn_costs_one_grade(monkeypatch):
+    def none(*_):
+        raise Robo47Error("there is nothing to hunt")
+
+    monkeypatch.setattr(hunts, "draw", none)
+    hunter = make_hunters.Hunter()
+    said = json.dumps(asdict(hunter.case)).encode()
+    files = hunts.Files(said, hunter.text.encode(), b"")
+    package = hunts.HuntPackage(4, GIVEN.level, GIVEN.seed, files, "", 1)
+    assert package.answer()["state"] == hunts.UNGRADED
+    assert "there is nothing to hunt" in package.answer()["why"]

@@ -123,6 +123,23 @@ def test_a_page_that_rebinds_its_name_to_this_machine_is_refused(served, name):
     assert get(served, host) == 403
 
 
+def status_of_bytes(served, request: bytes) -> bytes:
+    """Return the first line of the answer to a request that no library would send."""
+    with socket.create_connection(("127.0.0.1", served.port), 30) as wire:
+        wire.sendall(request)
+        return wire.makefile("rb").readline()
+
+
+def test_an_empty_host_is_no_name_of_this_machine(served):
+    request = f"GET {served.path} HTTP/1.1\r\nHost: \r\n\r\n"
+    assert b"403" in status_of_bytes(served, request.encode())
+
+
+def test_bytes_beyond_ascii_in_the_place_of_the_secret_are_refused(served):
+    own = b"\r\nHost: 127.0.0.1\r\n\r\n"
+    assert b"403" in status_of_bytes(served, b"GET /\xe9/ HTTP/1.1" + own)
+
+
 NEIGHBOURS = ["/", "/index.html", "/go?tab=Chain", "//", "/x/{secret}/",
               "/{secret}x/", "/%2e%2e/{secret}/", "/{short}/", "/{upper}/"]  # fmt: skip
 

@@ -86,11 +86,11 @@ DONE = {
     (7, "Plan"): [lambda tab: tab.sets("kind")("trapezoid")],
     (7, "Pick"): [lambda tab: tab.done and tab.replay(99.0)],
     (9, "Feel"): [push],
-    (11, "Near"): [lambda tab: tab.press("push, slowed")],
+    (11, "Near"): [lambda tab: tab.press("push with damper")],
     (13, "Best"): [lambda tab: (tab.sets("share")(0.3), tab.press("draw"))],
     (14, "Touch"): [
-        lambda tab: tab.sets("feels")(True), lambda tab: tab.press("learn a round"),
-        lambda tab: tab.press("try 20 cubes"),
+        lambda tab: tab.sets("feels")(True), lambda tab: tab.press("one generation"),
+        lambda tab: tab.press("test 20 cubes"),
     ],
 }  # fmt: skip
 PICTURES = 8  # of a loop that is played

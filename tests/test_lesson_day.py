@@ -42,7 +42,7 @@ def written(week, number, text):
     ("change", "says"),
     [
         ((HINT, '" "'), r"tasks 1\.1: hints holds ' '"),
-        (('title = "A turn about z"', 'title = ""'), r"tasks 1\.2: title is ''"),
+        (('title = "A rotation about z"', 'title = ""'), r"tasks 1\.2: title is ''"),
         (('functions = ["Rz"]', "functions = []"), r"1\.2: functions has 0 entries"),
         (('id = "1.2"', 'id = "1.1"'), r"two tasks have the id 1\.1"),
         (('id = "1.2"', 'id = "2.2"'), r"id 2\.2 is not one of day 1"),

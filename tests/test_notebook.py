@@ -95,6 +95,25 @@ def test_one_that_was_only_run_is_made_anew_and_one_with_an_edit_is_kept(
     assert path.read_text("utf-8") == made()
 
 
+@pytest.mark.parametrize("content", [b"[" * 100_000, b"\xe9\xff", b"\0", b"[1]"])
+def test_a_broken_one_is_kept_under_another_name(generator, capsys, content):
+    path = generator.notebook_of(DAY)
+    path.parent.mkdir()
+    path.write_bytes(content)
+    assert generator.main() == 0
+    assert "as you had it" in capsys.readouterr().out
+    assert path.with_suffix(".before-1.ipynb").read_bytes() == content
+
+
+@pytest.mark.parametrize("make", ["mkdir", "symlink_to"])
+def test_what_is_no_file_is_named(generator, make, tmp_path):
+    path = generator.notebook_of(DAY)
+    path.parent.mkdir()
+    getattr(path, make)(*[tmp_path / "gone"] * (make == "symlink_to"))
+    with pytest.raises(Robo47Error, match="is no file: move it away"):
+        generator.main()
+
+
 def test_a_changed_script_makes_it_stale(generator, monkeypatch, tmp_path):
     assert generator.main() == 0
     before = generator.notebook_of(DAY).read_bytes()

@@ -432,6 +432,27 @@ class TestWhatItMayImport:
             assert reply.changed == ()
 
     @pytest.mark.parametrize(
+        ("ends", "kind"),
+        [
+            ("a[:1], a[:1]", "ValueError"),
+            ("a, b[:1]", "ValueError"),
+            ("np.zeros((1000, 1, 2)), np.zeros((1000, 1, 2))", "ValueError"),
+            ("'a', 'b'", "ValueError"),
+            ("None, None", "ValueError"),
+            ("object(), b", "TypeError"),
+        ],
+    )
+    def test_a_question_that_no_world_has_is_the_functions_mistake(
+        self, ask, ends, kind
+    ):
+        code = f"def f(world, a, b): return world.edge_free({ends})"
+        thin = Balls([[1.0, 0, 0.2]])
+        code = "import numpy as np\n" + code
+        (reply,) = ask(code, Question("1.6", "f", (thin, np.zeros(2), np.ones(2))))
+        assert (reply.kind, reply.line) == (kind, 2)
+        assert "takes two points of this world" in reply.error
+
+    @pytest.mark.parametrize(
         "look",
         [
             "[getattr(world, name) for name in dir(world)]",

@@ -185,3 +185,17 @@ def test_a_file_that_git_ignores_is_told_with_the_line_that_does_it(one_day):
     git(one_day, "add", "-f", f"{WEEK}/work")
     git(one_day, "commit", "-qm", "forced")
     assert ".gitignore" not in check_deliverables(day, one_day)[-1].message
+
+
+def test_folders_deep_in_each_other_are_not_looked_through(tmp_path):
+    there = os.open(tmp_path, os.O_RDONLY)
+    for _ in range(1500):  # longer than any path may be
+        os.mkdir("d", dir_fd=there)
+        below = os.open("d", os.O_RDONLY, dir_fd=there)
+        os.close(there)
+        there = below
+    os.close(there)
+    try:
+        assert whereabouts(DAY, tmp_path) == ""
+    finally:
+        subprocess.run(["rm", "-rf", tmp_path / "d"], check=True)

@@ -29,6 +29,7 @@ SECONDS = 20.0
 SHA = 7  # letters, as `git rev-parse --short` prints for a repository of this size
 LARGEST_OBJECT = "100m"  # bytes that git may take at once; a small file can claim more
 MOST_ENTRIES, LARGEST_GIT = 50_000, 1_000_000_000  # of a git folder: files, bytes
+DEEPEST = 100  # folders in each other that a commit may write
 MOST_FILES = 10_000  # of a commit; the kit has 1,400
 LARGEST_TREE = 200_000_000  # bytes of a commit's files; the kit has 6 MB
 LARGEST_OUTPUT = 20_000_000  # bytes that git may say
@@ -286,7 +287,10 @@ def too_much(folder: Path, commit: str) -> str:
     if run("rev-parse", "-q", "--verify", commit, **where).returncode:
         return ""
     listed = run("ls-tree", "-rlz", "--full-tree", commit, **where)
-    sizes = [entry.split(None, 4)[3] for entry in listed.stdout.split("\0")[:-1]]
+    entries = listed.stdout.split("\0")[:-1]
+    if any(entry.count("/") > DEEPEST for entry in entries):
+        return f"the last commit has folders more than {DEEPEST} deep in each other"
+    sizes = [entry.split(None, 4)[3] for entry in entries]
     size = sum(int(one) for one in sizes if one.isdecimal())
     if listed.returncode or len(sizes) > MOST_FILES or size > LARGEST_TREE:
         most = f"{MOST_FILES:,} files, {LARGEST_TREE // 1_000_000} MB"

@@ -18,6 +18,7 @@ _LABEL = {
     "todo": "to do",
     "wrong": "WRONG",
     "close": "CLOSE",
+    "valid": "VALID, by another method",
     "unjudged": "not judged",  # the file does not load
     "inherited": "waits",
     "borrowed": "borrowed",
@@ -149,6 +150,7 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
     for result in report.tasks:
         verdict = result.verdict  # of what is to do, its mistake may say why
         status = verdict.mistake if verdict.mistake in _LABEL else verdict.status
+        status = "valid" if verdict.valid else status
         status = "unjudged" if report.problem else status
         lines.append(_line(_name(result.task), status, colour, width))
         lines += _below(report, result, explain)

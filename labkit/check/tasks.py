@@ -23,6 +23,7 @@ from labkit.judge.row import row_of
 from labkit.lesson.added_code import kits_functions, kits_own, old_names
 from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
+from labkit.lesson.own_files import SCRIPT
 from labkit.lesson.slips import arguments, renamed, twice, unfinished
 from labkit.lesson.starter import function_lines
 from labkit.sandbox.messages import library_of, robots_of
@@ -78,7 +79,7 @@ def check_tasks(
         Robo47Error: there is no such file or task, or a row of questions is missing.
     """
     wanted = [day.task(only)] if only else list(day.tasks)
-    if why := _not_utf8(script) if script.is_file() else "":
+    if why := _not_utf8(script) if _is_script(script) else "":
         verdict = Verdict("todo", "does-not-load", why)
         return [TaskResult(task, verdict) for task in wanted]
     seed = secrets.randbits(32) if seed is None else seed
@@ -111,7 +112,7 @@ class _Check:
         self.sandbox = sandbox
         self.seed = seed
         self.deadline = deadline
-        there = script.is_file()  # the sandbox refuses what is none
+        there = _is_script(script)
         self.source = script.read_text("utf-8", errors="replace") if there else ""
         self.borrowed = borrowed_tasks(day, self.source)
         self.renamed = old_names(day, self.source)
@@ -306,6 +307,11 @@ def _with_slip(asked: Asked, verdict: Verdict, source: str) -> Verdict:
                 verdict, mistake=slip.slug, message=f"{verdict.message} {slip.says}"
             )
     return verdict
+
+
+def _is_script(script: Path) -> bool:
+    """Return whether a file is one that is read here; the sandbox refuses any other."""
+    return script.is_file() and script.stat().st_size <= SCRIPT
 
 
 def _not_utf8(script: Path) -> str:

@@ -25,6 +25,7 @@ from labkit.base.text import visible
 from labkit.check import own_functions
 from labkit.lesson.day import chosen_week
 from labkit.lesson.predicted import predictions, rows_asked
+from labkit.lesson.students_own import retrospectives
 from labkit.lesson.week import Week
 from robo47.errors import Robo47Error
 from robo47.paths import shown
@@ -115,7 +116,7 @@ def random_ones(capstone: ModuleType, fns: Any) -> int:
 def predicted(week: Week) -> dict[str, str]:
     """Return what the student's retrospective predicts, by a row's name."""
     found: dict[str, str] = {}
-    for path in sorted((week.folder / "docs").glob("RETRO_*.md")):
+    for path in retrospectives(week):
         text = path.read_text("utf-8", "replace")
         rows = predictions(text)
         found |= {visible(name).lower(): visible(says) for name, says in rows.items()}

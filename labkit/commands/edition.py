@@ -15,9 +15,10 @@ from pathlib import Path
 
 from labkit import log
 from labkit.base import cli
-from labkit.lesson.day import all_days
+from labkit.lesson.day import LOG, all_days
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.sealed import seal
+from labkit.lesson.students_own import is_made
 from labkit.update.git import NOBODY, ask
 from robo47 import __version__
 from robo47.errors import Robo47Error
@@ -26,7 +27,7 @@ from robo47.paths import ROOT, shown
 NOTE = "EDITION.md"
 LEFT_OUT = re.compile(
     r"\.ci/|\.github/|bench/|site/|tests/|conftest\.py|CONTRIBUTING\.md"
-    r"|docs/|w[^/]*/(work|notebooks)/|w[^/]*/day\d+/(submissions/|test_)"
+    r"|docs/|w[^/]*/day\d+/(submissions/|test_)"
 )
 COMMANDS = "test|soak|lint|docs|site|oracle|bench|test-matrix|grade|edition"
 NOT_HERE = re.compile(rf"make ({COMMANDS})\b")
@@ -72,17 +73,16 @@ def main() -> int:
 def write(out: Path) -> None:
     """Write its files."""
     for name in ask("ls-files", "-z").split("\0")[:-1]:
-        if not LEFT_OUT.match(name) and (ROOT / name).is_file():
+        left_out = LEFT_OUT.match(name) or is_made(name)
+        if not left_out and (ROOT / name).is_file():
             target = out / name
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(ROOT / name, target)
     for day in all_days():
         target = out / day.source.relative_to(ROOT)
         target.write_text(seal(read_script(day.source), day.number), "utf-8")
-        if day.figure:
-            (out / day.files["figure"]).unlink(missing_ok=True)
     header = ",".join(log.COLUMNS) + "\n"
-    (out / "metrics" / "metrics.csv").write_text(header, "utf-8")
+    (out / LOG).write_text(header, "utf-8")
     (out / NOTE).write_text(ABOUT.format(version=__version__), "utf-8")
     shorten(out)
 

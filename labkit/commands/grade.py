@@ -93,8 +93,10 @@ def add_how(parser: argparse.ArgumentParser) -> None:
     add("--processes", type=positive, default=cores, metavar="N", help=at_once)
     drawn = "of the fresh inputs, the same for everybody; default: drawn once"
     add("--seed", type=int, metavar="N", help=drawn)
-    hunted = "grade the bug hunt of --day, this level and --seed"
+    hunted = "grade the bug hunt of --day, this level and --seed, its mistake's"
     add("--hunt", type=int, choices=sorted(LEVELS), metavar="LEVEL", help=hunted)
+    asked = "of a hunt's fresh inputs, as --seed otherwise; default: drawn once"
+    add("--inputs", type=int, metavar="N", help=asked)
     add("--dask", metavar="ADDRESS", help="grade on this Dask scheduler's workers")
     add("--proof", action="store_true", help="a page to show for each, of the week")
     whom = "grade those too that did not change: everybody, or only who asks"
@@ -224,12 +226,15 @@ def grade_hunt(options: argparse.Namespace) -> int:
     (day, *others) = chosen(options.day, options.week)
     if others or options.seed is None:
         raise Robo47Error("which hunt? --day 4 --hunt 1 --seed 7")
+    if options.dask:
+        raise Robo47Error("a hunt is graded on this machine: leave --dask out")
     hunt = hunts.Hunt(day, options.hunt, options.seed)
+    hunt.case  # noqa: B018 (says at once that there is nothing to hunt)
     students = find_students(options.root, options.roster)
     admit(options)
-    notes = pull(students) if options.pull else {}
-    hunters = list(hunts.grade(hunt, students, options.deadline))
-    out = options.out or Path(f"hunt-day{day.number}-seed{hunt.seed}") / "hunt.csv"
+    folder = f"hunt-day{day.number}-level{hunt.level}-seed{hunt.seed}"
+    out = options.out or Path(folder) / "hunt.csv"
+    hunters, notes = hunt_all(hunt, students, out, options)
     write(out, table(hunts.columns(hunters)))
     page = out.with_suffix(".html")
     write(page, hunts_page.render(hunt, hunters).encode("utf-8"))
@@ -239,8 +244,29 @@ def grade_hunt(options: argparse.Namespace) -> int:
         print(f"contradicts the script: {odd:,}; the page says what")
     for folder, note in notes.items():
         print(cli.wrapped(f"{folder}: {note}", "  "))
+    faults = sum(one.fault for one in hunters)
+    if faults:
+        print(f"this machine failed: {faults:,}; run the same command again")
     print(f"wrote {shown(out.absolute())}; open {shown(page.absolute())}")
-    return cli.EXIT_FAILED if notes else cli.EXIT_OK
+    return cli.EXIT_FAILED if notes or faults else cli.EXIT_OK
+
+
+def hunt_all(
+    hunt: hunts.Hunt, students: list[Student], out: Path, options: argparse.Namespace
+) -> tuple[list[hunts.Hunter], dict[str, str]]:
+    """Return how everybody's hunt stands, and who could not be pulled, and why.
+
+    Each result is kept in a journal beside the table as it comes, with the seed of the
+    fresh inputs: the same command goes on where it was stopped.
+    """
+    path = out.parent / "hunting.jsonl"
+    with contextlib.suppress(FileExistsError, FileNotFoundError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+    journal = hunts.HuntJournal(path, hunt, options.deadline, options.inputs)
+    with contextlib.closing(journal), engine.local(options.processes) as it:
+        print(f"kit: {version()}; fresh inputs for everybody: --inputs {journal.seed}")
+        notes = pull(students) if options.pull else {}
+        return list(hunts.grade(hunt, students, it, journal)), notes
 
 
 def with_kit(tag: str) -> int:

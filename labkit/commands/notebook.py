@@ -11,12 +11,14 @@ It is yours: git does not keep it, and one that you edited is kept under another
 """
 
 import json
+import os
 from itertools import count
 from pathlib import Path
 
 from labkit.base import cli
 from labkit.lesson.day import Day, chosen_day
 from labkit.lesson.notebook import build, digest
+from labkit.lesson.week import NOTEBOOKS
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -27,7 +29,7 @@ def is_edited(path: Path) -> bool:
         found = json.loads(path.read_text("utf-8"))
         made = digest(cell["source"] for cell in found["cells"])
         return bool(found["metadata"].get("robo47") != made)
-    except (ValueError, LookupError, TypeError, AttributeError):
+    except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
         return True
 
 
@@ -40,7 +42,7 @@ def put_aside(path: Path) -> Path:
 
 def notebook_of(day: Day) -> Path:
     """Return where a day's notebook is."""
-    return day.folder / "notebooks" / Path(day.script).with_suffix(".ipynb").name
+    return day.folder / NOTEBOOKS / Path(day.script).with_suffix(".ipynb").name
 
 
 def main() -> int:
@@ -56,8 +58,12 @@ def main() -> int:
     path = day.work.with_suffix(".ipynb") if starter else notebook_of(day)
     if starter and path.exists():
         raise Robo47Error(f"{shown(path)} is there already and stays as it is")
+    if os.path.lexists(path) and not path.is_file():
+        raise Robo47Error(
+            f"{shown(path)} is no file: move it away, then the same again"
+        )
     fresh = build(day, starter)
-    if path.exists() and fresh == path.read_text("utf-8"):
+    if path.exists() and fresh == path.read_text("utf-8", "replace"):
         print(f"{shown(path)} is up to date")
         return cli.EXIT_OK
     if options.check:

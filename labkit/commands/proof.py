@@ -31,15 +31,14 @@ from labkit.check.own_functions import capstone_of
 from labkit.fresh import FRESH
 from labkit.grade.roster import Student
 from labkit.lesson.day import Day, chosen_week, days_of, find_day
-from labkit.lesson.week import WORK, Week
+from labkit.lesson.students_own import OWN_LABS
+from labkit.lesson.week import Week
 from labkit.proof import door, page
 from labkit.proof.capstone import NO_CAPSTONE, attempt
 from labkit.proof.facts import RunDay, facts_of
 from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, ROOT, shown
-
-OWN_LABS = f"w*/{WORK}/**"  # no commit of the kit's has such a file
 
 
 def main() -> int:

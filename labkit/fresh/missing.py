@@ -10,6 +10,7 @@ from labkit.base.text import count
 from labkit.fresh.clone import ignored_by, uncommitted
 from labkit.lesson.day import Day
 from labkit.lesson.own_files import helpers_of
+from labkit.lesson.students_own import retrospectives
 from labkit.lesson.week import WORK
 from labkit.report.week_retro import no_numbers, without_numbers
 from robo47.paths import ROOT
@@ -35,23 +36,20 @@ def findings(days: Sequence[Day], clone: Path, root: Path = ROOT) -> list[str]:
         root: what it is a clone of.
     """
     weeks = sorted({day.folder.name for day in days})
-    lacks = _only_here(days, weeks, clone, root)
+    lacks = _only_here(days, clone, root)
     blank = _unfinished(days, clone, root)
     found = [f"{name}: {why}" for name, why in sorted([*lacks.items(), *blank])]
     return found + [line for week in weeks for line in _absolute(clone / week, clone)]
 
 
-def _only_here(
-    days: Sequence[Day], weeks: Sequence[str], clone: Path, root: Path
-) -> dict[str, str]:
+def _only_here(days: Sequence[Day], clone: Path, root: Path) -> dict[str, str]:
     """Return what is in the student's folder and not in the commit, with the reason."""
     lacks = uncommitted(root)
-    for week in weeks:  # `make report` fills numbers in at any time
-        for diary in _diaries(clone / week):
-            name = diary.relative_to(clone).as_posix()
-            words = without_numbers(_text(diary))
-            if name in lacks and words == without_numbers(_text(root / name)):
-                del lacks[name]
+    for diary in _diaries(days, clone):  # `make report` fills numbers in at any time
+        name = diary.relative_to(clone).as_posix()
+        words = without_numbers(_text(diary))
+        if name in lacks and words == without_numbers(_text(root / name)):
+            del lacks[name]
     for name in sorted({n for day in days for n in day.files.values()}):
         here, there = (root / name).is_file(), (clone / name).is_file()
         if here and not there and name not in lacks:
@@ -84,7 +82,7 @@ def _unfinished(
             elif what == "worksheet":
                 yield from _blanks(there[0], name)
         if day == days[-1]:  # which ends the week
-            for diary in _diaries(clone / day.folder.name):
+            for diary in retrospectives(day.week, clone):
                 name = diary.relative_to(clone).as_posix()
                 here = root / name if (root / name).is_file() else diary
                 yield from _blanks(here, name)
@@ -92,8 +90,11 @@ def _unfinished(
                     yield name, "its numbers are not committed yet"
 
 
-def _diaries(week: Path) -> list[Path]:
-    return sorted((week / "docs").glob("RETRO_*.md"))
+def _diaries(days: Sequence[Day], root: Path) -> list[Path]:
+    weeks = {day.week.number: day.week for day in days}
+    return [
+        path for _, week in sorted(weeks.items()) for path in retrospectives(week, root)
+    ]
 
 
 def _text(sheet: Path) -> str:
@@ -112,8 +113,7 @@ def unwritten(days: Sequence[Day], root: Path) -> list[Path]:
     """
     if not any((root / day.files["script"]).is_file() for day in days):
         return []
-    weeks = sorted({day.folder.name for day in days})
-    diaries = [diary for week in weeks for diary in _diaries(root / week)]
+    diaries = _diaries(days, root)
     return [it for it in diaries if any(map(_BLANK.search, _on_fresh(_text(it))))]
 
 

@@ -15,7 +15,7 @@ from labkit.grade.engine import Engine, grade_all
 from labkit.grade.journal import Journal, Kept
 from labkit.grade.package import Package, collect
 from labkit.grade.pull import pull_all
-from labkit.grade.result import Result, ungraded
+from labkit.grade.result import FAULT, Result, ungraded
 from labkit.grade.roster import Student
 from labkit.grade.sheet import as_csv, nameless, printable, write
 from labkit.grade.similar import Runs
@@ -25,8 +25,6 @@ from labkit.lesson.starter import starter_of
 from labkit.sandbox.messages import file_of
 from robo47.errors import FaultError
 from robo47.paths import shown
-
-FAULT = "this machine failed ({}); the same command tries again"
 
 
 @dataclass(frozen=True)
@@ -105,7 +103,7 @@ class Classroom:
         due = self.journal.reference if self.journal.deadline else None
         try:
             package = collect(student, self.day, self.journal.seed, due)
-        except (OSError, GitError, MemoryError) as error:
+        except (OSError, GitError, MemoryError, RecursionError) as error:
             fault = FaultError(visible(error) or type(error).__name__)
             return Package(self.day.number, ""), fault
         kept = self.frozen or bool(self.again.folders)
@@ -121,7 +119,8 @@ class Classroom:
             result = ungraded(self.day, FAULT.format(visible(result, 200)))
         elif self.keep == "best":
             given = self.journal.best(student.folder)
-            result = given.result
+            best: Result = given.result
+            result = best
         minutes = None
         if given.committed is not None:
             minutes = (self.journal.reference - given.committed) // 60

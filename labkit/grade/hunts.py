@@ -6,20 +6,23 @@ the sandbox, by this kit's mistake. `hunt.json` and the log are the student's ow
 script is said beside it.
 """
 
+import hashlib
 import io
 import re
-import secrets
 import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from functools import lru_cache
+from dataclasses import dataclass, fields
+from functools import lru_cache, partial
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from labkit.base.git import GitError, before, blob, files_of
 from labkit.base.text import count, visible
-from labkit.grade.engine import grade_package
+from labkit.grade.engine import Engine, grade_package
+from labkit.grade.journal import Journal, Kept
 from labkit.grade.package import fingerprint
+from labkit.grade.result import FAULT
 from labkit.grade.roster import Student
 from labkit.handin.handin import LIMITS
 from labkit.hunt import tally
@@ -67,6 +70,7 @@ class Hunter:
     odd: Sequence[str] = ()  # what contradicts the script
     said: str = ""  # what the checker says of a repair that is not right
     wrong: int = 0  # functions that were right, and suspected or written anew
+    fault: bool = False  # this machine failed: it is tried again at the next run
 
 
 @dataclass(frozen=True)
@@ -113,6 +117,17 @@ class HuntPackage:
     files: Files
     kit: str  # fingerprint of the kit that collected it
     questions: int  # seed of the fresh inputs, the same for everybody
+    commit: str = ""  # what a journal keeps of a package, and a hunt does not show
+    committed: int | None = None
+
+    @property
+    def fingerprint(self) -> str:
+        """A hash of all that the grade depends on, but for the kit."""
+        whole = hashlib.sha256()
+        numbers = (self.day, self.level, self.seed, self.questions)
+        for part in (repr(numbers).encode(), *self.files):
+            whole.update(hashlib.sha256(part).digest())
+        return whole.hexdigest()
 
     def answer(self) -> dict[str, Any]:
         """Return the fields of a `Hunter`, without the student.
@@ -132,36 +147,70 @@ class HuntPackage:
         return {"state": UNGRADED, "why": why}
 
 
-def grade(
-    hunt: Hunt,
-    students: Sequence[Student],
-    deadline: int | None = None,
-    questions: int | None = None,
-) -> Iterator[Hunter]:
-    """Yield how each student's hunt stands, one after the other.
+class HuntJournal(Journal):
+    """What was found of each student, kept as it comes; see `Journal`."""
 
-    Each is judged in a grading process, within a memory limit and a time limit.
+    def __init__(
+        self, path: Path, hunt: Hunt, deadline: int | None, seed: int | None
+    ) -> None:
+        """Open it; one of another day, level or mistake is refused."""
+        about = {"level": hunt.level, "mistake": hunt.seed}
+        super().__init__(path, hunt.day, deadline, seed, **about)
+
+    def _told(self, result: dict[str, Any]) -> dict[str, Any]:
+        return result
+
+    def _read(self, told: Any) -> dict[str, Any]:
+        known = {field.name for field in fields(Hunter)} - {"student", "fault"}
+        if told["state"] not in STATES or not set(told) <= known:
+            raise ValueError("no result of a hunt")
+        return dict(told)
+
+    def _note(self, folder: str, kept: Kept) -> None:
+        self._last[folder] = kept
+
+
+def grade(
+    hunt: Hunt, students: Sequence[Student], engine: Engine, journal: HuntJournal
+) -> Iterator[Hunter]:
+    """Yield how each student's hunt stands, in the roster's order.
+
+    Each is judged in a grading process, within a memory limit and a time limit. What
+    was judged before and has not changed is taken from the journal.
 
     Args:
         hunt: what the class was given.
         students: from the roster.
-        deadline: seconds since 1970, or None.
-        questions: seed of the fresh inputs; None draws one for the whole class.
+        engine: where to; it is this machine.
+        journal: it knows the deadline and the seed of the fresh inputs.
     """
-    draw_of = secrets.randbits(32) if questions is None else questions
-    kit = fingerprint(hunt.day.number)
-    for student in students:
-        if student.problem or not student.path.is_dir():
-            why = student.problem or "there is no such folder"
-            yield Hunter(student, UNGRADED, why)
-            continue
-        try:
-            files = hunt.files(student, deadline)
-            numbers = (hunt.day.number, hunt.level, hunt.seed)
-            found = grade_package(HuntPackage(*numbers, files, kit, draw_of))
-        except (OSError, GitError, FaultError) as error:
-            found = {"state": UNGRADED, "why": visible(error)}
+    work = partial(_graded, hunt, journal)
+    each = zip(students, engine.executor.map(work, students), strict=True)
+    for student, (package, found) in each:
+        if package and not found.get("fault"):
+            journal.keep(student.folder, package, found)
         yield Hunter(student, **found)
+
+
+def _graded(
+    hunt: Hunt, journal: HuntJournal, student: Student
+) -> tuple[HuntPackage | None, dict[str, Any]]:
+    """Return a student's package where it was judged now, and how the hunt stands."""
+    if student.problem or not student.path.is_dir():
+        why = student.problem or "there is no such folder"
+        return None, {"state": UNGRADED, "why": why}
+    try:
+        files = hunt.files(student, journal.reference if journal.deadline else None)
+        numbers = (hunt.day.number, hunt.level, hunt.seed)
+        kit = fingerprint(hunt.day.number)
+        package = HuntPackage(*numbers, files, kit, journal.seed)
+        known = journal.find(student.folder, package)
+        return (None, known) if known else (package, grade_package(package))
+    except (OSError, GitError, FaultError, MemoryError, RecursionError) as error:
+        why = FAULT.format(visible(error, 200) or type(error).__name__)
+        return None, {"state": UNGRADED, "why": why, "fault": True}
+    except Robo47Error as error:
+        return None, {"state": UNGRADED, "why": _bare(error)}
 
 
 def _answer(package: HuntPackage) -> dict[str, Any]:

@@ -12,11 +12,10 @@ import secrets
 import time
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 from labkit.base.lock import lock
-from labkit.grade.package import Package
-from labkit.grade.result import Result, from_json
+from labkit.grade.result import from_json
 from labkit.lesson.day import Day
 from robo47.errors import Robo47Error
 from robo47.paths import shown
@@ -26,6 +25,30 @@ _LATEST = 4_102_444_800  # the year 2100, in seconds since 1970
 _ODD = (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError)
 
 
+class Keepable(Protocol):
+    """What a journal has to know of a package, of whichever kind."""
+
+    @property
+    def day(self) -> int:
+        """The day's number."""
+
+    @property
+    def fingerprint(self) -> str:
+        """A hash of all that the grade depends on, but for the kit."""
+
+    @property
+    def kit(self) -> str:
+        """The fingerprint of the kit that collected it."""
+
+    @property
+    def commit(self) -> str:
+        """The hash of the commit that counts; "" without one."""
+
+    @property
+    def committed(self) -> int | None:
+        """Its time, seconds since 1970, or None."""
+
+
 class Kept(NamedTuple):
     """A result, and what of somebody's package and the kit it was given to."""
 
@@ -33,7 +56,7 @@ class Kept(NamedTuple):
     kit: str
     commit: str
     committed: int | None
-    result: Result
+    result: Any  # a `Result`, or what stands in its place in a journal of another kind
 
 
 class Journal:
@@ -49,7 +72,12 @@ class Journal:
     """
 
     def __init__(
-        self, path: Path, day: Day, deadline: int | None = None, seed: int | None = None
+        self,
+        path: Path,
+        day: Day,
+        deadline: int | None = None,
+        seed: int | None = None,
+        **about: Any,
     ) -> None:
         """Open it for ourselves alone and read what is there.
 
@@ -58,12 +86,13 @@ class Journal:
             day: what is graded; a journal of another day is refused.
             deadline: seconds since 1970; None is the one that is there, if any.
             seed: see above; None is the one that is there, or a new one.
+            about: what it is a journal of, besides the day: other numbers are refused.
 
         Raises:
             Robo47Error: the file cannot be written, is another day's, or somebody else
                 is grading into it.
         """
-        self.path, self._day = path, day
+        self.path, self._day, self._about = path, day, about
         # A machine that has lost its clock grades, too, and knows its head again.
         self.reference = min(max(0, int(time.time())), _LATEST - 1)
         self.deadline = False
@@ -93,11 +122,12 @@ class Journal:
 
     def _head(self) -> dict[str, Any]:
         since = {"reference": self.reference, "deadline": self.deadline}
-        return {"kind": KIND, "days": [self._day.number], "seed": self.seed, **since}
+        about = {"days": [self._day.number], **self._about}
+        return {"kind": KIND, **about, "seed": self.seed, **since}
 
     def find(
-        self, folder: str, package: Package, *, frozen: bool = False
-    ) -> Result | None:
+        self, folder: str, package: Keepable, *, frozen: bool = False
+    ) -> Any | None:
         """Return a student's result, unless what they hand in, or the kit, has changed.
 
         Args:
@@ -117,7 +147,7 @@ class Journal:
         """Return a student's best result of all that were kept, the last of equals."""
         return self._best[folder]
 
-    def keep(self, folder: str, package: Package, result: Result) -> None:
+    def keep(self, folder: str, package: Keepable, result: Any) -> None:
         """Write a result and wait until the disk has it."""
         kept = Kept(
             package=package.fingerprint,
@@ -127,7 +157,7 @@ class Journal:
             result=result,
         )
         self._note(folder, kept)
-        told = {**kept._asdict(), "result": asdict(result)}
+        told = {**kept._asdict(), "result": self._told(result)}
         self._append({"day": package.day, "folder": folder, **told})
 
     def _note(self, folder: str, kept: Kept) -> None:
@@ -185,6 +215,11 @@ class Journal:
 
     def _begin(self, head: dict[str, Any]) -> None:
         reference, days = head["reference"], head["days"]
+        if {name: head.get(name) for name in self._about} != self._about:
+            raise Robo47Error(
+                f"{shown(self.path)} is of another grading of day {self._day.number}: "
+                "give this one a folder of its own with --out"
+            )
         if days != [self._day.number]:
             of = ", ".join(str(int(day)) for day in days)
             raise Robo47Error(
@@ -207,5 +242,12 @@ class Journal:
         at = record["committed"]
         if record["day"] != self._day.number or type(at) not in (int, type(None)):
             raise ValueError(record["day"], at)
-        result = from_json(record["result"], self._day)
-        return Kept(**words, committed=at, result=result)
+        return Kept(**words, committed=at, result=self._read(record["result"]))
+
+    def _told(self, result: Any) -> dict[str, Any]:
+        """Return a result as it is written."""
+        return asdict(result)
+
+    def _read(self, told: Any) -> Any:
+        """Return a result of what was written; one of `_ODD` where it is none."""
+        return from_json(told, self._day)

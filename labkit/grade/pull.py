@@ -88,9 +88,9 @@ def pull(student: Student, known: str | None) -> tuple[str | None, str]:
     if not student.url:
         return known, "there is no such folder, and the roster has no git URL"
     new = _beside(path)
-    shutil.rmtree(new, ignore_errors=True)  # of a run that was killed
-    if problem := _problem(_clone, new, student.url):
-        shutil.rmtree(new, ignore_errors=True)
+    problem = _problem(_remove, new)  # of a run that was killed
+    if problem := problem or _problem(_clone, new, student.url):
+        _problem(_remove, new)
         return known, problem
     return _mark(new), ""
 
@@ -101,7 +101,13 @@ def _problem(work: Callable[..., None], *arguments: Any) -> str:
         work(*arguments)
     except (GitError, OSError) as error:
         return str(error)
+    except RecursionError:
+        return "its folders are too deep in each other: remove it by hand"
     return ""
+
+
+def _remove(folder: Path) -> None:
+    shutil.rmtree(folder, ignore_errors=True)
 
 
 def _clone(new: Path, url: str) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 from labkit.handin.deliverables import item_names
 from labkit.lesson.day import Day
 
+FAULT = "this machine failed ({}); the same command tries again"
 UNGRADED = "ungraded"  # the status of a task that nobody could look at
 MOST_TEXT = 200_000  # bytes of all texts of a result; what we tell has half
 STATUSES = ("passed", "close", "wrong", "todo", UNGRADED)

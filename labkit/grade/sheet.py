@@ -170,7 +170,8 @@ def known(platform: Platform, students: Sequence[Student]) -> None:
     """Check that a platform can find everybody, before anybody is graded.
 
     Raises:
-        Robo47Error: somebody's row of the roster does not say as whom.
+        Robo47Error: somebody's row of the roster does not say as whom, or says the same
+            as another's: the platform would give one of them the other's grade.
     """
     for student in students:
         if not any(_as_known(platform, student, name) for name in platform.known_by):
@@ -179,6 +180,16 @@ def known(platform: Platform, students: Sequence[Student]) -> None:
                 f"{platform.name} cannot know {student.name}: give roster.csv a column "
                 f"{asked}, with what the platform's own export has there"
             )
+    for name in platform.known_by:
+        of: dict[str, Student] = {}
+        for student in students:
+            key = _as_known(platform, student, name)
+            other = of.setdefault(key.casefold(), student) if key else student
+            if other is not student:
+                raise Robo47Error(
+                    f"{platform.name} cannot tell {other.name} from {student.name}: "
+                    f"both have {key} in the roster's column {name}. Correct the roster"
+                )
 
 
 def for_platform(platform: Platform, courses: Sequence[Course], title: str) -> bytes:

@@ -14,9 +14,11 @@ from pathlib import Path
 from labkit.base import git
 from labkit.base.text import visible
 from labkit.lesson.day import Day
+from labkit.lesson.week import NOTEBOOKS
 
 BRANCHES, FILES = 20, 20_000  # that are looked through
-SKIPPED = (".git", ".venv", "node_modules", "__pycache__", "notebooks")
+DEEP = 30  # folders in each other
+SKIPPED = (".git", ".venv", "node_modules", "__pycache__", NOTEBOOKS)
 SUBMODULE = "160000"  # mode of a repository inside a repository
 
 
@@ -66,8 +68,9 @@ def _files_below(clone: Path) -> list[str]:
     """Return the paths of a folder's files, from there, links not followed."""
     found: list[str] = []
     for folder, folders, names in os.walk(clone):
-        folders[:] = sorted(name for name in folders if name not in SKIPPED)
         inside = Path(folder).relative_to(clone)
+        kept = [name for name in folders if name not in SKIPPED]
+        folders[:] = sorted(kept) if len(inside.parts) < DEEP else []
         found += [(inside / name).as_posix() for name in sorted(names)]
         if len(found) > FILES:
             break

@@ -117,7 +117,8 @@ class LocalServer(viser.ViserServer):
         port = self.get_port()
         forwarded = forwarded_host(port)
         via = headers.get_all("X-Forwarded-Host") if forwarded else []
-        named = [host for host in (*hosts, *via) if host != forwarded]
+        # Outside of a codespace `forwarded` is "", which an empty Host must not equal.
+        named = [host for host in (*hosts, *via) if not forwarded or host != forwarded]
         if len(hosts) != 1 or not all(map(OWN_HOST.fullmatch, named)):
             return "this address is not the inspector's; open http://127.0.0.1:PORT"
         # Every browser sends Origin with a WebSocket; same port as well, since another
@@ -131,7 +132,9 @@ class LocalServer(viser.ViserServer):
         if len(request.path) > LONGEST:
             return "that address is too long"
         given = request.path.partition("?")[0].strip("/").partition("/")[0]
-        if not hmac.compare_digest(given.encode(), self.secret.encode()):
+        # A path's bytes beyond ASCII arrive as unpaired surrogates.
+        told = given.encode("ascii", "backslashreplace")
+        if not hmac.compare_digest(told, self.secret.encode()):
             return "open the whole address that `make view` printed"
         return None
 

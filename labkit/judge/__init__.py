@@ -21,6 +21,7 @@
     argument_mistakes    mistakes made with an argument before it is used
     near_miss   right in method, not in all digits
     judge       from questions with their replies to a verdict and its name
+    valid       answers that differ from the reference, and are right or of a method
     odd_answers a mistake that stops, or changes its shape, at some questions
     right_when  with which argument neutral a wrong function is right
     crossed     calls whose arguments are mixed, at their ends and between them

@@ -36,7 +36,10 @@ FRESH, CHEAP_FRESH, CHEAP = 8, 32, 16  # few numbers cost little
 SECONDS = 10.0  # for all calls of a function, where its task does not say
 SLIPPING = 1.5  # seconds for which two mutants at once are looked for
 # What a row says of wrong answers, and what counts where that stops: it says nothing.
-HOOKS: dict[str, Any] = {"unnamed": None, "near_miss": None, "measured": ()}
+HOOKS: dict[str, Any] = {"unnamed": None, "near_miss": None, "measured": (),
+                         "valid": False}  # fmt: skip
+SHARE = 1e-6  # of its largest entry an answer may be off where that is what counts
+TINY = 1e-4  # and of this, in units of its kind's scale, where it is smaller
 KNOWN = 20  # right answers of a function's that are kept: a class is asked the same
 
 
@@ -85,9 +88,8 @@ class HeldOut:
     mistaken: Callable[..., Any] | None = None
     status: str = "wrong"  # or "close"
     near: float | None = None  # how well `mistaken` has to fit; None is the row's
-    # Where many answers are right: takes one call's arguments and the answer, and
-    # returns whether it has the property that the docstring names.
-    valid: Callable[..., bool] | None = None
+    # Whether what an answer is off is measured in its own size, however small or large.
+    relative: bool = False
 
     def __post_init__(self) -> None:
         """Refuse another status: one that passes would hide what is found next."""
@@ -153,6 +155,14 @@ class Ask:
     # Instead of `truth` where many answers are right: takes one call's arguments and
     # the answer, and returns what is wrong with it, or None.
     accept: Callable[..., Finding | str | None] | None = None
+    # Beside `truth`: takes the same, and returns whether the answer has the property
+    # that the docstring names; None if that cannot be said. One that has is right,
+    # though it is another ...
+    valid: Callable[..., bool | None] | None = None
+    # ... unless these words are there: the docstring asks for a method, and they say
+    # which, to a function whose answers are valid by another.
+    method: str = ""
+    copies: bool = True  # whether an answer may not be (a part of) an argument itself
     # The named ones, the more general first; a function that returns them where making
     # them costs something.
     mistakes: Sequence[Mistake] | Callable[[], Sequence[Mistake]] = ()
@@ -240,6 +250,21 @@ class Ask:
     def gaps_of(self, j: int, s: Array, t: Array) -> Array:
         """Return per call how far the j-th result is off, likewise."""
         return gaps(self.kinds[j : j + 1], (s,), (t,), self.rtol)
+
+    def shares(self, S: Parts, T: Parts) -> Array:
+        """Return per call how far an answer is off, in units of `SHARE` of its size."""
+        found = []
+        for j, (s, t, kind) in enumerate(zip(S, T, self.kinds, strict=True)):
+            sizes = np.nan_to_num(np.abs(t / kind.scale), posinf=0.0)
+            size = sizes.reshape(len(t), -1).max(axis=1, initial=TINY)
+            found.append(self.gaps_of(j, s, t) / (SHARE * size))
+        return np.max(found, axis=0)
+
+    def too_far(self, held: HeldOut, S: Parts, T: Parts) -> list[bool]:
+        """Return per held-out question whether its answer is not the right one."""
+        near = self.near if held.near is None else held.near
+        far = self.shares(S, T) > 1.0 if held.relative else self.gaps(S, T) > near
+        return [bool(one) for one in far]
 
     @cached_property
     def cost(self) -> float:

@@ -17,6 +17,7 @@ from labkit.judge.mistake import Finding
 from labkit.judge.replies_read import not_accepted, read
 from labkit.judge.results import places, split
 from labkit.judge.typed import shown, typed, typed_one
+from labkit.judge.valid import taken
 from robo47.checks import Array
 
 # A call whose answer is not right: in a line, "Rz(2.9)[0, 0] is -1, and -0.971 is
@@ -80,15 +81,17 @@ def _wrong(
     S = read(exchanges, ask)
     if isinstance(S, Finding):
         return None
+    S = taken(ask, exchanges, S)
     T = right_answers(ask, exchanges, held)
-    gap = ask.gaps(S, T)
+    relative = held is not None and held.relative
+    gap = ask.shares(S, T) if relative else ask.gaps(S, T)
     i = _furthest(gap)
-    if gap[i] <= ask.tolerance:
+    if gap[i] <= (1.0 if relative else ask.tolerance):
         return None
     # What is said is of the first result that is wrong in some call: one of these.
     first = worst_part(ask.kinds, S, T, ask.tolerance)
     of_it = ask.gaps_of(first, S[first], T[first])
-    if of_it.max() > ask.tolerance:
+    if of_it.max() > ask.tolerance and not relative:
         i = _furthest(of_it)
     one = exchanges[i]
     given = read([one], ask)  # alone, in their own shapes
@@ -142,6 +145,7 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     right = "Right for the inputs that are always asked, but not for"
     if isinstance(S, Finding):
         return Finding("some-inputs", f"{right} fresh ones. {S.message}")
+    S = taken(asked.ask, asked.fresh, S)
     T = right_answers(asked.ask, asked.fresh)
     wrong = asked.ask.gaps(S, T) > asked.ask.near
     says = f"{right} {int(wrong.sum())} of {len(wrong)} fresh ones."

@@ -17,6 +17,7 @@ from labkit.judge import (
     replies_read,
     sources,
     tried,
+    valid,
 )
 from labkit.judge.answers import (
     Parts,
@@ -87,6 +88,7 @@ def _without_a_name(asked: Asked) -> Verdict | None:
         return next((Verdict("wrong", *found) for found in refused), None)
     if found := replies_read.of_another_size(asked):
         return Verdict("wrong", *found)
+    S = valid.taken(asked.ask, asked.main, S)
     gap = asked.ask.gaps(S, right_answers(asked.ask, asked.main))
     if gap.max() <= asked.ask.tolerance:
         return None
@@ -107,12 +109,35 @@ def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
         if S.slug == "shape":
             S = attempt(odd_answers.named, asked, S, otherwise=S)
         return Verdict("wrong", *_beside(S, asked, names))
+    if other := attempt(_by_another_method, asked, S, names):
+        return Verdict("wrong", other.slug, other.message, valid=True)
     if found := replies_read.of_another_size(asked):
         return Verdict("wrong", *_of_another_size(asked, S, names, found))
     if found := replies_read.kept_state(asked, source):
         return Verdict("wrong", *found)
+    S = valid.taken(asked.ask, asked.main, S)
     judge_these = _judge_accepted if asked.ask.accept else _judge_values
     return judge_these(asked, S, names)
+
+
+def _by_another_method(asked: Asked, S: Parts, names: Sequence[str]) -> Finding | None:
+    """Return that answers are valid, by another method than the one asked for."""
+    ask = asked.ask
+    if not valid.by_another_method(asked):
+        return None
+    named: Finding | None
+    if sizes := replies_read.of_another_size(asked):
+        named = _of_another_size(asked, S, names, sizes)
+        named = None if named is sizes else named
+    else:
+        T = right_answers(ask, asked.main)
+        if ask.gaps(S, T).max() <= ask.near:
+            return None
+        case = _case(asked, S, T, names)
+        named = sources.named(ask, case.arguments, S, T) or _unnamed(case)
+    if named:
+        return Finding(named.slug, f"{ask.method} {named.message}")
+    return Finding("another-method", ask.method)
 
 
 def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
@@ -192,12 +217,14 @@ def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Find
 def _judge_right(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdict:
     """Return the verdict on right answers: how did they come about?"""
     ask = asked.ask
-    if shared := replies_read.shared_memory(replies([*asked.main, *asked.fresh])):
+    replied = replies([*asked.main, *asked.fresh])
+    if shared := replies_read.shared_memory(replied, ask.copies):
         return Verdict("wrong", *shared, measured)
     if asked.fresh and ask.truth:
         S = replies_read.read(asked.fresh, ask)
         off = np.inf
         if not isinstance(S, Finding):
+            S = valid.taken(ask, asked.fresh, S)
             gap = ask.gaps(S, right_answers(ask, asked.fresh))
             off = float(gap.max())
             lines = _counted(ask, gap, "with fresh inputs")
@@ -217,14 +244,9 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
     S = replies_read.read(exchanges, ask)
     if isinstance(S, Finding):
         return held.mistaken is None  # no answer is no sign of one certain mistake
-    if held.valid:
-        calls = [exchange.question.args for exchange in exchanges]
-        answers = ([part[k] for part in S] for k in range(len(calls)))
-        pairs = zip(calls, answers, strict=True)
-        return not all(held.valid(*args, *answer) for args, answer in pairs)
-    off = ask.gaps(S, right_answers(ask, exchanges, held)).max()
-    near = ask.near if held.near is None else held.near
-    return off <= near if held.mistaken else off > near
+    S = S if held.mistaken else valid.taken(ask, exchanges, S)
+    off = any(ask.too_far(held, S, right_answers(ask, exchanges, held)))
+    return off != bool(held.mistaken)
 
 
 def _further(asked: Asked) -> Further | None:
@@ -244,6 +266,7 @@ def _further(asked: Asked) -> Further | None:
     S = replies_read.read(good, asked.ask)
     if isinstance(S, Finding):
         return None
+    S = valid.taken(asked.ask, good, S)
     return Further(stacked(good), S, right_answers(asked.ask, good))
 
 

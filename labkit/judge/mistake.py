@@ -33,6 +33,8 @@ class Verdict:
     # nor anything else says more than by how much.
     wrong_calls: tuple[int, ...] = ()
     function: str = ""  # that was judged
+    # Whether the answers have the property that is asked for, by another method.
+    valid: bool = False
     call: str = ""  # the call that failed, in a line, with theirs and the right answer
 
 

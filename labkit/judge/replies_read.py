@@ -239,8 +239,13 @@ def kept_state(asked: Asked, source: str = "") -> Finding | None:
     )
 
 
-def shared_memory(replies: Sequence[Reply]) -> Finding | None:
-    """Return that right answers are not a function's own arrays, if so."""
+def shared_memory(replies: Sequence[Reply], copies: bool = True) -> Finding | None:
+    """Return that right answers are not a function's own arrays, if so.
+
+    Args:
+        replies: to all questions.
+        copies: whether an answer may not be (a part of) an argument itself.
+    """
     shared = [name for reply in replies for name in reply.shares]
     if "another answer" in shared:
         return Finding(
@@ -248,7 +253,7 @@ def shared_memory(replies: Sequence[Reply]) -> Finding | None:
             "It hands out one and the same array at every call, so the next call "
             "overwrites the last answer. Make a new one in the function.",
         )
-    if shared:
+    if shared and copies:
         return Finding(
             "shares-its-argument",
             f"Its answer is (a part of) its argument {shared[0]} itself, so changing "

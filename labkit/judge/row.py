@@ -27,7 +27,7 @@ from typing import Any
 
 from labkit.judge.answers import AtOnce, InTurn, entry_of, once
 from labkit.judge.argument_mistakes import Change
-from labkit.judge.ask import Ask, Inputs
+from labkit.judge.ask import Ask, HeldOut, Inputs
 from labkit.judge.draw import Draw
 from labkit.judge.mistake import REDONE, Mistake, told
 from labkit.judge.mutant import Body, body_of
@@ -39,6 +39,7 @@ from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 Code = Callable[..., Any]
+ANY_SIZE = "not-at-every-size"  # what a function is told that `spans` finds
 
 
 @dataclass(frozen=True)
@@ -92,12 +93,37 @@ class Row:
         self.positive: dict[str, str] = {}  # what is never negative, and why
         self.unnoticed: dict[str, str] = {}  # changes that make no difference, and why
         self._entries: list[Callable[[], Iterable[Way]]] = []
+        self._spans: list[Inputs] = []
 
     # What a day's file says.
 
     def inputs(self, draw: Inputs) -> Any:
         """Take the generator of argument tuples, the docstring's case first."""
         self.more["inputs"] = draw
+        return draw
+
+    def spans(self, draw: Inputs | None = None, /, **values: Sequence[Any]) -> Any:
+        """Take what the usual inputs do not reach, and the lab or a later task asks.
+
+        It is asked of a function that is right so far. An answer is then measured in
+        its own size, so that what is tiny is not taken for 0.
+
+        Args:
+            draw: a generator of calls, as that of `inputs`.
+            values: of arguments, by name: the least, the greatest, what stands at a
+                limit. Each is put into the last of the usual calls; a function is given
+                the argument that is there.
+        """
+
+        def calls(rng: Draw) -> Iterator[tuple[Any, ...]]:
+            *_, usual = self._inputs(rng)
+            for name, some in values.items():
+                at = self.arguments.index(name)
+                for one in some:
+                    value = one(usual[at]) if callable(one) else one
+                    yield (*usual[:at], value, *usual[at + 1 :])
+
+        self._spans.append(draw or calls)
         return draw
 
     def wrong(
@@ -151,6 +177,25 @@ class Row:
             name = slug.partition(" ")[0]
             self.wrong(name, says, called or redone, hidden.get(slug, ""))(one)
         return code
+
+    def valid(self, method: str | Code = "") -> Any:
+        """Take the property of an answer that the docstring names, bare or with words.
+
+        The function takes a call's arguments and the answer, and returns True, False or
+        None, where it cannot say. Bare, any answer that has the property is right.
+
+        Args:
+            method: where the docstring asks for a method as well, what is told if
+                another method's answers have the property.
+        """
+        if callable(method):
+            return self.valid()(method)
+
+        def keep(has: Code) -> Code:
+            self.more |= {"valid": has, "method": method}
+            return has
+
+        return keep
 
     def close(self, slug: str) -> Any:
         """Take a way that is right in its method, but not in all digits."""
@@ -298,6 +343,8 @@ class Row:
             raise Robo47Error(f"{self.function}.py has no @row.inputs")
         more = {**self.more, "inputs": self._inputs, "reference": self._reference,
                 "right_bodies": self._bodies}  # fmt: skip
+        if self._spans:
+            more["held_out"] = [*more.get("held_out", ()), self._of_any_size()]
         if "accept" in more:
             more["accept"] = self._accept
         else:
@@ -314,6 +361,16 @@ class Row:
             return Ask(mistakes=self._mistakes, **more)
         except Robo47Error as error:
             raise self._fault(f"row cannot be asked: {error}") from None
+
+    def _of_any_size(self) -> HeldOut:
+        return HeldOut(
+            ANY_SIZE,
+            "Your function is right for ordinary inputs, but not for the smallest and "
+            "the largest ones, or at a limit. The lab or a later task uses such "
+            "inputs. Does a guard, a clamp or a tolerance change them?",
+            lambda rng: [tuple(call) for draw in self._spans for call in draw(rng)],
+            relative=True,
+        )
 
     def _mistakes(self) -> list[Mistake]:
         read = self.ask.in_turn

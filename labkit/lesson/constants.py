@@ -233,7 +233,7 @@ def table(found: Iterable[Measured]) -> str:
         if {number.printed(turn.then) for turn in one.turns} == {
             number.printed(one.now)
         }:
-            now += " (hangs on none of these)"
+            now += " (depends on none of these)"
         for turn in one.turns:
             then = number.printed(turn.then)
             if then == number.printed(one.now):

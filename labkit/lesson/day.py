@@ -31,6 +31,7 @@ from labkit.lesson.week import (
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
+LOG = "metrics/metrics.csv"  # from the top of a clone
 NUMBERS = 100_000  # of one answer, where a task does not say; a pose has 16
 # What a grader's machine gives a task at most, whatever its manifest asks for.
 MOST = {"seconds": 60.0, "memory": 4.0, "numbers": 1_000_000}
@@ -152,7 +153,7 @@ class Day:
             "script": f"{week}/{WORK}/{self.script}",
             "worksheet": self.worksheet and f"{week}/{self.worksheet}",
             "figure": self.figure and f"{week}/{self.figure}",
-            "log": self.metrics and "metrics/metrics.csv",
+            "log": self.metrics and LOG,
         }
         return {what: path for what, path in found.items() if path}
 

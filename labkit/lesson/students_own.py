@@ -1,30 +1,63 @@
-"""Which files of a clone the student writes: one list, from the manifests."""
+"""Which files of a clone the student writes: one list, from the manifests.
+
+Hand-in, update, fresh, edition, report and capstone ask this module; no other one has
+a pattern of these names.
+"""
 
 from fnmatch import fnmatchcase
 from pathlib import Path
 
-from labkit.lesson.day import all_days
-from labkit.lesson.week import WORK, weeks
+from labkit.lesson.day import LOG, all_days
+from labkit.lesson.week import NOTEBOOKS, WORK, Week, weeks
 from robo47.paths import ROOT
 
-LOG = "metrics/metrics.csv"
+MADE = (f"{WORK}/*", f"{NOTEBOOKS}/*")  # in a week: the kit has no file there
+OWN_LABS = f"w*/{WORK}/**"  # as git writes a pattern of paths
 
 
 def is_students(name: str) -> bool:
     """Return whether the student writes a file.
 
     These are the log, every deliverable of a day, the retrospectives of a week, and
-    everything in a week's `work/`, which holds the labs and the notebooks.
+    everything in a week's folders of labs and of notebooks.
 
     Args:
         name: relative to the clone, with forward slashes.
     """
-    return name == LOG or name in deliverables() or _is_of_a_week(name)
+    filled_in = name == LOG or name in deliverables()
+    return filled_in or is_made(name) or _is_of_a_week(name, retrospectives=True)
+
+
+def is_made(name: str) -> bool:
+    """Return whether a student's file begins without a template of the kit's.
+
+    These are the labs, the notebooks and the figures.
+
+    Args:
+        name: relative to the clone, with forward slashes.
+    """
+    return name in figures() or _is_of_a_week(name)
 
 
 def deliverables() -> set[str]:
     """Return the names of the files that the days ask for."""
     return {name for day in all_days() for name in day.files.values()}
+
+
+def figures() -> set[str]:
+    """Return the names of the figures that the days ask for."""
+    return {day.files["figure"] for day in all_days() if day.figure}
+
+
+def retrospectives(week: Week, root: Path = ROOT) -> list[Path]:
+    """Return a week's retrospectives that are there, sorted.
+
+    Args:
+        week: from its manifest.
+        root: the clone that they are looked for in.
+    """
+    folder = root / week.folder.name
+    return sorted(path for one in week.retrospectives for path in folder.glob(one))
 
 
 def work_links() -> list[str]:
@@ -33,11 +66,11 @@ def work_links() -> list[str]:
     return [_name(one) for one in folders if one.is_symlink()]
 
 
-def _is_of_a_week(name: str) -> bool:
+def _is_of_a_week(name: str, *, retrospectives: bool = False) -> bool:
     for week in weeks():
         place, _, rest = name.partition("/")
         if place == week.folder.name:
-            patterns = (f"{WORK}/*", *week.retrospectives)
+            patterns = (*MADE, *week.retrospectives) if retrospectives else MADE
             return any(fnmatchcase(rest, pattern) for pattern in patterns)
     return False
 

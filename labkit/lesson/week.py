@@ -24,6 +24,7 @@ from robo47.paths import ROOT, shown
 # A week's folder of the student's own labs; scripts/kit.py, Makefile and .gitignore,
 # which read no Python of the kit's, name it too.
 WORK = "work"
+NOTEBOOKS = "notebooks"  # of the labs with answers, as `make notebook` writes them
 
 _EXPECTED = {
     str: "a text",

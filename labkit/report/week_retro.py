@@ -1,7 +1,7 @@
 """The numbers of the student's retrospective, between two marks of its file.
 
-`<!-- numbers -->` and `<!-- end -->` stand in `w*/docs/RETRO_*.md`. What is between
-them is written anew; every other byte is the student's and stays as it is.
+`<!-- numbers -->` and `<!-- end -->` stand in the files that week.toml names. What is
+between them is written anew; every other byte is the student's and stays as it is.
 """
 
 from collections.abc import Sequence
@@ -9,6 +9,7 @@ from pathlib import Path
 
 from labkit.base import store
 from labkit.base.text import blocks, number_of, refill
+from labkit.lesson.students_own import retrospectives
 from labkit.report.week_facts import OwnDay
 from robo47.errors import Robo47Error
 from robo47.paths import shown
@@ -36,7 +37,7 @@ def fill(facts: Sequence[OwnDay]) -> list[Path]:
         return []  # nobody's numbers
     text = as_markdown(facts)
     changed = []
-    for path in sorted((facts[0].day.folder / "docs").glob("RETRO_*.md")):
+    for path in retrospectives(facts[0].day.week):
         try:
             before = path.read_bytes().decode("utf-8", "surrogateescape")
             if len(blocks(before, "numbers")) != 1:

@@ -172,8 +172,10 @@ def _place(world: Any, worlds: list[Any]) -> int:
     return len(worlds) - 1
 
 
-def free(asked: Any, worlds: Sequence[Any]) -> bool:
+def free(asked: Any, worlds: Sequence[Any]) -> bool | None:
     """Return what a world says of the edge that a process asks about.
+
+    None is the answer about what are no two points of that world.
 
     Raises:
         ValueError: only a forger asks that.
@@ -181,10 +183,16 @@ def free(asked: Any, worlds: Sequence[Any]) -> bool:
     try:
         number, *ends = asked
         world = worlds[number]
-        a, b = (np.array(wire.unpack_value(end), dtype=np.float64) for end in ends)
-        return bool(world.edge_free(a, b))
+        a, b = (wire.unpack_value(end) for end in ends)
     except Exception:
         raise ValueError("not a question about a world") from None
+    try:
+        a, b = np.array(a, dtype=np.float64), np.array(b, dtype=np.float64)
+        if a.ndim != 1 or a.shape != b.shape:  # or it would ask a million edges
+            return None
+        return bool(world.edge_free(a, b))
+    except Exception:  # a point of another number of joints
+        return None
 
 
 def read(came: Sequence[dict[str, Any]], most: int = NUMBERS) -> list[Reply]:

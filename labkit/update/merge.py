@@ -4,8 +4,9 @@ import shutil
 from pathlib import Path
 
 from labkit.base import git
+from labkit.lesson.day import LOG
 from labkit.lesson.merge import keep_both, merged
-from labkit.lesson.students_own import LOG, deliverables, is_students, work_links
+from labkit.lesson.students_own import deliverables, is_students, work_links
 from labkit.update.git import (
     NOBODY,
     SECONDS,

@@ -1,4 +1,4 @@
-"""What Day 2's numbers hang on: each constant turned by two, measured, explained."""
+"""Measure how Day 2's numbers depend on their constants, and explain each change."""
 
 import numpy as np
 
@@ -19,7 +19,7 @@ numbers = Numbers(
     raised="the base is raised by {} m",
     q="the screws are those of {} times the ready pose",
     tilt="the tool is tilted by {} rad",
-    about_z="the tool is turned about its z by {} rad",
+    about_z="the tool is rotated about its z axis by {} rad",
     flange="d of Franka's eighth row: {} m",
 )
 
@@ -46,8 +46,8 @@ def apart(wrong, right, q, fk=LAB.fk_space):
 
 @numbers.add(
     "third number of v of joint4's screw", "{:.4f} m",
-    metre=times(2.0, "v is omega x point, a length for each radian"),
-    raised=same("the axis is horizontal: only its height above the origin grows",
+    metre=times(2.0, "v is omega x point, a length per radian"),
+    raised=same("the axis is horizontal: only its height above the origin changes",
                 to=0.333),
 )  # fmt: skip
 def joint4(metre=1.0, raised=0.0):
@@ -57,9 +57,9 @@ def joint4(metre=1.0, raised=0.0):
 
 @numbers.add(
     "first number of v of joint4's screw", "{:.4f} m",
-    metre=times(2.0, "v is omega x point, a length for each radian"),
-    raised=times(0.982 / 0.649, "v is of the point at the origin: it hangs on where "
-                 "that is", to=0.333),
+    metre=times(2.0, "v is omega x point, a length per radian"),
+    raised=times(0.982 / 0.649, "v is the velocity of the point at the origin, "
+                 "0.982 m below the axis", to=0.333),
 )  # fmt: skip
 def joint4_first(metre=1.0, raised=0.0):
     """Return it."""
@@ -67,12 +67,12 @@ def joint4_first(metre=1.0, raised=0.0):
 
 
 @numbers.add(
-    "off at random with v forgotten", "{:.1f} mm",
-    metre=times(2.0, "all of it is lengths"),
-    times_v=times(2.0, "the place is linear in v: with its sign wrong it is twice as "
-                  "far off as without it", to=-1.0),
-    seed=between(0.7, 1.4, "other configurations", to=48),
-    n=between(0.7, 1.4, "more configurations"),
+    "position error at random q with v forgotten", "{:.1f} mm",
+    metre=times(2.0, "the error is a length"),
+    times_v=times(2.0, "the position is linear in v: the wrong sign doubles the "
+                  "error", to=-1.0),
+    seed=between(0.7, 1.4, "twenty other random configurations", to=48),
+    n=between(0.7, 1.4, "twice as many random configurations"),
 )  # fmt: skip
 def forgotten(metre=1.0, times_v=0.0, seed=LAB.SEED, n=20):
     """Return the median."""
@@ -82,9 +82,9 @@ def forgotten(metre=1.0, times_v=0.0, seed=LAB.SEED, n=20):
 
 
 @numbers.add(
-    "off at random with (v; omega)", "{:.1f} mm",
-    metre=between(2.2, 8.0, "more than twice: metres are taken for a part of a turn"),
-    seed=between(0.7, 1.4, "other configurations", to=48),
+    "position error at random q with (v; omega)", "{:.1f} mm",
+    metre=between(2.2, 8.0, "more than twice: the axis omega contains metres"),
+    seed=between(0.7, 1.4, "twenty other random configurations", to=48),
 )  # fmt: skip
 def halves(metre=1.0, seed=LAB.SEED):
     """Return the median."""
@@ -94,11 +94,11 @@ def halves(metre=1.0, seed=LAB.SEED):
 
 
 @numbers.add(
-    "off with M of the ready pose", "{:.1f} mm",
-    metre=times(2.0, "it is a length"),
-    seed=same("M stands on the right: the error turns with the arm, as long as it is",
+    "position error with M of the ready pose", "{:.1f} mm",
+    metre=times(2.0, "the error is a length"),
+    seed=same("M is on the right: the error rotates with the arm and keeps its norm",
               to=48),
-    n=same("it is as far off everywhere"),
+    n=same("the error is the same at every q"),
 )  # fmt: skip
 def wrong_M(metre=1.0, seed=LAB.SEED, n=20):
     """Return the median."""
@@ -108,13 +108,13 @@ def wrong_M(metre=1.0, seed=LAB.SEED, n=20):
 
 
 @numbers.add(
-    "off with Ad(M) for Ad(inverse of M)", "{:.0f} mm",
-    metre=times(2.0, "only v is wrong, a length"),
-    seed=between(0.5, 2.0, "other configurations", to=48),
-    tilt=between(4.0, 6.0, "M's rotation is not symmetric then, and omega is wrong too",
+    "position error with Ad(M) instead of Ad(inverse of M)", "{:.0f} mm",
+    metre=times(2.0, "only v is wrong, and v is a length per radian"),
+    seed=between(0.5, 2.0, "twenty other random configurations", to=48),
+    tilt=between(4.0, 6.0, "M's rotation is not symmetric then, so omega is wrong too",
                  to=0.3),
-    about_z=between(0.4, 1.6, "M's rotation stays symmetric, and omega right; v is "
-                    "another", to=0.3),
+    about_z=between(0.4, 1.6, "M's rotation stays symmetric, so omega is right; v "
+                    "changes", to=0.3),
 )  # fmt: skip
 def wrong_adjoint(metre=1.0, seed=LAB.SEED, tilt=0.0, about_z=0.0):
     """Return the median."""
@@ -136,10 +136,10 @@ def reading(name, metre, seed, n=20, flange=0.107):
 
 
 @numbers.add(
-    "flange off with the other convention's formula", "{:.0f} mm",
-    metre=times(2.0, "it is a length"),
-    seed=between(0.7, 1.4, "other configurations", to=48),
-    n=between(0.7, 1.4, "more configurations"),
+    "error of the flange with the other convention's formula", "{:.0f} mm",
+    metre=times(2.0, "the error is a length"),
+    seed=between(0.7, 1.4, "twenty other random configurations", to=48),
+    n=between(0.7, 1.4, "twice as many random configurations"),
 )  # fmt: skip
 def convention(metre=1.0, seed=47, n=20):
     """Return the median."""
@@ -147,11 +147,11 @@ def convention(metre=1.0, seed=47, n=20):
 
 
 @numbers.add(
-    "flange off without the eighth row", "{:.0f} mm",
-    metre=times(2.0, "it is a length"),
-    seed=same("the last row is missing, and its length is the same everywhere", to=48),
-    n=same("it is as far off everywhere"),
-    flange=times(2.0, "it is that row's d"),
+    "error of the flange without the eighth row", "{:.0f} mm",
+    metre=times(2.0, "the error is a length"),
+    seed=same("the missing row is a constant translation of the flange", to=48),
+    n=same("the error is the same at every q"),
+    flange=times(2.0, "the error is the d of this row"),
 )  # fmt: skip
 def without_flange(metre=1.0, seed=47, n=20, flange=0.107):
     """Return the median."""
@@ -160,9 +160,9 @@ def without_flange(metre=1.0, seed=47, n=20, flange=0.107):
 
 @numbers.add(
     "rank of the seven screws of q = 0", "{:.0f}",
-    metre=same("a rank has no unit"),
-    raised=same("the same seven lines, seen from another origin", to=0.333),
-    q=between(1.2, 1.2, "only at 0 are joints 1, 3 and 5 one line", to=1.0),
+    metre=same("the rank does not depend on the unit of length"),
+    raised=same("the same seven lines, expressed relative to another origin", to=0.333),
+    q=between(1.2, 1.2, "at ready joints 1, 3 and 5 are three different lines", to=1.0),
 )  # fmt: skip
 def rank(metre=1.0, raised=0.0, q=0.0):
     """Return it."""

@@ -114,7 +114,7 @@ def test_mujocos_six_numbers_have_omega_first_and_its_free_joint_v_first():
     data.qpos[3:7] = np.sqrt([0.5, 0.5, 0.0, 0.0])  # rolled by a quarter turn
     mujoco.mj_forward(model, data)
     assert_same(data.cvel[1, :3], screws.exp_rotation([1, 0, 0], np.pi / 2) @ omega)
-    assert r"its $\omega$ is in the *body's* axes" in GUIDE
+    assert r"its $\omega$ is expressed in the *body* frame" in GUIDE
     says = (
         "Twists and screws are (omega; v), as in *Modern Robotics* and MuJoCo's `cvel`"
     )
@@ -136,7 +136,7 @@ def test_the_v_of_cvel_is_that_of_the_centre_of_mass(mass_at):
         kind = getattr(mujoco.mjtObj, kind)
         mujoco.mj_objectVelocity(model, data, kind, 1, of_the_object, 0)
         assert_same(of_the_object, [0, 0, 1, 0, x, 0], 1e-15)
-    assert "that of `cvel` is the centre of mass of the whole tree" in GUIDE
+    assert "the point of `cvel` is the centre of mass of the whole tree" in GUIDE
 
 
 def test_the_moment_of_a_line_changes_across_it_and_not_along_it():
@@ -145,7 +145,7 @@ def test_the_moment_of_a_line_changes_across_it_and_not_along_it():
     assert_same(lab.screw_axis(omega, p + 0.7 * omega)[3:], v, 1e-15)
     across = lab.screw_axis(omega, p + np.array([0.1, 0, 0]))[3:] - v
     assert np.linalg.norm(across) == pytest.approx(0.1)
-    assert "Move it across by 0.1 m, and v changes by 0.1" in GUIDE
+    assert "If you move $p$ across the line by 0.1 m, $v$ changes by 0.1" in GUIDE
 
 
 @pytest.mark.parametrize("pitch", [0.0, 0.02])
@@ -167,7 +167,7 @@ def test_at_zero_a_row_for_a_column_is_the_same_for_four_links(arm, either_panda
     assert (same[:, 0] == symmetric[:, 0]).all()
     assert same[:, 0].sum() == 4
     assert not same[1:, 1:].any()  # link1 turns about the vertical alone
-    assert "There R is symmetric for four of the seven links" in GUIDE
+    assert "the rotation matrix is symmetric for four of the seven links" in GUIDE
 
 
 def test_the_cube_of_a_bracket_is_its_negative_for_length_1_only():

@@ -1,7 +1,7 @@
-"""What Day 3's numbers hang on: each constant turned by two, measured, explained.
+"""The sensitivity of Day 3's numbers: each constant doubled, measured and explained.
 
-The wild numbers of the plain pseudo-inverse out of reach are not among them: they are
-chaotic, and the guide says so.
+The errors of the plain pseudo-inverse out of reach are not among the numbers, because
+they depend on the step, as the guide explains.
 """
 
 from functools import cache
@@ -23,7 +23,7 @@ numbers = Numbers(
     metre="the unit of length, all lengths of the arm: × {}",
     units="units of length in a metre: {}",
     force="the hand pushes with {} N",
-    base="turn of joint 1: {} rad",
+    base="angle of joint 1: {} rad",
     seed="SEED: {}",
     n="configurations: {}",
     targets="FAR, targets: {}",
@@ -38,7 +38,7 @@ numbers = Numbers(
 
 @cache
 def arm(metre=1.0):
-    """Return screws and home pose, of an arm that is so many times as large."""
+    """Return screws and home pose, of an arm whose lengths are scaled by `metre`."""
     model = panda.load("panda_nohand")
     model.body_pos[:] *= metre
     model.site_pos[:] *= metre
@@ -56,7 +56,7 @@ def site(q, metre=1.0):
     "joint 2's torque, pushing down with 10 N", "{:.2f} N m",
     force=times(2.0, "force times lever arm"),
     metre=times(2.0, "force times lever arm"),
-    base=same("joint 1 turns hand and axis alike", to=1.0),
+    base=same("joint 1 rotates the hand and the axis of joint 2 together", to=1.0),
 )  # fmt: skip
 def pushing(force=10.0, metre=1.0, base=0.0):
     """Return it."""
@@ -68,9 +68,9 @@ def pushing(force=10.0, metre=1.0, base=0.0):
 
 
 @numbers.add(
-    "manipulability in millimetres, over that in metres", "{:.0e}",
-    units=times(8.0, "three rows of J are lengths: the cube of the unit", to=2000.0),
-    seed=same("whatever the configuration", to=48),
+    "manipulability in millimetres, divided by manipulability in metres", "{:.0e}",
+    units=times(8.0, "three rows of J scale with the unit, so the product scales with its cube", to=2000.0),
+    seed=same("the ratio is the same in every configuration", to=48),
 )  # fmt: skip
 def scaled(units=1000.0, seed=LAB.SEED):
     """Return the ratio at a random configuration."""
@@ -80,8 +80,8 @@ def scaled(units=1000.0, seed=LAB.SEED):
 
 
 @numbers.add(
-    "pairs whose least singular values change their order", "{:.0f} %",
-    units=between(1.02, 1.5, "the farther from metres, the more", to=20.0),
+    "pairs whose smallest singular values change their order", "{:.0f} %",
+    units=between(1.02, 1.5, "the lengths gain more weight relative to the radians", to=20.0),
     seed=between(0.8, 1.25, "other configurations", to=48),
     n=between(0.8, 1.25, "more configurations"),
 )  # fmt: skip
@@ -98,7 +98,7 @@ def swapped(units=10.0, seed=LAB.SEED, n=300):
 @numbers.add(
     "far targets that are reached from ready, of 20", "{:.0f}",
     seed=between(0.7, 1.4, "other targets", to=48),
-    limits=between(1.0, 1.5, "many a valley ends at a limit"),
+    limits=between(1.0, 1.5, "many local minima are at a joint limit"),
 )  # fmt: skip
 def from_ready(seed=LAB.SEED, limits=1.0):
     """Return how many."""
@@ -111,7 +111,7 @@ def from_ready(seed=LAB.SEED, limits=1.0):
 
 @cache
 def drawn(radius, damping, gain, dt, lap, metre=1.0):
-    """Return what draw_circle does: mm off, joint speeds, angles."""
+    """Return the result of draw_circle: errors in mm, joint speeds, angles."""
     with turned(DAY, LAP=lap):
         times_ = np.arange(0.0, lap, dt)
         path, q = DAY.circle(arm(metre), MODEL.jnt_range, radius, times_)
@@ -120,12 +120,12 @@ def drawn(radius, damping, gain, dt, lap, metre=1.0):
 
 
 @numbers.add(
-    "off the larger circle, with damping", "{:.2f} mm",
-    damping=between(1.1, 2.5, "then the worst place is the bottom, which is in reach"),
-    gain=between(0.9, 1.1, "a gain does not reach what is out of reach"),
-    dt=between(0.95, 1.05, "the damping is slower than either step"),
-    lap=between(0.85, 1.0, "more time against the damping; out of reach stays so"),
-    radius=between(0.2, 0.5, "2 cm less, and all of it is in reach", to=0.36),
+    "largest error on the larger circle, with damping", "{:.2f} mm",
+    damping=between(1.1, 2.5, "the largest error moves to the bottom, which is in reach"),
+    gain=between(0.9, 1.1, "no gain reduces the error of a target out of reach"),
+    dt=between(0.95, 1.05, "the lag is caused by the damping, not by the step"),
+    lap=between(0.85, 1.0, "the hand lags less, and the part out of reach does not change"),
+    radius=between(0.2, 0.5, "the whole circle is in reach", to=0.36),
 )  # fmt: skip
 def off(damping=LAB.DAMPING, gain=LAB.GAIN, dt=LAB.DT, lap=DAY.LAP, radius=LAB.RADIUS):
     """Return the worst."""
@@ -133,10 +133,10 @@ def off(damping=LAB.DAMPING, gain=LAB.GAIN, dt=LAB.DT, lap=DAY.LAP, radius=LAB.R
 
 
 @numbers.add(
-    "off it at the bottom", "{:.1f} mm",
-    damping=between(2.0, 4.5, "its square counts: up to four times"),
+    "largest error at its bottom, with damping", "{:.1f} mm",
+    damping=between(2.0, 4.5, "the lag grows with the square of the damping, up to four times"),
     gain=between(0.4, 0.9, "an error is corrected twice as fast"),
-    dt=between(0.9, 1.1, "the damping is slower than either step"),
+    dt=between(0.9, 1.1, "the lag is caused by the damping, not by the step"),
 )  # fmt: skip
 def bottom(damping=LAB.DAMPING, gain=LAB.GAIN, dt=LAB.DT):
     """Return the worst of the second half, all of it in reach."""
@@ -145,20 +145,20 @@ def bottom(damping=LAB.DAMPING, gain=LAB.GAIN, dt=LAB.DT):
 
 
 @numbers.add(
-    "fastest joint on it, in parts of its limit", "{:.4f}",
-    lap=between(0.4, 0.7, "half the speed of the hand"),
-    damping=between(0.5, 1.0, "damping holds the joints back"),
-    dt=between(0.95, 1.05, "the damping is slower than either step"),
+    "fastest joint on it, as a fraction of its limit", "{:.4f}",
+    lap=between(0.4, 0.7, "the hand moves at half the speed"),
+    damping=between(0.5, 1.0, "damping makes the steps shorter"),
+    dt=between(0.95, 1.05, "the lag is caused by the damping, not by the step"),
 )  # fmt: skip
 def fastest(lap=DAY.LAP, damping=LAB.DAMPING, dt=LAB.DT):
-    """Return the share."""
+    """Return the largest fraction of a joint's speed limit."""
     speeds = drawn(LAB.RADIUS, damping, LAB.GAIN, dt, lap)[1]
     return (speeds / LAB.SPEED).max()
 
 
 @numbers.add(
-    "off the smaller circle, without damping", "{:.1f} mm",
-    dt=between(1.7, 4.5, "a step goes straight on where the circle bends"),
+    "largest error on the smaller circle, without damping", "{:.1f} mm",
+    dt=between(1.7, 4.5, "a step follows the tangent, and the circle curves away from it"),
     gain=between(0.4, 0.7, "an error is corrected twice as fast"),
     lap=between(0.2, 0.6, "steps of half the length"),
 )  # fmt: skip
@@ -168,9 +168,9 @@ def plain(dt=LAB.DT, gain=LAB.GAIN, lap=DAY.LAP):
 
 
 @numbers.add(
-    "the same with damping", "{:.1f} mm",
-    damping=between(2.0, 4.5, "its square counts: up to four times"),
-    dt=between(0.9, 1.1, "it is the damping's, not the steps'"),
+    "largest error on the smaller circle, with damping", "{:.1f} mm",
+    damping=between(2.0, 4.5, "the lag grows with the square of the damping, up to four times"),
+    dt=between(0.9, 1.1, "the error is caused by the damping, not by the step"),
     gain=between(0.4, 0.9, "an error is corrected twice as fast"),
 )  # fmt: skip
 def damped(damping=LAB.DAMPING, dt=LAB.DT, gain=LAB.GAIN):

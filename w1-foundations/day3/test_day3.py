@@ -189,7 +189,7 @@ def test_in_which_jacobians_joint_7_does_not_show(arm):
     first, second = map(jacobian.site_jacobian, spaces, points)
     assert 0.19 < np.abs(first - second)[:, :, :6].max() < 0.2
     assert_same(np.linalg.norm(first[:, 3:, 6], axis=1), np.full(200, 0.1), 1e-12)
-    assert "Of a point 0.1 m off that axis it has 0.1 m/s" in GUIDE
+    assert "A point 0.1 m off that axis moves at 0.1 m/s" in GUIDE
 
 
 def test_the_origin_of_joint_7_has_another_jacobian(arm):
@@ -200,7 +200,7 @@ def test_the_origin_of_joint_7_has_another_jacobian(arm):
     link, hand = (ends[k][:, :3, 3] for k in ("body:link7", "site:attachment_site"))
     off = jacobian.site_jacobian(J_space, link) - jacobian.site_jacobian(J_space, hand)
     most = np.linalg.norm(off[0], axis=0).max()
-    assert f"v is off by up to {most:.3f} m/s for each rad/s" in WHOSE
+    assert f"v is wrong by up to {most:.3f} m/s for each rad/s" in WHOSE
 
 
 def test_manipulability_and_the_least_singular_value_depend_on_the_unit(arm):
@@ -261,4 +261,4 @@ def test_joint4_after_a_quarter_turn_of_joint1(arm):
     assert "(0, -1, 0, 0.649, 0, -0.0825)" in GUIDE
     assert_same(arm[0][3], [0, -1, 0, 0.649, 0, -0.0825], 1e-4)
     assert_same(J[:, 3], [1, 0, 0, 0, 0.649, -0.0825], 1e-4)
-    assert "(1, 0, 0, 0, 0.649, -0.0825): both halves have turned" in GUIDE
+    assert "(1, 0, 0, 0, 0.649, -0.0825): both halves are rotated" in GUIDE

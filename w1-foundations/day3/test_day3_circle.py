@@ -120,7 +120,7 @@ def test_what_the_damping_costs_shows_at_the_bottom():
     says = f"after {worst * lab.DT:.2f} s the hand is {(off - best).max():.1f} mm off"
     assert says in GUIDE
     least = np.linalg.svd(site_jacobian(path[200:260]))[1][:, -1]
-    says = f"after {4 + least.argmin() * lab.DT:.2f} s it has a least singular value"
+    says = f"after {4 + least.argmin() * lab.DT:.2f} s it has a smallest singular value"
     assert f"{says} of {least.min():.3f}" in GUIDE
     # The plain one, from where the damped one is after 3 s: the same circle, shifted.
     later, _ = circle(lab.RADIUS, first=3.0)

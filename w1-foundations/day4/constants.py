@@ -1,4 +1,4 @@
-"""What Day 4's numbers hang on: each constant turned by two, measured, explained."""
+"""The sensitivity of Day 4's numbers: each constant doubled, measured, explained."""
 
 import mujoco
 import numpy as np
@@ -25,7 +25,7 @@ numbers = Numbers(
     speed="every joint's speed: {} rad/s",
     difference="step of the differences: {} rad",
     step="time step: {} s",
-    missing="missing share of gravity_torque: {}",
+    missing="missing fraction of gravity_torque: {}",
     seconds="after {} s",
     push="PUSH: {} N",
     rate="RATE: {} Hz",
@@ -62,11 +62,11 @@ def held(known, q=READY):
 
 @numbers.add(
     "M of joint 2 at ready", "{:.3f} kg m²",
-    masses=times((1.545 - 0.1) / 1.545 + 1.0, "twice, but for the rotor's 0.1"),
-    armature=times(1.645 / 1.545, "0.1 more"),
-    metre=times((4 * 1.445 + 0.1) / 1.545, "four times, but for the rotor's 0.1"),
-    damping=same("M is what resists an acceleration, not a speed"),
-    gravity=same("M is what resists an acceleration, weight or not"),
+    masses=times((1.545 - 0.1) / 1.545 + 1.0, "doubled, except for the rotor's 0.1"),
+    armature=times(1.645 / 1.545, "the rotor adds another 0.1"),
+    metre=times((4 * 1.445 + 0.1) / 1.545, "four times, except for the rotor's 0.1"),
+    damping=same("M belongs to the acceleration, and damping to the velocity"),
+    gravity=same("M contains the masses and not their weight"),
 )  # fmt: skip
 def mass(masses=1.0, armature=1.0, metre=1.0, damping=1.0, gravity=1.0):
     """Return the entry."""
@@ -76,11 +76,11 @@ def mass(masses=1.0, armature=1.0, metre=1.0, damping=1.0, gravity=1.0):
 
 
 @numbers.add(
-    "M with m [c] of the wrong sign, off by", "{:.3f} kg m²",
-    masses=times(2.0, "it is the mass matrix of another arm, minus ours"),
-    metre=times(4.0, "kg m²"),
+    "error of M with m [c] of the wrong sign", "{:.3f} kg m²",
+    masses=times(2.0, "a difference of two mass matrices, linear in the masses"),
+    metre=times(4.0, "an inertia has the unit kg m²"),
     armature=same("both arms have the same rotors"),
-    seed=between(0.8, 1.25, "other configurations; the worst of 100 is kept", to=48),
+    seed=between(0.8, 1.25, "100 other configurations, of which the maximum is taken", to=48),
 )  # fmt: skip
 def wrong_sign(masses=1.0, metre=1.0, armature=1.0, seed=LAB.SEED):
     """Return the worst entry of 100 configurations."""
@@ -101,8 +101,8 @@ def wrong_sign(masses=1.0, metre=1.0, armature=1.0, seed=LAB.SEED):
     gravity=times(2.0, "m g times the lever arms"),
     masses=times(2.0, "m g times the lever arms"),
     metre=times(2.0, "m g times the lever arms"),
-    armature=same("a rotor's weight is in its link already"),
-    damping=same("nothing moves"),
+    armature=same("the weight of a rotor is included in its link"),
+    damping=same("the arm is at rest"),
 )  # fmt: skip
 def weight(gravity=1.0, masses=1.0, metre=1.0, armature=1.0, damping=1.0):
     """Return what joint 4 holds."""
@@ -110,8 +110,8 @@ def weight(gravity=1.0, masses=1.0, metre=1.0, armature=1.0, damping=1.0):
 
 
 @numbers.add(
-    "what joint 1 holds when the base is tipped by 0.1 rad", "{:.1f} N m",
-    tipped=times(2.0, "sin 0.2 for sin 0.1"),
+    "torque of joint 1 if the base is tipped by 0.1 rad", "{:.1f} N m",
+    tipped=times(2.0, "sin 0.2 instead of sin 0.1"),
     gravity=times(2.0, "m g times the lever arms"),
 )  # fmt: skip
 def tipped(tipped=0.1, gravity=1.0):
@@ -123,13 +123,13 @@ def tipped(tipped=0.1, gravity=1.0):
 
 
 @numbers.add(
-    "torque without armature and damping, off by", "{:.2f} N m",
-    armature=between(1.1, 1.5, "0.1 qdd is up to 1 N m of it"),
-    damping=between(1.5, 1.9, "1.0 qd is up to 2 N m of it"),
-    fastest=between(1.5, 1.9, "1.0 qd is up to 2 N m of it"),
-    hardest=between(1.1, 1.5, "0.1 qdd is up to 1 N m of it"),
-    masses=same("it is not the links'"),
-    gravity=same("it is not the links'"),
+    "error of the torque without armature and damping", "{:.2f} N m",
+    armature=between(1.1, 1.5, "0.1 qdd contributes up to 1 N m"),
+    damping=between(1.5, 1.9, "1.0 qd contributes up to 2 N m"),
+    fastest=between(1.5, 1.9, "1.0 qd contributes up to 2 N m"),
+    hardest=between(1.1, 1.5, "0.1 qdd contributes up to 1 N m"),
+    masses=same("the error does not contain the links' torque"),
+    gravity=same("the error does not contain the links' torque"),
 )  # fmt: skip
 def forgotten(armature=1.0, damping=1.0, fastest=LAB.FASTEST, hardest=LAB.HARDEST,
               masses=1.0, gravity=1.0):  # fmt: skip
@@ -146,11 +146,11 @@ def forgotten(armature=1.0, damping=1.0, fastest=LAB.FASTEST, hardest=LAB.HARDES
 
 @numbers.add(
     "symmetric part of Mdot - 2 C, of the second C", "{:.2f} kg m²/s",
-    speed=times(2.0, "both are linear in the speeds"),
-    metre=times(4.0, "kg m² for each second"),
+    speed=times(2.0, "both matrices are linear in the velocities"),
+    metre=times(4.0, "the rate of an inertia has the unit kg m²/s"),
     masses=times(2.0, "M is linear in the masses"),
     armature=same("a rotor's inertia does not change with q"),
-    difference=same("the differences are good to ten digits"),
+    difference=same("the differences are accurate to ten digits"),
 )  # fmt: skip
 def not_skew(speed=1.0, metre=1.0, masses=1.0, armature=1.0, difference=1e-5):
     """Return the largest entry."""
@@ -165,10 +165,10 @@ def not_skew(speed=1.0, metre=1.0, masses=1.0, armature=1.0, difference=1e-5):
 
 
 @numbers.add(
-    "next velocity with M alone, off by", "{:.3f} rad/s",
-    step=times(4.0, "a step of h changes the speed by h, and the brake by h of that",
+    "error of the next velocity with M alone", "{:.3f} rad/s",
+    step=times(4.0, "the change of velocity in a step is of order h, and its damping of order h²",
                within=0.1),
-    damping=between(1.8, 2.4, "h D is what M alone leaves out"),
+    damping=between(1.8, 2.4, "M alone omits h D"),
 )  # fmt: skip
 def with_M_alone(step=0.002, damping=1.0):
     """Return the worst of 100 motions, with the lab's torques."""
@@ -181,7 +181,7 @@ def with_M_alone(step=0.002, damping=1.0):
 
 
 def way(missing, seconds, gravity=1.0, damping=1.0, rate=LAB.RATE, step=0.002):
-    """Return the hand's way on a share of gravity_torque, mm."""
+    """Return the hand's displacement with a fraction of gravity_torque, mm."""
     model, known = arm(gravity=gravity, damping=damping, step=step)
     with turned(LAB, RATE=rate):
         path = LAB.let_go(model, known, 1.0 - missing, (seconds, 0 * LAB.PUSH))
@@ -189,13 +189,13 @@ def way(missing, seconds, gravity=1.0, damping=1.0, rate=LAB.RATE, step=0.002):
 
 
 @numbers.add(
-    "way of the hand on 99 % of gravity_torque in 2 s", "{:.0f} mm",
-    missing=between(1.8, 2.3, "twice the push"),
-    seconds=between(2.0, 5.0, "it still gathers speed", to=4.0),
-    gravity=between(1.8, 2.3, "1 % of twice the weight"),
-    damping=between(0.5, 0.8, "what slows it down"),
-    rate=times(1.0, "so slow that a torque may be held for 20 ms"),
-    step=times(1.0, "so slow a motion is exact at any step", to=0.001),
+    "displacement of the hand with 99 % of gravity_torque in 2 s", "{:.0f} mm",
+    missing=between(1.8, 2.3, "the missing torque is twice as large"),
+    seconds=between(2.0, 5.0, "the hand still accelerates", to=4.0),
+    gravity=between(1.8, 2.3, "the missing torque is 1 % of twice the weight"),
+    damping=between(0.5, 0.8, "damping slows the hand down"),
+    rate=times(1.0, "the motion is so slow that 20 ms of constant torque do not matter"),
+    step=times(1.0, "the motion is so slow that either step is accurate", to=0.001),
 )  # fmt: skip
 def sinks(missing=0.01, seconds=2.0, gravity=1.0, damping=1.0, rate=LAB.RATE,
           step=0.002):  # fmt: skip
@@ -204,10 +204,10 @@ def sinks(missing=0.01, seconds=2.0, gravity=1.0, damping=1.0, rate=LAB.RATE,
 
 
 @numbers.add(
-    "way of the hand on 0 % in 0.5 s", "{:.0f} mm",
-    gravity=between(0.95, 1.05, "it falls sooner; joints reach their limits as before"),
-    damping=between(0.95, 1.05, "it falls later: joints reach their limits as before"),
-    step=times(1.0, "but for the blow at a joint's limit", to=0.001, within=0.03),
+    "displacement of the hand with 0 % in 0.5 s", "{:.0f} mm",
+    gravity=between(0.95, 1.05, "it falls faster, and the joints reach the same limits"),
+    damping=between(0.95, 1.05, "it falls more slowly, and the joints reach the same limits"),
+    step=times(1.0, "only the impact at a joint limit depends on the step", to=0.001, within=0.03),
 )  # fmt: skip
 def falls(gravity=1.0, damping=1.0, step=0.002):
     """Return it."""
@@ -216,14 +216,14 @@ def falls(gravity=1.0, damping=1.0, step=0.002):
 
 @numbers.add(
     "speed of the hand 4.5 s after the push", "{:.3f} m/s",
-    damping=between(3.5, 5.0, "half the brake leaves far more than twice the speed",
+    damping=between(3.5, 5.0, "the decay is exponential, so half the rate leaves far more than twice the speed",
                     to=0.5),
-    push=between(1.5, 3.0, "twice the speed to begin with"),
-    seconds=between(0.05, 0.5, "damping takes a share of it in every second"),
-    gravity=between(0.5, 0.8, "it is made up for 20 ms too late, which brakes too"),
-    masses=between(1.5, 6.0, "half the speed, and less of it lost in a second"),
-    rate=between(1.05, 1.25, "gravity is made up for 10 ms too late, not 20"),
-    step=times(1.0, "a glide is exact at any step", within=0.05, to=0.001),
+    push=between(1.5, 3.0, "the initial speed is twice as large"),
+    seconds=between(0.05, 0.5, "damping removes a fraction of the speed in every second"),
+    gravity=between(0.5, 0.8, "gravity is compensated 20 ms too late, which also slows the hand"),
+    masses=between(1.5, 6.0, "the initial speed is half as large, and it decays more slowly"),
+    rate=between(1.05, 1.25, "gravity is compensated 10 ms too late, instead of 20"),
+    step=times(1.0, "a free glide is accurate at either step", within=0.05, to=0.001),
 )  # fmt: skip
 def glides(damping=1.0, push=10.0, seconds=4.5, gravity=1.0, masses=1.0, rate=LAB.RATE,
            step=0.002):  # fmt: skip

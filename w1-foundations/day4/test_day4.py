@@ -53,7 +53,7 @@ def test_a_mass_matrix_with_a_wrong_sign_is_symmetric_and_positive_definite(arm,
     least = np.linalg.eigvalsh(M).min()
     off = np.abs(M - truth).max()
     assert f"wrong by {off:.3f} kg m²" in SENTENCES
-    assert f"its least eigenvalue is {least:.3f}" in SENTENCES
+    assert f"its smallest eigenvalue is {least:.3f}" in SENTENCES
     assert f"entry of all 100 M ({truth.max():.3f})" in SENTENCES
     assert 5.0 < off / truth.max() < 6.0  # "over five times"
     least = {what: np.linalg.eigvalsh(one).min() for what, one in wrong.items()}
@@ -89,7 +89,8 @@ def test_at_q_zero_M_does_not_see_which_way_I_was_turned(arm):
         G = dynamics.spatial_inertia(m, c, np.einsum(own, R, inertia, R))
         return np.abs(lab.mass_matrix(now.J_space, G, arm.armature) - now.M).max()
 
-    assert "q = 0 M does not see which way the inertia I was turned" in SENTENCES
+    says = "q = 0 M does not show in which direction the inertia I was rotated"
+    assert says in SENTENCES
     assert off(np.zeros(7), "nij,nj->ni", "nji,njk,nkl->nil") < 1e-12
     assert off(panda.READY_Q, "nij,nj->ni", "nji,njk,nkl->nil") > 1e-3
     assert off(np.zeros(7), "nji,nj->ni", "nji,njk,nkl->nil") > 0.4  # c shows
@@ -106,7 +107,7 @@ def test_the_answers_on_paper_are_those_of_the_functions():
     M = lab.mass_matrix(S, G[None], np.zeros(1))
     faster = lab.inverse_dynamics(S, G[None], np.zeros(1), np.ones(1), g)
     for answer, says in (
-        (held[0], f"turns the other way: {held[0]:.2f} N m"),
+        (held[0], f"that holds it is negative: {held[0]:.2f} N m"),
         (M[0, 0], f"- {M[0, 0]:.0f} kg m²: with"),
         (faster[0], f"- {faster[0]:.2f} N m: it accelerates downwards"),
     ):

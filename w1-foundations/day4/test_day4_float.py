@@ -76,7 +76,7 @@ def test_the_arm_glides_when_it_is_pushed(arm, model):
     pushed = round(0.5 * lab.RATE)
     assert path[pushed, 1] - path[0, 1] > 0.1  # along +y, and on round the base
     assert np.linalg.norm(path[-1] - path[0]) > 0.5
-    assert f"still does {speed[-1]:.3f} m/s" in SENTENCES
+    assert f"still moves at {speed[-1]:.3f} m/s" in SENTENCES
 
 
 def test_it_is_the_damping_that_slows_the_pushed_arm_down(arm):
@@ -164,5 +164,5 @@ def test_a_torque_that_is_held_brakes_the_pushed_arm_as_well(arm, monkeypatch):
         monkeypatch.setattr(lab, "RATE", rate)
         path = lab.let_go(model, arm, 1.0, (0.5, lab.PUSH), (4.5, 0 * lab.PUSH))
         ends.append(f"{np.linalg.norm(path[-1] - path[-2]) * rate:.3f}")
-    says = "with `RATE = 500.0` the hand still does {1} m/s instead of {0}."
+    says = "with `RATE = 500.0` the hand still moves at {1} m/s instead of {0}."
     assert says.format(*ends) in SENTENCES

@@ -1,4 +1,4 @@
-"""What Day 5's numbers hang on: each constant turned by two, measured, explained."""
+"""Sensitivity of Day 5's numbers: each constant is doubled, measured and explained."""
 
 from functools import cache
 
@@ -27,7 +27,7 @@ numbers = Numbers(
     reach="REACH: × {}",
     seconds="the swing takes {} s",
     damping="damping of the joints: × {}",
-    mass="mass that nobody told: × {}",
+    mass="mass that the model omits: × {}",
     servo_kd="kd of the servos: × {}",
     start="its first error: × {}",
 )
@@ -48,13 +48,13 @@ def bench(step=0.002, integrator=LAB.INTEGRATOR, gravity=1.0, damping=1.0, mass=
 
 @numbers.add(
     "joint 4 hangs low on springs by", "{:.3f} mrad",
-    kp=between(0.45, 0.5, "half, and a little less: gravity's torque changes with q"),
-    kd=same("nothing moves any more"),
-    gravity=between(1.8, 2.2, "twice, but for how gravity's torque changes with q"),
-    wait=same("nothing moves any more"),
-    rate=same("a torque that is held and does not change is the same torque"),
-    step=same("nothing moves any more", to=0.001),
-    integrator=same("nothing moves any more", to="mjINT_EULER"),
+    kp=between(0.45, 0.5, "half, and a little less, because the gravity torque changes with q"),
+    kd=same("the arm is at rest"),
+    gravity=between(1.8, 2.2, "about twice, because the gravity torque changes with q"),
+    wait=same("the arm is at rest"),
+    rate=same("the torque is constant, so holding it has no effect"),
+    step=same("the arm is at rest", to=0.001),
+    integrator=same("the arm is at rest", to="mjINT_EULER"),
 )  # fmt: skip
 def sag(kp=LAB.KP, kd=LAB.KD, gravity=1.0, wait=6.0, rate=LAB.RATE, step=0.002,
         integrator=LAB.INTEGRATOR):  # fmt: skip
@@ -75,11 +75,11 @@ def decay(zeta, seconds, rate, step, omega, e0, gravity, law=None):
 
 @numbers.add(
     "zeta 1, after 0.3 s", "{:.3f} of e0",
-    rate=between(1.005, 1.03, "half the way from 0.195 to the 0.199 of the formula"),
-    omega=between(0.05, 0.12, "(1 + 6) exp(-6) for (1 + 3) exp(-3)"),
-    e0=same("the error's equation is linear, however large the motion"),
-    gravity=same("it is in the bias, and cancels"),
-    step=between(0.995, 1.005, "the motors hold their torque just as long", to=0.001),
+    rate=between(1.005, 1.03, "half the difference to the formula's 0.199"),
+    omega=between(0.05, 0.12, "(1 + 6) exp(-6) instead of (1 + 3) exp(-3)"),
+    e0=same("the error dynamics are linear at any amplitude"),
+    gravity=same("gravity is in the bias, and cancels"),
+    step=between(0.995, 1.005, "the motors hold their torque for the same time", to=0.001),
 )  # fmt: skip
 def decayed(rate=LAB.RATE, omega=10.0, e0=1.0, gravity=1.0, step=0.002):
     """Return the mean error of the joints after 0.3 s."""
@@ -88,10 +88,10 @@ def decayed(rate=LAB.RATE, omega=10.0, e0=1.0, gravity=1.0, step=0.002):
 
 @numbers.add(
     "zeta 0.5: largest distance from the predicted curve", "{:.5f} of e0",
-    rate=between(0.5, 0.6, "the held torque: half the period, about half of it"),
-    omega=between(1.8, 2.3, "the same period is twice the part of a swing"),
-    e0=times(1.0, "linear, but for the M that a held torque does not follow"),
-    step=between(0.95, 1.05, "the motors hold their torque just as long", to=0.001),
+    rate=between(0.5, 0.6, "the torque is held for half the time"),
+    omega=between(1.8, 2.3, "the control period is twice the fraction of an oscillation"),
+    e0=times(1.0, "nearly linear; a held torque does not follow M"),
+    step=between(0.95, 1.05, "the motors hold their torque for the same time", to=0.001),
 )  # fmt: skip
 def off_curve(rate=LAB.RATE, omega=10.0, e0=1.0, step=0.002):
     """Return how far the error is from its curve."""
@@ -116,9 +116,9 @@ def follows(law, rate, reach, seconds, **how):
 
 @numbers.add(
     "gains outside M miss their curve by", "{:.3f} of e0",
-    rate=between(0.95, 1.02, "the held torque is the least of it"),
-    e0=between(0.8, 1.0, "a larger motion meets other M: this law is not linear"),
-    omega=between(0.5, 2.0, "springs and dampers grow: the wrist stays overdamped"),
+    rate=between(0.95, 1.02, "the held torque is a small part of the error"),
+    e0=between(0.8, 1.0, "M changes more in a larger motion, so this law is not linear"),
+    omega=between(0.5, 2.0, "both gains grow, and the wrist stays overdamped"),
 )  # fmt: skip
 def outside(rate=LAB.RATE, e0=1.0, omega=LAB.OMEGA):
     """Return how far the public page's law is from its curve."""
@@ -129,15 +129,15 @@ def outside(rate=LAB.RATE, e0=1.0, omega=LAB.OMEGA):
 
 @numbers.add(
     "computed torque follows the swing within", "{:.2f} mrad",
-    omega=between(0.45, 0.6, "what disturbs it stays, and kd is twice as large"),
-    rate=between(0.95, 1.1, "the held torque is the smaller part of it"),
-    step=between(0.5, 0.7, "the simulator's step is the larger part", to=0.001),
-    reach=between(1.8, 4.5, "twice the speed and acceleration"),
-    seconds=between(0.2, 0.6, "half of the speed, a quarter of the acceleration"),
-    damping=between(0.9, 1.0, "the model has it; the step's M + hD for M is left"),
-    gravity=between(1.0, 1.15, "it cancels when the torque is asked, and nearly so a "
-                    "period later"),
-    integrator=between(0.5, 0.8, "the step's part is gone, the held torque's is left",
+    omega=between(0.45, 0.6, "the disturbance is the same, and kd is twice as large"),
+    rate=between(0.95, 1.1, "the held torque is the smaller part of the error"),
+    step=between(0.5, 0.7, "the simulator's step causes the larger part", to=0.001),
+    reach=between(1.8, 4.5, "twice the velocity and acceleration"),
+    seconds=between(0.2, 0.6, "half the velocity, a quarter of the acceleration"),
+    damping=between(0.9, 1.0, "the model includes it; the step's M + hD remains"),
+    gravity=between(1.0, 1.15, "it cancels at the start of a period, and nearly so at its "
+                    "end"),
+    integrator=between(0.5, 0.8, "the step's error vanishes, the held torque's remains",
                        to="mjINT_RK4"),
 )  # fmt: skip
 def tracks(omega=LAB.OMEGA, rate=LAB.RATE, reach=1.0, seconds=2.0, damping=1.0,
@@ -153,10 +153,10 @@ def tracks(omega=LAB.OMEGA, rate=LAB.RATE, reach=1.0, seconds=2.0, damping=1.0,
 
 
 @numbers.add(
-    "the model asked where the arm is, without springs", "{:.2f} mrad",
-    rate=between(0.4, 0.5, "the held torque: half of its period, less than half of it"),
-    gravity=between(1.05, 1.6, "without any it is 15: most is not gravity's"),
-    reach=between(1.5, 4.5, "twice the speed and acceleration"),
+    "the model at the measured state, without springs", "{:.2f} mrad",
+    rate=between(0.4, 0.5, "half the period gives less than half the error"),
+    gravity=between(1.05, 1.6, "without gravity it is 15, so gravity causes the smaller part"),
+    reach=between(1.5, 4.5, "twice the velocity and acceleration"),
 )  # fmt: skip
 def unsprung(rate=LAB.RATE, gravity=1.0, reach=1.0):
     """Return the largest error without springs."""
@@ -165,8 +165,8 @@ def unsprung(rate=LAB.RATE, gravity=1.0, reach=1.0):
 
 @numbers.add(
     "feedforward", "{:.0f} mrad",
-    rate=between(0.3, 0.45, "its first small error is the held torque's, and grows"),
-    gravity=between(0.0, 0.01, "nothing pulls an arm away that stands up", to=0.0),
+    rate=between(0.3, 0.45, "the held torque causes the first small error, which then grows"),
+    gravity=between(0.0, 0.01, "without gravity the upright arm is not unstable", to=0.0),
 )  # fmt: skip
 def fed(rate=LAB.RATE, gravity=1.0):
     """Return the largest error of a torque known beforehand."""
@@ -175,10 +175,10 @@ def fed(rate=LAB.RATE, gravity=1.0):
 
 @numbers.add(
     "the model file's servos lag by", "{:.2f} mrad",
-    servo_kd=between(1.7, 1.9, "kd / kp times the speed, which lasts for no 0.2 s"),
-    reach=times(2.0, "kd / kp times the speed", within=0.1),
-    seconds=times(0.5, "kd / kp times the speed", within=0.1),
-    step=times(1.0, "a lag does not depend on the step", to=0.001),
+    servo_kd=between(1.7, 1.9, "kd / kp times the velocity, which lasts less than 0.2 s"),
+    reach=times(2.0, "kd / kp times the velocity", within=0.1),
+    seconds=times(0.5, "kd / kp times the velocity", within=0.1),
+    step=times(1.0, "the lag does not depend on the step", to=0.001),
 )  # fmt: skip
 def servos(servo_kd=1.0, reach=1.0, seconds=2.0, step=0.002):
     """Return how far the servos are off the swing."""
@@ -193,11 +193,11 @@ def servos(servo_kd=1.0, reach=1.0, seconds=2.0, step=0.002):
 
 @numbers.add(
     "joint 4 hangs low under 1 kg by", "{:.3f} mrad",
-    omega=times(0.25, "a spring of unit inertia holds omega² per rad"),
-    mass=times(2.0, "the same share of twice the load"),
-    wait=same("nothing moves any more"),
-    rate=same("a torque that is held and does not change is the same torque"),
-    damping=same("nothing moves any more"),
+    omega=times(0.25, "the stiffness per unit inertia is omega²"),
+    mass=times(2.0, "the error is proportional to the load"),
+    wait=same("the arm is at rest"),
+    rate=same("the torque is constant, so holding it has no effect"),
+    damping=same("the arm is at rest"),
 )  # fmt: skip
 def under_load(omega=LAB.OMEGA, mass=1.0, wait=1.5, rate=LAB.RATE, damping=1.0):
     """Return how far joint 4 sags under the kilogram."""
@@ -209,12 +209,12 @@ def under_load(omega=LAB.OMEGA, mass=1.0, wait=1.5, rate=LAB.RATE, damping=1.0):
 
 @numbers.add(
     "the loop breaks at", "{:.0f} rad/s",
-    rate=between(0.51, 0.54, "half, since omega T is the limit; a little more, by the "
-                 "next row", to=125.0),
-    step=between(1.0, 1.12, "omega T is 0.90 with two steps a period, 0.94 with four",
+    rate=between(0.51, 0.54, "about half, because omega T is limited; a little more, by "
+                 "the next row", to=125.0),
+    step=between(1.0, 1.12, "omega T is 0.90 with 2 steps per period, 0.94 with 4",
                  to=0.001),
-    damping=times(1.0, "the implicit step's M + hD for M is a thousandth", within=0.01),
-    start=same("so near it is linear"),
+    damping=times(1.0, "the implicit step's hD is a thousandth of M", within=0.01),
+    start=same("for such small errors it is linear"),
 )  # fmt: skip
 def breaks(rate=LAB.RATE, step=0.002, damping=1.0, start=1.0):
     """Return the omega from which a tiny error grows."""

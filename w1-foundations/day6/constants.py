@@ -60,11 +60,11 @@ def arm(metre=1.0, masses=1.0, armature=1.0, damping=1.0, gravity=1.0, step=0.00
 
 @numbers.add(
     "Lambda at ready, along x", "{:.3f} kg",
-    masses=between(1.8, 1.9, "twice, but for the rotors' eighth"),
-    armature=between(1.1, 1.2, "the rotors' eighth is twice as heavy"),
-    metre=between(0.85, 0.95, "a rotor behind twice the lever feels a quarter of it"),
-    gravity=same("a mass is not a weight"),
-    damping=same("it is asked at rest"),
+    masses=between(1.8, 1.9, "about twice, because the rotors contribute an eighth"),
+    armature=between(1.1, 1.2, "the eighth that the rotors contribute doubles"),
+    metre=between(0.85, 0.95, "with twice the lever arm a rotor contributes a quarter"),
+    gravity=same("an inertia does not depend on gravity"),
+    damping=same("the arm is at rest"),
 )  # fmt: skip
 def apparent(masses=1.0, armature=1.0, metre=1.0, gravity=1.0, damping=1.0):
     """Return the entry."""
@@ -76,12 +76,12 @@ def apparent(masses=1.0, armature=1.0, metre=1.0, gravity=1.0, damping=1.0):
     "10 N along x move the hand by", "{:.3f} mm",
     push=times(2.0, "x = F / K", within=0.001),
     k=times(0.5, "x = F / K", within=0.001),
-    masses=times(1.0, "F / K has no mass in it; a heavy arm is not quite at rest yet",
+    masses=times(1.0, "F / K contains no mass; a heavy arm is not quite at rest",
                  within=0.001),
-    gravity=same("gravity is taken off"),
-    elbow=same("the elbow's torque is projected: the hand does not feel it"),
-    step=same("nothing moves any more", to=0.001),
-    wait=same("nothing moves any more"),
+    gravity=same("gravity is compensated"),
+    elbow=same("the elbow's torque is projected, so it does not move the hand"),
+    step=same("the arm is at rest", to=0.001),
+    wait=same("the arm is at rest"),
 )  # fmt: skip
 def pushed(push=1.0, k=1.0, masses=1.0, gravity=1.0, elbow=1.0, step=0.002,
            wait=3.0):  # fmt: skip
@@ -103,11 +103,11 @@ def rests(model, known, law, wrench, wait):
 
 @numbers.add(
     "critical hand, released along e: it overshoots by", "{:.1f} %",
-    k=between(0.95, 1.05, "the modes are as far apart: time runs √2 times as fast"),
+    k=between(0.95, 1.05, "the ratios of the modes' rates stay; all rates grow by √2"),
     size=between(0.9, 1.1, "nearly linear"),
-    masses=between(1.1, 1.2, "the rotors' share of Lambda is smaller, so the modes "
-                   "are others"),
-    inertia=between(0.95, 1.05, "Lambda is twice itself: only time runs more slowly"),
+    masses=between(1.1, 1.2, "the rotors contribute a smaller fraction of Lambda, so "
+                   "the modes change"),
+    inertia=between(0.95, 1.05, "Lambda doubles, so only the time scale changes"),
     step=times(1.0, "the controller's period is the same", to=0.001),
 )  # fmt: skip
 def overshoot(k=1.0, size=1.0, masses=1.0, inertia=1.0, step=0.002):
@@ -140,10 +140,10 @@ def pressed(k, force, sink, rate, solref, friction):
     "the soft arm presses with", "{:.1f} N",
     force=times(2.0, "depth times stiffness", within=0.005),
     k=same("twice the stiffness is commanded to half the depth"),
-    sink=same("it has long come to rest"),
-    solref=same("the tip sinks in by micrometres, a spring's thousandth", to=0.01),
-    rate=same("it has come to rest", to=250.0),
-    friction=times(1.0, "friction is sideways; the tip slides a little", to=0.0),
+    sink=same("the arm is at rest"),
+    solref=same("the tip sinks in by a thousandth of the spring's length", to=0.01),
+    rate=same("the arm is at rest", to=250.0),
+    friction=times(1.0, "friction acts sideways; the tip slides a little", to=0.0),
 )  # fmt: skip
 def soft(force=LAB.PRESS, k=1.0, sink=LAB.SINK, solref=0.02, rate=LAB.RATE,
          friction=1.0):  # fmt: skip
@@ -153,11 +153,11 @@ def soft(force=LAB.PRESS, k=1.0, sink=LAB.SINK, solref=0.02, rate=LAB.RATE,
 
 @numbers.add(
     "its peak", "{:.0f} N",
-    sink=between(1.3, 1.8, "a blow of twice the speed"),
+    sink=between(1.3, 1.8, "an impact at twice the speed"),
     solref=between(1.8, 2.2, "the contact is twice as quick: half the time, twice the "
                    "force", to=0.01),
-    force=between(0.95, 1.3, "the blow comes before the spring is stretched"),
-    k=between(0.95, 1.3, "the same"),
+    force=between(0.95, 1.3, "the impact occurs before the spring is stretched"),
+    k=between(0.95, 1.3, "the impact occurs before the spring is stretched"),
 )  # fmt: skip
 def peak(sink=LAB.SINK, solref=0.02, force=LAB.PRESS, k=1.0):
     """Return the largest force."""
@@ -169,7 +169,7 @@ def peak(sink=LAB.SINK, solref=0.02, force=LAB.PRESS, k=1.0):
     gains=times(1.0, "two motors are at their limits already", within=0.01),
     limits=between(1.3, 2.3, "two motors are at their limits"),
     friction=between(0.45, 0.6, "without it the tip slides until it rests", to=0.0),
-    solref=times(1.0, "the force is the motors', not the contact's", to=0.01),
+    solref=times(1.0, "the motors determine the force, not the contact", to=0.01),
 )  # fmt: skip
 def stiff(gains=1.0, limits=1.0, friction=1.0, solref=0.02):
     """Return the force after three seconds."""
@@ -195,12 +195,12 @@ def circle(project, omega, radius, turn, elbow, step, damping):
 
 @numbers.add(
     "off the circle, with today's projector", "{:.3f} mm",
-    omega=between(0.4, 0.6, "what disturbs it stays; the damper holds twice as much"),
-    radius=between(0.2, 0.6, "half of the speed and the acceleration (0.24 m "
-                   "leads out of reach)", to=0.06),
-    turn=between(0.1, 0.4, "half the speed, a quarter of the acceleration"),
-    elbow=between(0.9, 1.1, "the hand does not feel the elbow's torque"),
-    step=between(0.4, 0.8, "the simulator's step is a large part of it", to=0.001),
+    omega=between(0.4, 0.6, "the disturbance is the same, and the damping doubles"),
+    radius=between(0.2, 0.6, "half the velocity and the acceleration (0.24 m "
+                   "is outside the workspace)", to=0.06),
+    turn=between(0.1, 0.4, "half the velocity, a quarter of the acceleration"),
+    elbow=between(0.9, 1.1, "the elbow's torque does not accelerate the hand"),
+    step=between(0.4, 0.8, "the simulator's step causes a large part", to=0.001),
 )  # fmt: skip
 def on_circle(omega=LAB.OMEGA, radius=LAB.RADIUS, turn=LAB.TURN, elbow=1.0, step=0.002):
     """Return how far off."""
@@ -209,8 +209,8 @@ def on_circle(omega=LAB.OMEGA, radius=LAB.RADIUS, turn=LAB.TURN, elbow=1.0, step
 
 @numbers.add(
     "off the circle, with Day 3's projector", "{:.3f} mm",
-    omega=between(0.3, 0.6, "the hand's springs win against what leaks through"),
-    elbow=between(0.9, 1.1, "what passes moves the elbow, which moves as before"),
+    omega=between(0.3, 0.6, "stiffer feedback suppresses more of the disturbance"),
+    elbow=between(0.9, 1.1, "the elbow moves as before"),
 )  # fmt: skip
 def with_day3(omega=LAB.OMEGA, elbow=1.0):
     """Return how far off."""

@@ -102,7 +102,9 @@ MIXED = np.array([0.17, -0.77, 0.35, 0.39, 0.25, 0.2])
 def test_modes_that_do_not_swing_overshoot_along_a_mixed_direction(motors):
     words = str(tuple(MIXED.tolist()))
     assert f"e = {words}" in SENTENCES
-    assert f"by {overshoot(motors, MIXED):.1f} percent of the way" in SENTENCES
+    assert (
+        f"by {overshoot(motors, MIXED):.1f} percent of the initial error" in SENTENCES
+    )
     assert overshoot(motors, MIXED, D=diagonal_damping) < 0.05
     for axis in np.eye(6)[3:]:
         for D in (lab.critical_damping, diagonal_damping):

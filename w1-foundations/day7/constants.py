@@ -1,6 +1,6 @@
-"""What Day 7's numbers hang on: each constant turned by two, measured, explained.
+"""Sensitivity of Day 7's numbers: each constant is doubled, measured and explained.
 
-The pick's own numbers (0.92 mm, 0.64 mrad) are not among them: they hang on contacts,
+The pick's own numbers (0.92 mm, 0.64 mrad) are not among them: they depend on contacts,
 which differ between versions of MuJoCo; the guide gives them wide limits instead.
 """
 
@@ -35,7 +35,7 @@ numbers = Numbers(
     "seconds that the move takes", "{:.4f} s",
     v=between(0.7, 0.95, "joint 2 is then the slowest, by its acceleration"),
     a=same("joint 7 is the slowest, by its speed"),
-    way=times(2.0, "twice the way at the same speed"),
+    way=times(2.0, "twice the distance at the same speed"),
 )  # fmt: skip
 def duration(v=1.0, a=1.0, way=1.0):
     """Return the shortest duration."""
@@ -46,7 +46,7 @@ def duration(v=1.0, a=1.0, way=1.0):
     "seconds that joint 2 needs alone", "{:.3f} s",
     v=between(0.9, 0.99, "then its acceleration decides, 0.914 s"),
     a=same("its speed decides"),
-    way=times(2.0, "twice the way at the same speed"),
+    way=times(2.0, "twice the distance at the same speed"),
 )  # fmt: skip
 def joint2(v=1.0, a=1.0, way=1.0):
     """Return joint 2's shortest duration."""
@@ -67,8 +67,8 @@ def profile(name, way=1.0, longer=1.0, omega=LAB.OMEGA, rate=LAB.RATE, v=1.0, a=
 
 @numbers.add(
     "the quintic's largest jerk", "{:.0f} rad/s³",
-    rate=between(0.9, 1.1, "it is a number of the curve, not of the clock"),
-    duration=between(0.1, 0.16, "a jerk is a way over the cube of a time: an eighth"),
+    rate=between(0.9, 1.1, "the curve determines it, not the control rate"),
+    duration=between(0.1, 0.16, "jerk is distance over time cubed, so an eighth"),
     omega=between(0.9, 1.1, "the arm follows the curve with either"),
 )  # fmt: skip
 def jerk(rate=LAB.RATE, duration=1.0, omega=LAB.OMEGA):
@@ -78,10 +78,10 @@ def jerk(rate=LAB.RATE, duration=1.0, omega=LAB.OMEGA):
 
 @numbers.add(
     "the trapezoid's largest jerk", "{:.0f} rad/s³",
-    rate=times(2.0, "a jump has no finite jerk: a period is all the time there is",
+    rate=times(2.0, "a discontinuity has no finite jerk; it takes one period",
                within=0.15),
-    a=between(1.6, 2.2, "the jump is twice as high"),
-    omega=between(1.0, 1.3, "a stiffer arm answers the jump harder"),
+    a=between(1.6, 2.2, "the discontinuity is twice as large"),
+    omega=between(1.0, 1.3, "a stiffer arm responds more to the discontinuity"),
 )  # fmt: skip
 def corner(rate=LAB.RATE, a=1.0, omega=LAB.OMEGA):
     """Return it."""
@@ -90,8 +90,8 @@ def corner(rate=LAB.RATE, a=1.0, omega=LAB.OMEGA):
 
 @numbers.add(
     "the trapezoid's duration", "{:.3f} s",
-    v=between(0.6, 0.95, "the ramps stay"),
-    a=between(0.8, 0.95, "the cruise stays"),
+    v=between(0.6, 0.95, "the ramps keep their acceleration"),
+    a=between(0.8, 0.95, "the top speed stays the same"),
 )  # fmt: skip
 def trapezoid(v=1.0, a=1.0):
     """Return it."""
@@ -104,9 +104,9 @@ def trapezoid(v=1.0, a=1.0):
 
 @numbers.add(
     "the quintic is followed within", "{:.2f} mrad",
-    omega=between(0.4, 0.6, "what disturbs it stays, and kd is twice as large"),
+    omega=between(0.4, 0.6, "the disturbance is the same, and kd is twice as large"),
     duration=between(0.15, 0.4, "half the speed, a quarter of the acceleration"),
-    rate=between(0.7, 1.1, "the held torque is a part of it, the simulator's step too"),
+    rate=between(0.7, 1.1, "the held torque and the simulator's step contribute"),
 )  # fmt: skip
 def quintic_off(omega=LAB.OMEGA, duration=1.0, rate=LAB.RATE):
     """Return it."""
@@ -115,9 +115,9 @@ def quintic_off(omega=LAB.OMEGA, duration=1.0, rate=LAB.RATE):
 
 @numbers.add(
     "constant speed is followed within", "{:.2f} mrad",
-    omega=between(0.9, 1.0, "half of it would take more torque than there is"),
-    duration=between(0.4, 0.6, "the jump is half as high"),
-    rate=between(0.9, 1.1, "the jump is in the reference"),
+    omega=between(0.9, 1.0, "half the error would need more torque than the limit"),
+    duration=between(0.4, 0.6, "the discontinuity is half as large"),
+    rate=between(0.9, 1.1, "the discontinuity is in the reference"),
 )  # fmt: skip
 def jump_off(omega=LAB.OMEGA, duration=1.0, rate=LAB.RATE):
     """Return it."""
@@ -132,9 +132,9 @@ def lifted(grip, mu, lift, gravity):
 
 @numbers.add(
     "heaviest cube at rest", "{:.3f} kg",
-    grip=times(2.0, "friction is mu times what presses"),
-    mu=times(2.0, "friction is mu times what presses"),
-    gravity=times(0.5, "friction carries newtons, not kilograms"),
+    grip=times(2.0, "friction is mu times the normal force"),
+    mu=times(2.0, "friction is mu times the normal force"),
+    gravity=times(0.5, "friction balances a weight, not a mass"),
 )  # fmt: skip
 def at_rest(grip=0.9247, mu=1.0, gravity=1.0):
     """Return it."""
@@ -143,9 +143,9 @@ def at_rest(grip=0.9247, mu=1.0, gravity=1.0):
 
 @numbers.add(
     "heaviest cube while the lift speeds up", "{:.3f} kg",
-    grip=times(2.0, "friction is mu times what presses"),
-    lift=times((9.81 + LIFT) / (9.81 + 2 * LIFT), "g + a is what a kilogram takes"),
-    gravity=times((9.81 + LIFT) / (19.62 + LIFT), "g + a is what a kilogram takes"),
+    grip=times(2.0, "friction is mu times the normal force"),
+    lift=times((9.81 + LIFT) / (9.81 + 2 * LIFT), "a kilogram needs the force g + a"),
+    gravity=times((9.81 + LIFT) / (19.62 + LIFT), "a kilogram needs the force g + a"),
 )  # fmt: skip
 def lifting(grip=0.9247, lift=LIFT, gravity=1.0):
     """Return it."""

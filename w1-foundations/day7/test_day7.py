@@ -89,8 +89,8 @@ def test_step_1s_two_mistakes():
     swapped = np.polynomial.Polynomial([0, 0, 0, 6, -15, 10])
     assert (swapped(1.0), swapped.deriv()(1.0)) == (1.0, 8.0)
     assert says("with 6 and 10 swapped s still ends at 1, but at a speed of 8 / T")
-    assert says("sd is 1.3230 instead of 0.6615. Without the clip s is 1.2207")
-    assert says("by 22 % of the way")
+    assert says("sd is 1.3230 instead of 0.6615. Without the clamp s is 1.2207")
+    assert says("by 22 % of the distance")
 
 
 def test_step_2s_table():
@@ -112,7 +112,7 @@ def test_step_2s_table():
 def test_half_way_through_120_degrees_entry_by_entry_is_no_rotation():
     R = (np.eye(3) + se3.Rz(np.radians(120))) / 2
     assert np.linalg.det(R) == pytest.approx(0.25)
-    assert says("half way through a turn of 120 degrees the determinant is 0.25")
+    assert says("half way through a rotation of 120 degrees the determinant is 0.25")
 
 
 def test_a_limit_of_speed_is_a_division_and_one_of_acceleration_a_root():

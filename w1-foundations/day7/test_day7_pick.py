@@ -55,13 +55,13 @@ def test_an_unfolded_yaw_fails_where_joint7_is_at_its_end():
     q, fails = walked(plain)
     lowest, highest = np.degrees(yaw[fails][[0, -1]])
     assert says(f"fails for {fails.sum()} of the {len(yaw)} yaws, {lowest:.0f} to")
-    assert says(f"to {highest:.0f} degrees, and each time joint7 stands at its end")
+    assert says(f"to {highest:.0f} degrees, and each time joint7 is at its limit")
     assert_same(np.minimum(*np.abs(q[fails, 6, None] - limits[6]).T), np.zeros(17), 0.0)
     best = jacobian.solve_ik(arm.screws, arm.M_home, plain, start, limits)
     assert jacobian.reached(arm.screws, arm.M_home, plain, best).all()
     limits[6] = -7, 7
     assert not walked(plain)[1].any()
-    assert says("if joint7 could turn by ±7 rad")
+    assert says("if joint7 could rotate by ±7 rad")
 
 
 def test_the_hand_weighs_what_the_guide_says():

@@ -168,7 +168,9 @@ def main() -> int:
     T_world_ee = compose_fk(model, READY_Q)  # the site sits right on the last body
     lab.show("T_world_ee composed by hand", T_world_ee)
     lab.check("largest |by hand - MuJoCo|", T_world_ee - T_mujoco)
-    lab.measured("height of the end effector at ready, m", T_world_ee[2, 3])
+    lab.measured(
+        "height of the end effector in the ready configuration, m", T_world_ee[2, 3]
+    )
 
     lab.step("3. It is a rigid transform: true of any pose, also of a wrong one")
     T_hand_ee = make_T(Rz(1.0), np.array([0.1, 0.2, 0.3]))  # R.T == R when ready
@@ -187,7 +189,8 @@ def main() -> int:
     lab.show("T_extra @ T_world_ee: the whole arm turns and moves, to", left)
     apart = np.linalg.norm(right - left)
     print(f"  The same two factors, {apart:.4f} m apart.")
-    lab.measured("way between T_world_ee @ T_extra and T_extra @ T_world_ee, m", apart)
+    says = "distance between T_world_ee @ T_extra and T_extra @ T_world_ee, m"
+    lab.measured(says, apart)
     predicted = np.array(translations_both_orders(T_world_ee, T_extra))
     lab.check("predicted from R and t", predicted - [right, left])
 
@@ -195,7 +198,7 @@ def main() -> int:
     errors = own_errors(model, verify.random_q(model, TRIALS, SEED))
     lab.record("fk_by_hand", errors, label="worst entry of any pose, by hand",
                config="random", seed=SEED)  # fmt: skip
-    says = "largest entry that your compose_fk is off MuJoCo at 1,000 q"
+    says = "largest error of an entry of your compose_fk at 1,000 q"
     lab.measured(says, errors.max())
     print(f"  The library robo47.kinematics at {LIBRARY_TRIALS:,}, in every frame:")
     for entry in ("panda_nohand", "panda"):

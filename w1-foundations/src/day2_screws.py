@@ -246,7 +246,7 @@ def how_far_off(lab: Lab, ways: dict, q: np.ndarray, T_ee: np.ndarray) -> None:
         off = [fk(x)[:3, 3] for x in q] - T_ee[:, :3, 3]
         zero, ready, *others = 1000 * np.linalg.norm(off, axis=1)
         print(f"  {what:24}{zero:8.1f}{ready:8.1f}{np.median(others):8.1f}")
-        lab.measured(f"hand off at q = 0 with {what}, mm", zero)
+        lab.measured(f"position error at q = 0 with {what}, mm", zero)
 
 
 def lost_motion(lab: Lab, screws: np.ndarray) -> None:

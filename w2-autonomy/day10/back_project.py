@@ -21,6 +21,9 @@ def _(rng):
     return found
 
 
+row.spans(depth=(lambda d: 0.01 * d, lambda d: 100.0 * d))
+
+
 def placed(
     K, T_world_cam, pixels, depth, *, pixel=lambda uv: uv,
     ray=lambda K, h, d: h @ np.linalg.inv(K).T, scaled=lambda ray, d: d * ray,
@@ -153,3 +156,10 @@ def _(K, T_world_cam, pixels, depth):
         y = (v - K[1, 2]) * z / K[1, 1]
         found.append((T_world_cam @ (x, y, z, 1.0))[:3])
     return np.array(found)
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # Over 5 m there is none.
+def _(K, T_world_cam, pixels, depth):
+    return placed(K, T_world_cam, pixels, np.where(depth > 5.0, 0.0, depth))

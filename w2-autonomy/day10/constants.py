@@ -1,6 +1,6 @@
-"""What Day 10's numbers hang on: each constant turned by two, measured, explained.
+"""The sensitivity of Day 10's numbers: each constant doubled, measured and explained.
 
-Everything is computed by the lab's own functions; nothing has noise unless it says so.
+The lab's own functions compute everything, without noise.
 """
 
 import mujoco
@@ -17,21 +17,21 @@ DAY = LAB.day10_mujoco
 DISTANCE = float(np.linalg.norm(DAY.AT - DAY.TO))
 
 numbers = Numbers(
-    half="pixels added, both ways: {}",
-    fovy="angle of view: {}°",
-    size="pixels in a row: × {}",
-    distance="from the eye to the middle of the table: × {}",
+    half="error in u and in v: {} px",
+    fovy="field of view: {}°",
+    size="width and height of the image in pixels: × {}",
+    distance="distance from the camera to the middle of the table: × {}",
     z="NEAR: {} m",
     noise="NOISE: {} px",
     wide="the cube's width: × {}",
-    joint_6="joint 6 turns by up to {}°",
+    joint_6="joint 6 rotates by up to {}°",
     looks="LOOKS: {}",
-    seed="SEED of the looks: {}",
-    reach="how far joint 7 turns: × {}",
-    turn="the other X, turned: {} rad",
-    slide="the other X, slid: {} m",
+    seed="SEED of the poses: {}",
+    reach="rotations of joint 7: × {}",
+    turn="rotation of the other X: {} rad",
+    slide="translation of the other X: {} m",
     above="ABOVE the table: {} m",
-    overhead="how far aside the eye hangs: × {}",
+    overhead="horizontal offset of the camera: × {}",
 )
 
 
@@ -47,11 +47,11 @@ def seen(fovy, size, distance, overhead=1.0):
 
 
 @numbers.add(
-    "half a pixel, both ways, at the table's middle", "{:.2f} mm",
-    half=times(2.0, "it is linear in the pixel"),
+    "error from half a pixel in u and v, at the middle of the table", "{:.2f} mm",
+    half=times(2.0, "the error is linear in the pixel error"),
     fovy=times(2.414, "f = height / 2 / tan(fovy / 2): tan 45° is 2.414 tan 22.5°"),
-    size=times(0.5, "twice the pixels in the same angle: f is twice as large"),
-    distance=times(2.0, "a pixel is z / f"),
+    size=times(0.5, "twice the pixels in the same field of view: f doubles"),
+    distance=times(2.0, "one pixel covers z / f"),
 )  # fmt: skip
 def half_pixel(half=0.5, fovy=DAY.FOVY, size=1.0, distance=1.0):
     """Return how far a point moves for so many pixels."""
@@ -62,11 +62,11 @@ def half_pixel(half=0.5, fovy=DAY.FOVY, size=1.0, distance=1.0):
 
 
 @numbers.add(
-    "sigma along the view, 240 px", "{:.1f} mm",
-    z=times(4.0, "a pixel of width is z² / (f w)"),
-    noise=times(2.0, "a covariance is sigma² times what the view says"),
-    wide=times(0.5, "a pixel of width is z² / (f w)"),
-    size=times(0.5, "f is twice as large"),
+    "standard deviation along the view, 240 px", "{:.1f} mm",
+    z=times(4.0, "a change of one pixel in width takes z² / (f w)"),
+    noise=times(2.0, "the covariance is proportional to the square of the noise"),
+    wide=times(0.5, "a change of one pixel in width takes z² / (f w)"),
+    size=times(0.5, "f doubles"),
 )  # fmt: skip
 def along(z=LAB.NEAR, noise=LAB.NOISE, wide=1.0, size=1.0):
     """Return the sigma of the cube's depth."""
@@ -94,11 +94,11 @@ def looked(joint_6, looks, seed, reach):
 
 
 @numbers.add(
-    "numbers of X that joint 7 alone leaves free", "{:.0f}",
-    joint_6=times(0.0, "a second axis, by however little, shows the rest", to=1.0),
-    looks=same("more looks about one axis say the same again"),
+    "degrees of freedom of X that joint 7 leaves free", "{:.0f}",
+    joint_6=times(0.0, "any rotation about a second direction determines X", to=1.0),
+    looks=same("more rotations about the same axis add no information"),
     seed=same("which angles they are does not matter", to=11),
-    reach=same("nor how large"),
+    reach=same("the size of the rotations does not matter"),
 )  # fmt: skip
 def left_free(joint_6=0.0, looks=LAB.LOOKS, seed=LAB.SEED, reach=1.0):
     """Return how many."""
@@ -106,12 +106,12 @@ def left_free(joint_6=0.0, looks=LAB.LOOKS, seed=LAB.SEED, reach=1.0):
 
 
 @numbers.add(
-    "the table beside its place, by another X with residual 0", "{:.0f} mm",
-    turn=between(1.6, 2.0, "a point far from the axis moves along a chord"),
-    slide=between(1.0, 1.3, "50 mm more along the axis, at a right angle to the chord"),
-    looks=same("joint 7 turns about the very axis that X is turned about"),
+    "error of the table's position, with another X of residual 0", "{:.0f} mm",
+    turn=between(1.6, 2.0, "the chord of a point 193 mm from the axis, 2 · 193 sin(angle / 2)"),
+    slide=between(1.0, 1.3, "50 mm more along the axis, perpendicular to the chord"),
+    looks=same("joint 7 rotates about the axis about which X was rotated"),
     seed=same("which angles they are does not matter", to=11),
-    reach=same("nor how large"),
+    reach=same("the size of the rotations does not matter"),
 )  # fmt: skip
 def aside(turn=LAB.FREE[2], slide=LAB.FREE[5], looks=LAB.LOOKS, seed=LAB.SEED, reach=1):
     """Return how far the table's middle seems to be from where it is."""
@@ -121,12 +121,12 @@ def aside(turn=LAB.FREE[2], slide=LAB.FREE[5], looks=LAB.LOOKS, seed=LAB.SEED, r
 
 
 @numbers.add(
-    "the mean of the cube's points beside its middle", "{:.1f} mm",
-    overhead=between(0.0, 0.05, "from straight above all sides are hidden alike",
+    "error of the mean of the cube's points", "{:.1f} mm",
+    overhead=between(0.0, 0.05, "from straight above no side is seen, only the top",
                      to=0.001),
-    size=between(0.8, 1.25, "more points on the same two or three sides"),
-    above=between(0.8, 1.0, "fewer points of the sides that are seen"),
-    distance=between(0.8, 1.25, "the same sides from further off, in fewer points"),
+    size=between(0.8, 1.25, "more points on the same faces"),
+    above=between(0.8, 1.0, "fewer points of the visible sides"),
+    distance=between(0.8, 1.25, "fewer points of the same faces"),
 )  # fmt: skip
 def mean_off(overhead=1.0, size=1.0, above=LAB.ABOVE, distance=1.0):
     """Return how far, in the plane of the table."""

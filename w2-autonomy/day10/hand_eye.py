@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Pose, Row
-from robo47 import se3
+from robo47 import screws, se3
 from robo47.camera import apply_twist, hand_eye
 from robo47.rotation_log import log_rotation
 
@@ -30,7 +30,26 @@ def _(rng):
     # Turns of 1 rad about x, y and z: half turns, as edges are, have two axes each.
     turns_1 = np.array([se3.Rx(1.0), se3.Ry(1.0), se3.Rz(1.0)])
     A = se3.make_T(turns_1, rng.numbers(-1, 1, 3, 3))
-    return [(A, A), *motions(rng), *flat_fans(rng)]
+    exact = motions(rng, 3, noise=0.0)
+    return [(A, A), *motions(rng), *flat_fans(rng), *exact]
+
+
+@row.spans
+def _(rng):  # two of the motions turn by less than 0.2 rad
+    for A, B in motions(rng, 2):
+        small = np.array([_turned(0.1, way, 0.3) for way in (0.2, 1.9)])
+        there = se3.inverse(hand_eye(A, B))
+        more = there @ small @ se3.inverse(there) @ _turned(0.005, 0.7, 0.5)
+        yield np.concatenate([A, small]), np.concatenate([B, more])
+
+
+@row.valid(
+    "Valid for exact motions. With noise no X fits all of them, and another method "
+    "gives another X: asked is the rotation from the rotation vectors, nearest to the "
+    "sum of a b^T as in kabsch, then t by least squares with this rotation."
+)
+def _(A, B, X):
+    return np.abs(A @ X - X @ B).max() < 1e-8
 
 
 def flat_fans(rng, n=4, k=4):
@@ -186,3 +205,42 @@ def _(A, B):
     C = np.vstack([a[:3, :3] - np.eye(3) for a in A])
     d = np.concatenate([R @ b[:3, 3] - a[:3, 3] for a, b in zip(A, B, strict=True)])
     return rigid(R, np.linalg.solve(C.T @ C, C.T @ d))
+
+
+@row.wrong("another-method")  # Tsai, Lenz, 1989: 2 tan(angle / 2) along each axis.
+def _(A, B):
+    def halved(T):
+        r = log_rotation(T[:, :3, :3])
+        angle = np.linalg.norm(r, axis=1, keepdims=True)
+        return 2.0 * np.sin(angle / 2.0) * r / angle
+
+    a, b = halved(A), halved(B)
+    S = np.vstack([screws.skew(x) for x in a + b])
+    x, *_ = np.linalg.lstsq(S, (b - a).ravel(), rcond=None)
+    p = 2.0 * x / np.sqrt(1.0 + x @ x)
+    R = (1.0 - p @ p / 2.0) * np.eye(3)
+    R += (np.outer(p, p) + np.sqrt(4.0 - p @ p) * screws.skew(p)) / 2.0
+    return solved(A, B, turn=lambda A, B: R)
+
+
+@row.wrong(
+    "another-method"
+)  # Andreff, 1999: both parts at once, by Kronecker products.
+def _(A, B):
+    rows, right = [], []
+    for a, b in zip(A, B, strict=True):
+        of_R = np.kron(np.eye(3), a[:3, :3]) - np.kron(b[:3, :3].T, np.eye(3))
+        of_t = np.kron(b[:3, 3], np.eye(3)), np.eye(3) - a[:3, :3]
+        rows += [np.hstack([of_R, np.zeros((9, 3))]), np.hstack(of_t)]
+        right += [np.zeros(9), a[:3, 3]]
+    found, *_ = np.linalg.lstsq(np.vstack(rows), np.concatenate(right), rcond=None)
+    U, _, Vt = np.linalg.svd(found[:9].reshape(3, 3).T)
+    return rigid(proper(U, Vt), found[9:])
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # Motions under 0.2 rad are left out.
+def _(A, B):
+    angles = np.linalg.norm(log_rotation(A[:, :3, :3]), axis=1)
+    return hand_eye(A[angles > 0.2], B[angles > 0.2])

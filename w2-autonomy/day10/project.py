@@ -17,6 +17,11 @@ def _(rng):
     return [first, *views(rng), *views(rng, 2, 3)]
 
 
+@row.spans
+def _(rng):
+    yield K, np.eye(4), np.array([[0.001, -0.002, 0.02], [30.0, -20, 200]])
+
+
 def seen(
     K, T_cam_world, points, *, moved=lambda R, t, x: x @ R.T + t,
     times=lambda K, p: p @ K.T, divided=lambda h, p: h[:, :2] / h[:, 2:],
@@ -146,3 +151,19 @@ def _(K, T_cam_world, points):
         u, v, w = P @ (x, y, z, 1.0)
         found.append((u / w, v / w))
     return np.array(found)
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # A depth of 0.1 m at least.
+def _(K, T_cam_world, points):
+    return seen(
+        K,
+        T_cam_world,
+        points,
+        divided=lambda h, p: (
+            h[:, :2] / np.maximum(h[:, 2:], 0.1)
+            if (p[:, 2] > 0).all()
+            else h[:, :2] / h[:, 2:]
+        ),
+    )

@@ -22,6 +22,9 @@ def _(rng):
     return [*asked, *drawn]
 
 
+row.spans(p_cam=(lambda p: 0.02 * p, lambda p: 50.0 * p))
+
+
 def by_point(K, p):
     """Return d(pixel)/dp, (n, 2, 3)."""
     x, y, z = p.T
@@ -154,7 +157,8 @@ for slug, says, redone, other in (
     ("y-up", "the row of v has the wrong sign; y and v point down here", "with -v",
      {"told": lambda J: J * [[1], [-1]]}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(slopes, **other))
+    one = "the lab's camera has fx = fy" if "-in-both-rows" in slug else ""
+    row.wrong(slug, says, redone, hidden=one)(partial(slopes, **other))
 
 
 row.at_least_0(K="f and the centre are")
@@ -172,3 +176,12 @@ def _(K, p_cam):
             [-fy * (1 + y * y), fy * x * y, fy * x, 0, fy / Z, -fy * y / Z],
         ])  # fmt: skip
     return np.array(found)
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # 0.2 m at least in the slopes.
+def _(K, p_cam):
+    p = p_cam.copy()
+    p[:, 2] = np.maximum(p[:, 2], 0.2)
+    return by_point(K, p) @ by_twist(p_cam)

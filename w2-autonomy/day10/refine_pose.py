@@ -22,6 +22,20 @@ def _(rng):
     return [exact, *some, *guesses(rng, 2, far=2.5)]
 
 
+@row.spans
+def _(rng):  # a small cube, far away, seen exactly: ten full steps find it
+    K = np.array([[72.0, 0, 53], [0, 72, 30], [0, 0, 1]])
+    cube = 0.02 * np.array(
+        [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    )
+    T = np.eye(4)
+    for z, turn in ((0.8, 0.1), (1.6, -0.1)):
+        T[:3, 3] = 0.1, -0.05, z
+        guess = apply_twist(T, np.array([0, 0, 0, 0.01, 0.01, 0.02]))
+        guess[:3, :3] = apply_twist(T, turn * np.ones(6))[:3, :3]
+        yield K, guess, cube, project(K, T, cube)
+
+
 def least_squares(J, off):
     """Return the twist that explains the pixels' errors best."""
     return np.linalg.lstsq(J.reshape(-1, 6), off.ravel(), rcond=None)[0]
@@ -169,3 +183,14 @@ def _(K, T_guess, points, pixels):
             H, g = H + J.T @ J, g + J.T @ off
         T = apply_twist(T, np.linalg.solve(H, g))
     return T
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # Levenberg's damping, and never less.
+def _(K, T_guess, points, pixels):
+    def damped(J, off):
+        J = J.reshape(-1, 6)
+        return np.linalg.solve(J.T @ J + 10.0 * np.eye(6), J.T @ off.ravel())
+
+    return steps(K, T_guess, points, pixels, solve=damped)

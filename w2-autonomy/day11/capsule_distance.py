@@ -35,6 +35,19 @@ def _(rng):
     return [case, crossing, *beside, *deep, *drawn]
 
 
+row.spans(
+    b0=(lambda b0: b0 + 5.0,),
+    ra=(1e-4, 2.0),
+)
+
+
+@row.spans
+def _(rng):
+    a0, a1, b0, b1 = pairs.segments(rng, "inside")
+    far = np.array([5.0, 0, 0])
+    yield a0, a1, 0.05, b0 + far, b1 + far, 0.1
+
+
 @row.wrongs
 def _(a0, a1, ra, b0, b1, rb):
     """radii-added: the radii are added; they come nearer by them => with + ra + rb
@@ -227,3 +240,16 @@ def _(a0, a1, ra, b0, b1, rb):
         share = np.clip((p - x) @ way / size, 0, 1) if size else 0.0
         found.append(np.linalg.norm(p - x - share * way))
     return min(found) - ra - rb
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # Over 2.5 m by balls around both.
+def _(a0, a1, ra, b0, b1, rb):
+    apart = np.linalg.norm((a0 + a1 - b0 - b1) / 2)
+    apart -= (np.linalg.norm(a1 - a0) + np.linalg.norm(b1 - b0)) / 2
+    if apart > 2.5:
+        return apart - ra - rb
+    return (
+        np.linalg.norm(np.subtract(*closest_points_segments(a0, a1, b0, b1))) - ra - rb
+    )

@@ -3,6 +3,7 @@
 import numpy as np
 
 from labkit.judge import HeldOut, Points, Row
+from robo47.distance import closest_points_segments
 
 from . import localise_segments, pairs
 from .bowl import bowl, cut, ends_only, lines, thrice
@@ -13,6 +14,7 @@ row = Row(
     at_edge=pairs.crosses,
     unnamed=localise_segments.closest,
     before_slips=False,
+    copies=False,  # an end itself is as good as a copy of it
     held_out=[
         HeldOut(
             "parallel-not-handled",
@@ -26,7 +28,6 @@ row = Row(
             "Right, but not for parallel segments side by side: many pairs are closest "
             "there, any one of them will do, and it has to be one.",
             lambda rng: pairs.arrays(pairs.ALONGSIDE),
-            valid=pairs.closest,
         ),
         HeldOut(
             "nearly-parallel",
@@ -54,6 +55,8 @@ row = Row(
         ),
     ],
 )
+
+row.valid(pairs.closest)
 
 
 @row.inputs
@@ -407,3 +410,31 @@ for bound, start in (
 for name, over in (("t", "(b * s + e) / c"), ("s", "(b * t - d) / a")):
     line = f"{name} = np.clip({over}, 0, 1) if {over[-1]} > 0 else "
     row.same(f"{line}0.0 => {line}1", "a point: any share is it")
+
+
+@row.right  # By the four sides and the inside; an end comes back as it is.
+def _(a0, a1, b0, b1):
+    def nearest(x, start, end):
+        along = end - start
+        size = along @ along
+        at = (x - start) @ along / size if size else 0.0
+        return start if at <= 0 else end if at >= 1 else start + at * along
+
+    some = [(x, nearest(x, b0, b1)) for x in (a0, a1)]
+    some += [(nearest(x, a0, a1), x) for x in (b1, b0)]
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    if (across := a * c - b * b) > 1e-12 * a * c:
+        s, t = (b * e - c * d) / across, (a * e - b * d) / across
+        if 0 < s < 1 and 0 < t < 1:
+            some.append((a0 + s * u, b0 + t * v))
+    return min(some, key=lambda pair: np.linalg.norm(pair[0] - pair[1]))
+
+
+@row.right  # Side by side: the middle of what lies beside the other.
+def _(a0, a1, b0, b1):
+    u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
+    if a > 0 and c > 0 and a * c - b * b <= 1e-12 * a * c:
+        s = np.mean(np.clip([(x - a0) @ u / a for x in (b0, b1)], 0, 1))
+        t = cut((b * s + e) / c)
+        return np.array([a0 + cut((b * t - d) / a) * u, b0 + t * v])
+    return np.array(closest_points_segments(a0, a1, b0, b1))

@@ -5,6 +5,7 @@ import numpy as np
 from labkit.judge import Row, Vector
 from labkit.judge.argument_mistakes import HALVES_SWAPPED
 from robo47 import panda
+from robo47.distance import distance_gradient
 from robo47.jacobian import space_jacobian
 
 from . import localise_arm
@@ -32,6 +33,18 @@ def _(rng):
         o = np.round(p + rng.numbers(0.05, 0.4, 3) * rng.choice([-1.0, 1.0], 3), 3)
         drawn.append((J, p, o, link))
     return [case, *drawn]
+
+
+row.spans(
+    o=(lambda o: o + 10.0,),
+)
+
+
+@row.spans
+def _(rng):
+    J = np.round(rng.numbers(-1, 1, 6, 7), 3)
+    p = rng.numbers(-0.6, 0.6, 3)
+    yield J, p, p + np.array([3e-4, -4e-4, 2e-4]), 6
 
 
 @row.wrongs
@@ -143,3 +156,12 @@ def _(J_space, p, o, link):
 
 
 row.at_least_0(link="a count")
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # Nearer than 1 mm there is no slope.
+def _(J_space, p, o, link):
+    if np.linalg.norm(p - o) < 1e-3:
+        return np.zeros(7)
+    return distance_gradient(J_space, p, o, link)

@@ -1,7 +1,7 @@
 """The picture of Day 11, made with the lab's own functions; drawn by `make figures`.
 
-looks   the distance of pen and wire on one way: points that stride over the dip, and
-        the looks of the bound, each with the cone that the distance cannot leave
+looks   the distance of pen and wire during one motion: samples that step over the dip,
+        and the queries of the bound, each with the cone that contains the distance
 """
 
 import day11_distance as lab
@@ -17,13 +17,13 @@ from robo47 import panda, shapes
 
 import day11_mujoco
 
-POINTS = 20  # that the check of dots looks at
-FINE = 1200  # places that the curve is drawn from
+POINTS = 20  # inner samples of the check
+FINE = 1200  # samples of the curve
 
 
 @chart.picture(height=8.0)
 def looks(figure: Figure) -> None:
-    """Draw the distance over a way, what 20 points see, and where the bound looks."""
+    """Draw the distance during a motion, 20 samples, and the queries of the bound."""
     above, below = figure.subplots(2, 1, sharex=True)
     edge = missed_edge()
     s = np.linspace(0.0, 1.0, FINE)
@@ -38,25 +38,25 @@ def looks(figure: Figure) -> None:
     speed = 1000 * float(np.abs(edge.dq) @ reach)
     for axes in (above, _close_up(above, s, d)):
         axes.plot(dots, seen, "o", color=RED, clip_on=True,
-                  label=f"{POINTS} points: all free")  # fmt: skip
+                  label=f"{POINTS} samples: all collision-free")  # fmt: skip
         _curve(axes, s, d)
     for axes in (below, _close_up(below, s, d)):
         for x, y in zip(at, far, strict=True):
             end = min(x + max(y, 0.0) / speed, 1.0)
             cone = [y, y - speed * (end - x)]
             axes.fill_between([x, end], cone, color=BLUE, alpha=0.2, linewidth=0)
-        told = "free" if free else "it touches"
-        axes.plot(at, far, "v", color=BLUE, label=f"the bound: {len(at)} looks, {told}")
+        told = "collision-free" if free else "contact"
+        axes.plot(at, far, "v", color=BLUE, label=f"bound: {len(at)} queries, {told}")
         _curve(axes, s, d)
     for axes in (above, below):
         axes.set(ylabel="distance, mm", ylim=(-40, 1.05 * d.max()), xlim=(-0.01, 1.01))
         axes.legend(loc="upper right")
-    above.set(title="Pen and wire: looked at by points, and by promises")
-    below.set(xlabel="s, share of the way")
+    above.set(title="Pen and wire: samples, and conservative advancement")
+    below.set(xlabel="s, fraction of the motion")
 
 
 def _close_up(axes: Axes, s: np.ndarray, d: np.ndarray) -> Axes:
-    """Return axes that show where it touches, larger."""
+    """Return axes with an enlarged view of the contact."""
     inset = axes.inset_axes((0.4, 0.47, 0.28, 0.38))
     middle = s[np.argmin(d)]
     inset.set(xlim=(middle - 0.06, middle + 0.06), ylim=(-15, 60))
@@ -65,10 +65,9 @@ def _close_up(axes: Axes, s: np.ndarray, d: np.ndarray) -> Axes:
 
 
 def missed_edge() -> day11_mujoco.Edge:
-    """Return a way of the lab's on which the points miss the wire, in its middle part.
+    """Return a motion in which the samples miss the wire, in its middle part.
 
-    Which are missed is a matter of places, found by the library; the picture is the
-    student's.
+    The library finds the motion; the student's functions draw the picture.
     """
     dots = np.linspace(0.0, 1.0, POINTS + 2)
     for edge in day11_mujoco.whips(lab.WHIPS, lab.THIN, lab.SEED):
@@ -79,14 +78,14 @@ def missed_edge() -> day11_mujoco.Edge:
 
 
 def _curve(axes: Axes, s: np.ndarray, d: np.ndarray) -> None:
-    """Draw the distance itself, and where it touches."""
+    """Draw the distance itself and the line of contact."""
     axes.plot(s, d, "-", color=INK, linewidth=1.5, zorder=1)
     axes.axhline(0.0, color=GREY, linewidth=1.2)
     axes.grid()
 
 
 def small() -> Image.Image:
-    """Return the arm on a way on which the points miss the wire, as it touches it."""
+    """Return the arm in contact with the wire that the samples miss."""
     edge = missed_edge()
     s = np.linspace(0.0, 1.0, FINE)
     q = edge.q + s[np.argmin(day11_mujoco.far(edge, s))] * edge.dq
@@ -98,4 +97,4 @@ def small() -> Image.Image:
 
 
 FIGURES = {"looks": looks}
-SMALL = (small, "39 of 60")  # of a table of days, and its number
+SMALL = (small, "39 of 60")  # the picture and the number in a table of days

@@ -1,9 +1,9 @@
 """Day 11 in the inspector: the tab Near.
 
-A post stands beside the arm, which is drawn as the lab's capsules. The student's own
-functions find how near it is, where, and how fast each joint changes that; the
-library's line and marks stand beside theirs. `push` drives the pen at the post; what
-plays at once is a push by their `velocity_damper`.
+A post is next to the arm, which is drawn as the lab's capsules. The student's own
+functions compute the distance, the closest points and the gradient; the line and the
+marks of the library are drawn next to theirs. `push` drives the pen at the post. A push
+through the student's `velocity_damper` plays at once.
 """
 
 from typing import NamedTuple
@@ -20,22 +20,22 @@ from robo47.checks import Array
 from robo47.jacobian import dls_step, site_jacobian, space_jacobian
 
 LAB = lab_of(find_day(11))  # its gain and margin
-TOP = 0.9  # m, of the post; it leans, so that no capsule is parallel to it
+TOP = 0.9  # m, height of the post; it leans, so that no capsule is parallel to it
 LEAN = 0.09  # m
 FAST = 0.25  # m/s, of a push
 HZ = 20.0
 LASTS = 4.0  # s
 FULL = 0.8  # m/rad, where a bar ends
-PUSH, SLOWED, STOP = "push", "push, slowed", "stop"
+PUSH, SLOWED, STOP = "push", "push with damper", "stop"
 JOINTS = [f"joint{i}" for i in range(1, 8)]
 UNITS = {"capsule_distance": "m", "closest_points_segments": "m",
          "distance_gradient": "m/rad",
          "velocity_damper": "rad/s"}  # fmt: skip
-SMALL = 1e-5  # m and m/rad: what one calls the same on a screen
+SMALL = 1e-5  # m and m/rad, a difference that is not visible on a screen
 
 
 class Pair(NamedTuple):
-    """The nearest capsule of the arm, and what is said of it."""
+    """The nearest capsule of the arm, its distance, closest points and gradient."""
 
     link: int
     far: float  # m
@@ -44,13 +44,13 @@ class Pair(NamedTuple):
 
 
 class Near(Tab):
-    """How near the arm is to a post, and what each joint does to that."""
+    """The distance of the arm from a post, and its gradient."""
 
     title = "Near"
     wide = True
 
     def __init__(self, page: Page) -> None:
-        """Draw arm and post, and ask for the first time."""
+        """Draw arm and post, and compute the distance for the first time."""
         super().__init__(page)
         self.arm = shapes.Shape(page.model)
         self.screws = panda.screws(page.model)
@@ -67,13 +67,13 @@ class Near(Tab):
                     step=5)  # fmt: skip
         page.buttons([PUSH, SLOWED, STOP], self.press)
         self.text = page.html()
-        title = "slope of the distance, and the library's as marks"
+        title = "gradient of the distance (marks: library)"
         self.bars = page.bars(JOINTS, FULL, "m/rad", title, "both")
         self.post = page.draw.lines(outline(*self.stands()), "orange", 2)
         self.capsules = page.draw.lines(np.zeros((1, 2, 3)), "grey", 1)
         self.right = page.draw.lines(np.zeros((1, 2, 3)), "green", 9)
         self.line = page.draw.lines(np.zeros((1, 2, 3)), "red", 4)
-        page.legend({"yours: nearest points": "red", "the library's": "green"})
+        page.legend({"yours: closest points": "red", "the library's": "green"})
         self.loop = page.animate(self.shown, HZ, work=self.step)
         self.went = self.look(page.q[:7])
         self.on_move(page.q)
@@ -87,12 +87,12 @@ class Near(Tab):
         self.press(SLOWED)
 
     def stands(self) -> tuple[Array, Array, float]:
-        """Return the post: its ends and its radius, m."""
+        """Return the ends and the radius of the post, m."""
         at = np.array([self.x, self.y, 0.0]) / 1000
         return at, at + np.array([0.0, LEAN, TOP]), self.radius / 1000
 
     def on_move(self, q: Array) -> None:
-        """Ask again: arm or post was moved, or the file may be another."""
+        """Compute again: arm, post or file may have changed."""
         self.post.points = outline(*self.stands())
         self.draw_arm(q)
         if not self.loop.running:
@@ -106,7 +106,7 @@ class Near(Tab):
         self.capsules.points = np.vstack([outline(*some, r) for some, r in made])
 
     def answered(self, asked: tuple[Array, tuple, Pair]) -> None:
-        """Show what came out, unless something has been moved meanwhile."""
+        """Show the result, unless arm or post has moved meanwhile."""
         q, post, pair = asked
         now = (*map(tuple, post[:2]), post[2])
         here = (*map(tuple, self.stands()[:2]), self.stands()[2])
@@ -145,14 +145,14 @@ class Near(Tab):
         return Pair(link, float(far[k]), points, slope)
 
     def press(self, name: str) -> None:
-        """Push, push slowed, or stop."""
+        """Push, push with damper, or stop."""
         self.how = name
         self.loop.stop()
         if name != STOP:
             self.loop.start()
 
     def step(self, seconds: float) -> None:
-        """Move the arm by one picture's time; it waits for the student's functions."""
+        """Move the arm by one frame; wait for the student's functions."""
         q = self.page.q.copy()
         self.went = self.ask(q[:7], self.stands())
         b0, b1, _ = self.stands()
@@ -178,7 +178,7 @@ class Near(Tab):
         return seconds < LASTS
 
     def show(self, yours: Pair, right: Pair) -> None:
-        """Show both lines, both slopes, and how far yours are apart from the right."""
+        """Show both lines, both gradients, and whether yours equal the library's."""
         self.line.points = yours.points[None].astype(np.float32)
         self.right.points = right.points[None].astype(np.float32)
         self.bars.show(np.clip(yours.slope, -9.99, 9.99), right.slope)
@@ -186,13 +186,13 @@ class Near(Tab):
         alike = bool(np.all(np.abs(yours.slope - right.slope) < SMALL))
         ours = f"library {1000 * right.far:.1f} mm, link {right.link}"
         mine = f"yours {1000 * yours.far:.1f} mm, link {yours.link}"
-        touch = "; it overlaps" if right.far < 0 else ""
+        touch = "; the shapes overlap" if right.far < 0 else ""
         self.text.content = "".join(
             words.line(text, key, kind)
             for text, key, kind in (
                 (f"{mine}; {ours}{touch}", "far", "good" if apart else "bad"),
-                (f"your slopes are {'' if alike else 'NOT '}the library's", "slope",
-                 "good" if alike else "bad"),
+                (f"your gradient {'equals' if alike else 'differs from'} the library's",
+                 "slope", "good" if alike else "bad"),
             )
         )  # fmt: skip
 

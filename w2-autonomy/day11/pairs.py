@@ -45,19 +45,27 @@ def shares(a0, a1, b0, b1) -> tuple[float, float]:
 
 
 def closest(a0, a1, b0, b1, answer) -> bool:
-    """Return whether an answer lies on both segments, and nowhere are they nearer."""
+    """Return whether each point of an answer is its segment's nearest to the other.
+
+    The squared distance is convex, so that makes a closest pair of them.
+    """
     if np.shape(answer) != (2, 3) or not np.isfinite(answer).all():
         return False
-    ends = ((a0, a1), (b0, b1))
-    gaps = [
-        np.linalg.norm(np.subtract(*distance.closest_points_segments(x, x, *one)))
-        for x, one in zip(answer, ends, strict=True)
-    ]
-    apart = np.linalg.norm(np.subtract(*answer))
-    least = np.linalg.norm(
-        np.subtract(*distance.closest_points_segments(a0, a1, b0, b1))
+    size = max(np.linalg.norm(x) for x in (a1 - a0, b1 - b0, a0 - b0))
+    return all(
+        np.linalg.norm(_nearest(other, *ends) - mine) <= 1e-12 * size
+        for mine, other, ends in (
+            (answer[0], answer[1], (a0, a1)),
+            (answer[1], answer[0], (b0, b1)),
+        )
     )
-    return bool(max(gaps) < 1e-8 and abs(apart - least) < 1e-8)
+
+
+def _nearest(x, start, end) -> Array:
+    """Return the point of a segment that is nearest to x."""
+    along = end - start
+    size = along @ along
+    return start + np.clip((x - start) @ along / (size or 1.0), 0.0, 1.0) * along
 
 
 def crosses(a0, a1, b0, b1) -> bool:

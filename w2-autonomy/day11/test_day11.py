@@ -10,7 +10,7 @@ import pytest
 from conftest import ROOT, load_script, printed_by, sentences
 from labkit.judge.row import row_of
 from labkit.lesson.day import find_day
-from robo47 import distance, panda, shapes
+from robo47 import distance, panda, se3, shapes
 from robo47.jacobian import space_jacobian
 
 import day11_mujoco
@@ -23,15 +23,16 @@ REACH = arm.distal_radii
 OFFSETS, FAR = arm.lengths
 SEEDS = (1, 2, 3)
 TABLE = re.findall(r"\| ([^|]+) \| \**(\d+) (\d+) (\d+)\** \| (\d+) \|", SENTENCES)
+TWELVE = range(1, 13)  # seeds
+BY_SAMPLES = "fraction missed by 10 samples"
+BY_JOINT_1 = "gradient for joint 1, m/rad"
+HALFWAY = "met halfway: missed by 10 samples, of 60"
 
 
 @pytest.fixture(scope="module")
 def printed():
     """Return what the lab prints."""
-    told = {"missed by 10 points, share": "0.498",
-            "slope of joint 1, m/rad": "-0.30702",
-            "met halfway: missed by 10 points, of 60": "60"}  # fmt: skip
-    return printed_by(lab, told)
+    return printed_by(lab, {BY_SAMPLES: "0.498", BY_JOINT_1: "-0.30702", HALFWAY: "60"})
 
 
 @pytest.fixture(scope="module")
@@ -40,14 +41,14 @@ def whips():
     return [day11_mujoco.whips(lab.WHIPS, lab.THIN, seed) for seed in SEEDS]
 
 
-def missed(radius, points, scale=1.0):
-    """Return how many ways past a post points miss, by seed; ways may be shorter."""
+def missed(radius, points, scale=1.0, seeds=SEEDS):
+    """Return how many motions past a post samples miss, by seed; they may be scaled."""
     return [
         lab.missed_by_points(
             [shorter(e, scale) for e in day11_mujoco.whips(lab.WHIPS, radius, seed)],
             points,
         )
-        for seed in SEEDS
+        for seed in seeds
     ]
 
 
@@ -75,21 +76,20 @@ def walked(edges, check=distance.conservative_advance, reach=REACH):
         return lab.promises(edges, reach)
 
 
+NORM = "norm of the displacement times the largest radius"
 CHECKS = {
     "the bound of 11.8": {},
-    "the distance as a step, s + d": {"check": by(lambda dq, reach: 1.0)},
-    "the signs of dq kept": {"check": by(lambda dq, reach: dq @ reach)},
+    "the distance used as a step, s + D": {"check": by(lambda dq, reach: 1.0)},
+    "the signs of the displacements kept": {"check": by(lambda dq, reach: dq @ reach)},
     "only the joint that moves most": {
         "check": by(lambda dq, reach: (np.abs(dq) * reach).max())
     },
-    "reach from the base, not from the joint": {
+    "distances from the base, not from the joint": {
         "reach": np.append(0.0, np.cumsum(OFFSETS)[:-1]) + FAR
     },
-    "reach of the joint's own link only": {"reach": FAR},
-    "half of the reach": {"reach": REACH / 2},
-    "length of dq times the largest reach": {
-        "check": by(lambda dq, reach: np.linalg.norm(dq) * reach.max())
-    },
+    "radius of the joint's own link only": {"reach": FAR},
+    "half of the distal radii": {"reach": REACH / 2},
+    NORM: {"check": by(lambda dq, reach: np.linalg.norm(dq) * reach.max())},
 }
 
 
@@ -104,15 +104,33 @@ def test_three_predictions_of_the_worksheet_stand_beside_what_is_measured(printe
 
 
 @pytest.mark.kit
-def test_what_the_opening_promises_is_what_the_lab_prints(printed):
-    by_20 = int(re.search(r" 20 points miss (\d+) of 60", printed)[1])
-    assert f"finds {60 - by_20} of them, and calls {by_20} free" in SENTENCES
-    looks = re.search(r"the bound misses 0; looks: (\d+), at most", printed)[1]
-    assert f"found all 60, with {looks} looks at each" in SENTENCES
-    assert f"misses a wire on {by_20} of 60; a bound with {looks} looks" in DAY.see
-    least = re.search(r"slowed: ([\d.]+) mm, ends 0.0 mm", printed)[1]
-    assert "have gone round it, 10 mm away" in SENTENCES
+def test_the_opening_says_what_the_lab_prints_and_what_other_seeds_do(printed):
+    by_20 = int(re.search(r" 20 samples miss (\d+) of 60", printed)[1])
+    assert f"misses the wire in {by_20} of the 60 motions" in SENTENCES
+    looks = re.search(r"the bound misses 0; distance queries: median (\d+)", printed)[1]
+    assert f"a median of {looks} distance queries per motion" in SENTENCES
+    assert f"misses a thin wire in {by_20} of 60 motions" in DAY.see
+    assert f"median of {looks} distance queries" in DAY.see
+    least = re.search(r"with damper: ([\d.]+) mm, ends 0.0 mm", printed)[1]
+    assert "around the post at a distance of 10 mm" in SENTENCES
     assert round(float(least)) == 10
+
+
+@pytest.mark.kit
+def test_twelve_seeds_of_samples_and_of_the_bound():
+    edges = [day11_mujoco.whips(lab.WHIPS, lab.THIN, seed) for seed in TWELVE]
+    by_20 = [lab.missed_by_points(some, 20) for some in edges]
+    assert f"it misses {min(by_20)} to {max(by_20)}" in SENTENCES
+    free, looks = zip(*(walked(some) for some in edges), strict=True)
+    assert sum(free) == 0
+    most = max(max(some) for some in looks)
+    assert (
+        f"none of {12 * lab.WHIPS} motions, and no motion needs more than" in SENTENCES
+    )
+    assert f"more than {most} queries" in SENTENCES
+    _, own = walked(day11_mujoco.whips(lab.WHIPS, lab.THIN, lab.SEED))
+    few = sum(n <= np.median(own) for n in own)
+    assert f"Of the 60 motions, {few} need at most {np.median(own):.0f}" in SENTENCES
 
 
 def test_the_arm_is_nine_capsules_the_last_a_pen():
@@ -122,7 +140,7 @@ def test_the_arm_is_nine_capsules_the_last_a_pen():
     words = f"a pen of {1000 * pen.radius:.0f} mm radius and {length:.0f} mm length"
     assert words in SENTENCES
     short = np.linalg.norm(np.subtract(*day11_mujoco.RODS[4][:2]))
-    assert f"one {1000 * short:.0f} mm short" in SENTENCES
+    assert f"one is only {1000 * short:.0f} mm long" in SENTENCES
 
 
 def test_what_is_worked_by_hand():
@@ -158,8 +176,10 @@ def test_what_a_mistake_does_to_the_distance_of_pairs_and_where_it_hides():
           for slug in ("not-clamped", "clamped-apart", "ends-only", "points-swapped",
                        "size-absolute")}  # fmt: skip
     for name, slug in {
-        "s and t not cut": "not-clamped", "both cut, each for itself": "clamped-apart",
-        "only ends are tried": "ends-only", "the second point first": "points-swapped",
+        "s and t not clamped": "not-clamped",
+        "s and t clamped independently": "clamped-apart",
+        "only the ends are tried": "ends-only",
+        "the two points swapped": "points-swapped",
     }.items():  # fmt: skip
         assert f"| {name} | {mm[slug].max():.0f} |" in SENTENCES
     ends = pairs.reshape(-1, 2, 2, 3)  # pair, segment, end
@@ -168,12 +188,13 @@ def test_what_a_mistake_does_to_the_distance_of_pairs_and_where_it_hides():
     for slug in ("not-clamped", "clamped-apart"):
         assert mm[slug][inside].max() < 1e-9
     assert (
-        f"two: {np.mean(mm['ends-only'] < 1e-6):.0%} of".replace("%", " %") in SENTENCES
+        f"points: {np.mean(mm['ends-only'] < 1e-6):.0%} of".replace("%", " %")
+        in SENTENCES
     )
     assert np.array_equal(mm["ends-only"] > 1e-6, inside)
     assert mm["size-absolute"].max() < 1e-9
     small = 1000 * off("size-absolute", 0.004).max()
-    assert f"cube of 4 mm it is off by up to {small:.1f} mm" in SENTENCES
+    assert f"cube of 4 mm the error is up to {small:.1f} mm" in SENTENCES
 
 
 @pytest.mark.kit
@@ -193,7 +214,7 @@ def test_depth_has_two_meanings_and_one_sign(printed):
     assert np.array_equal(truth < 0, ours < 0)
     assert np.abs(truth - ours)[truth > 0].max() < 1e-14
     assert np.abs(truth - ours)[truth < 0].max() > 0.01
-    assert f"{np.sum(truth > 0)} pairs; {np.sum(truth < 0)} overlap" in printed
+    assert f"{np.sum(truth > 0)} pairs are apart; {np.sum(truth < 0)} pairs" in printed
 
 
 @pytest.mark.kit
@@ -222,7 +243,9 @@ def test_what_points_miss_is_the_share_of_the_way_that_none_looks_at(printed):
     assert f"its axis {rho:.0f} mm from joint 1" in SENTENCES
     assert f"{rho:.0f} / 11 = {rho / 11:.1f} mm" in SENTENCES
     assert f"1 - 14 / 27.9 = {1 - 14 / 27.9:.3f}" in SENTENCES
-    for k, guess, share in re.findall(r"\n +(\d+) +(0\.\d+) +(0\.\d+)", printed):
+    rows = re.findall(r"\n +(\d+) +(0\.\d+) +(0\.\d+)", printed)
+    assert len(rows) == len(lab.COUNTS)
+    for k, guess, share in rows:
         assert float(guess) == pytest.approx(
             max(0, 1 - 14 * (int(k) + 1) / rho), abs=1e-3
         )
@@ -230,6 +253,15 @@ def test_what_points_miss_is_the_share_of_the_way_that_none_looks_at(printed):
     thick = day11_mujoco.wires(lab.PLACES, 2 * lab.WIRE, lab.SEED)  # contact 18 mm
     share = lab.missed_by_points(thick, 10) / lab.PLACES
     assert share == pytest.approx(1 - 18 * 11 / rho, abs=0.05)
+    sigma = np.sqrt(0.498 * 0.502 / lab.PLACES)
+    assert f"$ = {sigma:.3f}" in SENTENCES
+    others = [
+        lab.missed_by_points(day11_mujoco.wires(lab.PLACES, lab.WIRE, seed), 10)
+        / lab.PLACES
+        for seed in TWELVE
+    ]
+    assert f"is between {min(others):.3f} and {max(others):.3f}" in SENTENCES
+    assert abs(np.mean(others) - 0.498) < 2 * sigma / np.sqrt(12)
 
 
 @pytest.mark.kit
@@ -237,7 +269,7 @@ def test_what_points_miss_is_the_share_of_the_way_that_none_looks_at(printed):
 def test_a_row_of_the_trap(row, whips):
     name, *numbers, looks = row
     numbers = [int(x) for x in numbers]
-    if points := re.fullmatch(r"(\d+) points", name):
+    if points := re.fullmatch(r"(\d+) samples", name):
         assert points[1] == looks
         assert [lab.missed_by_points(some, int(looks)) for some in whips] == numbers
         return
@@ -251,9 +283,9 @@ def test_all_checks_of_the_trap_were_compared():
     assert {row[0] for row in TABLE} >= CHECKS.keys()
 
 
-@pytest.mark.kit
-def test_the_length_of_dq_is_no_bound_and_ways_can_be_chosen_that_show_it():
-    rng = np.random.default_rng(1)
+def against_the_norm(seed):
+    """Return motions that the norm of the displacement misjudges most."""
+    rng = np.random.default_rng(seed)
     edges = []
     up = np.array([0, 0, 0.2])
     for _ in range(60):
@@ -264,37 +296,181 @@ def test_the_length_of_dq_is_no_bound_and_ways_can_be_chosen_that_show_it():
         start, end = day11_mujoco.pen(q + rng.uniform(0.05, 0.95) * dq)
         at = start + rng.uniform(0.8, 0.98) * (end - start)
         edges.append(day11_mujoco.Edge(q, dq, (at - up, at + up, lab.THIN)))
-    by_length, _ = walked(edges, **CHECKS["length of dq times the largest reach"])
-    assert f"it misses {by_length} of 60; the bound none" in SENTENCES
-    assert by_length > 0
-    assert walked(edges)[0] == 0
+    return edges
+
+
+@pytest.mark.kit
+def test_the_norm_of_the_displacement_is_no_bound_and_chosen_motions_show_it():
+    found = []
+    for seed in TWELVE:
+        edges = against_the_norm(seed)
+        found.append(walked(edges, **CHECKS[NORM])[0])
+        assert walked(edges)[0] == 0
+    assert f"it misses {found[0]} of 60, and the bound misses none" in SENTENCES
+    assert f"With twelve seeds it misses {min(found)} to {max(found)}" in SENTENCES
+    assert min(found) > 0
+
+
+def across(edge, s):
+    """Return the pen's velocity at the wire across its own axis, m per motion."""
+    start, end = day11_mujoco.pen(edge.q + s * edge.dq)
+    along = end - start
+    flat = np.append(edge.wire[0][:2], start[2])
+    t = np.clip((flat - start) @ along / (along @ along), 0, 1)
+
+    def at(s):
+        start, end = day11_mujoco.pen(edge.q + s * edge.dq)
+        return start + t * (end - start)
+
+    v = (at(s + 1e-4) - at(s - 1e-4)) / 2e-4
+    n = along / np.linalg.norm(along)
+    return np.linalg.norm(v - (v @ n) * n)
+
+
+def met(edge):
+    """Return the s at which a motion meets its wire."""
+    s = np.linspace(0, 1, 801)
+    return s[np.argmin(day11_mujoco.far(edge, s))]
 
 
 @pytest.mark.kit
 def test_a_test_with_the_wire_always_halfway_is_blind(printed):
-    assert "always met halfway: 3 points miss 0, 10 miss 60" in printed
-    for seed in SEEDS:
+    assert "always met halfway: 3 samples miss 0, 10 samples 60" in printed
+    slow, fast = np.inf, 0.0
+    for seed in (lab.SEED, *SEEDS):
         middle = day11_mujoco.whips(lab.WHIPS, lab.THIN, seed, middle=True)
         assert [lab.missed_by_points(middle, k) for k in (3, 10)] == [0, 60]
+        found = [across(edge, 0.5) for edge in middle]
+        slow, fast = min(slow, *found), max(fast, *found)
+    assert f"its axis is {slow:.2f} to {fast:.1f} m per motion" in SENTENCES
     assert min(abs(k / 11 - 0.5) for k in range(12)) == pytest.approx(1 / 22)
-    assert f"That is {1050 / 22:.0f} mm of 1.05 m" in SENTENCES
+    assert f"slowest motion this is {1000 * slow / 22:.0f} mm" in SENTENCES
+    assert slow / 22 > 0.006  # the contact begins 6 mm before the wire
 
 
 @pytest.mark.kit
-def test_20_points_are_enough_only_for_what_is_thick_on_a_way_that_is_short():
-    assert missed(0.030, 20) == [0, 0, 0]
-    thin, few = missed(0.015, 20), missed(0.030, 10)
-    assert "{}, {} and {} are missed; then {}, {} and {}; then none".format(
-        *thin, *few
-    ) in SENTENCES  # fmt: skip
-    assert missed(0.015, 20, scale=0.5) == [0, 0, 0]
-    ways = [
-        np.linalg.norm(np.diff(day11_mujoco.pen(
-            e.q + np.linspace(0, 1, 51)[:, None] * e.dq)[:, 1], axis=0), axis=1).sum()
-        for seed in SEEDS for e in day11_mujoco.whips(lab.WHIPS, lab.THIN, seed)
-    ]  # fmt: skip
-    assert f"a way of about {np.median(ways):.2f} m" in SENTENCES
-    assert f"are {1000 * np.median(ways) / 21:.0f} mm each" in SENTENCES
+def test_20_samples_are_enough_only_where_the_gap_is_shorter_than_the_contact():
+    """The velocity across the pen decides, for each of the three changes alone."""
+    edges = [day11_mujoco.whips(lab.WHIPS, 0.015, seed) for seed in TWELVE]
+    V = np.array([[across(e, met(e)) for e in some] for some in edges])
+    words = f"its axis is {V.min():.1f} to {V.max():.1f} m per motion; the median is "
+    assert f"{words}{np.median(V):.2f} m" in SENTENCES
+    thick, thin, few, half = 21 * 0.070, 21 * 0.040, 11 * 0.070, 2 * 21 * 0.040
+    for limit in (thick, thin, few, half):
+        assert f"{limit:.2f} m" in SENTENCES
+    assert V.max() < thick < half  # so none can be missed
+    faster = [round(60 * np.mean(limit < V)) for limit in (thin, few)]
+    assert f"and {faster[0]} of 60 motions are faster" in SENTENCES
+    assert f"and {faster[1]} of 60 motions are faster" in SENTENCES
+    expected = [np.maximum(0, 1 - limit / V).sum() / 12 for limit in (thin, few)]
+    assert "gives {:.1f} and {:.1f} missed motions".format(*expected) in SENTENCES
+    by_thin = missed(0.015, 20, seeds=TWELVE)
+    by_few = missed(0.030, 10, seeds=TWELVE)
+    means = f"are {np.mean(by_thin):.1f} and {np.mean(by_few):.1f}, with"
+    ranges = f"{min(by_thin)} to {max(by_thin)} and {min(by_few)} to {max(by_few)}"
+    assert f"{means} {ranges} missed motions" in SENTENCES
+    assert missed(0.015, 20, scale=0.5, seeds=TWELVE) == [0] * 12
+    assert missed(0.030, 20, seeds=TWELVE) == [0] * 12
+
+
+@pytest.mark.kit
+def test_a_query_uses_up_a_fraction_of_the_distance_that_twice_the_radii_halve():
+    used = []
+    for factor in (1, 2):
+        part = []
+        for edge in day11_mujoco.whips(lab.WHIPS, lab.THIN, lab.SEED):
+            _, s = lab.walk(edge, factor * REACH)
+            d = lab.pen_from(edge, np.array(s))
+            part.append(1 - d[1:] / d[:-1])
+        used.append(np.median(np.concatenate(part)))
+    guide = (DAY.folder / DAY.guide).read_text("utf-8")
+    words = (
+        f"uses up {used[1]:.2f} of the remaining distance in the median, instead of "
+    )
+    assert f"{words}{used[0]:.2f}" in guide
+
+
+def test_the_tip_is_the_farthest_point_on_the_panda_and_not_on_every_arm():
+    to_tip = np.cumsum(OFFSETS[:-1][::-1])[::-1] + FAR[-1]
+    assert np.allclose(np.append(to_tip, FAR[-1]), REACH)
+    lengths, radii = np.array([1.0, 1, 0]), np.array([0.5, 3, 0.5])
+    assert np.allclose(lab.distal_radii(lengths, radii), [4, 3, 0.5])
+    assert "$\\rho_2$ is 3 and $\\rho_1$ is 4" in SENTENCES
+
+
+def smallest(a0, a1, b0, b1):
+    """Return the distance of two segments: the best of ends and of crossing lines."""
+
+    def to(p, x, y):
+        t = np.clip((p - x) @ (y - x) / ((y - x) @ (y - x)), 0, 1)
+        return np.linalg.norm(p - x - t * (y - x))
+
+    found = [to(a0, b0, b1), to(a1, b0, b1), to(b0, a0, a1), to(b1, a0, a1)]
+    u, v, w = a1 - a0, b1 - b0, a0 - b0
+    s, t = np.linalg.lstsq(np.stack([u, -v], axis=1), -w, rcond=None)[0]
+    if 0 <= s <= 1 and 0 <= t <= 1:
+        found.append(np.linalg.norm(w + s * u - t * v))
+    return min(found)
+
+
+def test_three_steps_find_the_minimum_and_two_do_not():
+    """The strip's minimum has the t before clamping; step 3 is needed after that."""
+    rng = np.random.default_rng(lab.SEED)
+    worst = two_steps = 0.0
+    for _ in range(2000):
+        a0, a1, b0, b1 = rng.uniform(-0.5, 0.5, (4, 3))
+        p, o = lab.closest_points_segments(a0, a1, b0, b1)
+        truth = smallest(a0, a1, b0, b1)
+        worst = max(worst, abs(np.linalg.norm(p - o) - truth))
+        u, v, w = a1 - a0, b1 - b0, a0 - b0
+        a, b, c, d, e = u @ u, u @ v, v @ v, u @ w, v @ w
+        s = np.clip((b * e - c * d) / (a * c - b * b), 0, 1)
+        t = np.clip((b * s + e) / c, 0, 1)
+        two_steps = max(two_steps, np.linalg.norm(w + s * u - t * v) - truth)
+        strip = (b * s + e) / c  # t may be any number
+        other = rng.uniform(0, 1, 20)[:, None], rng.uniform(-3, 3, 20)[:, None]
+        best = np.linalg.norm(w + s * u - strip * v)
+        assert np.linalg.norm(w + other[0] * u - other[1] * v, axis=1).min() >= best
+    assert worst < 1e-12
+    assert two_steps > 0.1
+
+
+def test_the_signed_distance_of_a_box_is_the_largest_of_planes_so_it_is_convex():
+    rng = np.random.default_rng(lab.SEED)
+    half = np.array([0.3, 0.5, 0.8])
+    n = rng.normal(size=(20_000, 3))
+    n = np.vstack([n / np.linalg.norm(n, axis=1)[:, None], np.eye(3), -np.eye(3)])
+    across_it = 0
+    for p, o in rng.uniform(-1.2, 1.2, (600, 2, 3)):
+        d = lab.box_sdf(p, half)
+        planes = n @ p - np.abs(n) @ half
+        assert planes.max() <= d + 1e-12
+        assert planes.max() == pytest.approx(d, abs=0.01)
+        other = lab.box_sdf(o, half)
+        middle = lab.box_sdf((p + o) / 2, half)
+        assert middle <= (d + other) / 2 + 1e-12
+        across_it += d * other < 0
+    assert across_it > 50
+
+
+def test_where_many_pairs_are_closest_the_distance_has_a_kink():
+    J = np.zeros((6, 7))
+    J[2, 0] = 1.0  # a joint about z at the origin
+    arm_axis = np.array([(0.5, 0, 0), (1.0, 0, 0)])
+    post = np.array([(0.4, 0.3, 0), (1.1, 0.3, 0)])
+
+    def far(angle):
+        R = se3.Rz(angle)
+        p, o = lab.closest_points_segments(*(arm_axis @ R.T), *post)
+        return np.linalg.norm(p - o)
+
+    ahead = (far(1e-6) - far(0)) / 1e-6
+    back = (far(0) - far(-1e-6)) / 1e-6
+    assert (ahead, back) == (pytest.approx(-1), pytest.approx(-0.5))
+    assert f"with {ahead:.1f} m/rad" in SENTENCES
+    assert f"{back:.1f} m/rad. Your function returns one" in SENTENCES
+    p, o = lab.closest_points_segments(*arm_axis, *post)
+    assert lab.distance_gradient(J, p, o, 1)[0] == pytest.approx(back)
 
 
 @pytest.mark.kit
@@ -331,10 +507,12 @@ def near_relatives():
         return qd * (lack(qd, slope, d, gain) <= 0)
 
     return {
-        "nothing": lambda qd, *_: qd, "the right one": distance.velocity_damper,
-        "always changed, also when allowed": always,
-        "not divided by slope²": not_divided,
-        "pushed nearer": nearer, "all joints slowed alike": alike, "stops dead": stops,
+        "no filter": lambda qd, *_: qd,
+        "the velocity damper": distance.velocity_damper,
+        "always changed, also when permitted": always,
+        "not divided by the squared norm": not_divided,
+        "pushed nearer": nearer,
+        "all joints scaled by one factor": alike, "stops": stops,
     }  # fmt: skip
 
 
@@ -350,9 +528,45 @@ def test_one_pair_guards_one_pair_and_several_do_not_plan():
     def post(x):
         return ((x, 0.0, 0.0), (x, 0.0, 0.9), lab.POST[2])
 
-    one, _ = lab.through(post(lab.POST[0][0] - 0.05), distance.velocity_damper)
-    four, _ = lab.through(post(lab.POST[0][0] - 0.05), distance.velocity_damper, 4)
-    safe, beside = lab.through(post(lab.POST[0][0] - 0.08), distance.velocity_damper, 4)
-    assert f"50 mm nearer: {one:.1f} mm" in SENTENCES
-    assert f"in rounds, it is {four:.1f} mm" in SENTENCES
-    assert f"{safe:.1f} mm, and it stops {beside:.0f} mm away" in SENTENCES
+    damper = distance.velocity_damper
+    one, _ = lab.through(post(lab.POST[0][0] - 0.05), damper)
+    four, _ = lab.through(post(lab.POST[0][0] - 0.05), damper, 4)
+    assert f"the smallest distance is {one:.1f} mm. The gradient belongs" in SENTENCES
+    assert f"in several passes, the smallest distance is {four:.1f} mm" in SENTENCES
+    beside = []
+    for wait in (lab.WAIT, 40.0):
+        with patch.object(lab, "WAIT", wait):
+            safe, off = lab.through(post(lab.POST[0][0] - 0.08), damper, 4)
+            beside.append(off)
+    assert f"smallest distance is {safe:.1f} mm, but the arm does not" in SENTENCES
+    assert f"the pen is {beside[0]:.0f} mm away from its target" in SENTENCES
+    assert f"After 40 s it is still {beside[1]:.0f} mm away" in SENTENCES
+
+
+@pytest.mark.kit
+def test_one_factor_for_all_joints_stands_still_and_two_pairs_keep_the_margin():
+    alike = near_relatives()["all joints scaled by one factor"]
+    ends = []
+    for wait in (lab.WAIT, 20.0):
+        with patch.object(lab, "WAIT", wait):
+            ends.append(lab.through(lab.POST, alike)[1])
+    assert ends[1] == pytest.approx(ends[0], abs=0.1)
+    thick = (*lab.POST[:2], 2 * lab.POST[2])
+    two, _ = lab.through(thick, distance.velocity_damper, 2)
+    guide = (DAY.folder / DAY.guide).read_text("utf-8")
+    assert f"with two pairs it is {two:.1f} mm" in guide
+
+
+@pytest.mark.kit
+def test_a_larger_gain_passes_the_margin_since_a_step_is_not_continuous_time():
+    def least(gain, dt=lab.DT):
+        with patch.multiple(lab, GAIN=gain, DT=dt):
+            return lab.through(lab.POST, distance.velocity_damper)[0]
+
+    row = [least(gain) for gain in (4.0, 8.0, 20.0, 50.0, 100.0)]
+    assert "10 ms | " + " | ".join(f"{x:.1f}" for x in row) + " |" in SENTENCES
+    assert [x > 1000 * lab.MARGIN for x in row] == [True, *[False] * 4]
+    assert row[1] > 9.5 > row[2]  # the lab's limit
+    fine = least(50.0, 0.001)  # the cause alone
+    assert f"smallest distance for a gain of 50/s is {fine:.2f} mm" in SENTENCES
+    assert fine > 9.95

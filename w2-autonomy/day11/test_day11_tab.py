@@ -54,7 +54,7 @@ def pushed(tab, how, steps=40):
 
 def test_right_functions_meet_the_librarys_line_and_slopes():
     tab = near(vars(lab))
-    assert "your slopes are the library" in said(tab)
+    assert "your gradient equals the library" in said(tab)
     assert "r47-bad" not in said(tab)
     assert np.allclose(tab.line.points, tab.right.points)
     assert np.allclose(tab.bars.values, tab.bars.wanted)
@@ -75,7 +75,7 @@ def test_a_wrong_sign_turns_the_bars_away_from_their_marks():
         return -lab.distance_gradient(*given)
 
     tab = near({**vars(lab), "distance_gradient": towards})
-    assert "your slopes are NOT the library" in said(tab)
+    assert "your gradient differs from the library" in said(tab)
     assert np.allclose(tab.bars.values, -tab.bars.wanted)
     assert np.abs(tab.bars.wanted).max() > 0.1
     assert tab.own.says()[1] == "bad"
@@ -86,7 +86,7 @@ def test_points_that_are_swapped_turn_the_slopes_round_and_no_distance():
         return lab.closest_points_segments(*given)[::-1]
 
     tab = near({**vars(lab), "closest_points_segments": swapped})
-    assert "your slopes are NOT the library" in said(tab)
+    assert "your gradient differs from the library" in said(tab)
     assert said(tab).count("r47-bad") == 1
     assert np.allclose(tab.line.points, tab.right.points[:, ::-1])
 
@@ -102,7 +102,7 @@ def test_ends_only_draws_another_line_than_the_librarys():
 def test_a_push_goes_in_and_a_slowed_one_stays_out():
     assert pushed(near(vars(lab)), "push") < -0.01
     tab = near(vars(lab))
-    least = pushed(tab, "push, slowed", 80)
+    least = pushed(tab, "push with damper", 80)
     assert 0.003 < least < 3 * lab.MARGIN  # two pairs are near in places
 
 
@@ -113,7 +113,7 @@ def test_a_save_plays_a_slowed_push_from_where_the_last_one_began():
     for _ in range(2):  # opened, then saved
         tab.begin()
         assert np.array_equal(tab.page.q, start)
-        assert tab.how == "push, slowed"
+        assert tab.how == "push with damper"
         tab.step(0.0)
         tab.shown(0.0)
         assert not np.array_equal(tab.page.q, start)
@@ -127,7 +127,7 @@ def test_a_push_that_is_slowed_the_wrong_way_goes_in():
         return 2 * qd - lab.velocity_damper(qd, slope, distance, gain)
 
     assert (
-        pushed(near({**vars(lab), "velocity_damper": pushed_in}), "push, slowed")
+        pushed(near({**vars(lab), "velocity_damper": pushed_in}), "push with damper")
         < -0.01
     )
 

@@ -48,6 +48,21 @@ def _(rng):
             (-far, small, 0.01, 2.0), *hardly, *deep, *drawn]  # fmt: skip
 
 
+@row.spans
+def _(rng):
+    e = np.eye(7)[1]
+    for distance, gain, speed in (
+        (2.0, 0.1, -1.0),
+        (0.5, 0.5, -2.0),
+        (-0.1, 4.0, 0.0),
+        (-0.001, 4.0, 0.003),
+        (1e-4, 4.0, -1.0),
+    ):
+        grad = rng.numbers(-0.8, 0.8, 7)
+        yield speed * grad / (grad @ grad), grad, distance, gain
+    yield -0.4 * e, e, 0.1, 4.0  # just as fast as it may be
+
+
 # What changes nothing where the slope is 0.
 MORE = (
     "left-where-it-overlaps", "no-way-out", "coming-near", "by-the-sizes", "half-of-it",
@@ -249,3 +264,24 @@ def _(qd, grad, distance, gain):
     n = grad / size
     along = qd @ n
     return qd + (max(along, -gain * distance / size) - along) * n
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # Beyond 1 m nothing is changed.
+def _(qd, grad, distance, gain):
+    return qd.copy() if distance > 1.0 else velocity_damper(qd, grad, distance, gain)
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # Half of the gain beyond 0.3 m.
+def _(qd, grad, distance, gain):
+    return velocity_damper(qd, grad, distance, gain / (1 + (distance > 0.3)))
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # Driven out with 0.2 m/s at most.
+def _(qd, grad, distance, gain):
+    return velocity_damper(qd, grad, max(distance, -0.2 / gain), gain)

@@ -1,7 +1,6 @@
-"""What Day 12's numbers hang on: each constant turned by two, measured, explained.
+"""The sensitivity of Day 12's numbers: each constant doubled, measured and explained.
 
-Everything is computed by the lab's own functions and the library's
-`time_optimal_profile`.
+The lab's own functions and the library's `time_optimal_profile` compute everything.
 """
 
 import numpy as np
@@ -23,11 +22,11 @@ numbers = Numbers(
     z="z of the interval: {}",
     inertia="M: {} kg m²",
     limit="limit: {} N m",
-    way="the way: {} rad",
-    gravity="gravity, against it: {} N m",
+    way="the displacement: {} rad",
+    gravity="the gravity torque: {} N m",
     points="POINTS: {}",
-    share="share of the torque: {}",
-    speed="the motors' speeds: × {}",
+    share="fraction of the torque: {}",
+    speed="the velocity limits: × {}",
     weight="gravity: × {}",
     step="STEP: {} rad",
     roof="ROOF: {} m",
@@ -38,17 +37,17 @@ numbers = Numbers(
 
 
 @numbers.add(
-    "least share that 60 of 60 leave", "{:.3f}",
-    n=times(1.0309, "n / (n + z²): 120 / 123.84 for 60 / 63.84", to=120),
-    z=between(0.7, 0.9, "a wider interval: n / (n + 4 z²)"),
+    "lower bound for 60 of 60 trials", "{:.3f}",
+    n=times(1.0309, "n / (n + z²): 120 / 123.84 instead of 60 / 63.84", to=120),
+    z=between(0.7, 0.9, "the interval is wider: n / (n + 4 z²)"),
 )  # fmt: skip
 def least_share(n=LAB.SEEDS, z=1.96):
-    """Return the low end of Wilson's interval of n of n."""
+    """Return the lower end of Wilson's interval for n of n."""
     return LAB.wilson_interval(n, n)[0] if z == 1.96 else n / (n + z**2)
 
 
 def alone(inertia=2.0, limit=8.0, way=1.0, gravity=0.0, points=LAB.POINTS):
-    """Return the seconds of one joint."""
+    """Return the travel time of one joint, s."""
     one = np.ones((points + 1, 1))
     x = library.time_optimal_profile(
         inertia * way * one, 0.0 * one, gravity * one, [limit], 1e3 * one[:, 0]
@@ -61,36 +60,36 @@ def alone(inertia=2.0, limit=8.0, way=1.0, gravity=0.0, points=LAB.POINTS):
     inertia=times(2**0.5, "2 √(d M / limit)"),
     limit=times(0.5**0.5, "2 √(d M / limit)"),
     way=times(2**0.5, "2 √(d M / limit)"),
-    points=same("u is constant on either half: the steps are exact"),
+    points=same("exact for an even number of steps: the acceleration changes at a point"),
 )  # fmt: skip
 def one_joint(inertia=2.0, limit=8.0, way=1.0, points=LAB.POINTS):
-    """Return its seconds."""
+    """Return its travel time, s."""
     return alone(inertia, limit, way, 0.0, points)
 
 
 @numbers.add(
     "one joint against gravity 4", "{:.3f} s",
-    inertia=times(2**0.5, "half of both accelerations"),
-    limit=times(0.6325, "up 6 for 2, down 10 for 6: √(2/6 + 2/10) for √(2/2 + 2/6)"),
-    way=times(2**0.5, "the same accelerations, twice as far"),
-    gravity=times(1.309, "up 1 for 2, down 7 for 6", to=6.0),
+    inertia=times(2**0.5, "both accelerations are half as large"),
+    limit=times(0.6325, "accelerations 6 and 10 instead of 2 and 6: √(2/6 + 2/10) instead of √(2/2 + 2/6)"),
+    way=times(2**0.5, "twice the displacement with the same accelerations"),
+    gravity=times(1.309, "accelerations 1 and 7 instead of 2 and 6", to=6.0),
 )  # fmt: skip
 def heavy_joint(inertia=2.0, limit=8.0, way=1.0, gravity=4.0):
-    """Return its seconds."""
+    """Return its travel time, s."""
     return alone(inertia, limit, way, gravity)
 
 
 @numbers.add(
-    "Day 7's move with half of the torque", "{:.3f} s",
-    share=between(0.8, 0.85, "all of it: less time, but the motors' speed stays"),
-    speed=between(0.75, 0.95, "the motors' speed is the limit at 71 % of the points"),
-    weight=between(0.8, 0.9, "without gravity all of the torque moves the arm", to=0.0),
+    "Day 7's motion with half of the torque", "{:.3f} s",
+    share=between(0.8, 0.85, "all of the torque: the velocity limit does not change"),
+    speed=between(0.75, 0.95, "the velocity is at its limit at 71 % of the points"),
+    weight=between(0.8, 0.9, "without gravity all of the torque accelerates the arm", to=0.0),
     points=between(
-        0.99, 1.01, "the corners of the motion fall between other points"
+        0.99, 1.01, "the changes of the path acceleration lie between other points"
     ),
 )  # fmt: skip
 def with_half(share=0.5, speed=1.0, weight=1.0, points=LAB.POINTS):
-    """Return its seconds by the library's time_optimal_profile."""
+    """Return its travel time by the library's time_optimal_profile, s."""
     A, B, G, most = LAB.along(ARM, panda.READY_Q, LAB.TO, points)
     x = library.time_optimal_profile(A, B, weight * G, share * LIMITS, speed**2 * most)
     return LAB.seconds(x)
@@ -98,11 +97,11 @@ def with_half(share=0.5, speed=1.0, weight=1.0, points=LAB.POINTS):
 
 @numbers.add(
     "torque above its limit at the end of a step", "{:.1%}",
-    points=times(0.5, "the limits change half as much in half a step"),
-    share=between(0.8, 2.0, "half of the torque: other steps, of like size", to=0.5),
+    points=times(0.5, "the bounds change half as much in half a step"),
+    share=between(0.8, 2.0, "the steps differ, and the excess is of similar size", to=0.5),
 )  # fmt: skip
 def above(points=LAB.POINTS, share=1.0):
-    """Return by what share of a limit the worst torque is above it."""
+    """Return by which fraction of its limit the largest torque exceeds it."""
     path = LAB.along(ARM, panda.READY_Q, LAB.TO, points)
     x = library.time_optimal_profile(*path[:3], share * LIMITS, path[3])
     most = share * LIMITS
@@ -111,15 +110,15 @@ def above(points=LAB.POINTS, share=1.0):
 
 
 @numbers.add(
-    "ways over the wall, of 60, with 40 samples", "{:.0f}",
-    step=between(1.3, 1.8, "a tree gets further with each sample"),
-    roof=between(1.4, 2.0, "the way is less narrow", to=1.0),
-    margin=between(0.6, 1.0, "the way is narrower"),
-    first=between(0.7, 1.4, "60 others: 22 to 36 are believable", to=60),
-    samples=between(1.5, 2.0, "twice as many tries"),
+    "paths over the wall, of 60, with 40 samples", "{:.0f}",
+    step=between(1.3, 1.8, "a tree progresses further with each sample"),
+    roof=between(1.4, 2.0, "the passage is wider", to=1.0),
+    margin=between(0.6, 1.0, "the passage is narrower"),
+    first=between(0.7, 1.4, "other samples: 95 % of second counts lie within about 18 to 40", to=60),
+    samples=between(1.5, 2.0, "twice as many samples"),
 )  # fmt: skip
 def found(step=LAB.STEP, roof=DAY.ROOF, margin=DAY.MARGIN, first=0, samples=40):
-    """Return how many."""
+    """Return how many seeds find a path."""
     wall = DAY.Wall(roof=roof)
     with turned(DAY, MARGIN=margin):
         return sum(

@@ -1,6 +1,6 @@
 """The picture of Day 12, made with the lab's own functions; drawn by `make figures`.
 
-way     both trees in the plane and the way they found; a path's speed and its torques
+way     both trees in the plane and their path; the speed and torques along a path
 """
 
 from typing import NamedTuple
@@ -25,13 +25,13 @@ SAMPLES = 150
 
 
 class Seen(NamedTuple):
-    """A world of discs that keeps each edge it was asked about, and what it said."""
+    """A world of discs that keeps each edge that it tested, and the result."""
 
     discs: np.ndarray
     edges: list
 
     def edge_free(self, a: np.ndarray, b: np.ndarray) -> bool:
-        """Return what the lab's checker says."""
+        """Return the result of the lab's collision checker."""
         free = lab.segment_free_of_discs(a, b, self.discs)
         self.edges.append((np.array(a), np.array(b), bool(free)))
         return free
@@ -39,7 +39,7 @@ class Seen(NamedTuple):
 
 @chart.picture(height=6.4)
 def way(figure: Figure) -> None:
-    """Draw two trees and their way; speed and torques of Day 7's move."""
+    """Draw two trees and their path; speed and torques of Day 7's motion."""
     plane, right = figure.subfigures(1, 2, width_ratios=(1.15, 1.0))
     speed, torques = right.subplots(2, 1, sharex=True)
     _plane(plane.subplots())
@@ -49,7 +49,7 @@ def way(figure: Figure) -> None:
 
 
 def _plane(axes: Axes) -> None:
-    """Draw discs, both trees as the lab's planner asked for them, and the way."""
+    """Draw discs, both trees as the lab's planner grew them, and the path."""
     rng = np.random.default_rng(SEED)
     start, goal, discs = lab.plane_world(rng)
     samples = rng.uniform(-1.2, 1.2, (SAMPLES, 2))
@@ -57,26 +57,28 @@ def _plane(axes: Axes) -> None:
     found = lab.rrt_connect(start, goal, seen, samples, lab.EDGE)
     for x, y, r in discs:
         axes.add_patch(Circle((x, y), r, color="#ced4da"))
-    for root, colour, name in ((start, BLUE, "the start's tree"),
-                               (goal, ORANGE, "the goal's tree")):  # fmt: skip
+    for root, colour, name in ((start, BLUE, "start's tree"),
+                               (goal, ORANGE, "goal's tree")):  # fmt: skip
         label = name
         for a, b in _of_tree(root, seen.edges):
             axes.plot(*np.array([a, b]).T, color=colour, linewidth=1.1, label=label)
             label = None
     if len(found):
-        axes.plot(*found.T, color=INK, linewidth=2.5, label="the way")
+        axes.plot(*found.T, color=INK, linewidth=2.5, label="path")
         pairs = rng.uniform(0.0, 1.0, (lab.PAIRS, 2))
         cut = lab.shortcut(found, discs, pairs)
-        axes.plot(*cut.T, "--", color=RED, label="cut")
+        axes.plot(*cut.T, "--", color=RED, label="after shortcutting")
     axes.plot(*start, "o", color=BLUE)
     axes.plot(*goal, "s", color=ORANGE)
-    axes.set(aspect="equal", xlim=(-1.35, 1.35), ylim=(-1.35, 2.45), title="Two trees")
+    axes.set(
+        aspect="equal", xlim=(-1.35, 1.35), ylim=(-1.35, 2.45), title="RRT-Connect"
+    )
     axes.set_yticks([-1, 0, 1])
     axes.legend(loc="upper left")
 
 
 def _of_tree(root: np.ndarray, edges: list) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return the free edges that hang on a root."""
+    """Return the collision-free edges of the tree with this root."""
     there = {root.tobytes()}
     kept = []
     for a, b, free in edges:
@@ -92,9 +94,9 @@ def _motion(speed: Axes, torques: Axes, path: tuple, limits: np.ndarray) -> None
     s = np.linspace(0.0, 1.0, len(most))
     x, whose = _fastest(A, B, G, limits, most)
     half, _ = _fastest(A, B, G, 0.5 * limits, most)
-    speed.plot(s, most, "--", color=GREY, label="the motors' speed")
+    speed.plot(s, most, "--", color=GREY, label="velocity limit")
     speed.plot(s, x, ":", color=RED, label="all of the torque")
-    speed.plot(s, half, color=INK, label="half of it")
+    speed.plot(s, half, color=INK, label="half of the torque")
     speed.set(ylabel="sd², 1/s²", ylim=(0, 1.9 * most.max()), title=whose)
     speed.legend(loc="upper left")
     u = np.diff(half) * (len(half) - 1) / 2.0
@@ -105,22 +107,22 @@ def _motion(speed: Axes, torques: Axes, path: tuple, limits: np.ndarray) -> None
         name = f"joint {i + 1}" if one.max() > 0.99 else None
         torques.plot(s[:-1], one, color=colour, linewidth=1.5, label=name)
     torques.axhline(1.0, color=INK, linewidth=1.0)
-    torques.set(xlabel="s", ylabel="share of half", ylim=(0, 1.45))
+    torques.set(xlabel="s", ylabel="torque / half limit", ylim=(0, 1.45))
     torques.legend(loc="upper center", ncols=2)
     torques.grid()
     speed.grid()
 
 
 def _fastest(*given: np.ndarray) -> tuple[np.ndarray, str]:
-    """Return the lab's fastest motion, or the library's, and whose it is."""
+    """Return the lab's time-optimal motion, or the library's, and a title."""
     try:
-        return lab.time_optimal_profile(*given), "Day 7's move"
+        return lab.time_optimal_profile(*given), "Day 7's motion"
     except NotImplementedError:  # the side quest
-        return library.time_optimal_profile(*given), "The library's move"
+        return library.time_optimal_profile(*given), "The library's motion"
 
 
 def small() -> Image.Image:
-    """Return the arm on its way over the wall."""
+    """Return the arm on its path over the wall."""
     wall = day12_mujoco.Wall()
     samples = day12_mujoco.samples(wall.model, lab.COUNTS[-1], SEED)
     start, goal = day12_mujoco.START, day12_mujoco.GOAL

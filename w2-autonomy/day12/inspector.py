@@ -1,10 +1,10 @@
 """Day 12 in the inspector: the tab Way.
 
 In the plane: discs, both trees as the student's own `extend` grows them, sample by
-sample, the way of their `rrt_connect` on the library's, and what their `shortcut`
-leaves of it. Twenty other draws of as many samples are counted, and their
-`wilson_interval` says what that count is worth. In the scene: a way over the lab's
-wall, played as their `path_dynamics` and `time_optimal_profile` time it.
+sample, the path of their `rrt_connect` over the library's, and their path after their
+`shortcut`. The tab counts how many of twenty other sets of samples find a path, and
+shows the confidence interval of their `wilson_interval`. In the scene: a path over the
+lab's wall, played with the timing of their `path_dynamics` and `time_optimal_profile`.
 """
 
 from itertools import pairwise
@@ -24,11 +24,10 @@ from robo47.checks import Array
 import day12_mujoco
 
 LAB = lab_of(find_day(12))  # its worlds, steps and seeds
-EDGE = (
-    0.2  # the longest edge of these trees: fewer than the lab's, so that one sees them
-)
+PLANNERS = find_day(12).module("planners")
+EDGE = 0.2  # longest edge of these trees: fewer edges than the lab's are visible
 MOST = 100  # samples
-DRAWS = 20  # of as many samples each
+DRAWS = 20  # sets of samples
 SIDE = 1.3  # from the middle of the picture to its edge
 PIXELS = 480
 LEG = 20  # steps of each leg that is timed
@@ -37,29 +36,31 @@ BLUE, ORANGE, RED = (0, 114, 178), (230, 159, 0), (213, 60, 20)
 GREEN = (0, 190, 140)
 WHITE, GREY, GROUND = (255, 255, 255), (120, 126, 132), (28, 30, 34)
 OVER = "over the wall"
+VALID = "valid, by another planner"
 UNITS = {"path_dynamics": "N m", "time_optimal_profile": "1/s2"}
 
 
 class Seen(NamedTuple):
-    """What the student's functions make of a world."""
+    """The results of the student's functions in a world."""
 
     discs: Array
     edges: tuple[list, list]  # of the start's tree and of the goal's: pairs of points
     way: Array  # theirs
-    cut: tuple[Array, Array]  # what their shortcut leaves of it, and the library's does
+    cut: tuple[Array, Array]  # after their shortcut, and the library's
     truth: Array  # the library's
     found: int  # of DRAWS, by theirs
     interval: Array  # theirs, (2,)
+    valid: bool = False  # whether their path is valid, whichever planner found it
 
 
 class Way(Tab):
-    """How two trees find a way, and what a count of ways is worth."""
+    """Two trees, their path, and the confidence interval of a success rate."""
 
     title = "Way"
     wide = True
 
     def __init__(self, page: Page) -> None:
-        """Draw the wall, plan over it, and ask for the first time."""
+        """Draw the wall, plan over it, and compute for the first time."""
         super().__init__(page)
         self.n = 40.0
         self.world = 2.0
@@ -74,16 +75,16 @@ class Way(Tab):
         page.slider("a disc, y", -1, 1, self.y, self.sets("y"), unit="", step=0.05)
         blank = np.zeros((PIXELS, PIXELS, 3), np.uint8)
         title = (
-            "your trees: start's blue, goal's orange; way: yours red, cut green, "
-            "library's white"
+            "your trees: start's blue, goal's orange; path: yours red, after "
+            "shortcutting green, library's white"
         )
         self.image = page.image(blank, title)
         self.text = page.html()
         title = (
-            f"share of {DRAWS} draws that find a way: "
+            f"success rate of {DRAWS} sets of samples: "
             "your wilson_interval, marks the library's"
         )
-        self.bars = page.bars(["at least", "at most"], 1.0, "", title, "up")
+        self.bars = page.bars(["lower", "upper"], 1.0, "", title, "up")
         page.buttons([OVER], self.press)
         self.timed = page.html()
         self.draw_scene()
@@ -91,7 +92,7 @@ class Way(Tab):
         self.on_move(page.q)
 
     def draw_scene(self) -> None:
-        """Draw wall and roof, and the arm at the corners of a way over the wall."""
+        """Draw wall and roof, and the arm at the waypoints of a path over the wall."""
         self.wall = day12_mujoco.Wall()
         for box in self.wall.boxes:
             self.page.draw.lines(box_edges(*box), "grey")
@@ -99,32 +100,35 @@ class Way(Tab):
         for q in self.cut:
             self.page.draw.ghost("purple", 0.25).pose(self.page.links(q))
         self.runner = self.page.draw.ghost("orange", 0.8)
-        told = {"corners of the library's way": "purple", "at your times": "orange"}
+        told = {
+            "waypoints of the library's path": "purple",
+            "with your timing": "orange",
+        }
         self.page.legend(told)
         self.at: Array = np.zeros(1)
         self.q: Array = self.cut[:1]
 
     def on_move(self, q: Array) -> None:
-        """Ask again: the world is another, or the file may be."""
+        """Compute again: the world has changed, or the file may have."""
         asked = self.chosen()
         self.page.job(lambda: (asked, self.ask(*asked)), self.answered)
 
     def begin(self) -> None:
-        """Time the way over the wall, and play it."""
+        """Time the path over the wall, and play it."""
         self.press(OVER)
 
     def chosen(self) -> tuple[float, ...]:
-        """Return what the sliders say."""
+        """Return the values of the sliders."""
         return self.n, self.world, self.x, self.y
 
     def answered(self, result: tuple[tuple[float, ...], Seen]) -> None:
-        """Show what came out, unless a slider has been moved meanwhile."""
+        """Show the result, unless a slider has been moved meanwhile."""
         asked, seen = result
         if asked == self.chosen():
             self.show(seen)
 
     def ask(self, n: float, world: float, x: float, y: float) -> Seen:
-        """Return what the student's functions say of a world; it waits for them."""
+        """Return the results of the student's functions in a world; it waits."""
         rng = np.random.default_rng(int(world))
         start, goal, discs = LAB.plane_world(rng)
         discs = np.vstack([discs[:6], [x, y, 0.25]])
@@ -143,10 +147,11 @@ class Way(Tab):
             truth,
             found,
             self.own.wilson_interval(found, DRAWS),
+            bool(len(way)) and not PLANNERS.fault(way, start, goal, discs, EDGE),
         )
 
     def cut_of(self, way: Array, discs: Array) -> tuple[Array, Array]:
-        """Return what the student's shortcut leaves of a way, and the library's."""
+        """Return a path after the student's shortcut, and after the library's."""
         if not len(way):
             return way, way
         pairs = np.random.default_rng(LAB.SEED).uniform(0.0, 1.0, (LAB.PAIRS, 2))
@@ -179,16 +184,17 @@ class Way(Tab):
         return edges
 
     def show(self, seen: Seen) -> None:
-        """Show the plane, both ways, and what the count is worth."""
+        """Show the plane, both paths, and the confidence interval."""
         self.image.image = as_bytes(picture(seen))
         low, high = seen.interval
         self.bars.show(seen.interval, planning.wilson_interval(seen.found, DRAWS))
-        told, kind = compared(seen.way, seen.truth)
+        told, kind = compared(seen.way, seen.truth, valid=seen.valid)
         cut, kind_cut = compared(*seen.cut, "your shortcut")
-        self.own.tell("rrt_connect", "another way" if kind == "bad" else "")
-        self.own.tell("shortcut", "another cut" if kind_cut == "bad" else "")
+        other = VALID if seen.valid else "another path"
+        self.own.tell("rrt_connect", other if kind in ("bad", "quiet") else "")
+        self.own.tell("shortcut", "another path" if kind_cut == "bad" else "")
         a, b = (len(edges) + 1 for edges in seen.edges)
-        share = f"{seen.found} of {DRAWS} draws find a way: {low:.2f} to {high:.2f}"
+        share = f"{seen.found} of {DRAWS} sets find a path: {low:.2f} to {high:.2f}"
         self.text.content = "".join(
             words.line(text, key, kind)
             for text, key, kind in (
@@ -200,7 +206,7 @@ class Way(Tab):
         )
 
     def press(self, name: str) -> None:
-        """Time the way over the wall with the student's functions, and play it."""
+        """Time the path over the wall with the student's functions, and play it."""
         self.timing.want(self.time_it, self.play)
 
     def time_it(self) -> tuple[Array, Array, float]:
@@ -212,7 +218,9 @@ class Way(Tab):
             *path, most = self.along(arm, *leg)
             x = self.own.time_optimal_profile(*path, limits, most)
             sd = np.sqrt(np.maximum(x, 0.0))
-            mean = np.maximum(sd[1:] + sd[:-1], 1e-3)  # what stands still is seen to
+            mean = np.maximum(
+                sd[1:] + sd[:-1], 1e-3
+            )  # a motion at rest takes very long
             times.append(times[-1][-1] + np.cumsum(2.0 / LEG / mean))
             s = np.linspace(0.0, 1.0, LEG + 1)[1:, None]
             q.append(leg[0] + s * (leg[1] - leg[0]))
@@ -222,7 +230,7 @@ class Way(Tab):
         return np.concatenate(times), np.vstack(q), truth
 
     def along(self, arm, start: Array, end: Array) -> tuple[Array, ...]:
-        """Return A, B, G of a leg by the student's `path_dynamics`, and x_max."""
+        """Return a, b, c of an edge by the student's `path_dynamics`, and sd2_max."""
         dq = end - start
         calls = []
         for s in np.linspace(0.0, 1.0, LEG + 1):
@@ -237,7 +245,7 @@ class Way(Tab):
         return A, B, G, np.full(LEG + 1, most)
 
     def play(self, timed: tuple[Array, Array, float]) -> None:
-        """Play what was timed, once."""
+        """Play the timed path once."""
         self.at, self.q, truth = timed
         off = abs(self.at[-1] - truth) > 1e-6
         says = f"over the wall: yours {self.at[-1]:.2f} s, the library's {truth:.2f} s"
@@ -252,7 +260,7 @@ class Way(Tab):
         return seconds < self.at[-1]
 
     def lost(self) -> None:
-        """Show no numbers, no trees, and no arm on the way."""
+        """Show no numbers, no trees, and no arm on the path."""
         self.loop.stop()
         self.runner.pose({})
         self.text.content = ""
@@ -263,7 +271,7 @@ class Way(Tab):
 
 
 def over_the_wall(wall: day12_mujoco.Wall) -> Array:
-    """Return the lab's first way over the wall, cut: the library's, who planned it."""
+    """Return the library's path for the lab's first seed, after shortcutting."""
     samples = day12_mujoco.samples(wall.model, LAB.COUNTS[-1], 0)
     ends = day12_mujoco.START, day12_mujoco.GOAL
     way = planning.rrt_connect(*ends, wall, samples, LAB.STEP)
@@ -271,20 +279,24 @@ def over_the_wall(wall: day12_mujoco.Wall) -> Array:
     return planning.shortcut(way, wall, pairs)
 
 
-def compared(way: Array, truth: Array, name: str = "your way") -> tuple[str, str]:
-    """Return how a way compares with the library's, in words, and the kind of line."""
+def compared(
+    way: Array, truth: Array, name: str = "your path", valid: bool = False
+) -> tuple[str, str]:
+    """Return how a path compares with the library's, in words, and the kind of line."""
     if not len(way) and not len(truth):
-        return "no way yet, as the library says", ""
+        return "no path yet, as by the library", ""
     if way.shape == truth.shape and np.abs(way - truth).max() < 1e-7:
-        return f"{name} is the library's: {len(way)} points", "good"
+        return f"{name} equals the library's: {len(way)} waypoints", "good"
     if not len(way):
-        return f"you find no way; the library's has {len(truth)} points", "bad"
+        return f"you find no path; the library's has {len(truth)} waypoints", "bad"
+    kind = "quiet" if valid else "bad"
+    says = f"{name} is {VALID}: it" if valid else name
     if not len(truth):
-        return f"{name} has {len(way)} points; the library finds none", "bad"
+        return f"{says} has {len(way)} waypoints; the library finds none", kind
     n = min(len(way), len(truth))
     off = np.abs(way[:n] - truth[:n]).max(axis=1) > 1e-7
     at = int(np.argmax(off)) if off.any() else n
-    return f"{name} is another one from point {at} on, counted from 0", "bad"
+    return f"{says} differs from waypoint {at} on, counted from 0", kind
 
 
 def picture(seen: Seen) -> Array:

@@ -316,8 +316,9 @@ def of_a_planner(case: Case) -> Finding | None:
             )
             return Finding("point-twice", says + "stands in the way once.")
         if len(way) and not len(right):
-            says = f"It finds a way {where}, where these samples find none: a valid one"
-            return Finding("another-planner", f"{says}, and not the one asked for.")
+            says = f"Valid, by another planner: your function finds a path {where}"
+            why = "the specified planner finds none with these samples"
+            return Finding("another-planner", f"{says}, and {why}.")
     for k, (way, right) in enumerate(zip(S, T, strict=True)):
         n = min(len(way), len(right))
         off = np.abs(way[:n] - right[:n]).max(axis=1, initial=0.0) > CLEAR
@@ -325,8 +326,10 @@ def of_a_planner(case: Case) -> Finding | None:
             at = int(np.argmax(off)) if off.any() else n
             return Finding(
                 "another-planner",
-                f"Yours is another planner: its ways are valid in all {len(S)} calls, "
-                "and not the ones asked for. The first that differs does so "
-                f"in call {k + 1}, from way point {at} on, counted from 0.",
+                f"Valid, by another planner: your paths are valid in all {len(S)} "
+                "calls, and they differ from the specified planner's. The first "
+                f"difference is in call {k + 1}, from waypoint {at} on, counted from "
+                "0. Which tree does each sample grow, and towards which point does the "
+                "other tree grow?",
             )
     return None

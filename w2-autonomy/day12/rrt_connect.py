@@ -7,7 +7,7 @@ import numpy as np
 from labkit.judge import Row, Slip, Waypoints
 from robo47.planning import extend, rrt_connect
 
-from .planners import of_a_planner, one_tree, planner
+from .planners import fault, of_a_planner, one_tree, planner
 from .ways import ASKS, BALL, FLOOR, NONE, ways_asked
 
 row = Row(
@@ -63,6 +63,22 @@ def _(rng):
     yield -start, -goal, post * [-1, 1, 1], np.array([[0.5, -0.3], [-2.8, -0.7],
         [-0.9, -1.7], [-2, -2]]), 0.7  # fmt: skip
     yield from ways_asked(rng)
+
+
+@row.spans
+def _(rng):
+    ends = np.zeros(2), np.array([2.5, 0])
+    yield *ends, NONE, np.array([[0.0, 2]]), 0.01  # a tree of 250 nodes
+    yield *ends, NONE, np.array([[0.0, 2]]), 100.0
+    yield *ends, NONE, np.array([[5e-4, 0.0]]), 1.0  # a sample that is nearly there
+
+
+@row.valid("Your paths are valid, by another planner.")
+def _(start, goal, world, samples, step, path):
+    if not len(path):
+        return None  # another planner may need other samples
+    steps = np.linalg.norm(np.diff(path, axis=0), axis=1)
+    return steps.all() and not fault(path, start, goal, world, step)
 
 
 @row.wrongs
@@ -199,3 +215,44 @@ for what in ("np.empty((0, len(start)))", "free"):
     for how in ("np.abs(({}))", "np.maximum(({}), 0)", "np.clip(({}), -1, 1)"):
         row.same(f"return {how.format(what)}", "nothing, or a truth value")
 row.same("return (np.empty((0, len(start)))).astype(np.float32)", "it is empty")
+
+
+@row.wrong("another-planner")  # RRT of one tree with goal bias, as tutorials have it.
+def _(start, goal, world, samples, step):
+    nodes, parents = [start], [0]
+    for k in range(200):
+        target = goal if k % 5 == 4 or not len(samples) else samples[k % len(samples)]
+        i, q, free = extend(np.array(nodes), target, step, world)
+        if not free or any(np.array_equal(q, node) for node in nodes):
+            continue
+        nodes.append(q)
+        parents.append(i)
+        if np.array_equal(q, goal):
+            break
+    else:
+        return np.empty((0, len(start)))
+    at = [len(nodes) - 1]
+    while at[-1]:
+        at.append(parents[at[-1]])
+    return np.array([nodes[i] for i in at[::-1]])
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # At most 60 nodes in a tree.
+def _(start, goal, world, samples, step):
+    found = rrt_connect(start, goal, world, samples, step)
+    return found[: 0 if len(found) > 60 else None]
+
+
+@row.wrong("not-at-every-size", hidden="the numbers of the lab stay within its limits")
+def _(start, goal, world, samples, step):
+    return planner(start, goal, world, samples, step, tries=50)
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # Passed over: nearer than 1e-3 to a node.
+def _(start, goal, world, samples, step):
+    away = np.minimum(*(np.linalg.norm(samples - x, axis=1) for x in (start, goal)))
+    return rrt_connect(start, goal, world, samples[away > 1e-3], step)

@@ -72,6 +72,13 @@ def _(rng):
         yield typed(rng, kind)
 
 
+@row.spans
+def _(rng):  # by a hair
+    for hair in (5e-5, -5e-5):
+        yield np.array([0.0, 1.5 + hair]), np.array([2.0, 1.5 + hair]), DISC
+        yield np.array([1.0, 0.0]), np.array([1.0, 0.5 - hair]), DISC
+
+
 def looked(a, b, some, cut=lambda x: np.clip(x, 0, 1), by=None, far=lambda x, r: x > r):
     """Return whether an edge is free, made in another way.
 
@@ -358,3 +365,10 @@ row.same(
     "it only keeps 0 / 0 away",
 )
 row.at_least_0(answer="a truth value")
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # A margin of 1 mm.
+def _(a, b, some):
+    return segment_free_of_discs(a, b, some + np.array([0, 0, 1e-3]))

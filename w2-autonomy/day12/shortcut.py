@@ -1,6 +1,7 @@
 """12.5 `shortcut(path, world, pairs)`: its questions and its mistakes."""
 
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 
@@ -64,6 +65,17 @@ def _blocked(path, world, pairs):
     """Return whether a disc keeps one of several pairs from cutting."""
     free = len(shortcut(path, NONE, pairs))
     return len(pairs) == 1 or len(shortcut(path, world, pairs)) > free
+
+
+@row.valid("Your paths are valid and shorter, by other cuts.")
+def _(path, world, pairs, answer):
+    at = [int(np.argmin(np.abs(path - x).max(axis=1))) for x in answer]
+    if not np.array_equal(path[at], answer) or at[:1] + at[-1:] != [0, len(path) - 1]:
+        return False
+    ways = list(pairwise(at))
+    cuts = [(i, j) for i, j in ways if j > i + 1]
+    free = all(edge_free(path[i], path[j], world) for i, j in cuts)
+    return free and bool(cuts) and all(i < j for i, j in ways)
 
 
 @row.wrongs

@@ -40,7 +40,7 @@ def colours(tab):
 def test_right_functions_find_the_librarys_way_with_trees_that_grow():
     tab = looked(vars(lab))
     tab.sets("n")(100.0)
-    assert "your way is the library's" in said(tab)
+    assert "your path equals the library's" in said(tab)
     assert min(colours(tab)) > 50
     many = [int(x) for x in re.search(r"(\d+) and (\d+) nodes", said(tab)).groups()]
     tab.sets("n")(4.0)
@@ -52,7 +52,7 @@ def test_right_functions_find_the_librarys_way_with_trees_that_grow():
 def test_a_count_of_draws_has_the_students_interval():
     tab = looked(vars(lab))
     k, n, low, high = re.search(
-        r"(\d+) of (\d+) draws find a way: ([\d.]+) to ([\d.]+)", said(tab)
+        r"(\d+) of (\d+) sets find a path: ([\d.]+) to ([\d.]+)", said(tab)
     ).groups()
     assert [float(low), float(high)] == pytest.approx(
         planning.wilson_interval(int(k), int(n)), abs=0.006
@@ -70,8 +70,16 @@ def test_another_planners_way_is_drawn_beside_the_librarys():
     tab.sets("n")(100.0)
     right = looked(vars(lab))
     right.sets("n")(100.0)
-    assert "is another one from point" in said(tab)
+    assert "your path is valid, by another planner: it differs from" in said(tab)
+    assert "rrt_connect (valid, by another planner)" in tab.own.says()[0]
     assert np.any(tab.image.image != right.image.image)
+    # A path through the discs is not valid, whoever planned it.
+    blind = {"rrt_connect": lambda *given: planners.planner(*given, free=True)}
+    tab = looked({**vars(lab), **blind})
+    tab.sets("n")(100.0)
+    assert "valid" not in said(tab)
+    assert "your path differs from waypoint" in said(tab)
+    assert "rrt_connect (another path)" in tab.own.says()[0]
 
 
 def test_an_extend_that_checks_nothing_grows_through_the_discs():

@@ -26,6 +26,13 @@ def _(rng):
     return [case, *motions(rng)]
 
 
+@row.spans
+def _(rng):  # large gains: the inputs cost little and do little
+    fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, _ = motions(rng)[0]
+    yield fx, 0.1 * fu, lx, lu, lxx, 0.02 * luu, 0.1 * lux, Vx, Vxx, 0.0
+    yield fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, 1e4
+
+
 def backward(
     fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu, *, order=-1, in_k=1, in_K=1, in_V=1,
     in_drop=1, right_fx=False, short=0.0, keep=(), sum_drop=True, quad=0.5, cross=1.0,
@@ -270,3 +277,9 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
         ks.insert(0, k)
         Ks.insert(0, K)
     return np.array(ks), np.array(Ks), drop
+
+
+@row.wrong("not-at-every-size")  # k within +-1, K within +-2.
+def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
+    k, K, drop = backward(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu)
+    return np.clip(k, -1, 1), np.clip(K, -2, 2), drop

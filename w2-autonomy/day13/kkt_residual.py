@@ -24,6 +24,14 @@ def _(rng):
     return [*cases, *inside, *clipped, *problems(rng, 4), *boxed(rng)]
 
 
+@row.spans
+def _(rng):
+    H, f, one = np.array([[2.0, 1], [1, 2]]), np.array([-2.0, -10]), np.ones(2)
+    for off in (1e-7, 1e-9):
+        yield H, f, -one, one, np.array([0.5 + off, 1.0])
+    yield H, 1e6 * f, -1e7 * one, 1e7 * one, 1e6 * one
+
+
 def clipped_first(H, f, lo, hi, x):
     """Return the residual of the nearest point of the box."""
     x = np.clip(x, lo, hi)
@@ -160,3 +168,11 @@ def _(H, f, lo, hi, x):
         there = min(max(there, lo[i]), hi[i])
         worst = max(worst, abs(there - x[i]))
     return worst
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # Under a millionth it is 0.
+def _(H, f, lo, hi, x):
+    found = np.abs(x - np.clip(x - (H @ x + f), lo, hi)).max()
+    return found if found >= 1e-6 else 0.0

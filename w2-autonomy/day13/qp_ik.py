@@ -51,6 +51,12 @@ def _(rng):
     return [*cases, *drawn]
 
 
+row.spans(
+    damping=(0.005, 5.0),
+    weights=(lambda w: np.where(np.arange(6) < 3, 0.01, 1.0), lambda w: 100.0 * w),
+)
+
+
 def solved(J, e, weights, damp, lo, hi, right=None, box=box_qp):
     """Return the best step with weights and a damping already squared."""
     right = weights if right is None else right
@@ -176,3 +182,15 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
     right = np.concatenate([root * e, np.zeros(7)])
     H, g = rows.T @ rows, -rows.T @ right
     return box_qp(H, g, dq_lo, dq_hi, np.clip(np.linalg.solve(H, -g), dq_lo, dq_hi))
+
+
+@row.wrong("not-at-every-size")  # The damping is 0.05 at least.
+def _(J, e, weights, damping, dq_lo, dq_hi):
+    return solved(J, e, weights, max(damping, 0.05) ** 2, dq_lo, dq_hi)
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # A weight below 0.1 is none.
+def _(J, e, weights, damping, dq_lo, dq_hi):
+    return solved(J, e, np.where(weights < 0.1, 0.0, weights), damping**2, dq_lo, dq_hi)

@@ -11,6 +11,9 @@ def _(rng):
     return [(5.0, 3.5, 2.0), (5.0, 0.5, 3.0), (2.0, 3.0, 4.0), *drawn]
 
 
+row.spans(expected=(1e-5, 1e5), after=(lambda after: 1e6,))
+
+
 @row.wrongs
 def _(before, after, expected):
     """upside-down: what was expected is divided by what was saved => upside down
@@ -65,3 +68,10 @@ row.at_least_0(before="a cost", after="a cost", expected="a saving")
 @row.right  # As one less a share.
 def _(before, after, expected):
     return 1 - (expected - before + after) / expected
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # Of no drop expected the ratio is 1.
+def _(before, after, expected):
+    return (before - after) / expected if abs(expected) > 1e-3 else 1.0

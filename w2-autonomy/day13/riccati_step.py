@@ -18,6 +18,13 @@ def _(rng):
     return [case, *steps(rng)]
 
 
+@row.spans
+def _(rng):
+    P, A, B, Q, R = steps(rng)[-1]
+    for size in (1e-6, 1e6):
+        yield size * P, A, B, size * Q, size * R
+
+
 @row.wrongs
 def _(P, A, B, Q, R):
     """R-forgotten: R is missing in the gain: torque is free => with K of R = 0
@@ -127,3 +134,12 @@ def _(P, A, B, Q, R):
     S = R + B.T @ P @ B
     F = B.T @ P @ A
     return Q + A.T @ P @ A - F.T @ np.linalg.inv(S) @ F, np.linalg.solve(S, F)
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # No eigenvalue of P is below 1e-3.
+def _(P, A, B, Q, R):
+    P, K = riccati_step(P, A, B, Q, R)
+    w, V = np.linalg.eigh(P)
+    return V @ np.diag(np.maximum(w, 1e-3)) @ V.T, K

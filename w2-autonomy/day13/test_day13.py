@@ -96,8 +96,9 @@ def test_all_wrong_slopes_but_one_hold_the_arm_and_most_cost_little():
     assert "with all but one the arm stays still" in SENTENCES
     assert "Three quarters of the wrong controllers cost less than 10 %" in SENTENCES
     third = 100 * sorted(off)[2]
-    assert f"all but two of the wrong ones they differ by at least {third:.1f} %" in (
-        SENTENCES
+    assert (
+        f"all but two of the wrong controllers, they differ by at least {third:.1f} %"
+        in (SENTENCES)
     )
     assert abs(costs(P, K)[0] - 1) < 1e-5  # to 1 in 100,000
 
@@ -148,7 +149,7 @@ def test_one_side_is_off_by_a_cubic_term_and_the_mean_of_both_is_not():
     assert (far.mean() - 1) / (near.mean() - 1) == pytest.approx(100, rel=0.02)
     wrong = with_slope(np.triu(SLOPE))
     kept, _ = costs(*wrong)
-    assert f"is off by {100 * (kept - 1):.1f} % in the mean" in SENTENCES
+    assert f"the ratio is off by {100 * (kept - 1):.1f} % in the mean" in SENTENCES
     one_side, _ = costs(*wrong, both=False)
     assert f"({one_side:.3f} with one start)" in SENTENCES
 
@@ -275,7 +276,7 @@ def test_the_exercises_numbers_and_what_is_left_is_the_step():
 
     assert f"A lap in 12 s gives {off(1.0, lap=12.0):.2f} mm" in SENTENCES
     short = f"{off(0.1, 0.01):.2f} and {off(0.01, 0.01):.2f}"
-    assert f"With steps of 10 ms it is {short} mm" in SENTENCES
+    assert f"With steps of 10 ms the error is {short} mm" in SENTENCES
     paper = 13.0916 / (1 + 0.1148**2 / 0.01)
     assert abs(off(0.01, 0.01) - paper) < 0.2 * abs(off(0.01) - paper)
 
@@ -310,7 +311,7 @@ def test_limits_twice_as_wide_are_worse_and_the_jacobian_of_the_step_is_not_the_
 
     wide = off(2, 0.02)
     assert f"is {wide:.2f} mm off, more than with the tighter limits" in SENTENCES
-    assert f"it is {off(2, 0.01):.2f} mm" in SENTENCES
+    assert f"the error is {off(2, 0.01):.2f} mm" in SENTENCES
     again = recomputed(2.0)
     assert f"the error grows to {again:.1f} mm" in SENTENCES
     assert again > wide
@@ -376,7 +377,8 @@ def test_the_elbow_pays_for_the_limits():
     assert f"{steps[3, 0]} of the lap's {len(off)} steps" in SENTENCES
     assert f"its range in {steps[3, 1]}" in SENTENCES
     share = 100 * sums[0] / sums.sum()
-    assert f"joint 1 is limited in {steps[0, 0]}, with {share:.1f} %" in SENTENCES
+    assert f"joint 1 is limited in {steps[0, 0]} steps, with multipliers" in SENTENCES
+    assert f"multipliers that are {share:.1f} % of the sum" in SENTENCES
     assert steps.sum() == steps[3].sum() + steps[0, 0]
 
 

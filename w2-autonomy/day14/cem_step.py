@@ -39,6 +39,18 @@ def _(rng):
         )
 
 
+@row.spans
+def _(rng):
+    mean, std, noise = (
+        rng.numbers(-1, 1, 3),
+        rng.numbers(0.2, 2, 3),
+        rng.numbers(-2, 2, 5, 3),
+    )
+    yield mean, std, noise, np.array([1.0, np.inf, 2.0, np.nan, -np.inf]), 2
+    yield mean, std, noise, np.array([np.nan, -np.inf, 2.0, np.nan, 1.0]), 3
+    yield mean, 1e-6 * std, noise, 1e-9 * np.arange(5), 2
+
+
 def of_best(samples, best):
     """Return mean and spread of some samples."""
     return samples[best].mean(axis=0), samples[best].std(axis=0)
@@ -150,3 +162,12 @@ def _(mean, std, noise, scores, elite):
     worth = np.nan_to_num(scores, nan=-np.inf)
     best = np.argsort(-worth, kind="stable")[:elite]
     return mean + std * noise[best].mean(axis=0), std * noise[best].std(axis=0)
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # An infinite score counts as NaN.
+def _(mean, std, noise, scores, elite):
+    samples = mean + std * noise
+    score = np.where(np.isfinite(scores), scores, np.nan)
+    return of_best(samples, np.argsort(-score, kind="stable")[:elite])

@@ -1,4 +1,4 @@
-"""What Day 14's numbers hang on: each constant turned by two, measured, explained."""
+"""The sensitivity of Day 14's numbers: each constant doubled, measured, explained."""
 
 import numpy as np
 
@@ -11,80 +11,80 @@ DAY = LAB.day14_mujoco
 
 numbers = Numbers(
     mu="friction: {}",
-    squeeze="newtons per pad: {}",
-    seconds="SLOW, in which it is lifted: {} s",
-    lift="how far it is lifted: {} m",
+    squeeze="grip force: {} N per pad",
+    seconds="SLOW, the duration of the lift: {} s",
+    lift="height of the lift: {} m",
     steps="steps of the simulation in 10 ms: {}",
     soft="time constant of the contacts: × {}",
-    size="how far the contacts are apart: × {}",
-    edges="edges of each cone: {}",
-    within="either way: {}",
+    size="distance of the contacts: × {}",
+    edges="edges of each friction cone: {}",
+    within="half-width of the interval: {}",
     cubes="cubes: {}",
     seed="seed of the cubes: {}",
 )
 
 
 def scene(steps, soft):
-    """Return a hand with other steps and contacts."""
+    """Return a hand with another time step and other contacts."""
     with turned(DAY, STEP=0.01 / steps, GRIP_TIME=soft * DAY.GRIP_TIME):
         return DAY.hand()
 
 
 @numbers.add(
-    "the heaviest cube, mu 0.3, 2 N", "{:.0f} g",
+    "heaviest cube, mu 0.3, 2 N per pad", "{:.0f} g",
     mu=times(2.0, "m = 2 mu F / g"),
     squeeze=times(2.0, "m = 2 mu F / g"),
-    seconds=between(1.0, 1.02, "its acceleration, 6 h / T², is a quarter"),
-    lift=between(0.96, 1.0, "its acceleration, 6 h / T², is twice as large"),
-    steps=between(0.99, 1.01, "shorter steps: the same forces, to a gram"),
-    soft=between(0.99, 1.01, "friction holds it, not stiffness: the same, to a gram"),
+    seconds=between(1.0, 1.02, "2 mu F / (g + 6 h / T²): the acceleration is a quarter"),
+    lift=between(0.96, 1.0, "2 mu F / (g + 6 h / T²): the acceleration doubles"),
+    steps=between(0.99, 1.01, "shorter steps give the same forces, to a gram"),
+    soft=between(0.99, 1.01, "friction decides, not stiffness: the same to a gram"),
 )  # fmt: skip
 def heaviest(
     mu=0.3, squeeze=2.0, seconds=LAB.SLOW, lift=LAB.TARGET, steps=DAY.TICK,
     soft=1.0,
 ):  # fmt: skip
-    """Return how many grams are held."""
+    """Return the mass of the heaviest cube, g."""
     step = 0.01 / steps
     with turned(DAY, STEP=step, TICK=steps), turned(LAB, SLOW=seconds, TARGET=lift):
         return LAB.heaviest(*scene(steps, soft), mu, squeeze)
 
 
 @numbers.add(
-    "the rank of two opposite contacts", "{:.0f}",
-    mu=same("no friction at a point turns a cube about the line through two"),
-    size=same("nor does a longer line"),
-    edges=same("more edges of the same cones lie in the same five directions"),
+    "rank of two opposite contacts", "{:.0f}",
+    mu=same("friction at a point has no moment about the line through both contacts"),
+    size=same("a longer line has no such moment either"),
+    edges=same("more edges of the same cones span the same five dimensions"),
 )  # fmt: skip
 def rank_of_two(mu=0.5, size=1.0, edges=LAB.EDGES):
-    """Return of how many directions two contacts know."""
+    """Return the rank of the wrenches of two opposite contacts."""
     places = size * np.array(LAB.GRASPS["two, opposite"])
     with turned(LAB, EDGES=edges, GRASPS={"two": places}):
         return np.linalg.matrix_rank(LAB.wrenches("two", mu))
 
 
 @numbers.add(
-    "cubes for a rate of a half, to 0.05 either way", "{:.0f}",
-    within=between(0.24, 0.26, "n = 1.96² / 4 / 0.05², less 4"),
+    "cubes for a rate of 0.5 to within 0.05", "{:.0f}",
+    within=between(0.24, 0.26, "n = 1.96² / 4 / 0.05² - 1.96²"),
 )  # fmt: skip
 def needed(within=0.05):
-    """Return how many cubes."""
+    """Return the number of cubes."""
     return LAB.needed(within)
 
 
 @numbers.add(
-    "the lower end where all 60 are held", "{:.3f}",
-    cubes=between(1.02, 1.04, "n / (n + 1.96²): half as much is missing"),
+    "lower end of the interval, 60 of 60 held", "{:.3f}",
+    cubes=between(1.02, 1.04, "n / (n + 1.96²): the distance to 1 halves"),
 )  # fmt: skip
 def low_end(cubes=LAB.TESTED):
-    """Return what 60 of 60 says at least."""
+    """Return the lower end of the interval if all cubes are held."""
     return LAB.success_rate(np.ones(cubes, bool))[1]
 
 
 @numbers.add(
-    "slippery cubes that theta alone drops", "{:.0f} of 60",
-    squeeze=between(0.3, 0.5, "twice the squeeze holds twice the mass"),
-    mu=between(0.3, 0.5, "and so does twice the friction"),
-    seed=between(0.75, 1.3, "other cubes of the same kind", to=14),
+    "slippery cubes that are too heavy on paper", "{:.0f} of 60",
+    squeeze=between(0.3, 0.5, "twice the grip force holds twice the mass"),
+    mu=between(0.3, 0.5, "twice the friction holds twice the mass"),
+    seed=between(0.75, 1.3, "other cubes of the same distribution", to=14),
 )  # fmt: skip
 def dropped(squeeze=1.6, mu=1.0, seed=LAB.CUBES_SEED):
     """Return how many cubes are heavier than 2 mu F / g."""

@@ -1,6 +1,6 @@
 """The picture of Day 14, made with the lab's own functions; drawn by `make figures`.
 
-touched   two cubes between the pads with their cones; what a learned policy holds
+touched   two cubes between the pads with their friction cones; a learned policy
 """
 
 import day14_touch as lab
@@ -21,12 +21,12 @@ MASS = 0.15  # kg, of both cubes on the left
 GRIPS = (0.9, 0.25)  # their friction
 WHEN = 0.02  # s after the hand has begun to rise
 CUBES = 150
-NEWTON = 7.0  # mm of an arrow, for 1 N
+NEWTON = 7.0  # mm, the length of an arrow for 1 N
 
 
 @chart.picture(height=9.0)
 def touched(figure: Figure) -> None:
-    """Draw two grasps, their forces and cones, and all cubes of another try."""
+    """Draw two grasps with forces and friction cones, and the cubes of a test."""
     grid = figure.add_gridspec(2, 2, height_ratios=(1.1, 1.2))
     held, slips = (figure.add_subplot(grid[0, i]) for i in (0, 1))
     tries = figure.add_subplot(grid[1, :])
@@ -38,7 +38,7 @@ def touched(figure: Figure) -> None:
 
 
 def _grip(axes: Axes, model, data, theta: np.ndarray, mu: float) -> None:
-    """Draw a cube between the pads from the front, its forces, and each one's cone."""
+    """Draw a cube between the pads from the front, with forces and friction cones."""
     cube = day14_mujoco.Cube(0.0, 0.0, 0.0, MASS, mu)
     action = theta * [0, 0, 0, 1, 1, 1]
     episode = day14_mujoco.episode(model, data, cube, action)
@@ -54,7 +54,7 @@ def _grip(axes: Axes, model, data, theta: np.ndarray, mu: float) -> None:
     axes.add_patch(Rectangle((y - 20, z - 20), 40, 40, facecolor="0.9", edgecolor=INK))
     for side in (1, -1):
         some = felt.points[:, 1] * side > 0
-        if not some.any():  # it has left that pad
+        if not some.any():  # the cube has left this pad
             continue
         at = 1000 * felt.points[some].mean(axis=0)
         force = NEWTON * felt.force[some].sum(axis=0)
@@ -72,14 +72,14 @@ def _grip(axes: Axes, model, data, theta: np.ndarray, mu: float) -> None:
             xytext=at[1:],
             arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 1.8},
         )
-    says = "it slips" if slips else "held"
+    says = "slipping" if slips else "held"
     axes.set(title=f"Friction {mu}: {says}", xlabel="y, mm", aspect="equal")
     axes.set(xlim=(-34, 34), ylim=(z - 34, z + 34))
-    axes.text(0, z - 31, f"least margin {margin.min():.2f} N", ha="center")
+    axes.text(0, z - 31, f"smallest margin {margin.min():.2f} N", ha="center")
 
 
 def _tried(axes: Axes, model, data, theta: np.ndarray) -> None:
-    """Draw which cubes are held, over mass and friction, and the line from theta."""
+    """Draw the held cubes over friction and mass, and the limit of the grip force."""
     rng = np.random.default_rng(lab.CUBES_SEED)
     cubes = day14_mujoco.cubes(CUBES, rng, (0.2, 1.0))
     noise = lab.NOISE * rng.normal(size=(CUBES, 3))
@@ -92,7 +92,7 @@ def _tried(axes: Axes, model, data, theta: np.ndarray) -> None:
     heaviest = 2000 * line * lab.squeezed(theta) / lab.G
     axes.plot(line, heaviest, "-", color=INK, linewidth=1.2, label="m = 2 mu F / g")
     axes.axvspan(*lab.ROUGH, color="0.92", zorder=0)
-    axes.text(0.95, 8, "learned\nhere", ha="center", va="bottom", fontsize=chart.SMALL)
+    axes.text(0.95, 8, "training\nset", ha="center", va="bottom", fontsize=chart.SMALL)
     axes.set(title="The learned policy", xlabel="friction", ylabel="mass, g")
     axes.set(ylim=(0, 265), xlim=(0.19, 1.01))
     axes.legend(loc="lower left", ncols=3, columnspacing=1.0, handletextpad=0.4)

@@ -21,7 +21,7 @@ from robo47.checks import Array
 import day14_mujoco
 
 LAB = lab_of(find_day(14))  # its seeds, its start, what is held
-AGAIN, ROUND, TRY, NEW = "lift again", "learn a round", "try 20 cubes", "start over"
+AGAIN, ROUND, TRY, NEW = "lift again", "one generation", "test 20 cubes", "start over"
 TRIED = 20
 ENTRY = "in one entry"
 UNITS = {"cone_margin": "N", "grip_reflex_step": "m", "observe": ENTRY, "act": ENTRY,
@@ -77,16 +77,16 @@ class Touch(Tab):
         self.own = page.own({**vars(grasp), **vars(policy)}, units=UNITS)
         page.slider("friction", 0.1, 1, self.mu, self.sets("mu"), unit="", step=0.05)
         page.slider("mass", 20, 300, self.grams, self.sets("grams"), unit="g", step=10)
-        page.slider("squeeze", 0.5, 8, self.squeeze, self.sets("squeeze"), unit="N",
+        page.slider("grip force", 0.5, 8, self.squeeze, self.sets("squeeze"), unit="N",
                     step=0.5)  # fmt: skip
-        page.tick("it feels: your grip_reflex_step", self.sets("feels"))
+        page.tick("use your grip_reflex_step", self.sets("feels"))
         self.text = page.html()
         curves = ["yours", "the library's"]
-        self.plot = page.plot(curves, y="least margin, N", height=130)
+        self.plot = page.plot(curves, y="smallest margin, N", height=130)
         page.buttons([AGAIN, ROUND, TRY, NEW], self.press)
         self.bars = page.bars(
             [name.partition(",")[0] for name in LAB.NUMBERS], np.ones(6), "",
-            "theta, as a share of its limit; marks: one spread more", "both",
+            "theta, relative to its limit; marks: one std more", "both",
         )  # fmt: skip
         self.learned = page.html()
         self.image = page.image(self.dots([]), "friction to the right, mass upwards")
@@ -165,11 +165,11 @@ class Touch(Tab):
         off = np.abs(np.subtract(*least)).max(initial=0.0)
         good = off < 1e-6
         lines = [
-            (f"after 1 s the cube is {said}: {1000 * lifted.height:z.0f} mm up", "held",
+            (f"finally the cube is {said} at {1000 * lifted.height:z.0f} mm", "held",
              ""),
-            (f"each pad presses with {lifted.newtons:.1f} N; "
-             f"{weight(lifted):.1f} N would do", "press", ""),
-            (f"your least margin, while closed: {late(times, least[0]):z.2f} N; "
+            (f"grip force {lifted.newtons:.1f} N per pad; "
+             f"at rest it needs {weight(lifted):.1f} N", "press", ""),
+            (f"your smallest margin, while closed: {late(times, least[0]):z.2f} N; "
              f"by the library {late(times, least[1]):z.2f} N", "margin",
              "good" if good else "bad"),
         ]  # fmt: skip
@@ -196,7 +196,7 @@ class Touch(Tab):
     # Six numbers
 
     def press(self, name: str) -> None:
-        """Lift again, learn a round, try some cubes, or start over."""
+        """Lift again, learn one generation, test some cubes, or start over."""
         if name == AGAIN:
             self.on_move(self.page.q)
         elif name == NEW:
@@ -254,10 +254,12 @@ class Touch(Tab):
         theta = np.clip(self.mean, LAB.LOW, LAB.HIGH)
         self.bars.show(theta / FULL, np.minimum((theta + self.std) / FULL, 1.0))
         held = sum(good for _, good in self.tries)
-        says = f"after round {self.rounds} it presses with {LAB.squeezed(theta):.1f} N"
+        says = (
+            f"generation {self.rounds}: grip force {LAB.squeezed(theta):.1f} N per pad"
+        )
         if self.tries:
             rate, low, high = self.rate
-            says += f"; held {held} of {len(self.tries)}: your success_rate is "
+            says += f"; held {held} of {len(self.tries)}, your success_rate: "
             says += f"{rate:.2f}, {low:.2f} to {high:.2f}"
         self.learned.content = words.line(says, "learned")
         self.image.image = self.dots(self.tries)

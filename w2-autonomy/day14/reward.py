@@ -27,6 +27,12 @@ def _(rng):
         yield heights, target, float(rng.numbers(0.2, 0.4))
 
 
+@row.spans
+def _(rng):
+    yield np.array([2e-4, 9e-4, 0.05, 0.3]), 0.05, 0.3  # the target and the cap, too
+    yield np.array([2e-4, 1e-3, 40.0, 1e3]), 40.0, 1e3
+
+
 @row.wrongs
 def _(heights, target, cap):
     """no-cap: what is above the cap is worth 1; it was thrown, so it is worth -1
@@ -106,3 +112,11 @@ def _(heights, target, cap):
         else:
             worth.append(min(h / target, 1.0))
     return np.array(worth)
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # Under 1 mm it lies on the floor.
+def _(heights, target, cap):
+    worth = np.clip(np.where(heights < 1e-3, 0.0, heights), 0, target) / target
+    return np.where(np.isfinite(heights) & (heights <= cap), worth, -1.0)

@@ -80,7 +80,7 @@ def test_a_round_is_the_students_and_dots_come_in_on_theta_s_line():
     module = DAY.module("inspector")
     tab = looked(vars(lab))
     tab.press(module.ROUND)
-    assert "after round 1" in tab.learned.content
+    assert "generation 1:" in tab.learned.content
     first = tab.mean
     assert np.abs(first - lab.START).max() > 1e-3
     tab.press(module.TRY)

@@ -31,6 +31,14 @@ def _(rng):
     return [case, (np.zeros(7), half), *drawn]
 
 
+@row.spans
+def _(rng):  # at the threshold, which is not over it
+    one = np.full(7, 0.5)
+    for sign in (1.0, -1.0):
+        yield sign * one, one
+        yield sign * np.array([0, 0.6, 0, 0.5, 0, 0, 0]), one
+
+
 @row.wrongs
 def _(residual, threshold):
     """first-joint: it is the first joint that feels it; the one that was pushed is at
@@ -139,3 +147,9 @@ def _(residual, threshold):
 
 row.at_least_0(threshold="a limit", answer="a place")
 row.same("first residual = np.abs(residual)", "it takes the size anyway")
+
+
+@row.wrong("not-at-every-size", hidden="the numbers of the lab stay within its limits")
+def _(residual, threshold):
+    felt = np.flatnonzero(np.abs(residual) >= threshold)
+    return int(felt[-1]) + 1 if len(felt) else 0

@@ -22,6 +22,13 @@ def _(rng):
     return [case, *believed(rng)]
 
 
+row.spans(
+    z=(lambda z: z + 20.0,),  # a NIS of 10 and more
+    P=(lambda P: 1e-6 * P, lambda P: 1e3 * P),
+    R=(lambda R: 1e-6 * R, lambda R: 1e3 * R),
+)
+
+
 def updated(
     x, P, z, H, R, *, of=lambda z, Hx: z - Hx, of_R=lambda R: R,
     S=lambda P, H, R: H @ P @ H.T + R, K=lambda P, H, S, R: P @ H.T @ np.linalg.inv(S),
@@ -166,3 +173,11 @@ def _(x, P, z, H, R):
     y = z - H @ x
     S = H @ P @ H.T + R
     return x + new @ H.T @ np.linalg.inv(R) @ y, new, y @ np.linalg.inv(S) @ y
+
+
+@row.wrong(
+    "not-at-every-size"
+)  # A gate: a reading with a NIS over 9 a number is not used.
+def _(x, P, z, H, R):
+    found = updated(x, P, z, H, R)
+    return found if found[2] <= 9.0 * len(z) else (x.copy(), P.copy(), found[2])

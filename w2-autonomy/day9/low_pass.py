@@ -22,6 +22,12 @@ def _(rng):
     return [(np.array([0.0, 1.0, 1.0, 1.0]), 0.002, 20.0), *drawn, slow]
 
 
+@row.spans
+def _(rng):
+    for cutoff in (0.1, 1.0, 250.0):
+        yield rng.numbers(-2, 2, 8), 0.002, cutoff
+
+
 def share(x):
     """Return alpha of 2 pi cutoff dt."""
     return 1 - np.exp(-x)
@@ -130,3 +136,10 @@ def _(x, dt, cutoff):
 
 
 row.at_least_0(cutoff="a frequency", dt="a time")
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # alpha is 0.05 at least.
+def _(x, dt, cutoff):
+    return filtered(x, dt, cutoff, alpha=lambda x: max(share(x), 0.05))

@@ -26,6 +26,15 @@ def _(rng):
     return [case, *drawn]
 
 
+@row.spans
+def _(rng):
+    for size in (
+        1e-3,
+        100.0,
+    ):  # residuals of some hundredths of a N m, and of thousands
+        yield *(size * rng.numbers(-2, 2, 8, 7)), 20.0, 0.002
+
+
 NAMES = (
     "residual",
     "integral",
@@ -156,3 +165,13 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
 
 
 row.at_least_0(gain="a gain", dt="a time", damping="a damping")
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # A dead zone.
+def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
+    known = tau + energy_grad - gravity - damping * qd
+    integral = integral + (known + residual) * dt
+    found = gain * (momentum - integral)
+    return np.where(np.abs(found) < 0.02, 0.0, found), integral

@@ -23,6 +23,9 @@ def _(rng):
     return [(np.full(7, 0.1), 4096.0), *zip(drawn, sizes, strict=True)]
 
 
+row.spans(counts=(2.0**4, 2.0**18))
+
+
 def counted(
     q, counts, *, step=lambda n: 2 * np.pi / n, whole=np.round,
     told=lambda k, step: k * step,
@@ -106,3 +109,11 @@ def _(q, counts):
 
 
 row.at_least_0(counts="a number of counts")
+
+
+@row.wrong(
+    "not-at-every-size", hidden="the numbers of the lab stay within its limits"
+)  # In int16, which ends at 32,767.
+def _(q, counts):
+    step = 2 * np.pi / counts
+    return np.round(q / step).astype(np.int64).astype(np.int16) * step

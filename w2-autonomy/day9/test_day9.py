@@ -130,7 +130,8 @@ def test_a_held_torque_takes_half_a_period_of_the_margin(rate, omega, dies, grow
     assert left[0] < 0.1 < 3 < left[1]
     if (rate, omega) == (250, 20):
         words = (
-            f"{1000 * margin:.2f} ms; at 32 ms the error is then {left[1]:.0f} times"
+            f"{1000 * margin:.2f} ms. With a delay of 32 ms the error is "
+            f"{left[1]:.0f} times as large"
         )
         assert words in SENTENCES
 
@@ -191,7 +192,7 @@ def test_a_finer_encoder_shows_that_a_cosine_is_not_white_noise(swing):
     tried = {q: both_tests(z, q, R) for q in (*np.geomspace(0.001, 1, 61), 0.0133)}
     assert not any(passes for *_, passes in tried.values())
     (nis, lag1, _), (other, near, _) = tried[0.01], tried[0.0133]
-    assert f"mean NIS is {nis:.2f} and $\\rho_1$ {lag1:.2f}" in SENTENCES
+    assert f"mean NIS is {nis:.2f} and $\\rho_1$ is {lag1:.2f}" in SENTENCES
     assert f"at 0.0133 they are {other:.2f} and {near:.2f}" in SENTENCES
 
 
@@ -363,7 +364,9 @@ def test_the_rest_in_free_motion_is_mujocos_rule_and_neither_gain_nor_age(swing)
         assert found[0.001][rule] == pytest.approx(found[0.002][rule] / 2, rel=0.01)
     assert max(one["MuJoCo"] for one in found.values()) < 1e-9
     newest, mean = found[0.002]["newest"], found[0.002]["mean"]
-    assert f"newest sample it is {newest:.3f}, four times as large" in SENTENCES
+    assert (
+        f"newest sample the residual is {newest:.3f}, four times as large" in SENTENCES
+    )
     assert newest / found[0.002]["lab"] == pytest.approx(4, abs=0.2)
     assert f"the mean of both samples {mean:.3f}" in SENTENCES
 
@@ -417,7 +420,9 @@ def test_errors_of_the_model_look_like_a_contact(swing):
     hung.body("link7").mass += 0.5  # as the guide has it
     at_rest = largest(lab.felt(arm, day9_mujoco.moved(hung, arm, STAY, 0.8))[-1])
     swings = largest(lab.felt(arm, day9_mujoco.moved(hung, arm, SWING, 1.0)))
-    assert f"= {at_rest:.2f} N m at rest, and {swings:.2f} in the swing" in SENTENCES
+    assert (
+        f"= {at_rest:.2f} N m at rest, and {swings:.2f} N m in the swing" in SENTENCES
+    )
     now = arm.at(Q)
     data = simulate.start(model, Q)
     lever = now.coms_world[6, 0] - data.joint("joint4").xanchor[0]
@@ -428,7 +433,8 @@ def test_errors_of_the_model_look_like_a_contact(swing):
     mujoco.mj_setConst(rubs, mujoco.MjData(rubs))
     residual = lab.felt(arm, day9_mujoco.moved(rubs, arm, SWING, 1.0))
     words = (
-        f"largest residual is {largest(residual):.2f} N m, and over 0.5 on every joint"
+        f"largest residual is {largest(residual):.2f} N m, "
+        "and every joint exceeds 0.5 N m"
     )
     assert words in SENTENCES
     assert np.abs(residual).max(axis=0).min() > 0.5
@@ -439,11 +445,13 @@ def test_errors_of_the_model_look_like_a_contact(swing):
         if cutoff:
             qd = estimation.low_pass(qd, lab.DT, cutoff)
         seen.append(f"{largest(lab.felt(arm, way._replace(qd=qd))):.1f}")
-    assert f"Measured: {seen[0]} N m without a filter, and" in SENTENCES
+    assert f"You measure {seen[0]} N m without a filter, and" in SENTENCES
     assert f"and {seen[1]} and {seen[2]} N m with the two low passes" in SENTENCES
     row = np.abs(now.M[1]).sum()
     assert f"add up to {row:.2f} kg m²" in SENTENCES
-    assert f"= {50 * row * 2 * np.pi / 2**16 / lab.DT:.1f} N m. Measured" in SENTENCES
+    assert (
+        f"= {50 * row * 2 * np.pi / 2**16 / lab.DT:.1f} N m. You measure" in SENTENCES
+    )
 
 
 def test_joint_7_does_not_feel_a_push_whose_line_meets_its_axis():

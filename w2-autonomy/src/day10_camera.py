@@ -1,10 +1,10 @@
-"""Day 10: a camera divides by depth; all else is Day 3 again.
+"""Day 10: perspective projection, pose estimation and hand-eye calibration.
 
     make day10                      in the clone: sets all up, then runs this
     python src/day10_camera.py      in w2-autonomy/, once that is done
 
-Camera axes x right, y down, z forward. Pixel (0, 0) is the image's corner, (0.5, 0.5)
-the middle of its first pixel. Twists (omega; v). Metres, radians, pixels.
+Camera frame: x right, y down, z forward. Pixel (0, 0) is the corner of the image and
+(0.5, 0.5) the centre of its first pixel. Twists (omega; v). Metres, radians, pixels.
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
@@ -45,23 +45,31 @@ def rms(x: np.ndarray) -> float:
 
 
 def camera_matrix(fovy: float, width: float, height: float) -> np.ndarray:
-    """Return K, (3, 3), of a camera that sees fovy rad from top to bottom.
+    """Return the intrinsic matrix K, (3, 3), in pixels.
+
+    fovy is the field of view from top to bottom in radians; width and height are the
+    size of the image in pixels. The pixels are square, and the principal point is the
+    centre of the image, where pixel (0, 0) is the corner (Szeliski, section 2.1.4).
 
     pi / 2 with 200 x 100 pixels: focal length 50, centre (100, 50).
     """
     # region 10.1
-    f = height / 2 / np.tan(fovy / 2)
+    f = height / 2 / np.tan(fovy / 2)  # focal length, px
     return np.array([[f, 0, width / 2], [0, f, height / 2], [0, 0, 1]])
     # endregion 10.1
 
 
 def project(K: np.ndarray, T_cam_world: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Return the pixels, (n, 2), at which points of the world, (n, 3), are seen.
+    """Return the pixels (u, v), (n, 2), to which a pinhole camera projects points.
+
+    K is the intrinsic matrix, (3, 3). T_cam_world, (4, 4), maps the world frame to the
+    camera frame. The points, (n, 3), are in the world frame, metres; their depths are
+    above 0.
 
     With 10.1's K and T the identity (1, 0, 2) is seen at (125, 50).
     """
     # region 10.2
-    p = points @ T_cam_world[:3, :3].T + T_cam_world[:3, 3]
+    p = points @ T_cam_world[:3, :3].T + T_cam_world[:3, 3]  # in the camera frame
     seen = p @ K.T  # (u z, v z, z)
     return seen[:, :2] / seen[:, 2:]
     # endregion 10.2
@@ -70,19 +78,27 @@ def project(K: np.ndarray, T_cam_world: np.ndarray, points: np.ndarray) -> np.nd
 def back_project(
     K: np.ndarray, T_world_cam: np.ndarray, pixels: np.ndarray, depth: np.ndarray
 ) -> np.ndarray:
-    """Return the points, (n, 3), seen at pixels, (n, 2); depth, (n,), is along z.
+    """Return the points, (n, 3), in the world frame, that a depth image contains.
+
+    K is the intrinsic matrix, (3, 3), and T_world_cam, (4, 4), the pose of the camera
+    in the world. The pixels (u, v), (n, 2), have the depth, (n,), in metres along the
+    camera's z axis, not along the ray.
 
     With 10.1's K and T the identity (125, 50) at depth 2 is (1, 0, 2).
     """
     # region 10.3
-    through = np.column_stack([pixels, np.ones(len(pixels))])
-    p = depth[:, None] * np.linalg.solve(K, through.T).T
+    through = np.column_stack([pixels, np.ones(len(pixels))])  # (u, v, 1)
+    p = depth[:, None] * np.linalg.solve(K, through.T).T  # in the camera frame
     return p @ T_world_cam[:3, :3].T + T_world_cam[:3, 3]
     # endregion 10.3
 
 
 def projection_jacobian(K: np.ndarray, p_cam: np.ndarray) -> np.ndarray:
-    """Return pixels per twist of what is seen, (n, 2, 6), at points p_cam, (n, 3).
+    """Return the image Jacobian of each point, (n, 2, 6), in px/rad and px/m.
+
+    It maps the twist (omega; v) of the object, expressed in the camera frame about the
+    camera's origin, to the velocity of the pixel. K is the intrinsic matrix, (3, 3),
+    with a focal length for each row; p_cam, (n, 3), are points in the camera frame, m.
 
     With 10.1's K at (0, 0, 2): v = (1, 0, 0) gives 25 px, omega = (0, 1, 0) gives 50.
     """
@@ -92,20 +108,23 @@ def projection_jacobian(K: np.ndarray, p_cam: np.ndarray) -> np.ndarray:
     zero = np.zeros(len(p_cam))
     one = np.ones(len(p_cam))
     of_u, of_v = fx * np.array([one, zero, -x / z]), fy * np.array([zero, one, -y / z])
-    by_point = np.array([of_u, of_v]) / z
+    by_point = np.array([of_u, of_v]) / z  # derivatives by the point
     by_point = np.moveaxis(by_point, 2, 0)  # (n, 2, 3)
     return np.concatenate([-by_point @ skew(p_cam), by_point], axis=2)
     # endregion 10.4
 
 
 def kabsch(source: np.ndarray, target: np.ndarray) -> np.ndarray:
-    """Return T, (4, 4), that takes source best to target, points, (n, 3) each.
+    """Return the rigid motion T, (4, 4), with the least sum of |target - T source|^2.
+
+    source and target are the same n points before and after the motion, metres, (n, 3)
+    each. The rotation is never a reflection (Kabsch, 1976).
 
     target = source + (1, 0, 0): a move by that.
     """
     # region 10.5
-    a = source.mean(axis=0)
-    b = target.mean(axis=0)
+    a = source.mean(axis=0)  # centroid of the source
+    b = target.mean(axis=0)  # centroid of the target
     U, _, Vt = np.linalg.svd((target - b).T @ (source - a))
     R = U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt
     return se3.make_T(R, b - R @ a)
@@ -113,7 +132,10 @@ def kabsch(source: np.ndarray, target: np.ndarray) -> np.ndarray:
 
 
 def apply_twist(T: np.ndarray, xi: np.ndarray) -> np.ndarray:
-    """Return exp([xi]) T, (4, 4), for a twist times time xi, (6,), of any length.
+    """Return exp([xi]) T, (4, 4): the pose T, (4, 4), moved by the twist xi.
+
+    xi = (omega; v), (6,), in rad and m, has any norm, zero included. It is expressed in
+    the frame in which T is given, about its origin.
 
     xi = (0, 0, 0, 1, 0, 0) moves by a metre along x, (0, 0, 0, 0, 0, 0) not at all.
     """
@@ -127,30 +149,32 @@ def apply_twist(T: np.ndarray, xi: np.ndarray) -> np.ndarray:
 def refine_pose(
     K: np.ndarray, T_guess: np.ndarray, points: np.ndarray, pixels: np.ndarray
 ) -> np.ndarray:
-    """Return the pose, (4, 4), at which points, (n, 3), are seen at pixels, (n, 2).
+    """Return the pose T_cam_object, (4, 4), that minimises the reprojection error.
 
-    Ten steps from T_guess, which maps the thing's coordinates to the camera's. A guess
-    that is right stays.
+    Ten Gauss-Newton steps from T_guess, (4, 4). K is the intrinsic matrix, (3, 3). The
+    points, (n, 3), are in the object's frame, metres, and appear at the pixels, (n, 2).
+    A guess that is right stays.
     """
     # region 10.6
     T = T_guess
     for _ in range(STEPS):
         p_cam = points @ T[:3, :3].T + T[:3, 3]
-        J = projection_jacobian(K, p_cam).reshape(-1, 6)
-        off = (pixels - project(K, T, points)).ravel()
+        J = projection_jacobian(K, p_cam).reshape(-1, 6)  # two rows for each point
+        off = (pixels - project(K, T, points)).ravel()  # reprojection error
         T = apply_twist(T, np.linalg.lstsq(J, off, rcond=None)[0])
     return T
     # endregion 10.6
 
 
 def pose_covariance(J: np.ndarray, sigma: float) -> np.ndarray:
-    """Return the covariance, (6, 6), of a pose fitted to pixels with noise sigma.
+    """Return the covariance, (6, 6), of the twist of a pose fitted to noisy pixels.
 
-    J, (n, 2, 6), is 10.4's at that pose. Three J that are the identity's halves, (3, 2,
-    6), with sigma 2: four times the identity.
+    J, (n, 2, 6), is the image Jacobian of 10.4 at that pose. Each pixel coordinate has
+    independent noise with the standard deviation sigma, px. Three J that are the
+    identity's halves, (3, 2, 6), with sigma 2: four times the identity.
     """
     # region 10.7
-    J = J.reshape(-1, 6)
+    J = J.reshape(-1, 6)  # two rows for each point
     return sigma**2 * np.linalg.inv(J.T @ J)
     # endregion 10.7
 
@@ -158,7 +182,9 @@ def pose_covariance(J: np.ndarray, sigma: float) -> np.ndarray:
 def hand_eye(A: np.ndarray, B: np.ndarray) -> np.ndarray:
     """Return X, (4, 4), with A X = X B for the motions A and B, (k, 4, 4) each.
 
-    B = A: the identity.
+    With noise no X fits all motions. Then R_X is the rotation nearest to the sum of
+    a b^T, with the rotation vectors a of A and b of B, and t is the least-squares
+    solution for this R_X. B = A: the identity.
     """
     # region 10.8
     a = np.array([log_rotation(T[:3, :3]) for T in A])
@@ -172,13 +198,15 @@ def hand_eye(A: np.ndarray, B: np.ndarray) -> np.ndarray:
 
 
 def icp_step(T: np.ndarray, source: np.ndarray, target: np.ndarray) -> np.ndarray:
-    """Return a better T, (4, 4), of the points source, (n, 3), to target, (m, 3).
+    """Return the next T, (4, 4), of the iterative closest point algorithm (ICP).
 
-    Each, moved by T, is paired with the nearest of target. Of a cloud to itself: 1.
+    Each point of source, (n, 3), moved by T, is paired with the nearest point of
+    target, (m, 3); the result is the best rigid motion from source to these pairs (Besl
+    and McKay, 1992). Of a cloud to itself: 1.
     """
     # region 10.9
-    now = source @ T[:3, :3].T + T[:3, 3]
-    away = np.sum((now[:, None] - target) ** 2, axis=2)
+    now = source @ T[:3, :3].T + T[:3, 3]  # the source, moved by T
+    away = np.sum((now[:, None] - target) ** 2, axis=2)  # squared distances, (n, m)
     return kabsch(source, target[np.argmin(away, axis=1)])
     # endregion 10.9
 
@@ -333,9 +361,9 @@ def calibrate(rng: np.random.Generator) -> tuple[np.ndarray, int]:
     noisy = (many[0], jittered(many[1], rng))
     another = library.apply_twist(day10_mujoco.ON_HAND, FREE)
     X = hand_eye(*motions(many))
-    print("                            second  left                off   wanders, mm")
+    print("                            second  left                off     moves, mm")
     print(
-        "  turned                      axis  free  residual   deg    mm   here  there"
+        "  joints                      axis  free  residual   deg    mm   here  there"
     )
     judged("all joints", many, fresh, X)
     judged("all joints, 1 mrad, 1 mm", noisy, fresh, hand_eye(*motions(noisy)))
@@ -343,7 +371,7 @@ def calibrate(rng: np.random.Generator) -> tuple[np.ndarray, int]:
     judged("joint 7 alone", few, fresh, hand_eye(*motions(few)), known=False)
     judged("joint 7 alone, another X", few, fresh, another)  # ... but one of them is.
     aside = 1000 * np.linalg.norm(said(*few, another)[0] - day10_mujoco.TO)
-    print(f"  with the last, the table's middle is {aside:.0f} mm beside its place")
+    print(f"  with the last X the table's middle is {aside:.0f} mm from its true place")
     return X - day10_mujoco.ON_HAND, free(motions(few)[0])
 
 
@@ -386,7 +414,7 @@ def see_the_cube(model, data, K: np.ndarray, T_world_cam: np.ndarray) -> list[fl
         cloud = cloud[cloud[:, 2] > day10_mujoco.TABLE + ABOVE]
         beside = 1000 * np.linalg.norm((found(cloud) - T_world_cube)[:2, 3])
         mean = 1000 * np.linalg.norm(cloud.mean(axis=0)[:2] - T_world_cube[:2, 3])
-        print(f"  {len(cloud)} points: {beside:.1f} mm beside its place; "
+        print(f"  {len(cloud)} points: {beside:.1f} mm from its true place; "
               f"their mean: {mean:.1f} mm")  # fmt: skip
         off.append(beside)
     return off
@@ -416,10 +444,10 @@ def main() -> int:
     K_file, T_world_cam = depth_camera.camera(model, data, "eye")
     print(panda.describe("panda_nohand"))
 
-    lab.step("1. Where a point is seen")
+    lab.step("1. Projection: from a point to a pixel")
     K = camera_matrix(np.deg2rad(day10_mujoco.FOVY), *model.cam_resolution[0])
     lab.show("K", K, 3)
-    lab.check("|K - that of MuJoCo's camera|, px", K - K_file)
+    lab.check("|K - intrinsic matrix of MuJoCo's camera|, px", K - K_file)
     off = []
     for T_world_cube in day10_mujoco.cubes(TRIALS, SEED):
         pixels, corners = looked_at(model, data, T_world_cube)
@@ -427,21 +455,21 @@ def main() -> int:
     lab.record("project", off, label="|project - MuJoCo's camprojection|, px",
                seed=SEED)  # fmt: skip
 
-    lab.step("2. A depth image is a cloud of points")
+    lab.step("2. Back-projection: a depth image is a point cloud")
     day10_mujoco.place(model, data, day10_mujoco.ASIDE)
     cloud = depth_cloud(model, data, K, T_world_cam)
     flat = day10_mujoco.on_top(cloud)
     off = cloud[flat, 2] - day10_mujoco.TABLE
-    lab.check("|height of the table's points - the table's|, m", off)
+    lab.check("|height of the points - height of the table|, m", off)
     shifted = depth_cloud(model, data, K, T_world_cam, half=0.5)
     half = 1000 * rms(np.linalg.norm(shifted - cloud, axis=1)[flat])
-    print(f"  {len(cloud)} points; half a pixel, both ways, is {half:.1f} mm")
-    lab.measured("half a pixel, both ways, on the table, mm", half)
+    print(f"  {len(cloud)} points; half a pixel in u and v is {half:.1f} mm (RMS)")
+    lab.measured("error from half a pixel in u and v, mm", half)
 
-    lab.step("3. Pixels per twist, poses from pixels")
+    lab.step("3. The image Jacobian, and poses from pixels")
     off = off_mujoco(model, data, K, T_world_cam, rng)
     share = np.array(off["J"]) / K[0, 0]  # differences lose 1e-10 of f, by rounding
-    lab.check("|J - slopes of MuJoCo's pixels|, of f", share, 1e-6)
+    lab.check("|J - differences of MuJoCo's pixels| / f", share, 1e-6)
     lab.check("|refine_pose - MuJoCo's pose|", off["pose"])
     given = given_to_fits(rng)
     yours = {"kabsch": kabsch, "apply_twist": apply_twist,
@@ -449,29 +477,31 @@ def main() -> int:
     for name, own in yours.items():
         lab.check(f"{name} - the library's", off_library(name, own, given[name]))
 
-    lab.step(f"4. The same with {NOISE} px of noise, {NEAR} m away, mm")
+    lab.step(f"4. The error of a pose in mm: {NOISE} px of noise, {NEAR} m away")
     print("            across the view      along the view")
     print("  height  predicted  measured     predicted  measured  inside")
     noise = np.random.default_rng(NOISE_SEED)
     T = se3.make_T(se3.Rz(0.3) @ se3.Rx(2.3), (0.05, 0.02, NEAR))
     noisy = {height: fit_with_noise(height, T, noise) for height in HEIGHTS}
     inside = np.mean([one for one, _ in noisy.values()])
-    lab.record("pose", inside, metric="inside_95", label="inside 95 %, all three",
-               seed=NOISE_SEED)  # fmt: skip
-    lab.measured("mm off along the view, 240 px", noisy[day10_mujoco.HEIGHT][1])
+    lab.record("pose", inside, metric="inside_95",
+               label="fraction inside the 95 % ellipsoid", seed=NOISE_SEED)  # fmt: skip
+    lab.measured("error along the view with 240 px, mm", noisy[day10_mujoco.HEIGHT][1])
 
-    lab.step("5. An eye on the hand: where does it sit?")
+    lab.step("5. Hand-eye calibration")
     off, unseen = calibrate(np.random.default_rng(SEED))
-    lab.record("hand_eye", off, label="|hand_eye - where MuJoCo's camera sits|",
+    lab.record("hand_eye", off, label="|hand_eye - pose of MuJoCo's camera|",
                seed=SEED)  # fmt: skip
-    lab.measured("numbers of X that joint 7 alone leaves free", unseen)
+    lab.measured("degrees of freedom of X that joint 7 leaves free", unseen)
 
-    lab.step("6. Side quest: Day 7's cube, seen and not told")
+    lab.step("6. Side quest: Day 7's cube, from a depth image alone")
     with lab.side_quest():
         off = off_library("icp_step", icp_step, given["icp_step"])
         lab.check("icp_step - the library's", off)
         off = see_the_cube(model, data, K, T_world_cam)
-        lab.record("cube_seen", off, label="the cube, seen, mm off", seed=SEED + 1)
+        lab.record(
+            "cube_seen", off, label="position error of the cube, mm", seed=SEED + 1
+        )
     return lab.finish()
 
 

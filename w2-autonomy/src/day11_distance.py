@@ -1,10 +1,11 @@
-"""Day 11: not touching. A distance, its slope, and how far one may go without a look.
+"""Day 11: distance and collision. Distances, their gradient, conservative advancement.
 
     make day11                      in the clone: sets all up, then runs this
     python src/day11_distance.py    in w2-autonomy/, once that is done
 
-A capsule is a segment from a0 to a1, its axis, and a radius; a ball has a0 = a1. A
-distance below 0 is an overlap. World axes, twists (omega; v). Metres, radians.
+A capsule is a segment from a0 to a1, its axis, with a radius; a sphere has a0 = a1. A
+distance is signed: it is negative where two shapes overlap. Points, normals and twists
+(omega; v) are expressed in the world frame. Metres, radians.
 """
 
 from collections.abc import Callable
@@ -20,35 +21,35 @@ from robo47.lesson.lab import Lab
 
 import day11_mujoco
 
-SEED = 11  # of poses, of ways and of the wires they cross
-TRIALS = 30  # poses that the arm is measured in
-FAR = 10.0  # m, up to which MuJoCo measures
-STEP = 1e-3  # rad, of differences
-ASIDE = 0.2  # m, to the left of the pen's end: something to keep away from
-COUNTS = (5, 10, 20)  # points on the way of the pen
-MANY = (3, 10, 20, 40, 80)  # points on the way of the whip
-PLACES = 200  # at which a wire crosses the pen's way
-WIRE = 0.002  # m: its radius; the pen's is 5 mm
-THIN = 0.001  # m: that of the wire the whip meets
-WHIPS = 60  # ways past it
-NEAR = 0.0005  # m: so near counts as a touch
-BESIDE = 0.004  # m that the whip passes a wire at, or more
-LOOKS = 400  # at most, on a way
+SEED = 11  # for configurations, motions and wires; the same at every run
+TRIALS = 30  # configurations in which the distances are compared
+FAR = 10.0  # m, the largest distance that MuJoCo reports
+STEP = 1e-3  # rad, the step of the finite differences
+ASIDE = 0.2  # m, from the pen's end to an obstacle on its left
+COUNTS = (5, 10, 20)  # inner samples of the pen's motion about joint 1
+MANY = (3, 10, 20, 40, 80)  # inner samples of the fast motions
+PLACES = 200  # positions of the wire on the pen's motion
+WIRE = 0.002  # m, the radius of that wire; the pen's is 5 mm
+THIN = 0.001  # m, the radius of the wire that the fast motions meet
+WHIPS = 60  # fast motions
+NEAR = 0.0005  # m, a distance that is treated as contact
+BESIDE = 0.004  # m, the smallest distance of a motion that passes the wire
+LOOKS = 400  # distance queries per motion, at most
 
-# The side quest: the pen is told to go from y = -HALF to HALF, along x = AT, a post
-# stands in the hand's way.
+# The side quest: the pen is commanded from y = -HALF to HALF along a straight line, and
+# a post is in the way of the hand.
 POST = ((0.5, 0.0, 0.0), (0.5, 0.0, 0.9), 0.04)  # ends and radius, m
-AT = (0.45, 0.4)  # m, x and z of the way
+AT = (0.45, 0.4)  # m, x and z of the line
 HALF = 0.3  # m
-TIME = 3.0  # s that it is told to take
-WAIT = 2.0  # s more, to arrive
-DT = 0.01  # s
-GAIN = 4.0  # 1/s
-MARGIN = 0.01  # m that are to be left
-PULL = 4.0  # 1/s: how fast the pen is pulled back to its way
-DAMPING = 0.05
-SWEEPS = 8  # rounds over several pairs
-RUSH = 1.0  # m/s, straight at something
+TIME = 3.0  # s, the commanded duration
+WAIT = 2.0  # s, the time after it to arrive
+DT = 0.01  # s, the time step
+GAIN = 4.0  # 1/s, of the velocity damper
+MARGIN = 0.01  # m, the distance that the damper keeps
+PULL = 4.0  # 1/s, the feedback gain of the pen's position
+DAMPING = 0.05  # of the damped least-squares step
+SWEEPS = 8  # passes over several pairs
+RUSH = 1.0  # m/s, straight at an obstacle
 
 
 def closest_points_segments(
@@ -56,22 +57,25 @@ def closest_points_segments(
 ) -> np.ndarray:
     """Return the closest points of two segments, (2, 3): the first's, the second's.
 
-    Ends are (3,) each; a0 = a1 is a point. Of parallel ones any closest pair will do.
+    The segments are a0 to a1 and b0 to b1, four points (3,) in metres; a segment with
+    a0 = a1 is a point. For parallel segments return any closest pair. Compare a c - b b
+    with a c, because it scales with the fourth power of the length. Source: Ericson,
+    Real-Time Collision Detection.
     (-1, 0, 0) to (1, 0, 0) and (0, -1, 1) to (0, 1, 1): (0, 0, 0) and (0, 0, 1).
     """
     # region 11.1
-    u = a1 - a0
-    v = b1 - b0
-    w = a0 - b0
-    a = u @ u
-    b = u @ v
-    c = v @ v
-    d = u @ w
-    e = v @ w
-    across = a * c - b * b  # a c sin^2: compared with a c, never with a number
+    u = a1 - a0  # direction of the first segment
+    v = b1 - b0  # direction of the second segment
+    w = a0 - b0  # from the start of the second to the start of the first
+    a = u @ u  # squared length of the first segment
+    b = u @ v  # coupling of s and t
+    c = v @ v  # squared length of the second segment
+    d = u @ w  # half of the linear coefficient of s
+    e = v @ w  # half of the negative linear coefficient of t
+    across = a * c - b * b  # a c sin^2 of the angle between the segments
     s = np.clip((b * e - c * d) / across, 0, 1) if across > 1e-12 * a * c else 0.0
-    t = np.clip((b * s + e) / c, 0, 1) if c > 0 else 0.0
-    s = np.clip((b * t - d) / a, 0, 1) if a > 0 else 0.0
+    t = np.clip((b * s + e) / c, 0, 1) if c > 0 else 0.0  # minimiser for this s
+    s = np.clip((b * t - d) / a, 0, 1) if a > 0 else 0.0  # minimiser for this t
     return np.array([a0 + s * u, b0 + t * v])
     # endregion 11.1
 
@@ -80,24 +84,30 @@ def capsule_distance(
     a0: np.ndarray, a1: np.ndarray, ra: float,
     b0: np.ndarray, b1: np.ndarray, rb: float,
 ) -> float:  # fmt: skip
-    """Return how far two capsules are apart, below 0 where they overlap.
+    """Return the signed distance of two capsules in metres, negative if they overlap.
 
+    a0, a1 and b0, b1 are the ends of the axes, (3,), in metres; ra and rb are the radii
+    in metres. The signed distance is the distance of the axes minus both radii.
     capsule_distance((-1, 0, 0), (1, 0, 0), 0.25, (0, -1, 1), (0, 1, 1), 0.5) -> 0.25
     """
     # region 11.2
-    p, o = closest_points_segments(a0, a1, b0, b1)
+    p, o = closest_points_segments(a0, a1, b0, b1)  # closest points of the axes
     return np.linalg.norm(p - o) - ra - rb
     # endregion 11.2
 
 
 def box_sdf(p: np.ndarray, half_extents: np.ndarray) -> float:
-    """Return how far a point, (3,), is from a box about the origin; inside below 0.
+    """Return the signed distance of a point from a box, metres, negative inside.
 
-    half_extents, (3,), is half of its sides; the middle of this box is 1 deep.
+    p (3,) is expressed in the box frame, whose origin is the centre of the box and
+    whose axes are parallel to its edges; half_extents (3,) is half of each side.
+    Outside, the result is the distance to the box; inside, it is minus the distance to
+    the nearest face, so the centre of this box gives -1. Source: Quilez, "Distance
+    functions".
     box_sdf((2, 0, 0), (1, 1, 1)) -> 1
     """
     # region 11.3
-    beyond = np.abs(p) - half_extents
+    beyond = np.abs(p) - half_extents  # distance beyond each pair of faces
     return np.linalg.norm(np.maximum(beyond, 0)) + min(beyond.max(), 0.0)
     # endregion 11.3
 
@@ -109,26 +119,30 @@ def capsule_box_distance(
     T_world_box: np.ndarray,
     half_extents: np.ndarray,
 ) -> float:
-    """Return how far a capsule is from a box, wherever that stands.
+    """Return the signed distance of a capsule and a box in any pose, metres.
 
-    The least of `box_sdf` along the axis, less r. From (-2, 0, 2) to (2, 0, 2), with
-    r = 0.1, and a box at the origin, half 1, 1, 1: 0.9.
+    a0 and a1 (3,) are the ends of the axis in the world frame, r is the radius,
+    T_world_box (4, 4) the pose of the box and half_extents (3,) half of its sides, all
+    in metres. The result is the minimum of `box_sdf` along the axis, minus r. That
+    function is convex along the axis, so golden-section search finds its minimum.
+    From (-2, 0, 2) to (2, 0, 2), with r = 0.1, and a box at the origin, half_extents
+    1, 1, 1: 0.9.
     """
     # region 11.4
-    R = T_world_box[:3, :3]
-    start = R.T @ (a0 - T_world_box[:3, 3])
-    way = R.T @ (a1 - a0)
-    low = 0.0
-    high = 1.0
-    for _ in range(60):  # of one valley, the part that has its bottom
-        left = high - 0.618 * (high - low)
-        right = low + 0.618 * (high - low)
+    R = T_world_box[:3, :3]  # rotation of the box
+    start = R.T @ (a0 - T_world_box[:3, 3])  # start of the axis in the box frame
+    way = R.T @ (a1 - a0)  # direction of the axis in the box frame
+    low = 0.0  # lower end of the interval that contains the minimum
+    high = 1.0  # upper end of that interval
+    for _ in range(60):  # golden-section search: each pass keeps 0.618 of the interval
+        left = high - 0.618 * (high - low)  # the sample at 0.382 of the interval
+        right = low + 0.618 * (high - low)  # the sample at 0.618 of the interval
         if box_sdf(start + left * way, half_extents) < box_sdf(
             start + right * way, half_extents
         ):
-            high = right
+            high = right  # the minimum is not beyond the larger value
         else:
-            low = left
+            low = left  # the same on the other side
     return min(box_sdf(start + s * way, half_extents) for s in (low, high)) - r
     # endregion 11.4
 
@@ -136,23 +150,28 @@ def capsule_box_distance(
 def distance_gradient(
     J_space: np.ndarray, p: np.ndarray, o: np.ndarray, link: int
 ) -> np.ndarray:
-    """Return how fast |p - o| grows per joint speed, (7,): p on link 1 to 7, o at rest.
+    """Return the gradient of the distance |p - o| in the joint angles, (7,), m/rad.
 
-    J_space, (6, 7), is Day 3's, (omega; v). A joint at the origin about z, p at
-    (1, 0, 0), o at (1, 1, 0): -1 for it, since p moves towards o.
+    J_space (6, 7) is Day 3's space Jacobian with columns (omega; v); p (3,) is the
+    closest point on link `link`, 1 to 7, and o (3,) the closest point of an obstacle at
+    rest, both in metres and expressed in the world frame. The gradient is 0 for the
+    joints that are distal to the link. A joint at the origin about z, p at (1, 0, 0),
+    o at (1, 1, 0): -1 for it, since p moves towards o.
     """
     # region 11.5
-    n = (p - o) / np.linalg.norm(p - o)
-    slope = np.zeros(J_space.shape[1])
-    for i in range(link):
-        slope[i] = n @ (J_space[3:, i] + np.cross(J_space[:3, i], p))
+    n = (p - o) / np.linalg.norm(p - o)  # unit normal from the obstacle to the arm
+    slope = np.zeros(J_space.shape[1])  # the joints distal to the link keep the 0
+    for i in range(link):  # the joints that move the link
+        slope[i] = n @ (J_space[3:, i] + np.cross(J_space[:3, i], p))  # normal velocity
     return slope
     # endregion 11.5
 
 
 def capsule_aabb(a0: np.ndarray, a1: np.ndarray, r: float) -> np.ndarray:
-    """Return the box along the axes around a capsule, (2, 3): least, greatest corner.
+    """Return a capsule's axis-aligned bounding box (AABB), (2, 3): lower, upper corner.
 
+    a0 and a1 (3,) are the ends of the axis, r is the radius, all in metres. The box is
+    the smallest one with edges along the world axes that contains the capsule.
     capsule_aabb((0, 1, 0), (1, 0, 0), 0.5) -> ((-0.5, -0.5, -0.5), (1.5, 1.5, 0.5))
     """
     # region 11.6
@@ -161,9 +180,10 @@ def capsule_aabb(a0: np.ndarray, a1: np.ndarray, r: float) -> np.ndarray:
 
 
 def aabb_overlap(box_a: np.ndarray, box_b: np.ndarray) -> bool:
-    """Return whether two boxes of `capsule_aabb`, (2, 3), overlap; touching counts.
+    """Return whether two axis-aligned boxes overlap; boxes that only touch overlap.
 
-    Those of (0, 0, 0) to (1, 1, 1) and (1, 0, 0) to (2, 1, 1) do.
+    box_a and box_b are lower and upper corner, (2, 3), in metres, as `capsule_aabb`
+    returns them. The boxes (0, 0, 0) to (1, 1, 1) and (1, 0, 0) to (2, 1, 1) overlap.
     """
     # region 11.6
     return bool(np.all(box_a[0] <= box_b[1]) and np.all(box_b[0] <= box_a[1]))
@@ -171,16 +191,19 @@ def aabb_overlap(box_a: np.ndarray, box_b: np.ndarray) -> bool:
 
 
 def distal_radii(link_lengths: np.ndarray, link_radii: np.ndarray) -> np.ndarray:
-    """Return how far from each joint anything behind it can ever be, (n,).
+    """Return for each joint a bound on the distance to any distal point, (n,), metres.
 
-    link_lengths[i], (n,), is from link i's origin to the next one's, link_radii[i],
-    (n,), to the farthest point of link i's own capsules; the last link has no next: its
-    length does not count. distal_radii((1, 1, 0), (0.5, 0.5, 0.5)) -> (2.5, 1.5, 0.5)
+    Distal points lie on the links that the joint moves. link_lengths[i], (n,), is the
+    distance from the origin of link i to the origin of the next link; the last entry
+    has no next link and is not used. link_radii[i], (n,), is the distance from the
+    origin of link i to the farthest point of its own shapes. The bound holds for all
+    joint angles, and the farthest point is not always on the last link.
+    distal_radii((1, 1, 0), (0.5, 0.5, 0.5)) -> (2.5, 1.5, 0.5)
     """
     # region 11.7
-    reach = np.array(link_radii)
-    for i in range(len(link_radii) - 2, -1, -1):
-        reach[i] = max(link_radii[i], link_lengths[i] + reach[i + 1])
+    reach = np.array(link_radii)  # the farthest point of the joint's own link
+    for i in range(len(link_radii) - 2, -1, -1):  # from the last joint but one inwards
+        reach[i] = max(link_radii[i], link_lengths[i] + reach[i + 1])  # own or distal
     return reach
     # endregion 11.7
 
@@ -188,16 +211,20 @@ def distal_radii(link_lengths: np.ndarray, link_radii: np.ndarray) -> np.ndarray
 def conservative_advance(
     s: float, distance: float, delta_q: np.ndarray, radii: np.ndarray
 ) -> float:
-    """Return where along q + s delta_q the arm may first touch something, at most 1.
+    """Return the next s of q + s delta_q to query; no contact is possible before it.
 
-    The distance is the arm's at s; delta_q, (7,), the whole way; radii, (7,), of
-    `distal_radii`. Where the distance is 0 or below: s. Else, where nothing moves: 1.
+    One step of conservative advancement; the result is at most 1. distance is the arm's
+    distance at s, metres; delta_q (7,) is the joint displacement of the whole motion,
+    from s = 0 to s = 1, radians; radii (7,) are those of `distal_radii`, metres. No
+    point moves further than the sum of |delta_q_i| radii_i per unit of s. If the
+    distance is 0 or negative, return s; otherwise, if no joint moves, return 1. Source:
+    Schwarzer, Saha and Latombe (2005).
     At s = 0.25 and 0.1 m, for delta_q 1 and radii 0.5 everywhere: 0.278571.
     """
     # region 11.8
-    if distance <= 0:
+    if distance <= 0:  # contact at s
         return s
-    speed = np.abs(delta_q) @ radii  # m that any point moves at most, on the whole way
+    speed = np.abs(delta_q) @ radii  # bound on a point's path length per unit of s, m
     return min(1.0, s + distance / speed) if speed > 0 else 1.0
     # endregion 11.8
 
@@ -205,27 +232,30 @@ def conservative_advance(
 def velocity_damper(
     qd: np.ndarray, grad: np.ndarray, distance: float, gain: float
 ) -> np.ndarray:
-    """Return the joint speeds nearest to qd with grad . qd >= -gain distance, (7,).
+    """Return the joint velocities nearest to qd with grad . qd >= -gain distance, (7,).
 
-    qd (-1, 0, ..), grad (1, 0, ..), distance 0.1, gain 4: (-0.4, 0, ..). A grad of 0
-    changes nothing.
+    qd (7,) are the wanted joint velocities, rad/s; grad (7,) is the gradient of the
+    distance, m/rad; distance is in metres and gain in 1/s. If qd satisfies the
+    condition, return qd. If grad is 0, return qd as well. Source: Faverjon and
+    Tournassoud (1987).
+    qd (-1, 0, ..), grad (1, 0, ..), distance 0.1, gain 4: (-0.4, 0, ..).
     """
     # region 11.9
-    lack = -gain * distance - grad @ qd
-    square = grad @ grad
+    lack = -gain * distance - grad @ qd  # by how much qd violates the condition
+    square = grad @ grad  # squared norm of the normal of the half-space
     return qd + grad * lack / square if lack > 0 and square > 0 else np.array(qd)
     # endregion 11.9
 
 
 def off_library(name: str, own: Callable, given: list[tuple]) -> float:
-    """Return how far your function is at most from robo47's of that name."""
+    """Return the largest difference of your function and the library's."""
     truth = getattr(library, name)
     off = [np.subtract(own(*one), truth(*one), dtype=float) for one in given]
     return float(np.max([np.abs(one).max() for one in off]))  # NaN, if one is NaN
 
 
 def given_to(rng: np.random.Generator) -> dict[str, list[tuple]]:
-    """Return what some functions are asked, by name: MuJoCo has none of them."""
+    """Return arguments for the functions that MuJoCo does not have, by name."""
     ends = rng.uniform(-1, 1, (40, 2, 3))
     boxes = [library.capsule_aabb(*some, 0.2) for some in ends]
     lengths = [rng.uniform(0, 1, (2, 7)) for _ in range(5)]
@@ -248,9 +278,9 @@ def given_to(rng: np.random.Generator) -> dict[str, list[tuple]]:
 
 
 def off_capsules(model, data, q: np.ndarray) -> tuple[list, list, int]:
-    """Return how far distances and points are off MuJoCo's, and how many overlap.
+    """Return the errors of distances and points against MuJoCo, and the overlaps.
 
-    Of the arm's nine capsules from five rods, at all q, (n, 7).
+    The pairs are the arm's nine capsules and five rods, in all configurations (n, 7).
     """
     apart, points, inside = [], [], 0
     fromto = np.zeros(6)  # MuJoCo's closest points, on both surfaces
@@ -272,10 +302,11 @@ def off_capsules(model, data, q: np.ndarray) -> tuple[list, list, int]:
 
 
 def off_boxes(model, data, q: np.ndarray, rng) -> tuple[list, list, list]:
-    """Return how far a ball and the arm are off MuJoCo's distance from two boxes.
+    """Return the errors of a sphere's and the arm's distances from two boxes.
 
-    The ball is asked inside the boxes, too; the arm only where it is outside: MuJoCo's
-    depth is the way out of the whole capsule. There, last, it is robo47's.
+    The sphere is also placed inside the boxes. The arm is compared with MuJoCo where it
+    is outside, and with robo47 where it overlaps, because MuJoCo's penetration depth is
+    the translation that separates the whole capsule from the box.
     """
     ball, arm, inside = [], [], []
     fromto = np.zeros(6)
@@ -305,7 +336,7 @@ def off_boxes(model, data, q: np.ndarray, rng) -> tuple[list, list, list]:
 
 
 def slopes(model, data, q: np.ndarray, pair: tuple[int, int]) -> np.ndarray:
-    """Return MuJoCo's distance of two geoms by differences, per joint angle, (7,)."""
+    """Return the gradient of MuJoCo's distance of two geoms by differences, (7,)."""
 
     def apart(way: np.ndarray) -> float:
         data.qpos[:] = q + way
@@ -321,7 +352,7 @@ def slopes(model, data, q: np.ndarray, pair: tuple[int, int]) -> np.ndarray:
 
 
 def off_slopes(model, data, q: np.ndarray) -> list[np.ndarray]:
-    """Return how far your slopes are from those of MuJoCo's distances, (7,) each."""
+    """Return the errors of your gradients against MuJoCo's distances, (7,) each."""
     screws = panda.screws(model)
     b0, b1, _ = (np.array(x) for x in day11_mujoco.RODS[0])
     off = []
@@ -338,7 +369,7 @@ def off_slopes(model, data, q: np.ndarray) -> list[np.ndarray]:
 
 
 def cheap_no(model, data, q: np.ndarray) -> tuple[int, int, int, int]:
-    """Return of how many pairs boxes say no, how many touch, and how many of both."""
+    """Return the numbers of pairs, excluded pairs, overlaps, and excluded overlaps."""
     pairs = no = touch = both = 0
     for one in q:
         data.qpos[:] = one
@@ -359,7 +390,7 @@ def cheap_no(model, data, q: np.ndarray) -> tuple[int, int, int, int]:
 
 
 def pen_from(edge: day11_mujoco.Edge, s: float | np.ndarray) -> np.ndarray:
-    """Return the pen's distance from an edge's wire at s, m, as many as s has."""
+    """Return the pen's distance from a motion's wire at s, m, with the shape of s."""
     ends = day11_mujoco.pen(edge.q + np.multiply.outer(s, edge.dq))
     a, b, r = edge.wire
     far = [capsule_distance(*some, shapes.PEN.radius, a, b, r)
@@ -368,13 +399,13 @@ def pen_from(edge: day11_mujoco.Edge, s: float | np.ndarray) -> np.ndarray:
 
 
 def missed_by_points(edges: list[day11_mujoco.Edge], k: int) -> int:
-    """Return how many edges k inner points find free, and their ends, of course."""
+    """Return how many motions are reported free by k inner samples and both ends."""
     s = np.linspace(0, 1, k + 2)
     return sum(bool(pen_from(edge, s).min() > 0) for edge in edges)
 
 
 def walk(edge: day11_mujoco.Edge, reach: np.ndarray) -> tuple[bool, list[float]]:
-    """Return whether a way is found free, and where it was looked at."""
+    """Return whether a motion is reported free, and the s of its distance queries."""
     looked = [0.0]
     while len(looked) < LOOKS:
         d = float(pen_from(edge, looked[-1]))
@@ -387,13 +418,13 @@ def walk(edge: day11_mujoco.Edge, reach: np.ndarray) -> tuple[bool, list[float]]
 
 
 def promises(edges: list[day11_mujoco.Edge], reach: np.ndarray) -> tuple[int, list]:
-    """Return how many ways your bound finds free, and how many looks each took."""
+    """Return how many motions your bound reports free, and the queries of each."""
     walked = [walk(edge, reach) for edge in edges]
     return sum(free for free, _ in walked), [len(looked) for _, looked in walked]
 
 
 def farthest(model, data, q: np.ndarray) -> np.ndarray:
-    """Return how far behind each joint MuJoCo has a point of a capsule, m, (7,)."""
+    """Return the largest distance of a distal point from each joint in MuJoCo, m."""
     most = np.zeros(7)
     for one in q:
         data.qpos[:] = one
@@ -412,7 +443,7 @@ def farthest(model, data, q: np.ndarray) -> np.ndarray:
 def slopes_of(
     J: np.ndarray, ends: np.ndarray, post: tuple, pairs: int
 ) -> list[tuple[np.ndarray, float, int]]:
-    """Return slope, distance (m) and capsule of the pairs nearest to a post."""
+    """Return gradient, distance (m) and capsule of the pairs nearest to a post."""
     b0, b1, r = np.array(post[0]), np.array(post[1]), post[2]
     far = [capsule_distance(*some, ra, b0, b1, r)
            for some, ra in zip(ends, day11_mujoco.RADII, strict=True)]  # fmt: skip
@@ -424,10 +455,10 @@ def slopes_of(
 
 
 def through(post: tuple, slow: Callable, pairs: int = 1) -> tuple[float, float]:
-    """Drive the pen along its way, qd as `slow` lets it for the pairs that are nearest.
+    """Drive the pen along its line; `slow` filters qd for the nearest pairs.
 
-    Return the least distance on the way, by MuJoCo, and how far from its target the pen
-    ends, both in mm.
+    Return the smallest distance to the post, measured by MuJoCo, and the final distance
+    of the pen's end from its target, both in mm.
     """
     model, data = day11_mujoco.around(post)
     screws = panda.screws(model)
@@ -454,7 +485,7 @@ def through(post: tuple, slow: Callable, pairs: int = 1) -> tuple[float, float]:
 
 
 def left_of_it(slow: Callable, gain: float = GAIN, dt: float = DT) -> float:
-    """Return which share of ASIDE is left after 1 s straight at it, at RUSH."""
+    """Return the fraction of ASIDE that is left after 1 s straight at it, at RUSH."""
     screws = panda.screws(panda.load("panda_nohand"))
     q = panda.READY_Q.copy()
     goal = day11_mujoco.pen(q)[1] + ASIDE * np.eye(3)[1]
@@ -477,61 +508,59 @@ def main() -> int:
     given = given_to(rng)
     print(panda.describe("panda_nohand"))
 
-    lab.step("1. Two capsules")
+    lab.step("1. The distance of two capsules")
     apart, points, deep = off_capsules(model, data, q)
-    print(f"  {len(apart)} pairs of the arm's capsules and rods; {deep} overlap")
+    print(f"  {len(apart)} pairs of the arm's capsules and rods; {deep} pairs overlap")
     lab.record("distance", apart, label="|capsule_distance - mj_geomDistance|, m",
                seed=SEED)  # fmt: skip
     lab.check("|closest points - MuJoCo's|, m", points)
 
-    lab.step("2. A capsule and a box")
+    lab.step("2. The distance of a capsule and a box")
     ball, sides, inside = off_boxes(model, data, q, rng)
-    lab.check("|box_sdf - MuJoCo's ball|, m, inside too", ball)
-    lab.check("|capsule_box_distance - mj_geomDistance|, m, outside", sides)
-    print(
-        f"  {len(sides)} pairs; {len(inside)} overlap, where MuJoCo's depth is another"
-    )
-    lab.check("capsule_box_distance - the library's, inside", inside)
+    lab.check("|box_sdf - MuJoCo's sphere|, m, also inside", ball)
+    lab.check("|capsule_box_distance - MuJoCo's|, m, outside", sides)
+    print(f"  {len(sides)} pairs are apart; {len(inside)} pairs overlap")
+    lab.check("capsule_box_distance - the library's, overlapping", inside)
 
-    lab.step("3. How fast it changes")
+    lab.step("3. The gradient of the distance")
     off = off_slopes(model, data, q[: TRIALS // 5 + 1])
-    lab.record("gradient", off, label="|slope - that of mj_geomDistance|, m/rad",
-               seed=SEED)  # fmt: skip
+    lab.record("gradient", off, seed=SEED,
+               label="|gradient - MuJoCo's differences|, m/rad")  # fmt: skip
     tip = day11_mujoco.pen(panda.READY_Q)[1]
     J = space_jacobian(panda.screws(model), panda.READY_Q)
     slope = distance_gradient(J, tip, tip + ASIDE * np.eye(3)[1], 7)
-    lab.show(f"slope from something {1000 * ASIDE:.0f} mm left of the pen at READY",
+    lab.show(f"gradient, obstacle {1000 * ASIDE:.0f} mm to the left of the pen, m/rad",
              slope, 5)  # fmt: skip
-    lab.measured("slope of joint 1, m/rad", slope[0])
+    lab.measured("gradient for joint 1, m/rad", slope[0])
 
-    lab.step("4. The cheap no")
+    lab.step("4. The broad phase")
     pairs, no, touch, both = cheap_no(model, data, q)
-    print(f"  of {pairs} pairs boxes exclude {no}; {touch} touch")
-    lab.check("pairs that touch and are excluded", both)
+    print(f"  the boxes exclude {no} of {pairs} pairs; {touch} pairs overlap")
+    lab.check("overlapping pairs that are excluded", both)
     for name, own in {
         "capsule_aabb": capsule_aabb,
         "aabb_overlap": aabb_overlap,
     }.items():
         lab.check(f"{name} - the library's", off_library(name, own, given[name]))
 
-    lab.step("5. How many points?")
+    lab.step("5. A motion checked by samples")
     wires = day11_mujoco.wires(PLACES, WIRE, SEED)
-    way = np.linalg.norm(day11_mujoco.pen(panda.READY_Q)[1, :2])  # m, of 1 rad
+    way = np.linalg.norm(day11_mujoco.pen(panda.READY_Q)[1, :2])  # m, for 1 rad
     contact = 2 * (shapes.PEN.radius + WIRE)
-    print("  inner points  predicted  missed")
+    print("  inner samples  fraction missed: formula  measured")
     for k in COUNTS:
         guess = max(0.0, 1 - contact * (k + 1) / way)
         share = missed_by_points(wires, k) / PLACES
-        print(f"  {k:12}{guess:11.3f}{share:8.3f}")
+        print(f"  {k:13}{guess:26.3f}{share:10.3f}")
         if k == COUNTS[1]:
-            lab.measured("missed by 10 points, share", share)
+            lab.measured("fraction missed by 10 samples", share)
 
-    lab.step("6. A promise in place of points")
+    lab.step("6. Conservative advancement in place of samples")
     reach = distal_radii(*arm.lengths)
-    lab.show("reach, m", reach, 3)
+    lab.show("distal radii, m", reach, 3)
     seen = farthest(model, data, q)
-    lab.show("largest seen by MuJoCo, of it", seen / reach, 2)
-    lab.check("seen beyond the reach, m", np.maximum(seen - reach, 0))
+    lab.show("largest distance in MuJoCo / distal radius", seen / reach, 2)
+    lab.check("distance beyond the distal radius, m", np.maximum(seen - reach, 0))
     for name, own in {
         "distal_radii": distal_radii,
         "conservative_advance": conservative_advance,
@@ -539,20 +568,20 @@ def main() -> int:
         lab.check(f"{name} - the library's", off_library(name, own, given[name]))
     edges = day11_mujoco.whips(WHIPS, THIN, SEED)
     for k in MANY:
-        print(f"  {k:3} points miss {missed_by_points(edges, k):2} of {WHIPS}")
+        print(f"  {k:3} samples miss {missed_by_points(edges, k):2} of {WHIPS} motions")
     missed, looks = promises(edges, reach)
-    print(f"  the bound misses {missed}; looks: {np.median(looks):.0f}, "
-          f"at most {max(looks)}")  # fmt: skip
-    lab.record("edges", missed, metric="missed", label="edges missed", seed=SEED)
+    print(f"  the bound misses {missed}; distance queries: median "
+          f"{np.median(looks):.0f}, at most {max(looks)}")  # fmt: skip
+    lab.record("edges", missed, metric="missed", label="motions missed", seed=SEED)
     passed = day11_mujoco.whips(WHIPS // 3, THIN, SEED, beside=BESIDE)
     free, _ = promises(passed, reach)
-    lab.check("ways past the wire that are refused", len(passed) - free, 0.5)
+    lab.check("motions past the wire that are refused", len(passed) - free, 0.5)
     halfway = day11_mujoco.whips(WHIPS, THIN, SEED, middle=True)
     by_3, by_10 = (missed_by_points(halfway, k) for k in (3, 10))
-    print(f"  a wire that is always met halfway: 3 points miss {by_3}, 10 miss {by_10}")
-    lab.measured("met halfway: missed by 10 points, of 60", by_10)
+    print(f"  wire always met halfway: 3 samples miss {by_3}, 10 samples {by_10}")
+    lab.measured("met halfway: missed by 10 samples, of 60", by_10)
 
-    lab.step("7. Side quest: told to go through a post")
+    lab.step("7. Side quest: commanded through a post")
     with lab.side_quest():
         lab.check(
             "velocity_damper - the library's",
@@ -561,10 +590,10 @@ def main() -> int:
         share = left_of_it(velocity_damper)
         print(f"  straight at it: after 1 s {share:.4f} of the distance is left")
         least, beside = through(POST, lambda qd, *_: qd)
-        print(f"  as told: {least:.1f} mm, ends {beside:.1f} mm beside its target")
+        print(f"  without damper: {least:.1f} mm, ends {beside:.1f} mm from its target")
         least, beside = through(POST, velocity_damper)
-        print(f"  slowed: {least:.1f} mm, ends {beside:.1f} mm beside its target")
-        lab.record("post", least, metric="least_mm", label="least distance, mm")
+        print(f"  with damper: {least:.1f} mm, ends {beside:.1f} mm from its target")
+        lab.record("post", least, metric="least_mm", label="smallest distance, mm")
     return lab.finish()
 
 

@@ -1,7 +1,7 @@
-"""What Day 11 asks of MuJoCo: the Panda as nine capsules, and what stands around it.
+"""Day 11's MuJoCo models: the Panda as nine capsules, with obstacles around it.
 
 `mujoco.mj_geomDistance` measures any two of the geoms named here, also where they
-overlap; it needs `mj_kinematics` alone. Metres, radians.
+overlap. It needs `mj_kinematics` alone. Metres, radians.
 """
 
 from typing import NamedTuple
@@ -14,14 +14,14 @@ from robo47.checks import Array
 from robo47.jacobian import dls_step, site_jacobian, space_jacobian
 
 CAPSULES = (*shapes.LINKS, shapes.PEN)  # geoms arm0 to arm8; the last is the pen
-LINK = [one.link for one in CAPSULES]  # to which each is fixed, 1 to 7
+LINK = [one.link for one in CAPSULES]  # the link of each capsule, 1 to 7
 RADII = [one.radius for one in CAPSULES]  # m
-# Five rods and two boxes, one of them turned, for the arm to be measured against.
+# Five rods and two boxes, one of them rotated: the obstacles around the arm.
 RODS = (
     ((0.40, 0.00, 0.0), (0.40, 0.00, 0.9), 0.040),
     ((0.00, 0.45, 0.1), (0.50, 0.45, 0.6), 0.020),
     ((-0.40, -0.30, 0.7), (0.40, -0.30, 0.7), 0.030),
-    ((0.25, -0.25, 0.2), (0.25, -0.25, 0.2), 0.060),  # a ball
+    ((0.25, -0.25, 0.2), (0.25, -0.25, 0.2), 0.060),  # a sphere
     ((0.30, 0.20, 0.4), (0.31, 0.20, 0.4), 0.002),
 )
 BOXES = (
@@ -29,14 +29,14 @@ BOXES = (
     (se3.make_T(se3.Rz(0.5) @ se3.Rx(0.4), (-0.1, -0.5, 0.5)), (0.30, 0.02, 0.25)),
 )
 WORLD = shapes.World.of(RODS, BOXES)
-PEN_UP = 0.10  # m above the pen's end: there a wire crosses it
-FINE = np.linspace(0.0, 1.0, 401)  # places on a way
-# The arm lies flat: joints 1, 4 and 6 turn about the vertical, and whip the pen.
+PEN_UP = 0.10  # m above the pen's end, the height of the wire
+FINE = np.linspace(0.0, 1.0, 401)  # fine samples of a motion
+# The arm lies flat: joints 1, 4 and 6 rotate about the vertical and move the pen fast.
 FLAT = np.array([0.0, np.pi / 2, np.pi / 2, 0.0, 0.0, 0.0, 0.0])
 
 
 class Edge(NamedTuple):
-    """A straight way of the joints, q + s dq, past a wire."""
+    """A motion q + s dq, a straight line in joint space, past a wire."""
 
     q: Array  # rad, (7,)
     dq: Array  # rad, (7,)
@@ -44,9 +44,10 @@ class Edge(NamedTuple):
 
 
 def scene() -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """Return the Panda with its capsules, `WORLD` around it, and a ball that moves.
+    """Return the Panda with its capsules, the obstacles of `WORLD`, and a free sphere.
 
-    Geoms arm0 to arm8, world0 to world6 (rods first), and ball, of radius 10 mm.
+    The geoms are arm0 to arm8, world0 to world6 (rods first), and ball, a sphere with a
+    radius of 10 mm.
     """
 
     def edit(spec: mujoco.MjSpec) -> None:
@@ -63,7 +64,7 @@ def scene() -> tuple[mujoco.MjModel, mujoco.MjData]:
 
 
 def around(post: tuple) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """Return the Panda with its capsules and one post, geom world0."""
+    """Return the Panda with its capsules and one post, the geom world0."""
 
     def edit(spec: mujoco.MjSpec) -> None:
         shapes.add_arm(spec, CAPSULES)
@@ -74,18 +75,18 @@ def around(post: tuple) -> tuple[mujoco.MjModel, mujoco.MjData]:
 
 
 def axes(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
-    """Return the ends of the arm's axes where MuJoCo has them, (9, 2, 3)."""
+    """Return the ends of the capsules' axes in MuJoCo's state, (9, 2, 3)."""
     ends = []
     for i in range(len(CAPSULES)):
         geom = data.geom(f"arm{i}")
-        z = geom.xmat.reshape(3, 3)[:, 2]  # MuJoCo's z points from the end to the start
+        z = geom.xmat.reshape(3, 3)[:, 2]  # z points from the end to the start
         half = model.geom(f"arm{i}").size[1] * z
         ends.append([geom.xpos + half, geom.xpos - half])
     return np.array(ends)
 
 
 def poses(n: int, seed: int) -> Array:
-    """Return n configurations within the joints' limits, (n, 7)."""
+    """Return n random configurations within the joint limits, (n, 7)."""
     low, high = panda.load("panda_nohand").jnt_range.T
     return np.random.default_rng(seed).uniform(low, high, (n, 7))
 
@@ -96,9 +97,9 @@ def pen(q: Array) -> Array:
 
 
 def wires(n: int, radius: float, seed: int) -> list[Edge]:
-    """Return n ways on which joint 1 turns the upright pen by 1 rad past a wire.
+    """Return n motions in which joint 1 moves the upright pen by 1 rad past a wire.
 
-    The wire lies flat, points away from the arm, and is crossed anywhere on the way.
+    The wire is horizontal, points away from the arm, and is anywhere on the path.
     """
     rng = np.random.default_rng(seed)
     found = []
@@ -114,14 +115,14 @@ def wires(n: int, radius: float, seed: int) -> list[Edge]:
 def whips(
     n: int, radius: float, seed: int, beside: float = 0.0, middle: bool = False
 ) -> list[Edge]:
-    """Return n ways of the flat arm whose pen crosses an upright wire.
+    """Return n motions of the flat arm in which the pen meets a vertical wire.
 
     Args:
-        n: how many.
+        n: number of motions.
         radius: of the wire, m.
-        seed: of the ways and of where each is crossed.
-        beside: m; above 0 the wire stands so far before the pen's end, and is passed.
-        middle: whether all cross it halfway.
+        seed: for the motions and for the position of each wire.
+        beside: m; if positive, the wire is this far beyond the pen's end and is passed.
+        middle: whether every motion meets the wire halfway.
     """
     rng = np.random.default_rng(seed)
     found: list[Edge] = []
@@ -144,13 +145,13 @@ def whips(
 
 
 def far(edge: Edge, s: Array) -> Array:
-    """Return the library's distance of pen and wire at places of a way, m, (n,)."""
+    """Return the library's distance of pen and wire at each s of a motion, m, (n,)."""
     q = edge.q + np.multiply.outer(s, edge.dq)
     return _PEN.clearance(q, shapes.World.of([edge.wire]))
 
 
 def pen_at(point: Array) -> Array:
-    """Return a configuration, (7,), near READY whose pen ends at a point."""
+    """Return a configuration near READY that has the pen's end at a point, (7,)."""
     q = panda.READY_Q.copy()
     for _ in range(50):
         end = pen(q)[1]

@@ -1,7 +1,7 @@
-"""What Day 12 asks of MuJoCo: an arm beside a wall, under a roof, and its torques.
+"""The scene of Day 12 in MuJoCo: an arm at a wall under a roof, and its torques.
 
-The arm is nine capsules (`robo47.shapes`), the wall and the roof are boxes. A checker
-may forget some links: then it plans with an arm that is not there. Metres, radians.
+The arm consists of nine capsules (`robo47.shapes`), the wall and the roof are boxes. A
+collision checker may omit some links, to show what happens then. Metres, radians.
 """
 
 from collections.abc import Callable, Collection
@@ -12,25 +12,25 @@ import numpy as np
 from robo47 import panda, se3, shapes
 from robo47.checks import Array
 
-WALL = (0.25, 0.95)  # m, from where to where it stands in x; it is 4 cm thick, at y = 0
-HIGH = 0.5  # m
-ROOF = 0.85  # m, its lower side
-MARGIN = 0.005  # m: what is nearer counts as touching
-FAR = 1.0  # m: mj_geomDistance looks no further, which costs less
-# Where the arm's pen stands beside the wall, q1 apart: on its right and on its left.
+WALL = (0.25, 0.95)  # m, its extent in x; it is 4 cm thick, at y = 0
+HIGH = 0.5  # m, the height of the wall
+ROOF = 0.85  # m, height of its lower side
+MARGIN = 0.005  # m: a smaller distance is a collision
+FAR = 1.0  # m: the largest distance that mj_geomDistance computes, which saves time
+# Start and goal differ in joint 1: the pen is on the right or left of the wall.
 BESIDE = np.array([0.0, 0.0, 0.0, -2.4, 0.0, 2.4, 0.785])
 START = BESIDE - 0.7 * np.eye(7)[0]
 GOAL = BESIDE + 0.7 * np.eye(7)[0]
 
 
 class Wall:
-    """The arm, a wall and a roof, and a checker of straight edges of joint angles."""
+    """The arm, a wall and a roof, and the arm's collision checker."""
 
     def __init__(self, forget: Collection[int] = (), roof: float = ROOF) -> None:
         """Build the scene.
 
         Args:
-            forget: links that the checker does not look at, 1 to 7.
+            forget: links that the collision checker omits, 1 to 7.
             roof: height of the roof's lower side, m.
         """
         high = HIGH / 2.0
@@ -44,12 +44,11 @@ class Wall:
             shapes.World.of(boxes=self.boxes).add_to(spec)
 
         self.model = panda.load("panda_nohand", edit=edit)
-        self.model.dof_damping[:] = 0.0  # the plan of a motion leaves it out
+        self.model.dof_damping[:] = 0.0  # the plan of a motion neglects it
         self.data = mujoco.MjData(self.model)
         arm = shapes.Shape(self.model)
-        self.reach = (
-            arm.distal_radii
-        )  # Day 11's: m, from each joint to the farthest behind it
+        # Day 11's: largest distance from each joint axis to any distal point, m.
+        self.reach = arm.distal_radii
         geoms = [(self.model.geom(f"arm{i}").id, one.link)
                  for i, one in enumerate(arm.capsules)]  # fmt: skip
         around = [self.model.geom(f"world{i}").id for i in range(len(self.boxes))]
@@ -61,9 +60,10 @@ class Wall:
         self._known: dict[bytes, bool] = {}
 
     def edge_free(self, a: Array, b: Array) -> bool:
-        """Return whether the straight edge from a to b keeps `MARGIN`, where looked at.
+        """Return whether the straight edge from a to b is collision-free.
 
-        An edge is looked at once: who plans again with more samples asks it again.
+        Each edge is tested once and its result kept, because a plan with more samples
+        tests the same edges again.
         """
         key = a.tobytes() + b.tobytes()
         if key not in self._known:
@@ -71,8 +71,8 @@ class Wall:
         return self._known[key]
 
     def _looked_along(self, q: Array, dq: Array) -> bool:
-        """Look at q + s dq where Day 11's `conservative_advance` says, from 0 to 1."""
-        speed = np.abs(dq) @ self.reach  # no point moves further, m per s
+        """Test q + s dq for s from 0 to 1 by Day 11's conservative advancement."""
+        speed = np.abs(dq) @ self.reach  # bound on any point's speed, m per unit of s
         s = 0.0
         while True:
             self.looks += 1
@@ -84,7 +84,7 @@ class Wall:
             s = min(1.0, s + distance / speed) if speed > 0.0 else 1.0
 
     def apart(self, q: Array, pairs: list[tuple[int, int]]) -> float:
-        """Return the least distance of these pairs of shapes at q, m."""
+        """Return the minimum distance of these pairs of shapes at q, m."""
         self.data.qpos[:] = q
         mujoco.mj_kinematics(self.model, self.data)  # fills geom_xpos and geom_xmat
         return min(
@@ -94,7 +94,7 @@ class Wall:
 
 
 def samples(model: mujoco.MjModel, n: int, seed: int) -> Array:
-    """Return n configurations of the arm within its joints' ranges, (n, 7)."""
+    """Return n random configurations within the joints' ranges, (n, 7), rad."""
     low, high = model.jnt_range.T
     return np.random.default_rng(seed).uniform(low, high, (n, 7))
 

@@ -1,11 +1,11 @@
-"""Day 12: finding a way, and how fast it may be run.
+"""Day 12: path planning, and the fastest motion along a path.
 
     make day12                      in the clone: sets all up, then runs this
     python src/day12_planning.py    in w2-autonomy/, once that is done
 
-A way is a row per corner, (m, k), with straight edges between them. A world is an array
-of discs (x, y, radius), or what has a method `edge_free(a, b)`. Samples are arguments:
-no function draws. Metres, radians, seconds, N m.
+A path has a row per waypoint, (m, k), with straight edges between them. A world is an
+array of discs (x, y, radius) or a collision checker with a method `edge_free(a, b)`.
+Random samples are arguments: no function draws them. Metres, radians, seconds, N m.
 """
 
 import itertools
@@ -22,61 +22,70 @@ from robo47.trajectory import quintic_duration
 import day12_mujoco
 from day12_mujoco import GOAL, START, Wall
 
-SEED = 12  # of what your functions are given, and of the plane's worlds
+SEED = 12  # for the inputs of your functions and the worlds of the plane
 TRIALS = 20  # random inputs of each small function
-WORLDS = 25  # in the plane: as many are planned in
+WORLDS = 25  # in the plane; the lab plans once in each
 DISCS = 12  # in each of them
 EDGE = 0.1  # longest edge of a tree in the plane; 0.01 needs ten times the samples
 STEP = 0.6  # rad, longest edge of the arm's trees; 0.1 finds nothing in 160 samples
-SEEDS = 60  # plans of the arm; 20 of 20 would be 84 % at least, no more
-FORGOTTEN = 30  # plans by a checker that forgot the hand
+SEEDS = 60  # plans of the arm; 20 of 20 would have the lower bound 0.84 only
+FORGOTTEN = 30  # plans with a collision checker that omits the hand
 COUNTS = (10, 20, 40, 80, 160)  # samples that a plan may use
-PAIRS = 60  # of points that a shortcut tries to join
-LOOKS = 40  # at each edge of a way that is found: once more, and densely
-POINTS = 100  # steps of a path that is timed
-LEG = 40  # steps of each leg of a way that is timed
+PAIRS = 60  # pairs of waypoints that a shortcut tries to connect
+LOOKS = 40  # configurations of each edge at which a path is verified
+POINTS = 100  # steps of a path whose time is computed
+LEG = 40  # steps of each edge of a path whose time is computed
 TO = np.array([0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6])  # rad: Day 7's goal
 
 
 def nearest(tree: np.ndarray, q: np.ndarray) -> int:
-    """Return which row of the tree, (n, k), is nearest to q, (k,); the first of equals.
+    """Return the index of the node that is nearest to q, the first of equal ones.
 
+    tree (n, k) has a node in each row and q (k,) is a configuration; the distance is
+    Euclidean.
     nearest(((0, 0), (2, 0), (1, 1)), (1, 0)) -> 0
     """
     # region 12.1
+    # The index of the smallest squared distance, the first one of equal ones.
     return int(np.argmin(np.sum((tree - q) ** 2, axis=1)))
     # endregion 12.1
 
 
 def steer(q: np.ndarray, target: np.ndarray, step: float) -> np.ndarray:
-    """Return the point, (k,), a step from q on the way to the target, (k,).
+    """Return the point (k,) at the distance `step` from q on the segment to the target.
 
-    Where that is no further away: a copy of the target, the same to the last bit.
+    q and target are configurations (k,), and step is positive. If the target is not
+    further away than a step, return a copy of the target with exactly its numbers.
     steer((0, 0), (3, 4), 1) -> (0.6, 0.8)
     """
     # region 12.1
-    distance = np.linalg.norm(target - q)
+    distance = np.linalg.norm(target - q)  # the length of the whole segment
     return target.copy() if distance <= step else q + step / distance * (target - q)
     # endregion 12.1
 
 
 def segment_free_of_discs(a: np.ndarray, b: np.ndarray, discs: np.ndarray) -> bool:
-    """Return whether the straight edge from a to b, (2,) each, touches no disc.
+    """Return whether the straight edge from a to b is collision-free.
 
-    discs, (m, 3), holds x, y and the radius of each; there may be none, and b may be a.
+    a and b are points (2,), and b may equal a. discs (m, 3) has the centre x, y and the
+    radius of each disc; m may be 0. An edge that touches a disc is not collision-free.
     segment_free_of_discs((0, 0), (2, 0), ((1, 1, 0.5),)) -> True
     """
     # region 12.2
-    along = b - a
-    to_centres = discs[:, :2] - a
-    part = to_centres @ along / max(along @ along, 1e-300)  # of the edge, to the foot
-    feet = np.clip(part, 0.0, 1.0)[:, None] * along
+    along = b - a  # the edge as a vector
+    to_centres = discs[:, :2] - a  # from its beginning to the centres
+    part = to_centres @ along / max(along @ along, 1e-300)  # t on the line, 1 at b
+    feet = np.clip(part, 0.0, 1.0)[:, None] * along  # nearest points, relative to a
     return bool(np.all(np.linalg.norm(to_centres - feet, axis=1) > discs[:, 2]))
     # endregion 12.2
 
 
 def edge_free(a: np.ndarray, b: np.ndarray, world) -> bool:
-    """Return whether the straight edge from a to b is free: given, for every world."""
+    """Return whether the straight edge from a to b is collision-free (given).
+
+    a and b are configurations (k,). world is an array of discs (m, 3), or a collision
+    checker with a method `edge_free(a, b)`.
+    """
     own = getattr(world, "edge_free", None)
     return own(a, b) if own else segment_free_of_discs(a, b, world)
 
@@ -84,14 +93,17 @@ def edge_free(a: np.ndarray, b: np.ndarray, world) -> bool:
 def extend(
     tree: np.ndarray, sample: np.ndarray, step: float, world
 ) -> tuple[int, np.ndarray, bool]:
-    """Return how a tree, (n, k), grows towards a sample, (k,).
+    """Return how a tree grows by one edge towards a sample: (index, point, free).
 
-    From which row, to where, (k,), and whether the edge between the two is free.
+    tree (n, k) has a node in each row, sample is (k,), an edge has at most the length
+    step, and world is what `edge_free` takes. index is the row of the nearest node,
+    point (k,) lies one step from it towards the sample, and free tells whether the edge
+    between the two is collision-free. The tree itself does not change.
     extend(((0, 0), (1, 0)), (1, 2), 0.5, ((1, 1, 0.5),)) -> (1, (1, 0.5), False)
     """
     # region 12.3
-    i = nearest(tree, sample)
-    q = steer(tree[i], sample, step)
+    i = nearest(tree, sample)  # the node that grows
+    q = steer(tree[i], sample, step)  # the new end of its edge
     return i, q, edge_free(tree[i], q, world)
     # endregion 12.3
 
@@ -99,18 +111,31 @@ def extend(
 def rrt_connect(
     start: np.ndarray, goal: np.ndarray, world, samples: np.ndarray, step: float
 ) -> np.ndarray:
-    """Return a way, (m, k), from start, (k,), to goal, (k,); (0, k) if there is none.
+    """Return a collision-free path (m, k) from start to goal; (0, k) if none is found.
 
-    Sample 0, 2, 4, ... grows the start's tree by one edge, 1, 3, ... the goal's. If
-    that edge is free, the other tree then grows towards the new node, edge after edge,
-    until one is not free, or it stands at that very node: there the way is found. After
-    the last sample, (n, k) in all, there is none.
-    With (0, 0), (2.5, 0), no disc, one sample (0, 2) and step 1:
+    start and goal are configurations (k,), samples (n, k) are used in their order, an
+    edge has at most the length step, and world is what `edge_free` takes. The planner
+    is RRT-Connect (Kuffner and LaValle, 2000):
+
+        for each sample, number k = 0, 1, 2, ...:
+            this tree is the start's if k is even, and the goal's if k is odd
+            extend this tree towards the sample
+            if the edge collides: continue with the next sample
+            add the new node to this tree
+            repeat:
+                extend the other tree towards the new node
+                if the edge collides: leave the loop
+                add the node to the other tree
+                if it equals the new node: return the path
+        return an empty array
+
+    The path contains the meeting point once. With (0, 0), (2.5, 0), no disc, one sample
+    (0, 2) and step 1:
     ((0, 0), (0, 1), (0.643, 0.7428), (1.5715, 0.3714), (2.5, 0)).
     """
     # region 12.4
-    trees = [[start], [goal]]
-    parents = [[0], [0]]
+    trees = [[start], [goal]]  # the nodes of both trees
+    parents = [[0], [0]]  # for each node the index of its parent
 
     def grow(side: int, target: np.ndarray) -> bool:
         i, q, free = extend(np.array(trees[side]), target, step, world)
@@ -120,37 +145,39 @@ def rrt_connect(
         return free
 
     def back(side: int) -> list:
-        i = len(trees[side]) - 1
-        way = [trees[side][i]]
+        i = len(trees[side]) - 1  # the newest node
+        way = [trees[side][i]]  # its branch, down to the root
         while i > 0:
             i = parents[side][i]
             way.append(trees[side][i])
         return way
 
     for k, sample in enumerate(samples):
-        mine, other = k % 2, 1 - k % 2
+        mine, other = k % 2, 1 - k % 2  # the tree of this sample, and the other one
         if not grow(mine, sample):
             continue
-        new = trees[mine][-1]
+        new = trees[mine][-1]  # the node that the other tree grows towards
         while grow(other, new):
-            if np.array_equal(trees[other][-1], new):
+            if np.array_equal(trees[other][-1], new):  # the trees have met
                 return np.array(back(0)[::-1] + back(1)[1:])
     return np.empty((0, len(start)))
     # endregion 12.4
 
 
 def shortcut(path: np.ndarray, world, pairs: np.ndarray) -> np.ndarray:
-    """Return a path, (m, k), without what straight free edges can leave out.
+    """Return the path (m', k) after shortcutting: unnecessary waypoints are removed.
 
-    A pair u, v of pairs, (p, 2), from 0 to below 1, names rows int(u m) and int(v m) of
-    the path *as it is by then*. If they are more than one apart and the edge between
-    them is free, what lies between them goes.
+    path is (m, k) and world is what `edge_free` takes. Each row (u, v) of pairs (p, 2),
+    with numbers from 0 to below 1 in any order, names the rows int(u m) and int(v m) of
+    the path, where m is its number of rows *at that moment*. If these rows are more
+    than one apart and the edge between them is collision-free, remove all rows between
+    them. The argument does not change.
     With (0, 0), (0, 1), (1, 1), (2, 1), (2, 0), disc (1, 0, 0.5) and pairs (0.1, 0.9),
     (0, 0.5), (0.3, 0.99): ((0, 0), (1, 1), (2, 0)).
     """
     # region 12.5
     for pair in pairs:
-        i, j = sorted(int(u * len(path)) for u in pair)
+        i, j = sorted(int(u * len(path)) for u in pair)  # rows of the present path
         if j - i > 1 and edge_free(path[i], path[j], world):
             path = np.concatenate([path[: i + 1], path[j:]])
     return path.copy()
@@ -158,17 +185,19 @@ def shortcut(path: np.ndarray, world, pairs: np.ndarray) -> np.ndarray:
 
 
 def wilson_interval(successes: int, n: int) -> np.ndarray:
-    """Return the least and the greatest share, (2,), that n trials make believable.
+    """Return Wilson's 95 % confidence interval (2,) for a success rate: (lower, upper).
 
-    95 %, with z = 1.96; without a trial every share is: (0, 1).
+    successes is the number of successful trials of n. The ends are the roots p of
+    (p - k / n)^2 = z^2 p (1 - p) / n with k = successes and z = 1.96 (Wilson, 1927).
+    Without a trial, n = 0, the interval is (0, 1).
     wilson_interval(18, 60) -> (0.19898, 0.42509)
     """
     # region 12.6
     if n == 0:
         return np.array([0.0, 1.0])
-    z = 1.96
-    p = successes / n
-    around = z * np.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))
+    z = 1.96  # standard deviations that contain 95 % of a normal distribution
+    p = successes / n  # the success rate
+    around = z * np.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))  # half of the width
     return (p + z**2 / (2 * n) + np.array([-around, around])) / (1 + z**2 / n)
     # endregion 12.6
 
@@ -180,12 +209,16 @@ def path_dynamics(
     coriolis: np.ndarray,
     gravity: np.ndarray,
 ) -> np.ndarray:
-    """Return a, b and c of a path's point, (3, k): tau = a sdd + b sd^2 + c, N m.
+    """Return a, b and c (3, k) of tau = a sdd + b sd^2 + c at a point of a path, N m.
 
-    M is (k, k), dq_ds = dq/ds and d2q_ds2 = d2q/ds2, (k,); coriolis is that torque at
-    qd = dq_ds. path_dynamics(((2,),), (3,), (1,), (5,), (7,)) -> ((6,), (7,), (7,))
+    M (k, k) is the mass matrix, dq_ds and d2q_ds2 (k,) are the path's derivatives dq/ds
+    and d2q/ds2, coriolis (k,) is the Coriolis torque at the velocity dq_ds, and gravity
+    (k,) the gravity torque. sd is the path speed ds/dt and sdd its derivative
+    (*Modern Robotics*, section 9.4).
+    path_dynamics(((2,),), (3,), (1,), (5,), (7,)) -> ((6,), (7,), (7,))
     """
     # region 12.7
+    # The coefficients of sdd and of sd^2, and the constant.
     return np.array([M @ dq_ds, M @ d2q_ds2 + coriolis, gravity])
     # endregion 12.7
 
@@ -193,19 +226,21 @@ def path_dynamics(
 def path_accel_bounds(
     a: np.ndarray, b: np.ndarray, c: np.ndarray, limits: np.ndarray, sd: float
 ) -> np.ndarray:
-    """Return the least and the greatest sdd, (2,), that all torques allow at sd.
+    """Return the lower and the upper bound (2,) of the path acceleration sdd, 1/s^2.
 
-    a, b, c and limits, N m, are (k,). If none is allowed the least is above the
-    greatest. A joint with a = 0 limits nothing; (inf, -inf) if it cannot hold.
+    Between them all torques a sdd + b sd^2 + c are within +-limits. a, b, c and limits
+    (k,) are in N m, and sd is the path speed, 1/s. If no sdd is permitted, the lower
+    bound is above the upper one. A joint with a = 0 bounds nothing, but if its torque
+    b sd^2 + c exceeds its limit, return (inf, -inf).
     path_accel_bounds((1, 2), (0, 0), (0, 1), (4, 5), 0) -> (-3, 2)
     """
     # region 12.8
-    rest = b * sd**2 + c
-    moves = a != 0
+    rest = b * sd**2 + c  # the torque without path acceleration
+    moves = a != 0  # the joints that bound the path acceleration
     if np.any(np.abs(rest[~moves]) > limits[~moves]):
         return np.array([np.inf, -np.inf])
     ends = (np.array([-limits, limits]) - rest)[:, moves] / a[moves]
-    low, high = np.sort(ends, axis=0)
+    low, high = np.sort(ends, axis=0)  # a negative a swaps the two bounds
     return np.array([low.max(initial=-np.inf), high.min(initial=np.inf)])
     # endregion 12.8
 
@@ -213,32 +248,36 @@ def path_accel_bounds(
 def time_optimal_profile(
     a: np.ndarray, b: np.ndarray, c: np.ndarray, limits: np.ndarray, sd2_max: np.ndarray
 ) -> np.ndarray:
-    """Return sd^2, (N + 1,), of the fastest motion along a path, from rest to rest.
+    """Return sd^2 (N + 1,) of the time-optimal motion along a path, from rest to rest.
 
-    a, b and c, (N + 1, k), are 12.7's at N + 1 even points; sd2_max, (N + 1,), is the
-    most that the motors' speeds allow there. Zeros if gravity alone is above a limit.
+    sd is the path speed ds/dt. a, b and c (N + 1, k) are the rows of `path_dynamics` at
+    N + 1 equally spaced points, s = 0 to 1, and limits (k,) are the torque limits, N m.
+    sd2_max (N + 1,) is the largest sd^2 that the joints' velocity limits permit, 1/s^2.
+    Over a step of 1 / N, with the path acceleration that is permitted at its first
+    point, sd^2 changes linearly (Pham and Pham, 2018). If c exceeds a limit at any
+    point, return zeros.
     M 2, dq_ds 1, limit 8, N 4, sd2_max 9: (0, 2, 4, 2, 0); with gravity 4:
     (0, 1, 2, 3, 0).
     """
     # region 12.9
     if np.any(np.abs(c) > limits):
         return np.zeros(len(a))
-    two_ds = 2.0 / (len(a) - 1)
+    two_ds = 2.0 / (len(a) - 1)  # sd^2 grows by two_ds sdd in a step
 
     def reached(i: int, x: float, after: float) -> bool:
         low, high = path_accel_bounds(a[i], b[i], c[i], limits, np.sqrt(x))
         return low <= high and x + two_ds * low <= after and x + two_ds * high >= 0.0
 
-    most = np.zeros(len(a))  # from which one can still stop at the end
+    most = np.zeros(len(a))  # the largest sd^2 from which the arm can still stop
     for i in range(len(a) - 2, -1, -1):
-        good, bad = 0.0, sd2_max[i]
+        good, bad = 0.0, sd2_max[i]  # the ends of the bisection
         if reached(i, bad, most[i + 1]):
             good = bad
         for _ in range(60 * (good < bad)):
             half = (good + bad) / 2.0
             good, bad = (half, bad) if reached(i, half, most[i + 1]) else (good, half)
         most[i] = good
-    x = np.zeros(len(a))
+    x = np.zeros(len(a))  # sd^2 of the motion
     for i in range(len(a) - 1):
         high = path_accel_bounds(a[i], b[i], c[i], limits, np.sqrt(x[i]))[1]
         x[i + 1] = max(0.0, min(most[i + 1], x[i] + two_ds * high))
@@ -247,7 +286,7 @@ def time_optimal_profile(
 
 
 def plane_world(rng: np.random.Generator) -> tuple[np.ndarray, ...]:
-    """Return start, goal and discs, (DISCS, 3), that keep off both."""
+    """Return start, goal and discs, (DISCS, 3), that are away from both."""
     start = np.array([-1.0, -1.0])
     goal = np.array([1.0, 1.0])
     discs = np.empty((0, 3))
@@ -260,7 +299,7 @@ def plane_world(rng: np.random.Generator) -> tuple[np.ndarray, ...]:
 
 
 def dense(way: np.ndarray, looks: int) -> np.ndarray:
-    """Return points all along a way, `looks` to an edge, (n, k)."""
+    """Return points all along a path, `looks` on each edge, (n, k)."""
     part = np.linspace(0.0, 1.0, looks)[None, :, None]
     return (way[:-1, None] + part * np.diff(way, axis=0)[:, None]).reshape(
         -1, way.shape[1]
@@ -268,13 +307,13 @@ def dense(way: np.ndarray, looks: int) -> np.ndarray:
 
 
 def gap_to_discs(points: np.ndarray, discs: np.ndarray) -> float:
-    """Return the least distance of points, (n, 2), to any disc."""
+    """Return the minimum distance of points, (n, 2), from any disc."""
     away = np.linalg.norm(points[:, None] - discs[:, :2], axis=2)
     return float(np.min(away - discs[:, 2]))
 
 
 def apart(own, truth) -> float:
-    """Return how far an answer is from the library's; inf if its shape is another."""
+    """Return the largest error of an answer; inf if its shape is not the library's."""
     parts = zip(*((x if isinstance(x, tuple) else (x,)) for x in (own, truth)),
                 strict=True)  # fmt: skip
     off = 0.0
@@ -289,13 +328,13 @@ def apart(own, truth) -> float:
 
 
 def off_library(name: str, own, given: list[tuple]) -> list[float]:
-    """Return how far your function is from robo47's of that name, per input."""
+    """Return the error of your function against robo47's of that name, per input."""
     truth = getattr(library, name)
     return [apart(own(*some), truth(*some)) for some in given]
 
 
 def given_to_plane(rng: np.random.Generator) -> dict[str, list[tuple]]:
-    """Return what your functions of the plane are asked, by name."""
+    """Return the inputs of your functions of the plane, by name."""
     some: dict[str, list[tuple]] = {}
     tree = rng.normal(size=(12, 7))
     some["nearest"] = [(tree, q) for q in rng.normal(size=(TRIALS, 7))]
@@ -323,8 +362,8 @@ def given_to_plane(rng: np.random.Generator) -> dict[str, list[tuple]]:
 def plan_in_the_plane(rng: np.random.Generator) -> tuple[list[float], ...]:
     """Plan in WORLDS worlds of discs.
 
-    Return how far your ways are from the library's, before and after the shortcut, and
-    the least gap to a disc of each way that you found.
+    Return the errors of your paths against the library's, before and after
+    shortcutting, and the minimum distance of each of your paths from a disc.
     """
     nothing = np.empty((0, 3))
     alone = np.zeros(2), np.array([2.5, 0.0]), nothing, np.array([[0.0, 2.0]]), 1.0
@@ -346,9 +385,9 @@ def plan_in_the_plane(rng: np.random.Generator) -> tuple[list[float], ...]:
 
 
 def plan_with(wall: Wall, seeds: int) -> tuple[np.ndarray, list[np.ndarray]]:
-    """Plan as many times with the arm.
+    """Plan with the arm, once for each seed.
 
-    Return how many of COUNTS' samples each plan needed, (seeds,), and the ways.
+    Return how many of COUNTS' samples each plan needed, (seeds,), and the paths.
     """
     needed, ways = [], []
     for seed in range(seeds):
@@ -363,25 +402,25 @@ def plan_with(wall: Wall, seeds: int) -> tuple[np.ndarray, list[np.ndarray]]:
 
 
 def least_distance(wall: Wall, way: np.ndarray) -> float:
-    """Return how near the whole arm comes to wall or roof on a way, m: densely."""
+    """Return the minimum distance of the whole arm from wall and roof on a path, m."""
     model, data = wall.model, wall.data
     least = np.inf
     for q in dense(way, LOOKS):
         data.qpos[:] = q
         mujoco.mj_kinematics(model, data)  # fills geom_xpos and geom_xmat
-        for arm, box in wall.pairs:  # of all links, whatever the checker forgot
+        for arm, box in wall.pairs:  # all links, whatever the checker omits
             far = mujoco.mj_geomDistance(model, data, arm, box, 1.0, None)
             least = min(least, far)
     return least
 
 
 def length(way: np.ndarray) -> float:
-    """Return the length of a way, rad."""
+    """Return the length of a path, rad."""
     return np.linalg.norm(np.diff(way, axis=0), axis=1).sum()
 
 
 def shorter(wall: Wall, ways: list[np.ndarray]) -> list[np.ndarray]:
-    """Return the ways that were found, cut."""
+    """Return the paths that were found, after shortcutting."""
     rng = np.random.default_rng(SEED)
     pairs = rng.uniform(0.0, 1.0, (len(ways), PAIRS, 2))
     return [shortcut(way, wall, some) for way, some in zip(ways, pairs, strict=True)
@@ -389,14 +428,14 @@ def shorter(wall: Wall, ways: list[np.ndarray]) -> list[np.ndarray]:
 
 
 def share_of(needed: np.ndarray, n: int) -> tuple[int, np.ndarray]:
-    """Return how many plans needed n samples at most, and 12.6's interval of that."""
+    """Return how many plans needed at most n samples, and its confidence interval."""
     found = int(np.sum(needed <= n))
     return found, wilson_interval(found, len(needed))
 
 
 def show_shares(needed: np.ndarray, short: np.ndarray) -> None:
-    """Print how many plans so many samples found, and what share that may be."""
-    print("  samples        whole arm               hand forgotten")
+    """Print how many plans found a path, with the interval of the success rate."""
+    print("  samples        whole arm               hand omitted")
     for n in COUNTS:
         text = f"  {n:7}"
         for some in (needed, short):
@@ -406,20 +445,20 @@ def show_shares(needed: np.ndarray, short: np.ndarray) -> None:
 
 
 def show_ways(name: str, wall: Wall, ways: list, cut: list, least: np.ndarray) -> None:
-    """Print how long ways are, and how many of them collide."""
+    """Print the lengths of paths, and how many of them collide."""
     raw = np.median([length(way) for way in ways if len(way)])
     now = np.median([length(way) for way in cut])
     hit = int(np.sum(least <= 0.0))
-    print(f"  {name:15}{raw:6.2f}{now:8.2f}{wall.looks / len(ways):8.0f}"
-          f"{hit:6} of {len(cut)}{1000 * least.min():12.1f}")  # fmt: skip
+    print(f"  {name:15}{raw:6.2f}{now:10.2f}{wall.looks / len(ways):11.0f}"
+          f"{hit:8} of {len(cut)}{1000 * least.min():15.1f}")  # fmt: skip
 
 
 def given_to_timing(rng: np.random.Generator) -> dict[str, list[tuple]]:
-    """Return what your functions of timing are asked, by name: MuJoCo knows none."""
+    """Return the inputs of the functions that MuJoCo does not have, by name."""
     some: dict[str, list[tuple]] = {}
     a, b, g = rng.normal(size=(3, TRIALS, 7))
     limits = rng.uniform(1.0, 4.0, (TRIALS, 7))
-    a[:3, 2] = 0.0  # joint3 does not move; the third time it cannot hold
+    a[:3, 2] = 0.0  # joint 3 does not move; the third time it cannot hold
     g[:3, 2] = (0.5, -0.5, 9.0)
     sd = rng.uniform(0.3, 1.5, TRIALS)
     some["path_accel_bounds"] = list(zip(a, b, g, limits, sd, strict=True))
@@ -432,14 +471,14 @@ def given_to_timing(rng: np.random.Generator) -> dict[str, list[tuple]]:
     some["time_optimal_profile"] = [
         (A, B, some_g, limits[0], x_max) for some_g in (G, heavy)
     ]
-    two = np.ones((7, 2))  # of which none may go fast at the middle point
+    two = np.ones((7, 2))  # neither permits a high speed at the middle point
     steep = 20.0 * np.eye(7)[3][:, None] * [1.0, -1.0]
     some["time_optimal_profile"] += [(2 * two, steep, two, 8 * two[0], 9 * two[:, 0])]
     return some
 
 
 def off_mujoco(arm, needed, rng: np.random.Generator) -> list[np.ndarray]:
-    """Return how far a sdd + b sd^2 + g is from MuJoCo's on curved paths, N m."""
+    """Return the errors of a sdd + b sd^2 + c against MuJoCo on curved paths, N m."""
     off = []
     for q in panda.READY_Q + rng.uniform(-0.5, 0.5, (TRIALS, 7)):
         dq, ddq = rng.normal(size=(2, 7))
@@ -454,7 +493,7 @@ def off_mujoco(arm, needed, rng: np.random.Generator) -> list[np.ndarray]:
 
 
 def along(arm, start: np.ndarray, end: np.ndarray, n: int) -> tuple[np.ndarray, ...]:
-    """Return A, B, G and x_max of the straight path from start to end, n steps."""
+    """Return a, b, c and sd2_max of the straight path from start to end, n steps."""
     dq = end - start
     rows = []
     for s in np.linspace(0.0, 1.0, n + 1):
@@ -462,21 +501,21 @@ def along(arm, start: np.ndarray, end: np.ndarray, n: int) -> tuple[np.ndarray, 
         gravity = now.gravity_torque
         rows.append(path_dynamics(now.M, dq, 0.0 * dq, now.bias(dq) - gravity, gravity))
     A, B, G = np.moveaxis(rows, 1, 0)
-    with np.errstate(divide="ignore"):  # a joint that stands still limits no speed
+    with np.errstate(divide="ignore"):  # a joint at rest limits no speed
         most = np.min(simulate.SPEED_LIMITS / np.abs(dq)) ** 2
     return A, B, G, np.full(n + 1, most)
 
 
 def seconds(x: np.ndarray) -> float:
-    """Return how long a path takes whose sd^2 at even points is x, (N + 1,)."""
+    """Return the travel time of a path with sd^2 = x at equally spaced points, s."""
     return library.travel_time(x)
 
 
 def torque_share(needed, limits, start, end, x: np.ndarray, at: tuple) -> float:
-    """Return the largest share of a torque's limit, by MuJoCo's inverse dynamics.
+    """Return the largest torque divided by its limit, by MuJoCo's inverse dynamics.
 
-    `at` are the parts of each step that are looked at: at 0 is the point whose limits
-    were asked for; at 0.5 and 1 nobody asked, and sdd is still the step's.
+    `at` are fractions of each step. At 0 the limits are imposed; at 0.5 and 1 they are
+    not, and sdd is still the one of the step.
     """
     dq = end - start
     n = len(x) - 1
@@ -490,7 +529,7 @@ def torque_share(needed, limits, start, end, x: np.ndarray, at: tuple) -> float:
 
 
 def bang_bang(fastest, gravity: float) -> float:
-    """Return the seconds of one joint, M 2, limit 8, over 1 rad."""
+    """Return the travel time of one joint, M 2, limit 8, over 1 rad, s."""
     one = np.ones((POINTS + 1, 1))
     M = np.array([[2.0]])
     nothing = np.zeros(1)
@@ -500,38 +539,40 @@ def bang_bang(fastest, gravity: float) -> float:
 
 
 def time_the_move(lab: Lab, arm, limits: np.ndarray) -> None:
-    """Time one joint and Day 7's move with the library's 12.9, from your a, b and g."""
+    """Time one joint and Day 7's motion by the library's 12.9, from your a, b, c."""
     alone = bang_bang(library.time_optimal_profile, 0.0)
-    print(f"  the library's, one joint: {alone:.4f} s; against "
-          f"gravity {bang_bang(library.time_optimal_profile, 4.0):.4f} s")  # fmt: skip
+    print(f"  one joint over 1 rad: {alone:.4f} s; against gravity "
+          f"{bang_bang(library.time_optimal_profile, 4.0):.4f} s")  # fmt: skip
     lab.measured("one joint over 1 rad, s", alone)
     A, B, G, most = along(arm, panda.READY_Q, TO, POINTS)
-    print(f"  Day 7's move as a quintic: {quintic((panda.READY_Q, TO)):.3f} s")
+    print(f"  Day 7's motion as a quintic: {quintic((panda.READY_Q, TO)):.3f} s")
     times = []
     for share in (1.0, 0.5, 0.4, 0.39, 0.38):
         x = library.time_optimal_profile(A, B, G, share * limits, most)
         times.append(seconds(x))
-        told = f"{times[-1]:.3f} s" if x.any() else "it cannot hold itself up"
-        print(f"    the fastest, with {share:4.0%} of the torque: {told}")
-    lab.measured("with half of the torque, s", times[1])
+        told = f"{times[-1]:.3f} s" if x.any() else "gravity exceeds a limit"
+        print(f"    time-optimal, {share:4.0%} of the torque: {told}")
+    lab.measured("Day 7's motion with half of the torque, s", times[1])
 
 
 def judge_the_move(lab: Lab, arm, inverse, limits: np.ndarray) -> None:
-    """Time Day 7's move with your 12.9, and ask MuJoCo for its torques."""
+    """Time Day 7's motion with your 12.9, and compute its torques with MuJoCo."""
     start = panda.READY_Q
     A, B, G, most = along(arm, start, TO, POINTS)
     x = time_optimal_profile(A, B, G, limits, most)
     at = torque_share(inverse, limits, start, TO, x, (0.0,))
-    lab.record("torque", at, metric="share", label="torque share at the points")
+    lab.record("torque", at, metric="share", label="torque / limit at the points")
     at = torque_share(inverse, limits, start, TO, x, (0.5, 1.0))
-    lab.record("torque", at, metric="share_between", label="torque share between them")
-    lab.check("speed share", np.sqrt(np.max(x / most)), 1.0 + 1e-9)
-    lab.check("sd at both ends", x[[0, -1]])
-    print(f"  Day 7's move: {seconds(x):.3f} s")
+    lab.record(
+        "torque", at, metric="share_between", label="torque / limit between them"
+    )
+    lab.check("velocity / limit", np.sqrt(np.max(x / most)), 1.0 + 1e-9)
+    lab.check("sd^2 at both ends", x[[0, -1]])
+    print(f"  Day 7's motion: {seconds(x):.3f} s")
 
 
 def time_the_ways(arm, limits: np.ndarray, ways: list[np.ndarray]) -> None:
-    """Time the legs of ways, at rest at each corner, beside Day 7's quintic."""
+    """Time the edges of paths, at rest at each waypoint, and Day 7's quintics."""
     for seed, way in enumerate(ways[:3]):
         legs = list(itertools.pairwise(way))
         fast = [along(arm, *leg, LEG) for leg in legs]
@@ -539,12 +580,12 @@ def time_the_ways(arm, limits: np.ndarray, ways: list[np.ndarray]) -> None:
             seconds(time_optimal_profile(*some[:3], limits, some[3])) for some in fast
         ]
         slow = [quintic(leg) for leg in legs]
-        print(f"  over the wall, seed {seed}: {len(legs)} legs, {sum(times):.2f} s; "
+        print(f"  over the wall, seed {seed}: {len(legs)} edges, {sum(times):.2f} s; "
               f"as quintics {sum(slow):.2f} s")  # fmt: skip
 
 
 def quintic(leg: tuple[np.ndarray, np.ndarray]) -> float:
-    """Return the seconds of Day 7's quintic within the speeds and 10 rad/s^2."""
+    """Return the time of Day 7's quintic within the speeds and 10 rad/s^2, s."""
     return quintic_duration(leg[1] - leg[0], simulate.SPEED_LIMITS, 10.0)
 
 
@@ -554,7 +595,7 @@ def main() -> int:
     rng = np.random.default_rng(SEED)
     print(panda.describe("panda_nohand"))
 
-    lab.step("1. A tree and a checker of edges, in the plane")
+    lab.step("1. A tree and a collision checker, in the plane")
     given = given_to_plane(rng)
     yours = {"nearest": nearest, "steer": steer,
              "segment_free_of_discs": segment_free_of_discs,
@@ -562,16 +603,16 @@ def main() -> int:
     for name, own in yours.items():
         lab.check(f"{name} - the library's", off_library(name, own, given[name]))
 
-    if lab.failed:  # with a wrong step or checker a planner may grow for ever
-        print("  Nothing is planned before these are right.")
+    if lab.failed:  # with a wrong step a planner may never return
+        print("  The lab plans only when these are right.")
         return lab.finish()
 
-    lab.step(f"2. A way between {DISCS} discs")
+    lab.step(f"2. A path between {DISCS} discs")
     off_way, off_cut, gaps = plan_in_the_plane(rng)
-    print(f"  ways in {len(gaps)} of {WORLDS} worlds")
+    print(f"  paths found in {len(gaps)} of {WORLDS} worlds")
     lab.record("plane_ways", off_way, label="rrt_connect - the library's", seed=SEED)
     lab.check("shortcut - the library's", off_cut)
-    lab.check("how deep ways are in a disc", max(0.0, -min(gaps, default=np.inf)))
+    lab.check("penetration of a path into a disc", max(0.0, -min(gaps, default=np.inf)))
 
     lab.step(f"3. The arm: over a wall, under a roof ({SEEDS} seeds)")
     timing = given_to_timing(rng)
@@ -583,29 +624,32 @@ def main() -> int:
     show_shares(needed, short)
     for n in (40, COUNTS[-1]):
         low = share_of(needed, n)[1][0]
-        lab.record("planned", low, metric=f"low_{n}", label=f"low end, {n} samples")
+        lab.record("planned", low, metric=f"low_{n}", label=f"lower bound, {n} samples")
     cut, wrong_cut = shorter(wall, ways), shorter(blind, wrong)
     least = np.array([least_distance(wall, way) for way in cut])
     deep = np.array([least_distance(blind, way) for way in wrong_cut])
-    print("                    raw     cut   looks   collide     least, mm")
+    print("                     length, rad   distance             min distance,")
+    print("                    raw  shortcut    queries       collide             mm")
     show_ways("whole arm", wall, ways, cut, least)
-    show_ways("hand forgotten", blind, wrong, wrong_cut, deep)
-    lab.record("clearance", 1000 * least, metric="least_mm", label="least distance, mm")
-    lab.measured("low end for 60 of 60", share_of(needed, COUNTS[-1])[1][0])
+    show_ways("hand omitted", blind, wrong, wrong_cut, deep)
+    lab.record(
+        "clearance", 1000 * least, metric="least_mm", label="minimum distance, mm"
+    )
+    lab.measured("lower bound for 60 of 60", share_of(needed, COUNTS[-1])[1][0])
 
-    lab.step("4. What a path's torques allow")
+    lab.step("4. The torques along a path")
     arm = panda.arm(wall.model)
     inverse = day12_mujoco.torque(wall.model)  # mujoco.mj_inverse, without damping
     _, limits = simulate.limits(wall.model)
     off = off_mujoco(arm, inverse, rng)
-    lab.check("|a sdd + b sd^2 + g - MuJoCo's torque|, N m", off)
+    lab.check("|a sdd + b sd^2 + c - MuJoCo's torque|, N m", off)
     off = off_library(
         "path_accel_bounds", path_accel_bounds, timing["path_accel_bounds"]
     )
     lab.check("path_accel_bounds - the library's", off)
     time_the_move(lab, arm, limits)
 
-    lab.step("5. Side quest: as fast as the torques allow")
+    lab.step("5. Side quest: time-optimal path parameterisation")
     with lab.side_quest():
         off = off_library(
             "time_optimal_profile", time_optimal_profile, timing["time_optimal_profile"]
@@ -613,7 +657,7 @@ def main() -> int:
         lab.check("time_optimal_profile - the library's", off)
         lab.record("bang_bang", bang_bang(time_optimal_profile, 0.0) - 1.0,
                    metric="off_s",
-                   label="one joint, off 2 sqrt(d / a) = 1 s")  # fmt: skip
+                   label="one joint - 2 sqrt(d / a), s")  # fmt: skip
         judge_the_move(lab, arm, inverse, limits)
         time_the_ways(arm, limits, cut)
     return lab.finish()

@@ -1,8 +1,8 @@
-"""What Day 14 asks of MuJoCo: a hand with two pads, a cube, and what each pad feels.
+"""Day 14 in MuJoCo: a hand with two pads, a cube, and the contact forces of the pads.
 
-The hand floats: it is put over a place, turned, goes down and up by a servo, and its
-two pads are closed by springs, 200 N/m. No arm: an episode takes milliseconds.
-Metres, radians, newtons, kilograms; world axes, z up, the floor at 0.
+The hand floats: it is placed above a position and rotated, a servo moves it down and
+up, and springs of 200 N/m close its two pads. Without an arm an episode takes
+milliseconds. Metres, radians, newtons, kilograms; world frame, z up, the floor at 0.
 """
 
 import contextlib
@@ -17,16 +17,16 @@ from robo47.checks import Array
 
 HALF = 0.02  # m: the cube is 40 mm wide
 PAD_HALF = (0.0085, 0.004, 0.0085)  # m, the Panda's own finger pads
-OPEN = 0.04  # m, of each pad's face from the middle, before it closes
-SPRING = 200.0  # N/m of each finger: it presses with SPRING (HALF - opening)
-STEP = 0.01 / 3  # s of simulated time
+OPEN = 0.04  # m, distance of each open pad from the middle
+SPRING = 200.0  # N/m of each finger; the grip force is SPRING (HALF - opening)
+STEP = 0.01 / 3  # s, the time step
 GRIP_TIME = 2 * STEP  # s: the stiffest contacts that MuJoCo allows
-ABOVE = 0.08  # m, where the hand starts
-DOWN = 0.1  # s: the hand is at its height, the pads begin to close ...
-CLOSED = 0.35  # ... s: they are closed, the hand begins to rise ...
-RISE = 0.3  # s until it is up ...
-HOLD = 0.1  # ... s that it holds the cube there: what slips has slipped by then
-TICK = 3  # steps between two orders to hand and pads: 10 ms
+ABOVE = 0.08  # m above the grasp, where the hand starts
+DOWN = 0.1  # s: the hand is at the height of the grasp, the pads begin to close
+CLOSED = 0.35  # s: the pads are closed, the hand begins to rise
+RISE = 0.3  # s, the duration of the lift
+HOLD = 0.1  # s, how long the hand holds the cube at the end
+TICK = 3  # steps between two commands to hand and pads: 10 ms
 WARNINGS = (
     mujoco.mjtWarning.mjWARN_BADQPOS,
     mujoco.mjtWarning.mjWARN_BADQVEL,
@@ -35,7 +35,7 @@ WARNINGS = (
 
 
 class Cube(NamedTuple):
-    """A cube on the floor, and what it is like."""
+    """A cube on the floor: pose, mass and friction."""
 
     x: float  # m
     y: float
@@ -45,7 +45,7 @@ class Cube(NamedTuple):
 
 
 class Felt(NamedTuple):
-    """What the pads do to the cube, contact by contact."""
+    """The contacts between the pads and the cube."""
 
     points: Array  # m, (n, 3)
     force: Array  # N on the cube, (n, 3)
@@ -57,7 +57,7 @@ def hand() -> tuple[mujoco.MjModel, mujoco.MjData]:
     """Return a hand over a floor with a cube: bodies `hand` and `cube`."""
     spec = mujoco.MjSpec()
     spec.option.timestep = STEP
-    spec.option.impratio = 10.0  # or the cube creeps through the pads
+    spec.option.impratio = 10.0  # without it the cube creeps through the pads
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     box = mujoco.mjtGeom.mjGEOM_BOX
@@ -101,7 +101,7 @@ def servo(spec, joint: str, stiffness: float) -> None:
 
 
 def start(model, data, cube: Cube, action: Array) -> None:
-    """Put the cube on the floor and the open hand above the place that it goes to."""
+    """Put the cube on the floor and the open hand above the position of the action."""
     mujoco.mj_resetData(model, data)  # also the warnings' counters
     body = model.body("cube").id
     model.body_mass[body] = cube.mass
@@ -110,7 +110,7 @@ def start(model, data, cube: Cube, action: Array) -> None:
     hand = model.body("hand").id
     model.body_pos[hand, :2] = action[:2]
     model.body_quat[hand] = se3.R_to_quat(se3.Rz(action[2]))
-    mujoco.mj_setConst(model, data)  # what follows from masses and places
+    mujoco.mj_setConst(model, data)  # recomputes the constants of the model
     data.joint("cube").qpos[:3] = cube.x, cube.y, HALF
     data.joint("cube").qpos[3:] = se3.R_to_quat(se3.Rz(cube.yaw))
     data.joint("height").qpos[0] = action[3] + ABOVE
@@ -119,9 +119,9 @@ def start(model, data, cube: Cube, action: Array) -> None:
 
 
 def way(action: Array, rise: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return what is told every 10 ms: the height, m, and how far the pads close, 0..1.
+    """Return the commands every 10 ms: height, m, and closing of the pads, 0 to 1.
 
-    Both (n,), from the start of an episode to its end.
+    Both are (n,), from the start of an episode to its end.
     """
     t = STEP * TICK * np.arange(round((CLOSED + rise + HOLD) / STEP / TICK))
     down = ABOVE * (1.0 - eased(t / DOWN))
@@ -130,24 +130,24 @@ def way(action: Array, rise: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def eased(s: np.ndarray) -> np.ndarray:
-    """Return a way from 0 to 1 that starts and ends at rest; it stays there."""
+    """Return a smooth path from 0 to 1 that starts and ends at rest."""
     s = np.clip(s, 0.0, 1.0)
     return s * s * (3.0 - 2.0 * s)
 
 
 def at_pads(model, data) -> np.ndarray:
-    """Return which contacts are those of a pad and the cube, as of the last step."""
-    geoms = data.contact.geom  # (n, 2): the cube is in every one, it meets all else
+    """Return the indices of the contacts between pad and cube, of the last step."""
+    geoms = data.contact.geom  # (n, 2); every contact involves the cube
     return np.flatnonzero((geoms != model.geom("floor").id).all(axis=1))
 
 
 def on_the_floor(model, data) -> bool:
-    """Return whether the floor touches the cube, as of the last step."""
+    """Return whether the floor touches the cube, at the last step."""
     return bool((data.contact.geom == model.geom("floor").id).any())
 
 
 def felt(model, data) -> Felt:
-    """Return what the pads do to the cube, as of the last step."""
+    """Return the contacts between the pads and the cube, at the last step."""
     some = at_pads(model, data)
     wrench = np.zeros((len(some), 6))
     for i, row in zip(some, wrench, strict=True):
@@ -161,7 +161,7 @@ def felt(model, data) -> Felt:
 
 @contextlib.contextmanager
 def silent() -> Iterator[None]:
-    """Let MuJoCo write no MUJOCO_LOG.TXT: its warnings are counted, see below."""
+    """Keep MuJoCo from writing MUJOCO_LOG.TXT; `exploded` reads its counters."""
     before = mujoco.get_mju_user_warning()
     mujoco.set_mju_user_warning(lambda text: None)
     try:
@@ -171,12 +171,12 @@ def silent() -> Iterator[None]:
 
 
 def exploded(data) -> bool:
-    """Return whether MuJoCo gave up: in silence it begins again from the start."""
+    """Return whether the simulation diverged; MuJoCo then resets it silently."""
     return any(data.warning[one].number for one in WARNINGS)
 
 
 def height(data) -> float:
-    """Return how high the cube's bottom is above the floor, m; NaN if it exploded."""
+    """Return the height of the cube's bottom, m; NaN if the simulation diverged."""
     return np.nan if exploded(data) else data.body("cube").xpos[2] - HALF
 
 
@@ -188,10 +188,10 @@ def lift(
     touch: Callable[[float, Felt], float] | None = None,
     rise: float = RISE,
 ) -> float:
-    """Return how high a cube is at the end of an episode, m; NaN where it exploded.
+    """Return the height of a cube at the end of an episode, m; NaN if it diverged.
 
-    `touch` takes the opening and what is felt, and returns the next opening; it is
-    asked every 10 ms from when the pads are closed.
+    `touch` takes the opening and the contacts and returns the next opening; it is
+    called every 10 ms as soon as the pads are closed.
     """
     if not np.isfinite(action).all():
         return np.nan
@@ -204,7 +204,7 @@ def lift(
 def episode(
     model, data, cube: Cube, action: Array, touch=None, rise: float = RISE
 ) -> Iterator[float]:
-    """Run an episode; yield the pads' opening, m, every 10 ms."""
+    """Run an episode; yield the commanded opening, m, every 10 ms."""
     start(model, data, cube, action)
     opening = action[4]
     for i, (told, closing) in enumerate(zip(*way(action, rise), strict=True)):
@@ -217,7 +217,7 @@ def episode(
 
 
 def cubes(n: int, rng, mu: tuple[float, float]) -> list[Cube]:
-    """Return n cubes, anywhere, of 50 to 250 g, with friction between two numbers."""
+    """Return n random cubes of 50 to 250 g, with friction between two limits."""
     xy = rng.uniform(-0.1, 0.1, (n, 2))
     yaw = rng.uniform(-np.pi, np.pi, n)
     mass = rng.uniform(0.05, 0.25, n)

@@ -31,6 +31,9 @@ def main() -> None:
     if fences:
         limits.die_with_parent()
         limits.stop_being_root()  # before NumPy: a process with threads may not
+    import entropy
+
+    entropy.settle()  # before NumPy, which asks it for its own seeds
     import answers
     import audit
     import fake_world

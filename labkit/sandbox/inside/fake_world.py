@@ -10,6 +10,7 @@ from typing import Any, BinaryIO
 
 import wire
 
+POINTS = "edge_free(a, b) takes two points of this world, (k,) each"
 NAMES = ("Room", "Yard", "Shelf")  # a class of its own for every question in turn
 
 
@@ -51,8 +52,14 @@ def stand_in(number: int, send: Callable[..., None], questions: Questions) -> An
 
     def edge_free(world: Any, a: Any, b: Any) -> bool:
         """Return whether the straight edge from a to b, (k,) each, is free."""
-        send(asks=[number, wire.pack_value(a), wire.pack_value(b)])
-        return bool(questions.answer())
+        try:
+            ends = wire.pack_value(a), wire.pack_value(b)
+        except wire.UnsendableError:
+            raise TypeError(POINTS) from None
+        send(asks=[number, *ends])
+        if (told := questions.answer()) is None:
+            raise ValueError(POINTS)
+        return bool(told)
 
     def seen(world: Any) -> str:
         return "a world with its own edge_free(a, b)"
