@@ -161,7 +161,7 @@ def test_two_arguments_exchanged_need_no_name():
         return right(8, "arm_regressor")(J_space, T_links, qdd, qd, g)
 
     says = told(8, "8.3", arm_regressor=arm_regressor)
-    assert "right answer to other arguments: with qd and qdd exchanged." in says
+    assert "correct result for other arguments: `qd` and `qdd` are exchanged." in says
 
 
 def test_two_entries_of_an_argument_exchanged_need_no_name():
@@ -169,4 +169,4 @@ def test_two_entries_of_an_argument_exchanged_need_no_name():
         return right(1, "quat_to_R")(quat[[0, 1, 3, 2]])
 
     says = told(1, "1.4", quat_to_R=quat_to_R)
-    assert "with quat[2] and quat[3] exchanged" in says
+    assert "`quat[2]` and `quat[3]` are exchanged" in says

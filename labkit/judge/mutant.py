@@ -9,7 +9,7 @@ import ast
 import inspect
 import textwrap
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -79,6 +79,17 @@ class Mutant:
         pairs = ((a, b) for a in self.spans for b in other.spans)
         return any(not (a[2:] <= b[:2] or b[2:] <= a[:2]) for a, b in pairs)
 
+    def statement(self) -> ast.stmt | None:
+        """Return the changed statement of the body, while it is made."""
+        place, new = self.edits[0]
+        if isinstance(place, statements.Block):
+            fresh = [one for one in new if one not in place.before]
+            return fresh[0] if len(fresh) == 1 else None
+        for node in ast.walk(self.body.function):
+            if isinstance(node, ast.stmt) and any(n is new for n in _own_parts(node)):
+                return node
+        return None
+
     @property
     def text(self) -> str:
         """How the first changed place reads, "theta + s"; "" where that is long."""
@@ -98,7 +109,10 @@ class Body:
 
     function: ast.FunctionDef  # changed for a while, and put back
     space: dict[str, Any]  # the names of its module
-    own: bool = True  # whether it is the lab's: then a student may have its lines
+    own: bool = True  # whether it is the lab's
+    name: str = ""  # of the function of the lab
+    # What a line is, by its number, as the comment behind it says.
+    glosses: Mapping[int, str] = field(default_factory=dict)
     steps: limits.Steps = field(default_factory=limits.Steps)
 
     def __post_init__(self) -> None:
@@ -116,6 +130,12 @@ class Body:
         some = (n for n in ast.walk(self.function) if isinstance(n, ast.Name))
         made = [n.id for n in some if isinstance(n.ctx, ast.Store)]
         return list(dict.fromkeys([*self.arguments, *made]))
+
+    def meaning(self, name: str) -> str:
+        """Return what a variable is, as the gloss of the line that sets it says."""
+        some = (n for n in ast.walk(self.function) if isinstance(n, ast.Assign))
+        lines = (n.lineno for n in some if _sets(n, name))
+        return next((self.glosses[n] for n in lines if n in self.glosses), "")
 
     @property
     def arguments(self) -> list[str]:
@@ -184,7 +204,7 @@ class Body:
     def besides(self, first: Mutant) -> list[tuple[Mutant, Code]]:
         """Return the near mutants that have another change as well, elsewhere."""
         with first.made():
-            changed = Body(self.function, self.space, self.own, self.steps)
+            changed = replace(self)
             some = [Mutant(o.kind, self, o.rank, o.edits, first) for o in changed.near]
             return self.ready([one for one in some if not one.overlaps(first)])
 
@@ -205,7 +225,7 @@ class Body:
     def _together(self, some: Sequence[Mutant]) -> dict[int, Code]:
         """Return the functions of mutants of one place, by the mutants' ids."""
         place = some[0].edits[0][0]
-        whole: ast.expr = place.node
+        whole: Any = place.node
         for k, one in enumerate(some):
             new = one.edits[0][1]
             chosen = ast.Compare(ast.Name(CHOICE, ast.Load()), [ast.Eq()],
@@ -325,6 +345,21 @@ def _located(new: ast.AST, where: ast.AST) -> None:
                 _located(one, where)
 
 
+def _sets(line: ast.Assign, name: str) -> bool:
+    target = line.targets[0]
+    return isinstance(target, ast.Name) and target.id == name
+
+
+def _own_parts(statement: ast.stmt) -> Iterator[ast.AST]:
+    """Yield the expressions of a statement, without those of statements within it."""
+    left: list[ast.AST] = [statement]
+    while left:
+        for node in ast.iter_child_nodes(left.pop()):
+            if not isinstance(node, ast.stmt):
+                yield node
+                left.append(node)
+
+
 def _alone(place: Place, new: ast.expr) -> bool:
     """Return whether an expression may stand wherever one may: a slice may not."""
     some = (place.node, new)
@@ -362,8 +397,23 @@ def _shown(new: ast.expr, place: Place, above: dict[int, Place]) -> str:
     return text if len(text) <= SHORT else ""
 
 
-def body_of(code: Callable[..., Any]) -> Body | None:
-    """Return the body of a function of a module; None where it is none or no text."""
+def glosses(text: str) -> dict[int, str]:
+    """Return the comments that stand behind code in a text, by their lines' numbers."""
+    found = {}
+    for number, line in enumerate(text.splitlines(), 1):
+        code, _, comment = line.partition("  # ")
+        if code.strip() and comment and not comment.startswith(("noqa", "fmt", "type")):
+            found[number] = comment.strip().rstrip(".")
+    return found
+
+
+def body_of(code: Callable[..., Any], name: str) -> Body | None:
+    """Return the body of a function of a module; None where it is none or no text.
+
+    Args:
+        code: the function.
+        name: of the lab's function that it does the same as.
+    """
     names = code.__code__.co_freevars if inspect.isfunction(code) else None
     if names is None:
         return None
@@ -375,4 +425,4 @@ def body_of(code: Callable[..., Any]) -> Body | None:
         return None
     cells = (cell.cell_contents for cell in code.__closure__ or ())
     inner = dict(zip(names, cells, strict=True))
-    return Body(tree, {**code.__globals__, **inner}, own=False)
+    return Body(tree, {**code.__globals__, **inner}, own=False, name=name)

@@ -30,7 +30,7 @@ from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, HeldOut, Inputs
 from labkit.judge.draw import Draw
 from labkit.judge.mistake import REDONE, Mistake, told
-from labkit.judge.mutant import Body, body_of
+from labkit.judge.mutant import Body, body_of, glosses
 from labkit.judge.results import checked, numbers
 from labkit.judge.written import Answered, stop, stops_with
 from labkit.lesson.day import Day
@@ -396,11 +396,13 @@ class Row:
         """Return right functions as they are written, the lab's own first."""
         if self._reference() is None:
             return []
-        lab = definition(read_script(self._day.source), self.function)
-        found = [Body(lab, dict(vars(self.lab)))] if lab else []
+        text = read_script(self._day.source)
+        lab = definition(text, self.function)
+        space, name = dict(vars(self.lab)), self.function
+        found = [Body(lab, space, name=name, glosses=glosses(text))] if lab else []
         right = [way.code for way in self.ways if way.status == "right"]
         others = [*([] if "accept" in self.more else [self.truth]), *right]
-        return [*found, *filter(None, map(body_of, others))]
+        return [*found, *filter(None, (body_of(code, name) for code in others))]
 
     def _accept(self, *args: Any) -> Any:
         try:

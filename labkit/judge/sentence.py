@@ -6,6 +6,7 @@ of the arguments, or stand in the student's own function.
 
 import ast
 import builtins
+import copy
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,7 +14,12 @@ from labkit.judge.answers import capitalised
 from labkit.judge.hypothesis import evidence
 from labkit.judge.mistake import Finding
 from labkit.judge.mutant import Mutant
+from labkit.judge.own_line import Line, OwnFunction
+from labkit.judge.statements import Block
+from labkit.lesson.lab_module import definition
 from labkit.lesson.starter import function_lines
+
+MODULES = ("np", "se3", "screws", "math")
 
 # What is said of a change where its place says no more.
 SAYS = {
@@ -53,33 +59,125 @@ OF_A_PART = {
 
 
 def of_mutants(m: Any, found: Sequence[Mutant]) -> Finding:
-    """Return what is said of a mutant that gives all answers, or of one of two."""
-    says = list(dict.fromkeys(what(one) for one in found))
-    texts = [text for one in found if (text := known_text(m, one))]
-    first = f"Either {', or '.join(says)}" if len(says) > 1 else capitalised(says[0])
-    own = ""
-    if texts:
-        own = f": your output equals the correct formula {', or '.join(texts)}"
+    """Return what is said of a mutant that gives all answers, or of one of two.
+
+    One whose line stands in the student's function is the likeliest.
+    """
+    found = next(([one] for one in found if own_line(m, one)), list(found[:2]))
+    texts = [known_text(m, one) for one in found]
+    says = told(m, found[0])
+    if len(found) > 1 and all(texts):
+        some = list(dict.fromkeys(what(one) for one in found))
+        says = f"either {', or '.join(some)}" if len(some) > 1 else some[0]
+        says += f": your output equals the correct formula {', or '.join(texts)}"
     how = f"{capitalised(m.off())}; that {evidence(True)}"
-    return Finding(f"slip-{found[0].kind}", f"{first}{own}. ({how}.)")
+    return Finding(f"slip-{found[0].kind}", f"{capitalised(says)}. ({how}.)")
+
+
+def shows(m: Any, mutant: Mutant) -> bool:
+    """Return whether a student can see where a mutant's change would be."""
+    return bool(own_line(m, mutant) or known_text(m, mutant) or gloss(mutant))
 
 
 def half(m: Any, mutant: Mutant) -> str:
     """Return what is said of one mutant of two; "" where it says too little."""
-    text = known_text(m, mutant)
-    return f"{what(mutant)} ({text})" if text else ""
+    return told(m, mutant) if shows(m, mutant) else ""
 
 
-def what(mutant: Mutant) -> str:
-    """Return what kind of change a mutant is, in words of the formula."""
-    node = getattr(mutant.edits[0][0], "node", None)
+def told(m: Any, mutant: Mutant) -> str:
+    """Return a clause on a mutant that stands alone."""
+    if line := own_line(m, mutant):
+        return f"line {line.number}, `{line.text}`: {what(mutant, line)}"
+    if text := known_text(m, mutant):
+        return f"{what(mutant)}: your output equals the correct formula {text}"
+    if step := gloss(mutant):
+        return f"{what(mutant)}, in this step: {step}"
+    return what(mutant)
+
+
+def what(mutant: Mutant, line: Line | None = None) -> str:
+    """Return what kind of change a mutant is, in words of the formula.
+
+    Args:
+        mutant: one that gives the student's answers.
+        line: the student's line, whose names may be said.
+    """
+    place, new = mutant.edits[0]
+    if isinstance(place, Block):
+        return place.says
+    says = _of_an_expression(mutant, place.node, new, line) or SAYS[mutant.kind]
+    return says + ", in every line of its kind" * (len(mutant.edits) > 1)
+
+
+def _of_an_expression(
+    mutant: Mutant, node: Any, new: ast.expr, line: Line | None
+) -> str:
+    """Return how an expression differs, with names where a line is known, or ""."""
+    is_sum = isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub)
     if mutant.kind == "left-out":
         if isinstance(node, ast.BinOp):
-            return OF_A_PART.get(type(node.op), SAYS["left-out"])
+            return OF_A_PART.get(type(node.op), "")
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
             return f"`{ast.unparse(node.func)}` is missing"
-    many = len(mutant.edits) > 1
-    return SAYS[mutant.kind] + (", in every line of its kind" if many else "")
+    if mutant.kind == "sign" and is_sum and (its := _own(node.right, line)):
+        return f"the sign of `{its}` is reversed"
+    if mutant.kind == "name" and isinstance(new, ast.Name) and (its := _own(new, line)):
+        return _another_name(mutant, node, new, its)
+    if mutant.kind == "order" and isinstance(node, ast.BinOp):
+        pair = [_own(one, line) for one in (node.left, node.right)]
+        if all(pair):
+            return f"`{pair[0]}` and `{pair[1]}` are in the wrong order"
+    return ""
+
+
+def _another_name(mutant: Mutant, node: ast.expr, new: ast.Name, its: str) -> str:
+    """Return which variable is wrong, and what belongs there if that has a gloss."""
+    meaning = mutant.body.meaning(new.id)
+    wrong = f"`{its}` ({meaning})" if meaning else f"`{its}`"
+    right = mutant.body.meaning(node.id) if isinstance(node, ast.Name) else ""
+    other = f"the place of another value ({right})" if right else "a wrong place"
+    return f"{wrong} is used in {other}"
+
+
+def _own(node: ast.expr, line: Line | None) -> str:
+    """Return an expression in the student's names; "" where one is not known."""
+    if line is None:
+        return ""
+    found = copy.deepcopy(node)
+    for one in (n for n in ast.walk(found) if isinstance(n, ast.Name)):
+        known = one.id in line.names
+        one.id = line.names.get(one.id, one.id)
+        if not known and isinstance(one.ctx, ast.Load) and one.id not in MODULES:
+            return ""
+    return ast.unparse(found)
+
+
+def own_line(m: Any, mutant: Mutant) -> Line | None:
+    """Return the student's line that has a mutant's change; None without one."""
+    own = _own_function(m, mutant)
+    if own is None or len(mutant.edits) > 1:
+        return None
+    with mutant.made():
+        changed = mutant.statement()
+        return own.line(changed) if changed else None
+
+
+def _own_function(m: Any, mutant: Mutant) -> OwnFunction | None:
+    reference = mutant.body.function
+    key = f"own {id(reference)}"
+    if key not in m.known:
+        try:
+            own = definition(m.case.source, mutant.body.name)
+        except (SyntaxError, ValueError):
+            own = None
+        m.known[key] = own and OwnFunction(own, reference)
+    return m.known[key]
+
+
+def gloss(mutant: Mutant) -> str:
+    """Return what the reference's line is, as its comment says; "" without one."""
+    place = mutant.edits[0][0]
+    return mutant.body.glosses.get(getattr(place.node, "lineno", 0), "")
 
 
 def known_text(m: Any, mutant: Mutant) -> str:
@@ -105,7 +203,7 @@ def _names(text: str) -> set[str]:
 
 def _known(m: Any, mutant: Mutant) -> set[str]:
     """Return the names that a student has seen: arguments, and those of the file."""
-    own = function_lines(m.case.source, mutant.body.function.name)[2]
+    own = function_lines(m.case.source, mutant.body.name)[2]
     given = {*m.case.names, *(mutant.body.arguments if mutant.body.own else ())}
     names = {"np", *vars(builtins), *given}
     if mutant.body.own:

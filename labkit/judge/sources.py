@@ -19,12 +19,13 @@ from labkit.judge.hypothesis import equals, evidence
 from labkit.judge.matcher import Calls, Code, Matcher
 from labkit.judge.mistake import Finding, Mistake
 from labkit.judge.mutant import Mutant
-from labkit.judge.sentence import known_text, of_mutants
+from labkit.judge.sentence import of_mutants, shows
 
 NEAR, FURTHER = "near", "further"  # mutants
 SECONDS = {NEAR: 0.5, FURTHER: 0.3}  # of the processor
 QUICK = 2e-3  # seconds of a call that a row may say, for its arguments to be changed
 SEVERAL = 20  # mutants that give one answer, of which some give all
+APART = 4  # of them, in places of their own
 AGREE = 3  # calls with a wrong answer that a mutant of whole numbers has to give
 
 
@@ -128,9 +129,9 @@ def of_answers(m: Matcher) -> Finding | None:
 
 def _changed_answer(m: Matcher, i: int | None, says: str) -> Finding:
     called = m.ask.kinds[i].called if i is not None and len(m.T) > 1 else ""
-    what = capitalised(called or "the answer")
+    what = f"{capitalised(called)} is" if called else "Your output is"
     how = f"{capitalised(m.off())}; that {evidence(True)}"
-    return Finding("answer-changed", f"{what} is the right one, but {says}. ({how}.)")
+    return Finding("answer-changed", f"{what} the correct result, but {says}. ({how}.)")
 
 
 def _with_result(i: int | None, change: Code, T: Parts) -> Parts:
@@ -165,7 +166,7 @@ def of_arguments(m: Matcher, digits: bool = True) -> Finding | None:
     for one in chain(changes.likely(call, names), changes.others(call, names)):
         if m.holds(partial(after, m.right, one.change), digits):
             exact = m.exact(partial(after, m.right, one.change))
-            says = f"It is the right answer to other arguments: with {one.says}."
+            says = f"Your output is the correct result for other arguments: {one.says}."
             how = f"({capitalised(m.off())}; that {evidence(exact)}.)"
             return Finding(f"argument-{one.slug}", f"{says} {how}")
     return None
@@ -178,7 +179,7 @@ def after(function: Code, change: Code, *args: Any) -> Any:
 
 def likely_mutants(m: Matcher) -> Finding | None:
     """Return a near mutant that gives all answers, where it can be shown."""
-    found = [one for one in _that_hold(m, NEAR) if known_text(m, one)]
+    found = [one for one in _that_hold(m, NEAR) if shows(m, one)]
     return of_mutants(m, found) if found else None
 
 
@@ -189,7 +190,7 @@ def other_mutants(m: Matcher) -> Finding | None:
 
 
 def _that_hold(m: Matcher, which: str) -> list[Mutant]:
-    """Return one or two mutants that give all answers; of whole numbers the only one.
+    """Return a few mutants that give all answers; of whole numbers the only one.
 
     Args:
         m: the matcher.
@@ -206,7 +207,7 @@ def _that_hold(m: Matcher, which: str) -> list[Mutant]:
         code = one.code
         if code and apart and m.holds(code):
             found.append(one)
-            if len(found) > 1:
+            if len(found) >= APART:
                 break
     if m.whole and len(found) > 1:
         found.clear()

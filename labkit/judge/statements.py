@@ -2,12 +2,22 @@
 
 import ast
 import copy
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 Lines = list[ast.stmt]
-OF_A_LOOP = ("[:-1]", "[1:]", "[::-1]")
-FAR_OF_A_LOOP = ("[:1]", "[-1:]", "[:2]", "[::2]")
+Changed = tuple[Lines, str]  # other lines, and what is said of them
+OF_A_LOOP = {
+    "[:-1]": "a loop leaves out its last element",
+    "[1:]": "a loop leaves out its first element",
+    "[::-1]": "a loop runs in the reverse order",
+}
+FAR_OF_A_LOOP = {
+    "[:1]": "a loop stops after its first element",
+    "[-1:]": "a loop uses its last element only",
+    "[:2]": "a loop stops after two elements",
+    "[::2]": "a loop leaves out every second element",
+}
 
 
 class Block(NamedTuple):
@@ -16,6 +26,7 @@ class Block(NamedTuple):
     lines: Lines
     before: Lines  # what stood there
     at: int
+    says: str  # of the lines that stand there instead
 
     @property
     def node(self) -> ast.stmt:
@@ -37,9 +48,10 @@ def changes(function: ast.FunctionDef) -> Iterator[tuple[Block, Lines, bool]]:
         for at, line in enumerate(list(lines)):
             if at == 0 and _is_docstring(line):
                 continue
-            block = Block(lines, list(lines), at)
-            yield from ((block, new, False) for new in _near(block.before, at, line))
-            yield from ((block, new, True) for new in _far(block.before, at, line))
+            before = list(lines)
+            for far, some in ((False, _near), (True, _far)):
+                for new, says in some(before, at, line):
+                    yield Block(lines, before, at, says), new, far
 
 
 def shown(new: Lines, block: Block, most: int) -> str:
@@ -62,64 +74,72 @@ def _is_docstring(line: ast.stmt) -> bool:
     return isinstance(line, ast.Expr) and isinstance(line.value, ast.Constant)
 
 
-def _near(body: Lines, at: int, line: ast.stmt) -> Iterator[Lines]:
+def _near(body: Lines, at: int, line: ast.stmt) -> Iterator[Changed]:
     """Yield a body with another line in one's place, or with two exchanged."""
     before, after = body[:at], body[at + 1 :]
     if not isinstance(line, ast.Return | ast.Expr):
-        yield [*before, ast.Pass(), *after]
+        yield [*before, ast.Pass(), *after], "a step is missing"
     if after and isinstance(line, ast.Assign | ast.AugAssign):
-        yield [*before, after[0], line, *after[1:]]
+        yield [*before, after[0], line, *after[1:]], "two steps are in the wrong order"
     if isinstance(line, ast.AugAssign):
-        for new in _instead_of_adding(line):
-            yield [*before, new, *after]
+        for new, says in _instead_of_adding(line):
+            yield [*before, new, *after], says
     if isinstance(line, ast.For):
-        for new in _over_some(line, OF_A_LOOP):
-            yield [*before, new, *after]
+        for new, says in _over_some(line, OF_A_LOOP):
+            yield [*before, new, *after], says
 
 
-def _far(body: Lines, at: int, line: ast.stmt) -> Iterator[Lines]:
+def _far(body: Lines, at: int, line: ast.stmt) -> Iterator[Changed]:
     before, after = body[:at], body[at + 1 :]
     if isinstance(line, ast.For | ast.While):
-        yield from ([*before, new, *after] for new in _other_loops(body, at, line))
-        yield [*before, *line.body, *after]
-        yield [*before, line, line, *after]
+        for new, says in _other_loops(body, at, line):
+            yield [*before, new, *after], says
+        yield [*before, *line.body, *after], "a loop is missing: its body runs once"
+        yield [*before, line, line, *after], "a loop runs twice"
     if isinstance(line, ast.For):
-        for new in _over_some(line, FAR_OF_A_LOOP):
-            yield [*before, new, *after]
+        for new, says in _over_some(line, FAR_OF_A_LOOP):
+            yield [*before, new, *after], says
     if isinstance(line, ast.If):
-        yield [*before, *line.body, *after]
-        yield [*before, *(line.orelse or [ast.Pass()]), *after]
+        says = "a case distinction is missing"
+        yield [*before, *line.body, *after], says
+        yield [*before, *(line.orelse or [ast.Pass()]), *after], says
     if isinstance(line, ast.Continue | ast.Break):
-        other = ast.Break() if isinstance(line, ast.Continue) else ast.Continue()
-        yield [*before, other, *after]
+        stops = isinstance(line, ast.Continue)
+        other = ast.Break() if stops else ast.Continue()
+        says = "a loop ends where it should go on" if stops else "a loop does not end"
+        yield [*before, other, *after], says
     if isinstance(line, ast.Assign | ast.AugAssign):
-        yield [*before, line, line, *after]
+        yield [*before, line, line, *after], "a step is done twice"
         last = after[-1:] if after and isinstance(after[-1], ast.Return) else []
-        yield [*before, *after[: len(after) - len(last)], line, *last]
+        late = [*before, *after[: len(after) - len(last)], line, *last]
+        yield late, "a step comes too late"
         yield from _early_return(before, line, after)
     if isinstance(line, ast.Expr):
-        yield [*before, ast.Pass(), *after]
+        yield [*before, ast.Pass(), *after], "a step is missing"
 
 
-def _early_return(before: Lines, line: Any, after: Lines) -> Iterator[Lines]:
+def _early_return(before: Lines, line: Any, after: Lines) -> Iterator[Changed]:
     """Yield a body that returns what a line has made, and no more."""
     targets = line.targets if isinstance(line, ast.Assign) else [line.target]
     if after and isinstance(targets[0], ast.Name):
-        value = ast.Name(targets[0].id, ast.Load())
-        yield [*before, line, ast.Return(value), *after]
+        early = ast.Return(ast.Name(targets[0].id, ast.Load()))
+        yield [*before, line, early, *after], "the last steps are missing"
 
 
-def _other_loops(body: Lines, at: int, loop: Any) -> Iterator[ast.stmt]:
-    """Yield a loop that ends after one round, returns in it, or starts anew in each."""
-    yield _with(loop, [*loop.body, ast.Break()])
+def _other_loops(body: Lines, at: int, loop: Any) -> Iterator[tuple[ast.stmt, str]]:
+    """Yield a loop that ends after one pass, returns in it, or starts anew in each."""
+    yield _with(loop, [*loop.body, ast.Break()]), "a loop stops after its first pass"
     after = body[at + 1 : at + 2]
     if after and isinstance(after[0], ast.Return):
-        yield _with(loop, [*loop.body, after[0]])
+        inside = _with(loop, [*loop.body, after[0]])
+        yield inside, "`return` stands inside the loop, so it stops after one pass"
     carried = _stored(loop.body)
     for line in body[:at]:
         if isinstance(line, ast.Assign) and carried & _stored([line]):
-            yield _with(loop, [line, *loop.body])  # what it carries is reset
-            yield _with(loop, _stale(loop.body, line))
+            reset = _with(loop, [line, *loop.body])
+            yield reset, "a loop starts anew in every pass"
+            stale = _with(loop, _stale(loop.body, line))
+            yield stale, "a loop uses a value from before the loop in every pass"
 
 
 def _stale(lines: Lines, first: ast.Assign) -> Lines:
@@ -150,18 +170,23 @@ def _with(loop: Any, body: Lines) -> Any:
     return type(loop)(**{**fields, "body": body})
 
 
-def _over_some(loop: ast.For, ends: Sequence[str]) -> Iterator[ast.stmt]:
-    for end in ends:
+def _over_some(
+    loop: ast.For, ends: Mapping[str, str]
+) -> Iterator[tuple[ast.stmt, str]]:
+    for end, says in ends.items():
         text = f"list({ast.unparse(loop.iter)}){end}"
         again = ast.parse(text, mode="eval").body
-        yield ast.For(loop.target, again, loop.body, loop.orelse)
+        yield ast.For(loop.target, again, loop.body, loop.orelse), says
 
 
-def _instead_of_adding(line: ast.AugAssign) -> Iterator[ast.stmt]:
+def _instead_of_adding(line: ast.AugAssign) -> Iterator[tuple[ast.stmt, str]]:
     value = line.value
     if isinstance(line.op, ast.Sub):
-        yield ast.AugAssign(line.target, ast.Add(), value)
+        plus = ast.AugAssign(line.target, ast.Add(), value)
+        yield plus, "a term is added instead of subtracted"
         value = ast.UnaryOp(ast.USub(), value)
     elif isinstance(line.op, ast.Add):
-        yield ast.AugAssign(line.target, ast.Sub(), value)
-    yield ast.Assign([line.target], value, lineno=line.lineno)
+        minus = ast.AugAssign(line.target, ast.Sub(), value)
+        yield minus, "a term is subtracted instead of added"
+    only = ast.Assign([line.target], value, lineno=line.lineno)
+    yield only, "a sum keeps its last term only, because it is assigned, not added"
