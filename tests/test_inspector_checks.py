@@ -22,7 +22,7 @@ TODO = TaskResult(TASKS[2], Verdict("todo", "unwritten", "not written yet"))
     [
         ((PASSED,), "good", "1 of 1 tasks pass"),
         ((PASSED, WRONG, TODO), "bad", "1 of 3 tasks pass. 1.2: sin and cos"),
-        ((PASSED, TODO), "quiet", "1 of 2 tasks pass; next is 1.3 The pose"),
+        ((PASSED, TODO), "quiet", "1 of 2 tasks pass; next is 1.3 The inverse"),
     ],
 )
 def test_one_line_says_how_the_day_stands(tasks, kind, says):

@@ -203,7 +203,7 @@ def test_a_loop_and_a_job_owe_an_answer_until_their_first_one():
         while len(said) < 4:
             await asyncio.sleep(0.01)
         loop.stop()
-        return owe, said
+        return owe, said[:4]  # the loop may answer once more before it stops
 
     assert asyncio.run(told()) == ((True, True), [False] * 4)
 

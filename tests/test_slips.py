@@ -108,7 +108,7 @@ def test_a_slip_is_told_by_its_kind_and_by_how_it_reads():
     says = told(2, "2.4", exp_screw=exp_screw)
     assert "One sign is reversed: your output equals" in says
     assert "with `(theta + s) * K @ K`, or with" in says
-    assert "gives your numbers exactly" in says
+    assert "reproduces your output" in says
 
 
 def test_two_slips_whose_parts_add_up_are_told_together():
@@ -134,7 +134,7 @@ def test_a_slip_that_the_fresh_questions_do_not_show_is_not_told():
         R[0, 2] += 1e-3 * (abs(quat[0]) > 0.9)
         return R
 
-    assert "gives your numbers exactly" not in told(1, "1.4", quat_to_R=quat_to_R)
+    assert "reproduces your output" not in told(1, "1.4", quat_to_R=quat_to_R)
 
 
 def test_a_whenever_holds_for_arguments_of_other_sizes_as_well():

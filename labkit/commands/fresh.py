@@ -93,8 +93,9 @@ def main() -> int:
         python, environment = set_up(root, say, anew=not options.quick)
         say("set up" + (" with this environment" if options.quick else ""))
         labs, wrong = compared(run_labs(days, python, environment), root, say)
+        blank = unwritten(days, ROOT)  # it reads the manifests of the clone
     code = verdict(labs, [*missing, *wrong])
-    for diary in unwritten(days, ROOT):
+    for diary in blank:
         says = f"{shown(diary)} asks what this found: write it there, and commit."
         print(cli.wrapped(f"  Not yet written: {says}", "  "))
     found = {"wrong": len(wrong), "missing": len(missing)}

@@ -24,7 +24,7 @@ from labkit.judge.answers import (
     rigid,
 )
 from labkit.judge.ask import SLIPPING
-from labkit.judge.hypothesis import EXACT, evidence
+from labkit.judge.hypothesis import EXACT
 from labkit.judge.matcher import Code, Matcher, row
 from labkit.judge.mistake import Finding, Mistake
 from labkit.judge.mutant import Mutant
@@ -67,7 +67,7 @@ def two_at_once(m: Matcher) -> Finding | None:
 
 
 def _told(m: Matcher, slugs: Sequence[str], says: Sequence[str]) -> Finding:
-    how = f"{capitalised(m.off())}; both together {evidence(True)}"
+    how = f"{capitalised(m.off())}; both together reproduce your output"
     return Finding("+".join(slugs), f"Two things at once: {'; '.join(says)}. ({how}.)")
 
 

@@ -103,8 +103,8 @@ def condition(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB.
 
 @numbers.add(
     "condition of Day 5's swing", "{:,.0f}",
-    swing=between(1 / 200, 1 / 100, "as the pendulum's 1/8, but some differences are "
-                  "smaller still: a seventh power of the reach, not a third"),
+    swing=between(1 / 200, 1 / 100, "between the sixth and the seventh power of the "
+                  "amplitude at six poses, not the third as for the pendulum"),
     metre=between(3.0, 10.0, "columns in kg m² shrink to 1/100: the unit is in it",
                   to=10.0),
     rtol=same("nothing lies near it: what hides is rounding"),

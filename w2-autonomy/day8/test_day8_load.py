@@ -153,11 +153,12 @@ def test_what_makes_the_hand_sink_is_turned_alone_the_grams_and_the_centre():
 
     grams_alone, centre_alone, both = alone("each from both sides")
     assert f"at the true centre, the hand sinks by {-grams_alone:.1f} mm" in SENTENCES
-    assert f"told 500 g at its centre, by {-centre_alone:.1f}." in SENTENCES
+    words = f"with 500 g at the centre that was found, by {-centre_alone:.1f}."
+    assert words in SENTENCES
     # Two errors that add up: the fit's own gravity, which is in all three, but once.
     assert grams_alone + centre_alone - rises(LOAD) == pytest.approx(both, abs=1.0)
     grams_alone, centre_alone, both = alone("one from either side")
-    assert f"the grams alone do nearly all of the {both:.0f} mm" in SENTENCES
+    assert f"the wrong mass alone causes nearly all of the {both:.0f} mm" in SENTENCES
     assert grams_alone == pytest.approx(both, abs=2.0)
     assert centre_alone == pytest.approx(rises(LOAD), abs=2.0)
 
@@ -201,8 +202,9 @@ def test_noise_moves_the_grams_and_another_robot_hardly_does():
     load, sigma = np.array(list(by_noise)).T
     off = np.abs(load - 500) / sigma
     assert (np.sum(off < 1), np.sum(off < 2)) == (6, 6)
-    assert "In 6 of 8 it is within sigma, and in the same 6 within two" in SENTENCES
-    assert f"seed 8 finds {load[-1]:.0f} g, {off[-1]:.1f} sigmas off" in SENTENCES
+    words = "In 6 of 8 cases the result is within sigma, and in the same 6 within two"
+    assert words in SENTENCES
+    assert f"Seed 8 finds {load[-1]:.0f} g, {off[-1]:.1f} sigmas off" in SENTENCES
     assert f"it is {sigma.min():.0f} to {sigma.max():.0f} g" in SENTENCES
     both = (lab.NOISE_SEED, lab.NOISE), (lab.NOISE_SEED, 0.0)
     (least, _), (least_still, _) = found(4, *both)
