@@ -156,7 +156,8 @@ def far(place: Place, names: Sequence[str]) -> Iterator[Mutation]:
     if place.field in ("func", "keywords", "slice"):
         return
     if _valued(place, names):
-        yield from filled(OF_A_VALUE, X=node)
+        empty = isinstance(node, ast.Call) and called(node) in ("zeros", "eye")
+        yield from () if empty else filled(OF_A_VALUE, X=node)
         for name in names:
             yield "name", ast.Name(name, ast.Load())
             yield from filled(WITH_A_NAME, X=node, N=ast.Name(name, ast.Load()))
@@ -359,6 +360,8 @@ def _far_of_call(node: ast.Call) -> Iterator[Mutation]:
     some = dict(zip("ABC", node.args, strict=False))
     yield from filled(OF_A_CALL.get(called(node), ""), X=node, **some)
     yield from _twins(node, FAR_TWINS)
+    if called(node) == "zeros" and node.args and isinstance(node.args[0], ast.Tuple):
+        yield from filled("function: np.eye(N)", N=node.args[0].elts[0])
     yield from (("left-out", arg) for arg in node.args[1:])
     for k, one in enumerate(node.keywords):
         rest = node.keywords[:k] + node.keywords[k + 1 :]
