@@ -10,6 +10,8 @@ from labkit.judge.ask import (
     stacked,
 )
 from labkit.judge.judge import judge
+from labkit.judge.mistake import Finding
+from labkit.judge.replies_read import read
 from labkit.judge.results import as_sent
 
 FRESH_SEED = 4711
@@ -73,10 +75,16 @@ def judged(ask, values, source=""):
 
 
 def judged_replies(ask, replies, source=""):
-    """Return the verdict on replies to the main questions, the rest being right."""
+    """Return the verdict on replies to the main questions, the rest being right.
+
+    Fresh questions have no answer where a main one is wrong: a function that is wrong
+    there is not right elsewhere.
+    """
     asked = round_of(ask)
     answered(asked.main, replies)
-    if asked.fresh:
+    if asked.fresh and not _all_right(asked):
+        answered(asked.fresh, [NONE] * len(asked.fresh))
+    elif asked.fresh:
         sizes = sizes_of(ask, asked.fresh)
         fresh = right_answers(ask, asked.fresh)
         answered(asked.fresh, replies_of(fresh, sizes, ask.kind))
@@ -89,6 +97,14 @@ def judged_replies(ask, replies, source=""):
         answered(exchanges, answers)
     answered(asked.probes, [NONE] * len(asked.probes))
     return judge(asked, source)
+
+
+def _all_right(asked):
+    S = read(asked.main, asked.ask)
+    if isinstance(S, Finding):
+        return True  # what is said then is not of numbers
+    off = asked.ask.gaps(S, right_answers(asked.ask, asked.main))
+    return bool(off.max() <= asked.ask.near)
 
 
 def redone(ask):

@@ -321,7 +321,7 @@ class TestNone:
                 "It returns None for 1 input to which there is an answer",
             ),
             (lambda p, x: None if x < 0 else -x * p, "all-signs", "Every sign is"),
-            (lambda p, x: None if x < 0 else p, "off", "off by up to"),
+            (lambda p, x: None if x < 0 else p + x**3, "off", "off by up to"),
         ],
     )
     def test_is_right_or_wrong(self, function, slug, says):

@@ -58,7 +58,8 @@ class TestWeights:
         assert "[1, 0]" in found.message
 
     def test_a_mistake_is_named_in_the_small_entry_too(self):
-        slip = Mistake("small-doubled", "s", lambda i: self.RIGHT * [[1, 1], [2, 1]])
+        doubled = InTurn(lambda i: self.RIGHT[int(i)] * [[1, 1], [2, 1]])
+        slip = Mistake("small-doubled", "s", doubled)
         ask = asked(self.KIND, self.RIGHT, mistakes=[slip])
         assert judged(ask, self.RIGHT * [[1, 1], [2, 1]]).mistake == "small-doubled"
         assert judged(ask, self.RIGHT * [[1, 1], [3, 1]]).mistake != "small-doubled"
@@ -127,7 +128,7 @@ class TestCovariance:
         [
             (np.linalg.inv, "inverse"),
             (lambda P: np.sign(P) * np.sqrt(np.abs(P)), "sigma-for-variance"),
-            (lambda P: np.triu(P), "not-symmetric"),
+            (lambda P: P + 0.1 * np.triu(P), "not-symmetric"),
             (lambda P: P - 9.0 * np.eye(3), "not-positive"),
             (lambda P: 2.0 * P, "one-factor-off"),
         ],

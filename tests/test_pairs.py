@@ -41,7 +41,8 @@ def test_one_mistake_that_gives_half_of_the_wrong_numbers_is_told_with_how_many(
     def truncated_svd_fit(Y, tau, rtol):
         U, s, Vt = np.linalg.svd(Y, full_matrices=False)
         kept = s > rtol * s[0]
-        kept[4:] = False
+        if kept[4:].any():
+            return Vt[:4].T @ (U[:, :4].T @ tau / s[:4])
         return Vt[kept].T @ (U[:, kept].T @ tau * s[kept])
 
     says = told(8, "8.6", truncated_svd_fit=truncated_svd_fit)
@@ -72,7 +73,7 @@ def test_a_mistake_that_would_show_where_all_is_right_is_no_part_of_it():
 
     says = told(1, "1.2", Rz=Rz)
     assert "turns the wrong way" not in says
-    assert "right for theta between 0 and pi" in says
+    assert "a sign is lost" in says.lower()
 
 
 def test_each_wrong_result_of_several_has_its_own_mistake():
@@ -93,7 +94,7 @@ def test_an_argument_handed_back_is_not_one_of_two_mistakes():
 
     says = told(1, "1.3", inverse=inverse)
     assert "comes back" not in says
-    assert "One sign is the other way round" in says
+    assert "One sign is reversed" in says
 
 
 def test_of_a_pose_one_mistake_is_in_R_and_the_other_in_t():
@@ -149,7 +150,7 @@ def test_a_result_that_is_right_is_said_to_be():
     def rank_and_condition(Y, rtol):
         rank, _ = right(8, "rank_and_condition")(Y, rtol)
         s = np.linalg.svd(Y, compute_uv=False)
-        return rank, s[0] / np.mean(s[:rank])
+        return rank, s[0] / np.mean(s[:rank]) + np.log(s[0])
 
     says = told(8, "8.5", rank_and_condition=rank_and_condition)
     assert says.startswith("The rank is right. The condition: ")
@@ -160,7 +161,7 @@ def test_two_arguments_exchanged_need_no_name():
         return right(8, "arm_regressor")(J_space, T_links, qdd, qd, g)
 
     says = told(8, "8.3", arm_regressor=arm_regressor)
-    assert "right answer to other arguments: with qd and qdd exchanged." in says
+    assert "correct result for other arguments: `qd` and `qdd` are exchanged." in says
 
 
 def test_two_entries_of_an_argument_exchanged_need_no_name():
@@ -168,4 +169,4 @@ def test_two_entries_of_an_argument_exchanged_need_no_name():
         return right(1, "quat_to_R")(quat[[0, 1, 3, 2]])
 
     says = told(1, "1.4", quat_to_R=quat_to_R)
-    assert "with quat[2] and quat[3] exchanged" in says
+    assert "`quat[2]` and `quat[3]` are exchanged" in says

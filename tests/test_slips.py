@@ -1,26 +1,25 @@
 """A slip that nobody named: the lab's own body with one place of it changed."""
 
 import ast
+import contextlib
 
 import numpy as np
 import pytest
 from test_claims import right, told
 
-from labkit.judge.miswritten import besides, miswritten, overlap, reads
+from labkit.judge.mutant import Body
 
 pytestmark = pytest.mark.kit
 
 TEXT = "def f(x, y):\n    z = 2.0 * x + y\n    return z - x @ y.T\n"
 
 
-def one(text=TEXT):
-    return ast.parse(text).body[0]
+def body(text=TEXT):
+    return Body(ast.parse(text).body[0], {"np": np})
 
 
 def of(kind, text=TEXT):
-    function = one(text)
-    some = miswritten(function, {"np": np})
-    return {reads(function, slip) for slip in some if slip.kind == kind}
+    return {one.text for one in body(text).near if one.kind == kind}
 
 
 def test_signs_factors_names_and_lines_are_changed_one_at_a_time():
@@ -32,37 +31,69 @@ def test_signs_factors_names_and_lines_are_changed_one_at_a_time():
 
 
 def test_a_function_is_put_back_as_it_was():
-    function = one()
-    before = ast.dump(function)
-    slips = miswritten(function, {})
-    assert ast.dump(function) == before
-    besides(function, {}, slips[0])
-    reads(function, slips[-1], slips[0])
-    assert ast.dump(function) == before
+    one = body()
+    before = ast.dump(one.function, include_attributes=True)
+    mutants = [*one.near, *(mutant for mutant, _ in one.further())]
+    assert all(mutant.code for mutant in one.near)
+    assert all(other.code for other, _ in one.besides(mutants[0]))
+    assert all(isinstance(mutant.text, str) for mutant in mutants)
+    assert ast.dump(one.function, include_attributes=True) == before
 
 
-def test_a_slip_computes_what_it_reads():
-    function = one()
-    slips = miswritten(function, {})
-    code = {reads(function, slip): slip.code for slip in slips}
+def test_a_mutant_computes_what_it_reads():
+    code = {one.text: one.code for one in body().near}
     x, y = np.array([1.0, 2.0]), np.array([3.0, 5.0])
     assert np.array_equal(code["z = 2.0 * x - y"](x, y), 2 * x - y - x @ y)
 
 
-def test_a_second_slip_is_never_in_the_place_of_the_first():
-    function = one()
-    first = miswritten(function, {})[0]
-    others = besides(function, {}, first)
+def test_mutants_that_are_compiled_together_compute_what_each_does_alone():
+    one = body()
+    x, y = np.array([1.0, 2.0]), np.array([3.0, 5.0])
+    some = [*one.ready(one.near), *one.further()]
+    assert len(some) > 500
+    for mutant, code in some:
+        answers = []
+        for tried in (code, mutant.code):
+            try:
+                answers.append(tried(x.copy(), y.copy()))
+            except Exception as error:
+                answers.append(type(error))
+        assert np.array_equal(*map(repr, answers)), mutant.text
+
+
+def test_a_second_mutant_is_never_in_the_place_of_the_first():
+    one = body()
+    first = one.near[0]
+    others = one.besides(first)
     assert others
-    assert not any(overlap(first, other) for other in others)
+    assert not any(first.overlaps(other) for other, _ in others)
 
 
-def test_a_loop_that_may_never_end_has_no_slips():
-    assert not of(
-        "sign", "def f(x):\n    while x < 3:\n        x = x + 1\n    return x\n"
-    )
-    least = "def f(A, b):\n    return np.linalg.lstsq(A, b)[0]\n"
-    assert miswritten(one(least), {}) == []
+def test_one_change_is_made_at_every_place_of_its_kind():
+    text = "def f(x, y):\n    z = x.T @ y\n    return x.T @ z\n"
+    every = [one for one, _ in body(text).further() if len(one.edits) > 1]
+    A, b = np.array([[1.0, 2.0], [3.0, 4.0]]), np.array([1.0, -1.0])
+    assert any(np.array_equal(one.code(A, b), A @ A @ b) for one in every)
+
+
+@pytest.mark.parametrize(
+    "loop", ["while x < 3:\n        x = x + 1", "for _ in range(3):\n        x = x + 1"]
+)
+def test_a_loop_that_would_never_end_stops(loop):
+    one = body(f"def f(x):\n    {loop}\n    return x\n")
+    one.calibrate([0])
+    ended, mutants = 0, [*one.ready(one.near), *one.further()]
+    for _, code in mutants:
+        with contextlib.suppress(Exception):
+            code(0)
+            ended += 1
+    assert 0 < ended < len(mutants)
+
+
+def test_lapack_is_not_asked_of_what_is_not_finite():
+    one = body("def f(A, b):\n    return np.linalg.lstsq(A, b)[0]\n")
+    with pytest.raises(np.linalg.LinAlgError):
+        one.compiled()(np.full((2, 2), np.inf), np.ones(2))
 
 
 def test_a_slip_is_told_by_its_kind_and_by_how_it_reads():
@@ -75,8 +106,8 @@ def test_a_slip_is_told_by_its_kind_and_by_how_it_reads():
         return T
 
     says = told(2, "2.4", exp_screw=exp_screw)
-    assert "One sign is the other way round." in says
-    assert "the lab's own with `(theta + s) * K @ K`, or with" in says
+    assert "One sign is reversed: your output equals" in says
+    assert "with `(theta + s) * K @ K`, or with" in says
     assert "reproduces your output" in says
 
 
@@ -91,7 +122,7 @@ def test_two_slips_whose_parts_add_up_are_told_together():
         return np.append(a[:3], 2 * at_0 - a[3:])
 
     says = told(6, "6.2", bias_acceleration=bias_acceleration)
-    assert "Two things at once: one sign is the other way round" in says
+    assert "Two things at once: one sign is reversed" in says
     assert "`A[3:] - np.cross(alpha, p)`" in says
 
 
@@ -119,6 +150,7 @@ def test_a_whenever_holds_for_arguments_of_other_sizes_as_well():
 
 def test_what_a_condition_is_made_of_is_no_factor_and_no_sign():
     text = "def f(x, y):\n    return x if 2.0 * y > x else y\n"
-    assert "x if 1.0 * y > x else y" in of("condition", text)
-    assert not of("number", text)
-    assert all("2.0 * y > x" in one for one in of("factor", text))
+    near = body(text).near
+    assert "x if 1.0 * y > x else y" in {o.text for o in near if o.kind == "condition"}
+    assert not [one for one in near if one.kind == "number"]
+    assert all("2.0 * y > x" in one.text for one in near if one.kind == "factor")

@@ -83,7 +83,7 @@ def test_each_kind_of_answer_has_its_own_words(kit, file, monkeypatch):
     slug = slug.partition(" ")[0]
     for task in tasks.split()[2:]:
         verdict = checked(kit, task, kit / "w9-toy" / file.relative_to(TOY))
-        assert (verdict.mistake or verdict.status) == slug
+        assert (verdict.mistake or verdict.status) == slug, verdict.message
         assert "rotation" not in verdict.message
 
 

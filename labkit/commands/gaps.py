@@ -9,7 +9,7 @@ min, clips the arguments and the answer or removes their signs, and rounds the a
 float32. It asks the row's questions of each changed function, in this process, and
 prints the changes that all questions accept. If a change is no mistake, give the reason
 in the function's file: row.same("x < 1e-9 => x < 2e-09", "why"). The slips of a student
-are another list, in `labkit/judge/instead.py`.
+are another list, in `labkit/judge/operators.py`.
 Exit code: 0 every change is detected, 1 some are not, 2 could not run.
 """
 
@@ -28,8 +28,8 @@ from labkit.base import cli
 from labkit.base.exchange import Exchange, Reply
 from labkit.judge.answers import gaps, own
 from labkit.judge.ask import Asked, as_plain, asked_of, right_answers
-from labkit.judge.instead import places
 from labkit.judge.mistake import Finding
+from labkit.judge.operators import places
 from labkit.judge.replies_read import not_accepted, read
 from labkit.judge.row import Row, rows_of
 from labkit.lesson.day import Day, day_numbers, find_day
@@ -68,8 +68,9 @@ def changes(source: str) -> Iterator[Change]:
         around = statements[id(place.parent)]
         before = _line(around)
         for new in _instead(place.node):
-            with place.holding(new):
-                yield Change(f"{before} => {_line(around)}", tree)
+            place.put(new)
+            yield Change(f"{before} => {_line(around)}", tree)
+            place.put(place.node)
     begins = bool(ast.get_docstring(function))
     for how in PUT_IN:
         for arg in function.args.args if "float32" not in how else []:
@@ -81,8 +82,9 @@ def changes(source: str) -> Iterator[Change]:
             if isinstance(place.parent, ast.Return) and _depends(place.node):
                 text = how.format(f"({ast.unparse(place.node)})")
                 new = ast.parse(text, mode="eval").body
-                with place.holding(new):
-                    yield Change(f"return {text}", tree)
+                place.put(new)
+                yield Change(f"return {text}", tree)
+                place.put(place.node)
 
 
 def _depends(node: ast.expr) -> bool:

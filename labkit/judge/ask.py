@@ -4,7 +4,6 @@ A day's function files make them (`labkit.judge.row`), one row per
 function of the manifest. Inputs are drawn from a `Draw`, or from `Edges`.
 """
 
-import ast
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -23,7 +22,7 @@ from labkit.judge.draw import Draw, Edges
 from labkit.judge.guard import guarded
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Mistake
-from labkit.judge.miswritten import Miswritten, miswritten
+from labkit.judge.mutant import Body
 from labkit.judge.results import Kinds, flat_kinds, numbers
 from robo47 import panda
 from robo47.checks import Array
@@ -35,8 +34,7 @@ SEED = 47  # of the questions that are the same at every check
 # How many inputs are drawn anew, and as many edge values: a rare bug is found sooner.
 FRESH, CHEAP_FRESH, CHEAP = 8, 32, 16  # few numbers cost little
 SECONDS = 10.0  # for all calls of a function, where its task does not say
-SLIPPING = 1.5  # seconds for which one slip after the other is made, ...
-SLIPS = 500  # ... and how many are, however slow the function is
+SLIPPING = 1.5  # seconds for which two mutants at once are looked for
 # What a row says of wrong answers, and what counts where that stops: it says nothing.
 HOOKS: dict[str, Any] = {"unnamed": None, "near_miss": None, "measured": (),
                          "valid": False}  # fmt: skip
@@ -125,6 +123,7 @@ class Case:
     probes: Sequence[tuple[tuple[Any, ...], Any]] = ()
     further: "Further | None" = None  # what a sentence must hold for as well
     names: Sequence[str] = ()  # of the arguments, for sentences
+    source: str = ""  # the student's file
 
 
 @dataclass(frozen=True)
@@ -192,8 +191,9 @@ class Ask:
     seconds: float = 0.0  # that a call of the reference takes; 0: it is measured here
     # Returns the lab's own function, or None: a truth that is faster says too little.
     reference: Callable[[], Callable[..., Any] | None] = lambda: None
-    # Returns the lab's own function as it is written, and the names that it may use.
-    body: Callable[[], tuple[ast.FunctionDef, dict[str, Any]] | None] = lambda: None
+    # Returns right functions as they are written, the lab's own first, each with the
+    # names that it may use.
+    right_bodies: Callable[[], Sequence[Body]] = list
 
     def __post_init__(self) -> None:
         """Refuse a row that has neither or both of truth and accept.
@@ -234,12 +234,9 @@ class Ask:
         return list(self.mistakes() if callable(self.mistakes) else self.mistakes)
 
     @cached_property
-    def miswritten(self) -> list[Miswritten]:
-        """The lab's own function with one slip, each; the fewer of a slow one."""
-        if (body := self.body()) is None:
-            return []
-        most = max(SLIPS, int(SLIPPING / max(self.labs_cost, 1e-6)))
-        return miswritten(*body)[:most]
+    def bodies(self) -> Sequence[Body]:
+        """Right functions, the lab's own first; mutants are made of them."""
+        return self.right_bodies()
 
     @cached_property
     def main(self) -> list[tuple[Any, ...]]:
@@ -332,6 +329,7 @@ class Asked:
     fresh: list[Exchange]  # edge values, and those that are drawn anew
     held_out: list[list[Exchange]]  # per entry of `ask.held_out`
     probes: list[Exchange]  # those of `ask.probe`
+    source: str = ""  # the student's file
 
     @property
     def exchanges(self) -> list[Exchange]:

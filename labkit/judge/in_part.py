@@ -1,59 +1,48 @@
 """One mistake that is only a part of what is wrong.
 
-It is claimed where made on purpose it gives a result of several, or the numbers of some
-calls, which are counted.
+It is claimed where made on purpose it explains a result of several, or the answers to
+some calls, which are counted.
 """
 
 from typing import Any
 
 import numpy as np
 
-from labkit.judge.answers import (
-    MATCHES,
-    Parts,
-    capitalised,
-    gaps,
-    largest,
-    matches,
-)
-from labkit.judge.ask import Ask, Case
+from labkit.judge.answers import Parts, capitalised, gaps
+from labkit.judge.matcher import Matcher
 from labkit.judge.mistake import Finding, Mistake
-from labkit.judge.pairs import alike, answer_to, answers_to, nth, of_its_own_first
+from labkit.judge.pairs import of_its_own_first
 
 FEW = 6  # wrong calls at which one mistake is tried, before all of them
 SOME = 3  # calls whose numbers it has to give, at least, and half of the wrong ones
 
 
-def by_results(case: Case, S: Parts, T: Parts) -> Finding | None:
+def by_results(m: Matcher) -> Finding | None:
     """Return a named mistake for each wrong result of a function that returns several.
 
     One that has none of its own is said to be wrong besides.
     """
-    ask = case.ask
-    pairs = list(zip(ask.kinds, S, T, strict=True))
-    wrong = [
-        j
-        for j, (kind, s, t) in enumerate(pairs)
-        if gaps([kind], (s,), (t,)).max() > ask.near
-    ]
-    if len(wrong) < 2 or any(kind.whole for kind in ask.kinds):
+    kinds, wrong = m.ask.kinds, _wrong_results(m)
+    if len(wrong) < 2 or m.whole:
         return None
-    i = int(np.argmax(ask.gaps(S, T)))
     told: dict[int, Mistake] = {}
-    for one in of_its_own_first(ask):
-        answer = answer_to(one.redo, case.arguments, i, T)
-        for j in [j for j in wrong if j not in told and len(answer) == len(S)]:
-            kind, s, t = pairs[j]
-            if not matches(s[i : i + 1], answer[j], kind.scale):
-                continue
-            every = answers_to(one.redo, case.arguments)
-            is_wrong = gaps([kind], (every[j],), (t,)).max() > ask.near
-            if is_wrong and matches(s, every[j], kind.scale):
+    for one in of_its_own_first(m):
+        answer = m.main.answer(one.redo, m.furthest)
+        left = [j for j in wrong if j not in told and len(answer) == len(m.S)]
+        mine = tuple(s[m.furthest] for s in m.S)
+        some = [
+            j for j in left if m.main.difference.fits(m.furthest, _put(mine, answer, j))
+        ]
+        every = m.main.answers(one.redo) if some else ()
+        for j in some if every else ():
+            again = _put(m.S, every, j)
+            differs = gaps([kinds[j]], (every[j],), (m.T[j],)).max() > m.ask.near
+            if differs and m.main.difference.explained(again).all():
                 told[j] = one
     if not told:
         return None
     says = [
-        f"{capitalised(ask.kinds[j].called or f'result {j + 1}')}: "
+        f"{capitalised(kinds[j].called or f'result {j + 1}')}: "
         + (f"{told[j].says.rstrip('?')}." if j in told else "it is wrong, too.")
         for j in sorted(wrong, key=lambda j: j not in told)
     ]
@@ -61,28 +50,35 @@ def by_results(case: Case, S: Parts, T: Parts) -> Finding | None:
     return Finding(slug + "+other" * (len(told) < len(wrong)), " ".join(says))
 
 
-def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
-    """Return the named mistake that gives the numbers of half of the wrong calls.
+def _wrong_results(m: Matcher) -> list[int]:
+    trios = enumerate(zip(m.ask.kinds, m.S, m.T, strict=True))
+    return [j for j, (k, s, t) in trios if gaps([k], (s,), (t,)).max() > m.ask.near]
+
+
+def _put(some: Parts, other: Parts, j: int) -> Parts:
+    return (*some[:j], other[j], *some[j + 1 :])
+
+
+def in_some_calls(m: Matcher) -> Finding | None:
+    """Return the named mistake that gives the answers of half of the wrong calls.
 
     It is said of these alone: another one may give the same numbers there. Numbers that
     are 0, or all the same, prove no mistake.
     """
-    ask = case.ask
-    wrong = np.flatnonzero(ask.gaps(S, T) > ask.near)
+    wrong = m.wrong
     least = max(SOME, -(-len(wrong) // 2))
-    if any(kind.whole for kind in ask.kinds) or len(wrong) <= least:
+    if m.whole or len(wrong) <= least:
         return None
     few = wrong[np.unique(np.linspace(0, len(wrong) - 1, FEW).astype(int))]
     most: tuple[int, Mistake] | None = None
-    for one in of_its_own_first(ask):
-        hits = [alike(ask, answer_to(one.redo, case.arguments, i, T), nth(S, i))
-                for i in few]  # fmt: skip
-        if sum(map(bool, hits)) < 2:
+    for one in of_its_own_first(m):
+        fits = m.main.difference.fits
+        if sum(fits(i, m.main.answer(one.redo, i)) for i in few.tolist()) < 2:
             continue
-        given = _given_by(ask, S, answers_to(one.redo, case.arguments))
-        n = int(np.sum(given[wrong])) if _differ(S, wrong[given[wrong]]) else 0
+        given = m.main.difference.explained(m.main.answers(one.redo))
+        n = int(np.sum(given[wrong])) if _differ(m.S, wrong[given[wrong]]) else 0
         # Made every time, it shows nowhere that is right.
-        always = given[ask.gaps(S, T) <= ask.near].all()
+        always = given[m.ask.gaps(m.S, m.T) <= m.ask.near].all()
         if always and least <= n < len(wrong) and (most is None or n > most[0]):
             most = n, one
     if most is None:
@@ -94,20 +90,6 @@ def in_some_calls(case: Case, S: Parts, T: Parts) -> Finding | None:
         f"mistake: {one.says.rstrip('?')}. The other {rest}."
     )
     return Finding(f"{one.slug}+other", says)
-
-
-def _given_by(ask: Ask, S: Parts, again: Parts) -> Any:
-    """Return of each call whether a mistake gives its answer, within rounding."""
-    if len(again) != len(S) or any(
-        a.shape != s.shape for a, s in zip(again, S, strict=False)
-    ):
-        return np.zeros(len(S[0]), bool)
-    alike = []
-    for s, a, kind in zip(S, again, ask.kinds, strict=True):
-        off = gaps([kind], (s,), (a,))
-        size = np.array([largest(x, kind.scale) for x in s])
-        alike.append(off <= MATCHES * np.maximum(1.0, size))
-    return np.all(alike, axis=0)
 
 
 def _differ(S: Parts, which: Any) -> bool:

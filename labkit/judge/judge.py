@@ -1,7 +1,7 @@
 """The judge: from a function's questions and replies to a verdict and its name."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import compress
 from typing import Any
@@ -10,7 +10,15 @@ import numpy as np
 
 from labkit.base.exchange import Exchange
 from labkit.base.text import count
-from labkit.judge import near_miss, odd_answers, replies_read, tried, valid
+from labkit.judge import (
+    near_miss,
+    odd_answers,
+    pairs,
+    replies_read,
+    sources,
+    tried,
+    valid,
+)
 from labkit.judge.answers import (
     Parts,
     as_one,
@@ -34,10 +42,8 @@ from labkit.judge.failing_call import failing_call, for_fresh
 from labkit.judge.guard import attempt, noting, quiet, told
 from labkit.judge.in_part import by_results, in_some_calls
 from labkit.judge.kinds import Kind
-from labkit.judge.made_again import redone
+from labkit.judge.matcher import Matcher
 from labkit.judge.mistake import Finding, Verdict
-from labkit.judge.one_slip import Slips
-from labkit.judge.pairs import of_other_arguments, two_at_once
 from labkit.judge.typed import in_words
 from robo47.checks import Array
 
@@ -55,6 +61,7 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
     Raises:
         ValueError: a question has no reply.
     """
+    asked = replace(asked, source=source)
     with quiet(), noting() as stopped:
         verdict = attempt(_judge, asked, source, names)
         verdict = verdict or attempt(_without_a_name, asked) or unjudged(stopped)
@@ -127,7 +134,7 @@ def _by_another_method(asked: Asked, S: Parts, names: Sequence[str]) -> Finding 
         if ask.gaps(S, T).max() <= ask.near:
             return None
         case = _case(asked, S, T, names)
-        named = redone(ask, case.arguments, S, T) or _unnamed(case)
+        named = sources.named(ask, case.arguments, S, T) or _unnamed(case)
     if named:
         return Finding(named.slug, f"{ask.method} {named.message}")
     return Finding("another-method", ask.method)
@@ -272,7 +279,7 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     wrong = list(replies_read.not_accepted(asked))
     if not wrong:
         return _judge_right(asked, S, ())
-    if named := redone(ask, stacked(asked.main), S, None):
+    if named := sources.of_accepted(ask, stacked(asked.main), S):
         return Verdict("wrong", *named)
     first, found = wrong[0]
     given = in_words(first.question, names)
@@ -297,6 +304,7 @@ def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
         given,
         probes,
         names=names,
+        source=asked.source,
     )
 
 
@@ -319,24 +327,15 @@ def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
 
 
 def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
-    """Return the first of: a named mistake, no answer, always one, two, one in part."""
-    ask = case.ask
-    found = redone(ask, case.arguments, S, T, case.further)
-    found = found or _nothing_there(case, S) or _none_or_not(case, S, T)
-    if found := found or _not_finite(case, S, T):
-        return found
-    i = worst_part(ask.kinds, S, T, ask.near)
-    every = (S[i], case.further.S[i]) if case.further else (S[i],)
-    found = _all_the_same(ask.kinds[i], every, T[i])  # simpler than two mistakes
-    slips = Slips(case, S, T)
-    found = found or slips.one() or of_other_arguments(case, S, T)
-    found = found or two_at_once(case, S, T) or slips.beside()
-    found = found or by_results(case, S, T) or slips.two()
+    """Return what the first source says that explains the answers, or None."""
+    m = Matcher(case, S, T)
+    found = next(filter(None, (attempt(source, m) for source in SOURCES)), None)
     if found and found.slug.startswith("slip-"):
         return _with_its_place(case, found)
+    i = worst_part(case.ask.kinds, S, T, case.ask.near)
     if found := found or near_miss.rounded(S[i], T[i]):
         return found
-    return _with_its_size(case, S, T) or in_some_calls(case, S, T)
+    return _with_its_size(case, S, T) or in_some_calls(m)
 
 
 def _with_its_size(case: Case, S: Parts, T: Parts) -> Finding | None:
@@ -364,8 +363,9 @@ def _with_its_place(case: Case, slip: Finding) -> Finding:
     return Finding(where.slug, f"{where.message} {slip.message}") if where else slip
 
 
-def _not_finite(case: Case, S: Parts, T: Parts) -> Finding | None:
+def _not_finite(m: Matcher) -> Finding | None:
     """Return that some answers are NaN, and what is wrong with the others."""
+    case, S, T = m.case, m.S, m.T
     # An infinity may be right: only what is none of the right one is said to be odd.
     pairs = zip(S, T, strict=True)
     there = [(np.isfinite(s) | (s == t)).reshape(len(s), -1) for s, t in pairs]
@@ -403,9 +403,10 @@ def _none(some: Array, kind: Kind) -> Any:
     return np.array([kind.is_none(answer) for answer in some])
 
 
-def _none_or_not(case: Case, S: Parts, T: Parts) -> Finding | None:
+def _none_or_not(m: Matcher) -> Finding | None:
     """Return that it is None where there is an answer, or the other way round."""
-    for s, t, kind in zip(S, T, case.ask.kinds, strict=True):
+    case, S = m.case, m.S
+    for s, t, kind in zip(m.S, m.T, m.ask.kinds, strict=True):
         if not kind.none:
             continue
         lost, made = _none(s, kind) & ~_none(t, kind), _none(t, kind) & ~_none(s, kind)
@@ -470,12 +471,11 @@ def _right_results(case: Case, S: Parts, T: Parts) -> str:
     return f"{capitalised(listed(names))} {verb} right. "
 
 
-def _nothing_there(case: Case, S: Parts) -> Finding | None:
-    ask = case.ask
-    every = (*S, *case.further.S) if case.further else S
+def _nothing_there(m: Matcher) -> Finding | None:
+    every = (*m.S, *m.fresh.S) if m.fresh else m.S
     if any(part.any() or not part.size for part in every):
         return None  # of no entry nobody says that it is 0
-    if not all(kind.empty for kind in ask.kinds):
+    if not all(kind.empty for kind in m.ask.kinds):
         return None
     return Finding(
         "all-zeros",
@@ -484,25 +484,43 @@ def _nothing_there(case: Case, S: Parts) -> Finding | None:
     )
 
 
-def _all_the_same(kind: Any, every: Sequence[Array], T: Array) -> Finding | None:
-    """Return that the answer does not depend on the input, though it should.
-
-    Args:
-        kind: of the answers.
-        every: the student's, of the main questions, then of others.
-        T: the right ones to the main ones.
-    """
-    S = every[0]
+def _all_the_same(m: Matcher) -> Finding | None:
+    """Return that the answer does not depend on the input, though it should."""
+    i = worst_part(m.ask.kinds, m.S, m.T, m.ask.near)
+    kind, S = m.ask.kinds[i], m.S[i]
+    every = (S, m.fresh.S[i]) if m.fresh else (S,)
     whole = as_one([answer for some in every for answer in some])
     if len(S) < 2 or difference(whole, whole[0]).max() > 1e-8:
         return None
-    off = f"(Off by up to {kind.apart(S, T)}.)"
+    off = f"(Off by up to {kind.apart(S, m.T[i])}.)"
     square = S.ndim == 3 and S.shape[1] == S.shape[2]
     if square and np.array_equal(S[0], np.eye(S.shape[1])):
         says = f"It returns the identity, whatever it is given. {off}"
         return Finding("always-the-identity", says)
     says = "The answer is the same, whatever the input: it does not depend on it."
     return Finding("ignores-its-input", f"{says} {off}")
+
+
+# What may explain answers, in the order in which it is asked. What shows in the answers
+# themselves stands before two mistakes at once, which are less simple.
+SOURCES: Sequence[Callable[[Matcher], Finding | None]] = (
+    sources.authors,
+    sources.in_another_order,
+    sources.of_the_kind,
+    _nothing_there,
+    _none_or_not,
+    _not_finite,
+    _all_the_same,
+    sources.likely_mutants,
+    sources.of_arguments,
+    pairs.two_at_once,
+    sources.of_answers,
+    sources.other_mutants,
+    sources.nearly,
+    pairs.beside,
+    by_results,
+    pairs.second,
+)
 
 
 def _first(which: Any, given: Sequence[str], word: str) -> str:

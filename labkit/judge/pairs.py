@@ -1,205 +1,174 @@
-"""Two mistakes at once: they are claimed where together they give all numbers."""
+"""Pairs of hypotheses: two that together give all of a student's answers.
+
+Each half has a sentence that stands alone, or the pair is not told.
+"""
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import time
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import combinations
+from itertools import combinations, islice
 from typing import Any
 
 import numpy as np
 
-from labkit.judge import moves
+from labkit.judge import changes
 from labkit.judge.answers import (
     MATCHES,
     InTurn,
     Parts,
     all_match,
-    as_one,
-    own,
+    capitalised,
     parts,
     rigid,
-    worst_part,
 )
-from labkit.judge.ask import Ask, Case, as_plain
+from labkit.judge.ask import SLIPPING
+from labkit.judge.hypothesis import EXACT
+from labkit.judge.matcher import Code, Matcher, row
 from labkit.judge.mistake import Finding, Mistake
+from labkit.judge.mutant import Mutant
+from labkit.judge.sentence import half
+from labkit.judge.sources import QUICK, after
+from robo47.checks import Array
 
 # What one mistake alone leaves right, two need not: "all is right except that ...".
 _BUT = re.compile(
     r"^(?:[^;:]*?\b(?:is|are) right(?: except that|, but|;)"
     r"|right [^;,:]*[;,](?: but)?) "
 )
-EXACT = 1e-8  # of many pairs one comes near by chance, so two must give more digits
 MOST = 80  # mistakes of a function that are tried two at a time
-QUICK = 2e-3  # seconds of a call that a row may say, for its arguments to be changed
+SUMS = 400  # pairs that add up at one call, of which some do at all
+FEW = 3  # wrong calls at which the first of two mutants is looked for
+LIKELY = 3  # first mutants beside which all others are tried
+NAMED = 1.5  # a named mistake comes after two signs, and before the other mutants
+# Mutants that may be one of two: by factors and numbers a sum is made in many ways.
+ALONG = {"sign", "negated", "left-out", "name", "order", "transpose", "index", "line"}
+Together = Any  # from the answers of two hypotheses and the right ones to both at once
 
 
-def of_other_arguments(case: Case, S: Parts, T: Parts) -> Finding | None:
-    """Return that the answers are the right ones to other arguments, or None.
-
-    Such as two exchanged, or one of the other sign: a slip that needs no name.
-    """
-    ask = case.ask
-    truth = ask.truth
-    whole = any(kind.whole for kind in ask.kinds)
-    if whole or ask.seconds > QUICK or not isinstance(truth, InTurn):
-        return None
-    i = tried(ask, S, T)[0]
-    for move in _moves(case, i):
-        asked = ask.in_turn(partial(_after, truth.function, move.change))
-        if not alike(ask, answer_to(asked, case.arguments, i, T), nth(S, i)):
-            continue
-        if alike(ask, answers_to(asked, case.arguments), S):
-            k = worst_part(ask.kinds, S, T, ask.near)
-            off = f"Off by up to {ask.kinds[k].apart(S[k], T[k])}"
-            says = f"It is the right answer to other arguments: with {move.says}."
-            how = f"({off}; that reproduces your output.)"
-            return Finding(f"argument-{move.slug}", f"{says} {how}")
-    return None
-
-
-def tried(ask: Ask, S: Parts, T: Parts) -> list[int]:
-    """Return the calls that pairs are tried at.
-
-    Drawn inputs come last, and hide less; what is furthest off is tried besides.
-    """
-    gap = ask.gaps(S, T)
-    furthest = int(np.argmax(gap))
-    wrong = np.flatnonzero(gap > ask.near)
-    return list(dict.fromkeys([int(wrong[-1]) if len(wrong) else furthest, furthest]))
-
-
-def _moves(case: Case, i: int) -> Iterator[moves.Move]:
-    """Yield what may be done to the arguments, as those of the i-th call are."""
-    columns = case.arguments
-    call = [as_plain(c[i]) if isinstance(c, np.ndarray) else c for c in columns]
-    names = case.names
-    if len(names) != len(call):
-        names = [f"argument {k + 1}" for k in range(len(call))]
-    yield from moves.of_arguments(tuple(map(own, call)), names)
-
-
-def two_at_once(case: Case, S: Parts, T: Parts) -> Finding | None:
-    """Return two named mistakes that together give the student's answers, or None.
-
-    Two terms that are wrong add up: what both make is the one answer and the other's
-    difference from the right one. A mistake made with an argument comes before another,
-    and one made with the finished answer after it.
-    """
-    ask = case.ask
-    if any(kind.whole for kind in ask.kinds):
-        return None
-    found = (_two_of(case, S, T, i) for i in tried(ask, S, T))
-    return next((_both_told(ask, pair, S, T) for pair in found if pair), None)
-
-
-def _two_of(case: Case, S: Parts, T: Parts, i: int) -> Sequence[Mistake] | None:
-    """Return two mistakes that together give all answers, found at the i-th call."""
-    ask = case.ask
-    mistakes = of_its_own_first(ask)
-    answers = {}
-    for k, one in enumerate(mistakes):
-        answer = answer_to(one.redo, case.arguments, i, T)
-        wrong = alike(ask, answer, nth(T, i)) is False
-        if wrong and not _handed_back(answer, case.arguments, i):
-            answers[k] = answer
-    pairs = _Pairs(case, S, T, i, mistakes, answers)
-    found = pairs.of_its_kind() or pairs.added() or pairs.finished()
-    return found or pairs.in_turn()
-
-
-def of_its_own_first(ask: Ask) -> list[Mistake]:
+def of_its_own_first(m: Matcher) -> list[Mistake]:
     """Return the mistakes that are tried two at a time, a function's own first."""
-    mistakes = [one for one in ask.named if isinstance(one.redo, InTurn)]
+    mistakes = [one for one in m.ask.named if isinstance(one.redo, InTurn)]
     return sorted(mistakes, key=lambda one: one.reached)[:MOST]
 
 
-@dataclass(frozen=True)
-class Pair:
-    """Two mistakes, and the answers that both make together."""
+def two_at_once(m: Matcher) -> Finding | None:
+    """Return two named mistakes that together give the student's answers, or None."""
+    if m.whole:
+        return None
+    for i in dict.fromkeys([m.i, m.furthest]):
+        pairs = _Pairs(m, i)
+        some = (pairs.of_its_kind, pairs.added, pairs.finished, pairs.in_turn)
+        if found := next(filter(None, (one() for one in some)), None):
+            says = [_BUT.sub("", one.says.rstrip("?")) for one in found]
+            return _told(m, [one.slug for one in found], says)
+    return None
 
-    first: Mistake
-    second: Mistake
-    redo: InTurn
+
+def _told(m: Matcher, slugs: Sequence[str], says: Sequence[str]) -> Finding:
+    how = f"{capitalised(m.off())}; both together reproduce your output"
+    return Finding("+".join(slugs), f"Two things at once: {'; '.join(says)}. ({how}.)")
 
 
 @dataclass(frozen=True)
 class _Pairs:
-    """Pairs of mistakes beside a student's answers: one call's first, then all."""
+    """Pairs of an author's mistakes: one call's answers first, then all."""
 
-    case: Case
-    S: Parts  # the student's
-    T: Parts  # the right ones
-    i: int  # the call that is furthest off
-    mistakes: Sequence[Mistake]
-    answers: Mapping[int, Parts]  # to that call, of those that are wrong there
+    m: Matcher
+    i: int  # the call at which they are screened
+
+    @cached_property
+    def mistakes(self) -> list[Mistake]:
+        return of_its_own_first(self.m)
+
+    @cached_property
+    def answers(self) -> Mapping[int, Parts]:
+        """The answers of those that are wrong there."""
+        found = {}
+        for k, one in enumerate(self.mistakes):
+            answer = self.m.main.answer(one.redo, self.i)
+            wrong = answer and not _alike(self.m, answer, self._right)
+            if wrong and not _handed_back(answer, self.m.main.each[self.i]):
+                found[k] = answer
+        return found
+
+    @cached_property
+    def _right(self) -> Parts:
+        return tuple(t[self.i] for t in self.m.T)
 
     def added(self) -> Sequence[Mistake] | None:
         """Return two mistakes whose differences, or factors, come together."""
-        its = nth(self.T, self.i)
         for a, b in combinations(self.answers, 2):
-            first = self.mistakes[a]
-            second = self.mistakes[b]
-            if first.slug == second.slug:
+            pair = self.mistakes[a], self.mistakes[b]
+            some = self.answers[a], self.answers[b]
+            if pair[0].slug == pair[1].slug or any(map(self._is_another_pose, some)):
                 continue
-            pair = self.answers[a], self.answers[b]
-            if any(map(self._is_another_pose, pair)):
-                continue
-            for combined in (_sum, _product):
-                if not self._is_this_one(combined(*pair, its)):
+            for both in (_sum, _product):
+                if not self._fits(both(*some, self._right)):
                     continue
-                one = self._every(first.redo)
-                other = self._every(second.redo)
-                if combined is _product and _one_factor(one, other, self.T):
-                    continue
-                if exactly(self.case.ask, combined(one, other, self.T), self.S):
-                    return first, second
+                one, other = (self.m.main.answers(x.redo) for x in pair)
+                factor = both is _product and _one_factor(one, other, self.m.T)
+                if not factor and _add_up(self.m, pair[0].redo, pair[1].redo, both):
+                    return pair
         return None
 
     def _is_another_pose(self, answer: Parts) -> bool:
         """Return whether both R and t are wrong: that is no term of a sum."""
-        its = self.T[0][self.i]
-        if len(answer) != 1 or answer[0].shape[1:] != (4, 4) or not rigid(its[None]):
+        (its, *_) = self._right
+        if len(answer) != 1 or answer[0].shape != (4, 4) or not rigid(its[None]):
             return False
-        off = np.abs(answer[0][0] - its)
+        off = np.abs(answer[0] - its)
         return bool(off[:3, :3].max() > MATCHES and off[:3, 3].max() > MATCHES)
 
     def of_its_kind(self) -> Sequence[Mistake] | None:
         """Return two mistakes that any function of this kind can have."""
-        if len(self.case.ask.kinds) != 1:
+        if len(self.m.T) != 1:
             return None
-        general = list(self.case.ask.kinds[0].general())
-        its = nth(self.T, self.i)
-        for first, change in combinations(general, 2):
-            if self._is_this_one(_changed(change, _changed(first, its))):
-                every = _changed(change, _changed(first, self.T))
-                if exactly(self.case.ask, every, self.S):
-                    return first, change
+        for first, change in combinations(self.m.ask.kinds[0].general(), 2):
+            made = [
+                _changed(change, _changed(first, calls.T))
+                for calls in filter(None, (self.m.main, self.m.fresh))
+            ]
+            if self._all_fit(made):
+                return first, change
         return None
+
+    def _all_fit(self, made: Sequence[Parts]) -> bool:
+        calls = filter(None, (self.m.main, self.m.fresh))
+        return all(
+            len(some) == 1
+            and len(some[0]) == len(one)
+            and all(
+                one.difference.fits(i, (some[0][i],), digits=True)
+                for i in range(len(one))
+            )
+            for some, one in zip(made, calls, strict=True)
+        )
 
     def finished(self) -> Sequence[Mistake] | None:
         """Return a mistake and another that is made with its finished answer."""
-        if len(self.case.ask.kinds) != 1:
+        if len(self.m.T) != 1:
             return None
-        general = self.case.ask.kinds[0].general()
+        general = self.m.ask.kinds[0].general()
         for change in [*general, *self._of_the_answer]:
             for k, answer in self.answers.items():
-                if self._is_this_one(_changed(change, answer)):
-                    every = self._every(self.mistakes[k].redo)
-                    if exactly(self.case.ask, _changed(change, every), self.S):
-                        return self.mistakes[k], change
+                one = tuple(x[None] for x in answer)
+                if not self._fits(tuple(x[0] for x in _changed(change, one))):
+                    continue
+                redo = partial(_finished, change, self.mistakes[k].redo)
+                if self.m.holds(redo):
+                    return self.mistakes[k], change
         return None
 
     def in_turn(self) -> Sequence[Mistake] | None:
         """Return a mistake made with arguments and one after it, or two options."""
-        for pair in self._that_combine():
-            if self._is_this_one(self._answer(pair.redo)):
-                every = self._every(pair.redo)
-                if exactly(self.case.ask, every, self.S):
-                    return pair.first, pair.second
+        for first, second, code in self._that_combine():
+            if self._fits(self.m.main.answer(code, self.i)) and self.m.holds(code):
+                return first, second
         return None
 
-    def _that_combine(self) -> Iterator[Pair]:
+    def _that_combine(self) -> Iterator[tuple[Mistake, Mistake, Code]]:
         """Yield pairs that can be made together.
 
         The first is made with arguments, or both are one function's with other options,
@@ -212,77 +181,67 @@ class _Pairs:
                 other: Any = second.redo
                 if first.slug == second.slug:
                     continue
-                both: Callable[..., Any] | None = None
                 if given:
-                    both = partial(_after, other.function, given)
+                    yield first, second, partial(after, other.function, given)
                 elif i < k and _options(one.function, other.function):
                     both = partial(one.function, **other.function.keywords)
-                if both:
-                    yield Pair(first, second, self.case.ask.in_turn(both))
+                    yield first, second, both
 
     @cached_property
-    def _of_arguments(self) -> dict[int, Callable[..., Any]]:
+    def _of_arguments(self) -> dict[int, Code]:
         """Which mistakes are the right answer to other arguments."""
-        found: dict[int, Callable[..., Any]] = {}
-        truth = self.case.ask.truth
-        if self.case.ask.seconds > QUICK or not isinstance(truth, InTurn):
+        found: dict[int, Code] = {}
+        if self.m.ask.seconds > QUICK or self.m.right is None:
             return found
-        for _, _, change in _moves(self.case, self.i):
-            asked = self.case.ask.in_turn(partial(_after, truth.function, change))
-            answer = self._answer(asked)
-            for k in self._that_give(answer, partial(self._every, asked)):
-                found.setdefault(k, change)
+        call, names = self.m.main.each[self.i], self.m.case.names
+        for one in changes.likely(call, names):
+            code = partial(after, self.m.right, one.change)
+            if answer := self.m.main.answer(code, self.i):
+                for k in self._that_give(answer, self.m.main.answers, code):
+                    found.setdefault(k, one.change)
         return found
 
-    def _answer(self, redo: Callable[..., Any]) -> Parts:
-        return answer_to(redo, self.case.arguments, self.i, self.T)
-
-    def _every(self, redo: Callable[..., Any]) -> Parts:
-        return answers_to(redo, self.case.arguments)
-
-    def _that_give(self, answer: Parts, every: Callable[[], Parts]) -> Iterator[int]:
+    def _that_give(self, answer: Parts, every: Any, code: Any) -> Iterator[int]:
         """Yield the first mistake that gives an answer at one call, and at all."""
         for k, its in self.answers.items():
-            if answer and alike(self.case.ask, answer, its):
-                if alike(self.case.ask, every(), self._every(self.mistakes[k].redo)):
+            if _alike(self.m, answer, its):
+                mine = self.m.main.answers(self.mistakes[k].redo)
+                if _all_alike(self.m, every(code), mine):
                     yield k
                 return
 
     @cached_property
     def _of_the_answer(self) -> list[Mistake]:
         """Mistakes that are a change of the right answer, as such changes."""
-        its = nth(self.T, self.i)[0]
+        (T,) = self.m.T
         found = []
-        for change in moves.of_answer(its[0]):
-            answer = (np.asarray(change(its)),)
-            for k in self._that_give(answer, partial(_as_answer, change, self.T[0])):
+        for change in changes.simple(T[0]):
+            answer = (np.asarray(change(T[self.i : self.i + 1]))[0],)
+            for k in self._that_give(answer, lambda c: (np.asarray(c(T)),), change):
                 found.append(replace(self.mistakes[k], redo=change))
         return found
 
-    def _is_this_one(self, answer: Parts) -> bool:
-        return exactly(self.case.ask, answer, nth(self.S, self.i))
+    def _fits(self, answer: Parts) -> bool:
+        return self.m.main.difference.fits(self.i, answer, digits=True)
 
 
-def _handed_back(answer: Parts, arguments: tuple[Any, ...], i: int) -> bool:
+def _finished(change: Mistake, redo: Any, *args: Any) -> Any:
+    """Return the answer of a mistake with another one made when it is finished."""
+    (answer,) = parts(redo.numbers(redo.function(*args)))
+    return np.asarray(change.redo(answer[None]))[0]
+
+
+def _handed_back(answer: Parts, call: Sequence[Any]) -> bool:
     """Return whether an answer is an argument as it came: nothing was made of it."""
-    columns = [c for c in arguments if isinstance(c, np.ndarray)]
     return any(
-        np.shape(c[i]) == part.shape[1:] and np.allclose(part[0], c[i])
+        isinstance(x, np.ndarray)
+        and x.size > 1
+        and x.dtype.kind == "f"
+        and x.shape == part.shape
+        and np.allclose(part, x)
         for part in answer
-        for c in columns
-        if np.size(c[i]) > 1
+        for x in call
     )
-
-
-def _after(
-    function: Callable[..., Any], change: Callable[..., tuple[Any, ...]], *args: Any
-) -> Any:
-    """Return the answer to changed arguments."""
-    return function(*change(*args))
-
-
-def _as_answer(change: Callable[[Any], Any], T: Any) -> Parts:
-    return (np.asarray(change(T)),)
 
 
 def _options(one: Any, other: Any) -> bool:
@@ -292,41 +251,12 @@ def _options(one: Any, other: Any) -> bool:
     return one.func is other.func and not one.keywords.keys() & other.keywords.keys()
 
 
-def answer_to(
-    redo: Callable[..., Any], arguments: tuple[Any, ...], i: int, like: Parts
-) -> Parts:
-    """Return the answer to one question with a mistake, or with two; () for none.
-
-    It is filled up with 0 to the size of `like`, as answers of several sizes are.
-    """
-    column = [c[[i]] if isinstance(c, np.ndarray) else c for c in arguments]
-    answer = nth(answers_to(redo, tuple(column)), 0)
-    pairs = list(zip(answer, like, strict=False))
-    if any(x.ndim != its.ndim for x, its in pairs):
-        return answer
-    return tuple(as_one([x[0], np.zeros(its.shape[1:])])[:1] for x, its in pairs)
-
-
-def answers_to(redo: Callable[..., Any], arguments: tuple[Any, ...]) -> Parts:
-    """Return the answers to all questions with a mistake; () where it has none."""
-    try:
-        with np.errstate(all="ignore"):
-            return parts(redo(*arguments))
-    except (ValueError, np.linalg.LinAlgError):
-        return ()
-
-
 def _changed(change: Mistake, answer: Parts) -> Parts:
     """Return an answer with a mistake that is made when it is finished."""
     try:
         return parts(change.redo(answer[0])) if answer else ()
     except (ValueError, np.linalg.LinAlgError):
         return ()
-
-
-def nth(some: Parts, i: int) -> Parts:
-    """Return the answer to one question, as a set of one."""
-    return tuple(part[i : i + 1] for part in some)
 
 
 def _sum(a: Parts, b: Parts, right: Parts) -> Parts:
@@ -352,7 +282,7 @@ def _one_factor(a: Parts, b: Parts, right: Parts) -> bool:
 
     They are two ways in which one term is wrong, and it cannot be wrong in both.
     """
-    one, other, its = (np.concatenate([np.ravel(x) for x in p]) for p in (a, b, right))
+    one, other, its = map(row, (a, b, right))
     if not one.shape == other.shape == its.shape:
         return False
     told = (one * its > 0) & (other * its > 0)
@@ -363,22 +293,147 @@ def _one_factor(a: Parts, b: Parts, right: Parts) -> bool:
     return bool(np.abs(y - power * x).max() <= MATCHES * np.abs(y).max())
 
 
-def alike(ask: Ask, a: Parts, b: Parts) -> bool | None:
-    """Return whether two answers match; None where there is none."""
-    if len(a) != len(b):
+def _add_up(m: Matcher, one: Code, other: Code, both: Together = _sum) -> bool:
+    """Return whether the differences of two hypotheses give all answers together."""
+    for calls in filter(None, (m.main, m.fresh)):
+        for i in m.order if calls is m.main else range(len(calls)):
+            its = tuple(t[i] for t in calls.T)
+            pair = calls.answer(one, i), calls.answer(other, i)
+            if not all(pair) or not calls.difference.fits(i, both(*pair, its), True):
+                return False
+    return True
+
+
+def _alike(m: Matcher, a: Parts, b: Parts) -> bool:
+    return _all_alike(m, tuple(x[None] for x in a), tuple(x[None] for x in b))
+
+
+def _all_alike(m: Matcher, a: Parts, b: Parts) -> bool:
+    """Return whether two sets of answers match."""
+    return bool(a) and all_match(m.ask.kinds, a, b)
+
+
+@dataclass(frozen=True)
+class _Half:
+    """A mutant or a named mistake, as one of two."""
+
+    slug: str
+    says: str
+    code: Code
+    mutant: Mutant | None = None
+
+    @property
+    def rank(self) -> float:
+        return self.mutant.rank if self.mutant else NAMED
+
+    def apart(self, other: "_Half") -> bool:
+        """Return whether two are of two places, and not both named: that is tried."""
+        if self.mutant and other.mutant:
+            return not self.mutant.overlaps(other.mutant)
+        return bool(self.mutant or other.mutant)
+
+
+def beside(m: Matcher) -> Finding | None:
+    """Return two mutants, or one and a named mistake, that add up to the answers."""
+    its = row(tuple(t[m.i] for t in m.T))
+    some = [(one, row(m.main.answer(one.code, m.i))) for one in _halves(m)]
+    known = [(one, answer) for one, answer in some if _tells(answer, its)]
+    if not known:
         return None
-    return all_match(ask.kinds, a, b)
+    off = np.array([answer for _, answer in known]) - its
+    mine = row(tuple(s[m.i] for s in m.S))
+    sums = islice(_sums(off, mine - its), SUMS)
+    pairs = [(known[a][0], known[b][0]) for a, b in sums]
+    for one, other in sorted(pairs, key=lambda pair: pair[0].rank + pair[1].rank):
+        if one.apart(other) and _add_up(m, one.code, other.code):
+            return _told(m, [one.slug, other.slug], [one.says, other.says])
+    return None
 
 
-def exactly(ask: Ask, a: Parts, b: Parts) -> bool:
-    """Return whether two answers match in all the digits that rounding leaves."""
-    return all_match(ask.kinds, a, b, EXACT)
+def _halves(m: Matcher) -> Iterator[_Half]:
+    """Yield what may be one of two: named mistakes, and mutants with a sentence."""
+    near = _near(m)
+    for one in of_its_own_first(m) if near else []:
+        yield _Half(one.slug, one.says.rstrip("?"), one.redo)
+    along = [one for one in near if one.kind in ALONG]
+    for mutant, code in m.ask.bodies[0].ready(along) if near else ():
+        if says := half(m, mutant):
+            yield _Half(f"slip-{mutant.kind}", says, code, mutant)
 
 
-def _both_told(ask: Ask, pair: Sequence[Mistake], S: Parts, T: Parts) -> Finding:
-    i = worst_part(ask.kinds, S, T, ask.near)
-    says = "; ".join(_BUT.sub("", one.says.rstrip("?")) for one in pair)
-    off = f"Off by up to {ask.kinds[i].apart(S[i], T[i])}"
-    how = f"{off}; both together reproduce your output"
-    slug = "+".join(one.slug for one in pair)
-    return Finding(slug, f"Two things at once: {says}. ({how}.)")
+def _near(m: Matcher) -> list[Mutant]:
+    """Return the near mutants of the lab's own body, the fewer of a slow one."""
+    if m.whole or not m.ask.bodies:
+        return []
+    most = int(SLIPPING / max(m.ask.labs_cost, 1e-6))
+    return m.ask.bodies[0].near[:most]
+
+
+def second(m: Matcher) -> Finding | None:
+    """Return two mutants of which the second works on what the first made, or None.
+
+    The first is one that gives more of the student's numbers than the right answers do.
+    Of a slow function they are not looked for.
+    """
+    near = _near(m)
+    if len(near) * (FEW + LIKELY) * m.ask.labs_cost > SLIPPING:
+        return None
+    ends = time.process_time() + SLIPPING
+    for first in _likely(m, near):
+        for other, code in m.ask.bodies[0].besides(first):
+            answer = m.main.answer(code, m.i)
+            if m.main.difference.fits(m.i, answer, digits=True) and m.holds(code):
+                says = [half(m, first), half(m, other)]
+                if all(says):
+                    slugs = [f"slip-{one.kind}" for one in (first, other)]
+                    return _told(m, slugs, says)
+        if time.process_time() > ends:
+            break
+    return None
+
+
+def _likely(m: Matcher, near: Sequence[Mutant]) -> list[Mutant]:
+    """Return the mutants that give most numbers of a few wrong answers."""
+    few = m.wrong[np.unique(np.linspace(0, len(m.wrong) - 1, FEW).astype(int))]
+    mine = [row(tuple(s[i] for s in m.S)) for i in few]
+    its = [row(tuple(t[i] for t in m.T)) for i in few]
+    some = m.ask.bodies[0].ready(near) if near else []
+    scores = [_score(m, code, few, mine) for _, code in some]
+    least = sum(map(_common, its, mine))
+    best = sorted(range(len(scores)), key=lambda k: -scores[k])[:LIKELY]
+    return [some[k][0] for k in best if scores[k] > least]
+
+
+def _score(m: Matcher, code: Code, few: Array, mine: Sequence[Array]) -> int:
+    """Return how many numbers of some calls a mutant gives."""
+    pairs = zip(few, mine, strict=True)
+    return sum(_common(row(m.main.answer(code, i)), s) for i, s in pairs)
+
+
+def _common(one: Array, other: Array) -> int:
+    """Return how many numbers of two answers are the same."""
+    same = one.shape == other.shape
+    return int(np.isclose(one, other, EXACT, EXACT).sum()) if same else 0
+
+
+def _tells(answer: Array, its: Array) -> bool:
+    """Return whether an answer is one, and another than the right one."""
+    if answer.shape != its.shape or not np.isfinite(answer).all():
+        return False
+    return bool(np.abs(answer - its).max(initial=0.0) > EXACT)
+
+
+def _sums(off: Array, wanted: Array) -> Iterator[tuple[int, int]]:
+    """Yield pairs of rows of off, (n, m), whose sum is the wanted row."""
+    if not np.isfinite(wanted).all():
+        return
+    onto = np.random.default_rng(len(wanted)).uniform(0.5, 1.5, len(wanted))
+    shadow = off @ onto
+    order = np.argsort(shadow)
+    near = EXACT * max(1.0, float(np.abs(off).max()))
+    low = np.searchsorted(shadow[order], wanted @ onto - shadow - near)
+    high = np.searchsorted(shadow[order], wanted @ onto - shadow + near)
+    for a in range(len(off)):
+        for b in sorted(order[low[a] : high[a]]):
+            if b > a and np.abs(off[a] + off[b] - wanted).max() <= near:
+                yield a, int(b)

@@ -17,7 +17,6 @@ it names the mistake; in the lab's place, it is put before the checker and run a
 which proves the name. Nothing else is written of a mistake.
 """
 
-import ast
 import importlib
 import inspect
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -31,6 +30,7 @@ from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, HeldOut, Inputs
 from labkit.judge.draw import Draw
 from labkit.judge.mistake import REDONE, Mistake, told
+from labkit.judge.mutant import Body, body_of, glosses
 from labkit.judge.results import checked, numbers
 from labkit.judge.written import Answered, stop, stops_with
 from labkit.lesson.day import Day
@@ -342,7 +342,7 @@ class Row:
         if "inputs" not in self.more:
             raise Robo47Error(f"{self.function}.py has no @row.inputs")
         more = {**self.more, "inputs": self._inputs, "reference": self._reference,
-                "body": self._body}  # fmt: skip
+                "right_bodies": self._bodies}  # fmt: skip
         if self._spans:
             more["held_out"] = [*more.get("held_out", ()), self._of_any_size()]
         if "accept" in more:
@@ -392,11 +392,17 @@ class Row:
         there = hasattr(self, "_day") and self._day.source.is_file()
         return getattr(self.lab, self.function, None) if there else None
 
-    def _body(self) -> tuple[ast.FunctionDef, dict[str, Any]] | None:
+    def _bodies(self) -> list[Body]:
+        """Return right functions as they are written, the lab's own first."""
         if self._reference() is None:
-            return None
-        found = definition(read_script(self._day.source), self.function)
-        return (found, vars(self.lab)) if found else None
+            return []
+        text = read_script(self._day.source)
+        lab = definition(text, self.function)
+        space, name = dict(vars(self.lab)), self.function
+        found = [Body(lab, space, name=name, glosses=glosses(text))] if lab else []
+        right = [way.code for way in self.ways if way.status == "right"]
+        others = [*([] if "accept" in self.more else [self.truth]), *right]
+        return [*found, *filter(None, (body_of(code, name) for code in others))]
 
     def _accept(self, *args: Any) -> Any:
         try:

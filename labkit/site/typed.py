@@ -11,8 +11,8 @@ import numpy as np
 from labkit.base.exchange import Exchange, Question
 from labkit.judge.answers import MATCHES, parts
 from labkit.judge.ask import stacked
-from labkit.judge.made_again import redone
 from labkit.judge.row import row_of
+from labkit.judge.sources import named as named_by
 from labkit.lesson.day import find_day
 
 DAY, FUNCTION = 1, "joint_T"
@@ -41,7 +41,7 @@ def table() -> dict[str, Any]:
         beside[ROTATION] = T[0][ROTATION]
         if np.array_equal(S[0], T[0]) or not np.array_equal(beside, T[0]):
             continue  # no line of this one gives it
-        found = redone(ask, asked, S, T)
+        found = named_by(ask, asked, S, T)
         if found and found.message not in named:
             named[found.message] = {"slug": found.slug, "values": _rotations(S[0])}
     return {

@@ -77,7 +77,7 @@ def _(theta):
     return np.round(se3.Rz(theta), 5)
 
 
-@row.wrong("few-entries-off")  # The sine from the cosine: sqrt forgets its sign.
+@row.wrong("slip-sign-lost")  # The sine from the cosine: sqrt forgets its sign.
 def _(theta):
     c = np.cos(theta)
     s = np.sqrt(1 - c * c)

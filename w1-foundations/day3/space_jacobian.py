@@ -114,7 +114,7 @@ def _(screws, q):
     return {slug: carried(screws, moved, own(one)) for slug, one in adjoints.items()}
 
 
-@row.wrong("columns-off")  # The loop ends one joint early.
+@row.wrong("argument-entry-missing")  # The loop ends one joint early.
 def _(screws, q):
     J = space_jacobian(screws, q)
     J[:, 6] = 0.0

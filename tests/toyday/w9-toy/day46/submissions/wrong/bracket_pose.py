@@ -1,4 +1,4 @@
-# task 46.4: few-entries-off (not in a run: the lab looks at its translation only)
+# task 46.4: slip-function (not in a run: the lab looks at its translation only)
 # A 1 in the corner, as in a pose.
 import numpy as np
 

@@ -1,0 +1,343 @@
+"""Changes of one argument, or of a finished answer: a sign, an order, a unit.
+
+Many a mistake is one of these: "the damper drives the hand on" is the right answer with
+-V_err. Whether it is one is found by trying it, and a change of an argument can be made
+together with any other mistake.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from itertools import combinations
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from labkit.judge.answers import listed, own, rigid
+from labkit.judge.matrices import rigid_inverse
+from robo47.checks import Array
+
+Call = tuple[Any, ...]  # the arguments of one question
+FEW = 16  # numbers of a call, up to which any two entries of a vector are exchanged
+SHARED = 3  # entries that two arguments have in common, one for each joint, say
+CONSTANTS = (0.0, 1.0, 9.8, 9.80665, 9.81, 1.645, 1.96, 0.5, 2.0, 1e-3, 1e-6)
+
+
+class Change(NamedTuple):
+    """A change of a call's arguments."""
+
+    slug: str  # "exchanged"
+    says: str  # a clause, "`qd` and `qdd` are exchanged"
+    change: Callable[..., Call]  # a function of all of them
+
+
+def likely(call: Call, names: Sequence[str]) -> Iterator[Change]:
+    """Yield the changes of a call's arguments that are made most often.
+
+    Args:
+        call: one call, which says what an argument may be changed into.
+        names: of the arguments; without them they are counted.
+    """
+    call, names = tuple(map(own, call)), _named(call, names)
+    for k, x in enumerate(call):
+        yield from _made(k, names[k], _near(x))
+    for k, m in combinations(range(len(call)), 2):
+        if _number(call[k]) and _number(call[m]) and _shape(call[k]) == _shape(call[m]):
+            says = f"`{names[k]}` and `{names[m]}` are exchanged"
+            yield Change("exchanged", says, partial(_exchanged, k, m))
+    if sum(map(np.size, call)) <= FEW:
+        for k, x in enumerate(call):
+            yield from _made(k, names[k], _entries_exchanged(x))
+    lengths = [len(x) for x in call if isinstance(x, np.ndarray) and x.ndim]
+    for n in sorted({n for n in lengths if n >= SHARED and lengths.count(n) > 1}):
+        alike = [
+            f"`{name}`" for name, x in zip(names, call, strict=True) if _long(x, n)
+        ]
+        says = f"{listed(alike)} are read in reverse order"
+        yield Change("backwards", says, partial(_backwards, n))
+
+
+def others(call: Call, names: Sequence[str]) -> Iterator[Change]:
+    """Yield other changes; the arguments are those of `likely`."""
+    names = _named(call, names)
+    for k, x in enumerate(call):
+        yield from _made(k, names[k], _far(own(x)))
+
+
+def _named(call: Call, names: Sequence[str]) -> Sequence[str]:
+    if len(names) == len(call):
+        return names
+    return [f"argument {k + 1}" for k in range(len(call))]
+
+
+def of_answer() -> Iterator[tuple[str, Callable[[Array], Any]]]:
+    """Yield changes of finished answers, (n, ...), and what they are then.
+
+    A factor and a sign are none of them: their kind tells these with what they are.
+    """
+    yield "its sign is lost", np.abs
+    yield "it is squared", np.square
+    yield "its square root is taken", np.sqrt
+    yield "its reciprocal is taken", lambda T: 1.0 / T
+    yield "it is subtracted from 1", lambda T: 1.0 - T
+    yield "negative values are set to 0", lambda T: np.maximum(T, 0.0)
+    yield "it is clamped to 0 and 1", lambda T: np.clip(T, 0.0, 1.0)
+    yield "it is clamped to -1 and 1", lambda T: np.clip(T, -1.0, 1.0)
+    for decimals in range(4):
+        yield (
+            f"it is rounded to {decimals} decimals",
+            partial(np.round, decimals=decimals),
+        )
+    yield "it is rounded down", np.floor
+    yield "it is rounded up", np.ceil
+    yield "it is normalised", _normalised
+    yield "it is in reverse order", partial(np.flip, axis=1)
+    yield "it is shifted by one entry", partial(np.roll, shift=1, axis=1)
+    yield "it is shifted by one entry", partial(np.roll, shift=-1, axis=1)
+    yield "its halves are exchanged", partial(_rolled, axis=1)
+    yield "its halves are exchanged", partial(_rolled, axis=-1)
+    yield "it is transposed", np.matrix_transpose
+    yield "only its diagonal is kept", lambda T: T * np.eye(T.shape[-1])
+    yield "only its upper triangle is kept", np.triu
+    yield "only its lower triangle is kept", np.tril
+    yield "it is inverted", np.linalg.inv
+    yield "its cumulative sum is taken", partial(np.cumsum, axis=1)
+    yield "its columns are exchanged", partial(np.flip, axis=-1)
+
+
+def simple(answer: Array) -> Iterator[Callable[[Array], Array]]:
+    """Yield changes of a finished answer that may follow another mistake."""
+    yield np.negative
+    yield partial(np.multiply, 2.0)
+    yield partial(np.multiply, 0.5)
+    if answer.ndim and len(answer) > 1:
+        yield partial(np.flip, axis=1)
+    if answer.ndim == 1 and len(answer) == 6:
+        yield partial(np.roll, shift=3, axis=-1)
+    if answer.ndim == 2 and answer.shape[0] == answer.shape[1]:
+        yield np.matrix_transpose
+
+
+Made = Iterator[tuple[str, str, Callable[[Any], Any]]]
+
+
+def _made(k: int, name: str, some: Made) -> Iterator[Change]:
+    for slug, says, change in some:
+        yield Change(slug, says.format(name), partial(_at, k, change))
+
+
+def _near(x: Any) -> Made:
+    if not _number(x):
+        return
+    yield "sign", "`{0}` is negated", np.negative
+    yield "left-out", "`{0}` is replaced by 0", np.zeros_like
+    yield "doubled", "`{0}` is doubled", partial(np.multiply, 2.0)
+    yield "halved", "`{0}` is halved", partial(np.multiply, 0.5)
+    shape = _shape(x)
+    if len(shape) > 1 and shape[-1] == shape[-2]:
+        yield "transposed", "`{0}` is transposed", np.matrix_transpose
+        if shape[-1] == 4 and rigid(x.reshape(-1, 4, 4)):
+            yield "inverted", "`{0}` is inverted", rigid_inverse
+    if shape == (6,):
+        yield "halves-exchanged", "the halves of `{0}` are exchanged", _rolled
+    if shape and shape[0] >= SHARED:
+        yield "backwards", "`{0}` is read in reverse order", partial(np.flip, axis=0)
+
+
+def _entries_exchanged(x: Any) -> Made:
+    if not (_number(x) and len(_shape(x)) == 1):
+        return
+    for i, j in combinations(range(len(x)), 2):
+        says = f"`{{0}}[{i}]` and `{{0}}[{j}]` are exchanged"
+        yield "entries-exchanged", says, partial(_swapped, i, j)
+
+
+def _far(x: Any) -> Made:
+    """Yield changes of an argument that are made more seldom."""
+    if isinstance(x, int | np.integer) and not isinstance(x, bool):
+        yield "one-more", "`{0}` is larger by 1", lambda n: n + 1
+        yield "one-less", "`{0}` is smaller by 1", lambda n: n - 1
+    if not _number(x):
+        return
+    yield "ones", "`{0}` is replaced by 1", np.ones_like
+    yield "sign-lost", "`{0}` is replaced by its absolute value", np.abs
+    yield "degrees", "`{0}` is converted to degrees", np.rad2deg
+    yield "radians", "`{0}` is converted from degrees to radians", np.deg2rad
+    yield "squared", "`{0}` is squared", np.square
+    yield "root", "`{0}` is replaced by its square root", np.sqrt
+    yield "reciprocal", "`{0}` is replaced by its reciprocal", lambda x: 1.0 / x
+    yield "thousandths", "`{0}` is multiplied by 1000", partial(np.multiply, 1000.0)
+    yield "thousands", "`{0}` is divided by 1000", partial(np.multiply, 1e-3)
+    yield "clamped", "`{0}` is clamped to -1 and 1", partial(np.clip, a_min=-1, a_max=1)
+    yield "clamped", "`{0}` is clamped to 0 and 1", partial(np.clip, a_min=0, a_max=1)
+    yield (
+        "clamped",
+        "negative values of `{0}` are set to 0",
+        lambda x: np.maximum(x, 0.0),
+    )
+    yield "whole", "`{0}` is truncated to whole numbers", np.trunc
+    for decimals in range(4):
+        says = f"`{{0}}` is rounded to {decimals} decimals"
+        yield "rounded", says, partial(np.round, decimals=decimals)
+    for small in (1e-9, 1e-6, 1e-4, 1e-3, 1e-2, 0.1):
+        says = f"values of `{{0}}` below {small:g} are set to 0"
+        yield "small", says, partial(_without_small, small)
+    if not _shape(x):
+        for value in CONSTANTS:
+            yield (
+                "constant",
+                f"`{{0}}` is replaced by {value:g}",
+                partial(_constant, value),
+            )
+    else:
+        yield from _far_of_array(x)
+
+
+def _far_of_array(x: Array) -> Made:
+    shape = _shape(x)
+    yield "normalised", "`{0}` is normalised", _unit
+    yield "first-for-all", "every entry of `{0}` is replaced by the first", _first
+    yield "last-for-all", "every entry of `{0}` is replaced by the last", _last
+    yield "mean", "every entry of `{0}` is replaced by their mean", _mean
+    yield "sorted", "`{0}` is sorted", partial(np.sort, axis=0)
+    yield (
+        "summed-up",
+        "`{0}` is replaced by its cumulative sum",
+        partial(np.cumsum, axis=0),
+    )
+    if shape[0] > 1:
+        for end, where in ((slice(-1), "last"), (slice(1, None), "first")):
+            missing = partial(_only, end)
+            yield (
+                "entry-missing",
+                f"the {where} entry of `{{0}}` is replaced by 0",
+                missing,
+            )
+            says = f"the {where} entry of `{{0}}` is omitted"
+            yield "entry-missing", says, partial(_cut, end)
+        for some, where in ((slice(1), "first"), (slice(-1, None), "last")):
+            says = f"all entries of `{{0}}` except the {where} are replaced by 0"
+            yield f"{where}-only", says, partial(_only, some)
+        for by in (1, -1):
+            says = "the entries of `{0}` are shifted by one"
+            yield "shifted", says, partial(np.roll, shift=by, axis=0)
+            yield "shifted", says, partial(_shifted, by)
+    if shape == (3,):
+        yield "downwards", "`{0}` is replaced by (0, 0, -|{0}|)", _downwards
+        yield (
+            "constant",
+            "`{0}` is replaced by (0, 0, -9.81)",
+            partial(_constant, (0, 0, -9.81)),
+        )
+    if len(shape) > 1 and shape[-1] == shape[-2]:
+        yield (
+            "diagonal",
+            "only the diagonal of `{0}` is used",
+            lambda x: x * np.eye(len(x)),
+        )
+        yield "identity", "`{0}` is replaced by the identity", lambda x: np.eye(len(x))
+        yield "inverted", "`{0}` is inverted", np.linalg.inv
+        yield "upper", "only the upper triangle of `{0}` is used", np.triu
+        yield "lower", "only the lower triangle of `{0}` is used", np.tril
+    if len(shape) > 1:
+        yield (
+            "columns",
+            "the columns of `{0}` are in reverse order",
+            partial(np.flip, axis=1),
+        )
+
+
+def _number(x: Any) -> bool:
+    """Return whether x is a number, or an array of such, that has a sign."""
+    if isinstance(x, np.ndarray):
+        return x.dtype.kind == "f" and x.size > 0
+    return isinstance(x, float)
+
+
+def _shape(x: Any) -> tuple[int, ...]:
+    return np.shape(x)
+
+
+def _long(x: Any, n: int) -> bool:
+    return isinstance(x, np.ndarray) and x.ndim > 0 and len(x) == n
+
+
+def _swapped(i: int, j: int, x: Array) -> Array:
+    found = x.copy()
+    found[[i, j]] = x[[j, i]]
+    return found
+
+
+def _rolled(x: Array, axis: int = 0) -> Array:
+    return np.roll(x, 3, axis=axis)
+
+
+def _constant(value: Any, x: Any) -> Any:
+    return np.zeros_like(x) + value
+
+
+def _diagonal(x: Array) -> Array:
+    return x * np.eye(len(x))
+
+
+def _unit(x: Array) -> Array:
+    return x / np.linalg.norm(x)
+
+
+def _normalised(T: Array) -> Array:
+    axes = tuple(range(1, T.ndim))
+    return T / np.sqrt(np.sum(T * T, axis=axes, keepdims=True))
+
+
+def _first(x: Array) -> Array:
+    return np.zeros_like(x) + x[:1]
+
+
+def _last(x: Array) -> Array:
+    return np.zeros_like(x) + x[-1:]
+
+
+def _mean(x: Array) -> Array:
+    return np.zeros_like(x) + x.mean(axis=0)
+
+
+def _cut(some: slice, x: Array) -> Array:
+    return x[some]
+
+
+def _only(some: slice, x: Array) -> Array:
+    found = np.zeros_like(x)
+    found[some] = x[some]
+    return found
+
+
+def _shifted(by: int, x: Array) -> Array:
+    found = np.roll(x, by, axis=0)
+    found[0 if by > 0 else -1] = 0.0
+    return found
+
+
+def _downwards(x: Array) -> Array:
+    return np.array([0.0, 0.0, -np.linalg.norm(x)])
+
+
+def _without_small(small: float, x: Any) -> Any:
+    return x * (np.abs(x) >= small)
+
+
+def _at(k: int, change: Callable[[Any], Any], *call: Any) -> Call:
+    """Return a call with one argument changed; a number stays a Python number."""
+    new = change(own(call[k]))
+    plain = np.ndim(new) == 0 and isinstance(call[k], float)
+    return (*call[:k], float(new) if plain else new, *call[k + 1 :])
+
+
+def _exchanged(k: int, m: int, *call: Any) -> Call:
+    new = list(call)
+    new[k] = call[m]
+    new[m] = call[k]
+    return tuple(new)
+
+
+def _backwards(n: int, *call: Any) -> Call:
+    """Return a call with every argument that has n entries read from its end."""
+    return tuple(x[::-1] if _long(x, n) else x for x in call)

@@ -1,0 +1,147 @@
+"""When a hypothesis, "your code does X", explains a student's answers.
+
+A hypothesis explains the difference between the student's answers and the right ones,
+not the answers: a matrix that is symmetric equals its transpose, so the transpose says
+nothing about what is wrong with it. At every call, what the hypothesis leaves
+unexplained has to be below a hundredth of that difference.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from labkit.judge.answers import MATCHES, Parts, difference, gap
+from robo47.checks import Array
+
+SHARE = 0.01  # of the difference from the right answer, which may stay unexplained
+# Of the largest number: what the order of a sum's terms changes. Of many mutants and
+# pairs one comes near by chance, so these have to give as many digits.
+EXACT = 1e-9
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """What a student's code may do, and the function that does it."""
+
+    slug: str  # its name, "slip-sign"
+    says: str  # a sentence's clause that stands alone
+    code: Callable[..., Any]  # a function of one question's arguments
+    redone: str  # what to call its answers: "its transpose"
+
+
+@dataclass(frozen=True, eq=False)
+class Difference:
+    """A student's answers beside the right ones: what explains the difference?"""
+
+    ask: Any  # the row, which says what is near enough to the right answer
+    S: Parts  # the student's, (n, ...) per result
+    T: Parts  # the right ones
+
+    @cached_property
+    def limits(self) -> list[Array]:
+        """How far a hypothesis may be from the student's answer, (n,) per result."""
+        found = []
+        for kind, s, t in zip(self.ask.kinds, self.S, self.T, strict=True):
+            off = difference(s, t, kind.scale)
+            size = np.maximum(1.0, _sizes(s, kind.scale))
+            free = self.ask.rtol * _sizes(t, kind.scale) + self.ask.near
+            # Where the answer is right, or where it is no number, digits are compared.
+            wrong = np.isfinite(off) & (off > free)
+            found.append(np.where(wrong, SHARE * off, np.maximum(MATCHES * size, free)))
+        return found
+
+    @cached_property
+    def digits(self) -> list[Array]:
+        """The same where every digit is compared that rounding leaves."""
+        trios = zip(self.limits, self.S, self.ask.kinds, strict=True)
+        return [
+            np.minimum(some, EXACT * np.maximum(1.0, _sizes(s, k.scale).max(initial=0)))
+            for some, s, k in trios
+        ]
+
+    def fits(self, i: int, H: Parts, digits: bool = False) -> bool:
+        """Return whether a hypothesis explains the answer to one call.
+
+        Args:
+            i: which call.
+            H: the answer that the hypothesis gives, the parts of one call.
+            digits: whether every digit is compared.
+        """
+        if len(H) != len(self.S):
+            return False
+        limits = self.digits if digits else self.limits
+        trios = zip(H, self.S, limits, self.ask.kinds, strict=True)
+        return all(_within(h, s[i], some[i], kind.scale) for h, s, some, kind in trios)
+
+    def explained(self, H: Parts) -> Array:
+        """Return of each call whether a hypothesis explains its difference, (n,)."""
+        n = len(self.S[0])
+        pairs = zip(H, self.S, strict=False)
+        if len(H) != len(self.S) or any(h.shape != s.shape for h, s in pairs):
+            return np.zeros(n, bool)
+        good = np.ones(n, bool)
+        trios = zip(H, self.S, self.limits, self.ask.kinds, strict=True)
+        for h, s, limit, kind in trios:
+            good &= difference(h, s, kind.scale) <= limit
+        return good
+
+    def explains(self, H: Parts) -> bool:
+        """Return whether a hypothesis explains every call, and says what is wrong."""
+        return bool(self.explained(H).all()) and self.differs(H)
+
+    def differs(self, H: Parts) -> bool:
+        """Return whether a hypothesis gives other answers than the right ones.
+
+        It has to do so in every result that is wrong, at the call that is furthest off.
+        """
+        trios = zip(self.ask.kinds, self.S, self.T, H, strict=True)
+        for j, (kind, s, t, h) in enumerate(trios):
+            off = self.ask.gaps_of(j, s, t)
+            if off.max(initial=0.0) <= self.ask.near:
+                continue
+            i = int(np.argmax(off))
+            apart = difference(h[i : i + 1], t[i : i + 1], kind.scale)[0]
+            if apart < (1.0 - SHARE) * min(off[i], 1e300):
+                return False
+        return True
+
+
+def equals(kinds: Sequence[Any], S: Parts, H: Parts) -> bool:
+    """Return whether two sets of answers are equal but for the order of a sum."""
+    pairs = zip(S, H, kinds, strict=False)
+    return len(S) == len(H) and all(_equals(s, h, kind.scale) for s, h, kind in pairs)
+
+
+def _equals(s: Array, h: Array, scale: Any) -> bool:
+    if s.shape != h.shape:
+        return False
+    size = max(1.0, float(_sizes(s, scale).max(initial=0.0)))
+    return bool(difference(h, s, scale).max(initial=0.0) <= EXACT * size)
+
+
+def evidence(exact: bool) -> str:
+    """Return what a hypothesis does, after what it is: "its transpose ..."."""
+    if exact:
+        return "reproduces your output"
+    return "explains at least 99 % of the difference in every call"
+
+
+def _within(h: Array, s: Array, limit: float, scale: Any) -> bool:
+    if h.shape != s.shape:
+        return False
+    if not h.size:
+        return True
+    off = float((np.abs(h - s) / scale).max())
+    if off <= limit:
+        return True
+    return not np.isfinite(off) and bool((gap(h, s) / scale).max() <= limit)
+
+
+def _sizes(x: Array, scale: Any) -> Array:
+    """Return the largest finite entry of each answer, in units of a scale, (n,)."""
+    sizes = np.abs(x / np.asarray(scale))
+    sizes = np.where(np.isfinite(sizes), sizes, 0.0)
+    return sizes.reshape(len(x), -1).max(axis=1, initial=0.0)

@@ -1,0 +1,209 @@
+"""The matcher: which hypothesis explains all of a student's answers.
+
+A hypothesis is screened at one call, then confirmed at all that are always asked and at
+those that were drawn anew.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from labkit.judge.answers import (
+    InTurn,
+    Parts,
+    as_one,
+    own,
+    parts,
+    worst_part,
+)
+from labkit.judge.ask import Ask, Case, as_plain
+from labkit.judge.hypothesis import Difference, equals
+from labkit.judge.results import numbers
+from robo47.checks import Array
+
+Code = Callable[..., Any]  # of one question's arguments, or an InTurn
+
+
+@dataclass(frozen=True, eq=False)
+class Calls:
+    """Calls with a student's answers, the right ones, and those of a hypothesis."""
+
+    ask: Ask
+    arguments: tuple[Any, ...]  # stacked
+    S: Parts
+    T: Parts
+
+    @cached_property
+    def difference(self) -> Difference:
+        """What a hypothesis has to explain."""
+        return Difference(self.ask, self.S, self.T)
+
+    def __len__(self) -> int:
+        """Return how many there are."""
+        return len(self.S[0])
+
+    @cached_property
+    def _columns(self) -> list[tuple[Any, ...]]:
+        return [
+            tuple(c[[i]] if isinstance(c, np.ndarray) else c for c in self.arguments)
+            for i in range(len(self))
+        ]
+
+    @cached_property
+    def each(self) -> list[tuple[Any, ...]]:
+        """The arguments of each call, as a truth gets them."""
+        return [
+            tuple(
+                as_plain(c[i]) if isinstance(c, np.ndarray) else c
+                for c in self.arguments
+            )
+            for i in range(len(self))
+        ]
+
+    @cached_property
+    def _sized(self) -> bool:
+        """Whether the size of an answer follows the question."""
+        return any(None in kind.shape for kind in self.ask.kinds)
+
+    def answer(self, code: Code, i: int) -> Parts:
+        """Return the answer to one call; () where there is none."""
+        try:
+            if isinstance(code, InTurn):
+                found = parts(code.each(self._columns[i])[0])
+            else:
+                value = code(*map(own, self.each[i]))
+                found = parts(numbers(self.ask.kind, value))
+        except Exception:  # it may stop in any way, as a student's function may
+            return ()
+        return self._filled(found)
+
+    def answers(self, code: Code) -> Parts:
+        """Return the answers to all calls; () where one of them has none."""
+        some = [self.answer(code, i) for i in range(len(self))]
+        if not all(some) or len({tuple(x.shape for x in one) for one in some}) > 1:
+            return ()
+        return tuple(np.array(part) for part in zip(*some, strict=True))
+
+    def gives(self, code: Code, order: Iterable[int], digits: bool) -> bool:
+        """Return whether a hypothesis explains every call, asked in an order."""
+        fits = self.difference.fits
+        return all(fits(i, self.answer(code, i), digits) for i in order)
+
+    def _filled(self, answer: Parts) -> Parts:
+        """Return an answer filled up with 0 to the size of the largest."""
+        if not self._sized or len(answer) != len(self.T):
+            return answer
+        return tuple(
+            part
+            if part.shape == t.shape[1:] or part.ndim != t.ndim - 1
+            else as_one([part, np.zeros(t.shape[1:])])[0]
+            for part, t in zip(answer, self.T, strict=True)
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Matcher:
+    """A student's answers to the main calls and to fresh ones."""
+
+    case: Case
+    S: Parts  # the student's
+    T: Parts  # the right ones
+    known: dict[str, Any] = field(default_factory=dict)  # what a source has found
+
+    @property
+    def ask(self) -> Ask:
+        """The function's row."""
+        return self.case.ask
+
+    @cached_property
+    def whole(self) -> bool:
+        """Whether equal answers prove little: counts, choices, truth values."""
+        return any(kind.whole for kind in self.ask.kinds)
+
+    @cached_property
+    def main(self) -> Calls:
+        """The calls that are always asked."""
+        return Calls(self.ask, self.case.arguments, self.S, self.T)
+
+    @cached_property
+    def fresh(self) -> Calls | None:
+        """Those that were drawn anew, and have an answer."""
+        more = self.case.further
+        return Calls(self.ask, more.arguments, more.S, more.T) if more else None
+
+    @cached_property
+    def right(self) -> Code | None:
+        """A right function of one question that comes to an end; None without one.
+
+        Other arguments may keep a loop busy for ever, so it is the lab's own, whose
+        steps are limited, where that has loops.
+        """
+        truth = self.ask.truth
+        if not isinstance(truth, InTurn):
+            return None
+        body = next(iter(self.ask.bodies), None)
+        if body is None or not body.loops:
+            return truth.function
+        self.calibrate()
+        return body.compiled()
+
+    def calibrate(self) -> None:
+        """Have mutants take no more steps than some times those of a right function."""
+        for body in self.ask.bodies:
+            body.calibrate(list(map(own, self.main.each[self.i])))
+
+    @cached_property
+    def wrong(self) -> Any:
+        """Which main calls have a wrong answer."""
+        return np.flatnonzero(self.ask.gaps(self.S, self.T) > self.ask.near)
+
+    @cached_property
+    def i(self) -> int:
+        """The call at which hypotheses are screened: drawn inputs hide less."""
+        return int(self.wrong[-1]) if len(self.wrong) else self.furthest
+
+    @cached_property
+    def furthest(self) -> int:
+        """The call whose answer is furthest off."""
+        return int(np.argmax(self.ask.gaps(self.S, self.T)))
+
+    @cached_property
+    def order(self) -> list[int]:
+        """All main calls, those that tell most first."""
+        wrong = [self.i, self.furthest, *self.wrong[::-1].tolist()]
+        return list(dict.fromkeys([*wrong, *range(len(self.main))]))
+
+    def holds(self, code: Code, digits: bool = True) -> bool:
+        """Return whether a hypothesis explains all answers, the fresh ones, too."""
+        return self._in_all(code, digits) and self.main.difference.differs(
+            self.main.answers(code)
+        )
+
+    def _in_all(self, code: Code, digits: bool) -> bool:
+        if not self.main.gives(code, self.order, digits):
+            return False
+        fresh = self.fresh
+        return fresh is None or fresh.gives(code, range(len(fresh)), digits)
+
+    def exact(self, code: Code) -> bool:
+        """Return whether a hypothesis gives all numbers, to what rounding leaves."""
+        some = [self.main, self.fresh] if self.fresh else [self.main]
+        return all(
+            equals(self.ask.kinds, one.S, one.answers(code)) for one in some if one
+        )
+
+    def off(self) -> str:
+        """Return how far the answers are off: "off by up to 2 m"; "" of a NaN."""
+        k = worst_part(self.ask.kinds, self.S, self.T, self.ask.near)
+        if not np.isfinite(self.S[k]).all():
+            return ""
+        kind = self.ask.kinds[k]
+        return f"{kind.gap} {kind.apart(self.S[k], self.T[k])}"
+
+
+def row(answer: Parts) -> Array:
+    """Return an answer as one row of numbers."""
+    return np.concatenate([np.ravel(x) for x in answer]) if answer else np.empty(0)

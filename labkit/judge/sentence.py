@@ -1,0 +1,222 @@
+"""What is said of a mutant: which change of the formula gives the student's output.
+
+A sentence names nothing that only the kit's own solution has: the names in it are those
+of the arguments, or stand in the student's own function.
+"""
+
+import ast
+import builtins
+import copy
+from collections.abc import Sequence
+from typing import Any
+
+from labkit.judge.answers import capitalised
+from labkit.judge.hypothesis import evidence
+from labkit.judge.mistake import Finding
+from labkit.judge.mutant import Mutant
+from labkit.judge.own_line import Line, OwnFunction
+from labkit.judge.statements import Block
+from labkit.lesson.lab_module import definition
+from labkit.lesson.starter import function_lines
+
+MODULES = ("np", "se3", "screws", "math")
+
+# What is said of a change where its place says no more.
+SAYS = {
+    "sign": "one sign is reversed",
+    "negated": "one sign is reversed",
+    "order": "two operands are in the wrong order",
+    "left-out": "a part of the formula is missing",
+    "operation": "one operation is wrong",
+    "sign-lost": "a sign is lost, because an absolute value is taken",
+    "name": "one variable is used in the place of another",
+    "index": "an index or a range is wrong",
+    "number": "a number in the formula is wrong",
+    "factor": "a factor of two is missing, or one too many",
+    "bracket": "a bracket opens or closes in the wrong place",
+    "transpose": "a transpose is missing, or one too many",
+    "inverse": "an inverse is missing, or one too many",
+    "squared": "a square is missing, or one too many",
+    "exchanged": "two variables are exchanged",
+    "scaled": "the result is multiplied or divided by one variable too many",
+    "function": "one function is used in the place of another",
+    "condition": "a condition is wrong",
+    "line": "one line is missing, repeated, or in the wrong place",
+    "clamp": "a limit is missing, or is applied on one side only",
+    "norm": "a norm or a normalisation is wrong",
+    "root": "a square root is missing, or one too many",
+    "unit": "a unit is converted that should not be, or is not converted",
+    "rounded": "a value is rounded inside the formula",
+    "diagonal": "only a part of a matrix is used",
+    "entries": "the entries of a vector are in the wrong place",
+    "added": "a term is added that does not belong to the formula",
+}
+OF_A_PART = {
+    ast.Add: "a term is missing", ast.Sub: "a term is missing",
+    ast.Mult: "a factor is missing", ast.MatMult: "a factor is missing",
+    ast.Div: "a division is missing", ast.Pow: "a power is missing",
+}  # fmt: skip
+
+
+def of_mutants(m: Any, found: Sequence[Mutant]) -> Finding:
+    """Return what is said of a mutant that gives all answers, or of one of two.
+
+    One whose line stands in the student's function is the likeliest.
+    """
+    found = next(([one] for one in found if own_line(m, one)), list(found[:2]))
+    texts = [known_text(m, one) for one in found]
+    says = told(m, found[0])
+    if len(found) > 1 and all(texts):
+        some = list(dict.fromkeys(what(one) for one in found))
+        says = f"either {', or '.join(some)}" if len(some) > 1 else some[0]
+        says += f": your output equals the correct formula {', or '.join(texts)}"
+    how = f"{capitalised(m.off())}; that {evidence(True)}"
+    return Finding(f"slip-{found[0].kind}", f"{capitalised(says)}. ({how}.)")
+
+
+def shows(m: Any, mutant: Mutant) -> bool:
+    """Return whether a student can see where a mutant's change would be."""
+    return bool(own_line(m, mutant) or known_text(m, mutant) or gloss(mutant))
+
+
+def half(m: Any, mutant: Mutant) -> str:
+    """Return what is said of one mutant of two; "" where it says too little."""
+    return told(m, mutant) if shows(m, mutant) else ""
+
+
+def told(m: Any, mutant: Mutant) -> str:
+    """Return a clause on a mutant that stands alone."""
+    if line := own_line(m, mutant):
+        return f"line {line.number}, `{line.text}`: {what(mutant, line)}"
+    if text := known_text(m, mutant):
+        return f"{what(mutant)}: your output equals the correct formula {text}"
+    if step := gloss(mutant):
+        return f"{what(mutant)}, in this step: {step}"
+    return what(mutant)
+
+
+def what(mutant: Mutant, line: Line | None = None) -> str:
+    """Return what kind of change a mutant is, in words of the formula.
+
+    Args:
+        mutant: one that gives the student's answers.
+        line: the student's line, whose names may be said.
+    """
+    place, new = mutant.edits[0]
+    if isinstance(place, Block):
+        return place.says
+    says = _of_an_expression(mutant, place.node, new, line) or SAYS[mutant.kind]
+    return says + ", in every line of its kind" * (len(mutant.edits) > 1)
+
+
+def _of_an_expression(
+    mutant: Mutant, node: Any, new: ast.expr, line: Line | None
+) -> str:
+    """Return how an expression differs, with names where a line is known, or ""."""
+    is_sum = isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub)
+    if mutant.kind == "left-out":
+        if isinstance(node, ast.BinOp):
+            return OF_A_PART.get(type(node.op), "")
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+            return f"`{ast.unparse(node.func)}` is missing"
+    if mutant.kind == "sign" and is_sum and (its := _own(node.right, line)):
+        return f"the sign of `{its}` is reversed"
+    if mutant.kind == "name" and isinstance(new, ast.Name) and (its := _own(new, line)):
+        return _another_name(mutant, node, new, its)
+    if mutant.kind == "order" and isinstance(node, ast.BinOp):
+        pair = [_own(one, line) for one in (node.left, node.right)]
+        if all(pair):
+            return f"`{pair[0]}` and `{pair[1]}` are in the wrong order"
+    return ""
+
+
+def _another_name(mutant: Mutant, node: ast.expr, new: ast.Name, its: str) -> str:
+    """Return which variable is wrong, and what belongs there if that has a gloss."""
+    meaning = mutant.body.meaning(new.id)
+    wrong = f"`{its}` ({meaning})" if meaning else f"`{its}`"
+    right = mutant.body.meaning(node.id) if isinstance(node, ast.Name) else ""
+    other = f"the place of another value ({right})" if right else "a wrong place"
+    return f"{wrong} is used in {other}"
+
+
+def _own(node: ast.expr, line: Line | None) -> str:
+    """Return an expression in the student's names; "" where one is not known."""
+    if line is None:
+        return ""
+    found = copy.deepcopy(node)
+    for one in (n for n in ast.walk(found) if isinstance(n, ast.Name)):
+        known = one.id in line.names
+        one.id = line.names.get(one.id, one.id)
+        if not known and isinstance(one.ctx, ast.Load) and one.id not in MODULES:
+            return ""
+    return ast.unparse(found)
+
+
+def own_line(m: Any, mutant: Mutant) -> Line | None:
+    """Return the student's line that has a mutant's change; None without one."""
+    own = _own_function(m, mutant)
+    if own is None or len(mutant.edits) > 1:
+        return None
+    with mutant.made():
+        changed = mutant.statement()
+        return own.line(changed) if changed else None
+
+
+def _own_function(m: Any, mutant: Mutant) -> OwnFunction | None:
+    reference = mutant.body.function
+    key = f"own {id(reference)}"
+    if key not in m.known:
+        try:
+            own = definition(m.case.source, mutant.body.name)
+        except (SyntaxError, ValueError):
+            own = None
+        m.known[key] = own and OwnFunction(own, reference)
+    return m.known[key]
+
+
+def gloss(mutant: Mutant) -> str:
+    """Return what the reference's line is, as its comment says; "" without one."""
+    place = mutant.edits[0][0]
+    return mutant.body.glosses.get(getattr(place.node, "lineno", 0), "")
+
+
+def known_text(m: Any, mutant: Mutant) -> str:
+    """Return "with `kp * e + ed`", or "" where a student has not seen its names."""
+    text = mutant.text
+    code = text.removeprefix("without ")
+    if not text or not _names(code) <= _known(m, mutant):
+        return ""
+    return f"with `{text}`" if code == text else f"without `{code}`"
+
+
+def _names(text: str) -> set[str]:
+    """Return the names in a text; of what is no Python an unknown one."""
+    text = text.replace(", then ", "; ").removesuffix(":")
+    for tried in (text, f"{text}: pass"):
+        try:
+            tree = ast.parse(tried)
+        except SyntaxError:
+            continue
+        return {n.id for n in ast.walk(tree) if isinstance(n, ast.Name)}
+    return {""}
+
+
+def _known(m: Any, mutant: Mutant) -> set[str]:
+    """Return the names that a student has seen: arguments, and those of the file."""
+    own = function_lines(m.case.source, mutant.body.name)[2]
+    given = {*m.case.names, *(mutant.body.arguments if mutant.body.own else ())}
+    names = {"np", *vars(builtins), *given}
+    if mutant.body.own:
+        made = {n for n in mutant.body.names if n not in mutant.body.arguments}
+        seen = _names_in("\n".join(own))
+        module = set(mutant.body.space) - made
+        names |= module | (made & seen)
+    return names
+
+
+def _names_in(text: str) -> set[str]:
+    try:
+        tree = ast.parse(text)
+    except SyntaxError:
+        return set()
+    return {n.id for n in ast.walk(tree) if isinstance(n, ast.Name)}

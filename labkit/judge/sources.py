@@ -1,0 +1,237 @@
+"""The sources of hypotheses: what may explain a student's answers, and in which order.
+
+The author's entries come first, then what is common to a kind of answer, then what the
+machine makes: mutants of every right body, one argument changed, the answer changed.
+"""
+
+import time
+from collections.abc import Iterator
+from functools import partial
+from itertools import chain, islice, permutations
+from typing import Any
+
+import numpy as np
+
+from labkit.judge import changes
+from labkit.judge.answers import Parts, all_match, capitalised, parts, plain
+from labkit.judge.ask import Ask, Case
+from labkit.judge.hypothesis import equals, evidence
+from labkit.judge.matcher import Calls, Code, Matcher
+from labkit.judge.mistake import Finding, Mistake
+from labkit.judge.mutant import Mutant
+from labkit.judge.sentence import of_mutants, shows
+
+NEAR, FURTHER = "near", "further"  # mutants
+SECONDS = {NEAR: 0.5, FURTHER: 0.3}  # of the processor
+QUICK = 2e-3  # seconds of a call that a row may say, for its arguments to be changed
+SEVERAL = 20  # mutants that give one answer, of which some give all
+APART = 4  # of them, in places of their own
+AGREE = 3  # calls with a wrong answer that a mutant of whole numbers has to give
+
+
+def authors(m: Matcher, digits: bool = True) -> Finding | None:
+    """Return the first of the author's mistakes that explains all answers.
+
+    Whole numbers that are equal prove little, so there it must be the only one.
+
+    Args:
+        m: the matcher.
+        digits: whether it has to give every digit; two mistakes may be as alike as
+            metres and millimetres beside a kilometre.
+    """
+    that_hold = (one for one in m.ask.named if m.holds(one.redo, digits))
+    if not m.whole:
+        return next((with_evidence(m, one) for one in that_hold), None)
+    found: dict[str, Finding] = {}
+    for one in that_hold:
+        found.setdefault(one.slug, with_evidence(m, one))
+    if len(found) == 2:
+        either, other = found.values()
+        says = f"Two mistakes give these numbers. Either: {either.message} Or: "
+        return Finding(either.slug, says + other.message)
+    return next(iter(found.values())) if len(found) == 1 else None
+
+
+def of_accepted(ask: Ask, arguments: tuple[Any, ...], S: Parts) -> Finding | None:
+    """Return the author's mistake that gives all answers where many are right."""
+    calls = Calls(ask, arguments, S, S)
+    found = (
+        one for one in ask.named if all_match(ask.kinds, S, calls.answers(one.redo))
+    )
+    return next((Finding(one.slug, _sentence(one)) for one in found), None)
+
+
+def named(ask: Ask, arguments: tuple[Any, ...], S: Parts, T: Parts) -> Finding | None:
+    """Return what is said of answers to the main questions that have a name."""
+    m = Matcher(Case(ask, arguments, plain(S), plain(T), ()), S, T)
+    return authors(m) or in_another_order(m) or of_the_kind(m)
+
+
+def nearly(m: Matcher) -> Finding | None:
+    """Return what explains all but a hundredth of the difference, and not all digits.
+
+    Such as a named mistake in single precision, or beside a small one.
+    """
+    if m.whole:
+        return None
+    some = (authors, of_the_kind, of_arguments)
+    return next(filter(None, (source(m, False) for source in some)), None)
+
+
+def _sentence(one: Mistake) -> str:
+    return capitalised(one.says) + ("" if one.says.endswith("?") else ".")
+
+
+def with_evidence(m: Matcher, one: Mistake, exact: bool | None = None) -> Finding:
+    """Return what is said of a mistake, and how well it explains the answers."""
+    exact = m.exact(one.redo) if exact is None else exact
+    how = "; ".join(filter(None, [m.off(), one.redone]))
+    return Finding(
+        one.slug, f"{_sentence(one)} ({capitalised(how)} {evidence(exact)}.)"
+    )
+
+
+def in_another_order(m: Matcher) -> Finding | None:
+    """Return that a function's results stand in another order, if so."""
+    kinds = m.ask.kinds
+    for order in list(permutations(range(len(kinds))))[1:]:
+        if _as_made(m, lambda T, order=order: tuple(T[i] for i in order)):
+            names = [kinds[i].called or f"result {i + 1}" for i in range(len(kinds))]
+            says = f"The results are in another order; it is {', then '.join(names)}."
+            return Finding("answers-swapped", says)
+    return None
+
+
+def of_the_kind(m: Matcher, digits: bool = True) -> Finding | None:
+    """Return what any answer of this kind may have: one result is changed."""
+    for i, kind in enumerate(m.ask.kinds):
+        for one in kind.general():
+            made = partial(_with_result, i, one.redo)
+            again = _as_made(m, made)
+            exact = equals(m.ask.kinds, m.S, again)
+            if again and (exact or not digits):
+                found = with_evidence(m, one, exact)
+                called = f"{kind.called}: " if len(m.S) > 1 and kind.called else ""
+                return Finding(found.slug, called + found.message)
+    return None
+
+
+def of_answers(m: Matcher) -> Finding | None:
+    """Return a change of the finished answer that gives the student's."""
+    for says, change in () if m.whole else changes.of_answer():
+        for i in [None, *range(len(m.T))] if len(m.T) > 1 else [0]:
+            made = partial(_with_result, i, change)
+            again = _as_made(m, made)
+            if again and equals(m.ask.kinds, m.S, again):
+                return _changed_answer(m, i, says)
+    return None
+
+
+def _changed_answer(m: Matcher, i: int | None, says: str) -> Finding:
+    called = m.ask.kinds[i].called if i is not None and len(m.T) > 1 else ""
+    what = f"{capitalised(called)} is" if called else "Your output is"
+    how = f"{capitalised(m.off())}; that {evidence(True)}"
+    return Finding("answer-changed", f"{what} the correct result, but {says}. ({how}.)")
+
+
+def _with_result(i: int | None, change: Code, T: Parts) -> Parts:
+    """Return answers with one result changed, or all."""
+    if i is None:
+        return tuple(np.asarray(change(t)) for t in T)
+    return (*T[:i], np.asarray(change(T[i])), *T[i + 1 :])
+
+
+def _as_made(m: Matcher, made: Any) -> Parts:
+    """Return the main answers made of the right ones if they explain all; or ()."""
+    found: Parts = ()
+    for calls in filter(None, (m.fresh, m.main)):
+        try:
+            again = parts(made(calls.T))
+        except (ValueError, IndexError, np.linalg.LinAlgError):  # it has no answer here
+            return ()
+        if not calls.difference.explained(again).all():
+            return ()
+        found = again
+    return found if m.main.difference.differs(found) else ()
+
+
+def of_arguments(m: Matcher, digits: bool = True) -> Finding | None:
+    """Return that the answers are the right ones to other arguments.
+
+    Such as two exchanged, or one of the other sign: it needs no name.
+    """
+    if m.whole or m.ask.seconds > QUICK or m.right is None:
+        return None
+    call, names = m.main.each[m.i], m.case.names
+    for one in chain(changes.likely(call, names), changes.others(call, names)):
+        if m.holds(partial(after, m.right, one.change), digits):
+            exact = m.exact(partial(after, m.right, one.change))
+            says = f"Your output is the correct result for other arguments: {one.says}."
+            how = f"({capitalised(m.off())}; that {evidence(exact)}.)"
+            return Finding(f"argument-{one.slug}", f"{says} {how}")
+    return None
+
+
+def after(function: Code, change: Code, *args: Any) -> Any:
+    """Return the answer to changed arguments."""
+    return function(*change(*args))
+
+
+def likely_mutants(m: Matcher) -> Finding | None:
+    """Return a near mutant that gives all answers, where it can be shown."""
+    found = [one for one in _that_hold(m, NEAR) if shows(m, one)]
+    return of_mutants(m, found) if found else None
+
+
+def other_mutants(m: Matcher) -> Finding | None:
+    """Return any mutant that gives all answers."""
+    found = _that_hold(m, NEAR) or _that_hold(m, FURTHER)
+    return of_mutants(m, found) if found else None
+
+
+def _that_hold(m: Matcher, which: str) -> list[Mutant]:
+    """Return a few mutants that give all answers; of whole numbers the only one.
+
+    Args:
+        m: the matcher.
+        which: `NEAR`, one place that a hand may mistype; `FURTHER`, all others.
+    """
+    if which in m.known:
+        return m.known[which]
+    m.known[which] = found = list[Mutant]()
+    if m.whole and _wrong_calls(m) < AGREE:
+        return found
+    screened = (one for one, answer in answered(m, which) if _fits(m, answer))
+    for one in islice(screened, SEVERAL):
+        apart = not any(one.overlaps(other) for other in found)
+        code = one.code
+        if code and apart and m.holds(code):
+            found.append(one)
+            if len(found) >= APART:
+                break
+    if m.whole and len(found) > 1:
+        found.clear()
+    return found
+
+
+def _wrong_calls(m: Matcher) -> int:
+    some = [m.main, m.fresh] if m.fresh else [m.main]
+    return sum(
+        int(np.sum(m.ask.gaps(one.S, one.T) > m.ask.near)) for one in some if one
+    )
+
+
+def _fits(m: Matcher, answer: Parts) -> bool:
+    return m.main.difference.fits(m.i, answer, digits=True)
+
+
+def answered(m: Matcher, which: str) -> Iterator[tuple[Mutant, Parts]]:
+    """Yield the mutants with their answers to one call, within a limit of time."""
+    m.calibrate()
+    ends = time.process_time() + SECONDS[which]
+    near = which == NEAR
+    some = (b.ready(b.near) if near else b.further() for b in m.ask.bodies)
+    for one, code in chain.from_iterable(some):
+        yield one, m.main.answer(code, m.i)
+        if time.process_time() > ends:
+            return
