@@ -72,11 +72,11 @@ class Package:
     committed: int | None = None
     problem: str = ""  # why there is nothing to grade; "" where there is
     seed: int = 0  # of the fresh inputs, the same for everybody
-    version: str = ""  # of the kit that collected it, in words
-    branch: str = ""  # that the clone stands on
+    version: str = ""  # the version of the kit that collected it, in words
+    branch: str = ""  # the branch that the clone stands on
     late: int = 0  # how many commits came after the deadline
     elsewhere: str = ""  # a sentence on where the script is, when it is not in place
-    clock: str = ""  # what is wrong with the student's clock; "" where nothing is
+    clock: str = ""  # the fault of the student's clock; "" if there is none
 
     @property
     def fingerprint(self) -> str:

@@ -12,7 +12,7 @@ from labkit.lesson.day import Day
 from robo47.errors import FaultError
 from robo47.paths import ROOT, shown
 
-_ITEMS = {  # in the order of the checks, by what is handed in
+_ITEMS = {  # each check of a deliverable, in the order of checking
     "figure": ["figure"],
     "worksheet": ["definitions", "drawings", "checklist"],
     "log": ["metrics"],

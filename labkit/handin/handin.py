@@ -15,7 +15,7 @@ from labkit.lesson.own_files import MB, SCRIPT, UnreadError, helpers_of, read, s
 
 # In bytes.
 LIMITS = {"script": SCRIPT, "worksheet": 200_000, "figure": 8 * MB, "log": 4 * MB}
-PICTURES = 40  # of the worksheet
+PICTURES = 40  # pictures of a worksheet that are looked at
 IMAGES = (".png", ".jpg", ".jpeg", ".gif", ".svg", ".webp", ".bmp", ".heic", ".tiff")
 
 # Each search ends within a few hundred characters of where it began.
@@ -33,7 +33,7 @@ class Item:
     # Or "todo" (not there yet), "wrong" (there, but), "unfinished" (right as far as it
     # was looked at).
     status: str = "passed"
-    message: str = ""  # what to do; "" when passed
+    message: str = ""  # the next step; "" if it passed
 
     @property
     def passed(self) -> bool:

@@ -16,7 +16,7 @@ from labkit.base.text import visible
 from labkit.lesson.day import Day
 from labkit.lesson.week import NOTEBOOKS
 
-BRANCHES, FILES = 20, 20_000  # that are looked through
+BRANCHES, FILES = 20, 20_000  # the most that is searched
 DEEP = 30  # folders in each other
 SKIPPED = (".git", ".venv", "node_modules", "__pycache__", NOTEBOOKS)
 SUBMODULE = "160000"  # mode of a repository inside a repository

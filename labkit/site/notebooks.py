@@ -21,7 +21,7 @@ from labkit.site.pages import notebook_of
 from robo47.errors import Robo47Error
 
 AT_ONCE = 2  # kernels
-SECONDS = 300  # of a cell
+SECONDS = 300  # limit of a cell
 WIDGET = "application/vnd.jupyter.widget-view+json"
 SLIDERS = "*Sliders: move them in a notebook of your own, `make notebook DAY={}`.*"
 FENCE = "`" * 8

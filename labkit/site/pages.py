@@ -41,7 +41,7 @@ TRY = (
 )
 VERB = re.compile(
     r"^([a-z-]+)%?:.*?##(\d?) (.+)$", re.MULTILINE
-)  # as `make help` reads it
+)  # in the form that `make help` reads
 TYPED = re.compile(r"\b[A-Z]+=[^\s,;]+|\B--[\w-]+|\b\w+/[\w.-]*\w")
 COMMANDS = """\
 # What to type: the commands
