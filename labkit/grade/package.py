@@ -30,6 +30,7 @@ from labkit.handin.handin import (
     Handin,
     Item,
     image_names,
+    notebook_name,
     picture_path,
     read_handin,
 )
@@ -212,7 +213,8 @@ def _work(day: Day) -> str:
 
 def _check_out(day: Day, clone: Path, commit: str, folder: Path) -> None:
     """Write what a day may hand in of a commit, without running anything of git's."""
-    _write(clone, files_of(clone, commit, *day.files.values()), folder)
+    names = [*day.files.values(), notebook_name(day)]
+    _write(clone, files_of(clone, commit, *names), folder)
     beside = files_of(clone, commit, _work(day)).items()
     helpers = {name: facts for name, facts in beside if name.endswith(".py")}
     _write(clone, helpers, folder, LIMITS["script"])
