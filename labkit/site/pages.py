@@ -157,14 +157,12 @@ def _with_notebook(text: str, day: Day | None) -> str:
     title, rest = text.split("\n\n", 1)
     link = f"[The lab as a notebook, run from top to bottom](../{notebook_of(day)})"
     if address := colab_of(day, os.environ.get("GITHUB_REPOSITORY", "")):
-        link = (
-            f"[Do this day in Colab, nothing to install]({address}), or read it: {link}"
-        )
+        link = f"[Do this day in Colab, without set-up]({address}), or read it: {link}"
     return f"{title}\n\n{link}\n\n{rest}"
 
 
 def colab_of(day: Day, repository: str) -> str:
-    """Return the address at which Colab opens a day's notebook; "" without a repository.
+    """Return the address at which Colab opens a day's notebook, "" if there is none.
 
     Args:
         day: from its manifest.
