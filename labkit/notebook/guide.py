@@ -15,10 +15,12 @@ _STEP = re.compile(r"<!-- run: python src/(\S+) --no-log \| step (\d+) -->")
 _OUTPUT = re.compile(r"<!-- run: .*? -->\n?(.*?)\n?<!-- end -->", re.DOTALL)
 _LINK = re.compile(r"(\]\(|<img src=\")(?!https?:|#|mailto:)([^)\"]+)")
 # A command in a terminal, and what does the same in a cell.
+_END = r"(?! ARGS)(?=[`\s.<]|$)"
 _TYPED = (
     (re.compile(r"make (check|hint) TASK=([\d.]+\d)"), r'\1("\2")'),
-    (re.compile(r"make (check|run)(?: DAY=\d+)?(?=[`\s.<]|$)"), r"\1()"),
-    (re.compile(r"make figures(?: DAY=\d+)?(?=[`\s.<]|$)"), "figure()"),
+    (re.compile(rf"make (check|run)(?: DAY=\d+)?{_END}"), r"\1()"),
+    (re.compile(rf"make figures(?: DAY=\d+)?{_END}"), "figure()"),
+    (re.compile(rf"make start DAY=(\d+){_END}"), r"begin(\1)"),
 )
 # A block that goes over blank lines: how it begins, and the line that ends it.
 _LONG = (

@@ -89,7 +89,8 @@ def check(task: str = "", *, keep: str = "") -> Checked:
     day = _day()
     told = sync.bring(day, _executed(), keep).told(day)
     wanted = day.task(task).id if task else None
-    return Checked(check_once(day, day.work, wanted, secrets.randbits(32)), told)
+    found = check_once(day, day.work, wanted, secrets.randbits(32))
+    return Checked(found, told, hint)
 
 
 @polite

@@ -5,7 +5,8 @@ Code, in a dark theme (no colour of text or ground is set) and in a plain termin
 """
 
 import html
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any
 
 from labkit.check.report import Report, as_text, state_of
@@ -40,10 +41,19 @@ class Said:
 class Checked:
     """The verdict of a check."""
 
-    def __init__(self, report: Report, told: Sequence[str]) -> None:
-        """Keep a report, and the sentences that come before it."""
+    def __init__(
+        self, report: Report, told: Sequence[str], hint: Callable[[str], Any]
+    ) -> None:
+        """Keep what to show.
+
+        Args:
+            report: of one check.
+            told: sentences that come before it.
+            hint: returns the next hint for a task.
+        """
         self.report = report
         self.told = list(told)
+        self.hint = hint
 
     def __repr__(self) -> str:
         """Return the report as `make check` prints it."""
@@ -63,6 +73,32 @@ class Checked:
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
         """Return both forms."""
         return {"text/plain": repr(self), "text/html": self._repr_html_()}
+
+    def _ipython_display_(self) -> None:
+        """Show both forms, with a button for a hint where the notebook has buttons."""
+        from IPython.display import display
+
+        display(self._repr_mimebundle_(), raw=True)
+        left = [one.task.id for one in self.report.left if not self.report.problem]
+        with suppress(ImportError):
+            if left:
+                display(_button(left[0], self.hint))
+
+
+def _button(task: str, hint: Callable[[str], Any]) -> Any:
+    """Return a button that shows the next hint for a task below it."""
+    import ipywidgets
+    from IPython.display import display
+
+    button = ipywidgets.Button(description=f"Hint for {task}")
+    below = ipywidgets.Output()
+
+    def pressed(_: Any) -> None:
+        with below:
+            display(hint(task))
+
+    button.on_click(pressed)
+    return ipywidgets.VBox([button, below])
 
 
 def _row(name: str, state: str, lines: Sequence[str]) -> str:

@@ -69,7 +69,7 @@ def bring(day: Day, cells: Cells, keep: str = "") -> Brought:
     memory = store.read(MEMORY, clone)
     seen: dict[str, list[str]] = memory.get(str(day.number), {})
     pairs = list(_pairs(day, script, cells))
-    counts = {name: _counts(*texts, seen.get(name, [])) for name, *texts in pairs}
+    counts = {n: _counts(cell, file, seen.get(n, [])) for n, cell, file in pairs}
     if not keep and (both := [name for name in counts if counts[name] == "both"]):
         raise Robo47Error(_both(day, both))
     counts = {name: keep if who == "both" else who for name, who in counts.items()}

@@ -28,7 +28,7 @@ class Place:
 def places(worksheet: str) -> list[Place]:
     """Return the open places of a worksheet, in order; drawings are left out."""
     found: list[Place] = []
-    name, asks = "", []
+    name, asks = "", list[str]()
     for i, line in enumerate(worksheet.splitlines()):
         heading, question = _HEADING.match(line), _QUESTION.match(line)
         if heading:
