@@ -26,6 +26,8 @@ from robo47.paths import ROOT, TWIN_XML
 
 SOURCES = ROOT / "site"
 WASM = SOURCES / "node_modules" / "@mujoco" / "mujoco" / "mujoco.wasm"
+FONTS = SOURCES / "node_modules" / "@fontsource" / "stix-two-math" / "files"
+MATHS = FONTS / "stix-two-math-latin-400-normal.woff2"  # SIL Open Font License
 LARGEST_FILM = 2_000_000  # bytes of a page
 SETTINGS: dict[str, Any] = {
     "project": "robo47",
@@ -115,7 +117,7 @@ def films() -> dict[str, Callable[[], Recording]]:
 def _static(into: Path) -> Path:
     """Return a folder, made with the style and all that the arm's page loads."""
     (into / pages.FILMS).mkdir(parents=True)
-    for path in (SOURCES / "style.css", SOURCES / "page.js", TWIN_XML, WASM):
+    for path in (SOURCES / "style.css", SOURCES / "page.js", TWIN_XML, WASM, MATHS):
         shutil.copy(path, into)
     for path in ROOT.glob(f"w*/figures/*{access.TALL}.*"):
         shutil.copy(path, into)  # a narrow screen shows this one
