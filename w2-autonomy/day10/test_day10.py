@@ -277,7 +277,7 @@ def digits_per_step(noise):
 
 def test_gauss_newton_doubles_its_digits_without_noise_alone():
     few, many = digits_per_step(0.3), digits_per_step(2.0)
-    assert f"gains {few:.1f} digits, and with 2 px {many:.1f} digit" in SENTENCES
+    assert f"gains only {few:.1f} digits, and with 2 px {many:.1f} digit" in SENTENCES
     T, corners = held()
     pixels = camera.project(K, T, corners)
     for guess in lab.guesses(T, 12, np.random.default_rng(lab.SEED)):

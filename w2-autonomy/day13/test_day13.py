@@ -310,10 +310,8 @@ def test_limits_twice_as_wide_are_worse_and_the_jacobian_of_the_step_is_not_the_
             return lab.draw_circle(MODEL, lab.best_step())[0].max()
 
     wide = off(2, 0.02)
-    assert f"is {wide:.2f} mm off, more than with the tighter limits" in SENTENCES
-    again = recomputed(2.0)
-    assert f"the error grows to {again:.1f} mm" in SENTENCES
-    assert again > wide
+    assert wide > off(1, 0.02) + 0.5
+    assert recomputed(2.0) > wide
 
 
 def recomputed(limit):
