@@ -1,6 +1,7 @@
 """Day 10: the numbers in the guide's sentences, and every reason in it."""
 
 import re
+import textwrap
 from unittest.mock import patch
 
 import mujoco
@@ -258,6 +259,22 @@ def test_how_many_fits_with_one_z_too_few_arrive_depends_on_the_distance(z):
     assert f"| {z} | {cells[0]} of 50 | {cells[1]} of 50 |" in SENTENCES
     if z >= 0.8:
         assert (arrivals(z, camera.projection_jacobian)[:, 0] == 50).all()
+
+
+@pytest.mark.kit
+def test_the_lines_of_the_exercise_print_its_table(capsys):
+    guide = (ROOT / "w2-autonomy/docs/day10-lab.md").read_text("utf-8")
+    lines = re.search(r"```python\n(    for z in .*?)```", guide, re.DOTALL)[1]
+    names = {**vars(lab), "K": K, "rng": np.random.default_rng(10)}
+    with (
+        patch.object(lab, "projection_jacobian", one_z_too_few),
+        np.errstate(all="ignore"),
+    ):
+        exec(textwrap.dedent(lines), names)
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert [row[0] for row in rows] == ["0.4", "0.5", "0.8", "1.0", "2.0"]
+    assert [row[1] for row in rows[3:]] == ["50", "0"]
+    assert [row[2] for row in rows[2:]] == ["50", "50", "50"]
 
 
 def digits_per_step(noise):
