@@ -23,10 +23,12 @@ MOST = 1_000_000  # steps of a call of a right function
 # A mutant may take so many times the steps and the time of the right function.
 LEAST, TIMES = 100, 20
 SECONDS = 0.02  # at least
+LOOKS = 16  # steps after which it looks at the clock
+HUGE = 100_000  # numbers of an outer product
 GUARDED = ("lstsq", "svd", "eigh", "eigvalsh", "eig", "eigvals", "pinv", "matrix_rank")
 
 
-LINES = 2_000_000  # that a search may execute; a quarter of a second, or so
+LINES = 3_000_000  # that a search may execute; a quarter of a second, or so
 ONCE = 400  # lines that it takes to compile a mutant and to compare its answer
 LATE = 2.0  # seconds of the processor, whatever the lines take
 
@@ -75,7 +77,8 @@ class Steps:
             TooLongError: it is one too many.
         """
         self.left -= 1
-        if self.left < 0 or time.process_time() > self.ends:
+        late = self.left % LOOKS == 0 and time.process_time() > self.ends
+        if self.left < 0 or late:
             raise TooLongError
 
     def limiting(self, code: Callable[..., Any]) -> Callable[..., Any]:
@@ -158,14 +161,25 @@ def _guarded(real: Callable[..., Any]) -> Callable[..., Any]:
     return call
 
 
+def _outer(a: Any, b: Any) -> Any:
+    """Return the outer product, unless it is huge: in a loop each is that of the last.
+
+    Raises:
+        ValueError: it is.
+    """
+    if np.size(a) * np.size(b) > HUGE:
+        raise ValueError("too large")
+    return np.outer(a, b)
+
+
 def _numpy() -> ModuleType:
-    """Return NumPy with a guard before the routines that iterate."""
+    """Return NumPy with a guard before the routines that iterate, or that grow."""
     linalg = ModuleType("numpy.linalg")
     vars(linalg).update(vars(np.linalg))
     for name in GUARDED:
         setattr(linalg, name, _guarded(getattr(np.linalg, name)))
     guarded = ModuleType("numpy")
-    vars(guarded).update({**vars(np), "linalg": linalg})
+    vars(guarded).update({**vars(np), "linalg": linalg, "outer": _outer})
     return guarded
 
 

@@ -6,13 +6,21 @@ machine makes: mutants of every right body, one argument changed, the answer cha
 
 from collections.abc import Iterator
 from functools import partial
-from itertools import chain, islice, permutations
+from itertools import chain, count, islice, permutations
 from typing import Any
 
 import numpy as np
 
 from labkit.judge import changes
-from labkit.judge.answers import Parts, all_match, capitalised, parts, plain
+from labkit.judge.answers import (
+    Parts,
+    all_match,
+    capitalised,
+    content,
+    own,
+    parts,
+    plain,
+)
 from labkit.judge.ask import Ask, Case
 from labkit.judge.hypothesis import equals, evidence
 from labkit.judge.matcher import Calls, Code, Matcher
@@ -22,10 +30,12 @@ from labkit.judge.sentence import of_mutants, shows
 
 NEAR, FURTHER = "near", "further"  # mutants
 # What share of a search's effort is kept for the sources that come later.
-KEEP = {NEAR: 0.4, FURTHER: 0.1}
+KEEP = {NEAR: 0.45, FURTHER: 0.05}
 KEEP_OF_ARGUMENTS = 0.25
 SEVERAL = 20  # mutants that give one answer, of which some give all
 APART = 4  # of them, in places of their own
+KEPT = 8  # functions and calls whose mutants are kept with their answers
+_MADE: dict[Any, tuple[Any, list[Any], Iterator[Any]]] = {}
 AGREE = 3  # calls with a wrong answer that a mutant of whole numbers has to give
 
 
@@ -180,9 +190,19 @@ def with_other_arguments(m: Matcher) -> Iterator[tuple[changes.Change, Code, Par
         if m.effort.spent(KEEP_OF_ARGUMENTS):
             return
         code = partial(after, m.right, one.change)
-        known.append((one, code, m.main.answer(code, m.i)))
-        m.effort.spend(m.lines)
+        answer = () if _leaves(one.change, call) else m.main.answer(code, m.i)
+        known.append((one, code, answer))
+        m.effort.spend(m.lines if answer else 0)
         yield known[-1]
+
+
+def _leaves(change: Code, call: tuple[Any, ...]) -> bool:
+    """Return whether a change leaves a call's arguments as they are, or has none."""
+    try:
+        pairs = zip(change(*map(own, call)), call, strict=True)
+        return all(one is it or np.array_equal(one, it) for one, it in pairs)
+    except Exception:  # it is none of this call
+        return True
 
 
 def after(function: Code, change: Code, *args: Any) -> Any:
@@ -240,14 +260,39 @@ def _fits(m: Matcher, answer: Parts) -> bool:
 
 def answered(m: Matcher, which: str) -> Iterator[tuple[Mutant, Parts]]:
     """Yield the mutants with their answers to one call, as far as the effort goes."""
-    some = (b.closest() if which == NEAR else b.further() for b in m.bodies)
-    known: list[tuple[Mutant, Parts]] = m.known.setdefault("answered", [])
-    for one, code in chain.from_iterable(some):
+    mine = m.known.setdefault("answered", [])
+    for one, answer, lines in _made(m, which):
         if m.effort.spent(KEEP[which]):
             return
-        known.append((one, m.main.answer(code, m.i)))
-        m.effort.spend(one.body.steps.taken)
-        yield known[-1]
+        m.effort.spend(lines)
+        mine.append((one, answer))
+        yield one, answer
+
+
+def _made(m: Matcher, which: str) -> Iterator[tuple[Mutant, Parts, int]]:
+    """Yield the mutants, their answers and what these took, each made once.
+
+    The calls are the same at every check, so a class, or a file that is watched, is
+    compared with the same ones.
+    """
+    shapes = (t.shape[1:] for t in m.T)  # to which an answer is filled up
+    key = (id(m.ask), which, *map(content, m.main.each[m.i]), *shapes)
+    if key not in _MADE:
+        while len(_MADE) >= KEPT:
+            del _MADE[next(iter(_MADE))]
+        some = (b.closest() if which == NEAR else b.further() for b in m.bodies)
+        made = (
+            (one, m.main.answer(code, m.i), one.body.steps.taken)
+            for one, code in chain.from_iterable(some)
+        )
+        _MADE[key] = m.ask, [], made
+    _, known, made = _MADE[key]
+    for k in count():
+        if k == len(known):
+            if (one := next(made, None)) is None:
+                return
+            known.append(one)
+        yield known[k]
 
 
 def answered_near(m: Matcher) -> list[tuple[Mutant, Parts]]:
