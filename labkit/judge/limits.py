@@ -23,7 +23,7 @@ MOST = 1_000_000  # steps of a call of a right function
 # A mutant may take so many times the steps and the time of the right function.
 LEAST, TIMES = 100, 20
 SECONDS = 0.02  # at least
-LOOKS = 16  # steps after which it looks at the clock
+LOOKS = 16  # steps, or hypotheses, after which the clock is looked at: it is slow
 HUGE = 100_000  # numbers of an outer product
 GUARDED = ("lstsq", "svd", "eigh", "eigvalsh", "eig", "eigvals", "pinv", "matrix_rank")
 
@@ -39,6 +39,8 @@ class Effort:
 
     left: int = LINES
     began: float = field(default_factory=time.process_time)
+    asked: int = 0  # how often
+    late: bool = False
 
     def spend(self, lines: int) -> None:
         """Note that a hypothesis was asked for one answer."""
@@ -46,7 +48,10 @@ class Effort:
 
     def spent(self, keep: float = 0.0) -> bool:
         """Return whether a search has to end, to leave a share for what comes later."""
-        return self.left <= keep * LINES or time.process_time() > self.began + LATE
+        self.asked += 1
+        if self.asked % LOOKS == 0:
+            self.late = time.process_time() > self.began + LATE
+        return self.late or self.left <= keep * LINES
 
 
 class TooLongError(Exception):
@@ -77,17 +82,21 @@ class Steps:
             TooLongError: it is one too many.
         """
         self.left -= 1
-        late = self.left % LOOKS == 0 and time.process_time() > self.ends
-        if self.left < 0 or late:
+        if self.left < 0 or (self.left % LOOKS == 0 and self._is_late()):
             raise TooLongError
+
+    def _is_late(self) -> bool:
+        """Return whether a call takes too long; the clock begins when it is asked."""
+        now = time.process_time()
+        self.ends = self.ends or now + self.seconds
+        return now > self.ends
 
     def limiting(self, code: Callable[..., Any]) -> Callable[..., Any]:
         """Return a function whose calls begin to count anew."""
 
         @wraps(code)
         def call(*args: Any) -> Any:
-            self.left = self.most
-            self.ends = time.process_time() + self.seconds
+            self.left, self.ends = self.most, 0.0
             return code(*args)
 
         return call
