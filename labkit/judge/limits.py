@@ -28,7 +28,7 @@ HUGE = 100_000  # numbers of an outer product
 GUARDED = ("lstsq", "svd", "eigh", "eigvalsh", "eig", "eigvals", "pinv", "matrix_rank")
 
 
-LINES = 3_000_000  # that a search may execute; a quarter of a second, or so
+LINES = 2_500_000  # that a search may execute; a third of a second, or so
 ONCE = 400  # lines that it takes to compile a mutant and to compare its answer
 LATE = 2.0  # seconds of the processor, whatever the lines take
 

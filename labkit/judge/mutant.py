@@ -25,7 +25,7 @@ FAR = 100  # rank of the far operators, after all near ones
 TOGETHER = 40  # mutants of one place that are compiled together
 CHOICE = "_choice_"  # the name that says which of them is called
 Code = Callable[..., Any]
-Edits = Sequence[tuple[Place | statements.Block, Any]]
+Edits = Sequence[tuple[Any, Any]]  # a `Place` or a `Block`, and what stands there
 Span = tuple[int, int, int, int]  # line and column, and those of the end
 # The kinds of change, those first that are made most often.
 KINDS = [

@@ -320,32 +320,33 @@ class _Half:
 
     m: Matcher
     answer: Parts  # to one call
-    mistake: Mistake | None = None
-    mutant: Mutant | None = None
+    one: Mistake | Mutant
 
     @property
     def rank(self) -> float:
-        return self.mutant.rank if self.mutant else NAMED
+        return self.one.rank if isinstance(self.one, Mutant) else NAMED
 
     @cached_property
-    def code(self) -> Code:
-        return self.mutant.code if self.mutant else self.mistake.redo
+    def code(self) -> Code | None:
+        return self.one.code if isinstance(self.one, Mutant) else self.one.redo
 
     @property
     def slug(self) -> str:
-        return f"slip-{self.mutant.kind}" if self.mutant else self.mistake.slug
+        one = self.one
+        return f"slip-{one.kind}" if isinstance(one, Mutant) else one.slug
 
     @cached_property
     def says(self) -> str:
         """The sentence that stands alone; "" without one."""
-        mutant = self.mutant
-        return half(self.m, mutant) if mutant else self.mistake.says.rstrip("?")
+        one = self.one
+        return half(self.m, one) if isinstance(one, Mutant) else one.says.rstrip("?")
 
     def apart(self, other: "_Half") -> bool:
         """Return whether two are of two places, and not both named: that is tried."""
-        if self.mutant and other.mutant:
-            return not self.mutant.overlaps(other.mutant)
-        return bool(self.mutant or other.mutant)
+        pair = self.one, other.one
+        if isinstance(pair[0], Mutant) and isinstance(pair[1], Mutant):
+            return not pair[0].overlaps(pair[1])
+        return any(isinstance(one, Mutant) for one in pair)
 
 
 def beside(m: Matcher) -> Finding | None:
@@ -360,7 +361,7 @@ def beside(m: Matcher) -> Finding | None:
     pairs = [(known[a], known[b]) for a, b in sums]
     for one, other in sorted(pairs, key=lambda pair: pair[0].rank + pair[1].rank):
         tells = one.apart(other) and one.says and other.says
-        if tells and _add_up(m, one.code, other.code):
+        if tells and one.code and other.code and _add_up(m, one.code, other.code):
             return _told(m, [one.slug, other.slug], [one.says, other.says])
     return None
 
@@ -369,10 +370,10 @@ def _halves(m: Matcher) -> Iterator[_Half]:
     """Yield what may be one of two: named mistakes, and mutants."""
     near = [] if m.whole else answered_near(m)
     for one in of_its_own_first(m) if near else []:
-        yield _Half(m, m.main.answer(one.redo, m.i), mistake=one)
+        yield _Half(m, m.main.answer(one.redo, m.i), one)
     for mutant, answer in near:
         if mutant.kind in ALONG:
-            yield _Half(m, answer, mutant=mutant)
+            yield _Half(m, answer, mutant)
 
 
 def second(m: Matcher) -> Finding | None:

@@ -288,10 +288,10 @@ def _made(m: Matcher, which: str) -> Iterator[tuple[Mutant, Parts, int]]:
             for one, code in chain.from_iterable(some)
         )
         _MADE[key] = m.ask, [], made
-    _, known, made = _MADE[key]
+    _, known, more = _MADE[key]
     for k in count():
         if k == len(known):
-            if (one := next(made, None)) is None:
+            if (one := next(more, None)) is None:
                 return
             known.append(one)
         yield known[k]
