@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from labkit.check.tasks import TaskResult
+from labkit.judge.mistake import Compared
 from labkit.lesson.day import Day, Task, all_days
 
 if TYPE_CHECKING:
@@ -190,11 +191,25 @@ def _below(report: Report, result: TaskResult, explain: bool) -> list[str]:
         lines += _wrapped(says, _INDENT)
         if verdict.call and verdict.message in says:
             lines += _wrapped(verdict.call, _INDENT)
+            if verdict.compared and (explain or len(report.tasks) == 1):
+                lines += [f"{'':{_INDENT}}{ln}" for ln in matrix_of(verdict.compared)]
     if explain:
         for line in verdict.measured:
             lines += _wrapped(f"- {line}", _INDENT, hanging=2)
         lines += [f"{'':{_INDENT}}| {ln}" for ln in result.printed.splitlines()]
     return lines
+
+
+def matrix_of(compared: Compared) -> list[str]:
+    """Return a returned matrix as lines, its wrong entries in brackets."""
+    texts = [[f"{x + 0.0:.4g}" for x in row] for row in compared.returned]
+    marked = [
+        [f"[{text}]" if off else f" {text} " for text, off in zip(*row, strict=True)]
+        for row in zip(texts, compared.wrong, strict=True)
+    ]
+    width = max(len(text) for row in marked for text in row)
+    rows = ["".join(text.rjust(width + 1) for text in row).rstrip() for row in marked]
+    return ["The matrix of this call, with its wrong entries in brackets:", *rows]
 
 
 def _said(report: Report, result: TaskResult, explain: bool) -> str:

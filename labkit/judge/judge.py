@@ -38,7 +38,7 @@ from labkit.judge.ask import (
     right_answers,
     stacked,
 )
-from labkit.judge.failing_call import failing_call, for_fresh
+from labkit.judge.failing_call import Failing, failing_call, for_fresh
 from labkit.judge.guard import attempt, noting, quiet, told
 from labkit.judge.in_part import by_results, in_some_calls
 from labkit.judge.kinds import Kind
@@ -67,8 +67,10 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
         verdict = attempt(_judge, asked, source, names)
         verdict = verdict or attempt(_without_a_name, asked) or unjudged(stopped)
         if verdict.status != "passed" and verdict.mistake not in NO_CALL:
-            call, whole = attempt(failing_call, asked, names, otherwise=("", ()))
-            verdict = replace(verdict, call=call, measured=verdict.measured + whole)
+            failed = attempt(failing_call, asked, names, otherwise=Failing())
+            measured = verdict.measured + failed.whole
+            told_of = {"call": failed.call, "compared": failed.compared}
+            verdict = replace(verdict, measured=measured, **told_of)
     if verdict.status in ("passed", "todo"):
         return verdict
     return replace(verdict, message=f"{verdict.message} {told(stopped)}".strip())
