@@ -110,6 +110,43 @@ def test_the_ablations_of_the_guide_all_place_the_cube():
             assert float(number) / 2 < ours < 2 * float(number), name
 
 
+def without_gravity(seed):
+    """Return the pick of a random cube without gravity compensation."""
+    fns, options = capstone.ablations(capstone.library())["gravity forgotten"]
+    return capstone.attempt(fns, seed, **options)
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize(("seed", "fails"), [(3, True), (10, False)])
+def test_without_gravity_compensation_another_cube_may_fail(seed, fails):
+    done = without_gravity(seed)
+    assert done.failed == fails
+    assert done.joint_mrad > 60
+    assert done.line_mm > 90
+
+
+@pytest.mark.soak
+def test_without_gravity_compensation_four_of_twelve_cubes_are_placed():
+    found = [without_gravity(seed) for seed in range(12)]
+    failed = [one.place_mm for one in found if one.failed]
+    assert len(failed) == 8
+    assert says("Four of twelve. The others end")
+    assert says(f"end {np.ceil(min(failed)):.0f} to {max(failed):.0f} mm from")
+    assert {round(one.joint_mrad) for one in found} == {68}
+    off = [one.line_mm for one in found]
+    assert says(f"from the line {min(off):.0f} to {max(off):.0f} mm in all twelve")
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("seed", range(6))
+def test_the_other_mistakes_of_the_table_place_six_random_cubes(seed):
+    cases = capstone.ablations(capstone.library())
+    del cases["gravity forgotten"]
+    for name, (fns, options) in cases.items():
+        assert not capstone.attempt(fns, seed, **options).failed, name
+    assert says("place all of six random cubes")
+
+
 @pytest.mark.kit
 @pytest.mark.parametrize(
     ("mass", "mu", "slips"), [(0.16, 1.0, False), (0.18, 1.0, True), (0.08, 0.3, True)]
