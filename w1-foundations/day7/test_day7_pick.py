@@ -161,8 +161,8 @@ def test_without_gravity_compensation_four_of_twelve_cubes_are_placed():
     found = [without_gravity(seed) for seed in range(12)]
     failed = [one.place_mm for one in found if one.failed]
     assert len(failed) == 8
-    assert says("Four of twelve. The others end")
-    assert says(f"end {np.ceil(min(failed)):.0f} to {max(failed):.0f} mm from")
+    assert min(failed) > 12
+    assert says("Four of twelve. The others miss their targets by more than 12 mm")
     assert {round(one.joint_mrad) for one in found} == {68}
     off = [one.line_mm for one in found]
     assert says(f"from the line {min(off):.0f} to {max(off):.0f} mm in all twelve")
