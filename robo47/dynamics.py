@@ -109,7 +109,7 @@ def mass_matrix(J_space: ArrayLike, G: ArrayLike, armature: ArrayLike) -> Array:
     # Joint i carries link i and all after it (Featherstone's composite bodies).
     carried = np.cumsum(G[..., ::-1, :, :], axis=-3)[..., ::-1, :, :]
     momenta = times(carried, np.swapaxes(J, -1, -2))
-    lower = np.tril(momenta @ J)  # what speed 1 of joint i makes joint j <= i feel
+    lower = np.tril(momenta @ J)  # entry (i, j) is right for j <= i
     return lower + np.swapaxes(np.tril(lower, -1), -1, -2) + np.diag(armature)
 
 

@@ -59,10 +59,10 @@ TINY = 1e-6  # m, the finest resolution of a test
 class World(NamedTuple):
     """The arm's environment."""
 
-    ends: Array  # of the capsules' axes, m, (m, 2, 3)
+    ends: Array  # end points of the capsules' axes, m, (m, 2, 3)
     radii: Array  # m, (m,)
     boxes: Array  # T_world_box, (b, 4, 4)
-    half: Array  # of their sides, m, (b, 3)
+    half: Array  # half sides of the boxes, m, (b, 3)
 
     @classmethod
     def of(

@@ -247,8 +247,8 @@ def velocity_damper(
 
     qd (7,) are the wanted joint velocities, rad/s; grad (7,) is the gradient of the
     distance, m/rad; distance is in metres and gain in 1/s. If qd satisfies the
-    condition, return qd. If grad is 0, return qd as well. Source: Faverjon and
-    Tournassoud (1987).
+    condition, or if grad is 0, return a copy of qd. Source: Faverjon and Tournassoud
+    (1987).
     qd (-1, 0, ..), grad (1, 0, ..), distance 0.1, gain 4: (-0.4, 0, ..).
     """
     # region 11.9

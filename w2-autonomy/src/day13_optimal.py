@@ -76,11 +76,11 @@ def linearise(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return A (2 n, 2 n) and B (2 n, n) of one step x+ = A x + B u near equilibrium.
 
-    M (n, n) is the mass matrix, kg m^2, stiffness (n, n) the gravity stiffness, N
-    m/rad, damping (n,) the joints' damping, N m s/rad, which acts on the new velocity,
-    and h the time step, s. The new velocity moves the joints (MuJoCo's `implicitfast`).
-    One joint with M 1, stiffness 10, damping 1, h 0.1: A = [[10, 1], [-10, 10]] / 11,
-    B = (0.1, 1) / 11.
+    M (n, n) is the mass matrix, kg m^2, stiffness (n, n) the gravity stiffness,
+    N m/rad, damping (n,) the joints' damping, N m s/rad, which acts on the new
+    velocity, and h the time step, s. The new velocity moves the joints (MuJoCo's
+    `implicitfast`). One joint with M 1, stiffness 10, damping 1, h 0.1: A = [[10, 1],
+    [-10, 10]] / 11, B = (0.1, 1) / 11.
     """
     # region 13.2
     now = np.eye(len(damping))  # coefficient of the old q in the new q
@@ -247,8 +247,8 @@ def ilqr_backward(
 def expected_reduction(dV: np.ndarray, alpha: float) -> float:
     """Return the expected reduction of the cost for the step alpha k.
 
-    dV (2,) is the third result of `ilqr_backward`; alpha is the fraction of k that is
-    applied. The result is positive if the cost is expected to fall.
+    dV (2,) is `drop`, the third result of `ilqr_backward`; alpha is the fraction of k
+    that is applied. The result is positive if the cost is expected to fall.
 
     expected_reduction([-4, 2], 0.5) -> 1.5
     """
