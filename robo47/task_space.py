@@ -1,11 +1,11 @@
-"""Control at the hand: the mass felt there, springs, damping and wanted pushes.
+"""Task-space control: task-space inertia, operational space, impedance, hybrid control.
 
 Conventions: twists, errors and accelerations of the hand are (angular; linear) and
-wrenches (moment; force), both in world axes at the site. `J_site` qd =
-(omega; velocity of the site point); formulas have J for short. Only `bias_acceleration`
+wrenches (moment; force), both expressed in the world frame at the site. `J_site` qd =
+(omega; velocity of the site), and formulas write J for J_site. Only `bias_acceleration`
 takes `J_space`. M is the mass matrix with armature. Metres, radians, newtons,
-kilograms. `n` joints, `m` rows of J_site (6 for the whole hand); leading dimensions
-broadcast.
+kilograms. `n` is the number of joints, `m` the number of rows of J_site (6 for the
+whole hand); leading dimensions broadcast.
 
 Sources: Khatib, "A unified approach for motion and force control of robot
 manipulators", IEEE J. Robotics and Automation 3(1), 1987; Lynch and Park, Modern
@@ -21,9 +21,10 @@ from robo47.fast.vectors import cross_of, times
 
 
 def task_inertia(J_site: ArrayLike, M: ArrayLike) -> Array:
-    """Return the mass and inertia that somebody pushing at the hand feels.
+    """Return the task-space inertia Lambda of the hand.
 
-    Lambda = (J M^-1 J^T)^-1 (Khatib 1987; Modern Robotics, section 8.6).
+    Lambda = (J M^-1 J^T)^-1 maps an acceleration of the resting hand to the wrench that
+    causes it (Khatib 1987; Modern Robotics, section 8.6).
 
     Args:
         J_site: site Jacobian, (..., m, n), of full row rank (no singularity).
@@ -45,17 +46,17 @@ def task_inertia(J_site: ArrayLike, M: ArrayLike) -> Array:
 
 
 def bias_acceleration(J_space: ArrayLike, qd: ArrayLike, p: ArrayLike) -> Array:
-    """Return the acceleration that the hand has while the joints do not accelerate.
+    """Return the bias acceleration of the hand: its acceleration with qdd = 0.
 
-    It is Jdot qd of the site Jacobian. A joint's screw S_i is carried along by the
-    twist V_i of its link: (omega'; v') is the sum of ad(V_i) S_i qd_i. The site
-    point's own acceleration is then v' + omega' x p + omega x (velocity of p)
-    (Featherstone, Rigid Body Dynamics Algorithms, 2008, section 2.11).
+    It is Jdot qd of the site Jacobian. The screw S_i of a joint moves with the twist
+    V_i of its link, so (omega'; v') is the sum of ad(V_i) S_i qd_i. The acceleration of
+    the site is v' + omega' x p + omega x (velocity of p) (Featherstone, Rigid Body
+    Dynamics Algorithms, 2008, section 2.11).
 
     Args:
         J_space: space Jacobian, one screw (omega; v) per column, (..., 6, n).
         qd: joint velocities in rad/s, (..., n).
-        p: the site point in world axes, metres, (..., 3).
+        p: position of the site in the world frame, metres, (..., 3).
 
     Returns:
         (angular; linear) acceleration in rad/s2 and m/s2, (..., 6).
@@ -87,10 +88,10 @@ def osc_torque(
     bias_acc: ArrayLike,
     acc: ArrayLike,
 ) -> Array:
-    """Return the torque that gives the hand a wanted acceleration.
+    """Return the joint torques of operational-space control for an acceleration.
 
-    tau = J^T Lambda (acc - Jdot qd) + bias (Khatib 1987). Joint damping is not in
-    it: add damping qd, as `impedance_torque` does.
+    tau = J^T Lambda (acc - Jdot qd) + bias (Khatib 1987). The damping of the joints is
+    not included: add damping qd, as `impedance_torque` does.
 
     Args:
         J_site: site Jacobian, (..., m, n).
@@ -117,13 +118,13 @@ def nullspace_torque(
 ) -> Array:
     """Return the part of tau that does not accelerate the hand.
 
-    (I - J^T Lambda J M^-1) tau, for which J M^-1 (its result) = 0 (Khatib 1987).
+    The result is (I - J^T Lambda J M^-1) tau, so J M^-1 times it is 0 (Khatib 1987).
 
     Args:
         J_site: site Jacobian, (..., m, n).
         M: mass matrix with armature in kg m2, (..., n, n).
         Lambda: task inertia, (..., m, m).
-        tau: wanted torques, of a posture for example, in N m, (..., n).
+        tau: joint torques, for example of a posture controller, N m, (..., n).
 
     Returns:
         Joint torques in N m, (..., n).
@@ -142,10 +143,12 @@ def nullspace_torque(
 def impedance_wrench(
     e: ArrayLike, V_err: ArrayLike, K: ArrayLike, D: ArrayLike
 ) -> Array:
-    """Return K e + D V_err, a spring and a damper (Modern Robotics, section 11.7).
+    """Return the wrench of a spring and a damper between the hand and its target.
+
+    The wrench is K e + D V_err (Modern Robotics, section 11.7).
 
     Args:
-        e: (rotation vector; position) from the hand to its target, (..., m).
+        e: (rotation vector; displacement) from the hand to its target, (..., m).
         V_err: the target's twist minus the hand's, (..., m).
         K: stiffness in N m/rad and N/m, (..., m, m).
         D: damping in N m s/rad and N s/m, (..., m, m).
@@ -164,9 +167,9 @@ def impedance_wrench(
 
 
 def critical_damping(K: ArrayLike, Lambda: ArrayLike) -> Array:
-    """Return the damping with which the hand comes back without ringing.
+    """Return the damping matrix with which every mode of the hand is critically damped.
 
-    D = sqrt(Lambda) sqrt(K) + sqrt(K) sqrt(Lambda); for one mass 2 sqrt(K Lambda)
+    D = sqrt(Lambda) sqrt(K) + sqrt(K) sqrt(Lambda); for a single mass 2 sqrt(K Lambda)
     (Albu-Schaeffer, Ott, Frese and Hirzinger, "Cartesian impedance control of
     redundant robots", ICRA 2003, "factorization design").
 
@@ -199,9 +202,10 @@ def impedance_torque(
     qd: ArrayLike,
     tau_null: ArrayLike,
 ) -> Array:
-    """Return the torque that makes the hand push with a wrench, and nothing else.
+    """Return the joint torques with which the hand exerts a wrench.
 
-    J^T wrench + bias + damping qd + tau_null (Modern Robotics, sections 5.2, 11.7).
+    They are J^T wrench + bias + damping qd + tau_null (Modern Robotics, sections 5.2
+    and 11.7).
 
     Args:
         J_site: site Jacobian, (..., m, n).
@@ -209,7 +213,8 @@ def impedance_torque(
         bias: Coriolis, centrifugal and gravity torque in N m, (..., n).
         damping: of the joints in N m s/rad, one number or (..., n).
         qd: measured velocity in rad/s, (..., n).
-        tau_null: torque that the hand does not feel, from `nullspace_torque`, (..., n).
+        tau_null: torque of `nullspace_torque`, which does not accelerate the hand, N m,
+            (..., n).
 
     Returns:
         Joint torques in N m, (..., n).
@@ -228,14 +233,15 @@ def impedance_torque(
 
 
 def set_point_for_force(force: ArrayLike, k: ArrayLike, surface: ArrayLike) -> Array:
-    """Return how deep to command a soft hand so that it presses with a force.
+    """Return the height to command so that a soft hand presses down with a force.
 
     Args:
-        force, k: wanted push in N and stiffness in N/m, above 0, (...).
-        surface: its height in metres, (...).
+        force: wanted normal force, N, (...).
+        k: stiffness of the hand along z, N/m, above 0, (...).
+        surface: height of the surface, metres, (...).
 
     Returns:
-        Height to command in metres, surface - force / k, (...).
+        The height surface - force / k, metres, (...).
 
     Raises:
         ValueError: wrong shape, a non-finite number, or k not above 0.
@@ -247,14 +253,14 @@ def set_point_for_force(force: ArrayLike, k: ArrayLike, surface: ArrayLike) -> A
 def hybrid_wrench(
     e: ArrayLike, V_err: ArrayLike, K: ArrayLike, D: ArrayLike, force: ArrayLike
 ) -> Array:
-    """Return a wrench that is a spring sideways and a wanted force downwards.
+    """Return the wrench of hybrid control: a spring, but along z a chosen force.
 
-    `impedance_wrench`, but its z force is -force + the damper's part (Modern Robotics,
-    section 11.6, for a level surface).
+    It is `impedance_wrench`, but the force along z is -force plus the damper's part
+    (Modern Robotics, section 11.6, for a level surface).
 
     Args:
         e, V_err, K, D: as in `impedance_wrench`, with m = 6.
-        force: wanted push along -z in newtons, (...).
+        force: wanted normal force, along -z, N, (...).
 
     Returns:
         Wrench (moment; force) in N m and N, (..., 6).
