@@ -151,7 +151,7 @@ def test_near_a_singularity_lambda_and_d_grow_and_the_springs_torque_does_not(mo
 
     ready, stretched = terms(1.0), terms(1e-3)
     assert f"{stretched[0]:,.0f} instead of {ready[0]:.1f}" in SENTENCES
-    assert f"that of D {stretched[1]:,.0f} instead of {ready[1]:.0f}" in SENTENCES
+    assert f"entry of D is {stretched[1]:,.0f} instead of {ready[1]:.0f}" in SENTENCES
     assert max(stretched[2] / ready[2], stretched[3] / ready[3]) < 2.0
     assert f"at a fifth, too? There $\\Lambda$ has {terms(0.2)[0]:,.0f}" in SENTENCES
     assert "q = 0 itself is a singularity" in SENTENCES
