@@ -34,7 +34,7 @@ class Summary(NamedTuple):
     before: Sequence[str]  # lines above the table
     after: Sequence[str]  # lines below it
     number: str  # the one that counts, "0.9 mm"
-    of: str  # what that is, "from the cube to its mark"
+    of: str  # the meaning of the number: "from the cube to its mark"
     came: str  # a sentence for a page: what came of it, and what is allowed
     way: str  # another: how it went
     # What it measured: (what, how much with its unit, what is allowed).
@@ -59,6 +59,6 @@ class Film(NamedTuple):
     qpos: Array
     phases: Sequence[tuple[str, float]]  # (name, when it began in seconds), in order
     moments: Sequence[str]  # phases whose beginnings a picture shows
-    blocks: Callable[[Array], Sequence[Block]]  # from a configuration, (nq,)
+    blocks: Callable[[Array], Sequence[Block]]  # blocks of a configuration, (nq,)
     model: Callable[[], mujoco.MjModel]  # the scene with the robot's looks
     back: float  # how far back a camera stands: 1 suits an arm at ready

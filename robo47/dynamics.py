@@ -112,7 +112,7 @@ def mass_matrix(J_space: ArrayLike, G: ArrayLike, armature: ArrayLike) -> Array:
     # Joint i carries link i and all later links (Featherstone's composite bodies).
     carried = np.cumsum(G[..., ::-1, :, :], axis=-3)[..., ::-1, :, :]
     momenta = times(carried, np.swapaxes(J, -1, -2))
-    lower = np.tril(momenta @ J)  # momentum of joint i at 1 rad/s, along joint j <= i
+    lower = np.tril(momenta @ J)  # entries (i, j) with j <= i
     return lower + np.swapaxes(np.tril(lower, -1), -1, -2) + np.diag(armature)
 
 

@@ -25,7 +25,7 @@ from robo47.dynamics import ad
 from robo47.fast.vectors import times
 from robo47.screws import adjoint, skew
 
-_UPPER = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # of Ixx ... Iyz
+_UPPER = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # indices of Ixx ... Iyz
 
 
 def spatial_inertia_from_params(phi: ArrayLike) -> Array:

@@ -112,7 +112,7 @@ def press_table(*, drive: str = "torque", meshes: bool = False) -> mujoco.MjMode
             name="tip", type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[TIP_RADIUS, 0, 0]
         )
         tip.contype = tip.conaffinity = 1
-        tip.mass = 0.0  # what the arm weighs stays as it is
+        tip.mass = 0.0  # the mass of the arm stays as it is
         _add_table(spec, PRESS_HEIGHT)
 
     return panda.load("panda_nohand", drive=drive, meshes=meshes, edit=edit)

@@ -42,7 +42,7 @@ def skew(w: ArrayLike) -> Array:
         ValueError: wrong shape or a non-finite number.
     """
     w = checks.array(w, "w", (3,))
-    if w.ndim == 1:  # what labs ask for thousands of times; 0.0 - z makes no -0
+    if w.ndim == 1:  # called thousands of times by labs; 0.0 - z makes no -0
         x, y, z = w.tolist()
         return np.array([[0.0, 0.0 - z, y], [z, 0.0, 0.0 - x], [0.0 - y, x, 0.0]])
     K = np.zeros((*w.shape, 3))

@@ -59,10 +59,10 @@ TINY = 1e-6  # m: nothing is looked at more finely than this
 class World(NamedTuple):
     """What stands around the arm."""
 
-    ends: Array  # of the capsules' axes, m, (m, 2, 3)
+    ends: Array  # end points of the capsules' axes, m, (m, 2, 3)
     radii: Array  # m, (m,)
     boxes: Array  # T_world_box, (b, 4, 4)
-    half: Array  # of their sides, m, (b, 3)
+    half: Array  # half sides of the boxes, m, (b, 3)
 
     @classmethod
     def of(
@@ -182,7 +182,7 @@ class Shape:
         if len(world.boxes):
             R = world.boxes[:, :3, :3]
             t = world.boxes[:, :3, 3]
-            start = ((a0 - t)[..., None, :] @ R)[..., 0, :]  # in the boxes' axes
+            start = ((a0 - t)[..., None, :] @ R)[..., 0, :]  # in the axes of the boxes
             end = ((a1 - t)[..., None, :] @ R)[..., 0, :]
             far.append(near.box_distances(start, end, world.half))
         if not far:

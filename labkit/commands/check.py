@@ -26,7 +26,6 @@ from labkit.base import cli
 from labkit.base.git import short_sha
 from labkit.commands.start import require_begun
 from labkit.lesson.day import Day, chosen_day
-from labkit.sandbox.process import Process
 from robo47 import __version__
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
@@ -76,27 +75,9 @@ def report_of(day: Day, options: argparse.Namespace, seed: int) -> "Report":
         require_begun(day)
     elif not script.is_file():
         raise Robo47Error(f"{shown(script)} is not there")
-    with cli.busy("checking"):
-        warm = Process()  # it gets ready while MuJoCo is imported
-        from labkit.check import memory
-        from labkit.check.lab_run import check_lab
-        from labkit.check.report import Report
-        from labkit.check.tasks import check_tasks, required_pass
-        from labkit.sandbox.sandbox import Sandbox
+    from labkit.check.once import check_once
 
-        with Sandbox(warm) as sandbox:
-            key = memory.key_of(day) if script == day.work else ""
-            results = check_tasks(day, script, sandbox, options.task, seed)
-            done = required_pass(results)
-            lab = check_lab(day, script, sandbox) if done and not options.task else []
-    if key:
-        memory.note(results)
-        memory.remember(key, results)
-    if not options.task:
-        from labkit.handin.deliverables import check_deliverables
-
-        lab += check_deliverables(day, tasks_pass=done)
-    return Report(day, results, lab)
+    return check_once(day, script, options.task, seed)
 
 
 def _printed(found: "Report", options: argparse.Namespace, seed: int) -> str:

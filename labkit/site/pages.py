@@ -5,6 +5,7 @@ links hold. A link to a file that is no page (a lab, a test) leads to a page tha
 the file; a link to a folder leads to nothing, and the build says so.
 """
 
+import os
 import re
 import shutil
 from collections.abc import Collection, Iterator, Sequence
@@ -33,6 +34,8 @@ LIVE = re.compile(
     r"^<!-- live: (\w+) -->$", re.MULTILINE
 )  # a figure of site/figures.js
 FIGURE = '```{raw} html\n<figure class="live" data-figure="\\1"></figure>\n```'
+COLAB = "https://colab.research.google.com/github"
+BRANCH = "notebooks"  # of the repository: nothing but the days' notebooks
 FILMS = "films"  # their folder among the site's static files
 # On the site the arm's page is a click away, above all pictures.
 FIRST = re.compile(r"\A(# [^\n]+\n\n.+?\n\n)", re.DOTALL)  # title and paragraph
@@ -41,7 +44,7 @@ TRY = (
 )
 VERB = re.compile(
     r"^([a-z-]+)%?:.*?##(\d?) (.+)$", re.MULTILINE
-)  # as `make help` reads it
+)  # in the form that `make help` reads
 TYPED = re.compile(r"\b[A-Z]+=[^\s,;]+|\B--[\w-]+|\b\w+/[\w.-]*\w")
 COMMANDS = """\
 # What to type: the commands
@@ -153,7 +156,22 @@ def _with_notebook(text: str, day: Day | None) -> str:
         return text
     title, rest = text.split("\n\n", 1)
     link = f"[The lab as a notebook, run from top to bottom](../{notebook_of(day)})"
+    if address := colab_of(day, os.environ.get("GITHUB_REPOSITORY", "")):
+        link = f"[Do this day in Colab, without set-up]({address}), or read it: {link}"
     return f"{title}\n\n{link}\n\n{rest}"
+
+
+def colab_of(day: Day, repository: str) -> str:
+    """Return the address at which Colab opens a day's notebook, "" if there is none.
+
+    Args:
+        day: from its manifest.
+        repository: "owner/name" on GitHub; its branch has the notebooks of all days,
+            which the site's workflow writes.
+    """
+    if not repository:
+        return ""
+    return f"{COLAB}/{repository}/blob/{BRANCH}/{day.notebook.name}"
 
 
 def notebook_of(day: Day) -> Path:
