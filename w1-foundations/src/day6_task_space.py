@@ -76,13 +76,14 @@ def osc_torque(
     J_site: np.ndarray, Lambda: np.ndarray, bias: np.ndarray, bias_acc: np.ndarray,
     acc: np.ndarray,
 ) -> np.ndarray:  # fmt: skip
-    """Return the joint torques with which the hand has the acceleration acc, (7,), N m.
+    """Return the joint torques of operational-space control, (7,), N m.
 
-    This is operational-space control. J_site (6, 7) is the site Jacobian; Lambda (6, 6)
-    is the task-space inertia; bias (7,) is the torque of gravity, Coriolis and
-    centrifugal forces, N m; bias_acc (6,) is the result of `bias_acceleration`;
-    acc (6,) is (angular; linear), rad/s^2 and m/s^2. The joints' damping is not
-    included. If acc equals bias_acc, the result is bias. Source: Khatib (1987).
+    With these torques the hand has the acceleration acc. J_site (6, 7) is the site
+    Jacobian; Lambda (6, 6) is the task-space inertia; bias (7,) is the torque of
+    gravity, Coriolis and centrifugal forces, N m; bias_acc (6,) is the result of
+    `bias_acceleration`; acc (6,) is (angular; linear), rad/s^2 and m/s^2. The joints'
+    damping is not included. If acc equals bias_acc, the result is bias. Source: Khatib
+    (1987).
     """
     # region 6.3
     wrench = Lambda @ (acc - bias_acc)  # wrench for the rest of the acceleration
@@ -157,13 +158,14 @@ def impedance_torque(
     J_site: np.ndarray, wrench: np.ndarray, bias: np.ndarray, damping: np.ndarray,
     qd: np.ndarray, tau_null: np.ndarray,
 ) -> np.ndarray:  # fmt: skip
-    """Return the joint torques with which the hand exerts a wrench, (7,), N m.
+    """Return the joint torques of impedance control, (7,), N m.
 
-    J_site (6, 7) is the site Jacobian; wrench (6,) is (moment; force), N m and N;
-    bias (7,) is the torque of gravity, Coriolis and centrifugal forces, N m; damping
-    (7,) is the joints' damping, N m s/rad, which opposes the joint velocities qd (7,),
-    rad/s, and is compensated; tau_null (7,) is a torque that does not accelerate the
-    hand, N m. At rest, with wrench and tau_null 0, the result is bias. Source: Modern
+    With these torques the hand exerts the wrench on its surroundings. J_site (6, 7) is
+    the site Jacobian; wrench (6,) is (moment; force), N m and N; bias (7,) is the
+    torque of gravity, Coriolis and centrifugal forces, N m; damping (7,) is the joints'
+    damping, N m s/rad, which opposes the joint velocities qd (7,), rad/s, and is
+    compensated; tau_null (7,) is a torque that does not accelerate the hand, N m. At
+    rest, with wrench and tau_null 0, the result is bias. Source: Modern
     Robotics, sections 5.2 and 11.7.
     """
     # region 6.7
