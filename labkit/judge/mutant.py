@@ -423,13 +423,23 @@ def _shown(new: ast.expr, place: Place, above: dict[int, Place]) -> str:
 
 
 def glosses(text: str) -> dict[int, str]:
-    """Return the comments that stand behind code in a text, by their lines' numbers."""
+    """Return the comments that stand behind code in a text, by their lines' numbers.
+
+    A gloss on the first line of a statement belongs to all of its lines without one.
+    """
     found = {}
     for number, line in enumerate(text.splitlines(), 1):
         code, _, comment = line.partition("  # ")
         if code.strip() and comment and not comment.startswith(("noqa", "fmt", "type")):
             found[number] = comment.strip().rstrip(".")
+    for one in ast.walk(ast.parse(text)):
+        if isinstance(one, _ONE_STEP) and (first := found.get(one.lineno)):
+            lines = range(one.lineno, (one.end_lineno or one.lineno) + 1)
+            found |= {n: found.get(n, first) for n in lines}
     return found
+
+
+_ONE_STEP = (ast.Assign, ast.AugAssign, ast.Return)
 
 
 def body_of(code: Callable[..., Any], name: str) -> Body | None:
