@@ -3,7 +3,7 @@
 Conventions, here and everywhere in the kit:
 
 - `T_world_hand` maps hand coordinates to world coordinates, and it is also the pose
-  of the hand as the world sees it. Adjacent inner names cancel:
+  of the hand, expressed in the world frame. Adjacent inner names cancel:
   `T_world_tip = T_world_hand @ T_hand_tip`.
 - Points are columns: `p_world = T_world_hand @ p_hand`, with a 1 as fourth entry.
 - Lengths in metres, angles in radians, quaternions as (w, x, y, z), all float64.
@@ -24,14 +24,18 @@ from robo47.checks import RIGID_TOL, Array
 
 
 def make_T(R: ArrayLike, t: ArrayLike) -> Array:
-    """Return the pose that rotates by R and then moves by t.
+    """Return the homogeneous transform of a pose, [[R, t], [0, 1]].
+
+    It maps a point p to R p + t: it rotates first and then translates (Modern
+    Robotics, section 3.3.1). `make_T(np.eye(3), [1, 2, 3])` maps the origin to
+    (1, 2, 3).
 
     Args:
         R: rotation matrix, (..., 3, 3).
         t: translation in metres, (..., 3).
 
     Returns:
-        The homogeneous transform [[R, t], [0, 1]], (..., 4, 4).
+        Pose, (..., 4, 4), whose last row is (0, 0, 0, 1).
 
     Raises:
         ValueError: wrong shape, a non-finite number, or R is not a rotation.
@@ -46,10 +50,10 @@ def make_T(R: ArrayLike, t: ArrayLike) -> Array:
 
 
 def inverse(T: ArrayLike) -> Array:
-    """Return the inverse pose: `inverse(T_world_hand)` is `T_hand_world`.
+    """Return the inverse of a pose: `inverse(T_world_hand)` is `T_hand_world`.
 
-    R transposed and -R^T t, never a general matrix inverse, which would accept a
-    matrix that is no pose (Modern Robotics, eq. 3.64).
+    Its rotation is R^T and its translation -R^T t (Modern Robotics, eq. 3.64). A
+    general matrix inverse would also accept a matrix that is not a pose.
 
     Args:
         T: pose, (..., 4, 4).
@@ -70,7 +74,9 @@ def inverse(T: ArrayLike) -> Array:
 
 
 def Rx(theta: ArrayLike) -> Array:
-    """Return the rotation by theta about the x axis.
+    """Return the rotation matrix of a rotation by theta about the x axis.
+
+    A positive angle rotates y towards z (Modern Robotics, section 3.2.1).
 
     Args:
         theta: angle in radians, (...).
@@ -85,7 +91,9 @@ def Rx(theta: ArrayLike) -> Array:
 
 
 def Ry(theta: ArrayLike) -> Array:
-    """Return the rotation by theta, radians (...), about the y axis, (..., 3, 3).
+    """Return the rotation matrix (..., 3, 3) by theta, radians (...), about y.
+
+    A positive angle rotates z towards x.
 
     Raises:
         ValueError: a non-finite angle.
@@ -94,7 +102,9 @@ def Ry(theta: ArrayLike) -> Array:
 
 
 def Rz(theta: ArrayLike) -> Array:
-    """Return the rotation by theta, radians (...), about the z axis, (..., 3, 3).
+    """Return the rotation matrix (..., 3, 3) by theta, radians (...), about z.
+
+    A positive angle rotates x towards y: `Rz(np.pi / 2)` maps (1, 0, 0) to (0, 1, 0).
 
     Raises:
         ValueError: a non-finite angle.
@@ -105,17 +115,19 @@ def Rz(theta: ArrayLike) -> Array:
 def quat_to_R(q_wxyz: ArrayLike) -> Array:
     """Return the rotation matrix of a quaternion, which is normalised first.
 
-    Normalising is not optional: model files write `quat="1 -1 0 0"`, of length
-    sqrt(2), and mean the unit quaternion in that direction.
+    Only a unit quaternion represents a rotation, and model files contain others:
+    `quat="1 -1 0 0"` has norm sqrt(2) and is a rotation by -90 degrees about x. q and
+    -q represent the same rotation (Modern Robotics, appendix B.3).
 
     Args:
-        q_wxyz: quaternion, scalar part first as in MuJoCo, (..., 4).
+        q_wxyz: quaternion of any norm except 0, scalar part first as in MuJoCo,
+            (..., 4).
 
     Returns:
         Rotation matrix, (..., 3, 3).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or a quaternion of length 0.
+        ValueError: wrong shape, a non-finite number, or a quaternion of norm 0.
     """
     w, x, y, z = np.moveaxis(
         checks.unit(checks.array(q_wxyz, "q_wxyz", (4,)), "q_wxyz"), -1, 0
@@ -131,9 +143,9 @@ def quat_to_R(q_wxyz: ArrayLike) -> Array:
 def R_to_quat(R: ArrayLike) -> Array:
     """Return the unit quaternion of a rotation matrix, with w >= 0.
 
-    q and -q are the same rotation; the sign is fixed so that two answers can be
-    compared. The largest of the four components is computed first, which keeps the
-    division away from zero for every angle (Shepperd 1978).
+    q and -q represent the same rotation, and the sign is chosen so that two answers can
+    be compared. The largest of the four components is computed first, so the division
+    is never by a number near 0 (Shepperd 1978).
 
     Args:
         R: rotation matrix, (..., 3, 3).
@@ -146,8 +158,8 @@ def R_to_quat(R: ArrayLike) -> Array:
     """
     R = checks.rotation(R, "R")
     (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = np.moveaxis(R, (-2, -1), (0, 1))
-    # Row k is 4 q_k times the whole quaternion; its k-th entry, 4 q_k^2, says how
-    # well conditioned that row is.
+    # Row k is 4 q_k times the whole quaternion. The row with the largest k-th entry,
+    # 4 q_k^2, is the best conditioned one.
     rows = np.array([
         [1 + xx + yy + zz, zy - yz, xz - zx, yx - xy],
         [zy - yz, 1 + xx - yy - zz, yx + xy, xz + zx],
@@ -162,11 +174,11 @@ def R_to_quat(R: ArrayLike) -> Array:
 
 
 def is_rotation(R: ArrayLike, tol: float = RIGID_TOL) -> bool:
-    """Return whether every matrix is a rotation: orthonormal and right-handed.
+    """Return whether every matrix is a rotation matrix: orthonormal, determinant +1.
 
     Args:
         R: matrix, (..., 3, 3).
-        tol: largest entry of R R^T - I that still counts as orthonormal.
+        tol: largest accepted entry of R R^T - I.
 
     Returns:
         True when all are rotations; False for other shapes and non-finite numbers.
@@ -198,11 +210,11 @@ def is_pose(T: ArrayLike, tol: float = RIGID_TOL) -> bool:
 
 
 def pose_distance(T_a: ArrayLike, T_b: ArrayLike) -> tuple[Array, Array]:
-    """Return how far apart two poses are, as a distance and an angle.
+    """Return the distance between two poses and the angle between their rotations.
 
-    The angle comes from the relative rotation's quaternion by atan2, which is exact
-    near 0 and near pi; arccos((trace - 1) / 2) loses half its digits there, or is
-    NaN where rounding takes the trace past 3.
+    The angle is computed from the quaternion of the relative rotation with atan2, which
+    is accurate near 0 and near pi. arccos((trace - 1) / 2) loses half of its digits
+    there, and it is NaN if rounding makes the trace larger than 3.
 
     Args:
         T_a: pose, (..., 4, 4).
@@ -225,7 +237,7 @@ def pose_distance(T_a: ArrayLike, T_b: ArrayLike) -> tuple[Array, Array]:
 
 def _turn_about(k: int, theta: ArrayLike) -> Array:
     theta = checks.array(theta, "theta", ())
-    i, j = (k + 1) % 3, (k + 2) % 3  # the turn takes axis i towards axis j
+    i, j = (k + 1) % 3, (k + 2) % 3  # the rotation moves axis i towards axis j
     R = np.zeros((*theta.shape, 3, 3))
     R[..., k, k] = 1.0
     R[..., i, i] = R[..., j, j] = np.cos(theta)
@@ -235,9 +247,10 @@ def _turn_about(k: int, theta: ArrayLike) -> Array:
 
 
 def __getattr__(name: str) -> Any:
-    """Return `axis_angle`, which stood here while it answered a task of Day 2.
+    """Return `axis_angle`, which older labs import from this module.
 
-    By name: while Day 2 is checked, `robo47.screws` is refused, and this with it.
+    It is loaded only on request, because `robo47.screws` is not available to a
+    submission while Day 2 is checked.
     """
     if name != "axis_angle":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
