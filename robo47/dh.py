@@ -1,8 +1,9 @@
 """Denavit and Hartenberg's parameters, in the convention that Craig uses.
 
-Four numbers place a link's frame on the one before it: Rx(alpha) Tx(a) Rz(theta)
-Tz(d). Other books put the same four in another order, so a table means nothing
-without its convention; Franka publishes the Panda's in this one. Radians, metres.
+Four parameters give the pose of a link's frame relative to the frame before it:
+Rx(alpha) Tx(a) Rz(theta) Tz(d). Other books multiply the same four in another order, so
+a table means nothing without its convention. Franka's table of the Panda has Craig's.
+Radians, metres.
 
 Sources: Craig, *Introduction to Robotics* (2005), section 3.4; *Modern Robotics*,
 Appendix C.
@@ -18,7 +19,10 @@ from robo47.checks import Array
 
 
 def dh_link(alpha: ArrayLike, a: ArrayLike, d: ArrayLike, theta: ArrayLike) -> Array:
-    """Return one link of Craig's convention: Rx(alpha) Tx(a) Rz(theta) Tz(d).
+    """Return the pose of a link's frame, Rx(alpha) Tx(a) Rz(theta) Tz(d).
+
+    The translation d is along the z axis that Rx(alpha) has rotated.
+    `dh_link(np.pi / 2, 0, 0.316, 0)` has its origin at (0, -0.316, 0).
 
     Args:
         alpha: twist of the link, radians, (...).
@@ -27,7 +31,7 @@ def dh_link(alpha: ArrayLike, a: ArrayLike, d: ArrayLike, theta: ArrayLike) -> A
         theta: joint angle, radians, (...).
 
     Returns:
-        Pose of this link's frame on the one before it, (..., 4, 4) (Craig, eq. 3.6).
+        Pose relative to the frame before it, (..., 4, 4) (Craig, eq. 3.6).
 
     Raises:
         ValueError: shapes that do not broadcast, or a non-finite number.
@@ -57,11 +61,11 @@ def dh_link(alpha: ArrayLike, a: ArrayLike, d: ArrayLike, theta: ArrayLike) -> A
 
 
 def dh_fk(table: ArrayLike, q: ArrayLike) -> Array:
-    """Return the flange's pose from a table of Craig's parameters.
+    """Return the flange's pose from a table of DH parameters in Craig's convention.
 
     Args:
-        table: rows (alpha, a, d), radians and metres, (n + 1, 3): one for each joint,
-            whose theta is its q, and the flange's, whose theta is 0.
+        table: rows (alpha, a, d), radians and metres, (n + 1, 3): one row for each
+            joint, whose theta is its q, and the flange's row, whose theta is 0.
         q: joint angles in radians, (..., n).
 
     Returns:

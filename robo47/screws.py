@@ -1,13 +1,13 @@
 """Screws: joints as lines in space, and the product of exponentials.
 
-A joint is a screw axis S = (omega; v), (6,): omega the unit vector it turns about,
-v the velocity that a turn at 1 rad/s gives the point at the origin. A slide has
-omega = 0 and moves along v. Conventions:
+A joint is a screw axis S = (omega; v), (6,): omega is the unit vector along its axis of
+rotation, and v is the velocity of the body's point at the origin while the body rotates
+at 1 rad/s. A slide has omega = 0 and moves along v. Conventions:
 
 - Twists and screws are (omega; v), as in *Modern Robotics* and MuJoCo's `cvel`;
   Pinocchio, `mj_jac` and a free joint's `qvel` have v first.
-- Space screws stand in the world frame, body screws in the end effector's, both with
-  the arm at q = 0, where the end effector's pose is M (`M_home` in code).
+- Space screws are expressed in the world frame, body screws in the end effector's
+  frame, both with the arm at q = 0, where the end effector's pose is M (`M_home`).
 - Angles in radians, lengths in metres, float64; leading dimensions broadcast.
 
 Source: Lynch and Park, *Modern Robotics* (2017), chapters 3 and 4.
@@ -22,14 +22,16 @@ from numpy.typing import ArrayLike
 
 from robo47 import checks, se3
 from robo47.checks import Array
-from robo47.dh import dh_fk as dh_fk  # Denavit and Hartenberg's way, beside this one
+from robo47.dh import dh_fk as dh_fk  # Denavit and Hartenberg's method
 from robo47.dh import dh_link as dh_link
 from robo47.fast.chains import END, evaluate, plan_of
 from robo47.fast.vectors import cross_of
 
 
 def skew(w: ArrayLike) -> Array:
-    """Return the matrix [w] that takes p to w x p.
+    """Return the skew-symmetric matrix [w], with [w] p = w x p for each p.
+
+    `skew([0, 0, 1])` maps (1, 0, 0) to (0, 1, 0).
 
     Args:
         w: vector, (..., 3), in any unit.
@@ -42,7 +44,7 @@ def skew(w: ArrayLike) -> Array:
         ValueError: wrong shape or a non-finite number.
     """
     w = checks.array(w, "w", (3,))
-    if w.ndim == 1:  # what labs ask for thousands of times; 0.0 - z makes no -0
+    if w.ndim == 1:  # labs call this thousands of times; 0.0 - z makes no -0
         x, y, z = w.tolist()
         return np.array([[0.0, 0.0 - z, y], [z, 0.0, 0.0 - x], [0.0 - y, x, 0.0]])
     K = np.zeros((*w.shape, 3))
@@ -52,20 +54,20 @@ def skew(w: ArrayLike) -> Array:
 
 
 def axis_angle(axis: ArrayLike, theta: ArrayLike) -> Array:
-    """Return the rotation by theta about any axis (Rodrigues' formula).
+    """Return the rotation matrix by theta about an axis of any norm.
 
-    R = I + sin(theta) K + (1 - cos(theta)) K K, where K v = axis x v
-    (Modern Robotics, eq. 3.51).
+    Rodrigues' formula: R = I + sin(theta) K + (1 - cos(theta)) K K, where K = [axis] of
+    the normalised axis (Modern Robotics, eq. 3.51).
 
     Args:
-        axis: direction of the axis, (..., 3); its length does not matter.
+        axis: direction of the axis, (..., 3), with any norm except 0.
         theta: angle in radians, (...).
 
     Returns:
         Rotation matrix, (..., 3, 3).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or an axis of length 0.
+        ValueError: wrong shape, a non-finite number, or an axis of norm 0.
     """
     axis = checks.array(axis, "axis", (3,))
     theta = checks.array(theta, "theta", ())
@@ -78,10 +80,11 @@ def axis_angle(axis: ArrayLike, theta: ArrayLike) -> Array:
 
 
 def exp_rotation(axis: ArrayLike, theta: ArrayLike) -> Array:
-    """Return the rotation by theta about a unit axis.
+    """Return the rotation matrix exp([axis] theta) about a unit axis.
 
-    I + sin(theta) [axis] + (1 - cos(theta)) [axis]^2, Rodrigues' formula (Modern
-    Robotics, eq. 3.51). `axis_angle` takes an axis of any length.
+    Rodrigues' formula: I + sin(theta) [axis] + (1 - cos(theta)) [axis]^2 (Modern
+    Robotics, eq. 3.51). `axis_angle` takes an axis of any norm.
+    `exp_rotation([0, 0, 1], theta)` is `se3.Rz(theta)`.
 
     Args:
         axis: unit vector, (..., 3).
@@ -91,24 +94,28 @@ def exp_rotation(axis: ArrayLike, theta: ArrayLike) -> Array:
         Rotation matrix, (..., 3, 3).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or an axis not of length 1.
+        ValueError: wrong shape, a non-finite number, or an axis not of norm 1.
     """
     axis = checks.unit_vector(axis, "axis")
     return axis_angle(axis, theta)
 
 
 def screw_axis(axis: ArrayLike, point: ArrayLike) -> Array:
-    """Return the screw of a hinge: (omega; v) with omega = axis, v = -omega x point.
+    """Return the screw axis of a hinge: omega = axis, v = -omega x point.
+
+    v is the velocity of the body's point at the origin while the body rotates at
+    1 rad/s. `screw_axis([0, 0, 1], [1, 0, 0])` is (0, 0, 1, 0, -1, 0).
 
     Args:
-        axis: unit vector that the hinge turns about, (..., 3).
-        point: any point on its line, metres, (..., 3).
+        axis: unit vector along the hinge, (..., 3).
+        point: any point on its line, metres, (..., 3), in the same frame.
 
     Returns:
-        Screw, (..., 6): no unit; metres (Modern Robotics, section 3.3.2.2).
+        Screw axis (omega; v), (..., 6), v in metres per radian (Modern Robotics,
+        section 3.3.2.2).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or an axis not of length 1.
+        ValueError: wrong shape, a non-finite number, or an axis not of norm 1.
     """
     axis = checks.unit_vector(axis, "axis")
     point = checks.array(point, "point", (3,))
@@ -117,14 +124,16 @@ def screw_axis(axis: ArrayLike, point: ArrayLike) -> Array:
 
 
 def joint_screws(T_zero: ArrayLike) -> Array:
-    """Return the space screws of an arm whose joints turn about their links' z axes.
+    """Return the space screws of joints that rotate about their links' z axes.
+
+    The third column of each pose is the axis, and the last column is a point on it
+    (Modern Robotics, section 4.1.1).
 
     Args:
         T_zero: `T_world_link` of every moving link at q = 0, (..., n, 4, 4).
 
     Returns:
-        Space screws (omega; v), (..., n, 6): the third column of each pose is the
-        axis, the last one a point on it.
+        Space screws (omega; v), expressed in the world frame, (..., n, 6).
 
     Raises:
         ValueError: wrong shape, a non-finite number, or not poses.
@@ -134,20 +143,21 @@ def joint_screws(T_zero: ArrayLike) -> Array:
 
 
 def exp_screw(S: ArrayLike, theta: ArrayLike) -> Array:
-    """Return the pose after moving by theta along a screw.
+    """Return the pose exp([S] theta) of a motion along a screw axis.
 
-    R = exp([omega] theta) and t = (theta I + (1 - cos) [omega] + (theta - sin)
-    [omega]^2) v; with omega = 0 that is the slide theta v (Modern Robotics, eq. 3.88).
+    Its rotation is exp([omega] theta), and its translation is (theta I + (1 - cos)
+    [omega] + (theta - sin) [omega]^2) v. With omega = 0 this is the slide theta v
+    (Modern Robotics, eq. 3.88).
 
     Args:
-        S: screw (omega; v) with omega of length 1 or 0, (..., 6).
-        theta: radians, metres for a slide, (...).
+        S: screw axis (omega; v), omega a unit vector or 0, (..., 6).
+        theta: angle in radians, or metres for a slide, (...).
 
     Returns:
         Pose, (..., 4, 4).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or omega of another length.
+        ValueError: wrong shape, a non-finite number, or omega of another norm.
     """
     S = checks.screws(S, "S")
     theta = checks.array(theta, "theta", ())
@@ -156,7 +166,7 @@ def exp_screw(S: ArrayLike, theta: ArrayLike) -> Array:
     KK = K @ K
     angle = theta[..., None, None]
     s = np.sin(angle)
-    c = 2.0 * np.sin(0.5 * angle) ** 2  # 1 - cos, which has no digits at small angles
+    c = 2.0 * np.sin(0.5 * angle) ** 2  # 1 - cos, with all digits at small angles
     R = np.eye(3) + s * K + c * KK
     out = np.zeros((*R.shape[:-2], 4, 4))
     out[..., :3, :3] = R
@@ -166,12 +176,12 @@ def exp_screw(S: ArrayLike, theta: ArrayLike) -> Array:
 
 
 def adjoint(T: ArrayLike) -> Array:
-    """Return Ad(T): the twist V_b seen from frame a is adjoint(T_a_b) @ V_b.
+    """Return the adjoint Ad(T): the twist V_b, expressed in a, is Ad(T_a_b) V_b.
 
-    [[R, 0], [[p] R, R]] (Modern Robotics, definition 3.20).
+    Ad(T) = [[R, 0], [[p] R, R]] (Modern Robotics, definition 3.20).
 
     Args:
-        T: pose `T_a_b`, (..., 4, 4).
+        T: pose `T_a_b`, metres, (..., 4, 4).
 
     Returns:
         Matrix for twists (omega; v), (..., 6, 6).
@@ -188,18 +198,19 @@ def adjoint(T: ArrayLike) -> Array:
 
 
 def fk_space(screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
-    """Return the end effector's pose, e^[S1] q1 ... e^[Sn] qn M.
+    """Return the end effector's pose, the product e^[S1] q1 ... e^[Sn] qn M.
 
-    Many configurations of one arm take one vectorised pass (`fast.chains`), which is
-    as fast as `kinematics.fk`: it makes the same moves.
+    This is the product of exponentials in the space form (Modern Robotics, section
+    4.1.1). Many configurations of one arm are computed in one vectorised pass
+    (`fast.chains`), which is as fast as `kinematics.fk`.
 
     Args:
-        screws: space screws (omega; v), (..., n, 6).
+        screws: space screws (omega; v) at q = 0, in the joints' order, (..., n, 6).
         M_home: `T_world_ee` at q = 0, (..., 4, 4).
         q: joint angles in radians (metres for slides), (..., n).
 
     Returns:
-        T_world_ee, (..., 4, 4) (Modern Robotics, section 4.1.1).
+        T_world_ee, (..., 4, 4); at q = 0 it is M_home.
 
     Raises:
         ValueError: wrong shape, a non-finite number, no screw or not a pose.
@@ -213,7 +224,7 @@ def fk_space(screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
 
 
 def body_screws(screws: ArrayLike, M_home: ArrayLike) -> Array:
-    """Return the same screws as the end effector sees them at q = 0: Ad(M^-1) S.
+    """Return screws expressed in the end effector's frame at q = 0: Ad(M^-1) S.
 
     Args:
         screws, M_home: as in `fk_space`.
@@ -229,13 +240,13 @@ def body_screws(screws: ArrayLike, M_home: ArrayLike) -> Array:
 
 
 def fk_body(body_screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
-    """Return the end effector's pose, M e^[B1] q1 ... e^[Bn] qn.
+    """Return the end effector's pose, the product M e^[B1] q1 ... e^[Bn] qn.
 
-    M e^[B] = e^[Ad(M) B] M takes M from the left end to the right one, so this is
-    `fk_space` with the screws seen from the world.
+    This is the product of exponentials in the body form. Because
+    M e^[B] = e^[Ad(M) B] M, it equals `fk_space` with the screws Ad(M) B.
 
     Args:
-        body_screws: body screws (omega; v), (..., n, 6).
+        body_screws: body screws (omega; v) at q = 0, (..., n, 6).
         M_home, q: as in `fk_space`.
 
     Returns:
@@ -249,9 +260,10 @@ def fk_body(body_screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
 
 
 def __getattr__(name: str) -> Any:
-    """Return `ad`, which stood here until Day 4 was asked it, from where it is taught.
+    """Return `ad`, which older labs import from this module.
 
-    By name: while Day 4 is checked, `robo47.dynamics` is refused, and `ad` with it.
+    It is loaded only on request, because `robo47.dynamics` is not available to a
+    submission while Day 4 is checked.
     """
     if name != "ad":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

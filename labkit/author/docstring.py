@@ -21,7 +21,7 @@ from labkit.judge.ask import as_plain
 from labkit.judge.row import Row
 
 _SHAPE = re.compile(r"\(((?:\d+|[a-z])(?:, (?:\d+|[a-z]))*,?)\)")
-_SOURCE = re.compile(r"\b(?:sections?|eq\.|equation|appendix) [\w.]+")
+_SOURCE = re.compile(r"\b(?:sections?|eq\.|equation|appendix|definition) [\w.]+")
 _PLAIN = ("pi", "sqrt", "exp", "log", "sin", "cos", "tan", "nan", "inf")
 _NAMES = {"np": np, "True": True, "False": False, "None": None} | {
     name: getattr(np, name) for name in _PLAIN
