@@ -1,17 +1,17 @@
-"""Jacobians of an arm, pose errors, and the steps that inverse kinematics is made of.
+"""Jacobians of an arm, pose errors, and the steps of inverse kinematics.
 
-Three Jacobians map joint speeds to a twist (omega; v), and their names are kept apart:
+Three Jacobians map joint velocities to a twist (omega; v), and have different names:
 
-- `J_space`: v is the velocity of the point at the world's origin; world axes.
-- `J_site`: v is the velocity of a point of the hand; world axes. This is what MuJoCo's
-  mj_jacSite says (its jacr above its jacp).
-- `J_body`: v is the velocity of the hand's own origin, both in the hand's axes.
+- `J_space`: v is the velocity of the point at the world's origin, in the world frame.
+- `J_site`: v is the velocity of a point of the hand, in the world frame. MuJoCo's
+  mj_jacSite returns it (its jacr above its jacp).
+- `J_body`: v is the velocity of the hand's own origin, both in the hand frame.
 
 Twists are (omega; v) as in *Modern Robotics*; Pinocchio's are (v; omega). Radians,
 metres, float64; leading dimensions broadcast.
 
 Source: Lynch and Park, *Modern Robotics* (2017), chapters 5 and 6. `robo47.fast.ik` and
-`robo47.rotation_log` hold the rest of what is named here.
+`robo47.rotation_log` contain the other functions that are imported here.
 """
 
 import numpy as np
@@ -26,14 +26,14 @@ from robo47.rotation_log import log_rotation as log_rotation
 from robo47.rotation_log import pose_error as pose_error
 from robo47.screws import adjoint, exp_screw, skew
 
-SINGULAR = 1e-12  # a singular value this much below the largest one counts as 0
+SINGULAR = 1e-12  # of the largest singular value; a smaller one is treated as 0
 
 
 def space_jacobian(screws: ArrayLike, q: ArrayLike) -> Array:
-    """Return J_space: where every joint's screw is now.
+    """Return the space Jacobian J_space, whose columns are the joints' present screws.
 
     Column i is Ad(e^[S1] q1 ... e^[S(i-1)] q(i-1)) S_i (Modern Robotics, section
-    5.1.1).
+    5.1.1). At q = 0 the columns are the screws.
 
     Args:
         screws: space screws (omega; v), (..., n, 6).
@@ -52,16 +52,17 @@ def space_jacobian(screws: ArrayLike, q: ArrayLike) -> Array:
 
 
 def site_jacobian(J_space: ArrayLike, p: ArrayLike) -> Array:
-    """Return J_site: the same motion as the velocity of the point p, world axes.
+    """Return the site Jacobian J_site of a point p, in the world frame.
 
-    v_p = v + omega x p in each column; omega stays (Modern Robotics, section 3.3.2).
+    In each column v_p = v + omega x p, and omega does not change (Modern Robotics,
+    section 3.3.2).
 
     Args:
         J_space: from `space_jacobian`, (..., 6, n).
         p: a point that moves with the hand, world coordinates, metres, (..., 3).
 
     Returns:
-        J_site, (..., 6, n): what mj_jacSite says, omega above.
+        J_site, (..., 6, n), as mj_jacSite returns it, omega above v.
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -73,7 +74,7 @@ def site_jacobian(J_space: ArrayLike, p: ArrayLike) -> Array:
 
 
 def body_jacobian(J_space: ArrayLike, T: ArrayLike) -> Array:
-    """Return J_body: the same motion as the hand itself sees it, Ad(T^-1) J_space.
+    """Return the body Jacobian J_body, in the hand frame: Ad(T^-1) J_space.
 
     Args:
         J_space: from `space_jacobian`, (..., 6, n).
@@ -89,15 +90,15 @@ def body_jacobian(J_space: ArrayLike, T: ArrayLike) -> Array:
 
 
 def joint_torques(J_space: ArrayLike, p: ArrayLike, F: ArrayLike) -> Array:
-    """Return the motors' torques with which the hand pushes with a wrench at a point.
+    """Return the joint torques with which the hand exerts a wrench, J_site^T F.
 
-    J_site^T F: what the motors put in, tau . q_dot, comes out at the hand, F . V
-    (Modern Robotics, section 5.2).
+    By the principle of virtual work, the motors' power tau . q_dot equals the power
+    F . V at the hand (Modern Robotics, section 5.2).
 
     Args:
         J_space: from `space_jacobian`, (..., 6, n).
-        p: where the hand pushes, world coordinates, metres, (..., 3).
-        F: moment about p and force, world axes, N m and N, (..., 6).
+        p: the point at which the hand pushes, world coordinates, metres, (..., 3).
+        F: moment about p over force, in the world frame, N m and N, (..., 6).
 
     Returns:
         Torques, N m (forces of slides, N), (..., n).
@@ -113,14 +114,14 @@ def joint_torques(J_space: ArrayLike, p: ArrayLike, F: ArrayLike) -> Array:
 def dls_step(J_site: ArrayLike, e: ArrayLike, damping: ArrayLike) -> Array:
     """Return the damped least-squares step, J^T (J J^T + damping^2 I)^-1 e.
 
-    It minimises |J dq - e|^2 + damping^2 |dq|^2, so it stays short where J is near
+    It minimises |J dq - e|^2 + damping^2 |dq|^2, so it remains short where J is nearly
     singular (Wampler, "Manipulator inverse kinematic solutions based on vector
     formulations and damped least-squares methods", IEEE Trans. SMC 16(1), 1986).
 
     Args:
         J_site: site Jacobian, (..., m, n), where e is a `pose_error` in world axes.
         e: wanted motion, (..., m), in the Jacobian's frame and order.
-        damping: larger is safer and slower, (...); 0 is the pseudo-inverse.
+        damping: a larger one gives shorter steps, (...); 0 is the pseudo-inverse.
 
     Returns:
         Step dq, radians, (..., n).
@@ -141,14 +142,17 @@ def dls_step(J_site: ArrayLike, e: ArrayLike, damping: ArrayLike) -> Array:
 
 
 def manipulability(J: ArrayLike) -> Array:
-    """Return sqrt(det(J J^T)), the product of the singular values: 0 when singular.
+    """Return the manipulability, the product of the singular values of J.
+
+    It equals sqrt(det(J J^T)) and is 0 where J is singular (Yoshikawa, "Manipulability
+    of robotic mechanisms", Int. J. Robotics Research 4(2), 1985).
 
     Args:
-        J: any of the three, (..., m, n), with one volume; with m > n it is 0.
+        J: any of the three Jacobians, (..., m, n), which have the same manipulability;
+            the result is 0 if m > n.
 
     Returns:
-        Volume of the manipulability ellipsoid but for a constant, (...) (Yoshikawa,
-        "Manipulability of robotic mechanisms", Int. J. Robotics Research 4(2), 1985).
+        Volume of the manipulability ellipsoid up to a constant factor, (...).
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -160,14 +164,16 @@ def manipulability(J: ArrayLike) -> Array:
 
 
 def nullspace_projection(J: ArrayLike, dq: ArrayLike) -> Array:
-    """Return the part of dq that the hand does not feel, dq - J^+ J dq.
+    """Return the null-space projection dq - J^+ J dq, which does not move the hand.
 
     Args:
-        J: any of the three, (..., m, n), with one null space.
-        dq: wanted motion of the joints, (..., n).
+        J: any of the three Jacobians, (..., m, n), which have the same null space; it
+            may be singular.
+        dq: motion of the joints, (..., n).
 
     Returns:
-        The nearest motion with J dq = 0, (..., n) (Modern Robotics, section 6.3).
+        The motion with J dq = 0 that is nearest to dq, (..., n) (Modern Robotics,
+        section 6.3).
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -175,14 +181,14 @@ def nullspace_projection(J: ArrayLike, dq: ArrayLike) -> Array:
     J = checks.array(J, "J", ("m", "n"))
     dq = checks.array(dq, "dq", J.shape[-1:])
     _, values, Vt = np.linalg.svd(J, full_matrices=False)
-    # J^+ J = V V^T over the directions that the hand feels; no division is needed.
+    # J^+ J = V V^T over the directions that move the hand; no division is needed.
     felt = values > SINGULAR * values.max(axis=-1, keepdims=True, initial=0.0)
     along = np.where(felt, (Vt @ dq[..., None])[..., 0], 0.0)
     return dq - (along[..., None, :] @ Vt)[..., 0, :]
 
 
 def _one_by_one(S: Array, q: Array) -> Array:
-    """Return J_space of arms with different screws, as the formula reads."""
+    """Return J_space of arms with different screws, column by column."""
     T = np.eye(4)
     columns = []
     for i in range(S.shape[-2]):
