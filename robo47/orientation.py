@@ -1,8 +1,8 @@
-"""Orientations in other numbers: roll, pitch and yaw, and quaternions that multiply.
+"""Other representations of a rotation: roll, pitch and yaw, and quaternions.
 
-Conventions: radians; quaternions are (w, x, y, z) of length 1, as in MuJoCo, and are
-normalised first. Roll, pitch and yaw turn about the world's own x, y and z axes in
-this order, R = Rz(yaw) Ry(pitch) Rx(roll): the same R as yaw, pitch and roll about the
+Conventions: radians; quaternions are (w, x, y, z), as in MuJoCo, and are normalised
+first. Roll, pitch and yaw rotate about the world's own x, y and z axes in this order,
+R = Rz(yaw) Ry(pitch) Rx(roll). The same R results from yaw, pitch and roll about the
 moving z, y and x axes. Leading dimensions broadcast.
 
 Sources: Lynch and Park, *Modern Robotics* (2017), appendix B (roll-pitch-yaw angles,
@@ -15,12 +15,12 @@ from numpy.typing import ArrayLike
 from robo47 import checks, se3
 from robo47.checks import Array
 
-GIMBAL = 1e-7  # cosine of the pitch below which roll and yaw turn about one axis
+GIMBAL = 1e-7  # cosine of the pitch below which roll and yaw have one axis
 NEARLY_ONE = 1e-8  # angle below which slerp's sines are their angles, to all digits
 
 
 def rpy_to_R(rpy: ArrayLike) -> Array:
-    """Return the rotation of roll, pitch and yaw: Rz(yaw) Ry(pitch) Rx(roll).
+    """Return the rotation matrix of roll, pitch and yaw: Rz(yaw) Ry(pitch) Rx(roll).
 
     Args:
         rpy: roll, pitch, yaw in radians, (..., 3).
@@ -36,10 +36,10 @@ def rpy_to_R(rpy: ArrayLike) -> Array:
 
 
 def R_to_rpy(R: ArrayLike) -> Array:
-    """Return roll, pitch and yaw of a rotation.
+    """Return roll, pitch and yaw of a rotation matrix.
 
-    With the pitch at +-90 degrees (gimbal lock) roll and yaw turn about one axis, and
-    only their difference or sum is in R: the roll is 0 then.
+    With the pitch at +-90 degrees (gimbal lock) roll and yaw rotate about one axis, and
+    R determines only their difference or sum; the returned roll is 0 then.
 
     Args:
         R: rotation matrix, (..., 3, 3).
@@ -62,9 +62,10 @@ def R_to_rpy(R: ArrayLike) -> Array:
 
 
 def quat_product(p_wxyz: ArrayLike, q_wxyz: ArrayLike) -> Array:
-    """Return p q, whose rotation is R(p) R(q): q turns first.
+    """Return the product p q of two quaternions, whose rotation is R(p) R(q).
 
-    (p0 q0 - p.q; p0 q + q0 p + p x q), Hamilton's product (Modern Robotics, B.3).
+    The rotation of q is applied first. Hamilton's product is (p0 q0 - p.q; p0 q + q0 p
+    + p x q) (Modern Robotics, appendix B.3).
 
     Args:
         p_wxyz, q_wxyz: quaternions, (..., 4).
@@ -73,7 +74,7 @@ def quat_product(p_wxyz: ArrayLike, q_wxyz: ArrayLike) -> Array:
         Unit quaternion (w, x, y, z), (..., 4); its sign is the product's.
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or a quaternion of length 0.
+        ValueError: wrong shape, a non-finite number, or a quaternion of norm 0.
     """
     p = _unit(p_wxyz, "p_wxyz")
     q = _unit(q_wxyz, "q_wxyz")
@@ -85,27 +86,27 @@ def quat_product(p_wxyz: ArrayLike, q_wxyz: ArrayLike) -> Array:
 
 
 def slerp(p_wxyz: ArrayLike, q_wxyz: ArrayLike, s: ArrayLike) -> Array:
-    """Return the quaternion after the fraction s of the shorter turn from p to q.
+    """Return the spherical linear interpolation (slerp) from p to q at the fraction s.
 
     (sin((1 - s) a) p + sin(s a) q) / sin(a), with a the angle between p and q in four
-    dimensions, half of the turn's (Shoemake 1985). q and -q are one rotation: the one
-    nearer to p is taken, so the turn is at most half a circle.
+    dimensions, half of the rotation's angle (Shoemake 1985). q and -q represent one
+    rotation; the one nearer to p is used, so the rotation is by at most pi.
 
     Args:
         p_wxyz, q_wxyz: quaternions, (..., 4).
-        s: fraction of the turn, (...); 0 is p, 1 is q or -q.
+        s: fraction of the rotation, (...); 0 is p, 1 is q or -q.
 
     Returns:
         Unit quaternion (w, x, y, z), (..., 4).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or a quaternion of length 0.
+        ValueError: wrong shape, a non-finite number, or a quaternion of norm 0.
     """
     p = _unit(p_wxyz, "p_wxyz")
     q = _unit(q_wxyz, "q_wxyz")
     s = checks.array(s, "s", ())[..., None]
     q = np.where((p * q).sum(axis=-1, keepdims=True) < 0.0, -q, q)
-    # By both lengths: the arccosine of p . q has half of the digits near p = q.
+    # By both norms, because the arccosine of p . q has half of the digits near p = q.
     apart = np.linalg.norm(q - p, axis=-1, keepdims=True)
     angle = 2.0 * np.arctan2(apart, np.linalg.norm(q + p, axis=-1, keepdims=True))
     near = angle < NEARLY_ONE

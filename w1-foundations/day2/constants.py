@@ -162,7 +162,7 @@ def without_flange(metre=1.0, seed=47, n=20, flange=0.107):
     "rank of the seven screws of q = 0", "{:.0f}",
     metre=same("the rank does not depend on the unit of length"),
     raised=same("the same seven lines, relative to another origin", to=0.333),
-    q=between(1.2, 1.2, "at ready joints 1, 3 and 5 are three different lines", to=1.0),
+    q=between(1.2, 1.2, "in the ready configuration the axes of joints 1, 3 and 5 differ", to=1.0),
 )  # fmt: skip
 def rank(metre=1.0, raised=0.0, q=0.0):
     """Return it."""

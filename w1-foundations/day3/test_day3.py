@@ -244,7 +244,10 @@ def test_what_no_motor_feels_at_zero_is_a_wrench(arm, turned):
     p = screws.fk_space(*arm, q)[:3, 3]
     assert abs(lost @ u) == pytest.approx(1.0)
     assert np.abs(np.cross(p, u[:3])).max() > 0.5
-    assert "Turn joint 1 by 0.5 rad, and the axis of that moment turns with it" in GUIDE
+    assert (
+        "Rotate joint 1 by 0.5 rad, and the axis of this moment rotates with it."
+        in GUIDE
+    )
 
 
 def test_in_which_jacobians_joint_7_does_not_show(arm):

@@ -148,7 +148,7 @@ def translations_both_orders(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the translations, (3,) each, of the two products of two poses.
 
-    First the translation of T_world_ee @ T_extra, then that of T_extra @ T_world_ee, in
+    The first belongs to T_world_ee @ T_extra and the second to T_extra @ T_world_ee, in
     metres. T_world_ee (4, 4) and T_extra (4, 4) are poses. Compute both translations
     from the rotations and the translations of the two poses, without a 4x4 product
     (Modern Robotics, section 3.3.1). The two are equal if neither pose rotates.
@@ -165,7 +165,7 @@ def translations_both_orders(
 def link4_to_world(model: mujoco.MjModel, q: np.ndarray) -> np.ndarray:
     """Return T_world_link4, the pose of link4 in the world, (4, 4).
 
-    model and q (7,) are those of compose_fk. The pos and quat of link4 in the file are
+    model and q (7,) are as in compose_fk. The pos and quat of link4 in the file are
     relative to link3, so the bodies and joints between the world and link3 contribute
     as well. With every joint at 0 the translation is (0.0825, 0, 0.649).
     """
@@ -231,7 +231,7 @@ def main() -> int:
     says = "distance between T_world_ee @ T_extra and T_extra @ T_world_ee, m"
     lab.measured(says, apart)
     predicted = np.array(translations_both_orders(T_world_ee, T_extra))
-    lab.check("your translations - those of the products", predicted - [right, left])
+    lab.check("your two translations - the products", predicted - [right, left])
 
     lab.step(f"5. Your compose_fk at {TRIALS:,} random configurations")
     errors = own_errors(model, verify.random_q(model, TRIALS, SEED))
