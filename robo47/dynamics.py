@@ -332,7 +332,7 @@ def _velocity_product(G: Array, V: Array, ad_V: Array) -> Array:
     return 0.5 * (crossed - np.swapaxes(ad_V, -1, -2) @ G - G @ ad_V)
 
 
-def _felt(J: Array, wrenches: Array) -> Array:
+def _along_joints(J: Array, wrenches: Array) -> Array:
     """Return the torques of the wrenches on each link and on all links distal to it."""
     carried = np.cumsum(wrenches[..., ::-1, :], axis=-2)[..., ::-1, :]
     return (np.swapaxes(J, -1, -2) * carried).sum(axis=-1)

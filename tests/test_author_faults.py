@@ -135,6 +135,15 @@ def test_a_worked_case_is_read_from_a_sentence(text, call, value):
     assert docstring.cases(text, "f") == [(call, value)]
 
 
+def test_the_number_of_a_section_is_none_of_a_case(monkeypatch):
+    """A note to an author: the decimals of a docstring that no question has."""
+    row = next(iter(rows_of(all_days()[0]).values()))
+    function = getattr(row.lab, row.function)
+    text = "Return 0.77 (Modern Robotics, section 3.3.1, eq. 3.64, appendix B.3)."
+    monkeypatch.setattr(function, "__doc__", text)
+    assert docstring.unlike_its_questions(row) == ["0.77"]
+
+
 def test_a_shape_is_read_behind_its_argument_alone():
     text = "Return Y, (n, 7), of X (n, d). q, (7,), at (1, 2) is W (2, 2)."
     found = docstring._told(text, ["X", "q", "W"])

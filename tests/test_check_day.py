@@ -158,7 +158,7 @@ class TestCheck:
 
     def test_names_the_mistake_with_the_number_that_shows_it(self, run_in, work, day):
         solve(day, work, "make_T")
-        text = work.read_text().replace("T[:3, :3] = R\n", "T[:3, :3] = R.T\n")
+        text = work.read_text().replace("T[:3, :3] = R ", "T[:3, :3] = R.T ")
         work.write_text(text)
         done = run_in(CHECK, "--task", "1.1", "--explain")
         assert done.returncode == 1
