@@ -79,7 +79,7 @@ def _(P, A, B, Q, R):
     }
 
 
-@row.wrong("answers-swapped", "the two answers are swapped: P comes first")
+@row.wrong("answers-swapped", "the two results are swapped. P comes first")
 def _(P, A, B, Q, R):
     return riccati_step(P, A, B, Q, R)[::-1]
 

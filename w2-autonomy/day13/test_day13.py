@@ -77,7 +77,7 @@ def test_all_wrong_slopes_but_one_hold_the_arm_and_most_cost_little():
     now = ARM.at(lab.READY_Q)
     given = now.J_space, ARM.masses, now.coms_world, ARM.gravity
     falls, dear, off = [], [], []
-    script = load_script(DAY.folder / "day13/wrong_stiffness.py")
+    script = load_script(ROOT / "w2-autonomy/day13/wrong_stiffness.py")
     for name, stiffness in script.formulas(*given).items():
         wrong = with_slope(stiffness)
         kept, over_best = costs(*wrong)
