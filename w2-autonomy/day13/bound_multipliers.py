@@ -59,7 +59,7 @@ def _(H, f, lo, hi, x):
         "first-limit-only": np.where(np.cumsum(held) == 1, right, 0.0),
         "times-the-width": at(slope * (hi - lo)),
         "lower-sign": np.where(low, -right, right),
-        "g-forgotten": H @ x,
+        "g-forgotten": at(H @ x),
         "H-halved": at(H @ x / 2 + f),
         "H-doubled": at(2 * H @ x + f),
         "divided-by-H": right / np.diag(H),

@@ -92,6 +92,8 @@ def _(J_space, masses, coms, g):
       joint j, and g x omega_j holds for i >= j only
     diagonal-doubled: the diagonal is doubled, because both of the triangles that you
       add contain it
+    diagonal-only: all entries off the diagonal are 0. The rotation of one joint also
+      changes the torque at other joints
     only-z: only the z component of g is used. Gravity may point in any direction
     minus-9.81: g is replaced by (0, 0, -9.81). Gravity may point in any direction
     minus-9.81 2: g is replaced by a vertical vector of the same norm. Gravity may point
@@ -152,6 +154,7 @@ def _(J_space, masses, coms, g):
         "averaged": (full + full.T) / 2,
         "other-half": mirrored(full.T),
         "diagonal-doubled": right + np.diag(np.diag(right)),
+        "diagonal-only": np.diag(np.diag(right)),
         "only-z": of(*given, np.cross(g_z, omega)),
         "minus-9.81": of(*given, np.cross(DOWN, omega)),
         "minus-9.81 2": of(*given, np.cross(straight, omega)),

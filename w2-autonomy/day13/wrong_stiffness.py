@@ -37,7 +37,6 @@ def slips(
     return {
         "no-lever": right(J, masses, 0 * coms, g),
         "last-joint-left-out": full - last,
-        "diagonal-only": np.diag(np.diag(full)),
         "mass-forgotten": right(J, np.ones_like(masses), coms, g),
         "first-mass": right(J, np.full_like(masses, masses[0]), coms, g),
         "length-1": right(J, masses, coms, g / np.linalg.norm(g)),
