@@ -218,3 +218,8 @@ def _(p, half_extents):
     if np.all(np.abs(p) <= half_extents):
         return -min(min(half_extents - p), min(half_extents + p))
     return np.linalg.norm(p - np.clip(p, -half_extents, half_extents))
+
+
+row.spans(  # as small, or as large, as in the lab
+    p=(lambda p: 0.04 * p,),
+)

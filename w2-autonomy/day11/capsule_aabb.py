@@ -142,3 +142,8 @@ def _(a0, a1, r):
     middle = (a0 + a1) / 2
     half = np.abs(a1 - a0) / 2 + r
     return np.array([middle - half, middle + half])
+
+
+row.spans(  # as small, or as large, as in the lab
+    r=(0.002,),
+)

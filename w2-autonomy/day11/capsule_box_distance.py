@@ -357,3 +357,9 @@ def _(a0, a1, r, T_world_box, half_extents):  # Twenty sections.
     R, t = T_world_box[:3, :3], T_world_box[:3, 3]
     some = golden(lambda s: along(a0, a1, half_extents, [s], R, t)[0], 20)
     return along(a0, a1, half_extents, some, R, t).min() - r
+
+
+row.spans(  # as small, or as large, as in the lab
+    a0=(lambda a0: 0.04 * a0,),
+    r=(0.005,),
+)

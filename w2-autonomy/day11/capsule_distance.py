@@ -280,3 +280,8 @@ def _(a0, a1, ra, b0, b1, rb):
     return (
         np.linalg.norm(np.subtract(*closest_points_segments(a0, a1, b0, b1))) - ra - rb
     )
+
+
+row.spans(  # as small, or as large, as in the lab
+    rb=(0.001,),
+)

@@ -327,3 +327,8 @@ def _(qd, grad, distance, gain):
 )  # Driven out with 0.2 m/s at most.
 def _(qd, grad, distance, gain):
     return velocity_damper(qd, grad, max(distance, -0.2 / gain), gain)
+
+
+row.spans(  # as small, or as large, as in the lab
+    qd=(lambda qd: 9e-06 * qd,),
+)

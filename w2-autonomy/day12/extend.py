@@ -239,3 +239,9 @@ def _(tree, sample, step, world):
 
 
 row.at_least_0(step="a length")
+
+
+row.spans(  # as small, or as large, as in the lab
+    sample=(lambda sample: 0.01 * sample,),
+    step=(0.1,),
+)

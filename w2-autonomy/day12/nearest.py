@@ -219,3 +219,8 @@ def _(tree, q):
 
 
 row.at_least_0(answer="an index")
+
+
+row.spans(  # as small, or as large, as in the lab
+    q=(lambda q: 0.005 * q,),
+)

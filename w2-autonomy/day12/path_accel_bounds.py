@@ -358,3 +358,14 @@ def _(a, b, c, limits, sd):
 
 
 row.at_least_0(limits="of torques, both ways", sd="only its square is used")
+
+
+row.spans(  # as small, or as large, as in the lab
+    a=(lambda a: 0.2 * a,),
+    b=(
+        lambda b: 0.02 * b,
+        lambda b: 7 * b,
+    ),
+    c=(lambda c: 10 * c,),
+    sd=(10.0,),
+)

@@ -132,3 +132,9 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
 @row.right  # Row by row, with M turned over: it is symmetric.
 def _(M, dq_ds, d2q_ds2, coriolis, gravity):
     return np.vstack([dq_ds @ M, d2q_ds2 @ M + coriolis, gravity])
+
+
+row.spans(  # as small, or as large, as in the lab
+    dq_ds=(lambda dq_ds: 0.2 * dq_ds,),
+    coriolis=(lambda coriolis: 0.04 * coriolis,),
+)

@@ -430,3 +430,9 @@ row.at_least_0(answer="a truth value")
 )  # A margin of 1 mm.
 def _(a, b, some):
     return segment_free_of_discs(a, b, some + np.array([0, 0, 1e-3]))
+
+
+row.spans(  # as small, or as large, as in the lab
+    a=(lambda a: 0.007 * a,),
+    b=(lambda b: 0.02 * b,),
+)

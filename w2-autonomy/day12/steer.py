@@ -204,3 +204,8 @@ def _(q, target, step):
 
 
 row.at_least_0(step="a length")
+
+
+row.spans(  # as small, or as large, as in the lab
+    q=(lambda q: 0.006 * q,),
+)

@@ -258,3 +258,12 @@ for change in (
 for how in ("np.clip(({}), -1, 1)", "({}).astype(np.float32)"):
     row.same(f"return {how.format('np.zeros(len(a))')}", "zeros")
     row.same(f"return {how.format(STEP[7:])}", "a truth value")
+
+
+row.spans(  # as small, or as large, as in the lab
+    a=(lambda a: 0.1 * a,),
+    b=(lambda b: 0.05 * b,),
+    c=(lambda c: 9 * c,),
+    limits=(lambda limits: 10 * limits,),
+    sd2_max=(lambda sd2_max: 90 * sd2_max,),
+)
