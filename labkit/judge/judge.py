@@ -152,12 +152,16 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     if (off := gap.max()) > ask.near:
         case = replace(case, further=attempt(_further, asked))
         case, S, T = _with_answers(case, S, T)
-        named: Finding | None = attempt(diagnose, case, S, T)
-        if named:
-            return Verdict("wrong", *named, measured)
+        m = Matcher(case, S, T)
+        named: Finding | None = attempt(_explained, m)
+        located: Finding | None = None if named else attempt(_located, m)
+        if told_all := named or (None if ask.cases else located):
+            return Verdict("wrong", *told_all, measured)
         wrong = tuple(np.flatnonzero(gap > ask.near).tolist())
         plainly = _by_how_much(gap, ask.tolerance)
-        found: Finding = attempt(what_is_wrong, case, S, T, otherwise=plainly)
+        found: Finding = located or attempt(
+            what_is_wrong, case, S, T, otherwise=plainly
+        )
         return Verdict("wrong", *found, measured, wrong_calls=wrong)
     if off > ask.tolerance:
         return Verdict("close", *_near_miss(asked, case, S, T, off), measured)
@@ -334,7 +338,7 @@ def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
 def diagnose(
     case: Case, S: Parts, T: Parts, effort: Effort | None = None
 ) -> Finding | None:
-    """Return what the first source says that explains the answers, or None.
+    """Return what explains the answers, all or some of them, or None.
 
     Args:
         case: what was asked.
@@ -343,13 +347,21 @@ def diagnose(
         effort: what is left of a larger search.
     """
     m = Matcher(case, S, T, effort=effort or Effort())
+    return _explained(m) or _located(m)
+
+
+def _explained(m: Matcher) -> Finding | None:
+    """Return what the first source says that explains the answers, or None."""
     found = next(filter(None, (attempt(source, m) for source in SOURCES)), None)
     if found and found.slug.startswith("slip-"):
-        return _with_its_place(case, found)
-    i = worst_part(case.ask.kinds, S, T, case.ask.near)
-    if found := found or near_miss.rounded(S[i], T[i]):
-        return found
-    return _with_its_size(case, S, T) or in_some_calls(m)
+        return _with_its_place(m.case, found)
+    i = worst_part(m.ask.kinds, m.S, m.T, m.ask.near)
+    return found or near_miss.rounded(m.S[i], m.T[i])
+
+
+def _located(m: Matcher) -> Finding | None:
+    """Return what the row, or some of the answers, say of a mistake without a name."""
+    return _with_its_size(m.case, m.S, m.T) or in_some_calls(m)
 
 
 def _with_its_size(case: Case, S: Parts, T: Parts) -> Finding | None:
