@@ -17,7 +17,7 @@ and five functions, with `ablations` as a sixth where mistakes are worth a table
     ablations(fns)            {name: (functions, keyword arguments of `attempt`)}, with
                               MORAL, the line below their table
 
-Of a result whoever calls them asks `failed` alone.
+Of a result, a caller reads only `failed`.
 """
 
 from collections.abc import Callable, Sequence

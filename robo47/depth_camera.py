@@ -1,7 +1,7 @@
 """A camera of a MuJoCo model and the depth image that it takes, without OpenGL.
 
 A ray is cast through every pixel's middle, so it works on any machine. Camera axes,
-pixels and depth are those of `robo47.camera`. Metres.
+pixels and depth are as in `robo47.camera`. Metres.
 """
 
 import mujoco

@@ -2,8 +2,8 @@
 
 Three questions, and how an answer is checked without knowing how it was found:
 
-- LQR, `x . P x`: the least cost of holding a rest point, no limits. The simulator pays
-  what P promises.
+- LQR, `x . P x`: the optimal cost-to-go near an equilibrium, without limits. The
+  simulation's cost equals the prediction.
 - A quadratic in a box, `x . H x / 2 + f . x` with lo <= x <= hi: a step of inverse
   kinematics whose joints have limits. `kkt_residual` is 0 at the best x and nowhere
   else.
@@ -65,7 +65,7 @@ def gravity_stiffness(
 def linearise(
     M: ArrayLike, stiffness: ArrayLike, damping: ArrayLike, h: float
 ) -> tuple[Array, Array]:
-    """Return one time step of the simulator near a point of rest, x+ = A x + B u.
+    """Return one time step of the simulator near an equilibrium, x+ = A x + B u.
 
     MuJoCo's integrator "implicitfast": the damping acts on the new speed, and the new
     speed moves the joints,
@@ -104,7 +104,7 @@ def linearise(
 def riccati_step(
     P: ArrayLike, A: ArrayLike, B: ArrayLike, Q: ArrayLike, R: ArrayLike
 ) -> tuple[Array, Array]:
-    """Return the least cost one time step earlier, and the gain that gets it.
+    """Return the cost-to-go one time step earlier, and the optimal gain.
 
     If the rest costs x . P x, this step and the rest cost least with u = -K x (Anderson
     and Moore, section 2.4):
@@ -135,7 +135,7 @@ def riccati_step(
 
 
 def cost_to_go(P: ArrayLike, x: ArrayLike) -> float:
-    """Return what P promises a start at x will cost: x . P x.
+    """Return the cost-to-go of a start at x, predicted by P: x . P x.
 
     Args:
         P: from `riccati_step`, (n, n).
@@ -151,7 +151,7 @@ def cost_to_go(P: ArrayLike, x: ArrayLike) -> float:
 def kkt_residual(
     H: ArrayLike, f: ArrayLike, lo: ArrayLike, hi: ArrayLike, x: ArrayLike
 ) -> float:
-    """Return how far x is from the least of x . H x / 2 + f . x in a box.
+    """Return how much x violates the optimality conditions (KKT) of a QP in a box.
 
     x is pushed downhill by its slope H x + f and clipped: it comes back to x where it
     is best, and only there (Boyd and Vandenberghe, section 5.5.3, for a box).
@@ -175,7 +175,7 @@ def kkt_residual(
 def box_qp(
     H: ArrayLike, f: ArrayLike, lo: ArrayLike, hi: ArrayLike, x: ArrayLike
 ) -> Array:
-    """Return the x in a box for which x . H x / 2 + f . x is least.
+    """Return the minimiser of x . H x / 2 + f . x in a box.
 
     The primal active-set method (Nocedal and Wright, section 16.5): go towards what is
     best for the free entries, and hold the first that meets its limit. Where none does,
@@ -305,7 +305,7 @@ def expected_reduction(dV: ArrayLike, alpha: float) -> float:
 
     Args:
         dV: from `ilqr_backward`, (2,).
-        alpha: the share of k that is taken, 0 to 1.
+        alpha: the fraction of k that is taken, 0 to 1.
 
     Returns:
         -(alpha dV[0] + alpha^2 dV[1]), in the cost's unit.
@@ -319,7 +319,7 @@ def expected_reduction(dV: ArrayLike, alpha: float) -> float:
 
 
 def reduction_ratio(before: float, after: float, expected: float) -> float:
-    """Return what a step saved, as a share of what it should have saved.
+    """Return the ratio of a step's actual and expected reduction of the cost.
 
     Args:
         before, after: the cost without and with the step.
@@ -341,7 +341,7 @@ def reduction_ratio(before: float, after: float, expected: float) -> float:
 def bound_multipliers(
     H: ArrayLike, f: ArrayLike, lo: ArrayLike, hi: ArrayLike, x: ArrayLike
 ) -> Array:
-    """Return what each limit costs: how the least cost changes when it moves.
+    """Return the multipliers of the limits: d(minimum cost) / d(limit).
 
     Only the limit's own term of the cost moves with it (the envelope theorem; Boyd and
     Vandenberghe, section 5.6.3): the slope H x + f where a limit holds x back.
@@ -351,7 +351,7 @@ def bound_multipliers(
         x: the best point, (n,).
 
     Returns:
-        d(least cost) / d(limit), (n,): above 0 at a lower limit, below 0 at an upper
+        d(minimum cost) / d(limit), (n,): above 0 at a lower limit, below 0 at an upper
         one, 0 where none holds.
 
     Raises:

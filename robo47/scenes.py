@@ -49,7 +49,7 @@ def table_top(
 
     Args:
         cube_xy: where the cube stands, metres, (2,); on the table.
-        yaw: its turn about z in radians.
+        yaw: its rotation about z in radians.
         mass: of the cube in kg, above 0.
         friction: sliding friction of cube and finger pads, at least 0.
         meshes: True keeps the robot's looks, for pictures; it moves in the same way.
@@ -92,14 +92,14 @@ def table_top(
 
 
 def press_table(*, drive: str = "torque", meshes: bool = False) -> mujoco.MjModel:
-    """Return the arm without a hand, a ball for a tip, over a table to press on.
+    """Return the arm without a hand, a sphere as its tip, over a table to press on.
 
     Args:
         drive: "torque", or "servo" for the Menagerie's stiff position drives.
         meshes: True keeps the robot's looks, for pictures.
 
     Returns:
-        The model; the ball's centre is `attachment_site`.
+        The model; the sphere's centre is `attachment_site`.
 
     Raises:
         ValueError: no such drive.
@@ -119,7 +119,7 @@ def press_table(*, drive: str = "torque", meshes: bool = False) -> mujoco.MjMode
 
 
 def hang_kilogram(spec: mujoco.MjSpec) -> None:
-    """Hang a ball of 1 kg on the end of the arm without a hand; an `edit` of it."""
+    """Attach a sphere of 1 kg to the end of the arm without a hand; an `edit` of it."""
     ball = {"mass": 1.0, "inertia": [1e-4, 1e-4, 1e-4], "explicitinertial": True}
     spec.body("attachment").add_body(name="load", **ball)
 
@@ -152,7 +152,7 @@ def contact_force(
 
     Args:
         model: any model.
-        data: after mj_step or mj_forward; the forces are those of the last step.
+        data: after mj_step or mj_forward; the forces belong to the last step.
         geom, other: names of the two.
 
     Returns:

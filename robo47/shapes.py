@@ -8,7 +8,7 @@ is no part of the arm.
     arm = shapes.Shape(model)
     world = shapes.World.of(posts=[((0.4, 0, 0), (0.4, 0, 0.9), 0.04)])
     arm.clearance(q, world)                 metres, for one q or for thousands
-    arm.edge_free(q0, q1, world)            the straight way from q0 to q1
+    arm.edge_free(q0, q1, world)            the straight path from q0 to q1
 
 Formulas for one pair, to read: `robo47.distance`. Metres, radians.
 """
@@ -87,7 +87,7 @@ class World(NamedTuple):
 
     @classmethod
     def of_model(cls, model: mujoco.MjModel) -> "World":
-        """Return the capsules, balls and boxes that a model has fixed to the world."""
+        """Return the capsules, spheres and boxes that are fixed to a model's world."""
         posts = []
         boxes = []
         for i in np.flatnonzero(model.geom_bodyid == 0):
@@ -223,7 +223,7 @@ class Shape:
     def edge_free(
         self, q0: ArrayLike, q1: ArrayLike, world: World, margin: float = 0.0
     ) -> bool:
-        """Return whether the straight way from q0 to q1 touches nothing.
+        """Return whether the straight path from q0 to q1 touches nothing.
 
         As `robo47.distance.conservative_advance`: a distance d frees the way for d /
         speed. Many places are looked at together, and what they leave open is halved
@@ -293,7 +293,7 @@ def add_arm(spec: mujoco.MjSpec, capsules: Sequence[Capsule] = (*LINKS, PEN)) ->
 
 
 def _add_capsule(body: Any, name: str, a: Array, b: Array, radius: float) -> None:
-    """Add one geom; of a ball where both ends are the same."""
+    """Add one geom; a sphere where both ends are the same."""
     if np.array_equal(a, b):
         body.add_geom(
             name=name, type=mujoco.mjtGeom.mjGEOM_SPHERE, pos=a, size=[radius, 0, 0],
