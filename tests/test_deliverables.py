@@ -47,7 +47,7 @@ def png(pixels):
 ANSWER = "Its own x, so on the right."
 
 
-def worksheet(terms, *, drawings=3, ticked="x", definition=None, answer=ANSWER):
+def worksheet(terms, *, drawings=3, definition=None, answer=ANSWER):
     own = "My own words say what {} means to me when the arm moves."
     lines = ["# Day 1", "## Glossary"]
     for term in terms:
@@ -59,7 +59,7 @@ def worksheet(terms, *, drawings=3, ticked="x", definition=None, answer=ANSWER):
     for i in range(1, 6):
         mine = f"{answer} ({i})" if answer == ANSWER else answer
         lines += [f"{i}. It moves along x. Whose x? Which side?", "", f"   {mine}"]
-    return "\n".join([*lines, "## Checklist", f"- [{ticked}] ran it", "- [x] read it"])
+    return "\n".join(lines)
 
 
 def fresh_clone(copy):
@@ -157,7 +157,7 @@ TERMS = find_day(1).terms
 
 def test_a_day_that_is_handed_in_passes_and_no_file_is_changed(items, clone):
     before = {p: p.read_bytes() for p in clone.rglob("*") if p.is_file()}
-    names = ["figure", "definitions", "drawings", "checklist", "metrics", "commit"]
+    names = ["figure", "definitions", "drawings", "metrics", "commit"]
     assert list(items()) == names
     assert all(item.passed and not item.message for item in items().values())
     assert before == {p: p.read_bytes() for p in clone.rglob("*") if p.is_file()}
@@ -404,29 +404,18 @@ def test_every_picture_of_the_lab_guide_is_known_as_the_kits_own():
     assert shown <= set(day.kit_figures)
 
 
-@pytest.mark.parametrize("box", ["[ x ]", "[X]", "[x ]"])
-def test_a_box_may_be_ticked_with_spaces(sheet, box):
-    assert sheet(worksheet(TERMS).replace("[x]", box))["checklist"].passed
-
-
-def test_an_open_box_of_the_checklist_is_named(sheet):
-    says = sheet(worksheet(TERMS, ticked=" "))["checklist"].message
-    assert "1 of 2 ticked" in says
-    assert "Next: ran it" in says
-    assert "no checklist" in sheet("# Day 1")["checklist"].message
-
-
-def test_text_of_the_students_cannot_look_like_ours(sheet):
-    text = worksheet(TERMS, ticked=" ").replace("ran it", "ran\x1b[2J \u202eit")
-    assert not {"\x1b", "\u202e"} & set(sheet(text)["checklist"].message)
+def test_the_checklist_of_an_older_worksheet_is_no_matter(sheet):
+    older = f"{worksheet(TERMS)}\n\n## Checklist\n\n- [ ] I committed everything\n"
+    assert all(item.passed for item in sheet(older).values())
+    assert list(sheet(older)) == ["definitions", "drawings"]
 
 
 def test_a_worksheet_that_is_gone_no_text_or_of_megabytes_is_told(items, day):
     path = day.folder / day.worksheet
     path.write_text("x" * 300_000)
-    assert "at most 200 kB is looked at" in items()["checklist"].message
+    assert "at most 200 kB is looked at" in items()["drawings"].message
     path.write_bytes(b"\xff\xfe\x00")
-    assert "UTF-8" in items()["checklist"].message
+    assert "UTF-8" in items()["drawings"].message
     path.unlink()
     assert items()["definitions"].status == "todo"
 
@@ -438,7 +427,7 @@ HOSTILE = ["<!--", "![", "![](", "<img ", " ", "- [", "- [ x", "#", "# #", "1. ?
 @pytest.mark.parametrize("end", ["", "\n"])
 def test_a_worksheet_of_anything_is_read(sheet, piece, end):
     text = (piece * (1800 // len(piece)) + "x" + end) * 110
-    found = sheet(f"## Checklist\n{text}"[:199_999])
+    found = sheet(f"## Drawings\n{text}"[:199_999])
     assert not found["definitions"].passed
 
 
@@ -612,4 +601,4 @@ def test_a_day_hands_in_what_its_manifest_names_and_no_more(day, clone):
     assert item_names(bare) == ["commit"]
     assert item_names(day) == [item.name for item in check_deliverables(day, clone)]
     words = replace(day, terms=(), questions=0, drawings=0)
-    assert item_names(words) == ["figure", "checklist", "metrics", "commit"]
+    assert item_names(words) == ["figure", "metrics", "commit"]

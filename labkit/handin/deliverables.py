@@ -14,7 +14,7 @@ from robo47.paths import ROOT, shown
 
 _ITEMS = {  # in the order of the checks, by what is handed in
     "figure": ["figure"],
-    "worksheet": ["definitions", "drawings", "checklist"],
+    "worksheet": ["definitions", "drawings"],
     "log": ["metrics"],
 }
 
