@@ -64,12 +64,12 @@ class Kind:
             return
         name = type(self).__name__
         remedy = (
-            "has no shape; it is a single one"
+            "is one value and has no shape"
             if alone
             else ("begins with its shape, a tuple such as (7,) or (None, 2)")
         )
         raise Robo47Error(
-            f"{name}({self.shape!r}): a {name} {remedy}. Name what else it has: "
+            f"{name}({self.shape!r}): a {name} {remedy}. Give the others by name: "
             f'{name}(unit="m"), scale=10.0, called="the distance"'
         )
 
