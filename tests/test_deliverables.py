@@ -227,11 +227,11 @@ def test_a_png_reads_back_as_its_pixels():
         ("> say it in your own words, in one or two sentences please", "Still empty"),
         ("_(in your own words, and in a sentence or two of your own)_", "Still empty"),
         ("*(your words)*", "Still empty"),
-        ("bla " * 9, "Say it in a sentence (8 words): pose"),
+        ("bla " * 9, "Write a whole sentence (at least 8 words): pose"),
         ("<!-- a sentence that explains what this is to a friend -->", "Still empty"),
         ("TODO write this when the lab is done and I know", "Still empty"),
-        ("Where it is.", "Say it in a sentence (8 words): pose"),
-        (GUIDE, "The guide's words, not yours: pose"),
+        ("Where it is.", "Write a whole sentence (at least 8 words): pose"),
+        (GUIDE, "Copied from the guide: pose"),
     ],
 )
 def test_a_definition_has_to_be_a_sentence_of_ones_own(sheet, definition, says):
@@ -473,7 +473,9 @@ def test_rows_count_only_if_the_students_file_wrote_them_as_it_is(items, day, cl
     day.work.write_bytes(b"x = 3\r\n")  # as git writes it on Windows
     assert items()["metrics"].passed
     log_again(day, clone, f"file {file_hash(day.source)}")
-    assert "The kit's own run logged" in items()["metrics"].message
+    assert (
+        "The rows in the log come from the kit's own run" in items()["metrics"].message
+    )
     log_again(day, clone, f"file {file_hash(day.work)} and more")
     assert "do not say that your file wrote them" in items()["metrics"].message
     assert "make run DAY=1" in items()["metrics"].message
@@ -500,7 +502,7 @@ def test_rows_count_only_once_the_tasks_pass(day, clone):
         for done in (False, True)
     )
     assert before["metrics"].status == "todo"
-    assert "rows count when your tasks pass" in before["metrics"].message
+    assert "rows count once your tasks pass" in before["metrics"].message
     assert after["metrics"].passed
 
 

@@ -53,7 +53,7 @@ def check_deliverables(
         commit = check_commit(day, handin, history)
         commit = _with_ignored(commit, root, [*handin.files], history)
     except GitError as error:
-        commit = Item("commit", "todo", f"Nobody can tell: {error}.")
+        commit = Item("commit", "todo", f"The commit could not be checked: {error}.")
     return [*check_files(day, handin, tasks_pass=tasks_pass), commit]
 
 

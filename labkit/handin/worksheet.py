@@ -20,8 +20,8 @@ LONGEST = 2000  # characters of a line that are looked at
 # What to do about a definition or a drawing, by how it stands.
 _DEFINE = {
     "empty": "Still empty: {}.",
-    "short": f"Say it in a sentence ({FEWEST_WORDS} words): {{}}.",
-    "taken": "The guide's words, not yours: {}.",
+    "short": f"Write a whole sentence (at least {FEWEST_WORDS} words): {{}}.",
+    "taken": "Copied from the guide: {}. Use your own words.",
 }
 _DRAW = {
     "missing": "Drawing {}: add ![](photo.jpg), or draw it as text, of "
@@ -119,7 +119,7 @@ def _in_words(sections: dict[str, str], day: Day, guide: str, where: str) -> Ite
         return Item("definitions", "wrong", f"{pasted}, in {where}.")
     if not (open_ones or blank):
         return item
-    says = f"All {len(day.terms)} are there. "
+    says = f"All {len(day.terms)} definitions are there. "
     if open_ones:
         numbers = ", ".join(map(str, open_ones))
         says += f"Can you explain? {numbers}: answer below each question, in {where}."
@@ -149,7 +149,7 @@ def _pasted(answers: list[list[str]], reasons: list[list[str]]) -> str:
         alone = max(told[words], times - 1)
         if any(len(words) >= long and alone >= most for long, most in PASTED.items()):
             says = visible(" ".join(words), 60)
-            return f'The same sentence {times} times, and each asks its own: "{says}"'
+            return f'The same sentence {times} times, but each needs its own: "{says}"'
     return ""
 
 

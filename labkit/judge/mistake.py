@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-REDONE = "this mistake, made on purpose,"
+REDONE = "the right answer with this mistake"
 
 
 class Finding(NamedTuple):
