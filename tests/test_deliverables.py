@@ -477,7 +477,7 @@ def test_rows_count_only_if_the_students_file_wrote_them_as_it_is(items, day, cl
         "The rows in the log come from the kit's own run" in items()["metrics"].message
     )
     log_again(day, clone, f"file {file_hash(day.work)} and more")
-    assert "do not say that your file wrote them" in items()["metrics"].message
+    assert "do not show that your file wrote them" in items()["metrics"].message
     assert "make run DAY=1" in items()["metrics"].message
 
 
