@@ -134,7 +134,7 @@ class TestAWord:
             (
                 lambda x: WORDS[int(x > -3)],
                 "the-other-word",
-                "It returned 'advanced'; expected 'trapped'.",
+                "It returned 'advanced'; expected 'trapped'. It is right for 5 of 9",
             ),
             (
                 lambda x: "arrived",
