@@ -53,7 +53,7 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
         case "missing":
             slug = "missing"
             says = f"The file has no function {function}."
-            says += f" To put its gap back: make start RESET={task}." if task else ""
+            says += f" To restore its starter: make start RESET={task}." if task else ""
         case "BdbQuit":
             slug = "breakpoint"
             says = f"It stops in the debugger (line {reply.line}): "
