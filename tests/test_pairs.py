@@ -170,3 +170,15 @@ def test_two_entries_of_an_argument_exchanged_need_no_name():
 
     says = told(1, "1.4", quat_to_R=quat_to_R)
     assert "`quat[2]` and `quat[3]` are exchanged" in says
+
+
+def test_of_two_mistakes_only_what_the_function_does_is_told():
+    def reward(heights, target, cap):
+        found = right(14, "reward")(heights, target, cap)
+        below = np.isfinite(heights) & (heights < 0)
+        return np.where(np.isnan(heights), 0.0, np.where(below, -1.0, found))
+
+    says = told(14, "14.6", reward=reward)
+    assert "Two things at once: " in says
+    assert "; the reward of NaN is 0. (" in says
+    assert "because the simulation failed" not in says

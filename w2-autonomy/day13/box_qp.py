@@ -95,7 +95,7 @@ def typed():
     lo = np.array([-1.3, -1.6, -2.4, -0.8, -2.4])
     hi = np.array([-0.8, -1.3, -0.9, -0.5, -1.0])
     often = (H, np.array([2.0, 2.4, 2.9, -1.2, 1.7]), lo, hi, lo.copy())
-    # Clipped and solved anew, one more is beyond; the rest is to be solved once more.
+    # Clamped and solved again, another entry is beyond a bound: solve the rest again.
     H = np.array([
         [2.1, 0.7, -2.8, 2.7],
         [0.7, 0.9, -1.8, 0.5],
@@ -137,7 +137,7 @@ def slid(H, f, lo, hi, x, n, by):
 
 
 def solved_once_more(H, f, lo, hi, x):
-    """Return the clipped optimum, with the free entries solved anew, and clipped."""
+    """Return the clipped optimum, with the free entries solved again, and clipped."""
     x = np.clip(np.linalg.solve(H, -f), lo, hi)
     free = (x > lo) & (x < hi)
     right = -(H @ x + f)[free]
@@ -146,7 +146,7 @@ def solved_once_more(H, f, lo, hi, x):
 
 
 def clipped_for_good(H, f, lo, hi, x):
-    """Return the clipped optimum, solved anew while others meet; none is let go."""
+    """Return the clipped optimum, solved again while others meet; none is released."""
     x = np.array(x, float)
     free = np.ones(len(x), bool)
     while free.any():

@@ -25,7 +25,7 @@ def _(rng):
     tight = wide.copy()
     tight[0] = 0.3
     cases = [(J, e, one, 0.1, -limit, limit) for limit in (wide, tight)]
-    # Clipped and solved anew, one more is beyond; the rest is to be solved once more.
+    # Clamped and solved again, another entry is beyond a bound: solve the rest again.
     J = np.zeros((6, 7))
     J[0, :4] = 1.4, 0.5, -1.9, 1.9
     J[1, 1:4] = 0.8, -1.1, -0.5

@@ -45,7 +45,7 @@ def _(force, normal, mu):
       own
     normal-is-z 2: the normal (0, 0, 1) is used for every contact. Each contact has its
       own
-    pull-counts: a pull counts as a press. A finger cannot pull, so keep the sign of f_n
+    pull-counts: |f_n| is used for a pull. A finger cannot pull, so keep the sign of f_n
     pull-limited: a negative f_n is replaced by 0. A finger cannot pull, so the margin
       of a pull is below 0
     ratio: this is mu - |f_t| / f_n. The margin is a force: mu f_n - |f_t|

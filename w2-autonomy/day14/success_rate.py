@@ -36,7 +36,7 @@ def _(success):
       high)
     half-width: the last two results are the distances of the ends from the rate. Return
       the ends themselves
-    failures: the interval is that of the failures. Count the successes
+    failures: the interval is computed from the failures. Count the successes
     one-sided: the interval uses 1.645, which gives 90 %. A 95 % interval uses 1.96
     ninety-nine: the interval uses 2.576, which gives 99 %. A 95 % interval uses 1.96
     n-less-one: the results are divided by n - 1. Divide by n
