@@ -24,20 +24,22 @@ def _(H, f, lo, hi, x):
     absolute: the signs are lost. If an upper bound moves up, the cost falls
     upper-only: only the upper bounds have a multiplier
     lower-only: only the lower bounds have a multiplier
-    no-price: the held entries are 0. The multiplier of a held entry is its gradient
-    largest-only: only the largest multiplier is returned. Each held entry has one
-    first-limit-only: only the first held entry has its multiplier. Each held entry has
-      one
+    no-price: the held entries are 0. The multiplier of a held entry should be its
+      gradient
+    largest-only: only the largest multiplier is returned. Each held entry should have
+      its own
+    first-limit-only: only the first held entry has its multiplier. Each held entry
+      should have its own
     times-the-width: the gradient is multiplied by the distance between the bounds. The
-      multiplier is the change of the cost per unit of the bound
+      multiplier should be the change of the cost per unit of the bound
     lower-sign: the multipliers of the lower bounds have the wrong sign
     g-forgotten: f is missing in the gradient
     H-halved: the gradient is H x / 2 + f. The gradient of x . H x / 2 is H x
     H-doubled: the gradient is 2 H x + f. The gradient of x . H x / 2 is H x
     divided-by-H: the gradient is divided by the diagonal of H. This is a distance, not
       a cost
-    how-far: this is the distance to the unconstrained minimiser. The multiplier is the
-      change of the minimum cost
+    how-far: this is the distance to the unconstrained minimiser. The multiplier should
+      be the change of the minimum cost
     one-each: this is only the sign of each multiplier
     """
     slope = H @ x + f

@@ -21,8 +21,8 @@ def _(rng):
 @row.wrongs
 def _(dV, alpha):
     """sign: the sign is reversed. A reduction is positive if the cost falls
-    alpha-rooted: the quadratic part is multiplied by the square root of alpha. It is
-      multiplied by alpha^2
+    alpha-rooted: the quadratic part is multiplied by the square root of alpha. It
+      should be multiplied by alpha^2
     """
     first, second = dV
     return {

@@ -79,9 +79,9 @@ def sum_of(k, luu):
 
 @row.wrongs
 def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
-    """mu-in-k-only: mu is used in k alone. It is part of Quu wherever Quu appears
-    mu-in-k-only 2: mu is missing in K. It is part of Quu wherever Quu appears
-    mu-in-K-only: mu is missing in k. It is part of Quu wherever Quu appears
+    """mu-in-k-only: mu is used in k alone. It belongs to Quu wherever Quu appears
+    mu-in-k-only 2: mu is missing in K. It belongs to Quu wherever Quu appears
+    mu-in-K-only: mu is missing in k. It belongs to Quu wherever Quu appears
     mu-squared: mu is squared
     mu-not-in-V: mu is missing in Vx and Vxx. Use the same Quu as in the gains
     mu-not-in-V 2: mu is missing in Vx, Vxx and drop. Use the same Quu as in the gains
@@ -98,10 +98,11 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     half-in-the-first: the first entry of drop is halved. Only the second has a factor
       1/2
     drop-summed: the two entries of drop are added. Return them separately
-    drop-of-lu: the first entry of drop uses lu. It is the sum of k . Qu
-    drop-of-luu: the second entry of drop uses luu. It is the sum of k . Quu k / 2
-    drop-signs: drop has the wrong sign. It is the change of the cost, so k . Qu is
-      negative
+    drop-of-lu: the first entry of drop uses lu. It should be the sum of k . Qu
+    drop-of-luu: the second entry of drop uses luu. It should be the sum of k . Quu k /
+      2
+    drop-signs: drop has the wrong sign. It should be the change of the cost, so k . Qu
+      is negative
     drop-added: both entries of drop are their sum. Return them separately
     drop-quadratic-sign: the second entry of drop has the wrong sign
     gain-signs: k and K have the wrong sign. The input changes by du = k + K dx
@@ -116,9 +117,10 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       is known, so begin with the last step
     lux-not-in-K: lux is missing in K, but not in Vx and Vxx. Use Qux
     Vx-not-in-k: k uses lu alone. Qu also contains fu^T Vx
-    mu-halved-each-step: mu is halved in each step. It is constant
+    mu-halved-each-step: mu is halved in each step. It should be the same in all steps
     lx-of-the-next: each step uses lx of the next step
-    drop-mean: drop is divided by the number of steps. It is a sum
+    drop-mean: drop is divided by the number of steps. It should be the sum over the
+      steps
     drop-halved: both entries of drop are halved. Only the second has a factor 1/2
     first-slopes: every step uses fx and fu of the first step
     last-slopes: every step uses fx and fu of the last step

@@ -49,12 +49,12 @@ def _(H, f, lo, hi, x):
       contributes if the gradient pulls it away from the bound
     lower-only: only the lower bounds clamp the step
     upper-only: only the upper bounds clamp the step
-    cost-gap: this is the decrease of the cost by the clamped step. The residual is the
-      largest change of an entry of x
+    cost-gap: this is the decrease of the cost by the clamped step. The residual should
+      be the largest change of an entry of x
     first-only: only the first entry is used
     last-only: only the last entry is used
     share-of-x: the residual is divided by the largest entry of x if that is above 1. It
-      is absolute
+      should not be divided
     distance: this is the distance to the minimiser. The residual needs no solution
     newton-push: x moves by a Newton step. It should move by minus the gradient
     jacobi-push: x moves by the gradient over the diagonal of H. It should move by minus

@@ -61,17 +61,17 @@ def _(M, stiffness, damping, h):
     explicit-damping: the damping acts on the old velocity. In MuJoCo's implicitfast it
       acts on the new velocity, so add h D to M
     damping-twice: the damping acts on the old and on the new velocity, (M + h D)^-1 (M
-      - h D). It acts on the new velocity only
+      - h D). It should act on the new velocity only
     damping-halved: half of the damping acts on the old velocity and half on the new
       one. All of it acts on the new velocity
-    position-first: the old velocity moves the joints. In MuJoCo the new velocity does:
-      the new q is q + h times the new velocity
+    position-first: the old velocity moves the joints. In MuJoCo the new velocity moves
+      them: q + h times the new velocity
     half-h-squared: the joints move by h v + h^2 a / 2. In MuJoCo the new velocity moves
       them for the whole step
-    velocity-kept: the right half of A has no damping. The new velocity contains (M + h
-      D)^-1 M v
-    velocity-kept 2: the lower right block of A is the identity. It is (M + h D)^-1 M,
-      because the damping reduces the velocity
+    velocity-kept: the right half of A has no damping. The new velocity should contain
+      (M + h D)^-1 M v
+    velocity-kept 2: the lower right block of A is the identity. It should be (M + h
+      D)^-1 M, because the damping reduces the velocity
     inverse-by-entry: each entry of M + h D is inverted by itself. Use the matrix
       inverse
     position-kept: the upper left block of A is the identity. The gravity stiffness
@@ -84,12 +84,14 @@ def _(M, stiffness, damping, h):
       moves the joints, and the damping acts on the new velocity
     identity-missing: A gives the change of the state. The new state also contains x
       itself: add the identity
-    halves-swapped: positions and velocities are swapped. The state is (q - q0, qd)
-    A-rows-swapped: the upper and the lower rows of A are swapped. The position comes
-      first
+    halves-swapped: positions and velocities are swapped. The state should be (q - q0,
+      qd)
+    A-rows-swapped: the upper and the lower rows of A are swapped. The position should
+      come first
     A-columns-swapped: the left and the right columns of A are swapped. The position
-      comes first
-    B-swapped: the upper and the lower half of B are swapped. The position comes first
+      should come first
+    B-swapped: the upper and the lower half of B are swapped. The position should come
+      first
     exponential: this is the exact discretisation, by the matrix exponential. MuJoCo's
       step is semi-implicit
     exponential 2: these are the first terms of the matrix exponential. MuJoCo's step is

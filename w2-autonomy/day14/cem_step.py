@@ -69,15 +69,17 @@ def _(mean, std, noise, scores, elite):
     n-minus-one: the standard deviation divides by elite - 1. Divide by elite
     about-the-old-mean: the standard deviation is taken about the old mean. Take it
       about the mean of the elite
-    one-spread-for-all: all parameters have the same standard deviation. Each has its
-      own: use axis=0
+    one-spread-for-all: all parameters have the same standard deviation. Each should
+      have its own: use axis=0
     elite-one-less: the elite has one sample too few
-    weighted: the elite samples are weighted by their rank. All have the same weight
-    weighted 2: the elite samples are weighted by their scores. All have the same weight
-    weighted 3: the mean is weighted by the scores. All elite samples have the same
+    weighted: the elite samples are weighted by their rank. All should have the same
       weight
+    weighted 2: the elite samples are weighted by their scores. All should have the same
+      weight
+    weighted 3: the mean is weighted by the scores. All elite samples should have the
+      same weight
     median: the mean is replaced by the median
-    halves-swapped: mean and std are swapped. The mean comes first
+    halves-swapped: mean and std are swapped. The mean should come first
     """
     samples = mean + std * noise
     n = len(scores)

@@ -101,19 +101,19 @@ def _(W, weights):
     some-weight-above-0: one weight above 0 is accepted. Every weight must be above 0
     balance-forgotten: the condition W w = 0 is not tested
     balance-absolute: the tolerance of W w is absolute, as in np.allclose(W @ weights,
-      0), so the answer depends on the units. It is 1e-9 of the sum of |W_ij w_j|
-    balance-roughly: the tolerance of W w is 1e-4 of the sum of |W_ij w_j|. It is 1e-9
-      of the sum
+      0), so the answer depends on the units. It should be 1e-9 of the sum of |W_ij w_j|
+    balance-roughly: the tolerance of W w is 1e-4 of the sum of |W_ij w_j|. It should be
+      1e-9 of the sum
     balance-of-all: the norm of W w is tested. Test each row by itself
     balance-without-weights: the tolerance of W w is 1e-9 of the largest entry of each
-      row. It is 1e-9 of the sum of |W_ij w_j|
+      row. It should be 1e-9 of the sum of |W_ij w_j|
     rank-absolute: the singular values are compared with 1e-9, so the answer depends on
       the units. Compare them with 1e-9 of the largest one
     determinant: the rank is tested with det(W W^T), so the answer depends on the units.
       Compare the singular values with 1e-9 of the largest one
     nothing-may-be-left: W w is compared with 0 exactly. Rounding leaves about 1e-16
-    rank-by-rounding: the rank uses NumPy's default tolerance. It is 1e-9 of the largest
-      singular value
+    rank-by-rounding: the rank uses NumPy's default tolerance. It should be 1e-9 of the
+      largest singular value
     weights-not-used: the columns of W are added without their weights
     forces-only: only the forces are tested. The moments must balance, too
     moments-only: only the moments are tested. The forces must balance, too

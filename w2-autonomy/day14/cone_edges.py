@@ -53,19 +53,19 @@ def _(normal, mu, k):
       smallest
     signed-least: the coordinate axis with the smallest component of n is used. Compare
       the absolute values
-    axis-x-n: a is along axis x n. It is along n x axis, otherwise the edges begin on
-      the opposite side
-    axis-itself: a is the projection of the axis onto the tangent plane. It is along n x
-      axis, a quarter turn away
+    axis-x-n: a is along axis x n. It should be along n x axis, otherwise the edges
+      begin on the opposite side
+    axis-itself: a is the projection of the axis onto the tangent plane. It should be
+      along n x axis, a quarter turn away
     last-is-first: the last edge is equal to the first, because t ends at 2 pi. The last
-      t is 2 pi (k - 1) / k
+      t should be 2 pi (k - 1) / k
     degrees: t is in degrees. np.cos and np.sin expect radians
-    from-one: i begins at 1. The first edge has i = 0
+    from-one: i begins at 1. The first edge should have i = 0
     mu-on-the-normal: mu multiplies the normal. It should multiply the tangential part
-    half-steps: t is shifted by half a step. The first edge has t = 0
+    half-steps: t is shifted by half a step. The first edge should have t = 0
     length-1: the edges are normalised. Their component along the normal should be 1
-    mu-is-an-angle: mu is used as the angle of the cone. It is already the tangent of
-      that angle
+    mu-is-an-angle: mu is used as the angle of the cone. The coefficient of friction is
+      already the tangent of that angle
     normal-left-in-mu: mu multiplies the normal as well. It should multiply the
       tangential part alone
     in-columns: each edge is a column. It should be a row

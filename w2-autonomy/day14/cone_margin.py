@@ -37,8 +37,8 @@ def _(force, normal, mu):
       force is the component along the normal
     one-length-for-all: one norm is taken over all contacts. Each contact has its own:
       use axis=1
-    mu-is-an-angle: mu is used as the angle of the cone. It is already the tangent of
-      that angle
+    mu-is-an-angle: mu is used as the angle of the cone. The coefficient of friction is
+      already the tangent of that angle
     normal-is-z 3: the z component of the force is used as f_n. The normal force is the
       component along the contact's own normal
     normal-is-z: the normal (0, 0, 1) is used for every contact. Each contact has its
@@ -48,15 +48,16 @@ def _(force, normal, mu):
     pull-counts: |f_n| is used for a pull. A finger cannot pull, so keep the sign of f_n
     pull-limited: a negative f_n is replaced by 0. A finger cannot pull, so the margin
       of a pull is below 0
-    ratio: this is mu - |f_t| / f_n. The margin is a force: mu f_n - |f_t|
-    ratio 2: this is mu f_n / |f_t|. The margin is a force: mu f_n - |f_t|
-    ratio 3: this is |f_t| / (mu f_n). The margin is a force: mu f_n - |f_t|
+    ratio: this is mu - |f_t| / f_n. The margin should be a force: mu f_n - |f_t|
+    ratio 2: this is mu f_n / |f_t|. The margin should be a force: mu f_n - |f_t|
+    ratio 3: this is |f_t| / (mu f_n). The margin should be a force: mu f_n - |f_t|
     mu-times-along: mu multiplies |f_t|. It should multiply f_n
-    normal-into-the-finger: f_n has the wrong sign. The normal points out of the finger,
-      into the cube
-    margin-of-the-first: every contact has the margin of the first. Each has its own
-    over-the-cone: this is the distance from the surface of the cone. The margin is not
-      divided by sqrt(1 + mu^2)
+    normal-into-the-finger: f_n has the wrong sign. The normal should point out of the
+      finger, into the cube
+    margin-of-the-first: every contact has the margin of the first. Each should have its
+      own
+    over-the-cone: this is the distance from the surface of the cone. The margin should
+      not be divided by sqrt(1 + mu^2)
     """
     press = np.sum(force * normal, axis=1)
     along = force - press[:, None] * normal

@@ -29,18 +29,18 @@ def _(points, centre):
       should be about the centre
     moment-sign: the moments have the wrong sign. The lever arm is p - c, and its skew
       matrix is not transposed
-    halves-swapped: force and moment are swapped. A wrench is (moment; force)
+    halves-swapped: force and moment are swapped. A wrench should be (moment; force)
     arm-on-the-diagonal: p - c is on the diagonal. A cross product needs the skew matrix
-    added-up: the blocks of all points are added. Each point has three columns of its
-      own
+    added-up: the blocks of all points are added. Each point should have three columns
+      of its own
     components-together: the columns are sorted by component: all x, all y, all z. The
-      three columns of a contact are adjacent
+      three columns of a contact should be adjacent
     moments-only: the lower three rows are 0. They should contain the forces
     forces-only: the upper three rows are 0. They should contain the moments
     about-the-mean: the moments are about the mean of the points. They should be about
       the centre
-    forces-negative: the forces have the wrong sign. They act on the cube, not on the
-      fingers
+    forces-negative: the forces have the wrong sign. They should act on the cube, not on
+      the fingers
     forces-over-n: the forces are divided by the number of points
     """
     arms = points - centre

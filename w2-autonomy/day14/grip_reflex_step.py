@@ -80,8 +80,8 @@ def _(finger_position, force, normal, mu, fraction, step):
       Close only if a margin is smaller
     one-minus-the-share: the margin is compared with (1 - fraction) mu f_n. Compare it
       with fraction times mu f_n
-    high-for-low: the limit of the finger position is HIGH[4], so the pads open. It is
-      LOW[4]
+    high-for-low: the limit of the finger position is HIGH[4], so the pads open. It
+      should be LOW[4]
     smaller-for-larger: the smaller of the new position and LOW[4] is returned. Return
       the larger of the two
     always: the pads close at every call. Close only if a contact nearly slips
@@ -89,7 +89,7 @@ def _(finger_position, force, normal, mu, fraction, step):
       newtons: multiply fraction by mu f_n
     share-of-the-force: the margin is compared with a fraction of the norm of the force.
       Compare it with fraction times mu f_n
-    stopped-at-0: the finger position stops at 0. Its limit is LOW[4]
+    stopped-at-0: the finger position stops at 0. Its limit should be LOW[4]
     stopped-too-early: a step that would go beyond LOW[4] is left out. It should end at
       LOW[4]
     outside-only: the pads close only if a margin is below 0. Then the contact slips

@@ -55,7 +55,7 @@ def _(T_seen, noise):
     """not-folded: the yaw is not reduced. A cube looks the same after a quarter turn,
       so reduce the yaw modulo pi/2
     folded-to-0-to-90: the yaw is reduced to [0, pi/2). It should be in [-pi/4, pi/4)
-    folded-by-pi: the yaw is reduced modulo pi. A cube looks the same after pi/2
+    folded-by-pi: the yaw is reduced modulo pi. A cube already looks the same after pi/2
     folded-by-pi-over-4: the yaw is reduced modulo pi/4. A cube looks the same after
       pi/2
     folded-once: pi/2 is added or subtracted at most once. The cube may be rotated
@@ -69,10 +69,10 @@ def _(T_seen, noise):
       first column
     arcsine: the yaw is arcsin(R[1, 0]), which ends at a quarter turn on either side.
       Use both entries of the first column
-    noise-in-the-cubes-axes: the noise is rotated into the frame of the cube. It is
-      added to x and y in the world frame
+    noise-in-the-cubes-axes: the noise is rotated into the frame of the cube. It should
+      be added to x and y in the world frame
     x-and-y-swapped: x and y are swapped
-    yaw-first: the yaw comes first. The order is (x, y, yaw)
+    yaw-first: the yaw comes first. The order should be (x, y, yaw)
     """
     at = T_seen[:2, 3]
     R = T_seen[:3, :3]

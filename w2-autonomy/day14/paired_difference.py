@@ -23,8 +23,8 @@ def _(rng):
 def _(first, second):
     """unpaired: the variances of the two policies are added, as for independent
       samples. Both ran on the same cubes: use the standard deviation of the differences
-    unpaired-rates: the standard error is for two independent rates, with p (1 - p)
-      / n each. Both policies ran on the same cubes: use the standard deviation of the
+    unpaired-rates: the standard error is for two independent rates, with p (1 - p) / n
+      each. Both policies ran on the same cubes: use the standard deviation of the
       differences
     n-minus-one: the standard deviation divides by n - 1. Divide by n
     n-minus-one 2: the standard error divides by sqrt(n - 1). Divide by sqrt(n)

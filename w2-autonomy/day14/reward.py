@@ -39,27 +39,29 @@ def _(heights, target, cap):
       reward is -1
     no-cap 2: a height above the cap has the reward 1. The cube was thrown, so the
       reward is -1
-    below-the-floor-is-lost: a height below the floor has the reward -1. It is 0
+    below-the-floor-is-lost: a height below the floor has the reward -1. The reward
+      should be 0
     nan-passes: the reward of NaN is NaN, because every comparison with NaN is False.
       Test with np.isfinite
-    nan-is-zero: the reward of NaN is 0. It is -1, because the simulation failed
-    infinity-passes: the reward of minus infinity is 0. It is -1 for every height that
-      is not finite
+    nan-is-zero: the reward of NaN is 0. It should be -1, because the simulation failed
+    infinity-passes: the reward of minus infinity is 0. It should be -1 for every height
+      that is not finite
     success-only: the reward is 0 or 1. Below the target it rises linearly with the
       height
     success-only 2: the reward is 0 or 1. Below the target it rises linearly with the
       height
-    not-limited: a height above the target has a reward above 1. It is 1 there
-    below-the-floor: a height below the floor has a reward below 0. It is 0 there
-    thrown-is-minus-cap: a height above the cap has minus the height as its reward. It
-      is -1
+    not-limited: a height above the target has a reward above 1. The reward should be 1
+    below-the-floor: a height below the floor has a reward below 0. The reward should be
+      0
+    thrown-is-minus-cap: a height above the cap has minus the height as its reward. The
+      reward should be -1
     cap-for-target: the height is divided by the cap. Divide it by the target
     cap-for-target 2: below the target the height is divided by the cap. Divide it by
       the target
-    halved: the reward on the floor is -1. It is 0
+    halved: the reward on the floor is -1. It should be 0
     one-minus: this is 1 minus the reward
     nothing-lost: episodes with NaN or with a height above the cap are left out. Each
-      episode has a reward
+      episode should have a reward
     """
     h = heights
     good = np.isfinite(h) & (h <= cap)

@@ -27,18 +27,18 @@ def wilson(k, n, z=1.96, moved=True, inside=True, divided=True):
 def _(success):
     """plain: this is the Wald interval p +- 1.96 sqrt(p (1 - p) / n), whose width is 0
       for 8 successes of 8. Use Day 12's wilson_interval
-    plain-to-0-and-1: this is the Wald interval, clipped to 0 and 1. Use Day 12's
+    plain-to-0-and-1: this is the Wald interval, clamped to 0 and 1. Use Day 12's
       wilson_interval
-    middle-for-rate: the rate is the centre of the interval. It is the fraction of
-      successes
-    order: the interval comes first. The order is (rate, low, high)
-    ends-swapped: the two ends of the interval are swapped. The order is (rate, low,
-      high)
+    middle-for-rate: the rate is the centre of the interval. It should be the fraction
+      of successes
+    order: the interval comes first. The order should be (rate, low, high)
+    ends-swapped: the two ends of the interval are swapped. The order should be (rate,
+      low, high)
     half-width: the last two results are the distances of the ends from the rate. Return
       the ends themselves
     failures: the interval is computed from the failures. Count the successes
-    one-sided: the interval uses 1.645, which gives 90 %. A 95 % interval uses 1.96
-    ninety-nine: the interval uses 2.576, which gives 99 %. A 95 % interval uses 1.96
+    one-sided: the interval uses 1.645, which gives 90 %. A 95 % interval needs 1.96
+    ninety-nine: the interval uses 2.576, which gives 99 %. A 95 % interval needs 1.96
     n-less-one: the results are divided by n - 1. Divide by n
     per-cent: the three results are in per cent
     """
