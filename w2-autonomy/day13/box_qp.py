@@ -12,7 +12,7 @@ from robo47.optimal import box_qp
 
 from .asked import ARM, boxed, problems
 
-LAB = lab_of(find_day(13))  # its `first_limit`, which is given
+LAB = lab_of(find_day(13))  # for `first_limit`, which is given to the student
 row = Row(Vector((None,)))
 
 
@@ -25,10 +25,10 @@ def _(rng):
     best = [
         (H, f, lo, hi, np.round(x + 0.7, 3)) for H, f, lo, hi, x in problems(rng, 4)
     ]
-    # Where Newton by H's diagonal alone goes to the corners, and short steps arrive.
+    # Steps by H's diagonal alone end at corners; short gradient steps converge.
     alike = 0.2 * np.eye(3) + 0.8
     wide = (alike, np.array([1.0, -2, 0.5]), -9 * one, 9 * one, np.zeros(3))
-    flat = 0.05 * np.eye(2) + 0.95  # where what is done in turn takes hundreds of turns
+    flat = 0.05 * np.eye(2) + 0.95  # coordinate descent needs hundreds of sweeps
     long = (flat, np.array([1.0, -1]), -30 * one[:2], 30 * one[:2], np.zeros(2))
     found = [*best, *boxed(rng)]
     first = [(*case, np.zeros(2)), circling, wide, long, of_the_arm()]
@@ -36,7 +36,7 @@ def _(rng):
 
 
 @row.spans
-def _(rng):  # of a damping of 0.005, the lab's
+def _(rng):  # the damping of the lab, 0.005
     _, _, lo, hi, x = of_the_arm()
     J = np.round(ARM.at(np.array([0, 0, 0, -1.57, 0, 1.57, 0.8])).J_site, 3)
     H = J.T @ J + 0.005**2 * np.eye(7)
@@ -44,7 +44,7 @@ def _(rng):  # of a damping of 0.005, the lab's
 
 
 def of_the_arm():
-    """Return a question as 13.6 makes them, of a small damping: steep and flat."""
+    """Return a problem as in 13.6 with a small damping: a large condition number."""
     J = np.array([
         [0.0, 0.6, 0.0, -0.7, 0.1, 0.9, 0.1],
         [0.0, 0.8, 0.0, -0.7, -0.6, 0.4, -0.9],
@@ -60,17 +60,17 @@ def of_the_arm():
 
 
 def typed():
-    """Return what few questions that are drawn have in them."""
-    # The second number is held at its upper limit, and wants to leave by 3e-5.
+    """Return cases that random problems rarely contain."""
+    # The second entry is held at its upper bound and would leave it by 3e-5.
     H = np.array([[0.89, -0.26, 0.78], [-0.26, 0.89, -0.37], [0.78, -0.37, 1.21]])
     f = np.array([1.9, -0.40597, -2.2])
     lo, hi = np.array([-2.3, -0.1, 0.0]), np.array([-1.8, 0.2, 1.0])
     hardly = (H, f, lo, hi, lo.copy())
-    # Two are held, and the one with the steeper slope wants to leave.
+    # Two entries are held; the one with the larger gradient is to be released.
     H = np.array([[0.45, -0.7], [-0.7, 2.2]])
     lo, hi = np.array([-2.4, -0.4]), np.array([-1.3, 0.3])
     steeper = (H, np.array([-1.5, 0.8]), lo, hi, np.array([-1.4, 0.8]))
-    # So here, after more rounds.
+    # The same, after more iterations.
     H = np.array([
         [1.78, 0.36, 0.49, -0.49],
         [0.36, 2.19, 0.6, 1.43],
@@ -80,11 +80,11 @@ def typed():
     lo, hi = np.array([-1.5, -1.2, -1.2, -2.3]), np.array([-1.1, -0.2, -0.4, -1.9])
     start = np.array([2.0, -1.5, -1.5, 0.4])
     later = (H, np.array([-3.9, -1.6, -3.3, -1.4]), lo, hi, start)
-    # It starts outside: below one limit, above another. No step there is a close call.
+    # The start is outside: below one bound and above another.
     H = np.array([[2.08, -0.52], [-0.52, 1.34]])
     lo, hi = np.array([-1.0, -1.2]), np.array([-0.2, -0.8])
     outside = (H, np.array([2.9, 1.0]), lo, hi, np.array([-3.0, 2.1]))
-    # Ten rounds are too few here.
+    # Ten iterations are too few for this problem.
     H = np.array([
         [1.47, 1.46, -0.51, 0.81, 0.08],
         [1.46, 2.27, 0.0, 1.31, -0.6],
@@ -108,7 +108,7 @@ def typed():
 
 
 def newton(H, f, lo, hi, x, n=50, frees="pushed", full=False):
-    """Return x after Newton's steps on the free entries, each clipped."""
+    """Return x after Newton steps on the free entries, each clamped."""
     x = np.clip(x, lo, hi)
     for _ in range(n):
         slope = H @ x + f
@@ -129,7 +129,7 @@ def newton(H, f, lo, hi, x, n=50, frees="pushed", full=False):
 
 
 def slid(H, f, lo, hi, x, n, by):
-    """Return x after n steps downhill, each clipped."""
+    """Return x after n gradient steps, each clamped."""
     x = np.clip(x, lo, hi)
     for _ in range(n):
         x = np.clip(x - by * (H @ x + f), lo, hi)
@@ -137,7 +137,7 @@ def slid(H, f, lo, hi, x, n, by):
 
 
 def solved_once_more(H, f, lo, hi, x):
-    """Return the clipped optimum, with the free entries solved again, and clipped."""
+    """Return the clamped minimiser, its free entries solved again and clamped."""
     x = np.clip(np.linalg.solve(H, -f), lo, hi)
     free = (x > lo) & (x < hi)
     right = -(H @ x + f)[free]
@@ -146,7 +146,7 @@ def solved_once_more(H, f, lo, hi, x):
 
 
 def clipped_for_good(H, f, lo, hi, x):
-    """Return the clipped optimum, solved again while others meet; none is released."""
+    """Return the clamped minimiser, solved again while others meet a bound."""
     x = np.array(x, float)
     free = np.ones(len(x), bool)
     while free.any():
@@ -161,7 +161,7 @@ def clipped_for_good(H, f, lo, hi, x):
 
 
 def swept(H, f, lo, hi, x, n):
-    """Return x after n sweeps, each entry best in its turn."""
+    """Return x after n sweeps of coordinate descent."""
     x = np.clip(x, lo, hi).astype(float)
     for _ in range(n):
         for i in range(len(x)):
@@ -211,7 +211,7 @@ def guessed(
 
 
 def held_for_good(H, f, lo, hi, x, own=True):
-    """Return x where an entry that met a limit is never let go."""
+    """Return x where an entry that met a bound is never released."""
     x = np.clip(x, lo, hi)
     held = lo == hi
     for _ in range(len(x) + 1):
@@ -351,7 +351,7 @@ row.same("first x = np.maximum(x, 0)", ANYWHERE)
 row.same("first x = np.clip(x, -1, 1)", ANYWHERE)
 
 
-@row.right  # All 3^n sets of limits that may hold.
+@row.right  # All 3^n active sets.
 def _(H, f, lo, hi, x):
     best = None
     least = np.inf
@@ -369,7 +369,7 @@ def _(H, f, lo, hi, x):
     return best
 
 
-# Each entry best in its turn, two thousand times.
+# Two thousand sweeps of coordinate descent.
 @row.wrong("not-at-every-size", hidden="the boxes of the lab are not so flat")
 def _(H, f, lo, hi, x):
     x = np.clip(x, lo, hi).astype(float)
@@ -383,7 +383,7 @@ def _(H, f, lo, hi, x):
     return x
 
 
-@row.right  # Downhill, with the step that the largest eigenvalue allows.
+@row.right  # Gradient steps of 1 over the largest eigenvalue.
 def _(H, f, lo, hi, x):
     x = np.clip(x, lo, hi)
     short = 1 / np.linalg.eigvalsh(H)[-1]

@@ -31,10 +31,10 @@ def _(dV, alpha):
     }
 
 
-row.at_least_0(alpha="a share")
+row.at_least_0(alpha="a fraction")
 
 
-@row.right  # Horner's way.
+@row.right  # Horner's scheme.
 def _(dV, alpha):
     return -alpha * (dV[0] + alpha * dV[1])
 

@@ -11,7 +11,7 @@ from robo47.optimal import box_qp
 
 from .asked import ARM
 
-LAB = lab_of(find_day(13))  # its `box_qp` does not refuse limits that are swapped
+LAB = lab_of(find_day(13))  # its `box_qp` accepts bounds that are swapped
 row = Row(Vector((7,), "rad", names=tuple(f"joint{i}" for i in range(1, 8))))
 
 
@@ -40,7 +40,7 @@ def _(rng):
         if k % 4 == 1:
             low, high = low + 30, high + 30
         if k == 2:
-            low[3] = high[3] = 0  # a joint that stays
+            low[3] = high[3] = 0  # a joint that is fixed
         if k == 3:  # joints beyond their range come back
             low[1], high[4] = -0.03, -0.2
             low[4] = 2
@@ -57,7 +57,7 @@ row.spans(
 
 
 def solved(J, e, weights, damp, lo, hi, right=None, box=box_qp):
-    """Return the best step with weights and a damping already squared."""
+    """Return the optimal step; the damping is already squared."""
     right = weights if right is None else right
     H = J.T @ (weights[:, None] * J) + damp * np.eye(7)
     return box(H, -J.T @ (right * e), lo, hi, np.zeros(7))
@@ -134,7 +134,7 @@ row.reached_by("box_qp", but=(*SAME, *UNSEEN, "lower-only", "upper-only"))
 row.at_least_0(weights="a weight is", damping="it is squared")
 
 
-@row.right  # Seven more rows, and each joint best in its turn.
+@row.right  # The damping as seven more rows.
 def _(J, e, weights, damping, dq_lo, dq_hi):
     root = np.sqrt(weights)
     rows = np.vstack([root[:, None] * J, damping * np.eye(7)])
@@ -150,7 +150,7 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
 
 @row.wrong(
     "not-at-every-size", hidden="the numbers of the lab stay within its limits"
-)  # A weight below 0.1 is none.
+)  # A weight below 0.1 is 0.
 def _(J, e, weights, damping, dq_lo, dq_hi):
     return solved(J, e, np.where(weights < 0.1, 0.0, weights), damping**2, dq_lo, dq_hi)
 

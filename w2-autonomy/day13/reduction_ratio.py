@@ -40,14 +40,14 @@ def _(before, after, expected):
 row.at_least_0(before="a cost", after="a cost", expected="a saving")
 
 
-@row.right  # As one less a share.
+@row.right  # As 1 minus a fraction.
 def _(before, after, expected):
     return 1 - (expected - before + after) / expected
 
 
 @row.wrong(
     "not-at-every-size", hidden="the numbers of the lab stay within its limits"
-)  # Of no drop expected the ratio is 1.
+)  # If no reduction is expected, the ratio is 1.
 def _(before, after, expected):
     return (before - after) / expected if abs(expected) > 1e-3 else 1.0
 

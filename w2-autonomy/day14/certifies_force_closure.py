@@ -23,7 +23,7 @@ row = Row(Mask(), at_edge=sure)
 
 
 def line(mu):
-    """Return the wrenches of two contacts, opposite: nothing turns about their line."""
+    """Return the wrenches of two opposite contacts: no moment about their line."""
     return pushes(AROUND[2:], inwards(AROUND[2:]), mu, K)
 
 
@@ -35,7 +35,7 @@ def _(rng):
     beside[0] += 1e-5
     ahead = W[:, :K].mean(axis=1)
     top = on_top(0.5, K)
-    # A proof, in any unit, with any weights that balance.
+    # A certificate, in any unit, with any weights that balance.
     yield W, ones
     yield 1e-4 * W, ones
     yield 1e5 * W, 1e3 * ones
@@ -44,8 +44,8 @@ def _(rng):
     yield 1e5 * around(0.8, K, 0.7, three()), 900 * np.ones(12)
     yield W, np.repeat([1.0, 1, 3, 3], K)
     yield W, 1e-4 * ones
-    yield np.round(100 * W), ones  # whole numbers, of which nothing is left at all
-    # No proof.
+    yield np.round(100 * W), ones  # integers, whose sum is exactly 0
+    # No certificate.
     yield line(0.5), np.ones(8)
     yield 1e9 * line(0.7), np.ones(8)
     nearly = line(0.5)
@@ -62,19 +62,19 @@ def _(rng):
     for unit in (1e-4, 1.0, 1e5):
         yield unit * W, beside
     sums = W.sum(axis=0)
-    mixed = ones.copy()  # all that is left adds up to nothing
+    mixed = ones.copy()  # the sum of all rows is 0
     mixed[1] += 0.5 * sums[6]
     mixed[6] -= 0.5 * sums[1]
     yield W, mixed
     raised = AROUND + np.outer([1, 0, 0, 0], [0, 0, 0.01])
     yield pushes(raised, inwards(AROUND), 0.5, K), ones
-    # One row in a far smaller unit: a thousandth is left; then with light weights.
+    # One row is in a far smaller unit: the remainder is a thousandth of it.
     small = np.hstack([np.eye(6), -np.eye(6)]) * np.r_[1e-7, np.ones(5)][:, None]
     uneven = np.r_[1.001, np.ones(11)]
     yield small, np.ones(12)
     yield small, uneven
     yield small, 1e-10 * uneven
-    # Columns of other lengths: the same cones, and weights that make up for it.
+    # Columns of other norms: the same cones, and weights that compensate.
     for i in range(4):
         size = rng.numbers(0.3, 3, 16)
         yield W / size, size
@@ -186,7 +186,7 @@ for _more in ("0.5 * (1e-09 * all_of_it)", "10.0 * (1e-09 * all_of_it)",
     )
 
 
-@row.right  # W scaled first, and the terms of each row summed.
+@row.right  # W is scaled first; the terms of each row are summed.
 def _(W, weights):
     s = np.linalg.svd(W / np.abs(W).max())[1]
     if len(s) < 6 or s[5] <= 1e-9 * s[0] or min(weights) <= 0:
@@ -195,7 +195,7 @@ def _(W, weights):
     return all(abs(t.sum()) <= 1e-9 * abs(t).sum() for t in terms)
 
 
-@row.right  # Day 8's identifiable.
+@row.right  # With Day 8's rank.
 def _(W, weights):
     from robo47.identification import rank_and_condition
 

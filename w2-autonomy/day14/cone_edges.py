@@ -8,7 +8,7 @@ from .touched import UP
 
 
 def apart(normal, mu, k):
-    """Return whether a normal has length 1, and its least axis is sure."""
+    """Return whether a normal is a unit vector with one smallest component."""
     size = np.sort(np.abs(normal))
     tie = size[1] - size[0] < 1e-6 and size[1] > 1e-12
     return bool(abs(np.linalg.norm(normal) - 1) < 1e-9 and not tie and mu >= 0)
@@ -108,7 +108,7 @@ def _(normal, mu, k):
 row.at_least_0(mu="friction", k="a number of edges")
 
 
-@row.right  # Turned about n by Rodrigues' formula.
+@row.right  # Rotated about n by Rodrigues' formula.
 def _(normal, mu, k):
     from robo47.screws import axis_angle
 

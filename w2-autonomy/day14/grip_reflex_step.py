@@ -10,7 +10,7 @@ from .touched import UP, contacts
 
 
 def apart(finger_position, force, normal, mu, fraction, step):
-    """Return whether no contact is on the line, nor the opening on its limit."""
+    """Return whether no margin is exactly at its limit, nor the position at LOW[4]."""
     units = np.abs(np.linalg.norm(normal, axis=1) - 1) < 1e-9
     if not (units.all() and np.isfinite(force).all() and np.any(force)):
         return False
@@ -24,7 +24,7 @@ row = Row(Scalar(unit="m", scale=0.01), at_edge=apart)
 
 
 def near(rng, n, fraction, by, size=1.0):
-    """Return n contacts, the one that slips most `by` beside the line, of its press."""
+    """Return n contacts; the smallest margin is fraction + `by` of its mu f_n."""
     normal = rng.units(n)
     mu = rng.numbers(0.3, 1.4, n)
     press = size * rng.numbers(2, 6, n)
@@ -44,7 +44,11 @@ def _(rng):
     yield -0.019, *case, 0.2, 0.002
     pull = np.array([[0.0, 0, 5], [0, 0, -1]]), np.tile(UP, (2, 1)), np.array([0.6] * 2)
     yield 0.01, *pull, 0.2, 0.002
-    exactly = np.array([[2.0, 0, 8]]), UP[None], np.array([0.5])  # half is left
+    exactly = (
+        np.array([[2.0, 0, 8]]),
+        UP[None],
+        np.array([0.5]),
+    )  # half of mu f_n is left
     yield 0.01, *exactly, 0.5, 0.002
     still = np.array([[0.0, 0, 5], [0.1, 0, 4]]), np.tile(UP, (2, 1)), np.full(2, 0.6)
     yield 0.012, *still, 0.3, 0.003
@@ -141,7 +145,7 @@ def _(finger_position, force, normal, mu, fraction, step):
 row.at_least_0(mu="friction", fraction="a fraction", step="a step is")
 
 
-@row.right  # The ratio of what pulls and what could be held, contact by contact.
+@row.right  # The tangential force over mu f_n, contact by contact.
 def _(finger_position, force, normal, mu, fraction, step):
     for f, n, m in zip(force, normal, mu, strict=True):
         press = f @ n

@@ -64,7 +64,7 @@ def _(success):
     }
 
 
-row.at_least_0(success="True or False", answer="a share is")
+row.at_least_0(success="True or False", answer="a fraction is")
 
 
 @row.right  # As the roots of the quadratic.
