@@ -111,7 +111,7 @@ edition: .venv/.ready-core ## write the student edition, solutions sealed: OUT=.
 test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 	@$(PY) -m pytest $(or $(ARGS),-n 2 --dist worksteal)
 
-catalogue: .venv/.ready-test $(ROBOT) ## test whole catalogues, of the days that changed, and record it
+catalogue: .venv/.ready-test $(ROBOT) ## test the days that changed wholly, and record it: before a commit
 	@$(PY) tests/whole.py $(DAY) $(ARGS)
 
 soak: .venv/.ready-test ## run the long tests: a log of gigabytes, a class of 200

@@ -1,10 +1,10 @@
-"""A digest of all that decides the verdicts of a day's catalogue.
+"""A digest of all that decides the outcome of a day's tests and of its catalogue.
 
-The files are found, not listed: what the catalogue's tests and the day's own functions
-import, deferred imports and names in strings included. Of Python outside the weeks'
-folders the statements count, without comments and docstrings. Of a week's folder the
-text counts, because the checker quotes a lab's comments and reads the docstrings of
-mistakes. Hints, titles and documents decide nothing.
+The files are found, not listed: the day's folder, its lab, and what these and the
+catalogue's tests import, deferred imports and names in strings included. Of Python
+outside the weeks' folders the statements count, without comments and docstrings. Of a
+week's folder the text counts, because the checker quotes a lab's comments and reads the
+docstrings of mistakes. Hints, titles and documents decide nothing.
 """
 
 import ast
@@ -49,14 +49,19 @@ def digest(day: Day) -> str:
 
 
 def files_of(day: Day) -> set[Path]:
-    """Return the files that decide the verdicts of a day's catalogue."""
+    """Return the files that decide the outcome of a day's tests and its catalogue.
+
+    Its pictures, its tab and its tests count, and what they take of the library; the
+    parts of the machine that show them do not.
+    """
     own = [day.own / f"{name}.py" for task in day.tasks for name in task.functions]
     library = [_file(f"robo47.{name}", ()) for name in day.library]
     tests = [ROOT / "tests" / f"{name}.py" for name in TESTS]
-    begin = [day.source, *own, *tests, *filter(None, library)]
+    found = _closure([day.source, *own, *tests, *filter(None, library)], day)
+    found |= _closure(day.own.glob("*.py"), day, without="labkit")
     others = [day.own / "day.toml", day.folder / "week.toml", TWIN_XML]
     others += (day.own / "submissions").rglob("*.py")
-    return {*_closure(begin, day), *(path for path in others if path.is_file())}
+    return {*found, *(path for path in others if path.is_file())}
 
 
 def missed(day: Day) -> list[str]:
@@ -69,8 +74,14 @@ def missed(day: Day) -> list[str]:
     return sorted(str(path.relative_to(ROOT)) for path in kits - files_of(day))
 
 
-def _closure(begin: Iterable[Path], day: Day) -> set[Path]:
-    """Return files, and what they import, however indirectly."""
+def _closure(begin: Iterable[Path], day: Day, without: str = "") -> set[Path]:
+    """Return files, and what they import, however indirectly.
+
+    Args:
+        begin: the files.
+        day: whose they are.
+        without: a package whose modules are left out.
+    """
     found, left, names = set[Path](), [*begin], set[str]()
     beside = (day.source.parent,)  # where a lab finds `dayN_mujoco`
     while left:
@@ -81,7 +92,8 @@ def _closure(begin: Iterable[Path], day: Day) -> set[Path]:
         imports = _imports(path, _stamp(path))
         new = {part for name in imports for part in _heads(name)} - names
         names |= new
-        left += filter(None, (_file(name, beside) for name in new))
+        asked = (name for name in new if name.partition(".")[0] != without)
+        left += filter(None, (_file(name, beside) for name in asked))
     return found
 
 

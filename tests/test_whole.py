@@ -1,8 +1,13 @@
-"""CI asks the whole catalogue of a day that has changed, and a sample of others."""
+"""CI tests a day wholly that has changed, and a sample of each other day."""
 
 import importlib.util
+import operator
+import os
+import re
 import shutil
+import subprocess
 import sys
+from functools import partial
 from types import SimpleNamespace
 
 import digests
@@ -12,6 +17,7 @@ import whole
 import conftest
 from conftest import ROOT, SKIPPED, copy_kit, keep_first_day
 from labkit.base import git
+from labkit.commands import kernels
 from labkit.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
@@ -68,6 +74,8 @@ def edited(day, kept):
         (f"{W1}/day1/submissions/wrong/quat_xyzw.py", STATEMENT),
         (f"{W1}/src/day1_transforms.py", COMMENT),  # the checker quotes it
         (f"{W1}/day1/day.toml", "seconds = 3.0\n"),  # of the last task
+        (f"{W1}/day1/figures.py", STATEMENT),
+        (f"{W1}/day1/test_day1.py", STATEMENT),
         ("labkit/judge/matcher.py", STATEMENT),
         ("labkit/check/tasks.py", STATEMENT),
         ("labkit/lesson/lab.py", STATEMENT),
@@ -79,7 +87,7 @@ def edited(day, kept):
         ("constraints.txt", "mujoco==99.0\n"),
     ],
 )
-def test_a_day_is_asked_wholly_where_anything_that_decides_a_verdict_changed(
+def test_a_day_is_tested_wholly_where_anything_that_decides_a_verdict_changed(
     edited, name, more
 ):
     assert edited(name, lambda text: text + more)
@@ -89,10 +97,8 @@ def test_a_day_is_asked_wholly_where_anything_that_decides_a_verdict_changed(
     ("name", "more"),
     [
         (f"{W1}/docs/day1-lab.md", "More words.\n"),
-        (f"{W1}/day1/figures.py", STATEMENT),
-        (f"{W1}/day1/inspector.py", STATEMENT),
-        (f"{W1}/day1/test_day1.py", STATEMENT),
         ("labkit/judge/matcher.py", COMMENT),
+        ("labkit/inspector/page.py", STATEMENT),
         ("labkit/site/pages.py", STATEMENT),
         ("robo47/optimal.py", STATEMENT),  # a library of other days alone
         ("constraints.txt", "sphinx==99.0\n"),
@@ -185,6 +191,7 @@ def report(nodeid, outcome, when="call"):
         ("a.py::test[day1/Rz]", "passed", {1, 2}),
         ("a.py::test[day1/Rz]", "failed", {2}),
         ("a.py::test[day1]", "skipped", {2}),  # it was not asked
+        ("w1-foundations/day2/test_day2.py::test[day1]", "failed", {1}),
         ("a.py::test", "failed", set()),
         ("a.py::test[NOTSET]", "skipped", {1, 2}),  # nothing to ask of these days
     ],
@@ -198,7 +205,7 @@ def test_a_day_is_recorded_only_where_all_its_tests_pass(nodeid, outcome, good):
 
 
 def test_of_a_run_the_days_that_pass_are_recorded(tmp_path, run):
-    """Day 2 fails, Day 3 has no test; Day 1 alone has been asked and passes."""
+    """Day 2 fails and Day 3 has no test, so that Day 1 alone is recorded."""
     file = tmp_path / "test_days.py"
     file.write_text(
         "import os, pytest\npytestmark = pytest.mark.kit\n"
@@ -209,7 +216,7 @@ def test_of_a_run_the_days_that_pass_are_recorded(tmp_path, run):
     script = tmp_path / "ask.py"
     script.write_text(
         f"import sys; sys.path[:0] = [{str(ROOT)!r}, {str(ROOT / 'tests')!r}]\n"
-        f"import whole; whole.FILES = [{str(file)!r}]\n"
+        f"import whole; whole.tests_of = lambda days: [{str(file)!r}]\n"
         "days = [whole.find_day(n) for n in (1, 2, 3)]\n"
         "print('good', [day.number for day in whole.ask(days)])\n"
     )
@@ -266,3 +273,40 @@ def test_the_catalogues_tests_ask_all_of_a_changed_day_and_some_of_another(
     for day in (first, other):
         catalogue.test_a_wrong_file_run_as_a_lab_fails(day, run)
     assert not runs
+
+
+def test_of_a_days_authors_tests_a_tenth_is_left_where_it_has_not_changed(monkeypatch):
+    monkeypatch.setattr(whole, "changed", lambda day: day.number == 1)
+
+    def item(folder, mark):
+        marked = partial(operator.eq, mark)
+        return SimpleNamespace(path=folder / "test_x.py", get_closest_marker=marked)
+
+    first, other, house = find_day(1).own, find_day(5).own, ROOT / "tests"
+    items = [item(folder, "kit") for folder in (first, other, house) for _ in range(30)]
+    students = [item(other, "") for _ in range(30)]
+    left = whole.left_out([*items, *students])
+    assert len(left) == 27
+    assert {one.path.parent for one in left} == {other}
+    assert not [one for one in left if one in students]
+
+
+@pytest.mark.parametrize(("nightly", "asked"), [("", "Prescott"), ("1", "--others")])
+def test_ci_tests_all_days_wholly_at_night(nightly, asked):
+    ci = (ROOT / ".ci" / "run").read_text("utf-8")
+    (part,) = re.findall(r"(?ms)^kernels=.*?^fi$", ci)
+    script = f'{part}\necho "$kernels ${{ROBO47_WHOLE:-}}"'
+    variables = {**os.environ, "NIGHTLY": nightly}
+    variables.pop("ROBO47_WHOLE", None)
+    done = subprocess.run(
+        ["bash", "-c", script], env=variables, capture_output=True, text=True
+    )
+    assert done.stdout.strip() == f"{asked} {nightly}".strip()
+
+
+def test_what_ci_leaves_to_another_kernel_is_run_there():
+    ci = (ROOT / ".ci" / "run").read_text("utf-8")
+    (left,) = re.findall(r"^outputs=(\S+)$", ci, re.MULTILINE)
+    file, name = left.split("::")
+    assert file in kernels.command(whole=True)
+    assert f"def {name}(" in (ROOT / file).read_text("utf-8")

@@ -1,14 +1,15 @@
-"""Which days' catalogues are asked wholly, and which by a sample.
+"""Which days are tested wholly, and which by a sample.
 
-    python tests/whole.py              ask each day that has changed, and record it
+    python tests/whole.py              test each day that has changed, and record it
     python tests/whole.py 3 11         these days
     python tests/whole.py --changed    name the days that have changed
 
-A record in `tests/catalogues.txt` says that a day's whole catalogue has passed, and
-with which digest of all that decides its verdicts (`digests.py`). While the digest is
-the same, the tests ask a tenth of the catalogue, another tenth at each commit. In all
-other cases, such as a day without a record, they ask the whole catalogue.
-ROBO47_WHOLE=1, which CI sets at night, and ROBO47_DAY=3 have it asked wholly always.
+A record in `tests/catalogues.txt` says that a day's whole catalogue and its authors'
+tests have passed, and with which digest of all that decides this (`digests.py`). While
+the digest is the same, a tenth of the catalogue is tested, another tenth at each
+commit, and in CI a tenth of the day's own authors' tests. In all other cases, such as a
+day without a record, everything is tested. ROBO47_WHOLE=1, which CI sets at night, and
+ROBO47_DAY=3 have days tested wholly always.
 """
 
 import os
@@ -30,16 +31,17 @@ from robo47.paths import ROOT
 
 RECORDS = ROOT / "tests" / "catalogues.txt"
 HEAD = (
-    "# The days whose whole catalogue has passed, and what decided its verdicts then.\n"
+    "# The days whose whole catalogue and tests have passed, and what decided it.\n"
     "# python tests/whole.py writes this file; after a merge, all lines may stay.\n"
 )
 FILES = ("tests/test_days_catalogue.py", "tests/test_days_judging.py")
+MARKS = "kit and not soak and not browser and not network"
 PART = 10  # one of so many is asked where nothing has changed
 One = TypeVar("One")
 
 
 def changed(day: Day) -> bool:
-    """Return whether a whole catalogue is to be asked."""
+    """Return whether a day is to be tested wholly."""
     if os.environ.get("ROBO47_WHOLE") or os.environ.get("ROBO47_DAY"):
         return True
     return digest(day) not in recorded().get(day.number, set())
@@ -61,6 +63,21 @@ def sample(things: Iterable[One], purpose: str) -> list[One]:
     rng = random.Random(f"{commit()} {purpose}")
     kept = {*rng.sample(range(len(some)), min(len(some), max(1, len(some) // PART)))}
     return [one for i, one in enumerate(some) if i in kept]
+
+
+def left_out(items: Sequence[pytest.Item]) -> list[pytest.Item]:
+    """Return the authors' tests in days' folders that are not to be run: all but some.
+
+    Args:
+        items: the tests that are collected.
+    """
+    left: list[pytest.Item] = []
+    for day in all_days():
+        own = [one for one in items if day.own in one.path.parents]
+        own = [one for one in own if one.get_closest_marker("kit")]
+        kept = asked(day, own, "tests") if own else own
+        left += [one for one in own if one not in kept]
+    return left
 
 
 def one_of_each(things: Iterable[One], kind: Callable[[One], object]) -> list[One]:
@@ -95,7 +112,7 @@ class Outcomes:
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """Note the outcome of a test; a failure without a day is one of all days."""
-        name = re.search(r"\[.*\bday(\d+)", report.nodeid)
+        name = re.search(r"(?:^w[^:]*/day|\[.*\bday)(\d+)", report.nodeid)
         if not name and report.failed:
             self.failed |= {day.number for day in all_days()}
         elif name and not report.passed:
@@ -104,16 +121,20 @@ class Outcomes:
             self.passed.add(int(name[1]))
 
 
+def tests_of(days: Sequence[Day]) -> list[str]:
+    """Return the files and folders of the tests that are run wholly of some days."""
+    return [*(str(ROOT / name) for name in FILES), *(str(day.own) for day in days)]
+
+
 def ask(days: Sequence[Day]) -> list[Day]:
-    """Ask the whole catalogues of days; return the days of which all tests pass."""
+    """Test days wholly; return those of which all tests pass."""
     before = {day.number: digest(day) for day in days}
     os.environ.pop("PYTEST_ADDOPTS", None)
     os.environ |= {"ROBO47_CI": "1", "ROBO47_WHOLE": "1"}
     os.environ["ROBO47_DAY"] = ",".join(map(str, before))
     outcomes = Outcomes()
-    options = ["-q", "-m", "kit and not soak", "-n", "2", "--dist", "worksteal"]
-    files = [str(ROOT / name) for name in FILES]
-    code = pytest.main([*options, *files], plugins=[outcomes])
+    options = ["-q", "-m", MARKS, "-n", "2", "--dist", "worksteal"]
+    code = pytest.main([*options, *tests_of(days)], plugins=[outcomes])
     if code not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
         return []
     # A file that has changed meanwhile was not asked, or only in part.
@@ -132,7 +153,7 @@ def record(days: Iterable[Day], file: Path | None = None) -> None:
 
 
 def main() -> int:
-    """Ask the days that are named, or have changed; return 1 where a test failed."""
+    """Test the days that are named, or have changed; return 1 where a test failed."""
     arguments = sys.argv[1:]
     if arguments == ["--changed"]:
         names = [f"day {day.number}" for day in all_days() if changed(day)]
