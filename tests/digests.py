@@ -57,8 +57,8 @@ def files_of(day: Day) -> set[Path]:
     own = [day.own / f"{name}.py" for task in day.tasks for name in task.functions]
     library = [_file(f"robo47.{name}", ()) for name in day.library]
     tests = [ROOT / "tests" / f"{name}.py" for name in TESTS]
-    found = _closure([day.source, *own, *tests, *filter(None, library)], day)
-    found |= _closure(day.own.glob("*.py"), day, without="labkit")
+    found = imported_by([day.source, *own, *tests, *filter(None, library)], day)
+    found |= imported_by(day.own.glob("*.py"), day, without="labkit")
     others = [day.own / "day.toml", day.folder / "week.toml", TWIN_XML]
     others += (day.own / "submissions").rglob("*.py")
     return {*found, *(path for path in others if path.is_file())}
@@ -74,7 +74,7 @@ def missed(day: Day) -> list[str]:
     return sorted(str(path.relative_to(ROOT)) for path in kits - files_of(day))
 
 
-def _closure(begin: Iterable[Path], day: Day, without: str = "") -> set[Path]:
+def imported_by(begin: Iterable[Path], day: Day, without: str = "") -> set[Path]:
     """Return files, and what they import, however indirectly.
 
     Args:
