@@ -14,13 +14,11 @@ Source: Lynch and Park, *Modern Robotics* (2017), chapters 3 and 4.
 """
 
 import functools
-import importlib
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import checks, se3
+from robo47 import checks, se3, was
 from robo47.checks import Array
 from robo47.dh import dh_fk as dh_fk  # Denavit and Hartenberg's way, beside this one
 from robo47.dh import dh_link as dh_link
@@ -248,11 +246,4 @@ def fk_body(body_screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
     return fk_space(B @ np.swapaxes(adjoint(M_home), -1, -2), M_home, q)
 
 
-def __getattr__(name: str) -> Any:
-    """Return `ad`, which stood here until Day 4 was asked it, from where it is taught.
-
-    By name: while Day 4 is checked, `robo47.dynamics` is refused, and `ad` with it.
-    """
-    if name != "ad":
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return importlib.import_module("robo47.dynamics").ad
+__getattr__ = was.moved(__name__)

@@ -24,12 +24,11 @@ from typing import TYPE_CHECKING
 
 from labkit.base import cli
 from labkit.base.git import short_sha
+from labkit.check.once import report_of
 from labkit.commands.start import require_begun
 from labkit.lesson.day import Day, chosen_day
-from labkit.sandbox.process import Process
 from robo47 import __version__
-from robo47.errors import Robo47Error
-from robo47.paths import ROOT, shown
+from robo47.paths import ROOT
 
 if TYPE_CHECKING:
     from labkit.check.report import Report
@@ -55,48 +54,12 @@ def parse(arguments: Sequence[str] | None = None) -> argparse.Namespace:
 def check(day: Day, options: argparse.Namespace) -> int:
     """Check once, print the report and return the exit code."""
     seed = secrets.randbits(32) if options.seed is None else options.seed
-    found = report_of(day, options, seed)
-    print(_printed(found, options, seed))
-    return cli.EXIT_OK if found.passed else cli.EXIT_FAILED
-
-
-def report_of(day: Day, options: argparse.Namespace, seed: int) -> "Report":
-    """Check once and return the report.
-
-    Args:
-        day: from its manifest.
-        options: as `parse` returns them.
-        seed: of the inputs that are drawn anew.
-
-    Raises:
-        Robo47Error: the day is not begun, or the file that is named is not there.
-    """
-    script = options.file or day.work
     if not options.file:
         require_begun(day)
-    elif not script.is_file():
-        raise Robo47Error(f"{shown(script)} is not there")
     with cli.busy("checking"):
-        warm = Process()  # it gets ready while MuJoCo is imported
-        from labkit.check import memory
-        from labkit.check.lab_run import check_lab
-        from labkit.check.report import Report
-        from labkit.check.tasks import check_tasks, required_pass
-        from labkit.sandbox.sandbox import Sandbox
-
-        with Sandbox(warm) as sandbox:
-            key = memory.key_of(day) if script == day.work else ""
-            results = check_tasks(day, script, sandbox, options.task, seed)
-            done = required_pass(results)
-            lab = check_lab(day, script, sandbox) if done and not options.task else []
-    if key:
-        memory.note(results)
-        memory.remember(key, results)
-    if not options.task:
-        from labkit.handin.deliverables import check_deliverables
-
-        lab += check_deliverables(day, tasks_pass=done)
-    return Report(day, results, lab)
+        found = report_of(day, options.file or day.work, options.task, seed)
+    print(_printed(found, options, seed))
+    return cli.EXIT_OK if found.passed else cli.EXIT_FAILED
 
 
 def _printed(found: "Report", options: argparse.Namespace, seed: int) -> str:
