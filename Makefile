@@ -142,7 +142,7 @@ site/node_modules/.package-lock.json: site/package-lock.json
 figures: .venv/.ready-figures $(ROBOT) ## draw the day's figure with your functions
 	@$(PY) scripts/make_figures.py $(ON_DAY) $(ARGS)
 
-notebook: .venv/.ready-notebook $(ROBOT) ## convert a day's lab into a notebook
+notebook: .venv/.ready-notebook $(ROBOT) ## write a day as a notebook: guide, your functions, verdicts
 	@$(PY) scripts/make_notebook.py $(ON_DAY) $(ARGS)
 
 new: .venv/.ready-core $(ROBOT) ## write a day's skeleton: DAY=8 WEEK=w2-autonomy NAME=me

@@ -1,13 +1,14 @@
-"""One arm, one configuration: all that a control loop asks for, computed together.
+"""One arm at one configuration: all quantities of a control loop, computed together.
 
-`robo47.dynamics` has the same formulas for reading and for many configurations at
-once; a loop needs them for one configuration, a thousand times in a row, and fast:
+`robo47.dynamics` has the same formulas in readable form and for many configurations at
+once. A control loop needs them for one configuration, thousands of times, and fast:
 
     now = arm.at(q)
     tau = now.M @ qdd + now.bias(qd) + arm.damping * qd
 
-Conventions as in `robo47.dynamics`: (omega; v), world axes about the world's origin, SI
-units; M holds the armature. Pure NumPy; `robo47.panda.arm(model)` makes one of a model.
+Conventions as in `robo47.dynamics`: (omega; v), the world frame about the world's
+origin, SI units; M contains the armature. This is pure NumPy; `robo47.panda.arm(model)`
+reads an arm from a model.
 """
 
 import dataclasses
@@ -26,15 +27,15 @@ from robo47.gravity import GRAVITY as GRAVITY
 
 @dataclass(frozen=True, eq=False)
 class Arm:
-    """A chain of n links, as it stands at q = 0.
+    """A chain of n links, described at q = 0.
 
     Attributes:
-        screws: of the joints at q = 0, (omega; v) in the world, (n, 6).
-        M_home: `T_world_ee` at q = 0, (4, 4); `tool` moves it.
+        screws: space screws of the joints at q = 0, (omega; v), (n, 6).
+        M_home: `T_world_ee` at q = 0, (4, 4); `tool` changes it.
         T_zero: `T_world_link` of each link at q = 0, (n, 4, 4).
         masses: of the links, kg, (n,).
-        coms: centres of mass in the links' own frames, metres, (n, 3).
-        inertias: about the centres of mass in the links' axes, kg m^2, (n, 3, 3).
+        coms: centres of mass in the link frames, metres, (n, 3).
+        inertias: about the centres of mass, in the link frames, kg m^2, (n, 3, 3).
         armature: of the joints, kg m^2, (n,).
         damping: of the joints, N m s/rad, (n,).
         gravity: m/s^2, (3,).
@@ -51,7 +52,7 @@ class Arm:
     gravity: Array = dataclasses.field(default_factory=GRAVITY.copy)
 
     def __post_init__(self) -> None:
-        """Check the shapes, and work out what does not depend on q."""
+        """Check the shapes."""
         n = len(self.screws)
         for name, shape in {
             "screws": (n, 6), "M_home": (4, 4), "T_zero": (n, 4, 4), "masses": (n,),
@@ -67,11 +68,11 @@ class Arm:
 
     @cached_property
     def constants(self) -> Constants:
-        """What does not depend on q, worked out once."""
+        """The quantities that do not depend on q, computed once."""
         return Constants(self)
 
     def at(self, q: ArrayLike) -> ArmState:
-        """Return the arm at a configuration; its quantities are computed when asked.
+        """Return the arm at a configuration; each quantity is computed on first access.
 
         Args:
             q: configuration, rad, (n,).
@@ -87,21 +88,21 @@ class Arm:
         return ArmState(self.constants, q)
 
     def tool(self, T_ee_tool: ArrayLike) -> "Arm":
-        """Return the same arm with another point at its end.
+        """Return the same arm with another end-effector frame.
 
         Args:
-            T_ee_tool: the new end seen from the present one, (4, 4).
+            T_ee_tool: pose of the new frame relative to the present one, (4, 4).
         """
         M_home = self.M_home @ checks.pose(T_ee_tool, "T_ee_tool")
         return dataclasses.replace(self, M_home=M_home)
 
     def carrying(self, mass: float, com: ArrayLike, inertia: ArrayLike) -> "Arm":
-        """Return the same arm with a body fixed to its last link: a hand, a load.
+        """Return the same arm with a body, such as a hand, fixed to its last link.
 
         Args:
             mass: kg.
             com: centre of mass in the last link's frame, metres, (3,).
-            inertia: about that centre in the last link's axes, kg m^2, (3, 3).
+            inertia: about that centre, in the last link's frame, kg m^2, (3, 3).
         """
         own = self.masses, self.coms, self.inertias
         masses, coms, inertias = (of_links.copy() for of_links in own)

@@ -1,4 +1,4 @@
-"""What a camera sees, and the pose of a thing or of the camera found from it.
+"""Camera models, and poses estimated from pixels, point clouds and motions.
 
 Conventions:
 
@@ -61,13 +61,14 @@ def project(K: ArrayLike, T_cam_world: ArrayLike, points: ArrayLike) -> Array:
     Args:
         K: camera matrix, pixels, (3, 3).
         T_cam_world: maps the world frame to the camera frame, (4, 4).
-        points: in the world, metres, (n, 3).
+        points: in the world frame, metres, (n, 3).
 
     Returns:
         Pixels (u, v), (n, 2).
 
     Raises:
-        ValueError: a wrong shape, not a pose, or a point that is not before the camera.
+        ValueError: a wrong shape, not a pose, or a point that is not in front of the
+            camera.
     """
     K = checks.array(K, "K", (3, 3))
     p = _moved_points(checks.pose(T_cam_world, "T_cam_world"), points, "points")
@@ -104,18 +105,18 @@ def back_project(
 def projection_jacobian(K: ArrayLike, p_cam: ArrayLike) -> Array:
     """Return the image Jacobian (interaction matrix) of points that move with a twist.
 
-    d(pixel)/dp, fx / z (1, 0, -x / z) and fy / z (0, 1, -y / z), times dp = omega x p +
-    v = [-[p], 1] (omega; v).
+    It is d(pixel)/dp, with the rows fx / z (1, 0, -x / z) and fy / z (0, 1, -y / z),
+    times [-[p], 1], because dp = omega x p + v.
 
     Args:
         K: camera matrix, pixels, (3, 3).
-        p_cam: points in the camera's axes, metres, (n, 3), z above 0.
+        p_cam: points in the camera frame, metres, (n, 3), with z above 0.
 
     Returns:
         (n, 2, 6): pixels per radian, pixels per metre.
 
     Raises:
-        ValueError: a wrong shape, or a point that is not before the camera.
+        ValueError: a wrong shape, or a point that is not in front of the camera.
     """
     K = checks.array(K, "K", (3, 3))
     p = checks.array(p_cam, "p_cam", ("n", 3))
@@ -154,12 +155,12 @@ def kabsch(source: ArrayLike, target: ArrayLike) -> Array:
 
 
 def apply_twist(T: ArrayLike, xi: ArrayLike) -> Array:
-    """Return exp([xi]) T: a pose moved by a twist of any size, from the left.
+    """Return exp([xi]) T: a pose after a motion with a twist, multiplied from the left.
 
     Args:
         T: pose, (..., 4, 4).
-        xi: twist times time, (omega; v), of any norm, 0 too; about the origin of
-            the frame in which T is given, (..., 6).
+        xi: twist times time, (omega; v), of any norm including 0, about the origin of
+            the frame in which T is expressed, (..., 6).
 
     Returns:
         Pose, (..., 4, 4).
@@ -186,16 +187,16 @@ def refine_pose(
 
     Args:
         K: camera matrix, pixels, (3, 3).
-        T_guess: `T_cam_object`, about right (17 degrees, 50 mm), (4, 4).
+        T_guess: initial `T_cam_object`, (4, 4), within about 17 degrees and 50 mm.
         points: of the object in its own frame, metres, (n, 3), three at least.
-        pixels: where each was seen, (n, 2).
+        pixels: their measured pixels, (n, 2).
 
     Returns:
         `T_cam_object`, (4, 4).
 
     Raises:
-        ValueError: a wrong shape, not a pose, or a step that takes a point behind the
-            camera: the guess was too far off.
+        ValueError: a wrong shape, not a pose, or a step that moves a point behind the
+            camera because the initial pose is too far away.
     """
     K = checks.array(K, "K", (3, 3))
     T = checks.pose(T_guess, "T_guess")
@@ -233,12 +234,13 @@ def pose_covariance(J: ArrayLike, sigma: float) -> Array:
 
 
 def hand_eye(A: ArrayLike, B: ArrayLike) -> Array:
-    """Return where on the hand the camera sits: the X of A X = X B for all pairs.
+    """Return the hand-eye calibration: X of A X = X B for all pairs.
 
-    With noise no X fits all pairs, and each method returns another X. This one takes
-    the rotation R_X first: a_i = R_X b_i for the rotation vectors of each pair, so R_X
-    is the rotation nearest to the sum of a_i b_i^T. Then t is the least-squares
-    solution of (R_A - 1) t = R_X t_B - t_A, all stacked (Park, Martin, 1994).
+    With noise no X satisfies all pairs, and each method returns another X. This one
+    computes the rotation R_X first: a_i = R_X b_i for the rotation vectors of each
+    pair, so R_X is the rotation nearest to the sum of a_i b_i^T. Then t is the
+    least-squares solution of (R_A - 1) t = R_X t_B - t_A for all pairs together (Park,
+    Martin, 1994).
 
     Args:
         A: motions of the hand, `T_hand0_hand1`, (k, 4, 4), about axes in at least two

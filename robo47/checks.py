@@ -1,7 +1,7 @@
-"""Checks on what a caller passes: shape, finite numbers, rigid matrices.
+"""Checks of arguments: shape, finite numbers, rigid matrices.
 
 Each check returns the value as float64, or raises a ValueError that names the
-argument, what it is and what was expected.
+argument, its value and the expected one.
 """
 
 import numpy as np
@@ -72,7 +72,7 @@ def not_negative(value: ArrayLike, name: str) -> Array:
 
 
 def unit(v: Array, name: str) -> Array:
-    """Return v scaled to length 1 along its last axis; length 0 is an error."""
+    """Return v scaled to norm 1 along its last axis; norm 0 is an error."""
     scale = np.max(np.abs(v), axis=-1, keepdims=True)  # 1e-200 squared would be 0
     if np.any(scale == 0.0):
         raise ValueError(f"{name} has length 0, so it has no direction")
@@ -81,7 +81,7 @@ def unit(v: Array, name: str) -> Array:
 
 
 def unit_vector(v: ArrayLike, name: str) -> Array:
-    """Return v as float64, (..., 3), after checking that its length is 1."""
+    """Return v as float64, (..., 3), after checking that its norm is 1."""
     v = array(v, name, (3,))
     length = np.linalg.norm(v, axis=-1)
     if (bad := np.abs(length - 1.0) > RIGID_TOL).any():
@@ -93,7 +93,7 @@ def unit_vector(v: ArrayLike, name: str) -> Array:
 
 
 def screws(S: ArrayLike, name: str) -> Array:
-    """Return S as float64, (..., 6), after checking that omega has length 1 or 0."""
+    """Return S as float64, (..., 6), after checking that omega has norm 1 or 0."""
     S = array(S, name, (6,))
     length = np.linalg.norm(S[..., :3], axis=-1)
     if (bad := np.minimum(np.abs(length - 1.0), length) > RIGID_TOL).any():
@@ -129,7 +129,7 @@ def pose(T: ArrayLike, name: str) -> Array:
 
 
 def rotation_flaw(R: Array, tol: float) -> str | None:
-    """Return what keeps R, (..., 3, 3), from being a rotation, or None."""
+    """Return the reason why R, (..., 3, 3), is no rotation, or None."""
     off = np.abs(R @ R.mT - _EYE).max(initial=0.0)
     if off > tol:
         return f"R R^T differs from the identity by {off:.3g} (allowed {tol:.0e})"
@@ -139,7 +139,7 @@ def rotation_flaw(R: Array, tol: float) -> str | None:
 
 
 def pose_flaw(T: Array, tol: float) -> str | None:
-    """Return what keeps T, (..., 4, 4), from being a pose, or None."""
+    """Return the reason why T, (..., 4, 4), is no pose, or None."""
     if np.abs(T[..., 3, :] - _LAST_ROW).max(initial=0.0) > tol:
         worst = T.reshape(-1, 4, 4)[:, 3]
         row = worst[np.argmax(np.abs(worst - [0, 0, 0, 1]).max(axis=-1))]

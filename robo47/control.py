@@ -1,11 +1,11 @@
-"""Control of the joints: torques from errors, and the error to expect beforehand.
+"""Joint control: PD, gravity compensation, computed torque, PID and their responses.
 
-Conventions: e = q_ref - q and ed = qd_ref - qd, so that a positive error asks for a
-positive torque. Radians, rad/s, rad/s2, N m, seconds. `n` is the number of joints;
-leading dimensions broadcast. A gain is one number for all joints, or (n,).
+Conventions: e = q_ref - q and ed = qd_ref - qd, so a positive error causes a positive
+torque. Radians, rad/s, rad/s2, N m, seconds. `n` is the number of joints; leading
+dimensions broadcast. A gain is one number for all joints, or (n,).
 
 Sources: Lynch and Park, Modern Robotics (2017), chapter 11: section 11.2 for error
-dynamics, 11.4 for control by torques.
+dynamics, 11.4 for torque control.
 """
 
 import numpy as np
@@ -16,9 +16,9 @@ from robo47.checks import Array
 
 
 def pd_torque(e: ArrayLike, ed: ArrayLike, kp: ArrayLike, kd: ArrayLike) -> Array:
-    """Return the torque of a spring and a damper at every joint.
+    """Return the torque of a PD controller, kp e + kd ed.
 
-    tau = kp e + kd ed (Modern Robotics, section 11.4.1).
+    It acts like a spring and a damper at every joint (Modern Robotics, section 11.4.1).
 
     Args:
         e, ed: errors in radians and rad/s, (..., n).
@@ -35,10 +35,11 @@ def pd_torque(e: ArrayLike, ed: ArrayLike, kp: ArrayLike, kd: ArrayLike) -> Arra
 
 
 def pd_gains(omega: ArrayLike, zeta: ArrayLike) -> Array:
-    """Return the gains per unit of inertia that give a wanted response.
+    """Return PD gains per unit of inertia for a natural frequency and a damping ratio.
 
-    edd + kd ed + kp e = 0 has natural frequency omega and damping ratio zeta for
-    kp = omega^2 and kd = 2 zeta omega (Modern Robotics, section 11.2.2).
+    The error dynamics edd + kd ed + kp e = 0 have the natural frequency omega and the
+    damping ratio zeta for kp = omega^2 and kd = 2 zeta omega (Modern Robotics, section
+    11.2.2).
 
     Args:
         omega: natural frequency in rad/s, (...).
@@ -57,13 +58,13 @@ def pd_gains(omega: ArrayLike, zeta: ArrayLike) -> Array:
 
 
 def error_response(t: ArrayLike, omega: ArrayLike, zeta: ArrayLike) -> Array:
-    """Return the error that was 1 at rest at t = 0, as edd + kd ed + kp e = 0 has it.
+    """Return the error response from 1 at rest, for edd + kd ed + kp e = 0.
 
     With r = zeta omega and w^2 = omega^2 - r^2, the error is
-    e^(-r t) (cos(w t) + r sin(w t) / w). Critical damping is its limit
-    (1 + omega t) e^(-omega t); above it the cosine and sine become cosh and sinh
-    (Modern Robotics, section 11.2.2). Written so that nothing overflows and nothing
-    is divided by w: zeta may pass through 1.
+    e^(-r t) (cos(w t) + r sin(w t) / w). At critical damping its limit is
+    (1 + omega t) e^(-omega t); for larger zeta the cosine and sine become cosh and sinh
+    (Modern Robotics, section 11.2.2). The implementation neither overflows nor divides
+    by w, so zeta may be 1.
 
     Args:
         t: time in seconds, at least 0, (...).
@@ -71,7 +72,7 @@ def error_response(t: ArrayLike, omega: ArrayLike, zeta: ArrayLike) -> Array:
         zeta: damping ratio, at least 0, (...).
 
     Returns:
-        The error as a fraction of the first one, (...).
+        The error as a fraction of the initial error, (...).
 
     Raises:
         ValueError: wrong shape, a non-finite number, omega not above 0, or t or zeta
@@ -95,10 +96,11 @@ def error_response(t: ArrayLike, omega: ArrayLike, zeta: ArrayLike) -> Array:
 
 
 def pd_equilibrium_step(q_goal: ArrayLike, g_at_q: ArrayLike, kp: ArrayLike) -> Array:
-    """Return where PD without gravity compensation would rest if g did not change.
+    """Return the next iterate of the equilibrium of PD without gravity compensation.
 
-    At rest kp (q_goal - q) = g(q), so q = q_goal - g(q) / kp. Evaluated again at
-    its own answer until nothing changes, it is the pose to which the arm sags.
+    At the equilibrium kp (q_goal - q) = g(q), so q = q_goal - g(q) / kp. Repeated with
+    g at the last result until nothing changes, it gives the configuration to which the
+    arm sags.
 
     Args:
         q_goal: commanded configuration in radians, (..., n).
@@ -119,7 +121,7 @@ def pd_equilibrium_step(q_goal: ArrayLike, g_at_q: ArrayLike, kp: ArrayLike) -> 
 def gravity_pd(
     e: ArrayLike, ed: ArrayLike, kp: ArrayLike, kd: ArrayLike, g_at_q: ArrayLike
 ) -> Array:
-    """Return the torque of springs and dampers that do not sag.
+    """Return the torque of a PD controller with gravity compensation.
 
     tau = kp e + kd ed + g(q) (Modern Robotics, section 11.4.2).
 
@@ -148,12 +150,12 @@ def computed_torque(
     kp: ArrayLike,
     kd: ArrayLike,
 ) -> Array:
-    """Return the torque that makes every joint the same spring of unit inertia.
+    """Return the computed torque, which linearises the error dynamics of every joint.
 
-    tau = M (qdd_ref + kd ed + kp e) + bias + damping qd, so that the error obeys
-    edd + kd ed + kp e = 0. The gains stand inside the product with M: outside, the
-    error does not decay as designed (Modern Robotics, section 11.4.2, "computed
-    torque control").
+    tau = M (qdd_ref + kd ed + kp e) + bias + damping qd, so that the error satisfies
+    edd + kd ed + kp e = 0. The gains are inside the product with M; otherwise the error
+    does not decay as designed (Modern Robotics, section 11.4.2, "computed torque
+    control").
 
     Args:
         M: mass matrix with armature in kg m2, (..., n, n).
@@ -189,17 +191,17 @@ def pid_step(
     dt: float,
     clamp: ArrayLike,
 ) -> tuple[Array, Array]:
-    """Return PID's acceleration, and its integral, which cannot wind up.
+    """Return the acceleration of a PID controller and its integral with anti-windup.
 
-    The integral grows by e dt and is clipped to +-clamp before it is used
-    (Modern Robotics, section 11.4.1; anti-windup by clamping).
+    The integral grows by e dt and is clamped to +-clamp before it is used (Modern
+    Robotics, section 11.4.1).
 
     Args:
         e, ed: errors in radians and rad/s, (..., n).
-        integral: what the last step returned, or zeros, in rad s, (..., n).
+        integral: of the step before, or zeros, in rad s, (..., n).
         kp, kd, ki: gains in 1/s2, 1/s and 1/s3, one number or (..., n).
         dt: time since the last step in seconds.
-        clamp: largest size of the integral in rad s, one number or (..., n).
+        clamp: largest magnitude of the integral in rad s, one number or (..., n).
 
     Returns:
         Acceleration in rad/s2, (..., n), and the new integral in rad s, (..., n).
@@ -215,7 +217,7 @@ def pid_step(
 
 
 def saturate(tau: ArrayLike, limits: ArrayLike) -> Array:
-    """Return the torque that the motors can give: clipped joint by joint.
+    """Return the torque within the limits of the motors, clamped joint by joint.
 
     Args:
         tau: wanted torques in N m, (..., n).
@@ -233,17 +235,17 @@ def saturate(tau: ArrayLike, limits: ArrayLike) -> Array:
 
 
 def max_stable_omega(h: ArrayLike, steps: ArrayLike = 1) -> Array:
-    """Return the largest omega of critical damping that a held torque allows.
+    """Return the largest stable omega of critical damping with a torque that is held.
 
     edd = -omega^2 e - 2 omega ed is computed once and held for n semi-implicit steps
     of h seconds, T = n h: ed changes by T edd, e by T ed + (1 + 1/n) T^2 edd / 2. This
     map of (e, ed) has the eigenvalue -1 where 4 - 4 omega T - (omega T)^2 / n = 0, so
     at omega h = 2 (sqrt(1 + 1/n) - 1). omega T is 0.828 for one step per period and
-    nears 1 for many (our derivation).
+    approaches 1 for many (our derivation).
 
     Args:
         h: time step in seconds, above 0, (...).
-        steps: how many of them a torque is held, above 0, (...).
+        steps: number n of steps for which a torque is held, above 0, (...).
 
     Returns:
         Natural frequency in rad/s, (...).
@@ -259,9 +261,9 @@ def max_stable_omega(h: ArrayLike, steps: ArrayLike = 1) -> Array:
 def servo_ctrl(
     tau: ArrayLike, q: ArrayLike, qd: ArrayLike, kp: ArrayLike, kd: ArrayLike
 ) -> Array:
-    """Return the command at which a position servo gives a wanted torque.
+    """Return the command with which a position servo exerts a wanted torque.
 
-    The servo gives kp (ctrl - q) - kd qd, so ctrl = q + (tau + kd qd) / kp.
+    The servo exerts kp (ctrl - q) - kd qd, so ctrl = q + (tau + kd qd) / kp.
 
     Args:
         tau: wanted torques in N m, (..., n).

@@ -1,7 +1,7 @@
-"""A camera of a MuJoCo model and the depth image that it takes, without OpenGL.
+"""A camera of a MuJoCo model and its depth image, computed without OpenGL.
 
-A ray is cast through every pixel's middle, so it works on any machine. Camera axes,
-pixels and depth are those of `robo47.camera`. Metres.
+A ray is cast through the centre of every pixel, so this works on any machine. Camera
+axes, pixels and depth are those of `robo47.camera`. Metres.
 """
 
 import mujoco
@@ -22,7 +22,7 @@ _NORMALS = (None,) if "normal:" in str(mujoco.mj_multiRay.__doc__) else ()
 def camera(
     model: mujoco.MjModel, data: mujoco.MjData, name: str
 ) -> tuple[Array, Array]:
-    """Return what a camera's pixels mean and where it is.
+    """Return the intrinsic matrix and the pose of a model's camera.
 
     Args:
         model: has a camera of that name with a resolution.
@@ -43,25 +43,26 @@ def camera(
 
 
 def pixel_centres(width: int, height: int) -> Array:
-    """Return the middle of every pixel, row by row from the top, (width height, 2)."""
+    """Return the centre of every pixel, row by row from the top, (width height, 2)."""
     u, v = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)
     return np.column_stack([u.ravel(), v.ravel()])
 
 
 def depth(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> Array:
-    """Return a camera's depth image: how far along its view the nearest thing is.
+    """Return a camera's depth image: the nearest surface's distance along the z axis.
 
-    `mj_multiRay` returns how often the ray's own length fits, so rays that are 1 long
-    along z return depth, where unit vectors would return the way along the ray.
+    `mj_multiRay` returns the distance in multiples of the ray's norm. The rays have the
+    length 1 along z, so the result is the depth; with unit vectors it would be the
+    distance along the ray.
 
     Args:
-        model: has a camera of that name with a resolution. Rays meet what is drawn
-            of geom groups 0 to 2: the robot's looks among them, where it has any.
+        model: has a camera of that name with a resolution. Rays meet the visible geoms
+            of the groups 0 to 2, which include the robot's visual meshes if it has any.
         data: after `mj_forward`.
         name: of the camera.
 
     Returns:
-        Metres, (height, width); infinity where there is nothing.
+        Metres, (height, width); infinity where no surface is.
 
     Raises:
         Robo47Error: the model has no such camera.
@@ -82,11 +83,11 @@ def depth(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> Array:
 
 
 def look_at(at: Array, to: Array) -> Array:
-    """Return the pose of a camera whose picture's top is up, (4, 4).
+    """Return the pose, (4, 4), of a camera that points at a target, image upright.
 
     Args:
-        at, to: where it hangs and what it looks at, metres, (3,); not straight up or
-            down.
+        at, to: position of the camera and the target, metres, (3,); the direction must
+            not be vertical.
     """
     z = checks.unit(np.subtract(to, at), "to - at")
     x = checks.unit(np.cross(z, (0.0, 0.0, 1.0)), "the way to the right")
@@ -94,15 +95,15 @@ def look_at(at: Array, to: Array) -> Array:
 
 
 def add(body, name: str, at: Array, to: Array, fovy: float, size: tuple[int, int]):
-    """Add a camera to a body of a MjSpec; its picture's top is up.
+    """Add a camera with an upright image to a body of a MjSpec.
 
     Args:
         body: of a spec, as `spec.worldbody`.
         name: of the camera.
-        at, to: where it hangs and what it looks at, in the body's axes, metres, (3,);
-            not straight up or down.
-        fovy: angle of view from top to bottom, degrees, as MuJoCo has it.
-        size: width and height of its picture, pixels.
+        at, to: position of the camera and its target in the body frame, metres, (3,);
+            the direction must not be vertical.
+        fovy: vertical field of view, degrees, as in MuJoCo.
+        size: width and height of the image, pixels.
 
     Returns:
         The spec's camera.

@@ -1,8 +1,9 @@
-"""Denavit and Hartenberg's parameters, in the convention that Craig uses.
+"""Denavit-Hartenberg parameters, in Craig's convention.
 
-Four numbers place a link's frame on the one before it: Rx(alpha) Tx(a) Rz(theta)
-Tz(d). Other books put the same four in another order, so a table means nothing
-without its convention; Franka publishes the Panda's in this one. Radians, metres.
+Four parameters define the frame of a link relative to the one before it: Rx(alpha)
+Tx(a) Rz(theta) Tz(d). Other books use another order, so a table is only defined
+together with its convention. Franka publishes the Panda's table in this one. Radians,
+metres.
 
 Sources: Craig, *Introduction to Robotics* (2005), section 3.4; *Modern Robotics*,
 Appendix C.
@@ -18,7 +19,7 @@ from robo47.checks import Array
 
 
 def dh_link(alpha: ArrayLike, a: ArrayLike, d: ArrayLike, theta: ArrayLike) -> Array:
-    """Return one link of Craig's convention: Rx(alpha) Tx(a) Rz(theta) Tz(d).
+    """Return one link's pose in Craig's convention: Rx(alpha) Tx(a) Rz(theta) Tz(d).
 
     Args:
         alpha: twist of the link, radians, (...).
@@ -27,7 +28,8 @@ def dh_link(alpha: ArrayLike, a: ArrayLike, d: ArrayLike, theta: ArrayLike) -> A
         theta: joint angle, radians, (...).
 
     Returns:
-        Pose of this link's frame on the one before it, (..., 4, 4) (Craig, eq. 3.6).
+        Pose of this link's frame relative to the one before it, (..., 4, 4) (Craig, eq.
+        3.6).
 
     Raises:
         ValueError: shapes that do not broadcast, or a non-finite number.

@@ -1,16 +1,16 @@
-"""Rigid-body dynamics of a chain of links: mass matrix, forces, accelerations.
+"""Rigid-body dynamics of a chain of links: mass matrix, torques, accelerations.
 
-Everything stands in world axes about the world's origin, so what belongs to different
-links is simply added. The space Jacobian's columns are the joints' screws where they
-are now, and all that the algorithms need to know of the motion. Conventions:
+All quantities are expressed in the world frame about the world's origin, so the
+quantities of different links can be added. The columns of the space Jacobian are the
+present screws of the joints; the algorithms need no other kinematics. Conventions:
 
 - Twists are (omega; v), wrenches (moment; force), as in *Modern Robotics*; `J_space`
-  is (..., 6, n), its column i moves link i and all links after it. `J_site` has the
-  same shape, and gives an M that is wrong by several kg m^2.
+  is (..., 6, n), and its column i moves link i and all links distal to it. `J_site` has
+  the same shape, but it gives an M that is wrong by several kg m^2.
 - Gravity is the vector g = (0, 0, -9.81), never the number 9.81.
 - Radians, metres, kilograms, newtons, seconds; torques in N m.
-- M contains the armature: the inertia of the motors' rotors, as the joints feel
-  it (Modern Robotics, section 8.9).
+- M contains the armature, the inertia of the motors' rotors reflected to the joints
+  (Modern Robotics, section 8.9).
 - Leading dimensions broadcast: one configuration, or many at once.
 
 Sources: Lynch and Park, *Modern Robotics* (2017), chapter 8; Featherstone, *Rigid Body
@@ -27,18 +27,18 @@ from robo47.screws import skew
 
 
 def spatial_inertia(m: ArrayLike, c: ArrayLike, inertia: ArrayLike) -> Array:
-    """Return a body's 6x6 inertia about the world's origin.
+    """Return the spatial inertia of a body about the world's origin.
 
-    [[I + m [c] [c]^T, m [c]], [m [c]^T, m 1]] (Featherstone, eq. 2.63): G @ V is the
-    momentum of a body with twist V, and V @ G @ V / 2 its kinetic energy.
+    It is [[I + m [c] [c]^T, m [c]], [m [c]^T, m 1]] (Featherstone, eq. 2.63). For a
+    body with the twist V, G @ V is its momentum and V @ G @ V / 2 its kinetic energy.
 
     Args:
         m: mass, kg, (...).
-        c: centre of mass in the world, metres, (..., 3).
-        inertia: I, about the centre of mass in world axes, kg m^2, (..., 3, 3).
+        c: centre of mass in the world frame, metres, (..., 3).
+        inertia: I about the centre of mass, in the world frame, kg m^2, (..., 3, 3).
 
     Returns:
-        G, (..., 6, 6): takes twists (omega; v) to momenta (angular; linear).
+        G, (..., 6, 6): maps a twist (omega; v) to the momentum (angular; linear).
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -59,15 +59,16 @@ def spatial_inertia(m: ArrayLike, c: ArrayLike, inertia: ArrayLike) -> Array:
 def link_inertias(
     T_links: ArrayLike, masses: ArrayLike, coms: ArrayLike, inertias: ArrayLike
 ) -> Array:
-    """Return every link's 6x6 inertia at the pose it has now.
+    """Return the spatial inertia of every link at its present pose.
 
-    A centre of mass goes with its link, R c + p; an inertia turns with it, R I R^T.
+    A centre of mass moves with its link, R c + p, and an inertia rotates with it,
+    R I R^T.
 
     Args:
         T_links: `T_world_link` of each link, (..., n, 4, 4).
         masses: kg, (n,).
-        coms: centres of mass in the links' own frames, metres, (n, 3).
-        inertias: about the centres of mass in the links' axes, kg m^2, (n, 3, 3).
+        coms: centres of mass in the link frames, metres, (n, 3).
+        inertias: about the centres of mass, in the link frames, kg m^2, (n, 3, 3).
 
     Returns:
         G of each link about the world's origin, (..., n, 6, 6).
@@ -85,18 +86,18 @@ def link_inertias(
 
 
 def mass_matrix(J_space: ArrayLike, G: ArrayLike, armature: ArrayLike) -> Array:
-    """Return M, which makes qd @ M @ qd / 2 the arm's kinetic energy.
+    """Return the mass matrix M, for which qd @ M @ qd / 2 is the kinetic energy.
 
-    The sum over the links of J_i^T G_i J_i, where J_i is J_space with the columns
-    after i zero, and the armature on the diagonal (Modern Robotics, section 8.4).
+    M is the sum over the links of J_i^T G_i J_i, where J_i is J_space with zeros in the
+    columns after i, plus the armature on the diagonal (Modern Robotics, section 8.4).
 
     Args:
         J_space: space Jacobian, (..., 6, n).
-        G: inertias of the links about the world's origin, (..., n, 6, 6).
+        G: spatial inertias of the links about the world's origin, (..., n, 6, 6).
         armature: kg m^2, a number or (n,).
 
     Returns:
-        M, kg m^2, (..., n, n): symmetric and positive definite, as many a wrong one.
+        M, kg m^2, (..., n, n): symmetric and positive definite.
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -108,23 +109,23 @@ def mass_matrix(J_space: ArrayLike, G: ArrayLike, armature: ArrayLike) -> Array:
     # Joint i carries link i and all after it (Featherstone's composite bodies).
     carried = np.cumsum(G[..., ::-1, :, :], axis=-3)[..., ::-1, :, :]
     momenta = times(carried, np.swapaxes(J, -1, -2))
-    lower = np.tril(momenta @ J)  # what speed 1 of joint i makes joint j <= i feel
+    lower = np.tril(momenta @ J)  # entry (i, j) is right for j <= i
     return lower + np.swapaxes(np.tril(lower, -1), -1, -2) + np.diag(armature)
 
 
 def gravity_torque(
     J_space: ArrayLike, masses: ArrayLike, coms_world: ArrayLike, g: ArrayLike
 ) -> Array:
-    """Return the torque that holds the arm still against gravity.
+    """Return the joint torque that holds the arm against gravity.
 
-    Minus the sum of m J_v(c)^T g over the links that the joint carries, where column
-    i of J_v(c) is v + omega x c: the velocity joint i gives to the centre of mass c
-    (Modern Robotics, section 8.4).
+    It is minus the sum of m J_v(c)^T g over the links that the joint carries. Column i
+    of J_v(c) is v + omega x c, the velocity of the centre of mass c for a unit velocity
+    of joint i (Modern Robotics, section 8.4).
 
     Args:
         J_space: space Jacobian, (..., 6, n).
         masses: kg, (n,).
-        coms_world: centres of mass in the world, metres, (..., n, 3).
+        coms_world: centres of mass in the world frame, metres, (..., n, 3).
         g: gravity, m/s^2, (3,).
 
     Returns:
@@ -143,7 +144,7 @@ def gravity_torque(
 
 
 def ad(V: ArrayLike) -> Array:
-    """Return ad(V): at what rate a twist changes that is carried along by V.
+    """Return ad(V): the rate of change of a twist that moves with V is ad(V) times it.
 
     [[[omega], 0], [[v], [omega]]] (Modern Robotics, definition 8.1 of the Lie
     bracket). ad(V) @ V = 0.
@@ -167,26 +168,26 @@ def ad(V: ArrayLike) -> Array:
 def inverse_dynamics(
     J_space: ArrayLike, G: ArrayLike, qd: ArrayLike, qdd: ArrayLike, g: ArrayLike
 ) -> Array:
-    """Return the torque for an acceleration: recursive Newton-Euler.
+    """Return the torque for an acceleration by the recursive Newton-Euler algorithm.
 
-    Outwards the velocities and accelerations add up, inwards the forces:
+    Velocities and accelerations are propagated outwards, wrenches inwards:
 
         V_i = V_(i-1) + S_i qd_i                        V_0 = 0
         A_i = A_(i-1) + S_i qdd_i + ad(V_i) S_i qd_i    A_0 = (0; -g)
         F_i = G_i A_i - ad(V_i)^T G_i V_i               tau_i = S_i . (F_i + ... + F_n)
 
     with S_i the columns of J_space (Modern Robotics, section 8.3; Featherstone, section
-    5.3). A_0: a base that accelerates upwards feels like gravity.
+    5.3). The acceleration A_0 of the base has the same effect as gravity.
 
     Args:
         J_space: space Jacobian, (..., 6, n).
-        G: inertias of the links about the world's origin, (..., n, 6, 6).
+        G: spatial inertias of the links about the world's origin, (..., n, 6, 6).
         qd: joint velocities, rad/s, (..., n).
         qdd: joint accelerations, rad/s^2, (..., n).
         g: gravity, m/s^2, (3,).
 
     Returns:
-        Torque, N m, (..., n): the links' alone, without armature and damping.
+        Torque of the links, N m, (..., n), without armature and damping.
 
     Raises:
         ValueError: wrong shape, a non-finite number, or g is one number.
@@ -206,9 +207,9 @@ def inverse_dynamics(
 
 
 def bias_torque(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike, g: ArrayLike) -> Array:
-    """Return the torque of Coriolis, centrifugal and gravity forces together.
+    """Return the bias torque: the Coriolis, centrifugal and gravity torques together.
 
-    Inverse dynamics with qdd = 0. MuJoCo calls it qfrc_bias.
+    This is the inverse dynamics with qdd = 0. MuJoCo calls it qfrc_bias.
 
     Args:
         J_space, G, qd, g: as in `inverse_dynamics`.
@@ -223,15 +224,15 @@ def bias_torque(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike, g: ArrayLike) -
 
 
 def coriolis_matrix(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike) -> Array:
-    """Return C(q, qd), whose product with qd is the Coriolis and centrifugal torque.
+    """Return the Coriolis matrix C(q, qd); C qd is the Coriolis and centrifugal torque.
 
-    Of the many matrices with this product it is Christoffel's, C_ij = sum of
-    (dM_ij/dq_k + dM_ik/dq_j - dM_jk/dq_i) qd_k / 2, so dM/dt = C + C^T, and dM/dt - 2 C
-    is skew-symmetric (Modern Robotics, section 8.1.2 and proposition 8.1). The sum over
-    the links of J_i^T (G_i Jdot_i + B_i J_i), with B_i the half of what the velocity
-    does to the momentum and to the inertia (Echeandia and Wensing, "Numerical methods
-    to compute the Coriolis matrix and Christoffel symbols for rigid-body systems",
-    J. Computational and Nonlinear Dynamics 16(9), 2021).
+    Several matrices have this product. This one consists of Christoffel symbols, C_ij =
+    sum of (dM_ij/dq_k + dM_ik/dq_j - dM_jk/dq_i) qd_k / 2, so dM/dt = C + C^T, and
+    dM/dt - 2 C is skew-symmetric (Modern Robotics, section 8.1.2 and proposition 8.1).
+    It is the sum over the links of J_i^T (G_i Jdot_i + B_i J_i), where B_i depends on
+    the link's twist and inertia (Echeandia and Wensing, "Numerical methods to compute
+    the Coriolis matrix and Christoffel symbols for rigid-body systems", J.
+    Computational and Nonlinear Dynamics 16(9), 2021).
 
     Args:
         J_space, G, qd: as in `inverse_dynamics`.
@@ -266,13 +267,13 @@ def coriolis_matrix(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike) -> Array:
 def forward_dynamics(
     M: ArrayLike, bias: ArrayLike, damping: ArrayLike, qd: ArrayLike, tau: ArrayLike
 ) -> Array:
-    """Return the acceleration that a torque gives: what the simulator computes.
+    """Return the joint accelerations for given torques.
 
     Solves M qdd = tau - bias - damping qd (Modern Robotics, section 8.5).
 
     Args:
         M: mass matrix with armature, kg m^2, (..., n, n).
-        bias: Coriolis and gravity torque, N m, (..., n).
+        bias: Coriolis, centrifugal and gravity torque, N m, (..., n).
         damping: of the joints, N m s/rad, a number or (n,).
         qd: joint velocities, rad/s, (..., n).
         tau: torque of the motors, N m, (..., n).
@@ -294,8 +295,8 @@ def energy(
 ) -> Array:
     """Return the kinetic and the potential energy of the moving links.
 
-    qd . M qd / 2, and minus the sum of m g . c (Modern Robotics, section 8.1.1). Their
-    sum stays the same when nothing drives or brakes the arm.
+    They are qd . M qd / 2 and minus the sum of m g . c (Modern Robotics, section
+    8.1.1). Their sum is constant if no motor and no friction acts.
 
     Args:
         M: mass matrix, kg m^2, (..., n, n).
@@ -303,7 +304,8 @@ def energy(
         masses, coms_world, g: as in `gravity_torque`.
 
     Returns:
-        (kinetic, potential) in joules, (..., 2); potential is 0 at the origin.
+        (kinetic, potential) in joules, (..., 2). The potential energy of a mass at the
+        world's origin is 0.
 
     Raises:
         ValueError: wrong shape, a non-finite number, or g is one number.
@@ -330,7 +332,7 @@ def _velocity_product(G: Array, V: Array, ad_V: Array) -> Array:
 
 
 def _felt(J: Array, wrenches: Array) -> Array:
-    """Return what each joint feels of the wrenches on its link and all after it."""
+    """Return the torques of the wrenches on each link and on all links distal to it."""
     carried = np.cumsum(wrenches[..., ::-1, :], axis=-2)[..., ::-1, :]
     return (np.swapaxes(J, -1, -2) * carried).sum(axis=-1)
 

@@ -2,8 +2,8 @@
 
 
 class Robo47Error(Exception):
-    """What is wrong, what was expected and what to do next, in plain words."""
+    """An error for a person: what is wrong, what was expected and what to do next."""
 
 
 class FaultError(Robo47Error):
-    """This machine failed, not the student; another run may fare better."""
+    """A failure of this machine, not of the student; another run may succeed."""

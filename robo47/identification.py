@@ -1,17 +1,19 @@
-"""What an arm weighs and how it rubs, found from measured torques by least squares.
+"""Dynamic parameter identification: regressors, least-squares fits and their accuracy.
 
-The torque of a motion is linear in ten numbers per link, tau = Y(q, qd, qdd) phi, so a
-model can be fitted, and what a motion cannot show can be counted. Conventions:
+The torque of a motion is linear in ten inertial parameters per link, tau = Y(q, qd,
+qdd) phi, where Y is called the regressor. A model can therefore be fitted to measured
+torques, and the singular values of Y show which combinations of parameters a motion
+identifies. Conventions:
 
-- phi of a body is (m, m c, Ixx, Iyy, Izz, Ixy, Ixz, Iyz), (10,): its mass, its mass
-  times its centre, and the entries of its inertia about the *origin* of its own axes
-  (not about its centre). kg, kg m, kg m^2.
+- phi of a body is (m, m c, Ixx, Iyy, Izz, Ixy, Ixz, Iyz), (10,): its mass, its first
+  moment of mass, and the entries of its inertia about the *origin* of the body frame
+  (not about the centre of mass). kg, kg m, kg m^2.
 - Twists are (omega; v), wrenches (moment; force); `J_space` is the space Jacobian.
 - Gravity is the vector g = (0, 0, -9.81), as in `robo47.dynamics`.
 - Bodies and motions broadcast; a fit takes one matrix.
 
-Sources: Lynch and Park, *Modern Robotics* (2017), section 8.3; Siciliano et al.,
-*Robotics* (2009), section 7.2.2; Golub and Van Loan, *Matrix Computations*,
+Sources: Lynch and Park, *Modern Robotics* (2017), sections 8.2.2 and 8.3; Siciliano and
+others, *Robotics* (2009), section 7.2.2; Golub and Van Loan, *Matrix Computations*,
 section 5.5; Wensing, Kim and Slotine, "Linear matrix inequalities for physically
 consistent inertial parameter identification" (2018).
 """
@@ -25,19 +27,20 @@ from robo47.dynamics import ad
 from robo47.fast.vectors import times
 from robo47.screws import adjoint, skew
 
-_UPPER = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # of Ixx ... Iyz
+_UPPER = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # indices of Ixx ... Iyz
 
 
 def spatial_inertia_from_params(phi: ArrayLike) -> Array:
-    """Return the 6x6 inertia of a body from its ten numbers: [[I, [h]], [[h]^T, m 1]].
+    """Return the spatial inertia of a body, [[I, [h]], [[h]^T, m 1]], linear in phi.
 
-    With h = m c and I about the origin nothing is left of a product: it is linear.
+    Here h = m c is the first moment of mass and I the inertia about the origin, so no
+    entry contains a product of two parameters.
 
     Args:
-        phi: as above, (..., 10).
+        phi: inertial parameters, (..., 10); a unit vector, whose mass may be 0, too.
 
     Returns:
-        G, (..., 6, 6): takes twists (omega; v) to momenta (angular; linear).
+        G, (..., 6, 6): maps a twist (omega; v) to the momentum (angular; linear).
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -56,12 +59,17 @@ def spatial_inertia_from_params(phi: ArrayLike) -> Array:
 def inertial_parameters(
     masses: ArrayLike, coms: ArrayLike, inertias: ArrayLike
 ) -> Array:
-    """Return phi, (..., 10), of bodies as `dynamics.spatial_inertia` is given them.
+    """Return the inertial parameters phi of bodies with known centres of mass.
+
+    The parallel-axis theorem moves the inertia from the centre of mass to the origin.
 
     Args:
         masses: kg, (...).
-        coms: centres of mass, metres, (..., 3).
+        coms: centres of mass in the body frame, metres, (..., 3).
         inertias: about the centres of mass, kg m^2, (..., 3, 3).
+
+    Returns:
+        phi, (..., 10).
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -76,16 +84,18 @@ def inertial_parameters(
 
 
 def link_regressor(V: ArrayLike, Vd: ArrayLike) -> Array:
-    """Return what each of a body's ten numbers costs in wrench: G Vd - ad(V)^T G V.
+    """Return the regressor of one body: its wrench is the regressor times phi.
 
-    Column k is that wrench with G of the k-th unit vector.
+    The wrench is G Vd - ad(V)^T G V (Modern Robotics, section 8.2.2). Column k is this
+    wrench for the k-th unit vector phi.
 
     Args:
-        V: the body's twist, in its own axes about its own origin, (..., 6).
-        Vd: its acceleration, gravity as an acceleration of the base included, (..., 6).
+        V: twist of the body, expressed in the body frame, (..., 6).
+        Vd: acceleration of the body, expressed in the body frame, which includes
+            gravity as an acceleration -g of the base, (..., 6).
 
     Returns:
-        (..., 6, 10): times phi it is the wrench (moment; force) that moves the body.
+        The regressor, (..., 6, 10), of the wrench (moment; force) that moves the body.
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -104,10 +114,11 @@ def link_regressor(V: ArrayLike, Vd: ArrayLike) -> Array:
 def arm_regressor(
     J_space: ArrayLike, T_links: ArrayLike, qd: ArrayLike, qdd: ArrayLike, g: ArrayLike
 ) -> Array:
-    """Return Y, with which the torque of an arm's links is Y phi.
+    """Return the regressor Y of an arm: the torque of its links is Y phi.
 
-    Velocities and accelerations add up outwards, as in `dynamics.inverse_dynamics`;
-    each is turned into its link, X V with X = Ad(T^-1), and the wrench back, X^T F.
+    Velocities and accelerations are propagated outwards, as in
+    `dynamics.inverse_dynamics`. X = Ad(T^-1) maps them to each link frame, and X^T maps
+    the wrench back to the world frame (Siciliano and others, section 7.2.2).
 
     Args:
         J_space: space Jacobian, (..., 6, n).
@@ -116,7 +127,8 @@ def arm_regressor(
         g: gravity, m/s^2, (3,).
 
     Returns:
-        Y, (..., n, 10 n): ten columns per link; without rotors and friction.
+        Y, (..., n, 10 n): ten columns per link, without rotors and friction. The
+        columns of a link are 0 in the rows of the joints that are distal to it.
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -138,13 +150,16 @@ def arm_regressor(
 
 
 def actuator_regressor(qd: ArrayLike, qdd: ArrayLike) -> Array:
-    """Return the columns of rotors, viscous and dry friction: qdd, qd, sign(qd).
+    """Return the regressor of the motors: rotors, viscous friction and dry friction.
+
+    Each of them acts at its own joint only: the columns contain qdd, qd and sign(qd).
 
     Args:
         qd, qdd: joint velocities, rad/s, and accelerations, rad/s^2, (..., n).
 
     Returns:
-        (..., n, 3 n): times (armature, damping, dry friction) it is a torque.
+        The regressor, (..., n, 3 n): its parameters are armature, damping and dry
+        friction.
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -155,14 +170,15 @@ def actuator_regressor(qd: ArrayLike, qdd: ArrayLike) -> Array:
 
 
 def rank_and_condition(Y: ArrayLike, rtol: float) -> tuple[int, float]:
-    """Return how many combinations of parameters a motion shows, and how unevenly.
+    """Return the numerical rank of a regressor and its condition number.
 
     Args:
         Y: regressor of all samples, stacked, (n, p).
-        rtol: a singular value counts above this times the largest.
+        rtol: a singular value counts if it is larger than rtol times the largest.
 
     Returns:
-        (rank, condition): how many count; the largest over the smallest that counts.
+        (rank, condition): the number of singular values that count, and the largest of
+        them over the smallest of them.
 
     Raises:
         ValueError: wrong shape, a non-finite number, Y of zeros, or rtol of 1 or more.
@@ -172,14 +188,18 @@ def rank_and_condition(Y: ArrayLike, rtol: float) -> tuple[int, float]:
 
 
 def truncated_svd_fit(Y: ArrayLike, tau: ArrayLike, rtol: float) -> Array:
-    """Return the smallest parameters that explain the torques best.
+    """Return the minimum-norm least-squares parameters by truncated SVD.
 
-    V S^-1 U^T tau, (p,), over the singular values that count (Golub and Van Loan, 5.5).
+    This is V S^-1 U^T tau over the singular values that count (Golub and Van Loan,
+    section 5.5).
 
     Args:
         Y: regressor, (n, p).
         tau: measured torques, N m, (n,).
         rtol: as in `rank_and_condition`.
+
+    Returns:
+        The parameters, (p,).
 
     Raises:
         ValueError: as `rank_and_condition`.
@@ -191,18 +211,19 @@ def truncated_svd_fit(Y: ArrayLike, tau: ArrayLike, rtol: float) -> Array:
 def predict_with_sigma(
     Y: ArrayLike, tau: ArrayLike, Y_new: ArrayLike, rtol: float
 ) -> tuple[Array, Array]:
-    """Return torques of new motions, and how sure the fit is of each.
+    """Return predicted torques of new motions and the standard deviation of each.
 
-    The noise is estimated from the residual, noise^2 = r.r / (n - rank); it goes
-    through the fit, so sigma is noise |V^T y / s| for a row y of Y_new.
+    The variance of the noise is estimated from the residual r as r . r / (n - rank).
+    The fit transfers the noise to the prediction: sigma is noise |V^T y / s| for a row
+    y of Y_new.
 
     Args:
         Y, tau, rtol: as in `truncated_svd_fit`, with n above the rank of Y.
         Y_new: regressor of the new motions, (m, p).
 
     Returns:
-        (torque, sigma), N m, (m,) each: sigma is that of the prediction, without the
-        noise of a new measurement. What a motion never showed has no sigma.
+        (torque, sigma), N m, (m,) each. Sigma includes neither the noise of a new
+        measurement nor the bias of the combinations that were truncated.
 
     Raises:
         ValueError: as `rank_and_condition`; or no more rows than the rank.
@@ -218,9 +239,9 @@ def predict_with_sigma(
 
 
 def load_regressor(J_site: ArrayLike, R_site: ArrayLike, g: ArrayLike) -> Array:
-    """Return what m and m c of a load on the hand cost in torque: -J^T (R h x g; m g).
+    """Return the regressor of a payload: -J^T (R h x g; m g) is linear in (m, h = m c).
 
-    A weight m g at R c has the moment R h x g = -[g] R h about the site.
+    The weight m g acts at R c and has the moment R h x g = -[g] R h about the site.
 
     Args:
         J_site: site Jacobian, (..., 6, n).
@@ -228,7 +249,7 @@ def load_regressor(J_site: ArrayLike, R_site: ArrayLike, g: ArrayLike) -> Array:
         g: gravity, m/s^2, (3,).
 
     Returns:
-        (..., n, 4): times (m, m c) it is the torque that holds the load, N m.
+        The regressor, (..., n, 4), of the torque that holds the payload, N m.
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -245,15 +266,18 @@ def load_regressor(J_site: ArrayLike, R_site: ArrayLike, g: ArrayLike) -> Array:
 def identify_payload(
     J_site: ArrayLike, R_site: ArrayLike, extra: ArrayLike, g: ArrayLike
 ) -> Array:
-    """Return what hangs on the hand, from torques that hold it still in some poses.
+    """Return the mass and the first moment of mass of a payload, from static torques.
+
+    This is the least-squares solution for all poses together.
 
     Args:
         J_site, R_site, g: as in `load_regressor`, of k poses.
-        extra: torques with the load minus those without, N m, (k, n).
+        extra: torques with the payload minus those without, N m, (k, n).
 
     Returns:
-        (m, m c), kg and kg m in the site's axes, (4,). Poses that only turn about
-        gravity leave a part of c unseen; the smallest is returned.
+        (m, m c), kg and kg m, expressed in the site frame, (4,). Poses whose
+        orientations differ only by rotations about g do not determine the component of
+        c along g; the result then has the smallest norm.
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -265,12 +289,17 @@ def identify_payload(
 
 
 def min_pseudo_inertia_eig(phi: ArrayLike) -> Array:
-    """Return the least eigenvalue, (...), of a pseudo-inertia; no body's is below 0.
+    """Return the smallest eigenvalue of a body's pseudo-inertia matrix.
 
-    [[S, h], [h^T, m]] with S = tr(I)/2 - I, the integral of r r^T (Wensing 2018).
+    The pseudo-inertia is [[S, h], [h^T, m]] with S = tr(I)/2 1 - I, the sum of m r r^T
+    over the points of the body (Wensing and others, 2018). For a body that can exist,
+    the eigenvalue is not negative.
 
     Args:
-        phi: as above, (..., 10).
+        phi: inertial parameters, (..., 10).
+
+    Returns:
+        The smallest eigenvalue, (...).
 
     Raises:
         ValueError: wrong shape or a non-finite number.

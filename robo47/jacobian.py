@@ -1,17 +1,17 @@
-"""Jacobians of an arm, pose errors, and the steps that inverse kinematics is made of.
+"""Jacobians of an arm, pose errors, and the steps of inverse kinematics.
 
-Three Jacobians map joint speeds to a twist (omega; v), and their names are kept apart:
+Three Jacobians map joint velocities to a twist (omega; v). Their names differ:
 
-- `J_space`: v is the velocity of the point at the world's origin; world axes.
-- `J_site`: v is the velocity of a point of the hand; world axes. This is what MuJoCo's
-  mj_jacSite says (its jacr above its jacp).
-- `J_body`: v is the velocity of the hand's own origin, both in the hand's axes.
+- `J_space`: v is the velocity of the point at the world's origin; world frame.
+- `J_site`: v is the velocity of a point of the hand; world frame. MuJoCo's mj_jacSite
+  computes it (its jacr above its jacp).
+- `J_body`: v is the velocity of the hand's own origin, both in the hand frame.
 
 Twists are (omega; v) as in *Modern Robotics*; Pinocchio's are (v; omega). Radians,
 metres, float64; leading dimensions broadcast.
 
 Source: Lynch and Park, *Modern Robotics* (2017), chapters 5 and 6. `robo47.fast.ik` and
-`robo47.rotation_log` hold the rest of what is named here.
+`robo47.rotation_log` contain the other functions of this module.
 """
 
 import numpy as np
@@ -30,7 +30,7 @@ SINGULAR = 1e-12  # a singular value this much below the largest one counts as 0
 
 
 def space_jacobian(screws: ArrayLike, q: ArrayLike) -> Array:
-    """Return J_space: where every joint's screw is now.
+    """Return the space Jacobian, whose columns are the present screws of the joints.
 
     Column i is Ad(e^[S1] q1 ... e^[S(i-1)] q(i-1)) S_i (Modern Robotics, section
     5.1.1).
@@ -40,7 +40,7 @@ def space_jacobian(screws: ArrayLike, q: ArrayLike) -> Array:
         q: joint angles in radians (metres for slides), (..., n).
 
     Returns:
-        J_space, (..., 6, n): no unit above, metres below.
+        J_space, (..., 6, n): no unit in the upper rows, metres in the lower.
 
     Raises:
         ValueError: wrong shape, a non-finite number, or no screw.
@@ -52,16 +52,17 @@ def space_jacobian(screws: ArrayLike, q: ArrayLike) -> Array:
 
 
 def site_jacobian(J_space: ArrayLike, p: ArrayLike) -> Array:
-    """Return J_site: the same motion as the velocity of the point p, world axes.
+    """Return the site Jacobian, for the velocity of the point p in the world frame.
 
-    v_p = v + omega x p in each column; omega stays (Modern Robotics, section 3.3.2).
+    v_p = v + omega x p in each column; omega is the same (Modern Robotics, section
+    3.3.2).
 
     Args:
         J_space: from `space_jacobian`, (..., 6, n).
-        p: a point that moves with the hand, world coordinates, metres, (..., 3).
+        p: a point that moves with the hand, in the world frame, metres, (..., 3).
 
     Returns:
-        J_site, (..., 6, n): what mj_jacSite says, omega above.
+        J_site, (..., 6, n), with omega above: the Jacobian of MuJoCo's mj_jacSite.
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -73,7 +74,7 @@ def site_jacobian(J_space: ArrayLike, p: ArrayLike) -> Array:
 
 
 def body_jacobian(J_space: ArrayLike, T: ArrayLike) -> Array:
-    """Return J_body: the same motion as the hand itself sees it, Ad(T^-1) J_space.
+    """Return the body Jacobian, Ad(T^-1) J_space, expressed in the hand frame.
 
     Args:
         J_space: from `space_jacobian`, (..., 6, n).
@@ -89,15 +90,15 @@ def body_jacobian(J_space: ArrayLike, T: ArrayLike) -> Array:
 
 
 def joint_torques(J_space: ArrayLike, p: ArrayLike, F: ArrayLike) -> Array:
-    """Return the motors' torques with which the hand pushes with a wrench at a point.
+    """Return the joint torques with which the hand exerts a wrench at a point.
 
-    J_site^T F: what the motors put in, tau . q_dot, comes out at the hand, F . V
-    (Modern Robotics, section 5.2).
+    They are J_site^T F, because the power of the motors, tau . qd, equals the power of
+    the hand, F . V (Modern Robotics, section 5.2).
 
     Args:
         J_space: from `space_jacobian`, (..., 6, n).
-        p: where the hand pushes, world coordinates, metres, (..., 3).
-        F: moment about p and force, world axes, N m and N, (..., 6).
+        p: the point of contact in the world frame, metres, (..., 3).
+        F: moment about p and force, in the world frame, N m and N, (..., 6).
 
     Returns:
         Torques, N m (forces of slides, N), (..., n).
@@ -118,9 +119,9 @@ def dls_step(J_site: ArrayLike, e: ArrayLike, damping: ArrayLike) -> Array:
     formulations and damped least-squares methods", IEEE Trans. SMC 16(1), 1986).
 
     Args:
-        J_site: site Jacobian, (..., m, n), where e is a `pose_error` in world axes.
-        e: wanted motion, (..., m), in the Jacobian's frame and order.
-        damping: larger is safer and slower, (...); 0 is the pseudo-inverse.
+        J_site: site Jacobian, (..., m, n), if e is a `pose_error` in the world frame.
+        e: wanted motion, (..., m), in the frame and order of the Jacobian.
+        damping: (...); a larger one gives shorter steps, 0 is the pseudo-inverse.
 
     Returns:
         Step dq, radians, (..., n).
@@ -141,14 +142,17 @@ def dls_step(J_site: ArrayLike, e: ArrayLike, damping: ArrayLike) -> Array:
 
 
 def manipulability(J: ArrayLike) -> Array:
-    """Return sqrt(det(J J^T)), the product of the singular values: 0 when singular.
+    """Return Yoshikawa's manipulability sqrt(det(J J^T)), which is 0 at a singularity.
+
+    It is the product of the singular values, and the volume of the manipulability
+    ellipsoid except for a constant factor (Yoshikawa, "Manipulability of robotic
+    mechanisms", Int. J. Robotics Research 4(2), 1985).
 
     Args:
-        J: any of the three, (..., m, n), with one volume; with m > n it is 0.
+        J: any of the three Jacobians, (..., m, n); with m > n the result is 0.
 
     Returns:
-        Volume of the manipulability ellipsoid but for a constant, (...) (Yoshikawa,
-        "Manipulability of robotic mechanisms", Int. J. Robotics Research 4(2), 1985).
+        The manipulability, (...).
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -160,10 +164,10 @@ def manipulability(J: ArrayLike) -> Array:
 
 
 def nullspace_projection(J: ArrayLike, dq: ArrayLike) -> Array:
-    """Return the part of dq that the hand does not feel, dq - J^+ J dq.
+    """Return the part of dq in the null space of J: dq - J^+ J dq.
 
     Args:
-        J: any of the three, (..., m, n), with one null space.
+        J: any of the three Jacobians, (..., m, n); they have the same null space.
         dq: wanted motion of the joints, (..., n).
 
     Returns:

@@ -1,22 +1,22 @@
 """Forward kinematics by hand: the pose of any frame of any MJCF model.
 
-MuJoCo is used to read the model (where each body sits on its parent, where each
-joint turns), never to compute the answer; so the answer can be checked against it.
+The model supplies the offset of each body and the axis of each joint. MuJoCo never
+computes the result, so the result can be verified with MuJoCo.
 
-The chain from the world to a frame is a product, one factor per link and per joint:
+The chain from the world to a frame is a product with one factor per link and joint:
 
     T_world_ee = T_world_link1 @ T(q1) @ T_link1_link2 @ T(q2) @ ... @ T_link7_ee
 
-with every joint's own axis. A link's factor is fixed; a joint's factor is
+The factor of a link is fixed; the factor of a joint, with its own axis, is
 
-    hinge   move to the anchor, turn by q - ref about the axis, move back
-    slide   move by q - ref along the axis
-    ball    move to the anchor, turn by the quaternion q, move back
+    hinge   translate to the anchor, rotate by q - ref about the axis, translate back
+    slide   translate by q - ref along the axis
+    ball    translate to the anchor, rotate by the quaternion q, translate back
     free    the pose (position, quaternion) in q, instead of the body's own offset
 
 (MuJoCo documentation, Computation chapter, "Kinematics").
 
-A frame is named "body:link4"; the bare name serves where only one object has it.
+A frame is named "body:link4"; the bare name is sufficient if only one object has it.
 Units: metres, radians, quaternions (w, x, y, z).
 """
 
@@ -37,14 +37,14 @@ _TYPES = ("free", "ball", "slide", "hinge")  # in the order of mujoco.mjtJoint
 
 @dataclass(frozen=True)
 class Joint:
-    """One joint as the model states it.
+    """One joint of a model.
 
     Attributes:
-        name: its MJCF name, or "joint 3" where it has none.
+        name: its MJCF name, or "joint 3" if it has none.
         type: "hinge", "slide", "ball" or "free".
-        axis: unit vector in the body's frame, (3,); hinge and slide only.
-        anchor: the point it turns about, in the body's frame, metres, (3,).
-        ref: the value of q at which the body sits as the file draws it.
+        axis: unit vector in the body frame, (3,); hinge and slide only.
+        anchor: a point on the axis of rotation, in the body frame, metres, (3,).
+        ref: the value of q at which the body has the pose of the file.
         qpos_adr: index of its first number in qpos.
     """
 
@@ -62,8 +62,8 @@ class Link:
 
     Attributes:
         name: full frame name, "body:link4".
-        T_parent_link: where the file puts the body on its parent, (4, 4).
-        joints: the joints that move it there, in the model's order.
+        T_parent_link: pose of the body relative to its parent in the file, (4, 4).
+        joints: the joints that move it, in the model's order.
     """
 
     name: str
@@ -78,8 +78,9 @@ class Chain:
     Attributes:
         frame: full frame name, "site:attachment_site".
         links: the bodies from the world outwards.
-        T_link_frame: the frame on the last body, (4, 4); the identity for a body.
-        nq: how many numbers a configuration of the model has.
+        T_link_frame: pose of the frame relative to the last body, (4, 4); the identity
+            for a body.
+        nq: the number of entries of a configuration of the model.
     """
 
     frame: str
@@ -89,7 +90,7 @@ class Chain:
 
     @cached_property
     def plan(self) -> Plan:
-        """The same chain as elementary moves, worked out once."""
+        """The chain as elementary motions, computed once."""
         plan = Plan(self.nq)
         end = Cursor(plan)
         for link in self.links:
@@ -111,11 +112,11 @@ class Chain:
 
 
 def chain_to(model: mujoco.MjModel, frame: str) -> Chain:
-    """Return the chain from the world to a frame, a copy of what the model says.
+    """Return the chain from the world to a frame, read from the model.
 
     Args:
-        model: any compiled MJCF model. A mocap body stands where the file has it, and
-            a site where `site_pos` says, also where that was changed at run time.
+        model: any compiled MJCF model. A mocap body has its pose of the file, and a
+            site that of `site_pos`, also if it was changed at run time.
         frame: "body:NAME", "site:NAME", or a name that only one of them has.
 
     Raises:
@@ -137,30 +138,30 @@ def chain_to(model: mujoco.MjModel, frame: str) -> Chain:
 
 
 def fk(chain: Chain, qpos: ArrayLike) -> Array:
-    """Return the pose of the chain's frame: forward kinematics, by hand.
+    """Return the pose of the chain's frame: forward kinematics.
 
-    Many configurations go through together (`fast.chains`); memory beyond input and
-    output does not grow with them. One alone goes in plain floats.
+    Many configurations are computed together (`fast.chains`); memory beyond input and
+    output does not grow with their number. A single one is computed in plain floats.
 
     Args:
         chain: from `chain_to`.
-        qpos: configurations as MuJoCo orders them, (..., nq): radians and metres.
+        qpos: configurations in MuJoCo's order, (..., nq): radians and metres.
 
     Returns:
         T_world_frame, (..., 4, 4).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or a quaternion of length 0.
+        ValueError: wrong shape, a non-finite number, or a quaternion of norm 0.
     """
     return evaluate(chain.plan, _configurations(qpos, chain.nq))[chain.frame]
 
 
 def fk_links(chain: Chain, qpos: ArrayLike) -> Array:
-    """Return the pose of every link on a chain that a joint moves, from the base on.
+    """Return the pose of every link of a chain that a joint moves, base first.
 
     Args:
         chain: from `chain_to`.
-        qpos: configurations as MuJoCo orders them, (..., nq): radians and metres.
+        qpos: configurations in MuJoCo's order, (..., nq): radians and metres.
 
     Returns:
         T_world_link, (..., links, 4, 4).
@@ -176,8 +177,8 @@ def fk_all(model: mujoco.MjModel, qpos: ArrayLike) -> dict[str, Array]:
     """Return the pose of every named body and site, each link computed once.
 
     Args:
-        model: any compiled MJCF model. A mocap body stands where the file has it, and
-            a site where `site_pos` says, also where that was changed at run time.
+        model: any compiled MJCF model. A mocap body has its pose of the file, and a
+            site that of `site_pos`, also if it was changed at run time.
         qpos: configurations, (..., nq).
 
     Returns:

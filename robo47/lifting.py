@@ -1,10 +1,10 @@
-"""Lifting a cube: where the tool stands, what the hand weighs then, what slips.
+"""Lifting a cube: grasp poses, combined inertias and friction grips.
 
-Conventions: poses are `T_world_x`. Metres, kilograms, newtons; an inertia is about its
-body's centre of mass. Leading dimensions broadcast.
+Conventions: poses are `T_world_x`. Metres, kilograms, newtons; an inertia is about the
+centre of mass of its body. Leading dimensions broadcast.
 
-Source: Lynch and Park, Modern Robotics (2017), section 8.2 for inertias; Coulomb
-friction, section 12.2.1, for what two fingers hold.
+Source: Lynch and Park, Modern Robotics (2017), section 8.2 for inertias and section
+12.2.1 for Coulomb friction.
 """
 
 import numpy as np
@@ -14,19 +14,19 @@ from robo47 import checks, se3
 from robo47.checks import Array
 from robo47.gravity import GRAVITY
 
-_TOOL_DOWN = np.diag([1.0, -1.0, -1.0])  # z down, x as the world's
+_TOOL_DOWN = np.diag([1.0, -1.0, -1.0])  # z down, x parallel to the world's
 
 
 def grasp_pose(T_world_cube: ArrayLike, above: ArrayLike) -> Array:
-    """Return the tool's pose over a cube: pointing down, fingers along a near side.
+    """Return the grasp pose of a tool over a cube: z down, x parallel to a side.
 
-    A cube looks the same after a quarter turn, so its yaw is folded into +-45 degrees:
-    from READY_Q the tool is never far to turn.
+    A rotation by 90 degrees does not change a cube, so the yaw is wrapped to +-45
+    degrees. From READY_Q the last joint then stays within its limits.
 
     Args:
-        T_world_cube: pose of a cube that stands on one of its faces, its z axis up
+        T_world_cube: pose of a cube that stands on one of its faces, with its z axis up
             or down, (..., 4, 4).
-        above: height of the tool over the cube's centre in metres, (...).
+        above: height of the tool over the centre of the cube, metres, (...).
 
     Returns:
         T_world_tcp, (..., 4, 4); its z axis points down.
@@ -47,21 +47,21 @@ def combine_bodies(
     m1: ArrayLike, c1: ArrayLike, I1: ArrayLike,
     m2: ArrayLike, c2: ArrayLike, I2: ArrayLike,
 ) -> Array:  # fmt: skip
-    """Return the one body that two bodies are when the first holds the second.
+    """Return mass, centre of mass and inertia of two bodies that are fixed together.
 
-    Masses add up; the inertias are moved to the common centre of mass by the
-    parallel-axis theorem, I + m (d.d 1 - d d^T), and added (Modern Robotics,
+    The masses add up. The parallel-axis theorem, I + m (d.d 1 - d d^T), moves both
+    inertias to the common centre of mass, where they are added (Modern Robotics,
     section 8.2.1).
 
     Args:
         m1, m2: masses in kg, at least 0 and not both 0, (...).
-        c1, c2: centres of mass in metres, in one frame for both, (..., 3).
-        I1, I2: inertias about the own centre of mass, in the axes of that frame,
-            kg m2, (..., 3, 3).
+        c1, c2: centres of mass, expressed in one frame, metres, (..., 3).
+        I1, I2: inertias, each about the body's own centre of mass, expressed in that
+            frame, kg m2, (..., 3, 3).
 
     Returns:
-        Mass, centre of mass (3) and inertia about it as MuJoCo's fullinertia orders
-        it (xx, yy, zz, xy, xz, yz), (..., 10).
+        Mass (1), centre of mass (3) and inertia about it (6) in the order of MuJoCo's
+        fullinertia, xx, yy, zz, xy, xz, yz, (..., 10).
 
     Raises:
         ValueError: wrong shape, a non-finite number, a mass below 0, or no mass at all.
@@ -84,19 +84,21 @@ def combine_bodies(
 
 
 def max_cube_mass(grip: ArrayLike, mu: ArrayLike, acceleration: ArrayLike) -> Array:
-    """Return the mass that two fingers lift: 2 mu grip = m (g + acceleration).
+    """Return the largest mass that two fingers can lift by friction.
+
+    Each of two faces carries at most mu grip, so 2 mu grip = m (9.81 + acceleration).
 
     Args:
-        grip: force of one finger in newtons, at least 0, (...).
+        grip: normal force of each finger in newtons, at least 0, (...).
         mu: coefficient of friction, at least 0, (...).
-        acceleration: upwards, in m/s2, above -9.81, (...).
+        acceleration: upward acceleration of the cube in m/s2, above -9.81, (...).
 
     Returns:
         Mass in kg, (...).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, grip or mu below 0, or a fall as
-            fast as gravity's or faster.
+        ValueError: wrong shape, a non-finite number, grip or mu below 0, or a downward
+            acceleration of 9.81 or more.
     """
     grip = checks.not_negative(grip, "grip")
     mu = checks.not_negative(mu, "mu")

@@ -1,18 +1,19 @@
-"""Control as the answer to a question: what costs least, alone or within limits?
+"""Optimal control: LQR, box-constrained quadratic programs and iLQR's backward pass.
 
-Three questions, and how an answer is checked without knowing how it was found:
+Each result can be verified without knowledge of the method that computed it:
 
-- LQR, `x . P x`: the least cost of holding a rest point, no limits. The simulator pays
-  what P promises.
-- A quadratic in a box, `x . H x / 2 + f . x` with lo <= x <= hi: a step of inverse
-  kinematics whose joints have limits. `kkt_residual` is 0 at the best x and nowhere
-  else.
-- iLQR's backward pass: the first again, with slopes in it, along a motion.
-  `reduction_ratio` holds what a step saved against what it should have saved.
+- LQR gives the minimum cost x . P x of holding an equilibrium, without limits. A
+  simulation measures the same cost.
+- A box-constrained quadratic program (QP) minimises x . H x / 2 + f . x with lo <= x <=
+  hi, for example a step of inverse kinematics within joint limits. Its `kkt_residual`
+  is 0 at the minimiser only.
+- iLQR's backward pass is the LQR recursion along a motion, with gradients of the cost.
+  `reduction_ratio` compares the measured reduction of the cost with the expected one.
 
-Conventions: x = (q - q0, qd), so (2 n,); u is what is added to the torque that holds
-q0. Twists (omega; v), world axes, J_space (6, n); gravity is the vector (0, 0, -9.81).
-Radians, metres, kilograms, newtons, seconds; costs have the unit of their weights.
+Conventions: the state is x = (q - q0, qd), (2 n,), and u is added to the torque that
+holds the equilibrium q0. Twists are (omega; v), expressed in the world frame; J_space
+is (6, n); gravity is the vector (0, 0, -9.81). Radians, metres, kilograms, newtons,
+seconds; costs have the unit of their weights.
 
 Sources: Anderson and Moore, *Optimal Control: Linear Quadratic Methods* (1990), chapter
 2; Boyd and Vandenberghe, *Convex Optimization* (2004), sections 5.5 and 5.6; Nocedal
@@ -28,23 +29,24 @@ from robo47 import checks
 from robo47.checks import Array
 from robo47.dynamics import gravity_torque
 
-STEPS = 100  # of `box_qp`, at most; a box of seven takes about ten
-ROUNDING = 1e-14  # of an entry's size: who leaves by less may stay
+STEPS = 100, 10  # of `box_qp` at most, and more for each entry; seven take about ten
+ROUNDING = 1e-14  # of an entry's size; a smaller KKT residual is a rounding error
 
 
 def gravity_stiffness(
     J_space: ArrayLike, masses: ArrayLike, coms: ArrayLike, g: ArrayLike
 ) -> Array:
-    """Return how the torque of gravity changes when a joint turns.
+    """Return the gravity stiffness, the derivative of the gravity torque by the angles.
 
-    Joint j turns all that follows it; seen from there gravity turns back, and changes
-    by g x omega_j. So for i >= j the entry is `gravity_torque` of joint i with that for
-    g; as the second derivative of an energy the matrix is symmetric.
+    Rotating joint j rotates all links that are distal to it. Seen from these links,
+    gravity rotates back and changes by g x omega_j per radian. For i >= j the entry is
+    therefore `gravity_torque` of joint i with g x omega_j in place of g. The matrix is
+    symmetric, because it is the second derivative of the potential energy.
 
     Args:
         J_space: space Jacobian, (6, n).
         masses: kg, (n,).
-        coms: centres of mass in the world, metres, (n, 3).
+        coms: centres of mass in the world frame, metres, (n, 3).
         g: gravity, m/s^2, (3,).
 
     Returns:
@@ -65,14 +67,15 @@ def gravity_stiffness(
 def linearise(
     M: ArrayLike, stiffness: ArrayLike, damping: ArrayLike, h: float
 ) -> tuple[Array, Array]:
-    """Return one time step of the simulator near a point of rest, x+ = A x + B u.
+    """Return A and B of one time step near an equilibrium, x+ = A x + B u.
 
-    MuJoCo's integrator "implicitfast": the damping acts on the new speed, and the new
-    speed moves the joints,
+    This is MuJoCo's integrator "implicitfast": the damping D acts on the new velocity,
+    and the new velocity moves the joints,
 
         (M + h D) v+ = M v + h (u - stiffness q)        q+ = q + h v+
 
-    At rest M's own slope is multiplied by an acceleration of 0.
+    The derivative of M has no effect at an equilibrium, because the acceleration that
+    it multiplies is 0.
 
     Args:
         M: mass matrix with armature, kg m^2, (n, n).
@@ -92,7 +95,7 @@ def linearise(
     stiffness = checks.array(stiffness, "stiffness", (n, n))
     step = float(checks.positive(h, "h"))
     implicit = M + step * np.diag(damping)
-    # How the new speed depends on (q, v, u).
+    # The derivative of the new velocity by (q, v, u).
     q_v_u = np.linalg.solve(
         implicit, np.hstack([-step * stiffness, M, step * np.eye(n)])
     )
@@ -104,20 +107,20 @@ def linearise(
 def riccati_step(
     P: ArrayLike, A: ArrayLike, B: ArrayLike, Q: ArrayLike, R: ArrayLike
 ) -> tuple[Array, Array]:
-    """Return the least cost one time step earlier, and the gain that gets it.
+    """Return the cost-to-go matrix one time step earlier, and the optimal gain.
 
-    If the rest costs x . P x, this step and the rest cost least with u = -K x (Anderson
-    and Moore, section 2.4):
+    If the cost-to-go of the next state is x . P x, the input u = -K x minimises the sum
+    of this step's cost and the cost-to-go (Anderson and Moore, section 2.4):
 
         K = (R + B^T P B)^-1 B^T P A        P = Q + A^T P (A - B K)
 
     Args:
-        P: cost of what comes after, symmetric, (n, n).
+        P: cost-to-go matrix of the next state, symmetric, (n, n).
         A, B: of the step x+ = A x + B u, (n, n) and (n, m).
         Q, R: cost of the step, x . Q x + u . R u, symmetric, (n, n) and (m, m).
 
     Returns:
-        The new P, (n, n), and K, (m, n).
+        P of the present state, (n, n), and K, (m, n).
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -135,7 +138,7 @@ def riccati_step(
 
 
 def cost_to_go(P: ArrayLike, x: ArrayLike) -> float:
-    """Return what P promises a start at x will cost: x . P x.
+    """Return the cost-to-go x . P x: the predicted cost from the state x on.
 
     Args:
         P: from `riccati_step`, (n, n).
@@ -151,19 +154,20 @@ def cost_to_go(P: ArrayLike, x: ArrayLike) -> float:
 def kkt_residual(
     H: ArrayLike, f: ArrayLike, lo: ArrayLike, hi: ArrayLike, x: ArrayLike
 ) -> float:
-    """Return how far x is from the least of x . H x / 2 + f . x in a box.
+    """Return the KKT residual of x for the minimum of x . H x / 2 + f . x in a box.
 
-    x is pushed downhill by its slope H x + f and clipped: it comes back to x where it
-    is best, and only there (Boyd and Vandenberghe, section 5.5.3, for a box).
+    Move x by minus the gradient H x + f and clamp it to the box. The result equals x at
+    the minimiser only (Boyd and Vandenberghe, section 5.5.3, for a box). The residual
+    is not the distance to the minimiser.
 
     Args:
         H: symmetric and positive definite, (n, n).
         f: (n,).
-        lo, hi: the box, (n,) each; equal where an entry is fixed.
+        lo, hi: lower and upper bounds, (n,) each; equal where an entry is fixed.
         x: any point, (n,).
 
     Returns:
-        The largest difference between x and where it comes back, 0 or more.
+        The largest absolute difference between x and the clamped point, 0 or more.
 
     Raises:
         ValueError: wrong shape, a non-finite number, or lo above hi.
@@ -175,29 +179,33 @@ def kkt_residual(
 def box_qp(
     H: ArrayLike, f: ArrayLike, lo: ArrayLike, hi: ArrayLike, x: ArrayLike
 ) -> Array:
-    """Return the x in a box for which x . H x / 2 + f . x is least.
+    """Return the minimiser of x . H x / 2 + f . x with lo <= x <= hi.
 
-    The primal active-set method (Nocedal and Wright, section 16.5): go towards what is
-    best for the free entries, and hold the first that meets its limit. Where none does,
-    `kkt_residual`'s push says which of the held ones wants to leave; the end is where
-    none does. Each set is left for one that costs less, so it ends.
+    The primal active-set method (Nocedal and Wright, section 16.5): move towards the
+    minimiser over the free entries, and hold the first entry that meets a bound. If no
+    entry meets one, release the held entry with the largest `kkt_residual`; if this is
+    0, x is the minimiser. The minimum cost over the free entries falls from one such
+    point to the next, so no set of held entries returns.
 
     Args:
         H: symmetric and positive definite, (n, n).
         f: (n,).
-        lo, hi: the box, (n,) each; equal where an entry is fixed.
-        x: where to start, (n,); the answer is the same from anywhere.
+        lo, hi: lower and upper bounds, (n,) each; equal where an entry is fixed.
+        x: start, (n,), which may lie outside the bounds; the minimiser does not depend
+            on it.
 
     Returns:
-        The best point, (n,).
+        The minimiser, (n,).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or lo above hi.
+        ValueError: wrong shape, a non-finite number, lo above hi, or no minimiser after
+            100 + 10 n iterations.
     """
     H, f, lo, hi, x = _box(H, f, lo, hi, x)
     x = np.clip(x, lo, hi)
     held = lo == hi
-    for _ in range(STEPS):
+    most = STEPS[0] + STEPS[1] * len(x)
+    for _ in range(most):
         free = ~held
         step = np.zeros_like(x)
         step[free] = np.linalg.solve(H[np.ix_(free, free)], -(H @ x + f)[free])
@@ -208,26 +216,27 @@ def box_qp(
         leaves = np.abs(x - np.clip(x - (H @ x + f), lo, hi))
         first = int(np.argmax(leaves))
         if not held[first] or leaves[first] <= ROUNDING * (1.0 + np.abs(x).max()):
-            break
+            return x
         held[first] = False
-    return x
+    raise ValueError(f"box_qp found no minimiser in {most} iterations: scale H and f")
 
 
 def qp_ik(
     J: ArrayLike, e: ArrayLike, weights: ArrayLike, damping: float, dq_lo: ArrayLike,
     dq_hi: ArrayLike,
 ) -> Array:  # fmt: skip
-    """Return the step of inverse kinematics that is best within limits.
+    """Return the inverse-kinematics step that is optimal within bounds.
 
-    The dq that makes (J dq - e) . W (J dq - e) + damping^2 |dq|^2 least: half of it is
-    `box_qp`'s, with H = J^T W J + damping^2 and f = -J^T W e.
+    It minimises (J dq - e) . W (J dq - e) + damping^2 |dq|^2. Half of this is the cost
+    of `box_qp` with H = J^T W J + damping^2 1 and f = -J^T W e.
 
     Args:
         J: Jacobian, (6, n).
-        e: what the hand should move by, (6,): a twist or a pose error, as J.
-        weights: of the rows of J dq - e, (6,), none below 0: what each is worth.
-        damping: above 0, so that the best dq is one.
-        dq_lo, dq_hi: limits of dq, (n,) each.
+        e: wanted motion of the hand as a twist or a pose error, (6,), in the frame of
+            the Jacobian.
+        weights: diagonal of W, one weight for each row of J dq - e, (6,), not negative.
+        damping: above 0, so that the minimiser is unique.
+        dq_lo, dq_hi: lower and upper bounds of dq, (n,) each.
 
     Returns:
         dq, (n,).
@@ -251,25 +260,26 @@ def ilqr_backward(
     fx: ArrayLike, fu: ArrayLike, lx: ArrayLike, lu: ArrayLike, lxx: ArrayLike,
     luu: ArrayLike, lux: ArrayLike, Vx: ArrayLike, Vxx: ArrayLike, mu: float,
 ) -> tuple[Array, Array, Array]:  # fmt: skip
-    """Return how to change a motion's inputs so that it costs less: du = k + K dx.
+    """Return iLQR's backward pass: the changes k and gains K of the inputs, and dV.
 
-    `riccati_step` with slopes, from the last step to the first. The cost of a step and
-    all that follows is a quadratic in (dx, du); its least is at
+    This is `riccati_step` with gradients, from the last step to the first. The cost of
+    a step and all steps after it is a quadratic function of (dx, du), whose minimum
+    over du = k + K dx is at
 
-        k = -Quu^-1 Qu        K = -Quu^-1 Qux        Quu = luu + fu^T Vxx fu + mu
+        k = -Quu^-1 Qu        K = -Quu^-1 Qux        Quu = luu + fu^T Vxx fu + mu 1
 
-    (Tassa, Erez and Todorov, 2012, equations 5 to 11, with mu in Quu throughout).
+    (Tassa, Erez and Todorov, 2012, equations 5 to 11, with mu wherever Quu appears).
 
     Args:
-        fx, fu: slopes of the steps, (T, n, n) and (T, n, m).
-        lx, lu: slopes of their costs, (T, n) and (T, m).
-        lxx, luu, lux: second ones, (T, n, n), (T, m, m) and (T, m, n).
-        Vx, Vxx: slope and second slope of the cost of the end, (n,) and (n, n).
-        mu: is added to Quu, 0 or more: smaller steps of u.
+        fx, fu: derivatives of the steps, (T, n, n) and (T, n, m).
+        lx, lu: gradients of the steps' costs, (T, n) and (T, m).
+        lxx, luu, lux: second derivatives, (T, n, n), (T, m, m) and (T, m, n).
+        Vx, Vxx: gradient and second derivative of the final cost, (n,) and (n, n).
+        mu: is added to the diagonal of Quu, 0 or more; a larger mu makes k smaller.
 
     Returns:
-        k, (T, m); K, (T, m, n); and drop, (2,): what the cost changes by, to first and
-        to second order in k. `expected_reduction` takes it.
+        k, (T, m); K, (T, m, n); and dV, (2,): the change of the cost to first and to
+        second order in k. `expected_reduction` takes dV.
 
     Raises:
         ValueError: wrong shape, a non-finite number, or mu below 0.
@@ -280,8 +290,8 @@ def ilqr_backward(
     lx, lu = checks.array(lx, "lx", (T, n)), checks.array(lu, "lu", (T, m))
     lxx, luu = checks.array(lxx, "lxx", (T, n, n)), checks.array(luu, "luu", (T, m, m))
     lux = checks.array(lux, "lux", (T, m, n))
-    slope = checks.array(Vx, "Vx", (n,))  # of what the rest costs, in dx; and ...
-    second = checks.array(Vxx, "Vxx", (n, n))  # ... its second one
+    slope = checks.array(Vx, "Vx", (n,))  # gradient of the cost-to-go, and ...
+    second = checks.array(Vxx, "Vxx", (n, n))  # ... its second derivative
     more = float(checks.not_negative(mu, "mu")) * np.eye(m)
     k, K, drop = np.empty((T, m)), np.empty((T, m, n)), np.zeros(2)
     for t in reversed(range(T)):
@@ -294,21 +304,22 @@ def ilqr_backward(
         k[t] = best[:, 0]
         K[t] = best[:, 1:]
         drop += k[t] @ Qu, 0.5 * k[t] @ Quu @ k[t]
-        slope = Qx + Qux.T @ k[t]  # what K^T (Qu + Quu k) adds is 0
+        slope = Qx + Qux.T @ k[t]  # the term K^T (Qu + Quu k) is 0
         second = Qxx + Qux.T @ K[t]
         second = 0.5 * (second + second.T)
     return k, K, drop
 
 
 def expected_reduction(dV: ArrayLike, alpha: float) -> float:
-    """Return what a step of length alpha should save.
+    """Return the expected reduction of the cost for the step alpha k.
 
     Args:
         dV: from `ilqr_backward`, (2,).
-        alpha: the share of k that is taken, 0 to 1.
+        alpha: the fraction of k that is applied, 0 to 1.
 
     Returns:
-        -(alpha dV[0] + alpha^2 dV[1]), in the cost's unit.
+        -(alpha dV[0] + alpha^2 dV[1]), in the unit of the cost; positive if the cost is
+        expected to fall.
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -319,40 +330,41 @@ def expected_reduction(dV: ArrayLike, alpha: float) -> float:
 
 
 def reduction_ratio(before: float, after: float, expected: float) -> float:
-    """Return what a step saved, as a share of what it should have saved.
+    """Return the reduction ratio: the measured reduction over the expected one.
 
     Args:
-        before, after: the cost without and with the step.
+        before, after: the cost before and after the step.
         expected: from `expected_reduction`, not 0.
 
     Returns:
-        1 where the model is right; under 0 where the step did harm.
+        1 if the quadratic model is exact; negative if the step increased the cost.
 
     Raises:
-        ValueError: a non-finite number, or nothing was expected.
+        ValueError: a non-finite number, or an expected reduction of 0.
     """
     saved = checks.array(before, "before", ()) - checks.array(after, "after", ())
-    promised = checks.array(expected, "expected", ())
-    if promised == 0.0:
-        raise ValueError("expected is 0: no step was promised, so there is no ratio")
-    return float(saved / promised)
+    wanted = checks.array(expected, "expected", ())
+    if wanted == 0.0:
+        raise ValueError("expected is 0, so there is no ratio: take another step")
+    return float(saved / wanted)
 
 
 def bound_multipliers(
     H: ArrayLike, f: ArrayLike, lo: ArrayLike, hi: ArrayLike, x: ArrayLike
 ) -> Array:
-    """Return what each limit costs: how the least cost changes when it moves.
+    """Return the Lagrange multipliers of the bounds: d(minimum cost) / d(bound).
 
-    Only the limit's own term of the cost moves with it (the envelope theorem; Boyd and
-    Vandenberghe, section 5.6.3): the slope H x + f where a limit holds x back.
+    When a bound moves, only its own term of the cost changes (the envelope theorem;
+    Boyd and Vandenberghe, section 5.6.3). The multiplier is therefore the gradient H x
+    + f where a bound holds the entry.
 
     Args:
         H, f, lo, hi: as in `box_qp`.
-        x: the best point, (n,).
+        x: the minimiser, (n,).
 
     Returns:
-        d(least cost) / d(limit), (n,): above 0 at a lower limit, below 0 at an upper
-        one, 0 where none holds.
+        The multipliers, (n,): positive at a lower bound, negative at an upper bound, 0
+        for a free entry.
 
     Raises:
         ValueError: wrong shape, a non-finite number, or lo above hi.
@@ -365,7 +377,7 @@ def bound_multipliers(
 def _box(
     H: ArrayLike, g: ArrayLike, lo: ArrayLike, hi: ArrayLike, x: ArrayLike
 ) -> tuple[Array, Array, Array, Array, Array]:
-    """Return a quadratic, its box and a point, checked."""
+    """Return a quadratic cost, its bounds and a point, checked."""
     g = checks.array(g, "g", ("n",))
     n = len(g)
     H = checks.array(H, "H", (n, n))
@@ -377,19 +389,19 @@ def _box(
 
 
 def _held(slope: Array, lo: Array, hi: Array, x: Array) -> NDArray[np.bool_]:
-    """Return which entries stand at a limit and are pushed there."""
+    """Return which entries are at a bound that the gradient presses them against."""
     return ((x <= lo) & (slope > 0.0)) | ((x >= hi) & (slope < 0.0))
 
 
 def _until_a_limit(
     x: Array, step: Array, lo: Array, hi: Array
 ) -> tuple[Array, int | None]:
-    """Return x after a step, or where it first meets a limit, and which entry does."""
+    """Return x after a step, or the first bound that it meets and its index."""
     room = np.where(step > 0.0, hi - x, lo - x)
     share = np.divide(room, step, out=np.full_like(x, np.inf), where=step != 0.0)
     met = int(np.argmin(share))
     if share[met] >= 1.0:
         return np.clip(x + step, lo, hi), None
     there = x + share[met] * step
-    there[met] = hi[met] if step[met] > 0.0 else lo[met]  # no rounding beside it
+    there[met] = hi[met] if step[met] > 0.0 else lo[met]  # without rounding
     return np.clip(there, lo, hi), met

@@ -1,9 +1,9 @@
-"""Orientations in other numbers: roll, pitch and yaw, and quaternions that multiply.
+"""Representations of orientation: roll, pitch and yaw, and unit quaternions.
 
-Conventions: radians; quaternions are (w, x, y, z) of length 1, as in MuJoCo, and are
-normalised first. Roll, pitch and yaw turn about the world's own x, y and z axes in
-this order, R = Rz(yaw) Ry(pitch) Rx(roll): the same R as yaw, pitch and roll about the
-moving z, y and x axes. Leading dimensions broadcast.
+Conventions: radians; quaternions are (w, x, y, z) of norm 1, as in MuJoCo, and are
+normalised first. Roll, pitch and yaw are rotations about the fixed x, y and z axes of
+the world in this order, R = Rz(yaw) Ry(pitch) Rx(roll). The same R results from yaw,
+pitch and roll about the moving z, y and x axes. Leading dimensions broadcast.
 
 Sources: Lynch and Park, *Modern Robotics* (2017), appendix B (roll-pitch-yaw angles,
 unit quaternions); Shoemake, "Animating rotation with quaternion curves", SIGGRAPH 1985.
@@ -38,8 +38,8 @@ def rpy_to_R(rpy: ArrayLike) -> Array:
 def R_to_rpy(R: ArrayLike) -> Array:
     """Return roll, pitch and yaw of a rotation.
 
-    With the pitch at +-90 degrees (gimbal lock) roll and yaw turn about one axis, and
-    only their difference or sum is in R: the roll is 0 then.
+    At a pitch of +-90 degrees (gimbal lock) roll and yaw are about the same axis, and R
+    determines only their difference or sum; the roll is then 0.
 
     Args:
         R: rotation matrix, (..., 3, 3).
@@ -62,7 +62,7 @@ def R_to_rpy(R: ArrayLike) -> Array:
 
 
 def quat_product(p_wxyz: ArrayLike, q_wxyz: ArrayLike) -> Array:
-    """Return p q, whose rotation is R(p) R(q): q turns first.
+    """Return the quaternion product p q, whose rotation is R(p) R(q).
 
     (p0 q0 - p.q; p0 q + q0 p + p x q), Hamilton's product (Modern Robotics, B.3).
 
@@ -70,10 +70,10 @@ def quat_product(p_wxyz: ArrayLike, q_wxyz: ArrayLike) -> Array:
         p_wxyz, q_wxyz: quaternions, (..., 4).
 
     Returns:
-        Unit quaternion (w, x, y, z), (..., 4); its sign is the product's.
+        Unit quaternion (w, x, y, z), (..., 4), with the sign of the product.
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or a quaternion of length 0.
+        ValueError: wrong shape, a non-finite number, or a quaternion of norm 0.
     """
     p = _unit(p_wxyz, "p_wxyz")
     q = _unit(q_wxyz, "q_wxyz")
@@ -85,21 +85,21 @@ def quat_product(p_wxyz: ArrayLike, q_wxyz: ArrayLike) -> Array:
 
 
 def slerp(p_wxyz: ArrayLike, q_wxyz: ArrayLike, s: ArrayLike) -> Array:
-    """Return the quaternion after the fraction s of the shorter turn from p to q.
+    """Return the quaternion after the fraction s of the shorter rotation from p to q.
 
     (sin((1 - s) a) p + sin(s a) q) / sin(a), with a the angle between p and q in four
-    dimensions, half of the turn's (Shoemake 1985). q and -q are one rotation: the one
-    nearer to p is taken, so the turn is at most half a circle.
+    dimensions, half of the rotation's angle (Shoemake 1985). q and -q represent one
+    rotation; the one nearer to p is used, so the rotation is by at most pi.
 
     Args:
         p_wxyz, q_wxyz: quaternions, (..., 4).
-        s: fraction of the turn, (...); 0 is p, 1 is q or -q.
+        s: fraction of the rotation, (...); 0 gives p, 1 gives q or -q.
 
     Returns:
         Unit quaternion (w, x, y, z), (..., 4).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or a quaternion of length 0.
+        ValueError: wrong shape, a non-finite number, or a quaternion of norm 0.
     """
     p = _unit(p_wxyz, "p_wxyz")
     q = _unit(q_wxyz, "q_wxyz")

@@ -18,7 +18,7 @@ def menagerie_root() -> Path:
 
 
 def shown(path: Path) -> str:
-    """Return a path as people read it: relative to the clone, or from `~`."""
+    """Return a path as people read it: relative to the clone, or to the home `~`."""
     for base, prefix in ((ROOT, ""), (Path.home(), "~/")):
         if path.is_relative_to(base):
             return prefix + path.relative_to(base).as_posix()

@@ -113,7 +113,7 @@ def edge_free(a: ArrayLike, b: ArrayLike, world: World) -> bool:
 def extend(
     tree: ArrayLike, sample: ArrayLike, step: float, world: World
 ) -> tuple[int, Array, bool]:
-    """Return how a tree grows by one edge towards a sample: (index, point, free).
+    """Return the extension of a tree towards a sample: (index, point, free).
 
     Args:
         tree: nodes, (n, k).

@@ -21,7 +21,7 @@ from robo47 import checks
 from robo47.checks import Array
 from robo47.planning import wilson_interval
 
-# The limits of the hand: theta is clipped to them.
+# The limits of the hand, to which theta is clamped.
 LOW = np.array([-0.02, -0.02, -0.8, 0.0, -0.02, 0.0])
 HIGH = np.array([0.02, 0.02, 0.8, 0.04, 0.04, 0.25])
 LOW.setflags(write=False)
@@ -31,8 +31,8 @@ HIGH.setflags(write=False)
 def observe(T_seen: ArrayLike, noise: ArrayLike) -> Array:
     """Return the policy's observation of an upright cube: position and yaw.
 
-    A cube looks the same after a quarter turn, so its yaw, with the noise added, is
-    reduced modulo pi / 2 to [-pi / 4, pi / 4).
+    A rotation by 90 degrees does not change a cube, so its yaw, with the noise added,
+    is reduced modulo pi / 2 to [-pi / 4, pi / 4).
 
     Args:
         T_seen: the cube's pose in the world frame, upright, (4, 4).
@@ -56,7 +56,7 @@ def act(theta: ArrayLike, observation: ArrayLike) -> Array:
     """Return the policy's action: x, y, yaw, height, opening, lift.
 
     Args:
-        theta: the policy's parameters, (6,); clipped to `LOW` and `HIGH` first.
+        theta: the policy's parameters, (6,); clamped to `LOW` and `HIGH` first.
         observation: from `observe`, (3,); theta's shift is expressed in the frame of
             the cube as it was seen.
 

@@ -1,4 +1,4 @@
-"""Reference motions of the joints: stay, and swing. Radians, rad/s, rad/s2, seconds."""
+"""Reference motions of the joints: hold and raised cosine. Radians, seconds."""
 
 from collections.abc import Callable
 
@@ -15,11 +15,13 @@ def hold(q: Array) -> Reference:
 
 
 def raised_cosine(q: Array, amplitude: Array) -> Reference:
-    """Return a swing from q by an amplitude and back, at rest every second.
+    """Return the reference of a raised cosine: to q + amplitude and back, every 2 s.
+
+    The velocity is 0 at every whole second.
 
     Args:
-        q: where it starts, (7,).
-        amplitude: how far each joint swings, (7,).
+        q: configuration at t = 0, rad, (7,).
+        amplitude: displacement of each joint after 1 s, rad, (7,).
     """
 
     def reference(t: float) -> tuple[Array, Array, Array]:

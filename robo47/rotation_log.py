@@ -1,6 +1,6 @@
-"""The way from one pose to another as numbers: a rotation vector and a translation.
+"""Logarithms of rotations and poses, and the pose error.
 
-Radians, metres; world axes; leading dimensions broadcast.
+Radians, metres; world frame; leading dimensions broadcast.
 """
 
 import math
@@ -15,19 +15,19 @@ SMALL = 0.03  # radians; the next term of the series is 4e-16 of b there
 
 
 def log_rotation(R: ArrayLike) -> Array:
-    """Return the axis of a rotation times its angle, exact from 0 to pi.
+    """Return the rotation vector of a rotation, its unit axis times its angle.
 
-    By the unit quaternion (w; u), whose angle is 2 atan2(|u|, w): no digit is lost
-    near 0, where the textbook's arccosine is, nor near pi, where its division by the
-    sine is (Modern Robotics, section 3.2.3.3, has the usual formula).
+    It is computed from the unit quaternion (w; u), whose angle is 2 atan2(|u|, w). This
+    is accurate near 0, where the usual formula's arccosine loses digits, and near pi,
+    where its division by the sine does (Modern Robotics, section 3.2.3.3).
 
     Args:
         R: rotation matrix, (..., 3, 3).
 
     Returns:
-        Rotation vector, radians, length in [0, pi], (..., 3). At exactly pi both signs
-        mean the same rotation; the one whose largest entry is positive is returned.
-        Rounding decides within 1e-16 of pi.
+        Rotation vector, radians, with a norm in [0, pi], (..., 3). At exactly pi both
+        signs represent the same rotation; the largest entry of the result is positive.
+        Within 1e-16 of pi rounding determines the sign.
 
     Raises:
         ValueError: wrong shape, a non-finite number, or R is not a rotation.
@@ -42,19 +42,19 @@ def log_rotation(R: ArrayLike) -> Array:
 
 
 def log_pose(T: ArrayLike) -> Array:
-    """Return the screw motion from the identity to a pose, S theta: exp's inverse.
+    """Return the logarithm of a pose, S theta: the inverse of the exponential.
 
     omega theta = log(R), and v theta = G^-1 p with G^-1 = I - [w]/2 + b [w]^2, where
     w = omega theta and b = (1 - (theta/2) cot(theta/2)) / theta^2 (Modern Robotics,
-    eq. 3.92). `screws.exp_screw(x / theta, theta)` takes it back to T, where theta is
-    the length of omega theta, or of v theta for a slide.
+    eq. 3.92). For the result x, `screws.exp_screw(x / theta, theta)` returns T, where
+    theta is the norm of omega theta, or of v theta for a pure translation.
 
     Args:
         T: pose, (..., 4, 4).
 
     Returns:
-        (omega theta; v theta), radians and metres, (..., 6). At a turn of exactly pi
-        the sign is that of `log_rotation`.
+        (omega theta; v theta), radians and metres, (..., 6). For a rotation by exactly
+        pi the sign is that of `log_rotation`.
 
     Raises:
         ValueError: wrong shape, a non-finite number, or not a pose.
@@ -76,14 +76,14 @@ def log_pose(T: ArrayLike) -> Array:
 
 
 def pose_error(T: ArrayLike, T_goal: ArrayLike) -> Array:
-    """Return how to move from T to the goal: a rotation vector and a translation.
+    """Return the pose error from T to the goal: a rotation vector and a translation.
 
-    (log(R_goal R^T); p_goal - p), in world axes, so it goes with J_site.
-    `se3.pose_distance` gives the two lengths.
+    It is (log(R_goal R^T); p_goal - p), expressed in the world frame, as needed with
+    J_site. `se3.pose_distance` returns the norms of its two parts.
 
     Args:
         T: pose, (..., 4, 4).
-        T_goal: where it should be, (..., 4, 4).
+        T_goal: the goal, (..., 4, 4).
 
     Returns:
         Error, radians above and metres below, (..., 6).
@@ -98,16 +98,16 @@ def pose_error(T: ArrayLike, T_goal: ArrayLike) -> Array:
 
 
 def small_pose_error(T: Array, T_goal: Array) -> Array:
-    """Return `pose_error` for a loop: unchecked, and 20 times as fast.
+    """Return `pose_error` for use in a loop: without checks and 20 times as fast.
 
-    For rotations by less than 90 degrees, whose sine tells the angle.
+    It is for rotations by less than 90 degrees, which their sine determines.
 
     Args:
         T: pose, (4, 4).
-        T_goal: where it should be, (4, 4).
+        T_goal: the goal, (4, 4).
 
     Returns:
-        Rotation vector and translation to the goal, in world axes, (6,).
+        Rotation vector and translation to the goal, in the world frame, (6,).
     """
     E = T_goal[:3, :3] @ T[:3, :3].T
     x, y, z = E[2, 1] - E[1, 2], E[0, 2] - E[2, 0], E[1, 0] - E[0, 1]

@@ -1,10 +1,10 @@
-"""Scenes that the arm touches: a table with a cube to pick, a table to press on.
+"""Scenes with contacts: a table with a cube to pick up, and a table to press on.
 
-Each function returns a compiled model with torque drives; the constants say where
-things are. Everything is looked up by name: bodies `table`, `cube` and `hand`, sites
-`tcp` and `attachment_site`, geoms `table_top`, `cube`, `tip`. The robot itself touches
-nothing but with what is added here (finger pads, tip), so that a contact is the one
-that the lesson is about. Metres, radians, kilograms; lengths of boxes are halves.
+Each function returns a compiled model with torque drives; the constants define the
+positions. Objects are found by name: bodies `table`, `cube` and `hand`, sites `tcp` and
+`attachment_site`, geoms `table_top`, `cube`, `tip`. Only the parts that are added here
+(finger pads, tip) can touch anything, so every contact belongs to the lesson. Metres,
+radians, kilograms; lengths of boxes are halves.
 """
 
 from collections.abc import Callable
@@ -48,16 +48,16 @@ def table_top(
     """Return the Panda with its hand at a table with a cube on it.
 
     Args:
-        cube_xy: where the cube stands, metres, (2,); on the table.
-        yaw: its turn about z in radians.
+        cube_xy: position of the cube on the table, metres, (2,).
+        yaw: its rotation about z in radians.
         mass: of the cube in kg, above 0.
-        friction: sliding friction of cube and finger pads, at least 0.
-        meshes: True keeps the robot's looks, for pictures; it moves in the same way.
-        add: is given the scene before it is compiled, to add more to it.
+        friction: coefficient of sliding friction of cube and finger pads, at least 0.
+        meshes: True keeps the robot's visual meshes; it moves in the same way.
+        add: a function that adds more to the scene before it is compiled.
 
     Returns:
         The model: motors on the arm's seven joints, the hand's own servo (ctrl 0
-        closed to 255 open), site `tcp`, a `home` key that has the cube in it.
+        closed to 255 open), site `tcp`, a `home` key that includes the cube.
 
     Raises:
         ValueError: a wrong shape or number, or the cube is not on the table.
@@ -92,14 +92,14 @@ def table_top(
 
 
 def press_table(*, drive: str = "torque", meshes: bool = False) -> mujoco.MjModel:
-    """Return the arm without a hand, a ball for a tip, over a table to press on.
+    """Return the arm without a hand, with a sphere as its tip, over a table.
 
     Args:
         drive: "torque", or "servo" for the Menagerie's stiff position drives.
-        meshes: True keeps the robot's looks, for pictures.
+        meshes: True keeps the robot's visual meshes.
 
     Returns:
-        The model; the ball's centre is `attachment_site`.
+        The model; the centre of the sphere is `attachment_site`.
 
     Raises:
         ValueError: no such drive.
@@ -112,24 +112,24 @@ def press_table(*, drive: str = "torque", meshes: bool = False) -> mujoco.MjMode
             name="tip", type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[TIP_RADIUS, 0, 0]
         )
         tip.contype = tip.conaffinity = 1
-        tip.mass = 0.0  # what the arm weighs stays as it is
+        tip.mass = 0.0  # the mass of the arm stays as it is
         _add_table(spec, PRESS_HEIGHT)
 
     return panda.load("panda_nohand", drive=drive, meshes=meshes, edit=edit)
 
 
 def hang_kilogram(spec: mujoco.MjSpec) -> None:
-    """Hang a ball of 1 kg on the end of the arm without a hand; an `edit` of it."""
+    """Fix a body of 1 kg to the end of the arm without a hand; an `edit` of it."""
     ball = {"mass": 1.0, "inertia": [1e-4, 1e-4, 1e-4], "explicitinertial": True}
     spec.body("attachment").add_body(name="load", **ball)
 
 
 def on_table(xy: ArrayLike, name: str) -> Array:
-    """Return a place for the cube, (2,), after checking that the table is under it.
+    """Return a position for the cube, (2,), after checking that it is on the table.
 
     Args:
         xy: metres, (2,).
-        name: what to call it in the error.
+        name: of the argument, for the error.
 
     Raises:
         ValueError: a wrong shape, or it is not on the table.
@@ -148,7 +148,7 @@ def on_table(xy: ArrayLike, name: str) -> Array:
 def contact_force(
     model: mujoco.MjModel, data: mujoco.MjData, geom: str, other: str
 ) -> float:
-    """Return how hard two geoms press on each other, along the contact normals.
+    """Return the normal force between two geoms, summed over their contacts.
 
     Args:
         model: any model.
@@ -156,7 +156,7 @@ def contact_force(
         geom, other: names of the two.
 
     Returns:
-        Newtons, the sum over their contacts; 0 where they do not touch.
+        Newtons; 0 if they do not touch.
     """
     pair = {model.geom(geom).id, model.geom(other).id}
     total = 0.0

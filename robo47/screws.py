@@ -1,13 +1,14 @@
 """Screws: joints as lines in space, and the product of exponentials.
 
-A joint is a screw axis S = (omega; v), (6,): omega the unit vector it turns about,
-v the velocity that a turn at 1 rad/s gives the point at the origin. A slide has
-omega = 0 and moves along v. Conventions:
+A joint is a screw axis S = (omega; v), (6,): omega is the unit vector along its axis of
+rotation, and v the velocity of the point at the origin for a rotation at 1 rad/s. A
+slide has omega = 0 and translates along v. Conventions:
 
 - Twists and screws are (omega; v), as in *Modern Robotics* and MuJoCo's `cvel`;
   Pinocchio, `mj_jac` and a free joint's `qvel` have v first.
-- Space screws stand in the world frame, body screws in the end effector's, both with
-  the arm at q = 0, where the end effector's pose is M (`M_home` in code).
+- Space screws are expressed in the world frame, body screws in the end effector's
+  frame, both with the arm at q = 0, where the end effector's pose is M (`M_home` in
+  code).
 - Angles in radians, lengths in metres, float64; leading dimensions broadcast.
 
 Source: Lynch and Park, *Modern Robotics* (2017), chapters 3 and 4.
@@ -27,20 +28,20 @@ from robo47.fast.vectors import cross_of
 
 
 def skew(w: ArrayLike) -> Array:
-    """Return the matrix [w] that takes p to w x p.
+    """Return the skew-symmetric matrix [w], for which [w] p = w x p.
 
     Args:
         w: vector, (..., 3), in any unit.
 
     Returns:
-        Antisymmetric matrix, (..., 3, 3), in the same unit (Modern Robotics,
-        section 3.2.2).
+        Skew-symmetric matrix, (..., 3, 3), in the same unit (Modern Robotics, section
+        3.2.2).
 
     Raises:
         ValueError: wrong shape or a non-finite number.
     """
     w = checks.array(w, "w", (3,))
-    if w.ndim == 1:  # what labs ask for thousands of times; 0.0 - z makes no -0
+    if w.ndim == 1:  # called thousands of times by labs; 0.0 - z makes no -0
         x, y, z = w.tolist()
         return np.array([[0.0, 0.0 - z, y], [z, 0.0, 0.0 - x], [0.0 - y, x, 0.0]])
     K = np.zeros((*w.shape, 3))
@@ -56,14 +57,14 @@ def axis_angle(axis: ArrayLike, theta: ArrayLike) -> Array:
     (Modern Robotics, eq. 3.51).
 
     Args:
-        axis: direction of the axis, (..., 3); its length does not matter.
+        axis: direction of the axis, (..., 3), of any norm but 0.
         theta: angle in radians, (...).
 
     Returns:
         Rotation matrix, (..., 3, 3).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or an axis of length 0.
+        ValueError: wrong shape, a non-finite number, or an axis of norm 0.
     """
     axis = checks.array(axis, "axis", (3,))
     theta = checks.array(theta, "theta", ())
@@ -79,7 +80,7 @@ def exp_rotation(axis: ArrayLike, theta: ArrayLike) -> Array:
     """Return the rotation by theta about a unit axis.
 
     I + sin(theta) [axis] + (1 - cos(theta)) [axis]^2, Rodrigues' formula (Modern
-    Robotics, eq. 3.51). `axis_angle` takes an axis of any length.
+    Robotics, eq. 3.51). `axis_angle` takes an axis of any norm.
 
     Args:
         axis: unit vector, (..., 3).
@@ -89,7 +90,7 @@ def exp_rotation(axis: ArrayLike, theta: ArrayLike) -> Array:
         Rotation matrix, (..., 3, 3).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or an axis not of length 1.
+        ValueError: wrong shape, a non-finite number, or an axis that is no unit vector.
     """
     axis = checks.unit_vector(axis, "axis")
     return axis_angle(axis, theta)
@@ -99,14 +100,14 @@ def screw_axis(axis: ArrayLike, point: ArrayLike) -> Array:
     """Return the screw of a hinge: (omega; v) with omega = axis, v = -omega x point.
 
     Args:
-        axis: unit vector that the hinge turns about, (..., 3).
-        point: any point on its line, metres, (..., 3).
+        axis: unit vector of the axis of rotation, (..., 3).
+        point: any point on that axis, metres, (..., 3).
 
     Returns:
         Screw, (..., 6): no unit; metres (Modern Robotics, section 3.3.2.2).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or an axis not of length 1.
+        ValueError: wrong shape, a non-finite number, or an axis that is no unit vector.
     """
     axis = checks.unit_vector(axis, "axis")
     point = checks.array(point, "point", (3,))
@@ -115,7 +116,7 @@ def screw_axis(axis: ArrayLike, point: ArrayLike) -> Array:
 
 
 def joint_screws(T_zero: ArrayLike) -> Array:
-    """Return the space screws of an arm whose joints turn about their links' z axes.
+    """Return the space screws of an arm whose joints rotate about their links' z axes.
 
     Args:
         T_zero: `T_world_link` of every moving link at q = 0, (..., n, 4, 4).
@@ -132,20 +133,21 @@ def joint_screws(T_zero: ArrayLike) -> Array:
 
 
 def exp_screw(S: ArrayLike, theta: ArrayLike) -> Array:
-    """Return the pose after moving by theta along a screw.
+    """Return the exponential of a screw: the pose after a motion by theta along it.
 
     R = exp([omega] theta) and t = (theta I + (1 - cos) [omega] + (theta - sin)
-    [omega]^2) v; with omega = 0 that is the slide theta v (Modern Robotics, eq. 3.88).
+    [omega]^2) v; with omega = 0 this is the translation theta v (Modern Robotics, eq.
+    3.88).
 
     Args:
-        S: screw (omega; v) with omega of length 1 or 0, (..., 6).
+        S: screw (omega; v) with an omega of norm 1 or 0, (..., 6).
         theta: radians, metres for a slide, (...).
 
     Returns:
         Pose, (..., 4, 4).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or omega of another length.
+        ValueError: wrong shape, a non-finite number, or an omega of another norm.
     """
     S = checks.screws(S, "S")
     theta = checks.array(theta, "theta", ())
@@ -164,7 +166,7 @@ def exp_screw(S: ArrayLike, theta: ArrayLike) -> Array:
 
 
 def adjoint(T: ArrayLike) -> Array:
-    """Return Ad(T): the twist V_b seen from frame a is adjoint(T_a_b) @ V_b.
+    """Return the adjoint Ad(T): adjoint(T_a_b) @ V_b is the twist expressed in frame a.
 
     [[R, 0], [[p] R, R]] (Modern Robotics, definition 3.20).
 
@@ -186,10 +188,10 @@ def adjoint(T: ArrayLike) -> Array:
 
 
 def fk_space(screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
-    """Return the end effector's pose, e^[S1] q1 ... e^[Sn] qn M.
+    """Return the end effector's pose by space screws, e^[S1] q1 ... e^[Sn] qn M.
 
-    Many configurations of one arm take one vectorised pass (`fast.chains`), which is
-    as fast as `kinematics.fk`: it makes the same moves.
+    Many configurations of one arm are computed in one vectorised pass (`fast.chains`),
+    as fast as `kinematics.fk`.
 
     Args:
         screws: space screws (omega; v), (..., n, 6).
@@ -211,7 +213,7 @@ def fk_space(screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
 
 
 def body_screws(screws: ArrayLike, M_home: ArrayLike) -> Array:
-    """Return the same screws as the end effector sees them at q = 0: Ad(M^-1) S.
+    """Return the body screws: the space screws in the end effector's frame, Ad(M^-1) S.
 
     Args:
         screws, M_home: as in `fk_space`.
@@ -227,10 +229,10 @@ def body_screws(screws: ArrayLike, M_home: ArrayLike) -> Array:
 
 
 def fk_body(body_screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
-    """Return the end effector's pose, M e^[B1] q1 ... e^[Bn] qn.
+    """Return the end effector's pose by body screws, M e^[B1] q1 ... e^[Bn] qn.
 
-    M e^[B] = e^[Ad(M) B] M takes M from the left end to the right one, so this is
-    `fk_space` with the screws seen from the world.
+    Because M e^[B] = e^[Ad(M) B] M, this equals `fk_space` with the space screws
+    Ad(M) B.
 
     Args:
         body_screws: body screws (omega; v), (..., n, 6).

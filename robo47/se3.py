@@ -21,14 +21,14 @@ from robo47.checks import RIGID_TOL, Array
 
 
 def make_T(R: ArrayLike, t: ArrayLike) -> Array:
-    """Return the pose that rotates by R and then moves by t.
+    """Return the homogeneous transform that rotates by R and then translates by t.
 
     Args:
         R: rotation matrix, (..., 3, 3).
         t: translation in metres, (..., 3).
 
     Returns:
-        The homogeneous transform [[R, t], [0, 1]], (..., 4, 4).
+        [[R, t], [0, 1]], (..., 4, 4).
 
     Raises:
         ValueError: wrong shape, a non-finite number, or R is not a rotation.
@@ -45,8 +45,8 @@ def make_T(R: ArrayLike, t: ArrayLike) -> Array:
 def inverse(T: ArrayLike) -> Array:
     """Return the inverse pose: `inverse(T_world_hand)` is `T_hand_world`.
 
-    R transposed and -R^T t, never a general matrix inverse, which would accept a
-    matrix that is no pose (Modern Robotics, eq. 3.64).
+    It consists of R^T and -R^T t. A general matrix inverse would also accept a matrix
+    that is no pose (Modern Robotics, eq. 3.64).
 
     Args:
         T: pose, (..., 4, 4).
@@ -102,8 +102,8 @@ def Rz(theta: ArrayLike) -> Array:
 def quat_to_R(q_wxyz: ArrayLike) -> Array:
     """Return the rotation matrix of a quaternion, which is normalised first.
 
-    Normalising is not optional: model files write `quat="1 -1 0 0"`, of length
-    sqrt(2), and mean the unit quaternion in that direction.
+    Only a unit quaternion represents a rotation, and model files contain others: `quat=
+    "1 -1 0 0"` has the norm sqrt(2).
 
     Args:
         q_wxyz: quaternion, scalar part first as in MuJoCo, (..., 4).
@@ -112,7 +112,7 @@ def quat_to_R(q_wxyz: ArrayLike) -> Array:
         Rotation matrix, (..., 3, 3).
 
     Raises:
-        ValueError: wrong shape, a non-finite number, or a quaternion of length 0.
+        ValueError: wrong shape, a non-finite number, or a quaternion of norm 0.
     """
     w, x, y, z = np.moveaxis(
         checks.unit(checks.array(q_wxyz, "q_wxyz", (4,)), "q_wxyz"), -1, 0
@@ -128,9 +128,9 @@ def quat_to_R(q_wxyz: ArrayLike) -> Array:
 def R_to_quat(R: ArrayLike) -> Array:
     """Return the unit quaternion of a rotation matrix, with w >= 0.
 
-    q and -q are the same rotation; the sign is fixed so that two answers can be
-    compared. The largest of the four components is computed first, which keeps the
-    division away from zero for every angle (Shepperd 1978).
+    q and -q represent the same rotation; the sign is fixed so that two results can be
+    compared. The largest of the four components is computed first, so that no division
+    is by a small number (Shepperd 1978).
 
     Args:
         R: rotation matrix, (..., 3, 3).
@@ -163,10 +163,10 @@ def is_rotation(R: ArrayLike, tol: float = RIGID_TOL) -> bool:
 
     Args:
         R: matrix, (..., 3, 3).
-        tol: largest entry of R R^T - I that still counts as orthonormal.
+        tol: the largest permitted entry of R R^T - I.
 
     Returns:
-        True when all are rotations; False for other shapes and non-finite numbers.
+        True if all are rotations; False also for other shapes and non-finite numbers.
     """
     R = np.asarray(R, dtype=np.float64)
     return (
@@ -184,7 +184,7 @@ def is_pose(T: ArrayLike, tol: float = RIGID_TOL) -> bool:
         tol: as in `is_rotation`, also for the bottom row.
 
     Returns:
-        True when all are poses; False for other shapes and non-finite numbers.
+        True if all are poses; False also for other shapes and non-finite numbers.
     """
     T = np.asarray(T, dtype=np.float64)
     return (
@@ -195,11 +195,11 @@ def is_pose(T: ArrayLike, tol: float = RIGID_TOL) -> bool:
 
 
 def pose_distance(T_a: ArrayLike, T_b: ArrayLike) -> tuple[Array, Array]:
-    """Return how far apart two poses are, as a distance and an angle.
+    """Return the distance and the angle between two poses.
 
-    The angle comes from the relative rotation's quaternion by atan2, which is exact
-    near 0 and near pi; arccos((trace - 1) / 2) loses half its digits there, or is
-    NaN where rounding takes the trace past 3.
+    The angle is computed from the quaternion of the relative rotation with atan2, which
+    is accurate near 0 and near pi. arccos((trace - 1) / 2) loses half of its digits
+    there, and it is NaN if rounding makes the trace larger than 3.
 
     Args:
         T_a: pose, (..., 4, 4).

@@ -1,16 +1,16 @@
-"""The shapes of the arm and of what stands around it, and how far they are apart.
+"""Collision geometry of the arm and of its environment, and the distances between them.
 
-The arm is a few capsules, each fixed to a link; around it stand capsules (posts, bars,
-wires) and boxes. The capsules of the links contain the Menagerie's collision meshes;
-`PEN` is a pen of 5 mm that the arm without a hand holds. The base stands still, so it
-is no part of the arm.
+The arm consists of capsules that are fixed to its links; its environment consists of
+capsules (posts, bars, wires) and boxes. The capsules of the links contain the
+Menagerie's collision meshes; `PEN` is a pen of 5 mm that the arm without a hand holds.
+The base does not move, so it is no part of the arm.
 
     arm = shapes.Shape(model)
     world = shapes.World.of(posts=[((0.4, 0, 0), (0.4, 0, 0.9), 0.04)])
     arm.clearance(q, world)                 metres, for one q or for thousands
-    arm.edge_free(q0, q1, world)            the straight way from q0 to q1
+    arm.edge_free(q0, q1, world)            whether a straight edge is collision-free
 
-Formulas for one pair, to read: `robo47.distance`. Metres, radians.
+`robo47.distance` has the formulas for one pair. Metres, radians.
 """
 
 from collections.abc import Iterable, Sequence
@@ -53,16 +53,16 @@ HAND = (
     ((0, -0.076, 0.021), (0, 0.061, 0.030), 0.050),
     ((0, -0.058, 0.084), (0, 0.058, 0.084), 0.029),
 )
-TINY = 1e-6  # m: nothing is looked at more finely than this
+TINY = 1e-6  # m, the finest resolution of a test
 
 
 class World(NamedTuple):
-    """What stands around the arm."""
+    """The arm's environment."""
 
-    ends: Array  # of the capsules' axes, m, (m, 2, 3)
+    ends: Array  # end points of the capsules' axes, m, (m, 2, 3)
     radii: Array  # m, (m,)
     boxes: Array  # T_world_box, (b, 4, 4)
-    half: Array  # of their sides, m, (b, 3)
+    half: Array  # half sides of the boxes, m, (b, 3)
 
     @classmethod
     def of(
@@ -87,7 +87,7 @@ class World(NamedTuple):
 
     @classmethod
     def of_model(cls, model: mujoco.MjModel) -> "World":
-        """Return the capsules, balls and boxes that a model has fixed to the world."""
+        """Return a model's capsules, spheres and boxes that are fixed to the world."""
         posts = []
         boxes = []
         for i in np.flatnonzero(model.geom_bodyid == 0):
@@ -108,7 +108,7 @@ class World(NamedTuple):
     def add_to(self, spec: mujoco.MjSpec, name: str = "world") -> None:
         """Add these shapes to a model as geoms world0, world1 ..., capsules first.
 
-        They touch nothing: `mujoco.mj_geomDistance` measures them all the same.
+        They have no contacts, but `mujoco.mj_geomDistance` measures their distances.
         """
         body = spec.worldbody
         for i, (ends, r) in enumerate(zip(self.ends, self.radii, strict=True)):
@@ -122,7 +122,7 @@ class World(NamedTuple):
 
 
 class Shape:
-    """The arm as capsules: where they are, and how far from a world."""
+    """The arm as capsules: their poses, and their distances from a world."""
 
     def __init__(
         self, model: mujoco.MjModel, capsules: Sequence[Capsule] | None = None
@@ -139,7 +139,7 @@ class Shape:
         self._qpos0 = model.qpos0.copy()
 
     def ends(self, q: ArrayLike) -> Array:
-        """Return the ends of the capsules' axes in the world.
+        """Return the ends of the capsules' axes in the world frame.
 
         Args:
             q: joint angles, radians, (..., 7).
@@ -151,7 +151,7 @@ class Shape:
             ValueError: a wrong shape or a non-finite number.
         """
         q = checks.array(q, "q", (len(panda.ARM_JOINTS),))
-        if self._adr is not None:  # the hand's fingers, and what lies around
+        if self._adr is not None:  # the fingers, and free bodies
             full = np.broadcast_to(self._qpos0, (*q.shape[:-1], self.model.nq)).copy()
             full[..., self._adr] = q
             q = full
@@ -160,14 +160,14 @@ class Shape:
         return turned + T[..., None, :3, 3]
 
     def distances(self, q: ArrayLike, world: World) -> Array:
-        """Return how far each capsule is from each thing, negative where they overlap.
+        """Return the signed distance of each capsule from each shape of a world.
 
         Args:
             q: joint angles, radians, (..., 7).
             world: its capsules come first, then its boxes.
 
         Returns:
-            Metres, (..., capsules, things).
+            Metres, (..., capsules, shapes); negative for shapes that overlap.
 
         Raises:
             ValueError: a wrong shape or a non-finite number.
@@ -182,7 +182,7 @@ class Shape:
         if len(world.boxes):
             R = world.boxes[:, :3, :3]
             t = world.boxes[:, :3, 3]
-            start = ((a0 - t)[..., None, :] @ R)[..., 0, :]  # in the boxes' axes
+            start = ((a0 - t)[..., None, :] @ R)[..., 0, :]  # in the box frames
             end = ((a1 - t)[..., None, :] @ R)[..., 0, :]
             far.append(near.box_distances(start, end, world.half))
         if not far:
@@ -190,11 +190,11 @@ class Shape:
         return np.concatenate(far, axis=-1) - self.radii[:, None]
 
     def clearance(self, q: ArrayLike, world: World) -> Array:
-        """Return how far the arm is from all else, metres, (...); inf from nothing.
+        """Return the clearance, the smallest distance from a world, metres, (...).
 
         Args:
             q: joint angles, radians, (..., 7).
-            world: what stands around it.
+            world: the environment; the clearance from an empty one is infinity.
 
         Raises:
             ValueError: a wrong shape or a non-finite number.
@@ -203,14 +203,14 @@ class Shape:
 
     @cached_property
     def distal_radii(self) -> Array:
-        """How far from each joint anything behind it can ever be, metres, (7,)."""
+        """For each joint an upper bound on the distance to distal points, m, (7,)."""
         return distal_radii(*self.lengths)
 
     @cached_property
     def lengths(self) -> tuple[Array, Array]:
-        """From each link's origin to the next, and to its own farthest point, m.
+        """Distances from each link's origin to the next and to its own farthest point.
 
-        (7,) each; the last link has no next: 0.
+        Metres, (7,) each; for the last link the first one is 0.
         """
         origins = kinematics.fk_links(self._chain, self._qpos0)[:, :3, 3]
         offsets = np.linalg.norm(np.diff(origins, axis=0), axis=1)
@@ -223,16 +223,16 @@ class Shape:
     def edge_free(
         self, q0: ArrayLike, q1: ArrayLike, world: World, margin: float = 0.0
     ) -> bool:
-        """Return whether the straight way from q0 to q1 touches nothing.
+        """Return whether the straight edge from q0 to q1 is collision-free.
 
-        As `robo47.distance.conservative_advance`: a distance d frees the way for d /
-        speed. Many places are looked at together, and what they leave open is halved
-        again.
+        As in `robo47.distance.conservative_advance`, a distance d excludes contacts
+        within d / speed. Many configurations are tested together, and the intervals
+        that remain are halved.
 
         Args:
             q0, q1: joint angles, radians, (7,).
-            world: what stands around the arm.
-            margin: metres; closer than that, wherever it is looked, is not free.
+            world: the environment of the arm.
+            margin: metres; a tested distance below it counts as a collision.
 
         Raises:
             ValueError: a wrong shape, a non-finite number or a negative margin.
@@ -264,7 +264,10 @@ class Shape:
 
 
 def capsules_of(model: mujoco.MjModel) -> tuple[Capsule, ...]:
-    """Return the arm's capsules: of a model with a hand the hand's, else the pen's.
+    """Return the arm's capsules, with those of the hand, or of the pen without a hand.
+
+    Args:
+        model: of the arm.
 
     Raises:
         Robo47Error: the model has no link7.
@@ -285,7 +288,7 @@ def capsules_of(model: mujoco.MjModel) -> tuple[Capsule, ...]:
 def add_arm(spec: mujoco.MjSpec, capsules: Sequence[Capsule] = (*LINKS, PEN)) -> None:
     """Add the arm's capsules to a model as geoms arm0, arm1 ...; an `edit` of it.
 
-    They touch nothing and weigh nothing: `mujoco.mj_geomDistance` measures them.
+    They have neither contacts nor mass; `mujoco.mj_geomDistance` measures them.
     """
     for i, one in enumerate(capsules):
         body = spec.body(f"link{one.link}")
@@ -293,7 +296,7 @@ def add_arm(spec: mujoco.MjSpec, capsules: Sequence[Capsule] = (*LINKS, PEN)) ->
 
 
 def _add_capsule(body: Any, name: str, a: Array, b: Array, radius: float) -> None:
-    """Add one geom; of a ball where both ends are the same."""
+    """Add one geom, a sphere if both ends are equal."""
     if np.array_equal(a, b):
         body.add_geom(
             name=name, type=mujoco.mjtGeom.mjGEOM_SPHERE, pos=a, size=[radius, 0, 0],

@@ -1,10 +1,10 @@
-"""Run a controller in the simulator, at a rate of its own, and log what happened.
+"""Run a controller in the simulator, at a rate of its own, and record the motion.
 
-The controller is a function of (t, q, qd) that returns what `ctrl` gets: torques for
-the seven joints of a model loaded with drive="torque" (N m), and after them numbers
-for further actuators, if it likes. It sees the measured q and qd of joint1 to joint7
-and nothing else: after mj_step MuJoCo's positions of bodies and sites are one step
-old, so the controller must compute its own.
+The controller is a function of (t, q, qd) that returns `ctrl`: torques for the seven
+joints of a model loaded with drive="torque" (N m), optionally followed by numbers for
+further actuators. It receives the measured q and qd of joint1 to joint7 and nothing
+else: after mj_step MuJoCo's positions of bodies and sites are one step old, so the
+controller must compute its own.
 
 Units: seconds, radians, rad/s, N m.
 """
@@ -27,22 +27,23 @@ Push = Callable[[mujoco.MjModel, mujoco.MjData], None]
 
 RATE = 250.0  # Hz, of the controller; 100 still works for gains of omega = 20
 
-# The Panda's own limits, which its model file does not hold (Franka, FCI documentation,
-# "Robot and interface specifications"): rad/s and rad/s2 of joint1 to joint7.
+# The Panda's own limits, which its model file does not contain (Franka, FCI
+# documentation, "Robot and interface specifications"): rad/s and rad/s2 of joint1 to
+# joint7.
 SPEED_LIMITS = np.array([2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61])
 ACC_LIMITS = np.array([15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0])
 
 
 class Run(NamedTuple):
-    """What a controller did. The N + 1 states are those at the control instants.
+    """The record of a run. The N + 1 states are those at the control instants.
 
     Attributes:
         t: seconds since the run began, (N + 1,).
         q: measured configurations in radians, (N + 1, 7).
         qd: measured velocities in rad/s, (N + 1, 7).
-        tau: what the controller asked of the seven motors from each instant to the
-            next, before they saturate, (N, 7).
-        seen: what `watch` returned after each control period, N of them.
+        tau: commanded torques of the seven motors from each instant to the next, before
+            saturation, (N, 7).
+        seen: the results of `watch` after each control period, N of them.
     """
 
     t: Array
@@ -53,7 +54,7 @@ class Run(NamedTuple):
 
 
 def start(model: mujoco.MjModel, q: ArrayLike, qd: ArrayLike = 0.0) -> mujoco.MjData:
-    """Return the simulator's state with the arm at q; the rest as `home` has it.
+    """Return the simulator's state with the arm at q, all else as in the key `home`.
 
     Args:
         model: any Panda of `robo47.panda.load` or `robo47.scenes`.
@@ -81,7 +82,7 @@ def start(model: mujoco.MjModel, q: ArrayLike, qd: ArrayLike = 0.0) -> mujoco.Mj
 
 
 def addresses(model: mujoco.MjModel) -> tuple[Array, Array, Array]:
-    """Return where the seven joints stand in qpos, qvel and ctrl, looked up by name.
+    """Return the indices of the seven joints in qpos, qvel and ctrl, found by name.
 
     Args:
         model: any Panda.
@@ -102,7 +103,7 @@ def addresses(model: mujoco.MjModel) -> tuple[Array, Array, Array]:
 
 
 def limits(model: mujoco.MjModel) -> tuple[Array, Array]:
-    """Return the range of the seven joints and the largest torques of their drives.
+    """Return the ranges of the seven joints and the torque limits of their drives.
 
     Args:
         model: any Panda.
@@ -125,21 +126,21 @@ def run(
     push: Push | None = None,
     watch: Watcher | None = None,
 ) -> Run:
-    """Simulate for a while from where `data` is, which is where it is left.
+    """Simulate a controller from the state in `data`, which is advanced to the end.
 
     Args:
         model: a Panda.
         data: its state; `start` makes one.
-        controller: is given (t, q, qd), returns ctrl from the first actuator on.
-        seconds: how long, a whole number of control periods.
+        controller: maps (t, q, qd) to ctrl, from the first actuator on.
+        seconds: duration, a whole number of control periods.
         rate: of the controller in Hz; a period is a whole number of time steps.
-        push: is called before every time step and may write data.qfrc_applied, which
-            it finds at zero; `push_at` makes one.
-        watch: is called after every control period; read nothing but qpos and qvel
-            of what it is given, or call mj_forward on a copy first.
+        push: is called before every time step and may write data.qfrc_applied, which is
+            zero before; `push_at` makes one.
+        watch: is called after every control period; read nothing but qpos and qvel of
+            its arguments, or call mj_forward on a copy first.
 
     Returns:
-        The log.
+        The record.
 
     Raises:
         ValueError: the period is not a whole number of steps, or the controller
@@ -169,14 +170,14 @@ def run(
 
 
 def push_at(site: str, wrench: ArrayLike) -> Push:
-    """Return a push with a wrench at a site, for `run`.
+    """Return a push with a constant wrench at a site, for `run`.
 
     It uses mj_applyFT at the site. xfrc_applied would act at the body's centre of
     mass, which for `attachment` lies 0.107 m beyond the site.
 
     Args:
         site: its name.
-        wrench: (moment; force) in world axes, N m and N, (6,).
+        wrench: (moment; force) in the world frame, N m and N, (6,).
     """
     wrench = checks.array(wrench, "wrench", (6,))
 
@@ -193,10 +194,10 @@ def push_at(site: str, wrench: ArrayLike) -> Push:
 
 
 def steps_per_period(model: mujoco.MjModel, rate: float) -> int:
-    """Return how many time steps a control period has.
+    """Return the number of time steps in a control period.
 
     Args:
-        model: its time step counts.
+        model: of which the time step is used.
         rate: of the controller in Hz.
 
     Raises:

@@ -1,11 +1,10 @@
-"""Control at the hand: the mass felt there, springs, damping and wanted pushes.
+"""Operational-space and impedance control of the hand.
 
 Conventions: twists, errors and accelerations of the hand are (angular; linear) and
-wrenches (moment; force), both in world axes at the site. `J_site` qd =
-(omega; velocity of the site point); formulas have J for short. Only `bias_acceleration`
-takes `J_space`. M is the mass matrix with armature. Metres, radians, newtons,
-kilograms. `n` joints, `m` rows of J_site (6 for the whole hand); leading dimensions
-broadcast.
+wrenches (moment; force), both in the world frame at the site. `J_site` qd = (omega;
+velocity of the site point); formulas abbreviate it as J. Only `bias_acceleration` takes
+`J_space`. M is the mass matrix with armature. Metres, radians, newtons, kilograms. `n`
+joints, `m` rows of J_site (6 for the whole hand); leading dimensions broadcast.
 
 Sources: Khatib, "A unified approach for motion and force control of robot
 manipulators", IEEE J. Robotics and Automation 3(1), 1987; Lynch and Park, Modern
@@ -21,9 +20,10 @@ from robo47.fast.vectors import cross_of, times
 
 
 def task_inertia(J_site: ArrayLike, M: ArrayLike) -> Array:
-    """Return the mass and inertia that somebody pushing at the hand feels.
+    """Return the task-space inertia at the hand, Lambda = (J M^-1 J^T)^-1.
 
-    Lambda = (J M^-1 J^T)^-1 (Khatib 1987; Modern Robotics, section 8.6).
+    It relates a force at the hand to the hand's acceleration (Khatib 1987; Modern
+    Robotics, section 8.6).
 
     Args:
         J_site: site Jacobian, (..., m, n), of full row rank (no singularity).
@@ -45,17 +45,17 @@ def task_inertia(J_site: ArrayLike, M: ArrayLike) -> Array:
 
 
 def bias_acceleration(J_space: ArrayLike, qd: ArrayLike, p: ArrayLike) -> Array:
-    """Return the acceleration that the hand has while the joints do not accelerate.
+    """Return the acceleration Jdot qd of the hand for constant joint velocities.
 
-    It is Jdot qd of the site Jacobian. A joint's screw S_i is carried along by the
-    twist V_i of its link: (omega'; v') is the sum of ad(V_i) S_i qd_i. The site
-    point's own acceleration is then v' + omega' x p + omega x (velocity of p)
-    (Featherstone, Rigid Body Dynamics Algorithms, 2008, section 2.11).
+    A joint's screw S_i moves with the twist V_i of its link, so (omega'; v') is the sum
+    of ad(V_i) S_i qd_i. The acceleration of the site point is then v' + omega' x p +
+    omega x (velocity of p) (Featherstone, Rigid Body Dynamics Algorithms, 2008, section
+    2.11).
 
     Args:
         J_space: space Jacobian, one screw (omega; v) per column, (..., 6, n).
         qd: joint velocities in rad/s, (..., n).
-        p: the site point in world axes, metres, (..., 3).
+        p: the site point in the world frame, metres, (..., 3).
 
     Returns:
         (angular; linear) acceleration in rad/s2 and m/s2, (..., 6).
@@ -87,14 +87,14 @@ def osc_torque(
     bias_acc: ArrayLike,
     acc: ArrayLike,
 ) -> Array:
-    """Return the torque that gives the hand a wanted acceleration.
+    """Return the operational-space torque for a wanted acceleration of the hand.
 
-    tau = J^T Lambda (acc - Jdot qd) + bias (Khatib 1987). Joint damping is not in
-    it: add damping qd, as `impedance_torque` does.
+    tau = J^T Lambda (acc - Jdot qd) + bias (Khatib 1987). It does not contain the joint
+    damping: add damping qd, as `impedance_torque` does.
 
     Args:
         J_site: site Jacobian, (..., m, n).
-        Lambda: task inertia, (..., m, m).
+        Lambda: task-space inertia, (..., m, m).
         bias: Coriolis, centrifugal and gravity torque in N m, (..., n).
         bias_acc: Jdot qd, as `bias_acceleration` returns it, (..., m).
         acc: wanted (angular; linear) acceleration in rad/s2 and m/s2, (..., m).
@@ -115,14 +115,15 @@ def osc_torque(
 def nullspace_torque(
     J_site: ArrayLike, M: ArrayLike, Lambda: ArrayLike, tau: ArrayLike
 ) -> Array:
-    """Return the part of tau that does not accelerate the hand.
+    """Return the part of tau in the dynamic null space of the hand.
 
-    (I - J^T Lambda J M^-1) tau, for which J M^-1 (its result) = 0 (Khatib 1987).
+    It is (I - J^T Lambda J M^-1) tau and does not accelerate the hand: J M^-1 times the
+    result is 0 (Khatib 1987).
 
     Args:
         J_site: site Jacobian, (..., m, n).
         M: mass matrix with armature in kg m2, (..., n, n).
-        Lambda: task inertia, (..., m, m).
+        Lambda: task-space inertia, (..., m, m).
         tau: wanted torques, of a posture for example, in N m, (..., n).
 
     Returns:
@@ -142,7 +143,7 @@ def nullspace_torque(
 def impedance_wrench(
     e: ArrayLike, V_err: ArrayLike, K: ArrayLike, D: ArrayLike
 ) -> Array:
-    """Return K e + D V_err, a spring and a damper (Modern Robotics, section 11.7).
+    """Return the wrench K e + D V_err of a spring and a damper at the hand.
 
     Args:
         e: (rotation vector; position) from the hand to its target, (..., m).
@@ -151,7 +152,7 @@ def impedance_wrench(
         D: damping in N m s/rad and N s/m, (..., m, m).
 
     Returns:
-        Wrench (moment; force) in N m and N, (..., m).
+        Wrench (moment; force) in N m and N, (..., m) (Modern Robotics, section 11.7).
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -164,15 +165,15 @@ def impedance_wrench(
 
 
 def critical_damping(K: ArrayLike, Lambda: ArrayLike) -> Array:
-    """Return the damping with which the hand comes back without ringing.
+    """Return the damping matrix for a critically damped hand.
 
-    D = sqrt(Lambda) sqrt(K) + sqrt(K) sqrt(Lambda); for one mass 2 sqrt(K Lambda)
-    (Albu-Schaeffer, Ott, Frese and Hirzinger, "Cartesian impedance control of
-    redundant robots", ICRA 2003, "factorization design").
+    D = sqrt(Lambda) sqrt(K) + sqrt(K) sqrt(Lambda); for a single mass it is
+    2 sqrt(K Lambda) (Albu-Schaeffer, Ott, Frese and Hirzinger, "Cartesian impedance
+    control of redundant robots", ICRA 2003, "factorization design").
 
     Args:
         K: stiffness along each axis in N m/rad and N/m, at least 0, (..., m).
-        Lambda: task inertia, positive definite, (..., m, m).
+        Lambda: task-space inertia, positive definite, (..., m, m).
 
     Returns:
         D, symmetric, (..., m, m), in N m s/rad and N s/m.
@@ -199,7 +200,7 @@ def impedance_torque(
     qd: ArrayLike,
     tau_null: ArrayLike,
 ) -> Array:
-    """Return the torque that makes the hand push with a wrench, and nothing else.
+    """Return the joint torque with which the hand exerts a wrench, with compensation.
 
     J^T wrench + bias + damping qd + tau_null (Modern Robotics, sections 5.2, 11.7).
 
@@ -209,7 +210,8 @@ def impedance_torque(
         bias: Coriolis, centrifugal and gravity torque in N m, (..., n).
         damping: of the joints in N m s/rad, one number or (..., n).
         qd: measured velocity in rad/s, (..., n).
-        tau_null: torque that the hand does not feel, from `nullspace_torque`, (..., n).
+        tau_null: torque that does not accelerate the hand, from `nullspace_torque`,
+            (..., n).
 
     Returns:
         Joint torques in N m, (..., n).
@@ -228,14 +230,14 @@ def impedance_torque(
 
 
 def set_point_for_force(force: ArrayLike, k: ArrayLike, surface: ArrayLike) -> Array:
-    """Return how deep to command a soft hand so that it presses with a force.
+    """Return the set point below a surface with which a compliant hand exerts a force.
 
     Args:
-        force, k: wanted push in N and stiffness in N/m, above 0, (...).
-        surface: its height in metres, (...).
+        force, k: wanted force in N and stiffness in N/m, above 0, (...).
+        surface: height of the surface in metres, (...).
 
     Returns:
-        Height to command in metres, surface - force / k, (...).
+        Commanded height in metres, surface - force / k, (...).
 
     Raises:
         ValueError: wrong shape, a non-finite number, or k not above 0.
@@ -247,14 +249,14 @@ def set_point_for_force(force: ArrayLike, k: ArrayLike, surface: ArrayLike) -> A
 def hybrid_wrench(
     e: ArrayLike, V_err: ArrayLike, K: ArrayLike, D: ArrayLike, force: ArrayLike
 ) -> Array:
-    """Return a wrench that is a spring sideways and a wanted force downwards.
+    """Return the wrench of hybrid control: force along z, impedance in all other axes.
 
-    `impedance_wrench`, but its z force is -force + the damper's part (Modern Robotics,
-    section 11.6, for a level surface).
+    It is `impedance_wrench`, except that its z force is -force plus the damper's part
+    (Modern Robotics, section 11.6, for a level surface).
 
     Args:
         e, V_err, K, D: as in `impedance_wrench`, with m = 6.
-        force: wanted push along -z in newtons, (...).
+        force: wanted force along -z in newtons, (...).
 
     Returns:
         Wrench (moment; force) in N m and N, (..., 6).

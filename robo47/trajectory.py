@@ -1,9 +1,8 @@
-"""Trajectories: a path says where, a time scaling says when.
+"""Trajectories: paths in joint space and between poses, and their time scalings.
 
-Conventions: s is the fraction of the path that is done, 0 to 1; sd and sdd are its
-derivatives in 1/s and 1/s2; a T is a pose. Radians, metres, seconds. `n` is the
-number of joints; leading dimensions broadcast. Before 0 and after its duration a
-scaling stands still.
+Conventions: the path parameter s runs from 0 to 1; sd and sdd are its derivatives with
+respect to time in 1/s and 1/s2. Radians, metres, seconds. `n` is the number of joints;
+leading dimensions broadcast. A time scaling is at rest before 0 and after its duration.
 
 Sources: Lynch and Park, Modern Robotics (2017), chapter 9 (sections 9.2 and 9.3).
 """
@@ -18,20 +17,20 @@ from robo47.lifting import grasp_pose as grasp_pose
 from robo47.lifting import max_cube_mass as max_cube_mass
 from robo47.rotation_log import log_rotation
 
-# The quintic's largest speed and acceleration, times duration and its square.
+# The quintic's maximum velocity times the duration, and acceleration times its square.
 PEAK_SPEED = 15.0 / 8.0
 PEAK_ACCELERATION = 10.0 / np.sqrt(3.0)
 
 
 def quintic_scaling(t: ArrayLike, duration: ArrayLike) -> Array:
-    """Return s, sd and sdd of a move that starts and stops softly.
+    """Return s, sd and sdd of the quintic time scaling from rest to rest.
 
-    s = 10 x^3 - 15 x^4 + 6 x^5 with x = t / duration clipped to 0..1: speed and
-    acceleration are zero at both ends (Modern Robotics, section 9.2.2).
+    s = 10 x^3 - 15 x^4 + 6 x^5 with x = t / duration clamped to 0 to 1. Velocity and
+    acceleration are 0 at both ends (Modern Robotics, section 9.2.2).
 
     Args:
         t: time in seconds, (...).
-        duration: of the whole move in seconds, above 0, (...).
+        duration: of the whole motion in seconds, above 0, (...).
 
     Returns:
         s, sd in 1/s and sdd in 1/s2, (..., 3).
@@ -49,19 +48,19 @@ def quintic_scaling(t: ArrayLike, duration: ArrayLike) -> Array:
 
 
 def quintic_duration(delta_q: ArrayLike, v_max: ArrayLike, a_max: ArrayLike) -> Array:
-    """Return the shortest quintic within every joint's limits.
+    """Return the shortest duration of a quintic motion within all joint limits.
 
-    A quintic over delta_q that takes D peaks at 15/8 delta_q / D in speed and
-    10/sqrt(3) delta_q / D^2 in acceleration; the slowest joint decides (Modern
-    Robotics, section 9.2.2).
+    A quintic over delta_q in the duration T has the maximum velocity 15/8 delta_q / T
+    and the maximum acceleration 10/sqrt(3) delta_q / T^2. The slowest joint determines
+    the result (Modern Robotics, section 9.2.2).
 
     Args:
-        delta_q: how far each joint goes in radians, either sign, (..., n).
-        v_max: speed limits in rad/s, above 0, infinity for none, one or (..., n).
+        delta_q: displacement of each joint in radians, of either sign, (..., n).
+        v_max: velocity limits in rad/s, above 0, infinity for none, one or (..., n).
         a_max: acceleration limits in rad/s2, likewise.
 
     Returns:
-        Duration in seconds, (...); 0 where nothing moves.
+        Duration in seconds, (...); 0 if no joint moves.
 
     Raises:
         ValueError: wrong shape, NaN, an infinite delta_q, or a limit not above 0.
@@ -77,14 +76,15 @@ def quintic_duration(delta_q: ArrayLike, v_max: ArrayLike, a_max: ArrayLike) -> 
 def joint_trajectory(
     q0: ArrayLike, q1: ArrayLike, t: ArrayLike, duration: ArrayLike
 ) -> Array:
-    """Return q, qd and qdd on the straight line in joint space, with a quintic.
+    """Return q, qd and qdd on a straight line in joint space, with a quintic scaling.
 
-    q0 + (q1 - q0) s and its derivatives (Modern Robotics, section 9.2.1).
+    q is q0 + (q1 - q0) s, and qd and qdd are its derivatives (Modern Robotics, section
+    9.2.1).
 
     Args:
         q0, q1: first and last configuration in radians, (..., n).
         t: time in seconds, (...).
-        duration: of the whole move in seconds, above 0, (...).
+        duration: of the whole motion in seconds, above 0, (...).
 
     Returns:
         q, qd in rad/s and qdd in rad/s2, stacked, (..., 3, n).
@@ -102,19 +102,20 @@ def joint_trajectory(
 def trapezoidal_profile(
     t: ArrayLike, L: ArrayLike, v: ArrayLike, a: ArrayLike
 ) -> Array:
-    """Return position, speed and acceleration of ramp, cruise, ramp.
+    """Return position, velocity and acceleration of the trapezoidal velocity profile.
 
-    Where L is too short to reach v it is a triangle with top speed sqrt(L a)
-    (Modern Robotics, section 9.2.2). The duration is L / top + top / a.
+    If L is too short to reach v, the profile is a triangle with the highest velocity
+    sqrt(L a) (Modern Robotics, section 9.2.2). With the highest velocity `top` the
+    duration is L / top + top / a.
 
     Args:
         t: time in seconds, (...).
-        L: length of the move, at least 0, (...).
-        v: speed limit, above 0, (...).
+        L: distance, at least 0, (...).
+        v: velocity limit, above 0, (...).
         a: acceleration limit, above 0, (...).
 
     Returns:
-        Position, speed and acceleration in units of L, per s and per s2, (..., 3).
+        Position, velocity and acceleration in units of L, per s and per s2, (..., 3).
 
     Raises:
         ValueError: wrong shape, a non-finite number, L below 0, or v or a not above 0.
@@ -141,14 +142,15 @@ def trapezoidal_profile(
 def quintic_coefficients(
     start: ArrayLike, end: ArrayLike, duration: ArrayLike
 ) -> Array:
-    """Return the quintic through a position, speed and acceleration at both ends.
+    """Return the coefficients of the quintic between two states.
 
-    Six linear equations for six coefficients (Modern Robotics, section 9.3).
+    Position, velocity and acceleration at both ends give six linear equations for six
+    coefficients (Modern Robotics, section 9.3).
 
     Args:
-        start: position, speed, acceleration at t = 0, (..., 3).
+        start: position, velocity, acceleration at t = 0, (..., 3).
         end: the same at t = duration, (..., 3).
-        duration: of the whole move in seconds, above 0, (...).
+        duration: of the whole motion in seconds, above 0, (...).
 
     Returns:
         Coefficients of 1, t, ..., t^5, (..., 6).
@@ -173,10 +175,11 @@ def quintic_coefficients(
 
 
 def interpolate_pose(T0: ArrayLike, T1: ArrayLike, s: ArrayLike) -> Array:
-    """Return the pose after the fraction s of a straight line and a constant turn.
+    """Return the pose at the fraction s of a straight line, with slerp for rotation.
 
-    p = p0 + s (p1 - p0) and R = R0 exp(s log(R0^T R1)): the two are decoupled, so
-    the origin goes straight (Modern Robotics, section 9.2.1, eq. 9.8).
+    p = p0 + s (p1 - p0) and R = R0 exp(s log(R0^T R1)): position and orientation are
+    decoupled, so the origin moves on a straight line (Modern Robotics, section 9.2.1,
+    eq. 9.8).
 
     Args:
         T0, T1: first and last pose, (..., 4, 4).

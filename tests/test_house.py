@@ -22,6 +22,7 @@ FLOORS = [
     "labkit.hunt",
     "labkit.report",
     "labkit.figures",
+    "labkit.notebook",
     "labkit.inspector",
     "labkit.site",
     "labkit.fresh",

@@ -1,209 +1,344 @@
-"""The notebook: made from the script, never stale, and it runs from top to bottom."""
+"""The notebook: made of guide and starter, and in step with the lab's file."""
 
 import dataclasses
-import functools
 import importlib.util
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
-from conftest import ROOT, need
-
-if not os.environ.get("ROBO47_CI"):
-    for package in ("ipykernel", "ipywidgets", "jupytext", "nbclient"):
-        pytest.importorskip(package, reason=f"needs {package}: make notebook")
-import nbclient
-import nbformat
-import numpy as np
-
+from conftest import ROOT, copy_kit, environment_of, need
 from labkit.commands import notebook as command
-from labkit.lesson import notebook
+from labkit.handin.deliverables import wanted_names
+from labkit.handin.handin import notebook_name, read_handin
+from labkit.lesson.cells import (
+    BEGIN,
+    apart,
+    definitions,
+    lab_from,
+    text_of,
+    with_functions,
+)
 from labkit.lesson.day import all_days, find_day
+from labkit.lesson.predicted import predictions
+from labkit.lesson.starter import solution, starter_of
+from labkit.notebook import build, guide, kernel, sync, worksheet
 from robo47.errors import Robo47Error
 
-pytestmark = pytest.mark.kit
-
 DAY = find_day(1)
-LOGGING = 'sys.argv = ["day1_transforms"]'
+RZ = """def Rz(theta: float) -> np.ndarray:
+    return turned(theta)
+"""
+HELPER = "def turned(angle):\n    return EPS * math.cos(angle)"
+OTHERS = "import math\nEPS = 1.5\nUNUSED = 3"
 
 
 @pytest.fixture
-def generator(monkeypatch, tmp_path):
-    """Return the command, writing elsewhere."""
-    path = tmp_path / "notebooks" / "day1.ipynb"
-    monkeypatch.setattr(command, "notebook_of", lambda day: path)
-    monkeypatch.setattr(sys, "argv", ["make_notebook.py", "--day", "1"])
-    return command
+def day(tmp_path):
+    """Return Day 1 in a folder where a student has begun it."""
+    folder = tmp_path / DAY.folder.name
+    (folder / "work").mkdir(parents=True)
+    (folder / "src").symlink_to(DAY.folder / "src")
+    (folder / "docs").mkdir()
+    for name in (DAY.guide, DAY.worksheet):
+        (folder / name).write_text((DAY.folder / name).read_text("utf-8"), "utf-8")
+    begun = dataclasses.replace(DAY, folder=folder)
+    begun.work.write_text(starter_of(DAY), "utf-8")
+    return begun
 
 
-@functools.cache
-def made():
-    """Return the text of the day's notebook."""
-    return notebook.build(DAY)
+def cells_of(text):
+    return json.loads(text)["cells"]
 
 
-def cells(kind):
-    notebook = nbformat.reads(made(), as_version=4)
-    return [cell for cell in notebook.cells if cell.cell_type == kind]
-
-
-def outputs(notebook, kind):
-    found = [out for cell in notebook.cells for out in cell.get("outputs", [])]
-    return [out for out in found if out.output_type == kind]
-
-
-def test_a_notebook_is_made_once_and_is_up_to_date_then(generator, monkeypatch, capsys):
-    assert generator.main() == 0
-    assert "written" in capsys.readouterr().out
-    monkeypatch.setattr(sys, "argv", [*sys.argv, "--check"])
-    assert generator.main() == 0
-    assert "is up to date" in capsys.readouterr().out
-
-
-def test_no_notebook_comes_with_the_kit():
-    ignored = (ROOT / ".gitignore").read_text("utf-8").splitlines()
-    assert "/w*/notebooks/" in ignored
-    need((ROOT / ".git").exists(), "the kit as a git repository")
-    listed = ["git", "ls-files", "w*/notebooks"]
-    done = subprocess.run(listed, cwd=ROOT, capture_output=True, text=True, check=True)
-    assert done.stdout == ""
-
-
-def test_one_that_was_only_run_is_made_anew_and_one_with_an_edit_is_kept(
-    generator, capsys
-):
-    path = generator.notebook_of(DAY)
-    assert generator.main() == 0
-    ran = nbformat.read(path, as_version=4)
-    cell = next(cell for cell in ran.cells if cell.cell_type == "code")
-    cell.outputs = [nbformat.v4.new_output("stream", text="printed")]
-    nbformat.write(ran, path)
-    assert generator.main() == 0
-    assert [p.name for p in path.parent.iterdir()] == [path.name]
-    for n in (1, 2):
-        cell.source = f"mine = {n}"
-        nbformat.write(ran, path)
-        assert generator.main() == 0
-        kept = path.with_suffix(f".before-{n}.ipynb")
-        assert kept.name in capsys.readouterr().out
-        assert f"mine = {n}" in kept.read_text("utf-8")
-    assert path.read_text("utf-8") == made()
-
-
-@pytest.mark.parametrize("content", [b"[" * 100_000, b"\xe9\xff", b"\0", b"[1]"])
-def test_a_broken_one_is_kept_under_another_name(generator, capsys, content):
-    path = generator.notebook_of(DAY)
-    path.parent.mkdir()
-    path.write_bytes(content)
-    assert generator.main() == 0
-    assert "as you had it" in capsys.readouterr().out
-    assert path.with_suffix(".before-1.ipynb").read_bytes() == content
-
-
-@pytest.mark.parametrize("make", ["mkdir", "symlink_to"])
-def test_what_is_no_file_is_named(generator, make, tmp_path):
-    path = generator.notebook_of(DAY)
-    path.parent.mkdir()
-    getattr(path, make)(*[tmp_path / "gone"] * (make == "symlink_to"))
-    with pytest.raises(Robo47Error, match="is no file: move it away"):
-        generator.main()
-
-
-def test_a_changed_script_makes_it_stale(generator, monkeypatch, tmp_path):
-    assert generator.main() == 0
-    before = generator.notebook_of(DAY).read_bytes()
-    source = DAY.source.read_text("utf-8")
-    changed = tmp_path / "src" / DAY.script
-    changed.parent.mkdir()
-    changed.write_text(source.replace("np.pi / 4", "np.pi / 3"), "utf-8")
-    shutil.copytree(DAY.own, tmp_path / DAY.own.name)
-    moved = dataclasses.replace(DAY, folder=tmp_path)
-    monkeypatch.setattr(generator, "chosen_day", lambda number: moved)
-    monkeypatch.setattr(sys, "argv", ["make_notebook.py", "--check"])
-    assert generator.main() == 1
-    assert generator.notebook_of(DAY).read_bytes() == before
-
-
-def test_every_heading_carries_its_functions_own_task():
-    text = "\n".join(cell.source for cell in cells("markdown"))
-    named = re.findall(r"^### (\d+\.\d+) `(\w+)`$", text, re.MULTILINE)
-    assert named == [(task.id, name) for task in DAY.tasks for name in task.functions]
-
-
-@pytest.mark.parametrize("text", ["cells = 1", "[[cells]]\nafter = 1", "x = ", ""])
-def test_a_notebook_toml_that_is_not_right_is_named(generator, tmp_path, text):
-    moved = dataclasses.replace(DAY, folder=tmp_path)
-    moved.own.mkdir()
-    (moved.own / "notebook.toml").write_text(text, "utf-8")
-    with pytest.raises(Robo47Error, match=r"notebook\.toml: .*expected \[\[cells\]\]"):
-        notebook.extras(moved)
-
-
-def test_every_function_and_step_of_the_script_is_there(generator):
-    source = DAY.source.read_text("utf-8")
-    code = "\n".join(cell.source for cell in cells("code"))
-    text = "\n".join(cell.source for cell in cells("markdown"))
-    functions = [line for line in source.splitlines() if line.startswith("def ")]
-    assert all(line in code for line in functions if "def main" not in line)
-    assert source.count("lab.check(") == code.count("lab.check(") > 0
-    assert source.count("lab.record(") == code.count("lab.record(") > 0
-    for step in range(1, source.count("lab.step(") + 1):
-        assert f"### {step}. " in text
+def code_cells(text):
+    return ["".join(c["source"]) for c in cells_of(text) if c["cell_type"] == "code"]
 
 
 @pytest.mark.parametrize("day", all_days(), ids=lambda day: f"day {day.number}")
-def test_every_cell_of_every_day_is_python_by_itself(day):
-    found = nbformat.reads(notebook.build(day), as_version=4)
-    for cell in found.cells:
-        if cell.cell_type == "code":  # a `return` of main() has no function there
-            compile(cell.source, f"day {day.number}, {cell.id}", "exec")
+def test_every_task_has_its_function_and_its_check_in_the_order_of_the_guide(day):
+    sources = code_cells(build.build(day, fresh=True))
+    starter = starter_of(day)
+    for task in day.tasks:
+        check = sources.index(f'check("{task.id}")')
+        names = task.functions
+        above = sources[check - len(names) : check]
+        for name, cell in zip(names, above, strict=True):
+            assert cell == guide.typed(text_of(starter, name))
+    steps = [
+        int(found[1])
+        for s in sources
+        if (found := re.fullmatch(r"run\(step=(\d+)\)", s))
+    ]
+    assert steps == sorted(steps)
+    assert len(steps) >= 3
+    sheet = (ROOT / day.folder.name / day.worksheet).read_text("utf-8")
+    asked = [s for s in sources if s.startswith("predict(")]
+    assert len(asked) == len(build.rows_asked(sheet)) > 0
+    assert len([s for s in sources if s.startswith("answer(")]) >= day.questions
 
 
-def test_it_holds_no_markers_no_outputs_and_no_unfilled_heading():
-    raw = made()
-    assert "region" not in raw
-    assert all(cell.outputs == [] for cell in cells("code"))
-    assert all(cell.execution_count is None for cell in cells("code"))
-    assert "{CONFIGURATIONS" not in "".join(cell.source for cell in cells("markdown"))
-    assert len(raw) < 40_000
-    nbformat.validate(json.loads(raw))
+def test_a_prediction_stands_above_the_step_that_measures_it():
+    sources = code_cells(build.build(find_day(11), fresh=True))
+    i = sources.index("predict('gradient for joint 1, m/rad', ...)")
+    assert sources[i + 1] == "run(step=3)"
 
 
-@pytest.mark.gl
-@pytest.mark.usefixtures("gl")
-def test_it_runs_from_top_to_bottom(tmp_path):
-    notebook = nbformat.reads(made(), as_version=4)
-    setup = next(cell for cell in notebook.cells if LOGGING in cell.source)
-    setup.source = setup.source.replace(LOGGING, LOGGING[:-1] + ', "--no-log"]')
-    for cell in notebook.cells:
-        cell.metadata.pop("tags", None)  # here a picture that fails is a failure
-    run = {"metadata": {"path": str(tmp_path)}}  # wherever Jupyter was started
-    nbclient.NotebookClient(notebook, timeout=120, resources=run).execute()
-    printed = "".join(out.text for out in outputs(notebook, "stream"))
-    assert "All checks PASSED." in printed
-    assert "FAIL" not in printed
-    shown = [out.data for out in outputs(notebook, "execute_result")]
-    assert sum("image/png" in data for data in shown) == 2
-    assert not any(data.get("text/plain") == "0" for data in shown)
-    widget = "application/vnd.jupyter.widget-view+json"
-    assert sum(widget in data for data in shown) == 1
+def test_no_cell_shows_a_solution_a_mark_of_the_kits_or_a_command_for_a_terminal():
+    made = build.build(DAY, fresh=True)
+    assert "region 1." not in made
+    assert "<!-- run" not in made
+    assert "make hint TASK" not in made
+    assert 'hint(\\"1.2\\")' in made
+    for task in DAY.tasks:
+        body = solution(DAY.source.read_text("utf-8"), "", task.id).splitlines()[-1]
+        assert body.strip() not in "\n".join(code_cells(made))
+
+
+def test_a_notebook_for_the_web_has_the_address_and_links_to_the_repository():
+    made = build.build(DAY, fresh=True, repository="https://github.com/a/b")
+    assert 'REPOSITORY = \\"https://github.com/a/b\\"' in made
+    assert "https://raw.githubusercontent.com/a/b/HEAD/w1-foundations/docs/" in made
+    assert "](day1.md)" not in made
+
+
+@pytest.mark.parametrize("text", ["cells = 1", "[[cells]]\nafter = 1", "x = ", ""])
+def test_a_notebook_toml_that_is_not_right_is_named(day, text):
+    day.own.mkdir()
+    (day.own / "notebook.toml").write_text(text, "utf-8")
+    with pytest.raises(Robo47Error, match=r"notebook\.toml: .*expected \[\[cells\]\]"):
+        build.extras(day)
+
+
+def test_a_function_brings_the_helpers_imports_and_constants_that_it_uses():
+    cells = definitions([OTHERS, HELPER, "%pip list\n!ls\nprint(1)", RZ])
+    made = with_functions(starter_of(DAY), cells, ["Rz"])
+    assert text_of(made, "Rz") == RZ.strip()
+    assert set(apart(made)[1]) == {"math", "EPS", "turned"}
+    assert made.index("import math") < made.index("def turned") < made.index("def Rz")
+    again = with_functions(
+        made, definitions([HELPER.replace("cos", "sin"), RZ]), ["Rz"]
+    )
+    assert again.count(BEGIN) == 1
+    assert "math.sin" in again
+    assert "EPS = 1.5" in again  # of a cell that has not run in this kernel
+    compile(again, "lab", "exec")
+
+
+def test_a_cell_that_does_not_parse_still_reaches_the_checker():
+    cells = definitions(
+        ["def Rz(theta):\n    return (1\n", "def inverse(T):\n    return T"]
+    )
+    assert cells.functions["Rz"] == "def Rz(theta):\n    return (1"
+    assert "inverse" in cells.functions
+
+
+def test_the_last_cell_of_a_name_counts():
+    cells = definitions(["def Rz(a):\n    return 1", "def Rz(a):\n    return 2"])
+    assert "return 2" in cells.functions["Rz"]
+
+
+def bring(day, body, **keep):
+    cells = definitions([f"def Rz(theta):\n    return {body}"])
+    return sync.bring(day, cells, **keep)
+
+
+def in_file(day, body):
+    script = day.work.read_text("utf-8")
+    cells = definitions([f"def Rz(theta):\n    return {body}"])
+    day.work.write_text(with_functions(script, cells, ["Rz"]), "utf-8")
+
+
+def body_of(day):
+    return text_of(day.work.read_text("utf-8"), "Rz").rpartition("return ")[2]
+
+
+def test_a_cell_is_written_to_the_file_and_an_older_one_never_again(day):
+    assert bring(day, 1).written == ["Rz"]
+    assert bring(day, 2).written == ["Rz"]
+    told = bring(day, 1)  # a notebook that was saved before
+    assert (told.written, told.newer) == ([], ["Rz"])
+    assert body_of(day) == "2"
+
+
+def test_an_edit_of_the_file_alone_counts_and_is_told(day):
+    bring(day, 1)
+    in_file(day, 5)
+    told = bring(day, 1)
+    assert told.newer == ["Rz"]
+    assert "newer than the cell" in told.told(day)[0]
+    assert body_of(day) == "5"
+
+
+def test_an_edit_of_both_is_named_nothing_is_merged_and_the_student_chooses(day):
+    bring(day, 1)
+    in_file(day, 5)
+    with pytest.raises(Robo47Error, match=r"Rz: edited in the notebook and in"):
+        bring(day, 7)
+    assert body_of(day) == "5"
+    assert bring(day, 7, keep="file").newer == ["Rz"]
+    assert body_of(day) == "5"
+    assert bring(day, 8, keep="notebook").written == ["Rz"]
+    assert body_of(day) == "8"
+    (kept,) = day.work.parent.glob("*.before-notebook-1.txt")
+    assert "return 5" in kept.read_text("utf-8")
+
+
+def test_an_empty_function_of_a_new_notebook_empties_nothing(day):
+    in_file(day, 5)
+    sync.bring(day, definitions(code_cells(build.build(DAY, fresh=True))))
+    assert body_of(day) == "5"
+
+
+def test_a_saved_notebook_counts_when_it_is_newer_than_the_file(day):
+    made = json.loads(build.build(day, fresh=True))
+    cell = next(c for c in made["cells"] if c["source"].startswith("def Rz"))
+    cell["source"] = ["def Rz(theta):\n", "    return 3"]
+    day.notebook.write_text(json.dumps(made), "utf-8")
+    os.utime(day.notebook, (1, 1))
+    assert sync.bring_saved(day).written == []
+    os.utime(day.notebook)
+    os.utime(day.work, (2, 2))
+    assert sync.bring_saved(day).written == ["Rz"]
+    assert body_of(day) == "3"
+
+
+@pytest.mark.parametrize("content", [b"[" * 100_000, b"\xe9\xff", b"\0", b"[1]", b"{}"])
+def test_a_file_that_is_no_notebook_is_named_wherever_it_is_read(day, content):
+    day.notebook.write_bytes(content)
+    os.utime(day.work, (2, 2))
+    with pytest.raises(Robo47Error, match="it is no notebook"):
+        sync.bring_saved(day)
+    with pytest.raises(Robo47Error, match="is no notebook: move it away"):
+        command.renew(day)
+    day.work.unlink()
+    handin = read_handin(day, day.folder.parent)
+    assert "cannot be used: it is no notebook" in handin.unread[day.files["script"]]
+
+
+def test_a_notebook_alone_is_a_hand_in_and_the_commit_asks_for_it(day):
+    made = json.loads(build.build(day, fresh=True))
+    cell = next(c for c in made["cells"] if c["source"].startswith("def Rz"))
+    cell["source"] = "def Rz(theta):\n    return 3"
+    day.work.unlink()
+    day.notebook.write_text(json.dumps(made), "utf-8")
+    handin = read_handin(day, day.folder.parent)
+    lab = handin.files[day.files["script"]].decode()
+    assert lab == lab_from(day, day.notebook.read_bytes())
+    assert "return 3" in text_of(lab, "Rz")
+    assert "NotImplementedError" in text_of(lab, "inverse")
+    wanted = wanted_names(day, handin)
+    assert notebook_name(day) in wanted
+    assert day.files["script"] not in wanted
+
+
+def test_the_worksheet_takes_an_answer_once_and_its_correction(day):
+    sheet = (day.folder / day.worksheet).read_text("utf-8")
+    names = [place.name for place in worksheet.places(sheet)]
+    assert "question 2" in names
+    assert not [name for name in names if name.startswith("Drawing")]
+    first = worksheet.with_answer(sheet, "question 2", "A\nB")
+    assert "\n   A\n   B\n" in first
+    second = worksheet.with_answer(first, "question 2", "C", "A\nB")
+    assert second == worksheet.with_answer(sheet, "question 2", "C")
+    with pytest.raises(Robo47Error, match="has another answer already"):
+        worksheet.with_answer(second, "question 2", "D", "A\nB")
+
+
+def test_a_prediction_is_written_into_its_row(day, monkeypatch):
+    monkeypatch.setattr(kernel, "_now", [day])
+    sheet = day.folder / day.worksheet
+    name = next(iter(build.rows_asked(sheet.read_text("utf-8"))))
+    assert "in place of the three dots" in repr(kernel.predict(name, ...))
+    assert not predictions(sheet.read_text("utf-8"))
+    kernel.predict(name, 0.25)
+    assert predictions(sheet.read_text("utf-8")) == {name: "0.25"}
+    assert "no row 'x'" in repr(kernel.predict("x", 1))
+
+
+def test_a_constant_is_changed_for_one_run_below_its_definition():
+    script = "A, B = 1, 2\nC = [\n 3]\nD = 2 * B\n"
+    there: dict[str, object] = {}
+    exec(kernel.with_constants(script, {"B": 5, "C": [4]}), there)
+    assert (there["A"], there["B"], there["C"], there["D"]) == (1, 5, [4], 10)
+    with pytest.raises(Robo47Error, match="no constant E"):
+        kernel.with_constants(script, {"E": 1})
+
+
+def test_what_is_called_before_the_first_cell_says_so(monkeypatch):
+    monkeypatch.setattr(kernel, "_now", [])
+    assert "run the first cell" in repr(kernel.check("1.1"))
+
+
+def test_a_notebook_is_written_once_and_shows_later_edits_of_the_file(
+    day, monkeypatch, capsys
+):
+    monkeypatch.setattr(command, "chosen_day", lambda number: day)
+    monkeypatch.setattr(sys, "argv", ["make_notebook.py"])
+    assert command.main() == 0
+    assert "day1.ipynb written" in capsys.readouterr().out
+    found = json.loads(day.notebook.read_text("utf-8"))
+    found["cells"].append(build.code("mine = 1"))
+    day.notebook.write_text(json.dumps(found), "utf-8")
+    in_file(day, 5)
+    assert command.main() == 0
+    assert "Renewed from" in capsys.readouterr().out
+    sources = code_cells(day.notebook.read_text("utf-8"))
+    assert "mine = 1" in sources
+    assert any("return 5" in source for source in sources)
+
+
+def test_no_notebook_comes_with_the_kit():
+    need((ROOT / ".git").exists(), "the kit as a git repository")
+    listed = ["git", "ls-files", "*.ipynb"]
+    done = subprocess.run(listed, cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout == ""
 
 
 def test_without_the_kit_the_set_up_asks_for_the_clones_address(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
-    with pytest.raises(AssertionError, match="set REPOSITORY above"):
-        exec(cells("code")[0].source, {})
+    setup = code_cells(build.build(DAY, fresh=True))[0]
+    with pytest.raises(AssertionError, match="write the address of the course"):
+        exec(setup, {})
 
 
+@pytest.mark.kit
+def test_a_wrong_function_is_told_in_its_cell_and_the_run_goes_on(tmp_path):
+    nbclient = pytest.importorskip("nbclient", reason="needs nbclient: make notebook")
+    nbformat = pytest.importorskip("nbformat", reason="needs nbformat: make notebook")
+    kit = copy_kit(tmp_path / "kit")
+    made = nbformat.reads(build.build(DAY, fresh=True), as_version=4)
+    nbformat.validate(made)
+    wrong = "def Rz(theta):\n    c, s = np.cos(theta), np.sin(theta)\n"
+    wrong += "    return np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])"
+    kept = []
+    for cell in made.cells:
+        if cell.source.startswith("def Rz("):
+            cell.source = wrong
+        if re.match(r'(# Run|import|def Rz|check\("1.2"\)|run\(step=3)', cell.source):
+            kept.append(cell)
+    made.cells = kept
+    where = {"metadata": {"path": str(kit)}}
+    client = nbclient.NotebookClient(made, timeout=120, resources=where)
+    client.execute(env=environment_of(kit))
+    told = "\n".join(str(out) for cell in made.cells for out in cell.outputs)
+    assert "WRONG" in told
+    assert "<table>" in told
+    assert "task 1.1: write make_T" in told
+    work = kit / DAY.folder.name / "work"
+    assert "[-s, c, 0]" in (work / DAY.script).read_text("utf-8")
+
+
+@pytest.mark.kit
 @pytest.mark.gl
 @pytest.mark.usefixtures("gl")
 def test_a_slider_moves_the_arm_and_the_matrix_of_the_function_that_is_given():
+    pytest.importorskip("ipywidgets", reason="needs ipywidgets: make notebook")
     from labkit.figures.sliders import joint_sliders
 
     left, picture = joint_sliders().children
@@ -226,20 +361,3 @@ def test_a_slider_moves_the_arm_and_the_matrix_of_the_function_that_is_given():
     left, _ = joint_sliders(compose_fk).children
     assert "T_world_ee, compose_fk" in left.children[-1].value
     assert "color:crimson" in left.children[-1].value
-
-
-def test_a_starter_notebook_has_the_gaps_and_no_answer(
-    generator, monkeypatch, tmp_path
-):
-    work = tmp_path / "work" / "day1_transforms.py"
-    monkeypatch.setattr("labkit.lesson.day.Day.work", work)
-    monkeypatch.setattr(sys, "argv", [*sys.argv, "--starter"])
-    assert generator.main() == 0
-    text = work.with_suffix(".ipynb").read_text("utf-8")
-    source = DAY.source.read_text("utf-8")
-    answers = re.findall(r"# region \S+\n(.*?)\n    # endregion", source, re.DOTALL)
-    assert len(answers) >= 8
-    assert all(json.dumps(answer)[1:-1] not in text for answer in answers)
-    assert text.count("raise NotImplementedError") == len(answers)
-    with pytest.raises(Robo47Error, match="stays as it is"):
-        generator.main()

@@ -54,6 +54,16 @@ def box(n):
     return definite(n), 3 * rng.normal(size=n), lo, hi
 
 
+def test_a_box_of_150_entries_is_solved_and_no_wrong_point_is_returned(monkeypatch):
+    n = 150
+    H, f, ends = definite(n), 30 * rng.normal(size=n), np.ones(n)
+    x = optimal.box_qp(H, f, -ends, ends, np.zeros(n))
+    assert optimal.kkt_residual(H, f, -ends, ends, x) < 1e-9
+    monkeypatch.setattr(optimal, "STEPS", (3, 0))
+    with pytest.raises(ValueError, match="no minimiser in 3 iterations"):
+        optimal.box_qp(H, f, -ends, ends, np.zeros(n))
+
+
 def cost(H, g, x):
     """Return what is made least."""
     return 0.5 * x @ H @ x + g @ x

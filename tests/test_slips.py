@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from test_claims import right, told
 
+from labkit.judge import limits
 from labkit.judge.mutant import Body
 
 pytestmark = pytest.mark.kit
@@ -88,6 +89,27 @@ def test_a_loop_that_would_never_end_stops(loop):
             code(0)
             ended += 1
     assert 0 < ended < len(mutants)
+
+
+def test_a_search_ends_after_a_count_of_lines_that_no_clock_changes(monkeypatch):
+    one = body("def f(x):\n    for _ in range(4):\n        x = x + 1\n    return x\n")
+    one.calibrate([0])
+    one.compiled()(0)
+    assert one.steps.taken == one.steps.lines > one.steps.usual == 4
+    next(b for a, b in one.further() if a.text == "for _ in list(range(4))[::2]:")(0)
+    assert one.steps.taken == one.steps.lines // 2
+    monkeypatch.setattr(limits.time, "process_time", lambda: 0.0)
+    effort = limits.Effort()
+    while not effort.spent():
+        effort.spend(one.steps.taken)
+    assert -limits.ONCE < effort.left + one.steps.lines // 2 <= one.steps.lines // 2
+
+
+def test_an_outer_product_in_a_loop_does_not_fill_the_memory():
+    text = "for _ in range(9):\n        x = np.outer(x, x)"
+    one = body(f"def f(x):\n    {text}\n    return x\n")
+    with pytest.raises(ValueError, match="too large"):
+        one.compiled()(np.ones(10))
 
 
 def test_lapack_is_not_asked_of_what_is_not_finite():

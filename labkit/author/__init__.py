@@ -3,6 +3,7 @@
 files       do a day's files fit together: regions, rows, headings, links
 hints       their size, and whether they have the solution
 docstring   what a docstring says: worked cases are run, shapes are compared
+by_machine  mistakes of a day that the checker names without their entry
 student     the complete lab as a student's own file: check, grade, proof
 seen        the day's tabs opened, its pictures drawn and compared
 week        what a week's capstone lacks

@@ -1,6 +1,5 @@
 """Check a day: ask the student's functions, judge what came back, report.
 
-    once           one check of a day or of a task, with all that belongs to it
     tasks          from a student's file to one verdict per task
     lab_run        the day's lab, run with a file's functions
     memory         how tasks stood when last checked, which mistakes were met

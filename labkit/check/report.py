@@ -148,10 +148,7 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
         lines += [*_wrapped(report.problem, 2), ""]
     width = max([24, *(len(_name(result.task)) for result in report.tasks)])
     for result in report.tasks:
-        verdict = result.verdict  # of what is to do, its mistake may say why
-        status = verdict.mistake if verdict.mistake in _LABEL else verdict.status
-        status = "valid" if verdict.valid else status
-        status = "unjudged" if report.problem else status
+        status = _status(report, result)
         lines.append(_line(_name(result.task), status, colour, width))
         lines += _below(report, result, explain)
     if report.items:
@@ -165,6 +162,22 @@ def as_text(report: Report, *, explain: bool = False, colour: bool = False) -> s
     lines += ["", f"{report.done} of {report.total} done{share if whole else ''}."]
     lines += _wrapped(f"Next: {report.next_step()}", 0)
     return "\n".join(lines)
+
+
+def state_of(report: Report, result: TaskResult) -> tuple[str, str, list[str]]:
+    """Return a task's name, its state in words, and what is said of it."""
+    verdict = result.verdict
+    lines = []
+    if not report.problem and verdict.mistake != "unwritten":
+        lines = [_said(report, result, explain=False), verdict.call]
+    return _name(result.task), _LABEL[_status(report, result)], lines
+
+
+def _status(report: Report, result: TaskResult) -> str:
+    verdict = result.verdict  # of what is to do, its mistake may say why
+    status = verdict.mistake if verdict.mistake in _LABEL else verdict.status
+    status = "valid" if verdict.valid else status
+    return "unjudged" if report.problem else status
 
 
 def _below(report: Report, result: TaskResult, explain: bool) -> list[str]:

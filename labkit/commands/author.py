@@ -20,9 +20,9 @@ from labkit.base import cli, processes
 from labkit.commands import docs
 from labkit.judge.guard import LOUD
 from labkit.judge.row import rows_of
-from labkit.lesson import notebook
 from labkit.lesson.constants import TABLE_OF
 from labkit.lesson.day import Day, Task, day_numbers, find_day, find_task
+from labkit.notebook.build import build as build_notebook
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
@@ -152,7 +152,7 @@ def documents(day: Day) -> Iterator[str]:
 def notebooks(day: Day) -> Iterator[str]:
     """Yield why no notebook can be made of the lab."""
     try:
-        notebook.build(day)
+        build_notebook(day, fresh=True)
     except Robo47Error as error:
         yield str(error)
 

@@ -24,11 +24,11 @@ from typing import TYPE_CHECKING
 
 from labkit.base import cli
 from labkit.base.git import short_sha
-from labkit.check.once import report_of
 from labkit.commands.start import require_begun
 from labkit.lesson.day import Day, chosen_day
 from robo47 import __version__
-from robo47.paths import ROOT
+from robo47.errors import Robo47Error
+from robo47.paths import ROOT, shown
 
 if TYPE_CHECKING:
     from labkit.check.report import Report
@@ -54,12 +54,30 @@ def parse(arguments: Sequence[str] | None = None) -> argparse.Namespace:
 def check(day: Day, options: argparse.Namespace) -> int:
     """Check once, print the report and return the exit code."""
     seed = secrets.randbits(32) if options.seed is None else options.seed
-    if not options.file:
-        require_begun(day)
-    with cli.busy("checking"):
-        found = report_of(day, options.file or day.work, options.task, seed)
+    found = report_of(day, options, seed)
     print(_printed(found, options, seed))
     return cli.EXIT_OK if found.passed else cli.EXIT_FAILED
+
+
+def report_of(day: Day, options: argparse.Namespace, seed: int) -> "Report":
+    """Check once and return the report.
+
+    Args:
+        day: from its manifest.
+        options: as `parse` returns them.
+        seed: of the inputs that are drawn anew.
+
+    Raises:
+        Robo47Error: the day is not begun, or the file that is named is not there.
+    """
+    script = options.file or day.work
+    if not options.file:
+        require_begun(day)
+    elif not script.is_file():
+        raise Robo47Error(f"{shown(script)} is not there")
+    from labkit.check.once import check_once
+
+    return check_once(day, script, options.task, seed)
 
 
 def _printed(found: "Report", options: argparse.Namespace, seed: int) -> str:

@@ -1,8 +1,17 @@
-"""Mutation test of a day's questions: find changed functions that they all accept.
+"""Find what a day's questions miss, and entries that the machine names by itself.
 
     make gaps DAY=3
+    make gaps DAY=3 ARGS=--entries
+    make gaps DAY=3 ARGS="--entries --function log_rotation"
     python3 scripts/gaps.py 3
 
+With --entries the command judges each mistake of a function's file without the entry.
+If the machine has a name for it, the command prints both sentences. "shown" means that
+the machine's sentence shows the change: delete the entry if this says as much. "kind"
+means that it only says what kind of change it is. A verdict is the one that a student
+gets when all the entries that are printed are deleted.
+
+Without --entries the command is a mutation test of the questions.
 The command changes the body of each function, one change at a time: it doubles every
 constant, reverses every comparison and moves its limit, omits every clip, abs, max and
 min, clips the arguments and the answer or removes their signs, and rounds the answer to
@@ -24,6 +33,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from labkit.author.by_machine import told_by_machine
 from labkit.base import cli
 from labkit.base.exchange import Exchange, Reply
 from labkit.judge.answers import gaps, own
@@ -229,11 +239,42 @@ def of_day(day: Day) -> int:
     return count
 
 
+def print_entries(day: Day, only: str | None = None) -> None:
+    """Print the entries of a day that the machine names, and its sentences.
+
+    Args:
+        day: whose functions' entries.
+        only: the function; None for all.
+    """
+    rows = rows_of(day)
+    if only and only not in rows:
+        raise Robo47Error(f"Day {day.number} has no function {only}")
+    totals = [0, 0, 0]
+    for function, row in rows.items() if not only else [(only, rows[only])]:
+        for one in told_by_machine(day, row):
+            says = "shown" if one.shown else "kind"
+            print(f"day {day.number}, {function}, {one.slug}: {says} ({one.source})")
+            print(f"    entry:   {one.entry}\n    machine: {one.machine}", flush=True)
+            totals[one.shown] += 1
+        totals[2] += sum(not way.reached for way in row.named)
+    kind, shown, every = totals
+    print(f"Day {day.number}: the machine names {kind + shown} of {every} entries; "
+          f"of {shown} it shows the change")  # fmt: skip
+
+
 def main() -> int:
     """Run the command."""
     parser = cli.parser(__doc__)
     parser.add_argument("day", type=cli.day, nargs="?", help="default: all days")
+    parser.add_argument(
+        "--entries", action="store_true", help="entries that the machine names itself"
+    )
+    parser.add_argument("--function", help="with --entries: of this function alone")
     args = parser.parse_args()
+    if args.entries:
+        for number in [args.day] if args.day else day_numbers():
+            print_entries(find_day(number), args.function)
+        return 0
     if not hasattr(signal, "SIGALRM"):
         raise Robo47Error("make gaps needs Linux or macOS: it ends a loop by a signal")
     numbers = [args.day] if args.day else day_numbers()

@@ -1,79 +1,85 @@
-"""Turn a day's lab script into a notebook, for a headless machine or Colab.
+"""Write a day as a notebook: its guide, a cell for each of your functions, its checks.
 
-    make notebook DAY=1                              write it
-    python3 scripts/make_notebook.py --day 1         the same
-    python3 scripts/make_notebook.py --check         only say if it is old
-    make notebook DAY=1 ARGS=--starter               without answers, in work/
+    make notebook DAY=3                              w1-foundations/work/day3.ipynb
+    python3 scripts/make_notebook.py --day 3         the same
+    make notebook DAY=3 ARGS=--complete              with the kit's functions, elsewhere
+    python3 scripts/make_notebook.py --all --out FOLDER --repository ADDRESS
+                                                     all days, to be opened from the web
 
-The script is the only source: its functions and the steps of its main() become
-cells. What a notebook adds to them (pictures, sliders) is in dayN/notebook.toml.
-It is yours: git does not keep it, and one that you edited is kept under another name.
+Open it with JupyterLab or VS Code (kernel .venv). A notebook that is there already
+keeps everything that you wrote. If you edited a function in the lab's file since, its
+cell shows the new text; a function that you edited in both is named and stays as it is.
 """
 
 import json
-import os
-from itertools import count
 from pathlib import Path
 
-from labkit.base import cli
-from labkit.lesson.day import Day, chosen_day
-from labkit.lesson.notebook import build, digest
+from labkit.base import cli, store
+from labkit.lesson.day import Day, all_days, chosen_day
 from labkit.lesson.week import NOTEBOOKS
+from labkit.notebook import sync
+from labkit.notebook.build import build
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 
-def is_edited(path: Path) -> bool:
-    """Return whether somebody has written in a notebook: a run alone is no edit."""
-    try:
-        found = json.loads(path.read_text("utf-8"))
-        made = digest(cell["source"] for cell in found["cells"])
-        return bool(found["metadata"].get("robo47") != made)
-    except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
-        return True
-
-
-def put_aside(path: Path) -> Path:
-    """Give a notebook a name beside itself that nothing has yet, and return it."""
-    names = (path.with_suffix(f".before-{n}.ipynb") for n in count(1))
-    free = next(name for name in names if not name.exists())
-    return path.rename(free)
-
-
-def notebook_of(day: Day) -> Path:
-    """Return where a day's notebook is."""
-    return day.folder / NOTEBOOKS / Path(day.script).with_suffix(".ipynb").name
-
-
-def main() -> int:
-    """Write a notebook, or check it."""
-    parser = cli.parser(__doc__)
-    parser.add_argument("--day", type=cli.day, help="default: the one worked on last")
-    how = parser.add_mutually_exclusive_group()
-    how.add_argument("--check", action="store_true", help="write nothing")
-    how.add_argument("--starter", action="store_true", help="without answers, in work/")
-    options = parser.parse_args()
-    day = chosen_day(options.day)
-    starter = options.starter
-    path = day.work.with_suffix(".ipynb") if starter else notebook_of(day)
-    if starter and path.exists():
-        raise Robo47Error(f"{shown(path)} is there already and stays as it is")
-    if os.path.lexists(path) and not path.is_file():
+def write(day: Day, path: Path, text: str) -> None:
+    """Write a notebook's text, and say so."""
+    if path.exists() and not path.is_file():
         raise Robo47Error(
             f"{shown(path)} is no file: move it away, then the same again"
         )
-    fresh = build(day, starter)
-    if path.exists() and fresh == path.read_text("utf-8", "replace"):
-        print(f"{shown(path)} is up to date")
-        return cli.EXIT_OK
-    if options.check:
-        print(f"{shown(path)} is out of date: make notebook DAY={day.number}")
-        return cli.EXIT_FAILED
     path.parent.mkdir(parents=True, exist_ok=True)
-    if path.exists() and is_edited(path):
-        print(f"as you had it: {shown(put_aside(path))}")
-    path.write_text(fresh, "utf-8", newline="\n")
-    print(f"{shown(path)} written{'; the answers are yours to find' * starter}")
-    if not starter:
-        print("Open it with Jupyter or VS Code (kernel .venv).")
+    store.replace(path, text.encode())
+    print(f"{shown(path)} written: Day {day.number}, {day.title}")
+
+
+def renew(day: Day) -> None:
+    """Show in a student's notebook what they edited in the lab's file since."""
+    path = day.notebook
+    try:
+        found = json.loads(path.read_text("utf-8"))
+        renewed = sync.with_newer(day, found)
+    except (OSError, ValueError, LookupError, TypeError, RecursionError):
+        raise Robo47Error(
+            f"{shown(path)} is there, and it is no notebook: move it away, then the "
+            "same again"
+        ) from None
+    print(f"{shown(path)} is there already and keeps what you wrote.")
+    if renewed:
+        store.replace(
+            path, (json.dumps(found, indent=1, ensure_ascii=False) + "\n").encode()
+        )
+        print(f"Renewed from {shown(day.work)}: {', '.join(renewed)}.")
+
+
+def main() -> int:
+    """Write a notebook, or those of all days."""
+    parser = cli.parser(__doc__)
+    parser.add_argument("--day", type=cli.day, help="default: the one worked on last")
+    parser.add_argument("--complete", action="store_true", help="with all functions")
+    parser.add_argument("--all", action="store_true", help="every day; needs --out")
+    parser.add_argument("--out", type=Path, help="folder to write to")
+    parser.add_argument("--repository", default="", help="where others get the kit")
+    options = parser.parse_args()
+    if options.all and not options.out:
+        parser.error("--all needs --out: the folder to write to")
+    if options.all:
+        for day in all_days():
+            made = build(day, fresh=True, repository=options.repository)
+            write(day, options.out / day.notebook.name, made)
+        return cli.EXIT_OK
+    day = chosen_day(options.day)
+    if options.complete:
+        folder = options.out or day.folder / NOTEBOOKS
+        write(day, folder / day.notebook.name, build(day, complete=True))
+    elif options.out:
+        made = build(day, repository=options.repository)
+        write(day, options.out / day.notebook.name, made)
+    elif day.notebook.exists():
+        renew(day)
+    else:
+        write(day, day.notebook, build(day))
+        sync.remember(day)
+        print("Open it with JupyterLab or VS Code (kernel .venv).")
     return cli.EXIT_OK

@@ -7,7 +7,6 @@
 An existing file is never overwritten, and a reset keeps your old text next to it.
 """
 
-from itertools import count
 from pathlib import Path
 
 from labkit.base import cli, store
@@ -15,8 +14,10 @@ from labkit.base.git import GitError
 from labkit.handin.whereabouts import whereabouts
 from labkit.lesson import clash, last_day
 from labkit.lesson.day import Day, chosen_day, find_task
+from labkit.lesson.kept import rewrite
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import put_back, require_kits, starter_of
+from labkit.notebook.sync import bring_saved
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
@@ -48,6 +49,8 @@ def require_begun(day: Day) -> None:
     A file beside it that has a module's name is told.
     """
     start = f"make start DAY={day.number}"
+    for line in bring_saved(day).told(day):
+        print(cli.wrapped(line))
     if not day.work.is_file():
         clone = day.folder.parent
         old = day.named_as(lambda name: (clone / name).is_file()).work
@@ -93,22 +96,6 @@ def reset(task_id: str) -> int:
     print(f"task {task_id} is back at its start in {shown(work)}")
     print(f"your file as it was: {shown(kept)}")
     return cli.EXIT_OK
-
-
-def rewrite(work: Path, text: str, why: str) -> Path:
-    """Write a lab anew with its own line ends; return where it is as it was."""
-    before = work.read_bytes()
-    kept = free_name(work, why)
-    end = "\r\n" if b"\r\n" in before else "\n"
-    store.replace(kept, before)
-    store.replace(work, text.replace("\n", end).encode())
-    return kept
-
-
-def free_name(work: Path, task_id: str) -> Path:
-    """Return a name beside the student's file that nothing has yet."""
-    names = (work.with_suffix(f".before-{task_id}-{n}.txt") for n in count(1))
-    return next(name for name in names if not name.exists())
 
 
 def main() -> int:

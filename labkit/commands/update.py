@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from labkit.base import cli, processes, store
-from labkit.commands.start import free_name
+from labkit.lesson.kept import free_name
 from labkit.lesson.students_own import is_students
 from labkit.update import base, git, last_step, merge
 from labkit.update.git import ask, beside, sweep

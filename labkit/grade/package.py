@@ -30,6 +30,7 @@ from labkit.handin.handin import (
     Handin,
     Item,
     image_names,
+    notebook_name,
     picture_path,
     read_handin,
 )
@@ -72,11 +73,11 @@ class Package:
     committed: int | None = None
     problem: str = ""  # why there is nothing to grade; "" where there is
     seed: int = 0  # of the fresh inputs, the same for everybody
-    version: str = ""  # of the kit that collected it, in words
-    branch: str = ""  # that the clone stands on
+    version: str = ""  # the version of the kit that collected it, in words
+    branch: str = ""  # the branch that the clone stands on
     late: int = 0  # how many commits came after the deadline
     elsewhere: str = ""  # a sentence on where the script is, when it is not in place
-    clock: str = ""  # what is wrong with the student's clock; "" where nothing is
+    clock: str = ""  # the fault of the student's clock; "" if there is none
 
     @property
     def fingerprint(self) -> str:
@@ -212,7 +213,8 @@ def _work(day: Day) -> str:
 
 def _check_out(day: Day, clone: Path, commit: str, folder: Path) -> None:
     """Write what a day may hand in of a commit, without running anything of git's."""
-    _write(clone, files_of(clone, commit, *day.files.values()), folder)
+    names = [*day.files.values(), notebook_name(day)]
+    _write(clone, files_of(clone, commit, *names), folder)
     beside = files_of(clone, commit, _work(day)).items()
     helpers = {name: facts for name, facts in beside if name.endswith(".py")}
     _write(clone, helpers, folder, LIMITS["script"])

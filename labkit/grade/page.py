@@ -15,7 +15,7 @@ from labkit.grade.sheet import printable
 from labkit.report.unnamed import UNNAMED
 
 CHARTED = 15  # mistakes in the chart
-COMMON = 3  # of each of several days, the most common
+COMMON = 3  # mistakes shown per day, the most frequent first
 MOST = 100  # groups that are listed
 STATES = {  # heading of a list of people
     "stuck": "Who is stuck",

@@ -23,7 +23,7 @@ from labkit.lesson.starter import put_back, starter_of
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
-FOLDER = ROOT / "docs" / "pictures"  # where they are kept
+FOLDER = ROOT / "docs" / "pictures"  # the folder of the pictures
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 DEADLINE = 1_788_537_600  # 2026-09-04 16:00 UTC
 INVERSE = ("make_T(R.T, -R.T @ t)", "make_T(R.T, -t)")
@@ -46,7 +46,7 @@ CLASS: dict[str, tuple[str, str] | int] = {
     "Kavya Rao": QUATERNION,
     "Luca Bianchi": 3,
 }
-SHOWN = "Farid Rahimi"  # whose feedback file is drawn
+SHOWN = "Farid Rahimi"  # the student whose feedback file is drawn
 SHEET = """<meta charset="utf-8"><style>
 body {{ margin: 0; background: #fff; color: #1f2328; }}
 pre {{ font: 15px/1.45 "DejaVu Sans Mono", monospace; margin: 20px 24px; }}

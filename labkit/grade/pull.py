@@ -31,7 +31,7 @@ SECONDS = 300
 OURS = ".robo47-clones.json"  # beside the clones
 HEADS = "refs/heads/"
 SHOWN = 5  # branches that are named
-_NAME = re.compile(r"[^\0-\x20~^:?*\[\\\x7f]+")  # what git calls a branch
+_NAME = re.compile(r"[^\0-\x20~^:?*\[\\\x7f]+")  # a name that git accepts for a branch
 _SAFE = (
     "core.fsmonitor=false",
     f"core.hooksPath={os.devnull}",
@@ -88,7 +88,8 @@ def pull(student: Student, known: str | None) -> tuple[str | None, str]:
     if not student.url:
         return known, "there is no such folder, and the roster has no git URL"
     new = _beside(path)
-    problem = _problem(_remove, new)  # of a run that was killed
+    # the folder may be left from a run that was killed
+    problem = _problem(_remove, new)
     if problem := problem or _problem(_clone, new, student.url):
         _problem(_remove, new)
         return known, problem
@@ -164,7 +165,7 @@ def _update(clone: Path) -> None:
     if not whole:  # the power was cut
         (clone / ".git" / "index").unlink(missing_ok=True)
     _git(clone, "reset", "-q", "--hard", commit)
-    if not whole:  # what the new commit has no longer
+    if not whole:  # remove the files that the new commit no longer has
         _git(clone, "clean", "-q", "-ffdx")
     if not _git(clone, "for-each-ref", f"--points-at={commit}", git.PULLED):
         _git(clone, "update-ref", f"{git.PULLED}{int(time.time())}", commit)

@@ -27,7 +27,7 @@ class Mark:
     id: str  # "1.4", or "figure"
     status: str  # one of STATUSES
     mistake: str = ""  # its name, "chain-reversed"; "" where nothing has one
-    message: str = ""  # in the student's words
+    message: str = ""  # the message, addressed to the student
 
     @property
     def passed(self) -> bool:
@@ -51,12 +51,12 @@ class Result:
 
     tasks: tuple[Mark, ...]  # those that count, in the manifest's order
     items: tuple[Mark, ...]  # the deliverables
-    text: str = ""  # what `make check` would have told the student
+    text: str = ""  # the text that `make check` would have printed
     error: str = ""  # why something could not be graded; "" where all was
     # What the code wanted and was refused, though its answers may be right.
     refused: tuple[str, ...] = ()
     kit: str = ""  # version of the kit that gave it; "" where nothing was graded
-    seed: int = 0  # of its fresh inputs
+    seed: int = 0  # the seed of its fresh inputs
 
     @property
     def stopped_at(self) -> Mark | None:

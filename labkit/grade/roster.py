@@ -29,12 +29,12 @@ _ASKED = "expected columns: name, folder and, for --pull, git"
 class Student:
     """One row of the results."""
 
-    name: str  # to show, on one line
+    name: str  # the name to show, on one line
     folder: str  # its name in ROOT; no two students have the same
     path: Path  # the folder
-    url: str = ""  # where to clone it from; "" where the roster does not say
+    url: str = ""  # the address to clone from; "" if the roster gives none
     problem: str = ""  # why the folder cannot be used; "" where it can
-    id: str = ""  # what a learning platform knows the student by; "" where none is said
+    id: str = ""  # the student's ID in a learning platform; "" if none is given
     # All that the roster says, by column, in small letters.
     cells: Mapping[str, str] = field(default_factory=dict, compare=False, repr=False)
     file: str = ""  # a name for files about them, without its ending

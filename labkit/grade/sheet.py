@@ -143,11 +143,11 @@ def _who(student: Student) -> dict[str, Cell]:
 class Platform:
     """What a platform's import asks for."""
 
-    name: str  # as its makers write it
+    name: str  # the name that its makers use
     # Of the file, before the grades, in order; the roster's are called the same, in
     # letters of any size, or by the other names here.
     columns: dict[str, tuple[str, ...]]
-    known_by: tuple[str, ...]  # by one of these columns it finds a student
+    known_by: tuple[str, ...]  # the columns that identify a student
     points: str = ""  # how a row begins that says what a grade is out of, if one does
 
 

@@ -24,8 +24,8 @@ from typing import TypeAlias
 
 LENGTH = 8  # tokens in a run
 FEWEST = 24  # runs of one's own: less is too little to compare
-COMMON = 0.1  # of the class: a run that more of them have is nobody's
-FEW = 4  # but one that so few have is kept, in a class of any size
+COMMON = 0.1  # share of the class: a run that more students have is common
+FEW = 4  # a run that at most so many have is kept in a class of any size
 ALIKE = 0.6  # share of the smaller submission's runs
 KITS = 0.8  # share of one's own runs that are in the kit's; right answers have a third
 
@@ -58,7 +58,7 @@ _KEPT = frozenset(keyword.kwlist) | frozenset(dir(builtins))
 class Group:
     """Submissions to look at side by side; each is like at least one of the others."""
 
-    keys: tuple[str, ...]  # whose they are, sorted
+    keys: tuple[str, ...]  # the students' keys, sorted
     # Of the smaller one's runs that the other has too, 0 to 1, in the most similar two.
     share: float
     with_kit: bool = False  # one of them is the kit's own solution, which has no key

@@ -12,7 +12,7 @@ from labkit.lesson.day import Day
 from robo47.errors import FaultError
 from robo47.paths import ROOT, shown
 
-_ITEMS = {  # in the order of the checks, by what is handed in
+_ITEMS = {  # each check of a deliverable, in the order of checking
     "figure": ["figure"],
     "worksheet": ["definitions", "drawings", "checklist"],
     "log": ["metrics"],
@@ -100,7 +100,10 @@ def check_files(day: Day, handin: Handin, *, tasks_pass: bool = True) -> list[It
 def wanted_names(day: Day, handin: Handin) -> list[str]:
     """Return the files to commit: what the day asks for, helpers and drawings."""
     own = [name for name, is_kits in handin.pictures.items() if not is_kits]
-    return list(dict.fromkeys([*day.files.values(), *handin.files, *own]))
+    names = dict.fromkeys([*day.files.values(), *handin.files, *handin.notebook, *own])
+    if handin.notebook:  # the script is only made of it
+        del names[day.files["script"]]
+    return list(names)
 
 
 def check_commit(day: Day, handin: Handin, history: History) -> Item:
@@ -113,12 +116,13 @@ def check_commit(day: Day, handin: Handin, history: History) -> Item:
     """
     if not history.readable:
         return Item("commit", "todo", "This folder is no git repository: git init")
-    there = {*handin.files, *handin.unread, *handin.pictures}
+    contents = {**handin.files, **handin.notebook}
+    there = {*contents, *handin.unread, *handin.pictures}
     wanted = wanted_names(day, handin)
     left = [
         name
         for name in wanted
-        if name in there and not history.holds(name, handin.files.get(name))
+        if name in there and not history.holds(name, contents.get(name))
     ]
     says = []
     if left:

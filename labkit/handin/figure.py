@@ -14,9 +14,9 @@ from labkit.lesson.day import Day, days_of
 
 SMALLEST = (320, 240)  # pixels: width and height
 LARGEST = 20_000_000  # pixels in all
-DARK = 16  # of 255: the brightest entry of a black picture
-FLAT = 3.0  # of 255: the spread of a flat picture
-SAME = 0.5  # of 255: mean difference to a picture that was only saved again
+DARK = 16  # a picture whose brightest entry (of 255) is darker is black
+FLAT = 3.0  # a picture whose spread (of 255) is smaller is flat
+SAME = 0.5  # mean difference (of 255) of a picture that was only saved again
 PORTRAIT = "robo47 portrait"  # a text in the file of a picture of the arm alone
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 # MuJoCo reads PNG for its textures, so the kit needs no imaging package.
@@ -114,7 +114,7 @@ def _inflates(data: bytes, width: int, height: int) -> bool:
         while at + 8 <= len(data):
             size, kind = struct.unpack(">I4s", data[at : at + 8])
             piece = data[at + 8 : at + 8 + size] if kind == b"IDAT" else b""
-            while piece and not unpack.eof:  # what follows it costs ever more
+            while piece and not unpack.eof:  # the time grows with what follows
                 most -= len(unpack.decompress(piece, 1_000_000))
                 piece = unpack.unconsumed_tail
                 if most < 0:

@@ -10,12 +10,19 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.parse import unquote
 
+from labkit.lesson.cells import MOST, lab_from
 from labkit.lesson.day import Day
 from labkit.lesson.own_files import MB, SCRIPT, UnreadError, helpers_of, read, size_of
 
 # In bytes.
-LIMITS = {"script": SCRIPT, "worksheet": 200_000, "figure": 8 * MB, "log": 4 * MB}
-PICTURES = 40  # of the worksheet
+LIMITS = {
+    "script": SCRIPT,
+    "worksheet": 200_000,
+    "figure": 8 * MB,
+    "log": 4 * MB,
+    "notebook": MOST,
+}
+PICTURES = 40  # pictures of a worksheet that are looked at
 IMAGES = (".png", ".jpg", ".jpeg", ".gif", ".svg", ".webp", ".bmp", ".heic", ".tiff")
 
 # Each search ends within a few hundred characters of where it began.
@@ -33,7 +40,7 @@ class Item:
     # Or "todo" (not there yet), "wrong" (there, but), "unfinished" (right as far as it
     # was looked at).
     status: str = "passed"
-    message: str = ""  # what to do; "" when passed
+    message: str = ""  # the next step; "" if it passed
 
     @property
     def passed(self) -> bool:
@@ -49,6 +56,8 @@ class Handin:
     unread: Mapping[str, str] = field(default_factory=dict)  # why not, if it is there
     # The worksheet's that are there: whether it is the kit's own.
     pictures: Mapping[str, bool] = field(default_factory=dict)
+    # The notebook that the script was made of, if it is handed in instead; or nothing.
+    notebook: Mapping[str, bytes] = field(default_factory=dict)
 
 
 def read_handin(day: Day, root: Path) -> Handin:
@@ -71,10 +80,37 @@ def read_handin(day: Day, root: Path) -> Handin:
             unread[name] = str(error)
         else:
             files |= {} if data is None else {name: data}
+    notebook: dict[str, bytes] = {}
+    if wanted["script"] not in {*files, *unread}:
+        notebook = _notebook(day, root, files, unread)
     files |= helpers_of(root, wanted["script"], files.get(wanted["script"], b""))
     sheet = wanted.get("worksheet", "")
     text = files.get(sheet, b"").decode("utf-8", "replace")
-    return Handin(files, unread, _pictures(day, root, sheet, text))
+    return Handin(files, unread, _pictures(day, root, sheet, text), notebook)
+
+
+def notebook_name(day: Day) -> str:
+    """Return the path of a day's notebook from the top of a clone, with "/" in it."""
+    return f"{posixpath.dirname(day.files['script'])}/{day.notebook.name}"
+
+
+def _notebook(
+    day: Day, root: Path, files: dict[str, bytes], unread: dict[str, str]
+) -> dict[str, bytes]:
+    """Return a day's notebook by its name, and note the script that it stands for."""
+    name, script = notebook_name(day), day.files["script"]
+    try:
+        data = read(root, name, LIMITS["notebook"])
+        if data is None:
+            return {}
+        lab = lab_from(day, data).encode()
+        if len(lab) > SCRIPT:
+            raise ValueError("its functions are too long")
+    except (UnreadError, ValueError) as error:
+        unread[script] = f"is not there, and {name} cannot be used: {error}"
+        return {}
+    files[script] = lab
+    return {name: data}
 
 
 def image_names(text: str) -> list[str]:

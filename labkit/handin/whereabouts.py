@@ -6,6 +6,7 @@ the names are read: the clone may be a stranger's.
 
 import os
 import posixpath
+import re
 import tempfile
 import time
 from collections.abc import Iterable, Iterator
@@ -13,10 +14,11 @@ from pathlib import Path
 
 from labkit.base import git
 from labkit.base.text import visible
+from labkit.handin.handin import notebook_name
 from labkit.lesson.day import Day
 from labkit.lesson.week import NOTEBOOKS
 
-BRANCHES, FILES = 20, 20_000  # that are looked through
+BRANCHES, FILES = 20, 20_000  # the most that is searched
 DEEP = 30  # folders in each other
 SKIPPED = (".git", ".venv", "node_modules", "__pycache__", NOTEBOOKS)
 SUBMODULE = "160000"  # mode of a repository inside a repository
@@ -86,13 +88,11 @@ def _under_another_name(day: Day, paths: Iterable[str]) -> Iterator[str]:
             place = visible(path)
             yield f"There is a file of that name: {place}. Move it to {wanted}."
         stem, end = posixpath.splitext(name.lower())
-        if end == ".ipynb" and (
-            stem == Path(day.script).stem or stem.startswith(f"day{day.number}_")
-        ):
-            place = visible(path)
+        mine = re.fullmatch(rf"day{day.number}(_.*)?", stem)
+        if end == ".ipynb" and mine and path != notebook_name(day):
             yield (
-                f"There is a notebook: {place}. Only the script is checked: start it"
-                f" with make start DAY={day.number}, then copy your functions into it."
+                f"There is a notebook: {visible(path)}. Move it to"
+                f" {notebook_name(day)}, and the functions in it count."
             )
 
 

@@ -7,10 +7,10 @@ from labkit.base.text import count, visible
 from labkit.handin.handin import Handin, Item, image_names, picture_path
 from labkit.lesson.day import Day
 
-FEWEST_WORDS, FEWEST_DIFFERENT = 8, 5  # of a definition
+FEWEST_WORDS, FEWEST_DIFFERENT = 8, 5  # the shortest definition
 SHINGLE = 5  # words in a row that count as taken over
 TAKEN_OVER = 0.5  # share of a definition's shingles that may stand in the lab guide
-DRAWN_LINES = 3  # of a drawing made of text
+DRAWN_LINES = 3  # the shortest drawing made of text
 FEWEST_ANSWER_WORDS = 4  # "Its own: multiply right." answers a question
 # The same text twice is pasted where it is as long as a definition, a shorter one from
 # three times on; below an answer's length ("yes", a number) it is no sentence at all.
@@ -75,7 +75,7 @@ def check_worksheet(day: Day, handin: Handin) -> list[Item]:
 
 def _without_comments(text: str) -> str:
     """Return Markdown without its comments; one that is never closed stays."""
-    closed, end, rest = text.rpartition("-->")  # so no search for an end is in vain
+    closed, end, rest = text.rpartition("-->")  # then every later "<!--" has its end
     return _COMMENT.sub("", closed + end) + rest
 
 

@@ -19,10 +19,10 @@ LEVELS = {
 class Quarry(NamedTuple):
     """A mistake in a function."""
 
-    day: int  # that teaches the function
+    day: int  # the day that teaches the function
     function: str
     slug: str  # the mistake's name
-    says: str  # what the checker says of it
+    says: str  # the checker's sentence about it
     code: Callable[..., Any]  # the function with the mistake in it
 
 

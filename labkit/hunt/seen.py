@@ -20,7 +20,7 @@ from labkit.lesson.day import Day, days_of
 from labkit.lesson.lab_module import load_lab
 from robo47.errors import Robo47Error
 
-SECONDS = 60  # that an attempt may take
+SECONDS = 60  # the longest that an attempt may take
 
 
 class Attempt(NamedTuple):
@@ -28,7 +28,7 @@ class Attempt(NamedTuple):
 
     line: str  # its row of numbers, or why it stopped
     done: bool  # whether it came to an end
-    words: bool = True  # if it stopped: in words of the kit's, not of Python's
+    words: bool = True  # an exception's text is the kit's, not Python's
 
 
 def attempt(capstone: ModuleType, fns: Any, name: str) -> Attempt:

@@ -10,7 +10,7 @@ from labkit.base.text import count
 if TYPE_CHECKING:
     from labkit.hunt.case import Case
 
-CHECK = "hunt"  # of a row in the log
+CHECK = "hunt"  # the name of its row in the log
 METRIC = "runs"
 # How a hunt ended, the first word of its row's notes.
 FOUND = "found"  # repaired

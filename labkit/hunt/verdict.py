@@ -21,7 +21,7 @@ class Repaired(NamedTuple):
 
     function: str
     guilty: bool  # whether the mistake is in it
-    verdict: Verdict  # on what is written now
+    verdict: Verdict  # the verdict on the present text
 
 
 def repairs(case: Case) -> list[Repaired]:

@@ -112,6 +112,6 @@ class Jobs:
                 done(await asyncio.to_thread(work))
             except Exception as error:
                 stopped = error
-            self.due = False  # of a stream, as of a slider, the first tells
+            self.due = False  # only the first failure of a stream is told
             self.ended(stopped)
         self.task = None

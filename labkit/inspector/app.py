@@ -64,12 +64,12 @@ class Inspector:
         self.simple = simple
         self.standing = ASKING
         self.heard_words = 0
-        self.q = arm.q.copy()  # what is wanted
-        self.moved = 0.0  # when that was said
+        self.q = arm.q.copy()  # the configuration that is wanted
+        self.moved = 0.0  # the time of the last change
         self.past: list[Array] = []
         self.scheduled = False
         self.student = student
-        self.version = 0  # of the file that is asked
+        self.version = 0  # the version of the file that is asked
         self.unchecked = False
         self.seen = asked(day.ghost)
         self.asks, self.checks = Jobs(), Jobs()
@@ -79,9 +79,9 @@ class Inspector:
         self.kinds = {kind.title: kind for kind in day.tabs}
         for kind in (Joints, Chain, Tasks):
             self.kinds.setdefault(kind.title, kind)
-        self.kind: type[Tab] = Joints  # of the open tab
+        self.kind: type[Tab] = Joints  # the class of the open tab
         self.tab: Tab  # the open one; a bare one where it failed to open
-        self.page: Page | None = None  # what it made its widgets with
+        self.page: Page | None = None  # the page that holds the tab's widgets
         self.open_tab(next(iter(self.kinds)))
         self.listen(self.frame, lambda _: self.light_frame())
         self.listen(self.solid, lambda _: self.look())
@@ -134,7 +134,7 @@ class Inspector:
     def update(self) -> None:
         """Bring everything that is shown to what is wanted."""
         self.scheduled = False
-        if self.student.saved():  # at once, and not when the watch comes round
+        if self.student.saved():  # update at once instead of at the next look
             self.forget()
         moved = not np.array_equal(self.q, self.arm.q)
         if moved:

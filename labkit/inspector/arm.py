@@ -17,21 +17,22 @@ from robo47.verify import mujoco_poses, random_q
 
 AGREES = 1e-8  # "the same to 8 decimals"; honest rounding leaves about 1e-15
 SOFT = 0.005  # radians by which the simulator's limits give way
-END = "ee"  # what the end effector's frame is called in T_world_ee
+END = "ee"  # the name of the end effector's frame in T_world_ee
 
 
 class Step(NamedTuple):
     """One factor of the chain: after = before @ factor; matrices are (4, 4)."""
 
-    link: str  # that the factor leads to, or turns; short name
-    joint: str  # that turns it; "" for the pose that the file gives
+    link: str  # the link that the factor leads to or turns; short name
+    joint: str  # the joint that turns it; "" for a constant pose of the file
     name: str
     q: float  # the joint's value; 0 for a pose of the file
     before: Array  # T_world_... so far
     factor: Array
     after: Array  # T_world_link once the link's own joint is in
-    moves: NDArray[np.bool_]  # which entries of the factor depend on q
-    off: NDArray[np.bool_] | None = None  # which are wrong, where it is a student's
+    moves: NDArray[np.bool_]  # the entries of the factor that depend on q
+    # the wrong entries, if the factor is a student's
+    off: NDArray[np.bool_] | None = None
 
 
 class Arm:

@@ -185,7 +185,8 @@ class Standing:
 
     headline: str  # about all of them
     kind: str = "quiet"  # or "good" or "bad"
-    tasks: tuple[TaskResult, ...] = ()  # in the day's order; () while nothing is known
+    # in the day's order; () before the first verdict
+    tasks: tuple[TaskResult, ...] = ()
 
 
 ASKING = Standing("make check: asking ...", "asking")

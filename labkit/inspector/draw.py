@@ -21,7 +21,7 @@ from robo47.checks import Array
 ROOT = "/tab"
 FARTHEST = 10.0  # metres; nobody drags a target further away
 APART = 0.07  # metres between two labels
-LETTER = 1.12  # of an axis: where its letter stands
+LETTER = 1.12  # the place of an axis' letter, in lengths of the axis
 PLAIN, CHOSEN = 0.10, 0.17  # metres of an axis
 # A frame's axes from end to end, a metre long.
 AXES = np.stack([np.zeros((3, 3)), np.eye(3)], axis=1).astype(np.float32)
@@ -146,7 +146,7 @@ class Sketch:
         @handle.on_update
         async def _(event: viser.TransformControlsEvent) -> None:
             position, wxyz = np.array(handle.position), np.array(handle.wxyz)
-            near = np.abs([*position, *wxyz]).max() < FARTHEST  # not NaN either
+            near = np.abs([*position, *wxyz]).max() < FARTHEST  # false for NaN as well
             if near and np.linalg.norm(wxyz) > 0.5:
                 on_drag(target.T)
 
@@ -178,7 +178,7 @@ class Labels:
 class Ellipsoid:
     """The points p with p^T A^-1 p = 1, around a point."""
 
-    ball: viser.IcosphereHandle  # of radius 1, which is stretched
+    ball: viser.IcosphereHandle  # a ball of radius 1, which is scaled
 
     def show(self, A: ArrayLike, at: ArrayLike, scale: float = 1.0) -> None:
         """Give it its shape.
@@ -245,7 +245,7 @@ class Triad:
             if text
             else None
         )
-        self.taken = [False] * 4  # of the name and the letters: others stand there
+        self.taken = [False] * 4  # places of the name and the letters that are taken
         self.state: tuple[bool, bool] | None = None
         self.show(visible=True, chosen=False)
 

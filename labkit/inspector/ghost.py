@@ -41,7 +41,7 @@ class Ghost:
 class Seen:
     """What the student's function said of a configuration."""
 
-    sentence: str  # in the student's name: how it compares, or why there is nothing
+    sentence: str  # how the student's arm compares, or why there is none
     # "good", "bad", "quiet" where nothing is written or begun, "asking" until it is
     # known, "" where nobody asked.
     kind: str

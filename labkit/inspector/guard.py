@@ -47,7 +47,7 @@ from robo47.errors import Robo47Error
 
 LOOPBACK = "127.0.0.1"
 OWN_HOST = re.compile(r"(127\.0\.0\.1|localhost|\[::1\])(:\d+)?")
-DOMAIN = "app.github.dev"  # of forwarded ports, where the codespace names none
+DOMAIN = "app.github.dev"  # the domain of forwarded ports, if the codespace names none
 LONGEST = 2_000  # characters of a request's path
 Receive = Callable[[str], int]  # where a page wants to go; the number of this word
 Answers = Callable[[ServerConnection, Request], Response | None]
@@ -80,8 +80,8 @@ class LocalServer(viser.ViserServer):
         warnings.filterwarnings("ignore", "Queued a .* on a closed connection")
         self.secret = secrets.token_urlsafe(12)
         self.receive: Receive = lambda query: 0
-        self.first: Callable[[], str] = str  # what a page shows before viser does
-        self.plain: Callable[[], str] = str  # what one without WebGL shows, as JSON
+        self.first: Callable[[], str] = str  # the page that is shown before viser's
+        self.plain: Callable[[], str] = str  # what a page without WebGL shows, as JSON
         with _watched_doors(self) as watched:
             super().__init__(host=LOOPBACK, port=port, verbose=False)
         if not watched:

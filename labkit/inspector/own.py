@@ -25,7 +25,7 @@ from labkit.lesson.day import all_days
 from labkit.sandbox.messages import library_of
 from labkit.sandbox.sandbox import Sandbox, Session
 
-SAME = 1e-7  # of the largest number: what one calls the same
+SAME = 1e-7  # equal numbers differ by less than this share of the largest
 UNWRITTEN = ("missing", "NotImplementedError")
 Call = tuple[Any, ...]  # a function's name, then its arguments
 
@@ -33,16 +33,16 @@ Call = tuple[Any, ...]  # a function's name, then its arguments
 class NoAnswerError(Exception):
     """A function of the student's gave no answer; the message says why."""
 
-    version = 0  # of the file that gave none
+    version = 0  # the version of the file that gave no answer
 
 
 class Told(NamedTuple):
     """What one file's functions have shown."""
 
     apart: dict[str, float]  # how far from the library's, by function; 0 for the same
-    lent: dict[str, str]  # what the library answered instead, and why
-    none: dict[str, str]  # what gave no answer when it was asked last, and why
-    other: dict[str, str]  # what the tab found to be wrong, and how
+    lent: dict[str, str]  # functions that the library answered instead, and why
+    none: dict[str, str]  # functions that gave no answer at the last call, and why
+    other: dict[str, str]  # functions that the tab found to be wrong, and how
 
 
 class Own:

@@ -24,7 +24,7 @@ from robo47.checks import Array
 SLOW = 1.5  # times slower than real time, which is said
 NARROW = "\u202f"  # a space that no line breaks at
 DIGITS = 4  # shown behind the point in a slider's box
-END = 1e14  # of a tab, in the order of widgets
+END = 1e14  # the order of the last widget of a tab
 Widget = TypeVar("Widget", bound=Any)
 
 
@@ -70,7 +70,7 @@ class Page:
         # At the end whatever comes later. One that came with the first word would have
         # viser draw all others anew: a slider in hand would be lost to the mouse.
         self.said = self.gui.add_html("", order=END)
-        self.running: list[Animation | Jobs] = []  # what ends with the tab
+        self.running: list[Animation | Jobs] = []  # everything that ends with the tab
         self.jobs = self.jobs_apart()
         self._own: Own | None = None
         self._whose: viser.GuiHtmlHandle | None = None
@@ -188,7 +188,7 @@ class Page:
         own = self._own
         none = isinstance(error, NoAnswerError) and error.version
         if own is not None and (not own.fresh() or none not in (False, own.version)):
-            self.asking()  # what an older file answered is no news
+            self.asking()  # an older file's answer is out of date
         elif isinstance(error, NoAnswerError):
             self._show_whose(str(error), "bad")
             self.say("")

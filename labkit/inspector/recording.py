@@ -58,7 +58,7 @@ class Recording:
         """Write over the arm, from now on; call it when all is drawn."""
         if self._label is None:
             self._label = self.draw.label("", at)
-            self.wait(0.0)  # what is set from here on is set again in the next round
+            self.wait(0.0)  # the next round sets again all that is set from here on
         self._label.text = text
 
     def pose(self, qpos: ArrayLike) -> None:

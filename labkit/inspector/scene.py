@@ -47,7 +47,8 @@ class Stage(NamedTuple):
 
 
 LIGHT = Stage((226, 230, 236), (180, 187, 196), (140, 140, 140))
-DARK = Stage((27, 31, 36), (52, 58, 66), (72, 80, 90))  # as drawn pictures have it
+# the colours of the drawn pictures
+DARK = Stage((27, 31, 36), (52, 58, 66), (72, 80, 90))
 
 
 class ArmScene:
@@ -201,7 +202,7 @@ class Pointed:
     def find(self, origin: ArrayLike, direction: ArrayLike) -> int:
         """Return the id of the body that a ray meets first, (3,) each; 0 for none."""
         start, ray = np.array(origin, dtype=float), np.array(direction, dtype=float)
-        near = np.abs([start, ray]).max() < FAR  # not NaN either
+        near = np.abs([start, ray]).max() < FAR  # false for NaN as well
         if not near or np.linalg.norm(ray) < SHORT:
             return 0  # no browser says that: MuJoCo would stop over it
         self._pose()

@@ -32,7 +32,7 @@ from labkit.lesson.day import Day
 from labkit.sandbox.sandbox import Sandbox, deadline_of
 from robo47.errors import Robo47Error
 
-MEMORY = "view.json"  # where each day's page was
+MEMORY = "view.json"  # remembers the port of each day's page
 PORTS_TRIED = 100
 T = TypeVar("T")
 WINDOW = 8  # messages viser sends at once; by its 128 the meshes delay the numbers
@@ -88,7 +88,7 @@ def serve(
                 loop = server.get_event_loop()
                 ends.callback(asyncio.run_coroutine_threadsafe(work, loop).cancel)
             while True:
-                time.sleep(1.0)  # in pieces: on Windows a long one sits out Ctrl-C
+                time.sleep(1.0)  # short pieces: on Windows a long sleep delays Ctrl-C
                 remember(day, page.address)
         except KeyboardInterrupt:
             print("\ninspector stopped", flush=True)
@@ -180,7 +180,7 @@ def free_port(wish: int) -> int:
     """
     for port in range(wish, min(wish + PORTS_TRIED, 65536)):
         with socket.socket() as probe:
-            if os.name == "posix":  # as asyncio: a port just closed is free again
+            if os.name == "posix":  # as asyncio does: a port just closed is free again
                 probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             try:
                 probe.bind((LOOPBACK, port))

@@ -31,13 +31,13 @@ AGAIN = " Save the file to have it asked again."
 class Student:
     """The student's file of a day, for many questions; opened anew after a save."""
 
-    day: Day  # whose functions they are
+    day: Day  # the day of the functions
     arm: Arm  # the robot of the questions
-    ghost: Ghost | None  # what to ask for the arm's poses; None where only tabs ask
-    sandbox: Sandbox  # where the file runs
+    ghost: Ghost | None  # draws the arm's poses; None if only tabs ask
+    sandbox: Sandbox  # runs the file
     script: Path  # the file, there or not; `look` opens it
-    seconds: float = 1.5  # for one call; who takes longer is asked again after a save
-    version: int = 0  # of the file: another one after each save
+    seconds: float = 1.5  # limit of a call; a slower one is asked again after a save
+    version: int = 0  # a new number after each save of the file
     problem: str = ""  # why the file is not asked, in a sentence
     # A session answers one thread at a time.
     _lock: AbstractContextManager[Any] = field(default_factory=RLock)

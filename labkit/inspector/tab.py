@@ -58,7 +58,7 @@ class Tab:
 class DayTabs(NamedTuple):
     """What a day brings to the page."""
 
-    ghost: Ghost | None  # which function draws the student's arm
+    ghost: Ghost | None  # the function that draws the student's arm
     tabs: list[type[Tab]]  # in the day's order
 
 

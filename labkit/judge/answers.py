@@ -132,17 +132,19 @@ def own(argument: Any) -> Any:
     return np.copy(argument)[()] if plain else argument
 
 
+def content(argument: Any) -> Any:
+    """Return what two arguments share that are the same, to look it up."""
+    if isinstance(argument, np.ndarray):
+        return argument.shape, argument.dtype, argument.tobytes()
+    return repr(argument) if isinstance(argument, list) else argument
+
+
 def once(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a function that keeps its answers to the last questions."""
     known: dict[Any, Any] = {}
 
-    def key(argument: Any) -> Any:
-        if isinstance(argument, np.ndarray):
-            return argument.shape, argument.dtype, argument.tobytes()
-        return repr(argument) if isinstance(argument, list) else argument
-
     def keeping(*args: Any) -> Any:
-        if (question := tuple(map(key, args))) not in known:
+        if (question := tuple(map(content, args))) not in known:
             if len(known) >= KEPT:
                 known.clear()
             known[question] = function(*map(own, args))

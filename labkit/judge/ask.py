@@ -34,7 +34,6 @@ SEED = 47  # of the questions that are the same at every check
 # How many inputs are drawn anew, and as many edge values: a rare bug is found sooner.
 FRESH, CHEAP_FRESH, CHEAP = 8, 32, 16  # few numbers cost little
 SECONDS = 10.0  # for all calls of a function, where its task does not say
-SLIPPING = 1.5  # seconds for which two mutants at once are looked for
 # What a row says of wrong answers, and what counts where that stops: it says nothing.
 HOOKS: dict[str, Any] = {"unnamed": None, "near_miss": None, "measured": (),
                          "valid": False}  # fmt: skip

@@ -19,6 +19,10 @@ from robo47.checks import Array
 Call = tuple[Any, ...]  # the arguments of one question
 FEW = 16  # numbers of a call, up to which any two entries of a vector are exchanged
 SHARED = 3  # entries that two arguments have in common, one for each joint, say
+# Slugs of changes that are no question of size: they may explain all but the digits.
+LIKELY = {"sign", "left-out", "doubled", "halved", "transposed", "inverted",
+          "halves-exchanged", "backwards", "exchanged",
+          "entries-exchanged"}  # fmt: skip
 CONSTANTS = (0.0, 1.0, 9.8, 9.80665, 9.81, 1.645, 1.96, 0.5, 2.0, 1e-3, 1e-6)
 
 

@@ -42,6 +42,7 @@ from labkit.judge.failing_call import failing_call, for_fresh
 from labkit.judge.guard import attempt, noting, quiet, told
 from labkit.judge.in_part import by_results, in_some_calls
 from labkit.judge.kinds import Kind
+from labkit.judge.limits import Effort
 from labkit.judge.matcher import Matcher
 from labkit.judge.mistake import Finding, Verdict
 from labkit.judge.typed import in_words
@@ -192,12 +193,14 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     return attempt(_both, found, case, S, T, otherwise=found)
 
 
-def _both(found: Finding, case: Case, S: Parts, T: Parts) -> Finding:
+def _both(
+    found: Finding, case: Case, S: Parts, T: Parts, effort: Effort | None = None
+) -> Finding:
     wrong = case.ask.gaps(S, T) > case.ask.near
     if not wrong.any():
         return found
     # One answer alone may be that of many mistakes.
-    named = attempt(diagnose, case, S, T) if wrong.sum() > 1 else None
+    named = attempt(diagnose, case, S, T, effort) if wrong.sum() > 1 else None
     other = named or what_is_wrong(case, S, T)
     some = f"Of the {len(wrong)} other answers {wrong.sum()} are wrong, too."
     also = "The other answers are wrong, too." if wrong.all() else some
@@ -326,9 +329,18 @@ def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
     )
 
 
-def diagnose(case: Case, S: Parts, T: Parts) -> Finding | None:
-    """Return what the first source says that explains the answers, or None."""
-    m = Matcher(case, S, T)
+def diagnose(
+    case: Case, S: Parts, T: Parts, effort: Effort | None = None
+) -> Finding | None:
+    """Return what the first source says that explains the answers, or None.
+
+    Args:
+        case: what was asked.
+        S: the student's answers.
+        T: the right ones.
+        effort: what is left of a larger search.
+    """
+    m = Matcher(case, S, T, effort=effort or Effort())
     found = next(filter(None, (attempt(source, m) for source in SOURCES)), None)
     if found and found.slug.startswith("slip-"):
         return _with_its_place(case, found)
@@ -377,7 +389,7 @@ def _not_finite(m: Matcher) -> Finding | None:
     if not good.any():
         return found
     rest, S, T = _only(good, case, S, T)
-    return _both(found, rest, S, T)
+    return _both(found, rest, S, T, m.effort)
 
 
 def _only(good: Array, case: Case, S: Parts, T: Parts) -> tuple[Case, Parts, Parts]:

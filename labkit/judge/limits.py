@@ -1,15 +1,17 @@
-"""A limit for code that a mutation may keep busy for ever.
+"""Limits of a search: of one call, which a mutation may keep busy for ever, and of all.
 
 Loops count their steps and look at the clock, which needs no signal: a search runs in
 threads and on Windows as well. LAPACK may not return from numbers that are not finite,
-so these are refused before.
+so these are refused before. What a search may cost is counted in lines of Python, no
+seconds: the same mistake gets the same name on a slow machine.
 """
 
 import ast
+import sys
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial, wraps
 from types import ModuleType
 from typing import Any
@@ -21,7 +23,35 @@ MOST = 1_000_000  # steps of a call of a right function
 # A mutant may take so many times the steps and the time of the right function.
 LEAST, TIMES = 100, 20
 SECONDS = 0.02  # at least
+LOOKS = 16  # steps, or hypotheses, after which the clock is looked at: it is slow
+HUGE = 100_000  # numbers of an outer product
 GUARDED = ("lstsq", "svd", "eigh", "eigvalsh", "eig", "eigvals", "pinv", "matrix_rank")
+
+
+LINES = 2_500_000  # that a search may execute; a third of a second, or so
+ONCE = 400  # lines that it takes to compile a mutant and to compare its answer
+LATE = 2.0  # seconds of the processor, whatever the lines take
+
+
+@dataclass
+class Effort:
+    """What is left of a search."""
+
+    left: int = LINES
+    began: float = field(default_factory=time.process_time)
+    asked: int = 0  # how often
+    late: bool = False
+
+    def spend(self, lines: int) -> None:
+        """Note that a hypothesis was asked for one answer."""
+        self.left -= ONCE + lines
+
+    def spent(self, keep: float = 0.0) -> bool:
+        """Return whether a search has to end, to leave a share for what comes later."""
+        self.asked += 1
+        if self.asked % LOOKS == 0:
+            self.late = time.process_time() > self.began + LATE
+        return self.late or self.left <= keep * LINES
 
 
 class TooLongError(Exception):
@@ -36,6 +66,8 @@ class Steps:
     left: int = MOST
     seconds: float = 60.0  # of one call
     ends: float = 0.0  # when a call has taken too long
+    usual: int = 0  # steps of the right function
+    lines: int = 0  # of Python, that it executes
 
     def __call__(self, some: Iterable[Any] = ()) -> Iterator[Any]:
         """Yield some things, and count them."""
@@ -50,44 +82,81 @@ class Steps:
             TooLongError: it is one too many.
         """
         self.left -= 1
-        if self.left < 0 or time.process_time() > self.ends:
+        if self.left < 0 or (self.left % LOOKS == 0 and self._is_late()):
             raise TooLongError
+
+    def _is_late(self) -> bool:
+        """Return whether a call takes too long; the clock begins when it is asked."""
+        now = time.process_time()
+        self.ends = self.ends or now + self.seconds
+        return now > self.ends
 
     def limiting(self, code: Callable[..., Any]) -> Callable[..., Any]:
         """Return a function whose calls begin to count anew."""
 
         @wraps(code)
         def call(*args: Any) -> Any:
-            self.left = self.most
-            self.ends = time.process_time() + self.seconds
+            self.left, self.ends = self.most, 0.0
             return code(*args)
 
         return call
 
-    def calibrate(self, code: Callable[..., Any], call: Sequence[Any]) -> None:
-        """Allow a mutant some times the steps that the right function takes."""
-        self.most, began = MOST, time.process_time()
+    def calibrate(self, call: Callable[[], Any]) -> None:
+        """Allow a mutant some times the steps that a call of the right one takes."""
+        self.most, self.left, began = MOST, MOST, time.process_time()
         with suppress(Exception):  # not all right bodies take what a lab's does
-            code(*call)
-            self.most = LEAST + TIMES * (MOST - self.left)
+            call()
+            self.usual = MOST - self.left
             self.seconds = SECONDS + TIMES * (time.process_time() - began)
+        self.lines = lines(call)
+        self.most = LEAST + TIMES * self.usual
+
+    @property
+    def taken(self) -> int:
+        """The lines that the last call has executed, by its steps."""
+        return self.lines * max(self.most - self.left, 1) // max(self.usual, 1)
 
 
-def limited(function: ast.FunctionDef) -> list[Callable[[], None]]:
-    """Have all loops of a function count their steps; return what undoes it."""
+def lines(call: Callable[[], Any]) -> int:
+    """Return how many lines of Python a call executes."""
+    count = 0
+
+    def trace(*_: Any) -> Any:
+        nonlocal count
+        count += 1
+        return trace
+
+    before = sys.gettrace()
+    sys.settrace(trace)
+    try:
+        with suppress(Exception):
+            call()
+    finally:
+        sys.settrace(before)
+    return count
+
+
+def loops(trees: Iterable[ast.AST]) -> list[Any]:
+    """Return the loops and comprehensions in some trees."""
+    nodes = (node for tree in trees for node in ast.walk(tree))
+    return [n for n in nodes if isinstance(n, ast.For | ast.While | ast.comprehension)]
+
+
+def limited(loops: Iterable[Any]) -> list[Callable[[], None]]:
+    """Have loops count their steps; return what undoes it."""
     undo: list[Callable[[], None]] = []
-    for node in list(ast.walk(function)):
+    for node in {id(one): one for one in loops}.values():
         if isinstance(node, ast.For | ast.comprehension):
             undo.append(partial(setattr, node, "iter", node.iter))
-            counted = ast.Call(ast.Name(STEP, ast.Load()), [node.iter], [])
-            node.iter = ast.fix_missing_locations(ast.copy_location(counted, node.iter))
-        elif isinstance(node, ast.While):
+            name = ast.copy_location(ast.Name(STEP, ast.Load()), node.iter)
+            node.iter = ast.copy_location(ast.Call(name, [node.iter], []), node.iter)
+        else:
             text = ast.parse(f"{STEP}.count()").body[0]
             undo.append(partial(setattr, node, "body", node.body))
             for inner in ast.walk(text):
                 ast.copy_location(inner, node.body[0])
             node.body = [text, *node.body]
-    return undo[::-1]  # a loop may stand there twice
+    return undo
 
 
 def _guarded(real: Callable[..., Any]) -> Callable[..., Any]:
@@ -101,14 +170,25 @@ def _guarded(real: Callable[..., Any]) -> Callable[..., Any]:
     return call
 
 
+def _outer(a: Any, b: Any) -> Any:
+    """Return the outer product, unless it is huge: in a loop each is that of the last.
+
+    Raises:
+        ValueError: it is.
+    """
+    if np.size(a) * np.size(b) > HUGE:
+        raise ValueError("too large")
+    return np.outer(a, b)
+
+
 def _numpy() -> ModuleType:
-    """Return NumPy with a guard before the routines that iterate."""
+    """Return NumPy with a guard before the routines that iterate, or that grow."""
     linalg = ModuleType("numpy.linalg")
     vars(linalg).update(vars(np.linalg))
     for name in GUARDED:
         setattr(linalg, name, _guarded(getattr(np.linalg, name)))
     guarded = ModuleType("numpy")
-    vars(guarded).update({**vars(np), "linalg": linalg})
+    vars(guarded).update({**vars(np), "linalg": linalg, "outer": _outer})
     return guarded
 
 

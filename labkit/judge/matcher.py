@@ -4,7 +4,7 @@ A hypothesis is screened at one call, then confirmed at all that are always aske
 those that were drawn anew.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -21,6 +21,8 @@ from labkit.judge.answers import (
 )
 from labkit.judge.ask import Ask, Case, as_plain
 from labkit.judge.hypothesis import Difference, equals
+from labkit.judge.limits import Effort
+from labkit.judge.mutant import Body
 from labkit.judge.results import numbers
 from robo47.checks import Array
 
@@ -112,6 +114,7 @@ class Matcher:
     S: Parts  # the student's
     T: Parts  # the right ones
     known: dict[str, Any] = field(default_factory=dict)  # what a source has found
+    effort: Effort = field(default_factory=Effort)  # that is left to make hypotheses
 
     @property
     def ask(self) -> Ask:
@@ -147,13 +150,19 @@ class Matcher:
         body = next(iter(self.ask.bodies), None)
         if body is None or not body.loops:
             return truth.function
-        self.calibrate()
-        return body.compiled()
+        return self.bodies[0].compiled()
 
-    def calibrate(self) -> None:
-        """Have mutants take no more steps than some times those of a right function."""
+    @cached_property
+    def bodies(self) -> Sequence[Body]:
+        """Right bodies whose mutants take no more than some times their steps."""
         for body in self.ask.bodies:
-            body.calibrate(list(map(own, self.main.each[self.i])))
+            body.calibrate(self.main.each[self.i])
+        return self.ask.bodies
+
+    @property
+    def lines(self) -> int:
+        """How many lines a call of a right function executes, or so."""
+        return self.bodies[0].steps.lines if self.bodies else 0
 
     @cached_property
     def wrong(self) -> Any:

@@ -13,10 +13,11 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import combinations
+from itertools import chain, combinations
 from typing import Any
 
 from labkit.judge import limits, operators, statements
+from labkit.judge.answers import own
 from labkit.judge.operators import Place, places
 
 SHORT = 44  # characters of a body that are shown, at most
@@ -24,6 +25,7 @@ FAR = 100  # rank of the far operators, after all near ones
 TOGETHER = 40  # mutants of one place that are compiled together
 CHOICE = "_choice_"  # the name that says which of them is called
 Code = Callable[..., Any]
+Edits = Sequence[tuple[Any, Any]]  # a `Place` or a `Block`, and what stands there
 Span = tuple[int, int, int, int]  # line and column, and those of the end
 # The kinds of change, those first that are made most often.
 KINDS = [
@@ -42,7 +44,7 @@ class Mutant:
     body: "Body"
     rank: int  # how early it is tried; the ones that are made often come first
     # Where something else stands, and what.
-    edits: Sequence[tuple[Place | statements.Block, Any]]
+    edits: Edits
     first: "Mutant | None" = None  # beside which it is made, as the second of two
 
     @property
@@ -50,9 +52,9 @@ class Mutant:
         """The changed function, compiled now; None where Python does not take it."""
         if self.first is None:
             with self.made():
-                return self.body.compiled()
+                return self.body.compiled(self.edits)
         with self.first.made(), self.made():
-            return self.body.compiled()
+            return self.body.compiled([*self.first.edits, *self.edits])
 
     @contextmanager
     def made(self) -> Iterator[None]:
@@ -164,19 +166,22 @@ class Body:
         return {id(place.node): place for place in self.places}
 
     @cached_property
-    def loops(self) -> bool:
-        """Whether something in it may go on for long."""
-        kinds = ast.For | ast.While | ast.comprehension
-        return any(isinstance(node, kinds) for node in ast.walk(self.function))
+    def loops(self) -> list[Any]:
+        """What may go on for long."""
+        return limits.loops([self.function])
 
     def calibrate(self, call: Sequence[Any]) -> None:
-        """Have the limit of steps follow what the right function takes at a call."""
-        if self.loops and (code := self.compiled()):
-            self.steps.calibrate(code, call)
+        """Have the limits follow what the right function takes at a call."""
+        if code := self.compiled():
+            self.steps.calibrate(lambda: code(*map(own, call)))
 
-    def compiled(self) -> Callable[..., Any] | None:
-        """Return the function as it stands now, with a limit of its steps."""
-        limited = limits.limited(self.function) if self.loops else ()
+    def compiled(self, edits: Edits = ()) -> Callable[..., Any] | None:
+        """Return the function as it stands now, with a limit of its steps.
+
+        Args:
+            edits: that are made; their loops count their steps, too.
+        """
+        limited = limits.limited([*self.loops, *self._loops_of(edits)])
         try:
             exec(compile(ast.Module([self.function], []), "<mutant>", "exec"),
                  self.space)  # fmt: skip
@@ -188,11 +193,30 @@ class Body:
         code = self.space[self.function.name]
         return self.steps.limiting(code) if self.loops else code
 
+    def _loops_of(self, edits: Edits) -> list[Any]:
+        """Return the loops that edits bring; an expression only has copied ones."""
+        if not self.loops:
+            return []
+        some = [
+            new if isinstance(new, list) else [new] * (id(at.node) in self._with_loops)
+            for at, new in edits
+        ]
+        return limits.loops(chain.from_iterable(some))
+
+    @cached_property
+    def _with_loops(self) -> set[int]:
+        """The ids of the expressions that hold a comprehension."""
+        return {id(one.node) for one in self.places if limits.loops([one.node])}
+
     @cached_property
     def near(self) -> list[Mutant]:
         """What a hand may mistype in one place; the likeliest come first."""
         found = [*self._by(operators.near, 0), *self._of_lines(far=False)]
         return sorted(found, key=lambda one: one.rank)
+
+    def closest(self) -> Iterator[tuple[Mutant, Code]]:
+        """Yield the near mutants with their functions."""
+        yield from self.ready(self.near)
 
     def further(self) -> Iterator[tuple[Mutant, Code]]:
         """Yield all other mutants with their functions."""
@@ -228,11 +252,12 @@ class Body:
         whole: Any = place.node
         for k, one in enumerate(some):
             new = one.edits[0][1]
+            _located(new, place.node)
             chosen = ast.Compare(ast.Name(CHOICE, ast.Load()), [ast.Eq()],
                                  [ast.Constant(k)])  # fmt: skip
             whole = ast.IfExp(chosen, new, whole)
         with Mutant("", self, 0, [(place, whole)]).made():
-            code = self.compiled()
+            code = self.compiled([one.edits[0] for one in some])
         if code is None:  # one of them is no Python
             return {}
         return {id(one): self._chosen(code, k) for k, one in enumerate(some)}
@@ -398,13 +423,23 @@ def _shown(new: ast.expr, place: Place, above: dict[int, Place]) -> str:
 
 
 def glosses(text: str) -> dict[int, str]:
-    """Return the comments that stand behind code in a text, by their lines' numbers."""
+    """Return the comments that stand behind code in a text, by their lines' numbers.
+
+    A gloss on the first line of a statement belongs to all of its lines without one.
+    """
     found = {}
     for number, line in enumerate(text.splitlines(), 1):
         code, _, comment = line.partition("  # ")
         if code.strip() and comment and not comment.startswith(("noqa", "fmt", "type")):
             found[number] = comment.strip().rstrip(".")
+    for one in ast.walk(ast.parse(text)):
+        if isinstance(one, _ONE_STEP) and (first := found.get(one.lineno)):
+            lines = range(one.lineno, (one.end_lineno or one.lineno) + 1)
+            found |= {n: found.get(n, first) for n in lines}
     return found
+
+
+_ONE_STEP = (ast.Assign, ast.AugAssign, ast.Return)
 
 
 def body_of(code: Callable[..., Any], name: str) -> Body | None:

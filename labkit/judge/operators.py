@@ -5,7 +5,6 @@ are other steps: a clamp, a norm, a root, a unit, a usual constant.
 """
 
 import ast
-import copy
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from itertools import combinations
@@ -72,6 +71,7 @@ OF_A_CONDITION = (
     "condition: abs(A) < B | abs(A) > B | A < 2 * B | A > 2 * B | A < B / 2 | A > B / 2"
 )
 OF_A_RANGE = "index: list(X)[:-1] | list(X)[1:] | list(X)[::-1] | list(X)[:1]"
+_SOMEWHERE = ast.parse("x", mode="eval").body
 TWINS = [
     ("sin", "cos"), ("argmin", "argmax"), ("min", "max"), ("minimum", "maximum"),
     ("floor", "round"), ("ceil", "round"), ("trunc", "round"), ("sum", "mean"),
@@ -159,13 +159,13 @@ def far(place: Place, names: Sequence[str]) -> Iterator[Mutation]:
         empty = isinstance(node, ast.Call) and called(node) in ("zeros", "eye")
         yield from () if empty else filled(OF_A_VALUE, X=node)
         for name in names:
-            yield "name", ast.Name(name, ast.Load())
-            yield from filled(WITH_A_NAME, X=node, N=ast.Name(name, ast.Load()))
+            yield "name", _name(name)
+            yield from filled(WITH_A_NAME, X=node, N=_name(name))
     if isinstance(node, ast.Constant) and type(node.value) in (int, float):
         n: Any = node.value
         for value in (10 * n, n / 10, n**2, 3 * n):
             yield "number", ast.Constant(value)
-        yield from (("number", ast.Name(name, ast.Load())) for name in names)
+        yield from (("number", _name(name)) for name in names)
     elif isinstance(node, ast.Call):
         yield from _far_of_call(node)
     elif isinstance(node, ast.IfExp):
@@ -216,8 +216,15 @@ def _filled(template: Any, nodes: Mapping[str, ast.expr]) -> Any:
         return [_filled(one, nodes) for one in template]
     if not isinstance(template, ast.AST):
         return template
-    fields = {name: _filled(x, nodes) for name, x in ast.iter_fields(template)}
-    return type(template)(**fields)
+    found = type(template)()
+    for name in template._fields:
+        setattr(found, name, _filled(getattr(template, name, None), nodes))
+    return ast.copy_location(found, template) if found._attributes else found
+
+
+def _name(text: str) -> ast.Name:
+    """Return a name that is read, with a place in the text, as templates have one."""
+    return ast.copy_location(ast.Name(text, ast.Load()), _SOMEWHERE)
 
 
 def _valued(place: Place, names: Sequence[str]) -> bool:
@@ -261,7 +268,7 @@ def _of_a_part(place: Place, names: Sequence[str]) -> Iterator[Mutation]:
     if isinstance(node, ast.BinOp) and isinstance(parent, NUMBERED):
         yield from _names_exchanged(node, names)
     if isinstance(node, ast.BinOp) and ast.dump(node.left) == ast.dump(node.right):
-        for one in (ast.Name(name, ast.Load()) for name in names):
+        for one in (_name(name) for name in names):
             yield "name", ast.BinOp(one, node.op, one)
     if isinstance(parent, ast.stmt) and not isinstance(parent, ast.If):
         yield from _of_a_whole(node, names)
@@ -276,8 +283,8 @@ def _of_a_part(place: Place, names: Sequence[str]) -> Iterator[Mutation]:
 def _names_exchanged(node: ast.expr, names: Sequence[str]) -> Iterator[Mutation]:
     there = {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}
     for a, b in combinations([name for name in names if name in there], 2):
-        pair = {a: ast.Name(b, ast.Load()), b: ast.Name(a, ast.Load())}
-        yield "exchanged", _filled(copy.deepcopy(node), pair)
+        pair = {a: _name(b), b: _name(a)}
+        yield "exchanged", _filled(node, pair)
 
 
 def _of_a_whole(node: ast.expr, names: Sequence[str]) -> Iterator[Mutation]:
@@ -286,7 +293,7 @@ def _of_a_whole(node: ast.expr, names: Sequence[str]) -> Iterator[Mutation]:
     some = node.elts if isinstance(node, ast.Tuple) else [node]
     for at, one in enumerate(some):
         for name in names:
-            other = ast.Name(name, ast.Load())
+            other = _name(name)
             for kind, new in filled("scaled: X * N | X / N", X=one, N=other):
                 whole = ast.Tuple([*some[:at], new, *some[at + 1 :]], ast.Load())
                 yield kind, new if one is node else whole
@@ -311,7 +318,7 @@ def _of_name(node: ast.Name, names: Sequence[str], place: Place) -> Iterator[Mut
     yield "negated", ast.UnaryOp(ast.USub(), node)
     for name in names:
         if name != node.id:
-            yield "name", ast.Name(name, ast.Load())
+            yield "name", _name(name)
     if not isinstance(place.parent, ast.Attribute | ast.Subscript):
         yield from filled(OF_A_NAME, X=node)
         if isinstance(getattr(place.parent, "op", None), ast.MatMult):
@@ -342,7 +349,7 @@ def _of_call(node: ast.Call, names: Sequence[str]) -> Iterator[Mutation]:
     if name == "inv":
         yield from filled("operation: 1.0 / A", A=args[0])
     if name in ("ones", "zeros"):
-        yield from (("name", ast.Name(one, ast.Load())) for one in names)
+        yield from (("name", _name(one)) for one in names)
     if args and name not in ("range", "len", "zip", "int", "enumerate"):
         yield from filled(FACTOR, X=node)
 

@@ -4,7 +4,6 @@ Each half has a sentence that stands alone, or the pair is not told.
 """
 
 import re
-import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -23,13 +22,12 @@ from labkit.judge.answers import (
     parts,
     rigid,
 )
-from labkit.judge.ask import SLIPPING
 from labkit.judge.hypothesis import EXACT
 from labkit.judge.matcher import Code, Matcher, row
 from labkit.judge.mistake import Finding, Mistake
 from labkit.judge.mutant import Mutant
 from labkit.judge.sentence import half
-from labkit.judge.sources import QUICK, after
+from labkit.judge.sources import after, answered_near
 from robo47.checks import Array
 
 # What one mistake alone leaves right, two need not: "all is right except that ...".
@@ -39,8 +37,8 @@ _BUT = re.compile(
 )
 MOST = 80  # mistakes of a function that are tried two at a time
 SUMS = 400  # pairs that add up at one call, of which some do at all
-FEW = 3  # wrong calls at which the first of two mutants is looked for
 LIKELY = 3  # first mutants beside which all others are tried
+KEEP = 0.2  # share of a search's effort that is left for mutants beside others
 NAMED = 1.5  # a named mistake comes after two signs, and before the other mutants
 # Mutants that may be one of two: by factors and numbers a sum is made in many ways.
 ALONG = {"sign", "negated", "left-out", "name", "order", "transpose", "index", "line"}
@@ -191,10 +189,13 @@ class _Pairs:
     def _of_arguments(self) -> dict[int, Code]:
         """Which mistakes are the right answer to other arguments."""
         found: dict[int, Code] = {}
-        if self.m.ask.seconds > QUICK or self.m.right is None:
+        if self.m.right is None:
             return found
         call, names = self.m.main.each[self.i], self.m.case.names
         for one in changes.likely(call, names):
+            if self.m.effort.spent(KEEP):
+                break
+            self.m.effort.spend(self.m.lines)
             code = partial(after, self.m.right, one.change)
             if answer := self.m.main.answer(code, self.i):
                 for k in self._that_give(answer, self.m.main.answers, code):
@@ -317,56 +318,62 @@ def _all_alike(m: Matcher, a: Parts, b: Parts) -> bool:
 class _Half:
     """A mutant or a named mistake, as one of two."""
 
-    slug: str
-    says: str
-    code: Code
-    mutant: Mutant | None = None
+    m: Matcher
+    answer: Parts  # to one call
+    one: Mistake | Mutant
 
     @property
     def rank(self) -> float:
-        return self.mutant.rank if self.mutant else NAMED
+        return self.one.rank if isinstance(self.one, Mutant) else NAMED
+
+    @cached_property
+    def code(self) -> Code | None:
+        return self.one.code if isinstance(self.one, Mutant) else self.one.redo
+
+    @property
+    def slug(self) -> str:
+        one = self.one
+        return f"slip-{one.kind}" if isinstance(one, Mutant) else one.slug
+
+    @cached_property
+    def says(self) -> str:
+        """The sentence that stands alone; "" without one."""
+        one = self.one
+        return half(self.m, one) if isinstance(one, Mutant) else one.says.rstrip("?")
 
     def apart(self, other: "_Half") -> bool:
         """Return whether two are of two places, and not both named: that is tried."""
-        if self.mutant and other.mutant:
-            return not self.mutant.overlaps(other.mutant)
-        return bool(self.mutant or other.mutant)
+        pair = self.one, other.one
+        if isinstance(pair[0], Mutant) and isinstance(pair[1], Mutant):
+            return not pair[0].overlaps(pair[1])
+        return any(isinstance(one, Mutant) for one in pair)
 
 
 def beside(m: Matcher) -> Finding | None:
     """Return two mutants, or one and a named mistake, that add up to the answers."""
     its = row(tuple(t[m.i] for t in m.T))
-    some = [(one, row(m.main.answer(one.code, m.i))) for one in _halves(m)]
-    known = [(one, answer) for one, answer in some if _tells(answer, its)]
+    known = [one for one in _halves(m) if _tells(row(one.answer), its)]
     if not known:
         return None
-    off = np.array([answer for _, answer in known]) - its
+    off = np.array([row(one.answer) for one in known]) - its
     mine = row(tuple(s[m.i] for s in m.S))
     sums = islice(_sums(off, mine - its), SUMS)
-    pairs = [(known[a][0], known[b][0]) for a, b in sums]
+    pairs = [(known[a], known[b]) for a, b in sums]
     for one, other in sorted(pairs, key=lambda pair: pair[0].rank + pair[1].rank):
-        if one.apart(other) and _add_up(m, one.code, other.code):
+        tells = one.apart(other) and one.says and other.says
+        if tells and one.code and other.code and _add_up(m, one.code, other.code):
             return _told(m, [one.slug, other.slug], [one.says, other.says])
     return None
 
 
 def _halves(m: Matcher) -> Iterator[_Half]:
-    """Yield what may be one of two: named mistakes, and mutants with a sentence."""
-    near = _near(m)
+    """Yield what may be one of two: named mistakes, and mutants."""
+    near = [] if m.whole else answered_near(m)
     for one in of_its_own_first(m) if near else []:
-        yield _Half(one.slug, one.says.rstrip("?"), one.redo)
-    along = [one for one in near if one.kind in ALONG]
-    for mutant, code in m.ask.bodies[0].ready(along) if near else ():
-        if says := half(m, mutant):
-            yield _Half(f"slip-{mutant.kind}", says, code, mutant)
-
-
-def _near(m: Matcher) -> list[Mutant]:
-    """Return the near mutants of the lab's own body, the fewer of a slow one."""
-    if m.whole or not m.ask.bodies:
-        return []
-    most = int(SLIPPING / max(m.ask.labs_cost, 1e-6))
-    return m.ask.bodies[0].near[:most]
+        yield _Half(m, m.main.answer(one.redo, m.i), one)
+    for mutant, answer in near:
+        if mutant.kind in ALONG:
+            yield _Half(m, answer, mutant)
 
 
 def second(m: Matcher) -> Finding | None:
@@ -375,39 +382,26 @@ def second(m: Matcher) -> Finding | None:
     The first is one that gives more of the student's numbers than the right answers do.
     Of a slow function they are not looked for.
     """
-    near = _near(m)
-    if len(near) * (FEW + LIKELY) * m.ask.labs_cost > SLIPPING:
-        return None
-    ends = time.process_time() + SLIPPING
-    for first in _likely(m, near):
-        for other, code in m.ask.bodies[0].besides(first):
+    for first in [] if m.whole else _likely(m):
+        for other, code in m.bodies[0].besides(first):
+            if m.effort.spent():
+                return None
             answer = m.main.answer(code, m.i)
+            m.effort.spend(m.bodies[0].steps.taken)
             if m.main.difference.fits(m.i, answer, digits=True) and m.holds(code):
                 says = [half(m, first), half(m, other)]
                 if all(says):
                     slugs = [f"slip-{one.kind}" for one in (first, other)]
                     return _told(m, slugs, says)
-        if time.process_time() > ends:
-            break
     return None
 
 
-def _likely(m: Matcher, near: Sequence[Mutant]) -> list[Mutant]:
-    """Return the mutants that give most numbers of a few wrong answers."""
-    few = m.wrong[np.unique(np.linspace(0, len(m.wrong) - 1, FEW).astype(int))]
-    mine = [row(tuple(s[i] for s in m.S)) for i in few]
-    its = [row(tuple(t[i] for t in m.T)) for i in few]
-    some = m.ask.bodies[0].ready(near) if near else []
-    scores = [_score(m, code, few, mine) for _, code in some]
-    least = sum(map(_common, its, mine))
-    best = sorted(range(len(scores)), key=lambda k: -scores[k])[:LIKELY]
-    return [some[k][0] for k in best if scores[k] > least]
-
-
-def _score(m: Matcher, code: Code, few: Array, mine: Sequence[Array]) -> int:
-    """Return how many numbers of some calls a mutant gives."""
-    pairs = zip(few, mine, strict=True)
-    return sum(_common(row(m.main.answer(code, i)), s) for i, s in pairs)
+def _likely(m: Matcher) -> list[Mutant]:
+    """Return the mutants that give most numbers of a wrong answer."""
+    mine, its = (row(tuple(x[m.i] for x in some)) for some in (m.S, m.T))
+    scores = [(_common(row(answer), mine), one) for one, answer in answered_near(m)]
+    best = sorted(scores, key=lambda pair: -pair[0])[:LIKELY]
+    return [one for score, one in best if score > _common(its, mine)]
 
 
 def _common(one: Array, other: Array) -> int:

@@ -184,7 +184,8 @@ def known_text(m: Any, mutant: Mutant) -> str:
     """Return "with `kp * e + ed`", or "" where a student has not seen its names."""
     text = mutant.text
     code = text.removeprefix("without ")
-    if not text or not _names(code) <= _known(m, mutant):
+    names = _names(code)
+    if not names - set(MODULES) or not names <= _known(m, mutant):
         return ""
     return f"with `{text}`" if code == text else f"without `{code}`"
 

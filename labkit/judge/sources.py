@@ -4,28 +4,38 @@ The author's entries come first, then what is common to a kind of answer, then w
 machine makes: mutants of every right body, one argument changed, the answer changed.
 """
 
-import time
 from collections.abc import Iterator
 from functools import partial
-from itertools import chain, islice, permutations
+from itertools import chain, count, islice, permutations
 from typing import Any
 
 import numpy as np
 
 from labkit.judge import changes
-from labkit.judge.answers import Parts, all_match, capitalised, parts, plain
+from labkit.judge.answers import (
+    Parts,
+    all_match,
+    capitalised,
+    content,
+    own,
+    parts,
+    plain,
+)
 from labkit.judge.ask import Ask, Case
 from labkit.judge.hypothesis import equals, evidence
 from labkit.judge.matcher import Calls, Code, Matcher
 from labkit.judge.mistake import Finding, Mistake
-from labkit.judge.mutant import Mutant
+from labkit.judge.mutant import FAR, Mutant
 from labkit.judge.sentence import of_mutants, shows
 
 NEAR, FURTHER = "near", "further"  # mutants
-SECONDS = {NEAR: 0.5, FURTHER: 0.3}  # of the processor
-QUICK = 2e-3  # seconds of a call that a row may say, for its arguments to be changed
+# What share of a search's effort is kept for the sources that come later.
+KEEP = {NEAR: 0.45, FURTHER: 0.05}
+KEEP_OF_ARGUMENTS = 0.25
 SEVERAL = 20  # mutants that give one answer, of which some give all
 APART = 4  # of them, in places of their own
+KEPT = 8  # functions and calls whose mutants are kept with their answers
+_MADE: dict[Any, tuple[Any, list[Any], Iterator[Any]]] = {}
 AGREE = 3  # calls with a wrong answer that a mutant of whole numbers has to give
 
 
@@ -160,16 +170,41 @@ def of_arguments(m: Matcher, digits: bool = True) -> Finding | None:
 
     Such as two exchanged, or one of the other sign: it needs no name.
     """
-    if m.whole or m.ask.seconds > QUICK or m.right is None:
-        return None
-    call, names = m.main.each[m.i], m.case.names
-    for one in chain(changes.likely(call, names), changes.others(call, names)):
-        if m.holds(partial(after, m.right, one.change), digits):
-            exact = m.exact(partial(after, m.right, one.change))
+    for one, code, answer in () if m.whole else with_other_arguments(m):
+        if not digits and one.slug not in changes.LIKELY:
+            continue  # a small number is nearly 0, whatever it is divided by
+        if m.main.difference.fits(m.i, answer, digits) and m.holds(code, digits):
             says = f"Your output is the correct result for other arguments: {one.says}."
-            how = f"({capitalised(m.off())}; that {evidence(exact)}.)"
+            how = f"({capitalised(m.off())}; that {evidence(m.exact(code))}.)"
             return Finding(f"argument-{one.slug}", f"{says} {how}")
     return None
+
+
+def with_other_arguments(m: Matcher) -> Iterator[tuple[changes.Change, Code, Parts]]:
+    """Yield changes of arguments, with what is right after each, at one call."""
+    if m.right is None:
+        return
+    call, names = m.main.each[m.i], m.case.names
+    known: list[Any] = m.known.setdefault("arguments", [])
+    some = chain(changes.likely(call, names), changes.others(call, names))
+    yield from known
+    for one in islice(some, len(known), None):
+        if m.effort.spent(KEEP_OF_ARGUMENTS):
+            return
+        code = partial(after, m.right, one.change)
+        answer = () if _leaves(one.change, call) else m.main.answer(code, m.i)
+        known.append((one, code, answer))
+        m.effort.spend(m.lines if answer else 0)
+        yield known[-1]
+
+
+def _leaves(change: Code, call: tuple[Any, ...]) -> bool:
+    """Return whether a change leaves a call's arguments as they are, or has none."""
+    try:
+        pairs = zip(change(*map(own, call)), call, strict=True)
+        return all(one is it or np.array_equal(one, it) for one, it in pairs)
+    except Exception:  # it is none of this call
+        return True
 
 
 def after(function: Code, change: Code, *args: Any) -> Any:
@@ -226,12 +261,44 @@ def _fits(m: Matcher, answer: Parts) -> bool:
 
 
 def answered(m: Matcher, which: str) -> Iterator[tuple[Mutant, Parts]]:
-    """Yield the mutants with their answers to one call, within a limit of time."""
-    m.calibrate()
-    ends = time.process_time() + SECONDS[which]
-    near = which == NEAR
-    some = (b.ready(b.near) if near else b.further() for b in m.ask.bodies)
-    for one, code in chain.from_iterable(some):
-        yield one, m.main.answer(code, m.i)
-        if time.process_time() > ends:
+    """Yield the mutants with their answers to one call, as far as the effort goes."""
+    mine = m.known.setdefault("answered", [])
+    for one, answer, lines in _made(m, which):
+        if m.effort.spent(KEEP[which]):
             return
+        m.effort.spend(lines)
+        mine.append((one, answer))
+        yield one, answer
+
+
+def _made(m: Matcher, which: str) -> Iterator[tuple[Mutant, Parts, int]]:
+    """Yield the mutants, their answers and what these took, each made once.
+
+    The calls are the same at every check, so a class, or a file that is watched, is
+    compared with the same ones.
+    """
+    shapes = (t.shape[1:] for t in m.T)  # to which an answer is filled up
+    key = (id(m.ask), which, *map(content, m.main.each[m.i]), *shapes)
+    if key not in _MADE:
+        while len(_MADE) >= KEPT:
+            del _MADE[next(iter(_MADE))]
+        some = (b.closest() if which == NEAR else b.further() for b in m.bodies)
+        made = (
+            (one, m.main.answer(code, m.i), one.body.steps.taken)
+            for one, code in chain.from_iterable(some)
+        )
+        _MADE[key] = m.ask, [], made
+    _, known, more = _MADE[key]
+    for k in count():
+        if k == len(known):
+            if (one := next(more, None)) is None:
+                return
+            known.append(one)
+        yield known[k]
+
+
+def answered_near(m: Matcher) -> list[tuple[Mutant, Parts]]:
+    """Return the near mutants of the lab's own body with their answers to one call."""
+    known: list[tuple[Mutant, Parts]] = m.known.get("answered", [])
+    own = [pair for pair in known if pair[0].body is m.bodies[0]]
+    return [pair for pair in own if pair[0].rank < FAR and len(pair[0].edits) == 1]

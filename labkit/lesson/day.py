@@ -120,6 +120,11 @@ class Day:
         return self.folder / WORK / self.script
 
     @property
+    def notebook(self) -> Path:
+        """The student's notebook, a view of the script."""
+        return self.folder / WORK / f"day{self.number}.ipynb"
+
+    @property
     def own(self) -> Path:
         """The day's own folder: its functions' files, submissions/ and so on."""
         return self.folder / f"day{self.number}"

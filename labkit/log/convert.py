@@ -93,9 +93,7 @@ def _rows(text: str, path: Path) -> Iterator[Row]:
             if len(cells) != len(names):
                 raise ValueError(f"it has {len(cells)} cells, and line 1 {len(names)}")
             row = dict(zip(COLUMNS, [cells[i] for i in places], strict=True))
-            if (
-                mark != ","
-            ):  # where a comma separates no cells, it may be a decimal sign
+            if mark != ",":  # a comma that separates no cells may be a decimal sign
                 row["value"] = row["value"].replace(",", ".")
             yield decode(list(row.values()))
         except ValueError as error:

@@ -157,7 +157,7 @@ def _try_append(path: Path, text: str, sync: bool) -> str:
             _sync_folder(path.parent)
         # A writer without a lock (bash's echo of over 4,096 bytes comes in two
         # parts) may have left half a line before ours: then our first goes again.
-        seen = 0 if before else 1  # what stands before our first
+        seen = 0 if before else 1  # the number of lines before our first
         back = read_at(fd, start - seen, len(data) + seen)
         alone = back[:seen] in (b"", b"\n")
         there = back[seen:] == data and _is_at(fd, path)
@@ -258,11 +258,11 @@ def _keep(path: Path, text: str) -> str:
     kept = Path(f"{path}{UNSAVED}")
     rows = "".join(f"  row: {line}\n" for line in text.split("\n"))
     them = "them" if "\n" in text else "it"
-    with contextlib.suppress(OSError):  # also where this folder itself is gone
+    with contextlib.suppress(OSError):  # the folder itself may be gone
         later = f"to add {them} later:\n  {command('--restore', path)}"
         for _ in range(TRIES):
             with locked(kept) as fd:
-                if _is_at(fd, kept):  # not just emptied and removed by a restore
+                if _is_at(fd, kept):  # it may also have been removed by a restore
                     _write(fd, text.encode() + b"\n", sync=True)
                     return f"{rows}  kept in {shown(kept)}; {later}"
     return f"{rows}  kept nowhere but here: copy {them}"

@@ -50,7 +50,7 @@ _UNWRITABLE = re.compile("[\r\n\0\ud800-\udfff]")
 # A spreadsheet runs such a text as a formula; the apostrophe makes it plain text.
 _FORMULA = re.compile("'*[=+@-]")
 _GUARDED = re.compile("'+[=+@-]")
-_GUARDS = frozenset("'=+@-")  # what either begins with
+_GUARDS = frozenset("'=+@-")  # the first characters of a formula and of a guarded cell
 
 
 def line_end(head: bytes) -> bytes | None:

@@ -20,14 +20,15 @@ from robo47.attempt import Film
 if TYPE_CHECKING:
     from labkit.inspector.recording import Recording
 
-NUMBERS = 1_000_000  # in one answer: an eye's picture has 3 for each of its pixels
-SECONDS = 240.0  # of a processor; the pick with all functions right makes 30,000 calls
+NUMBERS = 1_000_000  # numbers in one answer: a camera's picture has 3 a pixel
+SECONDS = 240.0  # CPU seconds; the pick with all functions right makes 30,000 calls
 
 
 class Attempt(NamedTuple):
     """What came of it."""
 
-    capstone: ModuleType | None  # as `robo47.attempt` has it; None of a week without
+    # the module of the attempt; None for a week without one
+    capstone: ModuleType | None
     result: Any  # None where the arm stopped
     stopped: str  # why it did, in a line
     theirs: frozenset[str]  # its functions that are the student's, since they pass
@@ -87,7 +88,8 @@ def _tried(capstone: ModuleType, fns: Any, budget: Budget) -> tuple[Any, str]:
         return None, "the arm flew off"
     except (EnoughAsked, RunsOn):
         return None, "it took too long"
-    except (FirstFailure, Exception) as error:  # what a strange answer leads to
+    # a strange answer may stop the simulation
+    except (FirstFailure, Exception) as error:
         return None, visible(error, 300)
 
 

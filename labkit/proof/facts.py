@@ -28,10 +28,10 @@ class RunDay(DayFacts):
     # The numbers that the lab gave with theirs as far as it came, by check and metric.
     again: Mapping[tuple[str, str], float] = field(default_factory=dict)
     fault: str = ""  # the first step of the lab that failed here, "" where none did
-    unfinished: str = ""  # that the lab was not run to its end, "" where it was
+    unfinished: str = ""  # why the lab did not run to its end; "" if it did
     # What the commit lacks of what is in the folder; "" where it has all.
     left: str = ""
-    commit: str = ""  # that ran, "" where none is known
+    commit: str = ""  # the commit that ran; "" if none is known
 
 
 def facts_of(

@@ -55,11 +55,11 @@ NOT_PROVED = (
 class Proof:
     """All that the page says."""
 
-    name: str  # whose, as one harmless line; "" where none is known
+    name: str  # the student's name as one safe line; "" if none is known
     own: bool  # the reader's own, and not a student's
     commit: str  # the hash of the last one, or of those that ran; "" without one
-    days: Sequence[RunDay]  # of a week, in order
-    attempt: Attempt  # at the capstone
+    days: Sequence[RunDay]  # the days of the week, in order
+    attempt: Attempt  # the attempt at the capstone
     # What `make fresh` found last: commit, date, how many numbers are wrong and how
     # many things missing; {} where nobody asked.
     fresh: dict[str, Any] = field(default_factory=dict)

@@ -17,7 +17,7 @@ TOP = 14
 BOTTOM = 126
 MOST = 240  # points: more cannot be told apart, and would only make the page heavy
 LABEL_GAP = 58  # between two commits under the axis
-HALF_LABEL = 26  # of a commit's seven figures
+HALF_LABEL = 26  # half the width of a label, a commit's seven figures
 
 
 def number(value: float | None) -> str:

@@ -14,7 +14,7 @@ from labkit.log.rows import Row
 from labkit.log.scan import Line
 
 Key = tuple[int | None, str, str]  # day, check, metric
-SOMEBODY = Writers()  # whose files nobody knows
+SOMEBODY = Writers()  # the writers of rows whose files nobody knows
 
 
 @dataclass

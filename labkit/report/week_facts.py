@@ -46,7 +46,8 @@ class DayFacts:
 class OwnDay(DayFacts):
     """How a day of one's own went."""
 
-    minutes: int | None = None  # from the first to the last commit, as git knows
+    # minutes from the first to the last commit, as git knows
+    minutes: int | None = None
     hints: int = 0  # how many were asked for
     met: Sequence[Met] = ()  # the named mistakes, in the order they were met
     borrowed: Sequence[str] = ()  # tasks whose functions are borrowed from the kit

@@ -21,7 +21,7 @@ class Ran:
 
     day: Day
     mine: bool  # the student's file ran, and not the kit's
-    numbers: Sequence[Series]  # that the manifest asks for, and what it recorded
+    numbers: Sequence[Series]  # the numbers that the manifest asks for, with their rows
     why: str  # why it did not pass, in a line; "" where it did
 
     @property

@@ -30,8 +30,8 @@ from robo47 import panda
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
-USUAL = Limits()  # of a task that asks for no more
-PANDA = Robot()  # what a file that may load the robot is given
+USUAL = Limits()  # the limits of a task that names none
+PANDA = Robot()  # the model for a file that may load the robot
 MOST_BESIDE = 50  # files beside the script
 HUGE = 1e30  # no number of a task comes near; squares and determinants stay finite
 Robots = Sequence[Robot | mujoco.MjModel]
@@ -188,7 +188,8 @@ def free(asked: Any, worlds: Sequence[Any]) -> bool | None:
         raise ValueError("not a question about a world") from None
     try:
         a, b = np.array(a, dtype=np.float64), np.array(b, dtype=np.float64)
-        if a.ndim != 1 or a.shape != b.shape:  # or it would ask a million edges
+        # a malformed answer could ask a million edges
+        if a.ndim != 1 or a.shape != b.shape:
             return None
         return bool(world.edge_free(a, b))
     except Exception:  # a point of another number of joints
@@ -328,7 +329,7 @@ def _largest(value: Any) -> float:
         return 0.0
     try:
         array = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError):  # of unlike things
+    except (TypeError, ValueError):  # the items are of different types
         return max(map(_largest, value), default=0.0)
     return float(np.abs(array[np.isfinite(array)]).max(initial=0))
 

@@ -45,7 +45,7 @@ MODEST = 0.5  # who holds more of its share is why the machine's memory ran out
 LONGEST_LINE, MOST_WAITING = 2_000_000, 16  # bytes of a reply, replies unread
 MOST_PARTS = 20_000  # commas and brackets of a reply: all its texts may be of them
 PER_NUMBER = 11  # bytes: eight, as text
-MOST_BYTES = 50_000_000  # of all replies to what is asked at once
+MOST_BYTES = 50_000_000  # the size of all replies to one batch of questions
 POLL_SECONDS = 0.05
 ENDLESS = "it runs on and on, as a loop without an end does"
 INSIDE = Path(__file__).parent / "inside"
@@ -86,7 +86,7 @@ class Process:
         self.secret = b""
         self.told: dict[str, Any] = {}  # the request of what it has loaded
         self.answers = 0
-        self.worlds: list[Any] = []  # that its functions ask about
+        self.worlds: list[Any] = []  # the worlds that its functions ask about
         self._room = MOST_BYTES
         self.memory = 1.0  # GB
         self.longest = LONGEST_LINE  # bytes
@@ -94,7 +94,7 @@ class Process:
         self._oom_kills = processes.oom_kills()
         self._most = 0  # bytes of memory it was seen with
         self.waited = 0.0  # seconds for a processor, by which its time was extended
-        self._waits = 0.0  # of all its life, when last looked
+        self._waits = 0.0  # the waiting time of its whole life at the last look
         self._closed = threading.Event()
         self._in: queue.Queue[bytes | None] = queue.Queue(MOST_WAITING)
         self._out: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
@@ -183,7 +183,8 @@ class Process:
         processes.end(self.process)
         self._closed.set()
         self._out.put(None)
-        for thread in self._threads:  # where something holds a pipe's other end, later
+        # they end later if something holds a pipe's other end
+        for thread in self._threads:
             thread.join(processes.END_SECONDS)
 
     def _drop(self) -> None:
@@ -231,7 +232,8 @@ class Process:
         """Return for how much of the last seconds others had the processor."""
         before = self._waits
         self._waits = self.used()[1]
-        waited = min(self._waits - before, most)  # what is long past is over
+        # do not count a wait that ended long ago
+        waited = min(self._waits - before, most)
         self.waited += waited
         return waited
 

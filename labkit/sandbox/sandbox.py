@@ -40,7 +40,8 @@ from labkit.sandbox.messages import USUAL, Robots
 from labkit.sandbox.process import ENDLESS, LOAD_SECONDS, Process
 from robo47.errors import FaultError
 
-CALL_SECONDS, TASK_SECONDS = 3.0, 10.0  # for one call, for all calls of a task
+# limits for one call and for all calls of a task
+CALL_SECONDS, TASK_SECONDS = 3.0, 10.0
 RUN_SECONDS = 100.0  # for a submission, however often it is begun anew; and its lab's
 TOO_LONG = "all that it was asked together takes far too long"
 CPU, SESSION_CPU = 120, 7200  # seconds of a processor
@@ -63,7 +64,7 @@ class Sandbox:
     def __init__(self, warm: Process | None = None) -> None:
         """Take the first process, or start it: it loads while the caller prepares."""
         self._warm: Process | None = warm or Process()
-        self._kept: Process | None = None  # with a file that may be asked more
+        self._kept: Process | None = None  # a process whose file may be asked more
         self._odd = False  # a file that could be loaded before, and once more not
         self._sessions: list[Session] = []
 
@@ -133,7 +134,8 @@ class Sandbox:
                 except LoadError:
                     if killed or not process.killed:
                         raise
-                if process.killed and not killed:  # by whom? The same again tells
+                # the second attempt shows who killed it
+                if process.killed and not killed:
                     killed = True
                     continue
                 if not rounds.ended:
@@ -303,9 +305,11 @@ class _Rounds:
         self.numbers = limits.numbers
         self.first: dict[Exchange, Reply] = {}
         self.second: dict[Exchange, Reply] = {}
-        self.ended: tuple[Exchange, Reply] | None = None  # where, and why
+        # the exchange at which it ended, and the reply
+        self.ended: tuple[Exchange, Reply] | None = None
         self.call: defaultdict[str, float] = defaultdict(lambda: CALL_SECONDS)
-        self.took: defaultdict[str, list[float]] = defaultdict(list)  # by calls so far
+        # seconds per call so far, by function
+        self.took: defaultdict[str, list[float]] = defaultdict(list)
         self.spare: defaultdict[str, float] = defaultdict(lambda: TASK_SECONDS)
         for task, seconds in limits.seconds.items():
             if seconds > TASK_SECONDS:

@@ -18,7 +18,7 @@ _BOX = re.compile(
 )
 # A picture that has another one for narrow screens; Sphinx takes one.
 _PICTURE = re.compile(r'<img [^>]*src="((?:\.\./)*)_images/(\w+)\.\w+"[^>]*>')
-TALL = "_tall"  # at the end of that one's name
+TALL = "_tall"  # the end of the name of a tall picture
 # A chart, black on white: style.css turns it round on a dark page. Pictures with an arm
 # are dark themselves, and stand on either.
 _CHART = re.compile(r'<img (?=[^>]*src="(?:\.\./)*_images/([\w.-]+)")')

@@ -26,6 +26,8 @@ from robo47.paths import ROOT, TWIN_XML
 
 SOURCES = ROOT / "site"
 WASM = SOURCES / "node_modules" / "@mujoco" / "mujoco" / "mujoco.wasm"
+FONTS = SOURCES / "node_modules" / "@fontsource" / "stix-two-math" / "files"
+MATHS = FONTS / "stix-two-math-latin-400-normal.woff2"  # SIL Open Font License
 LARGEST_FILM = 2_000_000  # bytes of a page
 SETTINGS: dict[str, Any] = {
     "project": "robo47",
@@ -42,7 +44,7 @@ SETTINGS: dict[str, Any] = {
     "extensions": [
         "myst_parser",  # the documents are Markdown
         "sphinx.ext.autodoc",  # the library's pages, from its docstrings
-        "sphinx.ext.napoleon",  # which say Args and Returns
+        "sphinx.ext.napoleon",  # reads Args and Returns
         __name__,  # what is told to Sphinx below
     ],
     "myst_enable_extensions": ["dollarmath", "tasklist"],
@@ -50,13 +52,14 @@ SETTINGS: dict[str, Any] = {
     "autodoc_typehints": "none",  # the docstrings tell shapes and units
     "autodoc_member_order": "bysource",
     "napoleon_use_ivar": True,  # a class's attributes are listed once
-    "napoleon_attr_annotations": False,  # and, as elsewhere, without types
+    "napoleon_attr_annotations": False,  # without types here, as elsewhere
     "default_role": "code",  # `q` in a docstring
 }
 LONG = 55  # letters of LaTeX: a formula that a phone scrolls, since none is broken
 # As an accent, a dot is set into its letter at a screen's size: q with a dot reads q.
 _MELTS = ' accent="true"'
-_MARKUP = (":", "..", "- ", "* ")  # what an indented paragraph belongs to
+# the beginnings of lines that own an indented paragraph
+_MARKUP = (":", "..", "- ", "* ")
 # docutils puts the index of an accented letter below it: q with a dot and an i.
 _BELOW = re.compile(
     r"<munderover>\s*(<mi>[^<]*</mi>)(.*?)(<mo[^>]*>[˙¨]</mo>)\s*</munderover>",
@@ -114,10 +117,10 @@ def films() -> dict[str, Callable[[], Recording]]:
 def _static(into: Path) -> Path:
     """Return a folder, made with the style and all that the arm's page loads."""
     (into / pages.FILMS).mkdir(parents=True)
-    for path in (SOURCES / "style.css", SOURCES / "page.js", TWIN_XML, WASM):
+    for path in (SOURCES / "style.css", SOURCES / "page.js", TWIN_XML, WASM, MATHS):
         shutil.copy(path, into)
     for path in ROOT.glob(f"w*/figures/*{access.TALL}.*"):
-        shutil.copy(path, into)  # for narrow screens
+        shutil.copy(path, into)  # a narrow screen shows this one
     for name, make in films().items():
         path = into / pages.FILMS / f"{name}.html"
         path.write_text(access.film(make().page(name.replace("_", " "))), "utf-8")

@@ -20,7 +20,7 @@ from robo47.paths import ROOT
 
 SCRIPT = ROOT / "site" / "meshes.mjs"
 LARGEST = 500_000  # bytes of the file
-END = "ee"  # on a page: the frame of attachment_site
+END = "ee"  # the frame of attachment_site, as pages name it
 FINGERS = {"left_finger": "finger_joint1", "right_finger": "finger_joint2"}
 OPEN = 0.03  # m, of the 0.04 that a finger has
 # Where the hand sits on the arm's end: the same point, turned (robo47.panda.END_FRAME).

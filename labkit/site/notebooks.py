@@ -1,10 +1,12 @@
 """A day's notebook, run from top to bottom, as a page of the site.
 
-It runs where nothing is logged. What it printed, and the pictures that it drew, stand
-below the cell; a widget is moved in a notebook of one's own, and here it is only named.
+What a cell printed, and the picture that it drew, stand below it. A widget is moved in
+a notebook of one's own, and here it is only named.
 """
 
 import base64
+import os
+import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterator, Sequence
@@ -15,13 +17,15 @@ from typing import Any
 import nbclient
 import nbformat
 
-from labkit.lesson import notebook
 from labkit.lesson.day import Day
+from labkit.lesson.week import NOTEBOOKS, WORK, weeks
+from labkit.notebook.build import build
 from labkit.site.pages import notebook_of
 from robo47.errors import Robo47Error
+from robo47.paths import ROOT, menagerie_root
 
 AT_ONCE = 2  # kernels
-SECONDS = 300  # of a cell
+SECONDS = 300  # limit of a cell
 WIDGET = "application/vnd.jupyter.widget-view+json"
 SLIDERS = "*Sliders: move them in a notebook of your own, `make notebook DAY={}`.*"
 FENCE = "`" * 8
@@ -46,27 +50,49 @@ def write_all(days: Sequence[Day], folder: Path) -> None:
 
 
 def run(day: Day) -> Any:
-    """Return a day's notebook with what its cells gave.
+    """Return a day's complete notebook with what its cells gave.
+
+    It runs in a copy of the kit, where nobody has begun the day.
 
     Raises:
         Robo47Error: a cell failed; one that draws fails where OpenGL is missing.
     """
-    made = nbformat.reads(notebook.build(day), as_version=4)
-    logs = f'sys.argv = ["{Path(day.script).stem}"]'
-    for cell in made.cells:
-        cell.source = cell.source.replace(logs, f'{logs[:-1]}, "--no-log"]')
-        cell.metadata.pop("tags", None)  # a page has no picture that failed
-    with tempfile.TemporaryDirectory(prefix="robo47-notebook-") as empty:
-        where = {"metadata": {"path": empty}}
+    made = nbformat.reads(build(day, complete=True), as_version=4)
+    with tempfile.TemporaryDirectory(prefix="robo47-notebook-") as folder:
+        kit = copy_kit(day, Path(folder))
+        where = {"metadata": {"path": str(kit)}}
         client = nbclient.NotebookClient(made, timeout=SECONDS, resources=where)
+        own = {**os.environ, "PYTHONPATH": str(kit)}
+        own["MENAGERIE_ROOT"] = str(menagerie_root().absolute())
         try:
-            client.execute(stderr=subprocess.DEVNULL)  # the kernel's own warnings
+            client.execute(env=own, stderr=subprocess.DEVNULL)
         except nbclient.exceptions.CellExecutionError as error:
             raise Robo47Error(
                 f"day {day.number}: a cell of the notebook failed: "
                 f"{error.ename}: {error.evalue}; try make notebook DAY={day.number}"
             ) from None
     return made
+
+
+def copy_kit(day: Day, folder: Path) -> Path:
+    """Write what a day's notebook needs of the kit into a folder, and return it.
+
+    No prediction is asked for there.
+    """
+    left_out = shutil.ignore_patterns("__pycache__", WORK, NOTEBOOKS)
+    for name in (
+        "robo47",
+        "labkit",
+        "scripts",
+        *(week.folder.name for week in weeks()),
+    ):
+        shutil.copytree(ROOT / name, folder / name, ignore=left_out)
+    (folder / "metrics").mkdir()
+    if day.worksheet:
+        sheet = folder / day.folder.name / day.worksheet
+        rows = sheet.read_text("utf-8").splitlines()
+        sheet.write_text("\n".join(ln for ln in rows if ln[:1] != "|") + "\n", "utf-8")
+    return folder
 
 
 def page(ran: Any, path: Path, day: int) -> str:

@@ -5,6 +5,7 @@ links hold. A link to a file that is no page (a lab, a test) leads to a page tha
 the file; a link to a folder leads to nothing, and the build says so.
 """
 
+import os
 import re
 import shutil
 from collections.abc import Collection, Iterator, Sequence
@@ -33,6 +34,8 @@ LIVE = re.compile(
     r"^<!-- live: (\w+) -->$", re.MULTILINE
 )  # a figure of site/figures.js
 FIGURE = '```{raw} html\n<figure class="live" data-figure="\\1"></figure>\n```'
+COLAB = "https://colab.research.google.com/github"
+BRANCH = "notebooks"  # of the repository: nothing but the days' notebooks
 FILMS = "films"  # their folder among the site's static files
 # On the site the arm's page is a click away, above all pictures.
 FIRST = re.compile(r"\A(# [^\n]+\n\n.+?\n\n)", re.DOTALL)  # title and paragraph
@@ -41,7 +44,7 @@ TRY = (
 )
 VERB = re.compile(
     r"^([a-z-]+)%?:.*?##(\d?) (.+)$", re.MULTILINE
-)  # as `make help` reads it
+)  # in the form that `make help` reads
 TYPED = re.compile(r"\b[A-Z]+=[^\s,;]+|\B--[\w-]+|\b\w+/[\w.-]*\w")
 COMMANDS = """\
 # What to type: the commands
@@ -54,6 +57,7 @@ commands are those of a day, in the order of its work.
 LANGUAGE = {".py": "python", ".toml": "toml"}
 HOME = Path("README.md")
 ARM = Path("site", "arm.md")
+LIBRARY = "docs/library"  # the list of the library's functions
 REFERENCE = """\
 # robo47.{0}
 
@@ -100,10 +104,10 @@ def lay_out(folder: Path, filmed: Collection[str], ran: Sequence[Day]) -> None:
         text = LIVE.sub(FIGURE, _with_notebook(text, notebooks.get(page)))
         name = Path("index.md") if page == HOME else page
         _write(folder / name, _linked(text, page, pages, folder))
-    with (folder / "index.md").open("a", encoding="utf-8") as home:
-        for caption, names in _contents(pages):
-            above = f":caption: {caption}" if caption else ""
-            home.write(CONTENTS.format(above, "\n".join(names)))
+    for page, caption, names in _contents(pages):
+        above = f":caption: {caption}" if caption else ""
+        with (folder / page).open("a", encoding="utf-8") as file:
+            file.write(CONTENTS.format(above, "\n".join(f"/{name}" for name in names)))
     shutil.copy(ROOT / ARM, folder / ARM.name)
     _write(folder / "commands.md", _commands((ROOT / "Makefile").read_text("utf-8")))
     for module in (module for _, modules in _modules() for module in modules):
@@ -153,7 +157,22 @@ def _with_notebook(text: str, day: Day | None) -> str:
         return text
     title, rest = text.split("\n\n", 1)
     link = f"[The lab as a notebook, run from top to bottom](../{notebook_of(day)})"
+    if address := colab_of(day, os.environ.get("GITHUB_REPOSITORY", "")):
+        link = f"[Do this day in Colab, without set-up]({address}), or read it: {link}"
     return f"{title}\n\n{link}\n\n{rest}"
+
+
+def colab_of(day: Day, repository: str) -> str:
+    """Return the address at which Colab opens a day's notebook, "" if there is none.
+
+    Args:
+        day: from its manifest.
+        repository: "owner/name" on GitHub; its branch has the notebooks of all days,
+            which the site's workflow writes.
+    """
+    if not repository:
+        return ""
+    return f"{COLAB}/{repository}/blob/{BRANCH}/{day.notebook.name}"
 
 
 def notebook_of(day: Day) -> Path:
@@ -196,24 +215,37 @@ def _modules() -> Iterator[tuple[str, Sequence[str]]]:
             yield week.heading, new
 
 
-def _contents(pages: set[Path]) -> Iterator[tuple[str, Sequence[str]]]:
-    """Yield the captions of the site's margin, and what stands below each."""
-    yield "", ["arm", "commands"]
+def _contents(pages: set[Path]) -> Iterator[tuple[str, str, Sequence[str]]]:
+    """Yield page, caption and pages below it, as the site's margin folds them.
+
+    A week's days are below its page, a day's worksheet is below its guide, and the
+    library's modules are below its list.
+    """
     rest = {page.with_suffix("").as_posix() for page in pages - {HOME}}
+    home = HOME.with_name("index.md").name
+    yield home, "", ["arm", "commands"]
+    top = []
     for week in weeks():
-        top = f"{week.folder.name}/"
-        named = ["README.md"]
+        start = f"{week.folder.name}/"
+        own = start + "README"
+        guides = []
         for day in days_of(week):
-            named += [day.guide, day.worksheet]
-        own = [top + name.removesuffix(".md") for name in named]
-        own = [page for page in own if page in rest]  # others are not written yet
-        rest -= {*own}
-        more = sorted(page for page in rest if page.startswith(top))
-        rest -= {*more}
-        yield f"Week {week.number}", [*own, *more]
-    for title, modules in _modules():
-        yield title, [f"library/{module}" for module in modules]
-    yield "Teaching and making", sorted(rest)
+            guide, sheet = (
+                start + n.removesuffix(".md") for n in (day.guide, day.worksheet)
+            )
+            guides += [guide] if guide in rest else []
+            if {guide, sheet} <= rest:
+                yield f"{guide}.md", "", [sheet]
+            rest -= {guide, sheet}
+        more = sorted(page for page in rest if page.startswith(start) and page != own)
+        rest -= {own, *more}
+        yield f"{own}.md", "", [*guides, *more]
+        top.append(own)
+    yield home, "Days", top
+    modules = [f"library/{module}" for _, some in _modules() for module in some]
+    yield f"{LIBRARY}.md", "", modules
+    yield home, "Reference", [LIBRARY]
+    yield home, "Teaching and making", sorted(rest - {LIBRARY})
 
 
 def _write(path: Path, text: str) -> None:

@@ -16,7 +16,7 @@ from labkit.judge.sources import named as named_by
 from labkit.lesson.day import find_day
 
 DAY, FUNCTION = 1, "joint_T"
-DECIMALS = 12  # of what a page compares to within MATCHES
+DECIMALS = 12  # digits of a number that a page compares within MATCHES
 ROTATION = np.s_[:, :3, :3]  # the part that is typed; the rest is a joint's at rest
 
 

@@ -13,7 +13,7 @@ from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
 SECONDS = 300.0
-PREFIX = "update-"  # of a folder in `.robo47/`, of a worktree or an index
+PREFIX = "update-"  # the first part of a temporary folder's name in `.robo47/`
 NO_HOOKS = ("-c", f"core.hooksPath={os.devnull}")  # they see no checkout of ours
 NOBODY = ("-c", "user.name=robo47", "-c", "user.email=robo47@localhost")
 

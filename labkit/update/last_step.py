@@ -64,7 +64,7 @@ def take(worktree: Path, own: str) -> None:
         ask("read-tree", to)
         ask("update-ref", "-m", "make update", "HEAD", to, now)
         ask("update-index", "-q", "--refresh", may_fail=True)
-    except BaseException as error:  # also Ctrl-C
+    except BaseException as error:  # Ctrl-C as well
         with contextlib.suppress(Robo47Error, OSError):  # then the next run does it
             heal()
         if isinstance(error, OSError):
@@ -140,7 +140,8 @@ def _move(worktree: Path, names: Iterable[str]) -> None:
     for name in new:
         source, path = worktree / name, ROOT / name
         if PurePosixPath(name).match(f"w*/{WORK}/day*.py") and path.is_file():
-            was = path.stat()  # what the kit merged is no edit of the student's
+            # a file that the kit merged was not edited by the student
+            was = path.stat()
             os.utime(source, ns=(was.st_atime_ns, was.st_mtime_ns))
         if path.is_dir() and not path.is_symlink():
             for folder in sorted(path.rglob("*"), reverse=True):

@@ -19,7 +19,8 @@ from labkit.update.git import (
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
-REMOTES = ("kit", "upstream", "origin")  # where the kit is, the first that is there
+# remotes of the kit; the first that exists is taken
+REMOTES = ("kit", "upstream", "origin")
 STALLED = ("-c", "http.lowSpeedLimit=1000", "-c", "http.lowSpeedTime=30")
 
 

@@ -45,9 +45,9 @@ from robo47.errors import Robo47Error
 NAME = "the pick"
 THING = "cube"
 GOAL = "placed within 10 mm"
-MORAL = "Placed is no proof: look at the joints and the line."
+MORAL = "A placed cube is no proof: compare the errors of the joints and of the line."
 RATE = 100.0  # Hz, of the controller; 50 is coarse, 500 the most
-SPEED = 0.6  # of the joints' speed and acceleration limits, in joint moves
+SPEED = 0.6  # share of the joints' limits of speed and acceleration
 # Where `make capstone` has the cube, its goal and its yaw: metres and radians.
 CUBE_XY = (0.5, 0.2)
 GOAL_XY = (0.5, -0.2)

@@ -14,9 +14,9 @@ from robo47.checks import Array
 from robo47.panda import READY_Q
 
 HOVER = 0.12  # m over the cube, between joint moves and straight lines
-LINE_SECONDS = 0.75  # for those 0.12 m: the hand peaks at 1.23 m/s2
-GRIP_SECONDS = 0.4  # to close or open the fingers
-REST_SECONDS = 0.3  # at the end, held by springs
+LINE_SECONDS = 0.75  # duration of those 0.12 m: the hand peaks at 1.23 m/s2
+GRIP_SECONDS = 0.4  # time to close or open the fingers
+REST_SECONDS = 0.3  # time at the end, held by springs
 PUT_DOWN = 1.0  # N, how hard the cube is pressed on the table before it is let go
 OPEN, CLOSED = 255.0, 0.0  # ctrl of the hand's servo
 
@@ -48,7 +48,7 @@ PHASES = (
 class Result(NamedTuple):
     """What came of it."""
 
-    place_mm: float  # from the cube's centre to where it was to be, at the end
+    place_mm: float  # distance of the cube's centre from its goal, at the end
     joint_mrad: float  # worst error of any joint in the joint moves
     line_mm: float  # worst distance of the hand from its straight lines
     lift: float  # greatest height of the cube's centre, metres
@@ -83,7 +83,7 @@ class Task:
         self.model = model
         self.speed = speed
         self.watch = watch
-        self.push: simulate.Push | None = None  # of whoever disturbs the arm
+        self.push: simulate.Push | None = None  # the disturbance of the arm
         self.data = simulate.start(model, READY_Q)
         self.arm = Arm(fns, model)
         self.cube = int(model.jnt_qposadr[model.body("cube").jntadr[0]])

@@ -19,10 +19,10 @@ MARGIN = 0.008  # m, that a planned way keeps from everything
 STEP = 0.6  # rad, the longest edge of a tree
 SAMPLES = 400  # before the planner gives up
 CUTS = 60  # shortcuts that are tried
-SEED = 12  # of samples and shortcuts
+SEED = 12  # the seed of samples and shortcuts
 LEAST = 1e-3  # share of an edge between two looks: at a touch the step is 0
-LOOKS = 2000  # at one edge; over that conservative_advance does not get on
-INSIDE = {  # what to look at where an end of a way lies there
+LOOKS = 2000  # queries at one edge; more means that no progress is made
+INSIDE = {  # the advice for an end of a path in collision
     "start": "The way before led into it: are conservative_advance (task 11.8) and"
     " rrt_connect (task 12.4) right?",
     "goal": "Is the cube where it was seen: are camera_matrix (task 10.1), back_project"

@@ -16,7 +16,7 @@ from robo47.errors import Robo47Error
 ABOVE = 0.005  # m over the table: what is lower counts as table
 BESIDE = 0.02  # m about the wall: what is nearer counts as wall
 STARTS = (-np.pi / 6, 0.0, np.pi / 6)  # rad: the nearest faces may be the wrong ones
-STEPS = 20  # of the fit, from each start
+STEPS = 20  # iterations of the fit, from each start
 SEEN = 30  # points that a cube must have, at least
 
 

@@ -26,8 +26,9 @@ RATE = 100.0  # Hz, of controller and watch
 
 SCALE = 11.0  # rad/s, of the spring that weighs
 WEIGH_SECONDS = 1.2  # the springs take so long to come to rest: see the guide
-SPEEDS = (0.6, 0.5, 0.4, 0.3, 0.2)  # of the joints' limits; the first that may be, is
-INSTANTS = 41  # of a move, at which its acceleration is looked at
+# shares of the joints' limits; the first feasible one is taken
+SPEEDS = (0.6, 0.5, 0.4, 0.3, 0.2)
+INSTANTS = 41  # instants of a move at which its acceleration is checked
 PUSH_AFTER = 0.5  # s after the carry began
 EMPTY = 0.010  # kg: what weighs less is no cube
 
@@ -49,14 +50,14 @@ PHASES = (
 class Asked(NamedTuple):
     """What an attempt is asked to do otherwise, to see what it changes."""
 
-    mass: float = scenes.CUBE_MASS  # of the cube, kg
-    friction: float = scenes.FRICTION  # of cube and pads
+    mass: float = scenes.CUBE_MASS  # mass of the cube, kg
+    friction: float = scenes.FRICTION  # coefficient of friction between cube and pads
     wall: bool = True
-    told: bool = False  # where the cube stands, instead of looking
-    noise: float = 0.0  # of the depths, m
+    told: bool = False  # the cube's place is given instead of perceived
+    noise: float = 0.0  # standard deviation of the depths, m
     beside: float = 0.0  # m along x, added to where it was seen
     weigh: float = WEIGH_SECONDS  # s; 0: it is not weighed and counts as nothing
-    speed: float = 0.0  # of the carry; 0: as the weight allows
+    speed: float = 0.0  # share of the limits while carrying; 0: as the weight allows
     planned: bool = True  # False: straight from pose to pose
     hand: bool = True  # False: the planner forgets the hand
     push: float = 0.0  # N, down on the hand, in the carry
@@ -80,7 +81,7 @@ class Delivery(Task):
         self.carried = 0.0  # the speed of the carry, as a fraction of the limits
         self.driven: list[Array] = []  # configurations of the joint moves
         self.pushed_at = self.felt_at = np.nan  # seconds of the simulation
-        self.corner = READY_Q  # where the present leg of a joint move ends
+        self.corner = READY_Q  # the end of the present leg of a joint move
         self.stopped = ""  # why it did not go on
 
     def run(self, phase: Phase, rate: float = RATE) -> None:
@@ -164,7 +165,7 @@ class Delivery(Task):
     def _weigh(self) -> None:
         """Work out what hangs on the hand, and count it as part of it."""
         fns = self.fns
-        q = self.runs[-1].q[-2]  # where the last torque was commanded
+        q = self.runs[-1].q[-2]  # the configuration of the last commanded torque
         now = self.arm.at(q, np.zeros(7))
         J_site = fns.site_jacobian(now.J_space, now.T[:3, 3])
         extra = self.runs[-1].tau[-1] - self.arm.gravity(q)

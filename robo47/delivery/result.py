@@ -18,14 +18,14 @@ NEAREST = 5  # instants of the way at which `capsule_box_distance` has the last 
 class Result(NamedTuple):
     """What came of it."""
 
-    place_mm: float  # from the cube's centre to where it was to be, at the end
-    seen_mm: float  # from where the eye saw it to where it stood
-    grams: float  # what it weighed
-    mass: float  # what it weighs, kg: nobody was told
-    speed: float  # of the carry, as a fraction of the joints' limits
+    place_mm: float  # distance of the cube's centre from its goal, at the end
+    seen_mm: float  # distance of the perceived cube from the true one
+    grams: float  # the measured mass
+    mass: float  # the true mass, kg, which nobody was told
+    speed: float  # speed while carrying, as a share of the joints' limits
     clearance_mm: float  # least, of the way that was driven
     residual: float  # largest torque that nobody commanded, of any joint, N m
-    link: int  # which link felt more than it may first; 0: none did
+    link: int  # the first link whose contact was detected; 0: none
     contact_link: int  # the same of a second run, in which somebody pushes
     noticed_ms: float  # how long after a push it was felt; nan where none was
     stopped: str  # why it did not go on; "" where it did
@@ -55,7 +55,8 @@ def of(task: Delivery) -> Result:
     qpos = np.array([seen for run in task.runs for seen in run.seen])
     cube = qpos[:, task.cube : task.cube + 3]
     names = [name for name, _ in task.phases]
-    first = [i for i, name in enumerate(names) if name not in names[:i]]  # of its legs
+    # the first index of each leg
+    first = [i for i, name in enumerate(names) if name not in names[:i]]
     return Result(
         place_mm=1e3 * float(np.linalg.norm(cube[-1] - task.goal)),
         seen_mm=1e3 * float(np.linalg.norm((task.seen - task.stood)[:3, 3])),

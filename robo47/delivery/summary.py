@@ -14,7 +14,8 @@ from robo47.delivery.result import Result
 HEAD = f"""
 {"":26}{"seen":>7}{"weighed":>9}{"speed":>7}{"clear":>8}{"felt":>7}{"place":>8}
 {"":26}{"mm":>7}{"g":>9}{"of max":>7}{"mm":>8}{"N m":>7}{"mm":>8}"""
-MOMENTS = ("close", "weigh", "put down", "leave")  # of the pictures, as they begin
+# beginnings of the phases that are pictured
+MOMENTS = ("close", "weigh", "put down", "leave")
 WALL = (0.45, 0.55, 0.70, 1.0)
 EYE = (0.15, 0.15, 0.18, 1.0)
 

@@ -27,9 +27,9 @@ from robo47.fast.moves import WORLD, Axes, Chunk
 from robo47.fast.vectors import Number
 
 CHUNK = 4096  # 4 columns x 3 x 4096 float64 = 393 kB: stays within a core's L2 cache
-LAST_ROW = (0.0, 0.0, 0.0, 1.0)  # of a pose
-END = "end"  # of an arm
-ROUNDING = 2e-15  # what products of unit quaternions leave instead of 0 and 1
+LAST_ROW = (0.0, 0.0, 0.0, 1.0)  # the last row of a pose
+END = "end"  # the name of the last frame of an arm
+ROUNDING = 2e-15  # the error of 0 and 1 in products of unit quaternions
 
 
 class Plan:
@@ -40,7 +40,8 @@ class Plan:
         self.nq = nq
         self.ref = np.zeros((nq, 1))
         self.steps: list[tuple[int, moves.Step]] = []
-        self.joints: list[tuple[int, moves.Turn | moves.Slide]] = []  # with their nodes
+        # each with its node
+        self.joints: list[tuple[int, moves.Turn | moves.Slide]] = []
         self.frames: dict[str, int] = {}  # the node of each that is asked for
 
     def nodes(self, chunk: Chunk) -> list[Axes]:
@@ -94,7 +95,7 @@ class Cursor:
 
     def slide(self, axis: Array, adr: int, ref: float, pitch: float = 1.0) -> None:
         """Add a slide by pitch times q along a unit axis, (3,)."""
-        self.plan.ref[adr] = ref  # and no shift before it: the two commute
+        self.plan.ref[adr] = ref  # no translation stands before it: the two commute
         self._step(moves.Slide(pitch * rounded(self.R @ axis), adr))
 
     def ball(self, name: str, adr: int) -> None:
@@ -163,7 +164,7 @@ def _plan(screws: bytes, M: bytes) -> Plan:
             if v.any():
                 cursor.slide(checks.unit(v, "v"), i, 0.0, math.hypot(*v))
             continue
-        point = np.cross(omega, v)  # of the axis, nearest to the origin
+        point = np.cross(omega, v)  # the point of the axis nearest to the origin
         pitch = float(omega @ v)
         cursor.shift(point)
         cursor.turn(omega, i, 0.0)

@@ -95,14 +95,14 @@ def _for_all(
 class Link:
     """One moving link and the hinge that carries it."""
 
-    k: int  # which of the frame's axes the hinge turns about: 0, 1 or 2
+    k: int  # the index of the frame's axis that the hinge turns about
     sign: float  # 1.0, or -1.0 for a turn about minus that axis
     R: Array | None  # fixed rotation from the link before, (3, 3); None for none
     t: Array  # the hinge's place, seen from the link before, metres, (3,)
     m: float  # mass, kg
     h: Array  # first moment: mass times centre of mass, kg m, (3,)
     Q: Array  # second moments: integral of r r^T over the mass, kg m^2, (3, 3)
-    armature: float  # of the hinge, kg m^2
+    armature: float  # armature of the hinge, kg m^2
 
     @property
     def axes(self) -> tuple[int, int, int]:
@@ -139,7 +139,7 @@ def links_of(arm: Arm) -> tuple[Link, ...]:
         raise ValueError(f"joint {i} is no hinge; the batch is for arms of hinges")
     links: list[Link] = []
     T = np.eye(4)  # T_link_world
-    R = None  # from one link to the next, as t
+    R = None  # R and t lead from one link to the next
     t = np.zeros(3)
     for _, step in plan_of(arm.screws, arm.M_home).steps:
         if isinstance(step, Rotate):
@@ -222,7 +222,7 @@ class _Body:
         t = link.t
         mean = 0.5 * (Q[i][i] + Q[j][j])
         half = 0.5 * (Q[i][i] - Q[j][j])
-        c2 = 1.0 - 2.0 * s * s  # of twice the angle, as s2
+        c2 = 1.0 - 2.0 * s * s  # cosine of the doubled angle, like s2
         s2 = 2.0 * s * c
         half, cross = half * c2 - Q[i][j] * s2, half * s2 + Q[i][j] * c2
         Q[i][i] = mean + half

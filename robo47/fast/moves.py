@@ -69,7 +69,8 @@ class Turn:
         self.adr = adr
         one, two = (k + 1) % 3, (k + 2) % 3
         # A turn about -k is a turn about k with the other two axes swapped.
-        self._turned = (one, two) if sign > 0 else (two, one)  # from one to the other
+        # the first axis turns towards the second
+        self._turned = (one, two) if sign > 0 else (two, one)
 
     def move(self, at: Axes, chunk: Chunk) -> Axes:
         i, j = self._turned

@@ -23,9 +23,9 @@ NEAR_PI = -0.9
 class Patience(NamedTuple):
     """How a walker goes, and when it gives up."""
 
-    steps: int  # at most
+    steps: int  # the largest number of steps
     every: int  # steps between two looks at the squared error
-    enough: float  # where a larger share than this of it is left, the walker gives up
+    enough: float  # the walker gives up if a larger share of the error is left
     damping: float  # the squared damping as a share of the squared error
 
 

@@ -125,7 +125,7 @@ def _equalities(
         elif kind in (int(kinds.mjEQ_CONNECT), int(kinds.mjEQ_WELD)):
             of_sites = model.eq_objtype[k] == int(mujoco.mjtObj.mjOBJ_SITE)
             acts = any(moved[model.site_bodyid[i] if of_sites else i] for i in ends)
-        else:  # of a flexible thing
+        else:  # a joint of a flexible body
             acts = False
         if acts:
             yield f"the equality {model.eq(k).name or k!r}"

@@ -173,7 +173,7 @@ def _compiled(
         first = [_make_untouchable] if kept else []
         try:
             return _build(files[f"{entry}.xml"].decode(), files, [*first, *edits])
-        except ValueError:  # of a file that is wrong, the whole says it
+        except ValueError:  # the whole message, if the file is wrong
             edits = [_make_untouchable, *edits]
     files = {p.name: p.read_bytes() for p in folder.rglob("*") if p.is_file()}
     return _build(files[f"{entry}.xml"].decode(), files, edits)

@@ -18,7 +18,7 @@ from robo47.checks import Array
 from robo47.errors import Robo47Error
 from robo47.kinematics import fk_all, frame_names
 
-SITE = "attachment_site"  # where the arm without a hand ends
+SITE = "attachment_site"  # the last site of the arm without a hand
 STEP = 3e-4  # s, of the differences of J: leaves 1e-11
 
 

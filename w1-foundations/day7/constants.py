@@ -18,24 +18,24 @@ READY, GOAL = LAB.READY_Q, LAB.GOAL_Q
 LIFT = 1.232  # m/s², of the guide
 
 numbers = Numbers(
-    way="the way from ready to GOAL_Q: × {}",
+    way="distance from ready to GOAL_Q: × {}",
     v="V_MAX: × {}",
     a="A_MAX: × {}",
-    duration="the move takes {} times as long",
+    duration="duration of the motion: × {}",
     omega="OMEGA: {} rad/s",
     rate="RATE: {} Hz",
-    grip="a finger presses with {} N",
-    mu="friction mu: {}",
-    lift="the lift speeds up with {} m/s²",
+    grip="normal force of a finger: {} N",
+    mu="friction coefficient mu: {}",
+    lift="acceleration of the lift: {} m/s²",
     gravity="gravity: × {}",
 )
 
 
 @numbers.add(
-    "seconds that the move takes", "{:.4f} s",
-    v=between(0.7, 0.95, "joint 2 is then the slowest, by its acceleration"),
-    a=same("joint 7 is the slowest, by its speed"),
-    way=times(2.0, "twice the distance at the same speed"),
+    "shortest duration of the motion", "{:.4f} s",
+    v=between(0.7, 0.95, "the acceleration limit of joint 2 then determines it"),
+    a=same("the velocity limit of joint 7 determines it"),
+    way=times(2.0, "twice the distance at the same velocity"),
 )  # fmt: skip
 def duration(v=1.0, a=1.0, way=1.0):
     """Return the shortest duration."""
@@ -43,10 +43,10 @@ def duration(v=1.0, a=1.0, way=1.0):
 
 
 @numbers.add(
-    "seconds that joint 2 needs alone", "{:.3f} s",
-    v=between(0.9, 0.99, "then its acceleration decides, 0.914 s"),
-    a=same("its speed decides"),
-    way=times(2.0, "twice the distance at the same speed"),
+    "shortest duration for joint 2 alone", "{:.3f} s",
+    v=between(0.9, 0.99, "its acceleration limit then determines it, 0.914 s"),
+    a=same("its velocity limit determines it"),
+    way=times(2.0, "twice the distance at the same velocity"),
 )  # fmt: skip
 def joint2(v=1.0, a=1.0, way=1.0):
     """Return joint 2's shortest duration."""
@@ -56,7 +56,7 @@ def joint2(v=1.0, a=1.0, way=1.0):
 
 @cache
 def profile(name, way=1.0, longer=1.0, omega=LAB.OMEGA, rate=LAB.RATE, v=1.0, a=1.0):
-    """Return how one of the five profiles is followed, and how long it takes."""
+    """Return how one of the five time scalings is tracked, and its duration."""
     goal = READY + way * (GOAL - READY)
     limits = {"V_MAX": v * LAB.V_MAX, "A_MAX": a * LAB.A_MAX}
     with turned(LAB, GOAL_Q=goal, **limits):
@@ -67,9 +67,9 @@ def profile(name, way=1.0, longer=1.0, omega=LAB.OMEGA, rate=LAB.RATE, v=1.0, a=
 
 @numbers.add(
     "the quintic's largest jerk", "{:.0f} rad/s³",
-    rate=between(0.9, 1.1, "the curve determines it, not the control rate"),
-    duration=between(0.1, 0.16, "jerk is distance over time cubed, so an eighth"),
-    omega=between(0.9, 1.1, "the arm follows the curve with either"),
+    rate=between(0.9, 1.1, "the polynomial determines it, not the control rate"),
+    duration=between(0.1, 0.16, "the jerk is proportional to 1 / T³, so an eighth"),
+    omega=between(0.9, 1.1, "the arm tracks the polynomial with either"),
 )  # fmt: skip
 def jerk(rate=LAB.RATE, duration=1.0, omega=LAB.OMEGA):
     """Return it."""
@@ -78,7 +78,7 @@ def jerk(rate=LAB.RATE, duration=1.0, omega=LAB.OMEGA):
 
 @numbers.add(
     "the trapezoid's largest jerk", "{:.0f} rad/s³",
-    rate=times(2.0, "a discontinuity has no finite jerk; it takes one period",
+    rate=times(2.0, "the acceleration changes within one period, which is half as long",
                within=0.15),
     a=between(1.6, 2.2, "the discontinuity is twice as large"),
     omega=between(1.0, 1.3, "a stiffer arm responds more to the discontinuity"),
@@ -90,8 +90,8 @@ def corner(rate=LAB.RATE, a=1.0, omega=LAB.OMEGA):
 
 @numbers.add(
     "the trapezoid's duration", "{:.3f} s",
-    v=between(0.6, 0.95, "the ramps keep their acceleration"),
-    a=between(0.8, 0.95, "the top speed stays the same"),
+    v=between(0.6, 0.95, "the acceleration in the ramps stays the same"),
+    a=between(0.8, 0.95, "the highest velocity stays the same"),
 )  # fmt: skip
 def trapezoid(v=1.0, a=1.0):
     """Return it."""
@@ -103,10 +103,11 @@ def trapezoid(v=1.0, a=1.0):
 
 
 @numbers.add(
-    "the quintic is followed within", "{:.2f} mrad",
-    omega=between(0.4, 0.6, "the disturbance is the same, and kd is twice as large"),
-    duration=between(0.15, 0.4, "half the speed, a quarter of the acceleration"),
-    rate=between(0.7, 1.1, "the held torque and the simulator's step contribute"),
+    "largest joint error, quintic", "{:.2f} mrad",
+    omega=between(0.4, 0.6, "in each step q is off by a dt² / 2, which the controller "
+                  "balances with an error proportional to 1 / omega"),
+    duration=between(0.15, 0.4, "a quarter of the acceleration"),
+    rate=between(0.7, 1.1, "the simulator's time step, which stays, contributes most"),
 )  # fmt: skip
 def quintic_off(omega=LAB.OMEGA, duration=1.0, rate=LAB.RATE):
     """Return it."""
@@ -114,9 +115,9 @@ def quintic_off(omega=LAB.OMEGA, duration=1.0, rate=LAB.RATE):
 
 
 @numbers.add(
-    "constant speed is followed within", "{:.2f} mrad",
-    omega=between(0.9, 1.0, "half the error would need more torque than the limit"),
-    duration=between(0.4, 0.6, "the discontinuity is half as large"),
+    "largest joint error, constant speed", "{:.2f} mrad",
+    omega=between(0.9, 1.0, "the torque reaches its limit; without it, half the error"),
+    duration=between(0.4, 0.6, "the discontinuity of the velocity is half as large"),
     rate=between(0.9, 1.1, "the discontinuity is in the reference"),
 )  # fmt: skip
 def jump_off(omega=LAB.OMEGA, duration=1.0, rate=LAB.RATE):
@@ -132,8 +133,8 @@ def lifted(grip, mu, lift, gravity):
 
 @numbers.add(
     "heaviest cube at rest", "{:.3f} kg",
-    grip=times(2.0, "friction is mu times the normal force"),
-    mu=times(2.0, "friction is mu times the normal force"),
+    grip=times(2.0, "friction is at most mu times the normal force"),
+    mu=times(2.0, "friction is at most mu times the normal force"),
     gravity=times(0.5, "friction balances a weight, not a mass"),
 )  # fmt: skip
 def at_rest(grip=0.9247, mu=1.0, gravity=1.0):
@@ -142,8 +143,8 @@ def at_rest(grip=0.9247, mu=1.0, gravity=1.0):
 
 
 @numbers.add(
-    "heaviest cube while the lift speeds up", "{:.3f} kg",
-    grip=times(2.0, "friction is mu times the normal force"),
+    "heaviest cube while the lift accelerates", "{:.3f} kg",
+    grip=times(2.0, "friction is at most mu times the normal force"),
     lift=times((9.81 + LIFT) / (9.81 + 2 * LIFT), "a kilogram needs the force g + a"),
     gravity=times((9.81 + LIFT) / (19.62 + LIFT), "a kilogram needs the force g + a"),
 )  # fmt: skip

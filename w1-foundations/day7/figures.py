@@ -1,9 +1,9 @@
 """The pictures of Day 7, made with the lab's own functions; drawn by `make figures`.
 
-profiles   s, speed, acceleration and jerk of four ways to go from 0 to 1
+profiles   s, its velocity, acceleration and jerk, of four time scalings
 grip       a cube between two pads, with their friction cones
-pick       the arm over the table, and the way of the cube as a line
-letters    the arm that has written 47 in the air, and what it wrote
+pick       the arm over the table, and the path of the cube as a line
+letters    the arm that has written 47 in the air, and the strokes
 """
 
 from collections.abc import Callable
@@ -32,8 +32,8 @@ LOOKS = {
 }
 ROWS = (
     ("s", (-0.05, 1.05)),
-    ("speed, 1/s", (-0.1, 2.0)),
-    ("acc., 1/s²", (-8.0, 8.0)),
+    ("velocity, 1/s", (-0.1, 2.0)),
+    ("accel., 1/s²", (-8.0, 8.0)),
     ("jerk, 1/s³", (-90.0, 90.0)),
 )
 SAMPLES = 2000  # times at which the curves are drawn
@@ -45,7 +45,7 @@ WOOD, PAINT = (0.80, 0.72, 0.60, 1.0), (0.95, 0.55, 0.15, 1.0)
 
 @chart.picture(height=9.5)
 def profile_sheet(figure: Figure) -> None:
-    """Draw s, speed, acceleration and jerk over time, one below the other."""
+    """Draw s, velocity, acceleration and jerk over time, one below the other."""
     T = quintic_duration(GOAL_Q - READY_Q, V_MAX, A_MAX)
     axes = figure.subplots(4, 1)
     for name, (scaling, seconds) in profiles(T).items():
@@ -57,7 +57,7 @@ def profile_sheet(figure: Figure) -> None:
     for ax, (label, limits) in zip(axes, ROWS, strict=True):
         ax.set(ylabel=label, ylim=limits, xticks=[])
         ax.grid()
-    axes[3].text(0.5 * T, 58.0, "jumps of the acceleration leave the sheet",
+    axes[3].text(0.5 * T, 58.0, "off the scale where the acceleration jumps",
                  ha="center", fontsize=chart.SMALL)  # fmt: skip
     figure.legend(
         *axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=2
@@ -67,7 +67,7 @@ def profile_sheet(figure: Figure) -> None:
 
 @chart.picture(height=5.6)
 def grip(figure: Figure) -> None:
-    """Draw a cube between two pads, and each force of the pads with its limit."""
+    """Draw a cube between two pads, and the forces of the pads with their limits."""
     axes = figure.subplots()
     axes.fill([-1, 1, 1, -1], [-1, -1, 1, 1], facecolor="#f2dfc4", edgecolor=INK, lw=2)
     for side in (-1, 1):
@@ -86,18 +86,18 @@ def grip(figure: Figure) -> None:
             )
         chart.arrow(axes, (2.4 * side, 0), (1.3 * side, 0), INK, 3.0)
         chart.arrow(axes, tip, (side, 0.85), GREEN, 3.5)
-        axes.text(2.45 * side, 0.25, "grip $N$", ha="center")
+        axes.text(2.45 * side, 0.25, "normal force $N$", ha="center")
     chart.arrow(axes, (0, -1.0), (0, -2.0), RED, 3.5)
     axes.text(0.15, -1.7, r"$m (g + a)$", color=RED)
     axes.text(1.45, 0.85, r"at most $\mu N$", color=GREEN)
     axes.text(-1.45, 0.85, r"at most $\mu N$", color=GREEN, ha="right")
-    axes.text(0, 1.25, "cones for $\\mu = 1$", color=BLUE, ha="center")
+    axes.text(0, 1.25, "friction cones for $\\mu = 1$", color=BLUE, ha="center")
     axes.set(xlim=(-3.4, 3.4), ylim=(-2.2, 1.7))
     chart.blank(axes)
 
 
 def pick() -> Image.Image:
-    """Return the arm as it lifts, and the way that the cube takes in all."""
+    """Return the arm as it lifts, and the whole path of the cube."""
     done = capstone.pick(capstone.with_own(vars(day7_trajectory)))
     began = dict(done.phases)
     now = int(np.searchsorted(done.t, began["carry"] + 0.25))
@@ -109,7 +109,7 @@ def pick() -> Image.Image:
 
 
 def forty_seven() -> Image.Image:
-    """Return the arm at the end of its writing, and where the pen was on the board."""
+    """Return the arm after it has written, and the strokes of the pen on the board."""
     written = letters.write(day7_trajectory)
     camera = Camera((0.3, 0.0, 0.42), 2.0, np.radians(20.0), np.radians(-8.0))
     scene = Scene(portrait.with_fingers(written.q), SIZE, camera, fast=False)
@@ -120,7 +120,7 @@ def forty_seven() -> Image.Image:
 
 
 def _sampled(scaling: Callable[[float], Array], seconds: float, T: float) -> Array:
-    """Return t, s, sd, sdd and the jerk, (5, SAMPLES), still after the end."""
+    """Return t, s, sd, sdd and the jerk, (5, SAMPLES), also after the end."""
     t = np.linspace(-0.05 * T, 1.05 * T, SAMPLES)
     rows = np.array([
         scaling(x) if 0.0 <= x < seconds else [float(x >= seconds), 0.0, 0.0]
@@ -152,7 +152,7 @@ def _cube(pose: Array, opacity: float = 1.0) -> Box:
 
 
 def small() -> Image.Image:
-    """Return the arm as it lifts the cube, and the cube's way."""
+    """Return the arm as it lifts the cube, and the cube's path."""
     done = capstone.pick(capstone.with_own(vars(day7_trajectory)))
     now = int(np.searchsorted(done.t, dict(done.phases)["carry"] + 0.25))
     cube = done.qpos[:, 9:16]

@@ -1,8 +1,8 @@
 """Day 7 in the inspector: the tabs Plan and Pick.
 
-Plan: the student's own trajectory from where the arm stands to the lab's goal, its
-joint speeds against their limits. Pick: the capstone at its table, by the student's
-own functions of today, or of all days.
+Plan: the student's own trajectory from the arm's configuration to the lab's goal, and
+its joint velocities compared with their limits. Pick: the capstone at its table, with
+the student's own functions of today, or of all days.
 """
 
 from functools import cache, partial
@@ -26,17 +26,17 @@ QUINTIC, TRAPEZOID = "quintic", "trapezoid"
 PLAY, PICK, STOP = "play / stop", "pick it", "stop"
 ARM = slice(0, 7)
 LATE = 1e-9  # of the time
-LEAST = 1e-3  # s, that a way may take
-COUNT = 60  # instants that the student's functions are asked for
+LEAST = 1e-3  # s, the shortest duration that is played
+COUNT = 60  # times at which the student's functions are evaluated
 TODAY, ALL = "of today", "of all days"
 UNITS = {"quintic_duration": "s", "joint_trajectory": "(rad, rad/s or rad/s2)",
-         "trapezoidal_profile": "(of the way, or per s or s2)", "max_cube_mass": "kg",
+         "trapezoidal_profile": "(1, 1/s or 1/s2)", "max_cube_mass": "kg",
          "grasp_pose": "in one entry", "interpolate_pose": "in one entry",
          "combine_bodies": "in one entry"}  # fmt: skip
 
 
 class Plan(Tab):
-    """When is the arm where, and how fast may it be?"""
+    """The student's trajectory, and its joint velocities beside their limits."""
 
     title = "Plan"
     wide = True
@@ -53,24 +53,28 @@ class Plan(Tab):
         self.to_play = False
         self.own = page.own(trajectory, units=UNITS)
         page.choice("time scaling", [QUINTIC, TRAPEZOID], self.sets("kind"))
-        # The share of the limits that is used up; over 1 breaks them.
-        page.slider("of the limits", 0.1, 1.5, 1.0, self.sets("hurry"), unit="")
-        self.slider = page.slider("done", 0.0, 1.0, 0.0, self.go, unit="")
+        # The fraction of the limits that is allowed; over 1 exceeds them.
+        page.slider(
+            "fraction of the limits", 0.1, 1.5, 1.0, self.sets("hurry"), unit=""
+        )
+        self.slider = page.slider(
+            "fraction of the time", 0.0, 1.0, 0.0, self.go, unit=""
+        )
         page.buttons([PLAY], lambda _: self.loop.toggle())
         self.numbers = page.html()
         limits = simulate.SPEED_LIMITS
-        title = "joint speeds and their limits"
+        title = "joint velocities and their limits"
         self.bars = page.bars(panda.ARM_JOINTS, limits, "rad/s", title)
         curves = [*panda.ARM_JOINTS, "limit"]
-        self.plot = page.plot(curves, y="speed, parts of its limit", height=180)
+        self.plot = page.plot(curves, y="velocity / limit", height=180)
         self.loop = page.animate(self.play)
         self.ghost = page.draw.ghost("blue")
         self.way = page.draw.curve(np.zeros((COUNT, 3)), "purple", 4.0)
         page.light("ee", {"ee"})
-        page.legend({"goes along your trajectory": "blue", "its hand's way": "purple"})
+        page.legend({"arm on your trajectory": "blue", "path of its hand": "purple"})
 
     def go(self, share: float) -> None:
-        """Show the arm when a share of the time is over."""
+        """Show the arm after a fraction of the duration."""
         self.share = share
         self.show()
 
@@ -82,17 +86,17 @@ class Plan(Tab):
         return self.share < 1.0
 
     def begin(self) -> None:
-        """Play the way, once it is there."""
+        """Play the trajectory as soon as it is computed."""
         self.loop.stop()
         self.to_play = True
         self.on_move(self.page.q)
 
     def on_move(self, q: Array) -> None:
-        """Ask for the way from where the arm is now."""
+        """Compute the trajectory from the present configuration."""
         self.page.job(lambda: self.plan(q[ARM]), self.planned)
 
     def plan(self, q0: Array) -> tuple[float, Array, Array]:
-        """Return the student's time T, and q and qd, (COUNT, 7), on the way."""
+        """Return the student's duration T, and q and qd, (COUNT, 7), of the motion."""
         dq = GOAL_Q - q0
         s = np.linspace(0.0, 1.0, COUNT)
         v, a = self.hurry * simulate.SPEED_LIMITS, self.hurry * simulate.ACC_LIMITS
@@ -113,7 +117,7 @@ class Plan(Tab):
         return T, q0 + dq * part[:, :1], dq * part[:, 1:2]
 
     def _top(self, dq: Array) -> tuple[float, float]:
-        """Return the trapezoid's top speed of s and how long its ramp takes."""
+        """Return the highest velocity of s in the trapezoid, and a ramp's duration."""
         dq = np.maximum(np.abs(dq), 1e-9)
         v = float((self.hurry * simulate.SPEED_LIMITS / dq).min())
         a = float((self.hurry * simulate.ACC_LIMITS / dq).min())
@@ -121,7 +125,7 @@ class Plan(Tab):
         return top, top / a
 
     def planned(self, found: tuple[float, Array, Array]) -> None:
-        """Show the whole way."""
+        """Show the whole trajectory."""
         self.T, self.q, self.qd = found
         p = np.array([self.arm.at(q).T_world_ee[:3, 3] for q in self.q])
         self.way.points = joined(p)
@@ -134,7 +138,7 @@ class Plan(Tab):
             self.loop.start()
 
     def lost(self) -> None:
-        """Show no way."""
+        """Show no trajectory."""
         self.loop.stop()
         self.ghost.pose({})
         self.way.points = joined(np.zeros((COUNT, 3)))
@@ -143,15 +147,15 @@ class Plan(Tab):
         self.numbers.content = ""
 
     def show(self) -> None:
-        """Show the blue arm and its speeds at the chosen moment."""
+        """Show the blue arm and its joint velocities at the chosen time."""
         i = round(self.share * (COUNT - 1))
         self.ghost.pose(self.page.links(self.q[i]))
         self.bars.show(self.qd[i])
         most = float((np.abs(self.qd) / simulate.SPEED_LIMITS).max())
         t = f"t = {self.share * self.T:.2f} of {self.T:.3f} s"
-        says = f"{t}; at most {most:.0%} of a speed limit"
+        says = f"{t}; at most {most:.0%} of a velocity limit"
         if self.T <= 0.0:
-            says += "; no way takes that time, it is played all the same"
+            says += "; the duration must be positive, so the motion is played in 1 ms"
         kind = "bad" if most > 1 + 1e-6 or self.T <= 0.0 else ""
         self.numbers.content = words.line(says, "plan", kind)
 
@@ -172,7 +176,7 @@ class Pick(Tab):
     camera = ((1.75, -1.15, 0.95), (0.55, 0.25, 0.35))
 
     def __init__(self, page: Page) -> None:
-        """Stand at the table; nothing moves yet."""
+        """Show the arm at the table; nothing moves yet."""
         super().__init__(page)
         self.own = page.own(trajectory, units=UNITS)
         self.whose = TODAY
@@ -182,7 +186,7 @@ class Pick(Tab):
         page.buttons([PICK, STOP], self.press)
         self.clock = page.html()
         limits = simulate.SPEED_LIMITS
-        title = "joint speeds and their limits"
+        title = "joint velocities and their limits"
         self.bars = page.bars(panda.ARM_JOINTS, limits, "rad/s", title)
         self.loop = page.animate(self.replay)
         self.robot = Robot(page, _scene(), dressed)
@@ -191,37 +195,37 @@ class Pick(Tab):
         corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]]) * half
         ring = np.column_stack([corners + goal[:2], np.full(5, goal[2] + 1e-3)])
         page.draw.curve(ring, "blue", 4.0)
-        page.legend({"the cube": "orange", "where it is to stand": "blue"})
+        page.legend({"the cube": "orange", "its target": "blue"})
         self.stand()
 
     def stand(self) -> None:
-        """Stand at the start: nothing is picked yet."""
+        """Show the start: nothing is picked yet."""
         self.robot.show(simulate.start(_scene(), panda.READY_Q).qpos)
         self.bars.clear()
 
     def begin(self) -> None:
-        """Have the cube picked."""
+        """Start the pick."""
         self.press(PICK)
 
     def press(self, name: str) -> None:
-        """Have the cube picked, or stop."""
+        """Start the pick, or stop it."""
         self.loop.stop()
         if name == PICK:
-            says = "the simulation runs: some seconds, of all days up to a minute"
+            says = "the simulation runs: some seconds, with all days up to a minute"
             self.clock.content = words.line(says, "clock", "quiet")
             self.page.say("")
             self.stand()
             self.page.job(self.pick, self.picked)
 
     def pick(self) -> tuple[Result, str]:
-        """Return what the student's functions do, and whose; it waits for them."""
+        """Return the pick by the student's functions, and how many are theirs."""
         fns = vars(capstone.library())
         if self.whose == TODAY:
             own = {name: getattr(self.own, name) for name in capstone.USES[7]}
             return capstone.pick(SimpleNamespace(**{**fns, **own})), ""
         with week(fns) as mine:
             done = capstone.pick(mine)
-            return done, f"; YOUR {mine.yours} of {mine.total} functions at work"
+            return done, f"; {mine.yours} of {mine.total} functions are yours"
 
     def lost(self) -> None:
         """Nothing was picked."""
@@ -249,8 +253,8 @@ class Pick(Tab):
             return True
         kind = "bad" if done.failed else "good"
         self.page.say(
-            f"placed {done.place_mm:.1f} mm from its goal; the grip can lift "
-            f"{done.heaviest:.2f} kg, by max_cube_mass{self.mine}", kind
+            f"placed {done.place_mm:.1f} mm from its target; the grip can lift "
+            f"{done.heaviest:.2f} kg by max_cube_mass{self.mine}", kind
         )  # fmt: skip
         return False
 

@@ -1,5 +1,7 @@
 """Day 7's motions: functions against oracles; the numbers in the guide's sentences."""
 
+from unittest.mock import patch
+
 import numpy as np
 import pytest
 from compare import assert_same
@@ -152,13 +154,90 @@ def test_step_7s_sentences():
     assert numbers["constant speed"][2] > 1.0
     assert max(numbers[n][0] for n in ("cubic", "trapezoid", "quintic")) < 1.0
     assert says(f"a number of its own, {numbers['quintic'][1]:.0f} rad/s³")
-    assert 0.78 < ways["trapezoid"][1] / T < 0.82  # "a fifth faster"
+    assert 0.78 < ways["trapezoid"][1] / T < 0.82
+    assert says("The trapezoid is a fifth faster (14 to 43 % over 200 random motions)")
     top = np.minimum(lab.V_MAX, np.sqrt(DQ * lab.A_MAX))
     alone = DQ / top + top / lab.A_MAX
     assert (lab.V_MAX / DQ).argmin() == 6
     assert (lab.A_MAX / DQ).argmin() == alone.argmax() == 1
     assert says("joint7 sets its speed and joint2 its acceleration")
     assert says(f"joint2, the slowest, would need {alone.max():.4f} s")
+
+
+def random_motions(n, seed):
+    """Yield the ends of random motions, and the five time scalings of each."""
+    at = lab.day7_mujoco.moves(panda.load("panda"), n, seed)
+    for q0, q1 in zip(at.q0, at.q1, strict=True):
+        T = lab.quintic_duration(q1 - q0, lab.V_MAX, lab.A_MAX)
+        with patch.multiple(lab, READY_Q=q0, GOAL_Q=q1):
+            yield q0, q1, T, lab.profiles(T)
+
+
+def test_no_random_motion_is_slower_by_its_trapezoid():
+    ratio = [ways["trapezoid"][1] / T for _, _, T, ways in random_motions(200, 47)]
+    faster = sorted(100 * (1 - np.array(ratio)))
+    assert [round(faster[0]), round(faster[-1])] == [14, 43]
+    for *_, ways in random_motions(20, 47):
+        scaling, T = ways["trapezoid"]
+        assert_same(scaling(T * (1 + 1e-12))[0], 1.0, 1e-9)
+        assert scaling(0.999 * T)[0] < 1.0  # it has not arrived before
+
+
+@pytest.mark.kit
+def test_in_twelve_random_motions_three_scalings_are_followed_within_a_few_mrad():
+    found = [
+        lab.day7_mujoco.follow(*ways[name], q0, q1, lab.OMEGA, lab.RATE).mrad
+        for q0, q1, _, ways in random_motions(12, 1)
+        for name in ("cubic", "trapezoid", "quintic")
+    ]
+    assert 1.0 < max(found) < 1.5
+    assert says("(within 1.5 mrad in twelve random motions)")
+
+
+def other_arm(timestep=None, torque=1.0):
+    """Return `panda.load` for an arm with another time step or torque limit."""
+    load = panda.load
+
+    def loaded(*args, **named):
+        model = load(*args, **named)
+        model.opt.timestep = timestep or model.opt.timestep
+        for limits in (
+            model.actuator_forcerange,
+            model.actuator_ctrlrange,
+            model.jnt_actfrcrange,
+        ):
+            limits *= torque
+        return model
+
+    return patch.object(panda, "load", loaded)
+
+
+def off(name, omega=lab.OMEGA, rate=lab.RATE, **arm):
+    """Return the joint error of step 7's motion in mrad."""
+    way = lab.profiles(0.995)[name]
+    with other_arm(**arm):
+        return lab.day7_mujoco.follow(*way, lab.READY_Q, lab.GOAL_Q, omega, rate).mrad
+
+
+def test_the_quintics_error_is_that_of_the_simulators_step():
+    # Semi-implicit steps put q off by a dt^2 / 2 each, a velocity of a dt / 2. The
+    # controller balances that velocity with an error of 2 / omega times it.
+    for omega in (lab.OMEGA, 2 * lab.OMEGA):
+        coarse, fine = (off("quintic", omega, 500.0, timestep=h) for h in (2e-3, 1e-3))
+        assert 0.5 < fine / coarse < 0.6
+    largest = 10 / np.sqrt(3) * DQ.max() / 0.995**2  # rad/s^2
+    predicted = 1000 * largest * 0.002 / lab.OMEGA
+    assert off("quintic", rate=500.0) == pytest.approx(predicted, rel=0.5)
+
+
+def test_constant_speed_has_half_the_error_only_without_a_torque_limit():
+    limited, free = (
+        off("constant speed", 2 * lab.OMEGA, torque=torque)
+        / off("constant speed", torque=torque)
+        for torque in (1.0, 10.0)
+    )
+    assert limited > 0.9
+    assert free == pytest.approx(0.5, abs=0.05)
 
 
 def test_half_as_stiff_the_arm_is_twice_as_far_off():

@@ -1,4 +1,4 @@
-"""What Day 7 asks of MuJoCo: random moves within its joint limits, and a move followed.
+"""Day 7's use of MuJoCo: random motions within joint limits, and a tracked motion.
 
 Radians, metres, seconds, kilograms.
 """
@@ -13,28 +13,34 @@ from robo47.checks import Array
 from robo47.verify import random_q
 from robo47.verify.answers import Function
 
-REST = 0.1  # s, before and after a move, to see how it starts and stops
+REST = 0.1  # s at rest, before and after a motion
 
 
 class Moves(NamedTuple):
-    """Random moves of the seven joints, long and short."""
+    """Random motions of the seven joints, long and short ones."""
 
-    q0: Array  # from where, (n, 7)
-    q1: Array  # to where, (n, 7)
-    T: Array  # how long each takes, (n,)
-    t: Array  # an instant of each, also before its start and after its end, (n,)
+    q0: Array  # the first configurations, rad, (n, 7)
+    q1: Array  # the last configurations, rad, (n, 7)
+    T: Array  # the durations, s, (n,)
+    t: Array  # a time of each, also before its start and after its end, s, (n,)
 
 
 class Followed(NamedTuple):
-    """How one move was followed."""
+    """How accurately the arm tracked one motion."""
 
-    mrad: float  # the largest error of any joint
-    jerk: float  # the largest, rad/s3
-    torque: float  # the largest share of a motor's limit
+    mrad: float  # the largest joint error, mrad
+    jerk: float  # the largest jerk, rad/s^3
+    torque: float  # the largest torque, as a fraction of the motor's limit
 
 
 def moves(model: mujoco.MjModel, n: int, seed: int) -> Moves:
-    """Return n random moves within the joint limits."""
+    """Return n random motions within the joint limits.
+
+    Args:
+        model: a Panda, whose joint ranges are used.
+        n: the number of motions.
+        seed: of the random numbers.
+    """
     rng = np.random.default_rng(seed)
     q0, q1 = (random_q(model, n, seed + i)[:, :7] for i in (0, 1))
     q1 = q0 + (q1 - q0) * rng.uniform(0.01, 1.0, (n, 1))
@@ -43,13 +49,26 @@ def moves(model: mujoco.MjModel, n: int, seed: int) -> Moves:
 
 
 def ramps(n: int, seed: int) -> Array:
-    """Return L, v and a of n trapezoids, (3, n): some are too short to reach v."""
+    """Return L, v and a of n trapezoidal profiles, (3, n); some never reach v.
+
+    Args:
+        n: the number of profiles.
+        seed: of the random numbers.
+    """
     rng = np.random.default_rng(seed)
     return rng.uniform([0.01, 0.1, 0.5], [3.0, 2.0, 10.0], (n, 3)).T
 
 
 def arguments(at: Moves, seed: int) -> dict[str, tuple[Array, ...]]:
-    """Return what to ask the functions that MuJoCo has no call for, (n, ...) each."""
+    """Return the test arguments of the functions that MuJoCo cannot check.
+
+    Args:
+        at: the motions of `moves`.
+        seed: of the random numbers.
+
+    Returns:
+        {function: its arguments}, each argument (n, ...) or (4 n,).
+    """
     rng = np.random.default_rng(seed)
     n = len(at.T)
     L, v, a = ramps(4 * n, seed)
@@ -75,13 +94,13 @@ def arguments(at: Moves, seed: int) -> dict[str, tuple[Array, ...]]:
 def follow(
     scaling: Function, seconds: float, q0: Array, q1: Array, omega: float, rate: float
 ) -> Followed:
-    """Follow one straight line in joint space with Day 5's computed torque.
+    """Return how accurately Day 5's computed torque tracks a line in joint space.
 
     Args:
-        scaling: (s, sd, sdd) at a time.
-        seconds: that it takes.
-        q0, q1: ends of the line, (7,).
-        omega: of the controller, rad/s.
+        scaling: the time scaling, from a time in s to (s, sd, sdd).
+        seconds: the duration of the motion, s.
+        q0, q1: the ends of the line, rad, (7,).
+        omega: natural frequency of the controller, rad/s.
         rate: of the controller, Hz.
     """
     model = panda.load("panda_nohand", drive="torque")
@@ -100,7 +119,7 @@ def follow(
         return control.computed_torque(*known, e, ed, (q1 - q0) * sdd, *gains)
 
     whole = np.ceil(seconds * rate) / rate + 2 * REST
-    # Every period asks the controller, writes data.ctrl and calls mujoco.mj_step.
+    # Each period calls the controller, writes data.ctrl and calls mujoco.mj_step.
     run = simulate.run(model, simulate.start(model, q0), controller, whole, rate=rate)
     jerk = np.diff(run.qd, 2, axis=0) * rate**2
     used = np.abs(run.tau) / simulate.limits(model)[1]

@@ -1,8 +1,9 @@
 """Day 10 in the inspector: the tab Eye.
 
-The lab's camera looks at the cube. Its depth image has MuJoCo's corners as white
-squares and the student's projected ones in red; below stands the pose that the
-student's own functions find from pixels with noise, and in the scene it is blue.
+The lab's camera points at the cube. Its depth image shows MuJoCo's corners as white
+squares and the student's projected corners in red. Below it is the error of the pose
+that the student's own functions estimate from noisy pixels; the scene shows that pose
+in blue.
 """
 
 from typing import NamedTuple
@@ -28,34 +29,34 @@ UNITS = {
     **dict.fromkeys(("apply_twist", "refine_pose"), "in one entry"),
     "projection_jacobian": "(px per rad or m)", "pose_covariance": "(rad2 or m2)",
 }  # fmt: skip
-GUESS = np.array([0.1, -0.08, 0.05, 0.02, -0.01, 0.03])  # what a fit begins beside
-LARGER = 2  # pixels of the page for one of the camera's
+GUESS = np.array([0.1, -0.08, 0.05, 0.02, -0.01, 0.03])  # twist to the initial pose
+LARGER = 2  # pixels of the page for each pixel of the camera
 EDGES = [(i, j) for i in range(8) for j in range(i) if (i ^ j) in (1, 2, 4)]
 WHITE, RED = (255, 255, 255), (230, 60, 40)
-SMALL = 0.01  # px: what one calls the same on a screen
+SMALL = 0.01  # px, a difference that a screen cannot show
 
 
 class Seen(NamedTuple):
-    """What the camera sees of the cube, and what the student's functions make of it."""
+    """The camera's view of the cube, and the results of the student's functions."""
 
     depth: Array  # m, (240, 320)
     truth: Array  # MuJoCo's pixels of the corners, (8, 2)
     theirs: Array  # the student's, (8, 2)
     T_world_found: Array  # the cube by the student's fit, (4, 4)
-    off: Array  # of its place, in the camera's axes, mm, (3,)
-    sigma: Array  # that the student's covariance says, mm, (3,)
-    right: tuple[Array, Array]  # off and sigma by the library
+    off: Array  # error of its position, in the camera frame, mm, (3,)
+    sigma: Array  # by the student's covariance, mm, (3,)
+    right: tuple[Array, Array]  # error and sigma by the library
     view: Array  # the frustum by the student's K and back_project, (8, 2, 3)
 
 
 class Eye(Tab):
-    """What a camera sees, and how sure it is of it."""
+    """A camera's view of a cube, and the accuracy of the estimated pose."""
 
     title = "Eye"
     wide = True
 
     def __init__(self, page: Page) -> None:
-        """Draw camera, table and cube, and ask for the first time."""
+        """Draw camera, table and cube, and estimate the pose once."""
         super().__init__(page)
         self.model, self.data = day10_mujoco.table()
         mujoco.mj_forward(self.model, self.data)  # fills cam_xpos and cam_xmat
@@ -68,10 +69,11 @@ class Eye(Tab):
         self.own = page.own(camera, units=UNITS)
         page.slider("cube, x", 350, 600, self.x, self.sets("x"), unit="mm", step=5)
         page.slider("cube, y", -250, 250, self.y, self.sets("y"), unit="mm", step=5)
-        page.slider("turned", -0.8, 0.8, self.yaw, self.sets("yaw"))
-        page.slider("noise", 0.05, 2, self.noise, self.sets("noise"), unit="px")
+        page.slider("cube, yaw", -0.8, 0.8, self.yaw, self.sets("yaw"))
+        page.slider("pixel noise", 0.05, 2, self.noise, self.sets("noise"), unit="px")
         blank = np.zeros((day10_mujoco.HEIGHT, day10_mujoco.WIDTH))
-        self.image = page.image(blank, "depth; white: MuJoCo's corners, red: yours")
+        title = "depth image; corners by MuJoCo white, by your functions red"
+        self.image = page.image(blank, title)
         self.text = page.html()
         frame = self.view(camera.back_project(*self.asked_view(self.K)))
         page.draw.lines(frame, "black", 1.5)
@@ -80,13 +82,13 @@ class Eye(Tab):
         self.cube = page.draw.lines(np.zeros((12, 2, 3)), "orange")
         self.found = page.draw.lines(np.zeros((12, 2, 3)), "blue", 4)
         page.legend({
-            "the cube": "orange", "where your fit puts it": "blue",
-            "your camera's view": "purple", "the library's": "black",
+            "the cube": "orange", "your estimated pose": "blue",
+            "your camera's view": "purple", "the library's view": "black",
         })  # fmt: skip
         self.on_move(page.q)
 
     def on_move(self, q: Array) -> None:
-        """Ask again: the cube was moved, or the file may be another."""
+        """Estimate again, because the cube was moved or the file may differ."""
         T_world_cube = self.place()
         self.cube.points = edges(T_world_cube)
         noise = self.noise
@@ -95,18 +97,18 @@ class Eye(Tab):
         )
 
     def place(self) -> Array:
-        """Return where the sliders put the cube, `T_world_cube`."""
+        """Return the pose of the cube that the sliders define, `T_world_cube`."""
         at = (self.x / 1000, self.y / 1000, day10_mujoco.CUBE_HEIGHT)
         return se3.make_T(se3.Rz(self.yaw), at)
 
     def answered(self, asked: tuple[Array, float, Seen]) -> None:
-        """Show what came out, unless the cube has been moved meanwhile."""
+        """Show the result, unless the cube has been moved in the meantime."""
         T_world_cube, noise, seen = asked
         if noise == self.noise and np.array_equal(T_world_cube, self.place()):
             self.show(seen)
 
     def ask(self, T_world_cube: Array, noise: float) -> Seen:
-        """Return what the camera sees, and what the student's functions say of it."""
+        """Return the camera's view, and the results of the student's functions."""
         day10_mujoco.place(self.model, self.data, T_world_cube)
         mujoco.mj_forward(self.model, self.data)  # fills sensordata and geom_xpos
         truth = day10_mujoco.corners_seen(self.model, self.data)
@@ -144,7 +146,7 @@ class Eye(Tab):
         )
 
     def show(self, seen: Seen) -> None:
-        """Show the picture, both clouds of corners, and how far the fit is off."""
+        """Show the image, both sets of corners, and the error of the estimate."""
         self.seen = seen
         self.image.image = as_bytes(picture(seen))
         self.found.points = edges(seen.T_world_found)
@@ -156,15 +158,15 @@ class Eye(Tab):
         self.text.content = "".join(
             words.line(text, key, kind)
             for text, key, kind in (
-                (f"your corners: {said} px from MuJoCo's", "corners", kind),
-                (f"your fit, with {self.noise:.2f} px of noise:", "fit", ""),
-                (f"across {across}", "across", ""),
-                (f"along the view {along}", "along", ""),
+                (f"largest error of your corners: {said} px", "corners", kind),
+                (f"your pose with {self.noise:.2f} px of noise:", "fit", ""),
+                (f"across the view: {across}", "across", ""),
+                (f"along the view: {along}", "along", ""),
             )
         )
 
     def lost(self) -> None:
-        """Show no numbers, and no cube where they would put it."""
+        """Show no numbers and no estimated cube."""
         self.text.content = ""
         if self.seen is not None:  # MuJoCo's corners alone
             bare = self.seen._replace(theirs=np.zeros((0, 2)))
@@ -173,14 +175,14 @@ class Eye(Tab):
         self.frustum.points = np.zeros((8, 2, 3), np.float32)
 
     def asked_view(self, K: Array) -> tuple[Array, ...]:
-        """Return what back_project is asked for the picture's corners, 0.2 m deep."""
+        """Return the arguments of back_project for the image's corners at 0.2 m."""
         width = float(day10_mujoco.WIDTH)
         height = float(day10_mujoco.HEIGHT)
         frame = np.array([[0, 0], [width, 0], [width, height], [0, height]])
         return K, self.T_world_cam, frame, np.full(4, 0.2)
 
     def view(self, far: Array) -> Array:
-        """Return four rays to those points, and the picture's edge, (8, 2, 3)."""
+        """Return four rays to those points, and the image's edge, (8, 2, 3)."""
         here = np.tile(self.T_world_cam[:3, 3], (4, 1))
         rays = np.stack([here, far], axis=1)
         edge = np.stack([far, np.roll(far, -1, axis=0)], axis=1)
@@ -188,17 +190,17 @@ class Eye(Tab):
 
 
 def sigma_at(T_cam_cube: Array, C: Array) -> Array:
-    """Return the cube's sigma in the camera's axes, mm, (3,), of a covariance."""
+    """Return the cube's sigma in the camera frame, mm, (3,), from a covariance."""
     at_cube = np.hstack([-skew(T_cam_cube[:3, 3]), np.eye(3)])
     spread = np.diag(at_cube @ C @ at_cube.T)
     return 1000 * np.sqrt(np.maximum(spread, 0.0))
 
 
 def fits(off: Array, sigma: Array, off_right: Array, sigma_right: Array) -> list[str]:
-    """Return by axis how far a fit is off, and the library's, in words; all in mm."""
+    """Return a sentence per axis on the errors of the student and the library, mm."""
     rows = zip(np.abs(off), sigma, np.abs(off_right), sigma_right, strict=True)
     return [
-        f"{x:.1f} mm off, sigma {s:.1f}; the library {x_right:.1f}, sigma {s_right:.1f}"
+        f"error {x:.1f} mm, sigma {s:.1f}; library {x_right:.1f}, sigma {s_right:.1f}"
         for x, s, x_right, s_right in rows
     ]
 
@@ -221,7 +223,7 @@ def picture(seen: Seen) -> Array:
     near = seen.depth[np.isfinite(seen.depth)]
     least, most = near.min(), near.max()
     known = np.where(np.isfinite(seen.depth), seen.depth, most + 0.3 * (most - least))
-    grey = as_bytes(-known)  # near is bright, and where no ray meets a thing is black
+    grey = as_bytes(-known)  # near is bright, no surface black
     large = np.repeat(np.repeat(grey, LARGER, axis=0), LARGER, axis=1) // 2
     for pixels, colour, half in ((seen.truth, WHITE, 4), (seen.theirs, RED, 2)):
         for u, v in np.round(LARGER * np.nan_to_num(pixels)).astype(int):

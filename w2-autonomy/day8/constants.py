@@ -1,6 +1,6 @@
-"""What Day 8's numbers hang on: each constant turned by two, measured, explained.
+"""Sensitivity of Day 8's numbers: each constant is doubled, measured and explained.
 
-Everything is computed by the lab's own functions; nothing has noise unless it says so.
+The lab's own functions compute everything, without noise unless stated otherwise.
 """
 
 from copy import copy
@@ -20,25 +20,25 @@ MODEL = panda.load("panda_nohand", drive="torque")
 ARM = panda.arm(MODEL)
 
 numbers = Numbers(
-    reach="the pendulum's reach: {} rad",
-    second="share of a second sine: {}",
+    reach="amplitude of the pendulum: {} rad",
+    second="fraction of a second sine: {}",
     rtol="RTOL: {}",
     cut="CUT: {}",
     metre="units of length in a metre: {}",
     n="samples: {}",
     seed="seed of the states: {}",
-    speed="speeds of the states: × {}",
-    swing="REACH of the swing: × {}",
+    speed="velocities of the states: × {}",
+    swing="amplitude of the swing: × {}",
     noise="NOISE: {} N m",
     noise_seed="NOISE_SEED: {}",
     slow="SLOW: {} rad/s",
-    masses="MASS, how far the robot's are off: {}",
+    masses="largest difference of a mass from the file: {}",
     friction="dry friction: × {}",
     wait="WAIT: {} s",
     timeconst="solref[0] of the friction: {} s",
     dmin="solimp[0] of the friction: {}",
     dmax="solimp[1] of the friction: {}",
-    springs="OMEGA of the springs that hold it: {} rad/s",
+    springs="OMEGA of the springs that hold the arm: {} rad/s",
     step="time step: {} s",
     poses="poses: {}",
     qdd="acceleration: {} rad/s²",
@@ -47,18 +47,18 @@ numbers = Numbers(
 
 
 @numbers.add(
-    "condition of the pendulum, one sine of 0.1 rad", "{:,.0f}",
-    reach=times(1 / 8, "q'' + q = 0, and sin q differs from q by q³/6", within=0.1),
-    second=between(0, 0.001, "another frequency: q'' = -q is gone", to=0.2),
-    rtol=same("nothing is cut: all five show"),
+    "condition number of the pendulum, one sine of 0.1 rad", "{:,.0f}",
+    reach=times(1 / 8, "q'' = -q, and sin q differs from q by q³/6", within=0.1),
+    second=between(0, 0.001, "with a second frequency q'' = -q no longer holds", to=0.2),
+    rtol=same("all five singular values count"),
 )  # fmt: skip
 def pendulum(reach=0.1, second=0.0, rtol=LAB.RTOL):
-    """Return how unevenly the swing shows the five numbers."""
+    """Return the condition number of the pendulum's motion."""
     return LAB.rank_and_condition(LAB.pendulum(reach, second), rtol)[1]
 
 
 def regressor(motion):
-    """Return Y, (n, 7, 91), as the lab's: by the library, which is quicker."""
+    """Return Y, (n, 7, 91), by the library, which is quicker than the lab."""
     with turned(LAB, arm_regressor=identification.arm_regressor):
         return LAB.regressor(ARM, motion)
 
@@ -72,12 +72,12 @@ def anywhere(seed, n, speed):
 
 
 @numbers.add(
-    "combinations of the 70 numbers that show", "{:.0f}",
-    n=same("nine random states show all that can be known"),
-    seed=same("what hides is the arm's own: its axes, not the states", to=48),
-    speed=same("the same axes"),
-    metre=same("a column that is scaled stays as independent as it was"),
-    rtol=same("the others are rounding, 1e-14 and less"),
+    "rank of the 70 columns of the links", "{:.0f}",
+    n=same("nine random states already reach the rank"),
+    seed=same("the axes of the arm determine the rank, not the states", to=48),
+    speed=same("the axes of the arm are the same"),
+    metre=same("scaling a column does not change its linear independence"),
+    rtol=same("the others are rounding errors, at most 1e-14 of the largest"),
 )  # fmt: skip
 def links_show(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB.RTOL):
     """Return the rank."""
@@ -86,31 +86,32 @@ def links_show(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB
 
 
 @numbers.add(
-    "condition of random states, with motors", "{:.0f}",
+    "condition number of random states, with motors", "{:.0f}",
     n=between(0.8, 1.1, "more states of the same kind"),
     seed=between(0.7, 1.4, "other states of the same kind", to=48),
-    speed=between(1.05, 2.0, "the worst shown, viscous friction, grows like the speed, "
-                  "and a part of the best, inertia, like its square"),
-    metre=between(0.3, 0.8, "the best shown is inertia and m c, whose columns shrink; "
-                  "the worst is friction, and has no length in it"),
-    rtol=same("nothing lies between 1e-14 and 1 / 230"),
+    speed=between(1.05, 2.0, "the smallest singular value belongs to viscous friction "
+                  "and grows like the velocity; a part of the largest, of the "
+                  "inertias, grows like its square"),
+    metre=between(0.3, 0.8, "the largest singular value belongs to inertias and m c, "
+                  "whose columns shrink; friction has no length in its unit"),
+    rtol=same("no singular value lies between 1e-14 and 1 / 230 of the largest"),
 )  # fmt: skip
 def condition(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB.RTOL):
-    """Return how unevenly 100 random states show what they show."""
+    """Return the condition number of 100 random states."""
     Y = anywhere(seed, n, speed)[1].reshape(-1, 91)
     return LAB.rank_and_condition(Y / LAB.lengths(metre), rtol)[1]
 
 
 @numbers.add(
-    "condition of Day 5's swing", "{:,.0f}",
+    "condition number of Day 5's swing", "{:,.0f}",
     swing=between(1 / 200, 1 / 100, "between the sixth and the seventh power of the "
                   "amplitude at six poses, not the third as for the pendulum"),
-    metre=between(3.0, 10.0, "columns in kg m² shrink to 1/100: the unit is in it",
-                  to=10.0),
-    rtol=same("nothing lies near it: what hides is rounding"),
+    metre=between(3.0, 10.0, "columns in kg m² shrink to 1/100, so it depends on the "
+                  "unit", to=10.0),
+    rtol=same("no singular value is near it; the others are rounding errors"),
 )  # fmt: skip
 def swing_condition(swing=1.0, metre=1.0, rtol=LAB.RTOL):
-    """Return how unevenly the swing shows the numbers, to three digits."""
+    """Return the condition number of the swing, to three digits."""
     motion, Y = swung(swing)
     fast = np.abs(motion.qd) > LAB.SLOW
     return float(f"{LAB.rank_and_condition(Y[fast] / LAB.lengths(metre), rtol)[1]:.3g}")
@@ -133,7 +134,7 @@ def excited(n):
 
 @cache
 def robot(masses=DAY.MASS, friction=1.0, load=0.0):
-    """Return the robot that nobody knows, with what hangs on its hand."""
+    """Return the unknown robot, with a load on its hand."""
     edit = DAY.load(load, LAB.AT) if load else None
     model = panda.load("panda_nohand", drive="torque", edit=edit)
     with turned(DAY, MASS=masses):
@@ -144,7 +145,7 @@ def robot(masses=DAY.MASS, friction=1.0, load=0.0):
 
 
 def off_elsewhere(moved, drawn, secret, rtol, metre=1.0, slow=LAB.SLOW):
-    """Return how far a fit is off at the lab's random states, in N m.
+    """Return the test error of a fit at the lab's random states, in N m.
 
     Args:
         moved: a motion and its Y.
@@ -165,39 +166,40 @@ def off_elsewhere(moved, drawn, secret, rtol, metre=1.0, slow=LAB.SLOW):
 
 
 @numbers.add(
-    "the swing's fit, cut, in metres, off elsewhere", "{:.2f} N m",
-    cut=between(0.9, 1.1, "some more values are cut; most of the harm was done"),
-    metre=between(0.2, 0.4, "columns in kg m² shrink to 1/100, and others are cut",
-                  to=10.0),
-    noise=between(0.9, 1.3, "without any it is 4.8: what was cut off is not noise"),
-    noise_seed=between(0.7, 1.3, "another noise on top of the same cut", to=48),
-    swing=between(0.8, 1.0, "more combinations are above the cut, and the others are "
-                  "still taken for 0"),
-    masses=between(0.8, 1.2, "what was cut off is taken for 0, not for the file's"),
+    "test error of the swing's fit, truncated, in metres", "{:.2f} N m",
+    cut=between(0.9, 1.1, "a few more combinations are truncated; the bias is similar"),
+    metre=between(0.2, 0.4, "columns in kg m² shrink to 1/100, so other combinations "
+                  "are truncated", to=10.0),
+    noise=between(0.9, 1.3, "without noise it is 4.8, which is the bias"),
+    noise_seed=between(0.7, 1.3, "another noise is added to the same bias", to=48),
+    swing=between(0.8, 1.0, "more combinations are kept, and the others are still set "
+                  "to 0"),
+    masses=between(0.8, 1.2, "truncated combinations are set to 0, not to the file's "
+                   "values"),
 )  # fmt: skip
 def cut_fit(cut=LAB.CUT, metre=1.0, noise=LAB.NOISE, noise_seed=LAB.NOISE_SEED,
             swing=1.0, masses=DAY.MASS):  # fmt: skip
-    """Return what the cut fit to the swing is off."""
+    """Return the test error of the truncated fit to the swing."""
     drawn = noise * np.random.default_rng(noise_seed).normal(size=(200, 7))
     return off_elsewhere(swung(swing), drawn, robot(masses), cut, metre)
 
 
 @numbers.add(
-    "the excitation's fit, off elsewhere", "{:.2f} N m",
-    noise=times(2.0, "its error is all noise, and the fit is linear"),
-    n=between(0.55, 0.85, "twice the samples: 1/√2, and other noise", to=400),
+    "test error of the excitation's fit", "{:.2f} N m",
+    noise=times(2.0, "its only cause is the noise, and the fit is linear"),
+    n=between(0.55, 0.85, "1/√2 for twice the samples, with other noise", to=400),
     noise_seed=between(0.5, 1.5, "another noise", to=48),
-    metre=same("where nothing is cut the unit drops out"),
-    rtol=same("nothing lies near it"),
-    slow=between(0.8, 1.2, "fewer rows, none of them wrong"),
-    masses=same("the fit does not know how far the robot is from its file"),
-    friction=same("dry friction is a column of Y"),
+    metre=same("without truncation the unit cancels"),
+    rtol=same("no singular value is near it"),
+    slow=between(0.8, 1.2, "fewer rows, and none of them is wrong"),
+    masses=same("the fit does not use the model file"),
+    friction=same("dry friction has its columns in Y"),
 )  # fmt: skip
 def excited_fit(
     noise=LAB.NOISE, n=200, noise_seed=LAB.NOISE_SEED, metre=1.0, rtol=LAB.RTOL,
     slow=LAB.SLOW, masses=DAY.MASS, friction=1.0,
 ):  # fmt: skip
-    """Return what the fit to the excitation is off."""
+    """Return the test error of the fit to the excitation."""
     rng = np.random.default_rng(noise_seed)
     rng.normal(size=(200, 7))  # the lab's swing has these
     drawn = noise * rng.normal(size=(n, 7))
@@ -206,13 +208,13 @@ def excited_fit(
 
 
 @numbers.add(
-    "the model file's own numbers, off elsewhere", "{:.2f} N m",
-    masses=between(1.05, 2.0, "what the masses are off by is twice as much"),
-    friction=between(1.05, 2.0, "the file has no dry friction at all"),
-    noise=same("nothing is fitted, and the truth has no noise"),
+    "test error of the model file's parameters", "{:.2f} N m",
+    masses=between(1.05, 2.0, "the differences of the masses are twice as large"),
+    friction=between(1.05, 2.0, "the file contains no dry friction"),
+    noise=same("nothing is fitted, and the test data have no noise"),
 )  # fmt: skip
 def file_off(masses=DAY.MASS, friction=1.0, noise=LAB.NOISE):
-    """Return what the model file is off."""
+    """Return the test error of the model file."""
     at, Y = anywhere(LAB.ROBOT_SEED, LAB.TRIALS, 1.0)
     new = np.abs(at.qd) > LAB.SLOW
     truth = LAB.mujoco_torques(robot(masses, friction), at)
@@ -220,15 +222,15 @@ def file_off(masses=DAY.MASS, friction=1.0, noise=LAB.NOISE):
 
 
 @numbers.add(
-    "b, of the sign of MuJoCo's dry friction", "{:.0f} 1/s",
+    "b, which shifts the sign of MuJoCo's dry friction", "{:.0f} 1/s",
     timeconst=times(0.5, "b = 2 / (dmax timeconst)"),
     dmax=times(1 / 0.95, "b = 2 / (dmax timeconst)", to=0.9025),
-    dmin=same("b has the largest impedance in it, not that at rest", to=0.45),
-    qdd=same("twice the acceleration turns the sign at twice the speed"),
-    dry=same("how large it is does not say which way it points"),
+    dmin=same("b depends on the largest impedance, dmax, only", to=0.45),
+    qdd=same("with twice the acceleration the sign changes at twice the speed"),
+    dry=same("the sign does not depend on the magnitude"),
 )  # fmt: skip
 def sign_rule(timeconst=0.02, dmax=0.95, dmin=0.9, qdd=5.0, dry=0.5):
-    """Return the acceleration over the speed at which dry friction turns its sign."""
+    """Return acceleration over speed where dry friction changes its sign."""
     model = panda.load("panda_nohand", drive="torque")
     model.dof_solref[0] = timeconst, 1.0
     model.dof_solimp[0, :2] = dmin, dmax
@@ -242,7 +244,7 @@ def held(load, side, i, wait, friction, timeconst, dmin, step, springs):
     model.dof_solref[:7, 0] = timeconst
     model.dof_solimp[:7, :2] = dmin, max(dmin, 0.95)
     model.opt.timestep = step
-    # The lab's five, and more of the same draw.
+    # The lab's five poses, and five more of the same distribution.
     away = np.random.default_rng(47).uniform(-0.5, 0.5, (10, 7))
     with turned(DAY, OMEGA=springs):
         return DAY._hold(model, ARM, panda.READY_Q + away[i], side, wait)
@@ -254,19 +256,19 @@ def holds(load, side, n, *how):
 
 
 @numbers.add(
-    "too many from either side, without noise", "{:.0f} g",
-    wait=between(0.0, 0.2, "dry friction creeps: after 4 s hardly any is left"),
-    timeconst=between(0.0, 0.2, "b is half, so it creeps twice as fast"),
-    dmin=between(6.0, 10.0, "it hardly creeps at all", to=0.999),
-    friction=times(2.0, "of twice the friction twice as much is left", within=0.1),
-    springs=between(-0.2, 0.2, "it creeps until the springs give nothing; they pull "
-                    "four times as hard"),
-    step=times(1.0, "creep does not depend on the step", within=0.05, to=0.001),
+    "error of the mass, one from either side, no noise", "{:.0f} g",
+    wait=between(0.0, 0.2, "dry friction creeps, and after 4 s hardly any is left"),
+    timeconst=between(0.0, 0.2, "b is half, so friction creeps twice as fast"),
+    dmin=between(6.0, 10.0, "with this impedance friction hardly creeps", to=0.999),
+    friction=times(2.0, "twice the friction leaves twice the error", within=0.1),
+    springs=between(-0.2, 0.2, "the springs are four times as stiff, so friction creeps "
+                    "faster"),
+    step=times(1.0, "creep does not depend on the time step", within=0.05, to=0.001),
 )  # fmt: skip
 def either_side(
     wait=LAB.WAIT, friction=1.0, timeconst=0.02, dmin=0.9, step=0.002, springs=DAY.OMEGA
 ):
-    """Return what is found too much: down without the load, up with it."""
+    """Return the error of the mass, held from one side without load, else the other."""
     how = 5, wait, friction, timeconst, dmin, step, springs
     q, full = holds(LAB.LOAD, -1.0, *how)
     load, _ = LAB.weighed(ARM, q, full - holds(0.0, 1.0, *how)[1])
@@ -275,10 +277,9 @@ def either_side(
 
 @numbers.add(
     "sigma of the load, each from both sides", "{:.0f} g",
-    noise=times(2.0, "what no load explains is noise, and hardly any friction",
-                within=0.05),
+    noise=times(2.0, "the residual is noise, with hardly any friction", within=0.05),
     noise_seed=between(0.7, 1.4, "it is estimated from 35 torques", to=48),
-    poses=between(0.6, 0.85, "twice the poses: 1/√2, and other poses"),
+    poses=between(0.6, 0.85, "1/√2 for twice the poses, which are other poses"),
 )  # fmt: skip
 def load_sigma(noise=LAB.NOISE, noise_seed=LAB.NOISE_SEED, poses=5):
     """Return the sigma of the mass that the lab finds."""

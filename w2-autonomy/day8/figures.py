@@ -1,6 +1,6 @@
 """The picture of Day 8, made with the lab's own functions; drawn by `make figures`.
 
-shown   what two motions show, value by value; how far a predicted torque is off
+shown   singular values of two motions, and the error of a predicted torque
 """
 
 import day8_identification as lab
@@ -16,7 +16,7 @@ from robo47 import panda, se3
 
 import day8_mujoco
 
-JOINT = 3  # joint4: much of the arm hangs on it
+JOINT = 3  # joint4, which carries much of the arm
 SAMPLES = 200
 
 
@@ -32,31 +32,32 @@ def shown(figure: Figure) -> None:
     swing = day8_mujoco.swing(SAMPLES)
     rubs = np.abs(swing.qd) > lab.SLOW  # the rows that the lab fits
     _values(above, lab.regressor(arm, swing)[rubs], "Day 5's swing", "s", RED)
-    _values(above, Y[np.abs(motion.qd) > lab.SLOW], "excited", "o", BLUE)
+    _values(above, Y[np.abs(motion.qd) > lab.SLOW], "excitation", "o", BLUE)
     _torque(below, arm, robot, Y, motion)
     for axes in (above, below):
         axes.grid()
 
 
 def _values(axes: Axes, Y: np.ndarray, name: str, mark: str, colour: str) -> None:
-    """Draw the singular values of a motion, and say how many count."""
+    """Draw the singular values of a motion, with rank and condition number."""
     Y = Y.reshape(-1, Y.shape[-1])
     s = np.linalg.svd(Y, compute_uv=False)
     rank, condition = lab.rank_and_condition(Y, lab.RTOL)
-    words = f"{name}: {rank}, condition {float(f'{condition:.3g}'):,.0f}"
+    number = float(f"{condition:.3g}")
+    words = f"{name}: rank {rank}, condition number {number:,.0f}"
     axes.semilogy(s / s[0], mark, ms=4, color=colour, label=words)
     axes.axhline(lab.RTOL, color=INK, linestyle="--", linewidth=1.5)
     axes.set(
         ylim=(1e-18, 30),
-        title="What a motion shows",
-        xlabel="number of the singular value",
+        title="Singular values of the regressor",
+        xlabel="index of the singular value",
     )
-    axes.set_ylabel("share of the largest")
+    axes.set_ylabel("fraction of the largest")
     axes.legend(loc=(0.03, 0.25))
 
 
 def _torque(axes: Axes, arm, robot, Y: np.ndarray, motion: day8_mujoco.Motion) -> None:
-    """Draw how far one joint's torque is off on a new motion: by the fit, the file."""
+    """Draw the error of one joint's torque on a new motion, by fit and by file."""
     noise = lab.NOISE * np.random.default_rng(lab.NOISE_SEED).normal(
         size=motion.q.shape
     )
@@ -70,18 +71,22 @@ def _torque(axes: Axes, arm, robot, Y: np.ndarray, motion: day8_mujoco.Motion) -
     true[np.abs(new.qd[:, JOINT]) < lab.SLOW] = np.nan  # no column for these rows
     band = 1.96 * sigma
     axes.fill_between(t, -band, band, color=BLUE, alpha=0.25, label="1.96 sigma")
-    axes.plot(t, torque - true, "o", ms=4, color=BLUE, label="predicted by the fit")
+    axes.plot(t, torque - true, "o", ms=4, color=BLUE, label="error of the fit")
     axes.plot(
-        t, rows @ day8_mujoco.numbers(arm) - true, "--", color=RED, label="by the file"
+        t,
+        rows @ day8_mujoco.numbers(arm) - true,
+        "--",
+        color=RED,
+        label="error of the file",
     )
-    axes.set(xlabel="time, s", ylabel=f"off joint {JOINT + 1}'s torque, N m")
-    axes.set_title("A motion that was never shown")
+    axes.set(xlabel="time, s", ylabel=f"torque error, joint {JOINT + 1}, N m")
+    axes.set_title("Predictions for a motion outside the data")
     axes.set_ylim(top=2.0)  # room for the legend
     axes.legend(loc="upper right", ncols=3)
 
 
 def small() -> Image.Image:
-    """Return the arm with the load that it weighs."""
+    """Return the arm with the payload."""
     q = lab.POSES[0]
     hand = panda.arm(panda.load("panda_nohand")).at(q).T_world_ee[:3, 3]
     below = hand - [0.0, 0.0, 0.3]

@@ -1,8 +1,8 @@
 """Day 8 in the inspector: the tab Weigh.
 
-Hang a ball on the hand of the lab's secret robot and let it be held, from both sides.
-What the student's own functions find stands there with its sigma, and the library's
-below it; the blue ball is where theirs puts it.
+A sphere is fixed to the hand of the lab's unknown robot, and the arm is held from both
+sides. The tab shows the payload that the student's own functions identify, with its
+sigma, above the library's result. The blue sphere is at the student's centre of mass.
 """
 
 from typing import NamedTuple
@@ -19,21 +19,21 @@ from robo47.checks import Array
 
 import day8_mujoco
 
-LAB = lab_of(find_day(8))  # its robot, poses, wait and cut
+LAB = lab_of(find_day(8))  # its robot, poses, wait and tolerance
 HERE, FIVE, FORGET = "hold here", "five poses", "forget"
 UNITS = {"identify_payload": "(kg or kg m)", "predict_with_sigma": "(kg or kg m)"}
-NO_MASS = 1e-9  # kg: what weighs less has no centre
+NO_MASS = 1e-9  # kg; a smaller mass has no centre
 
 
 class Found(NamedTuple):
-    """What holds show of a load, when they are compared in one way."""
+    """The payload that one comparison of holds gives."""
 
     load: Array  # m and m c, kg and kg m, (4,)
     sigma: Array  # of each, (4,)
-    rank: int  # how many of the four show
+    rank: int  # of the regressor, at most 4
 
     def centre(self) -> Array:
-        """Return its centre in the hand's axes, m, (3,); NaN where nothing weighs."""
+        """Return the centre of mass in the hand frame, m, (3,); NaN without a mass."""
         m = self.load[0] if abs(self.load[0]) > NO_MASS else np.nan
         return self.load[1:] / m
 
@@ -43,20 +43,20 @@ class Found(NamedTuple):
         centre = ", ".join(f"{1000 * x:z.1f}" for x in self.centre())
         m = max(abs(self.load[0]), NO_MASS)
         return (
-            f"{grams:.1f} g, sigma {sigma:.1f}; centre {centre} mm, "
-            f"sigma {1000 * self.sigma[1:].max() / m:.1f}"
+            f"{grams:.1f} g, sigma {sigma:.1f} g; centre {centre} mm, "
+            f"sigma {1000 * self.sigma[1:].max() / m:.1f} mm"
         )
 
 
 class Weighed(NamedTuple):
-    """What the student's functions find, and the library's, by the way of comparing."""
+    """The student's results and the library's, by the sides that are compared."""
 
     own: dict[str, Found]
     library: dict[str, Found]
 
 
 class Weigh(Tab):
-    """What the arm weighs: a load, its estimate, and how sure that is."""
+    """A payload, its estimate and the standard deviation."""
 
     title = "Weigh"
     wide = True
@@ -72,11 +72,13 @@ class Weigh(Tab):
         self.held: list[Array] = []  # q, torque with and without, from either side
         self.centre: Array | None = None
         self.own = page.own(identification, units=UNITS)
-        self.holding = page.jobs_apart()  # a weighing is no reason to drop a hold
+        self.holding = page.jobs_apart()  # so that an estimate does not drop a hold
         grams = round(1000 * self.mass)
-        page.slider("load", 50, 2000, grams, self.hang, unit="g", step=50)
+        page.slider("mass of the load", 50, 2000, grams, self.hang, unit="g", step=50)
         below = round(1000 * self.com[2])
-        page.slider("below the hand", 0, 200, below, self.lower, unit="mm", step=5)
+        page.slider(
+            "distance below the hand", 0, 200, below, self.lower, unit="mm", step=5
+        )
         page.buttons([HERE, FIVE, FORGET], self.press)
         self.table = page.html()
         self.ball = page.draw.sphere(np.zeros(3), day8_mujoco.RADIUS, "orange", 0.5)
@@ -85,12 +87,12 @@ class Weigh(Tab):
         self.weigh()
 
     def hang(self, grams: float) -> None:
-        """Hang another load on the hand, which was never held."""
+        """Change the load; all holds of the old one are dropped."""
         self.mass = grams / 1000.0
         self.press(FORGET)
 
     def lower(self, mm: float) -> None:
-        """Hang it lower, or higher."""
+        """Move the load down or up."""
         self.com[2] = mm / 1000.0
         self.press(FORGET)
 
@@ -99,7 +101,7 @@ class Weigh(Tab):
         poses = [self.page.q[:7]] if name == HERE else []
         if name == FIVE:
             poses = list(LAB.POSES)
-        if name != HERE:  # the same holds again would only look like more
+        if name != HERE:  # the same holds twice would look like more data
             self.held = []
         before, mass, com = self.held, self.mass, self.com.copy()
         if not poses:
@@ -114,7 +116,7 @@ class Weigh(Tab):
         self.holding.want(lambda: self.hold(poses, mass, com), keep)
 
     def hold(self, poses: list[Array], mass: float, com: Array) -> list[Array]:
-        """Return what a load's holds show, see `ask`; it takes some tenths of a s."""
+        """Return the holds of a load, see `ask`; this takes some tenths of a second."""
         edit = day8_mujoco.load(mass, com)
         hung = panda.load("panda_nohand", drive="torque", edit=edit)
         full = day8_mujoco.changed(hung, LAB.ROBOT_SEED)
@@ -131,27 +133,27 @@ class Weigh(Tab):
             self.press(HERE)
 
     def on_move(self, q: Array) -> None:
-        """Move both balls with the hand; ask again, for the file may be another."""
+        """Move both spheres with the hand; estimate again, as the file may differ."""
         self.place()
         self.weigh()
 
     def weigh(self) -> None:
-        """Ask for what the holds show, or say that there are none."""
+        """Estimate the load from the holds, or show that there are none."""
         held = self.held
         if held:
             self.page.job(lambda: (held, self.ask(held)), self.answered)
         else:
             self.lost()
-            self.table.content = words.line("Not held yet.", "weighed")
+            self.table.content = words.line("No pose was held yet.", "weighed")
 
     def answered(self, asked: tuple[list[Array], Weighed]) -> None:
-        """Show what was found, unless those holds have been forgotten meanwhile."""
+        """Show the estimate, unless its holds have been dropped in the meantime."""
         held, weighed = asked
         if held is self.held:
             self.show(weighed)
 
     def ask(self, held: list[Array]) -> Weighed:
-        """Return what the student's functions find in these holds, and the library's.
+        """Return the student's estimates from these holds, and the library's.
 
         A hold is q (rad), torque with the load and without (N m), (3, 2, 1, 7).
         """
@@ -167,7 +169,7 @@ class Weigh(Tab):
         return Weighed(by_way(ways, own), by_way(ways, library))
 
     def calls(self, at: Array, extra: Array) -> list[tuple[object, ...]]:
-        """Return what to ask of holds at q, rad, (k, 7), and their torque, N m."""
+        """Return the calls for holds at q, rad, (k, 7), and their torques, N m."""
         J, R = day8_mujoco.hands(self.arm, at)
         g = self.arm.gravity
         rows = identification.load_regressor(J, R, g).reshape(-1, 4)
@@ -178,12 +180,12 @@ class Weigh(Tab):
         ]
 
     def show(self, weighed: Weighed) -> None:
-        """Say what was found, the library's below the student's; draw the ball."""
+        """Show the student's estimates above the library's, and draw the sphere."""
         *_, last = weighed.own.values()
-        hidden = ": the centre along gravity does not" if last.rank < 4 else ""
+        hidden = " (not the centre along gravity)" if last.rank < 4 else ""
         text = [
-            f"{len(self.held)} held, {last.rank} of 4 numbers show{hidden}; "
-            f"hung are {1000 * self.mass:.0f} g."
+            f"Poses held: {len(self.held)}. {last.rank} of 4 parameters are "
+            f"identifiable{hidden}. True mass: {1000 * self.mass:.0f} g."
         ]
         for name, found in weighed.own.items():
             text.append(f"{name}: {found.says()}")
@@ -198,7 +200,7 @@ class Weigh(Tab):
         self.place()
 
     def place(self) -> None:
-        """Draw both balls where the hand is now."""
+        """Draw both spheres at the hand's present pose."""
         T = self.arm.at(self.page.q[:7]).T_world_ee
         self.ball.position = T[:3, 3] + T[:3, :3] @ self.com
         self.found.visible = self.centre is not None
@@ -206,14 +208,14 @@ class Weigh(Tab):
             self.found.position = T[:3, 3] + T[:3, :3] @ self.centre
 
     def lost(self) -> None:
-        """Show no numbers, and no ball where they would put it."""
+        """Show no numbers and no blue sphere."""
         self.table.content = ""
         self.centre = None
         self.place()
 
 
 def by_way(ways: dict[str, tuple[Array, Array]], answers: list) -> dict[str, Found]:
-    """Return what was found in each way, from three answers each, as `calls` asks."""
+    """Return the estimate of each comparison, from the three results of `calls`."""
     found = {}
     for k, name in enumerate(ways):
         load, (_, sigma), (rank, _) = answers[3 * k : 3 * k + 3]

@@ -2,6 +2,7 @@
 
 import copy
 import re
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -134,7 +135,7 @@ def test_the_smaller_residual_is_luck_and_says_nothing_of_elsewhere(data):
 def test_the_fit_that_fools_is_wrong_without_noise_too_and_by_what_it_cut(
     data, printed
 ):
-    row = r"cut, in metres +44 +883 +[\d.]+ +[\d.]+ +([\d.]+) +(\d+)%"
+    row = r"truncated, in m +44 +883 +[\d.]+ +[\d.]+ +([\d.]+) +(\d+)%"
     sigma, inside = re.search(row, printed).groups()
     off = fitted(data, "swing", noises(lab.NOISE_SEED)[0], lab.CUT)[1]
     assert f"on new motions it is wrong by {off:.1f} N m" in SENTENCES
@@ -178,24 +179,63 @@ def test_rows_of_the_same_motion_do_not_tell_which_cut_is_wrong_elsewhere(data):
     known = day8_mujoco.numbers(arm)
     noise = noises(lab.NOISE_SEED)[0]
     Y, tau = Y[fast], (tau + noise)[fast] - Y[fast] @ known
-    fifths = np.array_split(np.random.default_rng(0).permutation(len(tau)), 5)
-
-    def left_out(cut):
-        off = []
-        for out in fifths:
-            rest = np.setdiff1d(np.arange(len(tau)), out)
-            off.append(
-                Y[out] @ identification.truncated_svd_fit(Y[rest], tau[rest], cut)
-                - tau[out]
-            )
-        return lab.rms(np.concatenate(off))
-
-    near = [left_out(cut) for cut in (1e-2, 1e-3, 1e-4)]
+    near = [cross_validated(Y, tau, cut) for cut in (1e-2, 1e-3, 1e-4)]
     far = [fitted(data, "swing", noise, cut, known)[1] for cut in (1e-2, 1e-3, 1e-4)]
     words = "is {:.3f} N m with 1e-2, {:.3f} with 1e-3 and {:.3f} with 1e-4"
     assert words.format(*near) in SENTENCES
     assert f"the error on the test data is {far[2]:.2f} N m" in SENTENCES
     assert near[2] < near[0] < 2 * near[2] < far[0] < far[1] < far[2]
+
+
+def swing_of(seed, data):
+    """Return Y, tau minus the file's torque and the test data of another robot."""
+    secret = day8_mujoco.changed(model, seed)
+    known = day8_mujoco.numbers(arm)
+    Y, _, fast = data["swing"]
+    Y_new, _, new = data["elsewhere"]
+    states = day8_mujoco.anywhere(model, lab.ROBOT_SEED, lab.TRIALS)
+    tau = lab.mujoco_torques(secret, day8_mujoco.swing()) + noises(seed)[0]
+    truth = lab.mujoco_torques(secret, states)[new]
+    return Y[fast], tau[fast] - Y[fast] @ known, Y_new[new], truth - Y_new[new] @ known
+
+
+@pytest.mark.kit
+def test_twelve_robots_agree_on_the_difference_the_scales_and_cross_validation(data):
+    of_a_link = np.repeat([0.4, 0.03, 0.02], [1, 3, 6])
+    size = np.append(np.tile(of_a_link, 7), [0.5] * 21)
+    cuts = (1e-2, 1e-3, 1e-4)
+    plain, scaled, left_out = [], [], []
+    for seed in range(1, 13):
+        Y, tau, Y_new, truth = swing_of(seed, data)
+        fit = identification.truncated_svd_fit
+        plain.append([lab.rms(Y_new @ fit(Y, tau, cut) - truth) for cut in cuts])
+        scaled.append([
+            lab.rms(Y_new @ (size * fit(Y * size, tau, cut)) - truth)
+            for cut in cuts[:2]
+        ])  # fmt: skip
+        left_out.append([cross_validated(Y, tau, cut) for cut in cuts])
+    ends = np.array([np.min(plain, axis=0), np.max(plain, axis=0)]).T
+    words = "gives {:.2f} to {:.2f} N m with 1e-2, {:.2f} to {:.2f} with 1e-3"
+    assert words.format(*ends[:2].ravel()) in SENTENCES
+    assert "and {:.0f} to {:.0f} with 1e-4".format(*ends[2]) in SENTENCES
+    assert (np.argmin(left_out, axis=1) > 0).all()
+    assert "cross-validation prefers 1e-2 in none of them" in SENTENCES
+    ends = np.array([np.min(scaled, axis=0), np.max(scaled, axis=0)]).T
+    words = "(twelve robots: {:.2f} to {:.2f}, and {:.2f} to {:.2f})"
+    assert words.format(*ends.ravel()) in SENTENCES
+
+
+def cross_validated(Y, tau, cut):
+    """Return the error of five fits to four fifths of the rows, at the others."""
+    fifths = np.array_split(np.random.default_rng(0).permutation(len(tau)), 5)
+    off = []
+    for out in fifths:
+        rest = np.setdiff1d(np.arange(len(tau)), out)
+        off.append(
+            Y[out] @ identification.truncated_svd_fit(Y[rest], tau[rest], cut)
+            - tau[out]
+        )
+    return lab.rms(np.concatenate(off))
 
 
 def test_numbers_in_the_sizes_that_one_expects_have_no_unit_of_length(data):
@@ -248,14 +288,18 @@ def test_one_frequency_and_a_small_reach_are_why_the_swing_shows_little():
 def test_a_second_sine_and_own_beginnings_bring_the_condition_down():
     def condition(far, begin):
         motion = day8_mujoco.harmonics(robot, lab.OFTEN, far, begin)
-        Y = lab.regressor(arm, motion)[np.abs(motion.qd) > lab.SLOW]
+        with patch.object(lab, "arm_regressor", identification.arm_regressor):
+            Y = lab.regressor(arm, motion)[np.abs(motion.qd) > lab.SLOW]
         return lab.rank_and_condition(Y, lab.RTOL)[1]
 
     assert condition(lab.FAR, lab.BEGIN) == pytest.approx(83e6, rel=0.01)
     two = np.array([[0.3] * 7, [0.2] * 7])
     assert condition(two, lab.BEGIN) == pytest.approx(3400, rel=0.02)
-    begin = np.random.default_rng(0).uniform(0, 2 * np.pi, (2, 7))
-    assert condition(two, begin) < 1000
+    begins = [np.random.default_rng(seed).uniform(0, 2 * np.pi, (2, 7))
+              for seed in range(12)]  # fmt: skip
+    seen = [condition(two, begin) for begin in begins]
+    assert f"({min(seen):.0f} to {max(seen):.0f} for twelve random" in SENTENCES
+    begin = begins[0]
     with pytest.raises(Robo47Error, match="out of its range"):
         condition(10 * two, begin)
 
@@ -342,6 +386,27 @@ def test_what_no_torque_shows_is_why_there_is_no_such_arm(data):
     assert min(map(lab.min_pseudo_inertia_eig, other[:70].reshape(7, 10))) > 0.0
 
 
+@pytest.mark.kit
+def test_of_twelve_robots_none_is_consistent_and_little_of_that_is_noise(data):
+    Y, _, fast = data["excited"]
+    hidden = np.linalg.svd(Y[fast], full_matrices=False)[2][62:]
+    motion = day8_mujoco.excitation(model, lab.ROBOT_SEED)
+    found = []
+    for seed in range(1, 13):
+        secret = day8_mujoco.changed(model, seed)
+        tau = (lab.mujoco_torques(secret, motion) + noises(seed)[1])[fast]
+        phi = identification.truncated_svd_fit(Y[fast], tau, lab.RTOL)
+        true = day8_mujoco.numbers(panda.arm(day8_mujoco.without_friction(secret)))
+        other = phi + hidden.T @ (hidden @ (true - phi))
+        found.append([
+            identification.min_pseudo_inertia_eig(p[:70].reshape(7, 10)).min()
+            for p in (phi, other)
+        ])  # fmt: skip
+    least, most = np.min(found, axis=0), np.max(found, axis=0)
+    assert f"it is {least[0]:.2f} to {most[0]:.2f}" in SENTENCES
+    assert f"and {least[1]:.3f} to {most[1]:.3f} is left" in SENTENCES
+
+
 def test_second_differences_of_an_encoder_are_off_as_predicted():
     dt = 0.002
     step = 2.0 * np.pi / 2**16
@@ -407,10 +472,31 @@ def test_the_powers_of_the_amplitude_hold_for_small_swings_only():
     }
     assert seen[0.1, 0.0] / seen[0.3, 0.0] == pytest.approx(27, rel=0.02)
     assert seen[0.1, 0.2] / seen[0.3, 0.2] == pytest.approx(3, rel=0.05)
+    for ratio in (0.5, 1.5, 2.0, 3.0, 4.1):
+        for phase in (0.0, 0.8, np.pi / 2):
+            small, large = (two_sines(A, ratio, phase) for A in (0.1, 0.3))
+            assert 2.85 < small / large < 3.05
+    assert "Other second frequencies, from 0.5 to 4.1 times the first" in SENTENCES
     falls = seen[1.0, 0.0] / seen[2.0, 0.0]
     assert f"falls by {falls:.1f} instead of 8" in SENTENCES
     rises = f"from {seen[1.0, 0.2]:.1f} to {seen[2.0, 0.2]:.1f}"
     assert rises in SENTENCES
+
+
+def two_sines(A, ratio, phase):
+    """Return the condition number of a pendulum with a fifth of a second sine."""
+    t = np.arange(200) * 0.05
+    then = ratio * t + phase
+    q = A * (np.sin(t) + 0.2 * np.sin(then))
+    qd = A * (np.cos(t) + 0.2 * ratio * np.cos(then))
+    qdd = -A * (np.sin(t) + 0.2 * ratio**2 * np.sin(then))
+    Y = np.transpose([qdd, np.cos(q), np.sin(q), qd, np.sign(qd)])
+    return lab.rank_and_condition(Y, 1e-12)[1]
+
+
+def test_the_largest_singular_values_belong_to_the_columns_of_size_one():
+    Vt = np.linalg.svd(lab.pendulum(0.1, 0.0))[2]
+    assert (np.sum(Vt[:2, [1, 4]] ** 2, axis=1) > 0.99).all()  # cos q and sign q'
 
 
 def test_nine_states_reach_the_rank_with_each_of_twelve_seeds():

@@ -70,8 +70,53 @@ def test_the_grams_of_one_from_either_side_are_how_long_mujocos_friction_creeps(
     for one in robots:
         one.dof_solimp[:7, :2] = 0.999
         mujoco.mj_setConst(one, mujoco.MjData(one))
-    words = "{:.1f} | {:.1f} | {:.1f}".format(*grams(robots, 2.0)[:, 0])
+    found = grams(robots, 2.0)[:, 0]
+    words = "{:.1f} | {:.1f} | {:.1f}".format(*found)
     assert f"| 2 s, friction that sticks | {words} |" in GUIDE
+    later = grams(robots, 8.0)[1, 0]
+    words = (
+        f"is {found[1] - 500:.0f} g after 2 s and still {later - 500:.0f} g after 8 s"
+    )
+    assert words in SENTENCES
+    assert f"{found[1]:.0f} g after 2 s, {later:.0f} g after 8 s" in SENTENCES
+
+
+@pytest.mark.kit
+def test_without_dry_friction_one_from_either_side_is_only_not_averaged():
+    robots = [
+        day8_mujoco.without_friction(day8_mujoco.changed(one, lab.ROBOT_SEED))
+        for one in (model, hung)
+    ]
+    held = {id(one): day8_mujoco.holds(one, arm, lab.POSES, lab.WAIT) for one in robots}
+    with patch.object(day8_mujoco, "holds", lambda one, *_: held[id(one)]):
+        sigma = [grams(robots, lab.WAIT, lab.NOISE, seed)[:, 1] for seed in range(20)]
+    _, crossed, both = np.sqrt(np.mean(np.square(sigma), axis=0))
+    assert crossed / both == pytest.approx(np.sqrt(2), rel=0.1)
+    assert "Without dry friction this sigma is only about" in SENTENCES
+
+
+def rows_at(poses):
+    """Return the regressor of a load in some poses, (7 k, 4)."""
+    hands = day8_mujoco.hands(arm, poses)
+    return identification.load_regressor(*hands, arm.gravity).reshape(-1, 4)
+
+
+def test_the_paper_predicts_sigma_and_the_centre_of_mass_makes_it_larger():
+    arms = np.abs(rows_at(panda.READY_Q[None])[:, 0]) / 9.81  # metres, by joint
+    assert_same(np.round(arms, 2), [0, 0.31, 0, 0.47, 0, 0.09, 0], 1e-9)
+    assert "at 0.31 m from the axis of joint 2, at 0.47 m from joint 4" in SENTENCES
+    one, three = (100 / (9.81 * x) for x in (0.31, np.linalg.norm(arms)))
+    assert f"(9.81 · 0.31) = {one:.0f} g" in SENTENCES
+    assert f"(9.81 · 0.57) = {three:.0f} g" in SENTENCES
+    alone, four = [], []
+    for seed in (47, 1, 2, 3, 4, 5):
+        away = np.random.default_rng(seed).uniform(-0.5, 0.5, (5, 7))
+        rows = rows_at(panda.READY_Q + away)
+        alone.append(1000 * lab.NOISE / np.linalg.norm(rows[:, 0]))
+        four.append(1000 * lab.NOISE * np.sqrt(np.linalg.inv(rows.T @ rows)[0, 0]))
+    assert max(alone) < 9.3
+    assert f"this makes it {four[0]:.0f} g in the lab's five poses" in SENTENCES
+    assert f"({min(four):.0f} to {max(four):.0f} g in five other" in SENTENCES
 
 
 @pytest.mark.kit
@@ -118,7 +163,7 @@ def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
         return lab.arm_regressor(*given) @ phi
 
     assert abs(day8_mujoco.rises(loaded, arm, still, LOAD)) < 1e-3
-    least = re.search(r"links found: (\S+)", printed)[1]
+    least = re.search(r"fitted links: (\S+)", printed)[1]
     assert f"It is {least}: there is no such arm" in SENTENCES
 
 

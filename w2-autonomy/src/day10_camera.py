@@ -54,8 +54,8 @@ def camera_matrix(fovy: float, width: float, height: float) -> np.ndarray:
     pi / 2 with 200 x 100 pixels: focal length 50, centre (100, 50).
     """
     # region 10.1
-    f = height / 2 / np.tan(fovy / 2)  # focal length, px
-    return np.array([[f, 0, width / 2], [0, f, height / 2], [0, 0, 1]])
+    f = height / 2 / np.tan(fovy / 2)  # the focal length in pixels
+    return np.array([[f, 0, width / 2], [0, f, height / 2], [0, 0, 1]])  # the matrix K
     # endregion 10.1
 
 
@@ -69,9 +69,9 @@ def project(K: np.ndarray, T_cam_world: np.ndarray, points: np.ndarray) -> np.nd
     With 10.1's K and T the identity (1, 0, 2) is seen at (125, 50).
     """
     # region 10.2
-    p = points @ T_cam_world[:3, :3].T + T_cam_world[:3, 3]  # in the camera frame
-    seen = p @ K.T  # (u z, v z, z)
-    return seen[:, :2] / seen[:, 2:]
+    p = points @ T_cam_world[:3, :3].T + T_cam_world[:3, 3]  # camera-frame points
+    seen = p @ K.T  # the homogeneous pixels (u z, v z, z)
+    return seen[:, :2] / seen[:, 2:]  # the pixels
     # endregion 10.2
 
 
@@ -87,9 +87,9 @@ def back_project(
     With 10.1's K and T the identity (125, 50) at depth 2 is (1, 0, 2).
     """
     # region 10.3
-    through = np.column_stack([pixels, np.ones(len(pixels))])  # (u, v, 1)
-    p = depth[:, None] * np.linalg.solve(K, through.T).T  # in the camera frame
-    return p @ T_world_cam[:3, :3].T + T_world_cam[:3, 3]
+    through = np.column_stack([pixels, np.ones(len(pixels))])  # the pixels with a 1
+    p = depth[:, None] * np.linalg.solve(K, through.T).T  # camera-frame points
+    return p @ T_world_cam[:3, :3].T + T_world_cam[:3, 3]  # the points in the world
     # endregion 10.3
 
 
@@ -103,14 +103,17 @@ def projection_jacobian(K: np.ndarray, p_cam: np.ndarray) -> np.ndarray:
     With 10.1's K at (0, 0, 2): v = (1, 0, 0) gives 25 px, omega = (0, 1, 0) gives 50.
     """
     # region 10.4
-    fx, fy = K[0, 0], K[1, 1]
-    x, y, z = p_cam.T
-    zero = np.zeros(len(p_cam))
-    one = np.ones(len(p_cam))
-    of_u, of_v = fx * np.array([one, zero, -x / z]), fy * np.array([zero, one, -y / z])
-    by_point = np.array([of_u, of_v]) / z  # derivatives by the point
-    by_point = np.moveaxis(by_point, 2, 0)  # (n, 2, 3)
-    return np.concatenate([-by_point @ skew(p_cam), by_point], axis=2)
+    fx, fy = K[0, 0], K[1, 1]  # the focal lengths
+    x, y, z = p_cam.T  # the coordinates in the camera frame
+    zero = np.zeros(len(p_cam))  # a 0 for each point
+    one = np.ones(len(p_cam))  # a 1 for each point
+    of_u, of_v = (
+        fx * np.array([one, zero, -x / z]),  # the row of u, times z
+        fy * np.array([zero, one, -y / z]),  # the row of v, times z
+    )
+    by_point = np.array([of_u, of_v]) / z  # the derivatives by the point
+    by_point = np.moveaxis(by_point, 2, 0)  # the same, with one block for each point
+    return np.concatenate([-by_point @ skew(p_cam), by_point], axis=2)  # the Jacobian
     # endregion 10.4
 
 
@@ -123,11 +126,11 @@ def kabsch(source: np.ndarray, target: np.ndarray) -> np.ndarray:
     target = source + (1, 0, 0): a move by that.
     """
     # region 10.5
-    a = source.mean(axis=0)  # centroid of the source
-    b = target.mean(axis=0)  # centroid of the target
-    U, _, Vt = np.linalg.svd((target - b).T @ (source - a))
-    R = U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt
-    return se3.make_T(R, b - R @ a)
+    a = source.mean(axis=0)  # the centroid of the source
+    b = target.mean(axis=0)  # the centroid of the target
+    U, _, Vt = np.linalg.svd((target - b).T @ (source - a))  # the decomposition
+    R = U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt  # the nearest rotation
+    return se3.make_T(R, b - R @ a)  # the motion that maps a to b
     # endregion 10.5
 
 
@@ -140,9 +143,9 @@ def apply_twist(T: np.ndarray, xi: np.ndarray) -> np.ndarray:
     xi = (0, 0, 0, 1, 0, 0) moves by a metre along x, (0, 0, 0, 0, 0, 0) not at all.
     """
     # region 10.6
-    angle = np.linalg.norm(xi[:3])
-    theta = angle if angle > 0 else np.linalg.norm(xi[3:])
-    return exp_screw(xi / theta, theta) @ T if theta > 0 else T.copy()
+    angle = np.linalg.norm(xi[:3])  # the angle
+    theta = angle if angle > 0 else np.linalg.norm(xi[3:])  # the angle or the distance
+    return exp_screw(xi / theta, theta) @ T if theta > 0 else T.copy()  # the pose
     # endregion 10.6
 
 
@@ -156,13 +159,13 @@ def refine_pose(
     A guess that is right stays.
     """
     # region 10.6
-    T = T_guess
+    T = T_guess  # the present pose
     for _ in range(STEPS):
-        p_cam = points @ T[:3, :3].T + T[:3, 3]
+        p_cam = points @ T[:3, :3].T + T[:3, 3]  # the points in the camera frame
         J = projection_jacobian(K, p_cam).reshape(-1, 6)  # two rows for each point
-        off = (pixels - project(K, T, points)).ravel()  # reprojection error
-        T = apply_twist(T, np.linalg.lstsq(J, off, rcond=None)[0])
-    return T
+        off = (pixels - project(K, T, points)).ravel()  # the reprojection error
+        T = apply_twist(T, np.linalg.lstsq(J, off, rcond=None)[0])  # the next pose
+    return T  # the pose after the last step
     # endregion 10.6
 
 
@@ -170,12 +173,12 @@ def pose_covariance(J: np.ndarray, sigma: float) -> np.ndarray:
     """Return the covariance, (6, 6), of the twist of a pose fitted to noisy pixels.
 
     J, (n, 2, 6), is the image Jacobian of 10.4 at that pose. Each pixel coordinate has
-    independent noise with the standard deviation sigma, px. Three J that are the
-    identity's halves, (3, 2, 6), with sigma 2: four times the identity.
+    independent noise with the standard deviation sigma, px. If the three blocks of J,
+    (3, 2, 6), together are the 6 x 6 identity, and sigma is 2: four times the identity.
     """
     # region 10.7
     J = J.reshape(-1, 6)  # two rows for each point
-    return sigma**2 * np.linalg.inv(J.T @ J)
+    return sigma**2 * np.linalg.inv(J.T @ J)  # the covariance of the twist
     # endregion 10.7
 
 
@@ -187,13 +190,13 @@ def hand_eye(A: np.ndarray, B: np.ndarray) -> np.ndarray:
     solution for this R_X. B = A: the identity.
     """
     # region 10.8
-    a = np.array([log_rotation(T[:3, :3]) for T in A])
-    b = np.array([log_rotation(T[:3, :3]) for T in B])
-    U, _, Vt = np.linalg.svd(a.T @ b)
-    R = U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt
-    C = (A[:, :3, :3] - np.eye(3)).reshape(-1, 3)
-    d = (B[:, :3, 3] @ R.T - A[:, :3, 3]).ravel()
-    return se3.make_T(R, np.linalg.lstsq(C, d, rcond=None)[0])
+    a = np.array([log_rotation(T[:3, :3]) for T in A])  # the hand's rotation vectors
+    b = np.array([log_rotation(T[:3, :3]) for T in B])  # the camera's rotation vectors
+    U, _, Vt = np.linalg.svd(a.T @ b)  # the decomposition of the sum of a b^T
+    R = U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt  # the nearest rotation
+    C = (A[:, :3, :3] - np.eye(3)).reshape(-1, 3)  # the coefficients of t
+    d = (B[:, :3, 3] @ R.T - A[:, :3, 3]).ravel()  # the right-hand side
+    return se3.make_T(R, np.linalg.lstsq(C, d, rcond=None)[0])  # the pose X
     # endregion 10.8
 
 
@@ -205,9 +208,9 @@ def icp_step(T: np.ndarray, source: np.ndarray, target: np.ndarray) -> np.ndarra
     and McKay, 1992). Of a cloud to itself: 1.
     """
     # region 10.9
-    now = source @ T[:3, :3].T + T[:3, 3]  # the source, moved by T
-    away = np.sum((now[:, None] - target) ** 2, axis=2)  # squared distances, (n, m)
-    return kabsch(source, target[np.argmin(away, axis=1)])
+    now = source @ T[:3, :3].T + T[:3, 3]  # the source after the motion T
+    away = np.sum((now[:, None] - target) ** 2, axis=2)  # the squared distances, (n, m)
+    return kabsch(source, target[np.argmin(away, axis=1)])  # the best motion
     # endregion 10.9
 
 

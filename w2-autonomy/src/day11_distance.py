@@ -66,17 +66,19 @@ def closest_points_segments(
     # region 11.1
     u = a1 - a0  # direction of the first segment
     v = b1 - b0  # direction of the second segment
-    w = a0 - b0  # from the start of the second to the start of the first
+    w = a0 - b0  # the vector from the second start to the first
     a = u @ u  # squared length of the first segment
     b = u @ v  # coupling of s and t
     c = v @ v  # squared length of the second segment
     d = u @ w  # half of the linear coefficient of s
     e = v @ w  # half of the negative linear coefficient of t
     across = a * c - b * b  # a c sin^2 of the angle between the segments
-    s = np.clip((b * e - c * d) / across, 0, 1) if across > 1e-12 * a * c else 0.0
+    s = (  # the minimiser over both lines, clamped to the first segment
+        np.clip((b * e - c * d) / across, 0, 1) if across > 1e-12 * a * c else 0.0
+    )
     t = np.clip((b * s + e) / c, 0, 1) if c > 0 else 0.0  # minimiser for this s
     s = np.clip((b * t - d) / a, 0, 1) if a > 0 else 0.0  # minimiser for this t
-    return np.array([a0 + s * u, b0 + t * v])
+    return np.array([a0 + s * u, b0 + t * v])  # the closest points
     # endregion 11.1
 
 
@@ -92,7 +94,7 @@ def capsule_distance(
     """
     # region 11.2
     p, o = closest_points_segments(a0, a1, b0, b1)  # closest points of the axes
-    return np.linalg.norm(p - o) - ra - rb
+    return np.linalg.norm(p - o) - ra - rb  # the distance of the surfaces
     # endregion 11.2
 
 
@@ -108,7 +110,9 @@ def box_sdf(p: np.ndarray, half_extents: np.ndarray) -> float:
     """
     # region 11.3
     beyond = np.abs(p) - half_extents  # distance beyond each pair of faces
-    return np.linalg.norm(np.maximum(beyond, 0)) + min(beyond.max(), 0.0)
+    return (  # the distance outside, or minus the depth inside
+        np.linalg.norm(np.maximum(beyond, 0)) + min(beyond.max(), 0.0)
+    )
     # endregion 11.3
 
 
@@ -134,16 +138,18 @@ def capsule_box_distance(
     way = R.T @ (a1 - a0)  # direction of the axis in the box frame
     low = 0.0  # lower end of the interval that contains the minimum
     high = 1.0  # upper end of that interval
-    for _ in range(60):  # golden-section search: each pass keeps 0.618 of the interval
+    for _ in range(60):  # the passes of the golden-section search
         left = high - 0.618 * (high - low)  # the sample at 0.382 of the interval
         right = low + 0.618 * (high - low)  # the sample at 0.618 of the interval
         if box_sdf(start + left * way, half_extents) < box_sdf(
             start + right * way, half_extents
         ):
-            high = right  # the minimum is not beyond the larger value
+            high = right  # the new upper end
         else:
-            low = left  # the same on the other side
-    return min(box_sdf(start + s * way, half_extents) for s in (low, high)) - r
+            low = left  # the new lower end
+    return (  # the minimum along the axis, minus the radius
+        min(box_sdf(start + s * way, half_extents) for s in (low, high)) - r
+    )
     # endregion 11.4
 
 
@@ -160,10 +166,10 @@ def distance_gradient(
     """
     # region 11.5
     n = (p - o) / np.linalg.norm(p - o)  # unit normal from the obstacle to the arm
-    slope = np.zeros(J_space.shape[1])  # the joints distal to the link keep the 0
+    slope = np.zeros(J_space.shape[1])  # the gradient, 0 for distal joints
     for i in range(link):  # the joints that move the link
         slope[i] = n @ (J_space[3:, i] + np.cross(J_space[:3, i], p))  # normal velocity
-    return slope
+    return slope  # the gradient
     # endregion 11.5
 
 
@@ -175,7 +181,10 @@ def capsule_aabb(a0: np.ndarray, a1: np.ndarray, r: float) -> np.ndarray:
     capsule_aabb((0, 1, 0), (1, 0, 0), 0.5) -> ((-0.5, -0.5, -0.5), (1.5, 1.5, 0.5))
     """
     # region 11.6
-    return np.array([np.minimum(a0, a1) - r, np.maximum(a0, a1) + r])
+    return np.array([
+        np.minimum(a0, a1) - r,  # the lower corner
+        np.maximum(a0, a1) + r,  # the upper corner
+    ])  # fmt: skip
     # endregion 11.6
 
 
@@ -186,7 +195,9 @@ def aabb_overlap(box_a: np.ndarray, box_b: np.ndarray) -> bool:
     returns them. The boxes (0, 0, 0) to (1, 1, 1) and (1, 0, 0) to (2, 1, 1) overlap.
     """
     # region 11.6
-    return bool(np.all(box_a[0] <= box_b[1]) and np.all(box_b[0] <= box_a[1]))
+    return bool(  # the overlap along every axis
+        np.all(box_a[0] <= box_b[1]) and np.all(box_b[0] <= box_a[1])
+    )
     # endregion 11.6
 
 
@@ -202,9 +213,9 @@ def distal_radii(link_lengths: np.ndarray, link_radii: np.ndarray) -> np.ndarray
     """
     # region 11.7
     reach = np.array(link_radii)  # the farthest point of the joint's own link
-    for i in range(len(link_radii) - 2, -1, -1):  # from the last joint but one inwards
+    for i in range(len(link_radii) - 2, -1, -1):  # the joints, from the last but one
         reach[i] = max(link_radii[i], link_lengths[i] + reach[i + 1])  # own or distal
-    return reach
+    return reach  # the distal radii
     # endregion 11.7
 
 
@@ -223,9 +234,9 @@ def conservative_advance(
     """
     # region 11.8
     if distance <= 0:  # contact at s
-        return s
+        return s  # the parameter of the contact
     speed = np.abs(delta_q) @ radii  # bound on a point's path length per unit of s, m
-    return min(1.0, s + distance / speed) if speed > 0 else 1.0
+    return min(1.0, s + distance / speed) if speed > 0 else 1.0  # the next s
     # endregion 11.8
 
 
@@ -236,14 +247,16 @@ def velocity_damper(
 
     qd (7,) are the wanted joint velocities, rad/s; grad (7,) is the gradient of the
     distance, m/rad; distance is in metres and gain in 1/s. If qd satisfies the
-    condition, return qd. If grad is 0, return qd as well. Source: Faverjon and
-    Tournassoud (1987).
+    condition, or if grad is 0, return a copy of qd. Source: Faverjon and Tournassoud
+    (1987).
     qd (-1, 0, ..), grad (1, 0, ..), distance 0.1, gain 4: (-0.4, 0, ..).
     """
     # region 11.9
-    lack = -gain * distance - grad @ qd  # by how much qd violates the condition
+    lack = -gain * distance - grad @ qd  # the violation of the condition by qd
     square = grad @ grad  # squared norm of the normal of the half-space
-    return qd + grad * lack / square if lack > 0 and square > 0 else np.array(qd)
+    return (  # the projection onto the half-space
+        qd + grad * lack / square if lack > 0 and square > 0 else np.array(qd)
+    )
     # endregion 11.9
 
 

@@ -46,8 +46,7 @@ def nearest(tree: np.ndarray, q: np.ndarray) -> int:
     nearest(((0, 0), (2, 0), (1, 1)), (1, 0)) -> 0
     """
     # region 12.1
-    # The index of the smallest squared distance, the first one of equal ones.
-    return int(np.argmin(np.sum((tree - q) ** 2, axis=1)))
+    return int(np.argmin(np.sum((tree - q) ** 2, axis=1)))  # the first nearest node
     # endregion 12.1
 
 
@@ -60,7 +59,9 @@ def steer(q: np.ndarray, target: np.ndarray, step: float) -> np.ndarray:
     """
     # region 12.1
     distance = np.linalg.norm(target - q)  # the length of the whole segment
-    return target.copy() if distance <= step else q + step / distance * (target - q)
+    return (  # the target, or the point one step towards it
+        target.copy() if distance <= step else q + step / distance * (target - q)
+    )
     # endregion 12.1
 
 
@@ -73,10 +74,12 @@ def segment_free_of_discs(a: np.ndarray, b: np.ndarray, discs: np.ndarray) -> bo
     """
     # region 12.2
     along = b - a  # the edge as a vector
-    to_centres = discs[:, :2] - a  # from its beginning to the centres
+    to_centres = discs[:, :2] - a  # the vectors from its beginning to the centres
     part = to_centres @ along / max(along @ along, 1e-300)  # t on the line, 1 at b
     feet = np.clip(part, 0.0, 1.0)[:, None] * along  # nearest points, relative to a
-    return bool(np.all(np.linalg.norm(to_centres - feet, axis=1) > discs[:, 2]))
+    return bool(  # the test that every disc is further away than its radius
+        np.all(np.linalg.norm(to_centres - feet, axis=1) > discs[:, 2])
+    )
     # endregion 12.2
 
 
@@ -104,7 +107,7 @@ def extend(
     # region 12.3
     i = nearest(tree, sample)  # the node that grows
     q = steer(tree[i], sample, step)  # the new end of its edge
-    return i, q, edge_free(tree[i], q, world)
+    return i, q, edge_free(tree[i], q, world)  # node, new point and result of the test
     # endregion 12.3
 
 
@@ -135,22 +138,22 @@ def rrt_connect(
     """
     # region 12.4
     trees = [[start], [goal]]  # the nodes of both trees
-    parents = [[0], [0]]  # for each node the index of its parent
+    parents = [[0], [0]]  # the index of each node's parent
 
     def grow(side: int, target: np.ndarray) -> bool:
-        i, q, free = extend(np.array(trees[side]), target, step, world)
+        i, q, free = extend(np.array(trees[side]), target, step, world)  # a new edge
         if free:
             trees[side].append(q)
             parents[side].append(i)
-        return free
+        return free  # the success of the extension
 
     def back(side: int) -> list:
         i = len(trees[side]) - 1  # the newest node
         way = [trees[side][i]]  # its branch, down to the root
         while i > 0:
-            i = parents[side][i]
+            i = parents[side][i]  # the index of the parent
             way.append(trees[side][i])
-        return way
+        return way  # the branch from the node to the root
 
     for k, sample in enumerate(samples):
         mine, other = k % 2, 1 - k % 2  # the tree of this sample, and the other one
@@ -158,9 +161,9 @@ def rrt_connect(
             continue
         new = trees[mine][-1]  # the node that the other tree grows towards
         while grow(other, new):
-            if np.array_equal(trees[other][-1], new):  # the trees have met
-                return np.array(back(0)[::-1] + back(1)[1:])
-    return np.empty((0, len(start)))
+            if np.array_equal(trees[other][-1], new):  # the meeting of the trees
+                return np.array(back(0)[::-1] + back(1)[1:])  # the joined branches
+    return np.empty((0, len(start)))  # the empty path
     # endregion 12.4
 
 
@@ -179,8 +182,8 @@ def shortcut(path: np.ndarray, world, pairs: np.ndarray) -> np.ndarray:
     for pair in pairs:
         i, j = sorted(int(u * len(path)) for u in pair)  # rows of the present path
         if j - i > 1 and edge_free(path[i], path[j], world):
-            path = np.concatenate([path[: i + 1], path[j:]])
-    return path.copy()
+            path = np.concatenate([path[: i + 1], path[j:]])  # the shorter path
+    return path.copy()  # the shorter path
     # endregion 12.5
 
 
@@ -194,11 +197,13 @@ def wilson_interval(successes: int, n: int) -> np.ndarray:
     """
     # region 12.6
     if n == 0:
-        return np.array([0.0, 1.0])
+        return np.array([0.0, 1.0])  # the interval without a trial
     z = 1.96  # standard deviations that contain 95 % of a normal distribution
     p = successes / n  # the success rate
     around = z * np.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))  # half of the width
-    return (p + z**2 / (2 * n) + np.array([-around, around])) / (1 + z**2 / n)
+    return (  # both ends of the interval
+        p + z**2 / (2 * n) + np.array([-around, around])
+    ) / (1 + z**2 / n)
     # endregion 12.6
 
 
@@ -218,8 +223,11 @@ def path_dynamics(
     path_dynamics(((2,),), (3,), (1,), (5,), (7,)) -> ((6,), (7,), (7,))
     """
     # region 12.7
-    # The coefficients of sdd and of sd^2, and the constant.
-    return np.array([M @ dq_ds, M @ d2q_ds2 + coriolis, gravity])
+    return np.array([
+        M @ dq_ds,  # the coefficient of sdd
+        M @ d2q_ds2 + coriolis,  # the coefficient of sd^2
+        gravity,  # the constant
+    ])  # fmt: skip
     # endregion 12.7
 
 
@@ -238,10 +246,13 @@ def path_accel_bounds(
     rest = b * sd**2 + c  # the torque without path acceleration
     moves = a != 0  # the joints that bound the path acceleration
     if np.any(np.abs(rest[~moves]) > limits[~moves]):
-        return np.array([np.inf, -np.inf])
-    ends = (np.array([-limits, limits]) - rest)[:, moves] / a[moves]
-    low, high = np.sort(ends, axis=0)  # a negative a swaps the two bounds
-    return np.array([low.max(initial=-np.inf), high.min(initial=np.inf)])
+        return np.array([np.inf, -np.inf])  # the empty interval
+    ends = (np.array([-limits, limits]) - rest)[:, moves] / a[moves]  # both bounds
+    low, high = np.sort(ends, axis=0)  # both bounds of each joint, in order
+    return np.array([
+        low.max(initial=-np.inf),  # the largest lower bound
+        high.min(initial=np.inf),  # the smallest upper bound
+    ])  # fmt: skip
     # endregion 12.8
 
 
@@ -261,27 +272,35 @@ def time_optimal_profile(
     """
     # region 12.9
     if np.any(np.abs(c) > limits):
-        return np.zeros(len(a))
-    two_ds = 2.0 / (len(a) - 1)  # sd^2 grows by two_ds sdd in a step
+        return np.zeros(len(a))  # the motion at rest
+    two_ds = 2.0 / (len(a) - 1)  # the growth of sd^2 in a step, per unit of sdd
 
     def reached(i: int, x: float, after: float) -> bool:
-        low, high = path_accel_bounds(a[i], b[i], c[i], limits, np.sqrt(x))
-        return low <= high and x + two_ds * low <= after and x + two_ds * high >= 0.0
+        low, high = path_accel_bounds(  # the permitted accelerations
+            a[i], b[i], c[i], limits, np.sqrt(x)
+        )
+        return (  # the test that one of them keeps the next sd^2 permitted
+            low <= high and x + two_ds * low <= after and x + two_ds * high >= 0.0
+        )
 
     most = np.zeros(len(a))  # the largest sd^2 from which the arm can still stop
     for i in range(len(a) - 2, -1, -1):
         good, bad = 0.0, sd2_max[i]  # the ends of the bisection
         if reached(i, bad, most[i + 1]):
-            good = bad
+            good = bad  # the upper end, which is permitted
         for _ in range(60 * (good < bad)):
-            half = (good + bad) / 2.0
-            good, bad = (half, bad) if reached(i, half, most[i + 1]) else (good, half)
-        most[i] = good
+            half = (good + bad) / 2.0  # the middle of the interval
+            good, bad = (  # the half that contains the bound
+                (half, bad) if reached(i, half, most[i + 1]) else (good, half)
+            )
+        most[i] = good  # the largest sd^2 at this point
     x = np.zeros(len(a))  # sd^2 of the motion
     for i in range(len(a) - 1):
-        high = path_accel_bounds(a[i], b[i], c[i], limits, np.sqrt(x[i]))[1]
-        x[i + 1] = max(0.0, min(most[i + 1], x[i] + two_ds * high))
-    return x
+        high = path_accel_bounds(  # the largest permitted acceleration
+            a[i], b[i], c[i], limits, np.sqrt(x[i])
+        )[1]
+        x[i + 1] = max(0.0, min(most[i + 1], x[i] + two_ds * high))  # the next sd^2
+    return x  # sd^2 of the motion
     # endregion 12.9
 
 

@@ -62,12 +62,12 @@ def gravity_stiffness(
     One hinge about +y with 2 kg 1 m above it: -19.62; 1 m below: 19.62.
     """
     # region 13.1
-    slope = np.zeros((len(masses), len(masses)))
+    slope = np.zeros((len(masses), len(masses)))  # the gravity stiffness
     for j, omega in enumerate(J_space[:3].T):
         tau = gravity_torque(J_space, masses, coms, np.cross(g, omega))  # dtau/dq_j
         slope[j:, j] = tau[j:]  # lower triangle: the joints distal to j
         slope[j, j:] = tau[j:]  # upper triangle: the matrix is symmetric
-    return slope
+    return slope  # the gravity stiffness
     # endregion 13.1
 
 
@@ -76,20 +76,20 @@ def linearise(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return A (2 n, 2 n) and B (2 n, n) of one step x+ = A x + B u near equilibrium.
 
-    M (n, n) is the mass matrix, kg m^2, slope (n, n) the gravity stiffness, N m/rad,
-    damping (n,) the joints' damping, N m s/rad, which acts on the new velocity, and h
-    the time step, s. The new velocity moves the joints (MuJoCo's `implicitfast`). One
-    joint with M 1, stiffness 10, damping 1, h 0.1: A = [[10, 1], [-10, 10]] / 11, B =
-    (0.1, 1) / 11.
+    M (n, n) is the mass matrix, kg m^2, stiffness (n, n) the gravity stiffness,
+    N m/rad, damping (n,) the joints' damping, N m s/rad, which acts on the new
+    velocity, and h the time step, s. The new velocity moves the joints (MuJoCo's
+    `implicitfast`). One joint with M 1, stiffness 10, damping 1, h 0.1: A = [[10, 1],
+    [-10, 10]] / 11, B = (0.1, 1) / 11.
     """
     # region 13.2
     now = np.eye(len(damping))  # coefficient of the old q in the new q
-    inverse = np.linalg.inv(M + h * np.diag(damping))  # of the mass with damping
+    inverse = np.linalg.inv(M + h * np.diag(damping))  # the inverse mass with damping
     by_q = -h * inverse @ stiffness  # coefficient of q in the new velocity
     by_v = inverse @ M  # coefficient of the old velocity in the new velocity
     by_u = h * inverse  # coefficient of u in the new velocity
-    A = np.block([[now + h * by_q, h * by_v], [by_q, by_v]])  # the new q, above
-    return A, np.vstack([h * by_u, by_u])
+    A = np.block([[now + h * by_q, h * by_v], [by_q, by_v]])  # A, with the new q above
+    return A, np.vstack([h * by_u, by_u])  # A and B
     # endregion 13.2
 
 
@@ -104,8 +104,8 @@ def riccati_step(
     1]], B = (0; 1) and all else 1: P = [[2, 1], [1, 2.5]], K = (0, 0.5).
     """
     # region 13.3
-    K = np.linalg.solve(R + B.T @ P @ B, B.T @ P @ A)  # where the gradient in u is 0
-    return Q + A.T @ P @ (A - B @ K), K
+    K = np.linalg.solve(R + B.T @ P @ B, B.T @ P @ A)  # the optimal gain
+    return Q + A.T @ P @ (A - B @ K), K  # the cost-to-go and the gain
     # endregion 13.3
 
 
@@ -115,7 +115,7 @@ def cost_to_go(P: np.ndarray, x: np.ndarray) -> float:
     cost_to_go([[2, 1], [1, 2.5]], [1, 2]) -> 16
     """
     # region 13.3
-    return x @ P @ x
+    return x @ P @ x  # the cost-to-go
     # endregion 13.3
 
 
@@ -132,7 +132,7 @@ def kkt_residual(
     """
     # region 13.4
     there = np.clip(x - (H @ x + f), lo, hi)  # a clamped step against the gradient
-    return np.abs(x - there).max()
+    return np.abs(x - there).max()  # the largest difference
     # endregion 13.4
 
 
@@ -166,21 +166,23 @@ def box_qp(
     `kkt_residual`'s case: (0.5, 1); without bounds it is (-2, 6).
     """
     # region 13.5
-    x = np.clip(x, lo, hi)
+    x = np.clip(x, lo, hi)  # the start within the bounds
     held = lo == hi  # the active set: entries that are held at a bound
     for _ in range(100):
         free = ~held  # the entries that may move
-        step = np.zeros(len(x))  # to the minimum over the free entries
-        step[free] = np.linalg.solve(H[np.ix_(free, free)], -(H @ x + f)[free])
-        x, met = first_limit(x, step, lo, hi)
+        step = np.zeros(len(x))  # the step to the minimum over the free entries
+        step[free] = np.linalg.solve(  # the Newton step of the free entries
+            H[np.ix_(free, free)], -(H @ x + f)[free]
+        )
+        x, met = first_limit(x, step, lo, hi)  # the next point and the bound met
         if met is not None:
-            held[met] = True
+            held[met] = True  # the entry at the bound
             continue
         leaves = np.abs(x - np.clip(x - (H @ x + f), lo, hi))  # KKT residual by entry
         if leaves.max() < 1e-12:
             break
-        held[np.argmax(leaves)] = False  # the entry that would move most is released
-    return x
+        held[np.argmax(leaves)] = False  # the released entry, which would move most
+    return x  # the minimiser
     # endregion 13.5
 
 
@@ -198,7 +200,13 @@ def qp_ik(
     """
     # region 13.6
     H = J.T @ (weights[:, None] * J) + damping**2 * np.eye(J.shape[1])  # the Hessian
-    return box_qp(H, -J.T @ (weights * e), dq_lo, dq_hi, np.zeros(J.shape[1]))
+    return box_qp(  # the minimiser within the bounds
+        H,
+        -J.T @ (weights * e),  # the linear part of the cost
+        dq_lo,
+        dq_hi,
+        np.zeros(J.shape[1]),
+    )
     # endregion 13.6
 
 
@@ -217,35 +225,35 @@ def ilqr_backward(
     drop (-0.6, 0.3).
     """
     # region 13.7
-    T, n, m = fu.shape
-    k, K, drop = np.zeros((T, m)), np.zeros((T, m, n)), np.zeros(2)
+    T, n, m = fu.shape  # the numbers of steps, states and inputs
+    k, K, drop = np.zeros((T, m)), np.zeros((T, m, n)), np.zeros(2)  # the results
     for t in reversed(range(T)):
         Qx = lx[t] + fx[t].T @ Vx  # gradient in x of this step and the cost-to-go
-        Qu = lu[t] + fu[t].T @ Vx  # gradient in u
+        Qu = lu[t] + fu[t].T @ Vx  # the gradient in u
         Qxx = lxx[t] + fx[t].T @ Vxx @ fx[t]  # second derivative in x
         Quu = luu[t] + fu[t].T @ Vxx @ fu[t] + mu * np.eye(m)  # second derivative in u
-        Qux = lux[t] + fu[t].T @ Vxx @ fx[t]  # mixed second derivative
+        Qux = lux[t] + fu[t].T @ Vxx @ fx[t]  # the mixed second derivative
         k[t] = -np.linalg.solve(Quu, Qu)  # open-loop change of the input
         K[t] = -np.linalg.solve(Quu, Qux)  # feedback gain
         drop += k[t] @ Qu, k[t] @ Quu @ k[t] / 2  # the linear and the quadratic part
-        Vx = (
+        Vx = (  # the gradient of the cost-to-go
             Qx + K[t].T @ (Qu + Quu @ k[t]) + Qux.T @ k[t]
-        )  # gradient of the cost-to-go
-        Vxx = Qxx + K[t].T @ (Qux + Quu @ K[t]) + Qux.T @ K[t]  # and its Hessian
-    return k, K, drop
+        )
+        Vxx = Qxx + K[t].T @ (Qux + Quu @ K[t]) + Qux.T @ K[t]  # its Hessian
+    return k, K, drop  # the results
     # endregion 13.7
 
 
 def expected_reduction(dV: np.ndarray, alpha: float) -> float:
     """Return the expected reduction of the cost for the step alpha k.
 
-    drop (2,) is the third result of `ilqr_backward`; alpha is the fraction of k that is
-    applied. The result is positive if the cost is expected to fall.
+    dV (2,) is `drop`, the third result of `ilqr_backward`; alpha is the fraction of k
+    that is applied. The result is positive if the cost is expected to fall.
 
     expected_reduction([-4, 2], 0.5) -> 1.5
     """
     # region 13.8
-    return -(alpha * dV[0] + alpha**2 * dV[1])
+    return -(alpha * dV[0] + alpha**2 * dV[1])  # the negative change of the cost
     # endregion 13.8
 
 
@@ -257,7 +265,7 @@ def reduction_ratio(before: float, after: float, expected: float) -> float:
     reduction_ratio(5, 3.5, 2) -> 0.75
     """
     # region 13.8
-    return (before - after) / expected
+    return (before - after) / expected  # the measured over the expected reduction
     # endregion 13.8
 
 
@@ -271,9 +279,9 @@ def bound_multipliers(
     `kkt_residual`'s case, where x is (0.5, 1): (0, -7.5).
     """
     # region 13.9
-    slope = H @ x + f  # gradient of the cost
-    held = ((x <= lo) & (slope > 0)) | ((x >= hi) & (slope < 0))
-    return np.where(held, slope, 0.0)
+    slope = H @ x + f  # the gradient of the cost
+    held = ((x <= lo) & (slope > 0)) | ((x >= hi) & (slope < 0))  # the held entries
+    return np.where(held, slope, 0.0)  # the gradient at the held entries
     # endregion 13.9
 
 

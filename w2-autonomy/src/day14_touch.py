@@ -94,11 +94,11 @@ def grip_reflex_step(
     fraction 0.1 gives 0.01; from -0.019 with 0.2 it is -0.02.
     """
     # region 14.1
-    margin = cone_margin(force, normal, mu)  # of each contact, N
+    margin = cone_margin(force, normal, mu)  # the margin of each contact, N
     most = mu * np.sum(force * normal, axis=1)  # the margin without tangential force
     if np.any(margin < fraction * most):
-        return max(finger_position - step, LOW[4])  # closed by a step, within the limit
-    return finger_position  # no contact nearly slips
+        return max(finger_position - step, LOW[4])  # the next position within the limit
+    return finger_position  # the unchanged position
     # endregion 14.1
 
 
@@ -112,8 +112,8 @@ def grasp_matrix(points: np.ndarray, centre: np.ndarray) -> np.ndarray:
     moment about x alone. (Murray, Li and Sastry, chapter 5.)
     """
     # region 14.2
-    blocks = [
-        np.vstack([skew(p - centre), np.eye(3)])  # moment above, force below
+    blocks = [  # the matrices of the contacts
+        np.vstack([skew(p - centre), np.eye(3)])  # the moment above, the force below
         for p in points
     ]
     return np.hstack(blocks)  # the contacts side by side
@@ -131,11 +131,11 @@ def cone_edges(normal: np.ndarray, mu: float, k: int) -> np.ndarray:
     """
     # region 14.3
     axis = np.eye(3)[np.argmin(np.abs(normal))]  # coordinate axis furthest from n
-    a = np.cross(normal, axis)  # perpendicular to n
+    a = np.cross(normal, axis)  # a vector perpendicular to n
     a = a / np.linalg.norm(a)  # first tangent
     b = np.cross(normal, a)  # second tangent, perpendicular to both
     t = 2 * np.pi * np.arange(k)[:, None] / k  # angles of the edges
-    return normal + mu * (np.cos(t) * a + np.sin(t) * b)  # on the cone
+    return normal + mu * (np.cos(t) * a + np.sin(t) * b)  # the edges of the cone
     # endregion 14.3
 
 
@@ -150,10 +150,12 @@ def certifies_force_closure(W: np.ndarray, weights: np.ndarray) -> bool:
     """
     # region 14.4
     if np.linalg.matrix_rank(W, rtol=1e-9) < 6:
-        return False  # the columns do not span all wrenches
+        return False  # the result without rank 6
     left = np.abs(W @ weights)  # the sum, which should be 0
     all_of_it = np.abs(W) @ np.abs(weights)  # the size of its terms, row by row
-    return bool(np.all(weights > 0) and np.all(left <= 1e-9 * all_of_it))
+    return bool(  # the test of positive weights whose sum is 0
+        np.all(weights > 0) and np.all(left <= 1e-9 * all_of_it)
+    )
     # endregion 14.4
 
 
@@ -168,8 +170,12 @@ def observe(T_seen: np.ndarray, noise: np.ndarray) -> np.ndarray:
     # region 14.5
     x, y = T_seen[:2, 3]  # position of the cube
     yaw = np.arctan2(T_seen[1, 0], T_seen[0, 0])  # angle of its x axis
-    x, y, yaw = np.array([x, y, yaw]) + noise  # as the camera measures it
-    return np.array([x, y, (yaw + np.pi / 4) % (np.pi / 2) - np.pi / 4])
+    x, y, yaw = np.array([x, y, yaw]) + noise  # the measured position and yaw
+    return np.array([
+        x,
+        y,
+        (yaw + np.pi / 4) % (np.pi / 2) - np.pi / 4,  # the yaw within 45 degrees
+    ])  # fmt: skip
     # endregion 14.5
 
 
@@ -183,10 +189,15 @@ def act(theta: np.ndarray, observation: np.ndarray) -> np.ndarray:
     0.1, 0.02, 0, 0.2) at (0.4, 0.1, pi / 6): (0.40866, 0.105, 0.623599, 0.02, 0, 0.2).
     """
     # region 14.5
-    theta = np.clip(theta, LOW, HIGH)  # within the hand's limits
-    x, y, yaw = observation  # of the cube
-    shift = se3.Rz(yaw)[:2, :2] @ theta[:2]  # expressed in the world frame
-    return np.array([x + shift[0], y + shift[1], yaw + theta[2], *theta[3:]])
+    theta = np.clip(theta, LOW, HIGH)  # the parameters within the hand's limits
+    x, y, yaw = observation  # the position and the yaw of the cube
+    shift = se3.Rz(yaw)[:2, :2] @ theta[:2]  # the shift in the world frame
+    return np.array([
+        x + shift[0],  # x of the hand
+        y + shift[1],  # y of the hand
+        yaw + theta[2],  # the yaw of the hand
+        *theta[3:],
+    ])  # fmt: skip
     # endregion 14.5
 
 
@@ -199,8 +210,8 @@ def reward(heights: np.ndarray, target: float, cap: float) -> np.ndarray:
     0.2, 0.9, nan, -0.01) with 0.05 and 0.3: (0.2, 1, 1, -1, -1, 0).
     """
     # region 14.6
-    worth = np.clip(heights, 0, target) / target  # 0 on the floor, 1 at the target
-    good = np.isfinite(heights) & (heights <= cap)  # neither lost nor thrown
+    worth = np.clip(heights, 0, target) / target  # the reward by the height, 0 to 1
+    good = np.isfinite(heights) & (heights <= cap)  # the cubes neither lost nor thrown
     return np.where(good, worth, -1.0)  # reward of each episode
     # endregion 14.6
 
@@ -220,7 +231,7 @@ def cem_step(
     # region 14.7
     samples = mean + std * noise  # one policy per row
     best = np.argsort(-scores, kind="stable")[:elite]  # the elite; a NaN goes last
-    return samples[best].mean(axis=0), samples[best].std(axis=0)
+    return samples[best].mean(axis=0), samples[best].std(axis=0)  # mean and std
     # endregion 14.7
 
 
@@ -232,7 +243,10 @@ def success_rate(success: np.ndarray) -> np.ndarray:
     """
     # region 14.8
     won = int(np.sum(success))  # number of successes
-    return np.array([won / len(success), *wilson_interval(won, len(success))])
+    return np.array([
+        won / len(success),  # the success rate
+        *wilson_interval(won, len(success)),  # its confidence interval
+    ])  # fmt: skip
     # endregion 14.8
 
 
@@ -244,8 +258,11 @@ def paired_difference(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     deviation (divide by n) over sqrt(n). (1, 1, 0, 1) and (1, 0, 0, 0): (0.5, 0.25).
     """
     # region 14.9
-    apart = np.asarray(first, float) - np.asarray(second, float)  # cube by cube
-    return np.array([apart.mean(), apart.std() / np.sqrt(len(apart))])
+    apart = np.asarray(first, float) - np.asarray(second, float)  # the differences
+    return np.array([
+        apart.mean(),  # the mean difference
+        apart.std() / np.sqrt(len(apart)),  # its standard error
+    ])  # fmt: skip
     # endregion 14.9
 
 

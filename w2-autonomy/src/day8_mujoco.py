@@ -1,7 +1,7 @@
-"""What Day 8 asks of MuJoCo: a robot that differs from its file, motions, and holds.
+"""Day 8's use of MuJoCo: a robot that differs from its file, motions, and holds.
 
-What is found with it is the subject of `robo47.identification`. Radians, seconds,
-kilograms, N m; twists (omega; v), wrenches (moment; force).
+`robo47.identification` fits the parameters. Radians, seconds, kilograms, N m; twists
+(omega; v), wrenches (moment; force).
 """
 
 import copy
@@ -22,16 +22,16 @@ from robo47.panda.loading import Edit
 from robo47.panda.reading import joint_ids
 from robo47.references import raised_cosine
 
-MASS, CENTRE = 0.2, 0.01  # up to a fifth of a mass, and 10 mm, are different
+MASS, CENTRE = 0.2, 0.01  # the largest differences: fraction of a mass; m
 DAMPING, DRY = (0.4, 1.6), (0.2, 0.8)  # N m s/rad; N m, half for the small joints
-BASE, HARMONICS, SECONDS = 0.1, 5, 10.0  # Hz; of the excitation
-RANGE_SHARE, SPEED_SHARE = 0.8, 0.9  # of what the joints may do
+BASE, HARMONICS, SECONDS = 0.1, 5, 10.0  # of the excitation; Hz, number, s
+RANGE_SHARE, SPEED_SHARE = 0.8, 0.9  # fractions of the joints' ranges and velocities
 REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])  # rad, of Day 5's swing
-RADIUS = 0.04  # m, of the ball that is hung on the hand
+RADIUS = 0.04  # m, of the payload, a sphere
 OMEGA, RATE = 20.0, 100.0  # rad/s of the springs that hold the arm; Hz
-SLOW_RATE = 10.0  # Hz: gravity is in no hurry
-AWAY = 0.1  # rad that a hold begins beside its pose
-FLOAT = 2.0  # s, of the demo
+SLOW_RATE = 10.0  # Hz, of the gravity compensation while the arm floats
+AWAY = 0.1  # rad, the distance of a hold's start from its pose
+FLOAT = 2.0  # s, the duration of floating
 
 
 class Motion(NamedTuple):
@@ -43,15 +43,20 @@ class Motion(NamedTuple):
 
 
 class Body(NamedTuple):
-    """One body in motion, in its own axes."""
+    """One body in motion, expressed in its own frame."""
 
-    phi: Array  # its ten numbers, (10,)
+    phi: Array  # its inertial parameters, (10,)
     V: Array  # twist, rad/s and m/s, (6,)
     A: Array  # acceleration of that twist, rad/s^2 and m/s^2, (6,)
 
 
 def bodies(n: int, seed: int) -> list[Body]:
-    """Return n bodies that can exist, each of forty points, in some motion."""
+    """Return n bodies that can exist, each of forty points, in random motion.
+
+    Args:
+        n: the number of bodies.
+        seed: of the random numbers.
+    """
     rng = np.random.default_rng(seed)
     found = []
     for _ in range(n):
@@ -67,10 +72,13 @@ def bodies(n: int, seed: int) -> list[Body]:
 
 
 def mujoco_wrench(body: Body) -> Array:
-    """Return the wrench, (6,), that MuJoCo finds for a body that floats, by mj_inverse.
+    """Return the wrench (6,) that moves a free body, by MuJoCo's mj_inverse.
 
-    A free joint's qvel is (v; omega), and its qacc has the acceleration of the origin
-    as one sees it: that of the twist plus omega x v.
+    The qvel of a free joint is (v; omega). Its qacc contains the acceleration of the
+    origin as a point, which is that of the twist plus omega x v.
+
+    Args:
+        body: its parameters, twist and acceleration.
     """
     m = body.phi[0]
     c = body.phi[1:4] / m
@@ -84,7 +92,7 @@ def mujoco_wrench(body: Body) -> Array:
     floats.explicitinertial = True
     floats.mass = m
     floats.ipos = c
-    # By its own axes: MuJoCo 3.3 finds them from six numbers to six digits only.
+    # Its principal axes: MuJoCo 3.3 computes them to six digits only.
     floats.inertia, axes = np.linalg.eigh(about)
     axes[:, 0] *= np.sign(np.linalg.det(axes))  # right-handed
     mujoco.mju_mat2Quat(floats.iquat, axes.ravel())
@@ -99,7 +107,12 @@ def mujoco_wrench(body: Body) -> Array:
 
 
 def changed(model: mujoco.MjModel, seed: int) -> mujoco.MjModel:
-    """Return a copy whose links weigh otherwise, and whose joints rub otherwise."""
+    """Return a copy with other link masses, centres of mass and joint friction.
+
+    Args:
+        model: of the arm; it stays as it is.
+        seed: of the random numbers; each seed makes one robot.
+    """
     rng = np.random.default_rng(seed)
     secret = copy.copy(model)
     joints = joint_ids(secret)
@@ -108,7 +121,7 @@ def changed(model: mujoco.MjModel, seed: int) -> mujoco.MjModel:
     secret.body_ipos[links] += rng.uniform(-CENTRE, CENTRE, (7, 3))
     secret.dof_damping[dofs] = rng.uniform(*DAMPING, 7)
     secret.dof_frictionloss[dofs] = rng.uniform(*DRY, 7) * [1, 1, 1, 1, 0.5, 0.5, 0.5]
-    # MuJoCo's friction is scaled with the masses that it found when it was compiled.
+    # MuJoCo scales friction with the masses that the model had when it was compiled.
     mujoco.mj_setConst(secret, mujoco.MjData(secret))
     return secret
 
@@ -122,7 +135,12 @@ def without_friction(model: mujoco.MjModel) -> mujoco.MjModel:
 
 
 def load(mass: float, com: ArrayLike) -> Edit:
-    """Return an edit for `panda.load`: a ball on the hand, com in the site's axes."""
+    """Return an edit for `panda.load` that fixes a sphere to the hand.
+
+    Args:
+        mass: kg.
+        com: centre of mass in the site's frame, m, (3,).
+    """
 
     def edit(spec: mujoco.MjSpec) -> None:
         site = spec.site("attachment_site")
@@ -136,10 +154,11 @@ def load(mass: float, com: ArrayLike) -> Edit:
 
 
 def turning_speed(model: mujoco.MjModel, qdd: float, dry: float = 0.5) -> float:
-    """Return up to which speed, rad/s, MuJoCo's dry friction pushes the wrong way.
+    """Return the speed, rad/s, below which MuJoCo's dry friction has the wrong sign.
 
-    Joint 1 turns back at ready and speeds up forwards by qdd: below that speed
-    mj_inverse asks for more torque with dry friction than without.
+    Joint 1 moves backwards at the ready configuration and accelerates forwards with
+    qdd. Below that speed mj_inverse returns a larger torque with dry friction than
+    without it.
 
     Args:
         model: of the arm; it stays as it is.
@@ -168,9 +187,12 @@ def turning_speed(model: mujoco.MjModel, qdd: float, dry: float = 0.5) -> float:
 
 
 def excitation(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
-    """Return a motion that shows much: random harmonics, as far and fast as allowed.
+    """Return an exciting motion of n samples over ten seconds: random harmonics.
 
-    Its n samples are spread over ten seconds; the model's ranges count.
+    Args:
+        model: its joint ranges limit the motion, and the Panda's velocity limits do.
+        seed: of the random numbers.
+        n: the number of samples.
     """
     sin, cos = np.random.default_rng(seed).normal(size=(2, HARMONICS, 7))
     w = 2.0 * np.pi * BASE * np.arange(1, HARMONICS + 1)
@@ -194,7 +216,7 @@ def excitation(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
 
 
 def swing(n: int = 200) -> Motion:
-    """Return n samples, over ten seconds, of Day 5's swing of all joints together."""
+    """Return n samples of Day 5's swing of all joints, over ten seconds."""
     reference = raised_cosine(READY_Q, REACH)
     return Motion(*np.stack([reference(t) for t in np.arange(n) * SECONDS / n], axis=1))
 
@@ -203,16 +225,17 @@ def harmonics(
     model: mujoco.MjModel, often: ArrayLike, far: ArrayLike, begin: ArrayLike,
     n: int = 200,
 ) -> Motion:  # fmt: skip
-    """Return n samples, over ten seconds, of sines about the ready configuration.
+    """Return n samples of sines about the ready configuration, over ten seconds.
 
     Args:
-        model: its ranges count, and the Panda's speeds.
-        often: swings a second, (k,).
-        far: how far each joint swings with each, rad, (k, 7).
-        begin: where in its swing each joint begins, rad, (k, 7).
+        model: its joint ranges limit the motion, and the Panda's velocity limits do.
+        often: frequencies of the sines, Hz, (k,).
+        far: amplitudes of each joint, rad, (k, 7).
+        begin: phases of each joint, rad, (k, 7).
+        n: the number of samples.
 
     Raises:
-        Robo47Error: a joint leaves its range, or is faster than it can be.
+        Robo47Error: a joint leaves its range, or exceeds its velocity limit.
     """
     w = 2.0 * np.pi * np.asarray(often)[:, None]
     far = checks.array(far, "far", (len(w), 7))
@@ -224,21 +247,36 @@ def harmonics(
     low, high = simulate.limits(model)[0].T
     for j in range(7):
         if not (low[j] < q[:, j].min() and q[:, j].max() < high[j]):
-            raise Robo47Error(f"your motion takes joint{j + 1} out of its range: less")
+            raise Robo47Error(
+                f"your motion takes joint{j + 1} out of its range: reduce FAR"
+            )
         if np.abs(qd[:, j]).max() > simulate.SPEED_LIMITS[j]:
-            raise Robo47Error(f"your motion is too fast for joint{j + 1}: less FAR")
+            raise Robo47Error(
+                f"your motion exceeds the velocity limit of joint{j + 1}: reduce FAR"
+                " or OFTEN"
+            )
     return Motion(q, qd, qdd)
 
 
 def anywhere(model: mujoco.MjModel, seed: int, n: int = 200) -> Motion:
-    """Return n random states, up to 2 rad/s and 10 rad/s^2 in each joint."""
+    """Return n random states, up to 2 rad/s and 10 rad/s^2 in each joint.
+
+    Args:
+        model: its joint ranges are used.
+        seed: of the random numbers.
+        n: the number of states.
+    """
     rng = np.random.default_rng(seed)
     q = verify.random_q(model, n, seed)
     return Motion(q, rng.uniform(-2, 2, q.shape), rng.uniform(-10, 10, q.shape))
 
 
 def numbers(known: Arm) -> Array:
-    """Return what a model holds: phi of its links, armature, damping, dry 0, (91,)."""
+    """Return a model's 91 parameters: links, armature, damping, no dry friction, (91,).
+
+    Args:
+        known: the arm as its model file describes it.
+    """
     links = identification.inertial_parameters(known.masses, known.coms, known.inertias)
     return np.concatenate([links.ravel(), known.armature, known.damping, np.zeros(7)])
 
@@ -246,18 +284,20 @@ def numbers(known: Arm) -> Array:
 def holds(
     model: mujoco.MjModel, known: Arm, poses: ArrayLike, wait: float
 ) -> tuple[Array, Array]:
-    """Return where the arm came to rest on springs, and what the springs gave there.
+    """Return the configurations in which springs hold the arm, and their torques.
 
-    Gravity, Coriolis forces and damping of the known arm are made up for, so what the
-    springs give is what is not known: other masses, a load, dry friction. From the one
-    side every joint turns as it lets the hand down, from the other as it lifts it; dry
-    friction points the other way then.
+    The controller compensates gravity, Coriolis forces and damping of the known arm, so
+    the springs supply the torque of everything unknown: other masses, a load, dry
+    friction. On the first side every joint approaches its pose in the direction that
+    lowers the hand, on the second in the direction that lifts it, and dry friction has
+    the opposite sign.
 
     Args:
         model: the robot, with motors.
-        known: what its controller takes it for.
-        poses: where it is to be held, rad, (k, 7).
-        wait: s. MuJoCo's dry friction does not stick: it creeps, and is gone one day.
+        known: the model that its controller uses.
+        poses: configurations to hold, rad, (k, 7).
+        wait: time until the measurement, s. MuJoCo's dry friction does not stick but
+            creeps, so its torque decays.
 
     Returns:
         (q at rest in rad, torque of the springs in N m), (2, k, 7) each, by side.
@@ -285,7 +325,12 @@ def _hold(
 
 
 def hands(known: Arm, q: ArrayLike) -> tuple[Array, Array]:
-    """Return J_site, (k, 6, 7), and R_world_site, (k, 3, 3), at k configurations."""
+    """Return J_site, (k, 6, 7), and R_world_site, (k, 3, 3), at k configurations.
+
+    Args:
+        known: the arm.
+        q: configurations, rad, (k, 7).
+    """
     now = [known.at(x) for x in checks.array(q, "q", (7,))]
     R = [x.T_world_ee[:3, :3] for x in now]
     return np.array([x.J_site for x in now]), np.array(R)
@@ -295,18 +340,18 @@ def rises(
     model: mujoco.MjModel, known: Arm, still: Callable[[ArmState], Array],
     load: ArrayLike,
 ) -> float:  # fmt: skip
-    """Return how far the hand rises in two seconds on what should just hold the arm.
+    """Return the rise of the hand, m, in two seconds of gravity compensation alone.
 
-    The robot's dry friction is taken off, so that nothing else holds it.
+    The robot's dry friction is removed, so that only the motors hold it.
 
     Args:
         model: the robot, with motors.
-        known: where its hand and links are.
-        still: from the arm at a configuration to the torque that holds it empty, (7,).
-        load: (m, m c) that its hand is said to carry, in the site's axes, (4,).
+        known: the kinematics of the arm.
+        still: maps the arm at a configuration to its gravity torque without load, (7,).
+        load: (m, m c) of the load that is compensated, in the site's frame, (4,).
 
     Returns:
-        Metres; less than 0 where it sinks.
+        The rise in metres; it is negative if the hand sinks.
     """
     load = checks.array(load, "load", (4,))
     free = without_friction(model)

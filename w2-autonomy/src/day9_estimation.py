@@ -73,7 +73,7 @@ def backward_difference(q: np.ndarray, dt: float) -> np.ndarray:
     backward_difference([0, 0.1, 0.3], 0.1) -> [0, 1, 2]
     """
     # region 9.1
-    return np.append(0.0, np.diff(q) / dt)  # no sample precedes the first
+    return np.append(0.0, np.diff(q) / dt)  # the differences over dt, after a first 0
     # endregion 9.1
 
 
@@ -87,8 +87,8 @@ def delay_margin(kp: float, kd: float) -> float:
     delay_margin(400, 40) -> 0.03237. With critical damping it is 0.6474 / omega.
     """
     # region 9.2
-    w = np.sqrt((kd**2 + np.sqrt(kd**4 + 4.0 * kp**2)) / 2.0)  # gain crossover
-    return np.arctan(kd * w / kp) / w  # phase lead over frequency
+    w = np.sqrt((kd**2 + np.sqrt(kd**4 + 4.0 * kp**2)) / 2.0)  # the gain crossover
+    return np.arctan(kd * w / kp) / w  # the phase margin over the frequency
     # endregion 9.2
 
 
@@ -100,11 +100,11 @@ def low_pass(x: np.ndarray, dt: float, cutoff: float) -> np.ndarray:
     low_pass([0, 1, 1, 1], 0.002, 20) -> [0, 0.22223, 0.39508, 0.52951]
     """
     # region 9.3
-    alpha = 1.0 - np.exp(-2.0 * np.pi * cutoff * dt)  # fraction gone after dt
-    y = [x[0]]  # no transient at the start
+    alpha = 1.0 - np.exp(-2.0 * np.pi * cutoff * dt)  # the fraction reached after dt
+    y = [x[0]]  # the outputs, from the first sample on
     for now in x[1:]:
         y.append(y[-1] + alpha * (now - y[-1]))  # a step towards the new sample
-    return np.array(y)
+    return np.array(y)  # the outputs
     # endregion 9.3
 
 
@@ -118,10 +118,11 @@ def constant_velocity(dt: float, accel_psd: float) -> tuple[np.ndarray, np.ndarr
     constant_velocity(1, 3) -> ([[1, 1], [0, 1]], [[1, 1.5], [1.5, 3]])
     """
     # region 9.4
-    F = np.array([[1.0, dt], [0.0, 1.0]])  # the angle advances by dt times the velocity
-    # The integrals of s^2, s and 1:
-    Q = accel_psd * np.array([[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]])
-    return F, Q
+    F = np.array([[1.0, dt], [0.0, 1.0]])  # the transition matrix
+    Q = accel_psd * np.array(  # the integrals of s^2, s and 1
+        [[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]]
+    )
+    return F, Q  # the transition matrix and the noise's covariance
     # endregion 9.4
 
 
@@ -135,7 +136,7 @@ def kalman_predict(
     x = (0, 1), P = 1, F and Q of 1 s and 3: (1, 1) and [[3, 2.5], [2.5, 4]].
     """
     # region 9.4
-    return F @ x, F @ P @ F.T + Q  # the error becomes F e plus independent noise
+    return F @ x, F @ P @ F.T + Q  # the predicted state and its covariance
     # endregion 9.4
 
 
@@ -152,10 +153,10 @@ def kalman_update(
     """
     # region 9.5
     y = z - H @ x  # the innovation
-    S = H @ P @ H.T + R  # its covariance
-    inverse = np.linalg.inv(S)  # of the innovation's covariance
+    S = H @ P @ H.T + R  # the covariance of the innovation
+    inverse = np.linalg.inv(S)  # the inverse of that covariance
     K = P @ H.T @ inverse  # the Kalman gain
-    return x + K @ y, P - K @ S @ K.T, y @ inverse @ y  # and the NIS
+    return x + K @ y, P - K @ S @ K.T, y @ inverse @ y  # state, covariance and NIS
     # endregion 9.5
 
 
@@ -169,8 +170,8 @@ def nis_interval(n: int, m: int) -> np.ndarray:
     """
     # region 9.6
     c = 2.0 / (9.0 * n * m)  # the variance of the cube root of chi-square / (n m)
-    off = 1.96 * np.sqrt(c)  # 95 % of a Gaussian
-    return m * np.array([1.0 - c - off, 1.0 - c + off]) ** 3  # without the cube root
+    off = 1.96 * np.sqrt(c)  # the half width that holds 95 % of a Gaussian
+    return m * np.array([1.0 - c - off, 1.0 - c + off]) ** 3  # both ends, cubed again
     # endregion 9.6
 
 
@@ -182,7 +183,7 @@ def lag1_autocorrelation(y: np.ndarray) -> float:
     lag1_autocorrelation([1, -1, 1, -1]) -> -0.75
     """
     # region 9.7
-    y = y - np.mean(y)  # without the offset
+    y = y - np.mean(y)  # the sequence without its mean
     return y[1:] @ y[:-1] / (y @ y)  # products of neighbours over squares
     # endregion 9.7
 
@@ -200,10 +201,10 @@ def kinetic_energy_gradient(
     # region 9.8
     S = J_space.T  # the screw of each joint
     V = np.cumsum(S * qd[:, None], axis=0)  # the twist of each link
-    momentum = (G @ V[:, :, None])[:, :, 0]  # of each link
-    carried = np.cumsum(momentum[::-1], axis=0)[::-1]  # of link i and all distal to it
+    momentum = (G @ V[:, :, None])[:, :, 0]  # the momentum of each link
+    carried = np.cumsum(momentum[::-1], axis=0)[::-1]  # that of link i and beyond
     turned = (ad(S) @ V[:, :, None])[:, :, 0]  # the rate at which V_i rotates with S_i
-    return -np.sum(carried * turned, axis=1)  # seen from the links it rotates back
+    return -np.sum(carried * turned, axis=1)  # the energy's change by a rotation back
     # endregion 9.8
 
 
@@ -224,9 +225,9 @@ def momentum_observer_step(
     gain 50: 50 and 0.
     """
     # region 9.9
-    known = tau + energy_grad - gravity - damping * qd  # of the sample before
-    integral = integral + (known + residual) * dt  # the residual is fed back
-    return gain * (momentum - integral), integral  # the residual is what is left
+    known = tau + energy_grad - gravity - damping * qd  # the known torque before
+    integral = integral + (known + residual) * dt  # the momentum without the contact
+    return gain * (momentum - integral), integral  # the residual and the integral
     # endregion 9.9
 
 
@@ -237,8 +238,8 @@ def contact_link(residual: np.ndarray, threshold: np.ndarray) -> int:
     contact_link([0, 3, 0, -5, 0, 0, 0], [1, 1, 1, 1, 1, 1, 1]) -> 4
     """
     # region 9.10
-    felt = np.flatnonzero(np.abs(residual) > threshold)  # a push has either sign
-    return int(felt[-1]) + 1 if len(felt) else 0  # joints are counted from 1
+    felt = np.flatnonzero(np.abs(residual) > threshold)  # the joints over the threshold
+    return int(felt[-1]) + 1 if len(felt) else 0  # the last of them, counted from 1
     # endregion 9.10
 
 

@@ -50,7 +50,8 @@ def main() -> None:
     imports.Finder(request, robots, watch.refuse, libraries, extras).install()
     _free_names()
     limits.tighten(request["cpu_seconds"], request["memory"])
-    shared = os.path.join(sys.base_prefix, "lib")  # what compiled modules link to
+    # the libraries that compiled modules link to
+    shared = os.path.join(sys.base_prefix, "lib")
     # Both, whatever comes of the first: behind bubblewrap one of them may be missing.
     fenced = fences and all([landlock.fence([*readable, shared]), seccomp.close()])
     watch.arm()

@@ -20,8 +20,9 @@ from fake_world import Questions, stand_in
 KEPT_OUTPUT, MOST_OUTPUT = 2_000, 2_000_000  # characters of what a call printed
 KEPT_TEXT = 2_000  # characters of an exception's text
 FLOOD = "it prints more than 2 MB in a call"
-EFFORT = 10_000  # for telling whether two arrays really overlap
-_MAY_CHANGE = {"array", "tuple", "list", "rows"}  # of arguments, as they are packed
+EFFORT = 10_000  # effort of the exact test whether two arrays overlap
+# types of arguments that a function can change, as packed
+_MAY_CHANGE = {"array", "tuple", "list", "rows"}
 # As they are before student code.
 _exactly: Any = np.shares_memory
 _roughly: Any = np.may_share_memory
@@ -73,7 +74,8 @@ class Answers:
         self.robots += map(Copies, told["models"])
         self.keep = told["keep"]
         self.kept = list[Any]()
-        self.arrays: defaultdict[int, list[np.ndarray]] = defaultdict(list)  # by owner
+        # the arrays, by owner
+        self.arrays: defaultdict[int, list[np.ndarray]] = defaultdict(list)
         self.flooding: dict[str, dict[str, Any]] = {}  # functions that are not called
 
     def ask(self, call: dict[str, Any]) -> dict[str, Any]:
@@ -86,7 +88,7 @@ class Answers:
             reply = {"error": f"it returned {error}", "kind": "unsendable"}
         except BaseException as error:
             reply = describe(error, str(self.module.__file__))
-        if printed.left < 0:  # and all that is made to be printed takes its time
+        if printed.left < 0:  # making the text of a large object takes its time
             self.flooding[name] = reply = {"error": FLOOD, "kind": "RuntimeError"}
         return {**reply, "printed": printed.getvalue()}
 

@@ -73,7 +73,7 @@ class View:
         self._model, self._kind = model, kind
 
     def __getattr__(self, name: str) -> Any:  # noqa: D105
-        if name.startswith("_"):  # also of a copy that is not complete yet
+        if name.startswith("_"):  # a copy that is not complete yet asks, too
             raise AttributeError(name)
         model = self._model
         prefix = KINDS[self._kind][0]

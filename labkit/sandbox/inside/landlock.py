@@ -11,14 +11,16 @@ import os
 import struct
 import sys
 
-_CREATE_RULESET, _ADD_RULE, _RESTRICT_SELF = 444, 445, 446  # on every architecture
+# the same numbers on every architecture
+_CREATE_RULESET, _ADD_RULE, _RESTRICT_SELF = 444, 445, 446
 _PATH_BENEATH, _GET_VERSION, _NO_NEW_PRIVS = 1, 1, 38
 _READ_FILE, _READ_DIR = 1 << 2, 1 << 3
 _FILES = (1 << 13) - 1  # the rights that the first version of Landlock knows
 _SINCE = {2: 1 << 13, 3: 1 << 14, 5: 1 << 15}  # refer, truncate, ioctl on devices
 # The C library loads what a late import needs from here.
 _SYSTEM = ("/lib", "/lib64", "/usr/lib", "/usr/lib64")
-_PACKAGES = ("site-packages", "dist-packages", "python")  # not the libraries of others
+# folders of Python packages, not other libraries
+_PACKAGES = ("site-packages", "dist-packages", "python")
 
 
 def version() -> int:

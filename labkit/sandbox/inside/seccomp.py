@@ -47,9 +47,9 @@ clock_adjtime 305 266 sethostname 170 161     setdomainname 171 162   swapon 167
 swapoff 168 225       acct 163 89             quotactl 179 60
 quotactl_fd 443 443   syslog 103 116          iopl 172 -              ioperm 173 -
 """
-_NEWER = 451  # what came later is not known here, nor to today's Python
+_NEWER = 451  # newer system calls are unknown here and to today's Python
 _PRLIMIT, _PRCTL = (302, 261), (157, 167)
-_PDEATHSIG = 1  # of prctl: what ends it with the checker is set already, and stays
+_PDEATHSIG = 1  # the prctl option that ends it with the checker: set and kept
 # Calls that do many things, and which of them are left (the second argument).
 # fcntl: F_DUPFD, F_GETFD, F_SETFD, F_GETFL, F_DUPFD_CLOEXEC: no lock, lease, signal.
 # ioctl: FIONCLEX, FIOCLEX: it changes a file's flags though that is open for reading.
@@ -72,7 +72,7 @@ _EPERM = 0x50001
 _ENOSYS = 0x50026
 _NO_NEW_PRIVS, _SET_SECCOMP, _FILTER = 38, 22, 2  # <linux/prctl.h>
 
-Instruction = tuple[int, int, int, int]  # what, skip if so, skip if not, operand
+Instruction = tuple[int, int, int, int]  # code, skip if true, skip if false, operand
 
 
 class _Program(ctypes.Structure):

@@ -17,7 +17,7 @@ import numpy as np
 DTYPES = {"f2", "f4", "f8", "i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "b1"}
 LARGEST, PARTS = 3_000_000, 100  # numbers in a question, results in an answer
 DEEP = 2  # how deep tuples of unlike things may stand in each other
-WHOLE = 2**63  # what is no 64-bit integer is no number here
+WHOLE = 2**63  # a number outside of 64 bits is refused
 LONGEST = 1_000  # characters of a text
 
 
@@ -107,7 +107,7 @@ def _pack_rows(value: Any, most: int) -> dict[str, Any] | None:
         whole = np.array(value)
     except ValueError:  # rows of different lengths
         return None
-    if whole.dtype.kind in "OUS":  # of None, of a text, of objects
+    if whole.dtype.kind in "OUS":  # an array of None, of text or of objects
         return None
     levels = 0
     while isinstance(value, (tuple, list)):

@@ -1,0 +1,111 @@
+"""What a cell of a notebook answers with: as text, and as HTML.
+
+Every answer follows Jupyter's protocol, so it is readable in JupyterLab, Colab and VS
+Code, in a dark theme (no colour of text or ground is set) and in a plain terminal.
+"""
+
+import html
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from typing import Any
+
+from labkit.check.report import Report, as_text, state_of
+from labkit.notebook.guide import typed
+
+_MARK = {"passed": "✓", "to do": "·"}  # of a state; of any other ✗
+_CELL = "style='text-align:left;vertical-align:top;padding:.2em .8em'"
+
+
+class Said:
+    """Sentences and, optionally, more HTML."""
+
+    def __init__(self, lines: Sequence[str], more: str = "") -> None:
+        """Keep what to say.
+
+        Args:
+            lines: sentences.
+            more: HTML below them.
+        """
+        self.lines = list(lines)
+        self.more = more
+
+    def __repr__(self) -> str:
+        """Return the sentences, a line each."""
+        return "\n".join(self.lines)
+
+    def _repr_html_(self) -> str:
+        paragraphs = "".join(f"<p>{html.escape(line)}</p>" for line in self.lines)
+        return f"<div>{paragraphs}{self.more}</div>"
+
+
+class Checked:
+    """The verdict of a check."""
+
+    def __init__(
+        self, report: Report, told: Sequence[str], hint: Callable[[str], Any]
+    ) -> None:
+        """Keep what to show.
+
+        Args:
+            report: of one check.
+            told: sentences that come before it.
+            hint: returns the next hint for a task.
+        """
+        self.report = report
+        self.told = list(told)
+        self.hint = hint
+
+    def __repr__(self) -> str:
+        """Return the report as `make check` prints it."""
+        return typed("\n".join([*self.told, as_text(self.report)]))
+
+    def _repr_html_(self) -> str:
+        """Return a row per task: its state, and what is wrong with it."""
+        report = self.report
+        said = [*self.told, *([report.problem] if report.problem else [])]
+        rows = [_row(*state_of(report, result)) for result in report.tasks]
+        if not report.left:
+            rows += [_row(i.name, i.status, [i.message]) for i in report.items]
+        table = f"<table>{''.join(rows)}</table>"
+        last = f"{report.done} of {report.total} done. Next: {report.next_step()}"
+        return typed(Said(said)._repr_html_() + table + Said([last])._repr_html_())
+
+    def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
+        """Return both forms."""
+        return {"text/plain": repr(self), "text/html": self._repr_html_()}
+
+    def _ipython_display_(self) -> None:
+        """Show both forms, with a button for a hint where the notebook has buttons."""
+        from IPython.display import display
+
+        display(self._repr_mimebundle_(), raw=True)
+        left = [one.task.id for one in self.report.left if not self.report.problem]
+        with suppress(ImportError):
+            if left:
+                display(_button(left[0], self.hint))
+
+
+def _button(task: str, hint: Callable[[str], Any]) -> Any:
+    """Return a button that shows the next hint for a task below it."""
+    import ipywidgets
+    from IPython.display import display
+
+    button = ipywidgets.Button(description=f"Hint for {task}")
+    below = ipywidgets.Output()
+
+    def pressed(_: Any) -> None:
+        with below:
+            display(hint(task))
+
+    button.on_click(pressed)
+    return ipywidgets.VBox([button, below])
+
+
+def _row(name: str, state: str, lines: Sequence[str]) -> str:
+    """Return a row of the table of tasks."""
+    mark = _MARK.get(state, "✗")
+    paragraphs = "".join(f"<div>{html.escape(line)}</div>" for line in lines if line)
+    return (
+        f"<tr><td {_CELL}>{mark}</td><td {_CELL}><b>{html.escape(name)}</b></td>"
+        f"<td {_CELL}>{html.escape(state)}</td><td {_CELL}>{paragraphs}</td></tr>"
+    )
