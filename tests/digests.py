@@ -27,6 +27,7 @@ TESTS = (
     "judged",
     "test_days_catalogue",
     "test_days_judging",
+    "test_odd_ways",
 )
 # Entries of a manifest that only a reader sees.
 PROSE = {

@@ -34,7 +34,11 @@ HEAD = (
     "# The days whose whole catalogue and tests have passed, and what decided it.\n"
     "# python tests/whole.py writes this file; after a merge, all lines may stay.\n"
 )
-FILES = ("tests/test_days_catalogue.py", "tests/test_days_judging.py")
+FILES = (
+    "tests/test_days_catalogue.py",
+    "tests/test_days_judging.py",
+    "tests/test_odd_ways.py",
+)
 MARKS = "kit and not soak and not browser and not network"
 PART = 10  # one of so many is asked where nothing has changed
 One = TypeVar("One")
