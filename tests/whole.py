@@ -169,10 +169,15 @@ def main() -> int:
     if not days:
         print("no day has changed")
         return 0
-    good = ask(days)
-    record(good)
-    print(f"{RECORDS.name}: {len(good)} of {len(days)} days pass and are recorded")
-    return 0 if len(good) == len(days) else 1
+    failed = []
+    for day in days:  # one by one: what has passed is on record if a later one stops
+        print(f"day {day.number}:", flush=True)
+        good = ask([day])
+        record(good)
+        failed += [] if good else [f"day {day.number}"]
+    print(f"{RECORDS.name}: {len(days) - len(failed)} of {len(days)} days are recorded")
+    print(f"not recorded: {', '.join(failed)}\n" if failed else "", end="")
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":
