@@ -180,10 +180,10 @@ def test_two_mistakes_in_answers_of_several_sizes_are_both_told():
         S = H @ P @ H.T + R
         K = P @ H.T @ np.linalg.inv(S)
         y = H @ x - z
-        return x + K @ y, P + K @ S @ K.T, y @ np.linalg.solve(S, y)
+        return x + K @ y, P - K @ H, y @ np.linalg.solve(S, y)
 
     says = told(9, "9.5", kalman_update=kalman_update)
-    assert says.startswith("Two things at once: the surprise is H x - z")
+    assert says.startswith("Two things at once: the innovation is H x - z")
 
 
 def test_two_mistakes_that_only_come_near_are_not_told():
