@@ -54,7 +54,7 @@ def not_scaled(ray, d):
 
 for slug, says, redone, other in (
     ("range-for-depth", "the depth is used as the distance along the ray; it is "
-     "measured along the z axis of the camera", "rays of norm 1",
+     "measured along the z axis of the camera", "a ray of norm 1",
      {"ray": unit_ray}),
     ("K-for-its-inverse", "the pixel is multiplied by K; K maps points to pixels, so "
      "use its inverse", "K instead of its inverse", {"ray": lambda K, h, d: h @ K.T}),
@@ -66,9 +66,9 @@ for slug, says, redone, other in (
     ("centre-swapped", "cx and cy are swapped: cx belongs to u", "(cy, cx)",
      {"ray": lambda K, h, d: right_ray(swapped(K), h)}),
     ("x-and-y-turned-round", "x and y are negated; x points to the right like u, and y "
-     "points down like v", "-x and -y",
+     "points down like v", "(-x, -y, z)",
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, -1, 1]}),
-    ("x-left", "x is negated; it points to the right, like u", "-x",
+    ("x-left", "x is negated; it points to the right, like u", "(-x, y, z)",
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, 1, 1]}),
     ("f-multiplied", "the distance from the principal point is multiplied by f; divide "
      "it by f", "(u - cx) f", {"ray": lambda K, h, d: (h - K[:, 2] * [1, 1, 0])
@@ -76,12 +76,12 @@ for slug, says, redone, other in (
     ("f-forgotten", "the focal length is missing: divide the distance from the "
      "principal point by f", "(u - cx, v - cy, 1)",
      {"ray": lambda K, h, d: h - K[:, 2] * [1, 1, 0]}),
-    ("y-up", "y is negated; it points down, like v", "-y",
+    ("y-up", "y is negated; it points down, like v", "(x, -y, z)",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, -1, 1]}),
-    ("view-along-minus-z", "z is negated; the camera looks along +z", "-z",
+    ("view-along-minus-z", "z is negated; the camera looks along +z", "(x, y, -z)",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, 1, -1]}),
     ("mujoco-axes", "y and z are negated, as for MuJoCo's camera frame; T_world_cam is "
-     "the pose of a frame with y down and z forward already", "-y and -z",
+     "the pose of a frame with y down and z forward already", "(x, -y, -z)",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, -1, -1]}),
     ("middle-added", "half a pixel is added; (0.5, 0.5) is the centre of the first "
      "pixel already", "pixels + 0.5", {"pixel": lambda uv: uv + 0.5}),
@@ -101,7 +101,7 @@ for slug, says, redone, other in (
      "the depth, which then also scales the translation", "depth times (T ray)",
      {"scaled": not_scaled, "moved": lambda R, t, p, d: d * (p @ R.T + t)}),
     ("T-forgotten", "the points are in the camera frame; transform them to the world "
-     "frame", "the points in the camera frame", {"moved": lambda R, t, p, d: p}),
+     "frame", "the result without T", {"moved": lambda R, t, p, d: p}),
     ("half-inverted", "R is transposed and t is subtracted; this is neither T nor its "
      "inverse, which is R^T (p - t)", "R^T p - t",
      {"moved": lambda R, t, p, d: p @ R - t}),

@@ -120,9 +120,9 @@ for slug, says, redone, other in (
     ("centred", "the mean is subtracted from the rotation vectors; a = R b has no "
      "translation, so use the vectors themselves", "kabsch on the rotation vectors",
      {"turn": partial(turns, centred=True)}),
-    ("axes-alone", "the rotation vectors are normalised, so small rotations, whose "
-     "axes are the least accurate, get the same weight as large ones", "unit axes",
-     {"turn": partial(turns, unit=True)}),
+    ("axes-alone", "the rotation vectors are normalised; keep their norms, because the "
+     "axes of small rotations are less accurate and should get less weight",
+     "a fit of unit axes", {"turn": partial(turns, unit=True)}),
     ("positions-for-rotations", "the rotation is fitted to the translations of A and "
      "B; fit it to their rotation vectors", "the rotation between the translations",
      {"turn": between_places}),

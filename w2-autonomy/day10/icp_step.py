@@ -48,16 +48,16 @@ def _(T, source, target):
     step-twice 2: T is applied twice; the motion is fitted to the source itself, so it
       contains T already => T times the result
     by-sizes-added: the nearest point is chosen by the sum of the absolute differences;
-      use the Euclidean distance => the sums of |x - y|
+      use the Euclidean distance => the sum of |x - y|
     nearer-half: only the nearer half of the pairs is fitted; fit all of them
     each-once: each target point is used at most once; several source points may have
-      the same nearest one => pairs of different target points
+      the same nearest one => a pairing without repetition
     in-the-plane: only x and y are compared for the nearest point; use all three
       coordinates
     pairs-of-the-target: each target point is paired with the nearest source point; pair
       each source point with the nearest target point
     first-to-first: the points are paired by their order; pair each with the nearest
-    T-unchanged: the output is T itself
+    T-unchanged: the output is T itself; fit the motion from the source to the pairs
     """
     now = source @ T[:3, :3].T + T[:3, 3]
     best = nearest(now, target)

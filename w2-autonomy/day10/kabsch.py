@@ -84,7 +84,7 @@ for slug, says, redone, other in (
      "together; use axis=0 for one mean per coordinate", ".mean() without an axis",
      {"centre": lambda X: X.mean() + np.zeros(3)}),
     ("about-the-first", "the first points are subtracted instead of the centroids; "
-     "their noise changes the rotation", "source[0] and target[0] in the SVD",
+     "their noise changes the rotation", "the SVD about source[0] and target[0]",
      {"centre": lambda X: X[0]}),
     ("scaled", "R is multiplied by a scale; a rigid motion keeps all distances",
      "a scaled R", {"scale": lambda s, source: s.sum() / np.sum(source * source)}),
@@ -99,7 +99,7 @@ def _(source, target):
     """t-of-the-first: the translation fits the first pair only; use the centroids =>
       b_0 - R a_0
     first-for-centre: the first points are used instead of the centroids; their noise
-      changes the fit => source[0] and target[0] instead of a and b
+      changes the fit => the fit about source[0] and target[0]
     affine: this is the best affine map by least squares, and no rotation => the affine
       fit
     """

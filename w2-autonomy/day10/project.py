@@ -58,7 +58,7 @@ for slug, says, redone, other in (
      "inverse, which is R^T (p - t)", "R^T p - t",
      {"moved": lambda R, t, x: x @ R - t}),
     ("T-forgotten", "T_cam_world is not used; the points are in the world frame, so "
-     "transform them to the camera frame", "the points as they are",
+     "transform them to the camera frame", "the projection without T",
      {"moved": lambda R, t, x: x}),
     ("t-before-R", "the translation is added before the rotation; T p is R p + t",
      "R (p + t)", {"moved": lambda R, t, x: (x + t) @ R.T}),
@@ -69,18 +69,19 @@ for slug, says, redone, other in (
     ("centre-forgotten", "the principal point is missing: (0, 0) is the corner of the "
      "image, and a point straight ahead is at its centre", "cx = cy = 0",
      {"times": lambda K, p: upright(K, p, centre=0.0)}),
-    ("centre-taken-off", "the principal point is subtracted; add it", "-cx and -cy",
+    ("centre-taken-off", "the principal point is subtracted; add it",
+     "(-cx, -cy) as the principal point",
      {"times": lambda K, p: upright(K, p, centre=-1.0)}),
     ("centre-swapped", "cx and cy are swapped: cx belongs to u", "(cy, cx)",
      {"times": lambda K, p: p @ swapped(K).T}),
     ("f-forgotten", "the focal length is missing: x / z has no unit, and f converts it "
      "to pixels", "f = 1", {"times": lambda K, p: upright(K, p, f=0.0)}),
-    ("y-up", "y is negated; it points down, like v", "-y",
+    ("y-up", "y is negated; it points down, like v", "(x, -y, z)",
      {"times": lambda K, p: p * [1, -1, 1] @ K.T}),
     ("view-along-minus-z", "the point is divided by -z; this camera looks along +z, "
-     "unlike MuJoCo's", "-z", {"times": lambda K, p: p * [1, 1, -1] @ K.T}),
+     "unlike MuJoCo's", "(x, y, -z)", {"times": lambda K, p: p * [1, 1, -1] @ K.T}),
     ("mujoco-axes", "y and z are negated, as for MuJoCo's camera frame; T_cam_world "
-     "maps to a frame with y down and z forward already", "-y and -z",
+     "maps to a frame with y down and z forward already", "(x, -y, -z)",
      {"times": lambda K, p: p * [1, -1, -1] @ K.T}),
     ("divided-by-range", "the point is divided by its distance from the camera; divide "
      "it by its depth z", "the norm of p instead of z",
@@ -99,7 +100,7 @@ for slug, says, redone, other in (
      "its last entry is the depth, so one division is enough", "z^2 instead of z",
      {"divided": lambda h, p: h[:, :2] / h[:, 2:] ** 2}),
     ("middle-of-a-pixel", "half a pixel is subtracted; (0, 0) is the corner of the "
-     "image, not the centre of the first pixel, as in OpenCV", "pixels - 0.5",
+     "image, and not, as in OpenCV, the centre of the first pixel", "pixels - 0.5",
      {"told": lambda pixels: pixels - 0.5}),
     ("half-a-pixel-added", "half a pixel is added; (0, 0) is the corner of the image, "
      "and the principal point is measured from there", "pixels + 0.5",

@@ -89,8 +89,8 @@ def with_one_name(of, other):
 
 for slug, says, redone, other in (
     ("depth-column-forgotten", "the derivatives by z are 0; a point that comes nearer "
-     "moves away from the principal point, by -f x / z^2", "0 instead of -f x / z^2",
-     {"pixel": third(lambda z: 0.0)}),
+     "moves away from the principal point, so they are -f x / z^2",
+     "0 instead of -f x / z^2", {"pixel": third(lambda z: 0.0)}),
     ("depth-column-sign", "the derivatives by z have the wrong sign: the derivative of "
      "x / z is -x / z^2", "f x / z^2", {"pixel": third(lambda z: -1.0)}),
     ("power-of-z", "the derivatives by z have the wrong power of z: the derivative of "
@@ -102,7 +102,7 @@ for slug, says, redone, other in (
     ("f-forgotten", "the focal lengths are missing: these are derivatives of x / z, "
      "which has no unit", "f = 1", {"pixel": lambda K, p: by_point(K, p) / focal(K)}),
     ("centre-in-the-slope", "the principal point is in the derivatives by z; it is a "
-     "constant, so its derivative is 0", "cx and cy in the derivatives by z",
+     "constant, so its derivative is 0", "the principal point in the derivatives",
      {"pixel": with_the_centre}),
     ("x-for-y", "the row of v has x in its derivative by z; it is -f y / z^2",
      "x instead of y", {"pixel": with_one_name(1, 0)}),
@@ -112,7 +112,7 @@ for slug, says, redone, other in (
      "they are f / z", "f instead of f / z", {"pixel": lambda K, p: by_point(
          K, p) * np.where([True, True, False], depth(p, 1), 1.0)}),
     ("pixels-for-x-and-y", "the derivatives by z use the pixel (u, v); use x and y in "
-     "the camera frame", "u and v instead of x and y", {"pixel": of_the_pixel}),
+     "the camera frame", "(u, v) instead of (x, y)", {"pixel": of_the_pixel}),
     ("range-for-depth", "the derivatives use the distance of the point; use its depth "
      "z", "the norm of p instead of z", {"pixel": lambda K, p: by_point(
          K, np.column_stack([p[:, :2], np.linalg.norm(p, axis=1)]))}),
@@ -122,7 +122,7 @@ for slug, says, redone, other in (
      "-[p] omega", "+[p]", {"twist": lambda p: by_twist(p, 1.0)}),
     ("camera-moves", "every sign is reversed, as for a camera that moves; the twist is "
      "of the object", "the negative", {"told": np.negative}),
-    ("y-up", "the row of v has the wrong sign; y and v both point down", "-v",
+    ("y-up", "the row of v has the wrong sign; y and v both point down", "(u, -v)",
      {"told": lambda J: J * [[1], [-1]]}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(jacobian, **other))

@@ -97,7 +97,7 @@ def steps(
 
 for slug, says, redone, other in (
     ("three-steps", "the result is the pose after three steps; return the pose after "
-     "ten", "three steps", {"n": 3}),
+     "ten", "a loop of three steps", {"n": 3}),
     ("J-of-the-guess", "the Jacobian of the guess is used in every step; evaluate it "
      "at the current pose", "the Jacobian of the guess", {"held": True}),
     ("twist-halves-swapped", "the step is used as (v; omega); the columns of J begin "
@@ -117,14 +117,14 @@ for slug, says, redone, other in (
     ("rows-mixed", "the rows of J are in another order than the errors: all u, then "
      "all v", "J with its rows reordered", {"solve": mixed}),
     ("error-mixed", "the errors are in another order than the rows of J: all u, then "
-     "all v", "the errors reordered", {"solve": mixed_off}),
+     "all v", "another order of the errors", {"solve": mixed_off}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(steps, **other))
 
 
 @row.wrongs
 def _(K, T_guess, points, pixels):
-    """guess-returned: the output is the guess itself"""
+    """guess-returned: the output is the guess itself: does your loop change T?"""
     return {"guess-returned": T_guess}
 
 

@@ -29,20 +29,20 @@ def velocity(q, dt, *, change):
 
 for slug, says, redone, other in (
     ("forward", "each velocity uses the next sample, which is not known yet; use the "
-     "sample before", "(q_(k+1) - q_k) / dt, with 0 at the end",
+     "sample before", "(q_(k+1) - q_k) / dt with 0 at the end",
      {"change": lambda q: np.append(np.diff(q), 0.0)}),
     ("forward", "each velocity uses the next sample, which is not known yet; use the "
-     "sample before", "(q_(k+1) - q_k) / dt, with the last one repeated",
+     "sample before", "(q_(k+1) - q_k) / dt with the last one repeated",
      {"change": lambda q: np.append(np.diff(q), np.diff(q)[-1])}),
     ("forward", "each velocity uses the next sample, which is not known yet; use the "
-     "sample before", "(q_(k+1) - q_k) / dt, with q_n = 0",
+     "sample before", "(q_(k+1) - q_k) / dt with q_n = 0",
      {"change": lambda q: np.diff(q, append=0.0)}),
     ("central", "this is a central difference, which uses the next sample; that one is "
      "not known yet", "np.gradient", {"change": np.gradient}),
     ("central", "this is a central difference, which uses the next sample; that one is "
-     "not known yet", "np.gradient, with 0 as the first velocity,",
+     "not known yet", "np.gradient with 0 as the first velocity",
      {"change": lambda q: np.append(0.0, np.gradient(q)[1:])}),
-    ("from-zero", "the first velocity is q_0 / dt, as if a sample 0 preceded it; no "
+    ("from-zero", "the first velocity is q_0 / dt, as if a sample of 0 preceded it; no "
      "sample precedes the first, so its velocity is 0", "q_(-1) = 0",
      {"change": lambda q: np.diff(q, prepend=0.0)}),
     ("round-the-corner", "the first velocity uses the last sample, as np.roll does; no "

@@ -93,13 +93,13 @@ for slug, says, redone, other in (
      "noise of the reading, so use S^-1", "H P H^T instead of S in the NIS",
      {"nis": lambda y, S, known: weighed(y, known[1] @ known[0] @ known[1].T)}),
     ("nis-after", "the NIS uses the residual z - H x of the updated x; use the "
-     "innovation, which is computed before the update", "the updated x in the NIS",
+     "innovation, which is computed before the update", "the NIS of the updated x",
      {"nis": lambda y, S, known: weighed(known[3], S)}),
     ("nis-with-new-P", "the NIS uses S of the updated P; use S of the predicted P",
-     "the updated P in the NIS",
+     "the NIS with the updated P",
      {"nis": lambda y, S, known: weighed(y, after_it(*known))}),
     ("nis-all-after", "the NIS uses the updated x and P; use the innovation and S, "
-     "which are computed before the update", "the updated x and P in the NIS",
+     "which are computed before the update", "the NIS of the updated x and P",
      {"nis": lambda y, S, known: weighed(known[3], after_it(*known))}),
     ("nis-diagonal", "the NIS uses only the diagonal of S; the entries of the "
      "innovation may be correlated", "the diagonal of S in the NIS",

@@ -49,16 +49,16 @@ for slug, says, redone, other in (
      "well, so sum their momenta", "the momentum of link i alone",
      {"felt": lambda i: slice(i, i + 1)}),
     ("later-links-only", "link i itself is omitted; the sum begins with link i",
-     "k > i", {"felt": lambda i: slice(i + 1, None)}),
+     "the sum over k > i", {"felt": lambda i: slice(i + 1, None)}),
     ("last-link-left-out", "the momentum of link 7 is omitted: does your loop end one "
-     "link too early?", "k < 7", {"felt": lambda i: slice(i, -1)}),
+     "link too early?", "the sum over k < 7", {"felt": lambda i: slice(i, -1)}),
     ("last-link-only", "only the momentum of link 7 is used: does your loop overwrite "
-     "entry i for each k instead of adding to it?", "k = 7",
+     "entry i for each k instead of adding to it?", "the sum over k = 7",
      {"felt": lambda i: slice(-1, None)}),
     ("earlier-links", "the momenta of links 1 to i are summed; joint i rotates the "
-     "links i to 7", "k <= i", {"felt": lambda i: slice(0, i + 1)}),
+     "links i to 7", "the sum over k <= i", {"felt": lambda i: slice(0, i + 1)}),
     ("all-links", "the momenta of all links are summed; joint i does not move the "
-     "links before it", "all k", {"felt": lambda i: slice(0, None)}),
+     "links before it", "the sum over all k", {"felt": lambda i: slice(0, None)}),
     ("omega-alone", "only the angular part of V_i is rotated; ad(S_i) acts on the "
      "linear part as well", "ad of the angular part alone",
      {"turned": lambda S, V: np.append(np.cross(S[:3], V[:3]), np.zeros(3))}),

@@ -37,11 +37,12 @@ def correlation(
 AS_IT_IS = {"above": lambda y: y}
 for slug, says, redone, other in (
     ("mean-not-taken-off", "the mean is not subtracted: an offset alone makes "
-     "neighbours correlated", "y with its mean", {**AS_IT_IS, "below": lambda y: y}),
+     "neighbours correlated", "y with its mean in both sums",
+     {**AS_IT_IS, "below": lambda y: y}),
     ("mean-left-in-the-products", "the mean is subtracted in the squares, but not in "
-     "the products", "products of y with its mean", AS_IT_IS),
+     "the products", "the sum of products of y itself", AS_IT_IS),
     ("mean-left-in-the-squares", "the mean is subtracted in the products, but not in "
-     "the squares", "squares of y with its mean", {"below": lambda y: y}),
+     "the squares", "the sum of squares of y itself", {"below": lambda y: y}),
     ("squares-of-the-first", "the denominator omits the square of the last entry; use "
      "all n squares", "the sum of the first n - 1 squares",
      {"squares": lambda d: d[:-1] @ d[:-1]}),
@@ -66,9 +67,9 @@ for slug, says, redone, other in (
     ("lag-two", "each entry is multiplied by the second one after it; use its direct "
      "neighbour", "the lag-2 autocorrelation", {"pairs": lambda d: d[2:] @ d[:-2]}),
     ("lag-zero", "each entry is multiplied by itself, so the result is always 1; "
-     "multiply it by its neighbour", "1", {"pairs": lambda d: d @ d}),
+     "multiply it by its neighbour", "a constant 1", {"pairs": lambda d: d @ d}),
     ("round-the-corner", "the last entry is multiplied by the first, as with np.roll; "
-     "they are no neighbours", "np.roll", {"pairs": lambda d: d @ np.roll(d, 1)}),
+     "they are not neighbours", "np.roll", {"pairs": lambda d: d @ np.roll(d, 1)}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(correlation, **other))
 

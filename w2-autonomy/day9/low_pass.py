@@ -46,14 +46,13 @@ def filtered(
 
 
 for slug, says, redone, other in (
-    ("rc-share", "alpha is dt / (dt + RC), which is an approximation of "
-     "1 - exp(-dt / RC) for low cutoffs", "alpha = dt / (dt + RC)",
-     {"alpha": lambda x: x / (1 + x)}),
+    ("rc-share", "alpha is dt / (dt + RC), which approximates 1 - exp(-dt / RC) for "
+     "low cutoffs only", "alpha = dt / (dt + RC)", {"alpha": lambda x: x / (1 + x)}),
     ("share-turned-round", "alpha and 1 - alpha are swapped: the new sample should get "
      "the weight alpha", "exp(-2 pi cutoff dt) as alpha",
      {"step": lambda y, now, before, a: now + a * (y - now)}),
-    ("euler-share", "alpha is 2 pi cutoff dt, which is an Euler step; above 1 it would "
-     "overshoot. Use the exact solution over dt", "alpha = 2 pi cutoff dt",
+    ("euler-share", "alpha is 2 pi cutoff dt, an Euler step, which overshoots above 1; "
+     "use the exact solution over dt", "alpha = 2 pi cutoff dt",
      {"alpha": lambda x: x}),
     ("no-2-pi", "the factor 2 pi is missing: cutoff is in Hz, so the time constant is "
      "1 / (2 pi cutoff)", "alpha = 1 - exp(-cutoff dt)",
@@ -87,7 +86,7 @@ def _(x, dt, cutoff):
       that are not known yet
     there-and-back: the filter runs forwards and then backwards, as filtfilt does; the
       second pass uses samples that are not known yet
-    what-is-fast: the output is x - y, which is a high pass => x - y
+    what-is-fast: the output is x - y, which is a high pass; return y => x - y
     not-filtered: the output is x itself, without a filter => x
     last-left-out: the last output is 0: does your loop end one sample too early? => 0
       as the last output

@@ -43,8 +43,8 @@ for slug, says, redone, other in (
     ("middle-of-a-count", "the counts are rounded down and half a count is added; an "
      "encoder reports the nearest whole count", "np.floor plus one half",
      {"whole": lambda k: np.floor(k) + 0.5}),
-    ("one-count-fewer", "a revolution is divided by counts - 1; after the last count "
-     "comes the first one again, so it has counts steps", "2 pi / (counts - 1)",
+    ("one-count-fewer", "a revolution is divided by counts - 1; the step from the last "
+     "count to the first one is missing", "2 pi / (counts - 1)",
      {"step": lambda n: 2 * np.pi / (n - 1)}),
     ("no-pi", "one count is 1 / counts; q is in radians, and a full revolution is 2 pi",
      "1 / counts", {"step": lambda n: 1 / n}),
@@ -54,8 +54,9 @@ for slug, says, redone, other in (
      "counts / (2 pi)", {"step": lambda n: n / (2 * np.pi)}),
     ("in-counts", "the output is in counts; it should be an angle in radians",
      "the number of counts", {"told": lambda k, step: k}),
-    ("two-pi-alone", "the counts are divided by 2 pi; one count is 2 pi / counts",
-     "the number of counts over 2 pi", {"told": lambda k, step: k / (2 * np.pi)}),
+    ("two-pi-alone", "the number of counts is divided by 2 pi; multiply it by the "
+     "angle of one count", "the number of counts over 2 pi",
+     {"told": lambda k, step: k / (2 * np.pi)}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(counted, **other))
 
@@ -72,7 +73,8 @@ row.of_argument(
     "q",
     Change(
         "wrapped",
-        "q is wrapped to 0 to 2 pi first; an angle below 0 should stay below 0",
+        "q is wrapped to the range from 0 to 2 pi; a negative angle should stay "
+        "negative",
         lambda q: np.mod(q, 2 * np.pi),
     ),
 )
