@@ -217,8 +217,8 @@ def _exchanges(asked: Sequence[Asked]) -> list[Exchange]:
 def _inherited(broken: Sequence[Task]) -> Verdict:
     """Return the verdict on a task that only lacks those that it builds on."""
     *before, last = [task.id for task in broken]
-    ids = f"{', '.join(before)} and {last} are" if before else f"{last} is"
-    says = f"Right as soon as {ids}."
+    ids = f"tasks {', '.join(before)} and {last} are" if before else f"task {last} is"
+    says = f"It will be right as soon as {ids} right."
     return Verdict("todo", "inherited", says, follows=broken[0].id)
 
 

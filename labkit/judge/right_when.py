@@ -190,11 +190,12 @@ class Experiments:
                 continue
             name = self.names[k]
             if np.isclose(grew, 1.0, rtol=self.near):
-                return f"With {name} doubled, your answer stays the same; it must not."
+                says = f"If {name} is doubled, your answer stays the same"
+                return f"{says}, but it should change."
             if its is not None:
-                says = f"With {name} doubled, your answer becomes {say_factor(grew)}"
+                says = f"If {name} is doubled, your answer becomes {say_factor(grew)}"
                 return (
-                    f"{says} times what it was; the right one {say_factor(its)} times."
+                    f"{says} times as large; the right answer, {say_factor(its)} times."
                 )
         return ""
 
