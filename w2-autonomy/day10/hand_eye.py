@@ -14,7 +14,7 @@ from .seen import motions
 
 
 def two_axes(A, B):
-    """Return whether motions turn about two axes, none by nearly half a turn."""
+    """Return whether motions have two axes, and no angle is nearly pi."""
     a = log_rotation(A[:, :3, :3])
     b = log_rotation(B[:, :3, :3])
     least = min(np.linalg.svd(x, compute_uv=False)[1] for x in (a, b))
@@ -27,7 +27,7 @@ row = Row(Pose(), at_edge=two_axes)
 
 @row.inputs
 def _(rng):
-    # Turns of 1 rad about x, y and z: half turns, as edges are, have two axes each.
+    # Rotations by 1 rad about x, y and z: those by pi, as edges are, have two axes each.
     turns_1 = np.array([se3.Rx(1.0), se3.Ry(1.0), se3.Rz(1.0)])
     A = se3.make_T(turns_1, rng.numbers(-1, 1, 3, 3))
     exact = motions(rng, 3, noise=0.0)
@@ -35,7 +35,7 @@ def _(rng):
 
 
 @row.spans
-def _(rng):  # two of the motions turn by less than 0.2 rad
+def _(rng):  # two of the motions rotate by less than 0.2 rad
     for A, B in motions(rng, 2):
         small = np.array([_turned(0.1, way, 0.3) for way in (0.2, 1.9)])
         there = se3.inverse(hand_eye(A, B))
@@ -55,8 +55,8 @@ def _(A, B, X):
 def flat_fans(rng, n=4, k=4):
     """Return motions about axes in a plane, as two joints give them.
 
-    They are enough for X. Measured, they stand out of the plane by a little, the
-    hand's up and the camera's down: then U V^T is a mirror image.
+    They determine X. Measured, the hand's axes point slightly out of the plane upwards
+    and the camera's downwards, so U V^T is a reflection.
     """
     found = []
     for X in rng.poses(n):
@@ -72,13 +72,13 @@ def flat_fans(rng, n=4, k=4):
 
 
 def _turned(angle, way, out):
-    """Return a turn about an axis in the plane of x and y, but for `out`."""
+    """Return a rotation about an axis with z = out."""
     axis = np.array([np.cos(way), np.sin(way), out])
     return apply_twist(np.eye(4), np.append(angle * axis, np.zeros(3)))
 
 
 def turns(A, B, *, centred=False, unit=False, rotation=proper):
-    """Return the rotation between two fans of rotation vectors."""
+    """Return the rotation between the rotation vectors of A and B."""
     a = log_rotation(A[:, :3, :3])
     b = log_rotation(B[:, :3, :3])
     if unit:
