@@ -27,7 +27,7 @@ row = Row(Pose(), at_edge=two_axes)
 
 @row.inputs
 def _(rng):
-    # Rotations by 1 rad about x, y and z: those by pi, as edges are, have two axes each.
+    # By 1 rad about x, y and z: a rotation by pi, as an edge is, has two axes.
     turns_1 = np.array([se3.Rx(1.0), se3.Ry(1.0), se3.Rz(1.0)])
     A = se3.make_T(turns_1, rng.numbers(-1, 1, 3, 3))
     exact = motions(rng, 3, noise=0.0)
