@@ -56,6 +56,10 @@ def _(m, c, I):
     """about-the-centre-of-mass: c is not used, so the matrix is about the centre of
       mass; about the origin three of the four blocks contain c => the matrix with I and
       m on its diagonal and nothing else
+    corners-alike: the two off-diagonal blocks are equal; the matrix is symmetric, so
+      one should be the transpose of the other => the matrix with m [c] twice
+    corners-alike 2: the two off-diagonal blocks are equal; the matrix is symmetric, so
+      one should be the transpose of the other => the matrix with m [c]^T twice
     corners-swapped: the two off-diagonal blocks are swapped. The matrix is still
       symmetric and positive definite, but the momentum has the wrong direction => the
       matrix with [c] and [c]^T swapped
@@ -76,6 +80,8 @@ def _(m, c, I):
     mC = m * C
     made = {
         "about-the-centre-of-mass": (I, NONE, NONE, M),
+        "corners-alike": (A, mC, mC, M),
+        "corners-alike 2": (A, mC.T, mC.T, M),
         "corners-swapped": (A, mC.T, mC, M),
         "corners-empty": (A, NONE, NONE, M),
         "one-corner-empty": (A, mC, NONE, M),

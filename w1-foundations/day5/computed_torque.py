@@ -42,6 +42,13 @@ def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
       not decay as designed
     damping-forgotten: the damping torque is missing; bias does not contain it, because
       MuJoCo treats damping as a passive force
+    friction-of-the-error: damping multiplies ed; it should multiply the measured
+      velocity qd
+    friction-of-the-reference: damping multiplies the velocity of the reference, qd +
+      ed; it should multiply the measured velocity qd
+    M-forgotten: M is missing, so an acceleration is added to torques
+    bias-forgotten: bias is missing, so the PD terms have to balance gravity and the
+      Coriolis torque
     bias-sign: bias has the wrong sign; it is the torque that the motors must supply
     everything-through-M: bias and the damping torque are multiplied by M, but they are
       already torques
@@ -60,6 +67,10 @@ def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
     return {
         "gains-outside-M": M @ qdd_ref + springs + bias + rub,
         "damping-forgotten": push + bias,
+        "friction-of-the-error": push + bias + damping * ed,
+        "friction-of-the-reference": push + bias + damping * (qd + ed),
+        "M-forgotten": acc + bias + rub,
+        "bias-forgotten": push + rub,
         "bias-sign": push - bias + rub,
         "everything-through-M": M @ (acc + bias + rub),
         "reference-outside-M": M @ springs + qdd_ref + bias + rub,

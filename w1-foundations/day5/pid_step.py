@@ -84,6 +84,8 @@ def summed(sums):
 def _(e, ed, integral, ki, dt, clamp):
     """trapezoid-of-the-error: e is averaged with the error of the previous step; the
       docstring asks for e dt
+    trapezoid-of-the-error 2: e is averaged with the error of the next step; the
+      docstring asks for e dt
     old-sum-clamped: the old integral is clamped before e dt is added; clamp the sum
     error-clamped: the error is clamped instead of the integral, so the integral can
       still grow without bound; clamp the sum
@@ -94,6 +96,7 @@ def _(e, ed, integral, ki, dt, clamp):
     emptied-at-the-limit: the integral is reset to 0 if it exceeds the limit; clamp it
       to the limit
     clamped-on-one-side: the integral is clamped above but not below
+    clamped-on-one-side 2: the integral is clamped below but not above
     never-negative: the integral is clamped to 0 and clamp; the lower limit is -clamp
     clamped-as-a-vector: the norm of the integral is limited to clamp; clamp each
       joint's integral separately
@@ -109,12 +112,14 @@ def _(e, ed, integral, ki, dt, clamp):
     length = max(np.linalg.norm(new), 1e-12)
     return {
         "trapezoid-of-the-error": np.clip(new - ed * dt**2 / 2, -clamp, clamp),
+        "trapezoid-of-the-error 2": np.clip(new + ed * dt**2 / 2, -clamp, clamp),
         "old-sum-clamped": old + step,
         "error-clamped": integral + np.clip(e, -clamp, clamp) * dt,
         "step-clamped": integral + np.clip(step, -clamp, clamp),
         "frozen-at-the-limit": np.where(np.abs(new) > clamp, integral, new),
         "emptied-at-the-limit": np.where(np.abs(new) > clamp, 0.0, new),
         "clamped-on-one-side": np.minimum(new, clamp),
+        "clamped-on-one-side 2": np.maximum(new, -clamp),
         "never-negative": np.clip(new, 0.0, clamp),
         "clamped-as-a-vector": new * min(1.0, clamp / length),
         "term-clamped": np.clip(ki * new, -clamp, clamp) / ki,

@@ -44,6 +44,7 @@ def _(J, M, Lambda, tau):
       n n^T M^-1 tau
     acceleration: the result is a joint acceleration that does not move the hand;
       multiply it by M to get a torque => M^-1 times the correct formula
+    not-projected: tau is returned unchanged, so it also accelerates the hand => tau
     kinematic-projector: I - J^+ J projects joint velocities, not torques: how a torque
       accelerates the hand depends on M. The arm still draws the circle, but the hand
       accelerates by metres per second squared => tau - J^+ J tau
@@ -65,6 +66,7 @@ def _(J, M, Lambda, tau):
     return {
         "another-projector": M @ elbow * (elbow @ acc),
         "acceleration": solve(M, tau - felt),
+        "not-projected": tau,
         "kinematic-projector": tau - pinv(J) @ (J @ tau),
         "M-for-identity": M @ tau - felt,
         "projector-transposed": tau - solve(M, J.T @ Lambda @ J @ tau),

@@ -197,7 +197,6 @@ SLIPS = {  # that the checker names without an entry
     ),
     "bias-forgotten": lambda J, L, bias, bias_acc, acc: J.T @ L @ (acc - bias_acc),
     "Lambda-left-out": lambda J, L, bias, bias_acc, acc: J.T @ (acc - bias_acc) + bias,
-    "not-projected": lambda J, M, L, tau: tau,
 }
 
 
