@@ -14,19 +14,19 @@ UPRIGHT = "the lab's robot stands upright"
 OTHER_GRAVITY = (
     Change(
         "gravity-typed-in",
-        "(0, 0, -9.81) is typed in; use the argument {name}, because the robot may "
-        "hang on a wall",
+        "gravity is typed in as (0, 0, -9.81); use the argument {name}, because the "
+        "robot may hang on a wall",
         typed_in(-9.81),
         hidden=UPRIGHT,
     ),
     Change(
         "gravity-typed-in",
-        "9.81 is typed in with the wrong sign; use the argument {name}",
+        "gravity is typed in with the wrong sign; use the argument {name}",
         typed_in(9.81),
     ),
     Change(
         "gravity-rounded",
-        "9.8 is typed in; use the argument {name}",
+        "gravity is typed in as 9.8; use the argument {name}",
         typed_in(-9.8),
     ),
     Change(

@@ -59,14 +59,16 @@ def _(J, masses, coms_world, g):
 
 @row.wrongs(redone="the torque with those joints")
 def _(J, masses, coms_world, g):
-    """links-not-cut: every joint carries every link; a joint carries only its own link
+    """links-not-cut: each torque includes all links; a joint carries only its own link
       and the later ones
-    own-link-only: each joint carries only its own link; it also carries all later links
-    own-link-left-out: each joint carries only the later links; it also carries its own
-    link-before-too: each joint also carries the link before its own, which does not
-      move with it
-    links-on-the-wrong-side: each joint carries the links between it and the base, which
-      do not move with it
+    own-link-only: each torque includes only the joint's own link; the joint also
+      carries all later links
+    own-link-left-out: each torque includes only the later links; the joint also carries
+      its own link
+    link-before-too: each torque also includes the link before the joint, which does not
+      move with the joint
+    links-on-the-wrong-side: each torque includes the links between the joint and the
+      base, which do not move with the joint
     """
     joint = np.arange(7)
     link = np.arange(7)[:, None]

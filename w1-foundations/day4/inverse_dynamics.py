@@ -100,14 +100,15 @@ def _(J, G, qd, qdd, g):
       joint is added
     summed-from-the-base: the wrenches are summed from the base to the tip; a motor
       carries the links beyond it, so start at the tip
-    every-link-for-all: each motor carries all seven links; it carries only its own link
-      and the later ones
+    every-link-for-all: each torque includes the wrenches on all seven links; a joint
+      carries only its own link and the later ones
     moment-only: only the moments about the world's origin are used; use all six
       components of S, because the force also acts on an axis that does not pass through
       the origin
-    own-link-left-out: each motor carries only the later links; it also carries its own
-    accelerations-not-added: the acceleration of a link uses its own joint alone; the
-      joints before it also move it
+    own-link-left-out: each torque includes only the wrenches on the later links; the
+      joint also carries its own link
+    accelerations-not-added: the acceleration of a link includes only its own joint; the
+      joints before it also move the link
     nothing-added-outwards: V and A are reset at every link; they should accumulate
       along the arm
     gravity-at-every-link: gravity is added at the base and again at every link; the

@@ -41,16 +41,16 @@ def _(J, G, armature):
 
 
 def cut(J, G, armature):
-    """columns-not-cut: every joint moves every link; a joint does not move the links
-      before it
-    own-joint-left-out: the column of each link's own joint is 0, too; it also moves the
-      link
-    next-joint-too: each link keeps one column too many: the joint after it does not
-      move it
-    columns-cut-on-the-wrong-side: the columns of the joints before each link are 0, but
-      these joints move it
-    own-joint-only: each link keeps only its own joint's column; all joints before it
-      also move it
+    """columns-not-cut: the Jacobian of each link contains all columns; the joints after
+      a link do not move it
+    own-joint-left-out: the Jacobian of each link lacks the column of the link's own
+      joint, which also moves the link
+    next-joint-too: the Jacobian of each link contains one column too many: the next
+      joint does not move the link
+    columns-cut-on-the-wrong-side: the Jacobian of each link lacks the joints before the
+      link, but these joints move it
+    own-joint-only: the Jacobian of each link contains only the link's own joint; all
+      joints before it also move the link
     """
     joint = np.arange(7)
     link = np.arange(7)[:, None]
@@ -93,8 +93,8 @@ def _(J, G, armature):
 
 @row.wrong
 def not_summed_back(J, G, armature):
-    """each entry uses one link only; a joint carries all later links => M from one link
-    per entry"""
+    """each entry includes one link only; a joint carries all later links => M from one
+    link per entry"""
     M = np.diag(armature)
     for i in range(7):
         for j in range(7):

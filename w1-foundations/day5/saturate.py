@@ -59,8 +59,8 @@ def _(tau, limits):
       motors can still give their torques
     nothing-within-the-limits: if all torques are within their limits, the result is 0;
       they should not change
-    first-limit-typed-in: 87 N m is typed in for all joints; use each motor's own entry
-      of limits
+    first-limit-typed-in: the value 87 N m is typed in for all joints; use each motor's
+      own entry of limits
     all-positive: all torques become positive; a motor can push in both directions
     rounded-off: the result is limits tanh(tau / limits), a smooth saturation; a torque
       within the limits should not change

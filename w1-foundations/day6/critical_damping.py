@@ -43,9 +43,9 @@ def by_modes(K, L):
 def _(K, Lambda):
     """Lambda-ignored: Lambda is not used: 2 sqrt(K) is the critical damping of a unit
       mass => diag(2 sqrt(K))
-    another-design: this design is also critically damped: it diagonalises Lambda and K
-      together. The task asks for the sum of the two products of sqrt(Lambda) and
-      sqrt(K) => the other design
+    another-design: the result is another critically damped design, which diagonalises
+      Lambda and K together; the task asks for the sum of the two products of
+      sqrt(Lambda) and sqrt(K) => the other design
     diagonal-only: each axis uses 2 sqrt(k m) with the diagonal of Lambda; Lambda
       couples the axes => the correct formula with Lambda's diagonal
     one-order-only: the product of the two roots is used twice in one order; add both

@@ -45,9 +45,9 @@ def _(J, M, Lambda, tau):
     acceleration: the result is a joint acceleration that does not move the hand;
       multiply it by M to get a torque => M^-1 times the correct formula
     not-projected: tau is returned unchanged, so it also accelerates the hand => tau
-    kinematic-projector: I - J^+ J projects joint velocities, not torques: how a torque
-      accelerates the hand depends on M. The arm still draws the circle, but the hand
-      accelerates by metres per second squared => tau - J^+ J tau
+    kinematic-projector: the projector I - J^+ J acts on joint velocities, not on
+      torques: how a torque accelerates the hand depends on M. The arm still draws the
+      circle, but the hand accelerates by metres per second squared => tau - J^+ J tau
     M-for-identity: tau is multiplied by M before the subtraction; the unit of M tau is
       kg m2 times N m, so it is not a torque => (M - J^T Lambda J M^-1) tau
     projector-transposed: the projector is transposed: M^-1 J^T Lambda J acts on joint
@@ -56,8 +56,8 @@ def _(J, M, Lambda, tau):
       from tau => tau minus the correct formula
     pinv-for-transpose: pinv(J) maps the wrench to the joints; J^T maps wrenches to
       torques => the correct formula with pinv(J)
-    pinv-of-transpose: J^T pinv(J^T) projects joint velocities, not torques: how a
-      torque accelerates the hand depends on M => tau - J^T pinv(J^T) tau
+    pinv-of-transpose: the projector I - J^T pinv(J^T) acts on joint velocities, not on
+      torques: how a torque accelerates the hand depends on M => tau - J^T pinv(J^T) tau
     """
     acc = solve(M, tau)
     a = J @ acc

@@ -25,8 +25,8 @@ def _(rng):
 @row.wrongs
 def _(force, k, surface):
     """millimetres: the depth is in millimetres, but all lengths should be in metres
-    whole-metres: // rounds the depth down to whole metres; use / => surface - force //
-      k
+    whole-metres: the operator // rounds the depth down to whole metres; use / =>
+      surface - force // k
     docstrings-numbers: k is always 400, the value in the docstring; use the argument =>
       surface - force / 400
     docstrings-numbers 2: the surface is always at 0.42, the value in the docstring; use

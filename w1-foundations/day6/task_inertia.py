@@ -63,8 +63,8 @@ def _(J, M):
       + 0.1 I
     diagonal-inverted: only the diagonal of J M^-1 J^T is inverted; the six directions
       are coupled, so invert the matrix => that diagonal
-    entries-inverted: 1 / A inverts each entry; use the matrix inverse => 1 / (J M^-1
-      J^T)
+    entries-inverted: the expression 1 / A inverts each entry; use the matrix inverse =>
+      1 / (J M^-1 J^T)
     blocks-alone: the two 3x3 blocks are inverted separately; a force also rotates the
       hand, so invert the whole 6x6 matrix => the inverse of each block
     """
