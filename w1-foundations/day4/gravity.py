@@ -14,13 +14,6 @@ UPRIGHT = "the lab's robot stands upright"
 OTHER_GRAVITY = (
     Change(
         "gravity-typed-in",
-        "gravity is typed in as (0, 0, -9.81); use the argument {name}, because the "
-        "robot may hang on a wall",
-        typed_in(-9.81),
-        hidden=UPRIGHT,
-    ),
-    Change(
-        "gravity-typed-in",
         "gravity is typed in with the wrong sign; use the argument {name}",
         typed_in(9.81),
     ),
@@ -28,6 +21,16 @@ OTHER_GRAVITY = (
         "gravity-rounded",
         "gravity is typed in as 9.8; use the argument {name}",
         typed_in(-9.8),
+    ),
+)
+# The matcher finds these where the function has no recursion along the arm.
+OTHER_DIRECTION = (
+    Change(
+        "gravity-typed-in",
+        "gravity is typed in as (0, 0, -9.81); use the argument {name}, because the "
+        "robot may hang on a wall",
+        typed_in(-9.81),
+        hidden=UPRIGHT,
     ),
     Change(
         "only-z-of-gravity",

@@ -7,7 +7,7 @@ import numpy as np
 from labkit.judge import Row
 from robo47.dynamics import ad, inverse_dynamics
 
-from .gravity import OTHER_GRAVITY
+from .gravity import OTHER_DIRECTION, OTHER_GRAVITY
 from .states import TORQUE, motions
 
 row = Row(TORQUE)
@@ -149,7 +149,7 @@ def _(J, G, qd, qdd, g):
 
 # In ad an identity cancels: what it adds to G A, it takes from the velocity product.
 row.reached_by("ad", "in ad, ", but=["identity-added"])
-row.of_argument("g", *OTHER_GRAVITY)
+row.of_argument("g", *OTHER_DIRECTION, *OTHER_GRAVITY)
 
 
 @row.close("rounded")  # Printed and typed in again: six decimals.
