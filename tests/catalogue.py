@@ -52,7 +52,7 @@ class Entry(NamedTuple):
     """One way to write functions of a day.
 
     Attributes:
-        name: "wrong/quat_xyzw" of a file, "pd_torque: error-sign" of a way.
+        name: "wrong/quat_xyzw" of a file, "pd_torque: mean-gains" of a way.
         status: "right", "close" or "wrong".
         tasks: whose functions it writes.
         expected: what it must be told: a mistake, or "passed".
