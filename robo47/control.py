@@ -42,7 +42,7 @@ def pd_gains(omega: ArrayLike, zeta: ArrayLike) -> Array:
     11.2.2).
 
     Args:
-        omega: natural frequency in rad/s, (...).
+        omega: natural frequency, rad/s, (...).
         zeta: damping ratio, 1 for critical damping, (...).
 
     Returns:
@@ -67,8 +67,8 @@ def error_response(t: ArrayLike, omega: ArrayLike, zeta: ArrayLike) -> Array:
     by w, so zeta may be 1.
 
     Args:
-        t: time in seconds, at least 0, (...).
-        omega: natural frequency in rad/s, above 0, (...).
+        t: time, s, at least 0, (...).
+        omega: natural frequency, rad/s, above 0, (...).
         zeta: damping ratio, at least 0, (...).
 
     Returns:
@@ -103,12 +103,12 @@ def pd_equilibrium_step(q_goal: ArrayLike, g_at_q: ArrayLike, kp: ArrayLike) -> 
     arm sags.
 
     Args:
-        q_goal: commanded configuration in radians, (..., n).
-        g_at_q: gravity torque at the last q in N m, (..., n).
-        kp: stiffness in N m/rad, above 0, one number or (..., n).
+        q_goal: commanded configuration, rad, (..., n).
+        g_at_q: gravity torque at the present q, N m, (..., n).
+        kp: stiffness, N m/rad, above 0, one number or (..., n).
 
     Returns:
-        The next q in radians, (..., n).
+        The next q, rad, (..., n).
 
     Raises:
         ValueError: wrong shape, a non-finite number, or kp not above 0.
@@ -127,10 +127,10 @@ def gravity_pd(
 
     Args:
         e, ed, kp, kd: as in `pd_torque`.
-        g_at_q: gravity torque at the measured q in N m, (..., n).
+        g_at_q: gravity torque at the measured q, N m, (..., n).
 
     Returns:
-        Joint torques in N m, (..., n).
+        Joint torques, N m, (..., n).
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -248,7 +248,7 @@ def max_stable_omega(h: ArrayLike, steps: ArrayLike = 1) -> Array:
         steps: number n of steps for which a torque is held, above 0, (...).
 
     Returns:
-        Natural frequency in rad/s, (...).
+        Natural frequency, rad/s, (...).
 
     Raises:
         ValueError: wrong shape, a non-finite number, or one not above 0.
@@ -272,7 +272,7 @@ def servo_ctrl(
             (..., n).
 
     Returns:
-        Commanded configuration in radians, (..., n).
+        Commanded configuration, rad, (..., n).
 
     Raises:
         ValueError: wrong shape, a non-finite number, or kp not above 0.

@@ -59,11 +59,11 @@ def dh_link(alpha: ArrayLike, a: ArrayLike, d: ArrayLike, theta: ArrayLike) -> A
 
 
 def dh_fk(table: ArrayLike, q: ArrayLike) -> Array:
-    """Return the flange's pose from a table of Craig's parameters.
+    """Return the flange's pose from a table of DH parameters in Craig's convention.
 
     Args:
-        table: rows (alpha, a, d), radians and metres, (n + 1, 3): one for each joint,
-            whose theta is its q, and the flange's, whose theta is 0.
+        table: rows (alpha, a, d), radians and metres, (n + 1, 3): one row for each
+            joint, whose theta is its q, and the flange's row, whose theta is 0.
         q: joint angles in radians, (..., n).
 
     Returns:

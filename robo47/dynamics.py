@@ -71,7 +71,7 @@ def link_inertias(
         inertias: about the centres of mass, in the link frames, kg m^2, (n, 3, 3).
 
     Returns:
-        G of each link about the world's origin, (..., n, 6, 6).
+        G of each link, (..., n, 6, 6).
 
     Raises:
         ValueError: wrong shape, a non-finite number, or not poses.
@@ -81,8 +81,8 @@ def link_inertias(
     inertias = checks.array(inertias, "inertias", (3, 3))
     R = T[..., :3, :3]
     p = T[..., :3, 3]
-    turned = R @ inertias @ np.swapaxes(R, -1, -2)
-    return spatial_inertia(masses, times(R, coms) + p, turned)
+    rotated = R @ inertias @ np.swapaxes(R, -1, -2)
+    return spatial_inertia(masses, times(R, coms) + p, rotated)
 
 
 def mass_matrix(J_space: ArrayLike, G: ArrayLike, armature: ArrayLike) -> Array:
@@ -106,10 +106,10 @@ def mass_matrix(J_space: ArrayLike, G: ArrayLike, armature: ArrayLike) -> Array:
     n = J.shape[-1]
     G = checks.array(G, "G", (n, 6, 6))
     armature = np.broadcast_to(checks.array(armature, "armature", ()), n)
-    # Joint i carries link i and all after it (Featherstone's composite bodies).
+    # Joint i carries link i and all later links (Featherstone's composite bodies).
     carried = np.cumsum(G[..., ::-1, :, :], axis=-3)[..., ::-1, :, :]
     momenta = times(carried, np.swapaxes(J, -1, -2))
-    lower = np.tril(momenta @ J)  # entry (i, j) is right for j <= i
+    lower = np.tril(momenta @ J)  # entries (i, j) with j <= i
     return lower + np.swapaxes(np.tril(lower, -1), -1, -2) + np.diag(armature)
 
 
@@ -129,7 +129,7 @@ def gravity_torque(
         g: gravity, m/s^2, (3,).
 
     Returns:
-        Torque, N m, (..., n).
+        Torques, N m, (..., n).
 
     Raises:
         ValueError: wrong shape, a non-finite number, or g is one number.
@@ -140,14 +140,15 @@ def gravity_torque(
     weights = checks.array(masses, "masses", (n,))[..., None] * _gravity(g)
     moments = times(skew(coms), weights)
     forces = np.broadcast_to(weights, moments.shape)
-    return -_felt(J, np.concatenate([moments, forces], axis=-1))
+    return -_along_joints(J, np.concatenate([moments, forces], axis=-1))
 
 
 def ad(V: ArrayLike) -> Array:
     """Return ad(V): the rate of change of a twist that moves with V is ad(V) times it.
 
-    [[[omega], 0], [[v], [omega]]] (Modern Robotics, definition 8.1 of the Lie
-    bracket). ad(V) @ V = 0.
+    A twist W that moves with a body of twist V changes at the rate ad(V) @ W. The
+    matrix is [[[omega], 0], [[v], [omega]]], and ad(V) @ V = 0 (Modern Robotics,
+    section 8.2.2).
 
     Args:
         V: twist (omega; v), rad/s and m/s, (..., 6).
@@ -184,7 +185,7 @@ def inverse_dynamics(
         G: spatial inertias of the links about the world's origin, (..., n, 6, 6).
         qd: joint velocities, rad/s, (..., n).
         qdd: joint accelerations, rad/s^2, (..., n).
-        g: gravity, m/s^2, (3,).
+        g: acceleration of gravity, m/s^2, (3,).
 
     Returns:
         Torque of the links, N m, (..., n), without armature and damping.
@@ -203,7 +204,7 @@ def inverse_dynamics(
     A = np.cumsum(S * qdd + times(ad_V, S * qd), axis=-2)
     A = A + np.concatenate([np.zeros(3), -_gravity(g)])
     F = times(G, A) - times(np.swapaxes(ad_V, -1, -2), times(G, V))
-    return _felt(J, F)
+    return _along_joints(J, F)
 
 
 def bias_torque(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike, g: ArrayLike) -> Array:
@@ -215,7 +216,7 @@ def bias_torque(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike, g: ArrayLike) -
         J_space, G, qd, g: as in `inverse_dynamics`.
 
     Returns:
-        Torque, N m, (..., n).
+        Torques, N m, (..., n).
 
     Raises:
         ValueError: as `inverse_dynamics`.
@@ -250,17 +251,17 @@ def coriolis_matrix(J_space: ArrayLike, G: ArrayLike, qd: ArrayLike) -> Array:
     S = np.swapaxes(J, -1, -2)
     V = np.cumsum(S * qd, axis=-2)
     ad_V = ad(V)
-    S_rate = times(ad_V, S)  # a screw is carried along by its own link
+    S_rate = times(ad_V, S)  # a screw moves with its own link
     B = _velocity_product(G, V, ad_V)
-    # Joint i carries link i and all after it, as in `mass_matrix`.
+    # Joint i carries link i and all later links, as in `mass_matrix`.
     carried_G = np.cumsum(G[..., ::-1, :, :], axis=-3)[..., ::-1, :, :]
     carried_B = np.cumsum(B[..., ::-1, :, :], axis=-3)[..., ::-1, :, :]
     # The links that both joints move begin with the later one of the two.
     later = times(carried_G, S_rate) + times(carried_B, S)
     upper = np.triu(S @ np.swapaxes(later, -1, -2))
     momenta = times(carried_G, S)
-    turned = times(np.swapaxes(carried_B, -1, -2), S)
-    lower = momenta @ np.swapaxes(S_rate, -1, -2) + turned @ J
+    back = times(np.swapaxes(carried_B, -1, -2), S)
+    lower = momenta @ np.swapaxes(S_rate, -1, -2) + back @ J
     return upper + np.tril(lower, -1)
 
 
@@ -269,14 +270,14 @@ def forward_dynamics(
 ) -> Array:
     """Return the joint accelerations for given torques.
 
-    Solves M qdd = tau - bias - damping qd (Modern Robotics, section 8.5).
+    They solve M qdd = tau - bias - damping qd (Modern Robotics, section 8.5).
 
     Args:
         M: mass matrix with armature, kg m^2, (..., n, n).
         bias: Coriolis, centrifugal and gravity torque, N m, (..., n).
         damping: of the joints, N m s/rad, a number or (n,).
         qd: joint velocities, rad/s, (..., n).
-        tau: torque of the motors, N m, (..., n).
+        tau: torques of the motors, N m, (..., n).
 
     Returns:
         qdd, rad/s^2, (..., n).
@@ -324,14 +325,14 @@ def _velocity_product(G: Array, V: Array, ad_V: Array) -> Array:
     momentum = times(G, V)
     moment = skew(momentum[..., :3])
     force = skew(momentum[..., 3:])
-    crossed = np.zeros_like(ad_V)  # takes a twist m to -ad(m)^T G V
+    crossed = np.zeros_like(ad_V)  # maps a twist m to -ad(m)^T G V
     crossed[..., :3, :3] = -moment
     crossed[..., :3, 3:] = -force
     crossed[..., 3:, :3] = -force
     return 0.5 * (crossed - np.swapaxes(ad_V, -1, -2) @ G - G @ ad_V)
 
 
-def _felt(J: Array, wrenches: Array) -> Array:
+def _along_joints(J: Array, wrenches: Array) -> Array:
     """Return the torques of the wrenches on each link and on all links distal to it."""
     carried = np.cumsum(wrenches[..., ::-1, :], axis=-2)[..., ::-1, :]
     return (np.swapaxes(J, -1, -2) * carried).sum(axis=-1)

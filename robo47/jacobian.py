@@ -26,14 +26,14 @@ from robo47.rotation_log import log_rotation as log_rotation
 from robo47.rotation_log import pose_error as pose_error
 from robo47.screws import adjoint, exp_screw, skew
 
-SINGULAR = 1e-12  # a singular value this much below the largest one counts as 0
+SINGULAR = 1e-12  # of the largest singular value; a smaller one is treated as 0
 
 
 def space_jacobian(screws: ArrayLike, q: ArrayLike) -> Array:
     """Return the space Jacobian, whose columns are the present screws of the joints.
 
     Column i is Ad(e^[S1] q1 ... e^[S(i-1)] q(i-1)) S_i (Modern Robotics, section
-    5.1.1).
+    5.1.1). At q = 0 the columns are the screws.
 
     Args:
         screws: space screws (omega; v), (..., n, 6).
@@ -114,7 +114,7 @@ def joint_torques(J_space: ArrayLike, p: ArrayLike, F: ArrayLike) -> Array:
 def dls_step(J_site: ArrayLike, e: ArrayLike, damping: ArrayLike) -> Array:
     """Return the damped least-squares step, J^T (J J^T + damping^2 I)^-1 e.
 
-    It minimises |J dq - e|^2 + damping^2 |dq|^2, so it stays short where J is near
+    It minimises |J dq - e|^2 + damping^2 |dq|^2, so it remains short where J is nearly
     singular (Wampler, "Manipulator inverse kinematic solutions based on vector
     formulations and damped least-squares methods", IEEE Trans. SMC 16(1), 1986).
 
@@ -171,7 +171,8 @@ def nullspace_projection(J: ArrayLike, dq: ArrayLike) -> Array:
         dq: wanted motion of the joints, (..., n).
 
     Returns:
-        The nearest motion with J dq = 0, (..., n) (Modern Robotics, section 6.3).
+        The motion with J dq = 0 that is nearest to dq, (..., n) (Modern Robotics,
+        section 6.3).
 
     Raises:
         ValueError: wrong shape or a non-finite number.
@@ -179,14 +180,14 @@ def nullspace_projection(J: ArrayLike, dq: ArrayLike) -> Array:
     J = checks.array(J, "J", ("m", "n"))
     dq = checks.array(dq, "dq", J.shape[-1:])
     _, values, Vt = np.linalg.svd(J, full_matrices=False)
-    # J^+ J = V V^T over the directions that the hand feels; no division is needed.
+    # J^+ J = V V^T over the directions that move the hand; no division is needed.
     felt = values > SINGULAR * values.max(axis=-1, keepdims=True, initial=0.0)
     along = np.where(felt, (Vt @ dq[..., None])[..., 0], 0.0)
     return dq - (along[..., None, :] @ Vt)[..., 0, :]
 
 
 def _one_by_one(S: Array, q: Array) -> Array:
-    """Return J_space of arms with different screws, as the formula reads."""
+    """Return J_space of arms with different screws, column by column."""
     T = np.eye(4)
     columns = []
     for i in range(S.shape[-2]):

@@ -15,12 +15,12 @@ from numpy.typing import ArrayLike
 from robo47 import checks, se3
 from robo47.checks import Array
 
-GIMBAL = 1e-7  # cosine of the pitch below which roll and yaw turn about one axis
+GIMBAL = 1e-7  # cosine of the pitch below which roll and yaw have one axis
 NEARLY_ONE = 1e-8  # angle below which slerp's sines are their angles, to all digits
 
 
 def rpy_to_R(rpy: ArrayLike) -> Array:
-    """Return the rotation of roll, pitch and yaw: Rz(yaw) Ry(pitch) Rx(roll).
+    """Return the rotation matrix of roll, pitch and yaw: Rz(yaw) Ry(pitch) Rx(roll).
 
     Args:
         rpy: roll, pitch, yaw in radians, (..., 3).
@@ -36,7 +36,7 @@ def rpy_to_R(rpy: ArrayLike) -> Array:
 
 
 def R_to_rpy(R: ArrayLike) -> Array:
-    """Return roll, pitch and yaw of a rotation.
+    """Return roll, pitch and yaw of a rotation matrix.
 
     At a pitch of +-90 degrees (gimbal lock) roll and yaw are about the same axis, and R
     determines only their difference or sum; the roll is then 0.
@@ -64,7 +64,8 @@ def R_to_rpy(R: ArrayLike) -> Array:
 def quat_product(p_wxyz: ArrayLike, q_wxyz: ArrayLike) -> Array:
     """Return the quaternion product p q, whose rotation is R(p) R(q).
 
-    (p0 q0 - p.q; p0 q + q0 p + p x q), Hamilton's product (Modern Robotics, B.3).
+    The rotation of q is applied first. Hamilton's product is (p0 q0 - p.q; p0 q + q0 p
+    + p x q) (Modern Robotics, appendix B.3).
 
     Args:
         p_wxyz, q_wxyz: quaternions, (..., 4).
@@ -105,7 +106,7 @@ def slerp(p_wxyz: ArrayLike, q_wxyz: ArrayLike, s: ArrayLike) -> Array:
     q = _unit(q_wxyz, "q_wxyz")
     s = checks.array(s, "s", ())[..., None]
     q = np.where((p * q).sum(axis=-1, keepdims=True) < 0.0, -q, q)
-    # By both lengths: the arccosine of p . q has half of the digits near p = q.
+    # By both norms, because the arccosine of p . q has half of the digits near p = q.
     apart = np.linalg.norm(q - p, axis=-1, keepdims=True)
     angle = 2.0 * np.arctan2(apart, np.linalg.norm(q + p, axis=-1, keepdims=True))
     near = angle < NEARLY_ONE

@@ -37,7 +37,7 @@ def log_rotation(R: ArrayLike) -> Array:
     u = q[..., 1:]
     sine = np.linalg.norm(u, axis=-1, keepdims=True)
     angle = 2.0 * np.arctan2(sine, w)
-    # Below 1e-154 the square of a length is 0; there the angle is twice the sine.
+    # Below 1e-154 the square of a norm is 0; there the angle is twice the sine.
     return u * np.divide(angle, sine, out=np.full_like(sine, 2.0), where=sine > 0.0)
 
 

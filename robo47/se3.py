@@ -3,7 +3,7 @@
 Conventions, here and everywhere in the kit:
 
 - `T_world_hand` maps hand coordinates to world coordinates, and it is also the pose
-  of the hand as the world sees it. Adjacent inner names cancel:
+  of the hand, expressed in the world frame. Adjacent inner names cancel:
   `T_world_tip = T_world_hand @ T_hand_tip`.
 - Points are columns: `p_world = T_world_hand @ p_hand`, with a 1 as fourth entry.
 - Lengths in metres, angles in radians, quaternions as (w, x, y, z), all float64.
@@ -46,7 +46,7 @@ def make_T(R: ArrayLike, t: ArrayLike) -> Array:
 
 
 def inverse(T: ArrayLike) -> Array:
-    """Return the inverse pose: `inverse(T_world_hand)` is `T_hand_world`.
+    """Return the inverse of a pose: `inverse(T_world_hand)` is `T_hand_world`.
 
     It consists of R^T and -R^T t. A general matrix inverse would also accept a matrix
     that is no pose (Modern Robotics, eq. 3.64).
@@ -70,7 +70,9 @@ def inverse(T: ArrayLike) -> Array:
 
 
 def Rx(theta: ArrayLike) -> Array:
-    """Return the rotation by theta about the x axis.
+    """Return the rotation matrix of a rotation by theta about the x axis.
+
+    A positive angle rotates y towards z (Modern Robotics, section 3.2.1).
 
     Args:
         theta: angle in radians, (...).
@@ -85,7 +87,9 @@ def Rx(theta: ArrayLike) -> Array:
 
 
 def Ry(theta: ArrayLike) -> Array:
-    """Return the rotation by theta, radians (...), about the y axis, (..., 3, 3).
+    """Return the rotation matrix (..., 3, 3) by theta, radians (...), about y.
+
+    A positive angle rotates z towards x.
 
     Raises:
         ValueError: a non-finite angle.
@@ -94,7 +98,9 @@ def Ry(theta: ArrayLike) -> Array:
 
 
 def Rz(theta: ArrayLike) -> Array:
-    """Return the rotation by theta, radians (...), about the z axis, (..., 3, 3).
+    """Return the rotation matrix (..., 3, 3) by theta, radians (...), about z.
+
+    A positive angle rotates x towards y: `Rz(np.pi / 2)` maps (1, 0, 0) to (0, 1, 0).
 
     Raises:
         ValueError: a non-finite angle.
@@ -109,7 +115,8 @@ def quat_to_R(q_wxyz: ArrayLike) -> Array:
     "1 -1 0 0"` has the norm sqrt(2).
 
     Args:
-        q_wxyz: quaternion, scalar part first as in MuJoCo, (..., 4).
+        q_wxyz: quaternion of any norm except 0, scalar part first as in MuJoCo,
+            (..., 4).
 
     Returns:
         Rotation matrix, (..., 3, 3).
@@ -146,8 +153,8 @@ def R_to_quat(R: ArrayLike) -> Array:
     """
     R = checks.rotation(R, "R")
     (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = np.moveaxis(R, (-2, -1), (0, 1))
-    # Row k is 4 q_k times the whole quaternion; its k-th entry, 4 q_k^2, says how
-    # well conditioned that row is.
+    # Row k is 4 q_k times the whole quaternion. The row with the largest k-th entry,
+    # 4 q_k^2, is the best conditioned one.
     rows = np.array([
         [1 + xx + yy + zz, zy - yz, xz - zx, yx - xy],
         [zy - yz, 1 + xx - yy - zz, yx + xy, xz + zx],
@@ -162,7 +169,7 @@ def R_to_quat(R: ArrayLike) -> Array:
 
 
 def is_rotation(R: ArrayLike, tol: float = RIGID_TOL) -> bool:
-    """Return whether every matrix is a rotation: orthonormal and right-handed.
+    """Return whether every matrix is a rotation matrix: orthonormal, determinant +1.
 
     Args:
         R: matrix, (..., 3, 3).
@@ -225,7 +232,7 @@ def pose_distance(T_a: ArrayLike, T_b: ArrayLike) -> tuple[Array, Array]:
 
 def _turn_about(k: int, theta: ArrayLike) -> Array:
     theta = checks.array(theta, "theta", ())
-    i, j = (k + 1) % 3, (k + 2) % 3  # the turn takes axis i towards axis j
+    i, j = (k + 1) % 3, (k + 2) % 3  # the rotation moves axis i towards axis j
     R = np.zeros((*theta.shape, 3, 3))
     R[..., k, k] = 1.0
     R[..., i, i] = R[..., j, j] = np.cos(theta)
@@ -235,9 +242,10 @@ def _turn_about(k: int, theta: ArrayLike) -> Array:
 
 
 def __getattr__(name: str) -> Any:
-    """Return `axis_angle`, which stood here while it answered a task of Day 2.
+    """Return `axis_angle`, which older labs import from this module.
 
-    By name: while Day 2 is checked, `robo47.screws` is refused, and this with it.
+    It is loaded only on request, because `robo47.screws` is not available to a
+    submission while Day 2 is checked.
     """
     if name != "axis_angle":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -146,7 +146,7 @@ def impedance_wrench(
     """Return the wrench K e + D V_err of a spring and a damper at the hand.
 
     Args:
-        e: (rotation vector; position) from the hand to its target, (..., m).
+        e: (rotation vector; displacement) from the hand to its target, (..., m).
         V_err: the target's twist minus the hand's, (..., m).
         K: stiffness in N m/rad and N/m, (..., m, m).
         D: damping in N m s/rad and N s/m, (..., m, m).
@@ -202,7 +202,8 @@ def impedance_torque(
 ) -> Array:
     """Return the joint torque with which the hand exerts a wrench, with compensation.
 
-    J^T wrench + bias + damping qd + tau_null (Modern Robotics, sections 5.2, 11.7).
+    They are J^T wrench + bias + damping qd + tau_null (Modern Robotics, sections 5.2
+    and 11.7).
 
     Args:
         J_site: site Jacobian, (..., m, n).

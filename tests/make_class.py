@@ -80,7 +80,7 @@ def some_handed_in(seed: int, own: Files) -> Files:
     return {**dict(files[: seed % 4]), **own}
 
 
-def attack(line: str, where: str = "    T = np.eye(4)\n") -> Files:
+def attack(line: str, where: str = "    T = np.eye(4)") -> Files:
     """Return the solved lab with a line of mischief before another line."""
     assert where in SOLVED
     return script(SOLVED.replace(where, f"    {line}\n{where}", 1))

@@ -36,9 +36,7 @@ DEF = re.compile(r"(?:\W*exec\(\W)?def (\w+)")
 
 def attack(line, after=""):
     """Return the reference solution with a line of mischief in its first function."""
-    text = REFERENCE.replace(
-        "    T = np.eye(4)\n", f"    {line}\n    T = np.eye(4)\n", 1
-    )
+    text = REFERENCE.replace("    T = np.eye(4)", f"    {line}\n    T = np.eye(4)", 1)
     return after + text
 
 
@@ -255,7 +253,7 @@ class TestAnAttack:
         ],
     )
     def test_that_calls_for_the_answer_is_refused_by_name(self, check, body, names):
-        code = REFERENCE.replace("    T_world_body = np.eye(4)\n", f"    {body}\n", 1)
+        code = REFERENCE.replace("    T_world_body = np.eye(4)", f"    {body}", 1)
         verdict = check(code, "1.6")["1.6"]
         assert verdict.mistake == "not-by-hand"
         assert names in verdict.message

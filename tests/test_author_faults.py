@@ -99,7 +99,7 @@ def test_a_wrong_case_a_tab_that_stops_and_a_picture_not_drawn_are_told(kit):
 
 
 def test_a_wrong_shape_a_tab_with_the_lab_and_an_old_picture_are_told(kit):
-    change(kit / LAB, "links ends, (2,), in", "links ends, (3,), in")
+    change(kit / LAB, "two links, (2,), in", "two links, (3,), in")
     own = kit / WEEK / "day46"
     lab = "\nimport day46_trial\n"
     (own / "inspector.py").write_text(TAB.format(lab=lab, work="day46_trial.TRIALS"))
@@ -133,6 +133,15 @@ def test_the_kits_own_days_have_none_of_these(day):
 )
 def test_a_worked_case_is_read_from_a_sentence(text, call, value):
     assert docstring.cases(text, "f") == [(call, value)]
+
+
+def test_the_number_of_a_section_is_none_of_a_case(monkeypatch):
+    """A note to an author: the decimals of a docstring that no question has."""
+    row = next(iter(rows_of(all_days()[0]).values()))
+    function = getattr(row.lab, row.function)
+    text = "Return 0.77 (Modern Robotics, section 3.3.1, eq. 3.64, appendix B.3)."
+    monkeypatch.setattr(function, "__doc__", text)
+    assert docstring.unlike_its_questions(row) == ["0.77"]
 
 
 def test_a_shape_is_read_behind_its_argument_alone():

@@ -5,10 +5,11 @@ import pytest
 from judged import answered, replies_of, right, round_of
 
 from labkit.base.exchange import Question, Reply
-from labkit.judge import Scalar, Vector
+from labkit.check.report import matrix_of
+from labkit.judge import Matrix, Scalar, Vector
 from labkit.judge.answers import InTurn
 from labkit.judge.ask import SEED, Ask, Edges, right_answers
-from labkit.judge.failing_call import failing_call
+from labkit.judge.failing_call import Failing, failing_call
 from labkit.judge.judge import judge
 from labkit.judge.row import rows_of
 from labkit.judge.typed import typed
@@ -41,7 +42,7 @@ def test_an_entry_of_a_vector_is_named_and_a_matrix_goes_by_its_argument():
     assert typed(matrix) == "f(0.1, (0, 1), ...)"
     twice = Ask(lambda rng: [(2.0,), (3.0,)], Vector((2,)), truth=_pairs)
     asked = asked_with(lambda x: np.array([[x, 0.0]]), twice)
-    assert failing_call(asked)[0] == "f(3)[1] returned 0; expected 3."
+    assert failing_call(asked).call == "f(3)[1] returned 0; expected 3."
 
 
 def _pairs(x):
@@ -49,7 +50,7 @@ def _pairs(x):
 
 
 def test_digits_suffice_to_tell_the_two_apart():
-    says, _ = failing_call(asked_with(lambda x: np.sin(x) + 1e-7 * (x == 1.0)))
+    says, *_ = failing_call(asked_with(lambda x: np.sin(x) + 1e-7 * (x == 1.0)))
     mine, its = says.removesuffix(".").split(" returned ")[1].split("; expected ")
     assert mine != its
 
@@ -57,8 +58,8 @@ def test_digits_suffice_to_tell_the_two_apart():
 def test_a_call_that_stops_is_named_too():
     asked = asked_with(np.sin)
     asked.main[1].reply = Reply(kind="KeyError", error="1.0")
-    assert failing_call(asked)[0] == "f(1) stops."
-    assert failing_call(asked_with(np.sin)) == ("", ())
+    assert failing_call(asked).call == "f(1) stops."
+    assert failing_call(asked_with(np.sin)) == Failing()
 
 
 def test_what_was_measured_never_says_that_all_is_right_where_something_is_wrong():
@@ -127,7 +128,7 @@ def test_of_several_results_the_one_that_is_wrong_is_named():
     answers = right(ask)
     answers[1][1, 1] = 7.0
     answered(asked.exchanges, replies_of(answers))
-    assert failing_call(asked)[0] == "f(3)[1][1] returned 7; expected 3."
+    assert failing_call(asked).call == "f(3)[1][1] returned 7; expected 3."
 
 
 def test_of_several_wrong_results_it_is_the_one_that_is_talked_about():
@@ -138,7 +139,7 @@ def test_of_several_wrong_results_it_is_the_one_that_is_talked_about():
     answers[0][0] += 0.5
     answers[1][1, 1] = 7000.0  # further off, in a call whose sine is right
     answered(asked.exchanges, replies_of(answers))
-    assert failing_call(asked)[0].startswith("f(2)[0] returned ")
+    assert failing_call(asked).call.startswith("f(2)[0] returned ")
 
 
 def _sine_and_pair(x):
@@ -148,10 +149,23 @@ def _sine_and_pair(x):
 @pytest.mark.parametrize("rounding", [(0.0, 1e-15), (1e-15, 0.0), (0.0, 0.0)])
 def test_rounding_neither_chooses_the_entry_nor_is_shown_as_a_number(rounding):
     ask = Ask(lambda rng: [(2.0,), (3.0,)], Vector((2,)), truth=lambda x: _pairs(0 * x))
-    says, _ = failing_call(
+    says, *_ = failing_call(
         asked_with(lambda x: np.array([np.add(rounding, 1 / 3)]), ask)
     )
     assert says == "f(2)[0] returned 0.333333; expected 0."
     dust = Ask(lambda rng: [(2.0,)], Vector((1,)), truth=lambda x: x[:, None] * 1e-17)
-    says, _ = failing_call(asked_with(lambda x: np.array([[1.0]]), dust))
+    says, *_ = failing_call(asked_with(lambda x: np.array([[1.0]]), dust))
     assert says == "f(2)[0] returned 1; expected 0."
+
+
+def test_a_matrix_with_some_wrong_entries_is_shown_with_these_in_brackets():
+    ask = Ask(
+        lambda rng: [(3.0,)],
+        Matrix((2, 2)),
+        truth=lambda x: np.array([[[1.0, 2.0], [x[0], 4.0]]]),
+    )
+    wrong = asked_with(lambda x: np.array([[[1.0, x], [2.0, 4.0]]]), ask)
+    compared = failing_call(wrong).compared
+    assert compared is not None
+    lines = matrix_of(compared)
+    assert lines[1:] == ["  1  [3]", " [2]  4"]

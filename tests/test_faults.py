@@ -89,7 +89,7 @@ class TestASandboxThatIsKilled:
     def test_and_costs_the_task_that_does_it_alone(self, check):
         mischief = "import os; os._exit(137)"  # as bubblewrap tells of a kill
         solved = SOLVED.replace(
-            "    T = np.eye(4)\n", f"    {mischief}\n    T = np.eye(4)\n", 1
+            "    T = np.eye(4)", f"    {mischief}\n    T = np.eye(4)", 1
         )
         verdicts = check(solved)
         assert verdicts["1.1"].mistake == "stopped"
@@ -337,7 +337,7 @@ def sandboxes_of(pid):
 class TestAGrader:
     @linux
     def test_ends_amid_a_package_when_its_coordinator_is_killed(self):
-        loops = SOLVED.replace("    T = np.eye(4)\n", "    while True: pass\n", 1)
+        loops = SOLVED.replace("    T = np.eye(4)", "    while True: pass", 1)
         code = (
             "import sys\n"
             "from labkit.grade.engine import Grader\n"

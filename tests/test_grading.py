@@ -265,7 +265,7 @@ class TestTheGrader:
     def test_shows_what_was_refused_though_the_code_caught_it(self):
         curious = "try: open('/etc/shadow')\n    except OSError: pass"
         text = SOLVED.replace(
-            "    T = np.eye(4)\n", f"    {curious}\n    T = np.eye(4)\n", 1
+            "    T = np.eye(4)", f"    {curious}\n    T = np.eye(4)", 1
         )
         files = {name: text.encode() for name, text in script(text).items()}
         found = child.grade(Package(1, "", Handin(files)), DAY)

@@ -63,7 +63,7 @@ SHOWN = {
     ): "cone_margin grip_reflex_step cone_edges observe act reward cem_step "
     "success_rate",
 }
-LAWS = ("with an integral (PID)", "gains outside M", "springs and gravity", "springs")
+LAWS = ("with an integral (PID)", "gains outside M", "PD and gravity", "PD")
 
 
 def push(tab):

@@ -69,7 +69,7 @@ def begun(tmp_path_factory):
     git(place, "clone", "-q", str(kit), str(clone))
     done = run_copy(clone, "scripts/start_day.py", 1)
     assert done.returncode == 0
-    turn = 'def Rz(theta: float) -> np.ndarray:\n    """Return the turn by theta'
+    turn = 'def Rz(theta: float) -> np.ndarray:\n    """Return the rotation matrix of'
     half = 'def half(x):\n    """Mine."""\n    return x / 2\n\n\n'
     edit(
         clone / WORK,

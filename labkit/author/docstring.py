@@ -21,6 +21,7 @@ from labkit.judge.ask import as_plain
 from labkit.judge.row import Row
 
 _SHAPE = re.compile(r"\(((?:\d+|[a-z])(?:, (?:\d+|[a-z]))*,?)\)")
+_SOURCE = re.compile(r"\b(?:sections?|eq\.|equation|appendix|definition) [\w.]+")
 _PLAIN = ("pi", "sqrt", "exp", "log", "sin", "cos", "tan", "nan", "inf")
 _NAMES = {"np": np, "True": True, "False": False, "None": None} | {
     name: getattr(np, name) for name in _PLAIN
@@ -81,7 +82,7 @@ def unlike_its_questions(row: Row) -> list[str]:
     text = " ".join((function.__doc__ or "").split())
     for case in cases(text, row.function):
         text = text.replace(case[0], "").replace(case[1], "")
-    typed = re.findall(r"(?<![\w.])\d+\.\d+", text)
+    typed = re.findall(r"(?<![\w.])\d+\.\d+", _SOURCE.sub("", text))
     there = [0.0]
     for call in row.ask.main[:FIRST] if typed else ():
         args = [as_plain(arg) for arg in call]

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from labkit.check.tasks import TaskResult
+from labkit.judge.mistake import Compared
 from labkit.lesson.day import Day, Task, all_days
 
 if TYPE_CHECKING:
@@ -82,7 +83,7 @@ class Report:
                 return f"the {item.name}."
         if self.items:
             return f"nothing is left to do here. Well done. {_after(self.day)}"
-        return f"the whole day: make check DAY={self.day.number}"
+        return f"check the whole day: make check DAY={self.day.number}"
 
 
 def _after(day: Day) -> str:
@@ -95,12 +96,12 @@ def _after(day: Day) -> str:
         return f"Your numbers: make report{'; then: ' + start if start else ''}."
     steps = [
         *([f"make capstone WEEK={number}"] if week.capstone else []),
-        f"make report WEEK={number} and your words in its RETRO",
-        f"commit, make fresh WEEK={number}",
+        f"make report WEEK={number} and write your words into its RETRO",
+        f"commit and make fresh WEEK={number}",
         f"make proof WEEK={number}",
         *([start] if start else []),
     ]
-    return f"That was week {number}. Its end, in this order: {'; '.join(steps)}."
+    return f"That was week {number}. To finish it, in this order: {'; '.join(steps)}."
 
 
 def as_json(report: Report) -> dict[str, Any]:
@@ -190,11 +191,25 @@ def _below(report: Report, result: TaskResult, explain: bool) -> list[str]:
         lines += _wrapped(says, _INDENT)
         if verdict.call and verdict.message in says:
             lines += _wrapped(verdict.call, _INDENT)
+            if verdict.compared and (explain or len(report.tasks) == 1):
+                lines += [f"{'':{_INDENT}}{ln}" for ln in matrix_of(verdict.compared)]
     if explain:
         for line in verdict.measured:
             lines += _wrapped(f"- {line}", _INDENT, hanging=2)
         lines += [f"{'':{_INDENT}}| {ln}" for ln in result.printed.splitlines()]
     return lines
+
+
+def matrix_of(compared: Compared) -> list[str]:
+    """Return a returned matrix as lines, its wrong entries in brackets."""
+    texts = [[f"{x + 0.0:.4g}" for x in row] for row in compared.returned]
+    marked = [
+        [f"[{text}]" if off else f" {text} " for text, off in zip(*row, strict=True)]
+        for row in zip(texts, compared.wrong, strict=True)
+    ]
+    width = max(len(text) for row in marked for text in row)
+    rows = ["".join(text.rjust(width + 1) for text in row).rstrip() for row in marked]
+    return ["The matrix of this call, with its wrong entries in brackets:", *rows]
 
 
 def _said(report: Report, result: TaskResult, explain: bool) -> str:
@@ -203,8 +218,8 @@ def _said(report: Report, result: TaskResult, explain: bool) -> str:
     if verdict.mistake == "inherited":
         return verdict.message
     if not explain and verdict.follows in {other.task.id for other in report.left}:
-        word = "Follows from" if verdict.status == "close" else "Builds on"
-        return f"{word} {verdict.follows}: first that one."
+        word = "follows from" if verdict.status == "close" else "builds on"
+        return f"It {word} task {verdict.follows}: solve that task first."
     if verdict.follows and verdict.status != "todo":
         also = f"It builds on task {verdict.follows}, which is not right yet either."
         return f"{verdict.message} {also}"

@@ -1,6 +1,7 @@
 """The call that failed, as a student can type it; what is wrong at fresh inputs."""
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,9 +12,9 @@ from labkit.judge.answers import (
     gap,
     worst_part,
 )
-from labkit.judge.ask import Asked, HeldOut, right_answers
+from labkit.judge.ask import Ask, Asked, HeldOut, right_answers
 from labkit.judge.kinds import Kind
-from labkit.judge.mistake import Finding
+from labkit.judge.mistake import Compared, Finding
 from labkit.judge.replies_read import not_accepted, read
 from labkit.judge.results import places, split
 from labkit.judge.typed import shown, typed, typed_one
@@ -23,7 +24,17 @@ from robo47.checks import Array
 # A call whose answer is not right: in a line, "Rz(2.9)[0, 0] is -1, and -0.971 is
 # right.", and in lines with every argument and entry; "" and none without one.
 LONG = 80  # characters; a longer argument goes by its name, and --explain has all of it
-Failing = tuple[str, tuple[str, ...]]
+LARGEST = 8  # rows and columns of a matrix that is shown
+
+
+class Failing(NamedTuple):
+    """A call that failed."""
+
+    call: str = ""
+    whole: tuple[str, ...] = ()  # every argument and entry, a line each
+    compared: Compared | None = None
+
+
 AS_FAR = 0.999  # of the furthest: as far off, so that rounding does not choose
 DUST = 1e-12  # of an entry's scale: rounding, whose digits are the processor's
 
@@ -41,8 +52,8 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
         assert one.reply
         yours = (f"yours: {shown(one.reply.value)}",)
         says = f"{typed(one.question, names)} is such a call."
-        return says, _given(one.question, names) + yours
-    return "", ()
+        return Failing(says, _given(one.question, names) + yours)
+    return Failing()
 
 
 def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | None:
@@ -50,7 +61,7 @@ def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | No
         if one.reply and (one.reply.kind or one.reply.value is None):
             what = "stops" if one.reply.kind else "returns nothing"
             says = f"{typed(one.question, names)} {what}."
-            return says, _given(one.question, names)
+            return Failing(says, _given(one.question, names))
     return None
 
 
@@ -65,7 +76,7 @@ def _misfit(
                 return None
             shape = one.reply.value.shape
             says = f"{typed(one.question, names, LONG)} returned shape {shape}."
-            return says, _given(one.question, names)
+            return Failing(says, _given(one.question, names))
     return None
 
 
@@ -107,7 +118,17 @@ def _wrong(
     whole += [f"yours: {shown(value)}" for value in mine]
     pairs = zip(ask.kinds, right, strict=True)
     whole += [f"right: {shown(kind.sent(values[0]))}" for kind, values in pairs]
-    return f"{says} {entries}.", tuple(whole)
+    compared = _compared(ask, part, given[part][0], right[part][0])
+    return Failing(f"{says} {entries}.", tuple(whole), compared)
+
+
+def _compared(ask: Ask, part: int, mine: Array, its: Array) -> Compared | None:
+    """Return a matrix with some right entries beside the right one, else None."""
+    if mine.shape != its.shape or mine.ndim != 2 or max(mine.shape) > LARGEST:
+        return None
+    scale = np.broadcast_to(ask.kinds[part].scale, its.shape)
+    wrong = ~(gap(mine, its) <= ask.tolerance * scale)
+    return Compared(mine, its, wrong) if wrong.any() and not wrong.all() else None
 
 
 def _entry(kind: Kind, mine: Array, its: Array) -> tuple[str, str]:
@@ -142,7 +163,7 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     That answers were looked up is said only where all are wrong, and each is one that
     another input has got.
     """
-    right = "Right for the inputs that are always asked, but not for"
+    right = "It is right for the inputs of every check, but not for"
     if isinstance(S, Finding):
         return Finding("some-inputs", f"{right} fresh ones. {S.message}")
     S = taken(asked.ask, asked.fresh, S)
@@ -150,8 +171,8 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     wrong = asked.ask.gaps(S, T) > asked.ask.near
     says = f"{right} {int(wrong.sum())} of {len(wrong)} fresh ones."
     if wrong.all() and _only_known(main, S):
-        return Finding("looked-up", f"{says} The answers do not come from the inputs.")
-    some = "Some inputs take another way through your function."
+        return Finding("looked-up", f"{says} The answers do not depend on the inputs.")
+    some = "Some inputs take another branch of your function."
     return Finding("some-inputs", says if wrong.all() else f"{says} {some}")
 
 

@@ -3,10 +3,12 @@
 import inspect
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-REDONE = "this mistake, made on purpose,"
+from robo47.checks import Array
+
+REDONE = "the right answer with this mistake"
 
 
 class Finding(NamedTuple):
@@ -36,6 +38,16 @@ class Verdict:
     # Whether the answers have the property that is asked for, by another method.
     valid: bool = False
     call: str = ""  # the call that failed, in a line, with theirs and the right answer
+    # The matrix that this call returned, where some of its entries are right.
+    compared: "Compared | None" = field(default=None, compare=False)
+
+
+class Compared(NamedTuple):
+    """A matrix that a function returned, and the right one."""
+
+    returned: Array  # (m, n)
+    expected: Array  # (m, n)
+    wrong: Array  # (m, n), of truth values
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,12 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import Any
 
+import numpy as np
+
 from labkit.check.report import Report, as_text, state_of
+from labkit.check.tasks import TaskResult
 from labkit.notebook.guide import typed
+from robo47.checks import Array
 
 _MARK = {"passed": "✓", "to do": "·"}  # of a state; of any other ✗
 _CELL = "style='text-align:left;vertical-align:top;padding:.2em .8em'"
@@ -63,7 +67,7 @@ class Checked:
         """Return a row per task: its state, and what is wrong with it."""
         report = self.report
         said = [*self.told, *([report.problem] if report.problem else [])]
-        rows = [_row(*state_of(report, result)) for result in report.tasks]
+        rows = [_row(*state_of(report, one), _matrices(one)) for one in report.tasks]
         if not report.left:
             rows += [_row(i.name, i.status, [i.message]) for i in report.items]
         table = f"<table>{''.join(rows)}</table>"
@@ -101,11 +105,38 @@ def _button(task: str, hint: Callable[[str], Any]) -> Any:
     return ipywidgets.VBox([button, below])
 
 
-def _row(name: str, state: str, lines: Sequence[str]) -> str:
-    """Return a row of the table of tasks."""
+def _matrices(result: TaskResult) -> str:
+    """Return the matrix of the failing call, its wrong entries marked, as HTML."""
+    compared = result.verdict.compared
+    if compared is None:
+        return ""
+    right = np.zeros_like(compared.wrong)
+    mine = _matrix("returned", compared.returned, compared.wrong)
+    return f"<div>{mine}{_matrix('expected', compared.expected, right)}</div>"
+
+
+def _matrix(name: str, values: Array, marked: Array) -> str:
+    """Return a matrix as a table with its name above it, and some entries framed."""
+    rows = ""
+    for row, off in zip(values, marked, strict=True):
+        style = ("", "outline:2px solid crimson;font-weight:bold;")
+        cells = (
+            f"<td style='{style[int(w)]}text-align:right'>{x + 0.0:.4g}</td>"
+            for x, w in zip(row, off, strict=True)
+        )
+        rows += f"<tr>{''.join(cells)}</tr>"
+    return (
+        "<table style='display:inline-table;margin:.4em 1.5em .4em 0'>"
+        f"<caption style='text-align:left'>{name}</caption>{rows}</table>"
+    )
+
+
+def _row(name: str, state: str, lines: Sequence[str], more: str = "") -> str:
+    """Return a row of the table of tasks; `more` is HTML below its lines."""
     mark = _MARK.get(state, "✗")
     paragraphs = "".join(f"<div>{html.escape(line)}</div>" for line in lines if line)
     return (
         f"<tr><td {_CELL}>{mark}</td><td {_CELL}><b>{html.escape(name)}</b></td>"
-        f"<td {_CELL}>{html.escape(state)}</td><td {_CELL}>{paragraphs}</td></tr>"
+        f"<td {_CELL}>{html.escape(state)}</td>"
+        f"<td {_CELL}>{paragraphs}{more}</td></tr>"
     )

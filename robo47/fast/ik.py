@@ -25,7 +25,7 @@ from robo47.fast.walk import STOP, Patience, walk
 from robo47.rotation_log import pose_error
 from robo47.screws import fk_space
 
-REACHED = 1e-8  # the length of the pose error (radians and metres) of a solution
+REACHED = 1e-8  # the norm of the pose error (radians and metres) of a solution
 # Targets at once. Their table of distances to DRAWN poses is the largest array, 8 MB.
 # Of 4,096 it would be 33 MB, for a third less time (measured).
 CHUNK = 1024
@@ -66,22 +66,22 @@ def solve_ik(
 ) -> Array:
     """Return joint angles that bring the end effector to each target.
 
-    The first try starts at q_start, later ones at seeded random configurations; the
-    same call gives the same answer. `reached` says which targets were. A start that
-    reaches its target comes back unchanged.
+    This is inverse kinematics by damped least squares. The first trial starts at
+    q_start and later trials at seeded random configurations, so the same call returns
+    the same result. `reached` returns which targets were reached. A start that is at
+    its target is returned unchanged.
 
     Args:
         screws: space screws (omega; v) of one arm, (n, 6).
         M_home: `T_world_ee` at q = 0, (4, 4).
         T_goal: targets, `T_world_ee`, (..., 4, 4).
-        q_start: where to start, radians (metres for slides), (..., n); what is outside
-            the limits is brought to the nearest limit first.
-        limits: lowest and highest value of each joint, (n, 2).
+        q_start: start, radians (metres for slides), (..., n), which is clamped to the
+            limits first.
+        limits: lower and upper limit of each joint, (n, 2).
 
     Returns:
-        q, (..., n), always within the limits. For a target that nobody reached, an
-        unreachable one among them, the best that was found: where the length of
-        `pose_error` was smallest.
+        q, (..., n), always within the limits. For a target that no trial reaches, such
+        as one out of reach, the q with the smallest norm of `pose_error`.
 
     Raises:
         ValueError: wrong shape, a non-finite number, no screw, not a pose, or a lower
@@ -111,7 +111,7 @@ def reached(
         q: what `solve_ik` returned, (..., n).
 
     Returns:
-        True where the pose error (radians and metres) is shorter than 1e-8, (...).
+        True where the norm of the pose error (radians, metres) is below 1e-8, (...).
 
     Raises:
         ValueError: as `solve_ik`.

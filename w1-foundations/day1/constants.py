@@ -68,7 +68,7 @@ def by_hand(trials=100, seed=LAB.SEED, metre=1.0, gravity=1.0):
     "position error with quaternions read as (x, y, z, w)", "{:.2f} m",
     metre=times(2.0, "the same wrong rotations, of links that are twice as long"),
     quat=same("a quaternion is normalised before it is used"),
-    base=same("link0 and link1 are both upside down, so joint 1 is vertical again",
+    base=same("link0 and link1 are both upside down, so the axis of joint 1 is vertical again",
               to=1.0),
 )  # fmt: skip
 def wrong_quat(metre=1.0, quat=1.0, base=0.0):
@@ -92,11 +92,11 @@ def apart(angle, step, metre, base):
 
 @numbers.add(
     "distance between the two products", "{:.4f} m",
-    step=between(1.1, 1.7, "twice 0.2 m along x, at an angle to the chord"),
-    angle=between(1.2, 1.5, "the chord is 1.85 times as long, the translation as long "
-                  "as before"),
-    metre=between(1.5, 2.0, "the chord is twice as long, the translation as long as "
-                  "before"),
+    step=between(1.1, 1.7, "both translations are twice as long, at an angle to the chord"),
+    angle=between(1.2, 1.5, "the chord is 1.85 times as long, the translation does "
+                  "not change"),
+    metre=between(1.5, 2.0, "the chord is twice as long, the translation does not "
+                  "change"),
     base=between(0.5, 2.0, "the tool's x axis is no longer opposite to the world's",
                  to=1.0),
 )  # fmt: skip
@@ -106,10 +106,10 @@ def order(angle=45.0, step=0.1, metre=1.0, base=0.0):
 
 
 @numbers.add(
-    "the same without the rotation", "{:.4f} m",
+    "distance between the products without the rotation", "{:.4f} m",
     step=times(2.0, "one translation is forwards and one is backwards"),
     metre=same("without the rotation the position of the hand cancels"),
-    base=times(np.cos(0.5), "the two are no longer opposite: 0.2 m cos(q1 / 2)",
+    base=times(np.cos(0.5), "the two translations are no longer opposite: the distance is 0.2 m cos(q1 / 2)",
                to=1.0),
 )  # fmt: skip
 def no_turn(step=0.1, metre=1.0, base=0.0):
@@ -118,7 +118,7 @@ def no_turn(step=0.1, metre=1.0, base=0.0):
 
 
 @numbers.add(
-    "the same without the translation", "{:.4f} m",
+    "distance between the products without the translation", "{:.4f} m",
     angle=times(np.sin(np.pi / 4) / np.sin(np.pi / 8),
                 "the length of the chord is 2 r sin(angle / 2)"),
     metre=times(2.0, "r is the distance of the hand from the axis of the base"),

@@ -35,8 +35,12 @@ def order() -> Image.Image:
     left = _after(T_world_ee, "T_extra @ T_world_ee", T_EXTRA, "link0")
     right = _after(T_world_ee, "T_world_ee @ T_extra", T_world_step, "hand")
     return sheet.side_by_side(
-        (left, "T_extra on the left", "the whole arm turns and moves, in world axes"),
-        (right, "T_extra on the right", "the tool steps and turns, in its own axes"),
+        (
+            left,
+            "T_extra on the left",
+            "the arm rotates and moves, in the world frame",
+        ),
+        (right, "T_extra on the right", "the tool moves and rotates, in its own frame"),
     )
 
 

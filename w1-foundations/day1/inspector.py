@@ -17,7 +17,7 @@ from labkit.inspector.tab import Tab
 from robo47 import se3
 from robo47.checks import Array
 
-# From the world outwards: each body, and the joint that turns it.
+# From the world outwards: each body, and the joint that moves it.
 LINKS = (("link0", None), *((f"link{i}", f"joint{i}") for i in range(1, 8)))
 # The kit's, under the names of the lab's functions.
 LIBRARY = {
@@ -91,7 +91,7 @@ class Chain(common_tabs.Chain):
 
 
 class Order(Tab):
-    """T_extra on either side: the tool steps, or the whole arm is moved."""
+    """T_extra on either side: the tool moves, or the whole arm moves."""
 
     title = "Order"
 
@@ -103,8 +103,8 @@ class Order(Tab):
         self.x = 0.1
         self.own = page.own(LIBRARY, units=UNITS)
         page.choice("T_extra", [BOTH, RIGHT, LEFT], self.sets("side"))
-        page.slider("turn about z", -np.pi, np.pi, self.angle, self.sets("angle"))
-        page.slider("move along x", -0.3, 0.3, self.x, self.sets("x"), unit="m")
+        page.slider("rotation about z", -np.pi, np.pi, self.angle, self.sets("angle"))
+        page.slider("translation along x", -0.3, 0.3, self.x, self.sets("x"), unit="m")
         self.result = page.html()
         self.arm = page.draw.ghost("purple")
         self.right = page.draw.frame("T_world_ee @ T_extra")
@@ -114,7 +114,7 @@ class Order(Tab):
         self.predicted = page.html()
         page.legend({
             "T_extra on the left moves the whole arm": "purple",
-            "to where your translations_both_orders puts the ends": "orange",
+            "from the hand to the positions that your function returns": "orange",
         })  # fmt: skip
 
     def on_move(self, q: Array) -> None:
@@ -148,9 +148,9 @@ class Order(Tab):
         apart = float(np.linalg.norm(right[:3, 3] - left[:3, 3]))
         T, name = (left, "left") if self.side == LEFT else (right, "right")
         says = {
-            RIGHT: "On the right: the tool steps along its own axes.",
-            LEFT: "On the left: the whole arm is turned and moved (purple).",
-            BOTH: f"The same two factors end {apart:.4f} m apart.",
+            RIGHT: "On the right: the tool moves along its own axes.",
+            LEFT: "On the left: the whole arm rotates and moves (purple).",
+            BOTH: f"The distance between the two positions is {apart:.4f} m.",
         }
         self.page.matrix(self.result, f"T_extra on the {name}", T)
         self.page.say(says[self.side])
@@ -160,7 +160,7 @@ class Order(Tab):
         ]
         told = " and ".join(f"{1000 * mm:.1f} mm" for mm in off)
         kind = "good" if max(off) < AGREES else "bad"
-        text = f"your translations_both_orders is {told} off, for right and left"
+        text = f"errors of your translations_both_orders: {told}, right and left"
         self.predicted.content = words.line(text, "predicted", kind)
 
     def lost(self) -> None:

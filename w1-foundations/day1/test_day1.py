@@ -54,7 +54,7 @@ def test_quaternions_in_another_order_make_a_rigid_but_wrong_pose(monkeypatch, t
     assert f"as (x, y, z, w), and the hand is {off:.2f} m off in the ready" in GUIDE
     assert_same(wrong @ lab.inverse(wrong), np.eye(4), 1e-10)
     assert se3.is_pose(wrong)
-    assert "They also hold for the pose with (x, y, z, w)" in GUIDE
+    assert "They also pass for the wrong pose with (x, y, z, w)" in GUIDE
 
 
 @pytest.mark.parametrize(("degrees", "step"), [(45, 0.1), (0, 0.1), (45, 0.0)])
@@ -79,6 +79,48 @@ def test_a_transposed_rotation_looks_right_at_ready_and_zero_only(twin):
     assert off[:2].max() < 1e-8
     assert 1.9 < off[2:].max() <= 2.0
     assert "At random configurations its entries are off by up to 2" in GUIDE
+
+
+@pytest.mark.parametrize(("unit", "largest"), [(1.0, 1e-14), (1000.0, 1e-11)])
+def test_the_rounding_errors_grow_with_the_numbers(unit, largest, twin):
+    """For the seed of the lab and another one: the cause is the size of a length."""
+    model = panda.load("panda_nohand")
+    model.body_pos[:] *= unit
+    for seed in (lab.SEED, 1):
+        errors = lab.own_errors(model, verify.random_q(model, 100, seed))
+        assert largest / 100 < errors.max() < largest
+    assert "with all lengths in millimetres it is about 1e-12" in GUIDE
+
+
+def test_only_joints_1_to_3_move_the_origin_of_link4(twin):
+    model = panda.load("panda_nohand")
+    for q in (panda.READY_Q, np.zeros(7), *verify.random_q(model, 5, 1)):
+        turned = [lab.link4_to_world(model, q + 0.3 * one) for one in np.eye(7)]
+        moved = np.array(turned) - lab.link4_to_world(model, q)
+        assert (np.linalg.norm(moved[:3, :3, 3], axis=1) > 1e-3).all()
+        assert_same(moved[3:, :3, 3], np.zeros((4, 3)), 1e-12)
+        assert np.abs(moved[3, :3, :3]).max() > 0.1
+        assert_same(moved[4:], np.zeros((3, 4, 4)), 1e-12)
+    assert "it changes with joints 1 to 3." in GUIDE
+
+
+def test_a_swap_of_two_factors_moves_the_hand_usually_and_not_always(twin):
+    """At ready eight pairs of neighbours commute: some rotate about one axis."""
+    model = panda.load("panda_nohand")
+    factors = []
+    for name, joint in lab.PATH:
+        body = model.body(name)
+        factors.append(lab.link_T(body.pos, body.quat))
+        if joint:
+            angle = panda.READY_Q[model.joint(joint).qposadr[0]]
+            factors.append(lab.joint_T(angle))
+    right = lab.compose_fk(model, panda.READY_Q)
+    moves = []
+    for i in range(len(factors) - 1):
+        order = [*factors[:i], factors[i + 1], factors[i], *factors[i + 2 :]]
+        moves.append(np.abs(np.linalg.multi_dot(order) - right).max() > 1e-9)
+    assert (len(factors), sum(moves)) == (16, 7)
+    assert "If you swap two of them, you usually arrive at a different" in GUIDE
 
 
 @pytest.mark.parametrize("told", [0.0, 1.0])

@@ -83,7 +83,7 @@ def forgotten(metre=1.0, times_v=0.0, seed=LAB.SEED, n=20):
 
 @numbers.add(
     "position error at random q with (v; omega)", "{:.1f} mm",
-    metre=between(2.2, 8.0, "more than twice: the axis omega contains metres"),
+    metre=between(2.2, 8.0, "more than twice, because the swapped omega is a length"),
     seed=between(0.7, 1.4, "twenty other random configurations", to=48),
 )  # fmt: skip
 def halves(metre=1.0, seed=LAB.SEED):
@@ -161,8 +161,8 @@ def without_flange(metre=1.0, seed=47, n=20, flange=0.107):
 @numbers.add(
     "rank of the seven screws of q = 0", "{:.0f}",
     metre=same("the rank does not depend on the unit of length"),
-    raised=same("the same seven lines, expressed relative to another origin", to=0.333),
-    q=between(1.2, 1.2, "at ready joints 1, 3 and 5 are three different lines", to=1.0),
+    raised=same("the same seven lines, relative to another origin", to=0.333),
+    q=between(1.2, 1.2, "in the ready configuration the axes of joints 1, 3 and 5 differ", to=1.0),
 )  # fmt: skip
 def rank(metre=1.0, raised=0.0, q=0.0):
     """Return it."""

@@ -1,4 +1,4 @@
-"""The film of Day 2, recorded by the site: one screw after the other turns."""
+"""The film of Day 2, recorded by the site: one screw motion after the other."""
 
 import numpy as np
 from day2_screws import READY_Q, fk_space, joint_screws
@@ -29,7 +29,7 @@ def screws() -> Recording:
         film.pose(q)
         end.place(fk_space(S, M_home, q))
         lit.points = axes[i : i + 1].astype(np.float32)
-        film.say(f"screw {i + 1}: e^[S{i + 1}] q{i + 1} moves all outside it", OVER)
+        film.say(f"screw {i + 1}: e^[S{i + 1}] q{i + 1} moves all distal to it", OVER)
         film.wait()
     return film
 

@@ -102,9 +102,9 @@ class Screws(Tab):
         self.spin(False)
         page.light(END, {END})
         page.legend({
-            "your arm, as far as it is applied": "purple",
-            "the screw at work": "orange", "your others": "grey",
-            "YOURS, wrong": "red", "the library's": "black",
+            "your arm, after these exponentials": "purple",
+            "the present screw": "orange", "your other screws": "grey",
+            "your screws, wrong": "red", "the library's screws": "black",
         })  # fmt: skip
 
     def _ends(self, i: int) -> Array:
@@ -183,7 +183,7 @@ class Screws(Tab):
         self.numbers.content = words.line(
             f"S{i + 1} = ({_numbers(self.S[i, :3])}; {_numbers(self.S[i, 3:])}), "
             f"q{i + 1} = {part.angle:.4f} rad. e^[S{i + 1}] q{i + 1} moves everything "
-            "outside its line.",
+            "distal to its axis.",
             "screw",
             "" if np.abs(self.S[i] - self.truth[i]).max() < SAME else "bad",
         )
@@ -206,7 +206,9 @@ class Screws(Tab):
         names = [f"e^[S{i}]" for i in range(JOINTS - int(done) + 1, JOINTS + 1)]
         product = " ".join([*names, "M"])
         gap = np.linalg.norm(hand[:3, 3] - self.page.pose(END)[:3, 3])
-        says = f"Applied: {product}. Your hand is {1000 * gap:.0f} mm short of q."
+        says = (
+            f"Applied: {product}. Your hand is {1000 * gap:.0f} mm from its pose at q."
+        )
         late = done == JOINTS and gap > 1e-6
         self.page.say(says, "good" if gap < 1e-6 else "bad" if late else "")
 
@@ -219,7 +221,7 @@ class Screws(Tab):
         return words.line(
             f"Franka's row {i + 1}: alpha {np.degrees(alpha):.0f} deg, a {a:g} m, "
             f"d {d:g} m. The file's link{i + 1}: pos ({_numbers(body.pos)}), quat "
-            f"({_numbers(body.quat)}). Your dh_link's pose and that differ by "
+            f"({_numbers(body.quat)}). Your dh_link's pose differs by "
             f"{apart:.0e}.",
             "dh",
             "" if apart < SAME else "bad",
@@ -259,7 +261,7 @@ class Screws(Tab):
         p = right(FRANKA, q[:JOINTS])[-1, :3, 3]
         self.flange.position = flange[:3, 3]
         off = float(np.linalg.norm(flange[:3, 3] - p))
-        says = f"your dh_fk, the ball: {1000 * off:.0f} mm"
+        says = f"your dh_fk, the sphere: {1000 * off:.0f} mm"
         lines.append(words.line(says, "dh_fk", "good" if off < SAME else "bad"))
         self.legend.content = "".join(lines)
 

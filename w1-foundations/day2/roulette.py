@@ -8,7 +8,7 @@ from robo47.checks import Array
 
 from .dh_link import in_order
 
-OTHER = "zZXx"  # the other convention's order: turn and move along z, then along x
+OTHER = "zZXx"  # the other convention's order: z before x
 
 
 def _arm(table: Array, q: Array, order: str = "xXzZ") -> Array:

@@ -73,7 +73,7 @@ def test_what_is_wrong_on_purpose_is_right_at_zero_and_far_off_elsewhere(arm):
     for what, fk in lab.on_purpose(S, M).items():
         mm, _ = off(np.array([fk(x) for x in q]), truth)
         measured[what] = (mm[0], mm[1], np.median(mm[2:]))
-    assert_same(measured.pop("nothing"), [0, 0, 0], 1e-10)
+    assert_same(measured.pop("no mistake"), [0, 0, 0], 1e-10)
     constant = measured.pop("M of the ready pose")
     assert_same(constant, [400.85] * 3, 0.005)
     for zero, ready, random in measured.values():
@@ -228,11 +228,85 @@ def test_the_readings_of_one_table_are_as_far_off_as_the_guide_says(either_panda
     found = ROULETTE.distances(lab.FRANKA_DH, q).values()
     medians = [round(1000 * float(np.median(x))) for x in found]
     assert medians == [885, 755, 733, 107, 0]
-    table = GUIDE.partition("| who reads it")[2].partition("## Step 7")[0]
+    table = GUIDE.partition("| reading of the table")[2].partition("## Step 7")[0]
     assert [int(n) for n in re.findall(r"\| (\d+) mm \|", table)] == medians
     *_, early, right = list(found)
     assert np.ptp(1000 * early) < 1e-9
     assert_same(right, np.zeros(20), 0.0)
+
+
+def medians(made, seeds=range(12)):
+    """Return the smallest and the largest median over other random configurations."""
+    model = panda.load("panda_nohand")
+    found = [np.median(made(verify.random_q(model, 20, seed))) for seed in seeds]
+    return min(found), max(found)
+
+
+def test_the_medians_of_twelve_other_seeds_are_those_of_the_guide(arm):
+    S, M, _ = arm
+
+    def adjoint_of_M(R, part):
+        tilted = M @ se3.make_T(R, np.zeros(3))
+        B = S @ screws.adjoint(tilted).T
+
+        def error(q):
+            right = screws.fk_space(S, tilted, q)
+            return off(screws.fk_body(B, tilted, q), right)[part]
+
+        return "{:.0f} to {:.0f}".format(*medians(error))
+
+    tilt = se3.Rx(0.3)
+    assert f"seeds the median is {adjoint_of_M(np.eye(3), 0)} mm." in GUIDE
+    mm, deg = (adjoint_of_M(tilt, part) for part in (0, 1))
+    assert f"seeds the medians are {deg} degrees and {mm} mm." in GUIDE
+    readings = [
+        medians(lambda q, name=name: 1000 * ROULETTE.distances(lab.FRANKA_DH, q)[name])
+        for name in list(ROULETTE.READINGS)[:3]
+    ]
+    first, second, third = (f"{low:.0f} to {high:.0f}" for low, high in readings)
+    assert f"medians are {first}, {second} and {third} mm." in GUIDE
+
+
+@pytest.mark.parametrize("row", range(8))
+@pytest.mark.parametrize("column", [1, 2], ids=["a", "d"])
+def test_a_wrong_length_of_any_link_gives_the_same_distance_everywhere(row, column):
+    """So a constant distance is no proof that the tool is wrong."""
+    q = verify.random_q(panda.load("panda_nohand"), 20, seed=48)
+    table = lab.FRANKA_DH.copy()
+    table[row, column] += 0.05
+    right = screws.dh_fk(lab.FRANKA_DH, q)
+    error = screws.dh_fk(table, q)[:, :3, 3] - right[:, :3, 3]
+    assert_same(1000 * np.linalg.norm(error, axis=1), np.full(20, 50.0), 1e-9)
+    in_the_hand = (np.swapaxes(right[:, :3, :3], 1, 2) @ error[:, :, None])[..., 0]
+    constant = np.ptp(in_the_hand, axis=0).max() < 1e-9
+    assert constant == ((row, column) in {(7, 1), (7, 2), (6, 2)})
+    assert "It is 50.0 mm at every configuration, for *every* row." in GUIDE
+
+
+def test_a_shifted_base_is_constant_in_the_world_and_a_wrong_angle_nowhere(arm):
+    S, M, _ = arm
+    q = verify.random_q(panda.load("panda_nohand"), 50, seed=5)
+    right = screws.fk_space(S, M, q)
+    base = se3.make_T(np.eye(3), [0.1, 0.0, 0.0]) @ right
+    assert np.ptp(base[:, :3, 3] - right[:, :3, 3], axis=0).max() < 1e-12
+    mm, _ = off(screws.fk_space(S, M, q + 0.05 * np.eye(7)[3]), right)
+    assert f"0.05 rad give between {mm.min():.1f} and {mm.max():.1f} mm." in GUIDE
+    mm, _ = off(screws.fk_space(S, M, q + 0.05 * np.eye(7)[5]), right)
+    assert np.ptp(mm) < 1e-9
+    assert f"For joint 6 it is {mm[0]:.1f} mm everywhere" in GUIDE
+
+
+@pytest.mark.parametrize(("joint", "rank"), [(None, 5), (0, 5), (1, 6), (2, 5)])
+def test_the_lost_motion_comes_back_when_the_three_lines_part(arm, joint, rank):
+    """Joint 2 alone moves lines 3 and 5 away from line 1; 1 and 3 move none of them."""
+    S, _, _ = arm
+    q = np.zeros(7) if joint is None else 0.3 * np.eye(7)[joint]
+    moved = [
+        screws.adjoint(screws.fk_space(S[:i], np.eye(4), q[:i])) @ S[i]
+        for i in range(1, 7)
+    ]
+    found = np.linalg.matrix_rank([S[0], *moved], tol=1e-9)
+    assert found == rank
 
 
 def test_the_files_rounded_quaternion_is_not_quite_135_degrees(either_panda):
@@ -312,13 +386,13 @@ def test_the_tab_applies_one_exponential_at_a_time():
         tab.press(inspector.NEXT)
     assert "Applied: e^[S5] e^[S6] e^[S7] M." in page.say.call_args.args[0]
     tab.press(inspector.WHOLE)
-    assert page.say.call_args.args[0].endswith("Your hand is 0 mm short of q.")
+    assert page.say.call_args.args[0].endswith("Your hand is 0 mm from its pose at q.")
     assert tab.own.says()[1] == "good"
     tab.press(inspector.BACK)
     assert "Applied: e^[S2]" in page.say.call_args.args[0]
     tab.spin(True)
     assert tab.legend.content.count(" mm, ") == 5
-    assert "your dh_fk, the ball: 0 mm" in tab.legend.content
+    assert "your dh_fk, the sphere: 0 mm" in tab.legend.content
     questions = inspector.GHOST.questions(model, page.q)
     assert len(questions) == len(inspector.GHOST.frames) == 8
     for args, name in zip(questions, inspector.GHOST.frames, strict=True):

@@ -1,9 +1,8 @@
 """The tab Circle of Day 3: two arms draw one circle, one of them without damping.
 
-The slider turns the radius. With 0.36 m both arms draw the same circle; the top of one
-of 0.38 m is out of reach, and there the plain pseudo-inverse asks for more speed than
-there is.
-Both go by the student's own `pose_error` and `dls_step`.
+The slider changes the radius. With 0.36 m both arms draw the same circle; the top of a
+circle of 0.38 m is out of reach, and there the plain pseudo-inverse exceeds the joints'
+speed limits. Both use the student's own `pose_error` and `dls_step`.
 """
 
 import numpy as np
@@ -53,7 +52,7 @@ class Pen:
 
 
 class Circle(Tab):
-    """A circle that leaves the reach, with damping and without."""
+    """A circle that leaves the workspace, with damping and without."""
 
     title = "Circle"
     wide = True
@@ -69,7 +68,7 @@ class Circle(Tab):
         page.slider("radius", 0.3, 0.4, RADIUS, self.turn, unit="m", step=0.005)
         page.buttons([DRAW, AGAIN], self.press)
         self.numbers = page.html()
-        title = "fastest joint so far, in parts of its limit"
+        title = "fastest joint so far, as a fraction of its limit"
         self.bars = page.bars(NAMES, 1.0, "", title, "up")
         self.loop = page.animate(self.step, 1 / DT, work=self.draw)
         page.hide_arm()
@@ -139,7 +138,7 @@ class Circle(Tab):
             line.points = joined([*pen.path[:1], *pen.path])
         self.bars.show([max(pen.rate) for pen in self.pens])
         told = "; ".join(
-            f"{name} {pen.off[-1]:.1f} mm off, at most {max(pen.off):.1f}"
+            f"{name} {pen.off[-1]:.1f} mm off, largest {max(pen.off):.1f}"
             for name, pen in zip(NAMES, self.pens, strict=True)
         )
         says = f"radius {self.radius:g} m, {self.steps * DT:.1f} s: {told}"

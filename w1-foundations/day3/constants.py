@@ -54,8 +54,8 @@ def site(q, metre=1.0):
 
 @numbers.add(
     "joint 2's torque, pushing down with 10 N", "{:.2f} N m",
-    force=times(2.0, "force times lever arm"),
-    metre=times(2.0, "force times lever arm"),
+    force=times(2.0, "the torque is the force times the lever arm"),
+    metre=times(2.0, "the torque is the force times the lever arm"),
     base=same("joint 1 rotates the hand and the axis of joint 2 together", to=1.0),
 )  # fmt: skip
 def pushing(force=10.0, metre=1.0, base=0.0):

@@ -62,9 +62,9 @@ def singularity(figure: Figure) -> None:
     below.set_ylabel("joint speed / limit")
     below.legend(loc="upper right")
     last.plot(time, off, color=BLUE, label=words)
-    last.plot(time, least, color=INK, ls="--", label="best joint angles")
-    last.set(ylabel="off, mm", xlabel="time along the circle, s")
-    last.legend(loc="upper right")
+    last.plot(time, least, color=INK, ls="--", label="smallest possible")
+    last.set(ylabel="position error, mm", xlabel="time along the circle, s")
+    last.legend(loc="upper center")
 
 
 @chart.picture(height=7.6)

@@ -1,4 +1,4 @@
-"""The film of Day 3, recorded by the site: a circle that leaves the reach, twice."""
+"""The film of Day 3, recorded by the site: a circle that leaves the workspace."""
 
 import numpy as np
 from day3_jacobian_ik import DAMPING, DT, RADIUS, draw_circle, fk_space
@@ -13,7 +13,7 @@ WILD = 12.0  # rad/s, of any joint: faster than the eye
 
 
 def singularity() -> Recording:
-    """Return the circle with damping; without it, up to where the joints race."""
+    """Return the circle with damping; without it, until the joints are too fast."""
     model = panda.load("panda_nohand")
     arm = panda.screws(model), panda.home_pose(model)
     limits = model.jnt_range[:7]

@@ -30,7 +30,7 @@ PART, MOST = 20, 0.25  # steps of the elbow; radians that its slider goes at onc
 
 
 class Jacobian(Tab):
-    """Where every joint takes the hand, and where the hand cannot go."""
+    """The velocity of the hand for each joint, and a target for the hand."""
 
     title = "Jacobian"
     wide = True
@@ -63,8 +63,9 @@ class Jacobian(Tab):
         self.target.handle.visible = self.shown = False
         page.light(END, {END})
         page.legend({
-            "column of J: v of the hand": "purple", "YOURS, wrong": "red",
-            "the library's": "black", "how fast it can go": "grey",
+            "column of J: v of the hand": "purple", "your column, wrong": "red",
+            "the library's column": "black",
+            "velocities for joint velocities of norm 1": "grey",
             "your solve_ik": "orange",
         })  # fmt: skip
 
@@ -104,7 +105,7 @@ class Jacobian(Tab):
         says = f"smallest singular value {sigma[-1]:.3f}; manipulability {w:.3f}"
         kind = "bad" if sigma[-1] < NEAR_SINGULAR else ""
         if off.any() or abs(w - jacobian.manipulability(J)) > SAME:
-            says, kind = f"of a J or w that is wrong: {says}", "bad"
+            says, kind = f"your J or manipulability is wrong: {says}", "bad"
         self.least.content = words.line(says, "sigma", kind)
 
     def lost(self) -> None:
@@ -137,10 +138,8 @@ class Jacobian(Tab):
         metres, rad = se3.pose_distance(hand, T_goal)
         out = bool(np.any((q < self.limits[:, 0]) | (q > self.limits[:, 1])))
         kind = "good" if np.hypot(metres, rad) < REACHED and not out else "bad"
-        says = (
-            f"the hand is {1000 * metres:.2f} mm and {rad:.4f} rad short of the target"
-        )
-        says += "; OUT OF LIMITS" if out else ""
+        says = f"the hand is {1000 * metres:.2f} mm and {rad:.4f} rad from the target"
+        says += "; a joint is beyond its limit" if out else ""
         self.numbers.content = words.line(says, "reached", kind)
 
     def swing(self, value: float) -> None:
@@ -166,7 +165,7 @@ class Jacobian(Tab):
         """Move the arm, and say what the hand did meanwhile."""
         q, mm = found
         kind = "good" if mm < 2.0 else "bad"
-        says = f"the elbow swings, the hand has moved by {mm:.2f} mm"
+        says = f"the elbow swings and the hand has moved by {mm:.2f} mm"
         self.numbers.content = words.line(says, "swung", kind)
         self.page.move(q)
 

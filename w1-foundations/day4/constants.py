@@ -105,7 +105,7 @@ def wrong_sign(masses=1.0, metre=1.0, armature=1.0, seed=LAB.SEED):
     damping=same("the arm is at rest"),
 )  # fmt: skip
 def weight(gravity=1.0, masses=1.0, metre=1.0, armature=1.0, damping=1.0):
-    """Return what joint 4 holds."""
+    """Return the gravity torque of joint 4."""
     return held(arm(metre, masses, armature, damping, gravity)[1])[3]
 
 
@@ -174,13 +174,13 @@ def with_M_alone(step=0.002, damping=1.0):
     """Return the worst of 100 motions, with the lab's torques."""
     model, _ = arm(damping=damping, step=step)
     now = DAY.motions(model, LAB.TRIALS, LAB.SEED, LAB.FASTEST, LAB.HARDEST)
-    share = np.random.default_rng(LAB.TRIALS).uniform(-0.5, 0.5, now.q.shape)
-    tau = share * simulate.limits(model)[1]
+    fraction = np.random.default_rng(LAB.TRIALS).uniform(-0.5, 0.5, now.q.shape)
+    tau = fraction * simulate.limits(model)[1]
     qdd, after = LAB.mujoco_forward(model, now, tau)
     return np.abs(now.qd + step * qdd - after).max()
 
 
-def way(missing, seconds, gravity=1.0, damping=1.0, rate=LAB.RATE, step=0.002):
+def displacement(missing, seconds, gravity=1.0, damping=1.0, rate=LAB.RATE, step=0.002):
     """Return the hand's displacement with a fraction of gravity_torque, mm."""
     model, known = arm(gravity=gravity, damping=damping, step=step)
     with turned(LAB, RATE=rate):
@@ -200,7 +200,7 @@ def way(missing, seconds, gravity=1.0, damping=1.0, rate=LAB.RATE, step=0.002):
 def sinks(missing=0.01, seconds=2.0, gravity=1.0, damping=1.0, rate=LAB.RATE,
           step=0.002):  # fmt: skip
     """Return it."""
-    return way(missing, seconds, gravity, damping, rate, step)
+    return displacement(missing, seconds, gravity, damping, rate, step)
 
 
 @numbers.add(
@@ -211,17 +211,17 @@ def sinks(missing=0.01, seconds=2.0, gravity=1.0, damping=1.0, rate=LAB.RATE,
 )  # fmt: skip
 def falls(gravity=1.0, damping=1.0, step=0.002):
     """Return it."""
-    return way(1.0, 0.5, gravity, damping, step=step)
+    return displacement(1.0, 0.5, gravity, damping, step=step)
 
 
 @numbers.add(
     "speed of the hand 4.5 s after the push", "{:.3f} m/s",
-    damping=between(3.5, 5.0, "the decay is exponential, so half the rate leaves far more than twice the speed",
+    damping=between(3.5, 5.0, "a smaller fraction of the speed is lost in every second",
                     to=0.5),
-    push=between(1.5, 3.0, "the initial speed is twice as large"),
+    push=between(1.5, 3.0, "the initial speed is about twice as large"),
     seconds=between(0.05, 0.5, "damping removes a fraction of the speed in every second"),
     gravity=between(0.5, 0.8, "gravity is compensated 20 ms too late, which also slows the hand"),
-    masses=between(1.5, 6.0, "the initial speed is half as large, and it decays more slowly"),
+    masses=between(1.5, 6.0, "the initial speed is lower, but it decays more slowly"),
     rate=between(1.05, 1.25, "gravity is compensated 10 ms too late, instead of 20"),
     step=times(1.0, "a free glide is accurate at either step", within=0.05, to=0.001),
 )  # fmt: skip

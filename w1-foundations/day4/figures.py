@@ -1,8 +1,8 @@
 """The pictures of Day 4, made with the lab's own functions; drawn by `make figures`.
 
-momentum  of a body that turns and flies: what the corners m [c] of its inertia are for
-torques   what each joint's motor spends at three poses: gravity, Coriolis, inertia
-float     the hand's path: let go, on 99 % of gravity, on all of it, and pushed
+momentum  linear and angular momentum of a body: the blocks m [c] of its inertia
+torques   torques of each motor at three poses: gravity, Coriolis, inertia
+float     distance of the hand: let go, on 99 % of gravity, on all of it, and pushed
 """
 
 import numpy as np
@@ -69,7 +69,7 @@ def torques(figure: Figure) -> None:
     for axes, (name, q) in zip(rows, POSES.items(), strict=True):
         _bars(axes, name, q)
     figure.legend(*rows[0].get_legend_handles_labels(), loc="outside upper left")
-    rows[1].set_ylabel("share of the motor's limit, %")
+    rows[1].set_ylabel("fraction of the motor's limit, %")
 
 
 @chart.picture(height=6.6)
@@ -79,7 +79,7 @@ def float_and_push(figure: Figure) -> None:
     arm = panda.arm(model)
     calm = 0 * PUSH
     runs = {
-        "let go, to a limit": (RED, "-", (0.0, (0.5, calm))),
+        "let go, to a joint limit": (RED, "-", (0.0, (0.5, calm))),
         "99 % of gravity_torque": (ORANGE, "-.", (0.99, (2.0, calm))),
         "all of it, pushed for 0.5 s": (BLUE, "--", (1.0, (0.5, PUSH), (4.5, calm))),
         "all of it": (GREEN, "-", (1.0, (5.0, calm))),
@@ -97,7 +97,11 @@ def float_and_push(figure: Figure) -> None:
     axes.text(4.98, 1.6e-6, "limit of float_5s", ha="right", fontsize=chart.SMALL)
     axes.axhline(1e-10, color=RULE, zorder=0)
     axes.text(4.98, 1.6e-10, "size of an atom", ha="right", fontsize=chart.SMALL)
-    axes.set(xlabel="time, s", ylabel="the hand's way, m", ylim=(3e-18, 30))
+    axes.set(
+        xlabel="time, s",
+        ylabel="distance of the hand from its start, m",
+        ylim=(3e-18, 30),
+    )
 
 
 def _parts(q: Array) -> dict[str, tuple[str, Array]]:

@@ -1,9 +1,9 @@
 """Day 4 in the inspector: the tab Forces.
 
-A ball at each link's centre of mass; the student's own torques as bars, with marks
-where they should be; their own M, of their own link_inertias, as coloured cells; and
-the arm in a real simulation: let go, floating on their own gravity torque, or pushed. A
-wrong sign falls.
+The tab shows a sphere at each link's centre of mass, the student's gravity torques as
+bars with marks at the correct values, and the student's mass matrix as coloured cells.
+In a simulation the arm is let go, floats on the student's gravity torque, or is pushed.
+With a wrong sign it falls.
 """
 
 from functools import partial
@@ -25,7 +25,7 @@ BACK = "back"
 FORCE = np.array([0.0, 10.0, 0.0])  # newtons, in the world
 PUSHED = 0.5  # seconds
 HZ, RATE = 25.0, 100.0  # of the picture; of the controller
-HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
+HUGE = 1e4  # N m; with more the simulator reports an instability
 LENGTH = 0.02  # metres of an arrow per newton
 SAME = 1e-6  # kg m2 of an entry of M
 UNITS = {
@@ -35,7 +35,7 @@ UNITS = {
 
 
 class Forces(Tab):
-    """What holds the arm, what it weighs, and what it does when you let go."""
+    """The gravity torques, the mass matrix, and the motion of the arm if released."""
 
     title = "Forces"
     wide = True  # M needs the room of the matrices
@@ -55,18 +55,22 @@ class Forces(Tab):
         self.own = page.own(dynamics, units=UNITS)
         page.buttons([LET_GO, FLOAT, PUSH, BACK], self.press)
         set_share = partial(setattr, self, "share")
-        page.slider("share of your gravity_torque", 0.0, 1.2, 1.0, set_share, unit="")
+        page.slider(
+            "fraction of your gravity_torque", 0.0, 1.2, 1.0, set_share, unit=""
+        )
         self.clock = page.html()
         limits = simulate.limits(self.model)[1]
-        title = "gravity_torque; marked is what holds the arm"
+        title = "gravity_torque; a mark is the torque that holds the arm"
         self.bars = page.bars(panda.ARM_JOINTS, limits, "N m", title)
         self.cells = page.html()
-        radii = 0.03 * np.cbrt(self.rig.masses)  # the volume says what a link weighs
+        radii = 0.03 * np.cbrt(
+            self.rig.masses
+        )  # the volume is proportional to the mass
         self.balls = [page.draw.sphere(np.zeros(3), r, "orange") for r in radii]
         self.arrow = page.draw.arrows(np.zeros((1, 2, 3)), "red", 0.01)
         self.loop = page.animate(self.show_arm, HZ, work=self.advance)
         page.light("ee", {"ee"})
-        page.legend({"centre of mass of a link, its size what it weighs": "orange"})
+        page.legend({"centre of mass of a link; the volume shows the mass": "orange"})
 
     def press(self, name: str) -> None:
         """Start a simulation where the last one began, or go back there."""
@@ -117,7 +121,7 @@ class Forces(Tab):
         self.page.move(self.shown)
         t = self.data.time
         speed = float(np.abs(self.data.qvel[:JOINTS]).max())
-        says = f"t = {t:.1f} s; the fastest joint turns at {speed:.2f} rad/s"
+        says = f"t = {t:.1f} s; largest joint velocity {speed:.2f} rad/s"
         self.clock.content = words.line(says, "clock")
 
     def on_move(self, q: Array) -> None:
@@ -150,8 +154,9 @@ class Forces(Tab):
         self.cells.content = heat_map(M, np.abs(M - right) > SAME)
         heaviest = int(np.argmax(np.abs(needed)))
         self.page.say(
-            f"{panda.ARM_JOINTS[heaviest]} holds most: {needed[heaviest]:.1f} N m. "
-            f"Least eigenvalue of M: {np.linalg.eigvalsh((M + M.T) / 2).min():.3f} "
+            f"Largest torque: {needed[heaviest]:.1f} N m at "
+            f"{panda.ARM_JOINTS[heaviest]}. "
+            f"Smallest eigenvalue of M: {np.linalg.eigvalsh((M + M.T) / 2).min():.3f} "
             "kg m2."
         )
 

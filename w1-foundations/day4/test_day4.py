@@ -29,7 +29,7 @@ def model():
 
 
 def mass_matrices(arm, model):
-    """Return, at the lab's own q, MuJoCo's M and {what is wrong: M}."""
+    """Return, at the lab's own q, MuJoCo's M and {mistake: M}."""
     q = verify.random_q(model, lab.TRIALS - 1, lab.SEED)
     q = np.vstack([panda.READY_Q, q])
     wrong = {}
@@ -58,8 +58,24 @@ def test_a_mass_matrix_with_a_wrong_sign_is_symmetric_and_positive_definite(arm,
     assert 5.0 < off / truth.max() < 6.0  # "over five times"
     least = {what: np.linalg.eigvalsh(one).min() for what, one in wrong.items()}
     caught = [what for what, value in least.items() if value < 0]
-    assert caught == ["m [c] [c]^T forgotten"]
+    assert caught == ["m [c] [c]^T omitted"]
+    values = np.linalg.eigvalsh(wrong[caught[0]])
+    assert (values.min(axis=1) < 0).all()
+    assert "at each of the 100 configurations" in SENTENCES
     assert f"no mass matrix has an eigenvalue of {least[caught[0]]:.3f}" in SENTENCES
+
+
+@pytest.mark.kit
+def test_the_form_finds_the_same_mistake_with_twelve_other_sets(arm, model):
+    factors = []
+    for seed in range(12):
+        at = day4_mujoco.motions(model, 100, seed, 1.0, 1.0)
+        truth = verify.mujoco_mass_matrix(model, at.q)
+        found = day4_mujoco.wrong_masses(lab.link_inertias, lab.mass_matrix, at, truth)
+        assert [k for k, v in found.items() if v.least < 0] == ["m [c] [c]^T omitted"]
+        factors.append(found["m [c] with the wrong sign"].off / truth.max())
+    assert 5.2 < min(factors) < max(factors) < 5.6
+    assert "the factor is 5.2 to 5.6" in SENTENCES
 
 
 def test_the_wrong_sign_is_an_arm_with_its_masses_at_minus_c(arm):
@@ -139,6 +155,12 @@ def test_two_coriolis_matrices_give_one_torque_and_one_of_them_a_skew_rest(arm):
         assert abs(power) < 1e-12
     assert rows[0][2] < 1e-12
     assert f"symmetric part of up to {rows[1][2]:.2f} kg m²/s" in SENTENCES
+    # The error of the torque belongs to the differences, not to rounding.
+    rows.clear()
+    for h in ("1e-3", "1e-4"):
+        exec(code.replace("1e-5", h), {**space, "print": lambda *new: rows.append(new)})
+    assert rows[0][0] / rows[2][0] == pytest.approx(100, rel=0.05)
+    assert "a hundred times the error with h = 1e-4" in SENTENCES
 
 
 def test_M_plus_h_D_belongs_to_a_step_that_brakes_at_its_end(arm):
@@ -196,6 +218,17 @@ def test_the_integrator_loses_energy_in_proportion_to_its_step():
     first, half = (day4_mujoco.swing("IMPLICITFAST", step) for step in (0.002, 0.001))
     assert 1.8 < first / half < 2.2
     assert abs(day4_mujoco.swing("RK4", 0.002)) < 1e-6 * abs(first)
+
+
+@pytest.mark.kit
+def test_from_most_starts_the_integrator_gains_energy_and_RK4_hardly_changes_it(model):
+    gains = []
+    for q in verify.random_q(model, 12, seed=1):
+        gains.append(day4_mujoco.swing("IMPLICITFAST", 0.002, q))
+        exact = day4_mujoco.swing("RK4", 0.002, q)
+        assert abs(exact) < 1e-5 * abs(gains[-1])
+    assert sum(gain > 0 for gain in gains) > 8  # measured 11 of 12
+    assert "(over 100,000 times from twelve starts)" in SENTENCES
 
 
 def test_the_script_runs_as_a_person_runs_it(monkeypatch, capsys):

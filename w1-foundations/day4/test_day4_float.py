@@ -40,8 +40,8 @@ def test_gravity_at_ready_and_what_the_arm_weighs(arm):
 def test_the_arm_floats_and_falls_as_the_guide_says(arm, model):
     calm = 0 * lab.PUSH
 
-    def moved(share, seconds):
-        path = lab.let_go(model, arm, share, (seconds, calm))
+    def moved(fraction, seconds):
+        path = lab.let_go(model, arm, fraction, (seconds, calm))
         return np.linalg.norm(path[-1] - path[0])
 
     after = "after half a second the hand is"
@@ -100,6 +100,57 @@ def test_half_the_damping_leaves_four_times_the_speed_as_the_guide_answers(arm):
         assert says in SENTENCES
 
 
+@pytest.mark.kit
+def test_the_limit_of_joint_2_takes_energy_out_of_the_glide(arm):
+    speeds = []
+    for share in (0.5, 0.25):
+        model = panda.load("panda_nohand", drive="torque")
+        model.dof_damping[:] *= share
+        q = pushed(model, arm, lab.RATE)[:, 1:2]  # of joint 2
+        assert beyond(model.jnt_range[1:2], q) > 0
+        model.jnt_limited[:] = 0
+        path = lab.let_go(model, arm, 1.0, (0.5, lab.PUSH), (4.5, 0 * lab.PUSH))
+        speeds.append(np.linalg.norm(path[-1] - path[-2]) * lab.RATE)
+    says = (
+        f"without joint limits the two speeds are {speeds[0]:.3f} and {speeds[1]:.3f}"
+    )
+    assert says in SENTENCES
+
+
+def pushed(model, arm, rate):
+    """Return the joint angles of the float that is pushed, (n, 7)."""
+    law = lambda t, q, qd: arm.at(q).gravity_torque  # noqa: E731
+    push = simulate.push_at("attachment_site", np.append(np.zeros(3), lab.PUSH))
+    data = simulate.start(model, panda.READY_Q)
+    runs = [simulate.run(model, data, law, seconds, rate=rate, push=given)
+            for seconds, given in ((0.5, push), (4.5, None))]  # fmt: skip
+    return np.vstack([run.q for run in runs])
+
+
+@pytest.mark.kit
+def test_without_gravity_the_rate_of_the_torque_does_not_matter(monkeypatch):
+    model = panda.load("panda_nohand", drive="torque")
+    model.opt.gravity[:] = 0
+    arm = panda.arm(model)
+    ends = []
+    for rate in (50.0, 500.0):
+        monkeypatch.setattr(lab, "RATE", rate)
+        path = lab.let_go(model, arm, 1.0, (0.5, lab.PUSH), (4.5, 0 * lab.PUSH))
+        ends.append(f"{np.linalg.norm(path[-1] - path[-2]) * rate:.3f}")
+    assert ends[0] == ends[1]
+    assert f"it does not: {ends[0]} m/s at both rates" in SENTENCES
+
+
+@pytest.mark.kit
+def test_the_arm_floats_in_twelve_random_configurations_as_well(arm, model):
+    law = lambda t, q, qd: arm.at(q).gravity_torque  # noqa: E731
+    for q in verify.random_q(model, 12, seed=5):
+        run = simulate.run(model, simulate.start(model, q), law, 5.0, rate=lab.RATE)
+        ends = [arm.at(x).T_world_ee[:3, 3] for x in (q, run.q[-1])]
+        assert np.linalg.norm(ends[1] - ends[0]) < 1e-12
+    assert "in this configuration and in twelve random ones" in SENTENCES
+
+
 @pytest.fixture(scope="module")
 def lyapunov():
     """Return the guide's: V at first, its largest rise in a step, V at last."""
@@ -125,8 +176,41 @@ def test_with_dampers_and_gravity_compensation_V_falls_in_every_step(lyapunov):
 def test_without_its_causes_V_rises(lyapunov):
     _, rise, last = lyapunov(100, 20, 0)
     assert rise > 1e-3
-    assert f"ends at {last:.2f} J" in SENTENCES
+    assert f"ends at {last:.2f} J, from this start and from six random" in SENTENCES
     assert lyapunov(100, -3, 1)[1] > 1.0
+
+
+@pytest.mark.kit
+def test_from_other_starts_V_ends_at_the_same_value_and_need_not_rise(arm):
+    code = re.search(r"```python\n(def lyapunov.*?)\nfor k", GUIDE, re.S)[1]
+    start = "0.3 * np.array([1, -1, 1, 1, -1, 1, -1])"
+    assert start in code
+    rises = []
+    for seed in range(6):
+        other = np.random.default_rng(seed).uniform(-0.4, 0.4, 7)
+        model = panda.load("panda_nohand", drive="torque")
+        space = {**vars(lab), "model": model, "arm": arm, "other": other}
+        exec(code.replace(start, "other"), space)
+        assert space["lyapunov"](100, 20, 1)[1] < 0.0
+        _, rise, last = space["lyapunov"](100, 20, 0)
+        assert last == pytest.approx(1.8755, abs=0.001)
+        rises.append(rise > 0)
+    assert {*rises} == {True, False}
+
+
+@pytest.mark.kit
+def test_V_rises_if_the_motors_saturate_and_falls_without_their_limits(arm):
+    code = re.search(r"```python\n(def lyapunov.*?)\nfor k", GUIDE, re.S)[1]
+    rises = []
+    for limited in (True, False):
+        model = panda.load("panda_nohand", drive="torque")
+        if not limited:
+            model.actuator_forcelimited[:] = model.actuator_ctrllimited[:] = 0
+        space = {**vars(lab), "model": model, "arm": arm}
+        exec(code, space)
+        rises.append(space["lyapunov"](1000, 20, 1)[1])
+    assert rises[0] > 0.1
+    assert rises[1] < 0.0
 
 
 def test_the_power_of_the_dampers_is_what_V_loses_only_with_the_rate_of_M(arm):

@@ -24,8 +24,8 @@ numbers = Numbers(
     integrator="INTEGRATOR: {}",
     e0="E0, the first error: × {}",
     omega="omega: {} rad/s",
-    reach="REACH: × {}",
-    seconds="the swing takes {} s",
+    reach="REACH, the amplitudes: × {}",
+    seconds="duration of the motion: {} s",
     damping="damping of the joints: × {}",
     mass="mass that the model omits: × {}",
     servo_kd="kd of the servos: × {}",
@@ -47,7 +47,7 @@ def bench(step=0.002, integrator=LAB.INTEGRATOR, gravity=1.0, damping=1.0, mass=
 
 
 @numbers.add(
-    "joint 4 hangs low on springs by", "{:.3f} mrad",
+    "joint 4 hangs low under PD control by", "{:.3f} mrad",
     kp=between(0.45, 0.5, "half, and a little less, because the gravity torque changes with q"),
     kd=same("the arm is at rest"),
     gravity=between(1.8, 2.2, "about twice, because the gravity torque changes with q"),
@@ -115,7 +115,7 @@ def follows(law, rate, reach, seconds, **how):
 
 
 @numbers.add(
-    "gains outside M miss their curve by", "{:.3f} of e0",
+    "gains outside M: distance from the predicted curve", "{:.3f} of e0",
     rate=between(0.95, 1.02, "the held torque is a small part of the error"),
     e0=between(0.8, 1.0, "M changes more in a larger motion, so this law is not linear"),
     omega=between(0.5, 2.0, "both gains grow, and the wrist stays overdamped"),
@@ -128,7 +128,7 @@ def outside(rate=LAB.RATE, e0=1.0, omega=LAB.OMEGA):
 
 
 @numbers.add(
-    "computed torque follows the swing within", "{:.2f} mrad",
+    "largest error of computed torque in step 4", "{:.2f} mrad",
     omega=between(0.45, 0.6, "the disturbance is the same, and kd is twice as large"),
     rate=between(0.95, 1.1, "the held torque is the smaller part of the error"),
     step=between(0.5, 0.7, "the simulator's step causes the larger part", to=0.001),
@@ -153,7 +153,7 @@ def tracks(omega=LAB.OMEGA, rate=LAB.RATE, reach=1.0, seconds=2.0, damping=1.0,
 
 
 @numbers.add(
-    "the model at the measured state, without springs", "{:.2f} mrad",
+    "the same for the model at the measured state, without PD terms", "{:.2f} mrad",
     rate=between(0.4, 0.5, "half the period gives less than half the error"),
     gravity=between(1.05, 1.6, "without gravity it is 15, so gravity causes the smaller part"),
     reach=between(1.5, 4.5, "twice the velocity and acceleration"),
@@ -164,7 +164,7 @@ def unsprung(rate=LAB.RATE, gravity=1.0, reach=1.0):
 
 
 @numbers.add(
-    "feedforward", "{:.0f} mrad",
+    "the same for feedforward", "{:.0f} mrad",
     rate=between(0.3, 0.45, "the held torque causes the first small error, which then grows"),
     gravity=between(0.0, 0.01, "without gravity the upright arm is not unstable", to=0.0),
 )  # fmt: skip
@@ -174,7 +174,7 @@ def fed(rate=LAB.RATE, gravity=1.0):
 
 
 @numbers.add(
-    "the model file's servos lag by", "{:.2f} mrad",
+    "the same for the model file's servos", "{:.2f} mrad",
     servo_kd=between(1.7, 1.9, "kd / kp times the velocity, which lasts less than 0.2 s"),
     reach=times(2.0, "kd / kp times the velocity", within=0.1),
     seconds=times(0.5, "kd / kp times the velocity", within=0.1),
@@ -208,7 +208,7 @@ def under_load(omega=LAB.OMEGA, mass=1.0, wait=1.5, rate=LAB.RATE, damping=1.0):
 
 
 @numbers.add(
-    "the loop breaks at", "{:.0f} rad/s",
+    "the loop is unstable from", "{:.0f} rad/s",
     rate=between(0.51, 0.54, "about half, because omega T is limited; a little more, by "
                  "the next row", to=125.0),
     step=between(1.0, 1.12, "omega T is 0.90 with 2 steps per period, 0.94 with 4",

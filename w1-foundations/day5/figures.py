@@ -37,8 +37,8 @@ def curves() -> dict[str, Array]:
         )
     }
     for name, law in {
-        "springs": lab.springs,
-        "springs,\ngravity": lab.springs_and_gravity,
+        "PD": lab.springs,
+        "PD and\ngravity": lab.springs_and_gravity,
         "gains\noutside M": lab.gains_outside,
         "computed\ntorque": lab.equal_springs(),
     }.items():

@@ -27,7 +27,7 @@ def chatter() -> Recording:
                 for link, T in there.items()
             })  # fmt: skip
             off = 1e3 * np.abs(log.q[k] - READY_Q).max()
-            film.say(f"omega {omega:.0f} rad/s, {RATE:.0f} Hz: {off:.1f} mrad off")
+            film.say(f"omega {omega:.0f} rad/s, {RATE:.0f} Hz: error {off:.1f} mrad")
             film.wait()
     return film
 

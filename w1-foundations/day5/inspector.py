@@ -1,7 +1,7 @@
 """Day 5 in the inspector: the tab Control, the student's controllers in real time.
 
-The arm is simulated with motors, the blue one is the reference. The torques come from
-the student's own functions, 250 of them a second, as in the lab.
+The arm is simulated with motors; the blue arm is the reference. The torques come from
+the student's own functions at 250 Hz, as in the lab.
 """
 
 from collections.abc import Callable
@@ -19,14 +19,14 @@ from robo47.panda import ARM_JOINTS, READY_Q
 
 SWING, NUDGE, STOP = "swing", "0.1 rad off", "stop"
 HZ, RATE = 25.0, 250.0  # pictures a second; torques a second, as in the lab
-KP, KD = 100.0, 20.0  # of the plain springs, as in the lab
+KP, KD = 100.0, 20.0  # of PD control alone, as in the lab
 KI, CLAMP = 4000.0, 0.02  # 1/s3, rad s, as in the lab
-SAME = 1e-6  # of the stiffest omega
+SAME = 1e-6  # relative difference of two limits of omega
 LEAST = 1e-3  # mrad, at the foot of the logarithmic axis
 REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])
 E0 = 0.1 * np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0])
-HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
-CHATTER = 0.2  # of the torques: so often a motor goes from limit to limit
+HUGE = 1e4  # N m; with more the simulator reports an instability
+CHATTER = 0.2  # fraction of the torques at which a motor switches between its limits
 UNITS = {
     **dict.fromkeys(("pd_torque", "gravity_pd", "computed_torque", "saturate"), "N m"),
     "pd_gains": "(1/s2 or 1/s)", "error_response": "of the first error",
@@ -36,18 +36,18 @@ Law = Callable[..., Array]
 
 
 def springs(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
-    """Give the torque of plain springs."""
+    """Return the torque of PD control alone."""
     return own.pd_torque(ref[0] - q, ref[1] - qd, KP, KD)
 
 
 def with_gravity(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
-    """Give the torque of springs that do not sag."""
+    """Return the torque of PD control with gravity compensation."""
     g = arm.at(q).gravity_torque
     return own.gravity_pd(ref[0] - q, ref[1] - qd, KP, KD, g)
 
 
 def computed(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
-    """Give computed torque of a wanted omega, critically damped."""
+    """Return computed torque with a wanted omega, critically damped."""
     now = arm.at(q)
     e = ref[0] - q
     ed = ref[1] - qd
@@ -56,13 +56,13 @@ def computed(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
 
 
 def outside(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
-    """Give the public page's torque, its gains outside M."""
+    """Return the public page's torque, with the gains outside M."""
     model = computed(own, arm, q, qd, (q, qd, ref[2]), tab)
     return model + own.pd_torque(ref[0] - q, ref[1] - qd, *tab.gains())
 
 
 def with_integral(own: Own, arm: Arm, q: Array, qd: Array, ref: tuple, tab) -> Array:
-    """Give computed torque whose acceleration comes from PID."""
+    """Return computed torque whose acceleration comes from PID."""
     now = arm.at(q)
     e = ref[0] - q
     ed = ref[1] - qd
@@ -77,8 +77,8 @@ LAWS: dict[str, Law] = {
     "computed torque": computed,
     "with an integral (PID)": with_integral,
     "gains outside M": outside,
-    "springs and gravity": with_gravity,
-    "springs": springs,
+    "PD and gravity": with_gravity,
+    "PD": springs,
 }
 
 
@@ -118,15 +118,15 @@ class Control(Tab):
         self.ghost = page.draw.ghost("blue")
         page.choice("controller", list(LAWS), self.choose)
         page.slider("omega", 2, 300, 20, self.tune, unit="rad/s", step=1)
-        page.tick("hang 1 kg on it", self.hang)
+        page.tick("hang 1 kg on the hand", self.hang)
         page.buttons([SWING, NUDGE, STOP], self.press)
         self.clock, self.breaks = page.html(), page.html()
         curves = ["measured", "predicted"]
         self.plot = page.plot(curves, y="largest error (mrad)", least=LEAST)
-        self.bars = page.bars(ARM_JOINTS, self.limits, "N m", "torque asked for")
+        self.bars = page.bars(ARM_JOINTS, self.limits, "N m", "wanted torque")
         self.loop = page.animate(self.step, HZ, work=self.work)
         page.light("ee", {"ee"})
-        page.legend({"the simulated arm": "grey", "where it should be": "blue"})
+        page.legend({"the simulated arm": "grey", "the reference": "blue"})
         self.restart(READY_Q)
 
     def choose(self, name: str) -> None:
@@ -146,11 +146,11 @@ class Control(Tab):
         broken = self.omega > self.breaks_at and self.law not in (springs, with_gravity)
         wrong = abs(stiffest - right) > SAME * right
         says = (
-            f"a loop with a torque every 4 ms breaks at {int(self.breaks_at)} rad/s; "
-            f"your max_stable_omega of one step of 4 ms says {stiffest:.0f}"
+            f"with a torque every 4 ms the loop is unstable from {int(self.breaks_at)} "
+            f"rad/s on; your max_stable_omega(0.004) returns {stiffest:.0f}"
         )
         if wrong:
-            says += f", the library's {right:.0f}"
+            says += f", and the library's returns {right:.0f}"
         kind = "bad" if broken or wrong else ""
         self.breaks.content = words.line(says, "stiffest", kind)
 
@@ -247,8 +247,8 @@ class Control(Tab):
         if count < CHATTER * len(some):
             return ""
         return (
-            f". It CHATTERS: {ARM_JOINTS[worst]} went from limit to limit {count} "
-            f"times in the last {len(some)} torques"
+            f". The loop CHATTERS: {ARM_JOINTS[worst]} switched between its limits "
+            f"{count} times in the last {len(some)} torques"
         )
 
     def show(self, wanted: Array) -> None:

@@ -164,7 +164,7 @@ def test_the_swing_takes_a_quarter_of_the_motors_torque(bench):
     log = lab.run(*bench, lab.equal_springs(), raised_cosine, 2.0)
     share = np.abs(log.tau) / simulate.limits(bench[0])[1]
     assert share.max() == pytest.approx(0.25, abs=0.03)
-    assert "the swing takes a quarter of their torque" in GUIDE
+    assert "the motion of step 4 takes a quarter of their torque" in GUIDE
 
 
 def without(part):
@@ -193,7 +193,7 @@ def without(part):
     ("part", "mrad", "row"),
     [
         ("", 0.23, "complete | 0.23"),
-        ("springs", 8.7, "without the springs | 8.7"),
+        ("springs", 8.7, "without the PD terms | 8.7"),
         ("Coriolis", 3.1, "without the Coriolis part of bias | 3.1"),
         ("qdd_ref", 7.1, "without qdd_ref | 7.1"),
         ("damping", 21.7, r"without damping $d \dot q$ | 21.7"),
@@ -249,6 +249,52 @@ def test_a_torque_known_beforehand_is_lost_to_gravity_and_to_the_held_torque(
     rate, step, gravity, row
 ):
     assert row.format(*unsprung(rate, step, gravity)) in GUIDE
+
+
+@pytest.mark.kit
+def test_the_rate_reduces_the_error_and_a_shorter_step_does_not():
+    errors = [unsprung(rate, 0.0005)[0] for rate in (250, 500, 1000, 2000)]
+    said = "{:.1f}, {:.1f}, {:.1f} and {:.1f} mrad".format(*errors)
+    assert f"the first column is {said} at 250, 500, 1,000 and" in GUIDE
+    assert errors == sorted(errors, reverse=True)
+    assert errors[0] > unsprung(250, 0.001)[0] > unsprung(250, 0.002)[0]
+
+
+def test_the_feedforward_is_accurate_if_the_arm_hangs():
+    assert f"error is {unsprung(250.0, 0.002, -1)[1]:.1f} mrad" in GUIDE
+
+
+@pytest.mark.kit
+def test_the_mistake_that_tracks_better_at_omega_20_tracks_worse_at_10(bench):
+    half = swing(bench, lab.equal_springs(10.0, 0.5), 250.0)
+    full = swing(bench, lab.equal_springs(10.0, 1.0), 250.0)
+    assert f"worse: {half:.2f} mrad instead of {full:.2f} at 250 Hz" in GUIDE
+
+
+@pytest.mark.kit
+def test_the_held_torque_is_the_larger_part_of_the_curves_error(bench):
+    fine = lab.day5_mujoco.motors()
+    fine.opt.timestep = 0.0005
+    off = []
+    for model in (fine, bench[0]):
+        for zeta in (0.5, 1.0, 2.0):
+            law = lab.equal_springs(10.0, zeta)
+            t, e = decay((model, bench[1]), law, 1.0, 250.0)
+            off.append(np.abs(e.T - lab.error_response(t, 10.0, zeta)).max())
+    said = "{:.4f}, {:.4f} and {:.4f} instead of {:.4f}, {:.4f} and {:.4f}"
+    assert said.format(*off) in GUIDE
+
+
+def test_the_fixed_point_iteration_needs_a_gravity_torque_that_changes_slowly(bench):
+    torque = lambda q: bench[1].at(q).gravity_torque  # noqa: E731
+    for kp, converges in ((100.0, True), (10.0, False)):
+        q = lab.rest(torque, kp)
+        last = lab.pd_equilibrium_step(lab.READY_Q, torque(q), kp) - q
+        assert (np.abs(last).max() < 1e-12) == converges
+        steps = 1e-5 * np.eye(7)
+        rates = np.array([torque(q + d) - torque(q - d) for d in steps]) / 2e-5
+        assert (np.linalg.norm(rates, 2) < kp) == converges
+    assert "with 10 N m/rad it does not converge" in GUIDE
 
 
 def test_the_feedforward_ends_with_joint4_at_its_stop(bench):

@@ -42,7 +42,7 @@ def test_the_tab_shows_the_measured_error_on_the_predicted_one(tab):
     assert predicted == pytest.approx(1e2 * lab.error_response(np.array([t]), 20, 1)[0])
     assert measured == pytest.approx(predicted, abs=4.0)
     assert tab.own.says()[1] == "good"
-    tab.choose("springs")
+    tab.choose("PD")
     assert frames(tab, 0.4)[1][0] > 50
 
 
@@ -60,20 +60,20 @@ def test_the_tab_swings_hangs_and_integrates(tab):
 def test_the_tab_says_where_the_loop_breaks_and_that_it_chatters(tab):
     tab.on_move(panda.READY_Q)
     tab.tune(200)
-    assert "every 4 ms breaks at 224 rad/s" in tab.breaks.content
-    assert "your max_stable_omega of one step of 4 ms says 207" in tab.breaks.content
+    assert "every 4 ms the loop is unstable from 224 rad/s on" in tab.breaks.content
+    assert "your max_stable_omega(0.004) returns 207" in tab.breaks.content
     assert "r47-bad" not in tab.breaks.content
     tab.tune(290)
     assert "r47-bad" in tab.breaks.content
     tab.press("0.1 rad off")
     frames(tab, 1.0)
-    assert "It CHATTERS: joint" in tab.clock.content
+    assert "The loop CHATTERS: joint" in tab.clock.content
 
 
 def test_the_tab_pushes_away_with_a_wrong_sign():
     negative = {"pd_torque": lambda *args: -lab.pd_torque(*args)}
     tab = tab_of({**vars(lab), **negative})
-    tab.choose("springs")
+    tab.choose("PD")
     tab.press("0.1 rad off")
     assert frames(tab, 0.4)[1][0] > 300
     assert "pd_torque by" in tab.own.says()[0]

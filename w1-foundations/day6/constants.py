@@ -1,4 +1,4 @@
-"""What Day 6's numbers hang on: each constant turned by two, measured, explained."""
+"""Sensitivity of Day 6's numbers: each constant is doubled, measured and explained."""
 
 from functools import cache
 
@@ -24,13 +24,13 @@ numbers = Numbers(
     gravity="gravity: × {}",
     k="K: × {}",
     push="PUSH: × {}",
-    elbow="ELBOW: × {}",
+    elbow="ELBOW, the posture gains: × {}",
     rate="RATE: {} Hz",
     step="time step: {} s",
-    wait="it is pushed for {} s",
+    wait="duration of the push: {} s",
     size="first error, along e: × {}",
     force="PRESS: {} N",
-    sink="SINK: {} m/s",
+    sink="SINK, the approach velocity: {} m/s",
     solref="solref of the contact: {} s",
     seconds="after {} s",
     gains="gains of the servos: × {}",
@@ -38,7 +38,7 @@ numbers = Numbers(
     friction="friction of the contact: {}",
     omega="OMEGA: {} rad/s",
     radius="RADIUS: {} m",
-    turn="TURN: {} s",
+    turn="TURN, the time of a revolution: {} s",
 )
 
 
@@ -102,7 +102,7 @@ def rests(model, known, law, wrench, wait):
 
 
 @numbers.add(
-    "critical hand, released along e: it overshoots by", "{:.1f} %",
+    "overshoot of the critically damped hand, released along e", "{:.1f} %",
     k=between(0.95, 1.05, "the ratios of the modes' rates stay; all rates grow by √2"),
     size=between(0.9, 1.1, "nearly linear"),
     masses=between(1.1, 1.2, "the rotors contribute a smaller fraction of Lambda, so "
@@ -120,7 +120,7 @@ def overshoot(k=1.0, size=1.0, masses=1.0, inertia=1.0, step=0.002):
 
 @cache
 def pressed(k, force, sink, rate, solref, friction):
-    """Return how hard the soft arm presses, N, step by step."""
+    """Return the force of the soft arm at each time step, N."""
     stiffness = LAB.K.copy()
     stiffness[5] *= k
     depth = LAB.set_point_for_force(force, stiffness[5], scenes.TOUCH)
@@ -152,7 +152,7 @@ def soft(force=LAB.PRESS, k=1.0, sink=LAB.SINK, solref=0.02, rate=LAB.RATE,
 
 
 @numbers.add(
-    "its peak", "{:.0f} N",
+    "peak of this force", "{:.0f} N",
     sink=between(1.3, 1.8, "an impact at twice the speed"),
     solref=between(1.8, 2.2, "the contact is twice as quick: half the time, twice the "
                    "force", to=0.01),
@@ -194,7 +194,7 @@ def circle(project, omega, radius, turn, elbow, step, damping):
 
 
 @numbers.add(
-    "off the circle, with today's projector", "{:.3f} mm",
+    "largest error on the circle with today's projector", "{:.3f} mm",
     omega=between(0.4, 0.6, "the disturbance is the same, and the damping doubles"),
     radius=between(0.2, 0.6, "half the velocity and the acceleration (0.24 m "
                    "is outside the workspace)", to=0.06),
@@ -208,9 +208,9 @@ def on_circle(omega=LAB.OMEGA, radius=LAB.RADIUS, turn=LAB.TURN, elbow=1.0, step
 
 
 @numbers.add(
-    "off the circle, with Day 3's projector", "{:.3f} mm",
+    "the same with Day 3's projector", "{:.3f} mm",
     omega=between(0.3, 0.6, "stiffer feedback suppresses more of the disturbance"),
-    elbow=between(0.9, 1.1, "the elbow moves as before"),
+    elbow=between(0.9, 1.1, "hardly any torque is left after the projection"),
 )  # fmt: skip
 def with_day3(omega=LAB.OMEGA, elbow=1.0):
     """Return how far off."""

@@ -1,6 +1,6 @@
 """The pictures of Day 6, made with the lab's own functions; drawn by `make figures`.
 
-push    how far a soft hand gives way, for eleven forces, on the predicted line
+push    displacement of a soft hand for eleven forces, on the predicted line
 press   the force on the table over time: the soft arm, and the stiff one with and
         without the limits of its motors
 loop    the impedance loop as a block diagram
@@ -74,7 +74,7 @@ def push(figure: Figure) -> None:
         y = 1000 * x / k
         right = "left" if x > 5.0 else "right"
         axes.text(x, y + (5 if x < 5 else -8), f"{k:.0f} N/m", color=colour, ha=right)
-    axes.text(-19, 36, "lines: F / k, predicted\nmarks: where the hand\ncame to rest",
+    axes.text(-19, 36, "lines: F / k, predicted\nmarks: the hand at rest,\nmeasured",
               fontsize=chart.SMALL, va="center")  # fmt: skip
     axes.set(xlabel="force along x, N", ylabel="displacement along x, mm")
     axes.grid()
@@ -95,7 +95,7 @@ def press(figure: Figure) -> None:
     axes.text(3.0, lab.PRESS - 32, "20 N: wanted and predicted", ha="right",
               fontsize=chart.SMALL)  # fmt: skip
     axes.set(xlabel="time, s", ylabel="force on the table, N")
-    axes.set_title("Told to go 50 mm into a table", loc="left")
+    axes.set_title("Commanded 50 mm into a table", loc="left")
     axes.grid()
 
 
@@ -105,7 +105,7 @@ BOXES = {  # what stands in each, its middle, and its colour
     "damper\n$D \\dot e$": ((3.4, 4.2), BLUE),
     "$J^T F$": ((5.7, 5.0), BLUE),
     "bias,\nfriction": ((3.4, 2.6), GREEN),
-    "elbow's\nnull torque": ((3.4, 1.1), ORANGE),
+    "null-space\ntorque": ((3.4, 1.1), ORANGE),
     "arm": ((7.6, 3.0), INK),
 }
 WIDE, HIGH = 0.8, 0.5  # halves of a box

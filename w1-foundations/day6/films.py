@@ -36,8 +36,8 @@ def press() -> Recording:
             tip = tip - [0.0, 0.0, scenes.TIP_RADIUS]
             up = [0.0, 0.0, 0.002 * felt[k] + 1e-3]
             arrow.points = np.array([[tip, tip + up]], dtype=np.float32)
-            name = "a spring of 400 N/m" if drive == "torque" else "the file's servos"
-            film.say(f"{name}: the table feels {felt[k]:.0f} N")
+            name = "a spring of 400 N/m" if drive == "torque" else "the model's servos"
+            film.say(f"{name}: {felt[k]:.0f} N on the table")
             film.wait()
     return film
 

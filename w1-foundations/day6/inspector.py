@@ -1,8 +1,8 @@
 """Day 6 in the inspector: the tab Touch.
 
-The student's own impedance holds the hand where the handle was: drag the handle to pull
-at it, pull at its elbow, let it press on the table. The arm is simulated; the torques
-are the student's, 100 a second.
+The student's own impedance controller holds the hand. Drag the handle to pull the hand,
+push the elbow, or let the hand press on the table. The arm is simulated, with torques
+from the student's functions at 100 Hz.
 """
 
 from functools import cache, partial
@@ -22,7 +22,7 @@ from robo47.rotation_log import small_pose_error
 
 RATE, HZ = 100.0, 25.0  # of the controller, and of the picture
 TURN, BACK = 30.0, 4.0  # N m/rad of the hand; N m s/rad of the elbow
-HUGE = 1e4  # N m; what is more the simulator takes for a fault of its own
+HUGE = 1e4  # N m; with more the simulator reports an instability
 PULL = 100.0  # N per metre that the handle is away
 PRESS = 20.0  # N, on the table
 MOST = 60.0  # N, where the bar of the table's force ends
@@ -44,7 +44,7 @@ dressed = partial(scenes.press_table, meshes=True)
 
 
 class Touch(Tab):
-    """Pull at a soft hand, and see how it gives way."""
+    """Pull a soft hand and observe its displacement."""
 
     title = "Touch"
     wide = True
@@ -65,19 +65,20 @@ class Touch(Tab):
         self.weighed: tuple[Array, Array]  # where: J and M
         self.own = page.own(task_space, units=UNITS)
         page.buttons([AGAIN, LET_GO, READY], self.press)
-        page.slider("spring", 50, 2000, self.k, self.set_k, unit="N/m", step=50)
+        stiffness = "stiffness of the hand"
+        page.slider(stiffness, 50, 2000, self.k, self.set_k, unit="N/m", step=50)
         unit = "N m/rad"
         hold = partial(setattr, self, "hold")
-        page.slider("elbow held", 0, 40, self.hold, hold, unit=unit, step=1)
+        page.slider("stiffness of the elbow", 0, 40, self.hold, hold, unit=unit, step=1)
         page.slider("push at the elbow", -30, 30, 0, self.set_elbow, unit="N", step=1)
         self.numbers = page.html()
-        self.bars = page.bars(["table"], MOST, "N", "how hard the tip presses", "scale")
+        self.bars = page.bars(["table"], MOST, "N", "force on the table", "scale")
         self.loop = page.animate(lambda seconds: self.show(), HZ, work=self.step)
         self.drawn = Robot(page, self.robot, dressed)
         self.mass = page.draw.ellipsoid("purple")
         self.arrow = page.draw.arrows(np.zeros((1, 2, 3)), "red", 0.008)
         self.target = page.draw.target(page.pose("ee"), self.drag)
-        page.legend({"your pull": "red", "how heavy the hand is": "purple"})
+        page.legend({"your pull": "red", "inertia of the hand": "purple"})
         self.show()
 
     def set_k(self, k: float) -> None:
@@ -188,7 +189,7 @@ class Touch(Tab):
         mujoco.mj_applyFT(model, data, F, none, point, link4, data.qfrc_applied)
 
     def show(self) -> None:
-        """Draw the arm, its mass and the pull, and say what was predicted."""
+        """Draw the arm, its inertia and the pull, and show the prediction."""
         q = self.data.qpos[:7].copy()
         now = self.arm.at(q)
         goal = self.arm.at(self.goal_q).T_world_ee[:3, 3]
@@ -202,19 +203,19 @@ class Touch(Tab):
         predicted = 1000 * self.force / self.k
         moved = 1000 * (hand - goal)
         if self.Lambda is None:
-            weighs = "What the hand weighs is not known."
+            weighs = "Lambda of the hand is not known."
         else:
             mass = self.Lambda[3:, 3:]
             self.mass.show(mass, hand, LONG)
             kilograms = ", ".join(f"{m:.1f}" for m in np.diag(mass))
             truth = task_space.task_inertia(*self.weighed)[3:, 3:]
             ours = ", ".join(f"{m:.1f}" for m in np.diag(truth))
-            weighs = f"By yours the hand weighs {kilograms} kg along x, y, z"
-            weighs += "." if kilograms == ours else f"; by the library {ours}."
+            weighs = f"Diagonal of your Lambda: {kilograms} kg along x, y, z"
+            weighs += "." if kilograms == ours else f"; of the library's {ours}."
         self.numbers.content = words.line(
             f"t = {self.data.time:.1f} s. Pull ({_three(self.force)}) N; in the air "
             f"F / k = ({_three(predicted)}) mm, moved ({_three(moved)}) mm. {weighs} "
-            f"The table feels {three(felt, MOST)} N.",
+            f"Force on the table: {three(felt, MOST)} N.",
             "touch",
         )
 

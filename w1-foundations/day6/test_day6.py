@@ -61,7 +61,7 @@ def test_the_inertias_of_mistakes_at_ready(motors):
     assert said in SENTENCES
     free = inv(right)[:, 3]  # how a hand that nobody holds accelerates for 1 N
     assert free[5] / free[3] == pytest.approx(1 / 3, abs=0.02)
-    assert "it also goes along z, a third as far, and turns" in SENTENCES
+    assert "it also moves along z, a third as far, and rotates" in SENTENCES
     rotors = 1.0 - light / np.diag(right)[3:]  # "an eighth to a quarter"
     assert_same([rotors.min(), rotors.max()], [1 / 8, 1 / 4], 6e-3)
 
@@ -72,16 +72,18 @@ def test_the_inertias_of_mistakes_at_ready(motors):
 def test_every_mode_of_the_damping_has_ratio_1_and_of_a_diagonal_one_not(motors):
     now = motors[1].at(lab.READY_Q)
     Lambda = lab.task_inertia(now.J_site, now.M)
-    none = np.zeros((6, 6))
+    right = lab.critical_damping(lab.K, Lambda)
+    assert least_ratio(right, Lambda) == pytest.approx(1.0)
+    each = diagonal_damping(lab.K, Lambda)
+    assert f"it is {least_ratio(each, Lambda):.2f} in the worst" in SENTENCES
 
-    def least_ratio(D):
-        below = -np.linalg.solve(Lambda, np.hstack([np.diag(lab.K), D]))
-        s = np.linalg.eigvals(np.vstack([np.hstack([none, np.eye(6)]), below]))
-        return (-s.real / np.abs(s)).min()
 
-    assert least_ratio(lab.critical_damping(lab.K, Lambda)) == pytest.approx(1.0)
-    each = np.diag(2.0 * np.sqrt(lab.K * np.diag(Lambda)))
-    assert f"it is {least_ratio(each):.2f} in the worst" in SENTENCES
+def least_ratio(D, Lambda):
+    """Return the smallest damping ratio of the hand's modes."""
+    below = -np.linalg.solve(Lambda, np.hstack([np.diag(lab.K), D]))
+    above = np.hstack([np.zeros((6, 6)), np.eye(6)])
+    s = np.linalg.eigvals(np.vstack([above, below]))
+    return (-s.real / np.abs(s)).min()
 
 
 def diagonal_damping(K, Lambda):
@@ -132,7 +134,7 @@ def test_the_springs_torque_does_not_shrink_where_lambda_grows(motors):
         along.append(np.linalg.norm(u[:, 5] @ now.J_site))
     assert_same(largest, np.ones(4), 5e-3)
     assert min(torque[1:]) > torque[0]
-    assert f"short: {along[-1]:.4f} long instead of {along[0]:.3f}" in SENTENCES
+    assert f"is small: {along[-1]:.4f} instead of {along[0]:.3f}" in SENTENCES
 
 
 def test_near_a_singularity_lambda_and_d_grow_and_the_springs_torque_does_not(motors):
@@ -149,7 +151,7 @@ def test_near_a_singularity_lambda_and_d_grow_and_the_springs_torque_does_not(mo
 
     ready, stretched = terms(1.0), terms(1e-3)
     assert f"{stretched[0]:,.0f} instead of {ready[0]:.1f}" in SENTENCES
-    assert f"that of D {stretched[1]:,.0f} instead of {ready[1]:.0f}" in SENTENCES
+    assert f"entry of D is {stretched[1]:,.0f} instead of {ready[1]:.0f}" in SENTENCES
     assert max(stretched[2] / ready[2], stretched[3] / ready[3]) < 2.0
     assert f"at a fifth, too? There $\\Lambda$ has {terms(0.2)[0]:,.0f}" in SENTENCES
     assert "q = 0 itself is a singularity" in SENTENCES
@@ -177,10 +179,10 @@ def circled(motors, seconds=2.5, **instead):
 
 MISTAKES = {
     "nothing wrong": {},
-    "`bias_acceleration` forgotten": {"osc_torque": "site-bias-forgotten"},
+    "`bias_acceleration` omitted": {"osc_torque": "site-bias-forgotten"},
     "`bias_acceleration` added": {"osc_torque": "site-bias-added"},
-    "`bias` forgotten": {"osc_torque": "bias-forgotten"},
-    "Lambda left out": {"osc_torque": "Lambda-left-out"},
+    "`bias` omitted": {"osc_torque": "bias-forgotten"},
+    "Lambda omitted": {"osc_torque": "Lambda-left-out"},
     "posture torque not projected": {"nullspace_torque": "not-projected"},
     "projected as the public page has it": {"nullspace_torque": "M-for-identity"},
     "projected with I - J^+ J": {"nullspace_torque": "kinematic-projector"},
@@ -270,6 +272,118 @@ def test_a_softer_feedback_is_further_off_the_circle(motors, omega, mm, wrong):
     assert theirs / right == pytest.approx(wrong, rel=0.02)
     if omega == 5.0:
         assert f"{theirs:.2f} mm, where the right one has {right:.2f}" in SENTENCES
+
+
+@pytest.mark.kit
+def test_at_omega_1_the_wrong_projector_is_the_better_one(motors):
+    right, wrong = (
+        circled(motors, OMEGA=1.0, nullspace_torque=project)[0]
+        for project in (lab.nullspace_torque, lab.kinematic)
+    )
+    assert f"better one, {wrong:.2f} mm instead of {right:.2f}" in SENTENCES
+
+
+def watched(motors, project, times=1.0):
+    """Return the circle's hand positions, and the largest torques and acceleration."""
+    model, arm = motors
+    seen = []
+
+    def projected(J, M, Lambda, tau):
+        left = project(J, M, Lambda, tau)
+        hand = J @ np.linalg.solve(M, left)
+        seen.append([np.abs(part).max() for part in (tau, left, hand[3:])])
+        return left
+
+    with patch.object(lab, "ELBOW", tuple(times * np.array(lab.ELBOW))):
+        law = lab.circling(arm, projected)
+        run = simulate.run(model, simulate.start(model, lab.READY_Q), law, 2.5)
+    p = np.array([arm.at(q).T_world_ee[:3, 3] for q in run.q])
+    return p, np.max(seen, axis=0)
+
+
+@pytest.mark.kit
+def test_hardly_any_posture_torque_is_left_to_project_and_omega_divides_it(motors):
+    p, (tau, left, _) = watched(motors, lab.nullspace_torque)
+    wrong, (_, theirs, acc) = watched(motors, lab.kinematic)
+    assert left == pytest.approx(theirs, abs=0.005)
+    assert f"Of the {tau:.1f} N m of the posture" in SENTENCES
+    assert f"both projectors leave {left:.2f} N m" in SENTENCES
+    assert f"accelerates the hand by {acc:.3f} m/s²" in SENTENCES
+    apart = np.linalg.norm(p - wrong, axis=1).max()
+    assert f"differ by {1e3 * apart:.3f} mm" in SENTENCES
+    assert apart == pytest.approx(acc / lab.OMEGA**2, rel=0.1)
+    _, (tau, left, _) = watched(motors, lab.kinematic, 8.0)
+    assert tau > 100.0
+    assert left < 0.15
+    gains = {"ELBOW": (80.0, 32.0), "nullspace_torque": lab.kinematic}
+    assert f"almost the same, {circled(motors, **gains)[0]:.3f} mm" in SENTENCES
+
+
+def soft_circle(arm):
+    """Return the impedance controller whose target moves on the circle."""
+    T = arm.at(lab.READY_Q).T_world_ee
+
+    def law(t, q, qd):
+        now = arm.at(q)
+        to = lab.day6_mujoco.circle(t, T, lab.RADIUS, lab.TURN)
+        J, M = now.J_site, now.M
+        Lambda = lab.task_inertia(J, M)
+        D = lab.critical_damping(lab.K, Lambda)
+        e = jacobian.pose_error(now.T_world_ee, to.T)
+        wrench = lab.impedance_wrench(e, to.V - J @ qd, np.diag(lab.K), D)
+        back = 10.0 * (lab.READY_Q - q) - 4.0 * qd
+        idle = lab.nullspace_torque(J, M, Lambda, back)
+        return lab.impedance_torque(J, wrench, now.bias(qd), arm.damping, qd, idle)
+
+    return law
+
+
+@pytest.mark.kit
+def test_a_soft_hand_does_not_follow_the_circle_precisely(motors):
+    model, arm = motors
+    off = lab.day6_mujoco.off_circle(model, soft_circle(arm), lab.RADIUS, lab.TURN)
+    assert f"has an error of up to {1e3 * off.max():.1f} mm" in SENTENCES
+
+
+def inner(model, n):
+    """Return n random configurations away from limits and singularities."""
+    low, high = model.jnt_range.T + np.array([[0.25], [-0.25]])
+    arm = panda.arm(model)
+    some = [np.clip(q, low, high) for q in verify.random_q(model, 3 * n, seed=4)]
+    least = lambda q: np.linalg.svd(arm.at(q).J_site, compute_uv=False)[-1]  # noqa: E731
+    return [q for q in some if least(q) > 0.08][:n]
+
+
+@pytest.mark.kit
+def test_a_push_is_predicted_in_other_configurations_as_well(motors):
+    model, arm = motors
+    for q in inner(model, 4):
+        push = simulate.push_at(lab.day6_mujoco.SITE, lab.PUSH)
+        law = lab.soft_hand(arm, q)
+        start = simulate.start(model, q)
+        run = simulate.run(model, start, law, 6.0, rate=lab.RATE, push=push)
+        ends = (arm.at(x).T_world_ee for x in (q, run.q[-1]))
+        assert_same(jacobian.pose_error(*ends), lab.PUSH / lab.K, 1e-7)
+    assert "from which no joint reaches a limit" in SENTENCES
+
+
+def test_every_mode_has_ratio_1_in_other_configurations_and_a_diagonal_one_not(motors):
+    ratios = []
+    for q in inner(motors[0], 8):
+        Lambda = lab.task_inertia(motors[1].at(q).J_site, motors[1].at(q).M)
+        right = lab.critical_damping(lab.K, Lambda)
+        assert least_ratio(right, Lambda) == pytest.approx(1.0, abs=1e-3)
+        ratios.append(least_ratio(diagonal_damping(lab.K, Lambda), Lambda))
+    assert f"({min(ratios):.2f} to {max(ratios):.2f} in eight" in SENTENCES
+
+
+@pytest.mark.kit
+def test_the_direction_e_was_chosen_for_its_effect(motors):
+    some = np.random.default_rng(6).normal(size=(12, 6))[:6] / 2.4
+    counts = [sum(overshoot(motors, e, D=D) > 0.1 for e in some)
+              for D in (lab.critical_damping, diagonal_damping)]  # fmt: skip
+    assert counts == [1, 3]
+    assert "along one with today's D and along three with the diagonal D" in SENTENCES
 
 
 SIGNS = {
@@ -376,5 +490,5 @@ def test_joint_2_does_the_work_along_x_and_joints_1_3_5_7_along_y(motors):
         qdd = np.linalg.solve(now.M, now.J_site.T @ Lambda[:, axis])
         work = qdd * (now.M @ qdd)
         assert work[joints].sum() / work.sum() == pytest.approx(1.0, abs=0.02)
-    assert "it is joint2 that turns" in SENTENCES
+    assert "joint2 rotates if the hand moves along x" in SENTENCES
     assert "along y joints 1, 3, 5 and 7 share the work" in SENTENCES

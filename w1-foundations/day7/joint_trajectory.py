@@ -81,3 +81,8 @@ row.at_least_0(
     duration="a duration is not negative",
     t="before 0 the result is the one at 0",
 )
+
+
+row.spans(  # as small, or as large, as in the lab
+    t=(0.007,),
+)

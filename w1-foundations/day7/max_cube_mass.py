@@ -40,3 +40,10 @@ row.at_least_0(
     mu="a friction coefficient is not negative",
     answer="a mass is not negative",
 )
+
+
+row.spans(  # as small, or as large, as in the lab
+    grip=(0.2,),
+    mu=(0.03,),
+    acceleration=(0.05,),
+)

@@ -3,8 +3,9 @@
     make day2                      in the clone: sets everything up, then runs this
     python src/day2_screws.py      in w1-foundations/, once that is done
 
-A joint is a screw: a line in the world, with the arm at q = 0. Screws and twists are
-(omega; v). T_world_ee maps end-effector coordinates to the world. Metres, radians.
+Each joint is a screw axis: a line in the world, with the arm at q = 0. Screws and
+twists are (omega; v). T_world_ee maps end-effector coordinates to the world. Metres,
+radians.
 """
 
 from typing import NamedTuple
@@ -18,12 +19,12 @@ from robo47 import screws as library
 from robo47.lesson.lab import Lab
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
-TRIALS = 500  # random configurations that your own code is judged on
-LIBRARY_TRIALS = 10_000  # and the library; a hundred thousand take it a second
+TRIALS = 500  # random configurations at which your own code is tested
+LIBRARY_TRIALS = 10_000  # for the library; a hundred thousand take it a second
 SEED = 47  # the same random configurations at every run
-# Franka's published table: alpha and theta turn about x and z, a and d move along them.
-# A table means nothing without its convention. This one is Craig's; swap two columns
-# or use another book's formula, and the arm ends up decimetres away.
+# Franka's published table: alpha and theta rotate about x and z, a and d translate
+# along them. A table means nothing without its convention. This one is Craig's; swap
+# two columns or use another book's formula, and the flange is decimetres off.
 FRANKA_DH = np.array([
     # alpha,         a,       d
     [0.0,            0.0,     0.333],
@@ -38,149 +39,196 @@ FRANKA_DH = np.array([
 
 
 def skew(w: np.ndarray) -> np.ndarray:
-    """Return [w], (3, 3), the matrix that takes p to w x p.
+    """Return the skew-symmetric matrix [w] with [w] p = w x p for each p, (3, 3).
 
-    skew((0, 0, 1)) takes (1, 0, 0) to (0, 1, 0).
+    w (3,) and p are vectors expressed in the same frame; the entries of [w] have the
+    unit of w (Modern Robotics, section 3.2.2).
+    skew([0, 0, 1]) -> [[0, -1, 0], [1, 0, 0], [0, 0, 0]]
     """
     # region 2.1
-    x, y, z = w
-    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    x, y, z = w  # the components of w
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])  # the matrix of w x p
     # endregion 2.1
 
 
 def exp_rotation(axis: np.ndarray, theta: float) -> np.ndarray:
-    """Return the rotation by theta about an axis of length 1, (3, 3).
+    """Return the rotation matrix exp([axis] theta) about a unit axis, (3, 3).
 
-    About (0, 0, 1) it is Day 1's Rz(theta).
+    axis (3,) is a unit vector and theta the angle in radians; the right-hand rule gives
+    the sense. Rodrigues' formula is the closed form of the matrix exponential (Modern
+    Robotics, eq. 3.51). About (0, 0, 1) it is Day 1's Rz(theta).
+    exp_rotation([1, 0, 0], pi / 2) -> [[1, 0, 0], [0, 0, -1], [0, 1, 0]]
     """
     # region 2.2
-    K = skew(axis)
-    return np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+    K = skew(axis)  # the matrix of the cross product with the axis
+    return np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K  # Rodrigues' sum
     # endregion 2.2
 
 
 def screw_axis(axis: np.ndarray, point: np.ndarray) -> np.ndarray:
-    """Return a hinge's screw (omega; v), (6,), from its unit axis and a point on it.
+    """Return the screw axis (omega; v) of a hinge, (6,).
 
-    The z axis through (1, 0, 0) is (0, 0, 1, 0, -1, 0).
+    axis (3,) is the unit vector along the hinge and point (3,) any point on its line,
+    in metres, both expressed in the world frame. omega is the axis, and v is the
+    velocity of the body's point at the origin while the body rotates at 1 rad/s (Modern
+    Robotics, section 3.3.2).
+    screw_axis([0, 0, 1], [1, 0, 0]) -> [0, 0, 1, 0, -1, 0]
     """
     # region 2.3
-    return np.concatenate([axis, -skew(axis) @ point])
+    return np.concatenate([axis, -skew(axis) @ point])  # omega, and -omega x point
     # endregion 2.3
 
 
 def exp_screw(S: np.ndarray, theta: float) -> np.ndarray:
-    """Return the pose after moving by theta along a screw (omega; v), (4, 4).
+    """Return the pose exp([S] theta) of a motion along a screw axis, (4, 4).
 
-    omega has length 1, or is 0: then it is a slide by theta v. A quarter turn about
-    (0, 0, 1, 0, -1, 0) takes the origin to (1, -1, 0).
+    S (6,) is a screw axis (omega; v) whose omega is a unit vector, or 0 for a slide;
+    do not divide by its norm. theta is in radians, or in metres for a slide, whose pose
+    is the translation theta v (Modern Robotics, eq. 3.88).
+    exp_screw([0, 0, 1, 0, -1, 0], pi / 2) ->
+    [[0, -1, 0, 1], [1, 0, 0, -1], [0, 0, 1, 0], [0, 0, 0, 1]]
     """
     # region 2.4
-    K = skew(S[:3])
-    c = np.cos(theta)
-    s = np.sin(theta)
-    T = np.eye(4)
-    T[:3, :3] = exp_rotation(S[:3], theta)
-    T[:3, 3] = (theta * np.eye(3) + (1 - c) * K + (theta - s) * K @ K) @ S[3:]
+    K = skew(S[:3])  # the matrix of the cross product with omega
+    c = np.cos(theta)  # the cosine of the angle
+    s = np.sin(theta)  # the sine of the angle
+    T = np.eye(4)  # the identity, whose last row is (0, 0, 0, 1)
+    T[:3, :3] = exp_rotation(S[:3], theta)  # the rotation about omega
+    G = theta * np.eye(3) + (1 - c) * K + (theta - s) * K @ K  # the integrated rotation
+    T[:3, 3] = G @ S[3:]  # the translation, the integral of the rotated v
     return T
     # endregion 2.4
 
 
 def joint_screws(T_zero: np.ndarray) -> np.ndarray:
-    """Return the screws, (7, 6), of joints that turn about their links' z axes.
+    """Return the screw axes (omega; v) of joints, one in each row, (n, 6).
 
-    From the links' poses in the world, (7, 4, 4). With the Panda at q = 0 joint2's is
-    (0, 1, 0, -0.333, 0, 0).
+    T_zero (n, 4, 4) are the poses of the moving links in the world, in metres, with all
+    joints at 0. Each joint rotates its link about the link's own z axis, and the origin
+    of the link is on this axis (Modern Robotics, section 4.1.1).
+    joint_screws([[[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]]) ->
+    [[0, 0, 1, 0, -1, 0]]. At q = 0 the Panda's joint2 has (0, 1, 0, -0.333, 0, 0).
     """
     # region 2.5
-    return np.array([screw_axis(T[:3, 2], T[:3, 3]) for T in T_zero])
+    return np.array([screw_axis(T[:3, 2], T[:3, 3]) for T in T_zero])  # z axis, origin
     # endregion 2.5
 
 
 def fk_space(screws: np.ndarray, M_home: np.ndarray, q: np.ndarray) -> np.ndarray:
-    """Return T_world_ee, (4, 4), from screws (7, 6), its pose at q = 0, and q, (7,).
+    """Return T_world_ee by the product of exponentials in the world frame, (4, 4).
 
-    At q = 0 it is M_home: 0.088 m in front of the base and 0.926 m up.
+    screws (n, 6) are the screw axes (omega; v) at q = 0, from the base outwards,
+    M_home (4, 4) is the end effector's pose at q = 0, both expressed in the world frame
+    and in metres, and q (n,) are the joint angles in radians. The pose is
+    exp([S1] q1) ... exp([Sn] qn) M_home (Modern Robotics, section 4.1.1).
+    fk_space([[0, 0, 1, 0, -1, 0]], [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0],
+    [0, 0, 0, 1]], [pi / 2]) -> [[0, -1, 0, 1], [1, 0, 0, -1], [0, 0, 1, 0],
+    [0, 0, 0, 1]]
     """
     # region 2.6
-    T = np.eye(4)
+    T = np.eye(4)  # the motion before the first joint
     for S, theta in zip(screws, q, strict=True):
-        T = T @ exp_screw(S, theta)
-    return T @ M_home
+        T = T @ exp_screw(S, theta)  # the motion of the joints up to this one
+    return T @ M_home  # the end effector's pose, moved by all joints
     # endregion 2.6
 
 
 def adjoint(T: np.ndarray) -> np.ndarray:
-    """Return Ad(T), (6, 6), of T_a_b: it takes a twist seen from b to one seen from a.
+    """Return the adjoint Ad(T), which expresses a twist in another frame, (6, 6).
 
-    With T the move by (1, 0, 0), a spin about b's z axis has v = (0, -1, 0) in a.
+    T (4, 4) is the pose T_a_b of frame b relative to frame a, in metres. If V is a
+    twist (omega; v) expressed in b, then Ad(T) V is the same twist expressed in a
+    (Modern Robotics, definition 3.20). With T the translation by (1, 0, 0), the twist
+    (0, 0, 1, 0, 0, 0) becomes (0, 0, 1, 0, -1, 0).
     """
     # region 2.7
-    R, p = T[:3, :3], T[:3, 3]
-    return np.block([[R, np.zeros((3, 3))], [skew(p) @ R, R]])
+    R, p = T[:3, :3], T[:3, 3]  # the rotation and the translation of the pose
+    return np.block([[R, np.zeros((3, 3))], [skew(p) @ R, R]])  # blocks of the adjoint
     # endregion 2.7
 
 
 def body_screws(screws: np.ndarray, M_home: np.ndarray) -> np.ndarray:
-    """Return the screws, (7, 6), as the end effector sees them at q = 0.
+    """Return the screw axes expressed in the end effector's frame at q = 0, (n, 6).
 
-    The Panda's last joint turns it about its own z: (0, 0, 1, 0, 0, 0).
+    screws (n, 6) are the screw axes (omega; v) at q = 0, one in each row, expressed in
+    the world frame; M_home (4, 4) is T_world_ee at q = 0, in metres (Modern Robotics,
+    section 4.1.3). The Panda's last joint has (0, 0, 1, 0, 0, 0).
+    body_screws([[0, 0, 1, 0, -1, 0]], [[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0],
+    [0, 0, 0, 1]]) -> [[0, 0, 1, 0, 0, 0]]
     """
     # region 2.7
-    return screws @ adjoint(se3.inverse(M_home)).T
+    return screws @ adjoint(se3.inverse(M_home)).T  # each row times the adjoint
     # endregion 2.7
 
 
 def fk_body(body_screws: np.ndarray, M_home: np.ndarray, q: np.ndarray) -> np.ndarray:
-    """Return T_world_ee, (4, 4), from body screws (7, 6). At q = 0 it is M_home."""
+    """Return T_world_ee by the product of exponentials in the hand frame, (4, 4).
+
+    body_screws (n, 6) are the screw axes (omega; v) at q = 0, from the base outwards,
+    expressed in the end effector's frame; M_home (4, 4) is T_world_ee at q = 0, in
+    metres, and q (n,) are the joint angles in radians (Modern Robotics, section 4.1.3).
+    fk_body([[0, 0, 1, 0, 0, 0]], [[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0],
+    [0, 0, 0, 1]], [pi / 2]) -> [[0, -1, 0, 1], [1, 0, 0, 0], [0, 0, 1, 0],
+    [0, 0, 0, 1]]
+    """
     # region 2.8
-    T = M_home
+    T = M_home  # the end effector's pose at q = 0
     for B, theta in zip(body_screws, q, strict=True):
-        T = T @ exp_screw(B, theta)
+        T = T @ exp_screw(B, theta)  # the pose after this joint's motion
     return T
     # endregion 2.8
 
 
 def dh_link(alpha: float, a: float, d: float, theta: float) -> np.ndarray:
-    """Return a link's pose on the one before, (4, 4), as Craig does: Rx, Tx, Rz, Tz.
+    """Return the pose of a link's frame relative to the frame before it, (4, 4).
 
-    dh_link(pi / 2, 0, 0.316, 0) puts it at (0, -0.316, 0), as the file puts link3.
+    alpha (radians) and a (metres) rotate about x and translate along x; theta (radians)
+    and d (metres) rotate about z and translate along z. This is Craig's convention:
+    the pose is Rot_x(alpha) Trans_x(a) Rot_z(theta) Trans_z(d), in this order (Craig,
+    Introduction to Robotics, eq. 3.6).
+    dh_link(pi / 2, 0, 0.316, 0) ->
+    [[1, 0, 0, 0], [0, 0, -1, -0.316], [0, 1, 0, 0], [0, 0, 0, 1]]
     """
     # region 2.9
-    ca = np.cos(alpha)
-    sa = np.sin(alpha)
-    c = np.cos(theta)
-    s = np.sin(theta)
-    row_x = [c, -s, 0.0, a]
-    row_y = [s * ca, c * ca, -sa, -d * sa]
-    row_z = [s * sa, c * sa, ca, d * ca]
+    ca = np.cos(alpha)  # the cosine of alpha
+    sa = np.sin(alpha)  # the sine of alpha
+    c = np.cos(theta)  # the cosine of theta
+    s = np.sin(theta)  # the sine of theta
+    row_x = [c, -s, 0.0, a]  # the first row of the pose
+    row_y = [s * ca, c * ca, -sa, -d * sa]  # the second row of the pose
+    row_z = [s * sa, c * sa, ca, d * ca]  # the third row of the pose
     return np.array([row_x, row_y, row_z, [0.0, 0.0, 0.0, 1.0]])
     # endregion 2.9
 
 
 def dh_fk(table: np.ndarray, q: np.ndarray) -> np.ndarray:
-    """Return T_world_flange, (4, 4), from rows (alpha, a, d), (8, 3), and q, (7,).
+    """Return T_world_flange from a table of DH parameters, (4, 4).
 
-    The eighth row is the flange, which does not turn: its theta is 0.
+    table (n + 1, 3) has rows (alpha, a, d) in radians and metres, in Craig's
+    convention, from the base outwards; q (n,) are the joint angles in radians, the
+    theta of the first n rows. The last row belongs to the flange, which no joint moves:
+    its theta is 0. The pose is the product of dh_link of all rows, in their order.
+    dh_fk([[0, 0, 0.333], [0, 0, 0.107]], [pi / 2]) ->
+    [[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0.44], [0, 0, 0, 1]]
     """
     # region 2.9
-    T = np.eye(4)
+    T = np.eye(4)  # the pose of the world's own frame
     for (alpha, a, d), theta in zip(table, [*q, 0.0], strict=True):
-        T = T @ dh_link(alpha, a, d, theta)
+        T = T @ dh_link(alpha, a, d, theta)  # the pose of the next link's frame
     return T
     # endregion 2.9
 
 
 class Seen(NamedTuple):
-    """What MuJoCo says of the arm at n configurations."""
+    """MuJoCo's poses and joint axes of the arm at n configurations."""
 
     T_ee: np.ndarray  # T_world_ee, (n, 4, 4)
-    T_links: np.ndarray  # of link1 to link7: each turns about its own z, (n, 7, 4, 4)
+    T_links: np.ndarray  # of link1 to link7, (n, 7, 4, 4); the axes are their z
     axes: np.ndarray  # the joints' axes in the world, as screws, (n, 7, 6)
 
 
 def mujoco_sees(model: mujoco.MjModel, q: np.ndarray) -> Seen:
-    """Return what MuJoCo says of configurations q, (n, 7)."""
+    """Return MuJoCo's poses and joint axes at configurations q, (n, 7)."""
     data = mujoco.MjData(model)
     site = data.site("attachment_site")
     links = [model.body(f"link{i}").id for i in range(1, 8)]
@@ -198,7 +246,7 @@ def mujoco_sees(model: mujoco.MjModel, q: np.ndarray) -> Seen:
 
 
 def mujoco_rotation(axis: np.ndarray, theta: float) -> np.ndarray:
-    """Return MuJoCo's rotation by theta about an axis of length 1, (3, 3)."""
+    """Return MuJoCo's rotation matrix by theta about a unit axis, (3, 3)."""
     quat = np.empty(4)
     R = np.empty(9)
     mujoco.mju_axisAngle2Quat(quat, axis, theta)  # fills quat: (w, x, y, z)
@@ -216,7 +264,7 @@ def random_screws(n: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def bracket(S: np.ndarray) -> np.ndarray:
-    """Return [S], (4, 4): a screw as the rate of a pose. NumPy's cross, not yours."""
+    """Return [S], (4, 4), the matrix form of a screw, with NumPy's cross product."""
     bracketed = np.zeros((4, 4))
     bracketed[:3, :3] = np.cross(np.eye(3), S[:3])
     bracketed[:3, 3] = S[3:]
@@ -224,15 +272,15 @@ def bracket(S: np.ndarray) -> np.ndarray:
 
 
 def on_purpose(screws: np.ndarray, M_home: np.ndarray) -> dict:
-    """Return {what is wrong: q -> your own fk_space, given something wrong}."""
+    """Return {mistake: q -> your own fk_space with this mistake}."""
     omega, v = screws[:, :3], screws[:, 3:]
     M_ready = fk_space(screws, M_home, READY_Q)
     return {
-        "nothing": lambda q: fk_space(screws, M_home, q),
+        "no mistake": lambda q: fk_space(screws, M_home, q),
         "v = +omega x point": lambda q: fk_space(np.hstack([omega, -v]), M_home, q),
         "v forgotten": lambda q: fk_space(np.hstack([omega, 0 * v]), M_home, q),
         "(v; omega)": lambda q: fk_space(np.hstack([v, omega]), M_home, q),
-        "joint7 on the left": lambda q: fk_space(screws[::-1], M_home, q[::-1]),
+        "product in reverse order": lambda q: fk_space(screws[::-1], M_home, q[::-1]),
         "M on the left": lambda q: M_home @ fk_space(screws, np.eye(4), q),
         "q in degrees": lambda q: fk_space(screws, M_home, np.rad2deg(q)),
         "M of the ready pose": lambda q: fk_space(screws, M_ready, q),
@@ -240,8 +288,8 @@ def on_purpose(screws: np.ndarray, M_home: np.ndarray) -> dict:
 
 
 def how_far_off(lab: Lab, ways: dict, q: np.ndarray, T_ee: np.ndarray) -> None:
-    """Print how far off the hand is: at the first q, 0; at ready; at the others."""
-    print(f"  {'millimetres':24}{'q = 0':>8}{'ready':>8}{'random':>8}")
+    """Print the position errors at q = 0, in the ready pose, and a random median."""
+    print(f"  {'position error, mm':24}{'q = 0':>8}{'ready':>8}{'random':>8}")
     for what, fk in ways.items():
         off = [fk(x)[:3, 3] for x in q] - T_ee[:, :3, 3]
         zero, ready, *others = 1000 * np.linalg.norm(off, axis=1)
@@ -250,11 +298,11 @@ def how_far_off(lab: Lab, ways: dict, q: np.ndarray, T_ee: np.ndarray) -> None:
 
 
 def lost_motion(lab: Lab, screws: np.ndarray) -> None:
-    """Print how many independent motions the screws of q = 0 span."""
+    """Print the rank of the screws of q = 0."""
     rank = np.linalg.matrix_rank(screws)
-    print(f"  The seven screws have rank {rank}; a hand that can move freely needs 6.")
+    print(f"  The seven screws have rank {rank}; free motion of the hand needs rank 6.")
     lab.measured("independent motions that the seven screws of q = 0 span", rank)
-    print("  Which motion has it lost there? (Day 3 answers.)")
+    print("  Which motion of the hand is impossible there? (Day 3 answers.)")
 
 
 def main() -> int:
@@ -274,31 +322,31 @@ def main() -> int:
     off = verify.each(exp_rotation, *turns) - verify.each(mujoco_rotation, *turns)
     lab.check("largest |exp_rotation - MuJoCo's|", off)
 
-    lab.step("2. Seven joints, seven lines in the world, with the arm at q = 0")
+    lab.step("2. Seven joints: seven screw axes in the world, at q = 0")
     screws = joint_screws(mujocos.T_links[0])  # the first q is 0
     M_home = mujocos.T_ee[0]
     lab.show("(omega; v) of joint1 to joint7", screws, 4)
     lab.measured("third number of v of joint4's screw, m", screws[3, 5])
-    # The function knows nothing of q = 0: elsewhere it has to find the lines too.
+    # The function gets no q, so it has to find the axes at any configuration.
     off = verify.each(joint_screws, mujocos.T_links) - mujocos.axes
     lab.check(f"largest |by hand - MuJoCo's axes| at {len(q)} q", off)
 
-    lab.step("3. The motion along one screw: hinges, slides, and both in one")
-    # MuJoCo has no call for the motion along a screw: the library's stands in for it.
+    lab.step("3. The exponential of one screw: hinges, slides, screws with a pitch")
+    # MuJoCo has no call for the motion along a screw, so the library is the reference.
     S, theta = random_screws(TRIALS)
     off = verify.each(exp_screw, S, theta) - library.exp_screw(S, theta)
     lab.check("largest |exp_screw - library|", off)
 
-    lab.step("4. Seven motions, then M: what is wrong, and how far off is the hand?")
+    lab.step("4. The product of exponentials, and its error with one mistake")
     how_far_off(lab, on_purpose(screws, M_home), q[:22], mujocos.T_ee[:22])
-    # The lesson of the day: at q = 0 nearly all of them are right. Never judge there.
+    # The lesson of the day: at q = 0 nearly all mistakes are invisible.
     off = [fk_space(screws, M_home, x) for x in q] - mujocos.T_ee
-    lab.check("fk_space at q = 0, which says little", off[0])
+    lab.check("fk_space at q = 0, where most mistakes are invisible", off[0])
     lab.record("poe_by_hand", np.abs(off[2:]).max(axis=(1, 2)),
-               label=f"fk_space at {TRIALS} random q, which says all",
+               label=f"fk_space at {TRIALS} random configurations",
                config="random", seed=SEED)  # fmt: skip
 
-    lab.step("5. The same arm as the end effector sees it")
+    lab.step("5. The same pose from screws in the end effector's frame")
     S, _ = random_screws(len(q))
     told = [adjoint(T) @ one for T, one in zip(mujocos.T_ee, S, strict=True)]
     moved = mujocos.T_ee @ verify.each(bracket, S) @ se3.inverse(mujocos.T_ee)
@@ -311,10 +359,10 @@ def main() -> int:
     many = verify.random_q(model, LIBRARY_TRIALS, SEED)
     by_library = library.fk_space(panda.screws(model), panda.home_pose(model), many)
     off = by_library - mujoco_sees(model, many).T_ee
-    lab.check(f"the library robo47.screws at {LIBRARY_TRIALS:,}", off)
+    lab.check(f"the library, at {LIBRARY_TRIALS:,} configurations", off)
 
-    lab.step("6. Denavit and Hartenberg: four numbers per link instead of six")
-    T_flange = mujocos.T_ee.copy()  # the site sits on the flange, turned by 135 degrees
+    lab.step("6. Denavit and Hartenberg: four parameters per link, not six")
+    T_flange = mujocos.T_ee.copy()  # the site is the flange, rotated by 135 degrees
     T_flange[:, :3, :3] = mujocos.T_links[:, 6, :3, :3]
     off = [dh_fk(FRANKA_DH, x) for x in q] - T_flange
     lab.show("row 4 of Franka's table, at theta = 0", dh_link(*FRANKA_DH[3], 0.0), 4)
@@ -322,10 +370,10 @@ def main() -> int:
     in_the_file = se3.make_T(se3.quat_to_R(link4.quat), link4.pos)
     lab.show("link4's pos and quat in the file, as a pose", in_the_file, 4)
     lab.record("dh_by_hand", np.abs(off[2:]).max(axis=(1, 2)),
-               label=f"dh_fk at {TRIALS} random q",
+               label=f"dh_fk at {TRIALS} random configurations",
                config="random", seed=SEED)  # fmt: skip
 
-    lab.step("7. Side quest: joint1, joint3 and joint5 are one line at q = 0")
+    lab.step("7. Side quest: the axes of joints 1, 3 and 5 coincide at q = 0")
     lost_motion(lab, screws)
     return lab.finish()
 

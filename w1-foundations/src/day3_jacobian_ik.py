@@ -3,7 +3,7 @@
     make day3                         in the clone: sets everything up, then runs this
     python src/day3_jacobian_ik.py    in w1-foundations/, once that is done
 
-A column of the Jacobian is a joint's screw, where it is now. Twists are (omega; v).
+A column of the Jacobian is a joint's present screw. Twists are (omega; v).
 J_space, J_site and J_body are three different matrices. Metres, radians, seconds.
 """
 
@@ -21,83 +21,107 @@ from robo47.verify import each, random_q
 import day3_mujoco
 
 READY_Q = panda.READY_Q  # the handout's home_q: seven joint angles, radians
-TRIALS = 500  # random configurations that your own code is judged on
-LIBRARY_TRIALS = 2_000  # and the library; a hundred thousand take seconds
+TRIALS = 500  # random configurations at which your own code is tested
+LIBRARY_TRIALS = 2_000  # for the library; a hundred thousand take seconds
 SEED = 47  # the same random configurations at every run
 NEAR, FAR = 50, 20  # targets of your solve_ik: within 0.3 rad of its start, anywhere
 TRIES = 20  # starts for one far target; with 1, 6 of the 20 are missed
 SPEED = np.array([2.175] * 4 + [2.61] * 3)  # Franka's joint speed limits, rad/s
 DOWN = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -10.0])  # a wrench: no moment, 10 N down
-# All of the first circle is in reach; the top of the second is not.
+# The first circle is in reach; the top of the second one is not.
 EASY, RADIUS = 0.36, 0.38
-DT = 0.02  # seconds a step takes; what goes wrong changes with it
-DAMPING = 0.05  # 0.1 is slower and less exact, 0 is the plain pseudo-inverse
+DT = 0.02  # seconds of a step; the errors out of reach depend on it
+DAMPING = 0.05  # 0.1 is slower and less accurate, 0 is the plain pseudo-inverse
 GAIN = 10.0  # 1/s: how fast an error on the circle is corrected; over 2 / DT it grows
 
 
 def space_jacobian(screws: np.ndarray, q: np.ndarray) -> np.ndarray:
-    """Return J_space, (6, 7): where each screw, (7, 6), is after those before it moved.
+    """Return the space Jacobian J_space, (6, n), of the joints' present screws.
 
-    At q = 0 nothing has moved: its columns are the screws themselves.
+    screws (n, 6) are the screw axes (omega; v) at q = 0, from the base outwards, in the
+    world frame and in metres; q (n,) are the joint angles in radians. Column i is screw
+    i, transformed by the motion of the joints before it; v is the velocity of the
+    hand's point at the world's origin (Modern Robotics, section 5.1.1). At q = 0 the
+    columns are the screws.
+    space_jacobian([[0, 0, 1, 0, 0, 0], [0, 0, 1, 0, -1, 0]], [pi / 2, 0]) ->
+    [[0, 0], [0, 0], [1, 1], [0, 1], [0, 0], [0, 0]]
     """
     # region 3.1
-    before = [np.eye(4)]
+    before = [np.eye(4)]  # the motion before the first joint
     for motion in exp_screw(screws, q)[:-1]:
-        before.append(before[-1] @ motion)
-    return (adjoint(np.array(before)) @ screws[:, :, None])[:, :, 0].T
+        before.append(before[-1] @ motion)  # the motion before the next joint
+    return (adjoint(np.array(before)) @ screws[:, :, None])[:, :, 0].T  # moved screws
     # endregion 3.1
 
 
 def site_jacobian(J_space: np.ndarray, p: np.ndarray) -> np.ndarray:
-    """Return J_site, (6, 7): v is the velocity of the hand's point p, (3,), world axes.
+    """Return the site Jacobian J_site, (6, n), of one point of the hand.
 
-    Of a spin about z, (0, 0, 1, 0, 0, 0), the point (1, 0, 0) has v = (0, 1, 0).
+    J_space (6, n) is the space Jacobian, rows (omega; v), and p (3,) a point that moves
+    with the hand, in metres, in the world frame. In J_site, v is the velocity of p;
+    omega does not change (Modern Robotics, section 3.3.2). Both are expressed in the
+    world frame.
+    site_jacobian([[0], [0], [1], [0], [0], [0]], [1, 0, 0]) ->
+    [[0], [0], [1], [0], [1], [0]]
     """
     # region 3.2
-    omega, v = J_space[:3], J_space[3:]
-    return np.vstack([omega, v - skew(p) @ omega])  # omega x p = -[p] omega
+    omega, v = J_space[:3], J_space[3:]  # the rows of omega and the rows of v
+    return np.vstack([omega, v - skew(p) @ omega])  # v of p: omega x p = -[p] omega
     # endregion 3.2
 
 
 def log_rotation(R: np.ndarray) -> np.ndarray:
-    """Return a rotation's axis times its angle, (3,), exact from 0 to pi.
+    """Return the rotation vector of a rotation, its axis times its angle, (3,).
 
-    90 degrees about z is (0, 0, pi / 2). At exactly pi both signs mean the same: return
-    the one whose largest entry is positive.
+    R (3, 3) is a rotation matrix. The angle is between 0 and pi radians, and the result
+    is accurate to 1e-8 in this whole range, also near 0 and near pi. The identity gives
+    (0, 0, 0). At exactly pi both signs represent the same rotation: return the vector
+    whose largest entry is positive (Modern Robotics, section 3.2.3.3).
+    log_rotation([[0, -1, 0], [1, 0, 0], [0, 0, 1]]) -> [0, 0, pi / 2]
     """
     # region 3.3
+    # The axis times the sine of the angle:
     a = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
-    sine = np.linalg.norm(a)
-    cosine = (np.trace(R) - 1) / 2
-    angle = np.arctan2(sine, cosine)
-    if cosine > -0.9:
-        return a * (angle / sine if sine > 0 else 1.0)
+    sine = np.linalg.norm(a)  # the sine of the angle
+    cosine = (np.trace(R) - 1) / 2  # the cosine of the angle
+    angle = np.arctan2(sine, cosine)  # the angle, from 0 to pi
+    if cosine > -0.9:  # angles up to 154 degrees
+        return a * (angle / sine if sine > 0 else 1.0)  # the axis times the angle
     B = (R + R.T) / 2 - cosine * np.eye(3)  # (1 - cosine) axis axis^T
-    column = B[:, np.argmax(np.diag(B))]
-    axis = column / np.linalg.norm(column)
-    return angle * axis * (-1.0 if a @ axis < 0 else 1.0)
+    column = B[:, np.argmax(np.diag(B))]  # the longest multiple of the axis
+    axis = column / np.linalg.norm(column)  # the axis up to its sign
+    return angle * axis * (-1.0 if a @ axis < 0 else 1.0)  # the axis with its sign
     # endregion 3.3
 
 
 def pose_error(T: np.ndarray, T_goal: np.ndarray) -> np.ndarray:
-    """Return how far the goal is, (6,): a rotation above a translation, world axes.
+    """Return the pose error from T to T_goal, rotation vector over translation, (6,).
 
-    A goal 0.1 m higher is (0, 0, 0, 0, 0, 0.1).
+    T (4, 4) and T_goal (4, 4) are poses of the hand in the world, in metres. The
+    rotation vector, in radians, belongs to the rotation that, applied after the present
+    one, gives the goal's; both halves are expressed in the world frame, so the error
+    belongs to J_site (Modern Robotics, section 6.2.2, uses the hand frame).
+    pose_error([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], [[0, -1, 0,
+    0.2], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) -> [0, 0, pi / 2, 0.2, 0, 0]
     """
     # region 3.4
-    R_error = T_goal[:3, :3] @ T[:3, :3].T
+    R_error = T_goal[:3, :3] @ T[:3, :3].T  # the rotation that is left, in the world
     return np.concatenate([log_rotation(R_error), T_goal[:3, 3] - T[:3, 3]])
     # endregion 3.4
 
 
 def dls_step(J_site: np.ndarray, e: np.ndarray, damping: float) -> np.ndarray:
-    """Return the dq, (7,), that makes |J dq - e|^2 + damping^2 |dq|^2 the smallest.
+    """Return the damped least-squares step dq of the joints, (7,), in radians.
 
+    It minimises |J dq - e|^2 + damping^2 |dq|^2. J_site (6, 7) is the site Jacobian, e
+    (6,) the wanted motion of the hand, such as a pose error, and damping is 0 or more
+    (Siciliano and others, section 3.5). With damping 0 it is the step of minimum norm.
     With J_site = [I 0] and damping 1 it is half of e, and 0 for the seventh joint.
     """
     # region 3.5
     J = J_site
-    return J.T @ np.linalg.solve(J @ J.T + damping**2 * np.eye(6), e)
+    A = J @ J.T + damping**2 * np.eye(6)  # the damped matrix of the six equations
+    return J.T @ np.linalg.solve(A, e)  # the step, from the solution for six unknowns
     # endregion 3.5
 
 
@@ -108,68 +132,85 @@ def solve_ik(
     q_start: np.ndarray,
     limits: np.ndarray,
 ) -> np.ndarray:
-    """Return joint angles, (7,), within limits, (7, 2), that bring the hand to T_goal.
+    """Return joint angles that bring the hand to T_goal (inverse kinematics), (7,).
 
-    From q_start on, with damping^2 = e.e / 2 + 1e-6; 60 steps (updates of q) will do.
-    A start whose error is under 1e-8 comes back, as a copy; out of reach, return the q
-    whose error was the shortest.
+    screws (7, 6), M_home (4, 4): as in fk_space; T_goal (4, 4): the wanted pose;
+    q_start (7,): the first joint angles in radians, which are not changed; limits
+    (7, 2): the lower and the upper limit of each joint. Each of at most 60 iterations
+    takes the damped least-squares step of the pose error e with damping^2 = e.e / 2 +
+    1e-6 and clamps q to the limits (Sugihara, IEEE Trans. Robotics 27(5), 2011). Stop
+    as soon as |e| is below 1e-8: a start at its goal comes back, as a copy. For a
+    target out of reach return the q with the smallest |e| of all iterations.
     """
     # region 3.6
-    q = q_start.copy()
-    best = q_start
-    least = np.inf
+    q = q_start.copy()  # the present joint angles
+    best = q_start  # the joint angles with the smallest error
+    least = np.inf  # the smallest squared error
     for _ in range(61):
-        T = fk_space(screws, M_home, q)
-        e = pose_error(T, T_goal)
-        if e @ e < least:
+        T = fk_space(screws, M_home, q)  # the present pose of the hand
+        e = pose_error(T, T_goal)  # the pose error
+        if e @ e < least:  # the comparison with the smallest squared error
             best = q
-            least = e @ e
-        if least < 1e-8**2:
+            least = e @ e  # the smallest squared error
+        if least < 1e-8**2:  # the test of convergence
             break
-        J = site_jacobian(space_jacobian(screws, q), T[:3, 3])
+        J = site_jacobian(space_jacobian(screws, q), T[:3, 3])  # J_site of the hand
         q = np.clip(q + dls_step(J, e, np.sqrt(e @ e / 2 + 1e-6)), *limits.T)
     return best
     # endregion 3.6
 
 
 def joint_torques(J_space: np.ndarray, p: np.ndarray, F: np.ndarray) -> np.ndarray:
-    """Return the torques, (7,), with which the hand pushes with F at its point p, (3,).
+    """Return the joint torques with which the hand exerts a wrench, (n,), in N m.
 
-    F, (6,), is the moment about p and the force, world axes. A joint that turns about z
-    pays 10 N m for -10 N along x at (0, 1, 0).
+    J_space (6, n) is the space Jacobian; p (3,) the point at which the hand pushes, in
+    metres; F (6,) the wrench that the hand exerts on the world, the moment about p in
+    N m over the force in N. All are expressed in the world frame (Modern Robotics,
+    section 5.2).
+    joint_torques([[0], [0], [1], [0], [0], [0]], [0, 1, 0], [0, 0, 0, -10, 0, 0]) ->
+    [10]
     """
     # region 3.7
-    return site_jacobian(J_space, p).T @ F
+    return site_jacobian(J_space, p).T @ F  # the wrench, mapped to the joints
     # endregion 3.7
 
 
 def manipulability(J: np.ndarray) -> float:
-    """Return the product of J's singular values, which is 0 where J is singular.
+    """Return the manipulability: the product of the singular values of J, a number.
 
-    With 1, 2, 3, 1, 1, 1 on the diagonal of J it is 6. Never NaN.
+    J (m, n) is a Jacobian with m <= n. The result is 0 where J is singular, and never
+    NaN (Yoshikawa, Int. J. Robotics Research 4(2), 1985).
+    manipulability([[2, 0, 0], [0, 3, 0]]) -> 6
     """
     # region 3.8
-    return np.linalg.svd(J, compute_uv=False).prod()
+    return np.linalg.svd(J, compute_uv=False).prod()  # the product of singular values
     # endregion 3.8
 
 
 def nullspace_projection(J: np.ndarray, dq: np.ndarray) -> np.ndarray:
-    """Return what is left of dq, (7,), without the smallest motion that the hand feels.
+    """Return the null-space projection of dq: its part that does not move the hand.
 
-    With J = [I 0] and dq all 1 only the seventh joint moves. J may be singular.
+    J (m, n) is a Jacobian, which may be singular, and dq (n,) a motion of the joints.
+    The result (n,) is the nearest motion to dq with J times it equal to 0: dq minus the
+    motion of minimum norm with the same J dq (Modern Robotics, section 6.3).
+    nullspace_projection([[1, 0, 0], [0, 1, 0]], [1, 2, 3]) -> [0, 0, 3]
     """
     # region 3.8
-    return dq - np.linalg.pinv(J) @ (J @ dq)
+    return dq - np.linalg.pinv(J) @ (J @ dq)  # dq without the part that moves the hand
     # endregion 3.8
 
 
 def body_jacobian(J_space: np.ndarray, T: np.ndarray) -> np.ndarray:
-    """Return J_body, (6, 7): the same motion as the hand itself, at pose T, sees it.
+    """Return the body Jacobian J_body, (6, n), expressed in the hand frame.
 
-    A hand that has not turned, at the origin, sees J_space.
+    J_space (6, n) is the space Jacobian, and T (4, 4) is T_world_ee at the same joint
+    angles, in metres. In J_body, v is the velocity of the hand's origin (Modern
+    Robotics, section 5.1.4).
+    body_jacobian([[0], [0], [1], [0], [-1], [0]], [[1, 0, 0, 1], [0, 1, 0, 0],
+    [0, 0, 1, 0], [0, 0, 0, 1]]) -> [[0], [0], [1], [0], [0], [0]]
     """
     # region 3.9
-    return adjoint(se3.inverse(T)) @ J_space
+    return adjoint(se3.inverse(T)) @ J_space  # the columns, in the hand frame
     # endregion 3.9
 
 
@@ -187,7 +228,7 @@ def mujoco_J_site(model: mujoco.MjModel, q: np.ndarray) -> np.ndarray:
 
 
 def mujoco_torques(model: mujoco.MjModel, q: np.ndarray, F: np.ndarray) -> np.ndarray:
-    """Return the torques, (n, 7), that stand for wrenches F, (n, 6), at the hand."""
+    """Return MuJoCo's joint torques, (n, 7), of wrenches F, (n, 6), on the hand."""
     data = mujoco.MjData(model)
     site = data.site("attachment_site")
     link = model.site_bodyid[site.id]  # a wrench acts on a body, at a point
@@ -203,11 +244,11 @@ def mujoco_torques(model: mujoco.MjModel, q: np.ndarray, F: np.ndarray) -> np.nd
 
 
 def draw_circle(arm: tuple, path: np.ndarray, q: np.ndarray, damping: float) -> tuple:
-    """Return how far off the hand is, mm, (n,), and joint speeds and angles, (n, 7)."""
+    """Return position errors in mm, (n,), joint speeds and angles, (n, 7) each."""
     off, speeds, angles = [], [], []
     for T_now, T_next in pairwise(path):  # poses, DT apart
         T = fk_space(*arm, q)
-        # The circle's own velocity, and a correction of what is off by now.
+        # The circle's own velocity, and a correction of the present error.
         twist = pose_error(T_now, T_next) / DT + GAIN * pose_error(T, T_now)
         J = site_jacobian(space_jacobian(arm[0], q), T[:3, 3])
         q_dot = dls_step(J, twist, damping)
@@ -223,17 +264,22 @@ def circles(lab: Lab, arm: tuple, limits: np.ndarray) -> None:
     times = np.arange(0.0, day3_mujoco.LAP, DT)
     path, q = day3_mujoco.circle(arm, limits, RADIUS, times)
     off, speeds, _ = draw_circle(arm, path, q, DAMPING)
-    lab.record("circle_dls", off, metric="max_err_mm", label="mm off the circle")
+    lab.record(
+        "circle_dls",
+        off,
+        metric="max_err_mm",
+        label="largest distance from the circle, mm",
+    )
     lab.record("circle_dls", (speeds / SPEED).max(axis=1), metric="rate_over_limit",
-               label="fastest joint, in parts of its limit")  # fmt: skip
+               label="fastest joint, as a fraction of its limit")  # fmt: skip
     least = day3_mujoco.least_miss(arm, limits, path[:-1], q)
     print(f"  {np.sum(least > 1e-3)} of {len(least)} poses are out of reach,", end=" ")
     print(f"by up to {least.max():.2f} mm.")
     if RADIUS == 0.38:
         lab.measured("circle of 0.38 m, top: too far for the wrist by, mm", least.max())
-    lab.check("mm farther off than the best joint angles", off - least, 15)
+    lab.check("largest distance beyond the smallest possible one, mm", off - least, 15)
 
-    lab.step("6. Without damping: another DT, other numbers")
+    lab.step("6. Without damping, where the errors out of reach depend on DT")
     for radius in (EASY, RADIUS):
         path, q = day3_mujoco.circle(arm, limits, radius, times)
         off, speeds, _ = draw_circle(arm, path, q, 0.0)
@@ -253,37 +299,40 @@ def main() -> int:
     p = T[:, :3, 3]
     J_mujoco = mujoco_J_site(model, q)
 
-    lab.step("1. The Jacobian: every column is a joint's screw, where it is now")
+    lab.step("1. The Jacobian: each column is the present screw of a joint")
     J_space = each(lambda x: space_jacobian(arm[0], x), q)
     J_site = each(site_jacobian, J_space, p)
-    lab.show("J_site when the arm is ready: rows (omega; v)", J_site[1], 3)
-    lab.check("J_space at q = 0: the screws", J_space[0] - arm[0].T)
+    lab.show("J_site in the ready configuration: rows (omega; v)", J_site[1], 3)
+    lab.check("J_space at q = 0 - the screws", J_space[0] - arm[0].T)
     lab.record("jacobian_by_hand", np.abs(J_site[2:] - J_mujoco[2:]).max(axis=(1, 2)),
                label=f"J_site - MuJoCo's at {TRIALS} random q",
                config="random", seed=SEED)  # fmt: skip
     with lab.side_quest():
         J_body = each(body_jacobian, J_space, T)
-        # Both halves of MuJoCo's, seen from the hand: its axes are the columns of R.
+        # Both halves of MuJoCo's, expressed in the hand frame, whose axes are R's.
         back = np.swapaxes(T[:, None, :3, :3], 2, 3)
         turned = back @ J_mujoco.reshape(-1, 2, 3, 7)
-        lab.check("J_body - MuJoCo's, turned", J_body - turned.reshape(-1, 6, 7))
+        lab.check(
+            "J_body - MuJoCo's, expressed in the hand frame",
+            J_body - turned.reshape(-1, 6, 7),
+        )
     many = random_q(model, LIBRARY_TRIALS, SEED)
     J_many = jacobian.space_jacobian(arm[0], many)
     ends = fk_space(*arm, many)[:, :3, 3]
     off = jacobian.site_jacobian(J_many, ends) - mujoco_J_site(model, many)
-    lab.check(f"the library robo47.jacobian at {LIBRARY_TRIALS:,}", off)
+    lab.check(f"the library's J_site at {LIBRARY_TRIALS:,} configurations", off)
 
-    lab.step("2. How far is it to the goal? A rotation vector and a translation")
+    lab.step("2. The pose error: a rotation vector and a translation")
     known = day3_mujoco.turns(TRIALS, SEED)
     off = each(log_rotation, known.R) - known.logs
-    lab.check(f"log_rotation of {TRIALS} turns, also near 0 and at pi", off)
+    lab.check(f"log_rotation of {TRIALS} rotations, also near 0 and at pi", off)
     start = T[:-1]
     goal = T[1:]
     e = each(pose_error, start, goal)
     off = (day3_mujoco.moved(start, e) - goal)[:, :3]
-    lab.check("moved by the error, the hand is at the goal", off)
+    lab.check("the pose, moved by the error - the goal", off)
 
-    lab.step("3. Steps, damped and unfelt, and the torques that a push costs")
+    lab.step("3. Damped steps, null-space motions, and the torques of a push")
     # |J dq - e|^2 + damping^2 |dq|^2 is one plain sum of squares, with 7 more rows.
     J = J_mujoco[:12]  # singular at q = 0, the first
     e = np.random.default_rng(SEED).normal(size=(len(J), 6))
@@ -298,7 +347,7 @@ def main() -> int:
     lab.check("joint_torques - MuJoCo's", off)
     tau = joint_torques(J_space[1], p[1], DOWN)
     lab.measured("joint 2's torque at ready, pushing down with 10 N, N m", tau[1])
-    J = J_mujoco[1:]  # of rank 6: one motion of the joints leaves the hand where it is
+    J = J_mujoco[1:]  # of rank 6: one motion of the joints does not move the hand
     dq = np.random.default_rng(SEED).normal(size=(len(J), 7))
     null = np.linalg.svd(J)[2][:, 6]
     along = np.sum(dq * null, axis=1, keepdims=True) * null
@@ -309,21 +358,27 @@ def main() -> int:
     lab.check("manipulability squared - det(J J^T)", off)
     flat = manipulability(J_mujoco[0])
     u = np.linalg.svd(J_mujoco[0])[0][:, -1]
-    lab.show(f"At q = 0 it is {abs(flat):.4f}; no motor feels the wrench", np.abs(u), 3)
+    lab.show(
+        f"Manipulability {abs(flat):.4f} at q = 0: a wrench without motor torques",
+        np.abs(u),
+        3,
+    )
 
     lab.step("4. Inverse kinematics")
     off = solve_ik(*arm, T[1], READY_Q, limits) - READY_Q
-    lab.check("a start that is there already comes back", off)
+    lab.check("a start at its goal comes back unchanged", off)
     ends = day3_mujoco.ends_of(solve_ik, arm, limits, q[2 : NEAR + 2], SEED)
-    lab.check(f"share of {NEAR} near targets not reached", ends.missed, 0.03)
-    lab.check("2 m away, out of reach: error / the best", ends.out_of_reach, 1.01)
-    lab.check("rad beyond the joint limits", ends.beyond)
+    lab.check(f"fraction of {NEAR} near targets not reached", ends.missed, 0.03)
+    lab.check("2 m away, out of reach: error / smallest error", ends.out_of_reach, 1.01)
+    lab.check("largest angle beyond a joint limit, rad", ends.beyond)
     goals = T[2 : FAR + 2]
     at = day3_mujoco.tries(solve_ik, arm, limits, goals, READY_Q, TRIES, SEED)
-    print(f"  Reached of {len(at)}: {sum(at == 1)} from ready, {sum(at > 0)} in all.")
-    lab.record("ik_by_hand", np.mean(at == 0), label="share not reached", seed=SEED,
-               n_trials=len(at), n_failures=int(np.sum(at == 0)))  # fmt: skip
-    lab.step(f"5. A circle of {RADIUS} m, with damping: is all of it in reach?")
+    print(f"  Targets reached of {len(at)}: {sum(at == 1)} from ready,", end=" ")
+    print(f"{sum(at > 0)} with more starts.")
+    lab.record("ik_by_hand", np.mean(at == 0), label="fraction of targets missed",
+               seed=SEED, n_trials=len(at),
+               n_failures=int(np.sum(at == 0)))  # fmt: skip
+    lab.step(f"5. A circle of {RADIUS} m, with damping: is the whole circle in reach?")
     circles(lab, arm, limits)
     return lab.finish()
 

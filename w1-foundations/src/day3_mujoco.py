@@ -1,13 +1,14 @@
-"""What Day 3 holds its lab against: turns that are known, targets, a circle to draw.
+"""The references of Day 3's lab: known rotations, targets, and a circle to draw.
 
-The Jacobian and the torques of a push are held against MuJoCo's own calls, which stand
-in the lab. MuJoCo solves no inverse kinematics: a solver is judged by where the hand
-ends, and out of reach by the best of the library's hundreds of starts.
+The Jacobian and the torques of a push are compared with MuJoCo's own calls, which are
+in the lab. MuJoCo has no inverse kinematics. A solver is therefore judged by the final
+pose of the hand, and for a target out of reach by the best of the library's hundreds of
+starts.
 
 A solver takes screws, (7, 6), home pose, (4, 4), T_goal, (4, 4), start, (7,), and joint
-limits, (7, 2), and returns joint angles, (7,). `arm` is the first two. The circle is
-in the y-z plane, the tool points down all the way: with a radius of 0.36 m all of it is
-in reach; the top of one of 0.38 m is not. Metres, radians.
+limits, (7, 2), and returns joint angles, (7,). `arm` is the first two. The circle is in
+the y-z plane, and the tool always points down. The whole circle of radius 0.36 m is in
+reach; the top of a circle of 0.38 m is not. Metres, radians.
 """
 
 from typing import NamedTuple
@@ -24,11 +25,11 @@ from robo47.verify.answers import Function
 
 CENTRE = np.array([0.28, -0.06, 0.55])
 LAP = 6.0  # seconds
-# From here the elbow meets no joint limit on the way.
+# From this configuration the elbow meets no joint limit along the circle.
 _START_Q = np.array([0.5, -1.3, 0.0, -2.4, -0.5, 1.7, 1.2])
 
 NEAR, FAR = 0.3, 2.0  # radians from the start; metres from the base, out of reach
-ENOUGH = 3  # failures, after which the rest is spared
+ENOUGH = 3  # failures, after which no more targets are tried
 
 
 class Turns(NamedTuple):
@@ -39,7 +40,7 @@ class Turns(NamedTuple):
 
 
 def turns(n: int, seed: int) -> Turns:
-    """Return n turns, some next to 0 or next to pi down to 1e-9 rad, one half a turn.
+    """Return n rotations, some within 1e-9 rad of 0 or pi, and one by exactly pi.
 
     Args:
         n: how many; 13 at least.
@@ -53,12 +54,12 @@ def turns(n: int, seed: int) -> Turns:
     axes[12] = [0.0, 1.0, 0.0]
     angles[12] = np.pi
     R = screws.exp_rotation(axes, angles)
-    R[12] = np.round(R[12])  # exactly: there both signs mean the same
+    R[12] = np.round(R[12])  # exactly pi: both signs are the same rotation
     return Turns(R, angles[:, None] * axes)
 
 
 def moved(T: Array, e: Array) -> Array:
-    """Return poses, (n, 4, 4), turned and moved by pose errors, (n, 6), world axes."""
+    """Return poses, (n, 4, 4), rotated and moved by world pose errors, (n, 6)."""
     there = T.copy()
     angle = np.linalg.norm(e[:, :3], axis=1)
     turned = angle > 0  # not where it is NaN
@@ -69,12 +70,12 @@ def moved(T: Array, e: Array) -> Array:
 
 
 class Ends(NamedTuple):
-    """Where a solver ended.
+    """The results of a solver.
 
     Attributes:
-        missed: share of the near targets.
-        out_of_reach: misses over the least possible ones, (4,).
-        beyond: radians beyond the joint limits, at worst.
+        missed: fraction of the near targets that it misses.
+        out_of_reach: errors divided by the smallest possible errors, (4,).
+        beyond: the largest angle beyond a joint limit, radians.
     """
 
     missed: float
@@ -85,13 +86,13 @@ class Ends(NamedTuple):
 def ends_of(
     solve: Function, arm: tuple[Array, Array], limits: Array, q: Array, seed: int
 ) -> Ends:
-    """Return how a solver does on targets near its starts, and on some out of reach.
+    """Return the results of a solver for near targets, and for some out of reach.
 
     Args:
         solve: the solver.
         arm: screws and home pose.
         limits: of the joints.
-        q: configurations, (n, 7); starts are nearer to the middle of the limits.
+        q: configurations, (n, 7); the starts are nearer to the middle of the limits.
         seed: of the targets.
     """
     rng = np.random.default_rng(seed)
@@ -120,9 +121,9 @@ def tries(
     most: int,
     seed: int,
 ) -> Array:
-    """Return at which try each target is reached, (n,); 0 is never.
+    """Return the number of the start that reaches each target, (n,); 0 if none does.
 
-    After three failures the rest is spared.
+    After three failures no more targets are tried.
 
     Args:
         solve: the solver.
@@ -147,9 +148,9 @@ def tries(
 
 
 def miss(arm: tuple[Array, Array], q: Array, goal: Array) -> Array:
-    """Return the lengths of pose errors at q, (..., 7): radians and metres at once.
+    """Return the norms of the pose errors at q, (..., 7), radians and metres together.
 
-    Where q holds what is no number, it is infinite.
+    The norm is infinite if q contains NaN or infinity.
     """
     if not np.isfinite(q).all():
         return np.full(np.shape(q)[:-1], np.inf)
@@ -157,14 +158,14 @@ def miss(arm: tuple[Array, Array], q: Array, goal: Array) -> Array:
 
 
 def beyond(limits: Array, q: Array) -> float:
-    """Return how far q, (..., 7), is beyond the joint limits at worst, radians."""
+    """Return the largest angle of q, (..., 7), beyond a joint limit, radians."""
     return float(np.maximum(limits[:, 0] - q, q - limits[:, 1]).max().clip(0.0))
 
 
 def circle(
     arm: tuple[Array, Array], limits: Array, radius: float, times: Array
 ) -> tuple[Array, Array]:
-    """Return where the hand should be, and joint angles at the first of these poses.
+    """Return the poses of the hand on the circle, and joint angles at the first one.
 
     Args:
         arm: screws, (7, 6), and home pose, (4, 4).
@@ -173,7 +174,7 @@ def circle(
         times: in seconds, (n,); a lap takes LAP.
 
     Returns:
-        Poses, (n, 4, 4), and q, (7,): the library's, so that all start alike.
+        Poses, (n, 4, 4), and q, (7,), by the library, so that every lab starts alike.
     """
     phi = 2 * np.pi * np.asarray(times) / LAP
     T = np.tile(np.diag([-1.0, 1.0, -1.0, 1.0]), (len(phi), 1, 1))
@@ -184,7 +185,9 @@ def circle(
 
 
 def least_miss(arm: tuple[Array, Array], limits: Array, path: Array, q: Array) -> Array:
-    """Return how far from each pose the hand must stay, mm, (n,): 0 within reach.
+    """Return the smallest possible position error at each pose, mm, (n,).
+
+    It is 0 within the workspace.
 
     Args:
         arm: screws, (7, 6), and home pose, (4, 4).

@@ -1,7 +1,7 @@
-"""What Day 5 asks of MuJoCo: motors, servos, and the stiffness at which a loop breaks.
+"""Day 5's simulations in MuJoCo: motors, servos, and the stability limit of a loop.
 
-A law is a function of (arm, q, qd, reference at this instant) that returns torques; a
-reference one of `robo47.references`. Radians, rad/s, N m, seconds.
+A law is a function of (arm, q, qd, reference at this instant) that returns torques. A
+reference is one of `robo47.references`. Radians, rad/s, N m, seconds.
 """
 
 from collections.abc import Callable
@@ -20,13 +20,13 @@ Law = Callable[..., Array]
 
 
 class States(NamedTuple):
-    """Random states of the arm, and what a controller is asked there, (n, 7) each."""
+    """Random states of the arm and inputs of a controller, (n, 7) each."""
 
-    q: Array  # where the joints are, rad
-    qd: Array  # their velocities, rad/s
-    e: Array  # how far they are from the reference, rad
-    ed: Array  # the rate of that, rad/s
-    qdd_ref: Array  # the acceleration of the reference, rad/s2
+    q: Array  # joint angles, rad
+    qd: Array  # joint velocities, rad/s
+    e: Array  # errors, reference minus measurement, rad
+    ed: Array  # rates of the errors, rad/s
+    qdd_ref: Array  # acceleration of the reference, rad/s^2
 
 
 class Servos(NamedTuple):
@@ -45,8 +45,8 @@ def motors(
 
     Args:
         drive: "torque" or "servo".
-        integrator: by its name in `mujoco.mjtIntegrator`.
-        edit: of the model, as `panda.load` takes it.
+        integrator: its name in `mujoco.mjtIntegrator`.
+        edit: changes the model, as in `panda.load`.
     """
     model = panda.load("panda_nohand", drive=drive, edit=edit)
     model.opt.integrator = getattr(mujoco.mjtIntegrator, integrator)
@@ -54,13 +54,13 @@ def motors(
 
 
 def states(model: mujoco.MjModel, n: int, seed: int) -> States:
-    """Return n random states within the joint limits."""
+    """Return n random states: q within the joint limits, the others within +-1."""
     qd, e, ed, qdd = np.random.default_rng(seed).uniform(-1, 1, (4, n, 7))
     return States(random_q(model, n, seed), qd, e, ed, qdd)
 
 
 def arguments(at: States, seed: int) -> dict[str, tuple[Array, ...]]:
-    """Return what to ask the functions that MuJoCo has no call for, (n, ...) each."""
+    """Return {function: arguments}, (n, ...) each, for those that MuJoCo lacks."""
     rng = np.random.default_rng([seed, 5])
     n = len(at.q)
     K, D = rng.uniform(10, 100, (2, n, 7))
@@ -81,27 +81,31 @@ def arguments(at: States, seed: int) -> dict[str, tuple[Array, ...]]:
 
 
 def servos_follow(reference: Reference, seconds: float) -> simulate.Run:
-    """Return how the model file's own position servos follow a reference."""
+    """Return a run of the model file's own position servos along a reference."""
     model = panda.load("panda_nohand")  # drive="servo": ctrl takes angles
     data = simulate.start(model, READY_Q)
     return simulate.run(model, data, lambda t, q, qd: reference(t)[0], seconds)
 
 
 def servos_of(model: mujoco.MjModel) -> Servos:
-    """Return the gains of a model's servos, from where MuJoCo keeps them."""
+    """Return the gains of a model's servos, from MuJoCo's actuator parameters."""
     return Servos(model.actuator_gainprm[:, 0], -model.actuator_biasprm[:, 2])
 
 
 def breaking(
     model: mujoco.MjModel, law_of: Callable[[float], Law], rate: float, start: Array
 ) -> float:
-    """Return the omega from which a tiny error grows, found by halving an interval.
+    """Return the smallest omega at which a tiny error grows, found by bisection.
 
     Args:
         model: of the arm, with motors.
-        law_of: the law of an omega.
-        rate: of the controller in Hz.
-        start: a hair's breadth from ready: no motor is at its limit before 60 torques.
+        law_of: returns the law of an omega.
+        rate: of the controller, Hz.
+        start: joint angles so close to READY_Q that no motor reaches its limit within
+            60 periods, rad, (7,).
+
+    Returns:
+        omega, rad/s, to within 0.1.
     """
     low = 0.75 * rate
     high = 1.05 * rate

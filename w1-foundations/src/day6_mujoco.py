@@ -1,7 +1,7 @@
-"""What Day 6 asks of MuJoCo: random states, a table to press on, a circle to draw.
+"""Day 6's simulations in MuJoCo: random states, a table to press on, a circle.
 
-Twists, accelerations and errors are (angular; linear), wrenches (moment; force), in
-world axes at the hand's site. Metres, radians, newtons, seconds.
+Twists, accelerations and errors are (angular; linear), wrenches (moment; force),
+expressed in the world frame at the hand's site. Metres, radians, newtons, seconds.
 """
 
 from collections.abc import Callable, Sequence
@@ -18,23 +18,23 @@ from robo47.fast.arm_state import ArmState
 from robo47.panda import READY_Q
 from robo47.verify import mujoco_site_jacobian, random_q
 
-SITE = "attachment_site"  # where the arm without a hand ends
-SPEED_UP = 1.0  # s, in which the hand gathers speed on its circle
+SITE = "attachment_site"  # end of the arm without a gripper
+SPEED_UP = 1.0  # s, duration of the acceleration on the circle
 
 
 class State(NamedTuple):
-    """A random state of the arm, and random things to ask of it."""
+    """A random state of the arm, and random inputs for the functions of the day."""
 
     now: ArmState  # the arm at its configuration
     qd: Array  # joint velocities in rad/s, (7,)
-    torque: Array  # of the joints in N m, (7,)
-    wrench: Array  # at the hand, (6,), to push with
-    acc: Array  # at the hand, (6,), to ask for
-    e: Array  # at the hand, (6,), to be off by
+    torque: Array  # joint torques, N m, (7,)
+    wrench: Array  # wrench at the hand, (6,)
+    acc: Array  # wanted acceleration of the hand, (6,)
+    e: Array  # pose error of the hand, (6,)
 
 
 class Motion(NamedTuple):
-    """Where a hand should be at an instant."""
+    """The reference of the hand at an instant."""
 
     T: Array  # its pose, (4, 4)
     V: Array  # its twist, (6,)
@@ -42,7 +42,7 @@ class Motion(NamedTuple):
 
 
 def states(model: mujoco.MjModel, n: int, seed: int, sigma: float) -> list[State]:
-    """Return up to n states where J's least singular value is over sigma."""
+    """Return up to n states where J's smallest singular value is over sigma."""
     arm = panda.arm(model)
     rng = np.random.default_rng(seed)
     q = random_q(model, 2 * n, seed)
@@ -55,7 +55,7 @@ def states(model: mujoco.MjModel, n: int, seed: int, sigma: float) -> list[State
 
 
 def arguments(at: Sequence[State]) -> dict[str, tuple[Array, ...]]:
-    """Return what to ask the functions that MuJoCo has no call for, (n, ...) each."""
+    """Return {function: arguments}, (n, ...) each, for those that MuJoCo lacks."""
     rng = np.random.default_rng(len(at))
     n = len(at)
     J = np.array([s.now.J_site for s in at])
@@ -78,7 +78,14 @@ def arguments(at: Sequence[State]) -> dict[str, tuple[Array, ...]]:
 def rest_after(
     model: mujoco.MjModel, law: simulate.Controller, wrench: Array, rate: float
 ) -> Array:
-    """Return where a push of three seconds takes the hand from ready, (6,)."""
+    """Return the displacement of the hand from READY_Q after three seconds, (6,).
+
+    Args:
+        model: of the arm, with motors.
+        law: the controller.
+        wrench: at the hand during all of the time, (6,).
+        rate: of the controller, Hz.
+    """
     push = simulate.push_at(SITE, wrench)
     start = simulate.start(model, READY_Q)
     run = simulate.run(model, start, law, 3.0, rate=rate, push=push)
@@ -89,13 +96,13 @@ def rest_after(
 def released(
     model: mujoco.MjModel, law: simulate.Controller, e: ArrayLike, size: float
 ) -> Array:
-    """Return the part of the hand's error along e, released that way from ready, (n,).
+    """Return the component of the hand's error along e over time, from 1 on, (n,).
 
     Args:
         model: of the arm, with motors.
-        law: pulls the hand back to its pose at `READY_Q`.
-        e: the direction, (6,).
-        size: the first error is size times e, rad and m.
+        law: the controller, whose target is the pose at `READY_Q`.
+        e: direction of the first error, (6,).
+        size: the first error is size times e, rad and m; the hand starts at rest.
     """
     arm = panda.arm(model)
     goal = arm.at(READY_Q).T_world_ee
@@ -112,16 +119,16 @@ def released(
 
 
 def circle(t: float, T_start: ArrayLike, radius: float, turn: float) -> Motion:
-    """Return where a hand should be that sets off from rest on an upright circle.
+    """Return the reference of the hand on a vertical circle that starts at rest.
 
-    The circle is in the plane of y and z, above the start. The speed grows as a raised
-    cosine for one second, then it stays.
+    The circle is in a plane parallel to y and z; the start is its lowest point. The
+    speed grows as a raised cosine for one second and is constant afterwards.
 
     Args:
-        t: seconds since the start.
+        t: time since the start, s.
         T_start: pose of the hand at t = 0, (4, 4).
         radius: metres.
-        turn: seconds for one turn at full speed.
+        turn: time of one revolution at full speed, s.
     """
     w = 2.0 * np.pi / turn
     u = min(t / SPEED_UP, 1.0)
@@ -143,7 +150,7 @@ def circle(t: float, T_start: ArrayLike, radius: float, turn: float) -> Motion:
 def off_circle(
     model: mujoco.MjModel, law: simulate.Controller, radius: float, turn: float
 ) -> Array:
-    """Return how far a hand is from its circle all along one turn, metres."""
+    """Return the distances of the hand from its reference on the circle, m, (n,)."""
     run = simulate.run(model, simulate.start(model, READY_Q), law, turn + 0.5)
     arm = panda.arm(model)
     T = [arm.at(q).T_world_ee for q in run.q]
@@ -156,7 +163,7 @@ def above_table(model: mujoco.MjModel, gap: float) -> Array:
 
     Args:
         model: of `scenes.press_table`.
-        gap: between tip and table in metres; negative is deeper than the table.
+        gap: between tip and table, m; negative below the table's surface.
 
     Returns:
         q, radians, (7,).
@@ -176,18 +183,18 @@ def press(
     seconds: float = 2.0,
     rate: float = simulate.RATE,
 ) -> Array:
-    """Return how hard the tip presses on the table, from 10 mm above it on.
+    """Return the normal force on the table over time, from 10 mm above it on.
 
     Args:
-        controller: from the arm and the configuration it starts at to a controller.
+        controller: maps the arm and its first configuration to a controller.
         drive: "torque", or "servo" for the stiff position drives.
-        change: is given the model first, to write other gains or limits into it.
-        seconds: how long.
-        rate: of the controller in Hz.
+        change: a function that changes gains or limits of the model before the run.
+        seconds: duration of the simulation.
+        rate: of the controller, Hz.
 
     Returns:
-        Newtons after each time step, (N,): a peak may be over before a control
-        period is.
+        The force after each time step, N, (N,): a peak may be shorter than a control
+        period.
     """
     model = scenes.press_table(drive=drive)
     if change is not None:
@@ -201,7 +208,7 @@ def press(
     def look(model: mujoco.MjModel, data: mujoco.MjData) -> None:
         felt.append(scenes.contact_force(model, data, "tip", "table_top"))
 
-    # A push is called before every step: it sees the force of the step before.
+    # A push is called before each step, so it reads the force of the previous step.
     simulate.run(model, data, law, seconds, rate=rate, push=look)
     look(model, data)
     return np.array(felt[1:])
