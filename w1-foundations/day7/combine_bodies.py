@@ -33,7 +33,7 @@ def parallel_axes(d):
 
 
 def ten(m, c, inertia):
-    """Return the answer's ten numbers."""
+    """Return mass, centre of mass and inertia as one vector, (10,)."""
     return np.array([m, *c, *inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]])
 
 
@@ -100,7 +100,7 @@ def _(m1, c1, I1, m2, c2, I2):
     """plain-mean: the common centre is the midpoint of the two centres of mass. Weight
       each centre by the mass of its body => the answer with the midpoint
     not-divided-by-the-mass: the sum of m c is not divided by the total mass
-    first-centre-kept: the centre of mass remains the first body's => the answer with c1
+    first-centre-kept: the common centre of mass is set to c1 => the answer with c1
     """
     centres = {
         "plain-mean": (c1 + c2) / 2,
@@ -117,7 +117,7 @@ def _(m1, c1, I1, m2, c2, I2):
     xy-last: the last three entries are in the order yz, xz, xy; xy comes first
     products-negated: the last three entries have the opposite sign. They are entries of
       the inertia matrix, so xy is the sum of -m x y
-    mass-of-the-first: the mass is only the first body's => the answer with m1
+    mass-of-the-first: the mass includes only the first body => the answer with m1
     """
     right = combine_bodies(m1, c1, I1, m2, c2, I2)
     return {

@@ -63,12 +63,12 @@ def _(T0, T1, s):
       onto a rotation. The angular velocity is then not constant => the nearest rotation
     nlerp: the quaternions are interpolated linearly and normalised. The angular
       velocity is then not constant => the normalised mean of the quaternions
-    turn-in-world-axes: R1 R0^T is expressed in the world frame, but your rotation
-      multiplies R0 from the right, where it should be expressed in the first frame =>
-      R0 exp(s log(R1 R0^T))
-    turn-on-the-left: R0^T R1 is expressed in the first frame, but your rotation
-      multiplies R0 from the left, where it should be expressed in the world frame =>
-      exp(s log(R0^T R1)) R0
+    turn-in-world-axes: the rotation R1 R0^T is expressed in the world frame, but it
+      multiplies R0 from the right, where a rotation expressed in the first frame
+      belongs => R0 exp(s log(R1 R0^T))
+    turn-on-the-left: the rotation R0^T R1 is expressed in the first frame, but it
+      multiplies R0 from the left, where a rotation expressed in the world frame belongs
+      => exp(s log(R0^T R1)) R0
     turn-backwards: the rotation has the opposite sense, because R1^T R0 is the rotation
       from R1 to R0 => R0 exp(s log(R1^T R0))
     logarithms-mixed: the rotation vectors of R0 and R1 are interpolated linearly.

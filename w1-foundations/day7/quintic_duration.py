@@ -54,14 +54,17 @@ def seconds(delta_q, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERAT
 
 @row.wrongs
 def _(delta_q, v_max, a_max):
-    """peak-of-the-cubic: 1.5 is the maximum velocity of the cubic scaling. The quintic
-      is faster half way, so it exceeds the limit by 25 % => the duration with 1.5
-    peak-of-the-cubic 2: 6 is the maximum acceleration of the cubic scaling. The
-      quintic's is where the derivative of its acceleration is 0 => the duration with 6
-    peak-of-the-cubic 3: 1.5 and 6 are the maxima of the cubic scaling; the quintic has
-      other maxima => the duration with 1.5 and 6
-    peak-at-a-quarter: 5.625 is the acceleration at a quarter of the duration. It has
-      its maximum where its derivative is 0 => the duration with 5.625
+    """peak-of-the-cubic: your function uses 1.5, the maximum velocity of the cubic
+      scaling. The quintic is faster half way and exceeds the limit by 25 % => the
+      duration with 1.5
+    peak-of-the-cubic 2: your function uses 6, the maximum acceleration of the cubic
+      scaling. The quintic has its maximum where the derivative of its acceleration is 0
+      => the duration with 6
+    peak-of-the-cubic 3: your function uses 1.5 and 6, the maxima of the cubic scaling.
+      The quintic has other maxima => the duration with 1.5 and 6
+    peak-at-a-quarter: your function uses 5.625, the acceleration at a quarter of the
+      duration. The maximum is where the derivative of the acceleration is 0 => the
+      duration with 5.625
     """
     peaks = {
         "peak-of-the-cubic": {"speed": 1.5},

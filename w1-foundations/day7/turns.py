@@ -1,7 +1,7 @@
 """Rotations at which a logarithm often fails, for task 7.6: by pi, and by little.
 
-They are tested only if the function is right for drawn rotations, so that a function
-with another mistake is told that mistake first.
+They are tested only if the function is right for drawn rotations, so that another
+mistake is reported first.
 """
 
 import numpy as np

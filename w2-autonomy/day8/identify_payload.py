@@ -49,8 +49,8 @@ def _(J_site, R_site, extra, g):
       are angular, so the moment comes first
     holds-averaged: the poses are averaged before the fit, which leaves seven equations
       and removes the differences between the poses. Stack the rows of all poses
-    extra-by-joint: extra is flattened joint by joint, but the rows of the regressor are
-      stacked pose by pose => the result with extra in that order
+    extra-by-joint: the torques are flattened joint by joint, but the rows of the
+      regressor are stacked pose by pose => the result with extra in that order
     reshaped: J_site is reshaped to (k, 7, 6), which keeps the order of its entries. To
       transpose each matrix, swap the last two axes => the result with J reshaped
     wrenches-first: each pose's torques are converted to a wrench, and the wrenches are

@@ -33,7 +33,7 @@ def _(V, Vd):
       + ad(V) G V
     unit-vector-not-reset: the unit vector keeps the ones of earlier columns, so column
       k is the wrench of the first k parameters together => the columns added up
-    gravity-added: 9.81 is added to Vd, but Vd includes gravity already, as an
+    gravity-added: gravity is added to Vd, but Vd includes it already, as an
       acceleration -g of the base => the result for Vd + (0, 0, 0, 0, 0, 9.81)
     first-moments-empty: the columns of m c are 0. Their unit vectors have m = 0, so
       phi[1:4] must be neither multiplied nor divided by m => the result without these

@@ -97,9 +97,9 @@ for slug, says, redone, told in (
      "Frobenius norm of Y. Compare them with rtol times the largest",
      "the result with this norm",
      lambda s, rtol: (n := np.sum(s > rtol * np.linalg.norm(s)), s[0] / s[n - 1])),
-    ("cut-by-rows", "rtol is multiplied by the number of rows, as NumPy does with its "
-     "default tolerance. Compare the singular values with rtol times the largest",
-     "the result with rtol times the rows",
+    ("cut-by-rows", "your function multiplies rtol by the number of rows, as NumPy "
+     "does with its default tolerance. Compare the singular values with rtol times the "
+     "largest", "the result with rtol times the rows",
      lambda s, rtol, m: (n := np.sum(s > rtol * m * s[0]), s[0] / s[n - 1])),
     ("rtol-not-used", "the tolerance is a constant in your function. Use the argument "
      "rtol", "the result with 1e-9 for rtol",

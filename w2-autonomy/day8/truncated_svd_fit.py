@@ -122,9 +122,9 @@ def _(Y, tau, rtol):
       them with rtol times the largest => the result with the sum
     cut-by-the-norm: the singular values are compared with rtol times the Frobenius norm
       of Y. Compare them with rtol times the largest => the result with this norm
-    cut-by-rows: rtol is multiplied by the number of rows, as NumPy does with its
-      default tolerance. Compare the singular values with rtol times the largest => the
-      result with rtol times the rows
+    cut-by-rows: your function multiplies rtol by the number of rows, as NumPy does with
+      its default tolerance. Compare the singular values with rtol times the largest =>
+      the result with rtol times the rows
     V-for-its-transpose: V^T is used as V. numpy.linalg.svd returns V^T => the result
       with V^T for V
     cut-not-squared: the eigenvalues of Y^T Y are squares of the singular values, so
