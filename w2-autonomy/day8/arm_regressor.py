@@ -118,6 +118,9 @@ for slug, says, other in (
     ("p-before-R", "[p] multiplies R^T from the left in X. p is expressed in the world "
      "frame, so the block is -R^T [p]",
      {"into": lambda T: below(-skew(T[:3, 3]) @ T[:3, :3].T, T)}),
+    ("p-before-R", "the lower left block of X is [p] R^T. p is expressed in the world "
+     "frame, so the block is -R^T [p]",
+     {"into": lambda T: below(skew(T[:3, 3]) @ T[:3, :3].T, T)}),
     ("acceleration-starts-anew", "A contains only the acceleration of the base and the "
      "terms of joint i. Add the terms of the joints before it as well",
      {"passed_on": 0.0}),

@@ -49,6 +49,10 @@ def _(J_site, R_site, extra, g):
       are angular, so the moment comes first
     holds-averaged: the poses are averaged before the fit, which leaves seven equations
       and removes the differences between the poses. Stack the rows of all poses
+    first-hold-only: only the first pose is used. One pose does not determine all four
+      parameters, so stack the rows of all poses => the result from the first pose
+    last-hold-only: only the last pose is used, because each pass of the loop overwrites
+      the rows of the pose before. Stack them => the result from the last pose
     extra-by-joint: the torques are flattened joint by joint, but the rows of the
       regressor are stacked pose by pose => the result with extra in that order
     reshaped: J_site is reshaped to (k, 7, 6), which keeps the order of its entries. To
@@ -71,6 +75,8 @@ def _(J_site, R_site, extra, g):
         "load-drives": -right,
         "force-first": solved(rows(J_site, R_site, g, order=SWAP), extra),
         "holds-averaged": solved(Y.mean(axis=0), extra.mean(axis=0)),
+        "first-hold-only": solved(Y[0], extra[0]),
+        "last-hold-only": solved(Y[-1], extra[-1]),
         "extra-by-joint": solved(Y, extra.T),
         "reshaped": solved(
             rows(np.swapaxes(J_site.reshape(-1, 7, 6), 1, 2), R_site, g), extra
