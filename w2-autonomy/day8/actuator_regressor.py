@@ -20,12 +20,10 @@ def slow(case: Case) -> Finding | None:
         same_sign = (S * T)[..., 14:] >= 0
         if not (same_sign & (size <= np.abs(T[..., 14:]))).all():
             return None
-        own = np.diagonal(
-            size, axis1=1, axis2=2
-        ).ravel()  # each joint's entry in its own column
+        own = np.diagonal(size, axis1=1, axis2=2).ravel()  # each joint's own entry
         if (np.diff(own[np.argsort(np.abs(qd).ravel())]) < -1e-9).any():
             return None  # it does not grow with the velocity
-    says = "The dry friction of a slow joint is smaller than that of a fast one, or 0. "
+    says = "A slow joint has less dry friction than a fast one, or none. "
     says += "Its magnitude does not depend on the velocity, only its sign does."
     return Finding("slow-left-out", says)
 
