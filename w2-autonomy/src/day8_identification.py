@@ -186,7 +186,7 @@ def predict_with_sigma(
     noise = np.linalg.norm(tau - Y @ phi) / np.sqrt(len(tau) - kept.sum())  # the noise
     return (
         Y_new @ phi,  # the predicted torques
-        noise * np.linalg.norm(Y_new @ Vt[kept].T / s[kept], axis=1),  # their sigma
+        noise * np.linalg.norm(Y_new @ Vt[kept].T / s[kept], axis=1),  # the sigmas
     )
     # endregion 8.7
 
