@@ -9,6 +9,7 @@ A user's mistake is one line, never a traceback of the kit's.
 """
 
 import ast
+import contextlib
 import functools
 import inspect
 import os
@@ -19,7 +20,7 @@ import subprocess
 import sys
 import tempfile
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import EllipsisType
 from typing import Any, ParamSpec, TypeVar
@@ -40,6 +41,7 @@ P = ParamSpec("P")
 R = TypeVar("R")
 ANSWERS = "answers.json"  # in the kit's memory: what was written into worksheets
 _STEP = r"^{}\. .*?(?=^\d+\. |^\n|\Z)"  # of a lab's output
+_TRACEBACK = r"^Traceback \(most.*?^(?=\w[\w.]*: )"  # without its last line
 _KINDS = {str: "text in quotation marks", int: "a whole number"}
 _now: list[Day] = []  # the day that was begun last
 _brought = [0]  # how many of the executed cells were in step with the file last
@@ -249,14 +251,38 @@ def picture(name: str) -> Any:
 
     day = _day()
     _bring(day)
-    figures = lesson_figures(day.number, own=True)
-    if name not in figures:
-        names = ", ".join(figures) or "none"
-        raise Robo47Error(f"the day has no picture {name!r}; it has {names}")
+    with _own_modules(day):
+        try:
+            figures = lesson_figures(day.number, own=True)
+            if name in figures:
+                return figures[name]()
+        except Exception as error:
+            raise Robo47Error(_own_fault(day, error)) from None
+    names = ", ".join(figures) or "none"
+    raise Robo47Error(f"the day has no picture {name!r}; it has {names}")
+
+
+@contextlib.contextmanager
+def _own_modules(day: Day) -> Iterator[None]:
+    """Let the day's pictures import the student's file as it is now, and forget it."""
+    path, writes = list(sys.path), sys.dont_write_bytecode
+    _forget(day)
+    sys.path.insert(0, str(day.work.parent))
+    sys.dont_write_bytecode = True  # two edits within a second have one time
     try:
-        return figures[name]()
-    except Exception as error:
-        raise Robo47Error(_own_fault(day, error)) from None
+        yield
+    finally:
+        sys.path[:], sys.dont_write_bytecode = path, writes
+        _forget(day)
+
+
+def _forget(day: Day) -> None:
+    """Forget the modules that hold the functions of the student's file."""
+    names = (Path(day.script).stem, f"lesson_day{day.number}.figures")
+    for module in [
+        m for m in sys.modules if m in names or m.startswith(names[1] + ".")
+    ]:
+        del sys.modules[module]
 
 
 def _own_fault(day: Day, error: Exception) -> str:
@@ -265,12 +291,18 @@ def _own_fault(day: Day, error: Exception) -> str:
     Raises:
         Exception: the error itself, if no line of the student's file is in it.
     """
-    frames = traceback.extract_tb(error.__traceback__)
-    own = [frame for frame in frames if Path(frame.filename) == day.work]
+    cause = error.__cause__ or error  # a file of pictures that did not load
+    own = [
+        frame
+        for frame in traceback.extract_tb(cause.__traceback__)
+        if Path(frame.filename) == day.work
+    ]
     if not own:
         raise error
+    if isinstance(cause, NotImplementedError):
+        return f"this picture needs a function that is still to do; {cause}"
     where = f"{own[-1].name}, `{own[-1].line}`"
-    return f"your {where}: {type(error).__name__}: {error}"
+    return f"your {where}: {type(cause).__name__}: {cause}"
 
 
 @polite("figure()")
@@ -280,7 +312,7 @@ def figure() -> Any:
 
     day = _day()
     _bring(day)
-    drawn = ("make_figures.py",) if day.draw else ("view.py", "--screenshot")
+    drawn = ("make_figures.py",) if day.draw else ("view_panda.py", "--screenshot")
     print(_script(*drawn, "--day", str(day.number)))
     path = day.folder / day.figure
     return Image.open(path) if path.is_file() else None
@@ -340,7 +372,8 @@ def _tried(day: Day, constants: dict[str, Any]) -> str:
             shutil.copy(path, folder)
         copy = Path(folder, day.script)
         copy.write_text(text, "utf-8")
-        return _printed([sys.executable, str(copy), "--try"])
+        printed = _printed([sys.executable, str(copy), "--try"])
+    return re.sub(_TRACEBACK, "", printed, flags=re.MULTILINE | re.DOTALL)
 
 
 def with_constants(script: str, constants: dict[str, Any]) -> str:
