@@ -15,7 +15,7 @@ _STEP = re.compile(r"<!-- run: python src/(\S+) --no-log \| step (\d+) -->")
 _OUTPUT = re.compile(r"<!-- run: .*? -->\n?(.*?)\n?<!-- end -->", re.DOTALL)
 _LINK = re.compile(r"(\]\(|<img src=\")(?!https?:|#|mailto:)([^)\"]+)")
 # A command in a terminal, and what does the same in a cell.
-_END = r"(?!\s+(?:ARGS|TASK))(?=[`\s.<]|$)"
+_END = r"(?!\s+(?:ARGS|TASK|DAY)=)(?=[`\s.<]|$)"
 _TYPED = (
     (re.compile(r"make\s+run(?: DAY=\d+)?\s+ARGS=--reveal"), "run(reveal=True)"),
     (re.compile(r"make\s+run(?: DAY=\d+)?\s+ARGS=--try"), "run(NAME=value)"),
