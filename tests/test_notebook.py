@@ -110,7 +110,8 @@ def test_where_a_guide_asks_for_all_predictions_at_once_their_cells_are_there():
     ("shell", "cell"),
     [
         ("`make check TASK=1.2`", '`check("1.2")`'),
-        ("All numbers: make\nrun DAY=1 ARGS=--reveal", "All numbers: run(reveal=True)"),
+        ("Numbers: make\nrun DAY=1 ARGS=--reveal", "Numbers: run(reveal=True)"),
+        ("Numbers: make run\nDAY=1 ARGS=--reveal", "Numbers: run(reveal=True)"),
         ("`make run DAY=11 ARGS=--try`", "`run(NAME=value)`"),
         ("make view DAY=1 ARGS=--screenshot", "figure()"),
         ("`make check ARGS=--explain`", "`make check ARGS=--explain`"),
@@ -421,6 +422,32 @@ def test_a_step_that_the_lab_does_not_reach_shows_where_it_stopped():
     assert kernel._shown(printed, 1).startswith(
         "Predict first: 3 are missing.\n\n1. One"
     )
+
+
+def test_a_lab_that_stops_early_hides_only_steps_with_numbers_to_be_predicted(
+    day, monkeypatch, capsys
+):
+    monkeypatch.setattr(kernel, "_now", [day])
+    complete = "1. One\n  a 5.25\n\n2. Two\n  b (hidden)\n\n"
+    monkeypatch.setattr(kernel, "_printed", lambda command: complete)
+    ran = []
+
+    def script(name, *arguments):
+        ran.append("--reveal" in arguments)
+        number = "5.25" if ran[-1] else "(hidden)"
+        return f"1. One\n  a {number}\n\n2. Two\n  b {number}\n\n"
+
+    monkeypatch.setattr(kernel, "_script", script)
+    kernel.run(step=1)
+    assert "a 5.25" in capsys.readouterr().out
+    kernel.run(step=2)
+    assert "b (hidden)" in capsys.readouterr().out
+    kernel.run(step=2, reveal=True)
+    assert "b 5.25" in capsys.readouterr().out
+    for name in build.rows_asked((day.folder / day.worksheet).read_text("utf-8")):
+        kernel.predict(name, 1)
+    kernel.run(step=2)
+    assert ran[-1] is False, "nothing is hidden, so the lab decides"
 
 
 def test_a_cell_with_a_syntax_error_is_named_with_its_own_line_until_it_is_right():

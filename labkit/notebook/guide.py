@@ -17,9 +17,9 @@ _LINK = re.compile(r"(\]\(|<img src=\")(?!https?:|#|mailto:)([^)\"]+)")
 # A command in a terminal, and what does the same in a cell.
 _END = r"(?!\s+(?:ARGS|TASK|DAY)=)(?=[`\s.<]|$)"
 _TYPED = (
-    (re.compile(r"make\s+run(?: DAY=\d+)?\s+ARGS=--reveal"), "run(reveal=True)"),
-    (re.compile(r"make\s+run(?: DAY=\d+)?\s+ARGS=--try"), "run(NAME=value)"),
-    (re.compile(r"make\s+view(?: DAY=\d+)?\s+ARGS=--screenshot"), "figure()"),
+    (re.compile(r"make\s+run(?:\s+DAY=\d+)?\s+ARGS=--reveal"), "run(reveal=True)"),
+    (re.compile(r"make\s+run(?:\s+DAY=\d+)?\s+ARGS=--try"), "run(NAME=value)"),
+    (re.compile(r"make\s+view(?:\s+DAY=\d+)?\s+ARGS=--screenshot"), "figure()"),
     (re.compile(rf"make (check|hint)(?: DAY=\d+)? TASK=([\d.]+\d){_END}"), r'\1("\2")'),
     (re.compile(rf"make (check|run)(?: DAY=\d+)?{_END}"), r"\1()"),
     (re.compile(rf"make figures(?: DAY=\d+)?{_END}"), "figure()"),

@@ -31,6 +31,7 @@ from labkit.lesson.day import Day, find_day
 from labkit.lesson.hidden import WORD
 from labkit.lesson.kept import with_ends_of
 from labkit.lesson.lab_module import read_script
+from labkit.lesson.predicted import rows_asked
 from labkit.notebook import sync, worksheet
 from labkit.notebook.guide import typed
 from labkit.notebook.show import Checked, Said
@@ -160,12 +161,32 @@ def run(step: int = 0, *, reveal: bool = False, **constants: Any) -> Said | None
     if constants:
         printed = _tried(day, constants)
     elif step or reveal:
-        more = ("--reveal",) if reveal else ()
-        printed = _unlogged(day, day.work.read_bytes(), _sheet(day)[1], more)
+        sheet = _sheet(day)[1]
+        more = ("--reveal",) if reveal or _tells_nothing(day, step, sheet) else ()
+        printed = _unlogged(day, day.work.read_bytes(), sheet, more)
     else:
         printed = _script("run_day.py", str(day.number))
     print(typed(_shown(printed, step) if step else printed))
     return None
+
+
+def _tells_nothing(day: Day, step: int, sheet: str) -> bool:
+    """Return whether a step prints no number that is still to be predicted.
+
+    A lab that stops early hides every number, because any of them may be one that it
+    measures later. The complete lab does not stop, so its output shows where they are.
+    """
+    if all(rows_asked(sheet).values()):
+        return False
+    found = re.search(_STEP.format(step), _complete(day, sheet), re.DOTALL | re.M)
+    return found is not None and WORD not in found.group()
+
+
+@functools.lru_cache(maxsize=4)
+def _complete(day: Day, sheet: str) -> str:
+    """Return what the complete lab prints without the numbers to be predicted."""
+    options = ["--no-log", "--predict-first"]
+    return _printed([sys.executable, str(day.source), *options])
 
 
 def _steps(lab: str) -> list[int]:
