@@ -217,6 +217,10 @@ def test_an_edit_of_the_file_alone_counts_and_is_told(day):
     assert told.newer == ["Rz"]
     assert "newer than the cell" in told.told(day)[0]
     assert body_of(day) == "5"
+    assert bring(day, 1, keep="notebook").written == ["Rz"]
+    assert body_of(day) == "1"
+    (kept,) = day.work.parent.glob("*.before-notebook-1.txt")
+    assert "return 5" in kept.read_text("utf-8")
 
 
 def test_an_edit_of_both_is_named_nothing_is_merged_and_the_student_chooses(day):
@@ -227,6 +231,11 @@ def test_an_edit_of_both_is_named_nothing_is_merged_and_the_student_chooses(day)
     assert body_of(day) == "5"
     assert bring(day, 7, keep="file").newer == ["Rz"]
     assert body_of(day) == "5"
+    other = "def Rz(theta):\n    return 6\n\n\ndef make_T(R, t):\n    return R\n"
+    told = sync.bring(day, definitions([other]), keep="file")
+    assert (told.written, told.newer) == (["make_T"], ["Rz"]), (
+        "one choice, one function"
+    )
     assert bring(day, 8, keep="notebook").written == ["Rz"]
     assert body_of(day) == "8"
     (kept,) = day.work.parent.glob("*.before-notebook-1.txt")

@@ -121,7 +121,8 @@ def check(task: str = "", *, keep: str = "") -> Checked:
 
     Args:
         task: such as "2.1"; "" is the whole day.
-        keep: "notebook" or "file": which text counts if both were edited.
+        keep: "notebook" or "file": which text counts if both were edited; "notebook"
+            also takes a cell's text that is older than the file's.
     """
     from labkit.check.once import check_once
 

@@ -49,7 +49,8 @@ class Brought:
             names = ", ".join(self.newer)
             says.append(
                 f"{names}: the text in {file} is newer than the cell, and it counts. "
-                f'load("{self.newer[0]}") shows it.'
+                f'load("{self.newer[0]}") shows it; check(keep="notebook") takes the '
+                "cell."
             )
         return says
 
@@ -62,7 +63,8 @@ def bring(
     Args:
         day: begun, so its file is there.
         cells: of the notebook.
-        keep: "notebook" or "file", which one counts if both were edited.
+        keep: "notebook" or "file", which one counts if both were edited; "notebook"
+            also takes a cell's text that is older than the file's.
         reverted: functions whose cell has an earlier text again, which was run on
             purpose and therefore counts as an edit.
 
@@ -79,7 +81,8 @@ def bring(
     }
     if not keep and (both := [name for name in counts if counts[name] == "both"]):
         raise Robo47Error(_both(day, both))
-    counts = {name: keep if who == "both" else who for name, who in counts.items()}
+    open_to = ("both", "file") if keep == "notebook" else ("both",)
+    counts = {name: keep if who in open_to else who for name, who in counts.items()}
     taken = [name for name in counts if counts[name] == "notebook"]
     newer = [name for name in counts if counts[name] == "file"]
     left = {n: text for n, text in cells.functions.items() if n not in newer}
