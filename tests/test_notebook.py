@@ -433,6 +433,30 @@ def test_a_step_that_the_lab_does_not_reach_shows_where_it_stopped():
     )
 
 
+def test_a_constant_that_the_lab_cannot_use_is_one_line_below_its_output(
+    day, monkeypatch, capsys
+):
+    monkeypatch.setattr(kernel, "_now", [day])
+    crash = "1. One\n  a 1\nTraceback (most recent call last):\n  File x\n    f(\n"
+    monkeypatch.setattr(kernel, "_printed", lambda _: f"{crash}ValueError: no, a: b")
+    kernel.run(step=1, TRIALS="x")
+    assert capsys.readouterr().out == "1. One\n  a 1\nValueError: no, a: b\n"
+
+
+@pytest.mark.parametrize(
+    ("number", "script"), [(1, "view_panda.py"), (11, "make_figures.py")]
+)
+def test_the_picture_to_hand_in_has_a_cell_on_every_day(monkeypatch, number, script):
+    assert "figure()" in code_cells(build.build(find_day(number), fresh=True))
+    monkeypatch.setattr(kernel, "_now", [find_day(number)])
+    monkeypatch.setattr(kernel, "_bring", lambda day: [])
+    ran = []
+    monkeypatch.setattr(kernel, "_script", lambda *words: ran.append(words) or "")
+    kernel.figure()
+    assert ran[0][0] == script
+    assert (ROOT / "scripts" / script).is_file()
+
+
 def test_a_lab_that_stops_early_hides_only_steps_with_numbers_to_be_predicted(
     day, monkeypatch, capsys
 ):
