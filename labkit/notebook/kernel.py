@@ -334,8 +334,11 @@ def figure() -> Any:
 
     day = _day()
     _bring(day)
-    drawn = ("make_figures.py",) if day.draw else ("view_panda.py", "--screenshot")
-    print(_script(*drawn, "--day", str(day.number)))
+    number = str(day.number)
+    if day.draw:
+        print(_script("make_figures.py", "--day", number))
+    else:
+        print(_script("view_panda.py", number, "--screenshot"))
     path = day.folder / day.figure
     return Image.open(path) if path.is_file() else None
 
