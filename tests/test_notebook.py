@@ -1,6 +1,7 @@
 """The notebook: made of guide and starter, and in step with the lab's file."""
 
 import dataclasses
+import importlib
 import importlib.util
 import json
 import os
@@ -20,6 +21,7 @@ from labkit.lesson.cells import (
     apart,
     definitions,
     lab_from,
+    reverted,
     text_of,
     with_functions,
 )
@@ -82,10 +84,53 @@ def test_every_task_has_its_function_and_its_check_in_the_order_of_the_guide(day
     assert len([s for s in sources if s.startswith("answer(")]) >= day.questions
 
 
-def test_a_prediction_stands_above_the_step_that_measures_it():
-    sources = code_cells(build.build(find_day(11), fresh=True))
-    i = sources.index("predict('gradient for joint 1, m/rad', ...)")
-    assert sources[i + 1] == "run(step=3)"
+@pytest.mark.parametrize(
+    ("number", "row", "step"),
+    [
+        (11, "gradient for joint 1, m/rad", 3),
+        (12, "one joint over 1 rad, s", 4),  # in a function that main calls
+        (14, "heaviest cube, mu 0.3, 2 N per pad, g", 2),  # an f-string
+    ],
+)
+def test_a_prediction_stands_above_the_step_that_measures_it(number, row, step):
+    sources = code_cells(build.build(find_day(number), fresh=True))
+    after = sources[sources.index(f"predict({row!r}, ...)") + 1 :]
+    assert next(s for s in after if s.startswith("run(")) == f"run(step={step})"
+
+
+def test_where_a_guide_asks_for_all_predictions_at_once_their_cells_are_there():
+    cells = cells_of(build.build(DAY, fresh=True))
+    asked = [i for i, c in enumerate(cells) if c["source"].startswith("predict(")]
+    assert asked == list(range(asked[0], asked[0] + 3))
+    assert "fill in the first column of *Predictions*" in cells[asked[0] - 1]["source"]
+    assert cells[asked[-1] + 1]["source"].startswith("- The height of the end effector")
+
+
+@pytest.mark.parametrize(
+    ("shell", "cell"),
+    [
+        ("`make check TASK=1.2`", '`check("1.2")`'),
+        ("Numbers: make\nrun DAY=1 ARGS=--reveal", "Numbers: run(reveal=True)"),
+        ("Numbers: make run\nDAY=1 ARGS=--reveal", "Numbers: run(reveal=True)"),
+        ("`make run DAY=11 ARGS=--try`", "`run(NAME=value)`"),
+        ("make view DAY=1 ARGS=--screenshot", "figure()"),
+        ("`make check ARGS=--explain`", "`make check ARGS=--explain`"),
+        ("make check DAY=1 TASK=1.2 ARGS=-v", "make check DAY=1 TASK=1.2 ARGS=-v"),
+    ],
+)
+def test_a_command_for_a_terminal_is_that_of_a_cell_if_a_cell_does_the_same(
+    shell, cell
+):
+    assert guide.typed(shell) == cell
+
+
+def test_a_fenced_text_for_a_terminal_can_be_copied_into_a_cell():
+    fence = "```sh\nmake check DAY=1  # all\ngit add metrics\n```"
+    (block,) = guide.blocks_of(fence)
+    wanted = "```python\ncheck()  # all\n!git add metrics\n```"
+    assert guide.plain(block) == wanted
+    (block,) = guide.blocks_of("```sh\nmake view ARGS=--web\n```")
+    assert guide.plain(block) == block.text, "it waits, and a cell would wait with it"
 
 
 def test_no_cell_shows_a_solution_a_mark_of_the_kits_or_a_command_for_a_terminal():
@@ -172,6 +217,10 @@ def test_an_edit_of_the_file_alone_counts_and_is_told(day):
     assert told.newer == ["Rz"]
     assert "newer than the cell" in told.told(day)[0]
     assert body_of(day) == "5"
+    assert bring(day, 1, keep="notebook").written == ["Rz"]
+    assert body_of(day) == "1"
+    (kept,) = day.work.parent.glob("*.before-notebook-1.txt")
+    assert "return 5" in kept.read_text("utf-8")
 
 
 def test_an_edit_of_both_is_named_nothing_is_merged_and_the_student_chooses(day):
@@ -182,10 +231,58 @@ def test_an_edit_of_both_is_named_nothing_is_merged_and_the_student_chooses(day)
     assert body_of(day) == "5"
     assert bring(day, 7, keep="file").newer == ["Rz"]
     assert body_of(day) == "5"
+    other = "def Rz(theta):\n    return 6\n\n\ndef make_T(R, t):\n    return R\n"
+    told = sync.bring(day, definitions([other]), keep="file")
+    assert (told.written, told.newer) == (["make_T"], ["Rz"]), (
+        "one choice, one function"
+    )
     assert bring(day, 8, keep="notebook").written == ["Rz"]
     assert body_of(day) == "8"
     (kept,) = day.work.parent.glob("*.before-notebook-1.txt")
     assert "return 5" in kept.read_text("utf-8")
+
+
+def test_an_earlier_text_that_is_run_again_on_purpose_counts(day):
+    one, two = (f"def Rz(theta):\n    return {n}" for n in (1, 2))
+    for cells, since, wanted in (
+        ([one], 0, "1"),
+        ([one, two], 1, "2"),
+        ([one, two, one], 2, "1"),
+        ([one, two, one, "x = 1"], 3, "1"),
+    ):
+        sync.bring(day, definitions(cells), "", reverted(cells, since))
+        assert body_of(day) == wanted
+    in_file(day, 5)
+    again = [one, two, one, one]
+    with pytest.raises(Robo47Error, match="Rz: edited in the notebook and in"):
+        sync.bring(day, definitions(again), "", reverted(again, 3))
+    assert reverted([two], 0) == set(), "after a restart an old notebook stays old"
+
+
+def test_the_line_ends_of_windows_stay_in_the_lab_and_in_the_worksheet(
+    day, monkeypatch
+):
+    monkeypatch.setattr(kernel, "_now", [day])
+    sheet = day.folder / day.worksheet
+    for path in (day.work, sheet):
+        path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
+    bring(day, 1)
+    name = next(iter(build.rows_asked(sheet.read_text("utf-8"))))
+    kernel.predict(name, 0.25)
+    for path in (day.work, sheet):
+        content = path.read_bytes()
+        assert content.count(b"\n") == content.count(b"\r\n") > 50
+    assert body_of(day) == "1"
+    assert predictions(sheet.read_text("utf-8")) == {name: "0.25"}
+
+
+def test_a_picture_is_drawn_with_the_functions_of_the_file_as_they_are_now(day):
+    for number in (5, 6):
+        in_file(day, number)
+        with kernel._own_modules(day):
+            assert importlib.import_module(day.work.stem).Rz(0) == number
+        assert day.work.stem not in sys.modules
+        assert str(day.work.parent) not in sys.path
 
 
 def test_an_empty_function_of_a_new_notebook_empties_nothing(day):
@@ -247,6 +344,8 @@ def test_the_worksheet_takes_an_answer_once_and_its_correction(day):
     assert second == worksheet.with_answer(sheet, "question 2", "C")
     with pytest.raises(Robo47Error, match="has another answer already"):
         worksheet.with_answer(second, "question 2", "D", "A\nB")
+    with pytest.raises(Robo47Error, match="no place 'question 99'; still open: 'Pose'"):
+        worksheet.with_answer(second, "question 99", "D")
 
 
 def test_a_prediction_is_written_into_its_row(day, monkeypatch):
@@ -257,7 +356,12 @@ def test_a_prediction_is_written_into_its_row(day, monkeypatch):
     assert not predictions(sheet.read_text("utf-8"))
     kernel.predict(name, 0.25)
     assert predictions(sheet.read_text("utf-8")) == {name: "0.25"}
-    assert "no row 'x'" in repr(kernel.predict("x", 1))
+    told = repr(kernel.predict("x", 1))
+    assert "no row 'x'" in told
+    assert repr(name) in told
+    for value in ("", None, "1 | 2", "1\n2"):
+        kernel.predict(name, value)
+    assert predictions(sheet.read_text("utf-8")) == {name: "0.25"}
 
 
 def test_a_constant_is_changed_for_one_run_below_its_definition():
@@ -272,6 +376,120 @@ def test_a_constant_is_changed_for_one_run_below_its_definition():
 def test_what_is_called_before_the_first_cell_says_so(monkeypatch):
     monkeypatch.setattr(kernel, "_now", [])
     assert "run the first cell" in repr(kernel.check("1.1"))
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        (lambda: kernel.check("99.1"), "day 1 has no task 99.1"),
+        (lambda: kernel.check(1.1), 'for example, check("1.1")'),
+        (lambda: kernel.check("1.1", keep="me"), 'keep is "notebook" or "file"'),
+        (lambda: kernel.hint(1.1), "task is text in quotation marks, and this is 1.1"),
+        (lambda: kernel.predict("x"), "missing a required argument: 'value'"),
+        (lambda: kernel.answer("question 1", 3), "words is text in quotation marks"),
+        (
+            lambda: kernel.run(step=99),
+            "the lab has no step 99; it has 1, 2, 3, 4, 5, 6",
+        ),
+        (lambda: kernel.run(step="3"), "step is a whole number, and this is '3'"),
+        (lambda: kernel.run(step=True), "step is a whole number, and this is True"),
+        (lambda: kernel.run(step=1, NOPE=1), "the lab has no constant NOPE"),
+        (lambda: kernel.picture("nothing"), "no picture 'nothing'; it has "),
+        (lambda: kernel.load("nothing"), "has no function nothing"),
+        (lambda: kernel.begin("x"), "number is a whole number, and this is 'x'"),
+        (lambda: kernel.figure("x"), "too many positional arguments"),
+    ],
+)
+def test_a_wrong_call_gets_one_line(day, monkeypatch, call, says):
+    monkeypatch.setattr(kernel, "_now", [day])
+    day.work.write_text(DAY.source.read_text("utf-8"), "utf-8")
+    said = repr(call())
+    assert says in said
+    assert "\n" not in said
+
+
+def test_a_fault_of_a_students_function_in_a_picture_is_one_line(day, monkeypatch):
+    monkeypatch.setattr(kernel, "_now", [day])
+    told = repr(kernel.picture("day1_order"))
+    assert told.endswith("still to do; task 1.2: write Rz")
+    in_file(day, "1 / 0")
+    with pytest.raises(ZeroDivisionError) as caught, kernel._own_modules(day):
+        importlib.import_module(day.work.stem).Rz(0)
+    told = kernel._own_fault(day, caught.value)
+    assert told == "your Rz, `return 1 / 0`: ZeroDivisionError: division by zero"
+    with pytest.raises(KeyError):
+        kernel._own_fault(day, KeyError("the kit's own"))
+
+
+def test_a_step_that_the_lab_does_not_reach_shows_where_it_stopped():
+    first = "Predict first: 3 are missing.\nrobot: Panda\n\n1. One\n  a (hidden)\n\n"
+    printed = first + "2. Two\nto do: task 1.6: write f\n"
+    told = kernel._shown(printed, 3)
+    assert told.startswith("The lab stopped before step 3.")
+    assert "task 1.6" in told
+    assert "One" not in told
+    assert kernel._shown(printed, 1).startswith(
+        "Predict first: 3 are missing.\n\n1. One"
+    )
+
+
+def test_a_constant_that_the_lab_cannot_use_is_one_line_below_its_output(
+    day, monkeypatch, capsys
+):
+    monkeypatch.setattr(kernel, "_now", [day])
+    crash = "1. One\n  a 1\nTraceback (most recent call last):\n  File x\n    f(\n"
+    monkeypatch.setattr(kernel, "_printed", lambda _: f"{crash}ValueError: no, a: b")
+    kernel.run(step=1, TRIALS="x")
+    assert capsys.readouterr().out == "1. One\n  a 1\nValueError: no, a: b\n"
+
+
+@pytest.mark.parametrize(
+    ("number", "command"),
+    [
+        (1, ("view_panda.py", "1", "--screenshot")),
+        (11, ("make_figures.py", "--day", "11")),
+    ],
+)
+def test_the_picture_to_hand_in_has_a_cell_on_every_day(monkeypatch, number, command):
+    assert "figure()" in code_cells(build.build(find_day(number), fresh=True))
+    monkeypatch.setattr(kernel, "_now", [find_day(number)])
+    monkeypatch.setattr(kernel, "_bring", lambda day: [])
+    ran = []
+    monkeypatch.setattr(kernel, "_script", lambda *words: ran.append(words) or "")
+    kernel.figure()
+    assert ran == [command]
+
+
+def test_a_lab_that_stops_early_hides_only_steps_with_numbers_to_be_predicted(
+    day, monkeypatch, capsys
+):
+    monkeypatch.setattr(kernel, "_now", [day])
+    complete = "1. One\n  a 5.25\n\n2. Two\n  b (hidden)\n\n"
+    monkeypatch.setattr(kernel, "_printed", lambda command: complete)
+    ran = []
+
+    def script(name, *arguments):
+        ran.append("--reveal" in arguments)
+        number = "5.25" if ran[-1] else "(hidden)"
+        return f"1. One\n  a {number}\n\n2. Two\n  b {number}\n\n"
+
+    monkeypatch.setattr(kernel, "_script", script)
+    kernel.run(step=1)
+    assert "a 5.25" in capsys.readouterr().out
+    kernel.run(step=2)
+    assert "b (hidden)" in capsys.readouterr().out
+    kernel.run(step=2, reveal=True)
+    assert "b 5.25" in capsys.readouterr().out
+    for name in build.rows_asked((day.folder / day.worksheet).read_text("utf-8")):
+        kernel.predict(name, 1)
+    kernel.run(step=2)
+    assert ran[-1] is False, "nothing is hidden, so the lab decides"
+
+
+def test_a_cell_with_a_syntax_error_is_named_with_its_own_line_until_it_is_right():
+    broken = "import math\n\ndef Rz(theta):\n    return (1\n"
+    assert definitions([broken]).broken == {"Rz": "line 4: '(' was never closed"}
+    assert definitions([broken, RZ]).broken == {}
 
 
 def test_a_notebook_is_written_once_and_shows_later_edits_of_the_file(

@@ -8,7 +8,7 @@ import ast
 import builtins
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from labkit.lesson.day import Day
@@ -29,6 +29,8 @@ class Cells:
 
     functions: dict[str, str] = field(default_factory=dict)  # by name, as text
     others: dict[str, str] = field(default_factory=dict)  # imports and constants
+    # Functions whose last cell does not parse: "line 2: '(' was never closed".
+    broken: dict[str, str] = field(default_factory=dict)
 
 
 def definitions(sources: Iterable[str]) -> Cells:
@@ -42,13 +44,35 @@ def definitions(sources: Iterable[str]) -> Cells:
         source = _COMMAND.sub("", source)
         try:
             body = ast.parse(source).body
-        except (SyntaxError, ValueError, RecursionError, MemoryError):
+        except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+            at = (
+                f"line {error.lineno}: {error.msg}"
+                if isinstance(error, SyntaxError)
+                else "it cannot be read"
+            )
             for name in _DEF.findall(source):
                 cells.functions[name] = "\n".join(function_lines(source, name)[2])
+                cells.broken[name] = at
             continue
         for node in body:
             _note(node, source, cells)
     return cells
+
+
+def reverted(sources: Sequence[str], since: int) -> set[str]:
+    """Return the functions that were run last with an earlier text than before.
+
+    Args:
+        sources: the texts of the executed cells, in order.
+        since: how many of them ran before the cells in question.
+    """
+    now = definitions(sources[since:]).functions
+    every = [definitions([source]).functions for source in sources]
+    return {
+        name
+        for name, text in now.items()
+        if any(one.get(name, text) != text for one in every)
+    }
 
 
 def _note(node: ast.stmt, source: str, cells: Cells) -> None:
@@ -56,6 +80,7 @@ def _note(node: ast.stmt, source: str, cells: Cells) -> None:
     lines = source.splitlines()
     match node:
         case ast.FunctionDef():
+            cells.broken.pop(node.name, None)
             first = min([node.lineno, *(one.lineno for one in node.decorator_list)])
             cells.functions[node.name] = "\n".join(lines[first - 1 : node.end_lineno])
         case ast.Import() | ast.ImportFrom():

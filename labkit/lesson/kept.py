@@ -10,10 +10,15 @@ def rewrite(work: Path, text: str, why: str) -> Path:
     """Write a lab anew with its own line ends; return where it is as it was."""
     before = work.read_bytes()
     kept = free_name(work, why)
-    end = "\r\n" if b"\r\n" in before else "\n"
     store.replace(kept, before)
-    store.replace(work, text.replace("\n", end).encode())
+    store.replace(work, with_ends_of(before, text))
     return kept
+
+
+def with_ends_of(before: bytes, text: str) -> bytes:
+    """Return a text to write in the place of `before`, with the line ends of that."""
+    end = "\r\n" if b"\r\n" in before else "\n"
+    return text.replace("\n", end).encode()
 
 
 def free_name(work: Path, task_id: str) -> Path:

@@ -7,8 +7,9 @@ predictions that belong to it. The worksheet's questions are cells at the end.
 
 import ast
 import json
+import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from labkit.lesson.cells import text_of
@@ -58,7 +59,11 @@ COMMANDS = """\
 - `check("{task}")` checks one task, and `check()` the whole day.
 - `hint("{task}")` prints the next hint for a task.
 - `run(step=1)` runs one step of the lab with your functions; `run()` runs all of it and
-  records your numbers."""
+  records your numbers.
+- `run(step=1, NAME=value)` gives a constant of the lab another value for this run, and
+  `run(step=1, reveal=True)` shows the numbers that you have not predicted yet.
+- A line that begins with `!`, such as `!git status`, is a command of the terminal. It
+  runs in the folder of the course."""
 
 
 def build(
@@ -136,6 +141,10 @@ def _cells(
         yield from own
         if not block.step:
             words.append(guide.plain(block))
+        if guide.asks_all(block) and steps.open:
+            yield text(guide.linked("\n\n".join(words), base))
+            words = []
+            yield from steps.asked()
         if i in tasks:
             yield text(guide.linked("\n\n".join(words), base))
             words = []
@@ -199,8 +208,14 @@ class Steps:
         self.more = extras(day)
         sheet = _sheet(day)
         self.open = list(rows_asked(sheet)) if asks else []
-        self.at = numbers_by_step(source)
+        self.at = numbers_by_step(source, self.open)
         self.first = True
+
+    def asked(self) -> Iterator[Cell]:
+        """Yield all predictions that no step has had yet, where the guide asks so."""
+        for name in self.open:
+            yield code(f"predict({name!r}, ...)")
+        self.open = []
 
     def cells(self, step: int) -> Iterator[Cell]:
         """Yield the predictions of a step, the run, and what the day adds."""
@@ -223,33 +238,67 @@ class Steps:
         """Yield what the day adds at its end, and the picture to hand in."""
         for step in sorted(self.more):
             yield from self.more[step]
-        if self.day.draw:
-            yield text("The picture to hand in, drawn with your functions:")
+        if self.day.figure:
+            drawn = "drawn with your functions" if self.day.draw else "of the arm"
+            yield text(f"The picture to hand in, {drawn}:")
             yield code("figure()")
 
 
-def numbers_by_step(source: str) -> dict[str, int]:
+def numbers_by_step(source: str, names: Iterable[str]) -> dict[str, int]:
     """Return in which step of a lab each predicted number is measured.
 
     Args:
-        source: of the complete lab. The calls `lab.measured(...)` and
-            `lab.predict(...)` in `main` are read, if the name is written out there.
+        source: of the complete lab. The calls `lab.step(...)`, `lab.measured(...)` and
+            `lab.predict(...)` are read, in `main` and in the functions that it calls.
+        names: of the predicted numbers.
     """
-    found: dict[str, int] = {}
-    main = next(n for n in ast.parse(source).body if getattr(n, "name", "") == "main")
-    calls = (node for node in ast.walk(main) if isinstance(node, ast.Call))
+    defined = {
+        n.name: n for n in ast.parse(source).body if isinstance(n, ast.FunctionDef)
+    }
+    found: list[tuple[str, int]] = []
     step = 0
+    for kind, pattern in _told(defined["main"], defined):
+        if kind == "step" and pattern[:1].isdigit():
+            step = int(pattern.partition("\\.")[0])
+        elif kind != "step":
+            found.append((pattern, step))
+    return {name: s for name in names for text, s in found if re.fullmatch(text, name)}
+
+
+def _told(
+    function: ast.FunctionDef, defined: dict[str, ast.FunctionDef]
+) -> Iterator[tuple[str, str]]:
+    """Yield a lab's methods as they are called, each with a pattern of its text."""
+    nodes = list(ast.walk(function))
+    texts = {
+        node.targets[0].id: _pattern(node.value, {})
+        for node in nodes
+        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)
+    }
+    calls = [node for node in nodes if isinstance(node, ast.Call)]
     for call in sorted(calls, key=lambda one: (one.lineno, one.col_offset)):
-        kind = call.func.attr if isinstance(call.func, ast.Attribute) else ""
-        words = [a.value for a in call.args if isinstance(a, ast.Constant)]
-        named = [word for word in words if isinstance(word, str)]
-        if kind == "step" and named:
-            step = int(named[0].partition(".")[0])
-        elif kind == "measured" and named:
-            found[named[0]] = step
-        elif kind == "predict" and len(named) == 2:
-            found[", ".join(named)] = step
-    return found
+        match call.func:
+            case ast.Attribute(attr="step" | "measured" as kind) if call.args:
+                yield kind, _pattern(call.args[0], texts)
+            case ast.Attribute(attr="predict" as kind) if len(call.args) == 2:
+                yield kind, ", ".join(_pattern(one, texts) for one in call.args)
+            case ast.Name(id=name) if name in defined and name != function.name:
+                rest = {n: f for n, f in defined.items() if n != function.name}
+                yield from _told(defined[name], rest)
+
+
+def _pattern(node: ast.expr, texts: dict[str, str]) -> str:
+    """Return a regular expression of the texts that an expression may be."""
+    match node:
+        case ast.Constant(value=str(text)):
+            return re.escape(text)
+        case ast.JoinedStr(values=parts):
+            return "".join(_pattern(part, {}) for part in parts)
+        case ast.FormattedValue():
+            return ".+"
+        case ast.Name(id=name) if name in texts:
+            return texts[name]
+    return r"(?!)"  # no text that could be read
 
 
 def extras(day: Day) -> dict[str, list[Cell]]:

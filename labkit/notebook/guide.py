@@ -15,13 +15,17 @@ _STEP = re.compile(r"<!-- run: python src/(\S+) --no-log \| step (\d+) -->")
 _OUTPUT = re.compile(r"<!-- run: .*? -->\n?(.*?)\n?<!-- end -->", re.DOTALL)
 _LINK = re.compile(r"(\]\(|<img src=\")(?!https?:|#|mailto:)([^)\"]+)")
 # A command in a terminal, and what does the same in a cell.
-_END = r"(?! ARGS)(?=[`\s.<]|$)"
+_END = r"(?!\s+(?:ARGS|TASK|DAY)=)(?=[`\s.<]|$)"
 _TYPED = (
-    (re.compile(r"make (check|hint) TASK=([\d.]+\d)"), r'\1("\2")'),
+    (re.compile(r"make\s+run(?:\s+DAY=\d+)?\s+ARGS=--reveal"), "run(reveal=True)"),
+    (re.compile(r"make\s+run(?:\s+DAY=\d+)?\s+ARGS=--try"), "run(NAME=value)"),
+    (re.compile(r"make\s+view(?:\s+DAY=\d+)?\s+ARGS=--screenshot"), "figure()"),
+    (re.compile(rf"make (check|hint)(?: DAY=\d+)? TASK=([\d.]+\d){_END}"), r'\1("\2")'),
     (re.compile(rf"make (check|run)(?: DAY=\d+)?{_END}"), r"\1()"),
     (re.compile(rf"make figures(?: DAY=\d+)?{_END}"), "figure()"),
     (re.compile(rf"make start DAY=(\d+){_END}"), r"begin(\1)"),
 )
+_CALL = re.compile(r"\w+\(|#|\s*$")  # a line of Python, among those of a terminal
 # A block that goes over blank lines: how it begins, and the line that ends it.
 _LONG = (
     (re.compile(r"<details>"), re.compile(r"</details>")),
@@ -96,9 +100,28 @@ def place_of(task: Task, blocks: Sequence[Block]) -> int:
     return (told or before or inside)[-1]
 
 
+def asks_all(block: Block) -> bool:
+    """Return whether a block asks for all predictions of the day, before any step."""
+    words = " ".join(block.text.split())
+    return "first column of" in words and "*Predictions*" in words
+
+
 def plain(block: Block) -> str:
     """Return a block without the marks of its outputs, which only the kit reads."""
-    return typed(_OUTPUT.sub(r"\1", block.text))
+    text = typed(_OUTPUT.sub(r"\1", block.text))
+    return _cell_of(text) if text.startswith("```sh\n") else text
+
+
+def _cell_of(fence: str) -> str:
+    """Return a fenced text for a terminal as the text of a cell that does the same.
+
+    A text with a program that waits in its own window stays one for a terminal.
+    """
+    if re.search(r"make view|^\.venv", fence, re.MULTILINE):
+        return fence
+    lines = fence.splitlines()[1:-1]
+    typed_lines = [ln if _CALL.match(ln) else f"!{ln}" for ln in lines]
+    return "\n".join(["```python", *typed_lines, "```"])
 
 
 def typed(text: str) -> str:

@@ -9,7 +9,9 @@ A user's mistake is one line, never a traceback of the kit's.
 """
 
 import ast
+import contextlib
 import functools
+import inspect
 import os
 import re
 import secrets
@@ -17,16 +19,21 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+import traceback
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import EllipsisType
 from typing import Any, ParamSpec, TypeVar
 
 from labkit.base import store
-from labkit.lesson.cells import Cells, apart, definitions, text_of
+from labkit.lesson.cells import apart, definitions, reverted, text_of
 from labkit.lesson.day import Day, find_day
+from labkit.lesson.hidden import WORD
+from labkit.lesson.kept import with_ends_of
 from labkit.lesson.lab_module import read_script
+from labkit.lesson.predicted import rows_asked
 from labkit.notebook import sync, worksheet
+from labkit.notebook.guide import typed
 from labkit.notebook.show import Checked, Said
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
@@ -35,23 +42,54 @@ P = ParamSpec("P")
 R = TypeVar("R")
 ANSWERS = "answers.json"  # in the kit's memory: what was written into worksheets
 _STEP = r"^{}\. .*?(?=^\d+\. |^\n|\Z)"  # of a lab's output
+_TRACEBACK = r"^Traceback \(most.*?^(?=\w[\w.]*: )"  # without its last line
+_KINDS = {str: "text in quotation marks", int: "a whole number"}
 _now: list[Day] = []  # the day that was begun last
+_brought = [0]  # how many of the executed cells were in step with the file last
 
 
-def polite(function: Callable[P, R]) -> Callable[P, R | Said]:
-    """Return a function whose errors for users become one line."""
+def polite(example: str) -> Callable[[Callable[P, R]], Callable[P, R | Said]]:
+    """Return a decorator of a function whose errors for users become one line.
 
-    @functools.wraps(function)
-    def asked(*args: P.args, **given: P.kwargs) -> R | Said:
-        try:
-            return function(*args, **given)
-        except (Robo47Error, NotImplementedError) as error:
-            return Said([str(error)])
+    Args:
+        example: a right call; "{task}" stands for a task of the day.
+    """
 
-    return asked
+    def decorate(function: Callable[P, R]) -> Callable[P, R | Said]:
+        @functools.wraps(function)
+        def asked(*args: P.args, **given: P.kwargs) -> R | Said:
+            if fault := _misuse(function, args, given):
+                task = _now[0].tasks[0].id if _now else "1.1"
+                right = example.format(task=task)
+                return Said(
+                    [f"{function.__name__}: {fault}; write, for example, {right}"]
+                )
+            try:
+                return function(*args, **given)
+            except (Robo47Error, NotImplementedError) as error:
+                return Said([str(error)])
+
+        return asked
+
+    return decorate
 
 
-@polite
+def _misuse(function: Callable[..., Any], args: Any, given: Any) -> str:
+    """Return what is wrong with the arguments of a call, "" if nothing is."""
+    signature = inspect.signature(function)
+    try:
+        bound = signature.bind(*args, **given).arguments
+    except TypeError as error:
+        return str(error)
+    for name, value in bound.items():
+        kind = signature.parameters[name].annotation
+        wrong = not isinstance(value, kind) if kind in _KINDS else False
+        if wrong or (kind is int and isinstance(value, bool)):
+            return f"{name} is {_KINDS[kind]}, and this is {value!r}"
+    return ""
+
+
+@polite("begin(1)")
 def begin(number: int) -> Said:
     """Begin a day: write its file if there is none, and make its modules importable.
 
@@ -60,6 +98,7 @@ def begin(number: int) -> Said:
     """
     day = find_day(number)
     _now[:] = [day]
+    os.chdir(ROOT)  # a line such as "!git status" runs where the guide expects it
     _draw_without_display()
     said = _script("start_day.py", str(number))
     there = day.work.is_file()
@@ -76,57 +115,99 @@ def _draw_without_display() -> None:
         os.environ.setdefault("MUJOCO_GL", "disable")
 
 
-@polite
+@polite('check("{task}")')
 def check(task: str = "", *, keep: str = "") -> Checked:
     """Check one task, or the whole day, with the cells that you have run.
 
     Args:
         task: such as "2.1"; "" is the whole day.
-        keep: "notebook" or "file": which text counts if both were edited.
+        keep: "notebook" or "file": which text counts if both were edited; "notebook"
+            also takes a cell's text that is older than the file's.
     """
     from labkit.check.once import check_once
 
+    if keep not in ("", "notebook", "file"):
+        raise Robo47Error(f'keep is "notebook" or "file", and this is {keep!r}')
     day = _day()
-    told = sync.bring(day, _executed(), keep).told(day)
+    told = _bring(day, keep)
     wanted = day.task(task).id if task else None
     found = check_once(day, day.work, wanted, secrets.randbits(32))
     return Checked(found, told, hint)
 
 
-@polite
+@polite('hint("{task}")')
 def hint(task: str = "") -> Said:
     """Show the next hint for a task, or for the first one that does not pass."""
-    sync.bring(_day(), _executed())
+    _bring(_day())
     told = _script("hint.py", *([task] if task else []), "--day", str(_day().number))
-    return Said(told.splitlines())
+    return Said([told])
 
 
-@polite
-def run(step: int = 0, **constants: Any) -> Said | None:
+@polite("run(step=1)")
+def run(step: int = 0, *, reveal: bool = False, **constants: Any) -> Said | None:
     """Run the lab with your functions, or show one step of it.
 
     Args:
         step: its number; 0 runs all steps and records your numbers.
+        reveal: show the numbers that you have not predicted yet; nothing is recorded.
         constants: other values for constants of the lab, such as `TRIALS=10`; nothing
             is judged or recorded then.
     """
     day = _day()
-    sync.bring(day, _executed())
+    known = _steps(read_script(day.work))
+    if step and step not in known:
+        steps = ", ".join(map(str, known))
+        raise Robo47Error(f"the lab has no step {step}; it has {steps}")
+    _bring(day)
     if constants:
         printed = _tried(day, constants)
-    elif step:
-        printed = _unlogged(day, day.work.read_bytes(), _sheet(day)[1])
+    elif step or reveal:
+        sheet = _sheet(day)[1]
+        more = ("--reveal",) if reveal or _tells_nothing(day, step, sheet) else ()
+        printed = _unlogged(day, day.work.read_bytes(), sheet, more)
     else:
         printed = _script("run_day.py", str(day.number))
-    if not step:
-        print(printed)
-        return None
-    found = re.search(_STEP.format(step), printed, re.MULTILINE | re.DOTALL)
-    print(found.group() if found else printed)
+    print(typed(_shown(printed, step) if step else printed))
     return None
 
 
-@polite
+def _tells_nothing(day: Day, step: int, sheet: str) -> bool:
+    """Return whether a step prints no number that is still to be predicted.
+
+    A lab that stops early hides every number, because any of them may be one that it
+    measures later. The complete lab does not stop, so its output shows where they are.
+    """
+    if all(rows_asked(sheet).values()):
+        return False
+    found = re.search(_STEP.format(step), _complete(day, sheet), re.DOTALL | re.M)
+    return found is not None and WORD not in found.group()
+
+
+@functools.lru_cache(maxsize=4)
+def _complete(day: Day, sheet: str) -> str:
+    """Return what the complete lab prints without the numbers to be predicted."""
+    options = ["--no-log", "--predict-first"]
+    return _printed([sys.executable, str(day.source), *options])
+
+
+def _steps(lab: str) -> list[int]:
+    """Return the numbers of the steps of a lab, in order."""
+    return sorted({int(n) for n in re.findall(r"\.step\(\s*f?[\"'](\d+)\. ", lab)})
+
+
+def _shown(printed: str, step: int) -> str:
+    """Return what a lab prints in a step, or why it did not come so far."""
+    flags = re.MULTILINE | re.DOTALL
+    if found := re.search(_STEP.format(step), printed, flags):
+        hidden = WORD in found.group() and printed.startswith("Predict first")
+        why = printed.partition("\nrobot: ")[0] + "\n\n" if hidden else ""
+        return f"{why}{found.group().strip()}"
+    last = [at.start() for at in re.finditer(r"^\d+\. ", printed, flags)]
+    said = printed[last[-1] :] if last else printed
+    return f"The lab stopped before step {step}. Its last lines are:\n\n{said}"
+
+
+@polite('predict("the row\'s name", 0.5)')
 def predict(number: str, value: object) -> Said:
     """Write a prediction into the worksheet, before you see the number.
 
@@ -134,17 +215,19 @@ def predict(number: str, value: object) -> Said:
         number: the first cell of its row.
         value: your prediction; a number or words.
     """
-    if isinstance(value, EllipsisType):
+    words = "" if value is None or isinstance(value, EllipsisType) else str(value)
+    if not words.strip():
         return Said(
             [f"Write your prediction of {number!r} in place of the three dots."]
         )
-    day = _day()
-    path, sheet = _sheet(day)
-    store.replace(path, worksheet.with_prediction(sheet, number, str(value)).encode())
+    if "|" in words or len(words.splitlines()) > 1:
+        raise Robo47Error("a prediction is one line without the character |")
+    path, sheet = _sheet(_day())
+    _rewrite(path, worksheet.with_prediction(sheet, number, words.strip()))
     return Said([f"Your prediction is in {shown(path)}."])
 
 
-@polite
+@polite('answer("question 1", "your words")')
 def answer(place: str, words: str) -> Said:
     """Write an answer into the worksheet.
 
@@ -159,12 +242,12 @@ def answer(place: str, words: str) -> Said:
     memory = store.read(ANSWERS)
     key = f"{day.number} {place}"
     sheet = worksheet.with_answer(sheet, place, words, memory.get(key, ""))
-    store.replace(path, sheet.encode())
+    _rewrite(path, sheet)
     store.write(ANSWERS, memory | {key: words})
     return Said([f"Your answer is in {shown(path)}."])
 
 
-@polite
+@polite('load("the name of a function")')
 def load(name: str) -> Said:
     """Put the text of a function, as the day's file has it, into a new cell.
 
@@ -179,7 +262,7 @@ def load(name: str) -> Said:
     return Said(["The cell below has the text of the file. Run it, and it counts."])
 
 
-@polite
+@polite('picture("its name")')
 def picture(name: str) -> Any:
     """Draw a picture of the day's lesson with your functions.
 
@@ -189,18 +272,73 @@ def picture(name: str) -> Any:
     from labkit.figures.lessons import lesson_figures
 
     day = _day()
-    sync.bring(day, _executed())
-    return lesson_figures(day.number, own=True)[name]()
+    _bring(day)
+    with _own_modules(day):
+        try:
+            figures = lesson_figures(day.number, own=True)
+            if name in figures:
+                return figures[name]()
+        except Exception as error:
+            raise Robo47Error(_own_fault(day, error)) from None
+    names = ", ".join(figures) or "none"
+    raise Robo47Error(f"the day has no picture {name!r}; it has {names}")
 
 
-@polite
+@contextlib.contextmanager
+def _own_modules(day: Day) -> Iterator[None]:
+    """Let the day's pictures import the student's file as it is now, and forget it."""
+    path, writes = list(sys.path), sys.dont_write_bytecode
+    _forget(day)
+    sys.path.insert(0, str(day.work.parent))
+    sys.dont_write_bytecode = True  # two edits within a second have one time
+    try:
+        yield
+    finally:
+        sys.path[:], sys.dont_write_bytecode = path, writes
+        _forget(day)
+
+
+def _forget(day: Day) -> None:
+    """Forget the modules that hold the functions of the student's file."""
+    names = (Path(day.script).stem, f"lesson_day{day.number}.figures")
+    for module in [
+        m for m in sys.modules if m in names or m.startswith(names[1] + ".")
+    ]:
+        del sys.modules[module]
+
+
+def _own_fault(day: Day, error: Exception) -> str:
+    """Return in one line what went wrong in a student's function.
+
+    Raises:
+        Exception: the error itself, if no line of the student's file is in it.
+    """
+    cause = error.__cause__ or error  # a file of pictures that did not load
+    own = [
+        frame
+        for frame in traceback.extract_tb(cause.__traceback__)
+        if Path(frame.filename) == day.work
+    ]
+    if not own:
+        raise error
+    if isinstance(cause, NotImplementedError):
+        return f"this picture needs a function that is still to do; {cause}"
+    where = f"{own[-1].name}, `{own[-1].line}`"
+    return f"your {where}: {type(cause).__name__}: {cause}"
+
+
+@polite("figure()")
 def figure() -> Any:
     """Draw the picture that the day hands in, with your functions, and write it."""
     from PIL import Image
 
     day = _day()
-    sync.bring(day, _executed())
-    print(_script("make_figures.py", "--day", str(day.number)))
+    _bring(day)
+    number = str(day.number)
+    if day.draw:
+        print(_script("make_figures.py", "--day", number))
+    else:
+        print(_script("view_panda.py", number, "--screenshot"))
     path = day.folder / day.figure
     return Image.open(path) if path.is_file() else None
 
@@ -218,16 +356,25 @@ def _shell() -> Any:
     return get_ipython()
 
 
-def _executed() -> Cells:
-    """Return what the cells define that were executed, the last one of each name."""
+def _bring(day: Day, keep: str = "") -> list[str]:
+    """Put the executed cells into the day's file; return what is to be told of it."""
+    sources = _executed()
+    cells = definitions(sources)
+    told = sync.bring(day, cells, keep, reverted(sources, _brought[0])).told(day)
+    _brought[0] = len(sources)
+    return [*told, *(f"The cell of {n}, {at}." for n, at in cells.broken.items())]
+
+
+def _executed() -> list[str]:
+    """Return the texts of the cells that were executed in this kernel, in order."""
     shell = _shell()
-    return definitions(shell.history_manager.input_hist_raw if shell else [])
+    return list(shell.history_manager.input_hist_raw) if shell else []
 
 
 @functools.lru_cache(maxsize=4)
-def _unlogged(day: Day, lab: bytes, sheet: str) -> str:
+def _unlogged(day: Day, lab: bytes, sheet: str, more: tuple[str, ...]) -> str:
     """Run the lab; return what it prints, once for each text of lab and worksheet."""
-    return _script("run_day.py", str(day.number), "--no-log")
+    return _script("run_day.py", str(day.number), "--no-log", *more)
 
 
 def _script(name: str, *arguments: str) -> str:
@@ -250,7 +397,8 @@ def _tried(day: Day, constants: dict[str, Any]) -> str:
             shutil.copy(path, folder)
         copy = Path(folder, day.script)
         copy.write_text(text, "utf-8")
-        return _printed([sys.executable, str(copy), "--try"])
+        printed = _printed([sys.executable, str(copy), "--try"])
+    return re.sub(_TRACEBACK, "", printed, flags=re.MULTILINE | re.DOTALL)
 
 
 def with_constants(script: str, constants: dict[str, Any]) -> str:
@@ -287,3 +435,8 @@ def _sheet(day: Day) -> tuple[Path, str]:
         return path, path.read_text("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise Robo47Error(f"{shown(path)} cannot be read: {error}") from None
+
+
+def _rewrite(path: Path, text: str) -> None:
+    """Write a file of the student's, with the line ends that it has."""
+    store.replace(path, with_ends_of(path.read_bytes(), text))

@@ -28,19 +28,21 @@ class Said:
         """Keep what to say.
 
         Args:
-            lines: sentences.
+            lines: paragraphs.
             more: HTML below them.
         """
         self.lines = list(lines)
         self.more = more
 
     def __repr__(self) -> str:
-        """Return the sentences, a line each."""
-        return "\n".join(self.lines)
+        """Return the paragraphs."""
+        return typed("\n".join(self.lines))
 
     def _repr_html_(self) -> str:
-        paragraphs = "".join(f"<p>{html.escape(line)}</p>" for line in self.lines)
-        return f"<div>{paragraphs}{self.more}</div>"
+        style = "style='white-space:pre-line'"  # a line of text stays one
+        said = (html.escape(line) for line in self.lines if line.strip())
+        paragraphs = "".join(f"<p {style}>{line}</p>" for line in said)
+        return f"<div>{typed(paragraphs)}{self.more}</div>"
 
 
 class Checked:

@@ -6,7 +6,7 @@ of these is an edit. A function that was edited in both is named, and nothing is
 """
 
 import hashlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -23,7 +23,7 @@ from labkit.lesson.cells import (
     with_functions,
 )
 from labkit.lesson.day import Day
-from labkit.lesson.kept import rewrite
+from labkit.lesson.kept import rewrite, with_ends_of
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import starter_of
 from robo47.errors import Robo47Error
@@ -49,18 +49,24 @@ class Brought:
             names = ", ".join(self.newer)
             says.append(
                 f"{names}: the text in {file} is newer than the cell, and it counts. "
-                f'load("{self.newer[0]}") shows it.'
+                f'load("{self.newer[0]}") shows it; check(keep="notebook") takes the '
+                "cell."
             )
         return says
 
 
-def bring(day: Day, cells: Cells, keep: str = "") -> Brought:
+def bring(
+    day: Day, cells: Cells, keep: str = "", reverted: Collection[str] = ()
+) -> Brought:
     """Put the functions of a notebook into the day's file, and say what happened.
 
     Args:
         day: begun, so its file is there.
         cells: of the notebook.
-        keep: "notebook" or "file", which one counts if both were edited.
+        keep: "notebook" or "file", which one counts if both were edited; "notebook"
+            also takes a cell's text that is older than the file's.
+        reverted: functions whose cell has an earlier text again, which was run on
+            purpose and therefore counts as an edit.
 
     Raises:
         Robo47Error: both were edited, and `keep` does not say which one counts.
@@ -69,10 +75,14 @@ def bring(day: Day, cells: Cells, keep: str = "") -> Brought:
     memory = store.read(MEMORY, clone)
     seen: dict[str, list[str]] = memory.get(str(day.number), {})
     pairs = list(_pairs(day, script, cells))
-    counts = {n: _counts(cell, file, seen.get(n, [])) for n, cell, file in pairs}
+    counts = {
+        n: _counts(cell, file, seen.get(n, []), n in reverted)
+        for n, cell, file in pairs
+    }
     if not keep and (both := [name for name in counts if counts[name] == "both"]):
         raise Robo47Error(_both(day, both))
-    counts = {name: keep if who == "both" else who for name, who in counts.items()}
+    open_to = ("both", "file") if keep == "notebook" else ("both",)
+    counts = {name: keep if who in open_to else who for name, who in counts.items()}
     taken = [name for name in counts if counts[name] == "notebook"]
     newer = [name for name in counts if counts[name] == "file"]
     left = {n: text for n, text in cells.functions.items() if n not in newer}
@@ -96,17 +106,18 @@ def _pairs(day: Day, script: str, cells: Cells) -> Iterator[tuple[str, str, str]
             yield name, cell, own.get(name) or text_of(script, name)
 
 
-def _counts(cell: str, file: str, known: list[str]) -> str:
+def _counts(cell: str, file: str, known: list[str], reverted: bool) -> str:
     """Return which text of a function counts: "notebook", "file", "both" or neither.
 
     Args:
         cell: the notebook's text.
         file: the lab's.
         known: marks of texts that both have had.
+        reverted: an earlier text of the cell was run again on purpose.
     """
     if _mark(cell) == _mark(file):
         return ""
-    if _mark(cell) in known:
+    if _mark(cell) in known and not reverted:
         return "file"
     begun = file and not is_gap(file) and _mark(file) not in known
     return "both" if begun else "notebook"
@@ -181,7 +192,7 @@ def _write(day: Day, text: str, keep_old: bool) -> None:
     if keep_old:
         rewrite(day.work, text, "notebook")
     else:
-        store.replace(day.work, text.encode())
+        store.replace(day.work, with_ends_of(day.work.read_bytes(), text))
 
 
 def _both(day: Day, names: Iterable[str]) -> str:

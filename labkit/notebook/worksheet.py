@@ -7,6 +7,7 @@ numbered list, "question" and its number. The table of predictions has its own m
 import re
 from dataclasses import dataclass
 
+from labkit.lesson.predicted import rows_asked
 from robo47.errors import Robo47Error
 
 _OPEN = re.compile(r"^(?P<indent> *)\*\((?P<asks>your [^)]*)\)\*\s*$")
@@ -65,10 +66,20 @@ def with_answer(worksheet: str, name: str, answer: str, before: str = "") -> str
         old = "\n".join(_lines(before, indent))
         if before and worksheet.count(old) == 1:
             return worksheet.replace(old, "\n".join(_lines(answer, indent)))
-    raise Robo47Error(
-        f"{name!r} is not open in the worksheet: it has another answer already, or no "
-        "such place; edit the worksheet itself"
-    )
+    if name in _names(worksheet):
+        raise Robo47Error(
+            f"{name!r} has another answer already; edit the worksheet itself"
+        )
+    still = ", ".join(repr(place.name) for place in places(worksheet)) or "none"
+    raise Robo47Error(f"the worksheet has no place {name!r}; still open: {still}")
+
+
+def _names(worksheet: str) -> set[str]:
+    """Return the names of all places that a worksheet may have, open or not."""
+    lines = worksheet.splitlines()
+    headings = {found[1].strip() for line in lines if (found := _HEADING.match(line))}
+    numbers = {found[1] for line in lines if (found := _QUESTION.match(line))}
+    return headings | {f"question {number}" for number in numbers}
 
 
 def with_prediction(worksheet: str, number: str, value: str) -> str:
@@ -89,7 +100,10 @@ def with_prediction(worksheet: str, number: str, value: str) -> str:
             cells[2] = f" {value} "
             lines[i] = "|".join(cells)
             return "\n".join(lines) + "\n"
-    raise Robo47Error(f"the worksheet has no row {number!r} in its table Predictions")
+    rows = ", ".join(map(repr, rows_asked(worksheet)))
+    raise Robo47Error(
+        f"the worksheet has no row {number!r} in its table Predictions; it has {rows}"
+    )
 
 
 def _lines(answer: str, indent: str) -> list[str]:
