@@ -41,7 +41,7 @@ ALL = len(DAY.tasks)
 # What each kind gets: tasks passed, first mistake, and what the column error holds.
 EXPECTED = {
     "right": (ALL, "", ""),
-    "wrong inverse": (ALL - 1, "1.3 t-not-negated", ""),
+    "wrong inverse": (ALL - 1, "1.3 t-negated", ""),
     "under way": (3, "", ""),
     "not started": (0, "", ""),
     "no file": (0, "", "is not there. Begin with: make start DAY=1"),

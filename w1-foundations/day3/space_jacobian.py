@@ -114,8 +114,10 @@ def _(screws, q):
     return {slug: carried(screws, moved, own(one)) for slug, one in adjoints.items()}
 
 
-@row.wrong("argument-entry-missing")  # The loop ends one joint early.
-def _(screws, q):
+@row.wrong
+def last_column_missing(screws, q):
+    """the last column is 0: does the loop over the joints end one joint early? => the
+    correct result with that column"""
     J = space_jacobian(screws, q)
     J[:, 6] = 0.0
     return J
