@@ -152,7 +152,7 @@ def contact_force(
 
     Args:
         model: any model.
-        data: after mj_step or mj_forward; the forces are those of the last step.
+        data: after mj_step or mj_forward; the forces belong to the last step.
         geom, other: names of the two.
 
     Returns:

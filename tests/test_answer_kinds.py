@@ -57,15 +57,15 @@ class TestAnIndex:
             (
                 lambda x, at: float(np.argmin(np.abs(x - at))),
                 "not-an-index",
-                "0; expected is an index, a whole number: an array takes no other in "
+                "0; expected an index, a whole number: an array takes no other in "
                 "its brackets. Make it one: int(...).",
             ),
-            (lambda x, at: x, "shape", "It returns shape (3,); expected is an index"),
-            (lambda x, at: "first", "not-an-array", "It returns 'first'; expected is"),
+            (lambda x, at: x, "shape", "It returns shape (3,); expected an index"),
+            (lambda x, at: "first", "not-an-array", "It returns 'first'; expected"),
             (
                 lambda x, at: int(np.argmin(np.abs(x - at))) - len(x),
                 "another-one",
-                " is right, counted from 0.",
+                ", counted from 0.",
             ),
         ],
     )
@@ -94,9 +94,13 @@ class TestATruthValue:
             (lambda x, sure: bool(x > 0.0 and not sure), "", ""),
             (lambda x, sure: np.bool_(x > 0.0 and not sure), "", ""),
             (lambda x, sure: not (x > 0 and not sure), "inverted", "are swapped"),
-            (lambda x, sure: x > 0.0, "too-often-true", "times where False is right"),
-            (lambda x, sure: x, "not-true-or-false", "; True or False is expected."),
-            (lambda x, sure: "yes", "not-an-array", "'yes'; expected is True or False"),
+            (
+                lambda x, sure: x > 0.0,
+                "too-often-true",
+                "cases where False is expected",
+            ),
+            (lambda x, sure: x, "not-true-or-false", "; expected True or False."),
+            (lambda x, sure: "yes", "not-an-array", "'yes'; expected True or False"),
             (lambda x, sure: None, "nothing-returned", "It returns nothing (None)"),
         ],
     )
@@ -130,15 +134,15 @@ class TestAWord:
             (
                 lambda x: WORDS[int(x > -3)],
                 "the-other-word",
-                "It is 'advanced' where 'trapped' is right.",
+                "It returned 'advanced'; expected 'trapped'. It is right for 5 of 9",
             ),
             (
                 lambda x: "arrived",
                 "another-word",
-                "'arrived'; expected is 'reached', 'advanced' or 'trapped'.",
+                "'arrived'; expected 'reached', 'advanced' or 'trapped'.",
             ),
             (lambda x: np.ones(2), "another-word", "an array of shape (2,); expected"),
-            (lambda x: 2, "another-word", "It returns 2; expected is 'reached'"),
+            (lambda x: 2, "another-word", "It returns 2; expected 'reached'"),
         ],
     )
     def test_is_right_wrong_or_none(self, function, slug, says):
@@ -181,18 +185,18 @@ class TestAPath:
             (
                 lambda s, n: np.arange(1, n)[:, None] * s,
                 "one-too-few",
-                "It has 2 way points where 3 are right, in call 1 of 6. The last way "
-                "point is missing. (All but the last gives your arrays exactly.)",
+                "It has 2 waypoints; expected 3, in call 1 of 6. The last way "
+                "point is missing. (All but the last reproduces your output.)",
             ),
             (
                 lambda s, n: np.arange(0, n + 2)[:, None] * s,
                 "shape",
-                "It has 5 way points where 3 are right, in call 1 of 6.",
+                "It has 5 waypoints; expected 3, in call 1 of 6.",
             ),
             (
                 lambda s, n: np.arange(1, n + 1) * s[0],
                 "shape",
-                "(3,); expected is a path, with a row of 2 numbers per way point",
+                "(3,); expected a path, with a row of 2 numbers per waypoint",
             ),
         ],
     )  # fmt: skip
@@ -248,7 +252,7 @@ class TestATuple:
             (
                 lambda i, point, free: (i, point, free),
                 "parts",
-                "It returns 3 results; expected are 2 results: an index, a whole "
+                "It returns 3 results; expected 2 results: an index, a whole "
                 "number, a tuple of 2.",
             ),
             (
@@ -312,13 +316,13 @@ class TestNone:
             (
                 lambda p, x: x * p,
                 "none-or-not",
-                "It returns an answer for 2 inputs where None is right (it is out of "
-                "reach)",
+                "It returns an answer for 2 inputs where None is expected (it is out "
+                "of reach)",
             ),
             (
                 lambda p, x: None if x < 1.5 else x * p,
                 "none-or-not",
-                "It returns None for 1 input to which there is an answer",
+                "It returns None for 1 input with an answer",
             ),
             (lambda p, x: None if x < 0 else -x * p, "all-signs", "Every sign is"),
             (lambda p, x: None if x < 0 else p + x**3, "off", "off by up to"),
@@ -360,10 +364,13 @@ def test_pixels_of_no_points_are_an_empty_array():
 @pytest.mark.parametrize(
     ("write", "says"),
     [
-        (lambda: Row(Scalar("s")), r'Scalar\(.s.\): a Scalar has no shape.*unit="m"'),
+        (
+            lambda: Row(Scalar("s")),
+            r'a Scalar is one value and has no shape.*unit="m"',
+        ),
         (lambda: Row(Vector(7)), r"Vector\(7\): a Vector begins with its shape"),
-        (lambda: Row(Vector), r"expected is Vector\(...\), with its arguments"),
-        (lambda: Row(float), "is no kind of an answer; expected is a kind of"),
+        (lambda: Row(Vector), r"expected Vector\(...\), with its arguments"),
+        (lambda: Row(float), "is no kind of an answer; expected a kind of"),
         (lambda: Row([Scalar(), Scalar()]), "or a tuple of several"),
         (lambda: Row((Scalar(),)), "the kind itself where there is one result"),
         (lambda: Row((((Scalar(), Scalar()), Mask()), Mask())), "nested once"),

@@ -5,10 +5,11 @@ import subprocess
 
 import pytest
 
-from conftest import ROOT, run_copy
+from conftest import ROOT, kits_worksheet, run_copy
 from labkit.commands.new import worksheet_of
 from labkit.handin.worksheet import split_sections
 from labkit.lesson.day import all_days, find_day
+from labkit.lesson.predicted import rows_asked
 
 pytestmark = pytest.mark.kit
 NEW, AUTHOR = "scripts/new_day.py", "scripts/author_day.py"
@@ -127,14 +128,14 @@ def test_what_is_wrong_is_told_with_its_file_and_no_traceback(
 def test_what_does_not_fit_is_told_at_once_each_with_its_file(kit):
     sheet = f"{WEEK}/docs/day46.md"
     change(kit / LAB, "def reach(", "def reached(")
-    change(kit / GUIDE, "### Step 1: w", "### Step 1: W")
-    change(kit / sheet, "### planar arm", "### arm")
+    change(kit / GUIDE, "## 46.1 The end", "## 46.1 The End")
+    change(kit / sheet, "### joint angle or absolute angle", "### angle")
     done = run_copy(kit, AUTHOR, "46")
     told = " ".join(done.stdout.split())
     assert (done.returncode, done.stderr) == (1, "")
     assert f"{LAB}: no region 46.1 in reach" in told
     assert f"{GUIDE} has no heading" in told
-    assert f"{sheet}: no section 'planar arm'" in told
+    assert f"{sheet}: no section 'joint angle or absolute angle'" in told
     assert "git checkout" not in told
 
 
@@ -144,6 +145,12 @@ def test_the_worksheets_skeleton_has_what_the_manifest_asks_for(day):
     assert {term.lower() for term in day.terms} <= set(sections)
     assert sum(name.startswith("drawing ") for name in sections) == day.drawings
     assert worksheet_of(find_day(day.number)).count("*(your answer)*") == day.questions
+
+
+def test_the_worksheets_skeleton_asks_for_what_the_lab_measures():
+    rows = rows_asked(worksheet_of(find_day(14)))
+    assert "fraction of slippery cubes held" in rows
+    assert rows.keys() <= rows_asked(kits_worksheet(find_day(14))).keys()
 
 
 OPEN = "    open(__file__).close()\n"  # the wall refuses it

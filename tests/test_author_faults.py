@@ -99,7 +99,7 @@ def test_a_wrong_case_a_tab_that_stops_and_a_picture_not_drawn_are_told(kit):
 
 
 def test_a_wrong_shape_a_tab_with_the_lab_and_an_old_picture_are_told(kit):
-    change(kit / LAB, "links ends, (2,), in", "links ends, (3,), in")
+    change(kit / LAB, "two links, (2,), in", "two links, (3,), in")
     own = kit / WEEK / "day46"
     lab = "\nimport day46_trial\n"
     (own / "inspector.py").write_text(TAB.format(lab=lab, work="day46_trial.TRIALS"))

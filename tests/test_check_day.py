@@ -108,8 +108,8 @@ class TestCheck:
         done = run_in(CHECK, 1)
         assert before == {p: p.read_bytes() for p in work.parent.iterdir()}
         assert done.returncode == 1
-        assert done.stdout.count("to do") == 14
-        assert "0 of 14 done, 0 % of the day." in done.stdout
+        assert done.stdout.count("to do") == 13
+        assert "0 of 13 done, 0 % of the day." in done.stdout
         assert "Next: task 1.1, make_T. Stuck? make hint TASK=1.1" in done.stdout
 
     def test_of_half_a_task_says_which_half_is_to_do(self, run_in, work, day):
@@ -126,7 +126,7 @@ class TestCheck:
         found = json.loads(run_in(CHECK, 1, "--json").stdout)
         tasks = [e for e in found["entries"] if e["kind"] == "task"]
         assert [task["status"] for task in tasks] == ["passed"] * 8
-        assert (found["done"], found["total"], found["passed"]) == (8, 14, False)
+        assert (found["done"], found["total"], found["passed"]) == (8, 13, False)
         assert found["next"] == "the figure."
 
     def test_after_a_task_alone_the_whole_day_is_next(self, run_in, work, day):
@@ -134,11 +134,11 @@ class TestCheck:
         for task in day.tasks[:2]:
             done = run_in(CHECK, "--task", task.id)
             assert (done.returncode, "1 of 1 done." in done.stdout) == (0, True)
-            assert "Next: the whole day: make check DAY=1" in done.stdout
+            assert "Next: check the whole day: make check DAY=1" in done.stdout
 
     def test_counts_no_row_of_the_kits_own_run(self, run_in, work, day, clone):
         note_kits_run(day, clone)
-        assert "0 of 14 done" in run_in(CHECK, 1).stdout
+        assert "0 of 13 done" in run_in(CHECK, 1).stdout
 
     def test_of_a_day_that_is_done_finds_nothing_left(self, run_in, work, day, clone):
         work.write_text(day.source.read_text("utf-8"))
@@ -153,7 +153,7 @@ class TestCheck:
             git(clone, *command)
         done = run_in(CHECK, 1)
         assert done.returncode == 0, done.stdout
-        assert "14 of 14 done, 100 % of the day." in done.stdout
+        assert "13 of 13 done, 100 % of the day." in done.stdout
         assert "nothing is left to do here. Well done." in done.stdout
 
     def test_names_the_mistake_with_the_number_that_shows_it(self, run_in, work, day):

@@ -151,7 +151,7 @@ class TestItIsKept:
         script.write_text(text.replace(end, f"{more}{end}"), "utf-8")
         with Sandbox() as box:
             says, _, unfinished = rehearse(replace(DAY, lab_seconds=3.0), script, box)
-        assert "runs on and on with what your functions return" in says
+        assert "does not end with the results of your functions" in says
         assert "4 s after it called" in says
         assert unfinished == ""
 

@@ -47,7 +47,7 @@ def png(pixels):
 ANSWER = "Its own x, so on the right."
 
 
-def worksheet(terms, *, drawings=3, ticked="x", definition=None, answer=ANSWER):
+def worksheet(terms, *, drawings=3, definition=None, answer=ANSWER):
     own = "My own words say what {} means to me when the arm moves."
     lines = ["# Day 1", "## Glossary"]
     for term in terms:
@@ -59,7 +59,7 @@ def worksheet(terms, *, drawings=3, ticked="x", definition=None, answer=ANSWER):
     for i in range(1, 6):
         mine = f"{answer} ({i})" if answer == ANSWER else answer
         lines += [f"{i}. It moves along x. Whose x? Which side?", "", f"   {mine}"]
-    return "\n".join([*lines, "## Checklist", f"- [{ticked}] ran it", "- [x] read it"])
+    return "\n".join(lines)
 
 
 def fresh_clone(copy):
@@ -157,7 +157,7 @@ TERMS = find_day(1).terms
 
 def test_a_day_that_is_handed_in_passes_and_no_file_is_changed(items, clone):
     before = {p: p.read_bytes() for p in clone.rglob("*") if p.is_file()}
-    names = ["figure", "definitions", "drawings", "checklist", "metrics", "commit"]
+    names = ["figure", "definitions", "drawings", "metrics", "commit"]
     assert list(items()) == names
     assert all(item.passed and not item.message for item in items().values())
     assert before == {p: p.read_bytes() for p in clone.rglob("*") if p.is_file()}
@@ -227,11 +227,11 @@ def test_a_png_reads_back_as_its_pixels():
         ("> say it in your own words, in one or two sentences please", "Still empty"),
         ("_(in your own words, and in a sentence or two of your own)_", "Still empty"),
         ("*(your words)*", "Still empty"),
-        ("bla " * 9, "Say it in a sentence (8 words): pose"),
+        ("bla " * 9, "Write a whole sentence (at least 8 words): pose"),
         ("<!-- a sentence that explains what this is to a friend -->", "Still empty"),
         ("TODO write this when the lab is done and I know", "Still empty"),
-        ("Where it is.", "Say it in a sentence (8 words): pose"),
-        (GUIDE, "The guide's words, not yours: pose"),
+        ("Where it is.", "Write a whole sentence (at least 8 words): pose"),
+        (GUIDE, "Copied from the guide: pose"),
     ],
 )
 def test_a_definition_has_to_be_a_sentence_of_ones_own(sheet, definition, says):
@@ -404,29 +404,18 @@ def test_every_picture_of_the_lab_guide_is_known_as_the_kits_own():
     assert shown <= set(day.kit_figures)
 
 
-@pytest.mark.parametrize("box", ["[ x ]", "[X]", "[x ]"])
-def test_a_box_may_be_ticked_with_spaces(sheet, box):
-    assert sheet(worksheet(TERMS).replace("[x]", box))["checklist"].passed
-
-
-def test_an_open_box_of_the_checklist_is_named(sheet):
-    says = sheet(worksheet(TERMS, ticked=" "))["checklist"].message
-    assert "1 of 2 ticked" in says
-    assert "Next: ran it" in says
-    assert "no checklist" in sheet("# Day 1")["checklist"].message
-
-
-def test_text_of_the_students_cannot_look_like_ours(sheet):
-    text = worksheet(TERMS, ticked=" ").replace("ran it", "ran\x1b[2J \u202eit")
-    assert not {"\x1b", "\u202e"} & set(sheet(text)["checklist"].message)
+def test_the_checklist_of_an_older_worksheet_is_no_matter(sheet):
+    older = f"{worksheet(TERMS)}\n\n## Checklist\n\n- [ ] I committed everything\n"
+    assert all(item.passed for item in sheet(older).values())
+    assert list(sheet(older)) == ["definitions", "drawings"]
 
 
 def test_a_worksheet_that_is_gone_no_text_or_of_megabytes_is_told(items, day):
     path = day.folder / day.worksheet
     path.write_text("x" * 300_000)
-    assert "at most 200 kB is looked at" in items()["checklist"].message
+    assert "at most 200 kB is looked at" in items()["drawings"].message
     path.write_bytes(b"\xff\xfe\x00")
-    assert "UTF-8" in items()["checklist"].message
+    assert "UTF-8" in items()["drawings"].message
     path.unlink()
     assert items()["definitions"].status == "todo"
 
@@ -438,7 +427,7 @@ HOSTILE = ["<!--", "![", "![](", "<img ", " ", "- [", "- [ x", "#", "# #", "1. ?
 @pytest.mark.parametrize("end", ["", "\n"])
 def test_a_worksheet_of_anything_is_read(sheet, piece, end):
     text = (piece * (1800 // len(piece)) + "x" + end) * 110
-    found = sheet(f"## Checklist\n{text}"[:199_999])
+    found = sheet(f"## Drawings\n{text}"[:199_999])
     assert not found["definitions"].passed
 
 
@@ -484,9 +473,11 @@ def test_rows_count_only_if_the_students_file_wrote_them_as_it_is(items, day, cl
     day.work.write_bytes(b"x = 3\r\n")  # as git writes it on Windows
     assert items()["metrics"].passed
     log_again(day, clone, f"file {file_hash(day.source)}")
-    assert "The kit's own run logged" in items()["metrics"].message
+    assert (
+        "The rows in the log come from the kit's own run" in items()["metrics"].message
+    )
     log_again(day, clone, f"file {file_hash(day.work)} and more")
-    assert "do not say that your file wrote them" in items()["metrics"].message
+    assert "do not show that your file wrote them" in items()["metrics"].message
     assert "make run DAY=1" in items()["metrics"].message
 
 
@@ -511,7 +502,7 @@ def test_rows_count_only_once_the_tasks_pass(day, clone):
         for done in (False, True)
     )
     assert before["metrics"].status == "todo"
-    assert "rows count when your tasks pass" in before["metrics"].message
+    assert "rows count once your tasks pass" in before["metrics"].message
     assert after["metrics"].passed
 
 
@@ -612,4 +603,4 @@ def test_a_day_hands_in_what_its_manifest_names_and_no_more(day, clone):
     assert item_names(bare) == ["commit"]
     assert item_names(day) == [item.name for item in check_deliverables(day, clone)]
     words = replace(day, terms=(), questions=0, drawings=0)
-    assert item_names(words) == ["figure", "checklist", "metrics", "commit"]
+    assert item_names(words) == ["figure", "metrics", "commit"]

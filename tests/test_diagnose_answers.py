@@ -70,7 +70,7 @@ def test_an_answer_that_changes_when_asked_again_is_told_so():
     verdict = judged_replies(MAKE_T, replies)
     assert verdict.mistake == "kept-between-calls"
     every = len(T) + len(round_of(MAKE_T).fresh)
-    assert f"for {len(T)} of {every} inputs" in verdict.message
+    assert f"For {len(T)} of {every} inputs" in verdict.message
 
 
 def test_an_error_of_the_second_time_alone_is_state_too():
@@ -128,7 +128,7 @@ def test_a_tuples_parts_are_judged_apart_and_named():
     verdict = judged(ask, (x, -twice))
     assert verdict.mistake == "all-signs"
     assert verdict.message.startswith("the angle: ")
-    assert "expected are 2 results" in told(ask, np.array(1.0)).message
+    assert "expected 2 results" in told(ask, np.array(1.0)).message
 
 
 def test_accepting_needs_no_truth_and_says_why_not():

@@ -46,7 +46,7 @@ EXPECTED = {
     "not started": (0, "", ""),
     "no file": (0, "", "is not there. Begin with: make start DAY=1"),
     "empty": (0, "", "is not there"),
-    "exits": (0, "1.1 does-not-load", "it ends Python while being loaded"),
+    "exits": (0, "1.1 does-not-load", "it ends Python while it is loaded"),
     "exits at once": (0, "1.1 does-not-load", "it ended Python"),
     "loops": (ALL - 1, "1.8 stopped", ""),
     "eats memory": (3, "1.1 raises" if LINUX else "1.1 stopped", ""),

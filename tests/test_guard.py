@@ -19,7 +19,10 @@ from labkit.judge.other_kinds import Count, Points, Word
 from labkit.lesson.day import find_day
 from robo47.errors import FaultError
 
-SPOTS = ("diagnose", "what_is_wrong", "failing_call", "_further", "_measured", "_case")
+SPOTS = (
+    *("_explained", "_located", "what_is_wrong", "failing_call"),
+    *("_further", "_measured", "_case"),
+)
 # Trimmed ICP: only the nearer half of the pairs is fitted.
 TRIMMED = """kabsch(
         source[away.min(axis=1) <= np.median(away.min(axis=1))],

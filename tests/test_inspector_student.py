@@ -159,7 +159,7 @@ def test_a_tab_may_ask_any_function(desk):
         (Reply(np.eye(4)), ""),
         (
             Reply(kind="missing"),
-            "The file has no function f. To put its gap back: make start RESET=1.6.",
+            "The file has no function f. To restore its starter: make start RESET=1.6.",
         ),
         (
             Reply(kind="ValueError", error="no", line=3),

@@ -150,9 +150,12 @@ def test_without_a_prediction_it_is_asked_for_and_no_number_said(
     script = SCRIPT if cell == "the kit's" else script  # which knows nobody's
     lab = Lab(str(script), "A lab.")
     lab.measured("height of ee, m", 1)
-    asked = "Predict first: 1 number still open in day1.md\n"
-    assert capsys.readouterr().out == ("" if cell == "the kit's" else asked)
+    asked = "Predict first: 1 prediction of yours is missing in day1.md."
+    out = capsys.readouterr().out
+    assert out.startswith(asked) if cell != "the kit's" else out == ""
     assert lab.finish() == 0
+    hidden = "height of ee, m: hidden until you write your prediction in day1.md"
+    assert (hidden in capsys.readouterr().out) == (cell != "the kit's")
     assert own.read_text() == ROW.format(cell)
 
 

@@ -59,8 +59,8 @@ class TestAMistakeThatStopsOrReshapes:
     def test_is_named_where_it_changes_the_shape(self):
         verdict = told(self.row(), lambda X, W: (X @ W)[:-1])
         assert verdict.mistake == "by-one-row"
-        assert "It returns shape (1, 3) where (2, 3) is right, in" in verdict.message
-        assert "All rows but the last gives your arrays exactly" in verdict.message
+        assert "It returns shape (1, 3); expected shape (2, 3), in" in verdict.message
+        assert "All rows but the last reproduces your output" in verdict.message
 
     def test_may_be_known_to_its_row_where_no_name_gives_it(self):
         def unnamed(case):
@@ -88,7 +88,7 @@ class TestAMistakeThatStopsOrReshapes:
         verdict = told(row, lambda x: row.truth(x) + np.array([0.0, 1.0]))
         assert "infinity" not in verdict.message
         verdict = told(row, lambda x: np.array([np.inf, x]))
-        assert "NaN or infinity comes out for 2 of 3" in verdict.message
+        assert "It returns NaN or infinity for 2 of 3" in verdict.message
 
     def test_is_taken_by_the_catalogues_tests(self):
         ask = self.row().ask

@@ -92,7 +92,7 @@ class TestSizes:
         assert verdict(lambda x: -np.cumsum(x)).mistake == "all-signs"
         short = verdict(lambda x: np.cumsum(x)[:-1])
         assert short.mistake == "shape"
-        assert "shape (1,) where (2,) is right, in call 1 of 4" in short.message
+        assert "shape (1,); expected shape (2,), in call 1 of 4" in short.message
         assert verdict(lambda x: np.cumsum(x)[None]).mistake == "shape"
 
     def test_a_mistake_is_made_again_in_every_size(self):
@@ -152,9 +152,13 @@ COUNTS = np.array([62, 43, 10, 7])
     ("given", "slug", "says"),
     [
         (COUNTS, "", ""),
-        ([61, 43, 10, 7], "miscounted", "61 where 62 is right. It is right for 3 of 4"),
-        (COUNTS - 0.5, "not-whole", "It is 61.5; a whole number is expected"),
-        (-COUNTS, "miscounted", "-62 where 62"),  # no talk of signs
+        (
+            [61, 43, 10, 7],
+            "miscounted",
+            "returned 61; expected 62. It is right for 3 of",
+        ),
+        (COUNTS - 0.5, "not-whole", "It returned 61.5; expected a whole number"),
+        (-COUNTS, "miscounted", "-62; expected 62"),  # no talk of signs
         ([0, 0, 0, 0], "ignores-its-input", "same"),  # nor of arrays never filled
     ],
 )
@@ -174,10 +178,14 @@ ONE_EACH = np.arange(8) == np.arange(6)[:, None]
         (MASKS, "", ""),
         (MASKS.astype(int), "", ""),
         (~MASKS, "inverted", "True and False are swapped"),
-        (np.ones_like(MASKS), "ignores-its-input", "does not depend on it"),
-        (MASKS | ONE_EACH, "too-often-true", "It is True 3 times where"),
-        (MASKS & ~ONE_EACH, "too-seldom-true", "It is False"),
-        (MASKS * 0.5, "not-true-or-false", "0.5; True or False, in shape (8,), is"),
+        (np.ones_like(MASKS), "ignores-its-input", "does not depend on the input"),
+        (MASKS | ONE_EACH, "too-often-true", "It returned True in 3 cases where"),
+        (MASKS & ~ONE_EACH, "too-seldom-true", "It returned False"),
+        (
+            MASKS * 0.5,
+            "not-true-or-false",
+            "0.5; expected True or False, in shape",
+        ),
     ],
 )
 def test_a_mask_says_which_way_it_is_wrong(given, slug, says):
@@ -220,7 +228,7 @@ def test_a_path_of_any_length_is_accepted_by_a_property():
     assert back.mistake == "not-accepted"
     assert "For 6 of 6 inputs" in back.message
     flat = verdict(lambda i, a, b: np.concatenate([a, b]))
-    assert "a row of 2 numbers per way point" in flat.message
+    assert "a row of 2 numbers per waypoint" in flat.message
 
 
 PIXELS = NUMBERS.uniform(0.0, 300.0, (5, 8, 2))

@@ -46,9 +46,9 @@ def test_one_mistake_that_gives_half_of_the_wrong_numbers_is_told_with_how_many(
         return Vt[kept].T @ (U[:, kept].T @ tau * s[kept])
 
     says = told(8, "8.6", truncated_svd_fit=truncated_svd_fit)
-    assert "In 10 of your 14 wrong answers the numbers are those of one mistake" in says
+    assert "One mistake explains 10 of your 14 wrong answers" in says
     assert "it is multiplied by the singular values" in says
-    assert "The other 4 are not." in says
+    assert "It does not explain the other 4." in says
 
 
 def test_a_mistake_that_gives_few_of_the_wrong_numbers_is_not_told():

@@ -4,9 +4,9 @@ import re
 
 import pytest
 
-from conftest import ROOT, kits_worksheet
-from labkit.commands.run import waiting, without_numbers
+from conftest import ROOT, copy_kit, keep_first_day, kits_worksheet, run_copy
 from labkit.lesson.day import all_days, find_day
+from labkit.lesson.hidden import Hidden, Output, without
 from labkit.lesson.predicted import predictions, rows_asked, with_measured
 
 HEAD = "| number | predicted | measured | why apart |\n|---|---|---|---|\n"
@@ -62,26 +62,66 @@ def test_a_table_of_anything_else_is_no_prediction():
     assert predictions(sheet("-", OPEN)) == {}
 
 
-def test_a_verdict_is_shown_without_its_number():
-    lines = [
-        "4. The order matters",
-        "  The distance between the two positions is 0.2434 m.",
-        "  PASS  your two translations - the products: 0 (limit 1e-08)",
-        "  PASS  worst at body:link7: 2.4e-15 (over 3 and under 4)",
-        "  FAIL  height: 0.59 (limit 0.1)",
-        "All checks PASSED.",
+OUTPUT = """\
+1. Rank 5 of step 1 is a heading
+  the screws have rank 5; q = 5, seed 5 of 5, link5, 0.500 m, 15, 1e-05
+      0.590270   0.1000
+2. Order matters
+  rank (omega; v)        5   5.2
+  height 590.3 mm, or 0.59 m; predicted 0.6 m
+  PASS  worst: 0.5903 (limit 1e-08)
+  FAIL  height: 0.5903 (limit 0.1)
+  height of ee, m: hidden until you write 0.5903
+  held 15 of 60, 25 of 61; 0.25
+3. The end
+  5 more
+All checks PASSED: 0.590270
+"""
+SAYS = "  height of ee, m: hidden until you write 0.5903"
+
+
+def test_a_number_is_hidden_wherever_it_is_printed():
+    at = OUTPUT.index("2. Order")
+    hidden = [Hidden(5.0, at), Hidden(0.59027, at), Hidden(0.25, at)]
+    lines = without(OUTPUT, hidden, {SAYS}).splitlines()
+    before = OUTPUT.splitlines()
+    assert lines[:2] == before[:2]  # a short number before the step that measures it
+    assert lines[2] == "      (hidden)   0.1000"
+    assert lines[4].split()[3:] == ["(hidden)", "(hidden)"]  # 5.2 is as good as 5
+    assert lines[5] == "  height (hidden) mm, or (hidden) m; predicted (hidden) m"
+    assert lines[6] == "  PASS  worst: (hidden) (limit 1e-08)"
+    assert lines[7:9] == before[7:9]
+    assert lines[9] == "  held (hidden) of 60, 25 of 61; (hidden)"
+    assert lines[11] == "  (hidden) more"
+    assert lines[12] == before[12]
+
+
+def test_a_zero_is_hidden_in_its_step_and_one_digit_is_no_fraction():
+    text = "1. a\n  0.0 and 1 of 2\n2. b\n  0.0  0.9703  1  2\n"
+    hidden = [Hidden(0.0, 0), Hidden(0.9703, text.index("2. b") + 1)]
+    assert without(text, hidden).splitlines()[1::2] == [
+        "  (hidden) and 1 of 2",
+        "  0.0 (hidden)  1  2",
     ]
-    both = "  PASS  your two translations - the products"
-    names = [both, "  PASS  worst at body:link7"]
-    kept = [without_numbers(line) for line in lines]
-    assert kept == [lines[0], None, *names, *lines[4:]]
+
+
+def test_a_lab_that_stops_early_shows_no_number(capsys):
+    output = Output({"the sag, mm", "the rest"})
+    print("1. A step of 3\n  0.1 and 7 mm\n  FAIL  it: 0.2")
+    output.hide("the sag, mm", 18.57, "  the sag, mm: hidden")
+    assert capsys.readouterr().out == ""
+    output.release()
+    output.release()
+    assert capsys.readouterr().out == (
+        "1. A step of 3\n  (hidden) and (hidden) mm\n  FAIL  it: 0.2\n"
+        "  the sag, mm: hidden\n"
+    )
 
 
 @pytest.mark.parametrize("day", all_days(), ids=lambda day: str(day.number))
 def test_every_day_asks_for_three_numbers_first(day):
     asked = rows_asked(kits_worksheet(day))
     assert list(asked.values()) == ["", "", ""]
-    assert waiting(day) == 3
 
 
 # What a lab measures of the rows of its worksheet, as documents print it.
@@ -123,12 +163,50 @@ def test_what_is_to_be_predicted_stands_nowhere_before_it_is_asked(day):
 
 
 @pytest.mark.kit
-def test_the_kits_own_lab_shows_its_numbers_after_the_predictions(run):
-    kits_worksheet(find_day(1))
-    command = ("scripts/run_day.py", "1", "--kit", "--no-log")
-    quiet, whole = run(*command).stdout, run(*command, "--numbers").stdout
-    for number in ("0.590270", "0.2434", "e-15"):
-        assert number in whole
-        assert number not in quiet
-    assert "3 predictions of yours go first" in " ".join(quiet.split())
+@pytest.mark.parametrize("number", [1, 9])
+def test_the_kits_own_lab_shows_its_numbers_after_the_predictions(run, number):
+    kits_worksheet(find_day(number))
+    command = ("scripts/run_day.py", str(number), "--kit", "--no-log")
+    quiet, whole = run(*command).stdout, run(*command, "--reveal").stdout
+    measured = {1: ("0.590270", "0.2434", "3.2e-15"), 9: ("0.0196", "ms: 4", "-4.709")}
+    for answer in measured[number]:
+        assert answer in whole
+        assert answer not in quiet
+    assert "3 predictions of yours are missing" in " ".join(quiet.split())
     assert quiet.count("PASS") == whole.count("PASS")
+    assert " ".join(quiet.split()).count("hidden until you write your prediction") == 3
+
+
+@pytest.mark.kit
+def test_ones_own_lab_hides_a_number_until_it_is_predicted(tmp_path):
+    clone = keep_first_day(copy_kit(tmp_path / "clone"))
+    day = find_day(1, clone)
+    sheet = day.folder / day.worksheet
+    sheet.write_text(kits_worksheet(find_day(1)), "utf-8")
+    day.work.parent.mkdir()
+    day.work.write_text(day.source.read_text("utf-8"), "utf-8")
+    first, revealed, whole = (
+        run_copy(clone, "scripts/run_day.py", "1", *options).stdout
+        for options in ((), ("--reveal",), ("--kit", "--reveal", "--no-log"))
+    )
+    assert "0.590270" not in first
+    assert "0.2434" not in first
+    assert revealed.count("0.590270") == whole.count("0.590270") == 4
+    rows = (clone / "metrics/metrics.csv").read_text().splitlines()[1:]
+    written = [row.split(",")[1:] for row in rows]
+    assert len(written) == 4
+    assert written[:2] == written[2:]  # recorded as ever
+    text = sheet.read_text("utf-8").replace("*(your prediction)*", "0.6", 1)
+    sheet.write_text(text, "utf-8")
+    second = run_copy(clone, "scripts/run_day.py", "1", "--no-log").stdout
+    assert "you predicted 0.6, measured 0.5903" in second
+    assert second.count("0.590270") == 4
+    assert "0.2434" not in second
+    begun = day.source.read_text("utf-8").replace(
+        "    T = np.eye(4)", "    raise NotImplementedError('task 1.1')", 1
+    )
+    day.work.write_text(begun, "utf-8")
+    done = run_copy(clone, "scripts/run_day.py", "1", "--no-log")
+    assert "to do: task 1.1" in done.stderr
+    assert done.returncode == 1
+    assert not re.search(r"\d\.\d", done.stdout.partition("1. What")[2])

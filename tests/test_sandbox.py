@@ -155,7 +155,7 @@ class TestASecondAsking:
         """
         (reply,) = ask(code, Question("1.1", "f", (1.0,)))
         assert reply.kind == "stopped"
-        assert "loaded once more: it runs on and on" in reply.error
+        assert "loaded once more: it does not end" in reply.error
 
     def test_that_goes_wrong_alone_says_how(self, ask):
         code = """

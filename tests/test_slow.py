@@ -105,8 +105,8 @@ class TestACallThatIsStopped:
         verdict = too_slow(DAY, "Rz", (0.5,), self.STOPPED)
         assert verdict.mistake == "stopped"
         assert verdict.message == (
-            "Rz did not return: it runs on and on, as a loop without an end does (the "
-            "kit's own takes under 0.1 s a call here; yours was stopped after 3 s)."
+            "Rz did not return: it does not end, as in an endless loop (the kit's own "
+            "takes under 0.1 s per call; yours was stopped after 3 s)."
         )
 
     def test_is_slow_where_the_kits_own_takes_its_time_too(self, monkeypatch):
@@ -114,7 +114,7 @@ class TestACallThatIsStopped:
         verdict = too_slow(DAY, "Rz", (0.5,), replace(self.STOPPED, given=12.0))
         assert verdict.mistake == "too-slow"
         assert verdict.message == (
-            "Rz is too slow: the kit's own takes 0.8 s a call here; yours was stopped "
+            "Rz is too slow: the kit's own takes 0.8 s per call; yours was stopped "
             "after 12 s."
         )
 
@@ -178,8 +178,8 @@ class TestALabsRun:
         with pytest.raises(EnoughAsked):
             budget.spend("f", (1.0,))
         says = slow.not_to_its_end("3. Train", budget)
-        assert "10 s went by, with 1 call of the tasks' functions; the kit's" in says
-        assert 'It stopped in "3. Train"' in says
+        assert "10 s went by, with 1 call of your functions; the kit's" in says
+        assert 'It was stopped in "3. Train"' in says
 
     def test_goes_on_where_the_kits_own_would_take_as_long(self):
         budget = self.run(150, 0.1, 0.0)  # 15 s, of which the process worked for none
@@ -197,7 +197,7 @@ class TestALabsRun:
     def test_that_is_not_to_its_end_is_told_in_the_same_words_everywhere(
         self, monkeypatch, tmp_path
     ):
-        words = "The lab was not run to its end here: 30 s went by."
+        words = "The lab was not run to its end: 30 s went by."
         ran = lab_run.Rehearsed("", {}, words)
         monkeypatch.setattr(lab_run, "rehearse", lambda *_: ran)
         (item,) = lab_run.check_lab(DAY, DAY.source, None)
@@ -224,7 +224,7 @@ class TestALabsRun:
         with Sandbox() as box:
             ran = lab_run.rehearse(day, script, box)
         assert ran.fault == ""
-        assert ran.unfinished.startswith("The lab was not run to its end here: ")
+        assert ran.unfinished.startswith("The lab was not run to its end: ")
 
     @pytest.mark.kit
     def test_gets_answers_as_the_functions_return_them(self, tmp_path, monkeypatch):

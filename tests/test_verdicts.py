@@ -25,7 +25,7 @@ def test_a_task_that_calls_an_unwritten_one_waits_for_it(check):
     code = REFERENCE.replace(start, f"    {gap}\n{start}", 1)
     verdicts = check(code)
     assert verdicts["1.4"].status == verdicts["1.6"].status == "todo"
-    assert verdicts["1.6"].message == "Right as soon as 1.4 is."
+    assert verdicts["1.6"].message == "It will be right as soon as task 1.4 is right."
 
 
 def test_a_missing_function_is_told_with_the_way_to_get_it_back(check):
@@ -104,5 +104,5 @@ def test_a_loop_without_an_end_is_told_in_one_sentence(check, monkeypatch):
     monkeypatch.setattr(sandbox, "CALL_SECONDS", 1.0)
     code = REFERENCE.replace("    c, s =", "    while True: pass\n    c, s =", 1)
     message = check(code, "1.2")["1.2"].message
-    assert message.startswith("Rz did not return: it runs on and on")
-    assert message.endswith("a call here; yours was stopped after 1 s).")
+    assert message.startswith("Rz did not return: it does not end")
+    assert message.endswith("per call; yours was stopped after 1 s).")

@@ -20,11 +20,15 @@ from robo47.paths import ROOT, shown
 
 # What `make new` writes for somebody to write over, by the file's ending.
 SKELETON = {
-    "day.toml": ("what its lab shows, in a line",),
-    "-lab.md": ("What the student can do tonight", "What you would have liked to hear"),
-    ".md": ("What do you want to ask?",),
-    "week.toml": ("what this week is about",),
-    "README.md": ("What this week is about.",),
+    "day.toml": ("the method of the day, then what its lab shows",),
+    "-lab.md": (
+        "Begin with something that the reader can see",
+        "A book with its chapter",
+        "The answer that you would like to read",
+    ),
+    ".md": ("What do you want to ask?", ": what it shows"),
+    "week.toml": ("what the arm can do at the end of the week",),
+    "README.md": ("what this week adds to the week before",),
 }
 
 

@@ -98,7 +98,7 @@ def _limits() -> Iterator[tuple[str, str, str]]:
             "`@row.inputs`",
         ),
         (
-            "of those drawn anew",
+            "of those, sampled",
             f"{ask.CHEAP_FRESH} where all arguments have {ask.CHEAP} numbers at most, "
             f"else {ask.FRESH}; as many with edge values",
             "a cost: the task's `seconds`",

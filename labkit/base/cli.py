@@ -179,11 +179,28 @@ def _code_of_not_yet() -> Iterator[int]:
             os.environ[NOT_YET] = asked
 
 
+_at_end: list[Callable[[], None]] = []
+
+
+def at_end(call: Callable[[], None]) -> None:
+    """Call this when the command ends or stops, before its error is printed."""
+    _at_end.append(call)
+
+
+def _ended(main: Callable[[], int]) -> int:
+    """Run `main`, and then what was asked for `at_end`."""
+    try:
+        return main()
+    finally:
+        while _at_end:
+            _at_end.pop()()
+
+
 def _code_of(main: Callable[[], int]) -> int:
     """Return the exit code of a command, and print one line if it could not run."""
     warnings.formatwarning = lambda message, *_, **__: f"warning: {message}\n"
     try:
-        code = main()
+        code = _ended(main)
         sys.stdout.flush()
     except Robo47Error as error:
         complain(f"error: {error}")

@@ -83,7 +83,7 @@ class Report:
                 return f"the {item.name}."
         if self.items:
             return f"nothing is left to do here. Well done. {_after(self.day)}"
-        return f"the whole day: make check DAY={self.day.number}"
+        return f"check the whole day: make check DAY={self.day.number}"
 
 
 def _after(day: Day) -> str:
@@ -96,12 +96,12 @@ def _after(day: Day) -> str:
         return f"Your numbers: make report{'; then: ' + start if start else ''}."
     steps = [
         *([f"make capstone WEEK={number}"] if week.capstone else []),
-        f"make report WEEK={number} and your words in its RETRO",
-        f"commit, make fresh WEEK={number}",
+        f"make report WEEK={number} and write your words into its RETRO",
+        f"commit and make fresh WEEK={number}",
         f"make proof WEEK={number}",
         *([start] if start else []),
     ]
-    return f"That was week {number}. Its end, in this order: {'; '.join(steps)}."
+    return f"That was week {number}. To finish it, in this order: {'; '.join(steps)}."
 
 
 def as_json(report: Report) -> dict[str, Any]:
@@ -218,8 +218,8 @@ def _said(report: Report, result: TaskResult, explain: bool) -> str:
     if verdict.mistake == "inherited":
         return verdict.message
     if not explain and verdict.follows in {other.task.id for other in report.left}:
-        word = "Follows from" if verdict.status == "close" else "Builds on"
-        return f"{word} {verdict.follows}: first that one."
+        word = "follows from" if verdict.status == "close" else "builds on"
+        return f"It {word} task {verdict.follows}: solve that task first."
     if verdict.follows and verdict.status != "todo":
         also = f"It builds on task {verdict.follows}, which is not right yet either."
         return f"{verdict.message} {also}"

@@ -123,8 +123,8 @@ class Budget(Deadline):
     def told(self) -> str:
         """Return what the time went for, as a sentence's end."""
         calls = count(self.calls.total(), "call")
-        kits = f"the kit's own take {self._kits_took():.2g} s for as many here"
-        says = f"{self.seconds:.3g} s went by, with {calls} of the tasks' functions"
+        kits = f"the kit's own take {self._kits_took():.2g} s for as many calls"
+        says = f"{self.seconds:.3g} s went by, with {calls} of your functions"
         return f"{says}; {kits}"
 
     def _goes_on(self) -> bool:
@@ -192,8 +192,8 @@ def not_to_its_end(title: str, budget: Budget) -> str:
     """Return that a lab was not run to its end: the same words on every page."""
     where = f' in "{title}"' if title else ""
     return (
-        f"The lab was not run to its end here: {budget.told()}. It stopped{where}; "
-        "what comes after that was not looked at."
+        f"The lab was not run to its end: {budget.told()}. It was stopped{where}, "
+        "and the steps after that were not tested."
     )
 
 
@@ -201,7 +201,7 @@ def runs_on(title: str, budget: Budget) -> str:
     """Return that the kit's own part of a lab was stopped, as a sentence's middle."""
     where = f'at "{title}", ' if title else ""
     return (
-        f"{where}the lab runs on and on with what your functions return: it was "
+        f"{where}the lab does not end with the results of your functions: it was "
         f"stopped {budget.stretch:.0f} s after it called {budget.latest}"
     )
 
@@ -222,7 +222,7 @@ def too_slow(day: Day, function: str, args: Sequence[Any], reply: Reply) -> Verd
     if reply.came:
         beside = f"yours was stopped after {count(reply.came, 'call')} and {given}"
     if kits:
-        beside = f"the kit's own takes {_briefly(kits)} a call here; {beside}"
+        beside = f"the kit's own takes {_briefly(kits)} per call; {beside}"
     if max(kits, reply.longest) * ENDLESS > reply.given:
         return Verdict("wrong", "too-slow", f"{function} is too slow: {beside}.")
     says = f"{function} did not return: {reply.error} ({beside})."

@@ -14,6 +14,7 @@ from labkit.base.deadline import Deadline
 from labkit.base.exchange import Exchange, LoadError, Reply
 from labkit.check.slow import too_slow
 from labkit.judge.ask import Asked, asked_of, replies
+from labkit.judge.cases import in_cases
 from labkit.judge.guard import attempt, noting, quiet
 from labkit.judge.judge import judge, unjudged
 from labkit.judge.mistake import Verdict
@@ -188,7 +189,7 @@ class _Check:
         return replace(result, verdict=verdict)
 
     def _with_experiments(self, task: Task, verdict: Verdict, added: str) -> Verdict:
-        """Return a verdict with the arguments that, neutral, make the answer right."""
+        """Return a verdict with the cases, or arguments, for which it is right."""
         all_asked = self.asked[task.id]
         asked = next(one for one in all_asked if one.function == verdict.function)
         robots = robots_of([exchange.question for exchange in asked.main])
@@ -203,7 +204,9 @@ class _Check:
         )
         with contextlib.closing(session), quiet():
             names = arguments(self.source, asked.function)
-            says = right_when(asked, verdict.wrong_calls, names, session.ask)
+            says = in_cases(asked, session.ask) or right_when(
+                asked, verdict.wrong_calls, names, session.ask
+            )
         return replace(verdict, message=f"{verdict.message} {says}".strip())
 
 
@@ -214,8 +217,8 @@ def _exchanges(asked: Sequence[Asked]) -> list[Exchange]:
 def _inherited(broken: Sequence[Task]) -> Verdict:
     """Return the verdict on a task that only lacks those that it builds on."""
     *before, last = [task.id for task in broken]
-    ids = f"{', '.join(before)} and {last} are" if before else f"{last} is"
-    says = f"Right as soon as {ids}."
+    ids = f"tasks {', '.join(before)} and {last} are" if before else f"task {last} is"
+    says = f"It will be right as soon as {ids} right."
     return Verdict("todo", "inherited", says, follows=broken[0].id)
 
 

@@ -15,7 +15,7 @@ import sys
 import time
 from collections.abc import Iterator
 
-from labkit.author import docstring, files, seen, student, week
+from labkit.author import docstring, files, ranges, seen, student, week
 from labkit.base import cli, processes
 from labkit.commands import docs
 from labkit.judge.guard import LOUD
@@ -130,6 +130,12 @@ def docstrings(day: Day) -> Iterator[str]:
             )
 
 
+def spans(day: Day) -> Iterator[str]:
+    """Print the arguments that are smaller or larger in the lab than in a question."""
+    NOTES.extend(ranges.faults_of(day))
+    yield from ()
+
+
 def constants(day: Day) -> Iterator[str]:
     """Yield what moves, or stays, otherwise than the day's list of constants says."""
     if not day.has("constants"):
@@ -171,6 +177,7 @@ def style(day: Day) -> Iterator[str]:
 PARTS = {
     "files": fitting,
     "docstrings": docstrings,
+    "ranges": spans,
     "catalogue": catalogue,
     "student": student.faults_of,
     "tabs": seen.tabs,

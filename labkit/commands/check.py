@@ -46,7 +46,7 @@ def parse(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     parser.add_argument("--explain", action="store_true", help="show measurements")
     parser.add_argument("--json", action="store_true", help="print JSON")
     parser.add_argument(
-        "--seed", type=int, metavar="N", help="of the inputs drawn anew; default: any"
+        "--seed", type=int, metavar="N", help="of the sampled inputs; default: random"
     )
     return parser.parse_args(arguments)
 

@@ -15,7 +15,7 @@ each folder is a student. Beside the table: class.html (what to explain again,
 who is stuck), feedback/ (a file per student) and grading.jsonl, in which each
 result is kept as it comes: stop at any time, the same command goes on. Several
 days: a folder for each as above, one table for a learning platform, one page.
-Commit times are the students' own: whoever commits sets the clock.
+Commit times are the students' own: the student's computer sets the clock.
 
 Exit code: 0 everybody has a row, also those who are "ungraded" (the column
 error says why), 1 somebody could not be pulled or this machine failed: run it
@@ -432,7 +432,7 @@ def tell(courses: list[Course], notes: dict[str, str], out: Path) -> bool:
     if not all(map(percent, graded)):
         print("ungraded: the column error says why")
     if outdated := sum(course.outdated for course in courses):
-        print(f"another version of the kit had graded: {outdated:,}; done anew")
+        print(f"graded with another version of the kit, so graded again: {outdated:,}")
     for course in courses:
         if course.odd:
             print(course.odd)

@@ -108,7 +108,7 @@ def leave(day: Day) -> None:
             end(case, tally.LEFT)
             level = f" LEVEL={case.level}" if case.level != 1 else ""
             again = f"make hunt DAY={case.day}{level} SEED={case.seed}"
-            print(f"Left: the hunt of day {case.day}. Anew: {again}\n")
+            print(f"Left: the hunt of day {case.day}. To hunt again: {again}\n")
 
 
 def end(case: Case, how: str, innocent: tuple[str, ...] = ()) -> None:

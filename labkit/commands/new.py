@@ -172,7 +172,7 @@ def tell_moved(old: int, options: Any) -> int:
         print("Not touched; look at each:")
     for place in done.left:
         print(f"  {place}")
-    print(f"Not touched: work/, metrics/, whoever imports {day.script}'s functions.")
+    print(f"Not touched: work/, metrics/, and files that import {day.script}.")
     print("A student's make update follows the script by its former name, was = [...].")
     print(f"Now: make author DAY={options.day}")
     return cli.EXIT_OK

@@ -2,7 +2,7 @@
 
     python3 scripts/make_pins.py     after each change of constraints.txt
 
-`pip` takes a file of constraints and `uv sync` does not: it resolves anew on each
+`pip` takes a file of constraints and `uv sync` does not: it resolves again on each
 machine, held to the versions that stand in pyproject.toml. The lock that it makes names
 the package index of that machine, so git ignores it.
 """

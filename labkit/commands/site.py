@@ -4,7 +4,7 @@
     python3 scripts/build_site.py        the same
     python3 -m http.server -d _site      look at it: http://localhost:8000
 
-Its documents are those of the repository; a warning, or a link that leads nowhere, is
+It shows the repository's documents; a warning, or a link that leads nowhere, is
 an error, and so is a notebook's cell that fails. The arm's page needs Node.js, and its
 packages: npm ci --prefix site.
 """

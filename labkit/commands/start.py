@@ -32,7 +32,7 @@ def start(day: Day) -> int:
     copy_kit(day)
     if work.exists():
         print(f"{shown(work)} is there already and stays as it is.")
-        print(f"To begin one task anew: make start RESET={first.id} (with its number);")
+        print(f"To reset one task: make start RESET={first.id} (with its number);")
         print(f"all of it: move that file away, then make start DAY={day.number}")
         return cli.EXIT_OK
     store.replace(work, starter.encode())

@@ -150,6 +150,6 @@ def tell(
             print(cli.wrapped(f"  {line}", "    "))
         if "changed" in day:
             what = "check" if not day["changed"] else "run"
-            print(f"  Once more: make {what} DAY={day['day']}")
+            print(f"  Run again: make {what} DAY={day['day']}")
     for copy in copies:
         print(f"your lab as it was: {shown(copy)}")

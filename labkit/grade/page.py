@@ -52,7 +52,7 @@ _COUNTED = (
     "Counted where they were made, once per student; a whole bar is the class. Last: "
     "what stopped or is wrong in a way that has no name."
 )
-_REFUSED = "A task needs nothing but its arguments. Most of these are accidents: ask."
+_REFUSED = "A task needs only its arguments. Most of these are accidents: ask."
 
 
 def render(course: Course) -> str:

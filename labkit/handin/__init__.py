@@ -3,7 +3,7 @@
     deliverables  all of them, in order; all of it in git
     handin        which files, read without trusting the folder
     figure        the student's picture
-    worksheet     definitions, drawings, checklist
+    worksheet     definitions, answers, drawings
     rows          the numbers in the metrics log
 
 Each check returns an `Item`: how it stands, and what to do about it.

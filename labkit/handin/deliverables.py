@@ -14,7 +14,7 @@ from robo47.paths import ROOT, shown
 
 _ITEMS = {  # each check of a deliverable, in the order of checking
     "figure": ["figure"],
-    "worksheet": ["definitions", "drawings", "checklist"],
+    "worksheet": ["definitions", "drawings"],
     "log": ["metrics"],
 }
 
@@ -53,7 +53,7 @@ def check_deliverables(
         commit = check_commit(day, handin, history)
         commit = _with_ignored(commit, root, [*handin.files], history)
     except GitError as error:
-        commit = Item("commit", "todo", f"Nobody can tell: {error}.")
+        commit = Item("commit", "todo", f"The commit could not be checked: {error}.")
     return [*check_files(day, handin, tasks_pass=tasks_pass), commit]
 
 

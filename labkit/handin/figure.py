@@ -67,7 +67,7 @@ def _look(picture: NDArray[np.uint8]) -> None:
     if width < SMALLEST[0] or height < SMALLEST[1]:
         raise FlawError(
             f"it is {width}x{height} pixels; at least "
-            f"{SMALLEST[0]}x{SMALLEST[1]} are wanted"
+            f"{SMALLEST[0]}x{SMALLEST[1]} are required"
         )
     step = max(1, math.isqrt(width * height // 1_000_000))  # some pixels tell as much
     some = picture[::step, ::step]

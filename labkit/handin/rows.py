@@ -41,10 +41,10 @@ def check_rows(day: Day, handin: Handin, *, tasks_pass: bool = True) -> Item:
     script = handin.files.get(day.files["script"], b"").decode("utf-8", "replace")
     if tasks := borrowed_tasks(day, script):
         ids = ", ".join(task.id for task in tasks)
-        says = f"Borrowed from the kit: {ids}. The rows count once they are your own; "
+        says = f"Borrowed from the kit: {ids}. The rows count once these are your own; "
         return Item("metrics", "todo", f"{says}then: {run}")
     if not tasks_pass:
-        says = f"The rows count when your tasks pass; then again: {run}"
+        says = f"The rows count once your tasks pass. Then run again: {run}"
         return Item("metrics", "todo", says)
     return Item("metrics")
 
@@ -86,7 +86,7 @@ def _why_missing(
     source = day.source.read_bytes() if day.source.is_file() else None
     marks = {mark_of(row) for row in seen}
     if marks <= marks_of(source):
-        return "The kit's own run logged the rows that are there, not your file."
+        return "The rows in the log come from the kit's own run, not from your file."
     if "" in marks:
-        return "The rows that are there do not say that your file wrote them."
+        return "The rows in the log do not show that your file wrote them."
     return "Your file has changed since it logged its rows."

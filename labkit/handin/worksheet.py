@@ -1,4 +1,4 @@
-"""The student's worksheet: definitions in their own words, drawings, checklist."""
+"""The student's worksheet: definitions in their own words, answers, drawings."""
 
 import re
 from collections import Counter
@@ -20,8 +20,8 @@ LONGEST = 2000  # characters of a line that are looked at
 # What to do about a definition or a drawing, by how it stands.
 _DEFINE = {
     "empty": "Still empty: {}.",
-    "short": f"Say it in a sentence ({FEWEST_WORDS} words): {{}}.",
-    "taken": "The guide's words, not yours: {}.",
+    "short": f"Write a whole sentence (at least {FEWEST_WORDS} words): {{}}.",
+    "taken": "Copied from the guide: {}. Use your own words.",
 }
 _DRAW = {
     "missing": "Drawing {}: add ![](photo.jpg), or draw it as text, of "
@@ -35,7 +35,6 @@ _COMMENT = re.compile(r"<!(?=--).*?-->", re.DOTALL)
 # Searched in one line, without the spaces around it: no search takes long.
 _FENCE = re.compile(r"```|~~~")
 _QUESTION = re.compile(r"\d+[.)]\s+\S")
-_BOX = re.compile(r"[-*+]\s+\[\s{0,9}([xX]?)\s{0,9}\]\s*(.*)")
 # A template's own words: quoted instructions, those in italics and brackets, and lines
 # to write on. What somebody types between the template's asterisks is theirs.
 _PROMPT = re.compile(r">.*|\*\([^*]*\)\*|_\([^_]*\)_|[._\s…]*|TODO.*")
@@ -45,14 +44,14 @@ _WORD = re.compile(f"[{_ALONE}]|[^\\W_{_ALONE}]+")
 
 
 def check_worksheet(day: Day, handin: Handin) -> list[Item]:
-    """Check the day's worksheet: definitions, drawings and checklist.
+    """Check the day's worksheet: what is written, and the drawings.
 
     Args:
         day: from the kit's manifest.
         handin: what the student's folder holds.
     """
     where = day.files["worksheet"]
-    names = ("definitions", "drawings", "checklist")
+    names = ("definitions", "drawings")
     data = handin.files.get(where)
     if data is None:
         return [Item(name, "todo", f"{where} is not there.") for name in names]
@@ -69,7 +68,6 @@ def check_worksheet(day: Day, handin: Handin) -> list[Item]:
     return [
         _in_words(sections, day, guide, where),
         _drawings(sections, day, handin, where),
-        _checklist(sections, where),
     ]
 
 
@@ -121,7 +119,7 @@ def _in_words(sections: dict[str, str], day: Day, guide: str, where: str) -> Ite
         return Item("definitions", "wrong", f"{pasted}, in {where}.")
     if not (open_ones or blank):
         return item
-    says = f"All {len(day.terms)} are there. "
+    says = f"All {len(day.terms)} definitions are there. "
     if open_ones:
         numbers = ", ".join(map(str, open_ones))
         says += f"Can you explain? {numbers}: answer below each question, in {where}."
@@ -151,7 +149,7 @@ def _pasted(answers: list[list[str]], reasons: list[list[str]]) -> str:
         alone = max(told[words], times - 1)
         if any(len(words) >= long and alone >= most for long, most in PASTED.items()):
             says = visible(" ".join(words), 60)
-            return f'The same sentence {times} times, and each asks its own: "{says}"'
+            return f'The same sentence {times} times, but each needs its own: "{says}"'
     return ""
 
 
@@ -231,22 +229,6 @@ def _drawing(text: str, handin: Handin, where: str) -> str:
     if kits:
         return "kits" if all(kits) else "done"
     return "broken" if addresses else "missing"
-
-
-def _checklist(sections: dict[str, str], where: str) -> Item:
-    """Check that every box is ticked."""
-    boxes = [
-        (bool(box[1]), box[2])
-        for line in sections.get("checklist", "").splitlines()
-        if (box := _BOX.fullmatch(line.strip()))
-    ]
-    if not boxes:
-        return Item("checklist", "wrong", f"{where} has no checklist: put it back.")
-    left = [text for ticked, text in boxes if not ticked]
-    if not left:
-        return Item("checklist")
-    says = f"{len(boxes) - len(left)} of {len(boxes)} ticked in {where}."
-    return Item("checklist", "todo", f"{says} Next: {visible(left[0], 120)}")
 
 
 def _is_drawn(text: str) -> bool:

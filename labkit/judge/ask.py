@@ -4,7 +4,7 @@ A day's function files make them (`labkit.judge.row`), one row per
 function of the manifest. Inputs are drawn from a `Draw`, or from `Edges`.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, partial
@@ -185,6 +185,10 @@ class Ask:
     # What a wrong function may turn out to be right for, in words that follow
     # "whenever", each with a function of a call's arguments that says whether it is so.
     conditions: Sequence[tuple[str, Callable[..., bool]]] = ()
+    # Cases of calls, in lists: by a phrase, such as "parallel segments", a function of
+    # a call's arguments that says whether a call is of that case.
+    cases: Sequence[Mapping[str, Callable[..., bool]]] = ()
+    rare: Sequence[Inputs] = ()  # draw calls of cases that `inputs` draws seldom
     # Whether a call with edge values has one right answer; None is yes.
     at_edge: Callable[..., bool] | None = None
     seconds: float = 0.0  # that a call of the reference takes; 0: it is measured here

@@ -163,7 +163,7 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     That answers were looked up is said only where all are wrong, and each is one that
     another input has got.
     """
-    right = "Right for the inputs that are always asked, but not for"
+    right = "It is right for the inputs of every check, but not for"
     if isinstance(S, Finding):
         return Finding("some-inputs", f"{right} fresh ones. {S.message}")
     S = taken(asked.ask, asked.fresh, S)
@@ -171,8 +171,8 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     wrong = asked.ask.gaps(S, T) > asked.ask.near
     says = f"{right} {int(wrong.sum())} of {len(wrong)} fresh ones."
     if wrong.all() and _only_known(main, S):
-        return Finding("looked-up", f"{says} The answers do not come from the inputs.")
-    some = "Some inputs take another way through your function."
+        return Finding("looked-up", f"{says} The answers do not depend on the inputs.")
+    some = "Some inputs take another branch of your function."
     return Finding("some-inputs", says if wrong.all() else f"{says} {some}")
 
 

@@ -84,10 +84,11 @@ def in_some_calls(m: Matcher) -> Finding | None:
     if most is None:
         return None
     n, one = most
-    rest = "one is not" if len(wrong) == n + 1 else f"{len(wrong) - n} are not"
+    others = len(wrong) - n
+    rest = "It does not explain the other " + ("one" if others == 1 else str(others))
     says = (
-        f"In {n} of your {len(wrong)} wrong answers the numbers are those of one "
-        f"mistake: {one.says.rstrip('?')}. The other {rest}."
+        f"One mistake explains {n} of your {len(wrong)} wrong answers: "
+        f"{one.says.rstrip('?')}. {rest}."
     )
     return Finding(f"{one.slug}+other", says)
 

@@ -152,12 +152,16 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     if (off := gap.max()) > ask.near:
         case = replace(case, further=attempt(_further, asked))
         case, S, T = _with_answers(case, S, T)
-        named: Finding | None = attempt(diagnose, case, S, T)
-        if named:
-            return Verdict("wrong", *named, measured)
+        m = Matcher(case, S, T)
+        named: Finding | None = attempt(_explained, m)
+        located: Finding | None = None if named else attempt(_located, m)
+        if told_all := named or (None if ask.cases else located):
+            return Verdict("wrong", *told_all, measured)
         wrong = tuple(np.flatnonzero(gap > ask.near).tolist())
         plainly = _by_how_much(gap, ask.tolerance)
-        found: Finding = attempt(what_is_wrong, case, S, T, otherwise=plainly)
+        found: Finding = located or attempt(
+            what_is_wrong, case, S, T, otherwise=plainly
+        )
         return Verdict("wrong", *found, measured, wrong_calls=wrong)
     if off > ask.tolerance:
         return Verdict("close", *_near_miss(asked, case, S, T, off), measured)
@@ -212,7 +216,7 @@ def _both(
 
 def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Finding:
     if off <= near_miss.SINGLE and near_miss.single_precision(replies(asked.main), S):
-        says = "Right, but in float32, so to 7 digits. The labs use float64."
+        says = "It is right to 7 digits only, because it is in float32. Use float64."
         return Finding("float32", says)
     i = worst_part(case.ask.kinds, S, T, case.ask.near)
     found = case.ask.near_miss(case) if case.ask.near_miss else None
@@ -334,7 +338,7 @@ def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
 def diagnose(
     case: Case, S: Parts, T: Parts, effort: Effort | None = None
 ) -> Finding | None:
-    """Return what the first source says that explains the answers, or None.
+    """Return what explains the answers, all or some of them, or None.
 
     Args:
         case: what was asked.
@@ -343,13 +347,21 @@ def diagnose(
         effort: what is left of a larger search.
     """
     m = Matcher(case, S, T, effort=effort or Effort())
+    return _explained(m) or _located(m)
+
+
+def _explained(m: Matcher) -> Finding | None:
+    """Return what the first source says that explains the answers, or None."""
     found = next(filter(None, (attempt(source, m) for source in SOURCES)), None)
     if found and found.slug.startswith("slip-"):
-        return _with_its_place(case, found)
-    i = worst_part(case.ask.kinds, S, T, case.ask.near)
-    if found := found or near_miss.rounded(S[i], T[i]):
-        return found
-    return _with_its_size(case, S, T) or in_some_calls(m)
+        return _with_its_place(m.case, found)
+    i = worst_part(m.ask.kinds, m.S, m.T, m.ask.near)
+    return found or near_miss.rounded(m.S[i], m.T[i])
+
+
+def _located(m: Matcher) -> Finding | None:
+    """Return what the row, or some of the answers, say of a mistake without a name."""
+    return _with_its_size(m.case, m.S, m.T) or in_some_calls(m)
 
 
 def _with_its_size(case: Case, S: Parts, T: Parts) -> Finding | None:
@@ -359,7 +371,7 @@ def _with_its_size(case: Case, S: Parts, T: Parts) -> Finding | None:
     if found is None or re.search(r"\d", found.message) or any(k.whole for k in kinds):
         return found
     k = worst_part(kinds, S, T, case.ask.near)
-    off = f"Off by up to {kinds[k].apart(S[k], T[k])}."
+    off = f"It is off by up to {kinds[k].apart(S[k], T[k])}."
     return Finding(found.slug, f"{found.message} {off}")
 
 
@@ -386,7 +398,7 @@ def _not_finite(m: Matcher) -> Finding | None:
     good = np.all([one.all(axis=1) for one in there], axis=0)
     if good.all():
         return None
-    says = f"NaN or infinity comes out for {np.sum(~good)} of {len(good)} inputs"
+    says = f"It returns NaN or infinity for {np.sum(~good)} of {len(good)} inputs"
     found = Finding("not-finite", f"{says}{_first(~good, case.given, 'first for')}.")
     if not good.any():
         return found
@@ -426,11 +438,11 @@ def _none_or_not(m: Matcher) -> Finding | None:
         lost, made = _none(s, kind) & ~_none(t, kind), _none(t, kind) & ~_none(s, kind)
         if not (lost.any() or made.any()):
             continue
-        says = [f"None for {count(lost.sum(), 'input')} to which there is an answer"]
+        says = [f"None for {count(lost.sum(), 'input')} with an answer"]
         says = says * bool(lost.any())
         if made.any():
             many = count(made.sum(), "input")
-            says += [f"an answer for {many} where None is right ({kind.none})"]
+            says += [f"an answer for {many} where None is expected ({kind.none})"]
         where = _first(lost | made, case.given, "first for")
         called = f"{kind.called}: it" if len(S) > 1 and kind.called else "It"
         return Finding("none-or-not", f"{called} returns {', and '.join(says)}{where}.")
@@ -493,8 +505,8 @@ def _nothing_there(m: Matcher) -> Finding | None:
         return None
     return Finding(
         "all-zeros",
-        "Every entry is 0, whatever the input: was the array made, but never filled? "
-        "(MuJoCo's own results look so before mj_forward.)",
+        "Every entry is 0 for every input. Was the array created, but never filled? "
+        "(MuJoCo's own results are 0 before mj_forward.)",
     )
 
 
@@ -506,12 +518,12 @@ def _all_the_same(m: Matcher) -> Finding | None:
     whole = as_one([answer for some in every for answer in some])
     if len(S) < 2 or difference(whole, whole[0]).max() > 1e-8:
         return None
-    off = f"(Off by up to {kind.apart(S, m.T[i])}.)"
+    off = f"(It is off by up to {kind.apart(S, m.T[i])}.)"
     square = S.ndim == 3 and S.shape[1] == S.shape[2]
     if square and np.array_equal(S[0], np.eye(S.shape[1])):
-        says = f"It returns the identity, whatever it is given. {off}"
+        says = f"It returns the identity for every input. {off}"
         return Finding("always-the-identity", says)
-    says = "The answer is the same, whatever the input: it does not depend on it."
+    says = "The answer is the same for every input, so it does not depend on the input."
     return Finding("ignores-its-input", f"{says} {off}")
 
 

@@ -64,12 +64,12 @@ class Kind:
             return
         name = type(self).__name__
         remedy = (
-            "has no shape; it is a single one"
+            "is one value and has no shape"
             if alone
             else ("begins with its shape, a tuple such as (7,) or (None, 2)")
         )
         raise Robo47Error(
-            f"{name}({self.shape!r}): a {name} {remedy}. Name what else it has: "
+            f"{name}({self.shape!r}): a {name} {remedy}. Give the others by name: "
             f'{name}(unit="m"), scale=10.0, called="the distance"'
         )
 
@@ -91,16 +91,16 @@ class Kind:
                 found.append(self.numbers(None))
                 continue
             if value is None or isinstance(value, str):
-                says = f"It returns {value!r}; expected is {self.expected}."
+                says = f"It returns {value!r}; expected {self.expected}."
                 slug = "not-an-array" if value else "nothing-returned"
                 return Finding(slug, says)
             try:
                 array = np.asarray(value)
             except ValueError:  # parts of different shapes
                 says = f"It returns {_shapes(value)}"
-                return Finding("shape", f"{says}; expected is {self.expected}.")
+                return Finding("shape", f"{says}; expected {self.expected}.")
             if array.dtype.kind not in "fiub":
-                says = f"It returns {array.dtype} values; expected is {self.expected}"
+                says = f"It returns {array.dtype} values; expected {self.expected}"
                 return Finding("not-numbers", f"{says} of real numbers.")
             if not self.fits(array.shape):
                 return self._misfit(array.shape, values)
@@ -118,7 +118,7 @@ class Kind:
         with contextlib.suppress(ValueError):  # one has parts of different shapes
             fit = sum(self.fits(np.asarray(value).shape) for value in values)
             often = f" in {len(values) - fit} of {len(values)} calls" if fit else ""
-        says = f"It returns shape {got}{often}; expected is {expected}."
+        says = f"It returns shape {got}{often}; expected {expected}."
         return Finding("shape", says)
 
     def numbers(self, value: Any) -> Array:
@@ -137,7 +137,7 @@ class Kind:
 
     def another_size(self, got: tuple[int, ...], right: tuple[int, ...]) -> str:
         """Return that an answer has not the size that its question asks for."""
-        return f"It returns shape {got} where {right} is right"
+        return f"It returns shape {got}; expected shape {right}"
 
     def _sent(self, answer: Array) -> Any:
         return answer if np.ndim(answer) else float(answer)
@@ -176,7 +176,7 @@ class Kind:
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
         """Return the most useful true thing about answers that no mistake gives."""
         return one_factor(self, S, T) or Finding(
-            "off", f"It is not the right one: off by up to {self.apart(S, T)}."
+            "off", f"It is off by up to {self.apart(S, T)}."
         )
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:
@@ -224,13 +224,13 @@ class Vector(Kind):
             says = f"{where} {'are' if len(empty) > 1 else 'is'} 0 every time. It is "
             return Finding("entries-empty", f"{says}off by up to {self.apart(S, T)}.")
         if not same and _only_the_last(gap(S, T) > RIGHT * self.scale, S, T):
-            says = f"All entries are right but the last: up to {self.apart(S, T)} off."
-            return Finding("few-entries-off", says)
+            says = "All entries are right except the last: it is off by up to "
+            return Finding("few-entries-off", f"{says}{self.apart(S, T)}.")
         if not 0 < off.sum() <= (max(1, len(off) // 3) if same else 1):
             return Finding("off", f"It is off by up to {self.apart(S, T)}.")
         names = [f"{name}'s" for name in self.names] or counted
         where = " and ".join(names[i] for i in np.flatnonzero(off))
-        says = f"All entries are right but {where}: up to {self.apart(S, T)} off."
+        says = f"All entries are right except {where}: off by up to {self.apart(S, T)}."
         return Finding("few-entries-off", says)
 
 
@@ -309,7 +309,7 @@ def few_told(where: str, wrong: Array, off: str) -> Finding:
         off: by how much, in words.
     """
     if 2 * wrong.any(axis=1).sum() < len(wrong):
-        says = f"In these calls all is right but {where}, and that is wrong in some"
-        return Finding("few-entries-off", f"{says} only: up to {off} off.")
-    says = f"All entries are right but {where}: up to {off} off. Look there for a wrong"
+        says = f"Some calls are right. In the others, only {where} is wrong: off by"
+        return Finding("few-entries-off", f"{says} up to {off}.")
+    says = f"All entries are right except {where}: off by up to {off}. Look for a wrong"
     return Finding("few-entries-off", f"{says} sign, letter or factor.")

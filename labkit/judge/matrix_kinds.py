@@ -86,12 +86,12 @@ def part_off(kind: Matrix, S: Array, T: Array) -> Finding | None:
     parts = [one for one in parts if one]
     if not parts:
         return None
-    says = f"All that is wrong stands in {' and '.join(parts)}"
+    says = f"Only a part is wrong, {' and '.join(parts)}"
     off = f"off by up to {kind.apart(S, T)}"
     alone = np.ndim(kind.scale) == 0
     if alone and (found := one_factor(kind, S[:, wrong], T[:, wrong])):
         times = found.message.removeprefix("It ").partition(",")[0]
-        off = f"what is wrong there {times}"
+        off = f"this part {times}"
     return Finding("part-off", f"{says}: {off}.")
 
 
@@ -147,7 +147,7 @@ class Jacobian(Matrix):
                 f"The columns are right up to joint {bad[0]}, and wrong from there on"
             )
         else:
-            says = "Half of it is right" if where else "It is not the right one"
+            says = "Half of it is right" if where else "It is wrong"
         return Finding(
             "columns-off", f"{says}: off by up to {self.apart(S, T)}{where}."
         )
@@ -162,8 +162,8 @@ class Symmetric(Matrix):
         if float(difference(S, S.mT, self.scale).max()) > NEAR:
             return Finding(
                 "not-symmetric",
-                f"It is not symmetric (by up to {skew:.3g}), and it has to be; it is "
-                f"off by up to {self.apart(S, T)}.",
+                "It should be symmetric, but it differs from its transpose by "
+                f"{skew:.3g}. It is off by up to {self.apart(S, T)}.",
             )
         found = few_entries(self, S, T) or one_factor(self, S, T)
         if found := found or part_off(self, S, T):
@@ -173,7 +173,7 @@ class Symmetric(Matrix):
         if off[:, ~diagonal].max(initial=0.0) <= RIGHT:
             says = "Only the diagonal is wrong"
         elif off[:, diagonal].max() <= RIGHT:
-            says = "The diagonal is right, some of the rest is not"
+            says = "The diagonal is right, but other entries are not"
         else:
             return super().what_is_wrong(S, T)
         return Finding("part-off", f"{says}: off by up to {self.apart(S, T)}.")
@@ -201,8 +201,8 @@ class Covariance(Symmetric):
             return super().what_is_wrong(S, T)
         return Finding(
             "not-positive",
-            f"It has a negative eigenvalue ({least:.3g}), so it is no covariance; off "
-            f"by up to {self.apart(S, T)}.",
+            f"It has a negative eigenvalue ({least:.3g}), so it is no covariance. It "
+            f"is off by up to {self.apart(S, T)}.",
         )
 
 

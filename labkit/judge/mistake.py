@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from robo47.checks import Array
 
-REDONE = "this mistake, made on purpose,"
+REDONE = "the right answer with this mistake"
 
 
 class Finding(NamedTuple):

@@ -29,16 +29,15 @@ def explain(S: Array, T: Array) -> Finding:
     size = 10.0 ** np.round(np.log10(max(off, 1e-16)))
     about = f"about {size:.0e}" if inside else f"{off:.1e}"
     why = (
-        "as float32, a difference quotient, a small damping or a loop that stops too "
-        "early leaves it."
+        "Float32, a difference quotient, a small damping or a loop that stops too "
+        "early leaves such an error."
         if inside
-        else "so a number is rounded (is one typed by hand, such as 3.14 or 0.707?), a "
-        "derivative is a difference quotient, a search stops too early, or what is "
-        "small counts as 0."
+        else "Is a number rounded (3.14 or 0.707, typed by hand), a derivative a "
+        "difference quotient, a search stopped too early, or a small value set to 0?"
     )
     return Finding(
         "rounded-somewhere",
-        f"Close, but not equal: off by {about} where 1e-15 is usual, {why}",
+        f"It is close, but off by {about}, and rounding leaves about 1e-15. {why}",
     )
 
 
@@ -81,19 +80,19 @@ def in_common(S: Array, T: Array) -> str:
     if not wrong.any():
         return ""
     if (np.abs(np.abs(S) - np.abs(T)) <= tiny).all():
-        return " Every number is right but for its sign."
+        return " Every number is right except for its sign."
     if found := one_rule(S, T, wrong):
         return found
     if about:
         return (
-            " Everywhere that is less than one part in 100: is a constant rounded, or "
-            "does something only come near to the formula?"
+            " The error is below 1 % everywhere. Is a constant rounded, or a part of "
+            "the formula only approximate?"
         )
     mixed = np.abs(np.sort(S, axis=1) - np.sort(T, axis=1)) <= tiny.max(
         1, keepdims=True
     )
     if mixed.all() and S.shape[1] > 1:
-        return " The numbers are the right ones, but in other places."
+        return " The numbers are right, but they are in the wrong order."
     return ""
 
 
@@ -111,13 +110,13 @@ def one_rule(S: Array, T: Array, wrong: Array) -> str:
     off = S - T
     if np.abs(off - off[0]).max() <= near and np.ptp(T, axis=0).max() > near:
         return (
-            f" It is off by the same every time, by {np.abs(off).max():.3g} in one "
-            "entry: something is added or left out that no argument changes."
+            f" The error is the same in every call, {np.abs(off).max():.3g} in one "
+            "entry: a constant term is missing, or one too many."
         )
     limit = float(np.abs(S).max())
     cut = np.abs(S - np.clip(T, -limit, limit)).max() <= near
     if cut and wrong.any(axis=1).sum() >= 2:
-        return f" It is the right one, cut off at {limit:.4g}."
+        return f" It is the right answer, clamped at {limit:.4g}."
     return _a_factor_each(S, T)
 
 
@@ -136,6 +135,6 @@ def _a_factor_each(S: Array, T: Array) -> str:
     if np.abs(factor).min() == 0.0 or np.isclose(low, high, rtol=1e-3):
         return ""
     return (
-        " In each answer every entry is off by one factor, another at each input "
-        f"({low:.3g} to {high:.3g}): one number that multiplies all of it is wrong."
+        " In each answer all entries are wrong by one common factor, which changes "
+        f"from input to input ({low:.3g} to {high:.3g}): look for such a factor."
     )

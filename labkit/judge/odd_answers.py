@@ -28,7 +28,7 @@ def named(asked: Asked, found: Finding) -> Finding:
     mine = [_given(one, asked.ask) for one in asked.main]
     if any(isinstance(one, str) for one in mine):
         return found
-    return _first(asked, mine, found, "gives your arrays exactly")
+    return _first(asked, mine, found, "reproduces your output")
 
 
 def stops_alike(asked: Asked, found: Finding) -> Finding:

@@ -36,7 +36,7 @@ class _Halves(Kind):
             return found
         for i, slug in enumerate(("second-half-off", "first-half-off")):
             if off[i] <= RIGHT:
-                says = f"{self.halves[i]} is right; {self.halves[1 - i]} is not: off by"
+                says = f"{self.halves[i]} is right, but {self.halves[1 - i]} is off by"
                 return Finding(slug, f"{capitalised(says)} up to {self.apart(S, T)}.")
         says = f"{self.halves[0]} and {self.halves[1]} are both wrong: off by up to"
         return Finding("both-halves-off", f"{capitalised(says)} {self.apart(S, T)}.")
@@ -87,8 +87,9 @@ class Points(Kind):
         words = self._off(S, T)
         if len(words) == 2 and "0" in words:
             right, wrong = (1, 0) if words[1] == "0" else (0, 1)
-            says = f"The {self.names[right]} is right; the {self.names[wrong]} is up to"
-            return Finding(f"{self.names[wrong]}-off", f"{says} {words[wrong]} off.")
+            off = self.names[wrong]
+            says = f"The {self.names[right]} is right, but the {off} is off by up to"
+            return Finding(f"{off}-off", f"{says} {words[wrong]}.")
         each = ", ".join(
             f"{mm} the {name}" for mm, name in zip(words, self.names, strict=False)
         )
@@ -119,10 +120,10 @@ class Count(Scalar):
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         odd = S[np.round(S) != S]
         if odd.size:
-            says = f"It is {odd[0]:g}; {self.expected} is expected."
+            says = f"It returned {odd[0]:g}; expected {self.expected}."
             return Finding("not-whole", says)
         i = int(np.argmax(S != T))
-        return Finding("miscounted", f"It is {S[i]:z.0f} where {T[i]:z.0f} is right.")
+        return Finding("miscounted", f"It returned {S[i]:z.0f}; expected {T[i]:z.0f}.")
 
 
 @dataclass(frozen=True)
@@ -137,14 +138,14 @@ class Index(Count):
             one = isinstance(value, float | bool | np.generic | np.ndarray)
             array = np.asarray(value if one else 0)
             if array.ndim == 0 and array.dtype.kind not in "iu":
-                says = f"It returns {value!r}; expected is {self.expected}: an array "
+                says = f"It returns {value!r}; expected {self.expected}: an array "
                 says += "takes no other in its brackets. Make it one: int(...)."
                 return Finding("not-an-index", says)
         return super().read(values)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         i = int(np.argmax(S != T))
-        says = f"It is {S[i]:z.0f} where {T[i]:z.0f} is right, counted from 0."
+        says = f"It returned {S[i]:z.0f}; expected {T[i]:z.0f}, counted from 0."
         return Finding("another-one", says)
 
 
@@ -174,7 +175,7 @@ class Word(Kind):
         for value in values:
             known = isinstance(value, str) and value in self.words
             if not known and not (value is None and self.none):
-                says = f"It returns {_briefly(value)}; expected is {self.expected}."
+                says = f"It returns {_briefly(value)}; expected {self.expected}."
                 return Finding("another-word", says)
         return [self.numbers(value) for value in values]
 
@@ -193,7 +194,7 @@ class Word(Kind):
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         i = int(np.argmax(S != T))
-        says = f"It is {self.sent(S[i])!r} where {self.sent(T[i])!r} is right."
+        says = f"It returned {self.sent(S[i])!r}; expected {self.sent(T[i])!r}."
         return Finding("the-other-word", says)
 
 
@@ -208,7 +209,7 @@ class Mask(Kind):
 
     @property
     def expected(self) -> str:  # noqa: D102
-        where = f", in shape {self.shape},".replace("None", "any")
+        where = f", in shape {self.shape}".replace("None", "any")
         return f"True or False{where if self.shape else ''}"
 
     def _sent(self, answer: Array) -> Any:
@@ -221,37 +222,36 @@ class Mask(Kind):
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if (odd := S[(S != 0) & (S != 1)]).size:
-            says = f"It is {odd[0]:zg}; {self.expected} is expected."
+            says = f"It returned {odd[0]:zg}; expected {self.expected}."
             return Finding("not-true-or-false", says)
         yes, no = int(np.sum((S == 1) & (T == 0))), int(np.sum((S == 0) & (T == 1)))
-        parts = [f"True {count(yes, 'time')} where False is right"] * (yes > 0)
-        parts += [f"False {count(no, 'time')} where True is right"] * (no > 0)
+        parts = [f"True in {count(yes, 'case')} where False is expected"] * (yes > 0)
+        parts += [f"False in {count(no, 'case')} where True is expected"] * (no > 0)
         slug = "both-ways" if yes and no else f"too-{'often' if yes else 'seldom'}-true"
-        return Finding(slug, f"It is {', and '.join(parts)}.")
+        return Finding(slug, f"It returned {', and '.join(parts)}.")
 
 
 @dataclass(frozen=True)
 class Waypoints(Matrix):
-    """A path of any length, a row per way point. `Waypoints((None, 7), "rad")`."""
+    """A path of any length, a row per waypoint. `Waypoints((None, 7), "rad")`."""
 
     shape: tuple[int | None, ...] = (None, 7)
 
     @property
     def expected(self) -> str:  # noqa: D102
-        return f"a path, with a row of {self.shape[1]} numbers per way point"
+        return f"a path, with a row of {self.shape[1]} numbers per waypoint"
 
     def another_size(self, got: tuple[int, ...], right: tuple[int, ...]) -> str:  # noqa: D102
         if got[1:] != right[1:]:
             return super().another_size(got, right)
-        are = "is" if right[0] == 1 else "are"
-        its = f"{right[0] or 'none'} {are} right"
-        return f"It has {count(got[0], 'way point')} where {its}"
+        its = right[0] or "none"
+        return f"It has {count(got[0], 'waypoint')}; expected {its}"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         off = gap(S, T) / self.scale > RIGHT
         first = int(np.argmax(off.any(axis=(0, 2))))
-        says = f"It is right before way point {first}, counted from 0, and wrong there"
-        says = says if first else "It is wrong from its first way point on"
+        says = f"It is right before waypoint {first}, counted from 0, and wrong there"
+        says = says if first else "It is wrong from its first waypoint on"
         return Finding("off", f"{says}: off by up to {self.apart(S, T)}.")
 
 

@@ -47,13 +47,13 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
             says = f"{function}: {reply.error}."
         case "huge":
             slug = "huge-numbers"
-            says = f"I{reply.error[1:]}; nothing here comes near "
-            says += "that. Is something divided by almost zero, or does an "
+            says = f"I{reply.error[1:]}, far larger than any right "
+            says += "answer. Is something divided by almost zero, or does an "
             says += "exponential grow?"
         case "missing":
             slug = "missing"
             says = f"The file has no function {function}."
-            says += f" To put its gap back: make start RESET={task}." if task else ""
+            says += f" To restore its starter: make start RESET={task}." if task else ""
         case "BdbQuit":
             slug = "breakpoint"
             says = f"It stops in the debugger (line {reply.line}): "
@@ -62,12 +62,12 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
             return refusal(reply.refused[0] if reply.refused else "", reply.line)
         case "waits":
             stopped = reply.error.removeprefix("task ")
-            says = f"Not asked: it builds on task {stopped}, which did not return."
+            says = f"Not tested: it builds on task {stopped}, which did not return."
             return Verdict("todo", "waits", says, follows=stopped)
         case "NotImplementedError":
             named = re.search(r"task (\d+\.\d+)", reply.error)
             if named and named[1] != task:
-                says = f"Waits for task {named[1]}, which it calls and which is to do."
+                says = f"It calls task {named[1]}, which is not written yet."
                 return Verdict("todo", "waits", says, follows=named[1])
             says = f"Not written yet: {reply.error or 'the task is still to do.'}"
             return Verdict("todo", "unwritten", says)
@@ -103,27 +103,27 @@ def refusal(what: str, line: int | None) -> Verdict:
     where = f" (line {line})" if line else ""
     for root in (str(ROOT), ROOT.as_posix()):
         what = what.replace(root + "/", "").replace(root + "\\", "")
-    slug, why = "refused", "A task needs nothing but its arguments."
+    slug, why = "refused", "A task needs only its arguments."
     package = re.match(r"(?:call|use|load) (\w+)", what)
     if package and package[1] in OTHER_PACKAGES:
         slug, why = "other-package", ONLY_IN_MAIN
     elif what.startswith("call "):
         slug = "not-by-hand"
-        why = "Here the point is to work the answer out yourself; MuJoCo is the judge."
-    return Verdict("wrong", slug, f"It wants to {what}{where}. {why}")
+        why = "In a task you compute the answer yourself; MuJoCo is only the reference."
+    return Verdict("wrong", slug, f"It tries to {what}{where}. {why}")
 
 
 def not_loaded(script: Path, reply: Reply) -> str:
     """Return one line on a file that Python could not load."""
     where = f"{script.name}, line {reply.line}" if reply.line else script.name
     if reply.kind == "SystemExit":
-        return f"{where}: it ends Python while being loaded. {IN_MAIN}"
+        return f"{where}: it ends Python while it is loaded. {IN_MAIN}"
     if reply.kind == "RefusedError" and reply.refused:
-        return f"{where}: while being loaded it wants to {reply.refused[0]}. {IN_MAIN}"
+        return f"{where}: while it is loaded, it tries to {reply.refused[0]}. {IN_MAIN}"
     if reply.kind == "EOFError":
-        return f"{where}: while being loaded it asks for input. {IN_MAIN}"
+        return f"{where}: while it is loaded, it calls input(). {IN_MAIN}"
     if reply.kind == "stopped":
-        return f"{where}: while being loaded, {reply.error}. {IN_MAIN}"
+        return f"{where}: while it is loaded, {reply.error}. {IN_MAIN}"
     why = f"{where}: {reply.kind}: {reply.error}".rstrip(": ")
     if reply.kind == "ModuleNotFoundError":
         why += f".{ONLY_NUMPY} Import others in main(), which the checker does not run."
@@ -152,8 +152,8 @@ def read(exchanges: Iterable[Exchange], ask: Ask, source: str = "") -> Parts | F
         return Finding("raises", stops_with(broken[0], often))
     nothing = sum(reply.value is None for reply in replied)
     if nothing and not getattr(ask.kind, "none", ""):
-        says = "It returns nothing (None): the result is worked out, but not handed "
-        says += "back."
+        says = "It returns nothing (None). Is the result computed, but not "
+        says += "returned?"
         if nothing < len(replied):
             says = f"It returns None for {nothing} of {len(replied)} inputs; "
             says += f"{results.expected(ask.kind)}."
@@ -226,16 +226,16 @@ def kept_state(asked: Asked, source: str = "") -> Finding | None:
     if re.search(r"\brandom\b|\brng\b|\bdefault_rng\b", code):
         return Finding(
             "draws-itself",
-            "The same input gave two different answers when it was asked twice, and "
-            "it draws random numbers itself: what is random is an argument here, so "
-            "that a run can be repeated. Draw in main(), and hand it over.",
+            "The same input gave two different answers, because the function draws "
+            "random numbers itself. A random number is an argument here, so that a run "
+            "can be repeated: draw it in main(), and pass it.",
         )
     return Finding(
         "kept-between-calls",
-        "The same input gave two different answers when it was asked twice, for "
-        f"{len(differ)} of {len(replied)} inputs: something is kept between calls "
-        "(a default argument such as T=np.eye(4), a matrix or list at the top of "
-        "the file, the last call's input). Make it anew in the function.",
+        f"For {len(differ)} of {len(replied)} inputs, the same input gave two "
+        "different answers, so a value is kept between calls: a default argument such "
+        "as T=np.eye(4), an array or list at the top of the file, or the last call's "
+        "input. Create it in the function.",
     )
 
 
@@ -250,8 +250,8 @@ def shared_memory(replies: Sequence[Reply], copies: bool = True) -> Finding | No
     if "another answer" in shared:
         return Finding(
             "one-array-for-all",
-            "It hands out one and the same array at every call, so the next call "
-            "overwrites the last answer. Make a new one in the function.",
+            "It returns the same array object in every call, so the next call "
+            "overwrites the last answer. Create a new array in the function.",
         )
     if shared and copies:
         return Finding(

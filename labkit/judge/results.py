@@ -33,7 +33,7 @@ def checked(kind: Any, deep: int = 2) -> Kinds:
         remedy = f"{kind.__name__}(...), with its arguments"
     elif isinstance(kind, tuple):
         remedy = "the kind itself where there is one result, and tuples nested once"
-    raise Robo47Error(f"{kind!r} is no kind of an answer; expected is {remedy}")
+    raise Robo47Error(f"{kind!r} is no kind of an answer; expected {remedy}")
 
 
 def flat_kinds(kind: Kinds) -> tuple[Kind, ...]:
@@ -115,9 +115,9 @@ def as_sent(kind: Kinds, parts: Sequence[Any]) -> Any:
 def expected(kind: Kinds) -> str:
     """Return what is expected, as the end of a sentence."""
     if isinstance(kind, Kind):
-        return f"expected is {kind.expected}"
+        return f"expected {kind.expected}"
     every = ", ".join(_expected(one) for one in kind)
-    return f"expected are {len(kind)} results: {every}"
+    return f"expected {len(kind)} results: {every}"
 
 
 def _given(value: Any) -> str:

@@ -2,31 +2,32 @@
 
 "It is right whenever ed is 0, and whenever M is the identity" says which term is wrong
 where no named mistake fits. It is said only where it was tried: at the calls that were
-answered wrongly, made neutral, and then at thirty inputs and more of both signs and
+answered wrongly, made neutral, and then at fifty inputs and more of both signs and
 several sizes. Each of the two rounds is one batch of questions.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import accumulate, chain
+from itertools import accumulate, chain, compress
 from typing import Any
 
 import numpy as np
 
 from labkit.base.exchange import Question, Reply
 from labkit.judge.answers import InTurn, own, say_factor
-from labkit.judge.ask import Asked, as_plain, right_answers
+from labkit.judge.ask import Ask, Asked, as_plain
+from labkit.judge.cases import RIGHT, of_call, verdict
 from labkit.judge.crossed import crossed
-from labkit.judge.mistake import Finding
 from labkit.judge.neutral import SIZES, Neutral, neutrals, scaled
 from labkit.judge.ranges import Span, spans
-from labkit.judge.replies_read import flat, read
+from labkit.judge.replies_read import flat
 from robo47.checks import Array
 
-QUESTIONS = 4  # per experiment; three of them at least must agree
-AGREE = 3
-TRIED = 30  # inputs that a sentence is held against, at least
+QUESTIONS = 6  # per experiment; five of them at least must agree
+AGREE = 5
+ALIKE = 3  # answers that grow by one factor, at least
+TRIED = 50  # inputs at which a sentence is tried, at least
 NOTHING = 1e-12  # a right answer as small as this says nothing
 ROUNDING = 1e-9  # what sums of larger numbers may leave of a small answer
 COMMON = 0.5  # the share of other wrong functions that may be right there as well
@@ -52,47 +53,53 @@ def right_when(
         reply_to: asks it further questions.
     """
     ask = asked.ask
-    mains = [asked.main[i].question for i in wrong]
-    calls = [question.args for question in mains][-QUESTIONS:]
-    if any(len(names) != len(call) for call in calls):
+    seen = experiments(asked, wrong, names, reply_to)
+    if any(len(names) != len(call) for call in seen.calls):
         return ""
+    if any(kind.whole for kind in ask.kinds):
+        return seen.neutral(_others(ask))  # a count or a truth value does not grow
+    return seen.told(_others(ask))
+
+
+def experiments(
+    asked: Asked,
+    wrong: Sequence[int],
+    names: Sequence[str],
+    reply_to: Callable[[Sequence[Question]], Sequence[Reply]],
+) -> "Experiments":
+    """Return the experiments on a wrong function, from what `right_when` takes."""
+    ask = asked.ask
+    task = asked.main[0].question.task
+    known = [*asked.main, *asked.fresh]
+    right = [verdict(ask, one) == RIGHT for one in known]
+    calls = [asked.main[i].question.args for i in wrong]
+    shapes = [np.shape(x) for x in calls[-1]]
+    fresh_right = right[len(asked.main) :]
+    fresh = compress(asked.fresh, [not good for good in fresh_right])
+    more = [one.question.args for one in fresh]
+    more = [call for call in more if [np.shape(x) for x in call] == shapes]
 
     def mine(some: Sequence[Call]) -> list[Any]:
-        questions = [Question(mains[0].task, asked.function, call) for call in some]
+        questions = [Question(task, asked.function, call) for call in some]
         return [None if r.kind else r.value for r in reply_to(questions)]
 
     assert isinstance(ask.truth, InTurn)
-    others = [_answers_of(m.redo) for m in ask.named if isinstance(m.redo, InTurn)]
-    known = [*asked.main, *asked.fresh]
-    more = [one.question.args for one in known]
-    seen = Experiments(
-        calls,
+    return Experiments(
+        [*more, *calls][-QUESTIONS:],
         names,
         mine,
         _answers_of(ask.truth),
         max(ask.tolerance, ask.rtol),
-        more,
-        _verdicts(asked),
+        [one.question.args for one in known],
+        right,
         ask.conditions,
         ask.at_edge,
     )
-    if any(kind.whole for kind in ask.kinds):
-        return seen.neutral(others)  # a count or a truth value does not grow
-    return seen.told(others)
 
 
-def _verdicts(asked: Asked) -> list[bool]:
-    """Return of each main and fresh question whether its answer is right."""
-    found = []
-    for one in (*asked.main, *asked.fresh):
-        S = read([one], asked.ask)
-        if isinstance(S, Finding):
-            found.append(False)
-            continue
-        T = right_answers(asked.ask, [one])
-        off = asked.ask.gaps(S, T).max()
-        found.append(bool(off <= asked.ask.tolerance))
-    return found
+def _others(ask: Ask) -> list[Answers]:
+    """Return the row's named mistakes: what is true of most of them says nothing."""
+    return [_answers_of(m.redo) for m in ask.named if isinstance(m.redo, InTurn)]
 
 
 @dataclass(frozen=True)
@@ -131,6 +138,11 @@ class Experiments:
         Args:
             others: other wrong functions. What is true of most of them says nothing.
         """
+        says = [claim.says for claim in self.tested(others)]
+        return f"It is right {', and '.join(says)}." if says else ""
+
+    def tested(self, others: Sequence[Answers] = ()) -> list[Claim]:
+        """Return what holds, the most telling first: two claims at most."""
         claims = [*self._stated(), *self._ranges(), *self._claims()]
         claims = [one for one in claims if not self._refuted(one)]
         first = self._each([one.calls for one in claims])
@@ -145,12 +157,12 @@ class Experiments:
                     telling.append((order, claim))
         telling.sort(key=lambda one: one[0])
         tried = [(claim, list(claim.more())) for _, claim in telling]
-        says: dict[int, str] = {}  # of each argument the most telling
+        found: dict[int, Claim] = {}  # of each argument the most telling
         answers = self._each([some for _, some in tried])
         for (claim, some), given in zip(tried, answers, strict=True):
-            if len(some) >= TRIED and self._right(given, some, TRIED // 2):
-                says.setdefault(claim.k, claim.says)
-        return f"It is right {', and '.join([*says.values()][:2])}." if says else ""
+            if self._right(given, some, TRIED // 2, TRIED):
+                found.setdefault(claim.k, claim)
+        return [*found.values()][:2]
 
     def doubled(self) -> str:
         """Return that answers do not grow with an argument as the right ones, or ""."""
@@ -178,11 +190,12 @@ class Experiments:
                 continue
             name = self.names[k]
             if np.isclose(grew, 1.0, rtol=self.near):
-                return f"With {name} doubled, your answer stays the same; it must not."
+                says = f"If {name} is doubled, your answer stays the same"
+                return f"{says}, but it should change."
             if its is not None:
-                says = f"With {name} doubled, your answer becomes {say_factor(grew)}"
+                says = f"If {name} is doubled, your answer becomes {say_factor(grew)}"
                 return (
-                    f"{says} times what it was; the right one {say_factor(its)} times."
+                    f"{says} times as large; the right answer, {say_factor(its)} times."
                 )
         return ""
 
@@ -229,7 +242,7 @@ class Experiments:
         alike = [c[k] for c in (*self.known, *self.calls) if np.shape(c[k]) == shape]
         stacked = np.array(alike, dtype=float)
         same = (stacked == stacked[0]).all(axis=0) & (stacked[0] != 0)
-        return same if len(alike) >= AGREE and not same.all() else False
+        return same if len(alike) >= ALIKE and not same.all() else False
 
     def _claims(self) -> Iterator[Claim]:
         """Yield that an argument is neutral, in every way that all calls have."""
@@ -279,10 +292,10 @@ class Experiments:
         mixed = self._crossed() if self.conditions else []
         some = [*self.known, *filter(self._definite, mixed)]
         for says, holds in self.conditions:
-            of_call = partial(_of_call, holds)
-            kept = [call for call in some if of_call(call)]
+            of = partial(of_call, holds)
+            kept = [call for call in some if of(call)]
             first = kept[: QUESTIONS + 2]
-            yield Claim(-1, f"whenever {says}", first, of_call, partial(list, kept))
+            yield Claim(-1, f"whenever {says}", first, of, partial(list, kept))
 
     def _ranges(self) -> Iterator[Claim]:
         """Yield in which range of a number, or of entries, it is right, as asked."""
@@ -321,34 +334,48 @@ class Experiments:
         return crossed([*known, *self.calls], k)
 
     def _definite(self, call: Call) -> bool:
-        return self.at_edge is None or _of_call(self.at_edge, call)
+        return self.at_edge is None or of_call(self.at_edge, call)
 
     def _right(
-        self, given: Iterable[Any], calls: Sequence[Call], least: int = AGREE
+        self,
+        given: Iterable[Any],
+        calls: Sequence[Call],
+        least: int = AGREE,
+        tried: int = AGREE,
     ) -> bool:
         """Return whether all answers are right and enough of them say something.
 
         Zeros say nothing, and neither do right answers that are all the same.
+
+        Args:
+            given: the function's answers.
+            calls: to which.
+            least: answers that have to say something.
+            tried: calls that have to have an answer.
         """
-        agree = 0
+        agree = answered = 0
         different = False
         first: Array | None = None
         for answer, its in zip(given, self.truth(calls), strict=True):
             right = flat(its)
-            if right is None or not np.isfinite(right).all():
+            if right is None or np.isnan(right).any():
                 continue  # the question has no answer: it says nothing
             mine = flat(answer)
             if mine is None or mine.shape != right.shape:
                 return False
-            size = float(np.abs(right).max(initial=0.0))
-            off = np.abs(mine - right).max(initial=0.0)
+            answered += 1
+            there = np.isfinite(right)
+            if not np.array_equal(mine[~there], right[~there]):
+                return False
+            size = float(np.abs(right[there]).max(initial=0.0))
+            off = np.abs(mine[there] - right[there]).max(initial=0.0)
             if not off <= max(self.near * size, ROUNDING):
                 return False
             agree += size > NOTHING
             first = right if first is None else first
             alike = right.shape == first.shape and np.allclose(right, first)
             different = different or not alike
-        return agree >= least and different
+        return agree >= least and answered >= tried and different
 
     def _growth(self, before: Iterable[Any], after: Iterable[Any]) -> float | None:
         """Return by which one factor all answers grew, None where there is none.
@@ -359,7 +386,7 @@ class Experiments:
         """
         pairs = [(flat(b), flat(a)) for b, a in zip(before, after, strict=True)]
         kept = [(b, a) for b, a in pairs if b is not None and a is not None and b.any()]
-        if len(kept) < AGREE or any(b.shape != a.shape for b, a in kept):
+        if len(kept) < ALIKE or any(b.shape != a.shape for b, a in kept):
             return None
         one, two = (np.concatenate(some) for some in zip(*kept, strict=True))
         factor = float(one @ two / (one @ one))
@@ -369,14 +396,6 @@ class Experiments:
 
 def _of_argument(k: int, holds: Callable[[Any], bool], call: Call) -> bool:
     return holds(call[k])
-
-
-def _of_call(holds: Callable[..., bool], call: Call) -> bool:
-    """Return what a row's function says of a call; False where it stops."""
-    try:
-        return bool(holds(*map(as_plain, call)))
-    except Exception:  # the condition divides by one that is 0, say
-        return False
 
 
 def _with(calls: Sequence[Call], k: int, values: Sequence[Any]) -> list[Call]:

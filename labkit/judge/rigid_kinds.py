@@ -89,13 +89,13 @@ class Pose(Kind):
             return Finding("bottom-row", says)
         t_off = say_mm(millimetres(t, t_true))
         if difference(R, R_true).max() <= RIGHT and t_off != "0":
-            says = "R is right everywhere; the translation is not: up to"
-            return Finding("translation-off", f"{says} {t_off} off.")
+            says = "R is right everywhere, but the translation is off by up to"
+            return Finding("translation-off", f"{says} {t_off}.")
         slug, message = rotation_wrong(R, R_true)
         if t_off == "0":
             return Finding(slug, f"The translation is right. {message}")
         slug = "pose-off" if slug == "rotation-off" else slug
-        return Finding(slug, f"{message} The translation is up to {t_off} off too.")
+        return Finding(slug, f"{message} The translation is off by up to {t_off}, too.")
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
         (R, t), (R_T, t_T) = split(S), split(T)

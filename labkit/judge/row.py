@@ -126,6 +126,32 @@ class Row:
         self._spans.append(draw or calls)
         return draw
 
+    def cases(
+        self, some: Mapping[str, Code] = MappingProxyType({}), /, **named: Code
+    ) -> None:
+        """Take cases of calls, so that a student is told which of them are right.
+
+        The cases of one list are told together: "Right: parallel segments. Wrong:
+        segments that cross." A row may have several lists; the one that leaves the
+        fewest calls open is told. Each case needs inputs of `inputs` or of `rare`.
+
+        Args:
+            some: by phrase, a plural noun that a student understands, a function of a
+                call's arguments that returns whether the call is of that case.
+            named: the same; the phrase has underscores for spaces.
+        """
+        spaced = {name.replace("_", " "): holds for name, holds in named.items()}
+        self.more["cases"] = (*self.more.get("cases", ()), {**some, **spaced})
+
+    def rare(self, draw: Inputs) -> Inputs:
+        """Take a generator of calls of cases that `inputs` draws seldom or never.
+
+        A wrong function is asked them after a check, and only where its mistake has no
+        name.
+        """
+        self.more["rare"] = (*self.more.get("rare", ()), draw)
+        return draw
+
     def wrong(
         self,
         slug: str | Code = "",

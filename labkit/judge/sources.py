@@ -107,8 +107,8 @@ def in_another_order(m: Matcher) -> Finding | None:
     for order in list(permutations(range(len(kinds))))[1:]:
         if _as_made(m, lambda T, order=order: tuple(T[i] for i in order)):
             names = [kinds[i].called or f"result {i + 1}" for i in range(len(kinds))]
-            says = f"The results are in another order; it is {', then '.join(names)}."
-            return Finding("answers-swapped", says)
+            says = "The results are in the wrong order. Expected: "
+            return Finding("answers-swapped", f"{says}{', then '.join(names)}.")
     return None
 
 

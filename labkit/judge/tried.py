@@ -47,6 +47,8 @@ def what_is_wrong(case: Case, S: Parts, T: Parts, i: int) -> Finding:
 
 def in_common(case: Case, S: Parts, T: Parts, i: int) -> str:
     """Return what all wrong answers share with the right ones, or ""."""
+    if case.ask.kinds[i].gap == "wrong in":
+        return ""  # words and truth values have no size
     found = near_miss.in_common(S[i], T[i])
     if case.further is None or not found:
         return found

@@ -10,6 +10,7 @@ What a number must reach stands in the day's day.toml and nowhere else. A zero p
 without a sign (the z of a format): which sign a rounding error has is the machine's.
 """
 
+import argparse
 import contextlib
 import os
 import time
@@ -25,6 +26,7 @@ from labkit.base import cli, store
 from labkit.base.text import count, number_of
 from labkit.lesson import day_mujoco  # noqa: F401 (a lab's next import needs it)
 from labkit.lesson.day import day_of
+from labkit.lesson.hidden import Output
 from labkit.lesson.metric import Metric
 from labkit.lesson.predicted import predictions, rows_asked, with_measured
 from labkit.lesson.writers import file_mark
@@ -54,6 +56,17 @@ class Lab:
             dest="trial",
             help="measure with constants of your own: nothing is judged or logged",
         )
+        parser.add_argument(
+            "--reveal",
+            "--numbers",
+            action="store_true",
+            help="show the numbers also before you have written your predictions",
+        )
+        parser.add_argument(
+            "--predict-first",
+            action="store_true",
+            help="hide the numbers that the worksheet still asks you to predict",
+        )
         options = parser.parse_args()
         self.trial = options.trial
         self.log = not (options.no_log or options.trial)
@@ -65,14 +78,36 @@ class Lab:
         sheet = "" if self.trial else self._worksheet()
         self.predicted = predictions(sheet)
         self.came_out: dict[str, float] = {}  # measured, by what it is
-        if blank := list(rows_asked(sheet).values()).count(""):
-            says = f"Predict first: {count(blank, 'number')} still open in "
-            print(cli.wrapped(says + self.day.worksheet))
+        self.output = self._held(options)
+
+    def _held(self, options: argparse.Namespace) -> Output:
+        """Hold the output back, where numbers of it are still to be predicted."""
+        mine = self._is_students()
+        asks = (mine or options.predict_first) and not (options.reveal or self.trial)
+        rows = rows_asked(self._read_worksheet()) if asks else {}
+        blank = [name for name, text in rows.items() if not text]
+        if blank:
+            print(cli.wrapped(self._predict_first(len(blank), mine)), flush=True)
+        held = Output(blank)
+        cli.at_end(held.release)
+        return held
+
+    def _predict_first(self, missing: int, mine: bool) -> str:
+        """Return what a lab prints first while predictions are missing."""
+        run = f"make {'run DAY=' if mine else 'day'}{self.day.number} ARGS=--reveal"
+        says = f"Predict first: {count(missing, 'prediction')} of yours "
+        says += f"{'is' if missing == 1 else 'are'} missing in {self.day.worksheet}. "
+        says += "The lab hides the measured numbers and prints its output at the end. "
+        return f"{says}All numbers: {run}"
+
+    def _is_students(self) -> bool:
+        return self.script.resolve() == self.day.work.resolve()
 
     def _worksheet(self) -> str:
         """Return the text of the day's worksheet; "" where the kit's own lab runs."""
-        if self.script.resolve() != self.day.work.resolve():
-            return ""
+        return self._read_worksheet() if self._is_students() else ""
+
+    def _read_worksheet(self) -> str:
         try:
             data = (self.day.folder / self.day.worksheet).read_bytes()
             return data.decode("utf-8")  # with its own line ends
@@ -80,10 +115,11 @@ class Lab:
             return ""
 
     def measured(self, number: str, value: float) -> None:
-        """Print a number beside the student's prediction; nothing where there is none.
+        """Print a number next to the student's prediction; hide it if there is none.
 
-        A run that is logged writes it into the worksheet as well. With --try the number
-        is printed alone, because the prediction was made for the unchanged lab.
+        A number that the worksheet does not ask for is not printed. A run that is
+        logged writes the number into the worksheet as well. With --try the number is
+        printed alone, because the prediction was made for the unchanged lab.
 
         Args:
             number: the first cell of its row in the worksheet's table of predictions.
@@ -91,6 +127,10 @@ class Lab:
         """
         if self.trial:
             print(cli.wrapped(f"  measured {value:z.4g}: {number}", "    "))
+        elif number in self.output.asked:
+            says = f"  {number}: hidden until you write your prediction in "
+            says = cli.wrapped(says + self.day.worksheet, "    ")
+            self.output.hide(number, value, says)
         elif number in self.predicted:
             self.came_out[number] = value
             yours = f"  you predicted {self.predicted[number]}, measured {value:z.4g}: "
@@ -182,6 +222,7 @@ class Lab:
 
     def finish(self) -> int:
         """Write the rows, say how it went and return the exit code."""
+        self.output.release(finished=True)
         if self.trial:
             print("\nTried: measured, not judged, nothing logged.")
             return cli.EXIT_OK

@@ -3,7 +3,7 @@
 What `make capstone` and `make proof` ask of it stands in `robo47.attempt`.
 
 `pick` is given the functions to do it with, one per name in `USES`: the library's
-(`library()`), a student's, or a mixture. So whoever wants to know what a mistake does
+(`library()`), a student's, or a mixture. To see what a mistake does
 to the arm replaces one function. The robot's numbers are read from the model; every
 formula is one of those functions. The phases stand in `robo47.capstone.phases`: joint
 moves are computed torque, straight lines and grips a spring at the hand with the elbow
@@ -102,7 +102,7 @@ def with_own(own: Mapping[str, Any]) -> SimpleNamespace:
 
 
 def _joint_T(q: float) -> Array:
-    """Return a turn by q about z, (4, 4), unchecked: it is called 5,000 times."""
+    """Return a rotation by q about z, (4, 4), unchecked: it is called 5,000 times."""
     T = np.eye(4)
     c = np.cos(q)
     s = np.sin(q)
@@ -129,7 +129,7 @@ def pick(
     Args:
         fns: has an attribute for every name in `USES`, taking one configuration.
         cube_xy, goal_xy: where the cube stands, and is to stand, metres, (2,).
-        yaw: its turn about z at the start, radians.
+        yaw: its rotation about z at the start, radians.
         model: a scene of `robo47.scenes.table_top` instead of the plain one; it
             must have been made with the same cube_xy and yaw.
         speed: of joint moves, as a fraction of the limits.

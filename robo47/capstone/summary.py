@@ -67,7 +67,7 @@ def film_of(result: Result, cube_xy: tuple[float, float], yaw: float) -> Film:
     Args:
         result: of the pick.
         cube_xy: where the cube stood, metres, (2,).
-        yaw: its turn about z then, radians.
+        yaw: its rotation about z then, radians.
     """
     return Film(
         seconds=result.seconds,

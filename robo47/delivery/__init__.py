@@ -1,9 +1,9 @@
 """The capstone of Week 2: the arm sees a cube, weighs it and carries it round a wall.
 
-What `make capstone` and `make proof` ask of it stands in `robo47.attempt`. Nobody tells
-the arm where the cube stands or what it weighs: the eye sees it (Day 10), the joint
-moves go round table and wall (Days 11 and 12), the motors weigh it (Day 8), the weight
-says how fast it may be carried (Day 7), and an observer watches the carry (Day 9).
+What `make capstone` and `make proof` ask of it stands in `robo47.attempt`. The arm
+does not know where the cube is or what it weighs: the camera sees it (Day 10), the
+joint moves go around table and wall (Days 11 and 12), the motors weigh it (Day 8), its
+weight limits the speed of the carry (Day 7), and an observer watches it (Day 9).
 
 `attempt` is given the functions to do it with, one per name in `USES`: the library's
 (`library()`), a student's, or a mixture.
@@ -81,12 +81,12 @@ def deliver(
     yaw: float,
     asked: Asked | None = None,
 ) -> Result:
-    """Deliver a cube that nobody told the arm about.
+    """Deliver a cube whose pose and mass are not given to the arm.
 
     Args:
         fns: has an attribute for every name in `USES`.
         cube_xy, goal_xy: where the cube stands, and is to stand, metres, (2,).
-        yaw: its turn about z at the start, radians.
+        yaw: its rotation about z at the start, radians.
         asked: what is otherwise than usual.
 
     Raises:
@@ -105,7 +105,7 @@ def deliver(
 
 
 def attempt(fns: Any, seed: int | None = None, **options: Any) -> Result:
-    """Deliver the cube of `make capstone`, then once more, pushed; or a random one.
+    """Deliver the cube of `make capstone`, then again with a push; or a random one.
 
     Args:
         fns: as for `deliver`.

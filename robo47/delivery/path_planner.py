@@ -1,4 +1,4 @@
-"""Ways round the wall: joint moves whose every leg is checked before it is driven.
+"""Paths around the wall: joint moves whose every leg is checked before it is driven.
 
 The planner is Days 11 and 12's: distances of all capsules at once are the library's,
 since thousands are asked, everything else is `fns`'. Metres, radians.
@@ -63,7 +63,7 @@ class PathPlanner:
         self.looks = 0
 
     def edge_free(self, a: Array, b: Array) -> bool:
-        """Return whether the straight way from a to b keeps its margin, (7,) each.
+        """Return whether the straight path from a to b keeps its margin, (7,) each.
 
         Raises:
             Robo47Error: conservative_advance does not get on.
@@ -83,7 +83,7 @@ class PathPlanner:
         )
 
     def find(self, a: Array, b: Array) -> Array:
-        """Return way points from a to b whose every leg is free, (m, 7).
+        """Return waypoints from a to b whose every segment is collision-free, (m, 7).
 
         Raises:
             Robo47Error: one of the ends is not free, or no way was found.

@@ -1,7 +1,7 @@
 """The delivery's phases, one after the other, and what is measured on the way.
 
 What a joint move, a straight line and a grip are is the pick's
-(`robo47.capstone.phases`); new are the way round the wall, the scale and the watch.
+(`robo47.capstone.phases`); new are the path around the wall, the scale and the watch.
 
 Units: metres, radians, seconds, kilograms, N m; poses `T_world_x` are (4, 4).
 """
@@ -182,7 +182,7 @@ class Delivery(Task):
     def _slow_enough(self, way: Array) -> float:
         """Return the first of the speeds at which this grip holds what was weighed.
 
-        The hand's acceleration counts as if it were upwards, where it costs the most.
+        The hand's acceleration is taken to be upwards, where it costs the most.
         """
         if self.asked.speed:
             return self.asked.speed
@@ -193,7 +193,7 @@ class Delivery(Task):
         return 0.0
 
     def _acceleration(self, way: Array, speed: float) -> float:
-        """Return the hand's greatest acceleration along a way, m/s2."""
+        """Return the hand's largest acceleration along a path, m/s2."""
         most = 0.0
         for q0, q1 in pairwise(way):
             T = self._seconds(q0, q1, speed)

@@ -79,7 +79,7 @@ def of(task: Delivery) -> Result:
 
 
 def clearance(task: Delivery) -> float:
-    """Return the least distance of the whole arm from table and wall, metres.
+    """Return the smallest distance of the whole arm from table and wall, metres.
 
     Of every control instant of the joint moves, as they were driven. The library finds
     the nearest instants, `capsule_box_distance` of the functions says how near they

@@ -1,6 +1,6 @@
 """The scene of the delivery: Day 7's table, a wall across it, an eye above it.
 
-Nobody is told where the cube stands or what it weighs. Metres, radians, kilograms;
+The arm does not know where the cube is or what it weighs. Metres, radians, kilograms;
 halves of boxes.
 """
 

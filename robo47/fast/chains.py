@@ -144,8 +144,8 @@ class Cursor:
 def plan_of(screws: Array, M: Array) -> Plan:
     """Return the chain of one arm to its `END`, worked out once.
 
-    e^[S] q is a move to the screw's line, a turn by q (a slide along the line by pitch
-    times q) and the move back; the two moves between neighbouring joints become one.
+    e^[S] q is a move to the screw's line, a rotation by q (a slide along the line by
+    pitch times q) and the move back; the two moves between neighbours become one.
 
     Args:
         screws: checked space screws, (joints, 6).

@@ -18,7 +18,7 @@ from robo47.fast.moves import ZERO, Chunk, Slide, moved
 def jacobians(screws: Array, M: Array, q: Array, at_end: bool) -> Array:
     """Return the Jacobian, (..., 6, joints), at finite q, (..., joints).
 
-    The other arguments are those of `chains.plan_of` and `columns_of`.
+    The other arguments are as for `chains.plan_of` and `columns_of`.
     """
     plan = plan_of(screws, M)
     n = q.shape[-1]

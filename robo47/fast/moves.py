@@ -1,7 +1,7 @@
 """The elementary moves that every chain is made of, on one frame or on many at once.
 
 A frame is its axes x, y, z and its origin p, each three components: floats for one
-configuration, arrays (n,) for a batch. The same arithmetic serves both. A turn about
+configuration, arrays (n,) for a batch. Both use the same arithmetic. A rotation about
 one of the frame's own axes touches only the two other axes: about z,
 x' = c x + s y and y' = c y - s x. A slide touches only p.
 
@@ -61,7 +61,7 @@ class Rotate:
 
 
 class Turn:
-    """Hinge: turn by q about the frame's axis k, or about minus that axis."""
+    """Hinge: rotate by q about the frame's axis k, or about minus that axis."""
 
     def __init__(self, k: int, sign: float, adr: int) -> None:
         self.k = k
@@ -102,7 +102,7 @@ class Slide:
 
 
 class Ball:
-    """Ball: turn by the quaternion in q."""
+    """Ball joint: rotate by the quaternion in q."""
 
     def __init__(self, name: str, adr: int) -> None:
         self.name = name

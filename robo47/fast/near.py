@@ -15,9 +15,10 @@ PARALLEL = 1e-12  # sin^2 of the angle below which two segments count as paralle
 def closest(a0: Array, a1: Array, b0: Array, b1: Array) -> tuple[Array, Array]:
     """Return the closest points of two segments, (..., 3) each.
 
-    |w + s u - t v|^2 is a bowl over a square of s and t. s of the lines, cut to 0..1;
-    the best t for it, cut; the best s for that, cut (Ericson, *Real-Time Collision
-    Detection*, section 5.1.9). Where lines are parallel any s will do at first.
+    |w + s u - t v|^2 is a convex quadratic over a square of s and t. s of the lines,
+    clamped to 0..1; the best t for it, clamped; the best s for that, clamped (Ericson,
+    *Real-Time Collision Detection*, section 5.1.9). If the lines are parallel, s is
+    free at first.
     """
     u = a1 - a0
     v = b1 - b0
@@ -81,7 +82,7 @@ def _least_outside(a0: Array, u: Array, half: Array) -> Array:
 
 
 def _deepest(a0: Array, u: Array, half: Array) -> Array:
-    """Return the least of the largest of six planes along segments, (m,)."""
+    """Return the smallest value of the largest of six planes along segments, (m,)."""
     at, way = (np.concatenate([x, -x], axis=-1) for x in (a0, u))
     at = at - np.concatenate([half, half], axis=-1)
     i, j = np.triu_indices(6, 1)
@@ -96,6 +97,6 @@ def _dot(x: Array, y: Array) -> Array:
 
 
 def _share(over: Array, under: Array) -> Array:
-    """Return over / under cut to 0..1, and 0 where under is 0."""
+    """Return over / under clamped to 0..1, and 0 where under is 0."""
     found = np.divide(over, under, out=np.zeros_like(over), where=under > 0.0)
     return np.minimum(np.maximum(found, 0.0), 1.0)

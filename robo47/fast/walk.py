@@ -5,7 +5,7 @@ Levenberg-Marquardt steps with the joint limits kept; the damping follows the er
 method", IEEE Trans. Robotics 27(5), 2011). A step that would push a joint through its
 limit is taken again without that joint. A walker that no longer gains ends.
 
-The walk is stated here, once; the arithmetic is that of `ik_one`, in plain floats, or
+The walk is stated here, once; the arithmetic is `ik_one`'s, in plain floats, or
 of `ik_many`, in arrays.
 """
 

@@ -49,7 +49,7 @@ def panda_folder() -> Path | None:
 
 
 def read_provenance() -> dict[str, Any]:
-    """Return PROVENANCE.json, or what can be told of a folder that has no readable one.
+    """Return PROVENANCE.json, or what is known of a folder that has no readable one.
 
     Returns:
         A dict with at least "source" and "commit" (None where nobody recorded it).

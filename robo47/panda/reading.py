@@ -104,7 +104,7 @@ def inertias(model: mujoco.MjModel) -> Inertias:
     """Return the masses, centres of mass and inertias of the seven moving links.
 
     MuJoCo keeps a link's inertia as three numbers about axes of their own
-    (body_inertia, turned by body_iquat); here they are turned back into the link's
+    (body_inertia, rotated by body_iquat); they are rotated back into the link's
     axes. Never take the file's own numbers: MuJoCo 3.3.0 reproduces them to 5e-7 only.
 
     Args:
@@ -200,7 +200,7 @@ def _about_coms(model: mujoco.MjModel, bodies: list[int]) -> Array:
 
 
 def is_descendant(model: mujoco.MjModel, body: int, ancestor: int) -> bool:
-    """Return whether a body hangs on another one, however far out."""
+    """Return whether a body is distal to another one."""
     parent = int(model.body_parentid[body])
     while parent > ancestor:  # MuJoCo numbers parents before their children
         parent = int(model.body_parentid[parent])

@@ -40,7 +40,7 @@ def random_q(model: mujoco.MjModel, n: int, seed: int) -> Array:
     """Return random configurations within the joint limits.
 
     Args:
-        model: any model of hinges and slides; an unlimited one turns by up to pi
+        model: any model of hinges and slides; an unlimited one rotates by up to pi
             (moves by up to 1 m) either way.
         n: how many.
         seed: the same seed gives the same configurations.

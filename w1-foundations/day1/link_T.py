@@ -31,3 +31,8 @@ def _(pos, quat):
     w, x, y, z = quat / np.linalg.norm(quat)
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]], dtype=np.float32)
     return pose(np.eye(3) + 2 * (w * cross + cross @ cross), pos)
+
+
+row.spans(  # as small, or as large, as in the lab
+    pos=(lambda pos: 0.1 * pos,),
+)

@@ -46,3 +46,8 @@ def _(R, t):
     T.T[3, :3] = t
     T.T[3, 3] = 1
     return T
+
+
+row.spans(  # as small, or as large, as in the lab
+    t=(lambda t: 0.06 * t,),
+)

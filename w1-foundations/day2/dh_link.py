@@ -97,3 +97,8 @@ def _(alpha, a, d, theta):
     T = dh_link(alpha, a, d, theta)
     T[1, 3] *= -1
     return T
+
+
+row.spans(  # as small, or as large, as in the lab
+    theta=(0.013,),
+)

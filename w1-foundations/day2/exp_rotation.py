@@ -127,3 +127,8 @@ def _(axis, theta):
         term = term @ skew(axis) * theta / k
         out = out + term
     return out
+
+
+row.spans(  # as small, or as large, as in the lab
+    theta=(200.0,),
+)

@@ -231,3 +231,8 @@ def _(S, theta):
 @row.wrong("not-finite")  # omega is scaled to length 1: a slide has none.
 def _(S, theta):
     return motion(S, theta) if S[:3].any() else np.full((4, 4), np.nan)
+
+
+row.spans(  # as small, or as large, as in the lab
+    theta=(200.0,),
+)

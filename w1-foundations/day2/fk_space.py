@@ -58,3 +58,8 @@ for slug, slip in (
 def _(screws, M, q):
     order = [0, 2, 1, 3, 4, 5, 6]
     return space(screws[order], M, q[order])
+
+
+row.spans(  # as small, or as large, as in the lab
+    q=(lambda q: 100 * q,),
+)

@@ -61,3 +61,8 @@ def _(axis, point):
 def _(axis, point):
     sign = np.sign(axis[np.argmax(np.abs(axis))])
     return screw_axis(sign * axis, point)
+
+
+row.spans(  # as small, or as large, as in the lab
+    point=(lambda point: 0.3 * point,),
+)

@@ -69,3 +69,8 @@ def _(w):
 @row.wrong("shape")  # A cross product instead of a matrix.
 def _(w):
     return np.cross(w, [1.0, 0.0, 0.0])
+
+
+row.spans(  # as small, or as large, as in the lab
+    w=(lambda w: 0.05 * w,),
+)

@@ -24,13 +24,11 @@ def where_the_angle_fails(case: Case) -> Finding | None:
         return _everywhere(S, T, off, angle)
     if not off[by_pi].any():
         return _zero_near_0(S, T, off) or Finding(
-            "wrong-near-0", "It is right, but not for angles near 0."
+            "wrong-near-0", "Your rotation vector is wrong for an angle near 0."
         )
     some = off & by_pi
     i = np.flatnonzero(some)[0]
-    elsewhere = difference(S, T)[~by_pi].max() <= NEXT_TO_NONE
-    says = "It is right, but not" if elsewhere else "It is off most"
-    says += f" near pi: {np.pi - angle[i]:.0e} below it, it is off by "
+    says = f"At an angle {np.pi - angle[i]:.0e} rad below pi your answer is off by "
     says += f"{np.abs(S[i] - T[i]).max():.2g}."
     return _near_pi(S, T, some, says)
 
@@ -105,14 +103,13 @@ def _everywhere(
             "Of the quaternions q and -q, which are one turn, take the one with w > 0.",
         )
     least = angle[off].min()
-    most = angle[angle < least].max(initial=0.0)
-    if most < 2.0:
+    if angle[angle < least].max(initial=0.0) < 2.0:
         return None
     return Finding(
         "large-angles",
-        f"It is right up to {np.degrees(most):.0f} degrees; what is wrong begins at "
-        f"{np.degrees(least):.0f}, by up to {difference(S, T).max():.3g} rad: is it "
-        "the part of your function that is for angles near pi?",
+        f"The smallest angle at which your answer is wrong is {np.degrees(least):.0f} "
+        f"degrees, and it is off by up to {difference(S, T).max():.3g} rad: is it the "
+        "part of your function that is for angles near pi?",
     )
 
 

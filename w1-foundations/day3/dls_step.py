@@ -99,3 +99,11 @@ def _(J, e, damping):
 
 
 row.at_least_0(damping="it enters as a square")
+
+
+row.spans(  # as small, or as large, as in the lab
+    e=(
+        lambda e: 2e-07 * e,
+        lambda e: 6 * e,
+    ),
+)

@@ -35,6 +35,27 @@ row = Row(
 )
 
 
+def between(low, high):
+    """Return the case of rotations by an angle in a range."""
+    return lambda R: low <= float(np.linalg.norm(log_rotation(R))) < high
+
+
+row.cases({
+    "angles below 0.02 rad": between(0.0, 0.02),
+    "angles from 0.02 to 2 rad": between(0.02, 2.0),
+    "angles from 2 to 3.12 rad": between(2.0, 3.12),
+    "angles from 3.12 rad to pi": between(3.12, 4.0),
+})  # fmt: skip
+
+
+@row.rare
+def _(rng):
+    small, by_pi = 10.0 ** rng.uniform(-8, -1.8, 2)
+    middle, large = rng.uniform(0.02, 2.0), rng.uniform(2.0, 3.12)
+    turns = np.array([small, middle, large, np.pi - by_pi])
+    yield from ((R,) for R in exp_rotation(rng.units(4), turns))
+
+
 @row.inputs
 def _(rng):
     """From 0 to nearly pi; the docstring's first, drawn ones last.

@@ -137,3 +137,8 @@ def _(screws, q):
         V = (ahead - behind) / 2e-3 @ back
         J[:, i] = V[2, 1], V[0, 2], V[1, 0], *V[:3, 3]
     return J
+
+
+row.spans(  # as small, or as large, as in the lab
+    q=(lambda q: 0.2 * q,),
+)

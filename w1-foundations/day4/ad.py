@@ -75,3 +75,8 @@ def _(V):
 )  # What does not turn is forgotten.
 def _(V):
     return dynamics.ad(V) if V[:3].any() else np.zeros((6, 6))
+
+
+row.spans(  # as small, or as large, as in the lab
+    V=(lambda V: 0.007 * V,),
+)

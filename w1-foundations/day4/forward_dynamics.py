@@ -122,3 +122,8 @@ def _(M, bias, damping, qd, tau):
 
 
 row.at_least_0(damping="it takes energy away")
+
+
+row.spans(  # as small, or as large, as in the lab
+    bias=(lambda bias: 0.02 * bias,),
+)

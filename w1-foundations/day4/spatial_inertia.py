@@ -124,3 +124,12 @@ def _(m, c, I):
 
 
 row.at_least_0(m="a mass")
+
+
+row.spans(  # as small, or as large, as in the lab
+    c=(lambda c: 0.05 * c,),
+    inertia=(
+        lambda inertia: 0.009 * inertia,
+        lambda inertia: 10 * inertia,
+    ),
+)

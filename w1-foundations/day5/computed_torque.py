@@ -151,3 +151,14 @@ def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
 
 
 row.at_least_0(damping="it takes energy away", kp="a gain", kd="a gain")
+
+
+row.spans(  # as small, or as large, as in the lab
+    bias=(lambda bias: 0.05 * bias,),
+    qd=(lambda qd: 6e-08 * qd,),
+    e=(lambda e: 4e-07 * e,),
+    ed=(lambda ed: 7e-08 * ed,),
+    qdd_ref=(lambda qdd_ref: 0.004 * qdd_ref,),
+    kp=(200000.0,),
+    kd=(900.0,),
+)

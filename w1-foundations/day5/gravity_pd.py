@@ -66,3 +66,9 @@ def _(e, ed, kp, kd, g_at_q):
 
 
 row.at_least_0(kp="a gain", kd="a gain")
+
+
+row.spans(  # as small, or as large, as in the lab
+    e=(lambda e: 9e-05 * e,),
+    ed=(lambda ed: 0.006 * ed,),
+)

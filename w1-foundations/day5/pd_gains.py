@@ -50,3 +50,8 @@ def _(omega, zeta):
 
 
 row.at_least_0(omega="a frequency", zeta="a damping ratio", answer="gains")
+
+
+row.spans(  # as small, or as large, as in the lab
+    omega=(400.0,),
+)

@@ -64,3 +64,11 @@ def _(e, ed, kp, kd):
 
 
 row.at_least_0(kp="a gain", kd="a gain")
+
+
+row.spans(  # as small, or as large, as in the lab
+    e=(lambda e: 4e-07 * e,),
+    ed=(lambda ed: 6e-08 * ed,),
+    kp=(lambda kp: 300 * kp,),
+    kd=(lambda kd: 30 * kd,),
+)

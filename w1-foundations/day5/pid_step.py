@@ -233,3 +233,11 @@ row.at_least_0(
     dt="a step of time",
     clamp="a bound on both sides",
 )
+
+
+row.spans(  # as small, or as large, as in the lab
+    e=(lambda e: 4e-06 * e,),
+    ed=(lambda ed: 6e-06 * ed,),
+    integral=(lambda integral: 2e-06 * integral,),
+    clamp=(0.005,),
+)

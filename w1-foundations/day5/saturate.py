@@ -89,3 +89,8 @@ def _(tau, limits):
 
 
 row.at_least_0(limits="bounds on both sides")
+
+
+row.spans(  # as small, or as large, as in the lab
+    tau=(lambda tau: 0.05 * tau,),
+)

@@ -53,3 +53,8 @@ def _(tau, q, qd, kp, kd):
 
 
 row.at_least_0(kp="a gain", kd="a gain")
+
+
+row.spans(  # as small, or as large, as in the lab
+    qd=(lambda qd: 0.002 * qd,),
+)

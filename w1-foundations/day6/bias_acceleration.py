@@ -147,3 +147,8 @@ def _(J_space, qd, p):
     V = J_space @ qd
     v = V[3:] + np.cross(V[:3], p)
     return np.append(rate[:3], rate[3:] + np.cross(rate[:3], p) + np.cross(V[:3], v))
+
+
+row.spans(  # as small, or as large, as in the lab
+    qd=(lambda qd: 4e-05 * qd,),
+)

@@ -133,3 +133,8 @@ def _(K, Lambda):
 
 
 row.at_least_0(K="a stiffness")
+
+
+row.spans(  # as small, or as large, as in the lab
+    Lambda=(lambda Lambda: 3 * Lambda,),
+)

@@ -91,3 +91,11 @@ def _(e, V_err, K, D, force):
     S = np.diag([1, 1, 1, 1, 1, 0])
     down = np.array([0, 0, 0, 0, 0, -1.0])
     return S @ K @ e + D @ V_err + force * down
+
+
+row.spans(  # as small, or as large, as in the lab
+    e=(lambda e: 40 * e,),
+    V_err=(lambda V_err: 20 * V_err,),
+    K=(lambda K: 0.005 * K,),
+    force=(0.1,),
+)

@@ -80,3 +80,10 @@ def _(J, wrench, bias, damping, qd, tau_null):
 
 
 row.at_least_0(damping="a damping")
+
+
+row.spans(  # as small, or as large, as in the lab
+    wrench=(lambda wrench: 0.02 * wrench,),
+    qd=(lambda qd: 1e-06 * qd,),
+    tau_null=(lambda tau_null: 2e-08 * tau_null,),
+)

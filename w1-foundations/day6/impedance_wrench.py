@@ -62,3 +62,13 @@ def _(e, V_err, K, D):
         sum(k * x for k, x in zip(K[i], e)) + sum(d * x for d, x in zip(D[i], V_err))
         for i in range(6)
     ]
+
+
+row.spans(  # as small, or as large, as in the lab
+    e=(lambda e: 40 * e,),
+    V_err=(
+        lambda V_err: 4e-07 * V_err,
+        lambda V_err: 20 * V_err,
+    ),
+    K=(lambda K: 0.006 * K,),
+)

@@ -99,3 +99,8 @@ def _(J, M, Lambda, tau):
     free = np.linalg.solve(M, tau)
     F = np.linalg.solve(J @ np.linalg.solve(M, J.T), J @ free)
     return M @ (free - np.linalg.solve(M, J.T @ F))
+
+
+row.spans(  # as small, or as large, as in the lab
+    tau=(lambda tau: 3e-05 * tau,),
+)

@@ -77,3 +77,10 @@ def _(J, Lambda, bias, bias_acc, acc):
 def _(J, Lambda, bias, bias_acc, acc):
     F = np.einsum("ij,j->i", Lambda, acc - bias_acc)
     return bias + np.einsum("ij,i->j", J, F)
+
+
+row.spans(  # as small, or as large, as in the lab
+    Lambda=(lambda Lambda: 3 * Lambda,),
+    bias_acc=(lambda bias_acc: 1e-07 * bias_acc,),
+    acc=(lambda acc: 0.003 * acc,),
+)

@@ -75,3 +75,12 @@ def _(force, k, surface):
 
 
 row.at_least_0(k="a stiffness")
+
+
+row.spans(  # as small, or as large, as in the lab
+    force=(0.1,),
+    surface=(
+        0.04,
+        10.0,
+    ),
+)

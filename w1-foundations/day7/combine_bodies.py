@@ -158,3 +158,11 @@ def _(m1, c1, I1, m2, c2, I2):
 
 
 row.at_least_0(m1="a mass", m2="a mass")
+
+
+row.spans(  # as small, or as large, as in the lab
+    c1=(lambda c1: 0.2 * c1,),
+    I1=(lambda I1: 0.009 * I1,),
+    m2=(0.08,),
+    I2=(lambda I2: 2e-05 * I2,),
+)

@@ -154,3 +154,8 @@ def _(T0, T1, s):
 
 
 row.at_least_0(s="a share of the way, from 0 to 1")
+
+
+row.spans(  # as small, or as large, as in the lab
+    s=(2e-05,),
+)

@@ -86,3 +86,8 @@ row.at_least_0(
     duration="how long the move takes",
     t="before 0 it stands at its start, as at 0",
 )
+
+
+row.spans(  # as small, or as large, as in the lab
+    t=(0.007,),
+)

@@ -65,3 +65,10 @@ row.at_least_0(
     mu="a friction coefficient",
     answer="a mass",
 )
+
+
+row.spans(  # as small, or as large, as in the lab
+    grip=(0.2,),
+    mu=(0.03,),
+    acceleration=(0.05,),
+)

@@ -197,3 +197,11 @@ for move in ("a * t ** 2 / 2, a * t, a", "top * (t - ramp / 2), top, 0.0"):
         f"np.maximum((np.array([{move}])), 0)",
     ):
         row.same(f"return {sign}", "before the brake none of the three is negative")
+
+
+row.spans(  # as small, or as large, as in the lab
+    t=(10.0,),
+    L=(0.01,),
+    v=(0.1,),
+    a=(10.0,),
+)

@@ -1,4 +1,4 @@
-"""A lab that starts with `import kit` runs in the kit's own Python, whoever starts it.
+"""A lab that starts with `import kit` runs in the kit's own Python, however it starts.
 
 `make start` puts a copy beside your own script: keep it there.
 """

@@ -114,3 +114,8 @@ row.same(
 def _(J, sigma):
     P = np.linalg.pinv(J.reshape(-1, 6))
     return P @ (sigma**2 * np.eye(P.shape[1])) @ P.T
+
+
+row.spans(  # as small, or as large, as in the lab
+    J=(lambda J: 8 * J,),
+)

@@ -167,3 +167,8 @@ def _(K, T_cam_world, points):
             else h[:, :2] / h[:, 2:]
         ),
     )
+
+
+row.spans(  # as small, or as large, as in the lab
+    points=(lambda points: 0.02 * points,),
+)

@@ -1,12 +1,12 @@
 """11.6 `aabb_overlap(box_a, box_b)`: its questions and its mistakes."""
 
+from itertools import product
+
 import numpy as np
 
 from labkit.judge import Mask, Row, rounded
 
-from . import localise_boxes
-
-row = Row(Mask(), unnamed=localise_boxes.both, before_slips=False)
+row = Row(Mask())
 
 
 def beside(rng, gaps):
@@ -41,6 +41,90 @@ def _(rng):
         box_a, box_b = beside(rng, gaps)
         drawn += [(box_a, box_b), (box_b, box_a)]
     return [*first, *drawn]
+
+
+def apart(box_a, box_b):
+    """Return on which axes two boxes are apart, (3,)."""
+    return (box_a[0] > box_b[1]) | (box_b[0] > box_a[1])
+
+
+def holds(box_a, box_b):
+    """Return whether one box contains the other."""
+    pairs = (box_a, box_b), (box_b, box_a)
+    return any(np.all(a[0] <= b[0]) and np.all(b[1] <= a[1]) for a, b in pairs)
+
+
+def touch(box_a, box_b):
+    """Return whether two boxes only touch."""
+    low, high = np.maximum(box_a[0], box_b[0]), np.minimum(box_a[1], box_b[1])
+    return bool(np.all(low <= high) and np.any(low == high))
+
+
+def crossing(box_a, box_b):
+    """Return whether two boxes overlap, and neither contains the other."""
+    out = np.any(apart(box_a, box_b)) or touch(box_a, box_b) or holds(box_a, box_b)
+    return not out
+
+
+def alone(axis):
+    """Return the case of boxes that are apart on one axis alone."""
+    return lambda box_a, box_b: apart(box_a, box_b).tolist() == np.eye(3)[axis].tolist()
+
+
+def side(sign):
+    """Return the case of boxes that are apart, box_b on one side of box_a."""
+
+    def of(box_a, box_b):
+        out = apart(box_a, box_b)
+        above = box_b[0] > box_a[1]
+        return bool(out.any() and np.all((above == (sign > 0))[out]))
+
+    return of
+
+
+INSIDE = {
+    "boxes of which one contains the other": lambda a, b: (
+        holds(a, b) and not touch(a, b)
+    ),
+    "boxes that overlap without containing each other": crossing,
+    "boxes that only touch": touch,
+}
+row.cases({
+    "boxes that are apart along one axis": lambda a, b: int(apart(a, b).sum()) == 1,
+    "boxes that are apart along two axes": lambda a, b: int(apart(a, b).sum()) == 2,
+    "boxes that are apart along three axes": lambda a, b: bool(apart(a, b).all()),
+    **INSIDE,
+})  # fmt: skip
+row.cases({
+    "boxes that are apart along x alone": alone(0),
+    "boxes that are apart along y alone": alone(1),
+    "boxes that are apart along z alone": alone(2),
+    "boxes that are apart along several axes": lambda a, b: int(apart(a, b).sum()) > 1,
+    **INSIDE,
+})  # fmt: skip
+row.cases({
+    "boxes that are apart, with box_b on the greater side": side(1),
+    "boxes that are apart, with box_b on the smaller side": side(-1),
+    **INSIDE,
+})  # fmt: skip
+
+
+@row.rare
+def _(rng):
+    for out in product((False, True), repeat=3):  # apart on these axes
+        low, sizes, more = rng.integers(-8, 8, 3), *rng.integers(2, 9, (2, 3))
+        box_a = np.array([low, low + sizes]) / 4
+        one, sides = int(rng.choice([-1, 1])), rng.choice([-1, 1], 3)
+        gap = np.where(out, rng.integers(1, 4, 3), -1 - rng.integers(0, 2, 3))
+        for sign in (one * np.ones(3), sides):  # on one side, or on either
+            start = np.where(sign > 0, low + sizes + gap, low - more - gap)
+            yield box_a, np.array([start, start + more]) / 4
+    start = low + sizes * (np.arange(3) == rng.integers(3))
+    yield box_a, np.array([start, start + more]) / 4  # it touches
+    for a, b in ((box_a, 1.0), (box_a + 0.25, 2.0)):
+        inner = np.array([a[0] - b / 8, a[1] + b / 8])
+        yield inner, a
+        yield a, inner
 
 
 @row.wrongs(hidden={"nearly-touching": "no two boxes are hardly apart in a run"})

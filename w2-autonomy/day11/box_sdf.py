@@ -4,9 +4,7 @@ import numpy as np
 
 from labkit.judge import Row, Scalar, rounded
 
-from . import localise_boxes
-
-row = Row(Scalar(unit="m"), unnamed=localise_boxes.point, before_slips=False)
+row = Row(Scalar(unit="m"))
 
 
 @row.inputs
@@ -30,6 +28,40 @@ def _(rng):
             )
         )
     return [(np.array(p), half_extents) for p, half_extents in [*worked, *drawn]]
+
+
+def beyond(n):
+    """Return the case of points that lie beyond n faces of the box."""
+    return lambda p, half_extents: int(np.sum(np.abs(p) > half_extents)) == n
+
+
+row.cases(
+    points_in_the_box=beyond(0),
+    points_beyond_one_face=beyond(1),
+    points_beyond_two_faces=beyond(2),
+    points_beyond_three_faces=beyond(3),
+)
+row.cases(
+    points_with_no_negative_coordinate=lambda p, half_extents: bool(np.all(p >= 0)),
+    points_with_a_negative_coordinate=lambda p, half_extents: bool(np.any(p < 0)),
+)
+row.cases(
+    cubes=lambda p, half_extents: np.ptp(half_extents) == 0,
+    boxes_with_different_sides=lambda p, half_extents: np.ptp(half_extents) > 0,
+)
+
+
+@row.rare
+def _(rng):
+    for cube in (False, True):
+        half_extents = rng.numbers(0.3, 1.2, 3)
+        half_extents = np.full(3, half_extents[0]) if cube else half_extents
+        for n in range(4):
+            outside = rng.permutation(np.arange(3) < n)
+            share = np.where(outside, rng.uniform(1.02, 3, 3), rng.uniform(0, 0.98, 3))
+            p = rounded(half_extents * share)
+            yield p, half_extents
+            yield p * rng.choice([-1.0, 1.0], 3), half_extents
 
 
 @row.wrongs
@@ -186,3 +218,8 @@ def _(p, half_extents):
     if np.all(np.abs(p) <= half_extents):
         return -min(min(half_extents - p), min(half_extents + p))
     return np.linalg.norm(p - np.clip(p, -half_extents, half_extents))
+
+
+row.spans(  # as small, or as large, as in the lab
+    p=(lambda p: 0.04 * p,),
+)

@@ -2,14 +2,10 @@
 
 import numpy as np
 
-from labkit.judge import Matrix, Row
-
-from . import localise_boxes
+from labkit.judge import Matrix, Row, rounded
 
 row = Row(
     Matrix((2, 3), "m", rows=("least", "greatest"), columns=("x", "y", "z")),
-    unnamed=localise_boxes.around,
-    before_slips=False,
 )
 
 
@@ -21,6 +17,29 @@ def _(rng):
     ]
     a = rng.numbers(-1, 1, 3)
     return [case, (a, a, 0.3), *drawn]
+
+
+row.cases({
+    "axes that run upwards in x, y and z": lambda a0, a1, r: bool(np.all(a0 < a1)),
+    "axes that run downwards in x, y and z": lambda a0, a1, r: bool(np.all(a0 > a1)),
+    "axes that run upwards in one coordinate and downwards in another": (
+        lambda a0, a1, r: bool(np.any(a0 < a1) and np.any(a0 > a1))
+    ),
+    "axes of length 0": lambda a0, a1, r: not np.any(a1 - a0),
+})  # fmt: skip
+row.cases({
+    "axes parallel to x, y or z": lambda a0, a1, r: np.count_nonzero(a1 - a0) == 1,
+    "other axes": lambda a0, a1, r: np.count_nonzero(a1 - a0) > 1,
+    "axes of length 0": lambda a0, a1, r: not np.any(a1 - a0),
+})  # fmt: skip
+
+
+@row.rare
+def _(rng):
+    a, way = rng.numbers(-1, 1, 3), rng.numbers(0.1, 1, 3)
+    r = float(rng.numbers(0.05, 0.4))
+    for sign in (1.0, -1.0, 0.0, np.eye(3)[int(rng.integers(3))]):
+        yield a, rounded(a + sign * way), r
 
 
 @row.wrongs
@@ -123,3 +142,8 @@ def _(a0, a1, r):
     middle = (a0 + a1) / 2
     half = np.abs(a1 - a0) / 2 + r
     return np.array([middle - half, middle + half])
+
+
+row.spans(  # as small, or as large, as in the lab
+    r=(0.002,),
+)

@@ -5,14 +5,16 @@ import numpy as np
 from labkit.judge import Finding, Row, Scalar
 from robo47.distance import box_sdf, capsule_box_distance, closest_points_segments
 
-from . import localise_boxes, pairs
+from . import pairs
 
 
 def above(case):
     """Say so where no answer is too small: the axis' nearest point was not found."""
     more = case.S - case.T
-    if more.min() < -1e-9 or more.max() > 0.2 or (more > 1e-9).all():
-        return localise_boxes.capsule(case)
+    if case.further:
+        more = np.append(more, case.further.S[0] - case.further.T[0])
+    if not (more.min() >= -1e-9 and more.max() <= 0.2) or (more > 1e-9).all():
+        return None
     return Finding(
         "not-the-least",
         f"No answer is too small, some are up to {1000 * more.max():.3g} mm too large: "
@@ -21,8 +23,57 @@ def above(case):
     )
 
 
+def shares(a0, a1, r, T, half_extents):
+    """Return how far an axis is from a box at 41 of its points, end to end."""
+    start, end = ((x - T[:3, 3]) @ T[:3, :3] for x in (a0, a1))
+    points = start + np.linspace(0, 1, 41)[:, None] * (end - start)
+    return np.array([box_sdf(p, half_extents) for p in points])
+
+
+def place(wanted):
+    """Return the case of capsules whose axis comes nearest at some place."""
+
+    def of(*call):
+        far = shares(*call)
+        if far.min() < 0:
+            return wanted == "inside"
+        at_end = int(far.argmin()) in (0, len(far) - 1)
+        return wanted == ("end" if at_end else "between")
+
+    return of
+
+
+def rotated(a0, a1, r, T, half_extents):
+    """Return whether the box is rotated."""
+    return not np.allclose(T[:3, :3], np.eye(3))
+
+
 # Ten sections and less leave some 1e-4: near in method.
 row = Row(Scalar(unit="m"), near=1e-3, unnamed=above, before_slips=False)
+row.cases({
+    "boxes at the origin that are not rotated": (
+        lambda *call: not rotated(*call) and not call[3][:3, 3].any()
+    ),
+    "translated boxes that are not rotated": (
+        lambda *call: not rotated(*call) and bool(call[3][:3, 3].any())
+    ),
+    "rotated boxes": rotated,
+})  # fmt: skip
+row.cases({
+    "axes whose nearest point lies between the ends": place("between"),
+    "axes whose nearest point is an end": place("end"),
+    "axes that enter the box": place("inside"),
+})  # fmt: skip
+
+
+@row.rare
+def _(rng):
+    for T in (np.eye(4), pairs.moved(rng), pairs.turned(rng)):
+        half_extents = rng.numbers(0.2, 0.6, 3)
+        a0, a1 = rng.numbers(-1.5, 1.5, 2, 3)
+        for start, way in ((a0, a1 - a0), (a0 + np.sign(a0), a0)):
+            ends = [np.round(T[:3, :3] @ x + T[:3, 3], 4) for x in (start, start + way)]
+            yield *ends, float(rng.numbers(0.05, 0.2)), T, half_extents
 
 
 @row.inputs
@@ -306,3 +357,9 @@ def _(a0, a1, r, T_world_box, half_extents):  # Twenty sections.
     R, t = T_world_box[:3, :3], T_world_box[:3, 3]
     some = golden(lambda s: along(a0, a1, half_extents, [s], R, t)[0], 20)
     return along(a0, a1, half_extents, some, R, t).min() - r
+
+
+row.spans(  # as small, or as large, as in the lab
+    a0=(lambda a0: 0.04 * a0,),
+    r=(0.005,),
+)

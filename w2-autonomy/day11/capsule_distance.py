@@ -3,11 +3,11 @@
 import numpy as np
 
 from labkit.judge import Row, Scalar
-from robo47.distance import closest_points_segments
+from robo47.distance import capsule_distance, closest_points_segments
 
-from . import localise_segments, pairs
+from . import pairs
 
-row = Row(Scalar(unit="m"), unnamed=localise_segments.gap, before_slips=False)
+row = Row(Scalar(unit="m"))
 
 
 @row.inputs
@@ -33,6 +33,33 @@ def _(rng):
     x, y = np.eye(3)[:2]
     crossing = (-x, x, 0.2, -y, y, 0.3)  # the axes meet
     return [case, crossing, *beside, *deep, *drawn]
+
+
+def overlap(a0, a1, ra, b0, b1, rb):
+    """Return whether two capsules overlap."""
+    return capsule_distance(a0, a1, ra, b0, b1, rb) < 0
+
+
+row.cases(
+    capsules_that_overlap=overlap,
+    capsules_that_do_not_overlap=lambda *call: not overlap(*call),
+)
+row.cases(
+    {
+        says.replace("segments", "axes"): (
+            lambda a0, a1, ra, b0, b1, rb, holds=holds: holds(a0, a1, b0, b1)
+        )
+        for says, holds in pairs.PLACES.items()
+    }
+)
+
+
+@row.rare
+def _(rng):
+    for a0, a1, b0, b1 in pairs.seldom(rng):
+        ra, rb = pairs.radii(rng)
+        yield a0, a1, ra, b0, b1, rb
+        yield a0, a1, ra + 1.0, b0, b1, rb + 1.0
 
 
 row.spans(
@@ -253,3 +280,8 @@ def _(a0, a1, ra, b0, b1, rb):
     return (
         np.linalg.norm(np.subtract(*closest_points_segments(a0, a1, b0, b1))) - ra - rb
     )
+
+
+row.spans(  # as small, or as large, as in the lab
+    rb=(0.001,),
+)

@@ -5,15 +5,13 @@ import numpy as np
 from labkit.judge import HeldOut, Points, Row
 from robo47.distance import closest_points_segments
 
-from . import localise_segments, pairs
+from . import pairs
 from .bowl import bowl, cut, ends_only, lines, thrice
 
 # Of what has more than one closest pair any is right: it is judged by being one.
 row = Row(
     Points((2, 3), names=("first's point", "second's point")),
     at_edge=pairs.crosses,
-    unnamed=localise_segments.closest,
-    before_slips=False,
     copies=False,  # an end itself is as good as a copy of it
     held_out=[
         HeldOut(
@@ -57,6 +55,8 @@ row = Row(
 )
 
 row.valid(pairs.closest)
+row.cases(pairs.PLACES)
+row.rare(pairs.seldom)
 
 
 @row.inputs

@@ -4,13 +4,9 @@ import numpy as np
 
 from labkit.judge import Row, Scalar
 
-from . import localise_arm
-
 row = Row(
     Scalar(),
     at_edge=lambda s, distance, delta_q, radii: distance != 0 or bool(np.any(delta_q)),
-    unnamed=localise_arm.step,
-    before_slips=False,
 )
 
 
@@ -35,6 +31,80 @@ def _(rng):
         (0.1, 0.7, half, half), (0.2, 1.1, 0.9 * np.ones(7), half),  # far, and not free
         *drawn,
     ]  # fmt: skip
+
+
+def phase(s, distance, delta_q, radii):
+    """Return what a check finds: contact, rest, the end of the path, or a step."""
+    bound = float(np.abs(delta_q) @ radii)
+    if distance <= 0:
+        return "contact"
+    if bound == 0:
+        return "rest"
+    return "end" if s + distance / bound >= 1 else "step"
+
+
+def in_phase(wanted):
+    """Return the case of checks that find one of the phases."""
+    return lambda *call: phase(*call) == wanted
+
+
+def signs(*wanted):
+    """Return the case of steps in which joints move in these directions."""
+
+    def of(s, distance, delta_q, radii):
+        free = phase(s, distance, delta_q, radii) == "step"
+        return free and set(np.sign(delta_q[delta_q != 0])) == set(wanted)
+
+    return of
+
+
+ELSE = {
+    "links that touch or overlap": in_phase("contact"),
+    "arms that do not move": in_phase("rest"),
+    "steps that reach the end of the path": in_phase("end"),
+}
+row.cases({"steps that stay on the path": in_phase("step"), **ELSE})
+row.cases({
+    "steps in which joints move forwards only": signs(1),
+    "steps in which joints move backwards only": signs(-1),
+    "steps in which joints move in both directions": signs(1, -1),
+    **ELSE,
+})  # fmt: skip
+row.cases({
+    "steps in which one joint moves": (
+        lambda *call: phase(*call) == "step" and np.count_nonzero(call[2]) == 1
+    ),
+    "steps in which several joints move": (
+        lambda *call: phase(*call) == "step" and np.count_nonzero(call[2]) > 1
+    ),
+    **ELSE,
+})  # fmt: skip
+row.cases({
+    "steps with equal radii": (
+        lambda *call: phase(*call) == "step" and np.ptp(call[3]) == 0
+    ),
+    "steps with different radii": (
+        lambda *call: phase(*call) == "step" and np.ptp(call[3]) > 0
+    ),
+    **ELSE,
+})  # fmt: skip
+
+
+@row.rare
+def _(rng):
+    radii = rng.numbers(0.2, 1.2, 7)
+    delta_q = rng.numbers(0.01, 1, 7)
+    small = delta_q * rng.choice([1.0, 0.01, 1e-3], 7)
+    one = delta_q * (np.arange(7) == rng.integers(7)) * rng.choice([1.0, 0.005])
+    for turn in (delta_q, -delta_q, delta_q * rng.choice([-1.0, 1.0], 7), small, -small,
+                 one, -one, 1e-3 * delta_q, 0.0 * delta_q):  # fmt: skip
+        s, share = rng.numbers(0, 0.9, 2)
+        for each in (radii, np.full(7, radii[0])):
+            bound = float(np.abs(turn) @ each)
+            left = (1 - s) * bound
+            for distance in (0.999 * share * left, left * (1.1 + 3 * share), 1e-5):
+                yield float(s), float(distance or 0.1), turn, each
+            yield float(s), float(-0.3 * share), turn, each
 
 
 @row.wrongs(

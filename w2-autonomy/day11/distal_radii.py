@@ -5,9 +5,7 @@ import numpy as np
 from labkit.judge import Row, Vector
 from robo47.distance import distal_radii
 
-from . import localise_arm
-
-row = Row(Vector((None,), "m"), unnamed=localise_arm.lengths, before_slips=False)
+row = Row(Vector((None,), "m"))
 
 
 @row.inputs
@@ -20,6 +18,41 @@ def _(rng):
     longer[1] = 3.0
     return [case, (rng.numbers(0.05, 0.3, 7), long), (rng.numbers(0.1, 0.3, 7), longer),
             *drawn]  # fmt: skip
+
+
+def farthest(link_lengths, link_radii):
+    """Return on which link, seen from the first joint, the farthest point lies."""
+    before = np.append(0.0, np.cumsum(link_lengths)[:-1])
+    return int(np.argmax(before + link_radii))
+
+
+row.cases({
+    "arms whose farthest point is on the first link": (
+        lambda *call: farthest(*call) == 0
+    ),
+    "arms whose farthest point is on a link between": (
+        lambda *call: 0 < farthest(*call) < len(call[0]) - 1
+    ),
+    "arms whose farthest point is on the last link": (
+        lambda *call: farthest(*call) == len(call[0]) - 1
+    ),
+})  # fmt: skip
+row.cases({
+    "links with equal radii": lambda link_lengths, link_radii: np.ptp(link_radii) == 0,
+    "links with different radii": (
+        lambda link_lengths, link_radii: np.ptp(link_radii) > 0
+    ),
+})  # fmt: skip
+
+
+@row.rare
+def _(rng):
+    for n in (3, 7):
+        link_lengths, link_radii = rng.numbers(0.05, 0.5, 2, n)
+        yield link_lengths, link_radii
+        yield link_lengths, np.full(n, link_radii[0])
+        for at in (0, int(rng.integers(1, n - 1)), n - 1):
+            yield link_lengths, link_radii + 4.0 * (np.arange(n) == at)
 
 
 @row.wrongs

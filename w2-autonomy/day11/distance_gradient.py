@@ -8,14 +8,10 @@ from robo47 import panda
 from robo47.distance import distance_gradient
 from robo47.jacobian import space_jacobian
 
-from . import localise_arm
-
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 row = Row(
     Vector((7,), "m/rad", names=JOINTS),
     at_edge=lambda J_space, p, o, link: bool(np.linalg.norm(p - o) > 1e-3),
-    unnamed=localise_arm.terms,
-    before_slips=False,
 )
 row.of_argument("J_space", HALVES_SWAPPED)
 
@@ -33,6 +29,42 @@ def _(rng):
         o = np.round(p + rng.numbers(0.05, 0.4, 3) * rng.choice([-1.0, 1.0], 3), 3)
         drawn.append((J, p, o, link))
     return [case, *drawn]
+
+
+row.cases({
+    "Jacobians with omega = 0 in every column": (
+        lambda J_space, p, o, link: not J_space[:3].any()
+    ),
+    "Jacobians with v = 0 in every column": (
+        lambda J_space, p, o, link: not J_space[3:].any()
+    ),
+    "Jacobians with omega and v": (
+        lambda J_space, p, o, link: bool(J_space[:3].any() and J_space[3:].any())
+    ),
+})  # fmt: skip
+row.cases({
+    "points p and o that are 1 m apart": (
+        lambda J_space, p, o, link: abs(np.linalg.norm(p - o) - 1) < 1e-12
+    ),
+    "points p and o that are not 1 m apart": (
+        lambda J_space, p, o, link: abs(np.linalg.norm(p - o) - 1) >= 1e-12
+    ),
+})  # fmt: skip
+row.cases({
+    "the last link": lambda J_space, p, o, link: link == 7,
+    "links before the last one": lambda J_space, p, o, link: link < 7,
+})  # fmt: skip
+
+
+@row.rare
+def _(rng):
+    half = np.repeat([1.0, 0.0], 3)[:, None]
+    for part in (half, 1 - half, 1.0):
+        J = part * rng.numbers(-1, 1, 6, 7)
+        p, link = rng.numbers(-0.6, 0.6, 3), int(rng.integers(1, 8))
+        yield J, p, np.round(p + rng.numbers(0.05, 0.4, 3), 3), link
+        yield J, p, p + np.eye(3)[int(rng.integers(3))], link
+        yield J, p, np.round(p - rng.numbers(0.05, 0.4, 3), 3), 7
 
 
 row.spans(

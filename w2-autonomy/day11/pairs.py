@@ -94,6 +94,59 @@ def segments(rng, wanted: str) -> tuple[Array, ...]:
     return a0, a1, b0, b1
 
 
+def at_ends(a0, a1, b0, b1) -> tuple[bool, bool]:
+    """Return of two segments that cross or are skew which closest point is an end."""
+    found = shares(a0, a1, b0, b1)
+    return tuple(s < 1e-9 or s > 1 - 1e-9 for s in found)  # type: ignore[return-value]
+
+
+def parallel(a0, a1, b0, b1) -> bool:
+    """Return whether two segments, neither of them a point, are parallel."""
+    u, v = a1 - a0, b1 - b0
+    size = np.linalg.norm(u) * np.linalg.norm(v)
+    return bool(size > 0 and np.linalg.norm(np.cross(u, v)) <= 1e-9 * size)
+
+
+def point(a0, a1, b0, b1) -> bool:
+    """Return whether one of two segments is a point, or both are."""
+    return not ((a1 - a0).any() and (b1 - b0).any())
+
+
+def of_ends(*wanted):
+    """Return the case of segments whose closest points are ends, or not."""
+
+    def holds(a0, a1, b0, b1):
+        some = a0, a1, b0, b1
+        return not (point(*some) or parallel(*some)) and at_ends(*some) == wanted
+
+    return holds
+
+
+PLACES = {
+    "segments whose closest points both lie between the ends": of_ends(False, False),
+    "segments of which only the first's closest point is an end": of_ends(True, False),
+    "segments of which only the second's closest point is an end": of_ends(False, True),
+    "segments whose closest points are both ends": of_ends(True, True),
+    "parallel segments": parallel,
+    "segments of length 0": point,
+}
+
+
+def seldom(rng) -> list[tuple[Array, ...]]:
+    """Return segments of each of the PLACES: some of them are never drawn."""
+    found = [segments(rng, one) for one in KINDS]
+    found += [(b0, b1, a0, a1) for a0, a1, b0, b1 in found]
+    along = rng.integers(-3, 4, 3).astype(float)
+    along[int(rng.integers(3))] = 2.0
+    for far in (1.0, 4.0):  # beside each other, and one behind the other
+        start, shift = rng.integers(-3, 4, (2, 3)).astype(float)
+        first = start + far * along + shift
+        size = float(rng.choice([-2.0, -1.0, 0.5, 1.0, 2.0]))
+        found.append((start, start + along, first, first + size * along))
+    a, (b0, b1) = rng.numbers(-1, 1, 3), rng.numbers(-1, 1, 2, 3)
+    return [*found, (a, a.copy(), b0, b1), (b0, b1, a, a.copy())]
+
+
 def radii(rng) -> tuple[float, float]:
     """Return two drawn radii, m, the larger one of either."""
     small, large = float(rng.numbers(0.02, 0.1)), float(rng.numbers(0.12, 0.3))

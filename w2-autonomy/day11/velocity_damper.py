@@ -5,15 +5,11 @@ import numpy as np
 from labkit.judge import Row, Vector
 from robo47.distance import velocity_damper
 
-from . import localise_arm
-
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 # Where the slope is 0 and the arm overlaps, a slope of 1e-12 would ask for any speed.
 row = Row(
     Vector((7,), "rad/s", names=JOINTS),
     at_edge=lambda qd, grad, distance, gain: bool(grad.any()),
-    unnamed=localise_arm.kept,
-    before_slips=False,
 )
 
 
@@ -46,6 +42,52 @@ def _(rng):
     return [case, (rng.numbers(-1, 1, 7), np.zeros(7), 0.1, 4.0),
             (rng.numbers(-1, 1, 7), np.zeros(7), -0.1, 4.0), inside, slow,
             (-far, small, 0.01, 2.0), *hardly, *deep, *drawn]  # fmt: skip
+
+
+def phase(qd, grad, distance, gain):
+    """Return whether velocities are allowed, and if not whether the arm overlaps."""
+    if not grad.any():
+        return "still"
+    if grad @ qd >= -gain * distance:
+        return "allowed"
+    return "inside" if distance <= 0 else "fast"
+
+
+def in_phase(wanted):
+    """Return the case of calls in one of the phases."""
+    return lambda *call: phase(*call) == wanted
+
+
+row.cases({
+    "velocities that are allowed": in_phase("allowed"),
+    "velocities that are too fast, without overlap": in_phase("fast"),
+    "velocities that are too fast, with overlap": in_phase("inside"),
+    "gradients of 0": in_phase("still"),
+})  # fmt: skip
+row.cases({
+    "gradients with one entry that is not 0": (
+        lambda qd, grad, distance, gain: np.count_nonzero(grad) == 1
+    ),
+    "gradients with several entries that are not 0": (
+        lambda qd, grad, distance, gain: np.count_nonzero(grad) > 1
+    ),
+    "gradients of 0": in_phase("still"),
+})  # fmt: skip
+
+
+@row.rare
+def _(rng):
+    qd, grad = rng.numbers(-1, 1, 2, 7)
+    one = grad * (np.arange(7) == rng.integers(7))
+    gain = float(rng.numbers(0.5, 5))
+    for slope in (grad, one, 0.05 * grad, 0.0 * grad):
+        for distance in (0.2, 0.02, -0.05):
+            d = float(distance * rng.uniform(0.5, 1.5))
+            yield qd, slope, d, gain
+            for speed in (-0.5, 0.1):  # against the bound
+                if size := slope @ slope:
+                    extra = speed - gain * d - slope @ qd
+                    yield qd + slope * extra / size, slope, d, gain
 
 
 @row.spans
@@ -285,3 +327,8 @@ def _(qd, grad, distance, gain):
 )  # Driven out with 0.2 m/s at most.
 def _(qd, grad, distance, gain):
     return velocity_damper(qd, grad, max(distance, -0.2 / gain), gain)
+
+
+row.spans(  # as small, or as large, as in the lab
+    qd=(lambda qd: 9e-06 * qd,),
+)

@@ -1,6 +1,6 @@
 """Paths that are cut in another way than `shortcut`'s, and what is said of them."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from itertools import pairwise
 from typing import Any
 
@@ -11,8 +11,7 @@ from robo47 import planning
 from robo47.checks import Array
 from robo47.planning import edge_free
 
-from .localise import NEAR, Asked, Kinds, calls, only
-from .options import Option, together
+from .options import NEAR, Option, calls, together
 from .ways import without_filling
 
 Check = Callable[[Array, Array, Array], bool]
@@ -171,22 +170,19 @@ def _made(*call: Any, **how: Any) -> Array:
 
 
 def of_a_cut(case: Case) -> Finding | None:
-    """Say what is wrong with paths that were cut: points, edges, or too little cut."""
+    """Say which options give the paths, or what keeps one from being a cut."""
     asked = calls(case)
     mine = [without_filling(one.mine[0]) for one in asked]
     if found := together(OPTIONS, _made, [one.arguments for one in asked], mine):
         return found
-    longer: list[int] = []
-    shorter: list[int] = []
     for k, one in enumerate(asked, 1):
         path, world, _ = one.arguments
         if not one.wrong_rows():
             continue
-        mine, right = (without_filling(x[0]) for x in (one.mine, one.right))
-        if found := _no_cut(mine, path, world, f"in call {k} of {len(asked)}"):
+        where = f"in call {k} of {len(asked)}"
+        if found := _no_cut(without_filling(one.mine[0]), path, world, where):
             return found
-        (longer if len(mine) > len(right) else shorter).append(k)
-    return _too_much_or_little(asked, longer, shorter)
+    return None
 
 
 def _no_cut(mine: Array, path: Array, world: Array, where: str) -> Finding | None:
@@ -209,55 +205,3 @@ def _no_cut(mine: Array, path: Array, world: Array, where: str) -> Finding | Non
             says = f"It cuts from row {i} of the path to row {j}, {where}, where the "
             return Finding("cut-not-free", f"{says}edge between the two is not free.")
     return None
-
-
-PAIRS: Kinds = {
-    "no-pair": "where there is no pair",
-    "second-larger": "where a pair's first number is the larger",
-    "later-pairs": "where there is more than one pair",
-    "blocked-pairs": "where an edge that a pair names is not free",
-    "to-the-end": "where a pair names the last row",
-}
-
-
-def _too_much_or_little(
-    asked: Sequence[Asked], longer: Sequence[int], shorter: Sequence[int]
-) -> Finding | None:
-    """Say whether valid cuts leave too much or too little, and with which pairs."""
-    if not longer and not shorter:
-        return None
-    what, slug = "it leaves other points than asked for", "other-cuts"
-    if not shorter:
-        what, slug = "it keeps points that go", "cuts-missing"
-    elif not longer and any(_fewer(asked[k - 1]) for k in shorter):
-        what, slug = "it leaves out points that stay", "cuts-too-many"
-    says = (
-        f"What it leaves is a free path each time, but in {len(longer) + len(shorter)} "
-        f"of {len(asked)} calls {what}. Go through call {min([*longer, *shorter])} "
-        "pair by pair: which two rows does each name, of how many rows by then?"
-    )
-    found = only(PAIRS, [_of_pairs(one) for one in asked],
-                 [one.wrong_rows() for one in asked])  # fmt: skip
-    if found:
-        return Finding(f"{slug}-{found.slug}", f"{found.message} {says}")
-    return Finding(slug, says)
-
-
-def _fewer(one: Asked) -> bool:
-    return len(without_filling(one.mine[0])) < len(without_filling(one.right[0]))
-
-
-def _of_pairs(one: Asked) -> dict[str, bool]:
-    path, world, pairs = one.arguments
-    m, blocked, last = len(path), False, False
-    for pair in pairs:
-        i, j = sorted(int(u * m) for u in pair)
-        free = planning.edge_free(path[i], path[j], world)
-        blocked = blocked or (j - i > 1 and not free)
-        last = last or j == m - 1
-        if j - i > 1 and free:
-            path = np.concatenate([path[: i + 1], path[j:]])
-            m = len(path)
-    swapped = bool((pairs[:, 0] > pairs[:, 1]).any())
-    found = not len(pairs), swapped, len(pairs) > 1, blocked, last
-    return dict(zip(PAIRS, found, strict=True))

@@ -5,7 +5,6 @@ import numpy as np
 from labkit.judge import Index, Mask, Row, Vector
 from robo47.planning import edge_free, extend, nearest, segment_free_of_discs, steer
 
-from .localise import of_an_extension
 from .ways import (
     ASKS,
     CLEAR,
@@ -27,7 +26,6 @@ row = Row(
         Mask(called="whether it is free"),
     ),
     at_edge=lambda tree, sample, step, world: definite(tree, sample, step, world),
-    unnamed=of_an_extension,
     slips=(ASKS,),
 )
 
@@ -56,6 +54,35 @@ def asked(rng, free, far, n=6):
             tree, sample, step, world
         ):
             return tree, sample, step, world
+
+
+def reached(tree, sample, step, world):
+    """Return whether a sample lies within a step of the nearest node."""
+    return float(np.linalg.norm(tree - sample, axis=1).min()) <= step
+
+
+def free(tree, sample, step, world):
+    """Return whether the new edge is free."""
+    return extend(tree, sample, step, world)[2]
+
+
+row.cases(
+    edges_that_are_free=free,
+    edges_that_are_not_free=lambda *call: not free(*call),
+)
+row.cases(
+    samples_within_a_step=reached,
+    samples_farther_than_a_step=lambda *call: not reached(*call),
+)
+
+
+@row.rare
+def _(rng):
+    for step in (0.3, 1.0, 3.0):
+        tree, sample = rng.numbers(-1, 1, 6, 2), rng.numbers(-1.5, 1.5, 2)
+        call = tree, sample, step, discs(rng, 2)
+        if definite(*call):
+            yield call
 
 
 @row.inputs
@@ -212,3 +239,9 @@ def _(tree, sample, step, world):
 
 
 row.at_least_0(step="a length")
+
+
+row.spans(  # as small, or as large, as in the lab
+    sample=(lambda sample: 0.01 * sample,),
+    step=(0.1,),
+)

@@ -1,15 +1,18 @@
 """Intervals that are made with other parts than Wilson's."""
 
+from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
+from labkit.judge import Case, Finding
 from robo47.checks import Array
 
-from .options import Option
+from .options import NEAR, Asked, Option, calls, together
 
 Z = 1.96
+FAR = 1e-3  # two z that are not the same
 USUAL: dict[str, Any] = {
     "z": Z,
     "p": lambda k, n: k / n,
@@ -189,3 +192,51 @@ OPTIONS = [
          lambda k, n: n < 5),
     ]),
 ]  # fmt: skip
+
+
+def of_shares(case: Case) -> Finding | None:
+    """Say of intervals which z they have, or which options make them."""
+    asked = calls(case)
+    given = [(int(one.arguments[0]), int(one.arguments[1])) for one in asked]
+    trials = [one for one in asked if one.arguments[1] > 0]
+    mine = [one.mine[0] for one in asked]
+    return _of_z(trials) or together(OPTIONS, interval_of, given, mine)
+
+
+def _of_z(trials: Sequence[Asked]) -> Finding | None:
+    """Return that an interval is Wilson's, or Wald's, with another z."""
+    wilson, wald = [], []
+    for one in trials:
+        k, n = one.arguments
+        p = k / n
+        for x in one.mine[0]:
+            if NEAR < x < 1 - NEAR:
+                wilson.append(abs(x - p) * np.sqrt(n / (x * (1 - x))))
+            if 0 < k < n:
+                wald.append(abs(x - p) / np.sqrt(p * (1 - p) / n))
+    kinds = (
+        ("in the formula that is asked for", wilson),
+        ("in Wald's formula, p +- z sqrt(p (1 - p) / n), which is another", wald),
+    )
+    for how, some in kinds:
+        zs = np.array(some)[np.isfinite(some)]
+        if len(zs) > 5 and np.ptp(zs) < 1e-6 and abs(zs[0] - Z) > 1e-5 and zs[0] > 0:
+            says = f"z is {zs[0]:.4g} in every call, {how}; 95 % of a normal noise lie "
+            return Finding("another-z", f"{says}within 1.96 sigma.")
+    pairs = [z for z in (_both_z(one) for one in trials) if z]
+    if len(pairs) > 5 and all(abs(low - high) < 1e-6 for low, high in pairs):
+        least, most = min(pairs)[0], max(pairs)[0]
+        says = f"z is {least:.4g} to {most:.4g}, in the formula that is asked for"
+        if most - least > FAR:
+            return Finding("z-changes", f"{says}; it is 1.96 for all n.")
+    return None
+
+
+def _both_z(one: Asked) -> tuple[float, float] | None:
+    """Return the z of either end in the formula asked for, where both tell it."""
+    k, n = one.arguments
+    low, high = one.mine[0]
+    if not (NEAR < low < 1 - NEAR and NEAR < high < 1 - NEAR):
+        return None
+    first, other = (abs(x - k / n) * np.sqrt(n / (x * (1 - x))) for x in (low, high))
+    return float(first), float(other)

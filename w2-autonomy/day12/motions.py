@@ -10,8 +10,7 @@ from labkit.judge import Case, Finding
 from robo47 import planning
 from robo47.checks import Array
 
-from .localise import NEAR, Asked, Kinds, calls, only
-from .options import Option, together
+from .options import NEAR, Asked, Option, calls, together
 
 
 def path_accel_bounds(
@@ -252,52 +251,21 @@ OPTIONS = [
 ]  # fmt: skip
 
 
-MOTIONS: Kinds = {
-    "cannot-hold": "where gravity alone is above a limit; zeros are asked for",
-    "can-hold": "where gravity alone is within all limits",
-    "several-joints": "where there are several joints",
-    "slow-motors": "where the motors' speed, x_max, is the limit at some point",
-    "gravity": "where there is gravity",
-    "coriolis": "where B is not 0",
-    "not-at-speed": "where some speed below x_max leaves no sdd",
-}
-
-
 def of_a_motion(case: Case) -> Finding | None:
     """Say of a motion which limit it breaks first, or where it is too slow."""
     asked = calls(case)
     mine = [one.mine[0][: len(one.arguments[0])] for one in asked]
     if found := together(OPTIONS, timed, [one.arguments for one in asked], mine):
         return found
-    features = [_of_path(one) for one in asked]
-    found = only(MOTIONS, features, [one.wrong() for one in asked])
-    told = found.message + " " if found else ""
-    if found and found.slug == "cannot-hold":
-        return found
     for k, one in enumerate(asked, 1):
-        if not one.wrong() or not np.isfinite(one.mine[0]).all():
+        heavy = (np.abs(one.arguments[2]) > one.arguments[3]).any()
+        if heavy or not one.wrong() or not np.isfinite(one.mine[0]).all():
             continue
         if broken := _broken(one):
             slug, says = broken
-            return Finding(slug, f"{told}In call {k} of {len(asked)} {says}")
+            return Finding(slug, f"In call {k} of {len(asked)} {says}")
     slow = _slow(asked)
-    return Finding("slower-than-possible", told + slow) if slow else found
-
-
-def _of_path(one: Asked) -> dict[str, bool]:
-    A, B, G, limits, x_max = one.arguments
-    right = one.right[0][: len(A)]
-    heavy = bool((np.abs(G) > limits).any())
-    ends = [
-        planning.path_accel_bounds(A[i], B[i], G[i], limits, np.sqrt(x_max[i]))
-        for i in range(len(A))
-    ]
-    found = (
-        heavy, not heavy, A.shape[1] > 1,
-        not heavy and bool((np.abs(right - x_max) < NEAR).any()), bool(G.any()),
-        bool(B.any()), any(low > high for low, high in ends),
-    )  # fmt: skip
-    return dict(zip(MOTIONS, found, strict=True))
+    return Finding("slower-than-possible", slow) if slow else None
 
 
 def _broken(one: Asked) -> tuple[str, str] | None:
@@ -336,9 +304,10 @@ def _slow(asked: Sequence[Asked]) -> str:
         mine, right = one.mine[0], one.right[0]
         if one.wrong() and np.isfinite(mine).all():
             i = int(np.argmax(right - mine))
-            return (
-                "It keeps all limits, and is slower than need be: in call "
-                f"{k} of {len(asked)} sd^2 is {mine[i]:.3f} at point {i}, and "
-                f"{right[i]:.3f} is possible."
-            )
+            if right[i] > mine[i] + NEAR:
+                return (
+                    f"In call {k} of {len(asked)} your motion keeps all limits and is "
+                    f"slower than possible: sd^2 is {mine[i]:.3f} at point {i}, and "
+                    f"{right[i]:.3f} is possible."
+                )
     return ""

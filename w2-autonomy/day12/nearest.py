@@ -5,14 +5,12 @@ import numpy as np
 from labkit.judge import Index, Row
 from robo47.planning import nearest
 
-from .localise import of_an_index
 from .ways import CLEAR, second_best, usual
 
 # Two nodes that are equally near, but for rounding, are nobody's question.
 row = Row(
     Index(),
     at_edge=lambda tree, q: second_best(tree, q) > CLEAR,
-    unnamed=of_an_index,
 )
 
 
@@ -40,6 +38,45 @@ def _(rng):
             if second_best(tree, q) > CLEAR:
                 break
         yield tree, q
+
+
+def found(tree, q):
+    """Return whether the nearest node is the root, the last node, or another one."""
+    i = nearest(tree, q)
+    return "root" if i == 0 else "last" if i == len(tree) - 1 else "other"
+
+
+def far(tree, q):
+    """Return how far the nearest node is away."""
+    return float(np.linalg.norm(tree - q, axis=1).min())
+
+
+row.cases(
+    trees_whose_nearest_node_is_the_root=lambda tree, q: found(tree, q) == "root",
+    trees_whose_nearest_node_is_the_last=lambda tree, q: found(tree, q) == "last",
+    trees_whose_nearest_node_is_another=lambda tree, q: found(tree, q) == "other",
+)
+row.cases(
+    nodes_at_q_itself=lambda tree, q: far(tree, q) == 0,
+    nearest_nodes_within_a_distance_of_1=lambda tree, q: 0 < far(tree, q) <= 1,
+    nearest_nodes_farther_than_1=lambda tree, q: far(tree, q) > 1,
+)
+row.cases(
+    points_with_two_coordinates=lambda tree, q: len(q) == 2,
+    points_with_more_than_two_coordinates=lambda tree, q: len(q) > 2,
+)
+
+
+@row.rare
+def _(rng):
+    for k in (2, 7):
+        tree, q = rng.numbers(-2, 2, 6, k), rng.numbers(-2, 2, k)
+        for i in (0, 2, 5):
+            for share in (0.0, 0.1, 1.0):
+                near = tree.copy()
+                near[i] = np.round(q + share * (tree[i] - q), 3)
+                if second_best(near, q) > CLEAR:
+                    yield near, q
 
 
 def _others(tree, q, far):
@@ -182,3 +219,8 @@ def _(tree, q):
 
 
 row.at_least_0(answer="an index")
+
+
+row.spans(  # as small, or as large, as in the lab
+    q=(lambda q: 0.005 * q,),
+)

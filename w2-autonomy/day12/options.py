@@ -10,11 +10,57 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from labkit.judge import Finding
+from labkit.judge import Case, Finding
 from labkit.judge.answers import capitalised
+from labkit.judge.ask import as_plain
 from robo47.checks import Array
 
+from .ways import without_filling
+
 MATCHES = 1e-8
+NEAR = 1e-7  # two answers, or two lengths, that are the same but for rounding
+
+
+class Asked(NamedTuple):
+    """One call: its arguments, the student's answer and the right one, in parts."""
+
+    arguments: tuple[Any, ...]
+    mine: tuple[Array, ...]
+    right: tuple[Array, ...]
+
+    def wrong(self, part: int = 0) -> bool:
+        """Return whether a part of the answer is wrong."""
+        with np.errstate(invalid="ignore"):
+            off = np.abs(self.mine[part] - self.right[part])
+        same = self.mine[part] == self.right[part]  # an infinity that is right
+        return not bool(np.all((off <= NEAR) | same))
+
+    def wrong_rows(self) -> bool:
+        """Return whether an array of any number of rows is wrong."""
+        a, b = (without_filling(x[0]) for x in (self.mine, self.right))
+        return a.shape != b.shape or not np.allclose(a, b, rtol=0.0, atol=NEAR)
+
+
+def calls(case: Case) -> list[Asked]:
+    """Return all calls that have an answer, first those that are always asked."""
+    found = list(_calls(case.arguments, case.S, case.T))
+    if case.further:
+        more = case.further
+        found += _calls(more.arguments, more.S, more.T)
+    return found
+
+
+def _calls(arguments: Sequence[Any], S: Any, T: Any) -> Iterator[Asked]:
+    mine, right = (x if isinstance(x, tuple) else (x,) for x in (S, T))
+    n = len(mine[0])
+    columns = [c if isinstance(c, np.ndarray) else [c] * n for c in arguments]
+    for args, s, t in zip(
+        zip(*columns, strict=True),
+        zip(*mine, strict=True),
+        zip(*right, strict=True),
+        strict=True,
+    ):
+        yield Asked(tuple(map(as_plain, args)), s, t)
 
 
 class Option(NamedTuple):

@@ -5,12 +5,9 @@ import numpy as np
 from labkit.judge import Row, Vector
 from robo47.planning import path_accel_bounds
 
-from .localise_paths import of_a_range
-
 row = Row(
     Vector((2,), "1/s^2", names=("the least", "the greatest")),
     at_edge=lambda a, b, c, limits, sd: bool(np.all(limits > 0)),
-    unnamed=of_a_range,
 )
 
 
@@ -40,6 +37,63 @@ def _(rng):
         limits = rng.numbers(4, 12, k)
         a = np.where(np.abs(a) < 0.1, 0.1, a)
         yield a, b, rng.numbers(-3, 3, k), limits, float(rng.numbers(0.3, 1.3))
+
+
+def stuck(a, b, c, limits, sd):
+    """Return whether a joint with a = 0 cannot hold its torque."""
+    return bool(np.any((a == 0) & (np.abs(b * sd**2 + c) > limits)))
+
+
+row.cases({
+    "paths on which every joint moves (no a is 0)": lambda a, *_: bool(np.all(a != 0)),
+    "a joint with a = 0 that holds its torque": (
+        lambda a, *more: bool(np.any(a == 0)) and not stuck(a, *more)
+    ),
+    "a joint with a = 0 that cannot hold its torque": stuck,
+})  # fmt: skip
+row.cases({
+    "paths on which every a is above 0": lambda a, *_: bool(np.all(a > 0)),
+    "paths on which every a is below 0": lambda a, *_: bool(np.all(a < 0)),
+    "paths with values of a of both signs": (
+        lambda a, *_: bool(np.any(a > 0) and np.any(a < 0) and np.all(a != 0))
+    ),
+    "paths on which some a is 0": lambda a, *_: bool(np.any(a == 0)),
+})  # fmt: skip
+row.cases({
+    "arms with equal torque limits": lambda a, b, c, limits, sd: np.ptp(limits) == 0,
+    "arms with different torque limits": lambda a, b, c, limits, sd: (
+        np.ptp(limits) > 0
+    ),
+})  # fmt: skip
+
+
+@row.rare
+def _(rng):
+    for k in (1, 3):
+        for sign in (
+            1.0,
+            -1.0,
+            rng.choice([-1.0, 1.0], k),
+            0.0,
+            rng.choice([0.0, 1], k),
+        ):
+            for least in (0.0, -2.0, -7.0):  # of the size of a, as a power of ten
+                a = (
+                    sign
+                    * np.abs(rng.numbers(0.1, 3, k))
+                    * 10.0 ** rng.uniform(least, 0)
+                )
+                b, c = 0.1 * rng.numbers(-3, 3, 2, k)
+                limits = rng.numbers(4, 12, k)
+                limits = np.full(k, limits[0]) if rng.integers(2) else limits
+                yield a, b, c, limits, float(rng.numbers(0.1, 1.3))
+    yield (
+        np.array([0.0, *rng.numbers(0.1, 3, 2)]),
+        0 * limits,
+        limits + 9.0,
+        limits,
+        0.1,
+    )
 
 
 def bounds(a, rest, limits):
@@ -304,3 +358,14 @@ def _(a, b, c, limits, sd):
 
 
 row.at_least_0(limits="of torques, both ways", sd="only its square is used")
+
+
+row.spans(  # as small, or as large, as in the lab
+    a=(lambda a: 0.2 * a,),
+    b=(
+        lambda b: 0.02 * b,
+        lambda b: 7 * b,
+    ),
+    c=(lambda c: 10 * c,),
+    sd=(10.0,),
+)

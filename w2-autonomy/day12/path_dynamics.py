@@ -5,9 +5,7 @@ import numpy as np
 from labkit.judge import Matrix, Row, rounded
 from robo47.planning import path_dynamics
 
-from .localise_paths import of_a_path
-
-row = Row(Matrix((3, None), "N m", rows=("a", "b", "g")), unnamed=of_a_path)
+row = Row(Matrix((3, None), "N m", rows=("a", "b", "g")))
 
 
 @row.inputs
@@ -20,6 +18,33 @@ def _(rng):
         half = rng.numbers(-1, 1, k, k)
         M = rounded(half @ half.T + 0.5 * np.eye(k))
         yield M, *rng.numbers(-2, 2, 3, k), rng.numbers(-30, 30, k)
+
+
+def coupled(M, *_):
+    """Return whether a mass matrix has entries off its diagonal."""
+    return bool((M - np.diag(M.diagonal())).any())
+
+
+row.cases(
+    arms_with_one_joint=lambda M, *_: len(M) == 1,
+    arms_with_a_diagonal_mass_matrix=lambda M, *_: len(M) > 1 and not coupled(M),
+    arms_with_a_mass_matrix_that_couples_joints=coupled,
+)
+row.cases(
+    straight_paths=lambda M, dq_ds, d2q_ds2, *_: not d2q_ds2.any(),
+    curved_paths=lambda M, dq_ds, d2q_ds2, *_: bool(d2q_ds2.any()),
+)
+
+
+@row.rare
+def _(rng):
+    for k in (1, 3):
+        half = rng.numbers(-1, 1, k, k)
+        M = rounded(half @ half.T + 0.5 * np.eye(k))
+        more = rng.numbers(-2, 2, 4, k)
+        yield M, *more
+        yield np.diag(M.diagonal()), *more
+        yield M, more[0], 0.0 * more[1], *more[2:]
 
 
 @row.wrongs
@@ -107,3 +132,9 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
 @row.right  # Row by row, with M turned over: it is symmetric.
 def _(M, dq_ds, d2q_ds2, coriolis, gravity):
     return np.vstack([dq_ds @ M, d2q_ds2 @ M + coriolis, gravity])
+
+
+row.spans(  # as small, or as large, as in the lab
+    dq_ds=(lambda dq_ds: 0.2 * dq_ds,),
+    coriolis=(lambda coriolis: 0.04 * coriolis,),
+)

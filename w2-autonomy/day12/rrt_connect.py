@@ -8,7 +8,7 @@ from labkit.judge import Row, Slip, Waypoints
 from robo47.planning import extend, rrt_connect
 
 from .planners import fault, of_a_planner, one_tree, planner
-from .ways import ASKS, BALL, FLOOR, NONE, ways_asked
+from .ways import ASKS, BALL, FLOOR, NONE, usual, ways_asked
 
 row = Row(
     Waypoints((None, None)),
@@ -28,6 +28,29 @@ row = Row(
         ),
     ),
 )
+
+
+def connected(*call):
+    """Return whether the planner that is asked for finds a path."""
+    return bool(len(rrt_connect(*call)))
+
+
+row.cases(
+    samples_with_which_a_path_is_found=connected,
+    samples_with_which_no_path_is_found=lambda *call: not connected(*call),
+)
+row.cases(
+    worlds_without_an_obstacle=lambda *call: np.size(call[2]) == 0,
+    worlds_with_obstacles=lambda *call: np.size(call[2]) > 0,
+)
+
+
+@row.rare
+def _(rng):
+    samples = usual(rng).numbers(-1.3, 1.3, 12, 2)
+    step = float(rng.numbers(0.3, 0.6))
+    for n in (0, 2, 12):
+        yield np.array([-1.0, -0.9]), np.array([1.1, 0.9]), NONE, samples[:n], step
 
 
 @row.inputs

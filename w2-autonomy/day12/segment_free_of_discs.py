@@ -5,11 +5,10 @@ import numpy as np
 from labkit.judge import Mask, Row
 from robo47.planning import segment_free_of_discs
 
-from .localise import of_an_edge
 from .ways import DISC, NONE, clear, discs, usual
 
 # An edge that touches, but for rounding, is nobody's question.
-row = Row(Mask(), at_edge=clear, unnamed=of_an_edge)
+row = Row(Mask(), at_edge=clear)
 
 
 def typed(rng, kind):
@@ -38,6 +37,65 @@ def typed(rng, kind):
         told = segment_free_of_discs(a, b, some), segment_free_of_discs(a, b, alone)
         if told == (not hit, not hit) and clear(a, b, some):
             return a, b, some
+
+
+def seen(a, b, discs):
+    """Return what an edge is, by the first of these that it is."""
+    if not len(discs):
+        return "no disc"
+    if not np.any(b - a):
+        return "point"
+    part = np.clip((discs[:, :2] - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1)
+    foot = a + part[:, None] * (b - a)
+    gaps = np.linalg.norm(discs[:, :2] - foot, axis=1) - discs[:, 2]
+    if abs(gaps.min()) < 1e-9:
+        return "touches"
+    away = np.linalg.norm(np.array([a, b])[:, None] - discs[:, :2], axis=2)
+    if gaps.min() < 0:
+        return "end" if np.any(away <= discs[:, 2]) else "between"
+    near = np.any(gaps < discs[:, 2])
+    return "near" if near else "far"
+
+
+def edges(*kinds):
+    """Return the case of edges of these kinds."""
+    return lambda *call: seen(*call) in kinds
+
+
+row.cases({
+    "edges that start or end in a disc": edges("end"),
+    "edges that cross a disc between their ends": edges("between"),
+    "edges that touch a disc": edges("touches"),
+    "free edges that pass a disc nearer than its radius": edges("near"),
+    "free edges farther from every disc": edges("far"),
+    "edges of length 0": edges("point"),
+    "worlds without a disc": edges("no disc"),
+})  # fmt: skip
+row.cases({
+    "edges that are free": lambda *call: segment_free_of_discs(*call),
+    "edges that are not free": lambda *call: not segment_free_of_discs(*call),
+})  # fmt: skip
+row.cases({
+    "worlds with one disc": lambda a, b, discs: len(discs) == 1,
+    "worlds with several discs": lambda a, b, discs: len(discs) > 1,
+    "worlds without a disc": lambda a, b, discs: not len(discs),
+})  # fmt: skip
+
+
+@row.rare
+def _(rng):
+    for kind in ("through", "grazed", "beside", "behind", "begins", "ends", "within"):
+        a, b, some = typed(usual(rng), kind)
+        yield a, b, some
+        share = float(rng.choice([0.1, 0.3, 8.0]))  # the same world in another size
+        yield share * a, share * b, share * some
+    yield a, a.copy(), some
+    yield a, b, NONE
+    size = float(rng.choice([8.0, 1.0, 1 / 8, 1 / 64]))  # it touches exactly
+    x, y, r = size * (rng.integers(-4, 5, 3) / 4.0 + [0, 0, 1.5])
+    start, end = np.array([[x - 2, y + r], [x + 2, y + r]])
+    yield start, end, np.array([[x, y, r]])
+    yield a, b + 4.0, discs(rng, 1)
 
 
 @row.inputs
@@ -324,7 +382,7 @@ def touching_and_no_length(a, b, discs):
     return not np.any(np.linalg.norm(discs[:, :2] - foot, axis=1) < discs[:, 2])
 
 
-@row.wrong("free-called-hit")
+@row.wrong("too-seldom-true")
 def _(a, b, discs):
     along = b - a
     share = (discs[:, :2] - a) @ along / max(along @ along, 1e-300)
@@ -372,3 +430,9 @@ row.at_least_0(answer="a truth value")
 )  # A margin of 1 mm.
 def _(a, b, some):
     return segment_free_of_discs(a, b, some + np.array([0, 0, 1e-3]))
+
+
+row.spans(  # as small, or as large, as in the lab
+    a=(lambda a: 0.007 * a,),
+    b=(lambda b: 0.02 * b,),
+)

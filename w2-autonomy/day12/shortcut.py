@@ -20,6 +20,47 @@ row = Row(
 )
 
 
+def blocked(path, world, pairs):
+    """Return whether some pair names an edge that is not free."""
+    free = len(shortcut(path, NONE, pairs))
+    return len(shortcut(path, world, pairs)) > free
+
+
+row.cases(
+    calls_without_a_pair=lambda path, world, pairs: not len(pairs),
+    calls_with_one_pair=lambda path, world, pairs: len(pairs) == 1,
+    calls_with_several_pairs=lambda path, world, pairs: len(pairs) > 1,
+)
+row.cases(
+    pairs_in_ascending_order=(
+        lambda path, world, pairs: bool(np.all(pairs[:, 0] <= pairs[:, 1]))
+    ),
+    pairs_in_descending_order=(
+        lambda path, world, pairs: bool(np.any(pairs[:, 0] > pairs[:, 1]))
+    ),
+)
+row.cases(
+    worlds_that_block_no_pair=lambda *call: not blocked(*call),
+    worlds_that_block_a_pair=blocked,
+)
+
+
+@row.rare
+def _(rng):
+    rng = usual(rng)
+    turn = np.cumsum(rng.uniform(-0.7, 0.7, 9))
+    steps = 0.3 * np.column_stack([np.cos(turn), np.sin(turn)])
+    path = np.round(np.cumsum(steps, axis=0) - [1.2, 0], 3)
+    for n in (0, 1, 1, 5):
+        pairs = rng.numbers(0, 0.999, n, 2)
+        for world in (NONE, discs(rng, 3, 0.1, 0.3)):
+            careful = Careful(world)
+            for some in (pairs, np.sort(pairs, axis=1)):
+                shortcut(path, careful, some)
+                if careful.clear:
+                    yield path, world, some
+
+
 @row.inputs
 def _(rng):
     path = np.array([[0.0, 0], [0, 1], [1, 1], [2, 1], [2, 0]])

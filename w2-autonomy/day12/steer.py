@@ -5,8 +5,6 @@ import numpy as np
 from labkit.judge import HeldOut, Row, Vector
 from robo47.planning import steer
 
-from .localise import of_a_step
-
 
 def from_afar(rng):
     """Return targets within a step, so far that rounding q + way shows at once."""
@@ -25,7 +23,7 @@ NOT_THE_TARGET = HeldOut(
     "of the target then: trees join where two nodes are equal.",
     from_afar,
 )
-row = Row(Vector((None,)), held_out=[NOT_THE_TARGET], unnamed=of_a_step)
+row = Row(Vector((None,)), held_out=[NOT_THE_TARGET])
 
 
 @row.inputs
@@ -44,6 +42,38 @@ def _(rng):
         q = rng.numbers(-2, 2, k)
         near = rng.numbers(-0.2, 0.2, k)  # 0.53 at most
         yield q, np.round(q + near, 3), step
+
+
+def away(q, target):
+    """Return how far a target is away."""
+    return float(np.linalg.norm(target - q))
+
+
+row.cases(
+    targets_at_q_itself=lambda q, target, step: away(q, target) == 0,
+    targets_within_a_step=lambda q, target, step: 0 < away(q, target) <= step,
+    targets_farther_than_a_step=lambda q, target, step: away(q, target) > step,
+)
+row.cases(
+    targets_that_differ_in_one_coordinate=(
+        lambda q, target, step: np.count_nonzero(target - q) == 1
+    ),
+    targets_that_differ_in_several_coordinates=(
+        lambda q, target, step: np.count_nonzero(target - q) > 1
+    ),
+    targets_at_q_itself=lambda q, target, step: away(q, target) == 0,
+)
+
+
+@row.rare
+def _(rng):
+    for k in (2, 7):
+        q, way = rng.numbers(-2, 2, 2, k)
+        one = way * (np.arange(k) == rng.integers(k))
+        for along in (way, one, 0.0 * way):
+            target = np.round(q + along, 3)
+            for share in (0.2, 0.8, 1.3):
+                yield q, target, float(share * away(q, target) or share)
 
 
 @row.wrongs
@@ -174,3 +204,8 @@ def _(q, target, step):
 
 
 row.at_least_0(step="a length")
+
+
+row.spans(  # as small, or as large, as in the lab
+    q=(lambda q: 0.006 * q,),
+)

@@ -33,6 +33,30 @@ def path(rng, n, k, heavy=0.5, fast=1.6):
     return rounded(walk[0] + 1.5), rounded(walk[1]), rounded(c), limits, sd2_max
 
 
+def heavy(a, b, c, limits, sd2_max):
+    """Return whether gravity alone is beyond a limit at some point."""
+    return bool((np.abs(c) > limits).any())
+
+
+row.cases({
+    "paths on which gravity alone is beyond a limit": heavy,
+    "paths on which gravity alone is within all limits": lambda *call: not heavy(*call),
+})  # fmt: skip
+row.cases({
+    "arms with one joint": lambda a, b, c, limits, sd2_max: a.shape[1] == 1,
+    "arms with several joints": lambda a, b, c, limits, sd2_max: a.shape[1] > 1,
+})  # fmt: skip
+
+
+@row.rare
+def _(rng):
+    for k in (1, 2):
+        a, b, c, limits, sd2_max = path(rng, 6, k, fast=6.0)
+        yield a, b, c, limits, sd2_max
+        yield a, b, c + 9.0 * (np.arange(7) == 3)[:, None], limits, sd2_max
+        yield a, b, c, limits, sd2_max + 50.0
+
+
 @row.inputs
 def _(rng):
     one, eight = np.ones((5, 1)), np.array([8.0])
@@ -234,3 +258,12 @@ for change in (
 for how in ("np.clip(({}), -1, 1)", "({}).astype(np.float32)"):
     row.same(f"return {how.format('np.zeros(len(a))')}", "zeros")
     row.same(f"return {how.format(STEP[7:])}", "a truth value")
+
+
+row.spans(  # as small, or as large, as in the lab
+    a=(lambda a: 0.1 * a,),
+    b=(lambda b: 0.05 * b,),
+    c=(lambda c: 9 * c,),
+    limits=(lambda limits: 10 * limits,),
+    sd2_max=(lambda sd2_max: 90 * sd2_max,),
+)

@@ -5,7 +5,7 @@ import numpy as np
 from labkit.judge import Row, Vector
 from robo47.planning import wilson_interval
 
-from .localise_paths import of_shares
+from .intervals import of_shares
 
 row = Row(
     Vector((2,), names=("the low end", "the high end")),
@@ -42,6 +42,23 @@ def interval(k, n, z=1.96, centre=True, widen=True, divide=True, root=np.sqrt):
     middle = p + centre * z**2 / (2 * n)
     around = z * root(p * (1 - p) / n + widen * z**2 / (4 * n**2))
     return (middle + np.array([-around, around])) / (1 + divide * z**2 / n)
+
+
+row.cases(
+    no_successes=lambda successes, n: successes == 0 < n,
+    only_successes=lambda successes, n: successes == n > 0,
+    successes_and_failures=lambda successes, n: 0 < successes < n,
+)
+row.cases(
+    fewer_than_ten_trials=lambda successes, n: 0 < n < 10,
+    ten_trials_and_more=lambda successes, n: n >= 10,
+)
+
+
+@row.rare
+def _(rng):
+    for n in (int(rng.integers(1, 10)), int(rng.integers(10, 400))):
+        yield from ((k, n) for k in (0, n, int(rng.integers(0, n + 1))))
 
 
 @row.wrongs

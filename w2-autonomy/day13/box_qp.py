@@ -439,3 +439,10 @@ def _(H, f, lo, hi, x):
         if np.array_equal(before, x):
             break
     return x
+
+
+row.spans(  # as small, or as large, as in the lab
+    H=(lambda H: 0.1 * H,),
+    f=(lambda f: 0.001 * f,),
+    hi=(lambda hi: 0.05 * hi,),
+)

@@ -57,3 +57,9 @@ row.at_least_0(answer="a sum of squares")
 @row.right  # Entry by entry.
 def _(P, x):
     return sum(P[i, j] * a * b for i, a in enumerate(x) for j, b in enumerate(x))
+
+
+row.spans(  # as small, or as large, as in the lab
+    P=(lambda P: 30 * P,),
+    x=(lambda x: 0.0006 * x,),
+)

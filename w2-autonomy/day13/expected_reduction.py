@@ -69,3 +69,11 @@ row.at_least_0(alpha="a share")
 @row.right  # Horner's way.
 def _(dV, alpha):
     return -alpha * (dV[0] + alpha * dV[1])
+
+
+row.spans(  # as small, or as large, as in the lab
+    dV=(
+        lambda dV: 0.005 * dV,
+        lambda dV: 1000 * dV,
+    ),
+)

@@ -283,3 +283,17 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
 def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     k, K, drop = backward(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu)
     return np.clip(k, -1, 1), np.clip(K, -2, 2), drop
+
+
+row.spans(  # as small, or as large, as in the lab
+    lx=(lambda lx: 0.02 * lx,),
+    lu=(lambda lu: 0.02 * lu,),
+    lxx=(lambda lxx: 0.002 * lxx,),
+    luu=(
+        lambda luu: 0.0003 * luu,
+        lambda luu: 6 * luu,
+    ),
+    lux=(lambda lux: 4 * lux,),
+    Vx=(lambda Vx: 800 * Vx,),
+    Vxx=(lambda Vxx: 600 * Vxx,),
+)

@@ -176,3 +176,8 @@ def _(H, f, lo, hi, x):
 def _(H, f, lo, hi, x):
     found = np.abs(x - np.clip(x - (H @ x + f), lo, hi)).max()
     return found if found >= 1e-6 else 0.0
+
+
+row.spans(  # as small, or as large, as in the lab
+    H=(lambda H: 10 * H,),
+)

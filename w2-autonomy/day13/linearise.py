@@ -226,3 +226,9 @@ def _(M, stiffness, damping, h):
     by_v = [step(zero, e, zero) for e in one]
     by_u = [step(zero, zero, e) for e in one]
     return np.column_stack([*by_q, *by_v]), np.column_stack(by_u)
+
+
+row.spans(  # as small, or as large, as in the lab
+    stiffness=(lambda stiffness: 5 * stiffness,),
+    h=(0.002,),
+)

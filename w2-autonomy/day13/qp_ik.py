@@ -194,3 +194,10 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
 )  # A weight below 0.1 is none.
 def _(J, e, weights, damping, dq_lo, dq_hi):
     return solved(J, e, np.where(weights < 0.1, 0.0, weights), damping**2, dq_lo, dq_hi)
+
+
+row.spans(  # as small, or as large, as in the lab
+    e=(lambda e: 0.007 * e,),
+    dq_lo=(lambda dq_lo: 0.1 * dq_lo,),
+    dq_hi=(lambda dq_hi: 0.3 * dq_hi,),
+)

@@ -75,3 +75,8 @@ def _(before, after, expected):
 )  # Of no drop expected the ratio is 1.
 def _(before, after, expected):
     return (before - after) / expected if abs(expected) > 1e-3 else 1.0
+
+
+row.spans(  # as small, or as large, as in the lab
+    before=(1000.0,),
+)

@@ -143,3 +143,8 @@ def _(P, A, B, Q, R):
     P, K = riccati_step(P, A, B, Q, R)
     w, V = np.linalg.eigh(P)
     return V @ np.diag(np.maximum(w, 1e-3)) @ V.T, K
+
+
+row.spans(  # as small, or as large, as in the lab
+    B=(lambda B: 0.03 * B,),
+)

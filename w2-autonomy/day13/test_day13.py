@@ -237,6 +237,22 @@ def test_ten_times_are_enough_for_seven_numbers():
     assert 5 < np.mean(asked) < max(asked) < 20
 
 
+NEVER = "leaves.max() < 1e-12", "False"  # releases an entry for ever
+
+
+def test_an_active_set_loop_that_does_not_end_shows_its_last_sets(tmp_path):
+    text = DAY.source.read_text("utf-8").replace("range(100)", "iter(int, 1)")
+    path = tmp_path / DAY.script
+    path.write_text(text.replace(*NEVER), "utf-8")
+    given = np.array([[2.0, 1], [1, 2]]), np.array([-2.0, -10]), -np.ones(2), np.ones(2)
+    mine = load_script(path)
+    for _ in range(2):  # each call counts its own passes
+        with pytest.raises(RuntimeError, match=r"after 1,000 passes .* \{1\}, \{1\}"):
+            mine.box_qp(*given, np.zeros(2))
+    boxes = [lab.box_qp(*given, np.zeros(2)) for _ in range(1_100)]
+    np.testing.assert_allclose(boxes[-1], [0.5, 1.0])
+
+
 def test_the_circle_clipped_slowed_and_best(printed):
     for row in ("clamped +57.35", "qp_ik +12.92", "0.1 +11.69", "0.01 +6.18"):
         assert re.search(row, printed)

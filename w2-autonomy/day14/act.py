@@ -105,3 +105,8 @@ def _(theta, observation):
     t = np.minimum(np.maximum(theta, LOW), HIGH)
     at = complex(*observation[:2]) + complex(t[0], t[1]) * np.exp(1j * observation[2])
     return np.array([at.real, at.imag, observation[2] + t[2], t[3], t[4], t[5]])
+
+
+row.spans(  # as small, or as large, as in the lab
+    observation=(lambda observation: 0.06 * observation,),
+)

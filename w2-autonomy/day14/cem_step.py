@@ -171,3 +171,8 @@ def _(mean, std, noise, scores, elite):
     samples = mean + std * noise
     score = np.where(np.isfinite(scores), scores, np.nan)
     return of_best(samples, np.argsort(-score, kind="stable")[:elite])
+
+
+row.spans(  # as small, or as large, as in the lab
+    mean=(lambda mean: 0.1 * mean,),
+)

@@ -126,3 +126,11 @@ def _(force, normal, mu):
 def _(force, normal, mu):
     press = np.einsum("ij,ij->i", force, normal)
     return mu * press - np.linalg.norm(np.cross(normal, force), axis=1)
+
+
+row.spans(  # as small, or as large, as in the lab
+    force=(
+        lambda force: 0.003 * force,
+        lambda force: 30 * force,
+    ),
+)

@@ -81,3 +81,8 @@ def _(points, centre):
         for axis in np.eye(3):
             columns.append(np.append(np.cross(p - centre, axis), axis))
     return np.array(columns).T
+
+
+row.spans(  # as small, or as large, as in the lab
+    centre=(lambda centre: 0.05 * centre,),
+)

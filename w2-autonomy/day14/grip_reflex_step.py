@@ -163,3 +163,8 @@ def _(finger_position, force, normal, mu, fraction, step):
         if np.linalg.norm(f - press * n) > (1 - fraction) * m * press:
             return float(np.clip(finger_position - step, -0.02, None))
     return finger_position
+
+
+row.spans(  # as small, or as large, as in the lab
+    finger_position=(2e-05,),
+)

@@ -90,3 +90,9 @@ def by_joint(qd, qdd):
     the right one with its columns by joint"""
     Y = side_by_side(qdd, qd, np.sign(qd)).reshape(7, 3, 7)
     return np.swapaxes(Y, 1, 2).reshape(7, 21)
+
+
+row.spans(  # as small, or as large, as in the lab
+    qd=(lambda qd: 0.009 * qd,),
+    qdd=(lambda qdd: 0.003 * qdd,),
+)

@@ -185,3 +185,9 @@ def _(J_space, T_links, qd, qdd, g):
         G[i] = X.T @ unit @ X
         Y.append(dynamics.inverse_dynamics(J_space, G, qd, qdd, g))
     return np.array(Y).T
+
+
+row.spans(  # as small, or as large, as in the lab
+    qd=(lambda qd: 0.01 * qd,),
+    qdd=(lambda qdd: 0.003 * qdd,),
+)

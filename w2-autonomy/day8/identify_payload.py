@@ -143,3 +143,8 @@ def _(J_site, R_site, extra, g):
         rows = -J.T @ np.block([[none, moments], [g[:, None], 0 * R]])
         A, b = A + rows.T @ rows, b + rows.T @ tau
     return np.linalg.pinv(A, rcond=1e-12) @ b
+
+
+row.spans(  # as small, or as large, as in the lab
+    extra=(lambda extra: 0.1 * extra,),
+)

@@ -70,3 +70,9 @@ def _(V, Vd):
 def _(V, Vd):
     G = spatial_inertia_from_params(np.eye(10))
     return np.einsum("kij,j->ik", G, Vd) - np.einsum("ji,kjl,l->ik", ad(V), G, V)
+
+
+row.spans(  # as small, or as large, as in the lab
+    V=(lambda V: 0.005 * V,),
+    Vd=(lambda Vd: 0.2 * Vd,),
+)

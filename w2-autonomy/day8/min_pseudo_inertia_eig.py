@@ -85,3 +85,8 @@ for slug, says, redone, code in (
 @row.right  # From the general eigenvalues.
 def _(phi):
     return np.linalg.eigvals(pseudo(phi)).real.min()
+
+
+row.spans(  # as small, or as large, as in the lab
+    phi=(lambda phi: 0.006 * phi,),
+)

@@ -83,3 +83,8 @@ def _(phi):
 @row.close("rounded-somewhere")  # float32 inside.
 def _(phi):
     return right(phi.astype(np.float32).astype(float) + 1e-7)
+
+
+row.spans(  # as small, or as large, as in the lab
+    phi=(lambda phi: 0.01 * phi,),
+)

@@ -95,3 +95,8 @@ def _(q, dt):
 
 
 row.at_least_0(dt="a time")
+
+
+row.spans(  # as small, or as large, as in the lab
+    dt=(0.002,),
+)

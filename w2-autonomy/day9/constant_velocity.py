@@ -89,3 +89,9 @@ def _(dt, accel_psd):
 
 
 row.at_least_0(dt="a time", accel_psd="an intensity", answer="made of times")
+
+
+row.spans(  # as small, or as large, as in the lab
+    dt=(0.002,),
+    accel_psd=(0.001,),
+)

@@ -60,3 +60,10 @@ def _(x, P, F, Q):
 @row.right  # Entry by entry, with sums.
 def _(x, P, F, Q):
     return np.einsum("ij,j->i", F, x), np.einsum("ij,jk,lk->il", F, P, F) + Q
+
+
+row.spans(  # as small, or as large, as in the lab
+    x=(lambda x: 8e-05 * x,),
+    P=(lambda P: 7e-06 * P,),
+    Q=(lambda Q: 5e-06 * Q,),
+)

@@ -181,3 +181,9 @@ def _(x, P, z, H, R):
 def _(x, P, z, H, R):
     found = updated(x, P, z, H, R)
     return found if found[2] <= 9.0 * len(z) else (x.copy(), P.copy(), found[2])
+
+
+row.spans(  # as small, or as large, as in the lab
+    x=(lambda x: 6e-05 * x,),
+    z=(lambda z: 7e-07 * z,),
+)

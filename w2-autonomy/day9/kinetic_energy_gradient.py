@@ -139,3 +139,8 @@ def _(J_space, G, qd):
         momentum = momentum + G[i] @ V
         found[i] = -momentum @ ad(J_space[:, i]) @ (J_space[:, :i] @ qd[:i])
     return found
+
+
+row.spans(  # as small, or as large, as in the lab
+    qd=(lambda qd: 8e-05 * qd,),
+)

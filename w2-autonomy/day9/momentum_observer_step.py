@@ -175,3 +175,12 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
     integral = integral + (known + residual) * dt
     found = gain * (momentum - integral)
     return np.where(np.abs(found) < 0.02, 0.0, found), integral
+
+
+row.spans(  # as small, or as large, as in the lab
+    residual=(lambda residual: 0.0004 * residual,),
+    integral=(lambda integral: 9e-05 * integral,),
+    momentum=(lambda momentum: 7e-05 * momentum,),
+    energy_grad=(lambda energy_grad: 5e-08 * energy_grad,),
+    qd=(lambda qd: 8e-05 * qd,),
+)

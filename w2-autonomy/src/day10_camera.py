@@ -215,7 +215,7 @@ def icp_step(T: np.ndarray, source: np.ndarray, target: np.ndarray) -> np.ndarra
 
 
 def guesses(T: np.ndarray, n: int, rng: np.random.Generator) -> np.ndarray:
-    """Return n poses beside T, turned by about TURN and SLIDE away, (n, 4, 4)."""
+    """Return n poses, rotated from T by about TURN and moved by SLIDE, (n, 4, 4)."""
     size = np.repeat([TURN, SLIDE], 3) / np.sqrt(3)
     off = [library.apply_twist(np.eye(4), xi) for xi in size * rng.normal(size=(n, 6))]
     turned = np.array(off)[:, :3, :3] @ T[:3, :3]
@@ -282,7 +282,7 @@ def slopes(model, data, T_cam_cube: np.ndarray, T_world_cam: np.ndarray) -> np.n
 
 
 def fit_with_noise(height: int, T: np.ndarray, rng) -> tuple[np.ndarray, float]:
-    """Fit a cube at T to noisy corners; print how far off it is, and was told to be.
+    """Fit a cube at T to noisy corners; print its error and its predicted error.
 
     Return which fits lie in their 95 % ellipse, (NOISY,), and mm off along the view.
     """

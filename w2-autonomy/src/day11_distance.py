@@ -226,7 +226,7 @@ def conservative_advance(
 
     One step of conservative advancement; the result is at most 1. distance is the arm's
     distance at s, metres; delta_q (7,) is the joint displacement of the whole motion,
-    from s = 0 to s = 1, radians; radii (7,) are those of `distal_radii`, metres. No
+    from s = 0 to s = 1, radians; radii (7,) come from `distal_radii`, metres. No
     point moves further than the sum of |delta_q_i| radii_i per unit of s. If the
     distance is 0 or negative, return s; otherwise, if no joint moves, return 1. Source:
     Schwarzer, Saha and Latombe (2005).

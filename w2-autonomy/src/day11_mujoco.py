@@ -46,8 +46,8 @@ class Edge(NamedTuple):
 def scene() -> tuple[mujoco.MjModel, mujoco.MjData]:
     """Return the Panda with its capsules, the obstacles of `WORLD`, and a free sphere.
 
-    The geoms are arm0 to arm8, world0 to world6 (rods first), and ball, a sphere with a
-    radius of 10 mm.
+    The geoms are arm0 to arm8, world0 to world6 (rods first), and `ball`, a sphere with
+    a radius of 10 mm.
     """
 
     def edit(spec: mujoco.MjSpec) -> None:

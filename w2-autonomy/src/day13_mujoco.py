@@ -1,7 +1,7 @@
 """What Day 13 asks of MuJoCo: an arm that is held, one that reaches, and a circle.
 
 A state is x = (q - q0, qd), (14,), radians and rad/s; u is the torque, N m, that is
-added to what holds q0. The calls that the lab is held against stand in the lab.
+added to what holds q0. The calls that the lab is compared with are in the lab.
 """
 
 import mujoco
@@ -28,7 +28,7 @@ def arm() -> mujoco.MjModel:
 
 
 def on_a_wall() -> mujoco.MjModel:
-    """Return a Panda that is mounted aslant, with other damping in each joint."""
+    """Return a Panda that is mounted at an angle, with other damping in each joint."""
     model = arm()
     model.opt.gravity[:] = (6.0, -2.0, -7.0)
     model.dof_damping[:] = np.linspace(0.5, 3.0, 7)

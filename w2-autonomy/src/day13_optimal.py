@@ -8,7 +8,9 @@ Twists are (omega; v), expressed in the world frame; J_space is (6, 7). Radians,
 kilograms, newtons, seconds.
 """
 
+import sys
 from itertools import pairwise
+from types import FrameType, SimpleNamespace
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
 import mujoco
@@ -26,6 +28,8 @@ import day13_mujoco
 READY_Q = panda.READY_Q  # the equilibrium, the handout's home_q, rad
 SEED = 13  # for configurations, problems and costs; the same at every run
 TRIALS = 20  # configurations at which the gravity stiffness is compared
+MOST_PASSES = 1_000  # of the loop of task 13.5, which needs about one per entry
+PASSES = SimpleNamespace(loop=None, sets=[])  # of the loop that runs now
 BOXES = 40  # random quadratic programs
 # In this problem Newton steps that are clamped without a line search alternate forever.
 CIRCLING = (
@@ -136,6 +140,22 @@ def kkt_residual(
     # endregion 13.4
 
 
+def note_pass(loop: FrameType, held: np.ndarray) -> None:
+    """Note the active set of one pass of a loop; stop a loop that does not end.
+
+    held (n,) is True for the entries of the active set.
+    """
+    if loop is not PASSES.loop:  # another call begins
+        PASSES.loop, PASSES.sets = loop, []
+    PASSES.sets.append("{" + ", ".join(map(str, np.flatnonzero(held))) + "}")
+    if len(PASSES.sets) > MOST_PASSES:
+        last = ", ".join(PASSES.sets[-6:])
+        raise RuntimeError(
+            f"the loop does not end: after {MOST_PASSES:,} passes its active sets are "
+            f"{last}. Which entry should stay, or when should the loop end?"
+        )
+
+
 def first_limit(
     x: np.ndarray, step: np.ndarray, lo: np.ndarray, hi: np.ndarray
 ) -> tuple[np.ndarray, int | None]:
@@ -144,6 +164,7 @@ def first_limit(
     x and step are (n,); lo and hi are the bounds.
     (0, 0) by (-2, 6) in the box -1 to 1: (-1/3, 1) and 1.
     """
+    note_pass(sys._getframe(1), (step == 0) & ((x <= lo) | (x >= hi)))
     room = np.where(step > 0, hi - x, lo - x)
     share = np.divide(room, step, out=np.full_like(x, np.inf), where=step != 0)
     met = int(np.argmin(share))

@@ -204,7 +204,7 @@ def act(theta: np.ndarray, observation: np.ndarray) -> np.ndarray:
 def reward(heights: np.ndarray, target: float, cap: float) -> np.ndarray:
     """Return the reward of each episode, (n,), from the cube's final height.
 
-    heights (n,), m, are those of the cubes' bottoms at the end of each episode. The
+    heights (n,), m, belong to the cubes' bottoms at the end of each episode. The
     reward rises linearly from 0 on the floor, and below it, to 1 at the target, m, and
     above it. It is -1 if the height is not finite, or above the cap, m. (0.01, 0.05,
     0.2, 0.9, nan, -0.01) with 0.05 and 0.3: (0.2, 1, 1, -1, -1, 0).
@@ -253,8 +253,8 @@ def success_rate(success: np.ndarray) -> np.ndarray:
 def paired_difference(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """Return the mean paired difference of two policies and its standard error, (2,).
 
-    first and second (n,) are the successes on the same cubes, cube by cube; True counts
-    as 1. The differences are first minus second. The standard error is their standard
+    first and second (n,) are the successes on the same cubes, cube by cube; True is 1.
+    The differences are first minus second. The standard error is their standard
     deviation (divide by n) over sqrt(n). (1, 1, 0, 1) and (1, 0, 0, 0): (0.5, 0.25).
     """
     # region 14.9

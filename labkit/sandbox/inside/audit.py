@@ -2,7 +2,7 @@
 
 An audit hook of Python, which student code runs beside and can switch off. So it keeps
 nobody out: that is the wall's part (`labkit.sandbox.process`). It is for the honest:
-"It wants to write to notes.txt. A task needs nothing but its arguments."
+"It tries to write to notes.txt. A task needs only its arguments."
 """
 
 import os

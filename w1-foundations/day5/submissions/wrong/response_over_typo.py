@@ -1,4 +1,4 @@
-# task 5.3: one-case-wrong
+# task 5.3: does-not-start-at-one
 # A typo in one case: b - a became b.
 import numpy as np
 

@@ -1,4 +1,4 @@
-# task 5.3: times-wrong (not in a run: t there begins at 0)
+# task 5.3: off (not in a run: t there begins at 0)
 # One step of t for all.
 import numpy as np
 

@@ -1,0 +1,242 @@
+"""In which cases a wrong function is right: "Right: parallel segments. Wrong: ...".
+
+The author of a row names cases of its calls. They are counted among the calls that were
+asked, and each is tried at fresh inputs: at fifty that are of the case, and at fifty
+that are not where a sentence says "only". A case that one call contradicts is not
+listed as right, nor as wrong.
+"""
+
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from labkit.base.exchange import Exchange, Question, Reply
+from labkit.judge import valid
+from labkit.judge.ask import Ask, Asked, as_plain, right_answers
+from labkit.judge.crossed import crossed
+from labkit.judge.draw import Draw
+from labkit.judge.mistake import Finding
+from labkit.judge.replies_read import read
+
+ASKED = 5  # calls of a case, and others, that were asked before it is tried
+TRIED = 50  # fresh calls of a case at which a sentence is tried, at least
+MOST = 100  # of a case, where its inputs allow it
+EACH = 2  # calls of a case that one generator yields in a round, at most
+ROUNDS = 100  # generators that draw them, at most
+SECONDS = 1.5  # for drawing them, and as many for the replies
+BATCH = 40  # calls that are asked at once
+LISTED = 4  # cases in one list, at most
+SEED = 5947  # of the fresh inputs: none of the asked ones
+RIGHT, CLOSE, WRONG, NONE = "right", "close", "wrong", ""
+Call = tuple[Any, ...]
+Cases = Mapping[str, Callable[[Call], bool]]  # by phrase, "parallel segments"
+
+
+def of_call(holds: Callable[..., bool], call: Call) -> bool:
+    """Return whether a row's condition is true of a call; False where it stops."""
+    try:
+        with np.errstate(all="ignore"):
+            return bool(holds(*map(as_plain, call)))
+    except Exception:  # the condition divides by one that is 0, say
+        return False
+
+
+def verdict(ask: Ask, exchange: Exchange) -> str:
+    """Return how an answer stands; one that is missing or not finite is wrong.
+
+    It is NONE of a mixed call that has no right answer.
+    """
+    try:
+        T = right_answers(ask, [exchange])
+    except Exception:  # no path of no points, say
+        return NONE
+    if any(np.isnan(t).any() for t in T):
+        return NONE
+    S = read([exchange], ask)
+    if isinstance(S, Finding):
+        return WRONG
+    S = valid.taken(ask, [exchange], S)
+    if any(s.shape != t.shape for s, t in zip(S, T, strict=True)):
+        return WRONG
+    off = float(ask.gaps(S, T).max())
+    if off <= ask.tolerance:
+        return RIGHT
+    return CLOSE if off <= ask.near else WRONG
+
+
+@dataclass(frozen=True)
+class Tally:
+    """The calls of one case, and those of none: how they were answered."""
+
+    asked: Sequence[str]  # verdicts
+    fresh: Sequence[str]
+
+    @property
+    def enough(self) -> bool:
+        """Whether there were calls enough for a sentence.
+
+        Where few of a case are always asked, the first fresh ones stand in for them.
+        """
+        n = len(self.fresh)
+        return n >= TRIED and len(self.asked) + n >= ASKED + TRIED
+
+    def all(self, status: str) -> bool:
+        """Return whether every call has this verdict, and there are enough."""
+        return self.enough and set(self.asked) | set(self.fresh) == {status}
+
+    @property
+    def mixed(self) -> bool:
+        """Whether some calls are right, and some are wrong."""
+        every = [*self.asked, *self.fresh]
+        return len(every) >= ASKED and {RIGHT, WRONG} <= set(every)
+
+
+def in_cases(
+    asked: Asked, reply_to: Callable[[Sequence[Question]], Sequence[Reply]]
+) -> str:
+    """Return in which of its row's cases a wrong function is right, or "".
+
+    Args:
+        asked: what it was asked.
+        reply_to: asks it further questions.
+    """
+    ask = asked.ask
+    if not ask.cases or ask.truth is None:
+        return ""
+    known = [*asked.main, *asked.fresh]
+    lists = [{says: _kept(holds) for says, holds in some.items()} for some in ask.cases]
+    old = [(e.question.args, verdict(ask, e)) for e in known]
+    calls = fresh_calls(ask, [call for call, _ in old], lists)
+    task = known[0].question.task
+    questions = [Question(task, asked.function, call) for call in calls]
+    again = _replied(questions, reply_to)
+    new = [(e.question.args, how) for e in again if (how := verdict(ask, e))]
+    told = [found for some in lists if (found := sentence(some, old, new))]
+    if told:
+        return min(told, key=lambda one: one[0])[1]
+    return in_all_cases(lists[0], old, new)
+
+
+def _kept(holds: Callable[..., bool]) -> Callable[[Call], bool]:
+    """Return a condition of a call that is asked once of each call."""
+    known: dict[int, tuple[Call, bool]] = {}  # an id stays that of a call
+
+    def of(call: Call) -> bool:
+        if id(call) not in known:
+            known[id(call)] = call, of_call(holds, call)
+        return known[id(call)][1]
+
+    return of
+
+
+def _replied(
+    questions: Sequence[Question],
+    reply_to: Callable[[Sequence[Question]], Sequence[Reply]],
+) -> list[Exchange]:
+    """Return questions with their replies, as many as there is time for."""
+    found: list[Exchange] = []
+    end = time.monotonic() + SECONDS
+    for k in range(0, len(questions), BATCH):
+        if time.monotonic() > end:
+            break
+        some = questions[k : k + BATCH]
+        pairs = zip(some, reply_to(some), strict=True)
+        found += [Exchange(question, reply) for question, reply in pairs]
+    return found
+
+
+Answered = Sequence[tuple[Call, str]]  # calls with their verdicts
+
+
+def sentence(cases: Cases, old: Answered, new: Answered) -> tuple[int, str] | None:
+    """Return what is said of one list of cases, and how many calls it leaves open.
+
+    Args:
+        cases: by phrase.
+        old: the calls that were asked.
+        new: the fresh ones.
+    """
+    tallies, others = {}, {}
+    for phrase, holds in cases.items():
+        tallies[phrase] = Tally(*(_of(some, holds, True) for some in (old, new)))
+        others[phrase] = Tally(*(_of(some, holds, False) for some in (old, new)))
+    right = [p for p in cases if tallies[p].all(RIGHT)]
+    wrong = [p for p in cases if tallies[p].all(WRONG)]
+    mixed = [p for p in cases if tallies[p].mixed]
+    left = sum(len(tallies[p].asked) for p in cases if p not in right + wrong)
+    if not right or not wrong + mixed:
+        return None
+    if len(right) > LISTED and len(wrong + mixed) == 1:
+        (one,) = wrong + mixed
+        if others[one].all(RIGHT) and tallies[one].enough:
+            return left, f"Wrong only{' in some calls' if mixed else ''}: {one}."
+    lists = (("Right", right), ("Wrong", wrong), ("Wrong in some calls", mixed))
+    parts = [f"{word}: {'; '.join(some[:LISTED])}." for word, some in lists if some]
+    return left, " ".join(parts)
+
+
+def in_all_cases(cases: Cases, old: Answered, new: Answered) -> str:
+    """Return that no case is right, where some call of each is wrong."""
+    wrong = [call for call, told in (*old, *new) if told == WRONG]
+    if not all(any(of(call) for call in wrong) for of in cases.values()):
+        return ""
+    first = next(iter(cases))
+    return f"Wrong in some calls of every case, also in the simplest one: {first}."
+
+
+def _of(some: Answered, holds: Callable[[Call], bool], of: bool) -> list[str]:
+    """Return the verdicts on the calls of a case, or on those that are not of it."""
+    return [told for call, told in some if holds(call) is of]
+
+
+def fresh_calls(ask: Ask, known: Sequence[Call], lists: Sequence[Cases]) -> list[Call]:
+    """Return fresh calls, enough of each case where the row's generators draw them."""
+    wanted = [holds for some in lists for holds in some.values()]
+    counts = [0] * len(wanted)
+    kept: list[Call] = []
+    for some, each in _rounds(ask, known):
+        before = [*counts]
+        for call in some:
+            of = [i for i, holds in enumerate(wanted) if holds(call)]
+            if any(counts[i] < min(MOST, before[i] + each) for i in of):
+                kept.append(call)
+                for i in of:
+                    counts[i] += 1
+        if min(counts) >= MOST:
+            break
+    return kept
+
+
+def _rounds(ask: Ask, known: Sequence[Call]) -> Iterator[tuple[list[Call], int]]:
+    """Yield fresh calls of rare cases, mixed and drawn ones, and how many of a case.
+
+    The calls that a generator of rare cases yields at once may have numbers in common,
+    so two of each case are taken at most.
+    """
+    end = time.process_time() + SECONDS
+    mixed = _mixed(ask, known)
+    slow = False  # a generator that tries until a call fits may be
+    for n in range(ROUNDS):
+        if (begin := time.process_time()) > end:
+            return
+        seed = [SEED, n]
+        some = [tuple(call) for draw in ask.rare for call in draw(Draw(seed))]
+        order = np.random.default_rng(seed).permutation(len(some))
+        yield [some[i] for i in order], EACH
+        yield mixed[4 * n : 4 * n + 4], 1
+        if ask.drawn and not slow:
+            yield [tuple(call) for call in ask.inputs(Draw(seed))][-ask.drawn :], EACH
+            slow = bool(ask.rare) and time.process_time() - begin > SECONDS / 10
+
+
+def _mixed(ask: Ask, known: Sequence[Call]) -> list[Call]:
+    """Return calls whose arguments are those of several others, at their ends too."""
+    shapes: dict[Any, list[Call]] = {}
+    for call in known:
+        shapes.setdefault(tuple(np.shape(x) for x in call), []).append(call)
+    alike = max(shapes.values(), key=len)
+    at_edge = ask.at_edge
+    return [c for c in crossed(alike) if at_edge is None or of_call(at_edge, c)]

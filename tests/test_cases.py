@@ -1,0 +1,182 @@
+"""In which of a row's cases a wrong function is right, and what is not printed."""
+
+import numpy as np
+import pytest
+from toyrows import row_of
+
+from labkit.base.exchange import Reply
+from labkit.judge import Scalar
+from labkit.judge.ask import asked_of
+from labkit.judge.cases import in_cases
+from labkit.judge.row import rows_of
+from labkit.lesson.day import find_day
+from robo47 import distance, planning
+
+pytestmark = pytest.mark.kit
+
+
+def toy():
+    """Return the row of a function that halves negative numbers alone."""
+    row = row_of(
+        Scalar(),
+        lambda x: x / 2 if x < 0 else x,
+        lambda rng: [(-1.0,), *((float(x),) for x in rng.numbers(-9, 9, 12))],
+    )
+    row.cases(negative_numbers=lambda x: x < 0, positive_numbers=lambda x: x > 0)
+    return row
+
+
+def told(row, function):
+    """Return what the cases say of a function."""
+
+    def reply(questions):
+        return [Reply(value=function(*one.args)) for one in questions]
+
+    asked = asked_of("1.1", "f", row.ask, seed=3)
+    for one in asked.exchanges:
+        (one.reply,) = reply([one.question])
+    return in_cases(asked, reply)
+
+
+def test_right_and_wrong_cases_are_listed():
+    assert (
+        told(toy(), lambda x: x) == "Right: positive numbers. Wrong: negative numbers."
+    )
+    # Right too where x is above -1: not in every call of the case.
+    some = told(toy(), lambda x: x / 2 if -1 < x < 0 else x)
+    assert some == "Right: positive numbers. Wrong in some calls: negative numbers."
+
+
+def test_one_counterexample_among_the_fresh_inputs_and_a_case_is_not_right():
+    # What is always asked are three decimals; one of hundreds of numbers is over 8.8.
+    says = told(toy(), lambda x: x / 3 if x < 0 or x > 8.8 else x)
+    assert "Right" not in says
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, None])
+def test_an_answer_that_is_missing_or_not_finite_is_wrong(bad):
+    says = told(toy(), lambda x: x / 2 if x < 0 else (bad if x > 4 else x))
+    assert says == "Right: negative numbers. Wrong in some calls: positive numbers."
+
+
+def test_a_case_that_no_generator_draws_often_is_not_listed():
+    row = toy()
+    row.more["cases"] = ()
+    row.cases(one=lambda x: x == -1, others=lambda x: x != -1)
+    assert told(row, lambda x: x / 2 if x == -1 else -x) == ""
+    row = toy()
+    row.more["cases"] = ()
+    row.cases(one=lambda x: x == -1, others=lambda x: x != -1)
+    row.rare(lambda rng: [(-1.0,)])
+    assert (
+        told(row, lambda x: -0.5 if x == -1 else 99.0) == "Right: one. Wrong: others."
+    )
+
+
+def test_only_is_said_where_every_other_call_is_right():
+    row = toy()
+    row.more["cases"] = ()
+    bands = {f"numbers from {i} to {i + 3}": (lambda x, i=i: i <= x < i + 3)
+             for i in range(-9, 9, 3)}  # fmt: skip
+    row.cases(bands)
+    wrong = told(row, lambda x: 99.0 if 3 <= x < 6 else x / 2 if x < 0 else x)
+    assert wrong == "Wrong only: numbers from 3 to 6."
+
+
+def test_the_list_that_leaves_the_fewest_calls_open_is_told():
+    row = toy()
+    row.more["cases"] = ()
+    row.cases(small_numbers=lambda x: abs(x) < 3, large_numbers=lambda x: abs(x) >= 3)
+    row.cases(negative_numbers=lambda x: x < 0, positive_numbers=lambda x: x > 0)
+    assert told(row, lambda x: x).startswith("Right: positive numbers.")
+
+
+# What the hooks of Days 11 and 12 said of these was false.
+
+
+def only_the_fastest(s, gap, dq, reach):
+    """Let only the joint count that moves most, and forget s."""
+    i = int(np.argmax(np.abs(dq)))
+    speed = abs(dq[i]) * reach[i]
+    if gap <= 0:
+        return s
+    return min(1.0, gap / speed) if speed else 1.0
+
+
+def further(s, gap, dq, reach):
+    """Go at least 0.05 further."""
+    found = distance.conservative_advance(s, gap, dq, reach)
+    return found if gap <= 0 else min(1.0, max(found, s + 0.05))
+
+
+def first_reach(s, gap, dq, reach):
+    """Give every joint the radius of the first one that moves."""
+    moves = np.flatnonzero(dq)
+    radii = np.full(7, reach[moves[0]] if len(moves) else 1.0)
+    return distance.conservative_advance(s, gap, dq, radii)
+
+
+def steep_only(qd, grad, gap, gain):
+    """Leave velocities alone where the gradient is shorter than 0.1."""
+    short = np.linalg.norm(grad) < 0.1
+    return qd.copy() if short else distance.velocity_damper(qd, grad, gap, gain)
+
+
+def shallow(p, half):
+    """Return a depth that is 0.9 times what it is to be."""
+    right = distance.box_sdf(p, half)
+    return 0.9 * right if right < 0 else right
+
+
+def long_edges(a, b, discs):
+    """Take the squared length of an edge as at least 1."""
+    along = b - a
+    part = np.clip((discs[:, :2] - a) @ along / max(along @ along, 1.0), 0, 1)
+    off = a + part[:, None] * along - discs[:, :2]
+    return bool(np.all(np.linalg.norm(off, axis=1) > discs[:, 2]))
+
+
+def coarse(a, b, discs):
+    """Leave out discs with a radius below 0.05."""
+    return planning.segment_free_of_discs(a, b, discs[discs[:, 2] >= 0.05])
+
+
+def capped(a, b, c, limits, sd):
+    """Clamp both bounds to +-10,000."""
+    return np.clip(planning.path_accel_bounds(a, b, c, limits, sd), -1e4, 1e4)
+
+
+NAMES = {
+    only_the_fastest: "conservative_advance",
+    further: "conservative_advance",
+    first_reach: "conservative_advance",
+    steep_only: "velocity_damper",
+    shallow: "box_sdf",
+    long_edges: "segment_free_of_discs",
+    coarse: "segment_free_of_discs",
+    capped: "path_accel_bounds",
+}
+OF_THE_REVIEW = [
+    (11, only_the_fastest,
+     "Right: links that touch or overlap; arms that do not move. Wrong: steps in which "
+     "several joints move. Wrong in some calls: steps in which one joint moves; steps "
+     "that reach the end of the path."),
+    (11, further, "Wrong in some calls: steps that stay"),
+    (11, first_reach, "Right: steps with equal radii;"),
+    (11, steep_only,
+     "Right: velocities that are allowed; gradients of 0. Wrong in some calls: "
+     "velocities that are too fast, without overlap; velocities that are too fast, "
+     "with overlap."),
+    (11, shallow, "points beyond three faces. Wrong: points in the box."),
+    (12, long_edges, "Wrong in some calls: edges that "),
+    (12, coarse, "Wrong in some calls: edges that start"),
+    (12, capped, "Wrong in some calls of every case"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("day", "code", "says"), OF_THE_REVIEW, ids=lambda x: getattr(x, "__name__", "")
+)
+def test_of_the_review_is_told_what_is_true(day, code, says):
+    name = NAMES[code]
+    assert says in told(rows_of(find_day(day))[name], code)
