@@ -102,7 +102,7 @@ def _(model, q, path=PATH):
     return {slug: partial(fk, model, x, path) for slug, x in angles.items()}
 
 
-row.of_argument("q", LEFT_OUT, ONE_OFF[0])
+row.of_argument("q", LEFT_OUT, ONE_OFF)
 row.wrongs(products.in_order)
 row.wrong(products.chain_reversed)
 row.wrongs(products.on_each_other)
