@@ -48,7 +48,7 @@ GENERAL = _mistakes(
     """
     all-signs: every sign is wrong => its negative
     whole-numbers: the decimals are lost: an array of integers truncates every number
-      that is stored in it => the correct result, truncated
+      that is stored in it => the truncated correct result
     transposed: the matrix is transposed => its transpose
     reshaped: the array is reshaped where it should be transposed; only .T turns rows
       into columns => its transpose, reshaped
