@@ -36,7 +36,7 @@ RUN = $(if $(shell grep -lE '^ *(import|from) (matplotlib|PIL)' w*/work/*.py 2>/
 
 .DEFAULT_GOAL := help
 VERBS := update edition start watch hunt check hint borrow run doctor bench kernels test-matrix setup robot view \
-  grade capstone proof fresh help test soak report lint docs site oracle figures notebook new author gaps constants
+  grade capstone proof fresh help test catalogue soak report lint docs site oracle figures notebook new author gaps constants
 .PHONY: $(VERBS)
 
 help: ## list the commands; ALL=1 adds those for teachers and authors
@@ -110,6 +110,9 @@ edition: .venv/.ready-core ## write the student edition, solutions sealed: OUT=.
 
 test: .venv/.ready-test $(ROBOT) ## set up and run the tests
 	@$(PY) -m pytest $(or $(ARGS),-n 2 --dist worksteal)
+
+catalogue: .venv/.ready-test $(ROBOT) ## test the days that changed wholly, and record it: before a commit
+	@$(PY) tests/whole.py $(DAY) $(ARGS)
 
 soak: .venv/.ready-test ## run the long tests: a log of gigabytes, a class of 200
 	@$(PY) -m pytest -m soak -s $(ARGS)

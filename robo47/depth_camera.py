@@ -1,7 +1,7 @@
 """A camera of a MuJoCo model and its depth image, computed without OpenGL.
 
 A ray is cast through the centre of every pixel, so this works on any machine. Camera
-axes, pixels and depth are those of `robo47.camera`. Metres.
+axes, pixels and depth are defined as in `robo47.camera`. Metres.
 """
 
 import mujoco

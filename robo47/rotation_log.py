@@ -54,7 +54,7 @@ def log_pose(T: ArrayLike) -> Array:
 
     Returns:
         (omega theta; v theta), radians and metres, (..., 6). For a rotation by exactly
-        pi the sign is that of `log_rotation`.
+        pi the sign is chosen as in `log_rotation`.
 
     Raises:
         ValueError: wrong shape, a non-finite number, or not a pose.

@@ -15,13 +15,11 @@ Source: Lynch and Park, *Modern Robotics* (2017), chapters 3 and 4.
 """
 
 import functools
-import importlib
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import checks, se3
+from robo47 import checks, se3, was
 from robo47.checks import Array
 from robo47.dh import dh_fk as dh_fk  # Denavit and Hartenberg's method
 from robo47.dh import dh_link as dh_link
@@ -253,12 +251,4 @@ def fk_body(body_screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
     return fk_space(B @ np.swapaxes(adjoint(M_home), -1, -2), M_home, q)
 
 
-def __getattr__(name: str) -> Any:
-    """Return `ad`, which older labs import from this module.
-
-    It is loaded only on request, because `robo47.dynamics` is not available to a
-    submission while Day 4 is checked.
-    """
-    if name != "ad":
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return importlib.import_module("robo47.dynamics").ad
+__getattr__ = was.moved(__name__)

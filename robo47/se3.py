@@ -13,13 +13,10 @@ Sources: Lynch and Park, Modern Robotics (2017), chapter 3, for the group; Shepp
 "Quaternion from rotation matrix", J. Guidance and Control 1(3), 1978.
 """
 
-import importlib
-from typing import Any
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robo47 import checks
+from robo47 import checks, was
 from robo47.checks import RIGID_TOL, Array
 
 
@@ -241,12 +238,4 @@ def _turn_about(k: int, theta: ArrayLike) -> Array:
     return R
 
 
-def __getattr__(name: str) -> Any:
-    """Return `axis_angle`, which older labs import from this module.
-
-    It is loaded only on request, because `robo47.screws` is not available to a
-    submission while Day 2 is checked.
-    """
-    if name != "axis_angle":
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return importlib.import_module("robo47.screws").axis_angle
+__getattr__ = was.moved(__name__)

@@ -232,7 +232,7 @@ class Shape:
         Args:
             q0, q1: joint angles, radians, (7,).
             world: the environment of the arm.
-            margin: metres; a tested distance below it counts as a collision.
+            margin: metres; a tested distance below it is treated as a collision.
 
         Raises:
             ValueError: a wrong shape, a non-finite number or a negative margin.

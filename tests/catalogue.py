@@ -3,6 +3,7 @@
     python tests/catalogue.py 6              all of day 6: what differs, totals
     python tests/catalogue.py 6 spring       with messages, what is named like that
     python tests/catalogue.py 6 --labs       with whose functions the day's lab passes
+    python tests/catalogue.py 6 --some-labs  the same of a tenth, which changes
 
 Ways stand in the day's function files (`labkit.judge.row`). Whole files of students
 stand in `submissions/`; each opens with `# task 1.4: SLUG` (or `# tasks 1.1 1.3:
@@ -28,7 +29,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
 
+import digests
 import inprocess
+import whole
 
 from labkit.judge import Verdict, answers
 from labkit.judge.row import rows_of
@@ -49,7 +52,7 @@ class Entry(NamedTuple):
     """One way to write functions of a day.
 
     Attributes:
-        name: "wrong/quat_xyzw" of a file, "pd_torque: error-sign" of a way.
+        name: "wrong/quat_xyzw" of a file, "pd_torque: mean-gains" of a way.
         status: "right", "close" or "wrong".
         tasks: whose functions it writes.
         expected: what it must be told: a mistake, or "passed".
@@ -257,22 +260,30 @@ def _branch(lab: ModuleType, left: list, again: list, passed: list[Entry]) -> No
     _put(lab, {name: caller(name) for _, code in left for name in code})
 
 
-def labs(day: Day) -> int:
-    """Print with which wrong functions a day's lab passes; return 1 if with any."""
+def labs(day: Day, *, some: bool = False) -> int:
+    """Print with which wrong functions a day's lab passes; return 1 if with any.
+
+    Args:
+        day: whose lab is run.
+        some: with a sample of the functions.
+    """
     answers.KEPT = 100_000  # what one way is asked, its table's others are, too
     # Nearly all show at once; what shows in few places alone needs more trials.
     left = [one for one in entries(day, "wrong") if one.runs]
+    left = whole.sample(left, f"day {day.number} labs") if some else left
     for trials in (FEW.get(day.number, 15), 50):
         left = passing(day, left, trials) if left else []
     print(", ".join(one.name for one in left) or "it passes with none")
-    return 1 if left else 0
+    if missed := digests.missed(day):
+        print(f"loaded, and not in the day's digest (digests.py): {', '.join(missed)}")
+    return 1 if left or missed else 0
 
 
 def main() -> int:
     """Print what differs; return 1 if anything does."""
     day, wanted = find_day(int(sys.argv[1])), (sys.argv[2:] or [""])[0]
-    if wanted == "--labs":
-        return labs(day)
+    if wanted in ("--labs", "--some-labs"):
+        return labs(day, some=wanted == "--some-labs")
     count = wrong = 0
     for one in entries(day):
         if wanted not in one.name:

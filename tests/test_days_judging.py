@@ -1,4 +1,8 @@
-"""The judge on every day's questions: each mistake is found, none is claimed unduly."""
+"""The judge on the days' questions: each mistake is found, none is claimed unduly.
+
+All functions of a day that has changed, of the others one for each kind of answer:
+`whole.py`.
+"""
 
 import contextlib
 
@@ -8,6 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from judged import alike, judged, moved, redone, right, round_of
+from whole import changed, one_of_each
 
 from conftest import days
 from labkit.base.exchange import Exchange, Question
@@ -34,11 +39,23 @@ def _once():
 
 
 ALIKE = {(d.number, name): alike for d in days() for name, _, alike in rows(d)}
-ROWS = [
-    pytest.param(day.number, name, ask, id=f"day{day.number}/{name}")
-    for day in days()
-    for name, ask, _ in rows(day)
-]
+CHANGED = {day.number for day in days() if changed(day)}
+
+
+def param(day, name, ask):
+    return pytest.param(day.number, name, ask, id=f"day{day.number}/{name}")
+
+
+def kinds_of(row):
+    """Return the kinds of a function's answer, and how it is judged."""
+    ask = row.values[2]
+    kinds = [type(kind).__name__ for kind in ask.kinds]
+    return (*kinds, ask.truth is None, ask.accept is None)
+
+
+EVERY = [param(day, name, ask) for day in days() for name, ask, _ in rows(day)]
+ROWS = [row for row in EVERY if row.values[0] in CHANGED]
+ROWS += one_of_each([row for row in EVERY if row not in ROWS], kinds_of)
 WITH_TRUTH = [row for row in ROWS if row.values[2].truth]
 every = pytest.mark.parametrize(("number", "name", "ask"), WITH_TRUTH)
 

@@ -32,10 +32,10 @@ FLOORS = [
     "labkit.author",
     "labkit.commands",
 ]
-# Names that labs and handouts have typed: three lines each.
+# Names that labs and handouts have typed: three lines each. `was` has a line for each.
 FACES = {
     f"robo47/{name}.py"
-    for name in ("cli", "metrics", "student_functions", "lesson/lab")
+    for name in ("cli", "metrics", "student_functions", "lesson/lab", "was")
 }
 TAUGHT = [
     *("se3", "kinematics", "screws", "jacobian", "dynamics", "control", "task_space"),
@@ -52,23 +52,22 @@ def room(name):
     return parts[0] if parts[0] != "labkit" else ".".join(parts[:2])
 
 
-def imported(path, whole=True):
-    """Yield what a module imports: when it loads, for hints, `whole` in its functions.
-
-    A module in a function's import may wait; a hint says who must be known to read it.
-    """
-    tree = ast.parse(path.read_text("utf-8"))
-    hints = [
-        node
-        for test in tree.body
-        if isinstance(test, ast.If) and ast.unparse(test.test) == "TYPE_CHECKING"
-        for node in test.body
-    ]
-    for node in ast.walk(tree) if whole else [*tree.body, *hints]:
+def imported(path):
+    """Yield what a module imports: when it loads, for hints, in its functions."""
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
         if isinstance(node, ast.ImportFrom) and node.module and not node.level:
             yield from (f"{node.module}.{alias.name}" for alias in node.names)
         elif isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
+
+
+def named(path):
+    """Yield modules that a file may import by their names, in strings."""
+    text = path.read_text("utf-8")
+    if re.search(r"\b(import_module|__import__)\(", text):
+        for node in ast.walk(ast.parse(text)):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                yield from re.findall(r"^(?:robo47|labkit)(?:\.\w+)+$", node.value)
 
 
 def test_one_file_knows_where_the_memory_is():
@@ -93,7 +92,7 @@ def test_every_arrow_points_down():
     for path in MODULES:
         name = path.relative_to(ROOT).as_posix()
         here = FLOORS.index(room(name.removesuffix(".py").replace("/", ".")))
-        for other in imported(path):
+        for other in (*imported(path), *named(path)):
             there = room(other)
             if there in FLOORS and FLOORS.index(there) > here and name not in FACES:
                 up.append(f"{name}: {other}")
@@ -111,22 +110,44 @@ def test_the_machine_imports_nothing_that_only_a_clone_has():
     assert found == set()
 
 
-def test_no_files_import_each_other_in_a_circle_nor_for_hints_alone():
-    names = {}
-    for path in MODULES:
-        parts = path.relative_to(ROOT).with_suffix("").parts
-        names[".".join(parts).removesuffix(".__init__")] = path
-    needs = {
-        name: {
-            other if other in names else other.rpartition(".")[0]
-            for other in imported(path, whole=False)
-        }
-        for name, path in names.items()
-    }
+def module_of(path):
+    """Return the dotted name of a module."""
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts).removesuffix(".__init__")
+
+
+def needs_of(paths):
+    """Return what modules import of each other, in functions and by name as well."""
+    names = {module_of(path): path for path in paths}
+    found = {}
+    for name, path in names.items():
+        face = path.relative_to(ROOT).as_posix() in FACES
+        some = {*imported(path), *(() if face else named(path))}
+        found[name] = {x if x in names else x.rpartition(".")[0] for x in some} - {name}
+    return found
+
+
+def test_no_files_import_each_other_in_a_circle_nor_in_functions_nor_by_name():
+    needs = needs_of(MODULES)
     graphlib.TopologicalSorter(needs).prepare()  # a CycleError says which
     needs["robo47.se3"].add("labkit.check.tasks")
     with pytest.raises(graphlib.CycleError):
         graphlib.TopologicalSorter(needs).prepare()
+
+
+@pytest.mark.parametrize(
+    ("code", "other"),
+    [
+        ("import labkit.check.tasks\n", "labkit.check.tasks"),
+        ("def f():\n    from labkit.check import tasks\n", "labkit.check.tasks"),
+        ("import_module('labkit.check.tasks')\n", "labkit.check.tasks"),
+        ("OLD = {'a': 'robo47.se3'}\nimport_module(OLD[x])\n", "robo47.se3"),
+    ],
+)
+def test_an_import_is_seen_in_a_function_and_by_name(tmp_path, code, other):
+    file = tmp_path / "file.py"
+    file.write_text(code)
+    assert other in {*imported(file), *named(file)}
 
 
 @pytest.mark.kit

@@ -19,7 +19,7 @@ MAIN = "def main():\n    panda.load()\n\n\n"
 GUARD = 'if __name__ == "__main__":\n    cli.run(main)\n'
 LIBRARY = {
     f"robo47.{name}": (ROOT / "robo47" / f"{name}.py").read_text("utf-8")
-    for name in ("se3", "checks")
+    for name in ("se3", "checks", "was")
 }
 
 

@@ -7,9 +7,10 @@ import sys
 from shutil import copytree, ignore_patterns
 
 import pytest
+from digests import imported_by
 from restored import Restored
 
-from conftest import copy_kit, keep_first_day, run_copy
+from conftest import ROOT, copy_kit, keep_first_day, run_copy
 from labkit.lesson.day import find_day
 from labkit.lesson.last_day import started_day
 from labkit.lesson.merge import keep_both, keep_ours, merged, renewed
@@ -20,7 +21,8 @@ DAY = find_day(1)
 WEEK = DAY.folder.name
 SRC, WORK = f"{WEEK}/src/{DAY.script}", f"{WEEK}/work/{DAY.script}"
 NEW = "day1_poses.py"
-SHEET = f"{WEEK}/{DAY.worksheet}"
+SHEET, RETRO = f"{WEEK}/{DAY.worksheet}", f"{WEEK}/docs/RETRO_w1.md"
+COMMANDS = ("update", "start")
 ROW = "2026-09-01,day1_transforms,1,mine"
 
 
@@ -56,11 +58,28 @@ def state(student):
     return content, git(student, "rev-parse", "HEAD"), git(student, "status", "-s")
 
 
+def small(kit):
+    """Return a copy of the kit with what `make update` and `make start` read of it.
+
+    Git writes the kit twice in an update, and looks at all its files ten times.
+    """
+    begin = [ROOT / "labkit" / "commands" / f"{name}.py" for name in COMMANDS]
+    begin += [ROOT / "labkit" / "update" / "labs.py", *(ROOT / "scripts").glob("*.py")]
+    needed = {kit / path.relative_to(ROOT) for path in imported_by(begin, DAY)}
+    needed |= {kit / name for name in (SRC, SHEET, RETRO)}
+    needed |= {*(kit / WEEK / "day1").glob("*.*"), *(kit / WEEK).glob("*.toml")}
+    needed |= {kit / "metrics" / "metrics.csv", kit / WEEK / "src" / "kit.py"}
+    for path in [path for path in kit.rglob("*") if path.is_file()]:
+        if path not in needed:
+            path.unlink()
+    return kit
+
+
 @pytest.fixture(scope="module")
 def begun(tmp_path_factory):
     """The kit as a repository, and the clone of a student half through Day 1."""
     place = tmp_path_factory.mktemp("begun")
-    kit, clone = keep_first_day(copy_kit(place / "kit")), place / "student"
+    kit, clone = small(keep_first_day(copy_kit(place / "kit"))), place / "student"
     (kit / ".gitignore").write_text("/w*/work/*.before-*.txt\n.robo47/\n__pycache__/\n")
     (kit / ".gitattributes").write_text("metrics.csv merge=union\n")
     (kit / "CHANGELOG.md").write_text("# Changelog\n\n- Day 1 is there.\n")
@@ -630,7 +649,7 @@ def test_work_that_is_not_committed_stays_so_where_nothing_is_new(kit, student):
 def test_a_retrospective_keeps_its_answers_where_the_kit_changes_the_same_line(
     kit, student
 ):
-    retro, blank = f"{WEEK}/docs/RETRO_w1.md", "*(your words)*"
+    retro, blank = RETRO, "*(your words)*"
     assert blank in (student / retro).read_text("utf-8")
     edit(student / retro, (blank, "I would measure first."))
     edit(kit / retro, (blank, "*(your own words)*"))

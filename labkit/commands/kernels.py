@@ -5,7 +5,8 @@
     python3 scripts/kernels.py --others       all except this machine's
 
 Each run executes the tests of the days and of the library. The first processor differs
-most, so its run also includes the authors' tests and compares the documents' outputs.
+most, so its run also includes the authors' tests, one of which compares the documents'
+outputs.
 Processors that OpenBLAS does not support here are named and left out. To find a number
 that changes, set OPENBLAS_CORETYPE or NPY_DISABLE_CPU_FEATURES: all commands and the
 sandbox use them.
@@ -24,6 +25,7 @@ from robo47.paths import ROOT
 
 THREE = ("Prescott", "Haswell", "SkylakeX")  # without AVX, with AVX2, with AVX-512
 MARKS = "not soak and not browser and not network"
+DOCUMENTS = "tests/test_docs.py"  # one of them runs every command of the documents
 NO_AVX = {"NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4"}  # of NumPy's own loops
 # Prints whose kernels OpenBLAS takes, after it has used them; nothing without OpenBLAS.
 PROBE = """
@@ -69,19 +71,16 @@ def tests() -> Iterator[Path]:
             yield path
 
 
-def commands(*, whole: bool) -> list[list[str]]:
+def command(*, whole: bool) -> list[str]:
     """Return what is run under one kernel.
 
     Args:
         whole: also the tests with the mark `kit`, and the documents.
     """
-    where = map(str, tests())
+    where = [*map(str, tests()), *([DOCUMENTS] if whole else [])]
     marks = MARKS if whole else f"{MARKS} and not kit"
     asked = ["-q", "-n", "2", "--dist", "worksteal", "-m", marks, *where]
-    found = [[sys.executable, "-m", "pytest", *asked]]
-    if whole:
-        found.append([sys.executable, "scripts/build_docs.py", "--check"])
-    return found
+    return [sys.executable, "-m", "pytest", *asked]
 
 
 def differs(kernel: str, *, whole: bool) -> bool:
@@ -89,16 +88,14 @@ def differs(kernel: str, *, whole: bool) -> bool:
 
     Args:
         kernel: a name that OpenBLAS knows.
-        whole: as `commands` has it.
+        whole: as `command` has it.
     """
-    bad = False
-    for command in commands(whole=whole):
-        done = processes.run(command, env=environment(kernel), cwd=ROOT)
-        if done.returncode:
-            bad = True
-            print(done.stdout + done.stderr)
-        last = (done.stdout.splitlines() or ["it printed nothing"])[-1]
-        print(f"{cli.verdict(not done.returncode)}  {kernel}: {last}", flush=True)
+    done = processes.run(command(whole=whole), env=environment(kernel), cwd=ROOT)
+    bad = bool(done.returncode)
+    if bad:
+        print(done.stdout + done.stderr)
+    last = (done.stdout.splitlines() or ["it printed nothing"])[-1]
+    print(f"{cli.verdict(not bad)}  {kernel}: {last}", flush=True)
     return bad
 
 

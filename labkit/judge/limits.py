@@ -58,6 +58,9 @@ class TooLongError(Exception):
     """A mutant takes more steps than any right function."""
 
 
+Measured = tuple[int, float, int]
+
+
 @dataclass
 class Steps:
     """The steps of one call."""
@@ -68,6 +71,16 @@ class Steps:
     ends: float = 0.0  # when a call has taken too long
     usual: int = 0  # steps of the right function
     lines: int = 0  # of Python, that it executes
+
+    @property
+    def measured(self) -> Measured:
+        """What a call of the right function takes: steps, seconds, lines."""
+        return self.usual, self.seconds, self.lines
+
+    @measured.setter
+    def measured(self, measured: Measured) -> None:
+        self.usual, self.seconds, self.lines = measured
+        self.most = self.left = LEAST + TIMES * self.usual
 
     def __call__(self, some: Iterable[Any] = ()) -> Iterator[Any]:
         """Yield some things, and count them."""

@@ -6,6 +6,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from robo47.checks import Array
 
 REDONE = "the right answer with this mistake"
@@ -47,7 +50,7 @@ class Compared(NamedTuple):
 
     returned: Array  # (m, n)
     expected: Array  # (m, n)
-    wrong: Array  # (m, n), of truth values
+    wrong: NDArray[np.bool_]  # (m, n), whether an entry is wrong
 
 
 @dataclass(frozen=True)

@@ -17,11 +17,12 @@ from itertools import chain, combinations
 from typing import Any
 
 from labkit.judge import limits, operators, statements
-from labkit.judge.answers import own
+from labkit.judge.answers import content, own
 from labkit.judge.operators import Place, places
 
 SHORT = 44  # characters of a body that are shown, at most
 FAR = 100  # rank of the far operators, after all near ones
+KEPT = 8  # calls of a right function whose trace is remembered
 TOGETHER = 40  # mutants of one place that are compiled together
 CHOICE = "_choice_"  # the name that says which of them is called
 Code = Callable[..., Any]
@@ -116,6 +117,7 @@ class Body:
     # What a line is, by its number, as the comment behind it says.
     glosses: Mapping[int, str] = field(default_factory=dict)
     steps: limits.Steps = field(default_factory=limits.Steps)
+    traced: dict[Any, limits.Measured] = field(default_factory=dict)  # by call
 
     def __post_init__(self) -> None:
         """Take a namespace of its own; what decorates the function is left out."""
@@ -171,9 +173,18 @@ class Body:
         return limits.loops([self.function])
 
     def calibrate(self, call: Sequence[Any]) -> None:
-        """Have the limits follow what the right function takes at a call."""
-        if code := self.compiled():
+        """Have the limits follow what the right function takes at a call.
+
+        To trace a call takes many times as long as the call, so the last ones are kept.
+        """
+        key = tuple(map(content, call))
+        if key not in self.traced and (code := self.compiled()):
+            while len(self.traced) >= KEPT:
+                del self.traced[next(iter(self.traced))]
             self.steps.calibrate(lambda: code(*map(own, call)))
+            self.traced[key] = self.steps.measured
+        elif key in self.traced:
+            self.steps.measured = self.traced[key]
 
     def compiled(self, edits: Edits = ()) -> Callable[..., Any] | None:
         """Return the function as it stands now, with a limit of its steps.

@@ -35,6 +35,8 @@ _BUT = re.compile(
     r"^(?:[^;:]*?\b(?:is|are) right(?: except that|, but|;)"
     r"|right [^;,:]*[;,](?: but)?) "
 )
+# Between what a function does and the rule; "x . H x" is no end of a sentence.
+_RULE = re.compile(r"(?<=\S)\. (?=[A-Z])")
 MOST = 80  # mistakes of a function that are tried two at a time
 SUMS = 400  # pairs that add up at one call, of which some do at all
 LIKELY = 3  # first mutants beside which all others are tried
@@ -65,6 +67,7 @@ def two_at_once(m: Matcher) -> Finding | None:
 
 
 def _told(m: Matcher, slugs: Sequence[str], says: Sequence[str]) -> Finding:
+    says = [_RULE.split(one)[0] for one in says]  # a rule would break the list
     how = f"{capitalised(m.off())}; both together reproduce your output"
     return Finding("+".join(slugs), f"Two things at once: {'; '.join(says)}. ({how}.)")
 

@@ -10,6 +10,7 @@ from contextlib import suppress
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from labkit.check.report import Report, as_text, state_of
 from labkit.check.tasks import TaskResult
@@ -115,7 +116,7 @@ def _matrices(result: TaskResult) -> str:
     return f"<div>{mine}{_matrix('expected', compared.expected, right)}</div>"
 
 
-def _matrix(name: str, values: Array, marked: Array) -> str:
+def _matrix(name: str, values: Array, marked: NDArray[np.bool_]) -> str:
     """Return a matrix as a table with its name above it, and some entries framed."""
     rows = ""
     for row, off in zip(values, marked, strict=True):

@@ -104,9 +104,9 @@ def lay_out(folder: Path, filmed: Collection[str], ran: Sequence[Day]) -> None:
         text = LIVE.sub(FIGURE, _with_notebook(text, notebooks.get(page)))
         name = Path("index.md") if page == HOME else page
         _write(folder / name, _linked(text, page, pages, folder))
-    for page, caption, names in _contents(pages):
+    for owner, caption, names in _contents(pages):
         above = f":caption: {caption}" if caption else ""
-        with (folder / page).open("a", encoding="utf-8") as file:
+        with (folder / owner).open("a", encoding="utf-8") as file:
             file.write(CONTENTS.format(above, "\n".join(f"/{name}" for name in names)))
     shutil.copy(ROOT / ARM, folder / ARM.name)
     _write(folder / "commands.md", _commands((ROOT / "Makefile").read_text("utf-8")))

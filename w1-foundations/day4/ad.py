@@ -3,14 +3,12 @@
 import numpy as np
 
 from labkit.judge import Row
-from labkit.judge.argument_mistakes import HALVES_SWAPPED
 from robo47 import dynamics
 from robo47.screws import adjoint, exp_screw, skew
 
 from .states import SIX
 
 row = Row(SIX, truth=dynamics.ad)
-row.of_argument("V", HALVES_SWAPPED)
 NONE = np.zeros((3, 3))
 
 
@@ -23,22 +21,21 @@ def _(rng):
 
 @row.wrongs
 def _(V):
-    """v-on-top: [v] stands in the upper right; an angular velocity does not change with
-      v, so that block is 0 => the matrix with [v] up there
-    v-forgotten: [v] is missing: this turns both halves, and does no more
-    second-omega-forgotten: the lower right block is empty; a linear velocity is turned,
-      too => the matrix with 0 there
-    v-sign: [v] has the wrong sign: ad(V) V is not 0 => the matrix with -[v]
-    v-in-both-corners: [v] stands in both corners; the upper right one is 0 => the
-      matrix with [v] twice
-    v-last: the lower right block is [v]; both on the diagonal are [omega]
-    identity-added: the identity is added; ad(V) is what changes in a second, and for V
-      = 0 nothing does => the matrix plus the identity
-    product-for-v: the lower left block is [v] [omega]; a product like this, [p] R,
-      stands in the adjoint of a pose. Here it is one of the two alone => the matrix
-      with [v] [omega] there
-    omega-everywhere: [omega] stands where [v] belongs => the matrix with [omega] three
-      times
+    """v-on-top: the block [v] is in the upper right; the linear velocity does not
+      change an angular velocity, so that block is 0 => the matrix with [v] up there
+    v-forgotten: the block [v] is missing; the linear velocity changes the linear half
+      of a twist
+    second-omega-forgotten: the lower right block is 0; omega also rotates the linear
+      half of a twist => the matrix with 0 there
+    v-in-both-corners: the block [v] is in both off-diagonal places; the upper right
+      block is 0 => the matrix with [v] twice
+    v-last: the lower right block is [v]; both diagonal blocks are [omega]
+    identity-added: the identity is added; ad(V) is a rate of change, so ad(0) is 0 =>
+      the matrix plus the identity
+    product-for-v: the lower left block is [v] [omega]. The adjoint of a pose contains a
+      product, [p] R, but ad(V) contains only [v] => the matrix with [v] [omega] there
+    omega-everywhere: the lower left block is [omega] instead of [v] => the matrix with
+      [omega] three times
     """
     W = skew(V[:3])
     U = skew(V[3:])
@@ -47,7 +44,6 @@ def _(V):
         "v-on-top": [[W, U], [NONE, W]],
         "v-forgotten": [[W, NONE], [NONE, W]],
         "second-omega-forgotten": [[W, NONE], [U, NONE]],
-        "v-sign": [[W, NONE], [-U, W]],
         "v-in-both-corners": [[W, U], [U, W]],
         "v-last": [[W, NONE], [NONE, U]],
         "identity-added": [[W + ONE, NONE], [U, W + ONE]],

@@ -26,34 +26,21 @@ def _(rng):
 
 @row.wrongs
 def _(M, qd, masses, coms_world, g):
-    """half-forgotten: the kinetic energy has no 1/2 => the answer with twice as much
-    potential-sign: the potential energy has the wrong sign: g points down, and what is
-      lifted gains => the answer with that sign
-    diagonal-only: the kinetic energy takes only the diagonal of M; the joints share
-      their links => the answer with the diagonal
-    speed-squared-too-early: qd is squared before M is applied; qd stands on both sides
-      of M => the answer with M qd^2
-    mass-matrix-forgotten: the kinetic energy takes no mass: M is missing => the answer
-      with qd.qd / 2
-    masses-forgotten: the potential energy takes no masses => the answer with 1 kg each
-    every-mass-everywhere: every link's centre is multiplied by the whole arm's mass
-    distance-for-height: the potential energy takes each centre's distance from the
-      origin for its height; only the way along g counts => the answer with |c| |g|
-    order-swapped: potential energy comes first; kinetic was asked for first
+    """speed-squared-too-early: qd is squared before the product with M; qd should be on
+      both sides of M => the answer with M qd^2
+    every-mass-everywhere: every link's centre is multiplied by the mass of the whole
+      arm
+    distance-for-height: the potential energy uses each centre's distance from the
+      origin as its height; only the component along g contributes => the answer with
+      |c| |g|
     """
     K, U = energy(M, qd, masses, coms_world, g)
     all_at_once = -coms_world.sum(axis=0) @ g  # of 1 kg at each centre
     far = np.linalg.norm(coms_world, axis=1)
     both = {
-        "half-forgotten": (2 * K, U),
-        "potential-sign": (K, -U),
-        "diagonal-only": (0.5 * np.diag(M) @ qd**2, U),
         "speed-squared-too-early": (0.5 * np.sum(M @ qd**2), U),
-        "mass-matrix-forgotten": (0.5 * qd @ qd, U),
-        "masses-forgotten": (K, all_at_once),
         "every-mass-everywhere": (K, masses.sum() * all_at_once),
         "distance-for-height": (K, masses @ far * np.sqrt(g @ g)),
-        "order-swapped": (U, K),
     }
     return {slug: np.array(one) for slug, one in both.items()}
 

@@ -14,35 +14,33 @@ UPRIGHT = "the lab's robot stands upright"
 OTHER_GRAVITY = (
     Change(
         "gravity-typed-in",
-        "9.81 downwards is typed in; gravity is the argument {name}, and the robot may "
-        "hang on a wall",
-        typed_in(-9.81),
-        hidden=UPRIGHT,
-    ),
-    Change(
-        "gravity-typed-in",
-        "9.81 is typed in, and with the wrong sign; gravity is the argument {name}",
+        "gravity is typed in with the wrong sign; use the argument {name}",
         typed_in(9.81),
     ),
     Change(
         "gravity-rounded",
-        "9.8 is typed in for 9.81, and {name} is not looked at",
+        "gravity is typed in as 9.8; use the argument {name}",
         typed_in(-9.8),
     ),
+)
+# The matcher finds these where the function has no recursion along the arm.
+OTHER_DIRECTION = (
     Change(
-        "gravity-rounded",
-        "9.80665 is typed in, and {name} is not looked at",
-        typed_in(-9.80665),
+        "gravity-typed-in",
+        "gravity is typed in as (0, 0, -9.81); use the argument {name}, because the "
+        "robot may hang on a wall",
+        typed_in(-9.81),
+        hidden=UPRIGHT,
     ),
     Change(
         "only-z-of-gravity",
-        "only the z of {name} counts; it is a vector, and need not point down",
+        "only the z component of {name} is used; {name} need not point down",
         lambda g: g * [0.0, 0.0, 1.0],
         hidden=UPRIGHT,
     ),
     Change(
         "length-of-gravity",
-        "only the length of {name} counts, always downwards; it says where down is",
+        "only the norm of {name} is used, always downwards; use its direction as well",
         lambda g: np.array([0.0, 0.0, -np.linalg.norm(g)]),
         hidden=UPRIGHT,
     ),

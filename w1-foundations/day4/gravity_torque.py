@@ -39,46 +39,36 @@ def torque(
 
 @row.wrongs
 def _(J, masses, coms_world, g):
-    """gravity-sign: the sign is wrong: this is the torque of gravity itself, and the
-      motors have to balance it. The arm would fall twice as fast => its negative
+    """gravity-sign: the sign is wrong: the result is the torque that gravity exerts,
+      and the motors must balance it => its negative
     velocity-of-the-origin: the lower half of J_space is the velocity of the point at
       the world's origin; the weight acts at the centre of mass => the torque with v
       instead of v + omega x c
-    cross-product-sign: the velocity of the centre of mass is v + omega x c; here it is
-      v + c x omega => the torque with v + c x omega
-    v-left-out: the velocity of the centre of mass is v + omega x c; here v is missing
-      => the torque with omega x c alone
-    omega-rows-for-v: the upper half of J_space is used as the velocity; that is omega
+    omega-rows-for-v: the upper half of J_space is used as the velocity, but it is omega
       => the torque with omega for v
-    all-mass-at-the-last-centre: all mass sits at the last link's centre; each link has
-      one of its own => the torque with that centre for all
-    signs-lost: no torque is negative here: a motor has to pull the other way as well
-    mass-forgotten: the masses are missing: every link counts as 1 kg
     """
     given = masses, coms_world, g
     tau = gravity_torque(J, *given)
     own = partial(torque, J, *given)
-    last = coms_world[[6] * 7]
     return {
         "gravity-sign": -tau,
         "velocity-of-the-origin": own(lambda J, c: J[3:]),
-        "cross-product-sign": gravity_torque(J, masses, -coms_world, g),
-        "v-left-out": own(lambda J, c: -skew(c) @ J[:3]),
         "omega-rows-for-v": own(lambda J, c: J[:3]),
-        "all-mass-at-the-last-centre": gravity_torque(J, masses, last, g),
-        "signs-lost": abs(tau),
-        "mass-forgotten": gravity_torque(J, np.ones(7), coms_world, g),
     }
 
 
 @row.wrongs(redone="the torque with those joints")
 def _(J, masses, coms_world, g):
-    """links-not-cut: every joint holds every link; a joint holds those beyond it only
-    own-link-only: each joint holds its own link only; it carries all beyond it, too
-    own-link-left-out: each joint leaves its own link out and holds those beyond it only
-    link-before-too: each joint also holds the link that it stands on
-    links-on-the-wrong-side: each joint holds the links between it and the base; they do
-      not move with it
+    """links-not-cut: each torque includes all links; a joint carries only its own link
+      and the later ones
+    own-link-only: each torque includes only the joint's own link; the joint also
+      carries all later links
+    own-link-left-out: each torque includes only the later links; the joint also carries
+      its own link
+    link-before-too: each torque also includes the link before the joint, which does not
+      move with the joint
+    links-on-the-wrong-side: each torque includes the links between the joint and the
+      base, which do not move with the joint
     """
     joint = np.arange(7)
     link = np.arange(7)[:, None]
@@ -96,8 +86,8 @@ def _(J, masses, coms_world, g):
 
 @row.wrong
 def centre_not_weighted(J, masses, coms_world, g):
-    """the mass beyond each joint sits at the plain mean of the links' centres; a heavy
-    link counts for more => the torque with the mean of the centres"""
+    """the mass beyond each joint is placed at the plain mean of the links' centres;
+    weight each centre by its mass => the torque with the mean of the centres"""
     tau = np.zeros(7)
     for i in range(7):
         c = coms_world[i:].mean(axis=0)

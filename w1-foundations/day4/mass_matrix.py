@@ -28,42 +28,29 @@ def links(J, G, counts):
 
 @row.wrongs
 def _(J, G, armature):
-    """armature-forgotten: the armature is missing on the diagonal: the motors' rotors
-      have to be turned as well => M without it
-    armature-everywhere: the armature is added to every entry; a rotor turns with its
-      own joint alone, so it belongs on the diagonal => M plus the armature everywhere
-    armature-per-link: the armature is added once for each link; each rotor counts once
-      => M with seven times the armature
-    mirrored-with-the-diagonal: M and its transpose are added, so the diagonal counts
-      twice => M with twice its diagonal
-    inverse-returned: this is the inverse of M: small where the arm is heavy
+    """armature-per-link: the armature is added once per link; each rotor contributes
+      once => M with seven times the armature
+    mirrored-with-the-diagonal: M and its transpose are added, which doubles the
+      diagonal => M with twice its diagonal
     """
     M = mass_matrix(J, G, armature)
-    links_alone = mass_matrix(J, G, 0.0)
     return {
-        "armature-forgotten": links_alone,
-        "armature-everywhere": links_alone + armature,
         "armature-per-link": mass_matrix(J, G, 7 * armature),
         "mirrored-with-the-diagonal": np.tril(M) + np.tril(M).T,
-        "inverse-returned": np.linalg.inv(M),
     }
 
 
 def cut(J, G, armature):
-    """columns-not-cut: every joint moves every link; the joints beyond a link do not
-      move it
-    own-joint-left-out: a link's own joint is left out: the columns are cut one too
-      early
-    next-joint-too: the joint after each link counts for it: the columns are cut one too
-      late
-    columns-cut-on-the-wrong-side: the joints before a link are cut away; it is they
-      that move it
-    own-joint-only: only a link's own joint counts for it; all joints before move it,
-      too
-    J-overwritten: only the first joint counts: the columns are set to 0 in J_space
-      itself, and are gone for the next link. Work on a copy
-    last-link-left-out: the last link is left out: range(n - 1) ends one too early
-    last-link-only: only the last link has a mass here
+    """columns-not-cut: the Jacobian of each link contains all columns; the joints after
+      a link do not move it
+    own-joint-left-out: the Jacobian of each link lacks the column of the link's own
+      joint, which also moves the link
+    next-joint-too: the Jacobian of each link contains one column too many: the next
+      joint does not move the link
+    columns-cut-on-the-wrong-side: the Jacobian of each link lacks the joints before the
+      link, but these joints move it
+    own-joint-only: the Jacobian of each link contains only the link's own joint; all
+      joints before it also move the link
     """
     joint = np.arange(7)
     link = np.arange(7)[:, None]
@@ -73,9 +60,6 @@ def cut(J, G, armature):
         "next-joint-too": joint <= link + 1,
         "columns-cut-on-the-wrong-side": joint >= link,
         "own-joint-only": joint == link,
-        "J-overwritten": joint == 0,
-        "last-link-left-out": (joint <= link) & (link < 6),
-        "last-link-only": link == 6,
     }
     return {slug: links(J, G, one) + np.diag(armature) for slug, one in counts.items()}
 
@@ -85,16 +69,16 @@ row.wrongs(cut, "M with those columns")
 
 @row.wrongs
 def _(J, G, armature):
-    """corners-swapped: the corners of G count with the wrong sign. M is symmetric and
-      positive definite all the same => M with those signs
-    corners-dropped: turning and moving are added up separately: what ties them, the
-      corners of G, is missing => M without the corners of G
-    angular-half-only: only the turning counts: the lower half of J_space, how fast the
-      links move, is not used => M from the upper half of J_space and the top left block
-      of G
-    linear-half-only: only the lower half of J_space counts, and of G the mass; a link
-      that turns has energy, too => M from the lower half of J_space and the lower right
+    """corners-swapped: the off-diagonal blocks of G have the wrong sign. M is still
+      symmetric and positive definite => M with those signs
+    corners-dropped: rotation and translation are added separately, without the
+      off-diagonal blocks of G, which couple them => M without the corners of G
+    angular-half-only: only the angular half of J_space is used; the links' linear
+      velocities also contribute => M from the upper half of J_space and the top left
       block of G
+    linear-half-only: only the linear half of J_space and the masses are used; a
+      rotating link also has rotational energy => M from the lower half of J_space and
+      the lower right block of G
     """
     flip = np.diag([1, 1, 1, -1, -1, -1])
     upper = np.array([1, 1, 1, 0, 0, 0])[:, None]
@@ -107,32 +91,15 @@ def _(J, G, armature):
     return {slug: mass_matrix(*both, armature) for slug, both in given.items()}
 
 
-for half, which in ((np.tril, "lower"), (np.triu, "upper")):
-    row.wrong(
-        "not-mirrored",
-        "only one half of M is filled; it is symmetric, so the other half is its "
-        "mirror image",
-        f"the {which} half of M",
-    )(lambda J, G, armature, half=half: half(mass_matrix(J, G, armature)))
-
-
 @row.wrong
 def not_summed_back(J, G, armature):
-    """each entry knows one link only; a joint carries all links beyond it => M from one
+    """each entry includes one link only; a joint carries all later links => M from one
     link per entry"""
     M = np.diag(armature)
     for i in range(7):
         for j in range(7):
             M[i, j] += J[:, i] @ G[max(i, j)] @ J[:, j]
     return M
-
-
-for rotors, what in ((1, "M with half of the links"), (0.5, "half of M")):
-    row.wrong(
-        "half",
-        "the 1/2 of the kinetic energy is in M; it stands before M, in qd.M qd / 2",
-        what,
-    )(lambda J, G, armature, r=rotors: mass_matrix(J, G / 2, r * armature))
 
 
 @row.right  # Lists and loops, no matrix product.

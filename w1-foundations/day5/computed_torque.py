@@ -37,29 +37,28 @@ def _(rng):
 
 @row.wrongs
 def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """gains-outside-M: the gains stand outside the product with M. It tracks well, but
-      heavy and light joints then answer differently, and errors do not decay as
-      designed
-    damping-forgotten: the joints' friction is missing: bias does not hold it, MuJoCo
-      counts it as a passive force
-    damping-sign: the joints' friction has the wrong sign: the motor has to overcome it
-    friction-of-the-error: friction is multiplied by ed; the joint rubs with its
-      measured velocity
-    friction-of-the-reference: friction is multiplied by the reference's velocity, qd +
-      ed; the joint rubs with its measured velocity
-    friction-without-velocity: damping is added as it is: it becomes a torque once it is
-      multiplied by qd
-    friction-twice: the joints' friction is in it twice; bias does not hold it, so once
-      is enough
-    bias-forgotten: bias is missing: gravity and Coriolis forces are left to the springs
-    bias-sign: bias has the wrong sign: it is what the motors must give
-    bias-twice: bias is in it twice
-    everything-through-M: bias and friction go through M as well; they are torques
-      already
-    bias-through-M: bias goes through M as well; it is a torque already
-    reference-outside-M: the reference's acceleration stands outside the product with M
-    bias-alone-at-the-goal: where e is 0 only bias comes back, but the arm may be moving
-      there
+    """gains-outside-M: the PD terms are added after the product with M. The arm still
+      tracks well, but joints with different inertias respond differently, and errors do
+      not decay as designed
+    damping-forgotten: the damping torque is missing; bias does not contain it, because
+      MuJoCo treats damping as a passive force
+    friction-of-the-error: damping multiplies ed; it should multiply the measured
+      velocity qd
+    friction-of-the-reference: damping multiplies the velocity of the reference, qd +
+      ed; it should multiply the measured velocity qd
+    M-forgotten: M is missing, so an acceleration is added to torques
+    bias-forgotten: bias is missing, so the PD terms have to balance gravity and the
+      Coriolis torque
+    bias-sign: bias has the wrong sign; it is the torque that the motors must supply
+    everything-through-M: bias and the damping torque are multiplied by M, but they are
+      already torques
+    reference-outside-M: qdd_ref is added after the product with M; it is an
+      acceleration, so M should multiply it
+    measured-velocity-damped: the derivative term is -kd qd, so it also brakes the
+      motion of the reference; use kd ed
+    armature-twice: the armature, 0.1 kg m2, is added to M, but M already contains it
+    bias-alone-at-the-goal: where e is 0 only bias is returned, but the arm may be
+      moving there
     """
     rub = damping * qd
     springs = kd * ed + kp * e
@@ -68,70 +67,17 @@ def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
     return {
         "gains-outside-M": M @ qdd_ref + springs + bias + rub,
         "damping-forgotten": push + bias,
-        "damping-sign": push + bias - rub,
         "friction-of-the-error": push + bias + damping * ed,
         "friction-of-the-reference": push + bias + damping * (qd + ed),
-        "friction-without-velocity": push + bias + damping,
-        "friction-twice": push + bias + 2.0 * rub,
+        "M-forgotten": acc + bias + rub,
         "bias-forgotten": push + rub,
         "bias-sign": push - bias + rub,
-        "bias-twice": push + 2.0 * bias + rub,
         "everything-through-M": M @ (acc + bias + rub),
-        "bias-through-M": M @ (acc + bias) + rub,
         "reference-outside-M": M @ springs + qdd_ref + bias + rub,
+        "measured-velocity-damped": M @ (qdd_ref - kd * qd + kp * e) + bias + rub,
+        "armature-twice": push + ARMATURE * acc + bias + rub,
         "bias-alone-at-the-goal": push + bias + rub if np.any(e) else bias.copy(),
     }
-
-
-@row.wrongs
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """qdd-ref-forgotten: the reference's own acceleration is missing: the springs must
-      be stretched before the arm speeds up
-    qdd-ref-sign: the reference's acceleration has the wrong sign
-    springs-forgotten: there are no springs in it: errors stay what they are
-    damper-forgotten: there is a spring and no damper: edd + kp e = 0 swings for ever
-    error-sign: the spring pushes away from the goal
-    velocity-error-sign: the damper drives the motion: ed enters with a plus
-    both-signs: kp e and kd ed both have the wrong sign: e and ed are the reference
-      minus what is measured
-    gains-swapped: kp and kd are swapped
-    measured-velocity-damped: the damper works on the measured velocity, minus kd qd, so
-      it brakes the reference's own motion too; ed is what it has to work on
-    errors-in-degrees: the errors are converted to degrees; everything else is in
-      radians
-    """
-    acc = {
-        "qdd-ref-forgotten": kd * ed + kp * e,
-        "qdd-ref-sign": kd * ed + kp * e - qdd_ref,
-        "springs-forgotten": qdd_ref,
-        "damper-forgotten": qdd_ref + kp * e,
-        "error-sign": qdd_ref + kd * ed - kp * e,
-        "velocity-error-sign": qdd_ref - kd * ed + kp * e,
-        "both-signs": qdd_ref - kd * ed - kp * e,
-        "gains-swapped": qdd_ref + kp * ed + kd * e,
-        "measured-velocity-damped": qdd_ref - kd * qd + kp * e,
-        "errors-in-degrees": qdd_ref + np.rad2deg(kp * e + kd * ed),
-    }
-    return {slug: M @ some + bias + damping * qd for slug, some in acc.items()}
-
-
-@row.wrongs
-def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """inverse-of-M: the acceleration is divided by M; a torque is M times an
-      acceleration
-    M-forgotten: M is missing: an acceleration is added to torques
-    diagonal-of-M: only the diagonal of M is used; a joint that speeds up pushes the
-      others too
-    armature-twice: the armature, 0.1 kg m2, is added to M; M has it already
-    """
-    acc = qdd_ref + kd * ed + kp * e
-    push = {
-        "inverse-of-M": np.linalg.solve(M, acc),
-        "M-forgotten": acc,
-        "diagonal-of-M": np.diag(M) * acc,
-        "armature-twice": M @ acc + ARMATURE * acc,
-    }
-    return {slug: some + bias + damping * qd for slug, some in push.items()}
 
 
 row.of_argument("e", WRAPPED)
@@ -150,7 +96,7 @@ def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
     )
 
 
-row.at_least_0(damping="it takes energy away", kp="a gain", kd="a gain")
+row.at_least_0(damping="damping removes energy", kp="a gain", kd="a gain")
 
 
 row.spans(  # as small, or as large, as in the lab

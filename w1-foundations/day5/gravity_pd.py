@@ -26,41 +26,32 @@ def _(rng):
 
 @row.wrongs
 def _(e, ed, kp, kd, g_at_q):
-    """gravity-forgotten: gravity's torque is not in it: these springs sag like those of
-      5.1
-    gravity-sign: gravity's torque has the wrong sign: g is what the motors must give to
-      hold the arm, and this pushes the arm down
-    gravity-twice: gravity's torque is in it twice
-    gravity-through-the-gain: gravity's torque goes through kp; it is a torque already
-    springs-forgotten: only gravity's torque is there: the arm floats and goes nowhere
-    gravity-through-both-gains: gravity's torque is multiplied by the whole of it;
-      torques add
-    gravity-at-the-goal-only: at the goal only gravity's torque is there, and elsewhere
-      only the springs'; the arm has its weight everywhere, and its springs too
-    gravity-at-rest-only: gravity's torque is there only where ed is 0; a moving arm has
-      its weight too
-    nothing-at-the-goal: where e is 0, no torque comes back: the arm has its weight at
-      the goal too
+    """gravity-sign: the gravity torque has the wrong sign; g_at_q is the torque that
+      the motors must supply to hold the arm
+    gravity-through-the-gain: the gravity torque is multiplied by kp, but it is already
+      a torque: add it to the PD torque
+    gravity-at-the-goal-only: where e is 0 only the gravity torque is returned, and
+      elsewhere only the PD torque; add both everywhere
+    gravity-at-rest-only: the gravity torque is added only where ed is 0; gravity also
+      acts on a moving arm
+    nothing-at-the-goal: where e is 0 the result is 0; the motors must also hold the
+      weight at the goal
     """
     springs = kp * e + kd * ed
     away = np.any(e)
     return {
-        "gravity-forgotten": springs,
         "gravity-sign": springs - g_at_q,
-        "gravity-twice": springs + 2.0 * g_at_q,
         "gravity-through-the-gain": kp * (e + g_at_q) + kd * ed,
-        "springs-forgotten": g_at_q.copy(),
-        "gravity-through-both-gains": springs * g_at_q,
         "gravity-at-the-goal-only": springs if away else g_at_q.copy(),
         "gravity-at-rest-only": springs + g_at_q * (ed == 0.0),
         "nothing-at-the-goal": springs + g_at_q if away else np.zeros(7),
     }
 
 
-row.reached_by("pd_torque", "gravity is right; in the springs, ")
+row.reached_by("pd_torque", "the gravity torque is correct, but in the PD torque ")
 
 
-@row.right  # The spring is told to go higher.
+@row.right  # Gravity as an offset of the goal.
 def _(e, ed, kp, kd, g_at_q):
     return kp * (e + g_at_q / kp) + kd * ed
 

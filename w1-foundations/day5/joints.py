@@ -1,4 +1,4 @@
-"""Seven joints: the errors, gains and torques that Day 5 asks about."""
+"""Seven joints: the errors, gains and torques in the questions of Day 5."""
 
 import numpy as np
 
@@ -12,26 +12,26 @@ ONE = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 BEYOND = 3.7 * np.array([1.0, -1.0, 0.0, 1.0, -1.0, 0.0, 1.0])  # half a turn
 
 
-def one_gain(inputs, gains="kp and kd are", lab="KP and KD are"):
+def one_gain(inputs, gains="kp and kd", lab="KP and KD"):
     """Return the question whether a right function also takes one number as a gain."""
     says = (
-        f"Right where {gains} 7 numbers, but it stops or is wrong where {gains} one "
-        f"number, as {lab} in the lab. Which product of NumPy takes both kinds?"
+        f"Your function is correct for 7 numbers as {gains}, but stops or is wrong for "
+        f"one number, which the lab uses for {lab}. Which NumPy product accepts both?"
     )
     return HeldOut("one-number-as-gain", says, inputs)
 
 
 def wrapped(angle):
-    """Return angles taken to within half a turn of 0."""
+    """Return angles wrapped to -pi..pi."""
     return (angle + np.pi) % (2.0 * np.pi) - np.pi
 
 
 WRAPPED = Change(
     "error-wrapped",
-    "{name} is taken to within +-pi; these joints have stops, so a whole turn is not "
+    "{name} is wrapped to -pi..pi; these joints have limits, so a whole turn is not "
     "the same as none",
     wrapped,
-    hidden="no error there is half a turn",
+    hidden="no error there exceeds half a turn",
 )
 
 

@@ -15,24 +15,23 @@ def _(rng):
 
 @row.wrongs
 def _(h):
-    """undamped-limit: 2 / h is the limit of a spring without a damper; critical damping
-      breaks earlier, because the damper acts a step late
-    one-over-h: 1 / h is a rule of thumb; ask when the step's eigenvalue reaches -1
-    larger-root: the quadratic equation has two roots, and the loop breaks at the
-      smaller one
-    nyquist: pi / h is how fast a signal may be to be seen at all, not to be controlled
-    factor-two-forgotten: it is half as much as it should be
-    in-hertz: this is in turns per second; asked is rad/s
-    times-h: it grows with the time step; a longer step must allow less
+    """undamped-limit: the result 2 / h is the stability limit of a spring without
+      damping. With critical damping the limit is lower, because the damping torque acts
+      one step late
+    one-over-h: the result 1 / h is a rule of thumb; find the omega at which the matrix
+      of the step has the eigenvalue -1
+    larger-root: the result is the larger root of the quadratic equation; the loop
+      becomes unstable at the smaller root
+    nyquist: the result pi / h is the Nyquist frequency. It limits which signals can be
+      sampled, not which loop is stable
+    in-hertz: the result is in Hz, but it should be in rad/s
     """
     return {
         "undamped-limit": 2.0 / h,
         "one-over-h": 1.0 / h,
         "larger-root": 2.0 * (np.sqrt(2.0) + 1.0) / h,
         "nyquist": np.pi / h,
-        "factor-two-forgotten": (np.sqrt(2.0) - 1.0) / h,
         "in-hertz": (np.sqrt(2.0) - 1.0) / h / np.pi,
-        "times-h": 2.0 * (np.sqrt(2.0) - 1.0) * h,
     }
 
 
@@ -52,4 +51,4 @@ def _(h):
     return 0.828427 / h
 
 
-row.at_least_0(h="a step of time", answer="a frequency")
+row.at_least_0(h="a time step", answer="a frequency")

@@ -3,7 +3,6 @@
 import numpy as np
 
 from labkit.judge import Row
-from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 
 from .joints import ANGLE, ONE, one_gain, seven, wrapped
 
@@ -15,8 +14,7 @@ def sags_of_one_gain(rng):
     return [(q, seven(rng, -40, 40), kp) for q, kp in gains]
 
 
-row = Row(ANGLE, held_out=[one_gain(sags_of_one_gain, "kp is", "KP is")])
-row.of_argument("kp", FIRST_FOR_ALL.called("one-gain-for-all"))
+row = Row(ANGLE, held_out=[one_gain(sags_of_one_gain, "kp", "KP")])
 
 
 @row.inputs
@@ -33,35 +31,13 @@ def _(rng):
 
 @row.wrongs
 def _(q_goal, g_at_q, kp):
-    """sags-upwards: the arm rests above its goal; a spring that has to give +g is
-      stretched, so the joint stays below
-    times-stiffness: gravity is multiplied by the stiffness: a stiffer spring would sag
-      more
-    goal-forgotten: this is how far the arm sags; asked is where it then is
-    sag-only: this is how far the arm sags; asked is where it then is
-    stiffness-forgotten: gravity's torque is taken for an angle; stiffness turns one
-      into the other
-    does-not-sag: the goal comes back as it is; a spring gives torque only where there
-      is an error
-    sag-in-degrees: the sag is in degrees, the goal in radians
-    goal-scaled-too: the goal is divided by the stiffness as well
-    always-below: gravity's sign is lost: where g is negative, the joint rests above its
-      goal
-    stiffness-squared: gravity's torque is divided by kp twice: compare the units
-    answer-wrapped: the angle is taken to within +-pi; these joints have stops, so a
-      whole turn is not the same as none, and joint6 goes beyond pi
+    """sag-in-degrees: the steady-state error is converted to degrees, but the goal is
+      in radians
+    answer-wrapped: the angle is wrapped to -pi..pi. The joints have limits, so a whole
+      turn is not the same as none, and joint6 can move beyond pi
     """
     return {
-        "sags-upwards": q_goal + g_at_q / kp,
-        "times-stiffness": q_goal - g_at_q * kp,
-        "goal-forgotten": -g_at_q / kp,
-        "sag-only": g_at_q / kp,
-        "stiffness-forgotten": q_goal - g_at_q,
-        "does-not-sag": q_goal.copy(),
         "sag-in-degrees": q_goal - np.rad2deg(g_at_q / kp),
-        "goal-scaled-too": (q_goal - g_at_q) / kp,
-        "always-below": q_goal - np.abs(g_at_q) / kp,
-        "stiffness-squared": q_goal - g_at_q / kp**2,
         "answer-wrapped": wrapped(q_goal - g_at_q / kp),
     }
 

@@ -3,14 +3,12 @@
 import numpy as np
 
 from labkit.judge import Row, rounded
-from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 
 from .joints import ONE, TORQUE, seven
 
 PANDA = np.array([87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0])
 
 row = Row(TORQUE)
-row.of_argument("limits", FIRST_FOR_ALL.called("one-limit-for-all"))
 
 
 @row.inputs
@@ -26,25 +24,23 @@ def _(rng):
 
 @row.wrongs
 def _(tau, limits):
-    """not-bounded: the torques come back as they are
-    above-only: torques are bounded above and not below: -100 N m comes out as it is
-    below-only: torques are bounded below and not above
-    never-negative: torques are kept between 0 and the limit; a motor turns both ways
-    sign-lost: a torque at its limit loses its sign
-    limits-typed-in: the Panda's 87 and 12 N m are typed in; take them from limits,
-      another arm has others
-    smallest-limit-for-all: all joints get the smallest limit; each motor has its own
-    all-scaled-down: one motor at its limit scales all seven down; the others can still
-      give what they are asked for
-    length-bounded: the length of the whole vector is compared with the limits; each
-      motor knows its own torque only
+    """above-only: torques are clamped above but not below: -100 N m remains -100 N m
+    below-only: torques are clamped below but not above
+    sign-lost: a negative torque beyond its limit becomes positive; clamp it to minus
+      the limit
+    limits-typed-in: the Panda's 87 and 12 N m are typed in; use limits, because another
+      arm has other limits
+    smallest-limit-for-all: all joints use the smallest limit; each motor has its own
+      limit
+    all-scaled-down: one motor at its limit scales all seven torques down; the other
+      motors can still give their torques
+    length-bounded: the norm of the torque vector is compared with the limits; compare
+      each torque with its own limit
     """
     length = max(np.linalg.norm(tau), 1e-300)
     return {
-        "not-bounded": tau.copy(),
         "above-only": np.minimum(tau, limits),
         "below-only": np.maximum(tau, -limits),
-        "never-negative": np.clip(tau, 0.0, limits),
         "sign-lost": np.where(np.abs(tau) > limits, limits, tau),
         "limits-typed-in": np.clip(tau, -PANDA, PANDA),
         "smallest-limit-for-all": np.clip(tau, -limits.min(), limits.min()),
@@ -55,19 +51,20 @@ def _(tau, limits):
 
 @row.wrongs
 def _(tau, limits):
-    """switched-off: a torque over its limit becomes 0; a motor then gives its limit
-    always-full: every motor gives its limit, in one direction or the other; a torque
-      within the limits stays as it is
-    one-over-stops-all: one motor over its limit stops all seven; the others can still
-      give what they are asked for
-    nothing-within-the-limits: where all torques are within their limits, 0 comes back;
-      they should stay as they are
-    first-limit-typed-in: all joints get 87 N m, typed in; take each motor's own from
-      limits
-    all-positive: every torque has lost its sign; a motor turns both ways
-    rounded-off: it is limits tanh(tau / limits), which is smooth; within the limits a
-      torque stays as it is
-    first-joint-only: only joint1 is limited; every motor has a limit
+    """switched-off: a torque beyond its limit becomes 0; the motor can still give its
+      limit
+    always-full: every torque becomes plus or minus its limit; a torque within the
+      limits should not change
+    one-over-stops-all: one torque beyond its limit makes all seven torques 0; the other
+      motors can still give their torques
+    nothing-within-the-limits: if all torques are within their limits, the result is 0;
+      they should not change
+    first-limit-typed-in: the value 87 N m is typed in for all joints; use each motor's
+      own entry of limits
+    all-positive: all torques become positive; a motor can push in both directions
+    rounded-off: the result is limits tanh(tau / limits), a smooth saturation; a torque
+      within the limits should not change
+    first-joint-only: only the torque of joint1 is clamped; every motor has a limit
     """
     right = np.clip(tau, -limits, limits)
     over = np.abs(tau) > limits
@@ -88,7 +85,7 @@ def _(tau, limits):
     return np.median([-limits, tau, limits], axis=0)
 
 
-row.at_least_0(limits="bounds on both sides")
+row.at_least_0(limits="limits in both directions")
 
 
 row.spans(  # as small, or as large, as in the lab

@@ -3,13 +3,11 @@
 import numpy as np
 
 from labkit.judge import Row
-from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 from robo47 import panda
 
 from .joints import ANGLE, ONE, seven
 
 row = Row(ANGLE)
-row.of_argument("kp", FIRST_FOR_ALL.called("one-gain-for-all"))
 
 
 @row.inputs
@@ -23,32 +21,14 @@ def _(rng):
 
 @row.wrongs
 def _(tau, q, qd, kp, kd):
-    """damper-forgotten: the servo's own damper is not made up for: it takes kd qd off
-      the torque
-    damper-sign: the servo's damper is counted twice: kd qd has to be added to the
-      torque
-    angle-forgotten: this is how far from q the command has to be; add q
-    angle-sign: the torque is taken off: a servo pulls towards its command
-    damper-not-divided: only tau is divided by kp; the damper's part is a torque as well
-    times-stiffness: the torque is multiplied by kp; a stiffer servo needs less of an
-      angle
-    torque-of-the-command: this is the servo's torque if tau were its command, not the
-      other way round
-    gains-swapped: kp and kd are swapped
-    angle-subtracted: q is subtracted; the command is that far from q, so add it
-    stiffness-forgotten: a torque is added to an angle; kp turns one into the other
+    """damper-not-divided: only tau is divided by kp; kd qd is also a torque, so divide
+      the sum
+    torque-of-the-command: the result is the torque of a servo with the command tau;
+      solve the servo's law for the command instead
     """
     return {
-        "damper-forgotten": q + tau / kp,
-        "damper-sign": q + (tau - kd * qd) / kp,
-        "angle-forgotten": (tau + kd * qd) / kp,
-        "angle-sign": q - (tau + kd * qd) / kp,
         "damper-not-divided": q + tau / kp + kd * qd,
-        "times-stiffness": q + (tau + kd * qd) * kp,
         "torque-of-the-command": kp * (tau - q) - kd * qd,
-        "gains-swapped": q + (tau + kp * qd) / kd,
-        "angle-subtracted": (tau + kd * qd) / kp - q,
-        "stiffness-forgotten": q + tau + kd * qd,
     }
 
 

@@ -53,32 +53,37 @@ def bias(
 
 @row.wrongs
 def _(J_space, qd, p):
-    """of-the-origin: this is the twist's rate about the world's origin, the sum of
-      ad(V) S qd; the acceleration of the point p is another thing: the linear half is
-      to be converted => the sum alone
-    no-centripetal: the part omega x (velocity of p) is missing: a point on a circle
-      accelerates towards its centre though the speed is steady
-    no-alpha-cross-p: the angular acceleration is not converted to the point: alpha x p
-      is missing => the right one without it
+    """of-the-origin: the result is the rate of the twist, the sum of ad(V) S qd. Its
+      linear part belongs to the world's origin; convert it to the point p => the sum of
+      ad(V) S qd alone
+    no-centripetal: the term omega x (velocity of p) is missing; a point on a circle
+      accelerates towards the centre even at constant speed => the correct formula
+      without that term
+    no-alpha-cross-p: the term alpha x p is missing, so the linear acceleration belongs
+      to the world's origin and not to p => the correct formula without alpha x p
     velocity-of-origin: omega is crossed with v, the velocity of the point at the
-      world's origin; p itself moves at v + omega x p => the right one with v there
-    v-forgotten: the velocity of p is taken to be omega x p alone; v belongs to it
-    coriolis-twice: omega x v counts twice: ad(V) S has it already, and 2 omega x v
-      belongs to accelerations measured in the moving frame => the right one with
-      another omega x v
-    centripetal-twice: omega x (velocity of p) counts twice, as in Coriolis' 2 omega x
-      v; that belongs to velocities seen in the moving frame => the right one with it
-      twice
-    ad-swapped: V and S have changed places, or the twists are summed from the tip:
-      ad(S) V is minus ad(V) S, and a joint is carried by those before it
-    ad-transposed: ad(V) is transposed: that one is for wrenches, screws take it as it
-      is => the right one with ad(V)^T
-    ad-half: ad(V) lacks its lower left block [v] => the right one without it
-    twist-of-the-hand: every joint is taken to ride on the hand; joint i rides on link
-      i, which only the joints up to it move; ad(V) V is 0, so nothing is left of the
-      sum => the right one without the sum of ad(V) S qd
-    qd-once: the screws are not multiplied by their own joint's speed: the sum is of
-      ad(V) S, and qd is missing => the right one without that qd
+      world's origin; p has the velocity v + omega x p => the correct formula with v
+      there
+    v-forgotten: the velocity of p is calculated as omega x p; add v
+    coriolis-twice: omega x v is added twice. ad(V) S already contains it once; 2 omega
+      x v belongs to accelerations measured in a rotating frame => the correct formula
+      with 2 v
+    centripetal-twice: omega x (velocity of p) is added twice; the factor 2 belongs to
+      the Coriolis acceleration in a rotating frame => the correct formula with that
+      term twice
+    p-sign: the factors of the cross products with p are swapped: p x omega is
+      -(omega x p) => the correct formula with -p
+    ad-swapped: V and S are swapped in ad(V) S, which reverses its sign, or the twists
+      are summed from the tip instead of the base
+    ad-transposed: ad(V) is transposed; the transpose acts on wrenches, and screws need
+      ad(V) => the correct formula with ad(V)^T
+    ad-half: ad(V) lacks its lower left block [v] => the correct formula without that
+      block
+    twist-of-the-hand: every joint uses the twist of the hand; joint i uses the twist of
+      link i, which only joints 1 to i cause. Because ad(V) V is 0, the sum vanishes =>
+      the correct formula without the sum of ad(V) S qd
+    qd-once: the screws are not multiplied by their own joint velocities: the sum should
+      contain ad(V) S qd => the correct formula with ad(V) S
     """
     changed = {
         "of-the-origin": {"turn": 0.0, "centre": 0.0, "move": 0.0},
@@ -94,22 +99,10 @@ def _(J_space, qd, p):
         "twist-of-the-hand": {"rate": lambda V, S: 0.0 * S},
         "qd-once": {"own": np.ones(7)},
     }
-    return {slug: partial(bias, J_space, qd, p, **how) for slug, how in changed.items()}
-
-
-@row.wrongs
-def _(J_space, qd, p):
-    """p-sign: the cross products with p have their factors swapped: p x omega is minus
-      omega x p => the right one with -p
-    last-joint-left-out: the last joint is left out: range(6) ends with joint6
-    negative: every sign is wrong: this is what has to be taken away from acc, not the
-      acceleration itself => minus the right one
-    """
-    return {
-        "p-sign": bias(J_space, qd, -p),
-        "last-joint-left-out": bias(J_space[:, :6], qd[:6], p),
-        "negative": -bias(J_space, qd, p),
+    found = {
+        slug: partial(bias, J_space, qd, p, **how) for slug, how in changed.items()
     }
+    return {"p-sign": bias(J_space, qd, -p), **found}
 
 
 @row.right  # Every pair of joints, as Christoffel did.

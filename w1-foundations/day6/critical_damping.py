@@ -41,43 +41,32 @@ def by_modes(K, L):
 
 @row.wrongs
 def _(K, Lambda):
-    """Lambda-ignored: Lambda is not used: 2 sqrt(K) is for a mass of 1 kg on each
-      spring => diag(2 sqrt(K))
-    another-design: this does not ring either: you take Lambda and K to axes in which
-      both are diagonal. Here the damping is the sum of two products of the roots of
-      Lambda and K => that other design
-    diagonal-only: this is 2 sqrt(k m) for each axis alone; Lambda couples the axes =>
-      the right one with Lambda's diagonal
-    one-order-only: the product of the two roots is taken in one order, twice; with both
-      orders, once each, it is symmetric => 2 sqrt(Lambda) sqrt(K)
-    half-of-it: the product of the two roots is there in one order only => sqrt(Lambda)
-      sqrt(K)
-    factor-two: there is a 2 too many: the two orders are the 2 already
-    factor-two-missing: half of it is missing: the two orders are added, not averaged
-    K-not-rooted: K is used as it is; its square root belongs there
-    root-on-both-sides: the root of K stands between two roots of Lambda: that grows
-      with the mass, where a damping grows with its root => 2 sqrt(Lambda) sqrt(K)
-      sqrt(Lambda)
-    root-of-the-product: this is 2 sqrt(K Lambda), entry by entry => 2 sqrt(abs(K
-      Lambda))
-    one-order-only 2: the product of the two roots is taken in one order, twice; with
-      both orders, once each, it is symmetric => 2 sqrt(K) sqrt(Lambda)
-    cholesky: a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda
-      => L sqrt(K) + sqrt(K) L^T
-    entries-square-rooted: np.sqrt takes the root of every entry of Lambda, NaN where it
-      is negative; the root of a matrix is the one that, times itself, is the matrix =>
-      the right one with np.sqrt(Lambda)
-    no-roots: the square roots are missing: this grows with K, where a damping grows
-      with its root => Lambda K + K Lambda
+    """Lambda-ignored: Lambda is not used: 2 sqrt(K) is the critical damping of a unit
+      mass => diag(2 sqrt(K))
+    another-design: the result is another critically damped design, which diagonalises
+      Lambda and K together; the task asks for the sum of the two products of
+      sqrt(Lambda) and sqrt(K) => the other design
+    diagonal-only: each axis uses 2 sqrt(k m) with the diagonal of Lambda; Lambda
+      couples the axes => the correct formula with Lambda's diagonal
+    one-order-only: the product of the two roots is used twice in one order; add both
+      orders, so that the result is symmetric => 2 sqrt(Lambda) sqrt(K)
+    half-of-it: only one of the two products is used; add the product in the other order
+      => sqrt(Lambda) sqrt(K)
+    factor-two: the factor 2 is one too many: the sum of both orders already contains it
+    factor-two-missing: the two orders are averaged; add them
+    root-on-both-sides: sqrt(Lambda) is on both sides of sqrt(K), so the result grows
+      with the mass; damping grows with the square root of the mass => 2 sqrt(Lambda)
+      sqrt(K) sqrt(Lambda)
+    root-of-the-product: the result is 2 sqrt(K Lambda), entry by entry; use the matrix
+      square root of Lambda => 2 sqrt(abs(K Lambda))
+    cholesky: a Cholesky factor is not the square root: Lambda is L L^T, not L L => L
+      sqrt(K) + sqrt(K) L^T
     """
     k = np.sqrt(K)
     half = root(Lambda)
-    entries = np.sqrt(Lambda)
     low = np.linalg.cholesky(Lambda) * k
     return {
-        "one-order-only 2": 2.0 * k[:, None] * half,
         "cholesky": low + low.T,
-        "entries-square-rooted": entries @ np.diag(k) + np.diag(k) @ entries,
         "Lambda-ignored": np.diag(2.0 * k),
         "another-design": by_modes(K, Lambda),
         "diagonal-only": np.diag(2.0 * np.sqrt(K * np.diag(Lambda))),
@@ -85,37 +74,32 @@ def _(K, Lambda):
         "half-of-it": half * k,
         "factor-two": 2.0 * total(half, k),
         "factor-two-missing": 0.5 * total(half, k),
-        "K-not-rooted": total(half, K),
         "root-on-both-sides": 2.0 * half * k @ half,
         "root-of-the-product": 2.0 * np.sqrt(np.abs(np.diag(K) @ Lambda)),
-        "no-roots": total(Lambda, K),
     }
 
 
 @row.wrongs
 def _(K, Lambda):
-    """Lambda-not-rooted: Lambda is used as it is; its square root belongs there
-    entries-square-rooted: np.sqrt takes the root of every entry of Lambda; the root of
-      a matrix is the one that, times itself, is the matrix
-    eigenvectors-transposed: the eigenvectors are transposed: those of eigh are the
-      columns, so the root is V diag V^T => the right one with V^T diag V
-    eigenvalues-not-rooted-back: the root is left in the eigenvectors' axes:
-      diag(sqrt(values)) has to be turned back => the right one with diag(sqrt(values))
-    cholesky: a Cholesky factor is no square root: it is L L^T, not L L, that is Lambda
-    root-of-inverse: the root is that of Lambda's inverse
-    entries-square-rooted 2: the root is taken of the size of every entry of Lambda; the
-      root of a matrix is the one that, times itself, is the matrix => the right one
-      with np.sqrt(abs(Lambda))
+    """entries-square-rooted: np.sqrt takes the root of each entry of Lambda; the matrix
+      square root X satisfies X X = Lambda
+    eigenvectors-transposed: the eigenvectors are transposed: the columns of V are the
+      eigenvectors, so the root is V diag V^T => the correct formula with V^T diag V
+    eigenvalues-not-rooted-back: the root diag(sqrt(values)) is in the eigenvector
+      basis; rotate it back with V => the correct formula with diag(sqrt(values))
+    cholesky: a Cholesky factor is not the square root: Lambda is L L^T, not L L => the
+      correct formula with L
+    entries-square-rooted 2: the root of the absolute value of each entry is used; the
+      matrix square root X satisfies X X = Lambda => the correct formula with
+      np.sqrt(abs(Lambda))
     eigenvectors-transposed 2: the last transpose is missing: the root is V diag V^T
     """
     values, V = np.linalg.eigh(Lambda)
     roots = {
-        "Lambda-not-rooted": Lambda,
         "entries-square-rooted": np.sqrt(Lambda),
         "eigenvectors-transposed": V.T @ np.diag(np.sqrt(values)) @ V,
         "eigenvalues-not-rooted-back": np.diag(np.sqrt(values)),
         "cholesky": np.linalg.cholesky(Lambda),
-        "root-of-inverse": np.linalg.inv(root(Lambda)),
         "entries-square-rooted 2": np.sqrt(np.abs(Lambda)),
         "eigenvectors-transposed 2": V @ np.diag(np.sqrt(values)) @ V,
     }

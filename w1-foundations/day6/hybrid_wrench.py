@@ -30,26 +30,24 @@ def at(row, value, wrench):
 
 @row.wrongs
 def _(e, V_err, K, D, force):
-    """pushes-up: the force has the wrong sign: z points up, and the hand is to push
-      down => the right one with +force
-    spring-left-in: the spring along z is still there, and the force comes on top of it:
-      the push then depends on how high the hand is => the right one with K e along z
-    damper-left-out: along z the damper is gone with the spring; it stays
-    damper-sign: the damper drives the hand on: V_err is the target's twist minus the
-      hand's, so it is added => the right one with -D V_err
-    moment-in-place-of-force: entry 2 is replaced: that is the moment about z; forces
-      are the last three => the right one with entry 2 replaced
-    force-only: only the force is left; the other five directions are held by the spring
-      => the right one without K e
-    spring-everywhere: force is not used: this is the spring in all six directions => K
-      e + D V_err
-    along-x: the force is along x; it is to push along z => the right one with entry 3
-      replaced
-    spring-couples-into-z: the other five directions of the spring still pull along z:
-      the push there is the wanted force and the damper's part, and nothing of K => the
-      right one with K[5, :5] @ e[:5] along z
-    column-in-place-of-row: the error along z is left out, and with it K's last column;
-      what is to go is what K makes along z, its last row => the right one with e[5] = 0
+    """pushes-up: the force has the wrong sign: z points up, and the hand should push
+      down => the correct formula with +force
+    spring-left-in: the spring still acts along z, so the normal force depends on the
+      height of the hand => the correct formula with K e along z
+    damper-left-out: the damping term is missing along z; only the spring should be
+      removed there
+    moment-in-place-of-force: entry 2 is replaced, which is the moment about z; the last
+      three entries are the force => the correct formula with entry 2 replaced
+    spring-everywhere: force is not used: the result is the impedance wrench in all six
+      directions => K e + D V_err
+    along-x: the force acts along x; it should act along z => the correct formula with
+      entry 3 replaced
+    spring-couples-into-z: the errors of the other five directions still contribute to
+      the force along z through K; no spring force should be left there => the correct
+      formula with K[5, :5] @ e[:5] along z
+    column-in-place-of-row: the error along z is set to 0, which removes the last column
+      of K; remove the spring force along z, which is its last row => the correct
+      formula with e[5] = 0
     """
     spring, damper = K @ e, D @ V_err
     both = spring + damper
@@ -58,9 +56,7 @@ def _(e, V_err, K, D, force):
         "pushes-up": at(Z, damper[Z] + force, both),
         "spring-left-in": at(Z, spring[Z] + push[Z], both),
         "damper-left-out": at(Z, -force, both),
-        "damper-sign": at(Z, -damper[Z] - force, spring - damper),
         "moment-in-place-of-force": at(MOMENT_Z, push[MOMENT_Z], both),
-        "force-only": at(Z, push[Z], damper),
         "spring-everywhere": both,
         "along-x": at(3, push[3], both),
         "spring-couples-into-z": at(Z, K[Z, :5] @ e[:5] + push[Z], both),
@@ -70,15 +66,14 @@ def _(e, V_err, K, D, force):
 
 @row.wrongs
 def _(e, V_err, K, D, force):
-    """damper-left-out: the damper is gone in all six directions; it stays
-    moment-in-place-of-force: entry 2 is replaced, and the damper with it: that is
-      the moment about z => the right one with entry 2 replaced
-    column-in-place-of-row: K's last column is gone with its last row; what an error
-      along z makes in the other five directions stays => the right one with row and
-      column 5 of K at 0
+    """moment-in-place-of-force: entry 2 is replaced, and its damping term is missing.
+      Entry 2 is the moment about z; the last three entries are the force => the correct
+      formula with entry 2 replaced
+    column-in-place-of-row: the last row and the last column of K are removed; an error
+      along z should still contribute to the other five directions => the correct
+      formula with row and column 5 of K at 0
     """
     return {
-        "damper-left-out": at(Z, -force, K @ e),
         "moment-in-place-of-force": at(MOMENT_Z, -force, K @ e + D @ V_err),
         "column-in-place-of-row": (
             at(Z, 0.0, K @ at(Z, 0.0, e)) + at(Z, D[Z] @ V_err - force, D @ V_err)

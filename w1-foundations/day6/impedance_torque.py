@@ -3,12 +3,10 @@
 import numpy as np
 
 from labkit.judge import Row
-from labkit.judge.argument_mistakes import HALVES_SWAPPED
 
 from .states import J_CASE, TORQUE, model, some, states
 
 row = Row(TORQUE)
-row.of_argument("wrench", HALVES_SWAPPED)
 
 
 @row.inputs
@@ -31,45 +29,24 @@ def _(rng):
 
 @row.wrongs
 def _(J, wrench, bias, damping, qd, tau_null):
-    """damping-summed: damping @ qd adds seven products up, and every joint gets the
-      sum; each joint has its own => the right one with damping @ qd
-    bias-twice: bias is added twice => the right one with 2 bias
-    bias-forgotten: bias is missing: the arm sags under its weight, decimetres at a soft
-      hand => the right one without bias
-    bias-sign: bias is taken away; your torques have to hold it, so it is added => the
-      right one with -bias
-    damping-forgotten: the joints' damping is not made up for => the right one without
-      damping qd
-    damping-sign: the joints' damping is taken away: the joints rub already, so your
-      torques have to make up for it => the right one with -damping qd
-    damping-without-qd: damping is added as it is; it is a torque only once it is times
-      qd => the right one with damping for damping qd
-    wrench-sign: the wrench has the wrong sign: the hand pulls where it should push =>
-      the right one with -J^T F
-    wrench-forgotten: the wrench is missing: the hand floats => the right one without
-      J^T F
-    pinv-for-transpose: pinv(J) takes the wrench to the joints; pushes go to torques
-      with J^T, and the pseudo-inverse is for speeds => the right one with pinv(J)
-    null-forgotten: tau_null is missing: nothing holds the elbow back
-    null-sign: tau_null is taken away; it is a torque to add => the right one with
-      -tau_null
+    """damping-summed: damping @ qd is a dot product, which sums over the joints;
+      multiply entry by entry => the correct formula with damping @ qd
+    bias-sign: bias has the wrong sign; it is the torque that the motors must supply =>
+      the correct formula with -bias
+    damping-sign: the damping torque has the wrong sign; damping opposes the motion, so
+      the motors must supply damping qd => the correct formula with -damping qd
+    pinv-for-transpose: pinv(J) maps the wrench to the joints; J^T maps wrenches to
+      torques, and the pseudo-inverse maps velocities => the correct formula with
+      pinv(J)
     """
     push = J.T @ wrench
     rub = damping * qd
     rest = bias + rub + tau_null
     return {
         "damping-summed": push + bias + damping @ qd + tau_null,
-        "bias-twice": push + bias + rest,
-        "bias-forgotten": push + rub + tau_null,
         "bias-sign": push - bias + rub + tau_null,
-        "damping-forgotten": push + bias + tau_null,
         "damping-sign": push + bias - rub + tau_null,
-        "damping-without-qd": push + bias + damping + tau_null,
-        "wrench-sign": rest - push,
-        "wrench-forgotten": rest,
         "pinv-for-transpose": np.linalg.pinv(J) @ wrench + rest,
-        "null-forgotten": push + bias + rub,
-        "null-sign": push + bias + rub - tau_null,
     }
 
 

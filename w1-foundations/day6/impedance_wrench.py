@@ -3,12 +3,10 @@
 import numpy as np
 
 from labkit.judge import Row
-from labkit.judge.argument_mistakes import TRANSPOSED
 
 from .states import WRENCH, springs
 
 row = Row(WRENCH)
-row.of_argument("D", TRANSPOSED.called("D-transposed"))
 
 
 row.inputs(springs)
@@ -16,38 +14,14 @@ row.inputs(springs)
 
 @row.wrongs
 def _(e, V_err, K, D):
-    """spring-sign: the spring pushes the hand away: e points to the target, so pull
-      along it => -K e + D V_err
-    damper-sign: the damper drives the hand on: V_err is the target's twist minus the
-      hand's, so it is added => K e - D V_err
-    damper-forgotten: the damper is missing: the hand never comes to rest => K e
-    spring-forgotten: the spring is missing: the hand stays wherever it is pushed => D
-      V_err
-    spring-and-damper-swapped: K and D have changed places => D e + K V_err
-    diagonal-of-D: only the diagonal of D is used; the six directions are coupled => the
-      right one with D's diagonal
-    diagonal-of-D 2: only the diagonals of K and D are used; the six directions are
-      coupled => the right one with their diagonals
-    halves-swapped: the halves of the answer are (force; moment); the moment comes first
-    millimetres: the error is put into millimetres; here everything is in metres => the
-      right one with e in mm
-    half-a-spring: the spring has a factor 1/2: that is its energy's, not its force's =>
-      the right one with K e / 2
-    diagonal-of-K: only the diagonal of K is used; a spring may couple its directions =>
-      the right one with K's diagonal
+    """diagonals: only the diagonals of K and D are used; the six directions are coupled
+      => the correct formula with both diagonals
+    millimetres: the linear error is converted to millimetres, but K is in N/m => the
+      correct formula with e in millimetres
     """
     return {
-        "spring-sign": -K @ e + D @ V_err,
-        "damper-sign": K @ e - D @ V_err,
-        "damper-forgotten": K @ e,
-        "spring-forgotten": D @ V_err,
-        "spring-and-damper-swapped": D @ e + K @ V_err,
-        "diagonal-of-D": K @ e + np.diag(D) * V_err,
-        "diagonal-of-D 2": np.diag(K) * e + np.diag(D) * V_err,
-        "halves-swapped": np.roll(K @ e + D @ V_err, 3),
+        "diagonals": np.diag(K) * e + np.diag(D) * V_err,
         "millimetres": K @ (e * [1, 1, 1, 1000, 1000, 1000]) + D @ V_err,
-        "half-a-spring": 0.5 * K @ e + D @ V_err,
-        "diagonal-of-K": np.diag(K) * e + D @ V_err,
     }
 
 

@@ -12,22 +12,22 @@ from .states import J_CASE, M_CASE, model, states
 
 
 def damped(case: Case) -> Finding | None:
-    """Say how much was added to the diagonal of J M^-1 J^T before it was inverted."""
+    """Return what was added to the diagonal of J M^-1 J^T before the inversion."""
     extra = np.linalg.inv(case.S) - np.linalg.inv(case.T)
     added = np.median(extra[:, range(6), range(6)])
     if added > 1e-8 and np.abs(extra - added * np.eye(6)).max() < 0.01 * added:
-        return Finding("damped", f"{DAMPED} Here it is {added:.2g}.")
+        return Finding("damped", f"{DAMPED} The number is {added:.2g}.")
     return None
 
 
 DAMPED = (
-    "Something is added to the diagonal of J M^-1 J^T before it is inverted. That "
-    "keeps Lambda finite at a singularity and makes it too small everywhere else."
+    "A number is added to the diagonal of J M^-1 J^T before the inversion. It keeps "
+    "Lambda finite at a singularity but makes Lambda too small elsewhere."
 )
 NEARLY_SINGULAR = HeldOut(
     "small-values-cut",
-    "Right, but not near a singularity: in the direction in which the hand hardly "
-    "moves it is heaviest, not weightless. Does a pseudo-inverse cut small values off?",
+    "Correct, but not near a singularity: in the direction in which the hand hardly "
+    "moves its inertia is large, not 0. Does a pseudo-inverse omit small values?",
     lambda rng: [(np.diag([1.0, 1.0, 1.0, 1.0, 1.0, 0.01]) @ J_CASE, 2.0 * M_CASE)],
     mistaken=lambda J, M: np.linalg.pinv(J @ np.linalg.solve(M, J.T), 1e-3),
 )
@@ -51,25 +51,22 @@ def inertia(J: Array, M: Array) -> Array:
 
 @row.wrongs
 def _(J, M):
-    """inverse-forgotten: this is the inverse of Lambda: it says how far a push
-      accelerates the hand, not how heavy the hand is => J M^-1 J^T
-    M-not-inverted: M stands between J and J^T as it is; a push meets the joints'
-      torques first, and torques make accelerations through M^-1 => J M J^T
-    pinv-both-sides: pinv(J)^T M pinv(J) is right for an arm of six joints; with seven
-      the elbow is free to give way, and the hand is lighter => pinv(J)^T M pinv(J)
-    M-left-out: M is not in it: (J J^T)^-1 knows where the joints are, not what they
-      carry => (J J^T)^-1
-    armature-left-out: the armature is taken out of M; the rotors turn with the joints,
-      so somebody who pushes the hand feels them => Lambda of M - 0.1 I
-    armature-twice: the armature is added to M; M has it already => Lambda of M + 0.1 I
-    diagonal-of-M: only the diagonal of M is used; the joints pull at each other =>
-      Lambda of M's diagonal
+    """inverse-forgotten: the result is the inverse of Lambda, which maps a wrench to an
+      acceleration; Lambda maps an acceleration to a wrench => J M^-1 J^T
+    M-not-inverted: M is not inverted between J and J^T; M^-1 maps the joint torques J^T
+      F to joint accelerations => J M J^T
+    pinv-both-sides: pinv(J)^T M pinv(J) is correct for an arm of six joints. A seventh
+      joint can also give way, so the hand has less inertia => pinv(J)^T M pinv(J)
+    armature-left-out: the armature is subtracted from M, but the rotors turn with the
+      joints and belong to the inertia of the hand => Lambda of M - 0.1 I
+    armature-twice: the armature is added to M, but M already contains it => Lambda of M
+      + 0.1 I
     diagonal-inverted: only the diagonal of J M^-1 J^T is inverted; the six directions
-      are coupled => that diagonal
-    entries-inverted: 1 / A inverts every entry; the inverse of a matrix is another
-      thing => 1 / (J M^-1 J^T)
-    blocks-alone: the two 3x3 blocks are inverted alone; a push turns the hand, too, so
-      the directions are coupled => the inverse of each block
+      are coupled, so invert the matrix => that diagonal
+    entries-inverted: the expression 1 / A inverts each entry; use the matrix inverse =>
+      1 / (J M^-1 J^T)
+    blocks-alone: the two 3x3 blocks are inverted separately; a force also rotates the
+      hand, so invert the whole 6x6 matrix => the inverse of each block
     """
     A = J @ np.linalg.solve(M, J.T)
     back = np.linalg.pinv(J)
@@ -78,21 +75,12 @@ def _(J, M):
         "inverse-forgotten": A,
         "M-not-inverted": J @ M @ J.T,
         "pinv-both-sides": back.T @ M @ back,
-        "M-left-out": np.linalg.inv(J @ J.T),
         "armature-left-out": inertia(J, M - ARMATURE * np.eye(7)),
         "armature-twice": inertia(J, M + ARMATURE * np.eye(7)),
-        "diagonal-of-M": inertia(J, np.diag(np.diag(M))),
         "diagonal-inverted": np.diag(1.0 / np.diag(A)),
         "entries-inverted": 1.0 / A,
         "blocks-alone": np.linalg.inv(A * block),
     }
-
-
-@row.wrong
-def M_not_inverted(J, M):
-    """M stands between J and J^T as it is, and the product is inverted; M has to be
-    inverted too => (J M J^T)^-1"""
-    return np.linalg.inv(J @ M @ J.T)
 
 
 @row.right  # By a Cholesky factor of M.

@@ -28,41 +28,38 @@ def centre(m1, c1, m2, c2):
 
 
 def parallel_axes(d):
-    """Return the inertia of 1 kg that is d away: the parallel-axis theorem."""
+    """Return the inertia of a point of 1 kg at d: the parallel-axis theorem."""
     return d @ d * np.eye(3) - np.outer(d, d)
 
 
 def ten(m, c, inertia):
-    """Return the answer's ten numbers."""
+    """Return mass, centre of mass and inertia as one vector, (10,)."""
     return np.array([m, *c, *inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]])
 
 
 def whole(m1, c1, I1, m2, c2, I2, c, theorem=parallel_axes):
-    """Return the answer with another centre, or another theorem."""
+    """Return the answer with another centre or another parallel-axis theorem."""
     return ten(m1 + m2, c, I1 + m1 * theorem(c1 - c) + I2 + m2 * theorem(c2 - c))
 
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """no-parallel-axes: the inertias are added as they are; each is about its own
-      centre, and has to be moved to the common one first
-    about-the-origin: the inertia is about the frame's origin; it belongs to the common
-      centre => the answer about the origin
-    only-the-second-moved: only the second body's inertia is moved; the first one's
-      centre is not the common one either => the answer with only the second moved
-    only-the-first-moved: only the first body's inertia is moved
-    about-the-first-centre: the inertia is about the first body's centre; it belongs to
-      the common one => the answer about the first centre
-    distance-of-the-two: the distance between the two centres is used for both; each
-      moves to the common centre => the answer with that distance twice
-    mass-not-in-the-theorem: the theorem is m (d.d I - d d^T); here the mass is missing
-    total-mass-for-each: in the theorem, both bodies have the mass of the whole; each
-      has its own => the answer with m1 + m2 there
-    masses-exchanged: in the theorem, each body has the mass of the other => the answer
-      with m1 and m2 exchanged there
-    inertia-of-one: the second body's own inertia I2 is missing => the answer without I2
+    """no-parallel-axes: the two inertias are added unchanged. Each is about its own
+      centre of mass, so move both to the common centre first => the plain sum
+    about-the-origin: the inertia is about the origin of the frame. It should be about
+      the common centre of mass => the answer about the origin
+    only-the-second-moved: only the second inertia is moved to the common centre. The
+      first centre of mass is not the common one either
+    only-the-first-moved: only the first inertia is moved to the common centre of mass
+    about-the-first-centre: the inertia is about the first body's centre of mass. It
+      should be about the common one => the answer about the first centre
+    distance-of-the-two: the parallel-axis theorem uses the distance between the two
+      bodies. Use the distance of each body from the common centre of mass
+    mass-not-in-the-theorem: the parallel-axis theorem lacks the mass of the body. The
+      inertia changes by m (d . d 1 - d d^T) => the answer without the mass
+    total-mass-for-each: the parallel-axis theorem uses the total mass for each body.
+      Use the mass of the body that is moved => the answer with m1 + m2
     """
-    m = m1 + m2
     c = centre(m1, c1, m2, c2)
     own = I1 + I2
     first, second = parallel_axes(c1 - c), parallel_axes(c2 - c)
@@ -73,33 +70,23 @@ def _(m1, c1, I1, m2, c2, I2):
         "only-the-second-moved": own + m2 * second,
         "only-the-first-moved": own + m1 * first,
         "about-the-first-centre": own + m2 * both,
-        "distance-of-the-two": own + m * both,
+        "distance-of-the-two": own + (m1 + m2) * both,
         "mass-not-in-the-theorem": own + first + second,
-        "total-mass-for-each": own + m * (first + second),
-        "masses-exchanged": own + m2 * first + m1 * second,
-        "inertia-of-one": I1 + m1 * first + m2 * second,
+        "total-mass-for-each": own + (m1 + m2) * (first + second),
     }
-    return {slug: ten(m, c, inertia) for slug, inertia in about.items()}
+    return {slug: ten(m1 + m2, c, inertia) for slug, inertia in about.items()}
 
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """parallel-axes-sign: moving away from the centre of mass adds inertia; here it is
-      taken off => the answer with a minus
-    along-the-way-too: the term d.d I alone resists a turn about the line between the
-      centres too; d d^T has to come off => the answer without d d^T
-    only-the-dyad: d d^T alone is what comes off; d.d I is missing
-    dyad-sign: d d^T has to come off, not to be added => the answer with + d d^T
-    products-not-moved: the products of inertia are moved by nothing; d d^T has entries
-      beside its diagonal, too => the answer with the diagonal of d d^T
-    distance-not-squared: the theorem takes the distance squared => the answer with |d|
+    """products-not-moved: the parallel-axis theorem changes the moments of inertia
+      only. The outer product d d^T also has off-diagonal entries => the answer with the
+      diagonal of d d^T
+    distance-not-squared: the parallel-axis theorem uses the distance; it should use
+      the squared distance d . d => the answer with |d|
     """
     c = centre(m1, c1, m2, c2)
     theorems = {
-        "parallel-axes-sign": lambda d: -parallel_axes(d),
-        "along-the-way-too": lambda d: d @ d * np.eye(3),
-        "only-the-dyad": lambda d: np.outer(d, d),
-        "dyad-sign": lambda d: d @ d * np.eye(3) + np.outer(d, d),
         "products-not-moved": lambda d: d @ d * np.eye(3) - np.diag(d * d),
         "distance-not-squared": lambda d: np.sqrt(d @ d) * np.eye(3) - np.outer(d, d),
     }
@@ -110,14 +97,13 @@ def _(m1, c1, I1, m2, c2, I2):
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """plain-mean: the common centre is half way; the heavier body counts for more
-    weights-swapped: the centre is nearer to the lighter body: the masses are swapped
-    not-divided-by-the-mass: the sum of m c is not divided by the mass
-    first-centre-kept: the centre of mass stays that of the first body
+    """plain-mean: the common centre is the midpoint of the two centres of mass. Weight
+      each centre by the mass of its body => the answer with the midpoint
+    not-divided-by-the-mass: the sum of m c is not divided by the total mass
+    first-centre-kept: the common centre of mass is set to c1 => the answer with c1
     """
     centres = {
         "plain-mean": (c1 + c2) / 2,
-        "weights-swapped": centre(m2, c1, m1, c2),
         "not-divided-by-the-mass": m1 * c1 + m2 * c2,
         "first-centre-kept": c1,
     }
@@ -126,13 +112,12 @@ def _(m1, c1, I1, m2, c2, I2):
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """by-rows: the six come row by row (xx, xy, xz, yy, yz, zz); the diagonal comes
-      first => the answer with the six by rows
-    xy-last: the last three are in the order yz, xz, xy; xy comes first
-    products-negated: the last three have the other sign: here they are entries of the
-      matrix => the answer with the signs of xy, xz, yz turned
-    mass-of-the-first: the mass is that of the first body alone
-    inertia-of-one: the first body's own inertia I1 is missing => the answer without I1
+    """by-rows: the six entries of the inertia are in the order xx, xy, xz, yy, yz, zz.
+      The three diagonal entries come first => the answer in that order
+    xy-last: the last three entries are in the order yz, xz, xy; xy comes first
+    products-negated: the last three entries have the opposite sign. They are entries of
+      the inertia matrix, so xy is the sum of -m x y
+    mass-of-the-first: the mass includes only the first body => the answer with m1
     """
     right = combine_bodies(m1, c1, I1, m2, c2, I2)
     return {
@@ -140,7 +125,6 @@ def _(m1, c1, I1, m2, c2, I2):
         "xy-last": right[[0, 1, 2, 3, 4, 5, 6, 9, 8, 7]],
         "products-negated": right * [1, 1, 1, 1, 1, 1, 1, -1, -1, -1],
         "mass-of-the-first": np.append(m1, right[1:]),
-        "inertia-of-one": combine_bodies(m1, c1, 0.0 * I1, m2, c2, I2),
     }
 
 
@@ -157,7 +141,7 @@ def _(m1, c1, I1, m2, c2, I2):
     return np.round(combine_bodies(m1, c1, I1, m2, c2, I2), 6)
 
 
-row.at_least_0(m1="a mass", m2="a mass")
+row.at_least_0(m1="a mass is not negative", m2="a mass is not negative")
 
 
 row.spans(  # as small, or as large, as in the lab

@@ -16,15 +16,15 @@ row = Row(Pose())
 
 @row.inputs
 def _(rng):
-    """Give cubes at many yaws, none half way between two quarter turns.
+    """Return cubes at many yaws, none half way between two quarter turns.
 
-    The first ones are typed: among them hardly any yaw, and no height at all.
+    The first ones are typed and include a yaw of nearly 0 and a height of 0.
     """
     quarters = np.arange(-2, 3)[rng.permutation(5)]
     yaw = quarters * np.pi / 2 + rng.uniform(-0.7, 0.7, 5)
     yaw = [np.radians(80.0), 0.3, -0.5, np.radians(-130.0), *rounded(yaw)]
     place = rng.numbers(0.1, 0.7, len(yaw), 3)
-    place[1, 2] *= -1.0  # a cube lower than the arm stands
+    place[1, 2] *= -1.0  # a cube below the base of the arm
     above = map(float, rng.numbers(0.02, 0.3, len(yaw)))
     rows = list(zip(se3.make_T(se3.Rz(np.array(yaw)), place), above, strict=True))
     p = np.array([0.55, -0.15, 0.22])
@@ -33,25 +33,25 @@ def _(rng):
 
 
 def tool(T_world_cube, above, yaw):
-    """Return the tool's pose over the cube, turned by a yaw of one's own."""
+    """Return the pose of the tool over the cube with another yaw."""
     return se3.make_T(se3.Rz(yaw) @ DOWN, T_world_cube[:3, 3] + [0.0, 0.0, above])
 
 
 @row.wrongs
 def _(T_world_cube, above):
-    """yaw-not-folded: the tool turns with the cube all the way; a cube looks the same
-      after a quarter turn, and joint 7 has an end
-    folded-to-90: the yaw is folded into 0..90 degrees; into +-45 the tool turns less =>
-      the pose with yaw mod 90 degrees
-    rounded-towards-zero: the number of quarter turns is cut off, not rounded: up to 90
-      degrees stay => the pose with whole quarter turns cut off
-    folded-by-half-turns: half turns are taken off; a cube looks the same after a
-      quarter already => the pose with half turns taken off
-    yaw-forgotten: the tool does not turn with the cube: the fingers meet its edges =>
-      the pose at yaw 0
-    turned-the-wrong-way: the tool turns the other way than the cube: look at the yaw
-      (its sign, and which entries atan2 takes), then at the order of the turn and
-      diag(1, -1, -1) => the pose with -yaw
+    """yaw-not-folded: the tool has the full yaw of the cube. A rotation by 90 degrees
+      does not change a cube, so a yaw within 45 degrees of 0 is enough
+    folded-to-90: the yaw of the tool is between 0 and 90 degrees; it should be between
+      -45 and 45 degrees => the pose with the yaw modulo 90 degrees
+    rounded-towards-zero: the number of quarter turns is truncated, so a yaw of up to 90
+      degrees remains. Round it to the nearest integer => the pose with truncation
+    folded-by-half-turns: multiples of 180 degrees are subtracted. A cube looks the same
+      after 90 degrees already => the pose with half turns subtracted
+    yaw-forgotten: the yaw of the tool is always 0, so the fingers meet the edges of a
+      rotated cube => the pose at yaw 0
+    turned-the-wrong-way: the tool rotates in the opposite direction to the cube. Look
+      at the sign of the yaw and the arguments of arctan2, then at the order of the
+      product with diag(1, -1, -1) => the pose with the opposite yaw
     """
     yaw = np.arctan2(T_world_cube[1, 0], T_world_cube[0, 0])
     yaws = {
@@ -67,14 +67,11 @@ def _(T_world_cube, above):
 
 @row.wrongs
 def _(T_world_cube, above):
-    """tool-up: the tool looks up: its z axis has to point down => the pose with z up
-    about-y: the tool is turned over about y: at yaw 0 its x points backwards
-    left-handed: turning only z over makes a mirror image: the determinant is -1 => the
-      pose with diag(1, 1, -1)
-    height-subtracted: the tool is below the cube: above counts up, and the tool's own z
-      points down => the pose below the cube
-    height-forgotten: the tool is in the cube's centre: above is not added
-    place-forgotten: the tool is over the world's origin: the cube's place is missing
+    """tool-up: the z axis of the tool points up; it should point down
+    about-y: the tool is turned over about its y axis. At yaw 0 its x axis points
+      backwards; it should be the world's x axis => the pose with diag(-1, 1, -1)
+    left-handed: only the z axis is reversed, so the matrix is a reflection with
+      determinant -1. A rotation reverses two axes => the pose with diag(1, 1, -1)
     """
     right = grasp_pose(T_world_cube, above)
     own = right @ np.diag([1.0, -1.0, -1.0, 1.0])
@@ -82,9 +79,6 @@ def _(T_world_cube, above):
         "tool-up": own,
         "about-y": own @ np.diag([-1.0, 1.0, -1.0, 1.0]),
         "left-handed": own @ np.diag([1.0, 1.0, -1.0, 1.0]),
-        "height-subtracted": grasp_pose(T_world_cube, -above),
-        "height-forgotten": grasp_pose(T_world_cube, 0.0),
-        "place-forgotten": se3.make_T(right[:3, :3], [0.0, 0.0, above]),
     }
 
 
@@ -110,4 +104,4 @@ def _(T_world_cube, above):
     return se3.make_T(R, T_world_cube[:3, 3] + [0.0, 0.0, above])
 
 
-row.at_least_0(above="a height over the cube")
+row.at_least_0(above="a height over the cube is not negative")

@@ -34,13 +34,13 @@ CORNERS = np.array([
 
 
 class Written(NamedTuple):
-    """Where the pen was to be and where it was, (N, 3), and what it took.
+    """The planned and the actual path of the pen, (N, 3), and its costs.
 
     Attributes:
         wanted: metres.
         reached: metres.
         seconds: all strokes together.
-        torque: largest share of a motor's limit.
+        torque: largest fraction of a torque limit.
         q: where the arm ends, (7,).
     """
 

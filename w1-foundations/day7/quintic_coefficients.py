@@ -8,24 +8,26 @@ from labkit.judge.mistake import Finding
 from robo47.trajectory import quintic_coefficients
 
 POWERS = np.arange(6)
-FACTORS = tuple(f"the factor of {p}" for p in ("1", "t", "t^2", "t^3", "t^4", "t^5"))
+FACTORS = tuple(
+    f"the coefficient of {p}" for p in ("1", "t", "t^2", "t^3", "t^4", "t^5")
+)
 CONDITIONS = tuple(
     f"the {what} at the {where}"
     for where in ("start", "end")
-    for what in ("position", "speed", "acceleration")
+    for what in ("position", "velocity", "acceleration")
 )
 SINGULAR = Slip(
     "LinAlgError: Singular",
     "",
     "singular",
-    "Two of the six rows say the same, so the equations have no single answer. Each "
-    "row is another condition: a position, a speed or an acceleration, at "
-    "either end. What is the derivative of t^n?",
+    "The matrix is singular, because two of its rows are the same condition. The six "
+    "rows are the position, the velocity and the acceleration at either end. What is "
+    "the derivative of t^n?",
 )
 
 
 def conditions(T):
-    """Return the six conditions' factors of the coefficients, one row each."""
+    """Return the matrix of the six conditions, one row each."""
     A = np.zeros((6, 6))
     A[0, 0], A[1, 1], A[2, 2] = 1.0, 1.0, 2.0
     A[3] = T**POWERS
@@ -35,7 +37,7 @@ def conditions(T):
 
 
 def which_condition(case: Case) -> Finding | None:
-    """Return which one of the six conditions an answer does not keep, if it is one."""
+    """Return which of the six conditions an answer violates, if it is only one."""
     start, end, T = case.arguments
     rows = np.array([conditions(float(x)) for x in T])
     kept = (rows @ case.S[..., None])[..., 0]
@@ -45,8 +47,8 @@ def which_condition(case: Case) -> Finding | None:
     which = CONDITIONS[int(np.argmax(off))]
     return Finding(
         "one-condition-not-kept",
-        f"Five of the six conditions are kept; {which} is not. What stands in front of "
-        "each coefficient there, and what on the right side?",
+        f"Your polynomial satisfies five of the six conditions, but not {which}. Look "
+        "at this row of the matrix and at its entry on the right-hand side.",
     )
 
 
@@ -69,25 +71,25 @@ def _(rng):
 
 @row.wrongs
 def _(start, end, T):
-    """descending: the highest power comes first; the constant has to
-    ends-swapped: it goes from the end to the start => the answer with the ends swapped
-    in-powers-of-x: these are the coefficients of powers of t / duration, not of t
-    T-is-1: the duration does not count: the end's conditions are those at t = 1 => the
-      answer with the coefficients for 1 s
-    cubic: this is a cubic: both accelerations are left out => the cubic
-    accelerations-zero: the accelerations at the ends are taken as 0; they are given
-    rest-to-rest: speeds and accelerations at the ends are taken as 0; they are given
-    two-forgotten: the second derivative of t^2 is 2, not 1: the start's acceleration is
-      doubled => the answer with a 1 there
-    conditions-mixed-up: the right side alternates start and end, but the rows do not
+    """in-powers-of-x: your coefficients belong to powers of t / duration; the task asks
+      for powers of t
+    T-is-1: the duration has no effect, because the conditions at the end are written
+      for t = 1 => the answer for a duration of 1 s
+    cubic: your polynomial is a cubic, which omits both conditions on the acceleration
+      => the cubic
+    accelerations-zero: the accelerations at both ends are set to 0. Use the given ones
+    rest-to-rest: the velocities and the accelerations at both ends are set to 0. Use
+      the given ones
+    two-forgotten: the second derivative of t^2 is 2, but your matrix has 1 in the row
+      of the acceleration at the start => the answer with 1 in that row
+    conditions-mixed-up: the right-hand side alternates between start and end, but the
+      rows of the matrix do not
     """
     A = conditions(T)
     four = np.linalg.solve(A[[0, 1, 3, 4], :4], [*start[:2], *end[:2]])
     mixed = np.stack([start, end], axis=1).ravel()
     slow, still = np.diag([1.0, 1.0, 0.0]), np.diag([1.0, 0.0, 0.0])
     return {
-        "descending": quintic_coefficients(start, end, T)[::-1],
-        "ends-swapped": quintic_coefficients(end, start, T),
         "in-powers-of-x": quintic_coefficients(start, end, T) * T**POWERS,
         "T-is-1": quintic_coefficients(start, end, 1.0),
         "cubic": np.append(four, [0.0, 0.0]),
@@ -108,4 +110,4 @@ def _(start, end, T):
     return np.array([q0, v0, a0 / 2, three, four, five])
 
 
-row.at_least_0(duration="how long the move takes")
+row.at_least_0(duration="a duration is not negative")

@@ -11,20 +11,20 @@ from robo47.trajectory import PEAK_ACCELERATION, PEAK_SPEED
 NO_LIMIT = 1e9  # rad/s2, in the docstring's case
 NO_WAY = HeldOut(
     "no-way",
-    "Right, but not where no joint moves: that takes 0 s, as the docstring says.",
+    "Your function is right except when no joint moves: the duration is then 0 s.",
     lambda rng: [(np.zeros(7), SPEED_LIMITS, ACC_LIMITS)],
 )
 
 
 def never_less(case: Case) -> Finding | None:
-    """Return that only short durations are wrong, and all of them the same."""
+    """Return that all short durations are the same, and all longer ones right."""
     off = ~np.isclose(case.S, case.T, rtol=0.0, atol=1e-8)
     least = float(case.S[off].min())
     if off.all() or np.ptp(case.S[off]) > 1e-12:
         return None
     if case.T[off].max() > min(least, case.T[~off].min()):
         return None
-    says = f"It is never less than {least:g} s; a short way takes less."
+    says = f"The result is never below {least:g} s. A short motion needs less time."
     return Finding("never-less", says)
 
 
@@ -47,30 +47,30 @@ def _(rng):
 
 
 def seconds(delta_q, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERATION):
-    """Return what each joint needs by its speed and by its acceleration."""
+    """Return the duration of each joint for its velocity and for its acceleration."""
     delta_q = np.abs(delta_q)
     return np.array([speed * delta_q / v_max, np.sqrt(acceleration * delta_q / a_max)])
 
 
 @row.wrongs
 def _(delta_q, v_max, a_max):
-    """peak-of-the-cubic: 1.5 is the cubic's peak speed; the quintic is faster half way,
-      so this breaks the speed limit by a quarter => the duration with 1.5
-    average-speed: the time delta_q / v would do for a move that is always at its top
-      speed; this one starts and stops softly => the duration with delta_q / v
-    peak-upside-down: the peak speed is 15/8 delta_q / duration; here it is turned into
-      8/15
-    peak-at-a-quarter: 5.625 is the acceleration at a quarter of the time; its peak is a
-      little earlier, where its derivative is 0 => the duration with 5.625
-    peak-acceleration: the peak acceleration is 10 / sqrt(3) times delta_q / duration^2;
-      the root is lost => the duration with 10/3
+    """peak-of-the-cubic: your function uses 1.5, the maximum velocity of the cubic
+      scaling. The quintic is faster half way and exceeds the limit by 25 % => the
+      duration with 1.5
+    peak-of-the-cubic 2: your function uses 6, the maximum acceleration of the cubic
+      scaling. The quintic has its maximum where the derivative of its acceleration is 0
+      => the duration with 6
+    peak-of-the-cubic 3: your function uses 1.5 and 6, the maxima of the cubic scaling.
+      The quintic has other maxima => the duration with 1.5 and 6
+    peak-at-a-quarter: your function uses 5.625, the acceleration at a quarter of the
+      duration. The maximum is where the derivative of the acceleration is 0 => the
+      duration with 5.625
     """
     peaks = {
         "peak-of-the-cubic": {"speed": 1.5},
-        "average-speed": {"speed": 1.0},
-        "peak-upside-down": {"speed": 8 / 15},
+        "peak-of-the-cubic 2": {"acceleration": 6.0},
+        "peak-of-the-cubic 3": {"speed": 1.5, "acceleration": 6.0},
         "peak-at-a-quarter": {"acceleration": 5.625},
-        "peak-acceleration": {"acceleration": 10 / 3},
     }
     return {
         slug: seconds(delta_q, v_max, a_max, **of).max() for slug, of in peaks.items()
@@ -79,71 +79,58 @@ def _(delta_q, v_max, a_max):
 
 @row.wrongs
 def _(delta_q, v_max, a_max):
-    """peak-of-the-cubic: 1.5 and 6 are the cubic's peaks; the quintic has others
-    limits-of-different-joints: the longest way is divided by the smallest limit of all;
-      way and limit have to be those of one joint => max(delta_q) over min(a_max) for
-      the acceleration
-    both-added: the time for the speed and the time for the acceleration are added; one
-      way keeps both limits if it takes the longer of the two => their sum
-    shorter-of-two: it takes the shorter of the two durations, which breaks one of the
-      limits; the longer one keeps both => the smaller of the two
-    fastest-joint: it takes the joint that needs least; all the others break their
-      limits => the smallest of the joints' durations
-    one-length: the ways of all joints are put together as one length, |delta_q|; each
-      joint has its own way and its own limits => the duration of |delta_q| with the
-      lowest limits
-    summed: the joints' durations are added up; they move at the same time
-    mean: it takes the mean of the joints' durations; half of them break their limits
-    longest-way: it takes the joint with the longest way; one with a lower limit may
-      need more => the duration of the joint with the longest way
-    one-limit-for-all: the first joint's limits are used for all; each joint has its own
-    speed-only: only the speed limits count; a short move breaks the acceleration's
-    acceleration-only: only the acceleration limits count; a long move breaks the
-      speed's => the duration by acceleration
-    root-forgotten: acceleration falls with the duration squared, so the duration is a
-      square root
-    added-up: the two durations are added; the longer one keeps both limits
-    peak-of-the-cubic 2: 6 is the cubic's peak acceleration; the quintic's is where the
-      derivative of its acceleration is 0 => the duration with 6
-    shorter-of-two 2: each joint takes the shorter of its two durations; both limits
-      count
-    fastest-joint 2: it takes the joint that needs least, for the speed and for the
-      acceleration; all the others break their limits => the larger of the two minima
-    one-limit-for-all 2: the lowest limits are used for all; each joint has its own
-    ways-signed: the ways' signs are still in it: the root of a negative one is NaN,
-      which max passes over in silence => the duration with signed ways
-    forwards-only: a joint that moves backwards counts as one that is ready before it
-      starts: the way's sign is still in it => the duration with signed ways
+    """limits-of-different-joints: the largest displacement is combined with the lowest
+      limit. Use the displacement and the limit of the same joint => max(delta_q) over
+      min(a_max) for the acceleration
+    both-added: the duration for the velocity and the duration for the acceleration are
+      added. The longer one satisfies both limits => the sum of both, joint by joint
+    both-added 2: the duration for the velocity and the duration for the acceleration
+      are added. The longer one satisfies both limits => the sum of both maxima
+    shorter-of-two: the shorter of the two durations is returned, which violates one of
+      the limits => the minimum of the two maxima
+    shorter-of-two 2: each joint takes the shorter of its two durations, which violates
+      one of its limits => the maximum of these minima
+    fastest-joint: the duration of the fastest joint is returned, so all other joints
+      violate their limits => the minimum over the joints
+    fastest-joint 2: each limit uses the duration of the fastest joint, so the other
+      joints violate it => the larger of the two minima
+    one-length: the norm of delta_q is used as one displacement. Each joint has its own
+      displacement and its own limits => the duration of |delta_q| with the lowest
+      limits
+    summed: the durations of the joints are added, but the joints move at the same time
+    mean: the mean of the joints' durations is returned, so the slower joints violate
+      their limits
+    longest-way: only the joint with the largest displacement is used. A joint with
+      lower limits may need more time => the duration of that joint
+    one-limit-for-all: the limits of the first joint are used for all joints
+    one-limit-for-all 2: the lowest limits are used for all joints. Each joint has its
+      own limits
+    speed-only: only the velocity limits are used. A short motion then exceeds the
+      acceleration limits
+    acceleration-only: only the acceleration limits are used. A long motion then exceeds
+      the velocity limits => the duration for the acceleration
     """
     each = seconds(delta_q, v_max, a_max)
     i = np.argmax(np.abs(delta_q))
     by_speed, by_acceleration = each
     longest = np.sqrt(PEAK_ACCELERATION * np.abs(delta_q[i]) / a_max.min())
     lowest = (v_max.min(), a_max.min())
-    signed = 10 / np.sqrt(3) * delta_q / a_max
     return {
-        "peak-of-the-cubic": seconds(delta_q, v_max, a_max, 1.5, 6.0).max(),
         "limits-of-different-joints": max(by_speed.max(), longest),
         "both-added": each.sum(axis=0).max(),
+        "both-added 2": each.max(axis=1).sum(),
         "shorter-of-two": min(each.max(axis=1)),
+        "shorter-of-two 2": each.min(axis=0).max(),
         "fastest-joint": each.max(axis=0).min(),
+        "fastest-joint 2": each.min(axis=1).max(),
         "one-length": seconds(np.linalg.norm(delta_q), *lowest).max(),
         "summed": each.max(axis=0).sum(),
         "mean": each.max(axis=0).mean(),
         "longest-way": each[:, i].max(),
         "one-limit-for-all": seconds(delta_q, v_max[0], a_max[0]).max(),
+        "one-limit-for-all 2": seconds(delta_q, *lowest).max(),
         "speed-only": by_speed.max(),
         "acceleration-only": by_acceleration.max(),
-        "root-forgotten": max(by_speed.max(), (by_acceleration**2).max()),
-        "added-up": each.max(axis=1).sum(),
-        "peak-of-the-cubic 2": seconds(delta_q, v_max, a_max, acceleration=6.0).max(),
-        "shorter-of-two 2": each.min(axis=0).max(),
-        "fastest-joint 2": each.min(axis=1).max(),
-        "one-limit-for-all 2": seconds(delta_q, *lowest).max(),
-        "ways-signed": max((15 / 8 * delta_q / v_max).max(), np.sqrt(signed).max()),
-        "forwards-only": max(
-            (np.sign(delta_q) * by_speed).max(), by_acceleration.max()
-        ),
     }
 
 
@@ -161,8 +148,8 @@ def _(delta_q, v_max, a_max):
 
 
 row.at_least_0(
-    delta_q="its way counts, not its sign",
-    v_max="a limit",
-    a_max="a limit",
-    answer="a time",
+    delta_q="only its absolute value is used",
+    v_max="a limit is not negative",
+    a_max="a limit is not negative",
+    answer="a duration is not negative",
 )

@@ -1,7 +1,7 @@
-"""Turns that a logarithm often fails at, for task 7.6: half a turn, and a small one.
+"""Rotations at which a logarithm often fails, for task 7.6: by pi, and by little.
 
-They are asked only of an answer that is right for drawn turns: a function that has
-another mistake too hears of that one first.
+They are tested only if the function is right for drawn rotations, so that another
+mistake is reported first.
 """
 
 import numpy as np
@@ -10,7 +10,7 @@ from labkit.judge import Draw, HeldOut
 from robo47 import screws, se3
 from robo47.checks import Array
 
-# At exactly pi the sign of the axis is free, so s is 1 there: both ways end at R1.
+# At exactly pi both senses are correct, so s is 1 there: both end at R1.
 HALF = ([1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [-1.0, 2.0, -2.0])
 NEARLY_HALF = np.pi - 1e-3
 TINY = 5e-7  # radians
@@ -18,7 +18,7 @@ SMALL = (5e-5, 2e-4, 3e-3, 0.03)  # radians
 
 
 def _ends(R0: Array, turns: Array, s: float, rng: Draw) -> list:
-    """Return two poses and s for each turn, which is made from R0."""
+    """Return two poses and s for each rotation, which starts at R0."""
     p0, p1 = rng.numbers(-1, 1, 2, len(turns), 3)
     T0 = se3.make_T(R0, p0)
     T1 = se3.make_T(R0 @ turns, p1)
@@ -51,30 +51,31 @@ def _not_turned(T0: Array, T1: Array, s: float) -> Array:
 TURNS = [
     HeldOut(
         "half-turn-for-none",
-        "Right, but a turn of 180 degrees is left out: at s = 1 the rotation is still "
-        "R0. The sine is 0 there as it is without a turn; what tells the two apart?",
+        "Your function is right except for a rotation by 180 degrees: at s = 1 the "
+        "orientation is still R0. The sine is 0 there, as it is for no rotation. Which "
+        "quantity distinguishes the two?",
         _half,
         mistaken=_not_turned,
     ),
     HeldOut(
         "wrong-at-pi",
-        "Right, but not for turns of 180 degrees, or just under it. With R = R0^T R1: "
-        "R - R^T is (nearly) 0 there and does not show the axis; R + R^T does, with "
-        "its signs.",
+        "Your function is right except for rotations by 180 degrees or slightly less. "
+        "There R - R^T with R = R0^T R1 is nearly 0 and does not determine the axis. "
+        "R + R^T determines the axis, including the signs of its components.",
         _half_or_nearly,
     ),
     HeldOut(
         "small-turn-for-none",
-        "Right, but a small turn is left out: the rotation stays R0. Below which angle "
-        "do you call it no turn?",
+        "Your function is right except for very small rotations: the orientation "
+        "remains R0. Below which angle does your function skip the rotation?",
         lambda rng: _small(rng, (TINY,)),
         mistaken=_not_turned,
         near=1e-9,
     ),
     HeldOut(
         "wrong-near-0",
-        "Right, but not for small turns, of 2 degrees and less. What does it do there "
-        "in place of the usual formula?",
+        "Your function is right except for rotations by 2 degrees or less. Which case "
+        "of your function replaces the general formula there?",
         _small,
     ),
 ]

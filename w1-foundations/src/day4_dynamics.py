@@ -158,7 +158,7 @@ def bias_torque(
 ) -> np.ndarray:
     """Return the bias: Coriolis, centrifugal and gravity torques together, (7,), N m.
 
-    The arguments are those of `inverse_dynamics`: J_space (6, 7), G (7, 6, 6), the
+    The arguments are defined as in `inverse_dynamics`: J_space (6, 7), G (7, 6, 6), the
     joint velocities qd (7,), rad/s, and the vector g. The bias is the torque of a
     motion with qdd = 0. At qd = 0 it is gravity_torque. Source: Modern Robotics,
     section 8.1.

@@ -97,7 +97,7 @@ def gravity_pd(
 ) -> np.ndarray:
     """Return the torque of PD control with gravity compensation, (7,), N m.
 
-    e, ed, kp and kd are those of `pd_torque`; g_at_q (7,) is the gravity torque at the
+    e, ed, kp and kd are as in `pd_torque`; g_at_q (7,) is the gravity torque at the
     measured q, N m. If e and ed are 0, the result is g_at_q. Source: Modern Robotics,
     section 11.4.2.
     """

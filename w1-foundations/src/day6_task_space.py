@@ -178,8 +178,8 @@ def hybrid_wrench(
 ) -> np.ndarray:
     """Return the wrench of hybrid control, (6,): a spring, but along z a chosen force.
 
-    e (6,), V_err (6,), K (6, 6) and D (6, 6) are those of `impedance_wrench`; force is
-    the normal force on a level surface, N, along -z. The first five rows are those of
+    e (6,), V_err (6,), K (6, 6) and D (6, 6) are as in `impedance_wrench`; force is
+    the normal force on a level surface, N, along -z. The first five rows are equal to
     `impedance_wrench`. The last row is -force plus the damper's part, without any term
     of K. With e and V_err 0 the result is (0, 0, 0, 0, 0, -force). Source: Modern
     Robotics, section 11.6.

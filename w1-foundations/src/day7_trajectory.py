@@ -56,7 +56,7 @@ def quintic_scaling(t: float, duration: float) -> np.ndarray:
     s = 10 * x**3 - 15 * x**4 + 6 * x**5  # the path parameter
     sd = (30 * x**2 - 60 * x**3 + 30 * x**4) / duration  # its velocity
     sdd = (60 * x - 180 * x**2 + 120 * x**3) / duration**2  # its acceleration
-    return np.array([s, sd, sdd])  # the three in their order
+    return np.array([s, sd, sdd])  # s, sd and sdd, in this order
     # endregion 7.1
 
 
@@ -213,7 +213,8 @@ def combine_bodies(
     moved = np.zeros((3, 3))  # the sum of the inertias about the common centre
     for mass, com, own in ((m1, c1, I1), (m2, c2, I2)):
         d = com - c  # the vector from the common centre to the body's own
-        moved += own + mass * (d @ d * np.eye(3) - np.outer(d, d))  # moved by d
+        shift = d @ d * np.eye(3) - np.outer(d, d)  # the parallel-axis theorem
+        moved += own + mass * shift  # the inertia about the common centre
     six = moved[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]  # xx, yy, zz, xy, xz, yz
     return np.concatenate([[m], c, six])  # the ten numbers in their order
     # endregion 7.8

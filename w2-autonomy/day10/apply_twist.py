@@ -7,8 +7,6 @@ from labkit.judge.argument_mistakes import Change
 from robo47.camera import apply_twist
 from robo47.screws import skew
 
-from .seen import HALF
-
 row = Row(Pose())
 
 
@@ -19,7 +17,9 @@ def _(rng):
     small = rounded(1e-3 * rng.normal(size=(2, 6)))
     slide = np.append(np.zeros(3), rng.numbers(-1, 1, 3))
     turn = np.append(rng.numbers(-1, 1, 3), np.zeros(3))
-    far = np.append([1e-4, -2e-4, 2e-4], rng.numbers(-1, 1, 3))  # a slide, nearly
+    far = np.append(
+        [1e-4, -2e-4, 2e-4], rng.numbers(-1, 1, 3)
+    )  # nearly a pure translation
     some = [*xi, *small, slide, turn, far]
     first = (np.eye(4), np.eye(6)[3])
     return [first, *zip(T, some, strict=True), (T[0], np.zeros(6))]
@@ -32,21 +32,23 @@ def exp_of(xi):
 
 @row.wrongs
 def _(T, xi):
-    """on-the-right: the exponential stands on T's right: that moves it in its own axes
-      => T exp([xi])
-    apart: R is turned and t moved by v, each alone; a turn about the origin moves what
-      stands beside it, too => exp([omega]) R and t + v
-    first-order: this is T + [xi] T: no rotation any more => (1 + [xi]) T
-    t-not-turned: the rotation turns R alone; T's translation is turned with it => R
-      turned, and t + the exponential's own translation
-    v-as-translation: the exponential's translation is v; along a screw it is G(theta) v
-      => with v in its place
-    length-lost: xi is made a unit screw, and the angle is 1 => exp of xi / |omega|
-    slides-left-out: where nothing turns, T comes back as it was; a slide has no angle,
-      but a length => T where omega is 0
-    identity-where-still: where nothing moves, it is the identity; T stays where it is
-    turns-only: v is not used
-    slides-only: omega is not used
+    """on-the-right: the exponential is on the right of T, as for xi in the moved frame;
+      xi is expressed in the frame in which T is given => T exp([xi])
+    apart: R is rotated and v is added to t; a rotation about the origin moves t as well
+      => (exp([omega]) R, t + v)
+    first-order: this is T + [xi] T, which is no rigid motion; use the exponential => (1
+      + [xi]) T
+    t-not-turned: t is not rotated; a rotation about the origin moves t as well =>
+      exp([omega]) R with t plus the translation of the exponential
+    v-as-translation: the translation of the exponential is v; this is correct only if
+      omega is 0 or parallel to v => v as the translation
+    length-lost: xi is normalised and the angle is 1; the angle is the norm of omega =>
+      exp of xi / |omega|
+    slides-left-out: without a rotation T is returned unchanged; then the translation is
+      v => T where omega is 0
+    identity-where-still: for xi = 0 the identity is returned; return T
+    turns-only: v, the linear part of xi, is not used
+    slides-only: omega, the angular part of xi, is not used
     """
     E = exp_of(xi)
     W = np.zeros((4, 4))
@@ -76,27 +78,15 @@ def _(T, xi):
 
 row.of_argument(
     "xi",
-    Change("xi-sign", "it moves the other way, by -xi", np.negative, "exp([-xi]) T"),
-    Change(
-        "halves-swapped",
-        "xi is read as (v; omega); here omega comes first",
-        lambda xi: xi[HALF],
-    ),
-    Change(
-        "in-degrees",
-        "the angle is converted to degrees; an exponential takes radians",
-        np.rad2deg,
-        "with an angle in degrees",
-    ),
     Change(
         "unit-screw",
-        "xi is divided by its whole length; the angle is that of omega alone",
+        "xi is divided by its norm; the angle is the norm of omega alone",
         lambda xi: xi / (np.linalg.norm(xi) or 1.0),
     ),
 )
 
 
-@row.right  # By halves: exp(xi) = exp(xi / 1024)^1024, with a series of 12 terms.
+@row.right  # exp(xi) = exp(xi / 1024)^1024, with a series of 12 terms.
 def _(T, xi):
     W = np.zeros((4, 4))
     W[:3, :3] = skew(xi[:3] / 1024)

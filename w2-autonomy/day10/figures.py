@@ -72,7 +72,7 @@ def _cloud(axes: Axes, cloud: np.ndarray, T_world_cube: np.ndarray) -> None:
 
 
 def _ellipse(axes: Axes, K: np.ndarray, T: np.ndarray) -> None:
-    """Draw where fits with noise put the cube, and the ellipse they were told."""
+    """Draw the positions of noisy fits, and the ellipse of the covariance."""
     corners = day10_mujoco.CORNERS
     exact = lab.project(K, T, corners)
     J = lab.projection_jacobian(K, corners @ T[:3, :3].T + T[:3, 3])

@@ -14,7 +14,7 @@ from .seen import motions
 
 
 def two_axes(A, B):
-    """Return whether motions turn about two axes, none by nearly half a turn."""
+    """Return whether motions have two axes, and no angle is nearly pi."""
     a = log_rotation(A[:, :3, :3])
     b = log_rotation(B[:, :3, :3])
     least = min(np.linalg.svd(x, compute_uv=False)[1] for x in (a, b))
@@ -27,7 +27,7 @@ row = Row(Pose(), at_edge=two_axes)
 
 @row.inputs
 def _(rng):
-    # Turns of 1 rad about x, y and z: half turns, as edges are, have two axes each.
+    # By 1 rad about x, y and z: a rotation by pi, as an edge is, has two axes.
     turns_1 = np.array([se3.Rx(1.0), se3.Ry(1.0), se3.Rz(1.0)])
     A = se3.make_T(turns_1, rng.numbers(-1, 1, 3, 3))
     exact = motions(rng, 3, noise=0.0)
@@ -35,7 +35,7 @@ def _(rng):
 
 
 @row.spans
-def _(rng):  # two of the motions turn by less than 0.2 rad
+def _(rng):  # two of the motions rotate by less than 0.2 rad
     for A, B in motions(rng, 2):
         small = np.array([_turned(0.1, way, 0.3) for way in (0.2, 1.9)])
         there = se3.inverse(hand_eye(A, B))
@@ -44,9 +44,9 @@ def _(rng):  # two of the motions turn by less than 0.2 rad
 
 
 @row.valid(
-    "Valid for exact motions. With noise no X fits all of them, and another method "
-    "gives another X: asked is the rotation from the rotation vectors, nearest to the "
-    "sum of a b^T as in kabsch, then t by least squares with this rotation."
+    "The result is correct for exact motions. With noise no X fits all of them, and "
+    "each method returns another X. Use the rotation nearest to the sum of a b^T of "
+    "the rotation vectors, as in kabsch, and then the least-squares t for it."
 )
 def _(A, B, X):
     return np.abs(A @ X - X @ B).max() < 1e-8
@@ -55,8 +55,8 @@ def _(A, B, X):
 def flat_fans(rng, n=4, k=4):
     """Return motions about axes in a plane, as two joints give them.
 
-    They are enough for X. Measured, they stand out of the plane by a little, the
-    hand's up and the camera's down: then U V^T is a mirror image.
+    They determine X. Measured, the hand's axes point slightly out of the plane upwards
+    and the camera's downwards, so U V^T is a reflection.
     """
     found = []
     for X in rng.poses(n):
@@ -72,13 +72,13 @@ def flat_fans(rng, n=4, k=4):
 
 
 def _turned(angle, way, out):
-    """Return a turn about an axis in the plane of x and y, but for `out`."""
+    """Return a rotation about an axis with z = out."""
     axis = np.array([np.cos(way), np.sin(way), out])
     return apply_twist(np.eye(4), np.append(angle * axis, np.zeros(3)))
 
 
 def turns(A, B, *, centred=False, unit=False, rotation=proper):
-    """Return the rotation between two fans of rotation vectors."""
+    """Return the rotation between the rotation vectors of A and B."""
     a = log_rotation(A[:, :3, :3])
     b = log_rotation(B[:, :3, :3])
     if unit:
@@ -98,89 +98,70 @@ def between_places(A, B):
 
 
 def solved(
-    A, B, *, turn=turns, of=lambda A, B: A, minus=1.0, turned=lambda R, t: t @ R.T,
-    d=lambda b, a: b - a, some=slice(None),
+    A, B, *, turn=turns, turned=lambda R, t: t @ R.T, some=slice(None)
 ):  # fmt: skip
-    """Return X with other parts: by which R, which C, which d, of which motions."""
+    """Return X with another rotation or right side, or of some motions only."""
     R = turn(A, B)
-    C = (of(A, B)[some, :3, :3] - minus * np.eye(3)).reshape(-1, 3)
-    right = d(turned(R, B[some, :3, 3]), A[some, :3, 3]).ravel()
+    C = (A[some, :3, :3] - np.eye(3)).reshape(-1, 3)
+    right = (turned(R, B[some, :3, 3]) - A[some, :3, 3]).ravel()
     return rigid(R, np.linalg.lstsq(C, right, rcond=None)[0])
 
 
 for slug, says, redone, other in (
-    ("mirror", "the sign of the determinant is not looked at: of axes in one plane U "
-     "V^T may be a mirror image", "U V^T as it is",
+    ("mirror", "the determinant is not checked: for axes near one plane U V^T may be a "
+     "reflection", "U V^T",
      {"turn": partial(turns, rotation=lambda U, Vt: U @ Vt)}),
-    ("mirror-turned-round", "the mirror is made a rotation by another sign for all of "
-     "it; only the direction of the smallest singular value turns round",
-     "with -R there", {"turn": partial(turns, rotation=all_turned)}),
-    ("R-transposed", "the rotation is the other way round: a = R b, so it comes from "
-     "the sum of a b^T", "with R^T in both steps",
+    ("mirror-turned-round", "a reflection is made a rotation by negating the whole "
+     "matrix; negate only the direction of the smallest singular value", "-U V^T",
+     {"turn": partial(turns, rotation=all_turned)}),
+    ("R-transposed", "the rotation is transposed: a = R b, so it comes from the sum of "
+     "a b^T", "R^T in both steps",
      {"turn": lambda A, B: turns(A, B).T}),
-    ("centred", "the rotation vectors are moved to their mean; they turn about the "
-     "origin, and nothing else moves them", "kabsch on them",
+    ("centred", "the mean is subtracted from the rotation vectors; a = R b has no "
+     "translation, so use the vectors themselves", "kabsch on the rotation vectors",
      {"turn": partial(turns, centred=True)}),
-    ("axes-alone", "each rotation vector is made of length 1: small turns, whose axes "
-     "are known worst, then count as much as large ones", "with axes of length 1",
-     {"turn": partial(turns, unit=True)}),
-    ("positions-for-rotations", "the rotation is that between the translations of A "
-     "and B; it is the one between their rotation vectors", "with it",
+    ("axes-alone", "the rotation vectors are normalised; keep their norms, because the "
+     "axes of small rotations are less accurate and should get less weight",
+     "a fit of unit axes", {"turn": partial(turns, unit=True)}),
+    ("positions-for-rotations", "the rotation is fitted to the translations of A and "
+     "B; fit it to their rotation vectors", "the rotation between the translations",
      {"turn": between_places}),
-    ("one-not-taken-off", "1 is missing in (R_A - 1) t; t stands on both sides",
-     "with R_A t", {"minus": 0.0}),
-    ("one-added", "it is (R_A + 1) t; 1 is taken off", "with (R_A + 1) t",
-     {"minus": -1.0}),
-    ("R_B-for-R_A", "the matrix is R_B - 1; it is R_A - 1, since t is in the hand's "
-     "axes", "with R_B - 1", {"of": lambda A, B: B}),
-    ("d-sign", "the right side has the wrong sign: it is R t_B - t_A", "with -d",
-     {"d": lambda b, a: a - b}),
-    ("d-added", "the right side is R t_B + t_A; it is R t_B - t_A", "with R t_B + t_A",
-     {"d": lambda b, a: b + a}),
-    ("R-forgotten-in-d", "t_B is not turned by X's rotation before t_A is taken off",
-     "with t_B - t_A", {"turned": lambda R, t: t}),
-    ("R-transposed-in-d", "t_B is turned the other way, by R^T; R is right, and turns "
-     "what the camera says to the hand's axes", "with R^T t_B - t_A",
-     {"turned": lambda R, t: t @ R}),
-    ("first-motion-only", "only the first motion is used for t; one does not show it "
-     "all", "with the first", {"some": slice(1)}),
-    ("last-motion-only", "only the last motion is used for t; one does not show it all",
-     "with the last", {"some": slice(-1, None)}),
+    ("R-transposed-in-d", "t_B is rotated by R^T; R itself maps the camera frame to "
+     "the hand frame", "R^T t_B - t_A", {"turned": lambda R, t: t @ R}),
+    ("first-motion-only", "only the first motion is used for t; one motion leaves t "
+     "free along its axis, so stack all of them", "the first motion alone",
+     {"some": slice(1)}),
+    ("last-motion-only", "only the last motion is used for t; one motion leaves t free "
+     "along its axis, so stack all of them", "the last motion alone",
+     {"some": slice(-1, None)}),
 ):  # fmt: skip
-    why = "no axes of the lab lie in one plane, but those about joint 7"
+    why = "only the axes about joint 7 are in one plane in the lab"
     hidden = why if slug.startswith("mirror") else ""
     row.wrong(slug, says, redone, hidden)(partial(solved, **other))
 
 
 @row.wrongs
 def _(A, B):
-    """other-way: this is the hand seen from the camera, X's inverse => hand_eye(B, A)
-    t-left-out: the translation is 0: only the rotation is solved
-    t-of-the-mean: each motion is solved alone, and the mean taken; one motion does not
-      show the slide along its axis, so stack them => with the mean of pinv (R_A - 1) d
-    centred-the-other-way: the rotation vectors are moved to their mean and turned the
-      other way round; they turn about the origin, and a = R b => kabsch(a, b)
-    halved: the translation is half of what it is
-    t-as-if-alike: the translation is the mean of t_A - R t_B, as if the hand did not
-      turn; it is (R_A - 1) t that this is => the mean of t_A - R t_B
-    t-as-if-alike 2: the translation is the mean of R t_B - t_A, as if the hand did not
-      turn; it is (R_A - 1) t that this is => the mean of R t_B - t_A
+    """t-of-the-mean: t is the mean of one solution for each motion; one motion leaves t
+      free along its axis, so stack all equations => the mean of pinv(R_A - 1) d
+    centred-the-other-way: the means are subtracted and the rotation is transposed, as
+      kabsch(a, b) gives it; a = R b has no translation => kabsch(a, b)
+    t-as-if-alike: t is the mean of t_A - R t_B, as if the hand did not rotate; this
+      difference is -(R_A - 1) t => the mean of t_A - R t_B
+    t-as-if-alike 2: t is the mean of R t_B - t_A, as if the hand did not rotate; this
+      difference is (R_A - 1) t => the mean of R t_B - t_A
     """
-    right = hand_eye(A, B)
-    R = right[:3, :3]
+    R = hand_eye(A, B)[:3, :3]
     alone = [
         solved(A[k : k + 1], B[k : k + 1], turn=lambda A, B: R)[:3, 3]
         for k in range(len(A))
     ]
     alike = np.mean(A[:, :3, 3] - B[:, :3, 3] @ R.T, axis=0)
     return {
-        "other-way": hand_eye(B, A),
-        "t-left-out": rigid(R, 0 * right[:3, 3]),
         "t-of-the-mean": rigid(R, np.mean(alone, axis=0)),
         "centred-the-other-way": solved(
             A, B, turn=lambda A, B: turns(B, A, centred=True)
         ),
-        "halved": rigid(R, right[:3, 3] / 2),
         "t-as-if-alike": rigid(R, alike),
         "t-as-if-alike 2": rigid(R, -alike),
     }
@@ -189,11 +170,11 @@ def _(A, B):
 row.same(
     "C = (A[:, :3, :3] - np.eye(3)).reshape(-1, 3) => "
     "C = (A[:, :3, :3] - np.eye(3)).reshape(-2, 3)",
-    "NumPy takes any size below 0 for what is left",
+    "NumPy infers any negative size",
 )
 
 
-@row.right  # By the polar factor, and normal equations.
+@row.right  # By the polar factor and the normal equations.
 def _(A, B):
     M = sum(
         np.outer(log_rotation(a[:3, :3]), log_rotation(b[:3, :3]))

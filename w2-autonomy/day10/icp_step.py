@@ -3,8 +3,6 @@
 import numpy as np
 
 from labkit.judge import Pose, Row, rounded
-from labkit.judge.argument_mistakes import Change
-from robo47 import se3
 from robo47.camera import apply_twist, kabsch
 
 row = Row(Pose())
@@ -30,7 +28,7 @@ def nearest(points, target):
 
 
 def once_each(away):
-    """Return the nearest that is still free for each point, in turn, (n,)."""
+    """Return the nearest unused target point of each point, (n,)."""
     away = away.copy()
     found = []
     for one in away:
@@ -41,40 +39,37 @@ def once_each(away):
 
 @row.wrongs
 def _(T, source, target):
-    """guess-not-used: each point is paired where it stands; T moves it first
-    step-alone: this is the step from where T has taken the points; asked for is the
-      whole motion, from the source => kabsch of the moved points
-    step-on-the-right: the step stands on T's right; it comes after T, so on its left =>
-      T times the step
-    step-twice: T is applied twice: the points that are fitted are the source's, so T is
-      in the answer already => it times T
-    step-twice 2: T is applied twice: the points that are fitted are the source's, so T
-      is in the answer already => T times it
-    by-sizes-added: the nearest is the one whose differences, without signs, add up to
-      the least; near is the length of the difference => with sums of |x - y|
-    nearer-half: only the nearer half of the pairs is fitted; all are
-    each-once: a point of the target is taken once only; several of the source may share
-      the nearest => with pairs that no other has
-    farthest: each point is paired with the farthest
-    in-the-plane: only x and y say which is nearest
-    other-way: this is the motion from target to source
-    pairs-of-the-target: each point of the target is paired with the nearest of the
-      source; it is the source's points that are all used
-    first-to-first: points are paired by their place in the list, not by the nearest
-    T-unchanged: this is T itself
+    """step-alone: this is the motion from the transformed source; return the whole
+      motion, from the source itself => kabsch of the transformed points
+    step-on-the-right: the step is on the right of T; it follows T, so it is on the left
+      => T times the step
+    step-twice: T is applied twice; the motion is fitted to the source itself, so it
+      contains T already => the result times T
+    step-twice 2: T is applied twice; the motion is fitted to the source itself, so it
+      contains T already => T times the result
+    by-sizes-added: the nearest point is chosen by the sum of the absolute differences;
+      use the Euclidean distance => the sum of |x - y|
+    nearer-half: only the nearer half of the pairs is fitted; fit all of them
+    each-once: each target point is used at most once; several source points may have
+      the same nearest one => a pairing without repetition
+    in-the-plane: only x and y are compared for the nearest point; use all three
+      coordinates
+    pairs-of-the-target: each target point is paired with the nearest source point; pair
+      each source point with the nearest target point
+    first-to-first: the points are paired by their order; pair each with the nearest
+    T-unchanged: the output is T itself; fit the motion from the source to the pairs
     """
     now = source @ T[:3, :3].T + T[:3, 3]
     best = nearest(now, target)
     away = ((now[:, None] - target) ** 2).sum(axis=2)
     back = source[np.argmin(away, axis=0)]
-    beside = ((now[:, None] - target)[..., :2] ** 2).sum(axis=2)
+    flat = ((now[:, None] - target)[..., :2] ** 2).sum(axis=2)
     sizes = np.abs(now[:, None] - target).sum(axis=2)
     least = away.min(axis=1)
     near = least < np.median(least)
     step = kabsch(now, best)
     right = kabsch(source, best)
     return {
-        "guess-not-used": kabsch(source, nearest(source, target)),
         "step-alone": step,
         "step-on-the-right": T @ step,
         "step-twice": right @ T,
@@ -82,46 +77,14 @@ def _(T, source, target):
         "by-sizes-added": kabsch(source, target[np.argmin(sizes, axis=1)]),
         "nearer-half": lambda: kabsch(source[near], best[near]),
         "each-once": kabsch(source, target[once_each(away)]),
-        "farthest": kabsch(source, target[np.argmax(away, axis=1)]),
-        "in-the-plane": kabsch(source, target[np.argmin(beside, axis=1)]),
-        "other-way": np.linalg.inv(right),
+        "in-the-plane": kabsch(source, target[np.argmin(flat, axis=1)]),
         "pairs-of-the-target": kabsch(back, target),
         "first-to-first": kabsch(source, target[: len(source)]),
         "T-unchanged": T,
     }
 
 
-row.of_argument(
-    "T",
-    Change(
-        "moved-by-the-inverse",
-        "T's inverse moves the source; T takes source to target",
-        se3.inverse,
-        "the right one from T's inverse",
-    ),
-    Change(
-        "R-transposed",
-        "T's rotation is transposed before the points are paired: they stand in rows, "
-        "so it is p R^T",
-        lambda T: se3.make_T(T[:3, :3].T, T[:3, 3]),
-        "with R^T",
-    ),
-    Change(
-        "t-forgotten",
-        "the points are turned by T, but not moved, before they are paired",
-        lambda T: se3.make_T(T[:3, :3], np.zeros(3)),
-        "without t",
-    ),
-    Change(
-        "R-forgotten",
-        "the points are moved by T, but not turned, before they are paired",
-        lambda T: se3.make_T(np.eye(3), T[:3, 3]),
-        "without R",
-    ),
-)
-
-
-@row.right  # By a loop, and the step put before T.
+@row.right  # A loop, with the step on the left of T.
 def _(T, source, target):
     now = np.array([T[:3, :3] @ p + T[:3, 3] for p in source])
     best = [min(target, key=lambda x, p=p: np.linalg.norm(x - p)) for p in now]

@@ -31,7 +31,7 @@ def _(rng):
 
 
 def rigid(R, t):
-    """Return a 4x4 matrix, also of what is no rotation."""
+    """Return a 4x4 matrix, also if R is no rotation."""
     T = np.eye(4)
     T[:3, :3] = R
     T[:3, 3] = t
@@ -39,7 +39,7 @@ def rigid(R, t):
 
 
 def proper(U, Vt):
-    """Return the rotation that an svd leads to: the smallest direction turned round."""
+    """Return the nearest rotation, from an SVD."""
     return U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt
 
 
@@ -47,7 +47,7 @@ def fitted(
     source, target, *, centre=lambda X: X.mean(axis=0), rotation=proper,
     scale=lambda s, source: 1.0, shift=lambda R, a, b: b - R @ a,
 ):  # fmt: skip
-    """Return the motion with other parts: about which centre, by which R, moved how."""
+    """Return the motion with another centre, rotation, scale or translation."""
     around = source - centre(source)
     U, s, Vt = np.linalg.svd((target - centre(target)).T @ around)
     R = scale(s * [1, 1, np.linalg.det(U @ Vt)], around) * rotation(U, Vt)
@@ -55,78 +55,58 @@ def fitted(
 
 
 def all_turned(U, Vt):
-    """Return the rotation with every sign turned where it is a mirror image."""
+    """Return U V^T, negated where it is a reflection."""
     return U @ Vt * np.sign(np.linalg.det(U @ Vt))
 
 
 for slug, says, redone, other in (
-    ("mirror", "the sign of the determinant is not looked at: where noise or a "
-     "mirrored cloud wants it, U V^T is a mirror image", "U V^T as it is",
-     {"rotation": lambda U, Vt: U @ Vt}),
-    ("mirror-turned-round", "the mirror is made a rotation by another sign for all of "
-     "it; only the direction of the smallest singular value turns round",
-     "with -R there", {"rotation": all_turned}),
-    ("largest-turned-round", "the mirror is made a rotation by turning the direction "
-     "of the largest singular value round; the smallest is the cheapest",
-     "with diag(det, 1, 1)", {"rotation": lambda U, Vt: U @ np.diag(
+    ("mirror", "the determinant is not checked: with noise or for mirrored points "
+     "U V^T may be a reflection", "U V^T", {"rotation": lambda U, Vt: U @ Vt}),
+    ("mirror-turned-round", "a reflection is made a rotation by negating the whole "
+     "matrix; negate only the direction of the smallest singular value", "-U V^T",
+     {"rotation": all_turned}),
+    ("largest-turned-round", "a reflection is made a rotation by negating the "
+     "direction of the largest singular value; the smallest one changes the fit least",
+     "diag(det, 1, 1)", {"rotation": lambda U, Vt: U @ np.diag(
          [np.linalg.det(U @ Vt), 1, 1]) @ Vt}),
-    ("middle-turned-round", "the mirror is made a rotation by turning the direction of "
-     "the middle singular value round; the smallest is the cheapest",
-     "with diag(1, det, 1)", {"rotation": lambda U, Vt: U @ np.diag(
-         [1, np.linalg.det(U @ Vt), 1]) @ Vt}),
-    ("column-turned-round", "the mirror is made a rotation by turning the third column "
-     "of V^T round; its rows are the directions", "with V^T's column",
+    ("column-turned-round", "a reflection is made a rotation by negating the third "
+     "column of V^T; its directions are the rows", "the negated column of V^T",
      {"rotation": lambda U, Vt: U @ Vt @ np.diag([1, 1, np.linalg.det(U @ Vt)])}),
-    ("row-of-U-turned-round", "the mirror is made a rotation by turning the third row "
-     "of U round; its columns are the directions", "with U's row",
-     {"rotation": lambda U, Vt: np.diag([1, 1, np.linalg.det(U @ Vt)]) @ U @ Vt}),
-    ("always-turned-round", "the third direction is turned round every time; it is "
-     "only where U V^T is a mirror image", "with diag(1, 1, -1)",
+    ("always-turned-round", "the third direction is always negated; negate it only if "
+     "U V^T is a reflection", "diag(1, 1, -1)",
      {"rotation": lambda U, Vt: U @ np.diag([1, 1, -1]) @ Vt}),
-    ("R-transposed", "the rotation is the other way round: it is U V^T of "
-     "target^T source, not source^T target", "with R^T",
+    ("R-transposed", "the rotation is transposed: it maps the source to the target, so "
+     "it is U V^T of target^T source", "R^T",
      {"rotation": lambda U, Vt: proper(U, Vt).T}),
-    ("U-V", "numpy's svd returns V^T already", "with U V", {"rotation": lambda U, Vt:
-     U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt.T}),
-    ("not-centred", "the clouds are not moved to their centres before the svd",
-     "with the points as they are", {"centre": lambda X: np.zeros(3)}),
-    ("one-number-for-the-centre", "the centre is the mean of all numbers of a cloud; "
-     "each coordinate has its own: axis=0", "with .mean() of all numbers",
+    ("not-centred", "the centroids are not subtracted before the SVD",
+     "the SVD of the points themselves", {"centre": lambda X: np.zeros(3)}),
+    ("one-number-for-the-centre", "the centroid is the mean of all coordinates "
+     "together; use axis=0 for one mean per coordinate", ".mean() without an axis",
      {"centre": lambda X: X.mean() + np.zeros(3)}),
-    ("about-the-first", "the clouds are moved to their first points; their noise stays "
-     "in, and the centres' does not", "with source[0] and target[0]",
+    ("about-the-first", "the first points are subtracted instead of the centroids; "
+     "their noise changes the rotation", "the SVD about source[0] and target[0]",
      {"centre": lambda X: X[0]}),
-    ("scaled", "R is multiplied by a scale; a motion changes no lengths",
-     "with a scale", {"scale": lambda s, source: s.sum() / np.sum(source * source)}),
-    ("t-without-R", "the translation is the difference of the centres; source's centre "
-     "is turned first, so it is b - R a", "with b - a",
-     {"shift": lambda R, a, b: b - a}),
-    ("t-with-R-transposed", "the translation is b - R^T a; it is b - R a",
-     "with b - R^T a", {"shift": lambda R, a, b: b - R.T @ a}),
-    ("t-turned-too", "the translation is R (b - a); only a is turned: b - R a",
-     "with R (b - a)", {"shift": lambda R, a, b: R @ (b - a)}),
-    ("t-added", "the translation is b + R a; it is b - R a", "with b + R a",
-     {"shift": lambda R, a, b: b + R @ a}),
-    ("t-sign", "the translation is a - R b; it is b - R a", "with a - R b",
-     {"shift": lambda R, a, b: a - R @ b}),
+    ("scaled", "R is multiplied by a scale; a rigid motion keeps all distances",
+     "a scaled R", {"scale": lambda s, source: s.sum() / np.sum(source * source)}),
+    ("t-turned-too", "the translation is R (b - a); rotate only a: b - R a",
+     "R (b - a)", {"shift": lambda R, a, b: R @ (b - a)}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(fitted, **other))
 
 
 @row.wrongs
 def _(source, target):
-    """other-way: this is the motion from target to source => kabsch(target, source)
-    t-of-the-first: the translation fits the first point alone; its noise stays in
-      => with b_0 - R a_0
-    first-for-centre: the first points are taken for the centres; their noise stays in
-      => with source[0] and target[0] for a and b
-    affine: this is the best 3x3 matrix, by lstsq, and no rotation => the affine fit
+    """t-of-the-first: the translation fits the first pair only; use the centroids =>
+      b_0 - R a_0
+    first-for-centre: the first points are used instead of the centroids; their noise
+      changes the fit => the fit about source[0] and target[0]
+    affine: this is the best affine map by least squares, and no rotation => the affine
+      fit
     """
     R = kabsch(source, target)[:3, :3]
     one = np.hstack([source, np.ones((len(source), 1))])
     M = np.linalg.lstsq(one, target, rcond=None)[0].T
     return {
-        "other-way": kabsch(target, source),
         "first-for-centre": fitted(
             source,
             target,

@@ -27,7 +27,7 @@ def seen(
     times=lambda K, p: p @ K.T, divided=lambda h, p: h[:, :2] / h[:, 2:],
     told=lambda pixels: pixels,
 ):  # fmt: skip
-    """Return the pixels with other parts: how points are moved, multiplied, divided."""
+    """Return the pixels with another transform, product, division or output."""
     p = moved(T_cam_world[:3, :3], T_cam_world[:3, 3], points)
     return told(divided(times(K, p), p))
 
@@ -38,7 +38,7 @@ def length(p):
 
 
 def upright(K, p, f=1.0, centre=1.0):
-    """Return K p with f or the centre left out."""
+    """Return K p with another f or principal point."""
     here = K.copy()
     here[0, 0] = here[0, 0] if f else 1.0
     here[1, 1] = here[1, 1] if f else 1.0
@@ -47,87 +47,63 @@ def upright(K, p, f=1.0, centre=1.0):
 
 
 def swapped(K):
-    """Return K with its centre's numbers swapped."""
+    """Return K with cx and cy swapped."""
     here = K.copy()
     here[:2, 2] = here[1::-1, 2]
     return here
 
 
 for slug, says, redone, other in (
-    ("T-the-other-way", "T is used the other way, as T_world_cam; it already takes the "
-     "world's points to the camera", "with T's inverse",
-     {"moved": lambda R, t, x: (x - t) @ R}),
-    ("R-transposed", "the rotation is transposed: points stand in rows here, so it is "
-     "p R^T, or R on the left of columns", "with R^T",
-     {"moved": lambda R, t, x: x @ R + t}),
-    ("half-inverted", "R is transposed and t taken off, each alone; that is neither T "
-     "nor its inverse, and T is what takes the world's points to the camera",
-     "with R^T p - t", {"moved": lambda R, t, x: x @ R - t}),
-    ("t-taken-off", "the translation is taken off; T p is R p + t", "with R p - t",
-     {"moved": lambda R, t, x: x @ R.T - t}),
-    ("t-forgotten", "the translation is missing: points are turned, but not moved",
-     "with R p", {"moved": lambda R, t, x: x @ R.T}),
-    ("R-forgotten", "the rotation is missing: points are moved, but not turned",
-     "with p + t", {"moved": lambda R, t, x: x + t}),
-    ("T-forgotten", "T is not used: points of the world are taken for the camera's",
-     "with p as it is", {"moved": lambda R, t, x: x}),
-    ("t-before-R", "the point is moved first and turned then; T p is R p + t",
-     "with R (p + t)", {"moved": lambda R, t, x: (x + t) @ R.T}),
-    ("K-transposed", "K is transposed: points stand in rows here, so it is p K^T",
-     "with K^T", {"times": lambda K, p: p @ K}),
-    ("centre-before-dividing", "the centre is added before the division, so it is "
-     "divided, too", "f p / z with the centre in the numerator",
+    ("half-inverted", "R is transposed and t is subtracted; this is neither T nor its "
+     "inverse, which is R^T (p - t)", "R^T p - t",
+     {"moved": lambda R, t, x: x @ R - t}),
+    ("T-forgotten", "T_cam_world is not used; the points are in the world frame, so "
+     "transform them to the camera frame", "the projection without T",
+     {"moved": lambda R, t, x: x}),
+    ("t-before-R", "the translation is added before the rotation; T p is R p + t",
+     "R (p + t)", {"moved": lambda R, t, x: (x + t) @ R.T}),
+    ("centre-before-dividing", "the principal point is added before the division by "
+     "the depth; add it after", "(f x + cx) / z",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2], p[:, 2]])}),
-    ("centre-forgotten", "the centre is missing: (0, 0) is the image's corner, and a "
-     "point straight ahead is seen in the middle", "without the centre",
+    ("centre-forgotten", "the principal point is missing: (0, 0) is the corner of the "
+     "image, and a point straight ahead is at its centre", "cx = cy = 0",
      {"times": lambda K, p: upright(K, p, centre=0.0)}),
-    ("centre-taken-off", "the centre is taken off; it is added: a point straight ahead "
-     "is seen there", "with minus the centre",
+    ("centre-taken-off", "the principal point is subtracted; add it",
+     "(-cx, -cy) as the principal point",
      {"times": lambda K, p: upright(K, p, centre=-1.0)}),
-    ("centre-swapped", "the centre's two numbers are swapped: cx goes with u",
-     "with (cy, cx)", {"times": lambda K, p: p @ swapped(K).T}),
-    ("K-inverted", "it is multiplied by K's inverse; that takes pixels back to points",
-     "with K^-1", {"times": lambda K, p: p @ np.linalg.inv(K).T}),
-    ("f-forgotten", "f is missing: x / z is no number of pixels", "with f = 1",
-     {"times": lambda K, p: upright(K, p, f=0.0)}),
-    ("y-up", "y is taken upwards; here it points down, as v does", "with -y",
+    ("centre-swapped", "cx and cy are swapped: cx belongs to u", "(cy, cx)",
+     {"times": lambda K, p: p @ swapped(K).T}),
+    ("f-forgotten", "the focal length is missing: x / z has no unit, and f converts it "
+     "to pixels", "f = 1", {"times": lambda K, p: upright(K, p, f=0.0)}),
+    ("y-up", "y is negated; it points down, like v", "(x, -y, z)",
      {"times": lambda K, p: p * [1, -1, 1] @ K.T}),
-    ("view-along-minus-z", "it is divided by -z; here the camera looks along +z, "
-     "unlike MuJoCo's", "with -z", {"times": lambda K, p: p * [1, 1, -1] @ K.T}),
-    ("mujoco-axes", "y and z are turned round, as MuJoCo's camera needs it; "
-     "T_cam_world takes points to axes with y down and z forward already",
-     "with -y and -z", {"times": lambda K, p: p * [1, -1, -1] @ K.T}),
-    ("not-divided", "nothing is divided by the depth: these are pixels times metres",
-     "K T p itself", {"divided": lambda h, p: h[:, :2]}),
-    ("divided-by-range", "it is divided by the point's distance; a camera divides by "
-     "its depth, z", "with the length of p",
+    ("view-along-minus-z", "the point is divided by -z; this camera looks along +z, "
+     "unlike MuJoCo's", "(x, y, -z)", {"times": lambda K, p: p * [1, 1, -1] @ K.T}),
+    ("mujoco-axes", "y and z are negated, as for MuJoCo's camera frame; T_cam_world "
+     "maps to a frame with y down and z forward already", "(x, -y, -z)",
+     {"times": lambda K, p: p * [1, -1, -1] @ K.T}),
+    ("divided-by-range", "the point is divided by its distance from the camera; divide "
+     "it by its depth z", "the norm of p instead of z",
      {"divided": lambda h, p: h[:, :2] / length(p)}),
-    ("divided-by-range", "it is divided by the point's distance; a camera divides by "
-     "its depth, z", "with the length of p",
+    ("divided-by-range", "the point is divided by its distance from the camera; divide "
+     "it by its depth z", "the norm of p instead of z",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2] * length(p), length(p)])}),
-    ("first-depth-for-all", "all are divided by the first point's depth; each has its "
-     "own", "with z of the first", {"divided": lambda h, p: h[:, :2] / h[0, 2]}),
-    ("divided-by-pixel-length", "it is divided by the length of K T p; its last "
-     "entry is the depth", "with the length of K T p",
+    ("first-depth-for-all", "all points are divided by the depth of the first one; "
+     "each has its own depth", "the depth of the first point",
+     {"divided": lambda h, p: h[:, :2] / h[0, 2]}),
+    ("divided-by-pixel-length", "the homogeneous pixel is divided by its norm; divide "
+     "it by its last entry, the depth", "the norm of K T p",
      {"divided": lambda h, p: h[:, :2] / length(h)}),
-    ("homogeneous-by-mistake", "it is divided by the last of K T p, and by depth "
-     "again; the last is the depth, so one division is enough", "divided by z twice",
+    ("homogeneous-by-mistake", "the homogeneous pixel is divided by the depth twice; "
+     "its last entry is the depth, so one division is enough", "z^2 instead of z",
      {"divided": lambda h, p: h[:, :2] / h[:, 2:] ** 2}),
-    ("whole-pixels", "the pixels are rounded; (125.3, 50.7) is a place in the image as "
-     "well", "rounded", {"told": np.round}),
-    ("whole-pixels", "the pixels are cut to whole numbers; (125.3, 50.7) is a place in "
-     "the image as well", "cut off", {"told": np.trunc}),
-    ("whole-pixels", "the pixels are rounded down; (125.3, 50.7) is a place in the "
-     "image as well", "rounded down", {"told": np.floor}),
-    ("row-column", "the answer is (row, column); u, to the right, comes first",
-     "(v, u)", {"told": lambda pixels: pixels[:, ::-1]}),
-    ("middle-of-a-pixel", "half a pixel is taken off; (0, 0) is the image's corner, "
-     "not the middle of its first pixel, as OpenCV has it", "with pixels - 0.5",
+    ("middle-of-a-pixel", "half a pixel is subtracted; (0, 0) is the corner of the "
+     "image, and not, as in OpenCV, the centre of the first pixel", "pixels - 0.5",
      {"told": lambda pixels: pixels - 0.5}),
-    ("half-a-pixel-added", "half a pixel is added; (0, 0) is the image's corner, and "
-     "the centre in K stands from there", "with pixels + 0.5",
+    ("half-a-pixel-added", "half a pixel is added; (0, 0) is the corner of the image, "
+     "and the principal point is measured from there", "pixels + 0.5",
      {"told": lambda pixels: pixels + 0.5}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(seen, **other))
@@ -135,15 +111,15 @@ for slug, says, redone, other in (
 
 @row.wrong
 def K_before_T(K, T_cam_world, points):
-    """K is applied before T: its result is in pixels, which T cannot move => T (K p)"""
+    """K is applied before T; T maps points in metres, not pixels => T (K p)"""
     p = points @ K.T @ T_cam_world[:3, :3].T + T_cam_world[:3, 3]
     return p[:, :2] / p[:, 2:]
 
 
-row.at_least_0(K="f and the centre are")
+row.at_least_0(K="f and the principal point are")
 
 
-@row.right  # By the homogeneous 3x4 matrix, a point at a time.
+@row.right  # By the homogeneous 3x4 matrix, one point after the other.
 def _(K, T_cam_world, points):
     P = K @ T_cam_world[:3]
     found = []

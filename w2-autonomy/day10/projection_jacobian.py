@@ -43,15 +43,15 @@ def by_twist(p, sign=-1.0):
     return np.concatenate([sign * skew(p), np.tile(np.eye(3), (len(p), 1, 1))], axis=2)
 
 
-def slopes(
+def jacobian(
     K, p_cam, *, pixel=by_point, twist=by_twist, told=lambda J: J
 ):  # fmt: skip
-    """Return the Jacobian with other parts."""
+    """Return the Jacobian with other derivatives or another output."""
     return told(pixel(K, p_cam) @ twist(p_cam))
 
 
 def third(change):
-    """Return d(pixel)/dp with another third column: a factor, of z."""
+    """Return d(pixel)/dp with the third column times a factor of z."""
     return lambda K, p: by_point(K, p) * np.dstack([
         np.ones((len(p), 1, 2)), np.reshape(change(p[:, 2]) + 0 * p[:, 2], (-1, 1, 1))
     ])  # fmt: skip
@@ -63,7 +63,7 @@ def depth(p, power):
 
 
 def with_the_centre(K, p):
-    """Return K[:2] times the slopes of (x / z, y / z, z)."""
+    """Return K[:2] times the derivatives of (x / z, y / z, z)."""
     D = by_point(K, p) / focal(K)
     last = np.tile([0.0, 0.0, 1.0], (len(p), 1, 1))
     return K[:2] @ np.concatenate([D, last], axis=1)
@@ -88,80 +88,47 @@ def with_one_name(of, other):
 
 
 for slug, says, redone, other in (
-    ("depth-column-forgotten", "the third column of d(pixel)/dp is 0: a point that "
-     "comes nearer moves outwards, by -f x / z^2", "without -x / z^2",
-     {"pixel": third(lambda z: 0.0)}),
-    ("depth-column-sign", "the third column of d(pixel)/dp has the wrong sign: the "
-     "slope of x / z with z is -x / z^2", "with +x / z^2",
-     {"pixel": third(lambda z: -1.0)}),
-    ("one-z-too-few", "the third column of d(pixel)/dp is divided by z once; the slope "
-     "of 1 / z is -1 / z^2", "with -x / z", {"pixel": third(lambda z: z)}),
-    ("two-z-too-few", "the third column of d(pixel)/dp is not divided by z; the slope "
-     "of 1 / z is -1 / z^2", "with -x", {"pixel": third(lambda z: z * z)}),
-    ("one-z-too-many", "the third column of d(pixel)/dp is divided by z three times; "
-     "the slope of 1 / z is -1 / z^2", "with -x / z^3",
-     {"pixel": third(lambda z: 1 / z)}),
-    ("f-forgotten", "f is missing: these are slopes of x / z, in no unit", "without f",
-     {"pixel": lambda K, p: by_point(K, p) / focal(K)}),
-    ("fx-in-both-rows", "the row of v has fx; its focal length is fy, K[1, 1]",
-     "with K[0, 0] twice", {"pixel": lambda K, p: by_point(
-         K, p) / focal(K) * K[0, 0]}),
-    ("fy-in-both-rows", "the row of u has fy; its focal length is fx, K[0, 0]",
-     "with K[1, 1] twice", {"pixel": lambda K, p: by_point(
-         K, p) / focal(K) * K[1, 1]}),
-    ("not-divided", "d(pixel)/dp is not divided by z", "times z",
-     {"pixel": lambda K, p: by_point(K, p) * depth(p, 1)}),
-    ("divided-once-more", "all of d(pixel)/dp is divided by z once more; only its "
-     "third column is", "divided by z",
-     {"pixel": lambda K, p: by_point(K, p) / depth(p, 1)}),
-    ("centre-in-the-slope", "the centre is in the third column; it is added to the "
-     "pixel, so no slope has it", "with the centre in the third column",
+    ("depth-column-forgotten", "the derivatives by z are 0; a point that comes nearer "
+     "moves away from the principal point, so they are -f x / z^2",
+     "0 instead of -f x / z^2", {"pixel": third(lambda z: 0.0)}),
+    ("depth-column-sign", "the derivatives by z have the wrong sign: the derivative of "
+     "x / z is -x / z^2", "f x / z^2", {"pixel": third(lambda z: -1.0)}),
+    ("power-of-z", "the derivatives by z have the wrong power of z: the derivative of "
+     "x / z is -x / z^2", "-f x / z", {"pixel": third(lambda z: z)}),
+    ("power-of-z", "the derivatives by z have the wrong power of z: the derivative of "
+     "x / z is -x / z^2", "-f x", {"pixel": third(lambda z: z * z)}),
+    ("power-of-z", "the derivatives by z have the wrong power of z: the derivative of "
+     "x / z is -x / z^2", "-f x / z^3", {"pixel": third(lambda z: 1 / z)}),
+    ("f-forgotten", "the focal lengths are missing: these are derivatives of x / z, "
+     "which has no unit", "f = 1", {"pixel": lambda K, p: by_point(K, p) / focal(K)}),
+    ("centre-in-the-slope", "the principal point is in the derivatives by z; it is a "
+     "constant, so its derivative is 0", "the principal point in the derivatives",
      {"pixel": with_the_centre}),
-    ("x-for-y", "the row of v has x in its third column; it is -y / z^2", "with x",
-     {"pixel": with_one_name(1, 0)}),
-    ("y-for-x", "the row of u has y in its third column; it is -x / z^2", "with y",
-     {"pixel": with_one_name(0, 1)}),
-    ("first-columns-not-divided", "d(pixel)/dp's first two columns are not divided "
-     "by z; only the third is", "with f for f / z", {"pixel": lambda K, p: by_point(
+    ("x-for-y", "the row of v has x in its derivative by z; it is -f y / z^2",
+     "x instead of y", {"pixel": with_one_name(1, 0)}),
+    ("y-for-x", "the row of u has y in its derivative by z; it is -f x / z^2",
+     "y instead of x", {"pixel": with_one_name(0, 1)}),
+    ("first-columns-not-divided", "the derivatives by x and y are not divided by z; "
+     "they are f / z", "f instead of f / z", {"pixel": lambda K, p: by_point(
          K, p) * np.where([True, True, False], depth(p, 1), 1.0)}),
-    ("pixels-for-x-and-y", "the third column has the pixel's own u and v; it has "
-     "x and y", "with -u / z", {"pixel": of_the_pixel}),
-    ("v-of-y-sign", "the slope of v with y has the wrong sign; y and v both point down",
-     "with -f / z there", {"pixel": lambda K, p: by_point(K, p)
-                           * [[1, 1, 1], [1, -1, 1]]}),
-    ("one-depth-sign", "the slope of u with z has the wrong sign: it is -f x / z^2",
-     "with +x / z^2 in u", {"pixel": lambda K, p: by_point(K, p)
-                            * [[1, 1, -1], [1, 1, 1]]}),
-    ("one-depth-sign", "the slope of v with z has the wrong sign: it is -f y / z^2",
-     "with +y / z^2 in v", {"pixel": lambda K, p: by_point(K, p)
-                            * [[1, 1, 1], [1, 1, -1]]}),
-    ("range-for-depth", "it is divided by the point's distance; a camera divides by z",
-     "with the length of p", {"pixel": lambda K, p: by_point(
+    ("pixels-for-x-and-y", "the derivatives by z use the pixel (u, v); use x and y in "
+     "the camera frame", "(u, v) instead of (x, y)", {"pixel": of_the_pixel}),
+    ("range-for-depth", "the derivatives use the distance of the point; use its depth "
+     "z", "the norm of p instead of z", {"pixel": lambda K, p: by_point(
          K, np.column_stack([p[:, :2], np.linalg.norm(p, axis=1)]))}),
-    ("halves-swapped", "the columns are (v; omega); here omega comes first",
+    ("halves-swapped", "the columns are in the order (v; omega); omega comes first",
      "[1, -[p]]", {"told": lambda J: J[..., HALF]}),
-    ("rotation-sign", "the rotation's columns have the wrong sign: omega x p is -[p] "
-     "omega", "with +[p]", {"twist": lambda p: by_twist(p, 1.0)}),
-    ("rotation-forgotten", "the rotation's columns are 0; a turn about the camera's "
-     "origin moves what is seen, too", "[0, 1]",
-     {"twist": lambda p: by_twist(p) * [0, 0, 0, 1, 1, 1]}),
-    ("v-forgotten", "the columns of v are 0; v moves every point", "[-[p], 0]",
-     {"twist": lambda p: by_twist(p) * [1, 1, 1, 0, 0, 0]}),
-    ("v-sign", "the columns of v have the wrong sign: what is seen moves with v",
-     "[-[p], -1]", {"twist": lambda p: by_twist(p) * [1, 1, 1, -1, -1, -1]}),
-    ("camera-moves", "all signs are turned: these are the pixels of a camera that "
-     "moves; here what is seen moves", "the right one with the other sign",
-     {"told": np.negative}),
-    ("rows-swapped", "the rows of u and v are swapped", "(v, u)",
-     {"told": lambda J: J[:, ::-1]}),
-    ("y-up", "the row of v has the wrong sign; y and v point down here", "with -v",
+    ("rotation-sign", "the columns of omega have the wrong sign: omega x p is "
+     "-[p] omega", "+[p]", {"twist": lambda p: by_twist(p, 1.0)}),
+    ("camera-moves", "every sign is reversed, as for a camera that moves; the twist is "
+     "of the object", "the negative", {"told": np.negative}),
+    ("y-up", "the row of v has the wrong sign; y and v both point down", "(u, -v)",
      {"told": lambda J: J * [[1], [-1]]}),
 ):  # fmt: skip
-    one = "the lab's camera has fx = fy" if "-in-both-rows" in slug else ""
-    row.wrong(slug, says, redone, hidden=one)(partial(slopes, **other))
+    row.wrong(slug, says, redone)(partial(jacobian, **other))
 
 
-row.at_least_0(K="f and the centre are")
+row.at_least_0(K="f and the principal point are")
 
 
 @row.right  # Entry by entry, as in papers on visual servoing.
@@ -180,7 +147,7 @@ def _(K, p_cam):
 
 @row.wrong(
     "not-at-every-size", hidden="the numbers of the lab stay within its limits"
-)  # 0.2 m at least in the slopes.
+)  # The derivatives use a depth of at least 0.2 m.
 def _(K, p_cam):
     p = p_cam.copy()
     p[:, 2] = np.maximum(p[:, 2], 0.2)

@@ -37,17 +37,17 @@ def _(rng):  # a small cube, far away, seen exactly: ten full steps find it
 
 
 def least_squares(J, off):
-    """Return the twist that explains the pixels' errors best."""
+    """Return the least-squares solution for the twist."""
     return np.linalg.lstsq(J.reshape(-1, 6), off.ravel(), rcond=None)[0]
 
 
 def mixed(J, off):
-    """Return what least squares give where u and v are stacked in two ways."""
+    """Return the solution where J has all u before all v."""
     return least_squares(np.concatenate([J[:, 0], J[:, 1]]), off)
 
 
 def mixed_off(J, off):
-    """Return what they give where it is the error that has all u before all v."""
+    """Return the solution where the errors have all u before all v."""
     return least_squares(J, off.T)
 
 
@@ -57,7 +57,7 @@ def downhill(J, off):
 
 
 def apart(T, xi):
-    """Return T with R turned and t moved, each alone."""
+    """Return T with R rotated and v added to t."""
     T = T.copy()
     T[:3, :3] = (
         apply_twist(np.eye(4), np.append(xi[:3], np.zeros(3)))[:3, :3] @ T[:3, :3]
@@ -75,102 +75,76 @@ def first_order(T, xi):
 
 
 def on_the_right(T, xi):
-    """Return T moved in its own axes."""
+    """Return T exp([xi])."""
     return T @ apply_twist(np.eye(4), xi)
-
-
-def placed(T, points):
-    """Return points of the thing in the camera's axes."""
-    return points @ T[:3, :3].T + T[:3, 3]
 
 
 def steps(
     K, T_guess, points, pixels, *, n=10, solve=least_squares, move=apply_twist,
-    held=False, sign=1.0, at=placed, stale=False,
-    since=lambda T, guess: T, told=lambda T: T,
+    held=False, factor=1.0, since=lambda T, guess: T,
 ):  # fmt: skip
-    """Return T after steps that may be wrong; NaN where they run away."""
+    """Return T after steps that may be wrong; NaN where they diverge."""
     T = T_guess
-    J = off = None
+    J = None
     for _ in range(n):
-        p = placed(T, points)
-        if off is None or not stale:
-            off = pixels - (p @ K.T)[:, :2] / p[:, 2:]
-        if J is None or not held:
-            J = slopes(K, at(T, points))
-        T = move(since(T, T_guess), sign * solve(J, off))
-    return told(T)
-
-
-def slopes(K, p):
-    """Return 10.4's J, also of points behind the camera, where wrong steps may lead."""
-    return by_point(K, p) @ by_twist(p)
+        p = points @ T[:3, :3].T + T[:3, 3]
+        off = pixels - (p @ K.T)[:, :2] / p[:, 2:]
+        if J is None or not held:  # wrong steps may lead behind the camera
+            J = by_point(K, p) @ by_twist(p)
+        T = move(since(T, T_guess), factor * solve(J, off))
+    return T
 
 
 for slug, says, redone, other in (
-    ("one-step", "this is the pose after one step; ten were asked for", "one step",
-     {"n": 1}),
-    ("two-steps", "it stops after two steps; ten were asked for", "two steps",
-     {"n": 2}),
-    ("three-steps", "it stops after three steps; ten were asked for", "three steps",
-     {"n": 3}),
-    ("J-of-the-guess", "the Jacobian is that of the guess in all steps; it changes "
-     "with the pose", "with J at the guess alone", {"held": True}),
-    ("J-of-the-thing", "the Jacobian is taken at the points in the thing's own axes; "
-     "it needs them in the camera's, moved by T", "with J at `points`",
-     {"at": lambda T, points: points}),
-    ("J-not-moved", "the Jacobian is taken at points that are turned, but not moved, "
-     "by T", "with J at R p", {"at": lambda T, points: points @ T[:3, :3].T}),
-    ("error-of-the-guess", "the error is that of the guess in all steps; each step "
-     "needs what is left", "with the guess's error", {"stale": True}),
-    ("twist-halves-swapped", "the step is taken for (v; omega); J's columns have omega "
-     "first", "with its halves swapped",
+    ("three-steps", "the result is the pose after three steps; return the pose after "
+     "ten", "a loop of three steps", {"n": 3}),
+    ("J-of-the-guess", "the Jacobian of the guess is used in every step; evaluate it "
+     "at the current pose", "the Jacobian of the guess", {"held": True}),
+    ("twist-halves-swapped", "the step is used as (v; omega); the columns of J begin "
+     "with omega", "the step with its halves swapped",
      {"move": lambda T, xi: apply_twist(T, np.roll(xi, 3))}),
-    ("body-twist", "each step stands on T's right; J's twists are in the camera's "
-     "axes, so the exponential stands on the left", "T exp([xi])",
+    ("body-twist", "each step is on the right of T; the twists of J are expressed in "
+     "the camera frame, so the exponential is on the left", "T exp([xi])",
      {"move": on_the_right}),
-    ("first-order", "each step is T + [xi] T, and R no rotation any more",
-     "(1 + [xi]) T", {"move": first_order}),
-    ("gradient", "each step is J^T r, the steepest way, and no least squares",
-     "with J^T r", {"solve": downhill}),
-    ("each-from-the-guess", "each step moves the guess; it moves the pose that the "
-     "last step gave", "with the guess moved",
-     {"since": lambda T, guess: guess}),
-    ("inverse", "this is the camera seen from the thing, T's inverse", "its inverse",
-     {"told": np.linalg.inv}),
-    ("half-steps", "each step is halved: after ten a thousandth of the way is left",
-     "with xi / 2", {"sign": 0.5}),
-    ("residual-sign", "the error is predicted less seen, so each step goes the wrong "
-     "way", "with -r", {"sign": -1.0}),
-    ("rows-mixed", "J has all u above all v, but the error has u and v in turn",
-     "with J's rows in another order", {"solve": mixed}),
-    ("error-mixed", "the error has all u above all v, but J has u and v in turn",
-     "with the error in another order", {"solve": mixed_off}),
+    ("first-order", "each step is T + [xi] T, so R is no rotation any more; use the "
+     "exponential", "(1 + [xi]) T", {"move": first_order}),
+    ("gradient", "each step is J^T r, a gradient step; a Gauss-Newton step is the "
+     "least-squares solution", "J^T r", {"solve": downhill}),
+    ("each-from-the-guess", "each step moves the guess; move the pose of the last step",
+     "the guess moved by each step", {"since": lambda T, guess: guess}),
+    ("half-steps", "each step is halved, so ten steps leave a thousandth of the error",
+     "xi / 2", {"factor": 0.5}),
+    ("rows-mixed", "the rows of J are in another order than the errors: all u, then "
+     "all v", "J with its rows reordered", {"solve": mixed}),
+    ("error-mixed", "the errors are in another order than the rows of J: all u, then "
+     "all v", "another order of the errors", {"solve": mixed_off}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(steps, **other))
 
 
 @row.wrongs
 def _(K, T_guess, points, pixels):
-    """guess-returned: this is the guess itself"""
+    """guess-returned: the output is the guess itself: does your loop change T?"""
     return {"guess-returned": T_guess}
 
 
-row.at_least_0(K="f and the centre are")
-row.same("first T_guess = np.clip(T_guess, -1, 1)", "it is near enough to end there")
+row.at_least_0(K="f and the principal point are")
+row.same(
+    "first T_guess = np.clip(T_guess, -1, 1)", "ten steps converge from there as well"
+)
 row.same(
     "J = projection_jacobian(K, p_cam).reshape(-1, 6) => "
     "J = projection_jacobian(K, p_cam).reshape(-2, 6)",
-    "NumPy takes any size below 0 for what is left",
+    "NumPy infers any negative size",
 )
 
 
-@row.close("rounded-somewhere")  # Wrong steps, that still end where nothing is left.
+@row.close("rounded-somewhere")  # Wrong steps that still converge.
 def _(K, T_guess, points, pixels):
     return steps(K, T_guess, points, pixels, move=apart)
 
 
-@row.right  # Normal equations, and a point at a time.
+@row.right  # The normal equations, one point after the other.
 def _(K, T_guess, points, pixels):
     T = T_guess.copy()
     for _ in range(10):

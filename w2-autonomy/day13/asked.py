@@ -1,4 +1,4 @@
-"""What Day 13 asks about: arms, quadratics in boxes, motions with costs."""
+"""The inputs of Day 13: arms, quadratic programs with bounds, motions with costs."""
 
 import numpy as np
 
@@ -26,7 +26,7 @@ def hinges(rng, n=6):
         J = np.round(ARM.at(q).J_space, 3)
         coms = np.round(ARM.at(q).coms_world, 3)
         g = np.array([0.0, 0.0, -9.81])
-        if k % 2:  # anywhere, and gravity on its side
+        if k % 2:  # random centres, and gravity in any direction
             coms = rng.numbers(-1, 1, 7, 3)
             g = rng.numbers(-9, 9, 3)
         found.append((J, rng.numbers(0.5, 4, 7), coms, g))
@@ -34,21 +34,22 @@ def hinges(rng, n=6):
 
 
 def problem(rng, n, held):
-    """Return H, g, lo, hi and the best x, where `held` are below, above or free.
+    """Return H, f, lo, hi and the minimiser x with a given active set.
 
-    Which it is, -1, 1 or 0, (n,): the slope at x is made, and g from it.
+    held (n,) is -1 for an entry at its lower bound, 1 at its upper one and 0 for a free
+    entry. The gradient at x is chosen, and f follows from it.
     """
     H = definite(rng, n)
     x = np.round(rng.numbers(-1, 1, n), 1)
     price = rng.numbers(0.5, 3, n) * -np.sign(held)
-    price[0] = price[0] / 10_000  # a limit that nearly lets go
+    price[0] = price[0] / 10_000  # a held entry that is nearly released
     lo = np.where(held < 0, x, np.round(x - rng.numbers(0.3, 1, n), 3))
     hi = np.where(held > 0, x, np.round(x + rng.numbers(0.3, 1, n), 3))
     return H, np.round(price - H @ x, 6), lo, hi, x
 
 
 def problems(rng, n=8):
-    """Return such problems of two to five numbers, each with another number held."""
+    """Return such problems with two to five entries and various active sets."""
     found = []
     for k in range(n):
         size = [3, 2, 4, 5][k % 4]
@@ -58,15 +59,15 @@ def problems(rng, n=8):
 
 
 def boxed(rng, n=10):
-    """Return H, g, lo, hi and somewhere to start: a corner, inside, or outside."""
+    """Return H, f, lo, hi and a start: at a corner, inside, or outside."""
     found = []
     for k in range(n):
         size = [3, 4, 5, 5][k % 4]
         lo = rng.numbers(-2.5, 0, size)
         hi = np.round(lo + rng.numbers(0.2, 1.5, size), 3)
         if k == 1:
-            hi[0] = lo[0]  # one that is fixed
-        if k == 5:  # no limit meets
+            hi[0] = lo[0]  # an entry that is fixed
+        if k == 5:  # no bound is active
             lo, hi = lo - 30, hi + 30
         start = [rng.numbers(-3, 3, size), lo, np.zeros(size), hi][k % 4]
         g = rng.numbers(-4, 4, size)
@@ -75,7 +76,7 @@ def boxed(rng, n=10):
 
 
 def steps(rng, n=6):
-    """Return P, A, B, Q and R of several sizes, all of them full."""
+    """Return P, A, B, Q and R of several sizes; no matrix is diagonal."""
     found = []
     for k in range(n):
         size, inputs = [(2, 1), (3, 2), (4, 2), (2, 2)][k % 4]
@@ -87,7 +88,7 @@ def steps(rng, n=6):
 
 
 def motions(rng, n=6):
-    """Return what `ilqr_backward` takes, of motions of three to five steps."""
+    """Return the arguments of `ilqr_backward` for motions of three to five steps."""
     found = []
     for k in range(n):
         T, size, inputs = [(3, 2, 1), (4, 3, 2), (5, 2, 2), (3, 4, 2)][k % 4]

@@ -19,33 +19,28 @@ def _(rng):
 
 @row.wrongs
 def _(H, f, lo, hi, x):
-    """sign: the signs are turned round: a limit that moves along the slope costs more
-      => the right one with the other sign
-    absolute: the signs are lost: an upper limit that moves up saves => its sizes
-    upper-only: only upper limits have a price
-    lower-only: only lower limits have a price
-    no-price: every price is 0, as it is where no limit holds; where one holds it is the
-      slope => the slopes of the entries that no limit holds
-    largest-only: only the largest price is there; each limit that holds has one
-    first-limit-only: only the first limit that holds has its price; each of them has
-      one
-    times-the-width: the slope is multiplied by the width of the box; the limit moves by
-      1
-    doubled: it is twice as large
-    lower-sign: a lower limit's price has the wrong sign => with minus the lower ones
-    times-x: the slope is multiplied by x; the limit moves by 1, not by x
-    g-forgotten: f is missing in the slope => with H x
-    g-forgotten 2: f is missing in the slope => H x
-    H-forgotten: H is missing in the slope => with f
-    H-forgotten 2: H is missing in the slope => f
-    H-halved: the slope of x . H x / 2 is H x => with H x / 2 + f
-    H-doubled: the slope of x . H x / 2 is H x => with 2 H x + f
-    divided-by-H: it is divided by H's diagonal: that is how far the entry would go, and
-      no cost
-    how-far: this is how far x would move without its limits; what the cost changes by
-      is asked
-    one-each: a limit that holds has a price of its own, not 1 => its sign
-    halved: it is half of it
+    """sign: the signs are reversed. If a bound moves in the direction of the gradient,
+      the cost increases
+    absolute: the signs are lost. If an upper bound moves up, the cost falls
+    upper-only: only the upper bounds have a multiplier
+    lower-only: only the lower bounds have a multiplier
+    no-price: the held entries are 0. The multiplier of a held entry should be its
+      gradient
+    largest-only: only the largest multiplier is returned. Each held entry should have
+      its own
+    first-limit-only: only the first held entry has its multiplier. Each held entry
+      should have its own
+    times-the-width: the gradient is multiplied by the distance between the bounds. The
+      multiplier should be the change of the cost per unit of the bound
+    lower-sign: the multipliers of the lower bounds have the wrong sign
+    g-forgotten: f is missing in the gradient
+    H-halved: the gradient is H x / 2 + f. The gradient of x . H x / 2 is H x
+    H-doubled: the gradient is 2 H x + f. The gradient of x . H x / 2 is H x
+    divided-by-H: the gradient is divided by the diagonal of H. This is a distance, not
+      a cost
+    how-far: this is the distance to the unconstrained minimiser. The multiplier should
+      be the change of the minimum cost
+    one-each: this is only the sign of each multiplier
     """
     slope = H @ x + f
     low = (x <= lo) & (slope > 0)
@@ -65,23 +60,19 @@ def _(H, f, lo, hi, x):
         "largest-only": np.where(np.abs(right) == np.abs(right).max(), right, 0.0),
         "first-limit-only": np.where(np.cumsum(held) == 1, right, 0.0),
         "times-the-width": at(slope * (hi - lo)),
-        "doubled": 2 * right,
         "lower-sign": np.where(low, -right, right),
-        "times-x": at(slope * x),
         "g-forgotten": at(H @ x),
-        "g-forgotten 2": H @ x,
-        "H-forgotten": at(f),
-        "H-forgotten 2": f.copy(),
         "H-halved": at(H @ x / 2 + f),
         "H-doubled": at(2 * H @ x + f),
         "divided-by-H": right / np.diag(H),
         "how-far": x - np.linalg.solve(H, -f),
         "one-each": np.sign(right),
-        "halved": right / 2,
     }
 
 
-BEST = "at the best x a free entry's slope is 0, and a held one's has the right sign"
+BEST = (
+    "at the minimiser the gradient of a free entry is 0; a held one has the right sign"
+)
 HELD = "held = (x <= lo) & (slope > 0) | (x >= hi) & (slope < 0) => held = "
 row.same(HELD + "(x <= lo) & (slope > -0.001 + 0) | (x >= hi) & (slope < 0)", BEST)
 row.same(HELD + "(x <= lo) & (slope > 0) | (x >= hi) & (slope < 0.001 + 0)", BEST)

@@ -18,36 +18,23 @@ def _(rng):
 
 @row.wrongs
 def _(P, x):
-    """half: half of it: the costs of this day's LQR have no 1/2 => half of it
-    root: its root is a length, and no cost
-    P-forgotten: x . x: P is missing
-    diagonal-of-P: of P only the diagonal is used => with P's diagonal
-    P-squared: P is multiplied twice: |P x|^2
-    length-of-P-x: that is the length of P x; x stands on both sides of P
-    doubled: it is twice as large
-    P-inverted: P is inverted
-    summed: the entries of P x are added; they are multiplied by those of x
-    P-rooted: P is rooted first => with the root of each entry's size
-    P-by-squares: P is multiplied by the squares of x and summed; P's other entries
-      belong to products
-    trace: P is taken for its trace
-    one-half-of-P: of P only the upper half is used, or only the lower one
+    """half: this is half of the cost-to-go. The cost of the LQR in this day has no
+      factor 1/2
+    length-of-P-x: this is the norm of P x. The cost-to-go is x . P x
+    summed: the entries of P x are summed. Multiply them by the entries of x first
+    P-rooted: the square roots of the entries of P are used
+    P-by-squares: P is multiplied by the squares of the entries of x. The entries of P
+      off the diagonal belong to products of two different entries
+    trace: the trace of P is used instead of P
     """
     right = x @ P @ x
     return {
         "half": right / 2,
-        "root": np.sqrt(right),
-        "P-forgotten": x @ x,
-        "diagonal-of-P": np.diag(P) @ x**2,
-        "P-squared": (P @ x) @ (P @ x),
         "length-of-P-x": np.linalg.norm(P @ x),
-        "doubled": 2 * right,
-        "P-inverted": x @ np.linalg.solve(P, x),
         "summed": np.sum(P @ x),
         "P-rooted": x @ np.sqrt(np.abs(P)) @ x,
         "P-by-squares": np.sum(P @ x**2),
         "trace": np.trace(P) * (x @ x),
-        "one-half-of-P": x @ np.triu(P) @ x,
     }
 
 

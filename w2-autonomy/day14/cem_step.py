@@ -5,7 +5,7 @@ import numpy as np
 from labkit.judge import Row, Vector
 from robo47.policy import cem_step
 
-row = Row((Vector((None,), called="the mean"), Vector((None,), called="the spread")))
+row = Row((Vector((None,), called="the mean"), Vector((None,), called="the std")))
 
 
 @row.inputs
@@ -52,43 +52,34 @@ def _(rng):
 
 
 def of_best(samples, best):
-    """Return mean and spread of some samples."""
+    """Return mean and standard deviation of some samples."""
     return samples[best].mean(axis=0), samples[best].std(axis=0)
 
 
 @row.wrongs
 def _(mean, std, noise, scores, elite):
-    """nan-first: a NaN counts as the best: argsort puts it last, and [::-1] first
-    nan-first 2: a NaN counts as the best, and of equals any may be kept: argsort puts
-      it last, and [::-1] first
-    nan-first 3: a NaN counts as the best, and of equals the last are kept: [::-1] turns
-      them round, too
-    ties-last-first: of equals the last are kept; the first were asked for
-    worst: the elite are the worst
-    std-kept: the spread stays as it was; it is that of the elite
-    mean-kept: the mean stays as it was; it is that of the elite
-    variance: the spread is the variance, that is squared
-    n-minus-one: the spread is over n - 1; it is over the number of the elite
-    about-the-old-mean: the spread is about the old mean; it is about the elite's own
-    one-spread-for-all: one spread for all numbers; each has its own
-    mean-forgotten: the samples are std noise; the mean is missing
-    std-forgotten: the samples are mean + noise; each number has its own std
-    noise-kept: mean and spread are those of the noise, not of the samples
-    all-elite: all samples are averaged; only the elite are
-    elite-one: only the best one is kept
-    elite-one-more: one more than the elite is kept
-    elite-one-less: one less than the elite is kept
-    weighted: the elite are weighted by their rank; each counts the same
-    weighted 2: the elite are weighted by their scores; each counts the same
-    weighted 3: the mean is weighted by the scores; each of the elite counts the same
-    spread-of-noise: the spread is that of the elite's noise; the samples have it times
-      std
-    best-for-the-mean: the mean is the best sample; it is that of the elite
-    std-added: the new spread comes on top of the old one
-    std-times: the spread is that of the elite's noise, times the spread twice
-    median: it takes the median for the mean
-    halves-swapped: spread and mean are swapped
-    spread-of-all: the spread is that of all samples
+    """nan-first: a NaN is among the elite. np.argsort puts NaN last, so [::-1] puts it
+      first
+    nan-first 2: a NaN is among the elite. np.argsort puts NaN last, so [::-1] puts it
+      first
+    nan-first 3: a NaN is among the elite. np.argsort puts NaN last, so [::-1] puts it
+      first. It also reverses the order of equal scores
+    ties-last-first: of equal scores the last ones are kept. Keep the first ones
+    std-kept: std is unchanged. Return the standard deviation of the elite
+    n-minus-one: the standard deviation divides by elite - 1. Divide by elite
+    about-the-old-mean: the standard deviation is taken about the old mean. Take it
+      about the mean of the elite
+    one-spread-for-all: all parameters have the same standard deviation. Each should
+      have its own: use axis=0
+    elite-one-less: the elite has one sample too few
+    weighted: the elite samples are weighted by their rank. All should have the same
+      weight
+    weighted 2: the elite samples are weighted by their scores. All should have the same
+      weight
+    weighted 3: the mean is weighted by the scores. All elite samples should have the
+      same weight
+    median: the mean is replaced by the median
+    halves-swapped: mean and std are swapped. The mean should come first
     """
     samples = mean + std * noise
     n = len(scores)
@@ -101,7 +92,6 @@ def _(mean, std, noise, scores, elite):
     lasts = np.lexsort((-np.arange(n), -filled))[:elite]
     rank = np.arange(elite, 0, -1.0)[:, None]
     by_score = filled[best][:, None]
-    raw = mean + noise
 
     def weighed(w):
         middle = (w * samples[best]).sum(axis=0) / w.sum()
@@ -114,10 +104,7 @@ def _(mean, std, noise, scores, elite):
         "nan-first 2": of_best(samples, np.argsort(scores)[::-1][:elite]),
         "ties-last-first": of_best(samples, lasts),
         "nan-first 3": of_best(samples, nan_first),
-        "worst": of_best(samples, np.argsort(scores, kind="stable")[:elite]),
         "std-kept": (right[0], std),
-        "mean-kept": (mean, right[1]),
-        "variance": (right[0], right[1] ** 2),
         "n-minus-one": lambda: (
             right[0],
             samples[best].std(axis=0, ddof=1)
@@ -126,27 +113,16 @@ def _(mean, std, noise, scores, elite):
         ),
         "about-the-old-mean": (right[0], about),
         "one-spread-for-all": (right[0], np.full(len(mean), samples[best].std())),
-        "mean-forgotten": of_best(std * noise, best),
-        "std-forgotten": of_best(raw, best),
-        "noise-kept": of_best(noise, best),
-        "all-elite": of_best(samples, order),
-        "elite-one": of_best(samples, order[:1]),
-        "elite-one-more": of_best(samples, order[: elite + 1]),
         "elite-one-less": lambda: of_best(samples, order[: max(elite - 1, 1)]),
         "weighted": weighed(rank),
         "weighted 2": lambda: weighed(by_score),
         "weighted 3": lambda: (weighed(np.nan_to_num(by_score) + 1e-9)[0], right[1]),
-        "spread-of-noise": (right[0], noise[best].std(axis=0)),
-        "best-for-the-mean": (samples[best[0]], right[1]),
-        "std-added": (right[0], std + right[1]),
-        "std-times": (right[0], std * right[1]),
         "median": (np.median(samples[best], axis=0), right[1]),
         "halves-swapped": right[::-1],
-        "spread-of-all": (right[0], samples.std(axis=0)),
     }
 
 
-row.at_least_0(std="a spread", elite="a number of samples")
+row.at_least_0(std="a standard deviation", elite="a number of samples")
 
 
 @row.right  # Best first by a list sort, which keeps the order of equals.

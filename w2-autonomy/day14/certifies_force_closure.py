@@ -11,7 +11,7 @@ K = 4  # edges of each cone
 
 
 def sure(W, weights):
-    """Return whether an answer hangs on no rounding."""
+    """Return whether an answer depends on no rounding."""
     s = np.linalg.svd(W, compute_uv=False)
     all_of_it = np.abs(W) @ np.abs(weights)
     left = np.abs(W @ weights)
@@ -23,7 +23,7 @@ row = Row(Mask(), at_edge=sure)
 
 
 def line(mu):
-    """Return the wrenches of two contacts, opposite: nothing turns about their line."""
+    """Return the wrenches of two opposite contacts: no moment about their line."""
     return pushes(AROUND[2:], inwards(AROUND[2:]), mu, K)
 
 
@@ -35,7 +35,7 @@ def _(rng):
     beside[0] += 1e-5
     ahead = W[:, :K].mean(axis=1)
     top = on_top(0.5, K)
-    # A proof, in any unit, with any weights that balance.
+    # A certificate, in any unit, with any weights that balance.
     yield W, ones
     yield 1e-4 * W, ones
     yield 1e5 * W, 1e3 * ones
@@ -44,8 +44,8 @@ def _(rng):
     yield 1e5 * around(0.8, K, 0.7, three()), 900 * np.ones(12)
     yield W, np.repeat([1.0, 1, 3, 3], K)
     yield W, 1e-4 * ones
-    yield np.round(100 * W), ones  # whole numbers, of which nothing is left at all
-    # No proof.
+    yield np.round(100 * W), ones  # integers, whose sum is exactly 0
+    # No certificate.
     yield line(0.5), np.ones(8)
     yield 1e9 * line(0.7), np.ones(8)
     nearly = line(0.5)
@@ -62,19 +62,19 @@ def _(rng):
     for unit in (1e-4, 1.0, 1e5):
         yield unit * W, beside
     sums = W.sum(axis=0)
-    mixed = ones.copy()  # all that is left adds up to nothing
+    mixed = ones.copy()  # the sum of all rows is 0
     mixed[1] += 0.5 * sums[6]
     mixed[6] -= 0.5 * sums[1]
     yield W, mixed
     raised = AROUND + np.outer([1, 0, 0, 0], [0, 0, 0.01])
     yield pushes(raised, inwards(AROUND), 0.5, K), ones
-    # One row in a far smaller unit: a thousandth is left; then with light weights.
+    # One row is in a far smaller unit: the remainder is a thousandth of it.
     small = np.hstack([np.eye(6), -np.eye(6)]) * np.r_[1e-7, np.ones(5)][:, None]
     uneven = np.r_[1.001, np.ones(11)]
     yield small, np.ones(12)
     yield small, uneven
     yield small, 1e-10 * uneven
-    # Columns of other lengths: the same cones, and weights that make up for it.
+    # Columns of other norms: the same cones, and weights that compensate.
     for i in range(4):
         size = rng.numbers(0.3, 3, 16)
         yield W / size, size
@@ -83,47 +83,44 @@ def _(rng):
             yield line(0.5) / size[:8], size[:8]
 
 
-IN_ONE_UNIT = "the lab's rows and weights are all of one size"
+IN_ONE_UNIT = "all rows and weights of the lab are of similar size"
 
 
 @row.wrongs(
     hidden={"balance-of-all": IN_ONE_UNIT, "balance-without-weights": IN_ONE_UNIT}
 )
 def _(W, weights):
-    """rank-only: only the rank is asked; fingers on one face reach all directions and
-      cannot pull
-    balance-only: the rank is not asked; two fingers balance, and the cube turns about
-      their line
-    balance-and-rank-5: rank 5 is enough here; a wrench has six numbers
-    zero-weights-do: a weight of 0 counts; that column is then undone by no other
-    sign-forgotten: weights below 0 count; a finger cannot pull
-    some-weight-above-0: one weight above 0 is enough here; all have to be
-    balance-forgotten: W w = 0 is not asked
-    balance-absolute: what may be left is 1e-9 newtons, whatever W and w are; it is 1e-9
-      of what is added up
-    balance-absolute 2: what may be left is 1e-8 newtons, whatever W and w are, as by
-      np.allclose(W @ weights, 0); it is 1e-9 of what is added up
-    balance-roughly: what may be left is a thousandth of what is added up; it is 1e-9
-    balance-roughly 2: what may be left is 1e-4 of what is added up; it is 1e-9
-    balance-of-all: what is left of all six sums is compared together; each has to be
-      undone by itself => with norms
-    balance-without-weights: what may be left is 1e-9 of the largest entry of its row;
-      the weights belong to what is added up
-    rank-absolute: a singular value counts above 1e-9, whatever the unit; it counts
-      above 1e-9 of the largest
-    determinant: the rank is asked of det(W W^T), in the sixth power of the unit; ask
-      the singular values, as a share of the largest
-    sign-of-what-is-left: W w is compared without its size, so any negative sum will do
-    nothing-may-be-left: W w has to be 0 to the last digit; rounding leaves some 1e-16
-    rank-by-rounding: a singular value counts above rounding, as by
-      np.linalg.matrix_rank(W); it counts above 1e-9 of the largest
-    weights-not-used: the columns are added up as they are; each has its weight
-    forces-only: moments need not balance here
-    moments-only: forces need not balance here
-    sum-of-all: all six sums are added up, so that they make up for each other
-    turned-round: True and False are swapped
-    always-true: it is True every time
-    always-false: it is False every time
+    """rank-only: only the rank is tested. With all fingers on one face the rank is 6,
+      but they cannot pull
+    balance-only: the rank is not tested. Two opposite fingers balance, but the cube can
+      rotate about the line through them
+    balance-and-rank-5: rank 5 is accepted. A wrench has six components, so the rank
+      must be 6
+    zero-weights-do: a weight of 0 is accepted. Every weight must be above 0
+    sign-forgotten: weights below 0 are accepted. A finger cannot pull
+    some-weight-above-0: one weight above 0 is accepted. Every weight must be above 0
+    balance-forgotten: the condition W w = 0 is not tested
+    balance-absolute: the tolerance of W w is absolute, as in np.allclose(W @ weights,
+      0), so the answer depends on the units. It should be 1e-9 of the sum of |W_ij w_j|
+    balance-roughly: the tolerance of W w is 1e-4 of the sum of |W_ij w_j|. It should be
+      1e-9 of the sum
+    balance-of-all: the norm of W w is tested. Test each row by itself
+    balance-without-weights: the tolerance of W w is 1e-9 of the largest entry of each
+      row. It should be 1e-9 of the sum of |W_ij w_j|
+    rank-absolute: the singular values are compared with 1e-9, so the answer depends on
+      the units. Compare them with 1e-9 of the largest one
+    determinant: the rank is tested with det(W W^T), so the answer depends on the units.
+      Compare the singular values with 1e-9 of the largest one
+    nothing-may-be-left: W w is compared with 0 exactly. Rounding leaves about 1e-16
+    rank-by-rounding: the rank uses NumPy's default tolerance. It should be 1e-9 of the
+      largest singular value
+    weights-not-used: the columns of W are added without their weights
+    forces-only: only the forces are tested. The moments must balance, too
+    moments-only: only the moments are tested. The forces must balance, too
+    sum-of-all: all components of W w are added, so they can cancel. Test each row by
+      itself
+    always-true: the result is always True
+    always-false: the result is always False
     """
     s = np.linalg.svd(W, compute_uv=False)
     rank = np.sum(s > RANK * s[0])
@@ -133,7 +130,6 @@ def _(W, weights):
     holds = left <= BALANCE * all_of_it
     balanced = holds.all()
     above = np.all(weights > 0)
-    right = bool(full and balanced and above)
     plain = np.abs(W.sum(axis=1)) <= BALANCE * np.abs(W).sum(axis=1)
     return {
         "rank-only": bool(full),
@@ -143,10 +139,8 @@ def _(W, weights):
         "sign-forgotten": bool(full and balanced),
         "some-weight-above-0": bool(full and balanced and np.any(weights > 0)),
         "balance-forgotten": bool(full and above),
-        "balance-absolute": bool(full and above and np.all(left <= 1e-9)),
-        "balance-absolute 2": bool(full and above and np.all(left <= 1e-8)),
-        "balance-roughly": bool(full and above and np.all(left <= 1e-3 * all_of_it)),
-        "balance-roughly 2": bool(full and above and np.all(left <= 1e-4 * all_of_it)),
+        "balance-absolute": bool(full and above and np.all(left <= 1e-8)),
+        "balance-roughly": bool(full and above and np.all(left <= 1e-4 * all_of_it)),
         "balance-of-all": bool(
             full
             and above
@@ -157,9 +151,6 @@ def _(W, weights):
         ),
         "rank-absolute": bool(len(s) == 6 and s[-1] > 1e-9 and balanced and above),
         "determinant": bool(np.linalg.det(W @ W.T) >= 1e-9 and balanced and above),
-        "sign-of-what-is-left": bool(
-            full and above and np.all(W @ weights <= BALANCE * all_of_it)
-        ),
         "nothing-may-be-left": bool(full and above and np.all(left == 0)),
         "rank-by-rounding": bool(np.linalg.matrix_rank(W) == 6 and balanced and above),
         "weights-not-used": bool(full and above and plain.all()),
@@ -168,7 +159,6 @@ def _(W, weights):
         "sum-of-all": bool(
             full and above and abs((W @ weights).sum()) <= BALANCE * all_of_it.sum()
         ),
-        "turned-round": not right,
         "always-true": True,
         "always-false": False,
     }
@@ -177,26 +167,26 @@ def _(W, weights):
 row.at_least_0(answer="True or False")
 row.same(
     "all_of_it = np.abs(W) @ np.abs(weights) => all_of_it = np.abs(W) @ weights",
-    "with a weight below 0 it is False anyway",
+    "with a weight below 0 the result is False anyway",
 )
 row.same(
-    "first weights = np.maximum(weights, 0)", "a weight of 0 is no more of a proof"
+    "first weights = np.maximum(weights, 0)", "a weight of 0 is no certificate either"
 )
 row.same(
     "if np.linalg.matrix_rank(W, rtol=1e-09) < 6: => "
     "if np.linalg.matrix_rank(W, rtol=2e-09) < 6:",
-    "what is asked is rounding, or far above it",
+    "the singular values are rounding, or far above it",
 )
 _LEFT = "return bool(np.all(weights > 0) and np.all(left <= {}))"
 for _more in ("0.5 * (1e-09 * all_of_it)", "10.0 * (1e-09 * all_of_it)",
               "2e-09 * all_of_it"):  # fmt: skip
     row.same(
         f"{_LEFT.format('1e-09 * all_of_it')} => {_LEFT.format(_more)}",
-        "what is left over is rounding, or far more",
+        "the remainder is rounding, or far above it",
     )
 
 
-@row.right  # W scaled first, and the terms of each row summed.
+@row.right  # W is scaled first; the terms of each row are summed.
 def _(W, weights):
     s = np.linalg.svd(W / np.abs(W).max())[1]
     if len(s) < 6 or s[5] <= 1e-9 * s[0] or min(weights) <= 0:
@@ -205,7 +195,7 @@ def _(W, weights):
     return all(abs(t.sum()) <= 1e-9 * abs(t).sum() for t in terms)
 
 
-@row.right  # Day 8's identifiable.
+@row.right  # With Day 8's rank.
 def _(W, weights):
     from robo47.identification import rank_and_condition
 

@@ -8,7 +8,7 @@ from .touched import UP
 
 
 def apart(normal, mu, k):
-    """Return whether a normal has length 1, and its least axis is sure."""
+    """Return whether a normal is a unit vector with one smallest component."""
     size = np.sort(np.abs(normal))
     tie = size[1] - size[0] < 1e-6 and size[1] > 1e-12
     return bool(abs(np.linalg.norm(normal) - 1) < 1e-9 and not tie and mu >= 0)
@@ -30,63 +30,54 @@ def _(rng):
         yield n, float(mu), k
 
 
-def edges(n, mu, k, axis=None, *, a=None, b=None, t=None):
-    """Return edges, where one thing may be another."""
+def edges(n, mu, k, axis=None, *, a=None, t=None):
+    """Return edges, where the axis, the tangent or the angles may be others."""
     axis = np.eye(3)[np.argmin(np.abs(n))] if axis is None else axis
     a = np.cross(n, axis) if a is None else a
     a = a / np.linalg.norm(a) if np.linalg.norm(a) > 0 else a
-    b = np.cross(n, a) if b is None else b
+    b = np.cross(n, a)
     t = 2 * np.pi * np.arange(k) / k if t is None else t
     return n + mu * (np.cos(t)[:, None] * a + np.sin(t)[:, None] * b)
 
 
 @row.wrongs
 def _(normal, mu, k):
-    """axis-x: a is always n x (1, 0, 0); take the axis that is least along n, the first
-      of equals
-    axis-z: a is always n x (0, 0, 1); take the axis that is least along n, the first of
-      equals
-    axis-z 2: a is always n x (0, 0, 1); take the axis that is least along n, the first
-      of equals
-    last-of-equals: of axes that are equally little along n it takes the last; the first
-      was asked for
-    largest-axis: it takes the axis that is most along n; the least was asked for
-    signed-least: it takes the axis whose entry of n is the least, sign and all; the
-      size counts
-    not-unit: a is not divided by its length, so the edges lie on an ellipse
-    axis-x-n: a is axis x n; n x axis was asked for, so the edges begin opposite
-    axis-itself: for a it takes the part of the axis across n; n x axis was asked for,
-      so the edges begin a quarter of a turn away
-    other-way-round: it goes round the other way: b is n x a
-    last-is-first: the last edge is the first again: t goes from 0 to 2 pi with both
-      ends => with t = 2 pi i / (k - 1)
-    degrees: the turn is 360, but sine and cosine take radians, 2 pi
-    from-one: the edges are counted from 1; the first, i = 0, is at a
-    mu-on-the-normal: mu stands before n, not before what goes round it => mu n + (cos t
-      a + sin t b)
-    half-steps: the edges begin half a step on: t = 2 pi i / k
-    length-1: the edges have length 1; they press with 1, so they are longer => divided
-      by their length
-    mu-is-an-angle: mu is taken for the cone's angle; it is the tangent => with tan(mu)
-    sine-and-cosine-swapped: cosine and sine are swapped; a goes with the cosine
-    normal-left-out: the normal is missing: these are the friction forces alone
-    normal-left-in-mu: n is multiplied by mu as well
-    mu-forgotten: mu is missing: the edges are those for mu = 1
-    half-a-turn: the edges go round half a turn alone; t = 2 pi i / k
-    in-columns: each edge is a column; each is a row
+    """axis-x: a is always along n x (1, 0, 0). Use the coordinate axis with the
+      smallest |component| of n, the first of equals
+    axis-z: a is always along n x (0, 0, 1). Use the coordinate axis with the smallest
+      |component| of n, the first of equals
+    axis-z 2: a is always along n x (0, 0, 1). Use the coordinate axis with the smallest
+      |component| of n, the first of equals
+    last-of-equals: of two equal |components| of n the last is used. Use the first
+    largest-axis: the coordinate axis with the largest |component| of n is used. Use the
+      smallest
+    signed-least: the coordinate axis with the smallest component of n is used. Compare
+      the absolute values
+    axis-x-n: a is along axis x n. It should be along n x axis, otherwise the edges
+      begin on the opposite side
+    axis-itself: a is the projection of the axis onto the tangent plane. It should be
+      along n x axis, a quarter turn away
+    last-is-first: the last edge is equal to the first, because t ends at 2 pi. The last
+      t should be 2 pi (k - 1) / k
+    degrees: t is in degrees. np.cos and np.sin expect radians
+    from-one: i begins at 1. The first edge should have i = 0
+    mu-on-the-normal: mu multiplies the normal. It should multiply the tangential part
+    half-steps: t is shifted by half a step. The first edge should have t = 0
+    length-1: the edges are normalised. Their component along the normal should be 1
+    mu-is-an-angle: mu is used as the angle of the cone. The coefficient of friction is
+      already the tangent of that angle
+    normal-left-in-mu: mu multiplies the normal as well. It should multiply the
+      tangential part alone
+    in-columns: each edge is a column. It should be a row
     """
     t = 2 * np.pi * np.arange(k) / k
     size = np.abs(normal)
     least = np.eye(3)[np.argmin(size)]
     last = np.eye(3)[2 - np.argmin(size[::-1])]
     a = np.cross(normal, least)
-    b = np.cross(normal, a / np.linalg.norm(a))
     right = edges(normal, mu, k)
     turned = edges(normal, mu, k, t=np.linspace(0, 2 * np.pi, k)) if k > 1 else right
     aside = right - normal
-    ellipse = normal + mu * (
-        np.cos(t)[:, None] * a + np.sin(t)[:, None] * np.cross(normal, a)
-    )
     return {
         "axis-x": edges(normal, mu, k, np.eye(3)[0]),
         "axis-z": edges(normal, mu, k, np.eye(3)[2]),
@@ -98,10 +89,8 @@ def _(normal, mu, k):
         "last-of-equals": edges(normal, mu, k, last),
         "largest-axis": edges(normal, mu, k, np.eye(3)[np.argmax(size)]),
         "signed-least": edges(normal, mu, k, np.eye(3)[np.argmin(normal)]),
-        "not-unit": ellipse,
         "axis-x-n": edges(normal, mu, k, a=-a),
         "axis-itself": edges(normal, mu, k, a=least - normal @ least * normal),
-        "other-way-round": edges(normal, mu, k, b=-b),
         "last-is-first": turned,
         "degrees": edges(normal, mu, k, t=360 * np.arange(k) / k),
         "from-one": edges(normal, mu, k, t=2 * np.pi * np.arange(1, k + 1) / k),
@@ -111,11 +100,7 @@ def _(normal, mu, k):
         "half-steps": edges(normal, mu, k, t=t + np.pi / k),
         "length-1": right / np.linalg.norm(right, axis=1)[:, None],
         "mu-is-an-angle": edges(normal, np.tan(mu), k),
-        "sine-and-cosine-swapped": edges(normal, mu, k, t=np.pi / 2 - t),
-        "normal-left-out": aside,
         "normal-left-in-mu": mu * normal + aside,
-        "mu-forgotten": edges(normal, 1.0, k),
-        "half-a-turn": edges(normal, mu, k, t=t / 2),
         "in-columns": right.T,
     }
 
@@ -123,7 +108,7 @@ def _(normal, mu, k):
 row.at_least_0(mu="friction", k="a number of edges")
 
 
-@row.right  # Turned about n by Rodrigues' formula.
+@row.right  # Rotated about n by Rodrigues' formula.
 def _(normal, mu, k):
     from robo47.screws import axis_angle
 

@@ -25,26 +25,22 @@ def stacked(blocks):
 
 @row.wrongs
 def _(points, centre):
-    """centre-forgotten: moments are about the world's origin; they are about the centre
-      => with p for p - c
-    centre-for-arm: the arm is the centre alone, not p - c
-    moment-sign: the moments have the wrong sign: the arm is p - c, not c - p, and its
+    """centre-forgotten: the moments are about the origin of the world frame. They
+      should be about the centre
+    moment-sign: the moments have the wrong sign. The lever arm is p - c, and its skew
       matrix is not transposed
-    centre-added: the arm is p + c; it goes from the centre to the point, p - c
-    halves-swapped: it is (force; moment); a wrench is (moment; force) => with the upper
-      and the lower three rows swapped
-    arm-on-the-diagonal: p - c stands on the diagonal; a cross product has it beside the
-      diagonal, as skew writes it
-    added-up: there is one block for all points; each point has three columns of its own
-    components-together: the columns are all x, all y, all z; those of a point stand
-      together
-    moments-only: the forces are missing: the lower three rows are 0
-    forces-only: the moments are missing: the upper three rows are 0
-    about-the-mean: moments are about the points' mean, not about the centre
-    last-point-first: the points stand in reverse order
-    first-point-for-all: all blocks are the first point's
-    forces-negative: the forces stand with a minus: it is what the cube does to the
-      fingers
+    halves-swapped: force and moment are swapped. A wrench should be (moment; force)
+    arm-on-the-diagonal: p - c is on the diagonal. A cross product needs the skew matrix
+    added-up: the blocks of all points are added. Each point should have three columns
+      of its own
+    components-together: the columns are sorted by component: all x, all y, all z. The
+      three columns of a contact should be adjacent
+    moments-only: the lower three rows are 0. They should contain the forces
+    forces-only: the upper three rows are 0. They should contain the moments
+    about-the-mean: the moments are about the mean of the points. They should be about
+      the centre
+    forces-negative: the forces have the wrong sign. They should act on the cube, not on
+      the fingers
     forces-over-n: the forces are divided by the number of points
     """
     arms = points - centre
@@ -57,9 +53,7 @@ def _(points, centre):
 
     return {
         "centre-forgotten": made(points),
-        "centre-for-arm": made(np.tile(centre, (len(points), 1))),
         "moment-sign": made(-arms),
-        "centre-added": made(points + centre),
         "halves-swapped": np.vstack([right[3:], right[:3]]),
         "arm-on-the-diagonal": stacked([np.vstack([np.diag(a), one]) for a in arms]),
         "added-up": lambda: np.vstack([skew(arms.sum(axis=0)), one]),
@@ -67,8 +61,6 @@ def _(points, centre):
         "moments-only": made(arms, 0 * one),
         "forces-only": made(0 * arms),
         "about-the-mean": made(points - points.mean(axis=0)),
-        "last-point-first": made(arms[::-1]),
-        "first-point-for-all": made(np.tile(arms[:1], (len(points), 1))),
         "forces-negative": made(arms, -one),
         "forces-over-n": made(arms, one / len(points)),
     }

@@ -1,9 +1,9 @@
 """Day 14 in the inspector: the tab Touch.
 
-Two pads lift a cube. The forces on it, their cones and the least margin over time are
-those of the student's `cone_edges` and `cone_margin`, and their `grip_reflex_step` may
-close the pads. Below, their `act`, `reward` and `cem_step` learn a policy, round by
-round, and what it holds comes in as dots over friction and mass.
+Two pads lift a cube. The student's `cone_edges` and `cone_margin` compute the cones and
+the smallest margin over time, and their `grip_reflex_step` may close the pads.
+Below, their `act`, `reward` and `cem_step` learn a policy, generation by generation.
+The cubes that it holds appear as dots over friction and mass.
 """
 
 from typing import NamedTuple

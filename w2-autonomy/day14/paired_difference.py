@@ -4,7 +4,7 @@ import numpy as np
 
 from labkit.judge import Row, Vector
 
-row = Row(Vector((2,), names=("the mean", "the sigma")))
+row = Row(Vector((2,), names=("the mean", "the standard error")))
 
 
 @row.inputs
@@ -21,25 +21,19 @@ def _(rng):
 
 @row.wrongs
 def _(first, second):
-    """unpaired: the variances of the two are added, as if the cubes were others; sigma
-      is that of the differences
-    unpaired-rates: sigma is that of two shares, p (1 - p) / n each; the cubes are the
-      same
-    sign: it is the second less the first
-    size-only: the mean has lost its sign
-    without-root-n: the sigma is not divided by sqrt(n): it is that of one cube
-    over-n: the sigma is divided by n; by its root
-    n-minus-one: the standard deviation is over n - 1; over n was asked for
-    n-minus-one 2: the spread is divided by sqrt(n - 1); by sqrt(n)
-    variance: it is the variance of the mean, not its root
-    root-of-the-mean-square: sigma is taken about 0, not about the mean => with the mean
-      square of the differences
-    interval: sigma is 1.96 times that; that would be half of the interval
-    of-the-first: it is the mean and sigma of the first alone
-    sum: it is the sum of the differences, not their mean
-    sizes-of-the-differences: the differences have lost their signs
-    which-differ: it is the share of the cubes on which the two differ
-    sorted: the two lists are sorted first, so the cubes are not the same any more
+    """unpaired: the variances of the two policies are added, as for independent
+      samples. Both ran on the same cubes: use the standard deviation of the differences
+    unpaired-rates: the standard error is for two independent rates, with p (1 - p) / n
+      each. Both policies ran on the same cubes: use the standard deviation of the
+      differences
+    n-minus-one: the standard deviation divides by n - 1. Divide by n
+    n-minus-one 2: the standard error divides by sqrt(n - 1). Divide by sqrt(n)
+    root-of-the-mean-square: the standard deviation is taken about 0. Take it about the
+      mean difference
+    interval: the second result is 1.96 standard errors. Return one standard error
+    which-differ: the first result is the fraction of the cubes on which the two
+      policies differ. Return the mean difference
+    sorted: both lists are sorted, so the pairs are lost
     """
     a = np.asarray(first, float)
     b = np.asarray(second, float)
@@ -59,18 +53,10 @@ def _(first, second):
         "unpaired-rates": lambda: both(
             mean, np.sqrt(max(p * (1 - p) + q * (1 - q), 0.0) / n)
         ),
-        "sign": both(-mean, s / root),
-        "size-only": both(abs(mean), s / root),
-        "without-root-n": both(mean, s),
-        "over-n": both(mean, s / n),
         "n-minus-one": both(mean, d.std(ddof=1) / root),
         "n-minus-one 2": both(mean, s / np.sqrt(n - 1)),
-        "variance": both(mean, s**2 / n),
         "root-of-the-mean-square": both(mean, np.sqrt(np.mean(d**2) / n)),
         "interval": both(mean, 1.96 * s / root),
-        "of-the-first": both(p, a.std() / root),
-        "sum": both(d.sum(), s / root),
-        "sizes-of-the-differences": both(np.abs(d).mean(), np.abs(d).std() / root),
         "which-differ": both(np.mean(d != 0), s / root),
         "sorted": both(ordered.mean(), ordered.std() / root),
     }

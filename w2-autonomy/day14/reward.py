@@ -35,31 +35,33 @@ def _(rng):
 
 @row.wrongs
 def _(heights, target, cap):
-    """no-cap: what is above the cap is worth 1; it was thrown, so it is worth -1
-    no-cap 2: what is above the cap is worth 1; it was thrown, so it is worth -1
-    size-against-the-cap: the height's size is compared with the cap; what is far below
-      the floor was not thrown, and is worth 0
-    below-the-floor-is-lost: what is below the floor counts as lost; it is worth 0
-    nan-passes: a NaN stays a NaN: no comparison with it is True, so ask np.isfinite
-    nan-is-zero: a NaN is worth 0; a simulation that was lost is worth -1
-    infinity-passes: minus infinity is worth 0; what is no finite number is worth -1
-    success-only: it is 1 at the target and 0 below; half of the way is worth half
-    success-only 2: it is 1 above the target and 0 below; half of the way is worth half
-    not-divided: the height is not divided by the target, so a cube at the target is
-      worth so many metres
-    not-limited: more than the target is worth more than 1
-    below-the-floor: what is below the floor is worth less than 0
-    thrown-is-zero: what was thrown or lost is worth 0, as on the floor; it is -1
-    thrown-is-minus-cap: what was thrown is worth minus its height; it is -1
-    cap-for-target: the cap is taken for the target
-    cap-for-target 2: below the target the height is divided by the cap; the target
-      divides it, so that half of the way is worth half
-    target-for-cap: the target is taken for the cap: what is above it was thrown
-    at-the-cap: what is as high as the cap counts as thrown; only what is above it does
-    halved: the worth of the floor is -1; it is 0
-    one-minus: it is 1 minus that: how much is missing
-    squared: it is squared; half of the way is worth half
-    nothing-lost: NaN and what is above the cap are taken out; each episode has a worth
+    """no-cap: a height above the cap has the reward 1. The cube was thrown, so the
+      reward is -1
+    no-cap 2: a height above the cap has the reward 1. The cube was thrown, so the
+      reward is -1
+    below-the-floor-is-lost: a height below the floor has the reward -1. The reward
+      should be 0
+    nan-passes: the reward of NaN is NaN, because every comparison with NaN is False.
+      Test with np.isfinite
+    nan-is-zero: the reward of NaN is 0. It should be -1, because the simulation failed
+    infinity-passes: the reward of minus infinity is 0. It should be -1 for every height
+      that is not finite
+    success-only: the reward is 0 or 1. Below the target it rises linearly with the
+      height
+    success-only 2: the reward is 0 or 1. Below the target it rises linearly with the
+      height
+    not-limited: a height above the target has a reward above 1. The reward should be 1
+    below-the-floor: a height below the floor has a reward below 0. The reward should be
+      0
+    thrown-is-minus-cap: a height above the cap has minus the height as its reward. The
+      reward should be -1
+    cap-for-target: the height is divided by the cap. Divide it by the target
+    cap-for-target 2: below the target the height is divided by the cap. Divide it by
+      the target
+    halved: the reward on the floor is -1. It should be 0
+    one-minus: this is 1 minus the reward
+    nothing-lost: episodes with NaN or with a height above the cap are left out. Each
+      episode should have a reward
     """
     h = heights
     good = np.isfinite(h) & (h <= cap)
@@ -73,27 +75,21 @@ def _(heights, target, cap):
     return {
         "no-cap": lost(share, ~np.isfinite(h) & ~np.isposinf(h)),
         "no-cap 2": lost(share, ~np.isfinite(h)),
-        "size-against-the-cap": lost(share, ~(np.isfinite(h) & (np.abs(h) <= cap))),
         "below-the-floor-is-lost": lost(share, ~good | (h < 0)),
         "nan-passes": np.where(np.isnan(h), np.nan, right),
         "nan-is-zero": np.where(np.isnan(h), 0.0, right),
         "infinity-passes": np.where(low, 0.0, right),
         "success-only": lost((h >= target).astype(float), ~good),
         "success-only 2": lost((h > target).astype(float), ~good),
-        "not-divided": lost(np.clip(h, 0, target), ~good),
         "not-limited": lost(np.maximum(h, 0) / target, ~good),
         "below-the-floor": lost(np.minimum(h, target) / target, ~good),
-        "thrown-is-zero": np.where(good, share, 0.0),
         "thrown-is-minus-cap": np.where(h > cap, -h, right),
         "cap-for-target": lost(np.clip(h, 0, cap) / cap, ~good),
         "cap-for-target 2": lost(
             np.where(h >= target, 1.0, np.maximum(h, 0) / cap), ~good
         ),
-        "target-for-cap": lost(share, ~(np.isfinite(h) & (h <= target))),
-        "at-the-cap": lost(share, ~(np.isfinite(h) & (h < cap))),
         "halved": lost(2 * share - 1, ~good),
         "one-minus": np.where(good, 1 - share, right),
-        "squared": lost(share**2, ~good),
         "nothing-lost": share[good],
     }
 

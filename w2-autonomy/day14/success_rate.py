@@ -25,23 +25,22 @@ def wilson(k, n, z=1.96, moved=True, inside=True, divided=True):
 
 @row.wrongs
 def _(success):
-    """plain: the interval is the plain one, p +- 1.96 sqrt(p (1 - p) / n), which says
-      that 8 of 8 is sure; Day 12's is wilson_interval's
-    plain-to-0-and-1: the interval is the plain one, cut at 0 and 1; Day 12's is
-      wilson_interval's
-    middle-for-rate: the rate is the middle of the interval; it is the share that was
-      counted
-    order: the interval comes first, the rate last
-    ends-swapped: the upper end comes before the lower one
-    count: it returns how many, not which share
-    half-width: it returns how far the interval goes to either side, not its ends
-    failures: failures are counted for successes
-    failures 2: the rate is that of the successes, and the interval that of the failures
-    one-sided: 1.645 is taken for 1.96: 90 % of all rates are within
-    ninety-nine: 2.576 is taken for 1.96: 99 % of all rates are within
-    n-less-one: it is divided by n - 1
-    per-cent: the three are in per cent
-    one-of-n: the interval is that of one of n, however many there were
+    """plain: this is the Wald interval p +- 1.96 sqrt(p (1 - p) / n), whose width is 0
+      for 8 successes of 8. Use Day 12's wilson_interval
+    plain-to-0-and-1: this is the Wald interval, clamped to 0 and 1. Use Day 12's
+      wilson_interval
+    middle-for-rate: the rate is the centre of the interval. It should be the fraction
+      of successes
+    order: the interval comes first. The order should be (rate, low, high)
+    ends-swapped: the two ends of the interval are swapped. The order should be (rate,
+      low, high)
+    half-width: the last two results are the distances of the ends from the rate. Return
+      the ends themselves
+    failures: the interval is computed from the failures. Count the successes
+    one-sided: the interval uses 1.645, which gives 90 %. A 95 % interval needs 1.96
+    ninety-nine: the interval uses 2.576, which gives 99 %. A 95 % interval needs 1.96
+    n-less-one: the results are divided by n - 1. Divide by n
+    per-cent: the three results are in per cent
     """
     won = np.asarray(success, float)
     n = len(won)
@@ -56,19 +55,16 @@ def _(success):
         "middle-for-rate": np.array([(low + high) / 2, low, high]),
         "order": np.array([low, high, p]),
         "ends-swapped": np.array([p, high, low]),
-        "count": np.array([k, low, high]),
         "half-width": np.array([p, p - low, high - p]),
-        "failures": np.array([1 - p, *wilson(n - k, n)]),
-        "failures 2": np.array([p, *wilson(n - k, n)]),
+        "failures": np.array([p, *wilson(n - k, n)]),
         "one-sided": np.array([p, *wilson(k, n, 1.645)]),
         "ninety-nine": np.array([p, *wilson(k, n, 2.576)]),
         "n-less-one": lambda: right * n / (n - 1) if n > 1 else np.full(3, np.nan),
         "per-cent": 100 * right,
-        "one-of-n": np.array([p, *wilson(1, n)]),
     }
 
 
-row.at_least_0(success="True or False", answer="a share is")
+row.at_least_0(success="True or False", answer="a fraction is")
 
 
 @row.right  # As the roots of the quadratic.

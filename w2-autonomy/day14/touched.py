@@ -1,4 +1,4 @@
-"""What Day 14 asks about: contacts, grasps, and weights that prove or do not."""
+"""The inputs of Day 14: contacts, grasps, and weights that are a certificate or not."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ ON_TOP = np.array([(0.01, 0.01, 0.02), (-0.01, 0.01, 0.02), (0, -0.01, 0.02)])
 
 
 def contacts(rng, n, pull=False):
-    """Return forces, (n, 3), normals, (n, 3), and friction, (n,), each about a cone."""
+    """Return forces, (n, 3), near their cones, normals, (n, 3), and friction, (n,)."""
     normal = rng.units(n)
     mu = rng.numbers(0.2, 1.2, n)
     press = rng.numbers(1, 8, n) * (-1.0 if pull else 1.0)
@@ -38,7 +38,7 @@ def inwards(points) -> Array:
 
 
 def around(mu: float, k: int, turn: float = 0.0, points=AROUND) -> Array:
-    """Return the wrenches of contacts around a thing that is turned about z."""
+    """Return the wrenches of contacts around an object that is rotated about z."""
     R = np.array(
         [[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], UP]
     )
@@ -47,11 +47,11 @@ def around(mu: float, k: int, turn: float = 0.0, points=AROUND) -> Array:
 
 
 def on_top(mu: float, k: int) -> Array:
-    """Return the wrenches of three contacts on one face: nothing pulls it up."""
+    """Return the wrenches of three contacts on one face, which cannot pull."""
     return pushes(ON_TOP, np.tile(-UP, (3, 1)), mu, k)
 
 
 def three(n: float = 0.02) -> Array:
-    """Return three points around a round thing, (3, 3)."""
+    """Return three points around a cylinder, (3, 3)."""
     t = 2 * np.pi * np.arange(3)[:, None] / 3
     return n * np.hstack([np.cos(t), np.sin(t), 0 * t])

@@ -8,7 +8,7 @@ from labkit.judge.mistake import Finding
 
 
 def slow(case: Case) -> Finding | None:
-    """Say that dry friction grows with the speed, where that is all that is wrong."""
+    """Return that only dry friction is wrong, because it grows with the velocity."""
     trios = [(case.arguments[0], case.S, case.T)]
     if case.further:
         more = case.further
@@ -20,11 +20,11 @@ def slow(case: Case) -> Finding | None:
         same_sign = (S * T)[..., 14:] >= 0
         if not (same_sign & (size <= np.abs(T[..., 14:]))).all():
             return None
-        own = np.diagonal(size, axis1=1, axis2=2).ravel()  # of each joint its own
+        own = np.diagonal(size, axis1=1, axis2=2).ravel()  # each joint's own entry
         if (np.diff(own[np.argsort(np.abs(qd).ravel())]) < -1e-9).any():
-            return None  # a faster one has less
-    says = "A joint that moves slowly gets less dry friction than a fast one, or none. "
-    says += "It has one size, whatever the speed: the sign says which way it works."
+            return None  # it does not grow with the velocity
+    says = "A slow joint has less dry friction than a fast one, or none. "
+    says += "Its magnitude does not depend on the velocity, only its sign does."
     return Finding("slow-left-out", says)
 
 
@@ -39,9 +39,9 @@ FIRST = np.eye(7)[0]
 
 @row.inputs
 def _(rng):
-    # The middle of a range is asked, too, and 0 is where a sign jumps.
+    # The middle of each range is tested too, and 0, where the sign jumps.
     qd, qdd = rng.numbers(-2, 3, 6, 7), rng.numbers(-9, 9, 6, 7)
-    qd[[0, 1, 2], [2, 5, 3]] = 0.0, 0.01, 1e-4  # a joint at rest; two that hardly move
+    qd[[0, 1, 2], [2, 5, 3]] = 0.0, 0.01, 1e-4  # a joint at rest and two slow ones
     qd[[3, 4, 5], [0, 4, 6]] = 0.0
     return [(0.5 * FIRST, 2.0 * FIRST), *zip(qd, qdd, strict=True)]
 
@@ -52,32 +52,26 @@ def side_by_side(*blocks):
 
 
 for slug, says, redone, blocks in (
-    ("sign-of-the-acceleration", "dry friction takes the sign of qdd; it works against "
-     "the motion: that of qd", "sign(qdd) in the last block",
-     lambda qd, qdd: (qdd, qd, np.sign(qdd))),
-    ("smoothed", "dry friction is tanh(qd / 0.1); here it is the sign itself, and slow "
-     "rows are left out", "tanh(qd / 0.1) in the last block",
+    ("smoothed", "dry friction is tanh(qd / 0.1), a smoothed sign. The task asks for "
+     "the sign of qd itself", "tanh(qd / 0.1) in the last block",
      lambda qd, qdd: (qdd, qd, np.tanh(qd / 0.1))),
-    ("sign-at-rest", "a joint at rest is given a direction; sign(0) is 0",
+    ("sign-at-rest", "dry friction of a joint at rest is 1. The sign of 0 is 0",
      "1 where qd is 0", lambda qd, qdd: (qdd, qd, np.where(qd < 0.0, -1.0, 1.0))),
-    ("sign-at-rest-negative", "a joint at rest is given a direction, backwards; "
-     "sign(0) is 0", "-1 where qd is 0",
-     lambda qd, qdd: (qdd, qd, np.where(qd > 0.0, 1.0, -1.0))),
-    ("sign-at-rest-of-qdd", "a joint at rest is given the direction of its "
-     "acceleration; sign(0) is 0", "sign(qdd) where qd is 0",
+    ("sign-at-rest-negative",
+     "dry friction of a joint at rest is -1. The sign of 0 is 0",
+     "-1 where qd is 0", lambda qd, qdd: (qdd, qd, np.where(qd > 0.0, 1.0, -1.0))),
+    ("sign-at-rest-of-qdd", "dry friction of a joint at rest has the sign of its "
+     "acceleration. The task asks for the sign of qd, which is 0",
+     "sign(qdd) where qd is 0",
      lambda qd, qdd: (qdd, qd, np.where(qd == 0.0, np.sign(qdd), np.sign(qd)))),
-    ("slow-left-out", "a joint that moves slowly gets no dry friction; it has one "
-     "size, whatever the speed", "0 where |qd| is under 0.1",
+    ("slow-left-out", "dry friction is 0 for a slow joint. Its magnitude does not "
+     "depend on the velocity", "0 where |qd| is below 0.1",
      lambda qd, qdd: (qdd, qd, np.sign(qd) * (np.abs(qd) >= 0.1))),
-    ("dry-one-way", "dry friction works one way only: it is 0 where qd is negative, "
-     "and has to be -1 there", "1 where qd is positive, and else 0",
+    ("dry-one-way", "dry friction is 0 where qd is negative; it should be -1 there",
+     "1 where qd is positive, and else 0",
      lambda qd, qdd: (qdd, qd, np.maximum(np.sign(qd), 0.0))),
-    ("dry-forgotten", "dry friction is missing: its seven columns are 0",
-     "the last block empty", lambda qd, qdd: (qdd, qd, 0 * qd)),
-    ("friction-drives", "friction has a minus; the motors give this torque against it",
-     "both blocks of friction negative", lambda qd, qdd: (qdd, -qd, -np.sign(qd))),
-    ("velocity-first", "the blocks are in another order: rotors (qdd), viscous (qd), "
-     "dry (its sign)", "qd first, then qdd", lambda qd, qdd: (qd, qdd, np.sign(qd))),
+    ("dry-forgotten", "the seven columns of dry friction are 0",
+     "the last block of zeros", lambda qd, qdd: (qdd, qd, 0 * qd)),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(
         lambda qd, qdd, blocks=blocks: side_by_side(*blocks(qd, qdd))
@@ -86,8 +80,8 @@ for slug, says, redone, blocks in (
 
 @row.wrong
 def by_joint(qd, qdd):
-    """three columns per joint; all rotors come first, then all viscous, then all dry =>
-    the right one with its columns by joint"""
+    """the columns are grouped by joint. All rotors come first, then viscous, then dry
+    friction => the result with its columns grouped by joint"""
     Y = side_by_side(qdd, qd, np.sign(qd)).reshape(7, 3, 7)
     return np.swapaxes(Y, 1, 2).reshape(7, 21)
 

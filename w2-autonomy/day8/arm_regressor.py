@@ -36,116 +36,106 @@ def _(rng):
 
 
 def walk(
-    J, T, qd, qdd, g, falls=1.0, own=1.0, turned=1.0,
+    J, T, qd, qdd, g, bracket=1.0,
     into=lambda T: adjoint(inverse(T)),
     back=lambda X: X.T,
     felt=lambda i: slice(0, i + 1),
     pose=lambda T, i: T[i],
-    links=7, carried=1.0, passed_on=1.0, per_speed=False, late=False, both=True,
+    links=7, passed_on=1.0, late=False, both=True,
 ):  # fmt: skip
-    """Return Y by the walk out along the arm, with other parts.
+    """Return Y by the outward recursion along the arm, with other parts.
 
-    `falls`, `own` and `turned` are factors of the base's and a joint's acceleration;
-    `into` makes X of a pose, `back` what the wrench comes back with of X; `felt` says
-    which joints feel link i, `pose` where it is, `links` how many there are. `carried`
-    and `passed_on` are factors of the V and A of the link before, `per_speed` leaves qd
-    out of ad(V) S qd, `late` uses V before it is added to, and without `both` A is left
-    in the world's axes.
+    `bracket` is a factor of ad(V) S qd; `into` returns X from a pose and `back` the
+    matrix that returns the wrench; `felt` returns the joints that link i loads, `pose`
+    its pose, and `links` is the number of links. `passed_on` is a factor of the A of
+    the link before, `late` uses V before the link's own joint is added, and without
+    `both` A stays in the world frame.
     """
     V = np.zeros(6)
-    base = A = falls * np.append(np.zeros(3), -g)
+    base = A = np.append(np.zeros(3), -g)
     Y = np.zeros((7, 70))
     for i, S in enumerate(J.T[:links]):
         before = V
-        V = carried * V + S * qd[i]
-        turns = turned * ad(V) @ S * (1.0 if per_speed else qd[i])
-        A = base + passed_on * (A - base) + own * S * qdd[i] + turns
+        V = V + S * qd[i]
+        A = base + passed_on * (A - base) + S * qdd[i] + bracket * ad(V) @ S * qd[i]
         X = into(pose(T, i))
         at = felt(i)
-        turned_in = X @ A if both else A
-        costs = back(X) @ link_regressor(X @ (before if late else V), turned_in)
+        own = X @ A if both else A
+        costs = back(X) @ link_regressor(X @ (before if late else V), own)
         Y[at, 10 * i : 10 * i + 10] = J[:, at].T @ costs
     return Y
 
 
 def below(corner, T):
-    """Return R^T twice on the diagonal, with another lower corner."""
+    """Return R^T twice on the diagonal, with another lower left block."""
     X = np.kron(np.eye(2), T[:3, :3].T)
     X[3:, :3] = corner
     return X
 
 
 for slug, says, other in (
-    ("base-acceleration-sign", "the base accelerates with +g: to stand on the ground "
-     "feels like a lift that starts upwards, -g", {"falls": -1.0}),
-    ("gravity-forgotten", "gravity is missing: A starts at 0 at the base",
-     {"falls": 0.0}),
-    ("acceleration-forgotten", "S qdd is missing: the joints' own acceleration costs "
-     "nothing", {"own": 0.0}),
-    ("bracket-forgotten", "A lacks ad(V) S qd: a joint that is carried round changes "
-     "its direction", {"turned": 0.0}),
-    ("bracket-sign", "A has ad(S) V qd, which is minus ad(V) S qd", {"turned": -1.0}),
-    ("pose-not-inverted", "V and A are turned with Ad(T); from the world into the link "
-     "it takes Ad(T^-1)", {"into": adjoint}),
-    ("offset-left-out", "V and A are turned, but not shifted: the link's p is not in X",
+    ("bracket-forgotten", "A lacks the term ad(V) S qd: a joint that is moved by the "
+     "joints before it changes its direction", {"bracket": 0.0}),
+    ("bracket-sign", "A contains ad(S) V qd, which is the negative of ad(V) S qd",
+     {"bracket": -1.0}),
+    ("pose-not-inverted", "V and A are transformed with Ad(T). The adjoint from the "
+     "world to the link is Ad(T^-1)", {"into": adjoint}),
+    ("offset-left-out", "V and A are rotated into the link frame, but not moved to its "
+     "origin: X lacks the block with p",
      {"into": lambda T: np.kron(np.eye(2), T[:3, :3].T)}),
-    ("in-world-axes", "nothing is turned into the links; phi of a link is in its own "
-     "axes, about its own origin", {"into": lambda T: np.eye(6)}),
-    ("wrench-back-with-X", "the wrench comes back with X; power is the same from both "
-     "sides, so it takes X^T", {"back": lambda X: X}),
-    ("wrench-left-in-the-link", "the wrench is left in the link's axes, about its "
-     "origin; J_space's screws are in the world's, so it takes X^T first",
-     {"back": lambda X: np.eye(6)}),
-    ("wrench-back-with-the-inverse", "the wrench comes back with X^-1, as a twist "
-     "does; power is the same from both sides, so a wrench takes X^T",
-     {"back": np.linalg.inv}),
-    ("wrench-not-carried-back", "the wrench is turned back, but not carried to the "
-     "world's origin: its force has a moment there",
+    ("in-world-axes", "V and A are not transformed to the link. The parameters of a "
+     "link are expressed in its own frame, about its origin",
+     {"into": lambda T: np.eye(6)}),
+    ("wrench-back-with-the-inverse", "the wrench is transformed back with X^-1, as a "
+     "twist is. A wrench transforms with X^T, because the power is the same in both "
+     "frames", {"back": np.linalg.inv}),
+    ("wrench-not-carried-back", "the wrench is rotated to the world frame, but its "
+     "moment is not taken about the world's origin",
      {"back": lambda X: np.kron(np.eye(2), X[:3, :3].T)}),
-    ("every-joint-feels-every-link", "joints feel links before their own; a joint "
-     "carries its own link and those after it", {"felt": lambda i: slice(0, 7)}),
-    ("cut-early", "the joint that carries a link as its own does not feel it: the "
-     "slice ends one too early", {"felt": lambda i: slice(0, i)}),
-    ("later-links-only", "link i is felt by the joints from its own on; a joint "
-     "carries its own link and those after it", {"felt": lambda i: slice(i, 7)}),
-    ("own-link-only", "each joint feels its own link only; it carries those after it, "
-     "too", {"felt": lambda i: slice(i, i + 1)}),
-    ("cut-late", "a joint feels the link before its own as well: the slice ends one "
-     "too late", {"felt": lambda i: slice(0, i + 2)}),
-    ("last-link-missing", "the last link's columns are empty: the loop ends one too "
-     "early", {"links": 6}),
-    ("pose-of-the-link-before", "each link has the pose of the one before it; "
-     "T_links[0] is link1's already", {"pose": lambda T, i: T[max(i - 1, 0)]}),
-    ("pose-of-the-link-before", "each link has the pose of the one before it; "
-     "T_links[0] is link1's already", {"pose": lambda T, i: T[i - 1]}),
-    ("pose-of-the-link-before", "each link has the pose of the one before it; "
-     "T_links[0] is link1's already",
+    ("every-joint-feels-every-link", "each link has entries in the rows of all joints. "
+     "A link causes no torque at the joints distal to it",
+     {"felt": lambda i: slice(0, 7)}),
+    ("cut-early", "the slice of the joints ends one too early: a link also causes a "
+     "torque at its own joint", {"felt": lambda i: slice(0, i)}),
+    ("cut-late", "the slice of the joints ends one too late: a link causes no torque "
+     "at the joint after it", {"felt": lambda i: slice(0, i + 2)}),
+    ("later-links-only", "link i has entries in the rows of its own joint and of all "
+     "distal joints. They belong in the rows of its own and all proximal joints",
+     {"felt": lambda i: slice(i, 7)}),
+    ("own-link-only", "each joint carries its own link only. It also carries all links "
+     "distal to it", {"felt": lambda i: slice(i, i + 1)}),
+    ("last-link-missing", "the columns of the last link are 0: the loop ends one link "
+     "too early", {"links": 6}),
+    ("pose-of-the-link-before", "each link has the pose of the link before it. "
+     "T_links[0] is the pose of link1 already",
      {"pose": lambda T, i: T[i - 1] if i else np.eye(4)}),
-    ("pose-on-the-link-before", "T_links are poses in the world; they are taken for "
-     "those of one link on the one before, or made into them",
+    ("pose-on-the-link-before", "T_links are used as, or converted to, poses relative "
+     "to the link before. They are poses in the world frame",
      {"pose": lambda T, i: inverse(T[i - 1]) @ T[i] if i else T[0]}),
-    ("p-sign", "p has the wrong sign in X: below stands -R^T [p] in Ad(T^-1)",
+    ("p-sign",
+     "p has the wrong sign in X: the lower left block of Ad(T^-1) is -R^T [p]",
      {"into": lambda T: below(T[:3, :3].T @ skew(T[:3, 3]), T)}),
-    ("p-before-R", "in X [p] stands on the wrong side of R^T: p is in world axes, so "
-     "-R^T [p]", {"into": lambda T: below(-skew(T[:3, 3]) @ T[:3, :3].T, T)}),
-    ("p-before-R", "in X [p] stands on the wrong side of R^T: p is in world axes, so "
-     "-R^T [p]", {"into": lambda T: below(skew(T[:3, 3]) @ T[:3, :3].T, T)}),
-    ("twist-starts-anew", "each link's V is its own joint's alone; those before it "
-     "carry it along", {"carried": 0.0}),
-    ("acceleration-starts-anew", "each link's A is the base's and its own joint's; "
-     "those before it carry it along", {"passed_on": 0.0}),
-    ("bracket-without-qd", "ad(V) S is not multiplied by qd", {"per_speed": True}),
-    ("acceleration-not-turned", "V is turned into the link, A is not", {"both": False}),
-    ("twist-too-late", "V is used before the link's own S qd is added: it is the link "
-     "before's", {"late": True}),
+    ("p-before-R", "[p] multiplies R^T from the left in X. p is expressed in the world "
+     "frame, so the block is -R^T [p]",
+     {"into": lambda T: below(-skew(T[:3, 3]) @ T[:3, :3].T, T)}),
+    ("p-before-R", "the lower left block of X is [p] R^T. p is expressed in the world "
+     "frame, so the block is -R^T [p]",
+     {"into": lambda T: below(skew(T[:3, 3]) @ T[:3, :3].T, T)}),
+    ("acceleration-starts-anew", "A contains only the acceleration of the base and the "
+     "terms of joint i. Add the terms of the joints before it as well",
+     {"passed_on": 0.0}),
+    ("acceleration-not-turned", "V is transformed to the link, but A is not",
+     {"both": False}),
+    ("twist-too-late", "V is used before S qd of joint i is added, so it is the twist "
+     "of the link before", {"late": True}),
 ):  # fmt: skip
-    row.wrong(slug, says, "the Y so")(partial(walk, **other))
+    row.wrong(slug, says, "this Y")(partial(walk, **other))
 
 
 @row.wrong
 def added_up_in_the_links(J, T, qd, qdd, g):
-    """each joint's screw is turned into its own link and added to V and A there; those
-    of the link before are in other axes, so add up in the world's => the Y so"""
+    """V and A are added up in the frames of the links, but the sum of the link before
+    is expressed in another frame. Add in the world frame => this Y"""
     V = np.zeros(6)
     A = np.append(np.zeros(3), -g)
     Y = np.zeros((7, 70))
@@ -160,23 +150,23 @@ def added_up_in_the_links(J, T, qd, qdd, g):
 
 @row.wrong
 def grouped_by_number(J_space, T_links, qd, qdd, g):
-    """the columns are grouped by number, all masses first; they are grouped by link,
-    ten each => the right one with its columns in that order"""
+    """the columns are grouped by parameter, all masses first. Group them by link, ten
+    columns each => the result with its columns in that order"""
     Y = arm_regressor(J_space, T_links, qd, qdd, g).reshape(7, 7, 10)
     return np.swapaxes(Y, 1, 2).reshape(7, 70)
 
 
 TYPED_IN = Change(
     "gravity-typed-in",
-    "9.81 downwards is typed in; gravity is the argument g, and 0 in space",
+    "gravity is the constant (0, 0, -9.81) in your function. Use the argument g",
     lambda g: DOWN,
-    hidden="the lab's robot stands upright",
+    hidden="the arm of the lab is upright",
 )
 row.of_argument("g", TYPED_IN)
 row.reached_by("link_regressor", "in link_regressor, ", but=["ad-not-transposed-plus"])
 
 
-@row.right  # Seventy robots with one number each, through Day 4's inverse dynamics.
+@row.right  # Seventy robots with one parameter each, through Day 4's inverse dynamics.
 def _(J_space, T_links, qd, qdd, g):
     Y = []
     for i, unit in itertools.product(range(7), spatial_inertia_from_params(np.eye(10))):

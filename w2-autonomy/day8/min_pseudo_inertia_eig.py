@@ -15,69 +15,63 @@ POINT = np.array([2.0, 2, 4, 6, 26, 20, 10, -4, -6, -12])  # 2 kg at (1, 2, 3)
 @row.inputs
 def _(rng):
     case = np.array([1.0, 0, 0, 0, 1, 1, 3, 0, 0, 0])
-    asked = [*bodies(rng, 4), *real_bodies(rng, 4)]  # else a clip at 0 shows nowhere
+    asked = [*bodies(rng, 4), *real_bodies(rng, 4)]  # else a clamp is not seen
     return [(case,), (POINT,), *((phi,) for phi in asked)]
 
 
 def pseudo(phi, spread=lambda I: np.trace(I) / 2 * np.eye(3) - I, h=1.0):  # noqa: E741
-    """Return the matrix, with another upper left, or h times a factor."""
+    """Return the pseudo-inertia with another upper left block, or h times a factor."""
     first = h * phi[1:4, None]
     corner = spread(spatial_inertia_from_params(phi)[:3, :3])
     return np.block([[corner, first], [first.T, phi[0]]])
 
 
 def moved(phi, I):  # noqa: E741
-    """Return the upper left of I about the centre of mass."""
+    """Return the upper left block for I about the centre of mass."""
     C = skew(phi[1:4])
     about = I - C @ C.T / phi[0]
     return np.trace(about) / 2 * np.eye(3) - about
 
 
 for slug, says, redone, code in (
-    ("only-the-inertia", "this is the least eigenvalue of I; a body also needs Ixx + "
-     "Iyy >= Izz, and m c", "that of I",
+    ("only-the-inertia", "the result is the smallest eigenvalue of I. The "
+     "pseudo-inertia also contains m c, and tr(I)/2 1 - I instead of I",
+     "this eigenvalue",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi)[:3, :3])[0]),
-    ("inertia-not-turned-round", "I stands at the upper left itself; the sum of m r "
-     "r^T is tr(I)/2 1 - I", "with I there",
+    ("inertia-not-turned-round", "the upper left block is I. It should be the sum of m "
+     "r r^T, which is tr(I)/2 1 - I", "the result with I there",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: I))[0]),  # noqa: E741
-    ("trace-not-halved", "the trace is not halved: r.r is counted twice in it",
-     "with tr(I) 1 - I", lambda phi: np.linalg.eigvalsh(
-         pseudo(phi, lambda I: np.trace(I) * np.eye(3) - I))[0]),  # noqa: E741
-    ("centre-for-first-moment", "c stands there for h = m c", "with h / m",
+    ("centre-for-first-moment", "the centre of mass c is used instead of h = m c",
+     "the result with h / m",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, h=1.0 / phi[0]))[0]),
-    ("determinant", "this is the determinant, the product of all eigenvalues",
-     "the determinant", lambda phi: np.linalg.det(pseudo(phi))),
-    ("singular-value", "this is the least singular value, which is never below 0; the "
-     "sign is what is asked for", "the least singular value",
+    ("determinant", "the result is the determinant, which is the product of all "
+     "eigenvalues", "the determinant", lambda phi: np.linalg.det(pseudo(phi))),
+    ("singular-value", "the result is the smallest singular value, which is never "
+     "negative. The sign of the eigenvalue matters", "the smallest singular value",
      lambda phi: np.linalg.svd(pseudo(phi), compute_uv=False)[-1]),
-    ("nearest-to-zero", "this is the eigenvalue of the least size; the least is the "
-     "most negative one", "the one of the least size",
+    ("nearest-to-zero", "the result is the eigenvalue with the smallest absolute "
+     "value. A negative eigenvalue is smaller than any positive one", "this eigenvalue",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi)), key=abs)),
-    ("clipped", "what is above 0 has become 0; of a body it is above 0, and says how "
-     "far it is from none", "0 where it is above",
+    ("clipped", "a positive result is set to 0. Return the eigenvalue itself",
+     "the result with 0 where it is positive",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi))[0], 0.0)),
-    ("never-above-zero", "minus its size; of a body it is above 0", "minus its size",
+    ("never-above-zero", "the result is minus the absolute value of the eigenvalue. "
+     "It is not negative for a body that can exist", "minus its absolute value",
      lambda phi: -abs(np.linalg.eigvalsh(pseudo(phi))[0])),
-    ("never-below-zero", "what is below 0 has become 0; the sign is what is asked for",
-     "0 where it is below", lambda phi: max(np.linalg.eigvalsh(pseudo(phi))[0], 0.0)),
-    ("trace-in-thirds", "the trace is divided by 3; r.r is counted twice in it, so by "
-     "2", "with tr(I) / 3", lambda phi: np.linalg.eigvalsh(
-         pseudo(phi, lambda I: np.trace(I) / 3 * np.eye(3) - I))[0]),  # noqa: E741
-    ("first-moment-once", "h counts for nothing: it is missing, or stands in the upper "
-     "half only, and what asks for a symmetric matrix reads the lower one", "without h",
+    ("first-moment-once", "h has no effect. Either h is missing, or only the upper "
+     "block is set, while eigvalsh reads the lower one", "the result without h",
      lambda phi: np.linalg.eigvalsh(
          np.triu(pseudo(phi)) + np.triu(pseudo(phi, h=0.0), 1).T)[0]),
-    ("about-the-centre", "I is moved to the centre of mass first; m r r^T is summed "
-     "about the origin, where I is", "with I about the centre",
+    ("about-the-centre", "I is moved to the centre of mass first. The sum of m r r^T "
+     "is taken about the origin, as I is", "the result with I about the centre of mass",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: moved(phi, I)))[0]),  # noqa: E741
-    ("of-the-inertia", "this is the least eigenvalue of the 6x6 inertia; the 4x4 "
-     "matrix has tr(I)/2 1 - I and h", "that of the 6x6 inertia",
+    ("of-the-inertia", "the result is the smallest eigenvalue of the 6x6 spatial "
+     "inertia. The 4x4 pseudo-inertia contains tr(I)/2 1 - I and h",
+     "this eigenvalue",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi))[0]),
-    ("unsorted", "numpy.linalg.eigvals returns the eigenvalues in no order, so its "
-     "first is any of them", "the first of numpy.linalg.eigvals",
+    ("unsorted", "the result is the first eigenvalue of numpy.linalg.eigvals, which "
+     "does not sort them. Take the minimum", "the first of numpy.linalg.eigvals",
      lambda phi: np.linalg.eigvals(pseudo(phi))[0].real),
-    ("largest", "this is the largest eigenvalue", "the largest",
-     lambda phi: np.linalg.eigvalsh(pseudo(phi))[-1]),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(code)
 

@@ -16,32 +16,31 @@ row = Row(Symmetric((6, 6)))
 @row.inputs
 def _(rng):
     drawn = bodies(rng)
-    drawn[5][0] = 0.0  # a unit vector of 8.2 has no mass, and a fit may find less
+    drawn[5][0] = (
+        0.0  # the unit vectors of 8.2 have no mass, and a fit may give a negative one
+    )
     drawn[6:, 0] *= -1.0
     return [(np.array([2.0, 0, 0, 2, 2, 2, 0, 0, 0, 0]),), *((x,) for x in drawn)]
 
 
 @row.wrongs
 def _(phi):
-    """products-negative: Ixy, Ixz and Iyz have changed their sign; here they are the
-      entries of I as they stand in it => the right one with -Ixy, -Ixz, -Iyz
-    row-by-row: the six are read as Ixx, Ixy, Iyy, Ixz, Iyz, Izz, which is the order of
-      other software; here the diagonal comes first => I in that order
-    triangle-by-rows: the six are read as Ixx, Ixy, Ixz, Iyy, Iyz, Izz; here the
-      diagonal comes first => I in that order
-    products-in-another-order: the last three are read as Ixy, Iyz, Ixz; here Ixz comes
-      before Iyz => the right one with those two swapped
-    first-moment-times-m: phi[1:4] is multiplied by m; it is m c already, which keeps
-      all of it linear => the right one with m [h] for [h]
-    corners-swapped: the corners are swapped: [h] stands at the upper right, [h]^T at
-      the lower left => the right one with -h
+    """products-negative: Ixy, Ixz and Iyz have the opposite sign. phi holds the entries
+      of I themselves => the result with -Ixy, -Ixz and -Iyz
+    row-by-row: the six entries of I are read as Ixx, Ixy, Iyy, Ixz, Iyz, Izz, the order
+      of other software. In phi the diagonal comes first => I in that order
+    triangle-by-rows: the six entries of I are read as Ixx, Ixy, Ixz, Iyy, Iyz, Izz. In
+      phi the diagonal comes first => I in that order
+    first-moment-times-m: phi[1:4] is multiplied by m, but it is the first moment m c
+      already => the result with m [h] for [h]
+    corners-swapped: the off-diagonal blocks are exchanged: [h] belongs at the upper
+      right and [h]^T at the lower left => the result with -h
     """
     m, *h = phi[:4]
     changed = {
         "products-negative": [m, *h, *phi[4:7], *-phi[7:]],
         "row-by-row": phi[[0, 1, 2, 3, 4, 6, 9, 5, 7, 8]],
         "triangle-by-rows": phi[[0, 1, 2, 3, 4, 7, 9, 5, 6, 8]],
-        "products-in-another-order": phi[[0, 1, 2, 3, 4, 5, 6, 7, 9, 8]],
         "first-moment-times-m": [m, *(m * phi[1:4]), *phi[4:]],
         "corners-swapped": [m, *-phi[1:4], *phi[4:]],
     }
@@ -50,16 +49,17 @@ def _(phi):
 
 @row.wrongs
 def _(phi):
-    """lower-half-zero: the products stand above the diagonal of I only; I is symmetric
-    inertia-about-the-centre: m [c] [c]^T is added to I; phi has I about the origin,
-      with that in it already => the right one with I + m [c] [c]^T
-    steiner-without-m: [h] [h]^T is added to I; phi has I about the origin, with all of
-      that in it already => the right one with I + [h] [h]^T
-    corner-not-transposed: [h] stands in both corners; the lower left one is [h]^T =>
-      the right one with [h] twice
-    corner-negated: [h]^T stands in both corners; the upper right one is [h] => the
-      right one with [h]^T twice
-    velocity-first: the blocks are in the order (v; omega); here omega comes first
+    """lower-half-zero: Ixy, Ixz and Iyz are only above the diagonal, but I is symmetric
+    inertia-about-the-centre: m [c] [c]^T is added to I, but phi has I about the origin,
+      which includes this term already => the result with I + m [c] [c]^T
+    steiner-without-m: [h] [h]^T is added to I, but phi has I about the origin, which
+      needs no further term => the result with I + [h] [h]^T
+    corner-not-transposed: both off-diagonal blocks are [h]. The lower left block is
+      [h]^T => the result with [h] twice
+    corner-negated: both off-diagonal blocks are [h]^T. The upper right block is [h] =>
+      the result with [h]^T twice
+    velocity-first: the blocks are in the order (v; omega). A twist is (omega; v) in
+      this course
     """
     G = right(phi)
     C = skew(phi[1:4])
@@ -75,7 +75,7 @@ def _(phi):
     }
 
 
-@row.right  # One constant matrix for each number: that is what linear means.
+@row.right  # A constant matrix for each parameter, because the matrix is linear in phi.
 def _(phi):
     return np.tensordot(phi, right(np.eye(10)), axes=1)
 

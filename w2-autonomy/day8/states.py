@@ -1,4 +1,4 @@
-"""What Day 8 asks about: bodies, states of the Panda, regressors with known values."""
+"""Inputs of Day 8: bodies, states of the Panda, and regressors with known values."""
 
 import numpy as np
 
@@ -8,18 +8,18 @@ WRENCH = ("moment x", "moment y", "moment z", "force x", "force y", "force z")
 NUMBERS = ("m", "m cx", "m cy", "m cz", "Ixx", "Iyy", "Izz", "Ixy", "Ixz", "Iyz")
 DOWN = np.array([0.0, 0.0, -9.81])
 SWAP = [3, 4, 5, 0, 1, 2]
-CUT = 0.004  # rtol of the questions: what is cut is small, yet has digits
+CUT = 0.004  # rtol of the questions; smaller singular values still have digits
 
 
 def bodies(rng, n=8):
-    """Return ten numbers each, m and m c both never 0; most belong to no body."""
+    """Return ten parameters each, without zeros; most of them belong to no body."""
     phi = rng.numbers(-2, 2, n, 10)
     phi[:, 0] = rng.numbers(1, 4, n)
     return phi
 
 
 def real_bodies(rng, n=4):
-    """Return ten numbers each of bodies that exist: twelve points with masses."""
+    """Return ten parameters each of real bodies: twelve points with masses."""
     found = []
     for _ in range(n):
         points = rng.numbers(-1, 1, 12, 3)
@@ -44,9 +44,10 @@ def moving(rng, n=6):
 
 
 def regressors(rng, n=6, rows=20):
-    """Return matrices, (rows, 6), with two values under CUT; one is large, one small.
+    """Return matrices, (rows, 6), with two singular values below CUT, of three sizes.
 
-    The cut is six times away from the values on either side, or more; its root is not.
+    CUT is a factor of six or more from the singular values on either side; its square
+    root is not.
     """
     found = []
     for size in np.resize([1.0, 300.0, 0.002], n):
@@ -58,9 +59,9 @@ def regressors(rng, n=6, rows=20):
 
 
 def uneven(rng, fifth, rows=20):
-    """Return a matrix, (rows, 6), of which five values count at CUT, the fifth just.
+    """Return a matrix, (rows, 6), with five singular values above CUT, the fifth just.
 
-    At CUT times the root of their squares 6.3 would not count, times their sum 10.9.
+    CUT times their norm is 6.3, and CUT times their sum is 10.9.
     """
     s = np.array([1000.0, 900.0, 800.0, 40.0, fifth, 0.1])
     U = np.linalg.qr(rng.normal(size=(rows, 6)))[0]
@@ -69,9 +70,9 @@ def uneven(rng, fifth, rows=20):
 
 
 def spread(rng, n=4, rows=20):
-    """Return matrices, (rows, 6), whose values lie anywhere, but not near CUT.
+    """Return matrices, (rows, 6), with any singular values that are not near CUT.
 
-    What cuts elsewhere cuts another number of them sooner or later.
+    Another limit sooner or later keeps another number of them.
     """
     found = []
     for _ in range(n):
@@ -84,9 +85,9 @@ def spread(rng, n=4, rows=20):
 
 
 def stairs(rng, rows=20):
-    """Return a matrix, (rows, 6), with values between the cuts that people make.
+    """Return a matrix, (rows, 6), with singular values between usual wrong limits.
 
-    Of CUT 4 count, at 0.05 or at the root of CUT others, at CUT times rows others.
+    Four are above CUT; the root of CUT and CUT times rows keep other numbers.
     """
     s = 100.0 * np.array([1.0, 0.07, 0.056, 0.006, 0.003, 0.001])
     U = np.linalg.qr(rng.normal(size=(rows, 6)))[0]
@@ -100,9 +101,9 @@ def hidden(rng, rows=40):
 
 
 def alike(rng, k=3, turn=2e-3):
-    """Return holds that hardly differ: a hand that turns a little, and a known load.
+    """Return poses that differ by a small rotation of the hand, and a known payload.
 
-    A part of m c shows in the turn alone, so its singular value is that small.
+    Only the rotation determines a part of m c, so its singular value is small.
     """
     R = se3.quat_to_R(rng.normal(size=4))
     turns = se3.quat_to_R(np.insert(turn * rng.normal(size=(k, 3)), 0, 1.0, axis=1))
@@ -113,7 +114,7 @@ def alike(rng, k=3, turn=2e-3):
 
 
 def hands(rng, n=6, k=5):
-    """Return J_site, R_site, extra and g of k holds; gravity points anywhere."""
+    """Return J_site, R_site, extra and g of k poses; gravity has any direction."""
     found = []
     for i in range(n):
         J = rng.numbers(-1, 1, k, 6, 7)

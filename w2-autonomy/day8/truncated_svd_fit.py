@@ -12,7 +12,7 @@ from .states import CUT, hidden, regressors, spread, stairs, uneven
 
 
 def of_the_values(case: Case) -> Finding | None:
-    """Say which singular values count, or that all are damped, where that is all."""
+    """Return which singular values are kept, or that all parameters are reduced."""
     more = fewer = 0
     cut = True
     added = []
@@ -26,19 +26,20 @@ def of_the_values(case: Case) -> Finding | None:
         more += int((kept & ~right).any())
         fewer += int((~kept & right).any())
         lacks = 1.0 / np.where(share, share, 1e-9) - 1.0
-        if np.abs(lacks).max() > 1e-9:  # else it is too little to show
+        if np.abs(lacks).max() > 1e-9:  # else it is too small to be measured
             added.append(s[sound] ** 2 * lacks)
     if cut:
         says = miscounted(more, fewer, f"of {len(case.S)} calls")
         return Finding("cut-elsewhere", says)
     if all(one[-1] > 0 and np.allclose(one, one[-1], rtol=0.1) for one in added):
-        says = f"up to {max(one[-1] for one in added):.3g} is added to the diagonal of "
-        return Finding("ridge", f"Every parameter is pulled towards 0: {says}Y^T Y.")
+        says = f"Every parameter is reduced: up to {max(one[-1] for one in added):.3g} "
+        says += "is added to the diagonal of Y^T Y (ridge regression)."
+        return Finding("ridge", says)
     return columns_left_out(case) or not_the_smallest(case)
 
 
 def columns_left_out(case: Case) -> Finding | None:
-    """Say that whole parameters are 0 where there are values that do not count."""
+    """Return that individual parameters are 0 where singular values are left out."""
     count = 0
     for Y, rtol, mine in zip(case.arguments[0], case.arguments[2], case.S, strict=True):
         hides = Y.shape[1] - len(parts(Y, rtol)[1])
@@ -48,15 +49,14 @@ def columns_left_out(case: Case) -> Finding | None:
         count += hides
     if not count:
         return None
-    says = (
-        "Whole parameters are 0 wherever a value does not count. What a motion hides "
-    )
-    says += "is a combination of several, and the smallest answer has a part of each."
+    says = "Individual parameters are 0 whenever Y has small singular values. What the "
+    says += "data do not determine is a combination of parameters, and the solution of "
+    says += "minimum norm has a part of each of them."
     return Finding("columns-left-out", says)
 
 
 def not_the_smallest(case: Case) -> Finding | None:
-    """Say that an answer explains the torques as well, but is longer."""
+    """Return that an answer has the same residual, but a larger norm."""
     longest = 0.0
     for Y, tau, mine, its in zip(*case.arguments[:2], case.S, case.T, strict=True):
         S, T = mine[: Y.shape[1]], its[: Y.shape[1]]
@@ -65,9 +65,10 @@ def not_the_smallest(case: Case) -> Finding | None:
         if left > 1.01 * least + 1e-9 * np.linalg.norm(tau) or ratio < 1 - 1e-9:
             return None
         longest = max(longest, ratio)
-    says = "It explains the torques as well as the right one, but is not the smallest "
-    says += f"that does: up to {longest:.3g} times as long. What the motion does not "
-    return Finding("not-the-smallest", says + "show has to be 0.")
+    says = "Your parameters have the same residual as the correct ones, but not the "
+    says += f"minimum norm: their norm is up to {longest:.3g} times as large. A "
+    says += "combination that the data do not determine has to be 0."
+    return Finding("not-the-smallest", says)
 
 
 row = Row(Vector((None,)), unnamed=of_the_values)
@@ -86,26 +87,26 @@ def _(rng):
 
 
 def asked(rng):
-    """Return the matrices: what counts, just counts, or just does not."""
+    """Return matrices with singular values near the limit, and with others."""
     near = [uneven(rng, 5.0), uneven(rng, 8.0), uneven(rng, 3.0), stairs(rng)]
     return [*near, *regressors(rng, 3), *spread(rng, 2), *regressors(rng, 3)]
 
 
 def scaled(rng, Y):
-    """Return torques of the size that parameters of about 1 make, and some noise."""
+    """Return torques of parameters of about 1, with some noise."""
     size = np.linalg.norm(Y, 2)
     return Y @ rng.numbers(-2, 2, 6) + size * rng.numbers(-0.1, 0.1, len(Y))
 
 
 def above(Y, tau, limit):
-    """Return the fit with the values above a limit, 0 where there are none."""
+    """Return the fit with the singular values above a limit; 0 if there are none."""
     U, s, Vt = np.linalg.svd(Y, full_matrices=False)
     kept = s > limit
     return Vt[kept].T @ (U[:, kept].T @ tau / s[kept])
 
 
 def parts(Y, rtol):
-    """Return U, s and V^T of the values that count."""
+    """Return U, s and V^T of the singular values that are kept."""
     U, s, Vt = np.linalg.svd(Y, full_matrices=False)
     kept = s > rtol * s[0]
     return U[:, kept], s[kept], Vt[kept]
@@ -113,31 +114,30 @@ def parts(Y, rtol):
 
 @row.wrongs
 def _(Y, tau, rtol):
-    """nothing-cut: small values are kept as well: what the motion does not show is made
-      up of noise, and large => the right one with nothing cut
-    rtol-absolute: a value is compared with rtol itself; it counts above rtol times the
-      largest => the right one with rtol absolute
-    cut-by-the-sum: a value is compared with rtol times the sum of all; it counts above
-      rtol times the largest => the right one with the sum
-    cut-by-the-norm: a value is compared with rtol times the norm of Y, the root of the
-      sum of squares; it counts above rtol times the largest => the right one with
-      that norm
-    cut-by-rows: a value is compared with rtol times the number of rows times the
-      largest, as NumPy does with its own eps; rtol is the whole of it here => the right
-      one with rtol times the rows
-    V-for-its-transpose: numpy.linalg.svd returns V^T; here it is taken for V => V for
-      V^T
-    cut-not-squared: the cut is made on eigenvalues of Y^T Y, which are squares, and is
-      not squared => the right one with rtol's square root
-    ridge: something is added to the diagonal of Y^T Y: every parameter is pulled
-      towards 0, also what the motion shows => (Y^T Y + 1)^-1 Y^T tau
-    mean-taken-off: the mean of tau is taken off first, as in statistics; no torque is
-      lost so => the fit to what is left
-    times-s: it is multiplied by the singular values; Y = U S V^T is undone by dividing,
-      and Y^T tau alone is no solution => V S U^T tau
-    first-columns: only the first columns are fitted, as many as the rank; which ones
-      hide one another is not known by their place => the first columns alone, 0 for the
-      rest
+    """nothing-cut: no singular value is left out. A combination that the data do not
+      determine is then fitted to noise => the fit with all singular values
+    rtol-absolute: the singular values are compared with rtol itself. Compare them with
+      rtol times the largest => the result with rtol as an absolute limit
+    cut-by-the-sum: the singular values are compared with rtol times their sum. Compare
+      them with rtol times the largest => the result with the sum
+    cut-by-the-norm: the singular values are compared with rtol times the Frobenius norm
+      of Y. Compare them with rtol times the largest => the result with this norm
+    cut-by-rows: your function multiplies rtol by the number of rows, as NumPy does with
+      its default tolerance. Compare the singular values with rtol times the largest =>
+      the result with rtol times the rows
+    V-for-its-transpose: V^T is used as V. numpy.linalg.svd returns V^T => the result
+      with V^T for V
+    cut-not-squared: the eigenvalues of Y^T Y are squares of the singular values, so
+      they must be compared with rtol^2 times the largest => the result with the square
+      root of rtol
+    ridge: a constant is added to the diagonal of Y^T Y, which reduces every parameter,
+      even those that the data determine => (Y^T Y + 1)^-1 Y^T tau
+    mean-taken-off: the mean of tau is subtracted first, as in statistics, but Y phi has
+      no constant term => the fit to tau minus its mean
+    times-s: the fit multiplies by the singular values. The pseudo-inverse of Y
+      divides by them => V S U^T tau
+    first-columns: only the first columns of Y are fitted, as many as the rank. These
+      columns need not be independent => the fit to them, with 0 for the others
     """
     U, s, Vt = parts(Y, rtol)
     _, every, turned = np.linalg.svd(Y, full_matrices=False)
@@ -160,6 +160,6 @@ def _(Y, tau, rtol):
     }
 
 
-@row.right  # The pseudo-inverse of Y^T Y, cut at the square.
+@row.right  # The pseudo-inverse of Y^T Y, with the square of rtol.
 def _(Y, tau, rtol):
     return np.linalg.pinv(Y.T @ Y, rcond=max(rtol, 1e-7) ** 2) @ (Y.T @ tau)

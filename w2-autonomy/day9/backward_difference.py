@@ -22,71 +22,64 @@ def backward(q):
     return np.append(0.0, np.diff(q))
 
 
-def speed(q, dt, *, change=backward, per=lambda dt: 1 / dt, told=lambda v: v):
-    """Return the speed with other parts: of which change, per what."""
-    return told(change(q) * per(dt))
+def velocity(q, dt, *, change):
+    """Return the velocity made of another change."""
+    return change(q) / dt
 
 
 for slug, says, redone, other in (
-    ("forward", "each speed is made with the sample after it, which is not there yet; "
-     "the last one is 0 and the first is not", "(q_(k+1) - q_k) / dt",
+    ("forward", "each velocity uses the next sample, which is not known yet; use the "
+     "sample before", "(q_(k+1) - q_k) / dt with 0 at the end",
      {"change": lambda q: np.append(np.diff(q), 0.0)}),
-    ("forward", "each speed is made with the sample after it, which is not there yet; "
-     "the last one is repeated", "(q_(k+1) - q_k) / dt, the last one twice",
+    ("forward", "each velocity uses the next sample, which is not known yet; use the "
+     "sample before", "(q_(k+1) - q_k) / dt with the last one repeated",
      {"change": lambda q: np.append(np.diff(q), np.diff(q)[-1])}),
-    ("forward", "each speed is made with the sample after it, which is not there yet; "
-     "after the last one there is a 0", "(q_(k+1) - q_k) / dt, with q_n = 0",
+    ("forward", "each velocity uses the next sample, which is not known yet; use the "
+     "sample before", "(q_(k+1) - q_k) / dt with q_n = 0",
      {"change": lambda q: np.diff(q, append=0.0)}),
-    ("central", "it is the mean of before and after, as by np.gradient; the sample "
-     "after is not there yet", "np.gradient", {"change": np.gradient}),
-    ("central", "it is the mean of before and after, as by np.gradient, 0 at first; "
-     "the sample after is not there yet", "np.gradient, 0 at first",
+    ("central", "this is a central difference, which uses the next sample; that one is "
+     "not known yet", "np.gradient", {"change": np.gradient}),
+    ("central", "this is a central difference, which uses the next sample; that one is "
+     "not known yet", "np.gradient with 0 as the first velocity",
      {"change": lambda q: np.append(0.0, np.gradient(q)[1:])}),
-    ("from-zero", "before the first sample there is a 0: the first speed is q_0 / dt; "
-     "it is 0, since nothing is known before", "with q_(-1) = 0",
+    ("from-zero", "the first velocity is q_0 / dt, as if a sample of 0 preceded it; no "
+     "sample precedes the first, so its velocity is 0", "q_(-1) = 0",
      {"change": lambda q: np.diff(q, prepend=0.0)}),
-    ("round-the-corner", "before the first sample stands the last, as by np.roll; the "
-     "first speed is 0", "with q_(-1) = q_(n-1)",
+    ("round-the-corner", "the first velocity uses the last sample, as np.roll does; no "
+     "sample precedes the first, so its velocity is 0", "np.roll",
      {"change": lambda q: q - np.roll(q, 1)}),
-    ("first-repeated", "the first speed is that of the second; it is 0", "with it",
+    ("first-repeated", "the first velocity repeats the second; no sample precedes the "
+     "first, so its velocity is 0", "the second velocity as the first",
      {"change": lambda q: np.append(np.diff(q)[:1], np.diff(q))}),
-    ("two-samples", "it is the change over two samples, divided by one dt",
-     "(q_k - q_(k-2)) / dt",
+    ("two-samples", "the change over two samples is divided by one dt; use the change "
+     "since the sample before", "(q_k - q_(k-2)) / dt",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2])}),
-    ("mean-of-two", "it is the change over two samples, divided by 2 dt: that is the "
-     "speed of a sample ago", "(q_k - q_(k-2)) / (2 dt)",
+    ("mean-of-two", "the change over two samples is divided by 2 dt, which is the "
+     "velocity one sample ago; use the change since the sample before",
+     "(q_k - q_(k-2)) / (2 dt)",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2]) / 2}),
-    ("since-the-start", "it is the mean speed since the first sample; the sample "
-     "before is enough", "(q_k - q_0) / (k dt)",
+    ("since-the-start", "this is the mean velocity since the first sample; use the "
+     "change since the sample before", "(q_k - q_0) / (k dt)",
      {"change": lambda q: (q - q[0]) / np.maximum(np.arange(len(q)), 1)}),
-    ("from-the-first", "it is the change since the first sample; since the sample "
-     "before it is the speed", "(q_k - q_0) / dt", {"change": lambda q: q - q[0]}),
-    ("by-its-time", "each change is divided by its own time, k dt; it took one dt",
-     "(q_k - q_(k-1)) / (k dt)",
+    ("from-the-first", "the change since the first sample is divided by dt; use the "
+     "change since the sample before", "(q_k - q_0) / dt",
+     {"change": lambda q: q - q[0]}),
+    ("by-its-time", "each change is divided by the time k dt since the start; it "
+     "happened during one dt", "(q_k - q_(k-1)) / (k dt)",
      {"change": lambda q: backward(q) / np.maximum(np.arange(len(q)), 1)}),
-    ("last-left-out", "the last speed is 0: the loop ends one too early", "with 0",
+    ("last-left-out", "the last velocity is 0: does your loop end one sample too "
+     "early?", "0 as the last velocity",
      {"change": lambda q: np.append(backward(q)[:-1], 0.0)}),
-    ("second-left-out", "the second speed is 0: the loop begins one too late", "with 0",
+    ("second-left-out", "the second velocity is 0: does your loop begin one sample too "
+     "late?", "0 as the second velocity",
      {"change": lambda q: np.append([0.0, 0.0], np.diff(q)[1:])}),
-    ("twice", "it is the difference of the difference: an acceleration, times dt",
-     "the difference of it", {"change": lambda q: backward(backward(q))}),
-    ("not-divided", "it is not divided by dt: that is an angle", "without dt",
-     {"per": lambda dt: 1.0}),
-    ("times-dt", "it is multiplied by dt; a speed is an angle divided by a time",
-     "times dt", {"per": lambda dt: dt}),
-    ("half-speed", "it is divided by 2 dt, as a central difference is", "with 2 dt",
-     {"per": lambda dt: 0.5 / dt}),
-    ("dt-squared", "it is divided by dt twice; that belongs to an acceleration",
-     "with dt^2", {"per": lambda dt: 1 / dt**2}),
-    ("sign", "it is the sample before minus this one; the speed is positive where q "
-     "grows", "with the other sign", {"told": np.negative}),
-    ("size-only", "its sign is lost: where q falls the speed is negative", "its size",
-     {"told": np.abs}),
+    ("twice", "the difference is taken twice; that is an acceleration times dt",
+     "the difference of the difference", {"change": lambda q: backward(backward(q))}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(speed, **other))
+    row.wrong(slug, says, redone)(partial(velocity, **other))
 
 
-@row.right  # A sample at a time.
+@row.right  # One sample after the other, in a loop.
 def _(q, dt):
     found = [0.0]
     for before, now in itertools.pairwise(q):

@@ -24,40 +24,25 @@ def _(rng):
 
 @row.wrongs
 def _(x, P, F, Q):
-    """x-not-predicted: x is handed on as it was; a moment later it is F x => x, and the
-      right P
-    x-turned-round: x is multiplied from the left, as x F, or F is transposed: F x => x
-      F
-    x-twice: F x is added to x; F has its 1 already => x + F x
-    no-transpose: P is F P F; the one on the right is transposed => F P F + Q
-    transposed-on-the-left: P is F^T P F: the transpose stands on the right
-    F-once: P is F P: an error e becomes F e, and e e^T becomes F e e^T F^T
-    P-not-carried: P + Q: the covariance is not carried along by F
-    Q-forgotten: Q is missing: the filter grows sure of itself, and no longer listens
-    Q-subtracted: Q is subtracted; a moment makes nothing surer
-    Q-carried-too: Q is carried along by F as well; it is what the moment has added at
-      its end => F (P + Q) F^T
-    entry-by-entry: F * P is made entry by entry; @ is the matrix product => with * for
-      @
+    """transposed-on-the-left: P is F^T P F + Q; if the error e becomes F e, e e^T
+      becomes F e e^T F^T => F^T P F + Q
+    P-not-carried: P is P + Q; F changes the old error as well, so its covariance is
+      transformed by F => P + Q
+    Q-carried-too: Q is transformed by F as well; the noise over dt is added after F =>
+      F (P + Q) F^T
+    entry-by-entry: `*` multiplies F and P entry by entry; use `@` for the matrix
+      product => `*` instead of `@`
     """
-    right = F @ P @ F.T + Q
     Ps = {
-        "no-transpose": F @ P @ F + Q,
         "transposed-on-the-left": F.T @ P @ F + Q,
-        "F-once": F @ P + Q,
         "P-not-carried": P + Q,
-        "Q-forgotten": right - Q,
-        "Q-subtracted": right - 2 * Q,
         "Q-carried-too": F @ (P + Q) @ F.T,
         "entry-by-entry": F * P * F.T + Q,
     }
-    xs = {"x-not-predicted": x.copy(), "x-turned-round": x @ F, "x-twice": x + F @ x}
-    return {s: (F @ x, P) for s, P in Ps.items()} | {
-        s: (x, right) for s, x in xs.items()
-    }
+    return {s: (F @ x, P) for s, P in Ps.items()}
 
 
-@row.right  # Entry by entry, with sums.
+@row.right  # By np.einsum.
 def _(x, P, F, Q):
     return np.einsum("ij,j->i", F, x), np.einsum("ij,jk,lk->il", F, P, F) + Q
 

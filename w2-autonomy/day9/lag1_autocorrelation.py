@@ -28,67 +28,60 @@ def centred(y):
 
 def correlation(
     y, *, above=centred, below=centred, pairs=lambda d: d[1:] @ d[:-1],
-    squares=lambda d: d @ d, share=lambda n: 1.0, told=lambda r: r,
+    squares=lambda d: d @ d, share=lambda n: 1.0,
 ):  # fmt: skip
-    """Return the correlation with other parts."""
-    return told(share(len(y)) * pairs(above(y)) / squares(below(y)))
+    """Return the autocorrelation with another part."""
+    return share(len(y)) * pairs(above(y)) / squares(below(y))
 
 
 AS_IT_IS = {"above": lambda y: y}
 for slug, says, redone, other in (
-    ("mean-not-taken-off", "the mean is not taken off: an offset alone makes "
-     "neighbours look alike", "with y as it is", {**AS_IT_IS, "below": lambda y: y}),
-    ("mean-left-in-the-products", "the mean is taken off in the squares, but not in "
-     "the products", "with y as it is above", AS_IT_IS),
-    ("mean-left-in-the-squares", "the mean is taken off in the products, but not in "
-     "the squares", "with y as it is below", {"below": lambda y: y}),
-    ("not-normalised", "it is not divided by the sum of squares: it has y's unit "
-     "squared", "the sum of products", {"squares": lambda d: 1.0}),
-    ("by-sigma", "it is divided by the root of the sum of squares; its square drops "
-     "the unit", "with the root below", {"squares": lambda d: np.sqrt(d @ d)}),
-    ("squares-of-the-first", "it is divided by the squares of the first n - 1 alone",
-     "without the last below", {"squares": lambda d: d[:-1] @ d[:-1]}),
-    ("squares-of-the-last", "it is divided by the squares of the last n - 1 alone",
-     "without the first below", {"squares": lambda d: d[1:] @ d[1:]}),
-    ("two-sizes", "each of the two rows has a size of its own; the sum of all squares "
-     "is below", "with the root of both rows' squares",
+    ("mean-not-taken-off", "the mean is not subtracted: an offset alone makes "
+     "neighbours correlated", "y with its mean in both sums",
+     {**AS_IT_IS, "below": lambda y: y}),
+    ("mean-left-in-the-products", "the mean is subtracted in the squares, but not in "
+     "the products", "the sum of products of y itself", AS_IT_IS),
+    ("mean-left-in-the-squares", "the mean is subtracted in the products, but not in "
+     "the squares", "the sum of squares of y itself", {"below": lambda y: y}),
+    ("squares-of-the-first", "the denominator omits the square of the last entry; use "
+     "all n squares", "the sum of the first n - 1 squares",
+     {"squares": lambda d: d[:-1] @ d[:-1]}),
+    ("squares-of-the-last", "the denominator omits the square of the first entry; use "
+     "all n squares", "the sum of the last n - 1 squares",
+     {"squares": lambda d: d[1:] @ d[1:]}),
+    ("two-sizes", "the denominator is the product of the norms of y[1:] and y[:-1]; "
+     "use the sum of all n squares", "the product of the two norms",
      {"squares": lambda d: np.sqrt((d[1:] @ d[1:]) * (d[:-1] @ d[:-1]))}),
-    ("by-n-sigma", "it is divided by sigma, and by n - 1 for n; its square drops the "
-     "unit", "the mean of products over sigma", {"squares": lambda d: np.sqrt(
-         d @ d / len(d)), "share": lambda n: 1 / (n - 1)}),
-    ("median-for-mean", "the median is taken off; it is the mean", "with the median",
-     {"above": lambda y: y - np.median(y), "below": lambda y: y - np.median(y)}),
-    ("mean-of-products", "n - 1 products and n squares are each averaged; the sums are "
-     "divided", "times n / (n - 1)", {"share": lambda n: n / (n - 1)}),
-    ("variance-for-sum", "the sum of products is divided by a mean of squares; sums "
-     "are divided", "times n", {"share": lambda n: n}),
-    ("mean-by-sum", "a mean of products stands above; it is their sum",
-     "divided by n - 1", {"share": lambda n: 1 / (n - 1)}),
-    ("divided-by-n", "it is divided by n as well", "divided by n",
-     {"share": lambda n: 1 / n}),
-    ("lag-two", "each is compared with the last but one", "with y_k y_(k+2)",
-     {"pairs": lambda d: d[2:] @ d[:-2]}),
-    ("lag-zero", "each is compared with itself: that is 1", "1",
-     {"pairs": lambda d: d @ d}),
-    ("round-the-corner", "the last is compared with the first, as by np.roll",
-     "with np.roll", {"pairs": lambda d: d @ np.roll(d, 1)}),
-    ("size-only", "its sign is lost: surprises that alternate are below 0", "its size",
-     {"told": abs}),
-    ("squared", "it is squared", "its square", {"told": np.square}),
-    ("sign", "its sign is the other one", "its negative", {"told": np.negative}),
-    ("one-minus", "it is 1 minus that: white noise is 0", "1 minus it",
-     {"told": lambda r: 1 - r}),
+    ("by-n-sigma", "the mean product is divided by the standard deviation; divide by "
+     "the variance, so that the unit cancels", "the mean product over sigma",
+     {"squares": lambda d: np.sqrt(d @ d / len(d)), "share": lambda n: 1 / (n - 1)}),
+    ("mean-of-products", "the mean of n - 1 products is divided by the mean of n "
+     "squares; divide the two sums", "the quotient of the means",
+     {"share": lambda n: n / (n - 1)}),
+    ("variance-for-sum", "the sum of the products is divided by the mean of the "
+     "squares; divide the two sums", "the result times n", {"share": lambda n: n}),
+    ("mean-by-sum", "the mean of the products is divided by the sum of the squares; "
+     "divide the two sums", "the result over n - 1", {"share": lambda n: 1 / (n - 1)}),
+    ("mean-by-sum", "the mean of the products is divided by the sum of the squares; "
+     "divide the two sums", "the result over n", {"share": lambda n: 1 / n}),
+    ("lag-two", "each entry is multiplied by the second one after it; use its direct "
+     "neighbour", "the lag-2 autocorrelation", {"pairs": lambda d: d[2:] @ d[:-2]}),
+    ("lag-zero", "each entry is multiplied by itself, so the result is always 1; "
+     "multiply it by its neighbour", "a constant 1", {"pairs": lambda d: d @ d}),
+    ("round-the-corner", "the last entry is multiplied by the first, as with np.roll; "
+     "they are not neighbours", "np.roll", {"pairs": lambda d: d @ np.roll(d, 1)}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(correlation, **other))
 
 
 @row.wrongs
 def _(y):
-    """two-means: each of the two rows has a mean and a size of its own, as np.corrcoef
-      does => np.corrcoef(y[1:], y[:-1])[0, 1]
-    of-the-changes: it is that of the changes of y, not of y
-    changes-squared: it is the sum of squared changes over the sum of squares: 2 for
-      white noise => Durbin and Watson's number
+    """two-means: y[1:] and y[:-1] each have their own mean and norm, as in np.corrcoef;
+      use one mean and all n squares => np.corrcoef(y[1:], y[:-1])[0, 1]
+    of-the-changes: this is the autocorrelation of the changes of y; use y itself => the
+      lag-1 autocorrelation of np.diff(y)
+    changes-squared: this is the Durbin-Watson statistic, which is 2 for white noise;
+      use the products of neighbours => the Durbin-Watson statistic
     """
     d = centred(y)
     return {

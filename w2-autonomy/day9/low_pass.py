@@ -29,7 +29,7 @@ def _(rng):
 
 
 def share(x):
-    """Return alpha of 2 pi cutoff dt."""
+    """Return alpha from x = 2 pi cutoff dt."""
     return 1 - np.exp(-x)
 
 
@@ -37,7 +37,7 @@ def filtered(
     x, dt, cutoff, *, of=lambda dt, f: 2 * np.pi * f * dt, alpha=share,
     first=lambda x, alpha: x[0], step=lambda y, now, before, a: y + a * (now - y),
 ):  # fmt: skip
-    """Return y with other parts: the share of what, from which start, which step."""
+    """Return y with another exponent, alpha, first output or step."""
     a = alpha(of(dt, cutoff))
     y = [first(x, a)]
     for before, now in itertools.pairwise(x):
@@ -46,72 +46,52 @@ def filtered(
 
 
 for slug, says, redone, other in (
-    ("rc-share", "alpha is dt / (dt + RC), which only comes near to 1 - e^(-dt / RC) "
-     "at low cutoffs", "with alpha = dt / (dt + RC)", {"alpha": lambda x: x / (1 + x)}),
-    ("share-turned-round", "alpha and 1 - alpha are swapped: the old answer gets the "
-     "new sample's weight", "with e^(-2 pi cutoff dt) for alpha",
+    ("rc-share", "alpha is dt / (dt + RC), which approximates 1 - exp(-dt / RC) for "
+     "low cutoffs only", "alpha = dt / (dt + RC)", {"alpha": lambda x: x / (1 + x)}),
+    ("share-turned-round", "alpha and 1 - alpha are swapped: the new sample should get "
+     "the weight alpha", "exp(-2 pi cutoff dt) as alpha",
      {"step": lambda y, now, before, a: now + a * (y - now)}),
-    ("euler-share", "alpha is 2 pi cutoff dt, a step of Euler's; over 1 it would "
-     "overshoot", "with alpha = 2 pi cutoff dt", {"alpha": lambda x: x}),
-    ("no-2-pi", "the cutoff is in Hz, and a time constant is 1 / (2 pi cutoff)",
-     "without 2 pi", {"of": lambda dt, f: f * dt}),
-    ("half-of-2-pi", "there is pi where 2 pi is right: the cutoff is in full turns a "
-     "second", "with pi cutoff dt", {"of": lambda dt, f: np.pi * f * dt}),
-    ("dt-forgotten", "dt is missing in alpha: the share hangs on how long a sample "
-     "takes", "with alpha = 1 - e^(-2 pi cutoff)", {"of": lambda dt, f: 2 * np.pi * f}),
-    ("dt-divided", "the cutoff is divided by dt; over many short samples the shares "
-     "get small, so it is multiplied", "with 2 pi cutoff / dt",
-     {"of": lambda dt, f: 2 * np.pi * f / dt}),
-    ("cutoff-for-time", "the cutoff is taken for a time constant",
-     "alpha = 1 - e^(-dt / cutoff)", {"of": lambda dt, f: dt / f}),
-    ("cutoff-divided", "dt is divided by the cutoff; a higher cutoff follows faster, "
-     "so it is multiplied", "with 2 pi dt / cutoff",
-     {"of": lambda dt, f: 2 * np.pi * dt / f}),
-    ("time-constant-inverted", "the time constant is 2 pi cutoff; it is 1 / (2 pi "
-     "cutoff), so dt is multiplied by 2 pi cutoff", "with dt / (2 pi cutoff)",
-     {"of": lambda dt, f: dt / (2 * np.pi * f)}),
-    ("sign-in-the-exponent", "the exponent has the wrong sign: alpha is then below 0, "
-     "and y runs away from x", "with 1 - e^(2 pi cutoff dt)",
-     {"alpha": lambda x: 1 - np.exp(x)}),
-    ("two-for-e", "2 stands in the place of e", "with 1 - 2^(-2 pi cutoff dt)",
+    ("euler-share", "alpha is 2 pi cutoff dt, an Euler step, which overshoots above 1; "
+     "use the exact solution over dt", "alpha = 2 pi cutoff dt",
+     {"alpha": lambda x: x}),
+    ("no-2-pi", "the factor 2 pi is missing: cutoff is in Hz, so the time constant is "
+     "1 / (2 pi cutoff)", "alpha = 1 - exp(-cutoff dt)",
+     {"of": lambda dt, f: f * dt}),
+    ("cutoff-for-time", "cutoff is used as the time constant; it is a frequency in Hz",
+     "alpha = 1 - exp(-dt / cutoff)", {"of": lambda dt, f: dt / f}),
+    ("two-for-e", "alpha uses powers of 2, as for a half-life; the decay is "
+     "exp(-2 pi cutoff dt)", "1 - 2^(-2 pi cutoff dt)",
      {"alpha": lambda x: 1 - 2.0**-x}),
-    ("2-pi-divided", "cutoff dt is divided by 2 pi; a turn has 2 pi radians, so it is "
-     "multiplied", "with cutoff dt / (2 pi)", {"of": lambda dt, f: f * dt / 2 / np.pi}),
-    ("from-zero", "y begins at 0, so the first numbers climb from there; it begins at "
-     "x_0", "with y_0 = 0", {"first": lambda x, a: 0.0}),
-    ("first-filtered", "y begins at alpha x_0, as if 0 stood before; it begins at x_0",
-     "with y_0 = alpha x_0", {"first": lambda x, a: a * x[0]}),
-    ("a-sample-late", "each answer is made with the sample before: it is a sample "
-     "later than it need be", "with x_(k-1)",
-     {"step": lambda y, now, before, a: y + a * (before - y)}),
-    ("by-the-sample-before", "y_(k-1) is replaced by x_(k-1): only two samples are "
-     "mixed, and nothing is remembered", "alpha x_k + (1 - alpha) x_(k-1)",
+    ("from-zero", "y starts at 0, so the output first rises from there; it should "
+     "start at x[0]", "y_0 = 0", {"first": lambda x, a: 0.0}),
+    ("first-filtered", "y starts at alpha x[0], as if the output had been 0 before; it "
+     "should start at x[0]", "y_0 = alpha x_0", {"first": lambda x, a: a * x[0]}),
+    ("by-the-sample-before", "the sample before is used instead of the output before: "
+     "the filter then has no memory", "alpha x_k + (1 - alpha) x_(k-1)",
      {"step": lambda y, now, before, a: a * now + (1 - a) * before}),
-    ("change-added", "alpha times the change of x is added; it is alpha times what is "
-     "left from y to x", "y + alpha (x_k - x_(k-1))",
+    ("change-added", "alpha times the change of x is added; it should be alpha times "
+     "the difference between x and the output before", "y + alpha (x_k - x_(k-1))",
      {"step": lambda y, now, before, a: y + a * (now - before)}),
-    ("share-added", "alpha x is added to y, of which nothing is taken away",
-     "y + alpha x_k", {"step": lambda y, now, before, a: y + a * now}),
-    ("whole-numbers-kept", "y is kept in an array of whole numbers, which cuts each "
-     "step's fraction off", "cut to whole numbers at each step",
+    ("whole-numbers-kept", "y is stored in an integer array, which discards the "
+     "fraction of each output", "truncation to integers at each step",
      {"step": lambda y, now, before, a: np.trunc(np.trunc(y) + a * (now - np.trunc(y))),
       "first": lambda x, a: np.trunc(x[0])}),
-    ("away-from-x", "y moves away from the sample: it is y - x that is added",
-     "y + alpha (y - x_k)", {"step": lambda y, now, before, a: y + a * (y - now)}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(filtered, **other))
 
 
 @row.wrongs
 def _(x, dt, cutoff):
-    """backwards: it runs from the end to the start, so it uses what is not there yet
-    there-and-back: it runs forwards and back, as filtfilt does; the way back uses what
-      is not there yet
-    what-is-fast: it is x - y, what the filter takes away
-    not-filtered: it is x itself => x
-    last-left-out: the last is 0: the loop ends one too early
-    last-left-out 2: the last is x itself: the loop ends one too early => with x at the
-      end
+    """backwards: the filter runs from the last sample to the first, so it uses samples
+      that are not known yet
+    there-and-back: the filter runs forwards and then backwards, as filtfilt does; the
+      second pass uses samples that are not known yet
+    what-is-fast: the output is x - y, which is a high pass; return y => x - y
+    not-filtered: the output is x itself, without a filter => x
+    last-left-out: the last output is 0: does your loop end one sample too early? => 0
+      as the last output
+    last-left-out 2: the last output is the last sample: does your loop end one sample
+      too early? => the last sample as the last output
     """
     right = low_pass(x, dt, cutoff)
     return {
@@ -124,7 +104,7 @@ def _(x, dt, cutoff):
     }
 
 
-@row.right  # The sum of all samples so far, each with its weight.
+@row.right  # The weighted sum of all samples so far.
 def _(x, dt, cutoff):
     keep = np.exp(-2 * np.pi * cutoff * dt)
     y = []

@@ -172,7 +172,7 @@ def predict_with_sigma(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return predicted torques and the standard deviation of each, (m,) both.
 
-    Y (n, p), tau (n,) and rtol are those of `truncated_svd_fit`; Y_new (m, p) is the
+    Y (n, p), tau (n,) and rtol are as in `truncated_svd_fit`; Y_new (m, p) is the
     regressor of new motions. The variance of the noise is r . r / (n - rank), where r
     is the residual of the fit. The standard deviation is the noise that the fit
     transfers to a prediction; it includes neither the noise of a new measurement nor
@@ -186,7 +186,7 @@ def predict_with_sigma(
     noise = np.linalg.norm(tau - Y @ phi) / np.sqrt(len(tau) - kept.sum())  # the noise
     return (
         Y_new @ phi,  # the predicted torques
-        noise * np.linalg.norm(Y_new @ Vt[kept].T / s[kept], axis=1),  # their sigma
+        noise * np.linalg.norm(Y_new @ Vt[kept].T / s[kept], axis=1),  # the sigmas
     )
     # endregion 8.7
 
@@ -321,7 +321,7 @@ def lengths(per_metre: float) -> np.ndarray:
 def judged(name: str, Y, tau, Y_new, truth, rtol: float) -> tuple[float, float]:
     """Fit, print residual and test error, and return the test error and a fraction.
 
-    The fraction is that of the test torques within 1.96 sigma of the prediction.
+    It is the fraction of the test torques within 1.96 sigma of the prediction.
     """
     rank, condition = rank_and_condition(Y, rtol)
     condition = float(f"{condition:.3g}")

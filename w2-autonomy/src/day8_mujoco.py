@@ -75,7 +75,7 @@ def mujoco_wrench(body: Body) -> Array:
     """Return the wrench (6,) that moves a free body, by MuJoCo's mj_inverse.
 
     The qvel of a free joint is (v; omega). Its qacc contains the acceleration of the
-    origin as a point, which is that of the twist plus omega x v.
+    origin as a point, which is the twist's plus omega x v.
 
     Args:
         body: its parameters, twist and acceleration.

@@ -1,5 +1,5 @@
-# task 4.9: few-entries-off
-# The whole mass sits at the plain mean of the centres.
+# task 4.9: argument-mean
+# The whole mass sits at the plain mean of the centres, as with equal masses.
 import numpy as np
 
 
