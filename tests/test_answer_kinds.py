@@ -52,7 +52,7 @@ class TestAnIndex:
             (
                 lambda x, at: int(np.argmin(np.abs(x - at))) + 1,
                 "counted-from-one",
-                "The places are counted from 1; an index counts them from 0.",
+                "The index is counted from 1; it should be counted from 0.",
             ),
             (
                 lambda x, at: float(np.argmin(np.abs(x - at))),

@@ -4,8 +4,12 @@ import inprocess
 import numpy as np
 import pytest
 
+from labkit.base.exchange import Reply
+from labkit.judge import judge
+from labkit.judge.ask import asked_of
+from labkit.judge.row import row_of
 from labkit.lesson.day import find_day
-from labkit.lesson.lab_module import lab_of
+from labkit.lesson.lab_module import lab_of, read_script
 
 pytestmark = pytest.mark.kit
 
@@ -192,6 +196,32 @@ def test_two_mistakes_that_only_come_near_are_not_told():
         return np.rint(3 * q * counts) / (6 * np.pi)
 
     assert "Two things" not in told(9, "9.1", quantise=quantise)
+
+
+@pytest.mark.parametrize(
+    ("column", "its"),
+    [("np.argmin(np.diag(B))", "np.argmin"), ("1", "comes from the second column")],
+)
+def test_nan_at_some_inputs_is_not_a_fixed_column(column, its, tmp_path):
+    day = find_day(3)
+    script = tmp_path / day.script
+    text = read_script(day.source)
+    assert "np.argmax(np.diag(B))" in text
+    script.write_text(text.replace("np.argmax(np.diag(B))", column), "utf-8")
+    says = inprocess.verdicts(day, script, "3.3")["3.3"].message
+    assert its in says
+    assert ("always comes from" in says) == (column == "1")
+
+
+def test_a_nan_of_a_fresh_input_is_compared_as_well():
+    row = row_of(find_day(3), "log_rotation")
+    asked = asked_of("3.3", "log_rotation", row.ask, 47)
+    for one in asked.exchanges:
+        one.reply = Reply(value=row.truth(*one.question.args))
+    asked.fresh[0].reply = Reply(value=np.full(3, np.nan))
+    further = judge._further(asked)
+    assert np.isnan(further.S[0][0]).all()
+    assert len(further.S[0]) == len(asked.fresh)
 
 
 def test_one_answer_beside_nan_names_no_mistake():

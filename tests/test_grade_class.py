@@ -41,7 +41,7 @@ ALL = len(DAY.tasks)
 # What each kind gets: tasks passed, first mistake, and what the column error holds.
 EXPECTED = {
     "right": (ALL, "", ""),
-    "wrong inverse": (ALL - 1, "1.3 t-not-negated", ""),
+    "wrong inverse": (ALL - 1, "1.3 t-negated", ""),
     "under way": (3, "", ""),
     "not started": (0, "", ""),
     "no file": (0, "", "is not there. Begin with: make start DAY=1"),
@@ -211,7 +211,7 @@ class TestTheClass:
         work = graded.clones / name / WEEK / "work" / DAY.script
         tasks = run("scripts/check_day.py", "--file", work).stdout.split("\n\n")[1]
         text = (graded.out / "feedback" / f"{name}.txt").read_text("utf-8")
-        assert "it points there, not back" in tasks
+        assert "the translation has the wrong sign" in tasks
         assert set(tasks.splitlines()) <= set(text.splitlines())
         assert "- call: inverse(T)" in text  # what it takes to appeal
         assert text.startswith(name)

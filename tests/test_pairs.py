@@ -25,7 +25,7 @@ def test_a_reversed_chain_and_a_factor_on_the_wrong_side_are_told_together():
 
     says = told(2, "2.6", fk_space=fk_space)
     assert "in the reverse order" in says
-    assert "M stands on the left" in says
+    assert "M is on the left of the exponentials" in says
 
 
 def test_two_answers_in_the_other_order_that_both_lack_a_term():
@@ -34,7 +34,7 @@ def test_two_answers_in_the_other_order_that_both_lack_a_term():
         return R_extra @ T_world_ee[:3, 3], R @ T_extra[:3, 3]
 
     says = told(1, "1.7", translations_both_orders=translations_both_orders)
-    assert "own is not added; in the wrong order" in says
+    assert "left factor is not added; the two translations are swapped" in says
 
 
 def test_one_mistake_that_gives_half_of_the_wrong_numbers_is_told_with_how_many():

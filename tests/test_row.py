@@ -82,19 +82,12 @@ def test_a_table_is_made_once_per_question_and_nobody_spoils_it_for_the_others()
         (kinds.DEGREES, np.rad2deg([1.0, 2, 3, 4, 5, 6])),
         (kinds.HALVES_SWAPPED, [4, 5, 6, 1, 2, 3]),
         (kinds.FIRST_FOR_ALL, [1, 1, 1, 1, 1, 1]),
-        (kinds.REVERSED, [6, 5, 4, 3, 2, 1]),
-        (kinds.OF_ALL_JOINTS[7], [1, 2, 3, 4, 5, 0]),
+        (kinds.OF_ALL_JOINTS[4], [1, 2, 3, 4, 5, 0]),
     ],
     ids=lambda x: getattr(x, "slug", ""),
 )
 def test_a_mistake_of_an_argument_is_made_before_it_is_used(change, used):
     assert np.allclose(change.redo(np.arange(1.0, 7.0)), used)
-
-
-def test_an_angle_is_rounded_as_numpy_and_as_python_rounds_and_stays_a_number():
-    ways = [change.redo(0.785) for change in kinds.ROUNDED[4:6]]
-    assert ways == [0.78, 0.79]
-    assert all(isinstance(way, float) for way in ways)
 
 
 def test_what_is_found_by_a_held_out_question_cannot_pass():

@@ -126,7 +126,7 @@ def ran(metric, kit=2e-15):
 def facts(day, **changed):
     number = ran(SMALL)
     met = [
-        Met("1.3", "t-not-negated", "left behind", "It keeps t."),
+        Met("1.3", "t-negated", "left behind", "It keeps t."),
         Met("1.8", "chain-reversed", "still there"),
     ]
     passed = {task.id: "passed" for task in day.tasks[:-1]}
@@ -290,7 +290,7 @@ def test_the_page_shows_the_week(day):
     text = week_page.render([facts(day)], "of my log")
     for words in ("Week 1: foundations", "7 of 8", "8 of 9", "3 h 20 min", "0.5"):
         assert words in text
-    assert "inverse: t not negated<br><span class=muted>It keeps t.</span>" in text
+    assert "inverse: t negated<br><span class=muted>It keeps t.</span>" in text
     assert "<td class=pass>✓ left behind" in text
     assert "chain reversed</td><td class=fail>✗ still there" in text
 
@@ -403,7 +403,7 @@ def test_make_report_writes_the_weeks_page_from_what_was_done(run_in, kit, done)
     text = (kit / "metrics" / "report-week1.html").read_text("utf-8")
     assert "8 of 8" in text
     assert "make check DAY=1" not in text
-    assert "inverse: t not negated<br>" in text
+    assert "inverse: t negated<br>" in text
     assert "<td class=pass>✓ left behind" in text
     diary = retro_of(done).read_bytes()
     assert b"Named mistakes met: 1; left behind: 1." in diary

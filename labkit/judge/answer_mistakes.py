@@ -47,27 +47,27 @@ def _mistakes(text: str, redo: Mapping[str, Change]) -> list[Mistake]:
 GENERAL = _mistakes(
     """
     all-signs: every sign is wrong => its negative
-    whole-numbers: only whole numbers are left: an array of integers cuts off what is
-      stored in it => the right one cut to whole numbers
+    whole-numbers: the decimals are lost: an array of integers truncates every number
+      that is stored in it => the truncated correct result
     transposed: the matrix is transposed => its transpose
-    reshaped: its transpose is reshaped, which only counts the numbers off anew; rows
-      become columns by .T => its transpose, reshaped
-    rows-swapped: the rows are (v; omega); omega's three come first => the right one
-      with its rows swapped
-    inverse: it is the inverse, which says how much is known; a covariance says how
-      little => its inverse
-    sigma-for-variance: its entries are sigma, and a covariance holds sigma squared =>
-      the root of each entry
+    reshaped: the array is reshaped where it should be transposed; only .T turns rows
+      into columns => its transpose, reshaped
+    rows-swapped: the rows are (v; omega); the rows of omega come first => the correct
+      result with its rows swapped
+    inverse: the result is the inverse, the information matrix; it should be the
+      covariance => its inverse
+    sigma-for-variance: the entries are standard deviations; a covariance has their
+      squares => the root of each entry
     halves-swapped: the two halves are swapped: {halves[0]} comes first, then
-      {halves[1]} => the right one with its halves swapped
-    blocks-swapped: its blocks are in the order (v; omega); omega's three come first
-      => the right one with its blocks swapped
-    counted-from-one: the places are counted from 1; an index counts them from 0 => the
-      right one and 1
-    one-too-small: it is one too small: the place before the right one
-    inverted: True and False are swapped => the right one turned round
-    row-first: a pixel is (column, row), x before y; here the row comes first => the
-      right one with its two columns swapped
+      {halves[1]} => the correct result with its halves swapped
+    blocks-swapped: the blocks are in the order (v; omega); omega comes first => the
+      correct result with its blocks swapped
+    counted-from-one: the index is counted from 1; it should be counted from 0 => the
+      correct result plus 1
+    one-too-small: the index is one too small
+    inverted: True and False are swapped => the opposite of the correct result
+    row-first: the row comes first; a pixel is (column, row), so x comes before y => the
+      correct result with its two columns swapped
     """,
     {
         "all-signs": np.negative,
@@ -96,10 +96,10 @@ def general(*slugs: str, **words: Any) -> list[Mistake]:
 OF_A_ROTATION = [
     *_mistakes(
         """
-        R-transposed: the matrix is right except that it is transposed: it turns the
-          other way => its transpose
-        left-handed: the third axis points the wrong way: det R = -1, a left-handed
-          frame => the right one with that axis reversed
+        R-transposed: the matrix is transposed, so it rotates in the opposite sense =>
+          its transpose
+        left-handed: the third axis is reversed, so the frame is left-handed (det R =
+          -1) => the correct result with that axis reversed
         all-signs: every entry has the wrong sign => its negative
         """,
         {
@@ -112,27 +112,25 @@ OF_A_ROTATION = [
 ]
 _OF_A_POSE = _mistakes(
     """
-    R-transposed: all is right except that R is transposed: T[:3, :3] {wrong_way} => the
-      right one with R transposed
-    inverse-returned: this is the inverse of what was asked for: it {wrong_way} => its
-      inverse
-    T-transposed: the whole 4x4 is transposed, so its bottom row is not (0, 0, 0, 1) =>
-      its transpose
-    t-in-last-row: the translation is in the last row, and the last column is empty =>
-      the right one with t moved there
-    corner-zero: the bottom row is (0, 0, 0, 0): points lose their 1, and so every move
-      after this one
-    ones-below: the bottom row is all ones, not (0, 0, 0, 1)
-    t-lost: the rotation is right, but the translation is missing => the right one
-      without t
-    R-lost: the translation is right, but there is no rotation: R is the identity => the
-      right one without R
-    t-negated: the rotation is right, but the translation has the wrong sign => the
-      right one with t negated
-    left-handed: the third axis points the wrong way: det R = -1, a left-handed frame =>
-      the right one with that axis reversed
-    millimetres: the rotation is right, but the translation is in millimetres => the
-      right one in millimetres
+    R-transposed: the translation is correct, but R is transposed, so T[:3, :3]
+      {wrong_way} => the correct result with R transposed
+    inverse-returned: the result is the inverse, so it {wrong_way} => its inverse
+    T-transposed: the whole 4x4 matrix is transposed, so its bottom row is not (0, 0, 0,
+      1) => its transpose
+    t-in-last-row: the translation is in the last row; it belongs in the last column =>
+      the correct result with t in the last row
+    corner-zero: the bottom row is (0, 0, 0, 0); its last entry should be 1
+    ones-below: the bottom row is all ones; it should be (0, 0, 0, 1)
+    t-lost: the rotation is correct, but the translation is missing => the correct
+      result without t
+    R-lost: the translation is correct, but the rotation is missing: R is the identity
+      => the correct result without R
+    t-negated: the rotation is correct, but the translation has the wrong sign => the
+      correct result with t negated
+    left-handed: the third axis is reversed, so the frame is left-handed (det R = -1) =>
+      the correct result with that axis reversed
+    millimetres: the rotation is correct, but the translation is in millimetres => the
+      correct result in millimetres
     """,
     {
         "R-transposed": _parts(R=np.matrix_transpose),
@@ -150,7 +148,7 @@ _OF_A_POSE = _mistakes(
 )
 
 
-def of_a_pose(wrong_way: str = "turns the other way") -> list[Mistake]:
+def of_a_pose(wrong_way: str = "rotates in the opposite sense") -> list[Mistake]:
     """Return mistakes made with a finished pose.
 
     Args:

@@ -68,8 +68,9 @@ def others(call: Call, names: Sequence[str]) -> Iterator[Change]:
 
 
 def _named(call: Call, names: Sequence[str]) -> Sequence[str]:
-    if len(names) == len(call):
-        return names
+    """Return the arguments' names; a call may leave out the last ones."""
+    if len(names) >= len(call):
+        return names[: len(call)]
     return [f"argument {k + 1}" for k in range(len(call))]
 
 

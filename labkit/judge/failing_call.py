@@ -189,7 +189,7 @@ def _given(question: Question, names: Sequence[str]) -> tuple[str, ...]:
     found = [f"call: {typed(question, names, LONG)}"]
     for i, arg in enumerate(question.args):
         if isinstance(arg, np.ndarray) and (arg.ndim > 1 or len(typed_one(arg)) > LONG):
-            name = names[i] if len(names) == len(question.args) else f"argument {i + 1}"
+            name = names[i] if len(names) >= len(question.args) else f"argument {i + 1}"
             found.append(f"{name} = {shown(arg)}")
     return tuple(found)
 

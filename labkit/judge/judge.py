@@ -259,14 +259,12 @@ def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
 
 
 def _further(asked: Asked) -> Further | None:
-    """Return the fresh questions that have an answer, all of numbers, or None."""
-    good = []
-    for one in asked.fresh:
-        S = replies_read.read([one], asked.ask)
-        if isinstance(S, Finding):
-            continue
-        if all(np.isfinite(part).all() for part in S):
-            good.append(one)
+    """Return the fresh questions that have an answer, NaN where a kind has it; or None.
+
+    A NaN confirms or refutes a mistake as a number does.
+    """
+    answered = [(one, replies_read.read([one], asked.ask)) for one in asked.fresh]
+    good = [one for one, S in answered if not isinstance(S, Finding)]
     sizes = replies_read.sizes(asked.ask, good) if good else ()
     off = {i for i, _, got, right in sizes if got != right}
     good = [one for i, one in enumerate(good) if i not in off]
@@ -403,7 +401,10 @@ def _not_finite(m: Matcher) -> Finding | None:
     if not good.any():
         return found
     rest, S, T = _only(good, case, S, T)
-    return _both(found, rest, S, T, m.effort)
+    both = _both(found, rest, S, T, m.effort)
+    if both is found and (slip := sources.in_own_line(m)):
+        return Finding(found.slug, f"{found.message} {slip.message}")
+    return both
 
 
 def _only(good: Array, case: Case, S: Parts, T: Parts) -> tuple[Case, Parts, Parts]:

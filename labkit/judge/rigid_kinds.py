@@ -61,7 +61,7 @@ class Pose(Kind):
 
     shape: tuple[int, ...] = (4, 4)
     # What its rotation does when it is transposed.
-    wrong_way: str = "turns the other way"
+    wrong_way: str = "rotates in the opposite sense"
     expected = "a 4x4 matrix"
     misfits: ClassVar = {
         (3, 4): "the bottom row (0, 0, 0, 1) is missing",

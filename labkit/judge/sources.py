@@ -26,7 +26,7 @@ from labkit.judge.hypothesis import equals, evidence
 from labkit.judge.matcher import Calls, Code, Matcher
 from labkit.judge.mistake import Finding, Mistake
 from labkit.judge.mutant import FAR, Mutant
-from labkit.judge.sentence import of_mutants, shows
+from labkit.judge.sentence import of_mutants, own_line, shows
 
 NEAR, FURTHER = "near", "further"  # mutants
 # What share of a search's effort is kept for the sources that come later.
@@ -215,6 +215,15 @@ def after(function: Code, change: Code, *args: Any) -> Any:
 def likely_mutants(m: Matcher) -> Finding | None:
     """Return a near mutant that gives all answers, where it can be shown."""
     found = [one for one in _that_hold(m, NEAR) if shows(m, one)]
+    return of_mutants(m, found) if found else None
+
+
+def in_own_line(m: Matcher) -> Finding | None:
+    """Return a near mutant that gives all answers and is in the student's own line.
+
+    Which answers are NaN is little evidence, and the line is the rest of it.
+    """
+    found = [one for one in _that_hold(m, NEAR) if own_line(m, one)]
     return of_mutants(m, found) if found else None
 
 

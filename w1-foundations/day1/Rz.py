@@ -4,7 +4,7 @@ import numpy as np
 
 from labkit.judge import Rotation, Row
 from labkit.judge.answer_mistakes import OF_A_ROTATION
-from labkit.judge.argument_mistakes import OF_AN_ANGLE, ROUNDED
+from labkit.judge.argument_mistakes import OF_AN_ANGLE
 from robo47 import se3
 
 from .panda_chain import BACKWARDS, NEAR
@@ -15,9 +15,9 @@ row = Row(Rotation(), near=NEAR, alike=[BACKWARDS])
 
 @row.inputs
 def angles(rng):
-    """Return no turn, a right angle, some as in the lab and three drawn ones.
+    """Return 0, a right angle, angles as in the lab and three random ones.
 
-    Small ones and large ones stand there on purpose: nobody draws them every time.
+    Small and large angles are listed, because random angles rarely include them.
     """
     drawn = rng.numbers(-np.pi, np.pi, 3)
     return [
@@ -35,17 +35,17 @@ def small_angle_formula(theta, below=0.1):
 
 @row.wrongs(hidden={"small-angle-formula": "the lab draws hardly any angle so small"})
 def _(theta):
-    """turns-backwards: it turns the wrong way: a positive angle takes x towards -y =>
-      Rz(-theta)
-    sin-and-cos-swapped: sin and cos have changed places: at 0 it already turns
-    minus-missing: one of the two sines needs a minus: as it is, lengths change (R R^T
-      is not I) => the right one without that minus
-    minus-twice: only one of the two sines has a minus: as it is, lengths change
-    reflection: a cosine has a minus that belongs to a sine: this mirrors (det R = -1)
-    small-angle-formula: a small theta has a formula of its own, sin theta = theta and
-      cos theta = 1, which is not exact; the sine and cosine are
-    z-lost: whatever is along z disappears: the last entry is 0, so det R = 0 => the
-      right one with a 0 there
+    """turns-backwards: the rotation has the wrong sense; a positive angle rotates x
+      towards y => Rz(-theta)
+    sin-and-cos-swapped: the sine and the cosine are swapped: at 0 the matrix already
+      rotates by 90 degrees
+    minus-missing: neither sine has a minus sign, so the matrix is not orthonormal
+    minus-twice: both sines have a minus sign, so the matrix is not orthonormal
+    reflection: a cosine has the minus sign that belongs to a sine, so the matrix is a
+      reflection (det R = -1)
+    small-angle-formula: a small theta has its own formula, sin theta = theta and cos
+      theta = 1, which is only approximate
+    z-lost: the last diagonal entry is 0, so the z component of a point is lost
     """
     c, s = np.cos(theta), np.sin(theta)
     return {
@@ -60,15 +60,15 @@ def _(theta):
 
 
 for axis, about in (("x", se3.Rx), ("y", se3.Ry)):
-    says = f"this turns about {axis}, not about z"
-    row.wrong(f"turns-about-{axis}", says, f"that turn about {axis}")(about)
-    says = f"this turns about {axis}, and backwards"
-    row.wrong(f"turns-about-{axis}", says, f"that turn about {axis}")(
+    says = f"the rotation is about {axis}; it should be about z"
+    row.wrong(f"turns-about-{axis}", says, f"a rotation about {axis}")(about)
+    says = f"the rotation is about {axis}, with the wrong sense; it should be about z"
+    row.wrong(f"turns-about-{axis}", says, f"a rotation about {axis}")(
         lambda theta, about=about: about(-theta)
     )
 
 
-row.of_argument("theta", *OF_AN_ANGLE, *ROUNDED)
+row.of_argument("theta", *OF_AN_ANGLE)
 row.of_answer(OF_A_ROTATION)
 
 

@@ -34,31 +34,33 @@ ALL = [*ENDS.items(), ("fingertip-for-the-end", HANDS_TIP)]
 
 
 def elsewhere(model, q, path=PATH):
-    """hand-for-attachment-site: your pose is that of `hand`, which another model has;
-      this one ends in `attachment_site`, half a turn about z from it at every q => the
-      pose of `hand`
-    finger-for-the-end: your pose is that of a finger; the chain ends at the flange =>
-      the pose of a finger
-    fingertip-for-the-end: your pose is where fingertips would be (a TCP); this Panda
-      has no hand and ends at the flange => the pose 103.4 mm further on
-    stops-at-link7: your chain stops at link7: from there to the end effector it is one
-      more fixed step, the same at every q => the pose of link7
-    flange-not-turned: your pose is in the right place, but the flange's own turn is
-      missing at every q => the right one without that turn
-    flange-turned-backwards: your pose is in the right place, but the flange is turned
-      the wrong way at every q => the right one with that turn reversed
-    flange-turned-by-45: your pose is in the right place, but the flange is turned by 45
-      degrees, which is not its turn => the right one turned by 45 deg
-    flange-not-moved: R is right, but the flange's distance from link7 is missing at
-      every q => the right one without it
-    flange-twice: the step from link7 to the end effector is in it twice => the right
-      one with that step twice
+    """hand-for-attachment-site: the result is the pose of `hand`, a body of another
+      model; this model ends in `attachment_site`, and the two differ by a rotation of
+      180 degrees about z => the pose of `hand`
+    finger-for-the-end: the result is the pose of a finger; the chain ends at the flange
+      => the pose of a finger
+    fingertip-for-the-end: the result is the pose between the fingertips (the tool
+      centre point); this Panda has no hand and ends at the flange => the pose 103.4 mm
+      further along z
+    stops-at-link7: your chain stops at link7; one more fixed factor leads from there to
+      the end effector => the pose of link7
+    flange-not-turned: the position is correct, but the flange's own rotation is missing
+      => the correct result without that rotation
+    flange-turned-backwards: the position is correct, but the flange's rotation has the
+      wrong sense => the correct result with that rotation reversed
+    flange-turned-by-45: the position is correct, but the flange is rotated by 45
+      degrees, which is not its rotation in the file => the correct result rotated by 45
+      degrees
+    flange-not-moved: the rotation is correct, but the flange's offset from link7 is
+      missing => the correct result without it
+    flange-twice: the factor from link7 to the end effector is applied twice => the
+      product with that factor twice
     """
     T = fk(model, q, path)
     return {slug: T @ end for slug, end in ENDS.items()}
 
 
 def fingertip_for_the_end(model, q, path=PATH):
-    """your pose is where fingertips would be (a TCP); this Panda has no hand and ends
-    at the flange => the pose 103.4 mm further on"""
+    """the result is the pose between the fingertips (the tool centre point); this Panda
+    has no hand and ends at the flange => the pose 103.4 mm further along z"""
     return fk(model, q, path) @ HANDS_TIP

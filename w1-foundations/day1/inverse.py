@@ -19,16 +19,12 @@ def _scaled(rng):
 row = Row(
     Pose(),
     near=NEAR,
-    alike=[
-        {"R-kept", "R-transposed"},
-        {"unchanged", "inverse-returned"},
-        {"t-not-negated", "t-negated"},
-    ],
+    alike=[{"R-kept", "R-transposed"}, {"unchanged", "inverse-returned"}],
     held_out=[
         HeldOut(
             "general-inverse",
-            "The numbers are right, by way of a matrix inverse. The task asks to "
-            "do without: what is special about the columns of R?",
+            "Your numbers are correct, but they come from a matrix inverse. The task "
+            "asks for R and t alone: what is special about the columns of R?",
             _scaled,
             mistaken=np.linalg.inv,
             status="close",
@@ -46,32 +42,29 @@ def _(rng):
 
 @row.wrongs
 def _(T):
-    """unchanged: T comes back as it went in: nothing is undone
-    T-transposed: the whole 4x4 is transposed. Only R is undone that way; the
-      translation is now in the bottom row => T transposed
-    t-only-negated: R is right, but t is only negated: the way back has to be told in
-      the turned frame's own axes => the right one with t only negated
-    t-not-negated: R is right and t is in the right axes, but it points there, not back
-      => the right one with t reversed
-    t-kept: R is right, but t is still the old one => the right one with t kept
-    t-turned-forwards: R is right, but t is turned by R itself, not by what undoes R
-    R-kept: the translation is right, but R is still the old one: the turn is not undone
-      => the right one with R kept
-    R-kept-t-negated: only t is negated: that undoes a plain move, but here the turn
-      stays => the right one with t only negated
-    R-kept-t-turned-forwards: R is not undone, neither as the new rotation nor where it
-      turns t
-    all-signs: every entry is negated; that undoes an addition, not a transform
-    minus-R: R and t are only negated: -R is a mirror image (det R = -1), and it undoes
-      nothing => the right one made of -R and -t
+    """unchanged: T is returned unchanged
+    T-transposed: the whole 4x4 matrix is transposed; this inverts R, but moves the
+      translation to the last row => T transposed
+    t-only-negated: the rotation is correct, but the translation is -t; the inverse's
+      translation is expressed in the rotated frame, so -t has to be rotated first =>
+      the correct rotation with -t
+    t-turned-forwards: the rotation is correct, but -t is multiplied by R instead of the
+      inverse of R
+    R-kept: the translation is correct, but the rotation is still R => the correct
+      translation with R
+    R-kept-t-negated: the rotation is still R, and t is only negated; this inverts a
+      pure translation => R with -t
+    R-kept-t-turned-forwards: R is not inverted, neither in the rotation nor in the
+      translation
+    all-signs: every entry is negated; the negative of a transform is not its inverse
+    minus-R: R and t are only negated; -R is a reflection (det R = -1), not the inverse
+      of R => the pose of -R and -t
     """
     R, t = split(T)
     return {
         "unchanged": T.copy(),
         "T-transposed": T.T.copy(),
         "t-only-negated": pose(R.T, -t),
-        "t-not-negated": pose(R.T, R.T @ t),
-        "t-kept": pose(R.T, t),
         "t-turned-forwards": pose(R.T, -R @ t),
         "R-kept": pose(R, -R.T @ t),
         "R-kept-t-negated": pose(R, -t),
@@ -83,8 +76,8 @@ def _(T):
 
 @row.wrong
 def one_over_each_entry(T):
-    """each entry is inverted on its own; a matrix is undone as a whole => 1 over each
-    entry"""
+    """every entry is replaced by its reciprocal; the inverse of a matrix is another
+    matrix => 1 over each entry"""
     with np.errstate(divide="ignore"):
         return 1.0 / T
 

@@ -21,8 +21,8 @@ row.inputs(angles)
 
 @row.wrong
 def slides_along_z(q):
-    """the joint moves along z by q metres; the Panda's joints turn about z => a slide
-    by q"""
+    """the joint translates by q along z; the Panda's joints rotate about z => a
+    translation by q"""
     return pose(np.eye(3), np.array([0.0, 0.0, q]))
 
 

@@ -21,12 +21,12 @@ def _(rng):
 
 @row.wrongs(hidden={"type-of-R": "the lab's rotations hold no whole numbers alone"})
 def _(R, t):
-    """move-then-turn: the translation comes out turned by R: you move first and turn
-      after, where a pose turns first
-    t-turned-back: the translation comes out turned by R backwards: t is already in the
-      outer frame
-    type-of-R: the array takes R's own type: where R holds whole numbers, np.eye(3,
-      dtype=int) say, the decimals of t are cut off
+    """move-then-turn: the translation is multiplied by R; a pose rotates a point first
+      and then adds t
+    t-turned-back: the translation is multiplied by the transpose of R; t is already
+      expressed in the outer frame
+    type-of-R: the array has the data type of R: if R holds integers, such as
+      np.eye(3, dtype=int), the decimals of t are truncated
     """
     whole = np.array_equal(R, np.round(R))
     return {

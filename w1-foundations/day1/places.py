@@ -30,8 +30,8 @@ from .quat_to_R import UNNORMALISED
 ALIKE = [BACKWARDS, {"joints-left-out", "R-lost"}]
 TYPED_IN = HeldOut(
     "typed-in",
-    "Right for this Panda. On one whose links are longer and turned it would not be: "
-    "it does not take every pos and quat, link0's included, from the given model.",
+    "Your pose is correct for this Panda, but not for one with longer, rotated links: "
+    "read every pos and quat, also those of link0, from the given model.",
     on(OTHER, count=2),
 )
 NO_INDEX = Slip(
@@ -39,7 +39,7 @@ NO_INDEX = Slip(
     r"\.qposadr\b(?!\s*\[)",
     "qposadr-is-an-array",
     "model.joint(name).qposadr is an array of one number, so q[...] of it is an array "
-    "too; take the number out: qposadr[0].",
+    "too: use qposadr[0].",
 )  # fmt: skip
 
 
@@ -66,7 +66,7 @@ def measured(case: Case) -> tuple[str, ...]:
         Pose().apart(case.S[i], case.T[i])
         for i in (slice(1), slice(1, 2), slice(2, None))
     )
-    return (f"off at q = 0 by {zero}, when ready by {ready}, else by up to {other}",)
+    return (f"error at q = 0: {zero}; when ready: {ready}; elsewhere: up to {other}",)
 
 
 def flange(case: Case) -> Finding | None:
@@ -78,17 +78,13 @@ def flange(case: Case) -> Finding | None:
         again = case.T @ pose(right @ R_flange, np.zeros(3))
         return bool(difference(case.S, again).max() < 0.01 * off)
 
-    says = f"Close, but not equal: off by {off:.1e}. The flange"
+    says = f"Close, but not equal: off by {off:.1e}."
     if any(ends_in(make(FLANGE_QUAT)) for make in UNNORMALISED):
-        says += (
-            "'s quaternion as the file has it is not quite of length 1, and here it "
-        )
-        return Finding("flange-not-normalised", f"{says}is not normalised.")
+        says += " The flange's quaternion in the file is rounded, so its norm is not "
+        return Finding("flange-not-normalised", f"{says}exactly 1: normalise it.")
     if ends_in(se3.Rz(0.75 * np.pi)):
-        says += (
-            " is turned by 135 degrees exactly; the file has its quaternion, rounded"
-        )
-        return Finding("flange-turned-exactly", f"{says} to seven digits.")
+        says += " You rotate the flange by exactly 135 degrees; in the file its "
+        return Finding("flange-turned-exactly", f"{says}quaternion has seven digits.")
     return None
 
 
@@ -119,22 +115,22 @@ def _other_links(model, name: str) -> Iterator[tuple[Finding, Array]]:
     body = model.body(name)
     pos = body.pos[None]
     quat = as_written(body.quat)[None]
-    missing = f"The step to {name} is missing from your chain"
+    missing = f"The factor of {name} is missing in your product"
     yield Finding("link-skipped", missing), np.eye(4)
-    yield Finding("link-twice", f"The step to {name} is in your chain twice"), L @ L
+    yield Finding("link-twice", f"The factor of {name} is applied twice"), L @ L
     for mistake in link_T.row.ask.named:
-        says = f"In the step to {name} alone, {mistake.says}"
+        says = f"In the factor of {name} alone, {mistake.says}"
         yield Finding(mistake.slug, says), mistake.redo(pos, quat)
 
 
 def _other_joints(model, q: Array, joint: str) -> Iterator[tuple[Finding, Array]]:
     yield (
-        Finding("joint-skipped", f"{joint} never turns: its angle has no effect"),
+        Finding("joint-skipped", f"{joint} does not rotate: its angle has no effect"),
         (np.eye(4)),
     )
     for _, other in PATH[1:-1]:
         if other != joint:
-            says = f"{joint} turns by {other}'s angle"
+            says = f"{joint} rotates by the angle of {other}"
             yield Finding("joint-fed-another", says), turn(model, q, other)
     angles = q[:, model.joint(joint).qposadr[0]]
     for mistake in joint_T.row.ask.named:
@@ -146,7 +142,7 @@ def _wrong_angle(joint: str, X: Array) -> Finding | None:
     R = se3.Rz(np.arctan2(X[:, 1, 0], X[:, 0, 0]))
     if not matches(X, pose(R, np.zeros(3))):
         return None
-    says = f"{joint} turns about its axis, but by the wrong angle"
+    says = f"{joint} rotates about its axis by the wrong angle"
     return Finding("joint-angle-off", says)
 
 
@@ -189,6 +185,6 @@ def _wrong_end(first: Mistake, case: Case, some: slice) -> Finding | None:
 def _both(first: Finding, second: Finding, case: Case) -> Finding:
     return Finding(
         f"{first.slug}+{second.slug}",
-        f"Two things: {first.message}; and {second.message}. (Off by up to "
-        f"{Pose().apart(case.S, case.T)}; with both put right, by 0.)",
+        f"Two things at once: {first.message}; {second.message}. (Off by up to "
+        f"{Pose().apart(case.S, case.T)}; with both corrected, by 0.)",
     )

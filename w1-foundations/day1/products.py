@@ -14,16 +14,17 @@ from .panda_chain import PATH, fk, link, product, steps, turn
 
 
 def in_order(model, q, path=PATH):
-    """joint-before-link: each joint turns before its link's offset; the offset leads to
-      the joint, so it comes first => the product with each pair swapped
-    chain-reversed: the product runs in the wrong order: the world's end belongs on the
-      left, each further factor to the right of what is there => the product in reverse
-    links-on-the-left: the links' factors are put to the left of what is there, the
-      joints' to the right; both belong to the right => the product in that order
-    joints-on-the-left: the joints' factors are put to the left of what is there, the
-      links' to the right; both belong to the right => the product in that order
-    multiplied-by-entries: the factors are multiplied entry by entry, not as matrices =>
-      the product by entries
+    """joint-before-link: each joint's factor comes before the factor of its link; the
+      link's offset leads to the joint, so it comes first => the product with each pair
+      swapped
+    chain-reversed: the product is in the reverse order; each further factor belongs on
+      the right of the product so far => the product in reverse order
+    links-on-the-left: the links' factors are multiplied on the left and the joints' on
+      the right; both belong on the right => the product in that order
+    joints-on-the-left: the joints' factors are multiplied on the left and the links' on
+      the right; both belong on the right => the product in that order
+    multiplied-by-entries: the factors are multiplied entry by entry; use the matrix
+      product => the product by entries
     """
     pairs = steps(model, q, path)
     links, joints = zip(*pairs, strict=True)
@@ -37,8 +38,8 @@ def in_order(model, q, path=PATH):
 
 
 def chain_reversed(model, q, path=PATH):
-    """the product runs in the wrong order: the world's end belongs on the left, each
-    further factor to the right of what is there => the product in reverse"""
+    """the product is in the reverse order; each further factor belongs on the right of
+    the product so far => the product in reverse order"""
     return product(L @ J for L, J in steps(model, q, path[::-1]))
 
 
@@ -46,21 +47,24 @@ def chain_reversed(model, q, path=PATH):
 
 
 def on_each_other(model, q, path=PATH):
-    """last-step-in-the-world: the step to attachment is added along the world's axes;
-      it belongs to those of the body before it => the right one with that step in
-      the world
-    last-step-on-the-left: the step to attachment is multiplied on the left, so it moves
-      the whole arm; it belongs on the right => the product with that step on the left
-    local-taken-for-world: the pos and quat of attachment in the file are taken for its
-      pose in the world; they only lead there from its parent => the numbers in the file
-    offsets-summed: R is right, but the offsets are added as they stand in the file;
-      each is told in its parent's turned axes => the right one with a plain sum
-    point-with-w-0: R is right, but attachment's offset is only turned, not moved: with
-      a 0 as fourth entry a point is a direction => the right one with that 0
-    inertial-frames: each body's ipos and iquat are used, where its mass is; pos and
-      quat say where the body is => the product of those frames
-    inertial-turns: each body's iquat is used, which turns its inertia; quat turns the
-      body => the product with iquat
+    """last-step-in-the-world: the offset of attachment is added along the world's axes;
+      it is expressed in the frame of the body before it => the correct result with that
+      offset in the world frame
+    last-step-on-the-left: the factor of attachment is multiplied on the left, so it
+      moves the whole arm; it belongs on the right => the product with that factor on
+      the left
+    local-taken-for-world: the pos and quat of attachment in the file are used as its
+      pose in the world; they are relative to its parent => the pose in the file
+    offsets-summed: the rotation is correct, but the offsets are added as they are in
+      the file; each is expressed in the rotated frame of its parent => the correct
+      rotation with a plain sum
+    point-with-w-0: the rotation is correct, but attachment's offset is only rotated and
+      the translation before it is lost: a point needs 1, not 0, as its fourth entry =>
+      the correct result with that 0
+    inertial-frames: ipos and iquat are used, which give the frame of a body's inertia;
+      pos and quat give the frame of the body => the product of those frames
+    inertial-turns: iquat is used, the orientation of a body's inertia; quat is the
+      orientation of the body => the product with iquat
     """
     before = fk(model, q, path[:-1])
     last = link(model, path[-1][0])
@@ -94,8 +98,8 @@ def inertial(model, q, path, place):
 
 
 def offset_turned_too_late(model, q, path=PATH):
-    """R is right, but each offset is turned by the joint that comes after it => the
-    right one with R turned first"""
+    """the rotation is correct, but each offset is rotated by the joint that comes after
+    it => the correct result with R updated first"""
     R, t = np.eye(3), np.zeros(3)
     for L, J in steps(model, q, path):
         R = R @ L[:3, :3] @ J[:3, :3]
@@ -104,8 +108,8 @@ def offset_turned_too_late(model, q, path=PATH):
 
 
 def turns_in_reverse(model, q, path=PATH):
-    """the turns are multiplied in the wrong order: a new one belongs to the right of
-    what is there => the right one with each turn on the left"""
+    """the rotations are multiplied in the wrong order; each new one belongs on the
+    right => the correct result with each rotation on the left"""
     R, t = np.eye(3), np.zeros(3)
     for L, J in steps(model, q, path):
         t = t + R @ L[:3, 3]

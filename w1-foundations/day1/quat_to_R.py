@@ -50,45 +50,39 @@ def by_squares(quat):
 
 UNNORMALISED = (by_ones, by_squares)  # the usual formulas: the same of a unit one
 NOT_NORMALISED = (
-    "the quaternion is used as it comes, but only one of length 1 stands for a turn: "
-    "(1, 1, 0, 0) has length 1.41",
-    "the right formula without normalising",
+    "the quaternion is not normalised; only a unit quaternion represents a rotation, "
+    "and (1, 1, 0, 0) has norm 1.41",
+    "the correct formula without normalisation",
 )
 XYZW_AND_NOT_NORMALISED = (
-    "two things: the quaternion is read as (x, y, z, w), where w comes first; and it "
-    "is not normalised before it is used",
-    "the formula with both",
+    "the quaternion is read as (x, y, z, w), although w comes first, and it is not "
+    "normalised",
+    "the formula with both mistakes",
 )
 
 
 @row.wrongs(hidden={"short-ones-kept": "no quaternion there is short"})
 def _(quat):
-    """wxyz-read-as-xyzw: the quaternion is read as (x, y, z, w); here, as in MuJoCo, w
-      comes first => the right one read with w last
-    xyzw-rolled-wrongly: w is not the only number that moved: the four are rolled the
-      wrong way round => the right one read as y, z, w, x
-    z-before-x: x, y and z are read in the order z, y, x => the right one read as w, z,
-      y, x
-    half-angle: it turns by half the angle: w is the cosine of half the angle
-    short-ones-kept: only a quaternion longer than 1 is divided by its length => the
-      right formula after that
-    factor-two-missing: the products are there, but the factor 2 in front of them is
-      missing => the right formula without the 2
-    divided-by-length-squared: the quaternion is divided by its squared length; the
-      square root is missing => the right formula with that division
+    """wxyz-read-as-xyzw: the quaternion is read as (x, y, z, w); in MuJoCo's files w
+      comes first => the correct formula with w read last
+    xyzw-rolled-wrongly: the components are shifted in the wrong direction: they are
+      read as (y, z, w, x)
+    half-angle: the rotation is by half the angle; w is the cosine of half the angle
+    short-ones-kept: the quaternion is normalised only if its norm is above 1; a shorter
+      one has to be normalised as well
+    factor-two-missing: the factor 2 in front of the products is missing => the correct
+      formula without the 2
     """
     unturned = np.array([1.0, 0.0, 0.0, 0.0])
     read = {
         "wxyz-read-as-xyzw": quat[[3, 0, 1, 2]],
         "xyzw-rolled-wrongly": quat[[2, 3, 0, 1]],
-        "z-before-x": quat[[0, 3, 2, 1]],
         "half-angle": quat / np.linalg.norm(quat) + unturned,
     }
     return {
         **{slug: partial(normalised, other) for slug, other in read.items()},
         "short-ones-kept": lambda: by_ones(quat / max(np.linalg.norm(quat), 1.0)),
         "factor-two-missing": lambda: (normalised(quat) + np.eye(3)) / 2,
-        "divided-by-length-squared": lambda: by_ones(quat / (quat @ quat)),
     }
 
 

@@ -48,8 +48,8 @@ row = Row(
     held_out=[
         HeldOut(
             "by-4x4-products",
-            "The numbers are right, by way of 4x4 products. The docstring asks for "
-            "R and t alone: which of them acts on which?",
+            "Your numbers are correct, but they come from 4x4 products. The docstring "
+            "asks for R and t alone: which of them acts on which?",
             _odd_bottom_rows,
             mistaken=by_4x4,
             status="close",
@@ -60,27 +60,25 @@ row.inputs(_two_poses)
 
 # What goes wrong in one prediction, or in both.
 HALVES = {
-    "only-summed": "the two translations are only added; the left factor also turns "
-    "the right one's translation",
-    "left-translation-lost": "the right factor's translation is turned, but the left "
-    "factor's own is not added",
-    "right-translation-lost": "only the left factor's translation is there; the right "
-    "one's does not count",
-    "turned-backwards": "the right factor's translation is turned the wrong way (by "
-    "the transpose)",
-    "wrong-vector-turned": "the left factor's own translation is turned; it is the "
-    "right factor's that is",
-    "wrong-rotation": "the right factor's translation is turned by its own R; it is "
-    "the left factor's that turns it",
-    "both-turned": "both translations are turned; the left factor's own stays as it is",
-    "subtracted": "one translation is subtracted where both add up",
-    "summed-by-columns": "the right factor's translation is multiplied entry by entry "
-    "with R (R * t) and summed up; R @ t takes rows",
-    "summed-by-entries": "R * t multiplies entry by entry; the rotation acts by R @ t",
-    "diagonal-only": "only the diagonal of R acts on the translation; R @ t takes "
-    "whole rows",
-    "entries-of-4x4": "the two 4x4 are multiplied entry by entry (A * B); that is no "
-    "product of matrices",
+    "only-summed": "the two translations are only added; the left factor also rotates "
+    "the translation of the right factor",
+    "left-translation-lost": "the translation of the left factor is not added",
+    "right-translation-lost": "the translation of the right factor is missing",
+    "turned-backwards": "the right factor's translation is multiplied by the transpose "
+    "of R; multiply it by R itself",
+    "wrong-vector-turned": "the left factor's own translation is rotated instead of "
+    "the right factor's",
+    "wrong-rotation": "the right factor's translation is rotated by its own R; rotate "
+    "it by the left factor's R",
+    "both-turned": "both translations are rotated; the left factor's own is not",
+    "subtracted": "one translation is subtracted; add the two",
+    "summed-by-columns": "R and the right factor's translation are multiplied entry by "
+    "entry and summed (R * t); use R @ t",
+    "summed-by-entries": "R * t multiplies entry by entry; use R @ t",
+    "diagonal-only": "only the diagonal of R acts on the translation; R @ t uses whole "
+    "rows",
+    "entries-of-4x4": "the two 4x4 matrices are multiplied entry by entry (A * B); use "
+    "the matrix product",
 }
 
 
@@ -102,13 +100,13 @@ def halves(R_a, t_a, R_b, t_b):
     }
 
 
-WHEN_READY = "R is symmetric when ready, where the lab asks"
+WHEN_READY = "in the ready configuration, where the lab asks, R is symmetric"
 for slug, says in HALVES.items():
     half = lambda *four, slug=slug: halves(*four)[slug]  # noqa: E731
-    row.wrong(slug, f"in both, {says}")(both(half))
+    row.wrong(slug, f"in both translations, {says}")(both(half))
     same = WHEN_READY if slug == "turned-backwards" else ""
-    row.wrong(slug, f"the first is wrong: {says}", hidden=same)(both(half, right))
-    row.wrong(slug, f"the second is wrong: {says}")(both(right, half))
+    row.wrong(slug, f"in the first translation, {says}", hidden=same)(both(half, right))
+    row.wrong(slug, f"in the second translation, {says}")(both(right, half))
 
 
 def _other_order(R_a, t_a, R_b, t_b):
@@ -116,20 +114,12 @@ def _other_order(R_a, t_a, R_b, t_b):
 
 
 for which, two in (("first", (_other_order, right)), ("second", (right, _other_order))):
-    says = f"the {which} is wrong: it repeats the other order's translation"
+    says = f"the {which} translation repeats the one of the other order"
     row.wrong("same-order-twice", says)(both(*two))
 row.wrong(
     "orders-swapped",
-    "the two are right, but in the wrong order: the first belongs to "
-    "T_world_ee @ T_extra",
+    "the two translations are swapped: the first belongs to T_world_ee @ T_extra",
 )(both(_other_order))
-
-
-@row.wrong
-def whole_numbers(T_world_ee, T_extra):
-    """only whole numbers are left: an array of integers cuts off what is stored in it
-    => the right ones cut to whole numbers"""
-    return np.trunc(both(right)(T_world_ee, T_extra))
 
 
 row.close("by-4x4-products")(by_4x4)

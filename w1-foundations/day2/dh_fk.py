@@ -41,21 +41,23 @@ ONE_TABLE = "the lab has one table"
 
 @row.wrongs(hidden={"flange-typed-in": ONE_TABLE, "table-not-used": ONE_TABLE})
 def _(table, q):
-    """flange-missing: the eighth row is missing: your pose is that of link7, not the
-      flange's => the product of seven rows
-    flange-turned: the eighth row is turned by the last joint's angle again; the flange
-      does not turn => the product with q[6] twice
-    theta-one-row-late: theta is one row late: the first row is joint1's, and gets q[0]
-    theta-one-row-early: theta is one row early: the first row is joint1's, and gets
-      q[0] => the product with q[1] first
-    product-reversed: the links stand in the reverse order: the one nearest to the base
-      belongs on the left => the product in reverse
-    multiplied-by-entries: the links are multiplied entry by entry, not as matrices
-    last-link-only: only the last row counts: what the others do is overwritten
-    flange-typed-in: the eighth row is typed in as Franka's; with another table it is
-      another one => the product with Franka's eighth row
-    table-not-used: with Franka's table it is right, with another one it is wrong: the
-      argument table is not used => the product of Franka's own rows
+    """flange-missing: the eighth row is missing: the result is the pose of link7, not
+      of the flange => the product of seven rows
+    flange-turned: the eighth row is rotated by the last joint's angle; the flange does
+      not rotate => the product with q[6] twice
+    theta-one-row-late: the angles are one row late: the first row belongs to joint1, so
+      its angle is q[0]
+    theta-one-row-early: the angles are one row early: the first row belongs to joint1,
+      so its angle is q[0] => the product with q[1] first
+    product-reversed: the links are in the reverse order; the one nearest to the base
+      belongs on the left => the product in reverse order
+    multiplied-by-entries: the links are multiplied entry by entry; use the matrix
+      product
+    last-link-only: only the last row has an effect: the loop overwrites the product
+    flange-typed-in: the eighth row is always Franka's; use the last row of the argument
+      => the product with Franka's eighth row
+    table-not-used: the argument table is not used, so the result is correct for
+      Franka's table only => the product of Franka's own rows
     """
     theta = [*q, 0.0]
     return {
@@ -77,8 +79,8 @@ row.of_argument("q", LEFT_OUT)
 for by in (1, -1):
     row.wrong(
         "alpha-of-the-neighbour",
-        "each row's alpha is its neighbour's: tables for the other convention have "
-        "alpha one row earlier, this one does not",
+        "each row has the alpha of its neighbour; tables of the standard convention "
+        "have alpha one row earlier, and this table does not",
         "the product with that column shifted",
     )(lambda table, q, by=by: dh_fk(np.c_[np.roll(table[:, 0], by), table[:, 1:]], q))
 for names, order in (
@@ -93,7 +95,7 @@ for names, order in (
         f"the columns are read as ({names}); they are (alpha, a, d)",
         "the product with the columns read so",
     )(lambda table, q, order=order: dh_fk(table[:, order], q))
-row.reached_by("dh_link", "in every row, ", but=["a-and-d-swapped", "theta-forgotten"])
+row.reached_by("dh_link", "in every row, ", but=["theta-forgotten"])
 
 
 @row.wrong("a-sign")  # The minus of row 5 taken for a slip of the pen.

@@ -5,14 +5,13 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Pose, Row
-from labkit.judge.answer_mistakes import of_a_pose
-from labkit.judge.argument_mistakes import NEGATED, RADIANS_TWICE
+from labkit.judge.argument_mistakes import NEGATED
 from robo47 import se3
 from robo47.screws import dh_link
 
 from .arms import FRANKA
 
-row = Row(Pose())
+row = Row(Pose(wrong_way="maps the previous link to this one"))
 
 
 @row.inputs
@@ -43,13 +42,14 @@ def in_order(order, alpha, a, d, theta):
 
 @row.wrongs
 def _(alpha, a, d, theta):
-    """standard-formula: this is the other convention, Rz Tz Tx Rx; Craig's turns about
-      x first, and Franka's table is written for his => the other convention's matrix
-    a-after-theta: the rotation is right, but a is moved along the x axis after the turn
-      about z; it comes before it => the right one with that order
-    d-along-the-old-z: the rotation is right, but d is moved along the z axis before the
-      turn about x => the right one with that order
-    order-of-moves: the four moves are right, but not their order
+    """standard-formula: the matrix follows the standard convention, Rz Tz Tx Rx;
+      Franka's table follows Craig's convention, which rotates about x first => the
+      matrix of the standard convention
+    a-after-theta: the rotation is correct, but the translation by a comes after the
+      rotation about z; it comes before it => the correct result with that order
+    d-along-the-old-z: the rotation is correct, but the translation by d comes before
+      the rotation about x; it comes after it => the correct result with that order
+    order-of-moves: the four factors are correct, but their order is not
     """
     orders = {
         "standard-formula": "zZXx",
@@ -65,27 +65,21 @@ def _(alpha, a, d, theta):
 for order in ("zxXZ", "XzxZ", "XzZx"):
     row.wrong(
         "order-of-moves",
-        "the turn about z stands before the turn about x; the link's twist comes first",
+        "the rotation about z comes before the rotation about x; alpha comes first",
         "the product in that order",
     )(partial(in_order, order))
 
 
 @row.wrongs
 def _(alpha, a, d, theta):
-    """a-and-d-swapped: the two lengths a and d have changed places: a is along x, d
-      along z => the right one with the two swapped
-    alpha-and-theta-swapped: alpha and theta have changed places: alpha turns about x,
-      theta about z => the right one with the two swapped
-    both-turns-backwards: both turns go the wrong way => the right one with -alpha and
-      -theta
-    radians-taken-for-degrees: the angles are in radians already, and are converted from
-      degrees once more => the right one with smaller angles
-    alpha-forgotten: alpha has no effect => the right one with alpha = 0
-    theta-forgotten: theta has no effect => the right one with theta = 0
+    """both-turns-backwards: both rotations have the wrong sense => the correct result
+      with -alpha and -theta
+    radians-taken-for-degrees: both angles are converted from degrees; they are in
+      radians already => the correct result with smaller angles
+    alpha-forgotten: alpha has no effect => the correct result with alpha = 0
+    theta-forgotten: theta has no effect => the correct result with theta = 0
     """
     instead = {
-        "a-and-d-swapped": (alpha, d, a, theta),
-        "alpha-and-theta-swapped": (theta, a, d, alpha),
         "both-turns-backwards": (-alpha, a, d, -theta),
         "radians-taken-for-degrees": (np.deg2rad(alpha), a, d, np.deg2rad(theta)),
         "alpha-forgotten": (0.0, a, d, theta),
@@ -94,10 +88,8 @@ def _(alpha, a, d, theta):
     return {slug: partial(dh_link, *four) for slug, four in instead.items()}
 
 
-row.of_argument("alpha", NEGATED, RADIANS_TWICE)
-for name in ("a", "d", "theta"):
+for name in ("alpha", "a", "d", "theta"):
     row.of_argument(name, NEGATED)
-row.of_answer(of_a_pose("maps the link before to this one"))
 
 
 @row.wrong("slip-sign")  # One minus forgotten.

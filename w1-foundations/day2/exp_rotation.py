@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Rotation, Row
-from labkit.judge.argument_mistakes import OF_AN_ANGLE, SIGN_LOST, SMALL_LEFT_OUT
+from labkit.judge.argument_mistakes import OF_AN_ANGLE
 from robo47 import se3
 from robo47.screws import exp_rotation, skew
 
@@ -18,10 +18,10 @@ Z, OBLIQUE = np.array([0.0, 0.0, 1.0]), np.array([0.0, 0.6, 0.8])
 
 @row.inputs
 def _(rng):
-    """Return axes of length 1 and angles: the coordinate axes, then drawn ones.
+    """Return unit axes and angles: the coordinate axes, then random ones.
 
-    Some angles are small and one is beyond pi: the formula needs no case of its own.
-    One angle comes with two axes, so that no cache can take it for the whole question.
+    Some angles are small and one is beyond pi, because the formula holds for all. One
+    angle comes with two axes, so that a cache of angles is detected.
     """
     axes = [Z, *np.eye(3), Z, *[OBLIQUE] * 7, Z, *rng.units(6)]
     angles = [np.pi / 2, 0.5, -1.2, 2.5, 3.3, 1e-4, 3e-7, -5e-3, 0.05, 0.099, 0.5, 9.5]
@@ -43,33 +43,31 @@ def rodrigues(axis, theta):
 
 @row.wrongs
 def _(axis, theta):
-    """turns-backwards: it turns the other way: the sine's term has the wrong sign =>
-      the rotation by -theta
-    minus-square: the last term is subtracted: lengths grow (det R is far from 1)
-    square-missing: the term with K K is missing: I + sin K holds for tiny angles only
-    sine-term-missing: the term with K itself is missing, so turning by theta and -theta
-      is the same => the formula without it
-    identity-missing: the identity is missing: at theta = 0 a rotation leaves everything
-      as it is => the formula without it
-    cosine-for-one-minus-cosine: before K K stands the cosine; at theta = 0 that factor
-      has to vanish => the formula with cos
-    one-minus-sine: before K K stands 1 minus the sine; at theta = 0 that factor has to
-      vanish => the formula with 1 - sin
-    sin-and-cos-swapped: sine and cosine have changed places: at theta = 0 it already
-      turns => the formula with the two swapped
-    coefficients-swapped: the two factors have changed places: the sine belongs to K, 1
-      - cos to K K => the formula with the two swapped
-    first-order-only: this is I + theta K, the first two terms of the series: right for
-      tiny angles => I + theta K
-    second-order-only: the series stops after the term with theta squared; it goes on
-      for ever => the series cut there
-    cosine-before-identity: before the identity stands the cosine; that goes with axis
-      axis^T, and I itself with K K => the formula with cos I
-    theta-for-sine: before K stands theta; it has to be its sine
-    half-angle-not-squared: before K K stands 2 sin(theta / 2); 1 - cos is twice the
+    """turns-backwards: the rotation has the wrong sense: the term with the sine has the
+      wrong sign => the rotation by -theta
+    minus-square: the term with K K is subtracted, so the matrix is not orthonormal
+    square-missing: the term with K K is missing; I + sin(theta) K is a rotation to
+      first order only
+    sine-term-missing: the term with K is missing, so the rotations by theta and -theta
+      are equal => the formula without it
+    identity-missing: the identity is missing; a rotation by 0 is the identity => the
+      formula without it
+    cosine-for-one-minus-cosine: the factor of K K is the cosine; at theta = 0 it should
+      be 0 => the formula with cos
+    one-minus-sine: the factor of K K is 1 minus the sine; at theta = 0 it should be 0
+      => the formula with 1 - sin
+    sin-and-cos-swapped: the sine and the cosine are swapped: at theta = 0 the matrix is
+      not the identity => the formula with the two swapped
+    coefficients-swapped: the two factors are swapped: the sine belongs to K, and 1 -
+      cos belongs to K K => the formula with the two swapped
+    first-order-only: the series ends after I + theta K, which is accurate for small
+      angles only => I + theta K
+    second-order-only: the series ends after the term with theta squared; it has
+      infinitely many terms => the series up to that term
+    cosine-before-identity: the identity has the factor cos; this belongs to the form
+      with axis axis^T, not to the form with K K => the formula with cos I
+    half-angle-not-squared: the factor of K K is 2 sin(theta / 2); 1 - cos is twice the
       square of that sine => the formula with 2 sin(theta / 2)
-    half-angle-without-2: before K K stands the square of sin(theta / 2); 1 - cos is
-      twice that => the formula without the 2
     """
     c, s = np.cos(theta), np.sin(theta)
     factors = {
@@ -85,43 +83,35 @@ def _(axis, theta):
         "first-order-only": (1, theta, 0),
         "second-order-only": (1, theta, theta**2 / 2),
         "cosine-before-identity": (c, s, 1 - c),
-        "theta-for-sine": (1, theta, 1 - c),
         "half-angle-not-squared": (1, s, 2 * np.sin(theta / 2)),
-        "half-angle-without-2": (1, s, np.sin(theta / 2) ** 2),
     }
     return {slug: partial(formula, axis, *f) for slug, f in factors.items()}
 
 
 @row.wrongs
 def _(axis, theta):
-    """squared-by-entries: K * K squares each entry; K K is a product of matrices
-    exp-by-entries: np.exp works on each entry; the exponential of a matrix is a series
-      of products => np.exp of [axis] theta
-    bracket-of-a-dyad: the last term is (1 - cos) times axis axis^T; that goes with cos
-      I, not with I => the formula with that term
-    dyad-without-factor: before axis axis^T the factor 1 - cos is missing: at theta = 0
-      it turns already => cos I + sin K + axis axis^T
-    always-about-z: it turns about z, whatever the axis is => Rz(theta)
-    theta-in-the-bracket: theta is in [axis] already, and sine and cosine take it once
-      more; K is made of the axis alone => the formula with [axis theta]
+    """exp-by-entries: np.exp acts on each entry; the exponential of a matrix is a
+      series of matrix products => np.exp of [axis] theta
+    bracket-of-a-dyad: the last term is (1 - cos) axis axis^T; with this term the
+      identity needs the factor cos => the formula with that term
+    dyad-without-factor: the factor 1 - cos of axis axis^T is missing, so at theta = 0
+      the matrix is not the identity => cos I + sin K + axis axis^T
+    always-about-z: the rotation is about z for every axis => Rz(theta)
     """
     K = skew(axis)
     dyad = np.outer(axis, axis)
     c, s = np.cos(theta), np.sin(theta)
     return {
-        "squared-by-entries": I + s * K + (1 - c) * K**2,
         "exp-by-entries": np.exp(K * theta),
         "bracket-of-a-dyad": I + s * K + (1 - c) * dyad,
         "dyad-without-factor": c * I + s * K + dyad,
         "always-about-z": lambda: se3.Rz(theta),
-        "theta-in-the-bracket": I + theta * s * K + theta**2 * (1 - c) * K @ K,
     }
 
 
-row.of_argument("theta", *OF_AN_ANGLE, SIGN_LOST, *SMALL_LEFT_OUT)
+row.of_argument("theta", *OF_AN_ANGLE)
 
-# Of an axis of length 1 "made-unit" changes nothing; "p-cross-w" is the angle's sign.
-row.reached_by("skew", "in [axis], ", but=["made-unit", "p-cross-w"])
+row.reached_by("skew", "in [axis], ", but=["p-cross-w"])  # the sign of the angle
 
 
 @row.close("rounded-somewhere")  # Public code: below a millionth there is no turn.

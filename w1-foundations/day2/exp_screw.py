@@ -6,7 +6,6 @@ import numpy as np
 
 from labkit.judge import Pose, Row
 from labkit.judge.answer_mistakes import of_a_pose
-from labkit.judge.argument_mistakes import INTO_COS, RADIANS_TWICE, SMALL_LEFT_OUT
 from robo47.screws import skew
 
 from .exp_rotation import formula, rodrigues
@@ -35,15 +34,14 @@ NOT_OF_AN_ARM = (
     "sign-of-the-point",
     "hinge-at-the-origin-forgotten",
     "theta-wrapped",
-    "small-angle-ignored",
 )
 
 
 @row.inputs
 def _(rng):
-    """Return hinges, slides, and screws that turn and move along, with angles.
+    """Return rotations, translations and screws with a pitch, with their angles.
 
-    Hinges through the origin and about x, y and z; angles beyond pi, and small ones.
+    Some axes pass through the origin; some angles are small or beyond pi.
     """
     drawn = np.hstack([rng.units(8), rng.numbers(-1, 1, 8, 3)])
     drawn[[0, 3], :3] = 0.0
@@ -73,12 +71,12 @@ def travelled(S, theta, one, first, second):
 @row.wrongs(hidden={"theta-wrapped": "the lab's angles are between -pi and pi"})
 def _(S, theta):
     """twist-order: the halves are read as (v; omega); omega comes first
-    hinge-at-the-origin-forgotten: right unless v is 0; with v = 0 it does not move at
-      all, but such a screw turns about a line through the origin => the right one with
-      I where v is 0
-    turns-backwards: it moves the other way, by -theta => the motion by -theta
-    theta-wrapped: right for theta from -pi to pi; theta is brought into that range, but
-      what moves along the axis has no such period => the motion by that angle
+    hinge-at-the-origin-forgotten: a screw with v = 0 does not move; it is a rotation
+      about a line through the origin => the correct result with I where v is 0
+    turns-backwards: the motion has the wrong sense: it is the motion by -theta => that
+      motion
+    theta-wrapped: theta is wrapped to the range from -pi to pi; the translation along
+      the axis is not periodic => the motion by that angle
     """
     motions = {
         "twist-order": (np.roll(S, 3), theta),
@@ -89,27 +87,28 @@ def _(S, theta):
     return {slug: partial(motion, *one) for slug, one in motions.items()}
 
 
-row.of_argument("theta", INTO_COS, RADIANS_TWICE, *SMALL_LEFT_OUT)
-
-
 @row.wrongs
 def _(S, theta):
-    """identity-for-theta: R is right, but the translation starts with I v, not with
-      theta: at theta = 0 it moves already => the right one with I instead of theta I
-    sine-for-theta: R is right, but the translation starts with sin v, not with theta v:
-      along its axis a screw moves by theta v => the right one with sin I
-    exp-coefficients-swapped: R is right, but in the translation the two factors have
-      changed places => the right one with the two swapped
-    as-in-the-rotation: R is right, but the translation uses R's own factors, sin and 1
-      - cos; it needs their integrals => the right one with those factors
-    travel-sign-of-K: R is right, but in the translation the term with K has the wrong
-      sign => the right one with that sign
-    travel-sign-of-KK: R is right, but in the translation the term with K K has the
-      wrong sign => the right one with that sign
-    travel-without-K: R is right, but in the translation the term with K is missing
-    travel-without-KK: R is right, but in the translation the term with K K is missing
-    travel-K-for-KK: R is right, but in the last term of the translation stands K, not K
-      K => the right one with K there
+    """identity-for-theta: the rotation is correct, but the first term of the
+      translation is v; at theta = 0 it should be 0 => the correct result with I instead
+      of theta I
+    sine-for-theta: the rotation is correct, but the first term of the translation is
+      sin(theta) v; a pure translation is by theta v => the correct result with sin I
+    exp-coefficients-swapped: the rotation is correct, but the two factors of the
+      translation are swapped => the correct result with the two swapped
+    as-in-the-rotation: the rotation is correct, but the translation has the factors of
+      the rotation, sin and 1 - cos; it needs their integrals => the correct rotation
+      with those factors
+    travel-sign-of-K: the rotation is correct, but the term with K of the translation
+      has the wrong sign => the correct result with that sign
+    travel-sign-of-KK: the rotation is correct, but the term with K K of the translation
+      has the wrong sign => the correct result with that sign
+    travel-without-K: the rotation is correct, but the term with K of the translation is
+      missing
+    travel-without-KK: the rotation is correct, but the term with K K of the translation
+      is missing
+    travel-K-for-KK: the rotation is correct, but the last term of the translation has K
+      instead of K K => the correct result with K there
     """
     c, s = np.cos(theta), np.sin(theta)
     factors = {
@@ -130,31 +129,32 @@ def _(S, theta):
 
 @row.wrongs
 def _(S, theta):
-    """R-times-v: R is right, but the translation is R v: a velocity has to be summed up
-      on the way => the right one with R v
-    R-times-theta-v: R is right, but the translation is theta R v: the direction of v
-      turns on the way, it is not turned all the way from the start
-    travel-on-a-line: R is right, but the translation is theta v, a straight line; a
-      screw's path bends => the right one with theta v
-    travel-is-v: R is right, but the translation is v itself, whatever theta is
-    travel-turned: R is right, but the translation is turned by R once more => the right
-      one with R t
-    travel-over-theta: R is right, but in the translation theta is missing: the whole of
-      it is divided by theta => the right one with t / theta
-    moment-used-as-point: v is taken for a point on the axis; it is the velocity of the
-      origin => the turn about the line through v
-    pitch-forgotten: right for plain hinges and slides; a screw that turns and moves
-      along its axis loses the part along it => the right one without that part
-    pitch-without-theta: right for plain hinges and slides; what moves along the axis
-      has to grow with theta => the right one with that part constant
-    hinges-only: right for plain hinges; along the axis nothing moves, neither as it
-      turns nor as it slides => the right one without that part
-    sign-of-the-point: R is right, but the point on the axis has the wrong sign: it is
-      omega x v, and (I - R) stands before it => the right one with that sign
-    slide-forgotten: right where it turns; with omega = 0 it does not move at all, but
-      it slides => the right one with I for slides
-    slide-without-theta: right where it turns; with omega = 0 it slides by v, not by
-      theta v => the right one with v for slides
+    """R-times-v: the rotation is correct, but the translation is R v; it should be the
+      integral of the rotated velocity => the correct rotation with R v
+    R-times-theta-v: the rotation is correct, but the translation is theta R v; the
+      velocity rotates during the motion, so it has to be integrated
+    travel-on-a-line: the rotation is correct, but the translation is theta v, a
+      straight line; the path of a screw motion is curved => the correct rotation with
+      theta v
+    travel-is-v: the rotation is correct, but the translation is v for every theta
+    travel-turned: the rotation is correct, but the translation is multiplied by R as
+      well => the correct rotation with R t
+    travel-over-theta: the rotation is correct, but the translation is divided by theta
+      => the correct rotation with t / theta
+    moment-used-as-point: v is used as a point on the axis; it is the velocity of the
+      origin => the rotation about the line through v
+    pitch-forgotten: a screw that rotates loses the part of its translation along the
+      axis => the correct result without that part
+    pitch-without-theta: if a screw rotates, the part of its translation along the axis
+      is not multiplied by theta => the correct result with that part constant
+    hinges-only: every screw loses the part of its translation along the axis => the
+      correct result without that part
+    sign-of-the-point: the rotation is correct, but the point on the axis has the wrong
+      sign: it is omega x v, multiplied by I - R => the correct result with that sign
+    slide-forgotten: a screw with omega = 0 does not move; it is a pure translation =>
+      the correct result with I for omega = 0
+    slide-without-theta: a screw with omega = 0 translates by v; it should translate by
+      theta v => the correct result with v for omega = 0
     """
     omega = S[:3]
     v = S[3:]
@@ -183,16 +183,16 @@ def _(S, theta):
 
 @row.wrong
 def exp_by_entries(S, theta):
-    """np.exp works on each entry; the exponential of a matrix is a series of products
-    => np.exp of [S] theta"""
+    """np.exp acts on each entry; the exponential of a matrix is a series of matrix
+    products => np.exp of [S] theta"""
     bracket = np.zeros((4, 4))
     bracket[:3, :3] = skew(S[:3])
     bracket[:3, 3] = S[3:]
     return np.exp(bracket * theta)
 
 
-row.reached_by("skew", "in [omega], ", but=["made-unit"])  # its length is 1
-row.reached_by("exp_rotation", "in the rotation, ", but=["small-angle-ignored"])
+row.reached_by("skew", "in [omega], ")
+row.reached_by("exp_rotation", "in the rotation, ")
 row.of_answer(of_a_pose(), but=["R-transposed", "inverse-returned"])  # the angle's sign
 
 

@@ -7,7 +7,7 @@ from .products import body, either_form, product_row, space
 
 
 def seen_by_the_hand(rng):
-    """Return the arms of `fk_space`, their screws told in the hand's frame."""
+    """Return the arms of `fk_space`, with screws in the end-effector frame."""
     return [(screws.body_screws(S, M), M, q) for S, M, q in arms(rng)]
 
 
@@ -17,11 +17,11 @@ either_form(row, body)
 
 @row.wrongs
 def _(body_screws, M, q):
-    """M-last: M stands on the right of the exponentials (or the screws are converted,
-      and they are the hand's already); motions told in the hand's frame follow M =>
+    """M-last: M is on the right of the exponentials, or the screws are transformed
+      again; the motions of screws in the end-effector frame act on the right of M =>
       the product with M last
-    motions-on-the-left: each new exponential is put on the left of what is there; these
-      screws are told in the hand's frame, so it goes on the right
+    motions-on-the-left: each exponential is multiplied on the left of the product;
+      these screws are in the end-effector frame, so it belongs on the right
     """
     return {
         "M-last": lambda: space(body_screws, M, q),

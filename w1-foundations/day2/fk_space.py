@@ -16,12 +16,12 @@ either_form(row, space)
 
 @row.wrongs
 def _(screws, M, q):
-    """M-first: M stands on the left of the exponentials; the screws are told in the
-      world, so their motions act on M from the left => the product with M first
-    M-only-added: M's translation is added and its rotation is missing; the pose has to
-      be multiplied by all of M => the product with t of M added
-    space-screws-in-body-form: the screws are taken to the hand's frame, but the product
-      is still that of the world's => that product
+    """M-first: M is on the left of the exponentials; the screws are expressed in the
+      world frame, so their motions act on M from the left => the product with M first
+    M-only-added: the translation of M is added and its rotation is missing; multiply by
+      M => the product with t of M added
+    space-screws-in-body-form: the screws are transformed to the end-effector frame, but
+      the product is the one for the world frame => that product
     """
     added = np.zeros((4, 4))
     added[:3, 3] = M[:3, 3]
@@ -35,8 +35,8 @@ def _(screws, M, q):
 
 @row.wrong
 def screws_moved_along(screws, M, q):
-    """each screw is carried along by the joints before it; the product does that
-    already, so the screws of q = 0 are all it needs => that product"""
+    """each screw is transformed by the joints before it; the product does this already,
+    so use the screws at q = 0 => that product"""
     T = np.eye(4)
     for S, theta in zip(screws, q, strict=True):
         T = T @ motion(adjoint(T) @ S, theta)

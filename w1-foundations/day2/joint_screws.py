@@ -6,7 +6,6 @@ from itertools import accumulate
 import numpy as np
 
 from labkit.judge import Row
-from labkit.judge.argument_mistakes import FIRST_FOR_ALL
 from robo47 import se3
 from robo47.screws import screw_axis
 
@@ -25,24 +24,22 @@ def _(rng):
 
 @row.wrongs
 def _(T_zero):
-    """axis-row-not-column: the axis is taken from a row of R; what the link's z looks
-      like from the world stands in a column => the answer with the third row
-    axis-local-z: the axis is (0, 0, 1) for every joint: that is z in the link's own
-      frame; the screw needs it seen from the world => the answer with (0, 0, 1)
-    axis-x-column: the axis is the links' x; the Panda's joints turn about their z
-    axis-y-column: the axis is the links' y; the Panda's joints turn about their z
-    point-is-local-pos: the point is each link's place on the one before, in that one's
-      axes, as the file has it; the screw needs it seen from the world
-    all-local: axis and point are each link's on the one before; the screw needs both
-      seen from the world => the answer from those poses
-    poses-multiplied: the poses are multiplied along the arm; they are in the world
-      already => the answer from those products
-    point-turned-back: the point is turned back into the link's axes; it is in the world
-      already => the answer with R^T p
-    next-links-point: each joint's point is the next link's origin, which need not be on
-      its axis => the answer with those points
-    last-joint-first: the screws are right, but in the reverse order: joint1's comes
-      first => the right answer in reverse
+    """axis-row-not-column: the axis is a row of R; the link's z axis, expressed in the
+      world frame, is a column => the answer with the third row
+    axis-local-z: the axis is (0, 0, 1) for every joint; this is z in the link's frame,
+      and the screw is expressed in the world frame => the answer with (0, 0, 1)
+    axis-x-column: the axis is the link's x axis; the Panda's joints rotate about z
+    axis-y-column: the axis is the link's y axis; the Panda's joints rotate about z
+    point-is-local-pos: the point is the position of each link relative to its parent;
+      the screw is expressed in the world frame
+    all-local: the axis and the point are relative to the parent link; the screw is
+      expressed in the world frame => the answer from those poses
+    poses-multiplied: the poses are multiplied along the arm; they are poses in the
+      world frame already => the answer from those products
+    point-turned-back: the point is rotated into the link's frame; it is in the world
+      frame already => the answer with R^T p
+    next-links-point: the point of each joint is the origin of the next link, which is
+      not always on the joint's axis => the answer with those points
     """
     R = T_zero[:, :3, :3]
     p = T_zero[:, :3, 3]
@@ -59,7 +56,6 @@ def _(T_zero):
         "poses-multiplied": (carried[:, :3, 2], carried[:, :3, 3]),
         "point-turned-back": (z, np.einsum("nij,ni->nj", R, p)),
         "next-links-point": (z, np.roll(p, -1, axis=0)),
-        "last-joint-first": (z[::-1], p[::-1]),
     }
     return {slug: partial(screw_axis, *line) for slug, line in lines.items()}
 
@@ -71,8 +67,8 @@ for before in (
 ):
     row.wrong(
         "previous-links-point",
-        "each joint's point is the origin of the link before, which need not be on its "
-        "axis",
+        "the point of each joint is the origin of the previous link, which is not "
+        "always on the joint's axis",
         "the answer with those points",
     )(
         lambda T_zero, before=before: screw_axis(
@@ -81,7 +77,6 @@ for before in (
     )
 
 
-row.of_argument("T_zero", FIRST_FOR_ALL.called("first-link-for-all"))
 row.reached_by("screw_axis", "in every screw, ")
 
 

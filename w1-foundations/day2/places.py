@@ -80,26 +80,26 @@ def measured(case: Case) -> tuple[str, ...]:
     zero, other = (
         Pose().apart(case.S[i], case.T[i]) for i in (slice(1), slice(1, None))
     )
-    return (f"off at q = 0 by {zero}, elsewhere by up to {other}",)
+    return (f"error at q = 0: {zero}; elsewhere: up to {other}",)
 
 
 def _exponential(S: Array, q: Array, k: int) -> Factor:
     name = f"joint{k + 1}"
 
     def candidates() -> Found:
-        never = f"{name} never moves: its exponential is missing"
+        never = f"{name} does not move: its exponential is missing"
         yield Finding("joint-skipped", never), np.eye(4)[None]
-        twice = f"{name}'s exponential is there twice"
+        twice = f"{name}'s exponential is applied twice"
         yield Finding("joint-twice", twice), exp_screw(S[:, k], 2.0 * q[:, k])
         for j in set(range(q.shape[1])) - {k}:
-            says = f"{name} moves by joint{j + 1}'s angle"
+            says = f"{name} moves by the angle of joint{j + 1}"
             yield Finding("joint-fed-another", says), exp_screw(S[:, k], q[:, j])
-            says = f"{name} moves along joint{j + 1}'s screw"
+            says = f"{name} moves along the screw of joint{j + 1}"
             yield Finding("screw-of-another", says), exp_screw(S[:, j], q[:, k])
 
     def unnamed(X: Array) -> Finding | None:
         if found := mistake_of("exp_screw", NOT_OF_AN_ARM, X, S[:, k], q[:, k]):
-            says = f"In {name}'s exponential alone, {found.message}"
+            says = f"In the exponential of {name} alone, {found.message}"
             return Finding(found.slug, says)
         omega = S[:, k, :3]
         vee = X[:, [2, 0, 1], [1, 2, 0]] - X[:, [1, 2, 0], [2, 0, 1]]
@@ -107,7 +107,7 @@ def _exponential(S: Array, q: Array, k: int) -> Factor:
         cosine = 0.5 * (np.trace(X[:, :3, :3], axis1=1, axis2=2) - 1.0)
         if not matches(X, exp_screw(S[:, k], np.arctan2(sine, cosine))):
             return None
-        says = f"{name} moves along its screw, but by the wrong angle"
+        says = f"{name} moves along its screw by the wrong angle"
         return Finding("joint-angle-off", says)
 
     return Factor(name, exp_screw(S[:, k], q[:, k]), False, candidates, unnamed)
@@ -121,7 +121,7 @@ def _row(table: Array, theta: Array, k: int) -> Factor:
         missing = f"{name} of the table has no effect"
         yield Finding("row-skipped", missing), np.eye(4)[None]
         for j in set(range(theta.shape[1])) - {k}:
-            says = f"{name} of the table is given the angle of row {j + 1}"
+            says = f"{name} of the table has the angle of row {j + 1}"
             yield Finding("row-fed-another", says), dh_link(*columns, theta[:, j])
 
     def unnamed(X: Array) -> Finding | None:
@@ -147,11 +147,11 @@ def _one_at_a_time(case: Case) -> Finding | None:
         return None
     if not off:
         where = (
-            "With one joint moved at a time it is right, so look at how the "
-            "exponentials are put together: their order, say."
+            "With one joint moved at a time the pose is correct, so look at the "
+            "product of the exponentials, for example at their order."
         )
     else:
-        where = f"With one joint moved at a time, it is wrong for {_these(off)}."
+        where = f"With one joint moved at a time, the pose is wrong for {_these(off)}."
     found = Pose().what_is_wrong(case.S, case.T)
     return Finding(found.slug, f"{found.message} {where}")
 

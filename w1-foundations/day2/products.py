@@ -60,7 +60,7 @@ def with_M(form, T, M):
 def either_form(row, form):
     """Take the mistakes that both forms have: in the product, in q, M or one factor."""
     _in_the_product(row, form)
-    _in_q(row, form)
+    row.of_argument("q", *OF_ALL_JOINTS)
     _in_M(row, form)
     row.reached_by(
         "exp_screw", "in every exponential, ", but=NOT_OF_AN_ARM, hidden=HIDDEN
@@ -70,15 +70,15 @@ def either_form(row, form):
 def _in_the_product(row, form):
     @row.wrongs
     def _(screws, M, q):
-        """product-reversed: the exponentials stand in the reverse order: the joint
-          nearest to the base belongs on the left => the product in reverse
-        M-twice: M stands on both sides of the exponentials => the product with M twice
-        M-in-the-loop: M is in the loop, beside every exponential: at q = 0 your pose is
-          M seven times, not M => that product
-        multiplied-by-entries: the exponentials are multiplied entry by entry, not as
-          matrices => the product by entries
-        multiplied-by-entries 2: the exponentials are multiplied entry by entry, not as
-          matrices => the product by entries, from the identity on
+        """product-reversed: the exponentials are in the reverse order; the joint
+          nearest to the base belongs on the left => the product in reverse order
+        M-twice: M is on both sides of the exponentials => the product with M twice
+        M-in-the-loop: M is inside the loop, so the product contains it once per joint;
+          it belongs there once => that product
+        multiplied-by-entries: the exponentials are multiplied entry by entry; use the
+          matrix product => the product by entries
+        multiplied-by-entries 2: the exponentials are multiplied entry by entry; use the
+          matrix product => the product by entries, from the identity on
         """
         factors = [motion(S, theta) for S, theta in zip(screws, q, strict=True)]
         beside_M = [with_M(form, T, M) for T in factors]
@@ -93,39 +93,23 @@ def _in_the_product(row, form):
 
     @row.wrong
     def exponentials_summed(screws, M, q):
-        """the twists are added up and exponentiated together; e^A e^B is e^(A + B) only
-        where the order does not matter => the exponential of the sum"""
+        """the twists are added and exponentiated together; e^A e^B is e^(A + B) only if
+        A and B commute => the exponential of the sum"""
         V = q @ screws
         size = np.linalg.norm(V[:3]) or 1.0
         return with_M(form, motion(V / size, size), M)
 
 
-def _in_q(row, form):
-    @row.wrongs
-    def _(screws, M, q):
-        """negative-angles-left-out: joints with a negative angle do not move => the
-          pose with 0 for each of them
-        angles-added-up: each joint is given the sum of all angles up to its own; its
-          exponential needs its own alone, since the product carries the others
-        """
-        used = {
-            "negative-angles-left-out": np.maximum(q, 0.0),
-            "angles-added-up": np.cumsum(q),
-        }
-        return {slug: partial(form, screws, M, x) for slug, x in used.items()}
-
-    row.of_argument("q", *OF_ALL_JOINTS)
-
-
 def _in_M(row, form):
     @row.wrongs(hidden={"M-turned-back": "the Panda's M is symmetric"})
     def _(screws, M, q):
-        """M-forgotten: M is missing: the motions are right, but they have to act on
-          where the hand is at q = 0 => the product without M
-        M-inverted: M is inverted; it maps hand coordinates to the world as it is
-        M-twice: M is there twice, side by side => the product with M M for M
-        M-rotation-missing: M's rotation is missing; only its translation is there
-        M-turned-back: M's rotation is transposed => the product with that M
+        """M-forgotten: M is missing; the motions act on the pose of the end effector at
+          q = 0 => the product without M
+        M-inverted: M is inverted; it maps end-effector coordinates to the world as it
+          is
+        M-twice: the product contains M twice => the product with M M for M
+        M-rotation-missing: only the translation of M is used; its rotation is missing
+        M-turned-back: the rotation of M is transposed => the product with that M
         """
         used = {
             "M-forgotten": np.eye(4),

@@ -19,33 +19,25 @@ def _(rng):
 
 @row.wrongs
 def _(axis, point):
-    """moment-sign: omega is right, but v has the wrong sign: it is the velocity of the
-      origin as seen from the axis, and the arrow from your point to the origin is
-      -point => the right one with v = +omega x point
-    moment-is-point: v is the point itself; it has to be a velocity, which depends on
-      omega too => (omega; point)
-    moment-is-minus-point: v is minus the point; it has to be a velocity, which depends
-      on omega too => (omega; -point)
-    moment-is-foot: v is the point of the axis that is nearest to the origin; it has to
-      be a velocity, at right angles to it => (omega; that point)
-    moment-forgotten: v is 0, so the axis goes through the origin, wherever the point is
-      => (omega; 0)
+    """moment-sign: omega is correct, but v has the wrong sign: v is the velocity of the
+      origin, and the vector from your point to the origin is -point => the correct
+      result with v = +omega x point
+    moment-is-point: v is the point itself; it should be a velocity, which depends on
+      omega as well => (omega; point)
+    moment-is-minus-point: v is the negative of the point; it should be a velocity,
+      which depends on omega as well => (omega; -point)
+    moment-is-foot: v is the point of the axis nearest to the origin; it should be a
+      velocity, which is perpendicular to that point => (omega; that point)
+    moment-forgotten: v is 0 for every point; this is correct only for an axis through
+      the origin => (omega; 0)
     twist-order: the two halves are swapped: omega comes first, then v => (v; omega)
-    twist-order-and-sign: two things: the halves are swapped, omega comes first; and v
-      has the wrong sign => (omega x point; omega)
-    divided-by-its-length: all six numbers are divided by their length; omega alone is
-      of length 1, and it comes so => the right one so divided
-    axis-reversed: the whole screw is negated: it turns about the same line, the other
-      way => the screw of -axis
-    product-by-entries: v is omega times the point entry by entry; a cross product mixes
-      the entries => (omega; -omega * point)
-    product-by-entries 2: v is omega times the point entry by entry; a cross product
-      mixes the entries => (omega; omega * point)
-    omega-reversed: v is right, but omega is -axis => the right one with omega negated
-    axis-added: the axis is added to v: that screw moves along itself as it turns, and a
-      hinge does not => the right one with v + omega
+    twist-order-and-sign: the halves are swapped, because omega comes first, and v has
+      the wrong sign => (omega x point; omega)
+    product-by-entries: v is omega times the point entry by entry; use the cross product
+      => (omega; -omega * point)
+    product-by-entries 2: v is omega times the point entry by entry; use the cross
+      product => (omega; omega * point)
     """
-    right = screw_axis(axis, point)
     v = np.cross(point, axis)
     return {
         "moment-sign": np.append(axis, -v),
@@ -55,12 +47,8 @@ def _(axis, point):
         "moment-forgotten": np.append(axis, np.zeros(3)),
         "twist-order": np.append(v, axis),
         "twist-order-and-sign": np.append(-v, axis),
-        "divided-by-its-length": right / np.linalg.norm(right),
-        "axis-reversed": -right,
         "product-by-entries": np.append(axis, -axis * point),
         "product-by-entries 2": np.append(axis, axis * point),
-        "omega-reversed": np.append(-axis, v),
-        "axis-added": np.append(axis, v + axis),
     }
 
 

@@ -20,16 +20,13 @@ def _(rng):
 
 @row.wrongs
 def _(w):
-    """p-cross-w: this does p x w: every sign is the other way round (the matrix is
-      transposed) => the right one with its signs reversed
-    no-minus: there is no minus: [w] is its own negative transposed, not its own
-      transpose => the right one with every sign a plus
-    outer-product: this is w times w transposed, which does a projection, not a cross
-      product => that product
-    on-the-diagonal: w stands on the diagonal; w x p has no part of w along w
-    ones-on-diagonal: the diagonal is 1; it has to be 0, since w x w is 0
-    made-unit: w is divided by its length first; the cross product is as long as w says
-      => the right one of w / |w|
+    """p-cross-w: every sign is reversed: the matrix computes p x w (it is the
+      transpose) => the correct result with its signs reversed
+    no-minus: there is no minus sign; [w] is antisymmetric => the correct result with
+      every sign a plus
+    outer-product: the matrix is the outer product w w^T, which projects onto w instead
+      of computing w x p => that product
+    on-the-diagonal: w is on the diagonal, which is 0 because w x w is 0
     """
     x, y, z = w
     return {
@@ -37,23 +34,21 @@ def _(w):
         "no-minus": np.array([[0.0, z, y], [z, 0.0, x], [y, x, 0.0]]),
         "outer-product": np.outer(w, w),
         "on-the-diagonal": np.diag(w),
-        "ones-on-diagonal": skew(w) + np.eye(3),
-        "made-unit": lambda: skew(w / np.linalg.norm(w)),
     }
 
 
 for letter, signs in FLIPPED.items():
     row.wrong(
         "pair-of-signs",
-        f"the two entries with {letter} have each other's sign",
-        f"the right one with {letter} negated",
+        f"the signs of the two entries with {letter} are swapped",
+        f"the correct result with {letter} negated",
     )(lambda w, signs=signs: skew(w * signs))
 for sign, more, redone in SIGNS:
     for letters, order in SWAPPED.items():
         row.wrong(
             "letters-swapped",
-            f"{letters} have changed places{more}",
-            f"the right one with {redone}",
+            f"{letters} are swapped{more}",
+            f"the correct result with {redone}",
         )(lambda w, order=order, sign=sign: skew(sign * w[order]))
 for half, filled, empty in (
     (np.triu, "upper right", "lower left"),
@@ -61,8 +56,8 @@ for half, filled, empty in (
 ):
     row.wrong(
         "half-empty",
-        f"only the {filled} half is filled; the {empty} one is its negative",
-        f"the right one without its {empty.split()[0]} half",
+        f"only the {filled} half is filled; the {empty} half is its negative",
+        f"the correct result without its {empty.split()[0]} half",
     )(lambda w, half=half: half(skew(w)))
 
 

@@ -350,10 +350,10 @@ ONE_BY_ONE = {
     "wrong for negative angles of joint2 and joint4.": lambda S, M, q: space(
         S, M, np.where([0, 1, 0, 1, 0, 0, 0], abs(q), q)
     ),
-    "it is wrong for joint2, joint4 and joint6.": lambda S, M, q: space(
+    "the pose is wrong for joint2, joint4 and joint6.": lambda S, M, q: space(
         S, M, q * [1, 2, 1, 2, 1, 2, 1]
     ),
-    "look at how the exponentials are put together: their order": lambda S, M, q: space(
+    "look at the product of the exponentials": lambda S, M, q: space(
         S[ORDER], M, q[ORDER]
     ),
 }

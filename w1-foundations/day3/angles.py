@@ -38,21 +38,21 @@ def _near_pi(S: Array, T: Array, some: np.ndarray, says: str) -> Finding:
     if difference(S[some], -T[some]).max() < OFF:
         return Finding(
             "sign-near-pi",
-            f"{says} The axis is right there, its sign is not: R - R^T is small, but "
-            "it still tells the sign.",
+            f"{says} The axis is correct there, but its sign is not: R - R^T is "
+            "small, and it still gives the sign.",
         )
     if one_of_two[some].max() > OFF and _alike(np.abs(S[some]), np.abs(T[some])):
         return Finding(
             "signs-near-pi",
-            f"{says} The entries are right there but for their signs: a root of the "
-            "diagonal has none. Which column of R + R^T tells them?",
+            f"{says} The entries are correct there except for their signs, which a "
+            "root of the diagonal loses. Which column of R + R^T has them?",
         )
     if found := _set_to_pi(S, T, some):
         return found
     return Finding(
         "wrong-near-pi",
-        f"{says} R - R^T is nearly 0 there: is it divided by the sine, which makes "
-        "noise of it?",
+        f"{says} R - R^T is nearly 0 there: is it divided by the sine, which "
+        "amplifies its rounding errors?",
     )
 
 
@@ -67,8 +67,8 @@ def _set_to_pi(S: Array, T: Array, some: np.ndarray) -> Finding | None:
     least = np.pi - float(length.min())
     return Finding(
         "pi-for-the-angle",
-        f"The angle is set to pi where it is {least:.1e} less. Below pi the sine is "
-        "small, but not 0: atan2 gives the angle there too.",
+        f"The angle is pi where it should be {least:.1e} rad smaller. The sine is "
+        "small there, but not 0, so atan2 gives the angle.",
     )
 
 
@@ -78,8 +78,8 @@ def _zero_near_0(S: Array, T: Array, some: np.ndarray) -> Finding | None:
     angle = float(np.linalg.norm(T[some], axis=1).max())
     return Finding(
         "zero-for-small-angles",
-        f"0 comes back for a turn of {angle:.0e} rad: a threshold is too wide. What is "
-        "the answer there, without a division?",
+        f"The result is 0 for a rotation by {angle:.0e} rad: a threshold is too large. "
+        "What is the answer there without a division?",
     )
 
 
@@ -92,15 +92,15 @@ def _everywhere(
     if difference(S[off], -T[off]).max() < OFF:
         return Finding(
             "sign-of-the-axis",
-            f"It is right but for its sign, which is wrong for {k} of {n} turns: an "
-            "axis has two directions, and R - R^T tells which one it is.",
+            f"The sign of the result is wrong for {k} of {n} rotations: an axis has "
+            "two directions, and R - R^T gives the correct one.",
         )
     other_way = T[off] * (1.0 - 2.0 * np.pi / angle[off, None])
     if difference(S[off], other_way).max() < OFF:
         return Finding(
             "angle-over-pi",
-            f"The angle is more than pi for {k} of {n} turns: it goes the long way. "
-            "Of the quaternions q and -q, which are one turn, take the one with w > 0.",
+            f"The angle is more than pi for {k} of {n} rotations. The quaternions q "
+            "and -q represent the same rotation; use the one with w > 0.",
         )
     least = angle[off].min()
     if angle[angle < least].max(initial=0.0) < 2.0:
@@ -139,6 +139,6 @@ def _as_an_arccosine(S: Array, T: Array, off: np.ndarray) -> Finding | None:
     return Finding(
         "arccosine",
         f"Close, but not equal: the angle is off by {apart:.1e} near 0 or pi. An "
-        "arccosine loses half the digits there; which function takes the sine and the "
+        "arccosine loses half the digits there; which function uses the sine and the "
         "cosine?",
     )

@@ -22,21 +22,20 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, T):
-    """adjoint-of-T: T leads from the hand to the world; here the twists are to be taken
-      back => the Jacobian with Ad(T)
-    space-for-body: this is J_space still, as the world sees it => J_space itself
-    site-for-body: this is J_site: the velocity of the right point, but in the world's
-      axes => J_site
-    rotation-only: J_space is turned into the hand's axes, but v is still that of the
-      point at the world's origin => J_space in the hand's axes
-    transposed-adjoint: this is Ad(T) transposed; the inverse of an adjoint is not its
+    """space-for-body: the result is J_space, expressed in the world frame => J_space
+      itself
+    site-for-body: the result is J_site: its v belongs to the correct point, but is
+      expressed in the world frame => J_site
+    rotation-only: J_space is only rotated into the hand frame; v is still the velocity
+      of the point at the world's origin => J_space rotated into the hand frame
+    transposed-adjoint: Ad(T) is transposed; the inverse of an adjoint is not its
       transpose => the Jacobian with that transpose
-    bracket-without-R: in the adjoint stands [p] alone at the lower left; it is [p] R =>
+    bracket-without-R: the lower left block of the adjoint is [p]; it should be [p] R =>
       the Jacobian with that adjoint
-    bracket-on-the-right: in the adjoint stands R [p] at the lower left; it is [p] R =>
-      the Jacobian with that adjoint
-    turned-by-R: J_site is turned by R, which leads from the hand's axes to the world's;
-      the way back is R^T => J_site turned by R
+    bracket-on-the-right: the lower left block of the adjoint is R [p]; it should be [p]
+      R => the Jacobian with that adjoint
+    turned-by-R: J_site is multiplied by R, which maps the hand frame to the world; use
+      R^T => J_site multiplied by R
     """
     J_site = site_jacobian(J_space, T[:3, 3])
     R = np.kron(np.eye(2), T[:3, :3])
@@ -44,7 +43,6 @@ def _(J_space, T):
     turned = np.kron(np.eye(2), back[:3, :3])
     lower = np.kron([[0.0, 0.0], [1.0, 0.0]], skew(back[:3, 3]))
     return {
-        "adjoint-of-T": adjoint(T) @ J_space,
         "space-for-body": J_space,
         "site-for-body": J_site,
         "rotation-only": R.T @ J_space,

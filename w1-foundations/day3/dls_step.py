@@ -19,8 +19,8 @@ def _without_damping(rng):
 
 AT_NO_DAMPING = HeldOut(
     "zero-without-damping",
-    "Right, but with damping 0 it returns zeros. There the formula is the plain "
-    "pseudo-inverse's step, which step 6 of the lab takes.",
+    "Your function is correct, but with damping 0 it returns zeros. There the formula "
+    "is the step of the pseudo-inverse, which step 6 of the lab uses.",
     _without_damping,
     mistaken=lambda J, e, damping: np.zeros(7),
 )
@@ -37,31 +37,24 @@ def _(rng):
 
 @row.wrongs
 def _(J, e, damping):
-    """relative-damping: the damping is multiplied by J's largest singular value; it is
-      a number of its own, in the units of J => the right one with damping ||J||
-    damping-not-squared: the damping is not squared => the step with damping I
-    damping-dropped: there is no damping in it: this is the plain pseudo-inverse, which
-      is huge near a singularity => the step of the pseudo-inverse
-    damping-doubled: the damping is multiplied by 2, not by itself
-    damping-halved: half of the squared damping is added, not all of it
+    """relative-damping: the damping is multiplied by the largest singular value of J;
+      it has the units of J already => the step with damping ||J||
+    damping-dropped: the damping is missing: this is the step of the pseudo-inverse,
+      which is very large near a singularity => the step of the pseudo-inverse
     damping-everywhere: damping^2 is added to every entry of J J^T; it belongs on the
       diagonal only => the step with damping^2 in every entry
-    transpose-only: this is J^T e: the inverse is missing, so the step has the wrong
-      length and direction => J^T e
-    identity-scaled: this is J^T e over damping^2: J J^T is left out => J^T e /
-      damping^2
-    pseudo-inverse-scaled: the plain step is divided by 1 + damping^2; damping changes
-      the directions near a singularity most => the plain step over 1 + damping^2
-    damping-squared-twice: the damping is squared twice: its fourth power is added =>
-      the step with damping^4 I
-    damping-fixed: the damping is 0.05 whatever the argument says
-    damping-added-to-the-values: the damping is added to each singular value s, 1 / (s +
-      damping); the formula makes s / (s^2 + damping^2) of it
-    damping-as-a-cut: the damping is the pseudo-inverse's rcond, which leaves small
-      values out; damping keeps all, and weighs the small ones less => the step of
-      pinv(J, damping)
-    singular-value-missing: the weights are 1 / (s^2 + damping^2) for the singular
-      values s: J^T in front puts one more s above
+    transpose-only: the result is J^T e: the inverse is missing => J^T e
+    pseudo-inverse-scaled: the step of the pseudo-inverse is divided by 1 + damping^2;
+      damping should reduce the directions with small singular values most => the step
+      of the pseudo-inverse over 1 + damping^2
+    damping-fixed: the damping is always 0.05; use the argument
+    damping-added-to-the-values: the damping is added to each singular value s, as 1 /
+      (s + damping); the formula has the factor s / (s^2 + damping^2)
+    damping-as-a-cut: the damping is used as rcond of the pseudo-inverse, which discards
+      small singular values; damping only reduces their weight => the step of pinv(J,
+      damping)
+    singular-value-missing: the factors are 1 / (s^2 + damping^2) for the singular
+      values s; J^T multiplies each by s
     """
     U, s, Vt = np.linalg.svd(J, full_matrices=False)
     along = U.T @ e  # the singular directions of the hand
@@ -71,15 +64,10 @@ def _(J, e, damping):
 
     return {
         "relative-damping": dls_step(J, e, damping * s[0]),
-        "damping-not-squared": with_added(damping * I6),
         "damping-dropped": pinv(J) @ e,
-        "damping-doubled": with_added(2 * damping * I6),
-        "damping-halved": with_added(damping**2 / 2 * I6),
         "damping-everywhere": with_added(damping**2),
         "transpose-only": J.T @ e,
-        "identity-scaled": J.T @ e / damping**2,
         "pseudo-inverse-scaled": pinv(J) @ e / (1 + damping**2),
-        "damping-squared-twice": with_added(damping**4 * I6),
         "damping-fixed": with_added(0.05**2 * I6),
         "damping-added-to-the-values": Vt.T @ (along / (s + damping)),
         "damping-as-a-cut": pinv(J, damping) @ e,

@@ -3,18 +3,16 @@
 import numpy as np
 
 from labkit.judge import Row, Vector
-from labkit.judge.argument_mistakes import HALVES_SWAPPED
 from robo47.jacobian import site_jacobian
 
 from .jacobians import JOINTS
 
 row = Row(Vector((7,), "N m", names=JOINTS))
-row.of_argument("F", HALVES_SWAPPED)
 
 
 @row.inputs
 def _(rng):
-    """The docstring's, then drawn ones."""
+    """Return the docstring's call, then random ones."""
     spin = np.zeros((6, 7))
     spin[2, 0] = 1.0
     first = (spin, np.array([0.0, 1.0, 0.0]), np.array([0.0, 0, 0, -10, 0, 0]))
@@ -25,18 +23,18 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, p, F):
-    """at-the-origin: J_space^T goes with a wrench about the world's origin; this one is
-      about p => the torques with J_space for J_site
-    what-balances-it: the sign is that of a world which pushes the hand; here the hand
-      pushes, so the power of the motors is that of F => its negative
-    pseudo-inverse: this is J^+ F, which is good for velocities: the motors' power is
-      then not the hand's. Write both powers down => J^+ F
-    moment-forgotten: the moment is left out: its power is moment . omega
-    force-forgotten: the force is left out: its power is force . v
-    arm-the-wrong-way: the moment of the force about the origin is p x f, not f x p =>
-      the torques with -p for p
-    arm-twice: p x f is added to the moment, and the Jacobian is that of p already: one
-      of the two => the torques with both
+    """at-the-origin: J_space^T belongs to a wrench about the world's origin; this
+      wrench is about p => the torques with J_space for J_site
+    what-balances-it: the sign is the one of a wrench on the hand; the hand exerts F, so
+      the power of the motors equals the power of F => its negative
+    pseudo-inverse: the result is J^+ F, which does not conserve power; write down the
+      power of the motors and of the hand => J^+ F
+    moment-forgotten: the moment is missing; its power is moment . omega
+    force-forgotten: the force is missing; its power is force . v
+    arm-the-wrong-way: the moment of the force about the origin is f x p; it should be p
+      x f => the torques with -p for p
+    arm-twice: p x f is added to the moment, and the Jacobian belongs to p already; use
+      one of the two => the torques with both
     """
     J = site_jacobian(J_space, p)
     moment = F[:3]

@@ -23,8 +23,8 @@ def _half_turns(rng):
 
 HALF_TURN = HeldOut(
     "wrong-at-pi",
-    "Right below pi, but not at exactly pi. There R - R^T is 0, so it knows neither "
-    "the axis nor its sign: the docstring says which sign to return.",
+    "Your function is correct below pi, but not at exactly pi. There R - R^T is 0 and "
+    "gives neither the axis nor its sign; the docstring defines the sign.",
     _half_turns,
 )
 row = Row(
@@ -58,9 +58,10 @@ def _(rng):
 
 @row.inputs
 def _(rng):
-    """From 0 to nearly pi; the docstring's first, drawn ones last.
+    """Yield angles from 0 to nearly pi, the docstring's first and random ones last.
 
-    Two axes leave a column of R + R^T empty, to the last digit: the cosine is exact.
+    Near pi about x, y or z, all columns of R + R^T but one are empty, to the last
+    digit. Which column a function reads shows only if all three axes are asked.
     """
     small = [1e-9, 1e-7, 1e-6, 5e-6, 1e-5, 9e-4, 0.3]
     by_pi = np.pi - np.array([1e-2, 1e-4, 1e-6, 1e-8])
@@ -70,11 +71,21 @@ def _(rng):
     R = exp_rotation(rng.units(len(turns)), turns)
     R = [*R[-3:], *R[:-3]]
     rounded = np.diag([1.0, 1.0, 1.0 + 2.0**-51])  # a trace of 3 and a last digit
-    c = -1.0 + 2.0**-40
-    s = np.sqrt(1.0 - c * c)
-    x = np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
-    z = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
-    return [(one,) for one in (se3.Rz(np.pi / 2), np.eye(3), rounded, x, z, *R)]
+    about = [nearly_half_a_turn(k) for k in range(3)]
+    more = [nearly_half_a_turn(rng.integers(3), rng.integers(14, 40)) for _ in "ab"]
+    chosen = [se3.Rz(np.pi / 2), np.eye(3), rounded, *about]
+    return [(one,) for one in (*chosen, *R, *more)]
+
+
+def nearly_half_a_turn(k, digits=40):
+    """Return the rotation about x, y or z whose cosine is 2^-digits above -1."""
+    c = -1.0 + 2.0**-digits
+    i, j = (k + 1) % 3, (k + 2) % 3
+    R = c * np.eye(3)
+    R[k, k] = 1.0
+    R[j, i] = np.sqrt(1.0 - c * c)
+    R[i, j] = -R[j, i]
+    return R
 
 
 def vee(R):
@@ -120,23 +131,24 @@ def roll_pitch_yaw(R):
 
 @row.wrongs
 def _(R):
-    """sine-for-angle: the vector's length is the sine of the angle; it has to be the
+    """sine-for-angle: the norm of the vector is the sine of the angle; it should be the
       angle => the axis times the sine
-    twice-the-sine: the vector's length is twice the sine of the angle: the half is
-      missing, and so is the angle => the vector of the entries of R - R^T
-    quaternion-vector-part: this is the vector part of the quaternion: its length is
-      sin(angle / 2) => that vector part
-    twice-the-quaternion-part: this is twice the vector part of the quaternion: it is
-      like the angle only near 0 => twice that vector part
-    axis-only: its length is 1 (the axis); it has to be the angle => the axis alone
-    arcsine: the angle is right up to 90 degrees only: an arcsine cannot tell 100
-      degrees from 80, for which the trace is needed => the axis times the arcsine
-    half-the-angle: its length is half the angle, as in a quaternion => half of it
-    in-degrees: the angle is in degrees; here it is in radians => the answer in degrees
-    roll-pitch-yaw: these are the angles of three turns about x, y and z, one after the
-      other; one turn about one axis is asked for => the vector (roll, pitch, yaw)
-    twice-the-sine-in-atan2: the angle comes from twice the sine: the half of (R - R^T)
-      / 2 is missing => the axis times atan2 of twice the sine
+    twice-the-sine: the vector has the entries of R - R^T, so its norm is twice the sine
+      of the angle => that vector
+    quaternion-vector-part: the vector is the vector part of the quaternion, whose norm
+      is sin(angle / 2) => that vector part
+    twice-the-quaternion-part: the vector is twice the vector part of the quaternion,
+      which is accurate for small angles only => twice that vector part
+    axis-only: the vector is the unit axis; its norm should be the angle => the axis
+      alone
+    arcsine: the angle is an arcsine, which cannot distinguish 100 degrees from 80; use
+      the trace as well => the axis times the arcsine
+    half-the-angle: the norm of the vector is half the angle, as in a quaternion => half
+      of the rotation vector
+    in-degrees: the angle is in degrees; it should be in radians => the result in
+      degrees
+    roll-pitch-yaw: the result is roll, pitch and yaw, the angles of three rotations;
+      the rotation vector belongs to one rotation => the vector (roll, pitch, yaw)
     """
     q = se3.R_to_quat(R)
     a, sine, _ = parts(R)
@@ -151,18 +163,17 @@ def _(R):
         "half-the-angle": log_rotation(R) / 2,
         "in-degrees": np.rad2deg(log_rotation(R)),
         "roll-pitch-yaw": roll_pitch_yaw(R),
-        "twice-the-sine-in-atan2": axis(R) * np.arctan2(2 * sine, cosine(R)),
     }
 
 
 @row.wrongs
 def _(R):
-    """half-the-trace-less-1: the trace is halved, and 1 taken off; the cosine is (trace
-      - 1) / 2 => the axis times the arccosine of trace / 2 - 1
-    half-the-trace-less-1 2: the trace is halved, and 1 taken off; the cosine is (trace
-      - 1) / 2 => the axis times that arccosine, with its NaN,
-    half-the-trace-less-1 3: the trace is halved, and 1 taken off; the cosine is (trace
-      - 1) / 2 => the books' formula with the arccosine of trace / 2 - 1
+    """half-the-trace-less-1: the cosine is trace / 2 - 1; it should be (trace - 1) / 2
+      => the axis times the arccosine of trace / 2 - 1
+    half-the-trace-less-1 2: the cosine is trace / 2 - 1; it should be (trace - 1) / 2
+      => the axis times that arccosine, with its NaN,
+    half-the-trace-less-1 3: the cosine is trace / 2 - 1; it should be (trace - 1) / 2
+      => the textbook formula with that arccosine
     """
     c = np.trace(R) / 2 - 1
     angle = np.arccos(c)
@@ -175,12 +186,11 @@ def _(R):
 
 @row.wrongs(hidden={"arccosine-beyond-1": "its identity is exact"})
 def _(R):
-    """textbook-formula: this is the formula of most books, theta / (2 sin theta) times
-      R - R^T: no turn is 0 / 0 in it, and near pi it divides noise by nearly 0 => that
-      formula, with its NaN,
-    nan-at-0: NaN comes back where R is the identity: there it is divided by a sine of 0
-    arccosine-beyond-1: NaN comes back where rounding makes (trace - 1) / 2 a bit more
-      than 1, or less than -1: the arccosine has no answer there. atan2 always has one
+    """textbook-formula: theta / (2 sin theta) times R - R^T is 0 / 0 for the identity,
+      and near pi it divides rounding errors by nearly 0 => that formula, with its NaN,
+    nan-at-0: the result for the identity is NaN, because the sine is 0 there
+    arccosine-beyond-1: the result is NaN where rounding makes (trace - 1) / 2 larger
+      than 1 or smaller than -1; atan2 has no such limit
     """
     angle = np.arccos(cosine(R))
     no_turn = cosine(R) > 0 and not vee(R).any()
@@ -200,8 +210,8 @@ def from_column(R, k):
 for k, (which, missing) in enumerate((("first", "x"), ("second", "y"), ("last", "z"))):
     row.wrong(
         "fixed-column",
-        f"near pi the axis is always taken from the {which} column, and that is 0 "
-        f"where the axis has no {missing}: take the largest",
+        f"near pi the axis always comes from the {which} column, which is 0 if the "
+        f"axis has no {missing} component; use the largest column",
         f"column {k}, with its NaN,",
         hidden="its half turn is about y" if missing == "y" else "",
     )(lambda R, k=k: from_column(R, k))

@@ -39,49 +39,43 @@ def values(J):
 
 @row.wrongs
 def _(J):
-    """no-square-root: the square root is missing: this is det(J J^T) => det(J J^T)
-    other-product: J^T J is 7x7 and always singular; J J^T is the one that is meant =>
-      the root of det(J^T J)
-    smallest-singular-value: this is the smallest singular value alone; the product of
-      all six is asked for => the smallest singular value
-    largest-singular-value: this is the largest singular value, the norm of J
-    sum-of-singular-values: the singular values are added; they have to be multiplied
-    trace: this comes from the trace, which is the sum; the determinant is asked for
-    inverse-condition: this is the smallest singular value over the largest one, another
-      measure => the inverse of the condition number
-    square-part: this is the determinant of the first six columns; joint 7 counts too
-    position-only: only the three v rows of J are used; the rotation counts too => the
-      root of det(J J^T) of three rows
-    zeros-left-out: values that are 0 are left out of the product; where one is 0, so is
-      the product => the product of those above 1e-9
-    diagonal-only: only the diagonal of J J^T is multiplied; a determinant needs all
-      entries => the root of that product
+    """no-square-root: the square root is missing: the result is det(J J^T) => det(J
+      J^T)
+    other-product: J^T J is 7x7 and always singular; use J J^T => the root of det(J^T J)
+    largest-singular-value: the result is the largest singular value, the norm of J; it
+      should be the product of all six
+    trace: the result comes from the trace, the sum of the eigenvalues; use the
+      determinant, which is their product
+    inverse-condition: the result is the smallest singular value divided by the largest,
+      which is another measure => the inverse of the condition number
+    square-part: the result is the determinant of the first six columns; use all seven
+    position-only: only the three v rows of J are used; use all six rows => the root of
+      det(J J^T) of three rows
+    zeros-left-out: singular values that are 0 are omitted from the product; with one of
+      them, the product is 0 => the product of those above 1e-9
     """
     JJ = J @ J.T
     s = values(J)
     return {
         "no-square-root": np.linalg.det(JJ),
         "other-product": np.sqrt(abs(np.linalg.det(J.T @ J))),
-        "smallest-singular-value": s[-1],
         "largest-singular-value": s[0],
-        "sum-of-singular-values": s.sum(),
         "trace": np.sqrt(np.trace(JJ)),
         "inverse-condition": s[-1] / s[0],
         "square-part": abs(np.linalg.det(J[:, :6])),
         "position-only": values(J[3:]).prod(),
         "zeros-left-out": s[s > 1e-9].prod(),
-        "diagonal-only": np.sqrt(np.prod(np.diag(JJ))),
     }
 
 
 for determinant, called in (
     (np.linalg.det, "det(J J^T)"),
-    (lambda A: np.prod(np.linalg.eigvalsh(A)), "the eigenvalues' product"),
+    (lambda A: np.prod(np.linalg.eigvalsh(A)), "the product of the eigenvalues"),
 ):
     row.wrong(
         "nan-at-a-singularity",
-        "NaN comes back for some singular J: rounding leaves a bit less than 0 under "
-        "the root there, so it has to be cut off at 0",
+        "the result is NaN for some singular J: rounding makes the number under the "
+        "root negative, so clamp it at 0",
         f"the root of {called}, with its NaN,",
         hidden="rounding at q = 0 differs",
     )(lambda J, determinant=determinant: np.sqrt(determinant(J @ J.T)))

@@ -14,7 +14,7 @@ pinv = np.linalg.pinv
 
 
 def what_the_hand_feels(case: Case) -> Finding | None:
-    """Return whether the hand feels the answer, and if not, what is wrong with it."""
+    """Return whether the answer moves the hand, and if not, what is wrong with it."""
     J = case.arguments[0]
     S = case.S
     T = case.T
@@ -25,14 +25,14 @@ def what_the_hand_feels(case: Case) -> Finding | None:
         k = int((felt > 1e-5).sum())
         return Finding(
             "felt",
-            f"The hand feels it, for {k} of {len(S)} inputs: J times your answer has "
-            f"entries of up to {felt.max():.2g}, and should be 0.",
+            f"The hand moves for {k} of {len(S)} inputs: J times your answer has "
+            f"entries of up to {felt.max():.2g} and should be 0.",
         )
     i = int(np.argmax(difference(S, T)))
     return Finding(
         "not-felt-but-off",
-        "The hand does not feel it (J times your answer is 0), but it is not the part "
-        f"of dq: its length is {np.linalg.norm(S[i]):.3g}, not "
+        "The hand does not move (J times your answer is 0), but your answer is not the "
+        f"projection of dq: its norm is {np.linalg.norm(S[i]):.3g}; expected "
         f"{np.linalg.norm(T[i]):.3g}.",
     )
 
@@ -41,8 +41,7 @@ NO_INVERSE = Slip(
     "LinAlgError: Singular",
     "",
     "no-inverse",
-    "J may be singular, and J J^T has no inverse then: J^+ is numpy.linalg.pinv(J) "
-    "there, too.",
+    "If J is singular, J J^T has no inverse. Use numpy.linalg.pinv(J) for J^+.",
 )
 row = Row(
     Vector((7,), "rad", names=JOINTS), unnamed=what_the_hand_feels, slips=[NO_INVERSE]
@@ -58,21 +57,21 @@ def _(rng):
 
 @row.wrongs(hidden={"one-direction-only": "its J have rank 6"})
 def _(J, dq):
-    """transpose-for-pseudo-inverse: J^T stands where J^+ belongs: I - J^T J is no
-      projector, and the hand feels it => dq - J^T J dq
-    felt-part: this is the part that the hand does feel, J^+ J dq; the rest is asked for
-    unchanged: dq comes back as it was => dq itself
-    added: the part that the hand feels is added; it has to be taken away => dq + J^+ J
+    """transpose-for-pseudo-inverse: J^T is used instead of J^+; I - J^T J is no
+      projection, so the hand moves => dq - J^T J dq
+    felt-part: the result is J^+ J dq, the part of dq that moves the hand; it should be
+      the other part
+    unchanged: dq is returned unchanged => dq itself
+    added: the part that moves the hand is added; it should be subtracted => dq + J^+ J
       dq
-    nothing-left: nothing is left: seven joints always have a motion that the hand does
-      not feel => zeros
-    normalised: its length is made 1; the part of dq that the hand does not feel has a
-      length of its own => the right one over its length
-    one-direction-only: only the last right singular vector is kept. Where J is
-      singular, there are more motions that the hand does not feel => dq along that
-      vector
-    position-only: only the three v rows of J are used: the hand stays where it is, but
-      it turns => the projector of three rows
+    nothing-left: the result is 0; seven joints always have a motion that does not move
+      the hand => zeros
+    normalised: the result is normalised; the projection of dq has a norm of its own =>
+      the correct result over its norm
+    one-direction-only: only the last right singular vector is used; if J is singular,
+      more motions do not move the hand => dq along that vector
+    position-only: only the three v rows of J are used, so the hand rotates => the
+      projection of three rows
     """
     felt = pinv(J) @ (J @ dq)
     left = dq - felt
@@ -89,13 +88,11 @@ def _(J, dq):
     }
 
 
-for damping in (0.05, 0.1, 0.01):
-    row.wrong(
-        "damped-projector",
-        f"the pseudo-inverse in it is damped (by {damping}), so a part of the felt "
-        "motion stays",
-        "the projector with damping",
-    )(lambda J, dq, damping=damping: dq - dls_step(J, J @ dq, damping))
+@row.wrong
+def damped_projector(J, dq):
+    """the pseudo-inverse is damped by 0.05, so the hand still moves => the projection
+    with damping"""
+    return dq - dls_step(J, J @ dq, 0.05)
 
 
 @row.wrong("felt")  # Joint 7 alone moves, as in the docstring.

@@ -46,12 +46,12 @@ def screw_log(D):
 
 @row.wrongs
 def _(T, T_goal):
-    """in-the-hands-axes: both halves are in the hand's axes; here they are in the
-      world's => the error turned by R^T
-    body-twist: this is the body twist, log(T^-1 T_goal) of Modern Robotics: it goes
-      with J_body, but here the error has to go with J_site => the body twist
-    space-twist: this is the twist log(T_goal T^-1): it goes with J_space, and its v is
-      no difference of positions; here the error has to go with J_site => that twist
+    """in-the-hands-axes: both halves are expressed in the hand frame; they should be
+      expressed in the world frame => the error rotated by R^T
+    body-twist: the result is the body twist log(T^-1 T_goal), which belongs to J_body;
+      this error belongs to J_site => the body twist
+    space-twist: the result is the spatial twist log(T_goal T^-1), which belongs to
+      J_space; this error belongs to J_site => that twist
     """
     D = np.linalg.inv(T) @ T_goal
     return {
@@ -63,15 +63,15 @@ def _(T, T_goal):
 
 @row.wrongs
 def _(T, T_goal):
-    """rotation-in-the-hands-axes: the rotation is in the hand's axes: this is log(R^T
-      R_goal), which does not go with J_site => the error with log(R^T R_goal)
-    rotation-sign: the rotation leads from the goal to the hand, the translation from
-      the hand to the goal => the error with log(R R_goal^T)
-    rotation-difference: rotation vectors are subtracted: log(R_goal) - log(R) is no
-      rotation that leads from one to the other => the difference of the two logs
-    euler-difference: roll, pitch and yaw are subtracted: their difference is no
-      rotation that leads from one to the other => the difference of those angles
-    rotations-multiplied: this is log(R_goal R): one of the two has to be undone
+    """rotation-in-the-hands-axes: the rotation is log(R^T R_goal), expressed in the
+      hand frame; it should be expressed in the world frame => the error with log(R^T
+      R_goal)
+    rotation-sign: the rotation leads from the goal to the hand; it should lead from the
+      hand to the goal => the error with log(R R_goal^T)
+    rotation-difference: the rotation vectors are subtracted; log(R_goal) - log(R) is
+      not the rotation from one to the other => the difference of the two logs
+    euler-difference: roll, pitch and yaw are subtracted; their difference is not a
+      rotation vector => the difference of those angles
     """
     R = T[:3, :3]
     goal = T_goal[:3, :3]
@@ -81,28 +81,23 @@ def _(T, T_goal):
         "rotation-sign": log_rotation(R @ goal.T),
         "rotation-difference": log_rotation(goal) - log_rotation(R),
         "euler-difference": roll_pitch_yaw(goal) - roll_pitch_yaw(R),
-        "rotations-multiplied": log_rotation(goal @ R),
     }
     return {slug: np.append(w, way) for slug, w in rotations.items()}
 
 
 @row.wrongs
 def _(T, T_goal):
-    """translation-sign: the translation leads from the goal to the hand => the error
-      with p - p_goal
-    translation-in-the-hands-axes: the translation is in the hand's axes (the last
-      column of T^-1 T_goal); here it is in the world's => the error with R^T (p_goal -
-      p)
-    goal-position-for-translation: the lower half is where the goal is, not how far it
-      is => the error with p_goal
-    screw-for-translation: the lower half is the translation of T_goal T^-1, which is
-      p_goal - R p with the rotation between them as R; here it is p_goal - p
+    """translation-in-the-hands-axes: the translation is expressed in the hand frame, as
+      in the last column of T^-1 T_goal; it should be expressed in the world frame =>
+      the error with R^T (p_goal - p)
+    goal-position-for-translation: the translation is the position of the goal; it
+      should be the vector from the hand to the goal => the error with p_goal
+    screw-for-translation: the translation is p_goal - R p, the translation of T_goal
+      T^-1; it should be p_goal - p
     """
-    p = T[:3, 3]
     goal = T_goal[:3, 3]
     turn = pose_error(T, T_goal)[:3]
     translations = {
-        "translation-sign": p - goal,
         "translation-in-the-hands-axes": (np.linalg.inv(T) @ T_goal)[:3, 3],
         "goal-position-for-translation": goal,
         "screw-for-translation": (T_goal @ np.linalg.inv(T))[:3, 3],

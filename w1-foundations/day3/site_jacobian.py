@@ -19,27 +19,19 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, p):
-    """space-for-site: this is J_space still: its v is the velocity at the world's
-      origin, not at p => J_space itself
-    cross-sign: the sign of the cross product is wrong: a spin about z takes (1, 0, 0)
-      to +y => the Jacobian with v - omega x p
-    v-dropped: v is only omega x p; the v that J_space has is left out => the Jacobian
-      with omega x p alone
-    halves-read-as-v-omega: the upper rows of J_space are taken for v, and the lower
-      ones for omega => the Jacobian with the halves read the other way
-    v-cross-p: v x p is added, where omega x p belongs => the Jacobian with v + v x p
+    """space-for-site: the result is J_space, whose v is the velocity of the point at
+      the world's origin, not at p => J_space itself
+    halves-read-as-v-omega: the upper rows of J_space are read as v and the lower rows
+      as omega; omega comes first => the Jacobian with the halves read so
     omega-changed: omega is changed by v x p; all points of a body have the same omega
       => the Jacobian with the cross product above
     """
     omega = J_space[:3]
     v = J_space[3:]
-    omega_p, v_p = (np.cross(half, p, axis=0) for half in (omega, v))
+    v_p = np.cross(v, p, axis=0)
     halves = {
         "space-for-site": (omega, v),
-        "cross-sign": (omega, v - omega_p),
-        "v-dropped": (omega, omega_p),
         "halves-read-as-v-omega": (omega + v_p, v),
-        "v-cross-p": (omega, v + v_p),
         "omega-changed": (omega + v_p, v),
     }
     return {slug: np.vstack(both) for slug, both in halves.items()}

@@ -28,12 +28,11 @@ BOTH_MOVE = "there both halves move"
 
 @row.wrongs
 def _(screws, M, T_goal, q_start, limits):
-    """one-step: there is one step only; the Jacobian is a straight line along a curve,
-      so it takes several => where one step leads
-    start-returned: the start comes back: no step is taken, or each one leads away from
-      the target (then the sign of the error is wrong) => q_start
-    step-returned: the last step comes back, not the configuration that the steps lead
-      to => a step of 0
+    """one-step: only one step is taken; the Jacobian is a linear approximation, so
+      several steps are needed => one step
+    start-returned: the start is returned: no step is taken, or every step increases the
+      error (is the sign of the error correct?) => q_start
+    step-returned: the last step is returned instead of the configuration => a step of 0
     """
     first = partial(passed, screws, M, T_goal, q_start, limits, steps=1)
     return {
@@ -47,23 +46,24 @@ def _(screws, M, T_goal, q_start, limits):
 
 
 def in_the_hands_axes(T, T_goal):
-    """Return the error as the hand sees it."""
+    """Return the error, expressed in the hand frame."""
     return np.kron(np.eye(2), T[:3, :3].T) @ pose_error(T, T_goal)
 
 
 @row.wrongs
 def _(screws, M, T_goal, q_start, limits):
-    """space-jacobian: the steps are made with J_space: its v is that of another point
-      than the hand's => what J_space leads to
-    body-jacobian: the steps are made with J_body, in the hand's axes; the error is in
-      the world's => what J_body leads to
-    error-in-the-hands-axes: the error is in the hand's axes; J_site is in the world's
-    damping-not-squared: the damping in it is too large by far: it is not squared
-    limits-forgotten: the joint limits are not kept
-    jacobian-never-updated: the Jacobian is that of the start; it changes with every
-      step => what the first Jacobian leads to
-    q-start-unused: the loop starts from READY_Q: q_start is not used => what READY_Q
-      leads to
+    """space-jacobian: the steps use J_space, whose v belongs to another point than the
+      hand => the loop with J_space
+    body-jacobian: the steps use J_body, expressed in the hand frame; the error is
+      expressed in the world frame => the loop with J_body
+    error-in-the-hands-axes: the error is expressed in the hand frame; J_site is
+      expressed in the world frame
+    damping-not-squared: the damping is not squared, so it is too large
+    limits-forgotten: the joint limits are not applied
+    jacobian-never-updated: the Jacobian is computed at the start only; it changes with
+      every step => the loop with the first Jacobian
+    q-start-unused: the loop starts from READY_Q; it should start from q_start => the
+      loop from READY_Q
     """
     J = at_hand(space_jacobian(screws, q_start), fk_space(screws, M, q_start))
     parts = {
@@ -84,21 +84,21 @@ def _(screws, M, T_goal, q_start, limits):
 
 @row.wrong(hidden="it arrives all the same: success is no proof")
 def damping_not_squared(screws, M, T_goal, q_start, limits):
-    """the squared damping is handed over as the damping, or its root is forgotten =>
-    what that damping leads to"""
+    """the squared damping is passed as the damping: is its square root missing? => the
+    loop with that damping"""
     return walk(screws, M, T_goal, q_start, limits, damping=lambda ee: ee / 2 + 1e-6)
 
 
 @row.wrong(hidden="few of its targets are at a limit")
 def limits_at_the_end(screws, M, T_goal, q_start, limits):
-    """the joint limits are kept at the end only; a loop that has left them goes another
-    way, so keep them after each step => what the loop leads to, clipped at its end"""
+    """the joint limits are applied at the end only; apply them after each step => the
+    loop, clipped at its end"""
     return np.clip(walk(screws, M, T_goal, q_start, None), *limits.T)
 
 
 @row.wrong
 def q_start_unused(screws, M, T_goal, q_start, limits):
-    """the loop starts from q = 0, whatever q_start is => what q = 0 leads to"""
+    """the loop starts from q = 0; it should start from q_start => the loop from 0"""
     return walk(screws, M, T_goal, np.zeros(7), limits)
 
 
@@ -178,8 +178,8 @@ def _(screws, M, T_goal, q_start, limits):  # 0 is taken to be within all limits
     return walk(screws, M, T_goal, q_start, np.array([low, high]).T)
 
 
-WRAPPED = "the angles are wrapped to +-pi at the end; joint 6 may go to 3.75, and a "
-WRAPPED += "joint that has turned beyond pi has not come back to -pi"
+WRAPPED = "the angles are wrapped to +-pi at the end; joint 6 may reach 3.75 rad, and "
+WRAPPED += "a wrapped angle is outside its limits"
 for kept in (True, False):
 
     @row.wrong("wrapped-to-pi", WRAPPED)

@@ -5,7 +5,6 @@ from itertools import accumulate
 import numpy as np
 
 from labkit.judge import Jacobian, Row
-from labkit.judge.argument_mistakes import BACKWARDS, DEGREES, ONE_OFF, RADIANS_TWICE
 from robo47 import panda
 from robo47 import screws as day2
 from robo47.jacobian import space_jacobian
@@ -57,22 +56,23 @@ ZERO = np.zeros((3, 3))
 @row.wrongs
 def _(screws, q):
     """screws-constant: the columns are the screws at q = 0; the joints before a joint
-      have moved its screw => the screws as columns
-    last-joint-only: each screw is moved by the one joint before it; all joints before
-      it move it => the Jacobian with one exponential per column
-    product-reversed: the exponentials are multiplied in the reverse order; the first
-      joint's belongs on the left => the Jacobian with the reversed product
-    one-joint-late: each screw lacks the motion of the joint right before it: the
-      product is used before that joint is in it => the Jacobian one joint late
-    moved-by-the-next: each screw is moved by the joint behind it too, which it does not
-      feel => the Jacobian one joint too far
-    moved-by-all: every screw is moved by all seven joints; only those before it carry
-      it => the Jacobian with the whole product
-    moved-by-those-after: each screw is moved by the joints after it; those before it
-      carry it => the Jacobian with the product of the joints after each
-    adjoint-of-the-inverse: the screws are carried the other way: this is Ad of the
-      inverse => the Jacobian with the inverse
-    columns-reversed: the columns are in the reverse order: joint 1's comes first
+      move its screw => the screws as columns
+    last-joint-only: each screw is moved by the joint directly before it only; all
+      joints before it move it => the Jacobian with one exponential per column
+    product-reversed: the exponentials are multiplied in the reverse order; the
+      exponential of joint 1 belongs on the left => the Jacobian with the reversed
+      product
+    one-joint-late: each screw lacks the motion of the joint directly before it: the
+      product is used before it includes that joint => the Jacobian one joint late
+    moved-by-the-next: each screw is moved by the joint after it as well, which does not
+      affect it => the Jacobian one joint too far
+    moved-by-all: every screw is moved by all seven joints; only the joints before it
+      move it => the Jacobian with the whole product
+    moved-by-those-after: each screw is moved by the joints after it; the joints before
+      it move it => the Jacobian with the product of the joints after each
+    adjoint-of-the-inverse: the screws are transformed with the adjoint of the inverse
+      motion => the Jacobian with the inverse
+    columns-reversed: the columns are in the reverse order; joint 1 comes first
     """
     alone = [np.eye(4), *exp_screw(screws, q)]
     moved = products(screws, q)
@@ -91,18 +91,15 @@ def _(screws, q):
     return {**found, "columns-reversed": lambda: space_jacobian(screws, q)[:, ::-1]}
 
 
-row.of_argument("q", BACKWARDS, DEGREES, RADIANS_TWICE, *ONE_OFF)
-
-
 @row.wrongs
 def _(screws, q):
-    """bracket-top-right: in the adjoint, [p] R stands top right; with (omega; v) it
-      stands bottom left => the Jacobian with that adjoint
-    bracket-after-R: in the adjoint, R [p] stands where [p] R belongs
-    rotation-only: the screws are only rotated; where the joints have moved to is left
-      out ([p] R is missing in the adjoint) => the Jacobian with R alone
-    translation-only: the screws are only translated; the rotation R is left out of the
-      adjoint => the Jacobian with I for R
+    """bracket-top-right: the block [p] R of the adjoint is in the upper right; with
+      (omega; v) it belongs in the lower left => the Jacobian with that adjoint
+    bracket-after-R: the lower left block of the adjoint is R [p]; it should be [p] R
+    rotation-only: the screws are only rotated: the block [p] R of the adjoint is
+      missing => the Jacobian with R alone
+    translation-only: the screws are not rotated: R is missing in the adjoint => the
+      Jacobian with I for R
     """
     adjoints = {
         "bracket-top-right": lambda R, P: [[R, P @ R], [ZERO, R]],
@@ -114,8 +111,10 @@ def _(screws, q):
     return {slug: carried(screws, moved, own(one)) for slug, one in adjoints.items()}
 
 
-@row.wrong("argument-entry-missing")  # The loop ends one joint early.
-def _(screws, q):
+@row.wrong
+def last_column_missing(screws, q):
+    """the last column is 0, as if the loop ended one joint early => the correct result
+    with that column"""
     J = space_jacobian(screws, q)
     J[:, 6] = 0.0
     return J

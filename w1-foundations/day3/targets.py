@@ -100,12 +100,14 @@ def _reached(goal: Array, start: Array, limits: Array, steps: int = 25) -> np.nd
 def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
     """Return what is wrong with an answer of solve_ik, or None."""
     if not np.isfinite(q).all():
-        return Finding("not-finite", "It returns numbers that are not finite.")
+        return Finding("not-finite", "The result has entries that are not finite.")
     beyond = np.maximum(limits[:, 0] - q, q - limits[:, 1])
     if beyond.max() > 1e-12:
         i = int(np.argmax(beyond))
         says = f"joint{i + 1} is {beyond[i]:.3g} rad beyond its limit."
-        return Finding("beyond-a-limit", f"It leaves the joint limits: {says}")
+        return Finding(
+            "beyond-a-limit", f"The result violates the joint limits: {says}"
+        )
     before, after = _miss(S, M, T_goal, q_start), _miss(S, M, T_goal, q)
     if before < 1e-8:
         return _unchanged(q_start, q)
@@ -114,16 +116,18 @@ def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
     if found := _half_there(S, M, T_goal, q):
         return found
     if after >= before:
-        return Finding("no-nearer", "It ends no nearer to its target than it started.")
+        return Finding(
+            "no-nearer", "The result is no nearer to the target than the start."
+        )
     if after <= 1e-8:
         return None
     if _reached(T_goal, q_start, limits, 45):
-        says = f"The hand is not at its target, which is near: {after:.2g} off"
+        says = f"The hand does not reach a near target: it is {after:.2g} off"
         return Finding(
             "not-reached",
-            f"{says} (radians and metres). Does it stop before the error is under "
-            "1e-8, after too few steps say, or are they too short: is the damping that "
-            "of the docstring?",
+            f"{says} (radians and metres). Does the loop stop before the error is "
+            "below 1e-8, or are its steps too short, because the damping differs from "
+            "the docstring?",
         )
     return _as_the_docstring(T_goal, q_start, limits, after)
 
@@ -135,14 +139,15 @@ def _half_there(S, M, T_goal, q) -> Finding | None:
     move = np.linalg.norm(e[3:])
     if move < 1e-8 and turn > 1e-4:
         says = (
-            f"The hand's position is right, its rotation is {turn:.2g} rad off: does "
-            "the loop steer, stop or choose by the position alone?"
+            f"The hand's position is correct, but its rotation is {turn:.2g} rad off. "
+            "Does the loop step, stop or choose by the position alone?"
         )
         return Finding("position-only", says)
     if turn < 1e-8 and move > 1e-4:
         says = (
-            f"The hand's rotation is right, its position is {1000 * move:.2g} mm off: "
-            "does the loop steer, stop or choose by the rotation alone?"
+            "The hand's rotation is correct, but its position is "
+            f"{1000 * move:.2g} mm off. Does the loop step, stop or choose by the "
+            "rotation alone?"
         )
         return Finding("rotation-only", says)
     return None
@@ -171,13 +176,13 @@ def _as_the_docstring(T_goal, q_start, limits, after) -> Finding | None:
     if least < 1e-3 or after < 1.1 * least:  # another damping: 1.08
         return None
     says = (
-        f"It ends {after:.3g} off a target far away; 60 steps can end {least:.3g} off"
+        f"The result is {after:.3g} off a far target; 60 steps can end {least:.3g} off"
     )
     return Finding(
         "not-the-best",
-        f"{says} (radians and metres). Is the q returned whose error was the shortest "
-        "(a copy, if q changes in place), and are the steps and their damping those of "
-        "the docstring?",
+        f"{says} (radians and metres). Do you return the q with the smallest error (a "
+        "copy, if q changes in place), and are the steps and their damping as in the "
+        "docstring?",
     )
 
 
@@ -189,10 +194,8 @@ def _miss(S, M, T_goal, q) -> float:
 def _unchanged(q_start: Array, q: Array) -> Finding | None:
     if np.abs(q - q_start).max() <= 1e-8:
         return None
-    says = "The start is at its target already, and does not come back unchanged"
-    return Finding(
-        "start-not-kept", f"{says}: {np.abs(q - q_start).max():.2g} rad off."
-    )
+    says = "The start is at the target already, but the result differs from it"
+    return Finding("start-not-kept", f"{says} by {np.abs(q - q_start).max():.2g} rad.")
 
 
 @once
@@ -204,5 +207,5 @@ def _as_near_as_can_be(S, M, T_goal, q_start, limits, after) -> Finding | None:
     best = _best(S, M, T_goal, q_start, limits)
     if after < 1.01 * best:  # measured: 1.001; with J_space up to 1.08
         return None
-    says = f"stays {after:.3f} off a target out of reach; {best:.3f} can be had"
-    return Finding("far-from-unreachable", f"It {says} (radians and metres).")
+    says = f"is {after:.3f} off an unreachable target; {best:.3f} is possible"
+    return Finding("far-from-unreachable", f"The result {says} (radians and metres).")

@@ -1,4 +1,4 @@
-# task 1.3: t-not-negated
+# task 1.3: t-negated
 # The minus got lost.
 import numpy as np
 
