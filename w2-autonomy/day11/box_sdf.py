@@ -113,12 +113,6 @@ def _(p, half_extents):
       with half_extents.max()
     half-backwards: your code uses half_extents in reverse order; its first entry
       belongs to x
-    last-half: your code uses the last half extent on every axis => the formula with
-      half_extents[2]
-    mean-half: your code uses the mean half extent on every axis => the formula with
-      half_extents.mean()
-    first-half: your code uses the first half extent on every axis => the formula with
-      half_extents[0]
     in-the-plane: your code does not use z
     smallest-added: your code adds the smallest entry of |p| - half_extents, even where
       it is positive; add the largest entry, and only where it is negative => the norm
@@ -223,9 +217,6 @@ def _(p, half_extents):
         "nearest-corner": lambda: np.linalg.norm(np.abs(p) - half_extents),
         "largest-half": lambda: of(p, np.full(3, half_extents.max())),
         "half-backwards": lambda: of(p, half_extents[::-1]),
-        "last-half": lambda: of(p, np.full(3, half_extents[2])),
-        "mean-half": lambda: of(p, np.full(3, half_extents.mean())),
-        "first-half": lambda: of(p, np.full(3, half_extents[0])),
         "in-the-plane": lambda: of(p[:2], half_extents[:2]),
         "cut-at-both": lambda: np.linalg.norm(np.clip(p, -half_extents, half_extents)),
     }

@@ -51,10 +51,6 @@ def _(a0, a1, r):
       the lower corner and add it to the upper corner
     radius-added-to-both: the radius is added to both corners; subtract it from the
       lower corner
-    diameter: the box is larger by the diameter on each side; use the radius => the
-      formula with 2 r
-    half-the-radius: the box is larger by half of the radius on each side; use the whole
-      radius
     flat-ends: your box is the box of a cylinder with flat ends; a capsule ends in
       spheres, which extend by r along every axis => the formula with r sqrt(1 - d^2) on
       each axis, where d is the direction of the axis
@@ -133,8 +129,6 @@ def _(a0, a1, r):
         "radius-on-one-side 2": np.array([low - r, high]),
         "radius-inwards": np.array([low + r, high - r]),
         "radius-added-to-both": np.array([low + r, high + r]),
-        "diameter": np.array([low - 2 * r, high + 2 * r]),
-        "half-the-radius": np.array([low - r / 2, high + r / 2]),
         "flat-ends": np.array([low - disc, high + disc]),
         "corners-not-sorted": np.array([a0 - r, a1 + r]),
         "corners-of-all": np.array(

@@ -159,7 +159,6 @@ def _(a0, a1, r, T_world_box, half_extents):
     t-added: the position of the box is added; subtract it, R^T (x - t) => R^T (x + t)
     radius-forgotten: the radius is missing, so the result is the distance of the axis
     radius-added: the radius is added; subtract it
-    diameter: twice the radius is subtracted; subtract the radius once
     radius-to-the-box: the box is enlarged by the radius, which keeps its corners sharp;
       subtract the radius from the distance => the formula with half_extents + r
     radius-to-the-box 2: the box is enlarged by the radius, which keeps its corners
@@ -176,9 +175,6 @@ def _(a0, a1, r, T_world_box, half_extents):
       of half_extents
     ends-left-out: the search never tests the ends of the axis; start with the whole
       interval 0..1
-    whole-sides: your code halves half_extents, which already contains half of the sides
-    twice-the-sides: your code doubles half_extents; the faces are at plus and minus
-      half_extents
     never-negative: for shapes that overlap your code returns 0; the signed distance is
       negative => the formula with max(0, d)
     sign: the sign is reversed; the distance is positive for shapes that do not overlap
@@ -330,7 +326,6 @@ def _(a0, a1, r, T_world_box, half_extents):
         "t-added": lambda: least(R, -t),
         "radius-forgotten": d,
         "radius-added": d + r,
-        "diameter": d - 2 * r,
         "radius-to-the-box": lambda: least(R, t, half_extents + r) + r,
         "radius-to-the-box 2": lambda: along(
             a0, a1, half_extents + r, golden(at, 60), R, t
@@ -342,8 +337,6 @@ def _(a0, a1, r, T_world_box, half_extents):
         "wrong-half-kept 2": farthest - r,
         "bounding-sphere": far - np.linalg.norm(half_extents) - r,
         "ends-left-out": lambda: shares(*np.linspace(0.05, 0.95, 19)),
-        "whole-sides": lambda: least(R, t, half_extents / 2),
-        "twice-the-sides": lambda: least(R, t, 2 * half_extents),
         "never-negative": max(0.0, d - r),
         "sign": r - d,
         "outside-only": max(0.0, d) - r,

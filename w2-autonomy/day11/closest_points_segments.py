@@ -98,17 +98,10 @@ def _(a0, a1, b0, b1):
       => the formula with c d - b e
     b-sign: b has the wrong sign; the derivatives are a s - b t + d and b s - c t + e =>
       the formula with -b
-    b-not-squared: the denominator is a c - b; it should be a c - b b
     across-plus: the denominator is a c + b b; it should be a c - b b, which is 0 for
       parallel segments
     across-of-lengths: the denominator is a c, which is correct only for perpendicular
       segments; it should be a c - b b
-    b-forgotten: the factor b is missing in t = (b s + e) / c => the formula with (s +
-      e) / c
-    t-sign: e has the wrong sign in t = (b s + e) / c => the formula with -e
-    t-by-a: t is divided by a; divide it by c, the squared length of the second segment
-      => (b s + e) / a
-    d-sign-last: d has the wrong sign in the last s = (b t - d) / a
     swapped-to-s: s and t are exchanged
     points-swapped: the point of the second segment comes first; return the point of the
       first segment first
@@ -263,19 +256,8 @@ def _(a0, a1, b0, b1):
         "d-and-e-swapped": lambda: at(*thrice(a, b, c, e, d)),
         "numerator-sign": lambda: at(*thrice(a, b, c, d, e, -plain[0])),
         "b-sign": lambda: at(*thrice(a, -b, c, d, e)),
-        "b-not-squared": lambda: through(a * c - b),
         "across-plus": lambda: through(a * c + b * b),
         "across-of-lengths": lambda: through(a * c),
-        "b-forgotten": lambda: at(
-            cut((b * cut((s1 + e) / c) - d) / a), cut((s1 + e) / c)
-        ),
-        "t-sign": lambda: at(
-            cut((b * cut((b * s1 - e) / c) - d) / a), cut((b * s1 - e) / c)
-        ),
-        "t-by-a": lambda: at(
-            cut((b * cut((b * s1 + e) / a) - d) / a), cut((b * s1 + e) / a)
-        ),
-        "d-sign-last": lambda: at(cut((b * t1 + d) / a), t1),
         "swapped-to-s": lambda: at(right[1], right[0]),
         "points-swapped": lambda: np.array([o, p]),
         "middles": lambda: np.array([(a0 + a1) / 2, middle]),

@@ -127,10 +127,8 @@ def _(s, distance, delta_q, radii):
       their sum
     norm-of-products 2: your code multiplies the norm of delta_q by the norm of radii;
       add the products |delta_q_i| radii_i
-    first-reach: your code uses the first radius for every joint
     largest-reach: your code uses the largest radius for every joint, which is safe but
       not the bound in the task
-    mean-reach: your code uses the mean radius for every joint
     reach-forgotten: the radii are missing; a rotation in radians becomes a distance
       only when multiplied by a radius => the distance divided by the sum of |delta_q|
     dq-forgotten: delta_q is missing in the bound => the distance divided by the sum of
@@ -158,7 +156,6 @@ def _(s, distance, delta_q, radii):
     still-before-touching: your code tests for a motion of 0 before it tests for
       contact; an arm that touches should return s even if it does not move
     reach-backwards: the radii are in reverse order; the first radius belongs to joint 1
-    last-reach: your code uses the last radius for every joint
     reaches-summed: your code multiplies the sum of |delta_q| by the sum of the radii;
       each joint has its own radius
     reaches-summed 2: your code multiplies the largest |delta_q| by the sum of the
@@ -169,8 +166,6 @@ def _(s, distance, delta_q, radii):
       directions move the arm
     one-left-out: the last joint is missing in the sum
     one-left-out 2: the first joint is missing in the sum
-    turn-squared: |delta_q| is squared in the sum
-    reach-squared: the radii are squared in the sum
     chord: your code uses the chord 2 sin(delta_q / 2); a point moves along the arc,
       which is longer
     mean-of-joints: your bound is the mean over the joints; the motions of all joints
@@ -212,15 +207,12 @@ def _(s, distance, delta_q, radii):
     return {
         "still-before-touching": 1.0 if still else s if inside else plain(),
         "reach-backwards": by(turns @ radii[::-1]),
-        "last-reach": by(turns.sum() * radii[-1]),
         "reaches-summed": by(turns.sum() * radii.sum()),
         "reaches-summed 2": by(turns.max() * radii.sum()),
         "reaches-summed 3": by(np.linalg.norm(delta_q) * radii.sum()),
         "one-direction": by(np.maximum(delta_q, 0) @ radii),
         "one-left-out": by(turns[:-1] @ radii[:-1]),
         "one-left-out 2": by(turns[1:] @ radii[1:]),
-        "turn-squared": by(turns**2 @ radii),
-        "reach-squared": by(turns @ radii**2),
         "chord": by(2 * np.abs(np.sin(delta_q / 2)) @ radii),
         "mean-of-joints": by(np.mean(turns * radii)),
         "step-capped": lambda: s if inside else 1.0 if still else
@@ -240,9 +232,7 @@ def _(s, distance, delta_q, radii):
         "norm-of-dq": by(np.linalg.norm(delta_q) * radii.max()),
         "norm-of-products": by(np.linalg.norm(delta_q * radii)),
         "norm-of-products 2": by(np.linalg.norm(delta_q) * np.linalg.norm(radii)),
-        "first-reach": by(np.abs(delta_q).sum() * radii[0]),
         "largest-reach": by(np.abs(delta_q).sum() * radii.max()),
-        "mean-reach": by(np.abs(delta_q).sum() * radii.mean()),
         "reach-forgotten": by(np.abs(delta_q).sum()),
         "dq-forgotten": by(radii.sum()),
         "of-what-is-left": lambda: gone(distance / speed * (1 - s)),

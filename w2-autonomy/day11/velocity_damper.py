@@ -110,8 +110,7 @@ MORE = (
     "left-where-it-overlaps", "no-way-out", "coming-near", "by-the-sizes", "half-of-it",
     "twice-of-it", "one-joint-only", "one-joint-only 2", "alike", "by-signs",
     "a-seventh-each", "divided-by-the-sum", "divided-by-the-largest", "divided-by-qd",
-    "those-that-come-near", "those-that-come-near 2", "gain-squared",
-    "distance-squared", "rate-added",
+    "those-that-come-near", "those-that-come-near 2", "rate-added",
 )  # fmt: skip
 
 
@@ -187,8 +186,6 @@ def _(qd, grad, distance, gain):
       smallest change is along all of grad
     those-that-come-near 2: joints that approach the obstacle are stopped; keep the part
       of the velocity that is allowed
-    gain-squared: the gain is squared in the bound
-    distance-squared: the distance is squared in the bound
     rate-added: grad . qd is added to the bound; subtract it to get the missing speed =>
       the formula with -gain distance + grad . qd
     lack-alone: your code returns the correction alone; add it to qd
@@ -268,8 +265,6 @@ def _(qd, grad, distance, gain):
         "those-that-come-near": lambda: add(towards * lack / (towards @ towards)),
         "those-that-come-near 2": lambda: np.where(grad * qd < 0, 0.0, qd)
         if lack > 0 else qd.copy(),
-        "gain-squared": lambda: to(-(gain**2) * distance),
-        "distance-squared": lambda: to(-gain * distance**2),
         "rate-added": lambda: qd + grad * (bound + rate) / square
         if bound + rate > 0 else qd.copy(),
         "always": lambda: to(bound, when=True),

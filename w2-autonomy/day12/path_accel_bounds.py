@@ -171,8 +171,6 @@ def _of_holding(rest, pull, c, limits, moves, free):
 def _(a, b, c, limits, sd):
     """not-sorted: if a is negative, the lower and the upper bound of that joint are
       exchanged; sort the two quotients
-    sign-of-a-lost: your code divides by |a|, so the sign of a is lost
-    sd-not-squared: b is multiplied by sd; multiply it by sd^2
     speed-forgotten: the term b sd^2 is missing
     speed-sign: b sd^2 is added to the limits; subtract it
     gravity-forgotten: the term c is missing
@@ -287,8 +285,6 @@ def _(a, b, c, limits, sd):
 
     table = {
         "not-sorted": narrowed(*raw),
-        "sign-of-a-lost": of(rest, np.abs(a)),
-        "sd-not-squared": path_accel_bounds(a, b / sd if sd else b, c, limits, sd),
         "speed-forgotten": path_accel_bounds(a, 0 * b, c, limits, sd),
         "speed-sign": path_accel_bounds(a, -b, c, limits, sd),
         "gravity-forgotten": path_accel_bounds(a, b, 0 * c, limits, sd),

@@ -51,7 +51,6 @@ def _(rng):
 def _(M, dq_ds, d2q_ds2, coriolis, gravity):
     """ddq-forgotten: M d2q_ds2 is missing in b; on a curved path the joints accelerate
       even if sd is constant
-    coriolis-forgotten: the Coriolis torque is missing in b
     bias-for-coriolis: gravity is also added to b; it does not depend on sd, so it
       belongs only to g
     gravity-off-coriolis: gravity is subtracted in b; `coriolis` does not contain
@@ -73,7 +72,6 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
     gravity-sign: the sign of gravity is reversed; the torque that holds the arm is
       +gravity
     gravity-forgotten: gravity is missing, so the third row is 0
-    coriolis-sign: the sign of the Coriolis torque is reversed
     coriolis-times-dq: the Coriolis torque is multiplied by dq_ds; it is already
       computed for qd = dq_ds
     dq-squared: b contains dq_ds^2 instead of d2q_ds2
@@ -85,8 +83,6 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
       belongs to b
     rows-summed: each row of M is summed and then multiplied by one joint's rate; use
       the matrix product
-    lower-half: only the lower triangle of M is used
-    upper-half: only the upper triangle of M is used
     trace: the trace of M is used instead of M
     first-row: the first row of M is multiplied entry by entry; use the matrix product
     """
@@ -94,7 +90,6 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
     a, b, g = right
     return {
         "ddq-forgotten": np.array([a, coriolis, g]),
-        "coriolis-forgotten": np.array([a, M @ d2q_ds2, g]),
         "bias-for-coriolis": np.array([a, b + gravity, g]),
         "gravity-off-coriolis": np.array([a, b - gravity, g]),
         "m-forgotten": np.array([dq_ds, b, g]),
@@ -112,7 +107,6 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
         "both-in-a": np.array([a + M @ d2q_ds2, coriolis, g]),
         "gravity-sign": np.array([a, b, -g]),
         "gravity-forgotten": np.array([a, b, 0 * g]),
-        "coriolis-sign": np.array([a, M @ d2q_ds2 - coriolis, g]),
         "coriolis-times-dq": np.array([a, M @ d2q_ds2 + coriolis * dq_ds, g]),
         "dq-squared": np.array([a, M @ dq_ds**2 + coriolis, g]),
         "solved": np.array(
@@ -124,8 +118,6 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
             slug: np.array([of(dq_ds), of(d2q_ds2) + coriolis, g])
             for slug, of in {
                 "rows-summed": lambda x: M.sum(axis=1) * x,
-                "lower-half": lambda x: np.tril(M) @ x,
-                "upper-half": lambda x: np.triu(M) @ x,
                 "trace": lambda x: np.trace(M) * x,
                 "first-row": lambda x: M[0] * x,
             }.items()

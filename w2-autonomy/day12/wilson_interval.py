@@ -34,13 +34,13 @@ def _(rng):
         yield int(rng.integers(0, n + 1)), n
 
 
-def interval(k, n, z=1.96, centre=True, widen=True, divide=True, root=np.sqrt):
+def interval(k, n, z=1.96, centre=True, widen=True, divide=True):
     """Return the interval, made with other parts."""
     if n == 0:
         return np.array([0.0, 1.0])
     p = k / n
     middle = p + centre * z**2 / (2 * n)
-    around = z * root(p * (1 - p) / n + widen * z**2 / (4 * n**2))
+    around = z * np.sqrt(p * (1 - p) / n + widen * z**2 / (4 * n**2))
     return (middle + np.array([-around, around])) / (1 + divide * z**2 / n)
 
 
@@ -77,7 +77,6 @@ def _(successes, n):
       too
     root-n-forgotten: p (1 - p) is not divided by n, so more trials do not make the
       interval narrower
-    not-rooted: the square root is missing
     ninety: z = 1.645 gives a 90 % interval; use 1.96
     ninety-without-z2: z = 1.645 is used instead of 1.96, and the term z^2 / (4 n^2) is
       missing under the root
@@ -144,7 +143,6 @@ def _(successes, n):
         "middle-not-divided": middle * below + two * around,
         "width-not-divided": middle + two * around * below,
         "root-n-forgotten": with_root(p * (1 - p) + z**2 / (4 * n**2)),
-        "not-rooted": interval(k, n, root=lambda x: x),
         "ninety": interval(k, n, 1.645),
         "ninety-without-z2": interval(k, n, 1.645, widen=False),
         "two-sigma": interval(k, n, 2.0),
