@@ -22,9 +22,10 @@ row = Row(
             "stopped",
             "A loop does not end. If the other tree grows towards the *sample*, it "
             "reaches the sample and then adds free edges of length 0, so it never "
-            "reaches the *new node*. Grow it towards the new node, and leave the loop "
-            "if an edge is not free. When you follow the parents to the root, stop at "
-            "the root: no node may be its own parent.",
+            "reaches the *new node*. Grow it towards the new node, compare its last "
+            "node with the new node, and leave the loop if an edge is not free. When "
+            "you follow the parents to the root, stop at the root: no node may be its "
+            "own parent.",
         ),
     ),
 )
