@@ -137,7 +137,7 @@ def _(tree, sample, step, world):
     sample-itself: the new node is the sample itself; limit the edge to one step with
       `steer`
     sample-itself 2: the new node is the sample itself, and the whole edge to it is
-      tested; limit the edge to one step with `steer` => the sample as the new node
+      tested; limit the edge to one step with `steer`
     point-only: your code tests only the new point; test the whole edge to it
     node-only: your code tests only the node from which the tree grows; test the whole
       edge
@@ -168,9 +168,9 @@ def _(tree, sample, step, world):
     standing-is-blocked: if the sample equals a node, your code reports a blocked edge;
       an edge of length 0 is free if the node is free
     own-is-free: your code does not call the method `edge_free` of the world, so every
-      edge is free in such a world => True there
+      edge is free in such a world
     own-is-blocked: your code does not call the method `edge_free` of the world, so no
-      edge is free in such a world => False there
+      edge is free in such a world
     free-if-reached: your code reports a free edge only if the sample is reached; a step
       towards the sample is an edge too
     reached-is-free: if the sample is reached, your code does not test the edge

@@ -113,7 +113,7 @@ def _(successes, n):
     one-more: p is (k + 1) / (n + 2), with one success and one failure added; use k / n
     half-width: the interval has half of the correct width
     one-is-none: for n = 1 your code returns (0, 1); only n = 0 is a special case => (0,
-      1) below two trials
+      1) for n = 0 and n = 1
     """
     k, trials = successes, n
     n = n or 1  # of no trial see below
