@@ -158,15 +158,15 @@ NAMES = {
 }
 OF_THE_REVIEW = [
     (11, only_the_fastest,
-     "Right: links that touch or overlap; arms that do not move. Wrong: steps in which "
+     "Right: links that touch or overlap; motions of length 0. Wrong: steps in which "
      "several joints move. Wrong in some calls: steps in which one joint moves; steps "
-     "that reach the end of the path."),
-    (11, further, "Wrong in some calls: steps that stay"),
+     "that reach the end of the motion."),
+    (11, further, "Wrong in some calls: steps that end before"),
     (11, first_reach, "Right: steps with equal radii;"),
     (11, steep_only,
      "Right: velocities that are allowed; gradients of 0. Wrong in some calls: "
-     "velocities that are too fast, without overlap; velocities that are too fast, "
-     "with overlap."),
+     "velocities that are too fast, at a positive distance; velocities that are too "
+     "fast, at a distance of 0 or less."),
     (11, shallow, "points beyond three faces. Wrong: points in the box."),
     (12, long_edges, "Wrong in some calls: edges that "),
     (12, coarse, "Wrong in some calls: edges that start"),

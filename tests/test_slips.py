@@ -133,6 +133,16 @@ def test_a_slip_is_told_by_its_kind_and_by_how_it_reads():
     assert "reproduces your output" in says
 
 
+def test_an_answer_that_is_infinite_is_not_told_how_far_it_is_off():
+    bounds = right(12, "path_accel_bounds")
+
+    def path_accel_bounds(a, b, c, limits, sd):
+        return bounds(np.abs(a), b, c, limits, sd)
+
+    says = told(12, "12.8", path_accel_bounds=path_accel_bounds)
+    assert "`a` is replaced by its absolute value. (That reproduces" in says
+
+
 def test_two_slips_whose_parts_add_up_are_told_together():
     bias = right(6, "bias_acceleration")
 

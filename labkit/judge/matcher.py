@@ -15,6 +15,7 @@ from labkit.judge.answers import (
     InTurn,
     Parts,
     as_one,
+    capitalised,
     own,
     parts,
     worst_part,
@@ -211,6 +212,10 @@ class Matcher:
             return ""
         kind = self.ask.kinds[k]
         return f"{kind.gap} {kind.apart(self.S[k], self.T[k])}"
+
+    def how(self, evidence: str) -> str:
+        """Return the evidence for a name, after how far the answers are off."""
+        return capitalised("; ".join(filter(None, (self.off(), evidence))))
 
 
 def row(answer: Parts) -> Array:

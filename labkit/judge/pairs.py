@@ -18,7 +18,6 @@ from labkit.judge.answers import (
     InTurn,
     Parts,
     all_match,
-    capitalised,
     parts,
     rigid,
 )
@@ -68,7 +67,7 @@ def two_at_once(m: Matcher) -> Finding | None:
 
 def _told(m: Matcher, slugs: Sequence[str], says: Sequence[str]) -> Finding:
     says = [_RULE.split(one)[0] for one in says]  # a rule would break the list
-    how = f"{capitalised(m.off())}; both together reproduce your output"
+    how = m.how("both together reproduce your output")
     return Finding("+".join(slugs), f"Two things at once: {'; '.join(says)}. ({how}.)")
 
 

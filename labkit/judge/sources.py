@@ -140,7 +140,7 @@ def of_answers(m: Matcher) -> Finding | None:
 def _changed_answer(m: Matcher, i: int | None, says: str) -> Finding:
     called = m.ask.kinds[i].called if i is not None and len(m.T) > 1 else ""
     what = f"{capitalised(called)} is" if called else "Your output is"
-    how = f"{capitalised(m.off())}; that {evidence(True)}"
+    how = m.how(f"that {evidence(True)}")
     return Finding("answer-changed", f"{what} the correct result, but {says}. ({how}.)")
 
 
@@ -175,7 +175,7 @@ def of_arguments(m: Matcher, digits: bool = True) -> Finding | None:
             continue  # a small number is nearly 0, whatever it is divided by
         if m.main.difference.fits(m.i, answer, digits) and m.holds(code, digits):
             says = f"Your output is the correct result for other arguments: {one.says}."
-            how = f"({capitalised(m.off())}; that {evidence(m.exact(code))}.)"
+            how = f"({m.how(f'that {evidence(m.exact(code))}')}.)"
             return Finding(f"argument-{one.slug}", f"{says} {how}")
     return None
 

@@ -103,8 +103,8 @@ row.cases({
     **INSIDE,
 })  # fmt: skip
 row.cases({
-    "boxes that are apart, with box_b on the greater side": side(1),
-    "boxes that are apart, with box_b on the smaller side": side(-1),
+    "boxes that are apart, with box_b on the positive side": side(1),
+    "boxes that are apart, with box_b on the negative side": side(-1),
     **INSIDE,
 })  # fmt: skip
 
@@ -129,64 +129,80 @@ def _(rng):
 
 @row.wrongs(hidden={"nearly-touching": "no two boxes are hardly apart in a run"})
 def _(box_a, box_b):
-    """any-for-all: one axis is enough for it; boxes overlap only where they do on all
-      three => any for all
-    one-direction: only one of the two comparisons is made: box_b may lie below box_a as
-      well as above => box_a[0] <= box_b[1] alone
-    one-direction 2: only one of the two comparisons is made: box_b may lie above box_a
-      as well as below => box_b[0] <= box_a[1] alone
-    touching-left-out: what only touches counts as apart; it is to overlap => with <
-    touching-left-out 2: what only touches counts as apart on one side; it is to overlap
-      => with one <
-    touching-left-out 3: what only touches counts as apart on one side; it is to overlap
-      => with the other <
-    negated: it is the other way round: True is for those that overlap
-    first-axis-only: only x is compared
-    two-axes-only: z is not compared
-    contained: box_a has to lie inside box_b, or box_b in box_a; it is enough to overlap
-    contained 2: box_b has to lie inside box_a; it is enough to overlap
-    contained 3: box_a has to lie inside box_b; it is enough to overlap
-    a-corner-inside: box_b's least or greatest corner has to lie in box_a; boxes may
-      cross without
-    a-corner-inside 2: box_b's least corner has to lie in box_a; it may lie below
-      box_a's
-    a-corner-inside 3: box_b's greatest corner has to lie in box_a; it may lie above
-      box_a's
-    middles-inside: box_a's middle has to lie in box_b
-    middles-inside 2: one box's middle has to lie in the other; boxes overlap by less
-    half-of-one: the middles may be as far apart as half of box_a; half of box_b counts,
-      too
-    corners-only: some corner of one has to lie in the other; boxes may cross without =>
-      all 8 corners of both
-    corners-only 2: some corner of box_b has to lie in box_a, so on each axis one of its
-      ends; boxes may cross, or box_b hold box_a, without => all 8 corners of box_b
-    corners-only 3: a least or greatest corner has to lie in the other box; boxes may
-      overlap without => two corners of each
-    corners-only 4: the least corner of one has to lie in the other; boxes may overlap
-      without
-    balls: the way between the middles is one length here, as of balls; it is at most
-      half of both sides on each axis alone => half of the diagonals
-    balls 2: the way between the middles is one length here, as of balls; it is at most
-      half of both sides on each axis alone => half of the least sides
-    balls 3: the way between the middles is one length here, as of balls; it is at most
-      half of both sides on each axis alone => half of the greatest sides
-    sides-not-halved: the middles may be as far apart as both sides; half of both is it
-    sides-in-quarters: the middles may be as far apart as a quarter of both sides; half
-      of both is it
-    or-for-and: one of the two comparisons is enough; both have to hold => or for and
-    two-axes-enough: two axes are enough for it; boxes overlap only on all three
-    other-axes: y is not compared
-    other-axes 2: x is not compared
-    other-axes 3: only y is compared
-    other-axes 4: only z is compared
-    volume: it is what both share as a volume: two lengths below 0 make one above 0 =>
-      the product above 0
-    volume 2: it is what both share as a volume: two lengths below 0 make one above 0 =>
-      the product not below 0
-    sum-of-overlaps: what both share is added over the axes; each has to be 0 or more
-    nearly-touching: boxes that are hardly apart count as touching => up to 0.01 m
-    always: it is always True
-    never: it is always False
+    """any-for-all: overlap on one axis is enough in your code; two boxes overlap only
+      if their intervals overlap on all three axes
+    one-direction: your code makes only one of the two comparisons, so it misses a box_b
+      that lies below box_a => `box_a[0] <= box_b[1]` alone
+    one-direction 2: your code makes only one of the two comparisons, so it misses a
+      box_b that lies above box_a => `box_b[0] <= box_a[1]` alone
+    touching-left-out: boxes that only touch are reported as apart, but they should be
+      reported as overlapping => the formula with <
+    touching-left-out 2: boxes that touch on one side are reported as apart, but they
+      should be reported as overlapping => the formula with one <
+    touching-left-out 3: boxes that touch on one side are reported as apart, but they
+      should be reported as overlapping => the formula with the other <
+    negated: the result is inverted; True means that the boxes overlap
+    first-axis-only: your code compares only x
+    two-axes-only: your code does not compare z
+    contained: your code requires that one box contains the other; two boxes can also
+      overlap partly
+    contained 2: your code requires that box_a contains box_b; two boxes can also
+      overlap partly
+    contained 3: your code requires that box_b contains box_a; two boxes can also
+      overlap partly
+    a-corner-inside: your code requires that the lower or the upper corner of box_b lies
+      in box_a; two boxes can overlap without that
+    a-corner-inside 2: your code requires that the lower corner of box_b lies in box_a;
+      two boxes can overlap without that
+    a-corner-inside 3: your code requires that the upper corner of box_b lies in box_a;
+      two boxes can overlap without that
+    middles-inside: your code requires that the centre of box_a lies in box_b; two boxes
+      can overlap without that
+    middles-inside 2: your code requires that the centre of one box lies in the other;
+      two boxes can overlap without that
+    half-of-one: the limit for the distance between the centres uses only the half
+      extents of box_a; add those of box_b
+    corners-only: your code tests whether a corner of one box lies in the other; two
+      boxes can cross although no corner lies inside => the test of all 8 corners of
+      both
+    corners-only 2: your code tests whether a corner of box_b lies in box_a; two boxes
+      can cross, or box_b can contain box_a, although no such corner exists => the test
+      of all 8 corners of box_b
+    corners-only 3: your code tests only the lower and the upper corner of each box; two
+      boxes can overlap although neither lies in the other box => the test of two
+      corners of each
+    corners-only 4: your code tests only the lower corner of each box; two boxes can
+      overlap although neither lies in the other box
+    balls: your code treats the boxes as spheres, because it compares the norm of the
+      vector between the centres; compare each axis separately => the formula with half
+      of the diagonals
+    balls 2: your code treats the boxes as spheres, because it compares the norm of the
+      vector between the centres; compare each axis separately => the formula with half
+      of the smallest sides
+    balls 3: your code treats the boxes as spheres, because it compares the norm of the
+      vector between the centres; compare each axis separately => the formula with half
+      of the largest sides
+    sides-not-halved: the limit for the distance between the centres is the sum of the
+      sides; it should be half of this sum
+    sides-in-quarters: the limit for the distance between the centres is a quarter of
+      the sum of the sides; it should be half of this sum
+    or-for-and: one of the two comparisons is enough in your code; both must hold
+    two-axes-enough: overlap on two axes is enough in your code; two boxes overlap only
+      if their intervals overlap on all three axes
+    other-axes: your code does not compare y
+    other-axes 2: your code does not compare x
+    other-axes 3: your code compares only y
+    other-axes 4: your code compares only z
+    volume: your code tests the product of the three overlaps; two negative overlaps
+      have a positive product => a product above 0
+    volume 2: your code tests the product of the three overlaps; two negative overlaps
+      have a positive product => a product of 0 or more
+    sum-of-overlaps: your code adds the overlaps of the three axes; each of them must be
+      0 or more
+    nearly-touching: your code reports an overlap for boxes with a small gap => a gap of
+      up to 0.01 m
+    always: your code always returns True
+    never: your code always returns False
     """
     low, high = box_a[0] <= box_b[1], box_b[0] <= box_a[1]
     both = low & high

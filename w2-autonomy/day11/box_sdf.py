@@ -66,75 +66,91 @@ def _(rng):
 
 @row.wrongs
 def _(p, half_extents):
-    """zero-inside: inside it is 0; there it is minus the way to the nearest face
-    inside-positive: inside it is above 0; there it is to be below
-    sign: its sign is the other one: outside is above 0
-    largest-outside: outside only the face that is farthest beyond counts; beyond an
-      edge or a corner it is the length of all => max(|p| - half_extents)
-    sum-outside: outside the parts beyond the faces are added; they are the sides of a
-      right angle
-    inside-added-outside: what is below 0 counts outside as well: only what is beyond a
-      face does => the norm of |p| - half_extents
-    depth-added-outside: outside the largest of |p| - half_extents comes on top; it
-      counts only inside, where it is below 0 => the length, and max(|p| - half_extents)
-      without min(..., 0)
-    inside-by-the-norm: inside it is minus the length of all three; it is the way to the
-      nearest face alone
-    farthest-face-inside: inside it is the way to the farthest face; the nearest one is
-      the largest of |p| - half_extents => with min
-    farthest-face-inside 2: what is added to the length is the way to the farthest face;
-      it is the largest of |p| - half_extents, where that is below 0 => with min
-    to-the-middle-inside: inside it is minus how far the middle is
-    to-the-middle: this is how far the middle is: the box has no size
-    box-as-a-ball: the box is taken for a ball => |p| less the length of half_extents
-    box-as-a-ball 2: the box is taken for a ball => |p| less the largest half_extents
-    box-as-a-ball 3: the box is taken for a ball => |p| less the smallest half_extents
-    whole-sides: half_extents is halved again: it is half of the sides already => with
-      half_extents / 2
-    twice-the-sides: half_extents is doubled: the faces stand at plus and minus
-      half_extents => with 2 half_extents
-    abs-forgotten: a point on the side below 0 is not folded over: it is |p| -
-      half_extents => with p - half_extents
-    abs-forgotten-zero-inside: a point on the side below 0 is not folded over, and
-      inside it is 0 => the norm of what of p - half_extents is above 0
-    not-rooted: this is the square of the length outside
-    nearest-corner: this is how far the nearest corner is; a face may be nearer
-    largest-half: all sides are the largest => with half_extents.max()
-    half-backwards: half_extents is read from its end: its first entry is x's
-    last-half: all sides are the last => with half_extents[2]
-    mean-half: all sides are the mean => with half_extents.mean()
-    first-half: all sides are the first => with half_extents[0]
-    in-the-plane: z is forgotten
-    smallest-added: the least of |p| - half_extents is added, above 0 as well; it is the
-      largest, where that is below 0 => the length, and min(|p| - half_extents)
-    first-axis-added: what is added to the length is x's |p| - half_extents where that
-      is below 0; it is the largest of all three
-    largest-with-max: max(..., 0) stands for min(..., 0): outside the largest comes on
-      top, and inside it is 0
-    sum-inside: inside the three ways to the faces are added; the nearest is the way out
-    mean-inside: inside it is the mean of the three ways; the nearest is the way out
-    one-number-inside: inside it is -1 everywhere; it is the way to the nearest face
-    least-half-inside: inside it is minus the least half_extents everywhere; that is
-      right in the middle alone
-    smallest-part-inside: inside it is minus the least of |p|; the faces are
-      half_extents away
-    upper-faces-inside: inside only the faces above 0 count: the others may be nearer =>
-      minus the least of half_extents - p
-    lengthwise: it is measured along the line to the middle; the nearest point of a face
-      lies straight below => |p| (1 - 1 / max(|p| / half_extents))
-    size-of-the-difference: |p - half_extents| is taken: it is |p| - half_extents
-    cut-at-one: what is beyond a face is cut to 1 at most
-    corner-or-face: beyond an edge, two faces, it is the length of both; this is the
-      larger of them => the length beyond corners alone
-    two-of-three: beyond a corner all three count; this is the length of the larger two
-    first-two-only: beyond a face of z the length of x and y is left out => the largest
-      there
-    mean-square: the root of the mean square is taken; it is that of the sum
-    smallest-taken-off: the least size of |p| - half_extents is taken off, outside as
-      well
-    edges-negative: beyond an edge or a corner its sign is the other one
-    cut-at-both: this is p cut to the box, and its length => the norm of the nearest
-      point
+    """zero-inside: inside the box your code returns 0; return minus the distance to the
+      nearest face
+    inside-positive: inside the box your result is positive; it should be negative
+    sign: the sign is reversed; the distance is positive outside the box
+    largest-outside: outside the box your code uses only the largest excess beyond a
+      face; near an edge or a corner, take the norm of all positive excesses => max(|p|
+      - half_extents)
+    sum-outside: outside the box your code adds the excesses beyond the faces; take
+      their norm, because they are perpendicular
+    inside-added-outside: outside the box negative entries of |p| - half_extents enter
+      the norm; clamp them to 0 first => the norm of |p| - half_extents
+    depth-added-outside: outside the box your code adds the largest entry of |p| -
+      half_extents to the norm; add it only inside, where it is negative => the norm
+      plus max(|p| - half_extents), without min(..., 0)
+    inside-by-the-norm: inside the box your code returns minus the norm of all three
+      face distances; only the nearest face matters
+    farthest-face-inside: inside the box your code uses the distance to the farthest
+      face; use the nearest face, which has the largest entry of |p| - half_extents =>
+      the formula with min
+    farthest-face-inside 2: the inside term uses the farthest face; use the nearest
+      face, which has the largest entry of |p| - half_extents => the formula with min
+    to-the-middle-inside: inside the box your code returns minus the distance to the
+      centre; use the distance to the nearest face
+    to-the-middle: your code returns the distance to the centre, so the size of the box
+      is not used
+    box-as-a-ball: your code treats the box as a sphere => |p| minus the norm of
+      half_extents
+    box-as-a-ball 2: your code treats the box as a sphere => |p| minus the largest
+      half_extents
+    box-as-a-ball 3: your code treats the box as a sphere => |p| minus the smallest
+      half_extents
+    whole-sides: your code halves half_extents, which already contains half of the sides
+      => the formula with half_extents / 2
+    twice-the-sides: your code doubles half_extents; the faces are at plus and minus
+      half_extents => the formula with 2 half_extents
+    abs-forgotten: the absolute value of p is missing, so points with a negative
+      coordinate are wrong; use |p| - half_extents => the formula with p - half_extents
+    abs-forgotten-zero-inside: the absolute value of p is missing, and inside the box
+      your code returns 0 => the norm of the positive entries of p - half_extents
+    not-rooted: the square root is missing, so outside the box the result is a squared
+      distance
+    nearest-corner: your code returns the distance to the nearest corner; a face or an
+      edge can be nearer
+    largest-half: your code uses the largest half extent on every axis => the formula
+      with half_extents.max()
+    half-backwards: your code uses half_extents in reverse order; its first entry
+      belongs to x
+    in-the-plane: your code does not use z
+    smallest-added: your code adds the smallest entry of |p| - half_extents, even where
+      it is positive; add the largest entry, and only where it is negative => the norm
+      plus min(|p| - half_extents)
+    first-axis-added: the inside term uses only the x entry of |p| - half_extents; use
+      the largest of the three entries
+    largest-with-max: max(..., 0) is used instead of min(..., 0), so the largest entry
+      is added outside the box and the result inside is 0
+    sum-inside: inside the box your code adds the three face distances; only the nearest
+      face matters
+    mean-inside: inside the box your code returns the mean of the three face distances;
+      only the nearest face matters
+    one-number-inside: inside the box your code always returns -1; return minus the
+      distance to the nearest face
+    least-half-inside: inside the box your code always returns minus the smallest half
+      extent; this is correct only at the centre
+    smallest-part-inside: inside the box your code returns minus the smallest entry of
+      |p|; the distance to a face is half_extents - |p|
+    upper-faces-inside: inside the box your code uses only the faces on the positive
+      side; the opposite face can be nearer => minus the minimum of half_extents - p
+    lengthwise: your code measures along the line to the centre; the shortest distance
+      to a face is perpendicular to it => |p| (1 - 1 / max(|p| / half_extents))
+    size-of-the-difference: your code uses |p - half_extents|; the excess beyond a face
+      is |p| - half_extents
+    cut-at-one: the excess beyond a face is limited to 1; it has no upper limit
+    corner-or-face: near an edge your code returns the larger of the two excesses;
+      return their norm
+    two-of-three: near a corner your code uses only the two largest excesses; use all
+      three
+    first-two-only: if the point lies beyond a z face, your code returns only the
+      largest excess; x and y belong in the norm too
+    mean-square: your code takes the root of the mean of the squares; take the root of
+      their sum
+    smallest-taken-off: your code subtracts the smallest absolute value of |p| -
+      half_extents, even outside the box
+    edges-negative: near an edge or a corner the sign is reversed
+    cut-at-both: your code returns the norm of the point clamped to the box; the
+      distance needs p minus this point => the norm of the nearest point
     """
     beyond = np.abs(p) - half_extents
     out = np.maximum(beyond, 0.0)
@@ -201,9 +217,6 @@ def _(p, half_extents):
         "nearest-corner": lambda: np.linalg.norm(np.abs(p) - half_extents),
         "largest-half": lambda: of(p, np.full(3, half_extents.max())),
         "half-backwards": lambda: of(p, half_extents[::-1]),
-        "last-half": lambda: of(p, np.full(3, half_extents[2])),
-        "mean-half": lambda: of(p, np.full(3, half_extents.mean())),
-        "first-half": lambda: of(p, np.full(3, half_extents[0])),
         "in-the-plane": lambda: of(p[:2], half_extents[:2]),
         "cut-at-both": lambda: np.linalg.norm(np.clip(p, -half_extents, half_extents)),
     }

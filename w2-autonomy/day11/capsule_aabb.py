@@ -5,7 +5,7 @@ import numpy as np
 from labkit.judge import Matrix, Row, rounded
 
 row = Row(
-    Matrix((2, 3), "m", rows=("least", "greatest"), columns=("x", "y", "z")),
+    Matrix((2, 3), "m", rows=("lower", "upper"), columns=("x", "y", "z")),
 )
 
 
@@ -20,9 +20,9 @@ def _(rng):
 
 
 row.cases({
-    "axes that run upwards in x, y and z": lambda a0, a1, r: bool(np.all(a0 < a1)),
-    "axes that run downwards in x, y and z": lambda a0, a1, r: bool(np.all(a0 > a1)),
-    "axes that run upwards in one coordinate and downwards in another": (
+    "axes along which x, y and z all increase": lambda a0, a1, r: bool(np.all(a0 < a1)),
+    "axes along which x, y and z all decrease": lambda a0, a1, r: bool(np.all(a0 > a1)),
+    "axes along which one coordinate increases and another decreases": (
         lambda a0, a1, r: bool(np.any(a0 < a1) and np.any(a0 > a1))
     ),
     "axes of length 0": lambda a0, a1, r: not np.any(a1 - a0),
@@ -44,45 +44,54 @@ def _(rng):
 
 @row.wrongs
 def _(a0, a1, r):
-    """radius-forgotten: the radius is missing: this box holds the axis alone
-    radius-on-one-side: the radius is added on one side only => the least corner without
-    radius-on-one-side 2: the radius is taken off on one side only => the greatest
-      corner without
-    radius-inwards: the radius is taken inwards: the least corner lies r lower
-    radius-added-to-both: the radius is added to both corners
-    diameter: it is wider by the diameter on each side => with 2 r
-    half-the-radius: it is wider by half the radius on each side
-    flat-ends: the radius shrinks with the axis' direction, as of a cylinder with flat
-      ends; a capsule ends in balls, as wide as r on every axis => with
-      r sqrt(1 - d^2) on each axis, d the axis' direction
-    corners-not-sorted: a0 and a1 are taken for the least and the greatest corner: each
-      may be the lesser in one of x, y, z => a0 - r, a1 + r
-    corners-of-all: one number serves all three: the least of x, y and z together
-    swapped: the greatest corner comes first
-    centre-and-half: these are its middle and half its sides
-    corner-and-size: these are its least corner and its whole sides
-    half-not-halved: the middle is right, and it is |a1 - a0| wider: half of that is
-      half of a side => |a1 - a0| + r on either side of the middle
-    longest-side: it is as wide as its longest side on every axis => a cube
-    longest-side 2: it is wide by the axis' length on every axis => the length and r on
-      either side of the middle
-    around-one-end: only a0 counts: this is the box of a ball around it
-    around-one-end 2: only a1 counts: this is the box of a ball around it
-    along-the-axis: r is added along the axis alone; a ball at each end goes r beyond it
-      on all axes => with r times the axis' direction
-    whole-ends-sorted: one end, whole, is taken for the least corner: each of x, y, z
-      has a lesser end of its own => the end with the lesser x
-    whole-ends-sorted 2: one end, whole, is taken for the least corner: each of x, y, z
-      has a lesser end of its own => the end nearer to the origin
-    whole-ends-sorted 3: one end, whole, is taken for the least corner: each of x, y, z
-      has a lesser end of its own => the end with the lesser sum
-    cube-in-the-ball: r / sqrt(3) is added: that is the cube within the ball, which does
-      not hold it
-    radius-times: it is scaled by r; it is to be r wider => times 1 - r and 1 + r
-    with-the-origin: the box holds the origin, too: least and greatest begin at 0
-    size-of-places: the sizes of x, y and z are sorted; what is below 0 counts as above
-      => with |a0| and |a1|
-    as-a-ball: this is the box of a ball around the middle that holds the capsule
+    """radius-forgotten: the radius is missing, so the box contains only the axis
+    radius-on-one-side: the radius is not subtracted from the lower corner
+    radius-on-one-side 2: the radius is not added to the upper corner
+    radius-inwards: the radius has the wrong sign, so the box shrinks; subtract it from
+      the lower corner and add it to the upper corner
+    radius-added-to-both: the radius is added to both corners; subtract it from the
+      lower corner
+    flat-ends: your box is the box of a cylinder with flat ends; a capsule ends in
+      spheres, which extend by r along every axis => the formula with r sqrt(1 - d^2) on
+      each axis, where d is the direction of the axis
+    corners-not-sorted: a0 and a1 are used as the lower and the upper corner; take the
+      minimum and the maximum of each coordinate => a0 - r, a1 + r
+    corners-of-all: one minimum and one maximum are taken over x, y and z together; take
+      them for each coordinate separately
+    swapped: the upper corner comes first; return the lower corner first
+    centre-and-half: your code returns the centre and the half extents; return the lower
+      and the upper corner
+    corner-and-size: your code returns the lower corner and the full sides; return the
+      lower and the upper corner
+    half-not-halved: the centre is correct, but |a1 - a0| is not halved => |a1 - a0| + r
+      on either side of the centre
+    longest-side: your box is a cube with the longest side; each axis has its own extent
+    longest-side 2: the length of the axis is used as the extent in x, y and z; each
+      coordinate has its own extent => half of the length plus r on either side of the
+      centre
+    around-one-end: your code uses only a0, so the result is the box of a sphere around
+      it
+    around-one-end 2: your code uses only a1, so the result is the box of a sphere
+      around it
+    along-the-axis: the radius is added only along the direction of the axis; the sphere
+      at each end extends by r along x, y and z => the formula with r times the
+      direction of the axis
+    whole-ends-sorted: one whole end is used as the lower corner; take the minimum of
+      each coordinate separately => the end with the smaller x
+    whole-ends-sorted 2: one whole end is used as the lower corner; take the minimum of
+      each coordinate separately => the end nearer to the origin
+    whole-ends-sorted 3: one whole end is used as the lower corner; take the minimum of
+      each coordinate separately => the end with the smaller sum
+    cube-in-the-ball: your code adds r / sqrt(3), which gives the cube inside the
+      sphere; the box must contain the sphere
+    radius-times: the corners are multiplied by 1 - r and 1 + r; subtract and add r
+      instead
+    with-the-origin: your box always contains the origin; start the minimum and the
+      maximum from a0, not from 0
+    size-of-places: your code takes the minimum and the maximum of absolute values; the
+      sign of a coordinate matters => the formula with |a0| and |a1|
+    as-a-ball: your result is the box of a sphere around the whole capsule; the box
+      should be as small as possible
     """
     low = np.minimum(a0, a1)
     high = np.maximum(a0, a1)
@@ -120,8 +129,6 @@ def _(a0, a1, r):
         "radius-on-one-side 2": np.array([low - r, high]),
         "radius-inwards": np.array([low + r, high - r]),
         "radius-added-to-both": np.array([low + r, high + r]),
-        "diameter": np.array([low - 2 * r, high + 2 * r]),
-        "half-the-radius": np.array([low - r / 2, high + r / 2]),
         "flat-ends": np.array([low - disc, high + disc]),
         "corners-not-sorted": np.array([a0 - r, a1 + r]),
         "corners-of-all": np.array(

@@ -17,9 +17,9 @@ def above(case):
         return None
     return Finding(
         "not-the-least",
-        f"No answer is too small, some are up to {1000 * more.max():.3g} mm too large: "
-        "the nearest point of the axis is not found yet. Are only some points asked, "
-        "or is 0.618 taken too few times?",
+        "No result is too small, but some are too large, by up to "
+        f"{1000 * more.max():.3g} mm. Your code does not find the nearest point of the "
+        "axis. Does it test only some points, or does the search stop too early?",
     )
 
 
@@ -127,86 +127,105 @@ def golden(f, n, keep=0.618, wrong=False):
 
 @row.wrongs
 def _(a0, a1, r, T_world_box, half_extents):
-    """ends-only: only the ends of the axis are asked; its nearest point may lie between
-      them
-    one-end-only: it is a1's distance, whatever is found: the upper part is always kept
-    one-end-only 2: it is a0's distance, whatever is found: the lower part is always
-      kept
-    middle-only: only the middle of the axis is asked
-    five-points: only some points of the axis are asked; the nearest one lies between
-      them => the least at 0, 0.25, 0.5, 0.75 and 1
-    five-points 2: only some points of the axis are asked; the nearest one lies between
-      them => the least at 0.25, 0.5 and 0.75
-    three-points: only both ends and the middle are asked; the nearest point may lie
+    """ends-only: your code tests only the ends of the axis; its nearest point can lie
       between them
-    eleven-points: only some points of the axis are asked, as by linspace; the nearest
-      one lies between them => the least of 11
-    eleven-points 2: only some points of the axis are asked, as by linspace; the nearest
-      one lies between them => the least of 21
-    nearest-to-the-centre: the axis' point nearest to the box's middle is asked; another
-      one may be nearer to a face
-    world-axes: the box is not turned: both ends are moved into its place alone => R = 1
-    turned-the-other-way: the ends are turned the other way: into the box's axes it is
-      R^T (x - t) => with R
-    pose-not-inverted: T_world_box is used as it is: it takes the box's points to the
-      world, and the other way is wanted => R x + t
-    place-forgotten: the ends are turned and not moved: they are counted from the box's
-      middle => R^T x
-    turned-then-moved: t is taken off after turning: R^T (x - t) is not R^T x - t
-    t-added: t is added; from the box's middle the ends are x - t => R^T (x + t)
-    radius-forgotten: the radius is missing: this is how far its axis is
-    radius-added: the radius is added; it comes nearer by it => + r
-    diameter: twice the radius is taken off => - 2 r
-    radius-to-the-box: the box is grown by the radius; its edges and corners are round,
-      then => with half_extents + r
-    radius-to-the-box 2: the box is grown by the radius; its edges and corners are
-      round, then => with half_extents + r at the right place
-    way-not-turned: the start is taken into the box's axes, and the way along the axis
-      is not => with a1 - a0 as it is
-    wrong-half-kept: the wrong part is kept: this finds the farthest point of the axis
-    wrong-half-kept 2: the wrong part is kept: this finds the farthest point of the axis
-      => the largest of both ends
-    bounding-sphere: the box is taken for a ball => with the length of half_extents
-    ends-left-out: no end of the axis is asked, and the valley is cut to its inner part
-    whole-sides: half_extents is halved again: it is half of the sides already
-    twice-the-sides: half_extents is doubled: the faces stand at plus and minus
-      half_extents
-    never-negative: what overlaps is 0 apart here; it is to be below 0 => with max(0, d)
-    sign: its sign is the other one: apart is above 0
-    outside-only: the axis counts as outside: inside it is below 0 => 0 there, less r
-    as-a-line: the axis is not cut at its ends: this is the least on a far longer one
-    way-moved: t is taken off the way as well; a way from end to end has no place => R^T
-      (a1 - a0 - t)
-    way-moved 2: the way is taken to a1 from the box's middle; it is from a0 => R^T (a1
-      - t)
-    way-of-length-1: the way is made a unit vector, and s still goes from 0 to 1 only
-    not-into-the-box: the ends are taken as they are: neither turned nor moved
-    radius-off-the-box: the box is smaller by the radius; it is taken off the distance
-    size-of-the-depth: inside, the depth counts as a distance => |d| - r
-    size-of-the-distance: what overlaps counts as apart => |d - r|
-    radius-off-the-box 2: the box is smaller by the radius; it is taken off the distance
-      => with half_extents - r at the right place
-    largest-half: all sides are the largest => with half_extents.max()
-    largest-half 2: all sides are the largest => with half_extents.max() at the right
-      place
+    one-end-only: your code always returns the distance of a1, because the search always
+      keeps the upper part
+    one-end-only 2: your code always returns the distance of a0, because the search
+      always keeps the lower part
+    middle-only: your code tests only the midpoint of the axis
+    five-points: your code tests only some points of the axis; the nearest point lies
+      between them => the minimum at 0, 0.25, 0.5, 0.75 and 1
+    five-points 2: your code tests only some points of the axis; the nearest point lies
+      between them => the minimum at 0.25, 0.5 and 0.75
+    three-points: your code tests only the ends and the midpoint of the axis; the
+      nearest point can lie between them
+    eleven-points: your code tests only some points of the axis; the nearest point lies
+      between them => the minimum of 11 points
+    eleven-points 2: your code tests only some points of the axis; the nearest point
+      lies between them => the minimum of 21 points
+    nearest-to-the-centre: your code uses the point of the axis nearest to the centre of
+      the box; another point can be nearer to a face
+    world-axes: the ends are translated to the box but not rotated into its frame; use
+      R^T (x - t) => R = I
+    turned-the-other-way: the ends are multiplied by R; use R^T to express them in the
+      box frame => the formula with R
+    pose-not-inverted: T_world_box is applied directly, but it maps from the box frame
+      to the world frame; apply its inverse => R x + t
+    place-forgotten: the ends are rotated but not translated; subtract the position of
+      the box first => R^T x
+    turned-then-moved: the position of the box is subtracted after the rotation;
+      subtract it first, R^T (x - t) => R^T x - t
+    t-added: the position of the box is added; subtract it, R^T (x - t) => R^T (x + t)
+    radius-forgotten: the radius is missing, so the result is the distance of the axis
+    radius-added: the radius is added; subtract it
+    radius-to-the-box: the box is enlarged by the radius, which keeps its corners sharp;
+      subtract the radius from the distance => the formula with half_extents + r
+    radius-to-the-box 2: the box is enlarged by the radius, which keeps its corners
+      sharp; subtract the radius from the distance => the formula with half_extents + r
+      at the correct point
+    way-not-turned: the start of the axis is expressed in the box frame, but its
+      direction is not; multiply a1 - a0 by R^T => the formula with a1 - a0 in the world
+      frame
+    wrong-half-kept: the search keeps the wrong part, so it finds the farthest point of
+      the axis
+    wrong-half-kept 2: the search keeps the wrong part, so it finds the farthest point
+      of the axis => the larger of the two distances at the ends
+    bounding-sphere: your code treats the box as a sphere => the formula with the norm
+      of half_extents
+    ends-left-out: the search never tests the ends of the axis; start with the whole
+      interval 0..1
+    never-negative: for shapes that overlap your code returns 0; the signed distance is
+      negative => the formula with max(0, d)
+    sign: the sign is reversed; the distance is positive for shapes that do not overlap
+    outside-only: an axis that enters the box gets distance 0; use the negative value
+      from `box_sdf`, then subtract r
+    as-a-line: the search goes beyond the ends of the axis; its parameter stays in 0..1
+      => the minimum on a much longer segment
+    way-moved: t is also subtracted from the direction of the axis; a direction is only
+      rotated => R^T (a1 - a0 - t)
+    way-moved 2: the direction runs from the centre of the box to a1; it should run from
+      a0 to a1 => R^T (a1 - t)
+    way-of-length-1: the direction of the axis is normalised, but its parameter still
+      runs from 0 to 1
+    not-into-the-box: the ends stay in the world frame; express them in the box frame
+      with R^T (x - t)
+    radius-off-the-box: the box is reduced by the radius; subtract the radius from the
+      distance
+    size-of-the-depth: the absolute value of the depth is used for an axis inside the
+      box; keep the sign => |d| - r
+    size-of-the-distance: the absolute value is taken, so shapes that overlap get a
+      positive distance => |d - r|
+    radius-off-the-box 2: the box is reduced by the radius; subtract the radius from the
+      distance => the formula with half_extents - r at the correct point
+    largest-half: your code uses the largest half extent on every axis => the formula
+      with half_extents.max()
+    largest-half 2: your code uses the largest half extent on every axis => the formula
+      with half_extents.max() at the correct point
     sides-exchanged: x and y of half_extents are exchanged
-    sides-exchanged 2: x and y of half_extents are exchanged => at the right place
-    box-around-it: the box is not turned, but made large enough to hold the turned one
-      => |R| half_extents
-    half-turned: half_extents is turned in place of the ends; these are lengths, no
-      point => R half_extents
-    mean-along: it is the mean along the axis; it is the least
-    edges-only: only the box's edges are asked; a face may be nearer, and an axis in the
-      box goes unseen
-    faces-only: only the ends, and where the axis crosses a face's plane, are asked
-    point-to-box-in-turn: the nearest point in the box to a point of the axis, and of
-      the axis to that, are found in turn a few times only => 5 times from the middle
-    one-section: one section alone is made: it leaves 0.618 of the axis
-    radius-times-the-length: r is taken times the axis' length: that is no width
-    share-returned: this is the share of the axis, s, and not how far it is
-    five-sections: a few sections are too few: each leaves 0.618 of the axis => after 5
-    five-sections 2: a few sections are too few: each leaves 0.618 of the axis => after
-      8
+    sides-exchanged 2: x and y of half_extents are exchanged
+    box-around-it: the rotated box is replaced by its axis-aligned bounding box; express
+      the ends in the box frame instead => |R| half_extents
+    half-turned: half_extents is rotated; it contains lengths, so rotate the ends of the
+      axis instead => R half_extents
+    mean-along: your code returns the mean of the distances along the axis; return the
+      minimum
+    edges-only: your code computes the distance to the edges of the box; a face can be
+      nearer, and the axis can enter the box
+    faces-only: your code tests only the ends and the points where the axis crosses the
+      plane of a face
+    point-to-box-in-turn: your code alternates between the nearest point of the box and
+      the nearest point of the axis, but stops after too few steps => the result after 5
+      steps from the midpoint
+    one-section: the search makes only one step, which leaves 0.618 of the axis
+    radius-times-the-length: the radius is multiplied by the length of the axis;
+      subtract r itself
+    share-returned: your code returns the parameter s of the nearest point; return the
+      distance there
+    five-sections: the search stops too early; each step keeps 0.618 of the interval =>
+      the result after 5 steps
+    five-sections 2: the search stops too early; each step keeps 0.618 of the interval
+      => the result after 8 steps
     """
     R = T_world_box[:3, :3]
     t = T_world_box[:3, 3]
@@ -307,7 +326,6 @@ def _(a0, a1, r, T_world_box, half_extents):
         "t-added": lambda: least(R, -t),
         "radius-forgotten": d,
         "radius-added": d + r,
-        "diameter": d - 2 * r,
         "radius-to-the-box": lambda: least(R, t, half_extents + r) + r,
         "radius-to-the-box 2": lambda: along(
             a0, a1, half_extents + r, golden(at, 60), R, t
@@ -319,8 +337,6 @@ def _(a0, a1, r, T_world_box, half_extents):
         "wrong-half-kept 2": farthest - r,
         "bounding-sphere": far - np.linalg.norm(half_extents) - r,
         "ends-left-out": lambda: shares(*np.linspace(0.05, 0.95, 19)),
-        "whole-sides": lambda: least(R, t, half_extents / 2),
-        "twice-the-sides": lambda: least(R, t, 2 * half_extents),
         "never-negative": max(0.0, d - r),
         "sign": r - d,
         "outside-only": max(0.0, d) - r,

@@ -77,74 +77,98 @@ def _(rng):
 
 @row.wrongs
 def _(a0, a1, ra, b0, b1, rb):
-    """radii-added: the radii are added; they come nearer by them => with + ra + rb
-    radii-forgotten: the radii are missing: this is how far the axes are apart
-    one-radius: only the first's radius is taken off => without rb
-    one-radius 2: only the second's radius is taken off => without ra
-    as-diameters: half of each radius is taken off, as of a diameter
-    twice-the-radii: twice each radius is taken off
-    radii-differ: the difference of the radii is taken off => with ra - rb
-    radii-differ 2: the difference of the radii is taken off => with |ra - rb|
-    larger-radius: only the larger radius is taken off
-    radii-multiplied: the product of the radii is taken off
-    never-negative: what overlaps is 0 apart here; it is to be below 0 => with max(0, d)
-    sign-lost: its size is right, and what overlaps counts as apart => |d|
-    squared: the axes' distance is not rooted => with its square
-    squared 2: squares are subtracted: |p - o|^2 - (ra + rb)^2
-    sign: its sign is the other one: apart is above 0
-    of-middles: the axes' middles are taken for the closest points
-    of-starts: the first ends are taken for the closest points
-    of-end-pairs: the nearest ends are taken for the closest points
-    largest-part: the largest of |x|, |y| and |z| is taken for the length
-    sum-of-parts: the sum of |x|, |y| and |z| is taken for the length
-    in-the-plane 2: only y and z are measured
-    in-the-plane 3: only x and z are measured
-    product-of-radii: the root of the product of the radii is taken off
-    squares-of-radii: the squares of the radii are taken off
-    over-the-radii: it is divided by the radii: that is a ratio, no distance => |p - o|
-      / (ra + rb) - 1
-    ends-and-middles: only the ends and the middles of both axes are asked
-    same-share: both points are at the same share of their axes; each has its own
-    twice-the-larger: the larger radius is taken off twice; each capsule has its own =>
-      2 max(ra, rb)
-    radii-as-sides: the radii are added as the sides of a right angle; one stands behind
-      the other => the root of ra^2 + rb^2
-    root-of-squares: it is the root of |p - o|^2 - (ra + rb)^2, a tangent's length; it
-      is |p - o| less ra + rb => 0 where they overlap
-    root-of-squares 2: it is the root of |p - o|^2 - (ra + rb)^2, a tangent's length; it
-      is |p - o| less ra + rb => below 0 where they overlap
-    least-part: the least of |x|, |y| and |z| is taken for the length
-    parts-with-signs: x, y and z are added with their signs; it is the root of their
-      squares
-    parts-with-signs 2: x, y and z are added with their signs; it is the root of their
-      squares => the size of the sum
-    mean-square: the root of the mean square is taken; it is that of the sum
-    lengths-differ: lengths of p and o are subtracted: that is how much farther one is
-      from the origin => | |p| - |o| |
-    cut-once: what is left after ra is cut at 0, and then rb is taken off
-    one-number-inside: what overlaps is -1 apart everywhere; it is less the deeper it is
-    one-number-inside 2: what overlaps is apart by minus the lesser radius everywhere
-    axes-inside: what overlaps is apart by minus the distance of the axes
-    ends-only: one of the points is always an end; where axes cross, both may lie
-      between the ends => the nearest end of one to the other
-    ends-only 2: only the first's ends are asked: its nearest point may lie between them
-    ends-only 3: only the second's ends are asked: its nearest point may lie between
-      them
-    sampled: only some points of each axis are tried, as by linspace; the closest ones
-      lie between them => the best of 11 x 11 points
-    sampled 2: only some points of each axis are tried, as by linspace; the closest ones
-      lie between them => the best of 21 x 21 points
-    sampled 3: only some points of each axis are tried, as by linspace; the closest ones
-      lie between them => the best of 51 x 51 points
-    sampled 4: only some points of each axis are tried, as by linspace; the closest ones
-      lie between them => the best of 101 x 101 points
-    lines: the axes are taken as lines without ends => |(b0 - a0) . n|, n the unit
-      vector across both
-    grown-axes: the axes are longer by the radius at each end, and the radius is taken
-      off as well
-    starts-and-ends: segments from a0 to b0 and from a1 to b1 are taken; an axis is from
-      a0 to a1
-    in-the-plane: only x and y are measured: the heights are forgotten
+    """radii-added: the radii are added to the distance between the axes; subtract them
+      => the formula with + ra + rb
+    radii-forgotten: the radii are missing, so the result is the distance between the
+      axes
+    one-radius: only the radius of the first capsule is subtracted => the formula
+      without rb
+    one-radius 2: only the radius of the second capsule is subtracted => the formula
+      without ra
+    as-diameters: half of each radius is subtracted; ra and rb are radii, not diameters
+    twice-the-radii: twice each radius is subtracted; subtract each radius once
+    radii-differ: the difference of the radii is subtracted; subtract their sum => the
+      formula with ra - rb
+    radii-differ 2: the difference of the radii is subtracted; subtract their sum => the
+      formula with |ra - rb|
+    larger-radius: only the larger radius is subtracted; subtract both
+    radii-multiplied: the product of the radii is subtracted; subtract their sum
+    never-negative: for capsules that overlap your code returns 0; the signed distance
+      is negative => the formula with max(0, d)
+    sign-lost: the absolute value is taken, so capsules that overlap get a positive
+      distance => |d|
+    squared: the square root is missing, so the squared distance between the axes is
+      used => the formula with its square
+    squared 2: your code subtracts squares; subtract the radii from the distance itself
+      => |p - o|^2 - (ra + rb)^2
+    sign: the sign is reversed; the distance is positive for capsules that do not
+      overlap
+    of-middles: the midpoints of the axes are used as the closest points
+    of-starts: the starts of the axes are used as the closest points
+    of-end-pairs: the nearest pair of ends is used as the closest points; the closest
+      points can lie between the ends
+    largest-part: the largest component of p - o is used instead of its norm
+    sum-of-parts: the sum of the components' absolute values is used instead of the norm
+      of p - o
+    in-the-plane 2: your code does not use x in the distance
+    in-the-plane 3: your code does not use y in the distance
+    product-of-radii: the square root of the product of the radii is subtracted;
+      subtract their sum
+    squares-of-radii: the squares of the radii are subtracted; subtract the radii
+      themselves
+    over-the-radii: the distance is divided by the sum of the radii; subtract the sum
+      instead => |p - o| / (ra + rb) - 1
+    ends-and-middles: your code tests only the ends and the midpoints of both axes; the
+      closest points can lie anywhere between the ends
+    same-share: your code uses the same fraction of the length on both axes; each
+      closest point has its own
+    twice-the-larger: the larger radius is subtracted twice; subtract the radius of each
+      capsule once => |p - o| - 2 max(ra, rb)
+    radii-as-sides: the radii are combined as sqrt(ra^2 + rb^2); both lie along the same
+      line, so add them => |p - o| - sqrt(ra^2 + rb^2)
+    root-of-squares: your code returns sqrt(|p - o|^2 - (ra + rb)^2), the length of a
+      tangent; the distance is |p - o| - (ra + rb) => this formula, with 0 where they
+      overlap,
+    root-of-squares 2: your code returns sqrt(|p - o|^2 - (ra + rb)^2), the length of a
+      tangent; the distance is |p - o| - (ra + rb) => this formula, with a minus sign
+      where they overlap,
+    least-part: the smallest component of p - o is used instead of its norm
+    parts-with-signs: the components of p - o are added with their signs; take the norm
+    parts-with-signs 2: the components of p - o are added with their signs; take the
+      norm => the absolute value of the sum
+    mean-square: your code takes the root of the mean of the squares; take the root of
+      their sum
+    lengths-differ: the norms of p and o are subtracted; take the norm of p - o => | |p|
+      - |o| |
+    cut-once: the distance is clamped at 0 after ra is subtracted, before rb is
+      subtracted; do not clamp it
+    one-number-inside: for capsules that overlap your code always returns -1; the result
+      should depend on the depth
+    one-number-inside 2: for capsules that overlap your code returns minus the smaller
+      radius; the result should depend on the depth
+    axes-inside: for capsules that overlap your code returns minus the distance between
+      the axes; subtract the radii from it
+    ends-only: your code assumes that one of the closest points is an end; both can lie
+      between the ends
+    ends-only 2: your code tests only the ends of the first axis; its closest point can
+      lie between them
+    ends-only 3: your code tests only the ends of the second axis; its closest point can
+      lie between them
+    sampled: your code tests only some points of each axis; the closest points lie
+      between them => the best of 11 x 11 points
+    sampled 2: your code tests only some points of each axis; the closest points lie
+      between them => the best of 21 x 21 points
+    sampled 3: your code tests only some points of each axis; the closest points lie
+      between them => the best of 51 x 51 points
+    sampled 4: your code tests only some points of each axis; the closest points lie
+      between them => the best of 101 x 101 points
+    lines: your code treats the axes as infinite lines; clamp the closest points to the
+      ends => |(b0 - a0) . n|, where n is the unit vector perpendicular to both,
+    grown-axes: each axis is extended by the radius at both ends, and the radius is also
+      subtracted; subtract the radius only
+    starts-and-ends: your code uses the segments from a0 to b0 and from a1 to b1; the
+      axes run from a0 to a1 and from b0 to b1
+    in-the-plane: your code does not use z in the distance
     """
     p, o = closest_points_segments(a0, a1, b0, b1)
     axes = np.linalg.norm(p - o)

@@ -16,35 +16,36 @@ row = Row(
     held_out=[
         HeldOut(
             "parallel-not-handled",
-            "Right, but not for all parallel segments: there a c - b b is 0, and the s "
-            "of the lines is 0 / 0. Any s will do to begin with; t for it, cut, and "
-            "then s for that t, cut.",
+            "Your result is wrong for some parallel segments. For them a c - b b is 0, "
+            "so the s of the lines is 0 / 0. Start with any s, then compute t and "
+            "clamp it, and then compute s for this t and clamp it.",
             lambda rng: pairs.arrays(pairs.PARALLEL),
         ),
         HeldOut(
             "side-by-side-not-handled",
-            "Right, but not for parallel segments side by side: many pairs are closest "
-            "there, any one of them will do, and it has to be one.",
+            "Your result is wrong for parallel segments side by side. They have many "
+            "closest pairs: return any one of them.",
             lambda rng: pairs.arrays(pairs.ALONGSIDE),
         ),
         HeldOut(
             "nearly-parallel",
-            "Right, but not for segments that are half a degree from parallel: they "
-            "have one closest pair as well. Is a c - b b compared with too large a "
-            "share of a c?",
+            "Your result is wrong for segments that are half a degree from parallel. "
+            "They have a single closest pair. Is a c - b b compared with too large a "
+            "fraction of a c?",
             lambda rng: pairs.arrays(pairs.NEARLY_PARALLEL),
         ),
         HeldOut(
             "point-not-handled",
-            "Right, but not where a segment is a point: its length is 0. Any share "
-            "gives that point (0 / 0 is none), and the other's, cut, is the nearest to "
-            "it.",
+            "Your result is wrong if a segment is a point, because its length is 0. "
+            "Avoid 0 / 0: use any value of its parameter, then clamp the parameter "
+            "of the other segment.",
             lambda rng: pairs.arrays(pairs.POINTS),
         ),
         HeldOut(
             "size-absolute",
-            "Right in metres, but not in millimetres: a c - b b is in metres to the "
-            "fourth power, a c sin^2. Compare it with a c and not with a number.",
+            "Your result is correct for lengths in metres, but not in millimetres. "
+            "The unit of a c - b b is a length to the fourth power: compare it with a "
+            "fraction of a c, not with a constant.",
             lambda rng: [
                 tuple(0.002 * x for x in pairs.segments(rng, one))
                 for one in ("inside", "an end", "inside", "an end")
@@ -70,85 +71,87 @@ def _(rng):
 
 @row.wrongs
 def _(a0, a1, b0, b1):
-    """not-clamped: s and t are those of the lines: they are not cut to 0..1, so the
-      points may lie beyond the ends
-    clamped-apart: s and t of the lines are cut, each for itself; where one is cut the
-      other is not the best any more => both of the lines, cut
-    s-not-again: s is not found again after t was cut; the best s depends on t => s cut,
-      then t for it, cut, and no more
-    s-not-again 2: t is not found again after s was cut; the best t depends on s => t of
-      the lines, cut, and s for it, cut
-    s-not-again 3: t is not found again after s was cut last; the best t depends on s =>
-      t of the lines, cut, s for it, cut, and t left
-    t-not-cut: t is cut nowhere: its point may lie beyond an end
-    s-not-cut: s is cut nowhere: its point may lie beyond an end
-    cut-below-only: they are kept above 0, and not below 1 => with max(x, 0)
-    cut-above-only: they are kept below 1, and not above 0 => with min(x, 1)
-    ends-only: one of the points is always an end; where segments cross, both may lie
-      inside => the nearest end of one to the other
-    end-pairs: both points are ends; the closest ones may lie inside => the nearest ends
-    end-pairs 2: the first's closest end is right only where an end is closest => the
-      first's nearest end and the second's best point
-    w-sign: w points the other way: it is from the second's start to the first's, a0 -
-      b0 => with b0 - a0
-    d-and-e-swapped: d and e are swapped: d = u . w goes with the first
-    numerator-sign: the sign of s is the other one: s = (b e - c d) / (a c - b b) =>
-      with c d - b e
-    b-sign: the sign of b is the other one: the slopes are a s - b t + d and b s - c t +
-      e => with -b
-    b-not-squared: a c - b is divided by; it is a c - b b
-    across-plus: a c + b b is divided by; it is a c - b b, which is 0 where they are
-      parallel
-    across-of-lengths: a c is divided by: that is for segments at a right angle, b = 0
-    b-forgotten: b is missing in t: t = (b s + e) / c => with (s + e) / c
-    t-sign: e enters t with the wrong sign: t = (b s + e) / c => with -e
-    t-by-a: t is divided by a; it is c, the second's length squared => (b s + e) / a
-    d-sign-last: d enters the last s with the wrong sign: s = (b t - d) / a
-    swapped-to-s: t is taken for s and s for t
-    points-swapped: the second's point comes first
-    middles: these are their middles
-    starts: these are their first ends
-    same-share: s and t are the same; each has its own => t = s
-    shares: these are not points: each is s u and t v, without the end it starts from
-    beyond-the-ends: s and t are counted from the starts, and the points from the ends
-      => a1 + s u and b1 + t v
-    t-from-the-end: t is counted from b1; it is from b0
-    s-from-the-end: s is counted from a1; it is from a0
-    unit-directions: u and v are made unit vectors, so s and t are metres, and are cut
-      to 1 all the same => with unit vectors
-    nearest-to-the-middle: the first's point is the nearest to the second's middle, and
-      the second's is that middle
-    sampled: only some points of each are tried, as by linspace; the closest ones lie
+    """not-clamped: s and t are not clamped to 0..1, so the points can lie beyond the
+      ends of the segments
+    clamped-apart: s and t are clamped independently; after one of them is clamped, the
+      best value of the other changes
+    s-not-again: s is not recomputed after t was clamped; the best s depends on t => a
+      clamped s and then a clamped t
+    s-not-again 2: t is not recomputed after s was clamped; the best t depends on s => a
+      clamped t and then a clamped s
+    s-not-again 3: t is not recomputed after the last clamp of s; the best t depends on
+      s => a clamped t, a clamped s and the first t
+    t-not-cut: t is never clamped, so its point can lie beyond an end
+    s-not-cut: s is never clamped, so its point can lie beyond an end
+    cut-below-only: s and t are clamped at 0 but not at 1 => the formula with max(x, 0)
+    cut-above-only: s and t are clamped at 1 but not at 0 => the formula with min(x, 1)
+    ends-only: your code assumes that one of the closest points is an end; both can lie
+      between the ends
+    end-pairs: your code returns the nearest pair of ends; the closest points can lie
+      between the ends
+    end-pairs 2: your code uses the end of the first segment that is nearest to the
+      second; the closest point can lie between the ends
+    w-sign: w has the wrong sign; it runs from the start of the second segment to the
+      start of the first, a0 - b0 => the formula with b0 - a0
+    d-and-e-swapped: d and e are swapped; d = u . w belongs to the first segment
+    numerator-sign: the numerator of s has the wrong sign; s = (b e - c d) / (a c - b b)
+      => the formula with c d - b e
+    b-sign: b has the wrong sign; the derivatives are a s - b t + d and b s - c t + e =>
+      the formula with -b
+    across-plus: the denominator is a c + b b; it should be a c - b b, which is 0 for
+      parallel segments
+    across-of-lengths: the denominator is a c, which is correct only for perpendicular
+      segments; it should be a c - b b
+    swapped-to-s: s and t are exchanged
+    points-swapped: the point of the second segment comes first; return the point of the
+      first segment first
+    middles: your code returns the midpoints of the segments
+    starts: your code returns the starts of the segments
+    same-share: t is set equal to s; each segment has its own parameter
+    shares: your code returns s u and t v; add the starts a0 and b0
+    beyond-the-ends: the points are measured from a1 and b1; s and t are measured from
+      a0 and b0
+    t-from-the-end: t is measured from b1; measure it from b0
+    s-from-the-end: s is measured from a1; measure it from a0
+    unit-directions: u and v are normalised, so s and t are in metres, but they are
+      clamped to 0..1 => the formula with unit vectors
+    nearest-to-the-middle: your code returns the midpoint of the second segment and the
+      point of the first that is nearest to it
+    sampled: your code tests only some points of each segment; the closest points lie
       between them => the best of 11 x 11 points
-    sampled 2: only some points of each are tried, as by linspace; the closest ones lie
+    sampled 2: your code tests only some points of each segment; the closest points lie
       between them => the best of 101 x 101 points
-    sampled 3: only some points of each are tried, as by linspace; the closest ones lie
+    sampled 3: your code tests only some points of each segment; the closest points lie
       between them => the best of 21 x 21 points
-    ends-where-cut: the lines' s and t count only if both lie within 0..1; else the
-      nearest two ends are taken, and one may be nearest to the other's inside
-    ends-where-cut 2: the lines' s and t count only if both lie within 0..1; else the
-      nearest end of the first is taken: it may be one of the second => with its ends
-      alone
-    ends-where-cut 3: the lines' s and t count only if both lie within 0..1; else the
-      nearest end of the second is taken: it may be one of the first => with its ends
-      alone
-    start-where-cut: the lines' s and t count only if both lie within 0..1; else s is 0
-      here => s = 0, and t for it
-    start-where-cut 2: an s beyond 0..1 is made 0; beyond 1 it is to be 1
-    start-where-cut 3: an s beyond 0..1 is made 0.5, and then t and s are found once
-    start-where-cut 4: s and t beyond 0..1 are made 0; beyond 1 they are to be 1
-    one-end-cut: s is found again where t is below 0, and not where it is beyond 1
-    one-end-cut 2: s is found again where t is beyond 1, and not where it is below 0
-    t-one-end-cut: t is cut at 1 and not at 0, so its point may lie before b0
-    t-one-end-cut 2: t is cut at 0 and not at 1, so its point may lie beyond b1
-    a-start-alone: the first's start is taken, and the second's nearest point to it
-    a-middle-alone: the first's middle is taken, and the second's nearest point to it
-    farthest: of the pairs with an end, and that of the lines, the farthest is taken
-    one-round: s starts at 0, and t and s are found in turn only once; that is not the
-      best yet => one round from s = 0
-    one-round 2: s starts at 0.5, and t and s are found in turn only once; that is not
-      the best yet => one round from s = 0.5
-    difference: the one's point less the other's stands in both rows
+    ends-where-cut: where s or t of the lines lies outside 0..1, your code returns the
+      nearest pair of ends; one of the closest points can still lie between the ends
+    ends-where-cut 2: where s or t of the lines lies outside 0..1, your code tests only
+      the ends of the first segment; test the ends of the second too => the formula with
+      its ends alone
+    ends-where-cut 3: where s or t of the lines lies outside 0..1, your code tests only
+      the ends of the second segment; test the ends of the first too => the formula with
+      its ends alone
+    start-where-cut: where s or t of the lines lies outside 0..1, your code sets s to 0;
+      clamp s instead
+    start-where-cut 2: an s outside 0..1 is set to 0; an s above 1 should become 1
+    start-where-cut 3: an s outside 0..1 is set to 0.5; clamp it instead
+    start-where-cut 4: s and t outside 0..1 are set to 0; a value above 1 should become
+      1
+    one-end-cut: s is recomputed where t is below 0, but not where t is above 1
+    one-end-cut 2: s is recomputed where t is above 1, but not where t is below 0
+    t-one-end-cut: t is clamped at 1 but not at 0, so its point can lie before b0
+    t-one-end-cut 2: t is clamped at 0 but not at 1, so its point can lie beyond b1
+    a-start-alone: your code returns the start of the first segment and the point of the
+      second that is nearest to it
+    a-middle-alone: your code returns the midpoint of the first segment and the point of
+      the second that is nearest to it
+    farthest: your code selects the farthest of the candidate pairs; select the nearest
+    one-round: your code sets s = 0 and then computes t and s only once; this does not
+      reach the minimum => one round from s = 0
+    one-round 2: your code sets s = 0.5 and then computes t and s only once; this does
+      not reach the minimum => one round from s = 0.5
+    difference: both rows contain the difference of the two points; return the points
+      themselves
     """
     u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
     right = thrice(a, b, c, d, e)
@@ -253,19 +256,8 @@ def _(a0, a1, b0, b1):
         "d-and-e-swapped": lambda: at(*thrice(a, b, c, e, d)),
         "numerator-sign": lambda: at(*thrice(a, b, c, d, e, -plain[0])),
         "b-sign": lambda: at(*thrice(a, -b, c, d, e)),
-        "b-not-squared": lambda: through(a * c - b),
         "across-plus": lambda: through(a * c + b * b),
         "across-of-lengths": lambda: through(a * c),
-        "b-forgotten": lambda: at(
-            cut((b * cut((s1 + e) / c) - d) / a), cut((s1 + e) / c)
-        ),
-        "t-sign": lambda: at(
-            cut((b * cut((b * s1 - e) / c) - d) / a), cut((b * s1 - e) / c)
-        ),
-        "t-by-a": lambda: at(
-            cut((b * cut((b * s1 + e) / a) - d) / a), cut((b * s1 + e) / a)
-        ),
-        "d-sign-last": lambda: at(cut((b * t1 + d) / a), t1),
         "swapped-to-s": lambda: at(right[1], right[0]),
         "points-swapped": lambda: np.array([o, p]),
         "middles": lambda: np.array([(a0 + a1) / 2, middle]),
@@ -351,13 +343,13 @@ def least_angle(share):
 
 
 ALIKE = (
-    "segments that differ by a few degrees count as parallel; "
-    "they have one closest pair"
+    "your code treats segments that differ by a few degrees as parallel; "
+    "they have a single closest pair"
 )
 SELDOM = "hardly a pair in a run is so nearly parallel"
 row.wrong("nearly-parallel", hidden=SELDOM)(least_angle(1e-3))
 for share in (0.02, 0.05, 0.1):
-    what = f"parallel up to a c - b b = {share:g} a c"
+    what = f"a limit of {share:g} a c for a c - b b"
     row.wrong("nearly-parallel", ALIKE, what, SELDOM)(least_angle(share))
 
 
@@ -376,7 +368,8 @@ def rounds(n, start):
 
 
 FEW = (
-    "t and s are found in turn a few times only; each time they come nearer to the best"
+    "your code alternates between t and s, but stops after too few rounds; "
+    "each round only comes nearer to the minimum"
 )
 for n in (2, 3, 4, 5, 10):
     for start in (0.0, 0.5):

@@ -60,14 +60,14 @@ def signs(*wanted):
 
 ELSE = {
     "links that touch or overlap": in_phase("contact"),
-    "arms that do not move": in_phase("rest"),
-    "steps that reach the end of the path": in_phase("end"),
+    "motions of length 0": in_phase("rest"),
+    "steps that reach the end of the motion": in_phase("end"),
 }
-row.cases({"steps that stay on the path": in_phase("step"), **ELSE})
+row.cases({"steps that end before the end of the motion": in_phase("step"), **ELSE})
 row.cases({
-    "steps in which joints move forwards only": signs(1),
-    "steps in which joints move backwards only": signs(-1),
-    "steps in which joints move in both directions": signs(1, -1),
+    "steps with positive entries of delta_q only": signs(1),
+    "steps with negative entries of delta_q only": signs(-1),
+    "steps with entries of delta_q of both signs": signs(1, -1),
     **ELSE,
 })  # fmt: skip
 row.cases({
@@ -111,67 +111,77 @@ def _(rng):
     hidden={"still-before-touching": "in a run nothing is still where it touches"}
 )
 def _(s, distance, delta_q, radii):
-    """no-bound: the distance itself is taken for a share of the way: metres are not s
-      => s + distance
-    signs-kept: the joints' signs are kept, so turns cancel; the farthest point may move
-      by the sum of their sizes => with delta_q for |delta_q|
-    signs-kept 2: the sum is taken before the size, so turns cancel => |delta_q . radii|
-    fastest-joint-only: only the joint that moves most counts; what all do adds up =>
-      the largest |delta_q_i| radii_i
-    fastest-joint-only 2: only the largest |delta_q| counts => largest |delta_q| x
-      largest radius
-    norm-of-dq: the length of delta_q times the largest radius is no bound: seven turns
+    """no-bound: your code adds the distance in metres to s; divide it by the bound on
+      the motion per unit of s first => s + distance
+    signs-kept: the sum keeps the signs of delta_q, so opposite rotations cancel; take
+      absolute values => the formula with delta_q instead of |delta_q|
+    signs-kept 2: the absolute value is taken after the sum, so opposite rotations
+      cancel; take it for each joint => |delta_q . radii|
+    fastest-joint-only: your bound uses only the largest product; the motions of all
+      joints add up => the largest |delta_q_i| radii_i
+    fastest-joint-only 2: your bound uses only the largest |delta_q|; the motions of all
+      joints add up => the largest |delta_q| times the largest radius
+    norm-of-dq: the norm of delta_q times the largest radius is not an upper bound; add
+      |delta_q_i| radii_i over all joints
+    norm-of-products: your code takes the norm of the products |delta_q_i| radii_i; take
+      their sum
+    norm-of-products 2: your code multiplies the norm of delta_q by the norm of radii;
+      add the products |delta_q_i| radii_i
+    largest-reach: your code uses the largest radius for every joint, which is safe but
+      not the bound in the task
+    reach-forgotten: the radii are missing; a rotation in radians becomes a distance
+      only when multiplied by a radius => the distance divided by the sum of |delta_q|
+    dq-forgotten: delta_q is missing in the bound => the distance divided by the sum of
+      the radii
+    of-what-is-left: the step is multiplied by 1 - s; delta_q belongs to the whole
+      motion, so this factor is wrong
+    of-what-is-left 2: the step is divided by 1 - s; delta_q belongs to the whole
+      motion, so this factor is wrong
+    half-a-step: the step is half as long as the bound allows
+    twice-a-step: the step is twice as long as the bound allows
+    multiplied: the distance is multiplied by the bound; divide by it, because a faster
+      motion needs a shorter step
+    s-forgotten: your code returns the step alone; add it to s
+    not-capped: the result can exceed 1, the end of the motion
+    standing-still: if no joint moves, your code divides by 0; return 1, because the
+      rest of the motion is free
+    standing-still 2: if no joint moves, your code returns s; return 1, because the rest
+      of the motion is free
+    goes-back-inside: if the arm already touches, your code moves back; return s itself
+      => s - |d| / bound
+    goes-on-inside: if the arm already touches, your code moves on; return s itself =>
+      the formula with |d|
+    stops-inside: if the arm already touches, your code returns 1; return s itself
+    stops-inside 2: if the arm already touches, your code returns 0; return s itself
+    still-before-touching: your code tests for a motion of 0 before it tests for
+      contact; an arm that touches should return s even if it does not move
+    reach-backwards: the radii are in reverse order; the first radius belongs to joint 1
+    reaches-summed: your code multiplies the sum of |delta_q| by the sum of the radii;
+      each joint has its own radius
+    reaches-summed 2: your code multiplies the largest |delta_q| by the sum of the
+      radii; each joint has its own radius
+    reaches-summed 3: your code multiplies the norm of delta_q by the sum of the radii;
+      each joint has its own radius
+    one-direction: negative entries of delta_q are treated as 0; rotations in both
+      directions move the arm
+    one-left-out: the last joint is missing in the sum
+    one-left-out 2: the first joint is missing in the sum
+    chord: your code uses the chord 2 sin(delta_q / 2); a point moves along the arc,
+      which is longer
+    mean-of-joints: your bound is the mean over the joints; the motions of all joints
       add up
-    norm-of-products: the length of |delta_q| radii is taken, not the sum
-    norm-of-products 2: the length of delta_q times that of radii is taken, not the sum
-    first-reach: every joint is given the first one's radius
-    largest-reach: every joint is given the largest radius: safe, and not the bound that
-      is asked for
-    mean-reach: every joint is given the mean radius
-    reach-forgotten: the radius is missing: a turn is in radians => / sum |delta_q|
-    dq-forgotten: how far each joint turns is missing => / sum radii
-    of-what-is-left: delta_q is that of the whole way; it is taken for what is left
-      after s => times 1 - s
-    of-what-is-left 2: delta_q is taken times what is left after s; the bound is that of
-      the whole way
-    half-a-step: only half of the free way is gone
-    twice-a-step: twice the free way is gone
-    multiplied: the distance is multiplied by what may move; a fast arm has to be looked
-      at sooner => distance times the sum
-    s-forgotten: this is the step alone; s is to be added
-    not-capped: it may go beyond the end of the way, which is 1
-    standing-still: where nothing moves it divides by 0; the way's end is free: 1
-    standing-still 2: where nothing moves it stays; the way's end is free: 1 => s there
-    goes-back-inside: where it touches it goes back; s itself is asked for => s - |d| /
-      speed
-    goes-on-inside: where it touches it goes on; s itself is asked for => with |d|
-    stops-inside: where it touches it goes to the end
-    stops-inside 2: where it touches it is 0
-    still-before-touching: that nothing moves is asked first; where it touches it is s,
-      whether it moves or not => 1 there
-    reach-backwards: the radii are counted from the tip: joint 1 has the last one's
-    last-reach: every joint is given the last one's radius
-    reaches-summed: the radii are added, and the turns; each turn has its own radius =>
-      sum |delta_q| times sum radii
-    reaches-summed 2: the largest turn is taken with all radii; each has its own
-    reaches-summed 3: the length of delta_q is taken with all radii; each has its own
-    one-direction: only joints that turn forwards count; others move it as well =>
-      delta_q above 0
-    one-left-out: the last joint is left out
-    one-left-out 2: the first joint is left out
-    turn-squared: |delta_q| is squared
-    reach-squared: radius is squared
-    chord: the chord of each turn is taken, 2 sin(delta_q / 2); a point goes along the
-      arc
-    mean-of-joints: it is the mean over the joints; what all do adds up
-    step-capped: the step is cut to 1, and s + step may be beyond the end => s + min(1,
-      step)
-    step-capped 2: s is taken off the end and not added to the step => min(1 - s, step)
-    max-for-min: max stands for min: it is always 1 or more
-    shares-summed: the steps that each joint alone allows are added
-    careful: a part of the free way is gone alone, for safety => 0.9
-    careful 2: a part of the free way is gone alone, for safety => 0.95
-    time: this is the number of steps, 1 / step
+    step-capped: the step is limited to 1, but s plus the step can exceed 1; limit the
+      sum => s + min(1, step)
+    step-capped 2: your code returns the smaller of 1 - s and the step; return the
+      smaller of 1 and s + step => min(1 - s, step)
+    max-for-min: max is used instead of min, so the result is never below 1
+    shares-summed: your code adds the steps that each joint alone would allow; add the
+      motions first, then divide
+    careful: your code uses only a part of the step that the bound allows => 0.9 of this
+      step
+    careful 2: your code uses only a part of the step that the bound allows => 0.95 of
+      this step
+    time: your code returns the number of steps, 1 / step
     """
     speed = np.abs(delta_q) @ radii
     inside = distance <= 0
@@ -197,15 +207,12 @@ def _(s, distance, delta_q, radii):
     return {
         "still-before-touching": 1.0 if still else s if inside else plain(),
         "reach-backwards": by(turns @ radii[::-1]),
-        "last-reach": by(turns.sum() * radii[-1]),
         "reaches-summed": by(turns.sum() * radii.sum()),
         "reaches-summed 2": by(turns.max() * radii.sum()),
         "reaches-summed 3": by(np.linalg.norm(delta_q) * radii.sum()),
         "one-direction": by(np.maximum(delta_q, 0) @ radii),
         "one-left-out": by(turns[:-1] @ radii[:-1]),
         "one-left-out 2": by(turns[1:] @ radii[1:]),
-        "turn-squared": by(turns**2 @ radii),
-        "reach-squared": by(turns @ radii**2),
         "chord": by(2 * np.abs(np.sin(delta_q / 2)) @ radii),
         "mean-of-joints": by(np.mean(turns * radii)),
         "step-capped": lambda: s if inside else 1.0 if still else
@@ -225,9 +232,7 @@ def _(s, distance, delta_q, radii):
         "norm-of-dq": by(np.linalg.norm(delta_q) * radii.max()),
         "norm-of-products": by(np.linalg.norm(delta_q * radii)),
         "norm-of-products 2": by(np.linalg.norm(delta_q) * np.linalg.norm(radii)),
-        "first-reach": by(np.abs(delta_q).sum() * radii[0]),
         "largest-reach": by(np.abs(delta_q).sum() * radii.max()),
-        "mean-reach": by(np.abs(delta_q).sum() * radii.mean()),
         "reach-forgotten": by(np.abs(delta_q).sum()),
         "dq-forgotten": by(radii.sum()),
         "of-what-is-left": lambda: gone(distance / speed * (1 - s)),
@@ -251,8 +256,8 @@ def _(s, distance, delta_q, radii):
 
 @row.wrong
 def far_is_free(s, distance, delta_q, radii):
-    """far away, over half a metre, the rest of the way is taken for free; a long way
-    can use up any distance => 1 where the distance is over 0.5"""
+    """if the distance is more than half a metre, your code returns 1; a long motion
+    can use up any distance => 1 where the distance is above 0.5"""
     if distance <= 0:
         return s
     speed = np.abs(delta_q) @ radii
@@ -263,7 +268,7 @@ row.same("first delta_q = np.abs(delta_q)", "it takes the size anyway")
 STILL = "return min(1.0, s + distance / speed) if speed > {} else 1.0"
 row.same(f"{STILL.format('0')} => {STILL.format('-0.001 + 0')}", "x / 0. is infinite")
 row.same("first distance = np.maximum(distance, 0)", "0 is s as well")
-row.at_least_0(s="a share", radii="a length", answer="a share")
+row.at_least_0(s="a fraction", radii="a length", answer="a fraction")
 
 
 @row.right  # By a loop.

@@ -30,7 +30,7 @@ row.cases({
     "arms whose farthest point is on the first link": (
         lambda *call: farthest(*call) == 0
     ),
-    "arms whose farthest point is on a link between": (
+    "arms whose farthest point is on a link between them": (
         lambda *call: 0 < farthest(*call) < len(call[0]) - 1
     ),
     "arms whose farthest point is on the last link": (
@@ -57,79 +57,87 @@ def _(rng):
 
 @row.wrongs
 def _(link_lengths, link_radii):
-    """to-the-tip-only: only the last link counts; one before it may have a point that
-      is farther => all link lengths, and link radius of the last
-    own-link-only: only the joint's own link counts; what is behind it is carried along
-      => link radius
-    next-only: it ends at the next link => the larger of link radius and link length +
-      link radius of the next
-    from-the-base: it is how far from the base each link is; it is how far from joint i
-      what is behind it is => link lengths before it + link radius
-    offset-one-late: the link length is the next joint's: link_lengths[i] is from link i
-      to the next => with link_lengths[i + 1]
-    offset-of-the-last: the last link's link length is added; nothing is behind it => +
-      link lengths of the last
-    offset-of-the-last 2: the last link's link length counts as one more point; nothing
-      is behind it => the larger of link radius and link length for the last
-    offset-to-its-own: the link length is added to the joint's own link radius, too; it
-      leads to the next joint => link length + the larger of link radius and the radius
-      behind
-    far-forgotten: only the link lengths are added: the links have a size of their own
-    offsets-forgotten: the link lengths are missing: this is the largest link radius
-      behind it
-    all-summed: the link radius of all links behind it is added up; only one point is
-      the farthest => link lengths and all link radii
-    largest-far: the largest link radius of all stands at the end of the link lengths;
-      it belongs to its own link
-    least: it is the least; a bound is the largest
-    not-in-a-row: what is behind the next link is forgotten: its radius is meant, not
-      its link radius
-    euclid: lengths are added as the sides of a right angle; stretched out they are in a
-      row => root of the squares
-    one-for-all: it is the largest of all for every joint
-    backwards: it is from the tip to the base
-    sum-from-the-base: link lengths are summed from the base to the joint, and link
-      radius is added
-    far-of-its-own: the link lengths end at the last link, and the link radius is the
-      joint's own link's => link lengths behind it + its own link radius
-    far-of-its-own 2: the link lengths end at the last link, and the link radius is the
-      joint's own link's => all link lengths behind it + its own link radius
-    forwards: it goes from the base outwards: what is behind a joint is on the other
-      side => the larger of link radius and the link length before + the radius before
-    less-the-base: the farthest point of the whole arm is measured from each joint; what
-      is before a joint is not behind it => the largest of all, less the link lengths
-      before
-    less-the-base 2: the farthest point behind it is measured from the base => with the
-      link lengths before it
-    largest-far-behind: the largest link radius behind it stands at the last link; it
-      belongs to its own link => all link lengths, and the largest link radius
-    largest-far-behind 2: the largest link radius behind the next joint stands at the
+    """to-the-tip-only: your bound uses only the last link; a point on an earlier link
+      can be farther away => the sum of the link lengths plus the radius of the last
+      link
+    own-link-only: your bound uses only the joint's own link; the joint also moves the
+      distal links
+    next-only: your bound stops at the next link; use the result for the next joint =>
+      the larger of the link radius and link length + next link radius
+    from-the-base: your code measures from the base; measure from joint i to the links
+      distal to it => the sum of the link lengths before it + link radius
+    offset-one-late: the link length of the next joint is used; link_lengths[i] is the
+      distance from link i to the next link => the formula with link_lengths[i + 1]
+    offset-of-the-last: the length of the last link is added; no link follows it
+    offset-of-the-last 2: the length of the last link is used as a radius; no link
+      follows it
+    offset-to-its-own: the link length is also added to the joint's own link radius; it
+      belongs only to the distal links
+    far-forgotten: your code adds only the link lengths; include the link radii
+    offsets-forgotten: the link lengths are missing, so the result is the largest link
+      radius
+    all-summed: your code adds the radii of all distal links; only one point is the
+      farthest => the sum of all link lengths and all link radii
+    largest-far: the largest link radius is used at the end of the arm; it belongs to
+      its own link
+    least: your code takes the smallest distance; an upper bound is the largest
+    not-in-a-row: the links beyond the next one are missing; use the result for the next
+      joint, not its link radius
+    euclid: the lengths are combined as the root of a sum of squares; in the stretched
+      arm they add up
+    one-for-all: your code returns the largest result for every joint; each joint has
+      its own
+    backwards: the result is in reverse order; its first entry belongs to joint 1
+    sum-from-the-base: the link lengths are summed from the base to the joint; sum them
+      from the joint to the distal link
+    far-of-its-own: the sum of all distal link lengths is combined with the radius of
+      the joint's own link
+    far-of-its-own 2: the sum of all distal link lengths is combined with the radius of
+      the joint's own link
+    forwards: your code works from the base outwards; start at the last joint, because a
+      joint moves the links distal to it => the larger of the link radius and the length
+      before + the result before
+    less-the-base: your code uses the farthest point of the whole arm for every joint;
+      only the links distal to the joint matter => the overall maximum minus the link
+      lengths before the joint
+    less-the-base 2: the farthest distal point is measured from the base; measure it
+      from the joint => the formula with the link lengths before it
+    largest-far-behind: the largest distal link radius is placed at the last link; it
+      belongs to its own link => the sum of the link lengths plus the largest link
+      radius
+    largest-far-behind 2: the largest link radius beyond the next joint is placed at the
       last link; it belongs to its own link
-    own-offset-repeated: the joint's own link length is added once for each link; each
-      link has its own => with link_lengths[i] for all
-    offset-of-the-one-before: the link length is the previous joint's: link_lengths[i]
-      is from link i to the next => with link_lengths[i - 1]
-    far-of-the-next: link radius is the next link's, its own is forgotten => the larger
-      of link radius of the next and link length + radius of the next
-    own-left-out: its own link is left out: what is farthest may be on it
-    own-or-tip: only its own link and the last one count; one between may be farther
-    two-behind-only: only the next two links count
-    sum-not-largest: link radius is added to the larger of link length and radius; the
-      larger is to be taken of link radius, and of both others together
-    largest-of-three: the largest of link radius, link length and the next one's radius
-      is taken; the last two are added
-    largest-far-next: the largest link radius is added to the link length; each link has
-      its own => the larger of link radius and link length + largest link radius
-    mean-not-largest: it is the mean over the links behind it; a bound is the largest
-    offsets-alone: the larger of link radius and all link lengths behind it is taken
-    last-link-forgotten: the last link's link radius is 0
-    last-link-forgotten 2: the last link is not looked at => without link radius of the
-      last
-    offsets-to-the-end: all link lengths behind it, the last one's too, and link radius
-      of the last
-    offset-too-early: the link length after a link is added before its link radius =>
-      link_lengths[i] to link_lengths[j] + link_radii[j]
-    far-twice: its own link radius and that of the farthest are added
+    own-offset-repeated: the joint's own link length is repeated for every distal link;
+      each link has its own length => the formula with link_lengths[i] for all
+    offset-of-the-one-before: the link length of the previous joint is used;
+      link_lengths[i] is the distance from link i to the next link => the formula with
+      link_lengths[i - 1]
+    far-of-the-next: the radius of the next link is used instead of the joint's own link
+      radius => the larger of the next link radius and link length + next result
+    own-left-out: the joint's own link is missing; the farthest point can be on it
+    own-or-tip: your bound uses only the joint's own link and the last link; a point
+      between them can be farther away
+    two-behind-only: your bound uses only the next two links
+    sum-not-largest: the link radius is added to the maximum of the link length and the
+      next result; take the maximum of the link radius and their sum
+    largest-of-three: your code takes the maximum of the link radius, the link length
+      and the next result; add the last two first
+    largest-far-next: the largest link radius is added to the link length; add the
+      result for the next joint => the larger of the link radius and link length +
+      largest link radius
+    mean-not-largest: your code takes the mean over the distal links; an upper bound is
+      the maximum
+    offsets-alone: your code takes the maximum of the link radius and the sum of the
+      link lengths; add the distal radii to the lengths
+    last-link-forgotten: the radius of the last link is treated as 0
+    last-link-forgotten 2: the last link is missing => the formula without the radius of
+      the last link
+    offsets-to-the-end: your code adds all link lengths, including the last one, and the
+      radius of the last link; no link follows the last one
+    offset-too-early: the link length after a link is added before its radius; it
+      belongs to the next link
+    far-twice: the joint's own link radius and the radius of the farthest link are both
+      added; only one point is the farthest
     """
     n = len(link_radii)
     right = distal_radii(link_lengths, link_radii)

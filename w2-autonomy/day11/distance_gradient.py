@@ -81,49 +81,58 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, p, o, link):
-    """towards-the-obstacle: its signs are the other way round: the distance grows along
-      p - o => with o - p
-    columns-behind-kept: the joints behind the link move nothing of it: their entries
-      are 0 => with all columns
-    own-joint-left-out: the link's own joint counts, too: link 4 is moved by joint 4 =>
-      with 0 from joint `link` on
-    one-column-too-many: joint `link` + 1 moves what is behind this link => one column
-      more
-    from-the-link-on: what is kept are the link's own joint and those behind it; they
-      are the last to move it => from joint `link` on
-    first-joint-left-out: joint 1 moves every link: its entry is 0 here => from joint 2
-    own-joint-only: every joint before the link moves it, too; this keeps the link's own
-    columns-before-dropped: what is kept are the joints behind the link => 0 before it
-    rotation-forgotten: v alone is the velocity of the point at the world's origin; p's
-      is v + omega x p (a lever p - o is along n, and gives nothing) => n . v
-    rotation-only: v is missing: the velocity of p is v + omega x p => n . omega x p
-    cross-the-other-way: the cross product is the other way round: v + omega x p => with
-      p x omega
-    normal-not-unit: the normal is not of length 1, so all comes times the distance
-      => with p - o
-    normal-squared: it is divided by the distance squared
-    half: it is half of that, as from the square's slope
-    normal-of-p: the normal points from the world's origin to p; it is from o to p =>
-      with p / |p|
-    normal-of-o: the normal is o's direction from the world's origin
-    only-along-z: only the height counts
-    not-projected: these are the speeds of p, and not how much of each is along n
-    size-only: its sign is lost: some joints come nearer => the absolute values
-    parts-added: |x| + |y| + |z| of p - o is taken for its length
-    largest-part: the largest of |x|, |y| and |z| of p - o is taken for its length
-    two-directions: p and o are made unit vectors, each alone; it is their difference
-      that is => p / |p| - o / |o|
-    parts-summed: the sizes of the velocity's parts are added; only what is along n
-      counts
-    summed-up: each entry has those before it added => the cumulative sum
-    one-place-early: each entry stands at the joint before its own; joint 1's is the
-      first
-    one-place-late: each entry stands at the joint behind its own; joint 1's is the
-      first
-    backwards: the joints are in the reverse order => joint 7 first
-    backwards 2: the link's joints are in the reverse order => its own first
-    own-length: all entries together are made a unit vector
-    of-the-square: this is the slope of the distance squared, 2 d d'
+    """towards-the-obstacle: the signs are reversed; the distance grows along p - o =>
+      the formula with o - p
+    columns-behind-kept: joints distal to the link do not move it, so their entries must
+      be 0 => the formula with all columns
+    own-joint-left-out: the entry of the link's own joint is 0; link 4 is moved by
+      joints 1 to 4 => the formula with 0 from joint `link` on
+    one-column-too-many: the entry of joint `link` + 1 is not 0; this joint moves only
+      distal links
+    from-the-link-on: your code keeps the link's own joint and the joints distal to it;
+      keep the joints up to the link
+    first-joint-left-out: the entry of joint 1 is 0; joint 1 moves every link
+    own-joint-only: only the entry of the link's own joint is not 0; every joint up to
+      the link moves it
+    columns-before-dropped: your code keeps the joints distal to the link; keep the
+      joints up to the link
+    rotation-forgotten: omega x p is missing; v alone is the velocity of the point at
+      the world origin => n . v
+    rotation-only: v is missing; the velocity of p is v + omega x p => n . omega x p
+    cross-the-other-way: the cross product has the wrong order; the velocity of p is v +
+      omega x p => the formula with p x omega
+    normal-not-unit: the normal is not normalised, so the result is multiplied by the
+      distance => the formula with p - o
+    normal-squared: the normal is divided by the squared distance; divide by the
+      distance
+    half: the result has a factor 1/2 too many
+    normal-of-p: the normal points from the world origin to p; it should point from o to
+      p => the formula with p / |p|
+    normal-of-o: the normal points from the world origin to o; it should point from o to
+      p
+    only-along-z: only the z component is used; project the velocity on the normal
+    not-projected: your code returns the speed of p; return the component of the
+      velocity along the normal
+    size-only: the absolute values are returned; a negative entry means that the
+      distance falls
+    parts-added: the normal is divided by the sum of the components' absolute values;
+      divide by the norm of p - o
+    largest-part: the normal is divided by the largest component; divide by the norm of
+      p - o
+    two-directions: p and o are normalised separately; normalise their difference => p /
+      |p| - o / |o|
+    parts-summed: the absolute values of the velocity components are added; project the
+      velocity on the normal
+    summed-up: the entries are cumulative sums; each entry belongs to one joint
+    one-place-early: each entry is one position too early; the first entry belongs to
+      joint 1
+    one-place-late: each entry is one position too late; the first entry belongs to
+      joint 1
+    backwards: the joints are in reverse order
+    backwards 2: the joints up to the link are in reverse order
+    own-length: the result is normalised; return the gradient itself
+    of-the-square: your code returns the gradient of the squared distance, 2 d times the
+      gradient of d
     """
     n = (p - o) / np.linalg.norm(p - o)
     w, v = J_space[:3].T, J_space[3:].T

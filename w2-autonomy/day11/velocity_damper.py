@@ -60,15 +60,15 @@ def in_phase(wanted):
 
 row.cases({
     "velocities that are allowed": in_phase("allowed"),
-    "velocities that are too fast, without overlap": in_phase("fast"),
-    "velocities that are too fast, with overlap": in_phase("inside"),
+    "velocities that are too fast, at a positive distance": in_phase("fast"),
+    "velocities that are too fast, at a distance of 0 or less": in_phase("inside"),
     "gradients of 0": in_phase("still"),
 })  # fmt: skip
 row.cases({
-    "gradients with one entry that is not 0": (
+    "gradients with one nonzero entry": (
         lambda qd, grad, distance, gain: np.count_nonzero(grad) == 1
     ),
-    "gradients with several entries that are not 0": (
+    "gradients with several nonzero entries": (
         lambda qd, grad, distance, gain: np.count_nonzero(grad) > 1
     ),
     "gradients of 0": in_phase("still"),
@@ -110,8 +110,7 @@ MORE = (
     "left-where-it-overlaps", "no-way-out", "coming-near", "by-the-sizes", "half-of-it",
     "twice-of-it", "one-joint-only", "one-joint-only 2", "alike", "by-signs",
     "a-seventh-each", "divided-by-the-sum", "divided-by-the-largest", "divided-by-qd",
-    "those-that-come-near", "those-that-come-near 2", "gain-squared",
-    "distance-squared", "rate-added",
+    "those-that-come-near", "those-that-come-near 2", "rate-added",
 )  # fmt: skip
 
 
@@ -119,74 +118,77 @@ MORE = (
     hidden={"coming-near": "hardly a speed in a run comes near and is slow enough"}
 )
 def _(qd, grad, distance, gain):
-    """always: it is changed where nothing has to be: speeds that are allowed stay =>
-      grad . qd made -gain distance everywhere
-    not-divided: it is not divided by grad . grad => qd + grad lack
-    divided-by-the-length: it is divided by the length of grad, not its square
-    pushed-in: it is pushed nearer: the correction has the wrong sign => qd - grad lack
-      / grad^2
-    all-joints-slowed: all joints are slowed alike; only the part along the slope is too
-      fast => qd times a factor
-    all-joints-slowed 2: all joints are slowed alike; only the part along the slope is
-      too fast => qd times bound / speed
-    stops-dead: it stops where it would be too fast; the part that is allowed is lost =>
-      0
-    stops-dead 2: it stops where it would be too fast, and where the slope is 0 as well;
-      the part that is allowed is lost
-    part-removed: all of the part along the slope is taken away; coming near slowly is
-      allowed => without it
-    sign-of-the-bound: the bound has the wrong sign: it may come nearer at gain distance
-      => grad . qd >= gain distance
-    distance-sign-lost: the distance counts without its sign: where it overlaps the
-      bound is above 0, and drives it out => with |distance|
+    """always: your code changes velocities that are already allowed; return qd for them
+    not-divided: the correction is not divided by grad . grad
+    divided-by-the-length: the correction is divided by the norm of grad; divide it by
+      grad . grad
+    pushed-in: the correction has the wrong sign, so the arm moves nearer to the
+      obstacle
+    all-joints-slowed: all joints are scaled by one factor; change only the component
+      along grad
+    all-joints-slowed 2: all joints are scaled by one factor; change only the component
+      along grad => qd times the ratio of the bound to grad . qd
+    stops-dead: the arm stops if it would be too fast; keep the part of the velocity
+      that is allowed
+    stops-dead 2: the arm stops if it would be too fast, and also if grad is 0; keep the
+      part of the velocity that is allowed
+    part-removed: the whole component along grad is removed; an approach within the
+      bound is allowed => the formula without it
+    sign-of-the-bound: the bound has the wrong sign; the condition is grad . qd >= -gain
+      distance
+    distance-sign-lost: the absolute value of the distance is used; a negative distance
+      should give a positive bound, which moves the arm away => the formula with
+      |distance|
     gain-forgotten: the gain is missing in the bound
     distance-forgotten: the distance is missing in the bound
-    distance-over-gain: the distance is divided by the gain
-    wrong-side: it changes what moves away too fast and leaves what comes near => with >
-    leaving-forbidden: it may not move away faster than that either => cut on both sides
-    joint-by-joint: each joint is kept to the bound by itself; it is their sum that
-      counts
-    joint-by-joint 2: each joint speed is kept above the bound; it is a bound of metres
-      per second, of the sum => np.maximum(qd, -gain distance)
-    largest-joint-only: only the joint with the largest slope is changed; nearest is all
-      of them, along the grad
-    slope-unit: the slope is made a unit vector before the bound: that is another speed
-    only-inside: it is slowed only where it overlaps
-    standing-still: it is 0 / 0 where the slope is 0; then nothing can be changed
-    part-alone: what is beside the slope is lost; it makes nothing nearer, and stays =>
-      grad bound / grad^2
-    left-where-it-overlaps: where it overlaps nothing is changed; it is to be driven out
-    stopped-where-it-overlaps: where it overlaps it is 0; the part that leads out stays
-    no-way-out: below 0 the distance counts as 0: where it overlaps it is not driven out
-    coming-near: whatever comes nearer is changed; what is slow enough may => where
-      grad . qd < 0
-    by-the-sizes: what moves away too fast counts as too fast, too => with |grad . qd|
-      and |distance|
-    half-of-it: only half of what is lacking is added
-    twice-of-it: twice what is lacking is added
-    one-joint-only: only the first joint is changed; nearest is all of them, along the
-      grad
-    one-joint-only 2: only the joint that comes near fastest is changed; nearest is all
-      of them, along the grad
-    alike: all joints are given the same; each is given its part of the slope => lack /
-      sum of grad
-    by-signs: all joints are given the same size; each is given its part of the slope =>
-      sign of grad, lack / sum |grad|
-    a-seventh-each: each joint makes up a seventh; nearest is each by its part of the
-      grad
-    divided-by-the-sum: it is divided by the sum of grad, not by grad . grad
-    divided-by-the-largest: it is divided by the largest slope squared, not by grad .
-      grad
-    divided-by-qd: it is divided by qd . qd, not by grad . grad
-    those-that-come-near: only joints that come nearer are changed; nearest is all of
-      them, along the grad
-    those-that-come-near 2: joints that come nearer are stopped; the part that is
-      allowed is lost
-    gain-squared: the gain is squared in the bound
-    distance-squared: the distance is squared in the bound
-    rate-added: grad . qd is added to the bound; it is what is there already => lack =
-      -gain distance + grad . qd
-    lack-alone: this is the change alone; qd is to be added
+    distance-over-gain: the distance is divided by the gain; multiply them
+    wrong-side: the comparison is reversed, so your code changes allowed velocities and
+      keeps those that are too fast => the formula with >
+    leaving-forbidden: your code also limits velocities away from the obstacle; limit
+      only the approach
+    joint-by-joint: the bound is applied to each joint separately; it limits the sum
+      grad . qd
+    joint-by-joint 2: each joint velocity is clamped to the bound; the bound is in m/s
+      and limits the sum grad . qd => np.maximum(qd, -gain distance)
+    largest-joint-only: only the joint with the largest entry of grad is changed; the
+      smallest change is along grad
+    slope-unit: grad is normalised before it is compared with the bound; this changes
+      grad . qd
+    only-inside: your code limits the velocity only if the distance is negative
+    standing-still: if grad is 0, your code divides by 0; return qd
+    part-alone: only the component along grad is returned; keep the other components of
+      qd => grad bound / grad^2
+    left-where-it-overlaps: if the distance is not positive, your code returns qd; the
+      bound should move the arm away
+    stopped-where-it-overlaps: if the distance is not positive, your code returns 0;
+      keep the part of the velocity that leads away
+    no-way-out: a negative distance is clamped to 0, so the arm is not moved away
+    coming-near: every approach is changed; an approach within the bound is allowed
+    by-the-sizes: absolute values are compared, so a fast motion away from the obstacle
+      is changed too => the formula with |grad . qd| and |distance|
+    half-of-it: only half of the correction is added
+    twice-of-it: twice the correction is added
+    one-joint-only: only the first joint is changed; the smallest change is along grad
+    one-joint-only 2: only the joint with the fastest approach is changed; the smallest
+      change is along grad
+    alike: every joint gets the same correction; make it proportional to grad => the
+      missing speed divided by the sum of grad
+    by-signs: every joint gets a correction of the same size; make it proportional to
+      grad => the missing speed divided by the sum of |grad|, with the signs of grad,
+    a-seventh-each: each joint provides a seventh of the correction; make it
+      proportional to grad
+    divided-by-the-sum: the correction is divided by the sum of grad; divide it by grad
+      . grad
+    divided-by-the-largest: the correction is divided by the square of the largest entry
+      of grad; divide it by grad . grad
+    divided-by-qd: the correction is divided by qd . qd; divide it by grad . grad
+    those-that-come-near: only joints that approach the obstacle are changed; the
+      smallest change is along all of grad
+    those-that-come-near 2: joints that approach the obstacle are stopped; keep the part
+      of the velocity that is allowed
+    rate-added: grad . qd is added to the bound; subtract it to get the missing speed =>
+      the formula with -gain distance + grad . qd
+    lack-alone: your code returns the correction alone; add it to qd
     """
     bound = -gain * distance
     rate = grad @ qd
@@ -263,8 +265,6 @@ def _(qd, grad, distance, gain):
         "those-that-come-near": lambda: add(towards * lack / (towards @ towards)),
         "those-that-come-near 2": lambda: np.where(grad * qd < 0, 0.0, qd)
         if lack > 0 else qd.copy(),
-        "gain-squared": lambda: to(-(gain**2) * distance),
-        "distance-squared": lambda: to(-gain * distance**2),
         "rate-added": lambda: qd + grad * (bound + rate) / square
         if bound + rate > 0 else qd.copy(),
         "always": lambda: to(bound, when=True),

@@ -90,48 +90,59 @@ def _placed(how: Callable[[Any], int], more: int) -> Any:
 
 
 OPTIONS = [
-    Option("not-sorted", "a pair whose first number is the larger is left out: sort "
-           "the two rows", {"order": list}),
-    Option("not-checked", "it cuts whether the edge is free or not",
+    Option("not-sorted", "a pair whose first number is the larger is skipped; sort "
+                         "the two rows", {"order": list}),
+    Option("not-checked", "your code removes the points without testing whether the"
+                          " new edge is free",
            {"check": lambda a, b, world: True}),
-    Option("hit-for-free", "it cuts where the edge is not free",
+    Option("hit-for-free", "the test is inverted, so your code applies shortcuts "
+                           "that are blocked",
            {"check": lambda a, b, world: not edge_free(a, b, world)}),
-    Option("only-the-ends-checked", "only the two points are checked, not the edge "
-           "between them", {"check": _ends_free}),
-    Option("middle-checked", "only the middle of the edge is checked",
+    Option("only-the-ends-checked", "your code tests only the two points; test the "
+                                    "edge between them", {"check": _ends_free}),
+    Option("middle-checked", "your code tests only the midpoint of the edge; test "
+                             "the whole edge",
            {"check": _middle_free}),
-    Option("next-edge-checked", "the edge from i to the row after it is checked; it is "
-           "that from i to j", {"edge": lambda i, j: (i, i + 1)}),
-    Option("edge-before-checked", "the edge from i to the row before j is checked; "
-           "it is that from i to j", {"edge": lambda i, j: (i, j - 1)}),
-    Option("edge-before-checked", "the edge from the row before j to j is checked; it "
-           "is that from i to j", {"edge": lambda i, j: (j - 1, j)}),
-    Option("edge-of-the-start", "the edge from the path's start to j is checked; it is "
-           "that from i to j", {"edge": lambda i, j: (0, j)}),
-    Option("edge-to-the-end", "the edge from i to the path's end is checked; it is "
-           "that from i to j", {"edge": lambda i, j: (i, -1)}),
-    Option("end-to-end-checked", "the edge from the path's start to its end is "
-           "checked; it is that from i to j", {"edge": lambda i, j: (0, -1)}),
-    *(Option("indices-of-the-first-path", "a pair names rows of the path as it was at "
-             f"first{how}; it is the path as it is by then", {"fixed": fixed})
-      for fixed, how in (("mask", ""), ("clamped", ", in the path as it is by then"),
-                         ("skipped", ", in the path as it is by then, where they are "
-                          "still rows"), ("present", ", where both are still there"))),
-    *(Option(slug, f"{says}; it is int(u m)", {"places": _placed(how, more)})
+    Option("next-edge-checked", "your code tests the edge from i to i + 1; test the"
+                                " edge from i to j", {"edge": lambda i, j: (i, i + 1)}),
+    Option("edge-before-checked", "your code tests the edge from i to j - 1; test "
+                                  "the edge from i to j",
+           {"edge": lambda i, j: (i, j - 1)}),
+    Option("edge-before-checked", "your code tests the edge from j - 1 to j; test "
+                                  "the edge from i to j",
+           {"edge": lambda i, j: (j - 1, j)}),
+    Option("edge-of-the-start", "your code tests the edge from the start of the "
+                                "path to j; test the edge from i to j",
+           {"edge": lambda i, j: (0, j)}),
+    Option("edge-to-the-end", "your code tests the edge from i to the end of the "
+                              "path; test the edge from i to j",
+           {"edge": lambda i, j: (i, -1)}),
+    Option("end-to-end-checked", "your code tests the edge from the start to the "
+                                 "end of the path; test the edge from i to j",
+           {"edge": lambda i, j: (0, -1)}),
+    *(Option("indices-of-the-first-path", "the pairs refer to rows of the original "
+                                          f"path{how}; they should refer to the "
+                                          "current path", {"fixed": fixed})
+      for fixed, how in (("mask", ""), ("clamped", ", but the indices are used in "
+                                                   "the current path"),
+                         ("skipped", ", but the indices are used in the current "
+                                     "path if they still exist"),
+                         ("present", ", if both rows still exist"))),
+    *(Option(slug, f"{says}; use int(u m)", {"places": _placed(how, more)})
       for slug, says, how, more in (
-        ("rounded", "u m is rounded", round, 0),
-        ("rounded", "u (m - 1) is rounded", round, -1),
+        ("rounded", "u m is rounded to the nearest integer", round, 0),
+        ("rounded", "u (m - 1) is rounded to the nearest integer", round, -1),
         ("rounded-up", "u m is rounded up", lambda x: int(np.ceil(x)), 0),
         ("rounded-up", "u (m - 1) is rounded up", lambda x: int(np.ceil(x)), -1),
-        ("of-m-minus-one", "u is multiplied with m - 1", int, -1),
-        ("of-m-plus-one", "u is multiplied with m + 1", int, 1))),
-    Option("end-never-named", "u is multiplied with m - 1 for one row, and the other "
-           "is one further; both are int(u m)", {"places": lambda pair, m: [
+        ("of-m-minus-one", "u is multiplied by m - 1", int, -1),
+        ("of-m-plus-one", "u is multiplied by m + 1", int, 1))),
+    Option("end-never-named", "one row uses m - 1, and the other row is shifted by "
+                              "one; use int(u m) for both", {"places": lambda pair, m: [
                int(min(pair) * (m - 1)), int(max(pair) * (m - 1)) + 1]}),
-    Option("two-apart-left", "rows that are two apart are left", {"least": 2}),
-    Option("three-apart-left", "rows that are two or three apart are left",
+    Option("two-apart-left", "your code skips rows that are two apart", {"least": 2}),
+    Option("three-apart-left", "your code skips rows that are two or three apart",
            {"least": 3}),
-    Option("pairs-backwards", "the last pair comes first",
+    Option("pairs-backwards", "the pairs are used in reverse order",
            {"used": lambda pairs: pairs[::-1]}),
     Option("first-pair-left-out", "the first pair is not used",
            {"used": lambda pairs: pairs[1:]}),
@@ -141,26 +152,32 @@ OPTIONS = [
            {"used": lambda pairs: pairs[:1]}),
     Option("pairs-twice", "all pairs are used a second time",
            {"used": lambda pairs: np.concatenate([pairs, pairs])}),
-    Option("first-cut-only", "it ends with the first cut; all pairs are tried",
+    Option("first-cut-only", "your code stops after the first shortcut; try all "
+                             "pairs",
            {"ends": "cut"}),
-    Option("ends-when-blocked", "it ends with the first pair that cuts nothing; all "
-           "pairs are tried", {"ends": "blocked"}),
-    Option("one-node-short", "row j goes as well; it stays", {"join": _kept(0, 1)}),
-    Option("one-node-short", "row i goes as well; it stays", {"join": _kept(-1, 0)}),
-    Option("both-ends-short", "rows i and j go as well; they stay",
+    Option("ends-when-blocked", "your code stops at the first pair without a "
+                                "shortcut; try all pairs", {"ends": "blocked"}),
+    Option("one-node-short", "row j is removed too; keep it", {"join": _kept(0, 1)}),
+    Option("one-node-short", "row i is removed too; keep it", {"join": _kept(-1, 0)}),
+    Option("both-ends-short", "rows i and j are removed too; keep them",
            {"join": _kept(-1, 1)}),
-    Option("one-too-many", "the row before j stays; it goes", {"join": _kept(0, -1)}),
-    Option("one-too-many", "the row after i stays; it goes", {"join": _kept(1, 0)}),
-    Option("one-row-only", "only the row after i goes; all rows between i and j go",
+    Option("one-too-many", "the row before j is kept; remove it",
+           {"join": _kept(0, -1)}),
+    Option("one-too-many", "the row after i is kept; remove it", {"join": _kept(1, 0)}),
+    Option("one-row-only", "only the row after i is removed; remove all rows "
+                           "between i and j",
            {"join": lambda p, i, j: np.delete(p, i + 1, axis=0)}),
-    Option("one-row-only", "only the row before j goes; all rows between i and j go",
+    Option("one-row-only", "only the row before j is removed; remove all rows "
+                           "between i and j",
            {"join": lambda p, i, j: np.delete(p, j - 1, axis=0)}),
-    Option("middle-put-in", "the middle of the edge is put in; no point is made",
+    Option("middle-put-in", "the midpoint of the edge is inserted; do not add a "
+                            "point",
            {"join": lambda p, i, j: np.vstack([p[: i + 1], (p[i] + p[j])[None] / 2,
                                                p[j:]])}),
     Option("ends-at-i", "the path ends at i", {"join": lambda p, i, j: p[: i + 1]}),
     Option("begins-at-j", "the path begins at j", {"join": lambda p, i, j: p[j:]}),
-    Option("inside-kept", "what lies between i and j stays, and the rest goes",
+    Option("inside-kept", "your code keeps the rows between i and j and removes the"
+                          " rest",
            {"join": lambda p, i, j: p[i : j + 1]}),
 ]  # fmt: skip
 
@@ -189,19 +206,24 @@ def _no_cut(mine: Array, path: Array, world: Array, where: str) -> Finding | Non
     """Return what keeps a path from being a cut of another, or None."""
     rows = [np.flatnonzero(np.abs(path - x).max(axis=1) < NEAR) for x in mine]
     if odd := [i for i, row in enumerate(rows) if not len(row)]:
-        says = f"Point {odd[0]} of its answer is no point of the path, {where}: only "
-        return Finding("not-its-points", f"{says}points are left out, none is made.")
+        says = f"Point {odd[0]} of your result is not a point of the path, {where}. "
+        return Finding("not-its-points", f"{says}Shortcuts remove points and add none.")
     at = [int(row[0]) for row in rows]
     if not at or at[0] != 0:
-        return Finding("start-lost", f"The path's first point is missing, {where}.")
+        return Finding(
+            "start-lost", f"The first point of the path is missing, {where}."
+        )
     if at[-1] != len(path) - 1:
-        return Finding("end-lost", f"The path's last point is missing, {where}.")
+        return Finding("end-lost", f"The last point of the path is missing, {where}.")
     if any(j <= i for i, j in pairwise(at)):
         return Finding(
-            "other-order", f"Points stand twice, or in another order, {where}."
+            "other-order", f"Some points are repeated or in another order, {where}."
         )
     for i, j in pairwise(at):
         if j > i + 1 and not planning.edge_free(path[i], path[j], world):
-            says = f"It cuts from row {i} of the path to row {j}, {where}, where the "
+            says = (
+                f"Your code connects row {i} of the path with row {j}, {where}, "
+                "but the "
+            )
             return Finding("cut-not-free", f"{says}edge between the two is not free.")
     return None

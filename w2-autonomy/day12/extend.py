@@ -130,54 +130,64 @@ def _part_of_the_way(node, i, q, world):
 
 @row.wrongs
 def _(tree, sample, step, world):
-    """from-the-newest: it grows from the newest node; the nearest one grows
-    from-the-root: it grows from the first node, the root; the nearest one grows
-    sample-itself: the new point is the sample, however far: steer's step is missing
-    sample-itself 2: the new point is the sample, and the edge to it is what is checked:
-      steer's step is missing => with the sample for the new point
-    point-only: only the new point is checked, not the edge that leads to it
-    node-only: only the node is checked, not the edge that leads away from it
-    always-free: no edge is checked: every one is free
-    never-free: no edge is free
-    edge-from-the-root: the edge from the root to the new point is checked; it starts at
+    """from-the-newest: the tree grows from its newest node; it should grow from the
+      node nearest to the sample
+    from-the-root: the tree grows from its root; it should grow from the node nearest to
+      the sample
+    sample-itself: the new node is the sample itself; limit the edge to one step with
+      `steer`
+    sample-itself 2: the new node is the sample itself, and the whole edge to it is
+      tested; limit the edge to one step with `steer`
+    point-only: your code tests only the new point; test the whole edge to it
+    node-only: your code tests only the node from which the tree grows; test the whole
+      edge
+    always-free: your code does not test the edge, so every edge is free
+    never-free: your code reports that no edge is free
+    edge-from-the-root: your code tests the edge from the root to the new point; the
+      edge starts at the nearest node
+    edge-to-the-sample: your code tests the edge to the sample; test only the edge to
+      the new point
+    edge-of-two-steps: your code tests an edge of two steps; the tree grows by one step
+    edge-on-from-there: your code tests the edge from the new point to the sample; test
+      the edge from the nearest node to the new point
+    hit-for-free: the third result is inverted; it should be True if the edge is free
+    stays-where-blocked: if the edge is not free, your code returns the nearest node;
+      return the new point in both cases
+    index-of-the-new: your code returns the index of the new node; return the index of
+      the node from which the tree grows
+    away: the tree grows away from the sample; call `steer` with the node first and the
+      sample second
+    from-the-sample: your code steers from the sample to the node; steer from the node
+      to the sample
+    from-the-sample 2: your code steers from the sample to the node; steer from the node
+      to the sample => a step from the sample, and the edge from the node to its end,
+    farthest: the tree grows from the node farthest from the sample; it should grow from
       the nearest node
-    edge-to-the-sample: the edge to the sample is checked; the tree only grows by a step
-    edge-of-two-steps: the edge that is checked is two steps long; the tree grows by one
-    edge-on-from-there: the edge from the new point to the sample is checked; the tree
-      grows by the one before it
-    hit-for-free: True and False are swapped: it says whether the edge is hit
-    stays-where-blocked: where the edge is not free the node itself comes back; where it
-      would have grown to is asked for
-    index-of-the-new: the index is the one that the new point will have; it is that of
-      the node it grows from
-    away: it grows away from the sample: steer takes the node, then the sample
-    from-the-sample: it is steered from the sample to the node; the tree grows from the
-      node
-    from-the-sample 2: it is steered from the sample to the node; the tree grows from
-      the node => a step from the sample, and the edge from the node to there
-    farthest: the farthest node grows; the nearest one does
-    root-to-the-sample: the edge from the root to the sample is checked; it is the one
-      from the nearest node to the new point
-    standing-is-blocked: where the sample is a node itself the edge is called blocked;
-      it has no length, and is free where the node is
-    own-is-free: a world that has an edge_free of its own is not asked: all edges are
-      free there => True there
-    own-is-blocked: a world that has an edge_free of its own is not asked: no edge is
-      free there => False there
-    free-if-reached: it is free only where the sample is reached; a step towards it is
-      an edge as well
-    reached-is-free: where the sample is reached the edge is not checked
-    ends-only: only the two ends of the edge are checked, not what lies between
-    twice-a-step: it goes two steps
-    half-a-step: it goes half a step
-    unit-step: it goes 1 far; it is `step`
-    added-twice: steer's point is added to the node: it is a place, and no way
-    nearest-of-the-free: the nearest node of those whose edge is free grows; the nearest
-      of all does, and whether its edge is free is told
-    sample-where-blocked: where the edge is not free the sample itself comes back; where
-      the tree would have grown to is asked for
-    part-of-the-way: where the edge is not free it goes back towards the node until it
-      is; a blocked edge adds nothing => halved until it is free
+    root-to-the-sample: your code tests the edge from the root to the sample; test the
+      edge from the nearest node to the new point
+    standing-is-blocked: if the sample equals a node, your code reports a blocked edge;
+      an edge of length 0 is free if the node is free
+    own-is-free: your code does not call the method `edge_free` of the world, so every
+      edge is free in such a world
+    own-is-blocked: your code does not call the method `edge_free` of the world, so no
+      edge is free in such a world
+    free-if-reached: your code reports a free edge only if the sample is reached; a step
+      towards the sample is an edge too
+    reached-is-free: if the sample is reached, your code does not test the edge
+    ends-only: your code tests only the two ends of the edge; test the points between
+      them too
+    twice-a-step: the edge has a length of two steps; limit it to one step
+    half-a-step: the edge has a length of half a step; use the whole step
+    unit-step: the edge has length 1; use the argument `step`
+    added-twice: the result of `steer` is added to the node; `steer` already returns a
+      point, not a displacement
+    nearest-of-the-free: your code selects the nearest node among those with a free
+      edge; select the nearest node of all and report whether its edge is free
+    sample-where-blocked: if the edge is not free, your code returns the sample; return
+      the new point in both cases
+    part-of-the-way: if the edge is not free, your code shortens it until it is free;
+      leave the new point as it is and return False => an edge that is halved until it
+      is free
     """
     own = world is not discs_of(world)
     world = discs_of(world)

@@ -69,24 +69,24 @@ OPTIONS = [
         "for 1.96", 2.576), ("half-z", "0.98 stands for 1.96", 0.98),
     ]),
     *_each("p", [
-        ("one-more", "p is (k + 1) / (n + 2); it is k / n",
+        ("one-more", "p is (k + 1) / (n + 2); use k / n",
          lambda k, n: (k + 1) / (n + 2)),
-        ("half-more", "p is (k + 1/2) / (n + 1); it is k / n",
+        ("half-more", "p is (k + 1/2) / (n + 1); use k / n",
          lambda k, n: (k + 0.5) / (n + 1)),
-        ("two-more", "p is (k + 2) / (n + 4); it is k / n",
+        ("two-more", "p is (k + 2) / (n + 4); use k / n",
          lambda k, n: (k + 2) / (n + 4)),
-        ("n-plus-one", "p is k / (n + 1); it is k / n", lambda k, n: k / (n + 1)),
-        ("n-less-one", "p is k / (n - 1); it is k / n",
+        ("n-plus-one", "p is k / (n + 1); use k / n", lambda k, n: k / (n + 1)),
+        ("n-less-one", "p is k / (n - 1); use k / n",
          lambda k, n: k / max(n - 1, 1)),
-        ("whole-division", "k // n is a whole number, 0 or 1; the share is k / n",
+        ("whole-division", "p is k // n, which is 0 or 1; use k / n",
          lambda k, n: k // n),
-        ("shifted-p", "p is (k + z^2 / 2) / (n + z^2), the middle that comes out; it "
-         "is k / n", lambda k, n: (k + Z**2 / 2) / (n + Z**2)),
-        ("failures", "p is the share of failures; it is k / n",
+        ("shifted-p", "p is (k + z^2 / 2) / (n + z^2), which is the centre of the "
+                      "interval; use k / n", lambda k, n: (k + Z**2 / 2) / (n + Z**2)),
+        ("failures", "p is the proportion of failures; use k / n",
          lambda k, n: (n - k) / n),
     ]),
     *_each("moved", [
-        (slug, f"the middle is moved by {says}; it is moved by z^2 / (2 n)", of)
+        (slug, f"the centre is shifted by {says}; shift it by z^2 / (2 n)", of)
         for slug, says, of in (
             ("centre-not-moved", "nothing", lambda z, n: 0.0),
             ("two-n", "z^2 / n", lambda z, n: z**2 / n),
@@ -99,12 +99,14 @@ OPTIONS = [
             ("one-for-z2", "1 / (2 n)", lambda z, n: 1 / (2 * n)))
     ]),
     *_each("front", [
-        ("z-forgotten", "z is missing before the root", lambda z: 1.0),
-        ("z-squared", "z^2 stands before the root; it is z", lambda z: z * z),
-        ("half-width", "z / 2 stands before the root; it is z", lambda z: z / 2),
+        ("z-forgotten", "the factor z of the root is missing", lambda z: 1.0),
+        ("z-squared", "the root is multiplied by z^2; multiply it by z",
+         lambda z: z * z),
+        ("half-width", "the root is multiplied by z / 2; multiply it by z",
+         lambda z: z / 2),
     ]),
     *_each("noise", [
-        (slug, f"under the root stands {says}; it is p (1 - p) / n", of)
+        (slug, f"the root contains {says}; it should contain p (1 - p) / n", of)
         for slug, says, of in (
             ("n-less-one", "p (1 - p) / (n - 1)",
              lambda p, n: p * (1 - p) / max(n - 1, 1)),
@@ -118,7 +120,8 @@ OPTIONS = [
             ("noise-forgotten", "no p (1 - p) / n", lambda p, n: 0.0))
     ]),
     *_each("more", [
-        (slug, f"besides p (1 - p) / n there stands {says}; it is z^2 / (4 n^2)", of)
+        (slug, f"the second term under the root is {says}; it should be z^2 / (4 "
+               "n^2)", of)
         for slug, says, of in (
             ("width-without-z2", "nothing", lambda z, n: 0.0),
             ("n-for-n2", "z^2 / (4 n)", lambda z, n: z**2 / (4 * n)),
@@ -128,11 +131,12 @@ OPTIONS = [
             ("one-for-z2", "1 / (4 n^2)", lambda z, n: 1 / (4 * n**2)),
             ("n2-forgotten", "z^2 / 4", lambda z, n: z**2 / 4),
             ("two-n", "z^2 / (2 n)", lambda z, n: z**2 / (2 * n)),
-            ("taken-off", "-z^2 / (4 n^2), in size",
+            ("taken-off", "-z^2 / (4 n^2), with the absolute value of the sum",
              lambda z, n: -(z**2) / (4 * n**2)))
     ]),
     *_each("below", [
-        (slug, f"middle and width are divided by {says}; it is 1 + z^2 / n", of)
+        (slug, f"the centre and the half-width are divided by {says}; divide them by"
+               " 1 + z^2 / n", of)
         for slug, says, of in (
             ("not-divided", "nothing", lambda z, n: 1.0),
             ("n-times", "n + z^2", lambda z, n: n + z**2),
@@ -142,7 +146,8 @@ OPTIONS = [
             ("z2-alone", "1 + z^2", lambda z, n: 1 + z**2))
     ]),
     *_each("below_width", [
-        (slug, f"the width alone is divided by {says}; both by 1 + z^2 / n", of)
+        (slug, f"the half-width is divided by {says}; divide the centre and the "
+               "half-width by 1 + z^2 / n", of)
         for slug, says, of in (
             ("width-not-divided", "nothing", lambda z, n: 1.0),
             ("width-by-n", "n", lambda z, n: float(n)),
@@ -151,44 +156,52 @@ OPTIONS = [
              lambda z, n: np.sqrt(1 + z**2 / n)))
     ]),
     *_each("around", [
-        ("continuity", "1 / (2 n) is added to the half width",
+        ("continuity", "1 / (2 n) is added to the half-width",
          lambda a, n: a + 1 / (2 * n)),
-        ("half-width", "the width is half of what it is", lambda a, n: a / 2),
-        ("not-rooted", "the half width is squared", lambda a, n: a * a),
+        ("half-width", "the interval has half of the correct width",
+         lambda a, n: a / 2),
+        ("not-rooted", "the half-width is squared", lambda a, n: a * a),
     ]),
     *_each("out", [
-        ("percent", "this is in percent; a share is asked for",
+        ("percent", "the result is in percent; return a proportion",
          lambda ends, n: 100 * ends),
-        ("counts", "these are counts; shares of n are asked for",
+        ("counts", "your code returns counts; return proportions",
          lambda ends, n: n * ends),
-        ("cut", "the ends are cut to 0.01..0.99", lambda ends, n:
+        ("cut", "the ends are clamped to the range 0.01 to 0.99", lambda ends, n:
          np.clip(ends, 0.01, 0.99)),
-        ("cut", "the ends are cut to 0..1", lambda ends, n: np.clip(ends, 0, 1)),
-        ("high-first", "high comes before low", lambda ends, n: ends[::-1]),
-        ("low-is-zero", "the low end is 0 each time: the interval has two sides",
+        ("cut", "the ends are clamped to the range 0 to 1",
+         lambda ends, n: np.clip(ends, 0, 1)),
+        ("high-first", "the upper end comes first; return the lower end first",
+         lambda ends, n: ends[::-1]),
+        ("low-is-zero", "the lower end is always 0; the interval has two sides",
          lambda ends, n: np.array([0.0, ends[1]])),
-        ("high-is-one", "the high end is 1 each time: the interval has two sides",
+        ("high-is-one", "the upper end is always 1; the interval has two sides",
          lambda ends, n: np.array([ends[0], 1.0])),
-        ("low-alone", "both entries are the low end",
+        ("low-alone", "both entries are the lower end",
          lambda ends, n: ends[[0, 0]]),
-        ("high-alone", "both entries are the high end",
+        ("high-alone", "both entries are the upper end",
          lambda ends, n: ends[[1, 1]]),
-        ("middle-and-width", "this is the middle and the half width", lambda ends, n:
+        ("middle-and-width", "your code returns the centre and the half-width; "
+                             "return the two ends", lambda ends, n:
          np.array([ends.mean(), np.diff(ends)[0] / 2])),
     ]),
     *_each("none", [
-        ("none-is-zero", "of no trial comes (0, 0); it is (0, 1)", (0.0, 0.0)),
-        ("none-is-half", "of no trial comes (1/2, 1/2); it is (0, 1)", (0.5, 0.5)),
-        ("none-is-one", "of no trial comes (1, 1); it is (0, 1)", (1.0, 1.0)),
-        ("none-is-turned", "of no trial comes (1, 0); it is (0, 1)", (1.0, 0.0)),
+        ("none-is-zero", "for n = 0 your code returns (0, 0); return (0, 1)",
+         (0.0, 0.0)),
+        ("none-is-half", "for n = 0 your code returns (1/2, 1/2); return (0, 1)",
+         (0.5, 0.5)),
+        ("none-is-one", "for n = 0 your code returns (1, 1); return (0, 1)",
+         (1.0, 1.0)),
+        ("none-is-turned", "for n = 0 your code returns (1, 0); return (0, 1)",
+         (1.0, 0.0)),
     ]),
     *_each("without", [
-        ("no-success-is-none", "no success is taken for no trial",
+        ("no-success-is-none", "your code treats k = 0 like n = 0",
          lambda k, n: k == 0),
-        ("all-is-none", "n successes of n are taken for no trial",
+        ("all-is-none", "your code treats k = n like n = 0",
          lambda k, n: k == n),
-        ("one-is-none", "one trial is taken for none", lambda k, n: n < 2),
-        ("few-are-none", "fewer than five trials are taken for none",
+        ("one-is-none", "your code treats n = 1 like n = 0", lambda k, n: n < 2),
+        ("few-are-none", "your code treats n < 5 like n = 0",
          lambda k, n: n < 5),
     ]),
 ]  # fmt: skip
@@ -215,20 +228,26 @@ def _of_z(trials: Sequence[Asked]) -> Finding | None:
             if 0 < k < n:
                 wald.append(abs(x - p) / np.sqrt(p * (1 - p) / n))
     kinds = (
-        ("in the formula that is asked for", wilson),
-        ("in Wald's formula, p +- z sqrt(p (1 - p) / n), which is another", wald),
+        ("in Wilson's formula", wilson),
+        (
+            "in Wald's formula, p +- z sqrt(p (1 - p) / n), which is another interval",
+            wald,
+        ),
     )
     for how, some in kinds:
         zs = np.array(some)[np.isfinite(some)]
         if len(zs) > 5 and np.ptp(zs) < 1e-6 and abs(zs[0] - Z) > 1e-5 and zs[0] > 0:
-            says = f"z is {zs[0]:.4g} in every call, {how}; 95 % of a normal noise lie "
-            return Finding("another-z", f"{says}within 1.96 sigma.")
+            says = (
+                f"z is {zs[0]:.4g} in every call, {how}; for 95 % of a normal "
+                "distribution "
+            )
+            return Finding("another-z", f"{says}z is 1.96.")
     pairs = [z for z in (_both_z(one) for one in trials) if z]
     if len(pairs) > 5 and all(abs(low - high) < 1e-6 for low, high in pairs):
         least, most = min(pairs)[0], max(pairs)[0]
-        says = f"z is {least:.4g} to {most:.4g}, in the formula that is asked for"
+        says = f"z ranges from {least:.4g} to {most:.4g} in Wilson's formula"
         if most - least > FAR:
-            return Finding("z-changes", f"{says}; it is 1.96 for all n.")
+            return Finding("z-changes", f"{says}; use 1.96 for all n.")
     return None
 
 

@@ -137,117 +137,141 @@ def _same_limit(choose: Callable[[Array], float]) -> Any:
 OPTIONS = [
     *(Option(slug, says, {"two_ds": of}, alone="points" in slug)
       for slug, says, of in (
-        ("ds-for-2-ds", "sd^2 grows by ds u in a step; it is 2 ds u", lambda n: 1 / n),
-        ("four-ds", "sd^2 grows by 4 ds u in a step; it is 2 ds u", lambda n: 4 / n),
-        ("half-ds", "sd^2 grows by ds u / 2 in a step; it is 2 ds u",
+        ("ds-for-2-ds", "sd^2 grows by ds u in a step; it should grow by 2 ds u",
+         lambda n: 1 / n),
+        ("four-ds", "sd^2 grows by 4 ds u in a step; it should grow by 2 ds u",
+         lambda n: 4 / n),
+        ("half-ds", "sd^2 grows by ds u / 2 in a step; it should grow by 2 ds u",
          lambda n: 0.5 / n),
-        ("points-for-steps", "ds is 1 / (N + 1); N + 1 points have N steps",
+        ("points-for-steps", "ds is 1 / (N + 1); N + 1 points have N steps, so ds "
+                             "is 1 / N",
          lambda n: 2 / (n + 1)),
-        ("points-for-steps", "ds is 1 / (N - 1); N + 1 points have N steps",
+        ("points-for-steps", "ds is 1 / (N - 1); N + 1 points have N steps, so ds "
+                             "is 1 / N",
          lambda n: 2 / max(n - 1, 1)),
-        ("points-for-steps", "ds is 1 / (N + 2); N + 1 points have N steps",
+        ("points-for-steps", "ds is 1 / (N + 2); N + 1 points have N steps, so ds "
+                             "is 1 / N",
          lambda n: 2 / (n + 2)),
-        ("ds-forgotten", "ds is left out, or is 1; it is 1 / N", lambda n: 2.0),
-        ("ds-forgotten", "2 ds is left out, or is 1; ds is 1 / N", lambda n: 1.0))),
-    Option("sd-for-sd2", "path_accel_bounds is given x; it wants sd, its root",
+        ("ds-forgotten", "ds is missing or is 1; it should be 1 / N", lambda n: 2.0),
+        ("ds-forgotten", "the factor 2 ds is missing or is 1; ds should be 1 / N",
+         lambda n: 1.0))),
+    Option("sd-for-sd2", "`path_accel_bounds` is called with sd^2; its argument is "
+                         "sd",
            {"sd": lambda x: x}),
-    Option("sd-for-sd2", "forwards path_accel_bounds is given x; it wants sd, its root",
+    Option("sd-for-sd2", "in the forward pass `path_accel_bounds` is called with "
+                         "sd^2; its argument is sd",
            {"forward_sd": lambda x: x}),
-    Option("sd-squared-twice", "path_accel_bounds gets x^2; it wants sd, the root of x",
+    Option("sd-squared-twice", "`path_accel_bounds` is called with sd^4; its "
+                               "argument is sd",
            {"sd": lambda x: x * x}, alone=True),
-    Option("at-rest", "path_accel_bounds is given sd 0, forwards and backwards",
+    Option("at-rest", "`path_accel_bounds` is called with sd = 0 in both passes",
            {"sd": lambda x: 0.0 * x}, alone=True),
-    Option("at-rest", "forwards path_accel_bounds is given sd 0",
+    Option("at-rest", "in the forward pass `path_accel_bounds` is called with sd = "
+                      "0",
            {"forward_sd": lambda x: 0.0 * x}, alone=True),
-    Option("start-not-at-rest", "it begins with the greatest sd^2 from which it can "
-           "stop; it begins at rest", {"start": "K"}),
-    Option("end-not-at-rest", "the pass backwards begins with x_max; it begins with 0",
+    Option("start-not-at-rest", "the motion starts with the largest sd^2 from which"
+                                " it can stop; start with 0", {"start": "K"}),
+    Option("end-not-at-rest", "the backward pass starts with sd2_max at the end; "
+                              "start with 0",
            {"last": False}),
     *(Option(slug, says, {"passes": one}) for slug, says, one in (
-        ("no-braking", "there is no pass backwards", "forward"),
-        ("backward-pass-only", "there is no pass forwards", "back"),
-        ("smaller-of-two-passes", "each pass is made by itself, and the smaller of "
-         "both is taken; forwards, it has to go on from what the other one leaves",
+        ("no-braking", "there is no backward pass", "forward"),
+        ("backward-pass-only", "there is no forward pass", "back"),
+        ("smaller-of-two-passes", "the two passes are computed independently, and "
+                                  "the minimum is taken; the forward pass must use "
+                                  "the limits from the backward pass",
          "smaller"))),
-    *(Option("few-bisections", f"an interval is halved {n} times; it is still wide "
-             "then", {"bisections": n}, alone=True)
+    *(Option("few-bisections", f"the bisection stops too early, after {n} halvings",
+           {"bisections": n}, alone=True)
       for n in (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 16, 20)),
-    Option("bobrow", "backwards the least sdd is read at the point that comes after, "
-           "at its speed; a step's limits are those of its first point",
+    Option("bobrow", "in the backward pass the smallest sdd of a step is computed "
+                     "at its end; use its first point",
            {"swept": True}),
-    Option("limits-of-the-next-point", "the limits of a step are read at its end, "
-           "forwards and backwards; they are those of its first point",
+    Option("limits-of-the-next-point", "in both passes the limits of a step are "
+                                       "computed at its end; use its first point",
            {"back_at": 1, "at": 1}),
-    Option("limits-of-the-next-point", "backwards the limits of a step are read at its "
-           "end; they are those of its first point", {"back_at": 1}),
-    Option("limits-of-the-next-point", "forwards the limits of a step are read at its "
-           "end; they are those of its first point", {"at": 1}),
+    Option("limits-of-the-next-point", "in the backward pass the limits of a step "
+                                       "are computed at its end; use its first "
+                                       "point", {"back_at": 1}),
+    Option("limits-of-the-next-point", "in the forward pass the limits of a step "
+                                       "are computed at its end; use its first "
+                                       "point", {"at": 1}),
     *(Option(slug, says, {"pull": of}, alone=True) for slug, says, of in (
-        ("limits-of-the-first-point", "all steps have the first point's A, B and G; "
-         "each point has its own",
+        ("limits-of-the-first-point", "every step uses a, b and c of the first "
+                                      "point; use the values of each point",
          lambda *rows: tuple(np.broadcast_to(x[0], x.shape) for x in rows)),
-        ("limits-of-the-last-point", "all steps have the last point's A, B and G; each "
-         "point has its own",
+        ("limits-of-the-last-point", "every step uses a, b and c of the last point;"
+                                     " use the values of each point",
          lambda *rows: tuple(np.broadcast_to(x[-1], x.shape) for x in rows)),
-        ("gravity-forgotten", "gravity is left out of what the torques allow",
+        ("gravity-forgotten", "gravity is missing in the torques",
          lambda A, B, G: (A, B, 0 * G)),
-        ("gravity-of-the-first-point", "all points have the first point's gravity",
+        ("gravity-of-the-first-point", "every point uses the gravity of the first "
+                                       "point",
          lambda A, B, G: (A, B, np.broadcast_to(G[0], G.shape))),
-        ("gravity-sign", "gravity has the other sign", lambda A, B, G: (A, B, -G)),
-        ("coriolis-forgotten", "B is left out of what the torques allow",
+        ("gravity-sign", "the sign of gravity is reversed", lambda A, B, G: (A, B, -G)),
+        ("coriolis-forgotten", "b is missing in the torques",
          lambda A, B, G: (A, 0 * B, G)),
-        ("coriolis-sign", "B has the other sign", lambda A, B, G: (A, -B, G)),
-        ("B-and-G-exchanged", "B and G are exchanged", lambda A, B, G: (A, G, B)),
-        ("A-and-B-exchanged", "A and B are exchanged", lambda A, B, G: (B, A, G)))),
+        ("coriolis-sign", "the sign of b is reversed", lambda A, B, G: (A, -B, G)),
+        ("B-and-G-exchanged", "b and c are exchanged", lambda A, B, G: (A, G, B)),
+        ("A-and-B-exchanged", "a and b are exchanged", lambda A, B, G: (B, A, G)))),
     *(Option(slug, says, {"most": of}, alone=True) for slug, says, of in (
-        ("no-speed-limit", "x_max is not used", lambda x: np.full_like(x, 1e3)),
-        ("x-max-of-the-next-point", "x_max is that of the point after; each point has "
-         "its own", lambda x: np.append(x[1:], x[-1])),
-        ("x-max-of-the-point-before", "x_max is that of the point before; each point "
-         "has its own", lambda x: np.append(x[0], x[:-1])),
-        ("least-x-max", "all points have the smallest x_max; each has its own",
+        ("no-speed-limit", "sd2_max is not used", lambda x: np.full_like(x, 1e3)),
+        ("x-max-of-the-next-point", "sd2_max of the next point is used",
+         lambda x: np.append(x[1:], x[-1])),
+        ("x-max-of-the-point-before", "sd2_max of the previous point is used",
+         lambda x: np.append(x[0], x[:-1])),
+        ("least-x-max", "every point uses the smallest sd2_max",
          lambda x: np.full_like(x, x.min())),
-        ("x-max-of-the-first-point", "all points have the first one's x_max",
+        ("x-max-of-the-first-point", "every point uses sd2_max of the first point",
          lambda x: np.full_like(x, x[0])),
-        ("x-max-squared", "x_max is squared; it is sd^2 already", lambda x: x**2),
-        ("x-max-rooted", "the root of x_max is taken; it is sd^2, as x is", np.sqrt))),
+        ("x-max-squared", "sd2_max is squared, but it is already a square",
+         lambda x: x**2),
+        ("x-max-rooted", "the square root of sd2_max is taken; compare sd^2 with "
+                         "sd2_max itself", np.sqrt))),
     *(Option(slug, says, {"stands": of}) for slug, says, of in (
-        ("cannot-stand-goes", "where gravity alone is too much at a point it goes all "
-         "the same; zeros are asked for", lambda G, limits: False),
-        ("all-points-too-heavy", "zeros come back only where gravity is too much at "
-         "all points", lambda G, limits: np.all(np.abs(G) > limits)),
-        ("first-point-alone", "whether gravity alone is too much is asked of the first "
-         "point alone", lambda G, limits: np.any(np.abs(G[0]) > limits)),
-        ("ends-alone", "whether gravity alone is too much is asked of both ends alone",
+        ("cannot-stand-goes", "if gravity alone exceeds a torque limit, the arm "
+                              "cannot hold there; return zeros",
+         lambda G, limits: False),
+        ("all-points-too-heavy", "your code returns zeros only if gravity exceeds a"
+                                 " torque limit at every point; one point is enough",
+         lambda G, limits: np.all(np.abs(G) > limits)),
+        ("first-point-alone", "your code compares gravity with the torque limits "
+                              "only at the first point",
+         lambda G, limits: np.any(np.abs(G[0]) > limits)),
+        ("ends-alone", "your code compares gravity with the torque limits only at "
+                       "the two ends",
          lambda G, limits: np.any(np.abs(G[[0, -1]]) > limits)),
-        ("gravity-with-sign", "whether gravity is too much is asked without its size: "
-         "below 0 it has a limit, too", lambda G, limits: np.any(limits < G)))),
-    *(Option(f"without-{what}", f"backwards it is not asked whether {says}",
+        ("gravity-with-sign", "your code compares gravity with the torque limits "
+                              "without its absolute value; negative torques are "
+                              "limited too", lambda G, limits: np.any(limits < G)))),
+    *(Option(f"without-{what}", f"the backward pass does not test whether {says}",
              {"without": (what,)}, alone=True) for what, says in (
-        ("allowed", "any sdd is allowed at that speed, low <= high"),
-        ("after", "it can come down to what is possible at the next point"),
-        ("turning", "sd^2 stays above 0 with the greatest sdd"))),
-    Option("most-of-the-point-before", "forwards x[i + 1] is kept below what is "
-           "possible at i; that of i + 1 belongs there", {"kept": 0}),
-    *(Option(slug, f"all joints have the {word} limit; each has its own",
+        ("allowed", "any sdd is allowed at this speed (low <= high)"),
+        ("after", "the motion can slow down to the maximum of the next point"),
+        ("turning", "sd^2 stays above 0 with the largest sdd"))),
+    Option("most-of-the-point-before", "in the forward pass sd^2 at i + 1 is "
+                                       "limited by the maximum at i; use the "
+                                       "maximum at i + 1", {"kept": 0}),
+    *(Option(slug, f"your code uses the {word} torque limit for every joint",
              {"ranges": _same_limit(choose)}, alone=True) for slug, word, choose in (
         ("smallest-limit", "smallest", np.min), ("largest-limit", "largest", np.max),
         ("first-limit", "first joint's", lambda x: x[0]))),
-    Option("half-the-torque", "only half of the torque is used",
+    Option("half-the-torque", "your code uses only half of each torque limit",
            {"ranges": lambda a, b, g, limits, sd: path_accel_bounds(
                a, b, g, limits / 2, sd)}),
-    Option("first-joint-only", "only the first joint is looked at",
+    Option("first-joint-only", "your code uses only the first joint",
            {"ranges": lambda a, b, g, limits, sd: path_accel_bounds(
                a[:1], b[:1], g[:1], limits[:1], sd)}),
     *(Option(slug, says, {"out": of}) for slug, says, of in (
-        ("root", "this is sd; its square is asked for", np.sqrt),
-        ("squared", "this is sd^4; sd^2 is asked for", np.square),
+        ("root", "your code returns sd; return sd^2", np.sqrt),
+        ("squared", "your code returns sd^4; return sd^2", np.square),
         ("end-to-start", "the motion runs from the end to the start",
          lambda x: x[::-1]),
         ("stopped-at-the-end", "the last entry is set to 0 at the end",
          lambda x: np.append(x[:-1], 0.0)),
-        ("mirrored", "the smaller of the motion and of its mirror image is taken: the "
-         "way back has other limits", lambda x: np.minimum(x, x[::-1])))),
+        ("mirrored", "your code takes the minimum of the motion and its mirror "
+                     "image; the limits are different in the other direction",
+         lambda x: np.minimum(x, x[::-1])))),
 ]  # fmt: skip
 
 
@@ -275,12 +299,14 @@ def _broken(one: Asked) -> tuple[str, str] | None:
     n = len(A) - 1
     for end, i in (("begins", 0), ("ends", n)):
         if abs(x[i]) > NEAR:
-            return f"{end}-in-motion", f"it {end} in motion: sd^2 is {x[i]:.3f} there."
+            return f"{end}-in-motion", (
+                f"your motion {end} with sd^2 = {x[i]:.3f}; it should be 0 there."
+            )
     if (x < -NEAR).any():
         return "below-zero", f"sd^2 is below 0 at point {int(np.argmax(x < -NEAR))}."
     if (fast := x > x_max + NEAR).any():
         i = int(np.argmax(fast))
-        says = f"sd^2 is {x[i]:.3f} at point {i}, and x_max {x_max[i]:.3f}."
+        says = f"sd^2 is {x[i]:.3f} at point {i}, but sd2_max is {x_max[i]:.3f}."
         return "faster-than-the-motors", says
     for i in range(n):
         u = (x[i + 1] - x[i]) * n / 2
@@ -288,13 +314,11 @@ def _broken(one: Asked) -> tuple[str, str] | None:
             A[i], B[i], G[i], limits, np.sqrt(max(x[i], 0))
         )
         if not low - 1e-5 <= u <= high + 1e-5:
-            says = (
-                f"sdd from point {i} to the next is {u:.3f}, (x[{i + 1}] - x[{i}]) / "
-            )
-            allowed = f"the torques allow {low:.3f} to {high:.3f} at point {i}"
+            says = f"sdd from point {i} to the next is {u:.3f}, but "
+            allowed = f"the torques allow {low:.3f} to {high:.3f}"
             if low > high:
-                allowed = f"at that speed the torques allow none at point {i}"
-            return "beyond-the-torques", f"{says}(2 ds), and {allowed}."
+                allowed = "the torques allow no sdd at this speed"
+            return "beyond-the-torques", f"{says}{allowed}."
     return None
 
 
@@ -306,8 +330,8 @@ def _slow(asked: Sequence[Asked]) -> str:
             i = int(np.argmax(right - mine))
             if right[i] > mine[i] + NEAR:
                 return (
-                    f"In call {k} of {len(asked)} your motion keeps all limits and is "
-                    f"slower than possible: sd^2 is {mine[i]:.3f} at point {i}, and "
-                    f"{right[i]:.3f} is possible."
+                    f"In call {k} of {len(asked)} your motion is within all limits "
+                    f"but slower than possible: at point {i} sd^2 is {mine[i]:.3f}, "
+                    f"and {right[i]:.3f} is possible."
                 )
     return ""

@@ -107,65 +107,68 @@ def _others(tree, q, far):
 
 @row.wrongs(hidden={"itself-left-out": "the lab asks for no node's own place"})
 def _(tree, q):
-    """farthest: this is the node that is farthest away; the nearest is asked for
-    newest: this is the last node of the tree, wherever q is
-    one-coordinate: only the first coordinate is compared; all of them count
-    one-coordinate 2: only the last coordinate is compared; all of them count
-    signed-sum: the differences are added with their signs, so that they cancel; add
-      their squares
-    signed-sum 2: the differences are added before they are squared, so that they
-      cancel; square them first
-    last-of-equals: of equally near nodes this is the last one; asked for is the first,
-      as argmin has it
-    largest-coordinate: nodes are compared by their largest difference in one
-      coordinate; the distance is the root of the sum of squares
-    sum-of-sizes: nodes are compared by the sum of the differences' sizes; the distance
-      is the root of the sum of squares
-    wrapped: the differences are taken to within half a turn; the arm's joints have
-      stops, so a whole turn is not the same as none => with differences within +-pi
-    wrapped 2: the differences are taken modulo a whole turn; the arm's joints have
-      stops, so a whole turn is not the same as none => with differences modulo 2 pi
-    weighted: the first coordinates count more than the last; all count alike => with
-      weights from 1 down to 1/2
-    weighted 2: the first coordinates count more than the last; all count alike => with
-      weights 1, 1/2, 1/3 and so on
-    from-the-origin: this is the node nearest to the origin: q is not used
-    q-added: q is added to the nodes; the difference is needed
-    most-alike: nodes are compared by their product with q, which also grows with a
-      node's length
-    place-of-the-distance: the nodes are sorted, and this is the place of the first node
-      in that order => the first entry of argsort(argsort(distance))
-    counted-from-the-end: the places are counted from the end
-    smallest-coordinate: nodes are compared by their smallest difference in one
-      coordinate
-    two-coordinates: only the first two coordinates are compared; a tree may have any
-      number of them
-    first-left-out: the first coordinate is not compared
-    cubed: the differences are cubed, and keep their signs, so that they cancel; square
-      them
-    length-for-place: the nodes' lengths are compared with that of q; two points of one
-      length may be far apart
-    angle: the node of the least angle with q is taken, however far it is along it
-    second-nearest: this is the second nearest node
-    least-not-kept: each row is compared with the root's distance, and the last that is
-      nearer is taken: keep the least distance so far
-    row-before: each row is compared with the row before it alone: keep the least
-      distance so far
-    first-that-is-nearer: it ends with the first row that is nearer than the root; go
-      through all of them
-    rounded: the distances are rounded before they are compared => with 2 decimals
-    rounded 2: the distances are rounded before they are compared => with 3 decimals
-    root-left-out: the root, row 0, is not looked at
-    root-left-out 2: the root, row 0, is not looked at, and the places are counted from
-      row 1
-    last-left-out: the last row is not looked at
-    over-all-numbers: it is the least of all numbers of the tree that is looked for;
-      each row has one distance: sum along axis 1 => argmin without an axis
-    sum-of-columns: the squares are summed along the columns, axis 0; each row has one
-      distance: axis 1
-    itself-left-out: a node at which q stands is left out: it is the nearest, 0 away
-    largest-with-sign: nodes are compared by their largest difference with its sign; a
-      large one below 0 is far as well
+    """farthest: your code returns the farthest node; return the nearest
+    newest: your code always returns the last node of the tree
+    one-coordinate: your code compares only the first coordinate
+    one-coordinate 2: your code compares only the last coordinate
+    signed-sum: the differences are added with their signs, so they cancel; add their
+      squares
+    signed-sum 2: the differences are added before they are squared, so they cancel;
+      square them first
+    last-of-equals: if several nodes are equally near, your code returns the last;
+      return the first, as argmin does
+    largest-coordinate: your code compares the largest difference in one coordinate; use
+      the Euclidean distance
+    sum-of-sizes: your code compares the sum of the absolute differences; use the
+      Euclidean distance
+    wrapped: your code wraps the differences to +-pi; the joints have limits, so q and q
+      + 2 pi are different configurations => the formula with differences within +-pi
+    wrapped 2: your code takes the differences modulo 2 pi; the joints have limits, so q
+      and q + 2 pi are different configurations => the formula with differences modulo 2
+      pi
+    weighted: the coordinates have different weights; use the same weight for all => the
+      formula with weights from 1 down to 1/2
+    weighted 2: the coordinates have different weights; use the same weight for all =>
+      the formula with weights 1, 1/2, 1/3 and so on
+    from-the-origin: your code does not use q, so it returns the node nearest to the
+      origin
+    q-added: q is added to the nodes; subtract it
+    most-alike: your code compares the dot products with q; they also grow with the norm
+      of a node
+    place-of-the-distance: your code returns the rank of the first node; return the
+      index of the smallest distance => the first entry of argsort(argsort(distance))
+    counted-from-the-end: the index counts from the end of the tree; count from the root
+    smallest-coordinate: your code compares the smallest difference in one coordinate;
+      use the Euclidean distance
+    two-coordinates: your code compares only the first two coordinates; a node can have
+      any number of them
+    first-left-out: your code does not compare the first coordinate
+    cubed: the differences are cubed, so they keep their signs and cancel; square them
+    length-for-place: your code compares the norms of the nodes with the norm of q; two
+      points with the same norm can be far apart
+    angle: your code selects the node at the smallest angle to q; use the distance
+    second-nearest: your code returns the second nearest node
+    least-not-kept: each row is compared with the distance of the root; compare it with
+      the smallest distance so far
+    row-before: each row is compared only with the previous row; compare it with the
+      smallest distance so far
+    first-that-is-nearer: the loop stops at the first row that is nearer than the root;
+      test all rows
+    rounded: the distances are rounded before they are compared => the formula with 2
+      decimals
+    rounded 2: the distances are rounded before they are compared => the formula with 3
+      decimals
+    root-left-out: your code skips the root, row 0
+    root-left-out 2: your code skips the root, row 0, and counts the rows from row 1
+    last-left-out: your code skips the last row
+    over-all-numbers: your code searches the minimum over all entries of the tree; each
+      row has one distance, so sum along axis 1 => argmin without an axis
+    sum-of-columns: the squares are summed along axis 0; sum along axis 1, because each
+      row is a node
+    itself-left-out: your code skips a node that equals q; its distance is 0, so it is
+      the nearest
+    largest-with-sign: your code compares the largest signed difference; use the
+      Euclidean distance
     """
     away = tree - q
     far = np.sum(away**2, axis=1)

@@ -95,14 +95,14 @@ def together(
     alone = {one.says: one for one in options if gives(one)}
     if alone:
         some = list(alone.values())[:2]
-        says = "; or: ".join(one.says for one in some)
-        either = "Either: " if len(some) > 1 else ""
-        text = f"{either}{says}. (That gives your arrays exactly.)"
+        says = "; or ".join(one.says for one in some)
+        either = "either " if len(some) > 1 else ""
+        text = f"{either}{says}. (That reproduces your output.)"
         return Finding(some[0].slug, capitalised(text))
     for pair in _pairs(options):
         if gives(*pair):
             says = "; ".join(one.says for one in pair)
-            how = "Both together give your arrays exactly."
+            how = "Both together reproduce your output."
             slug = "+".join(one.slug for one in pair)
             return Finding(slug, f"Two things at once: {says}. ({how})")
     return None

@@ -46,14 +46,14 @@ def stuck(a, b, c, limits, sd):
 
 row.cases({
     "paths on which every joint moves (no a is 0)": lambda a, *_: bool(np.all(a != 0)),
-    "a joint with a = 0 that holds its torque": (
+    "joints with a = 0 within their torque limits": (
         lambda a, *more: bool(np.any(a == 0)) and not stuck(a, *more)
     ),
-    "a joint with a = 0 that cannot hold its torque": stuck,
+    "a joint with a = 0 beyond its torque limit": stuck,
 })  # fmt: skip
 row.cases({
-    "paths on which every a is above 0": lambda a, *_: bool(np.all(a > 0)),
-    "paths on which every a is below 0": lambda a, *_: bool(np.all(a < 0)),
+    "paths on which every a is positive": lambda a, *_: bool(np.all(a > 0)),
+    "paths on which every a is negative": lambda a, *_: bool(np.all(a < 0)),
     "paths with values of a of both signs": (
         lambda a, *_: bool(np.any(a > 0) and np.any(a < 0) and np.all(a != 0))
     ),
@@ -169,86 +169,94 @@ def _of_holding(rest, pull, c, limits, moves, free):
 
 @row.wrongs
 def _(a, b, c, limits, sd):
-    """not-sorted: for a below 0 the two quotients change places: sort them
-    sign-of-a-lost: a's sign is lost: it is divided by abs(a) alone
-    sd-not-squared: b is multiplied with sd; it is sd^2
-    speed-forgotten: b sd^2 is missing
-    speed-sign: b sd^2 is added to the limits; what it takes is not left for a sdd
-    gravity-forgotten: c is missing
-    gravity-sign: c is added to the limits; what it takes is not left for a sdd
-    rest-added: b sd^2 + c is added to the limits; what it takes is not left for a sdd
+    """not-sorted: if a is negative, the lower and the upper bound of that joint are
+      exchanged; sort the two quotients
+    speed-forgotten: the term b sd^2 is missing
+    speed-sign: b sd^2 is added to the limits; subtract it
+    gravity-forgotten: the term c is missing
+    gravity-sign: c is added to the limits; subtract it
+    rest-added: b sd^2 + c is added to the limits; subtract it
     rest-not-divided: b sd^2 + c is not divided by a
-    one-sided: the lower end takes b sd^2 + c with the other sign: the range is not
+    one-sided: b sd^2 + c has the wrong sign in the lower bound; the bounds are not
       symmetric about 0
-    size-of-rest: b sd^2 + c is taken off the limit on both sides; it helps on one
-    widest: the widest range is taken, and not what all joints allow
-    least-of-both: both ends are the smallest of their quotients
-    first-joint-only: only the first joint is looked at
-    first-joint-only 2: only the first joint that moves is looked at; each of them
+    size-of-rest: |b sd^2 + c| reduces both limits; it reduces one limit and extends the
+      other
+    widest: your code takes the union of the joints' intervals; take the intersection
+    least-of-both: both bounds are the minimum of their quotients; the lower bound is
+      the maximum of the joints' lower bounds
+    first-joint-only: your code uses only the first joint
+    first-joint-only 2: your code uses only the first joint that moves; every joint
       limits sdd
-    last-joint-only: only the last joint is looked at, as by a loop that overwrites
-    half-the-limit: only half of the limit is used
-    not-divided: it is not divided by a
-    times-a: it is multiplied by a; it is divided by it
-    one-limit: a torque is kept between 0 and its limit; its limit goes both ways
-    greatest-first: the two are in the other order: least, then greatest
-    greatest-first 2: the two are in the other order wherever the torques of joints with
-      a = 0 hold: least, then greatest
-    none-sorted: where none is allowed the least is above the greatest; here they are
-      sorted
-    none-sorted 2: where the joints allow no common sdd the least is above the greatest;
-      here they are sorted
-    none-is-zero: where none is allowed this is (0, 0)
-    none-is-zero 2: where a joint with a = 0 cannot hold this is (0, 0): that allows sdd
-      0; (inf, -inf) allows nothing
-    none-is-one: where none is allowed the least is lowered to the greatest; the least
-      is above the greatest there
-    zero-stops-all: a joint with a = 0 limits nothing if it holds
-    zero-row-ignored: a joint with a = 0 that cannot hold its torque allows nothing:
-      (inf, -inf)
-    gravity-not-divided: c is taken off after the division by a; it is a torque: take it
-      off first
-    speed-not-divided: b sd^2 is taken off after the division by a; it is a torque: take
-      it off first
-    negative-left-out: joints with a below 0 limit nothing; each that moves does
-    largest-limit: all joints are given the largest limit; each has its own
-    smallest-limit: all joints are given the smallest limit; each has its own
-    last-joint-greatest: the greatest sdd is that of the last joint alone; the smallest
-      of all joints belongs there
-    last-joint-least: the least sdd is that of the last joint alone; the largest of all
-      joints belongs there
-    mean-of-joints: the ends are means over the joints; what all allow is the largest
-      least and the smallest greatest
-    sum-of-joints: the ends are sums over the joints; what all allow is the largest
-      least and the smallest greatest
-    from-zero: the search for both ends begins with 0: the least begins with -inf, the
-      greatest with inf
-    zero-kept-in: the range is widened until it holds 0: sdd 0 need not be allowed
-    six-joints: only the first six joints are looked at; a may have any number of them
-    first-left-out: the first joint is not looked at
-    none-is-zero 3: where the joints allow no common sdd this is (0, 0): that allows
-      sdd 0; the least stays above the greatest
-    none-is-infinite: where the joints allow no common sdd this is (inf, -inf); that is
-      for a joint with a = 0 that cannot hold: their own ends are asked for
-    no-mover-is-none: where no joint moves, and all hold, this is (inf, -inf), which
-      allows none; any sdd is allowed: (-inf, inf)
-    held-by-gravity-alone: whether a joint with a = 0 holds is asked of c alone; b sd^2
-      counts as well
-    held-by-speed-alone: whether a joint with a = 0 holds is asked of b sd^2 alone; c
-      counts as well
-    held-with-sign: whether a joint with a = 0 holds is asked without the size of its
-      torque: below 0 it has a limit, too
-    all-have-to-hold: a joint that moves is asked to hold still as well: for it the
-      range says what it allows
-    any-that-holds: with several joints with a = 0 it is enough that one holds; each has
-      to
-    small-is-zero: an a that is small is taken for 0; it limits sdd all the more where
-      hardly a torque is left => with |a| below 0.01
-    small-is-zero 2: an a that is small is taken for 0; it limits sdd all the more where
-      hardly a torque is left => with |a| below 0.001
-    small-is-zero 3: an a that is small is taken for 0; it limits sdd all the more where
-      hardly a torque is left => with |a| below 1e-5
-    held-below-its-limit: a joint with a = 0 that takes all of its torque still holds
+    last-joint-only: your code uses only the last joint; a loop may overwrite the
+      earlier bounds
+    half-the-limit: your code uses only half of each torque limit
+    not-divided: the bounds are torques; divide them by a
+    times-a: the torques are multiplied by a; divide by a
+    one-limit: your code allows torques from 0 to the limit; they range from -limit to
+      limit
+    greatest-first: the upper bound comes first; return the lower bound first
+    greatest-first 2: the upper bound comes first unless a joint with a = 0 exceeds its
+      limit; return the lower bound first
+    none-sorted: if no sdd is allowed, your code sorts the bounds; leave the lower bound
+      above the upper bound
+    none-sorted 2: if the joints allow no common sdd, your code sorts the bounds; leave
+      the lower bound above the upper bound
+    none-is-zero: if no sdd is allowed, your code returns (0, 0); this allows sdd = 0
+    none-is-zero 2: if a joint with a = 0 exceeds its limit, your code returns (0, 0),
+      which allows sdd = 0; return (inf, -inf)
+    none-is-one: if no sdd is allowed, your code reduces the lower bound to the upper
+      bound; leave it above the upper bound
+    zero-stops-all: a joint with a = 0 within its torque limit makes the range empty in
+      your code; it does not limit sdd
+    zero-row-ignored: your code ignores a joint with a = 0 that exceeds its torque
+      limit; no sdd is allowed then: (inf, -inf)
+    gravity-not-divided: c is subtracted after the division by a; c is a torque, so
+      subtract it first
+    speed-not-divided: b sd^2 is subtracted after the division by a; it is a torque, so
+      subtract it first
+    negative-left-out: your code ignores joints with negative a; every joint that moves
+      limits sdd
+    largest-limit: your code uses the largest torque limit for every joint
+    smallest-limit: your code uses the smallest torque limit for every joint
+    last-joint-greatest: the upper bound is the upper bound of the last joint; take the
+      minimum over all joints
+    last-joint-least: the lower bound is the lower bound of the last joint; take the
+      maximum over all joints
+    mean-of-joints: the bounds are means over the joints; take the maximum of the lower
+      bounds and the minimum of the upper bounds
+    sum-of-joints: the bounds are sums over the joints; take the maximum of the lower
+      bounds and the minimum of the upper bounds
+    from-zero: both bounds start at 0; start the lower bound at -inf and the upper bound
+      at inf
+    zero-kept-in: the range always includes 0; sdd = 0 need not be allowed
+    six-joints: your code uses only the first six joints; the arm can have any number of
+      joints
+    first-left-out: your code skips the first joint
+    none-is-zero 3: if the joints allow no common sdd, your code returns (0, 0), which
+      allows sdd = 0; leave the lower bound above the upper bound
+    none-is-infinite: if the joints allow no common sdd, your code returns (inf, -inf);
+      return the bounds themselves, because (inf, -inf) is reserved for a joint with a =
+      0
+    no-mover-is-none: if every a is 0 and every torque is within its limit, your code
+      returns (inf, -inf); any sdd is allowed: (-inf, inf)
+    held-by-gravity-alone: for a joint with a = 0 your code compares only c with the
+      limit; compare b sd^2 + c
+    held-by-speed-alone: for a joint with a = 0 your code compares only b sd^2 with the
+      limit; compare b sd^2 + c
+    held-with-sign: for a joint with a = 0 your code compares the torque without its
+      absolute value; the limit also applies to negative torques
+    all-have-to-hold: your code compares b sd^2 + c with the limit for joints that move
+      too; this test is only for joints with a = 0
+    any-that-holds: if several joints have a = 0, your code accepts the speed if one of
+      them is within its limit; all of them must be
+    small-is-zero: your code treats a small a as 0; a joint with a small a still limits
+      sdd => the formula with |a| below 0.01
+    small-is-zero 2: your code treats a small a as 0; a joint with a small a still
+      limits sdd => the formula with |a| below 0.001
+    small-is-zero 3: your code treats a small a as 0; a joint with a small a still
+      limits sdd => the formula with |a| below 1e-5
+    held-below-its-limit: your code rejects a joint with a = 0 whose torque equals its
+      limit; equality is allowed
     """
     pull = b * sd**2
     rest = pull + c
@@ -277,8 +285,6 @@ def _(a, b, c, limits, sd):
 
     table = {
         "not-sorted": narrowed(*raw),
-        "sign-of-a-lost": of(rest, np.abs(a)),
-        "sd-not-squared": path_accel_bounds(a, b / sd if sd else b, c, limits, sd),
         "speed-forgotten": path_accel_bounds(a, 0 * b, c, limits, sd),
         "speed-sign": path_accel_bounds(a, -b, c, limits, sd),
         "gravity-forgotten": path_accel_bounds(a, b, 0 * c, limits, sd),
@@ -336,8 +342,8 @@ def _(a, b, c, limits, sd):
 
 @row.wrong
 def zero_divides(a, b, c, limits, sd):
-    """a joint with a = 0 is divided by 0: it limits nothing, if it holds => without
-    that case"""
+    """your code divides by 0 for a joint with a = 0; such a joint does not limit sdd
+    while its torque is within the limit => the formula without that case"""
     with np.errstate(all="ignore"):
         ends = np.sort((np.array([-limits, limits]) - b * sd**2 - c) / a, axis=0)
     return np.array([ends[0].max(), ends[1].min()])

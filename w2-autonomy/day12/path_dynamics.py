@@ -49,48 +49,47 @@ def _(rng):
 
 @row.wrongs
 def _(M, dq_ds, d2q_ds2, coriolis, gravity):
-    """ddq-forgotten: M d2q_ds2 is missing in b: a curved path turns the arm even at a
-      constant sd
-    coriolis-forgotten: the Coriolis torque is missing in b
-    bias-for-coriolis: gravity is added to b as well: it does not grow with sd^2, and
-      stands in g alone
-    gravity-off-coriolis: gravity is taken off in b: `coriolis` holds none
-    m-forgotten: a is dq_ds: the mass matrix is missing
-    m-forgotten 2: b is d2q_ds2 + c: its mass matrix is missing
+    """ddq-forgotten: M d2q_ds2 is missing in b; on a curved path the joints accelerate
+      even if sd is constant
+    bias-for-coriolis: gravity is also added to b; it does not depend on sd, so it
+      belongs only to g
+    gravity-off-coriolis: gravity is subtracted in b; `coriolis` does not contain
+      gravity
+    m-forgotten: the mass matrix is missing in a => dq_ds
+    m-forgotten 2: the mass matrix is missing in b => d2q_ds2 + the Coriolis torque
     m-forgotten 3: the mass matrix is missing in a and in b
-    diagonal-only: only the diagonal of the mass matrix is used: joints move each other,
-      too
-    diagonal-only 2: only the diagonal of the mass matrix is used in a: joints move each
-      other, too
-    diagonal-only 3: only the diagonal of the mass matrix is used in b: joints move each
-      other, too
-    a-and-b-exchanged: a and b are exchanged: sdd comes with dq_ds, sd^2 with d2q_ds2
-    g-first: g is the first row: they are a, b and g
-    ddq-in-a: M dq_ds and M d2q_ds2 are exchanged: qdd = dq_ds sdd + d2q_ds2 sd^2
-    m-dq-twice: b holds M dq_ds; it is M d2q_ds2
-    both-in-a: M d2q_ds2 is added to a; it belongs to sd^2
-    gravity-sign: gravity is negated: tau holds the arm up, so it is added
-    gravity-forgotten: gravity is missing: the third row is 0
-    coriolis-sign: the Coriolis torque is negated
-    coriolis-times-dq: the Coriolis torque is multiplied with dq_ds; it is that at qd =
-      dq_ds already
-    dq-squared: b has dq_ds^2 for d2q_ds2
-    solved: M is inverted: that turns torques into accelerations
-    coriolis-in-g: the Coriolis torque is added to g; it grows with sd^2, and belongs to
-      b
-    coriolis-in-a: the Coriolis torque is added to a; it grows with sd^2, and belongs to
-      b
-    rows-summed: each row of M is summed before it is multiplied by its own joint's rate
-    lower-half: only M's entries on and below its diagonal are used
-    upper-half: only M's entries on and above its diagonal are used
-    trace: M's trace stands for M
-    first-row: M's first row stands for M, entry by entry
+    diagonal-only: only the diagonal of the mass matrix is used; the joints are coupled
+    diagonal-only 2: only the diagonal of the mass matrix is used in a; the joints are
+      coupled
+    diagonal-only 3: only the diagonal of the mass matrix is used in b; the joints are
+      coupled
+    a-and-b-exchanged: a and b are exchanged; sdd is multiplied by dq_ds and sd^2 by
+      d2q_ds2
+    g-first: g is the first row; the order is a, b, g
+    ddq-in-a: M dq_ds and M d2q_ds2 are exchanged; qdd = dq_ds sdd + d2q_ds2 sd^2
+    m-dq-twice: b contains M dq_ds; it should contain M d2q_ds2
+    both-in-a: M d2q_ds2 is added to a; it is the coefficient of sd^2 and belongs to b
+    gravity-sign: the sign of gravity is reversed; the torque that holds the arm is
+      +gravity
+    gravity-forgotten: gravity is missing, so the third row is 0
+    coriolis-times-dq: the Coriolis torque is multiplied by dq_ds; it is already
+      computed for qd = dq_ds
+    dq-squared: b contains dq_ds^2 instead of d2q_ds2
+    solved: your code solves with M; multiply by M, because M maps accelerations to
+      torques
+    coriolis-in-g: the Coriolis torque is added to g; it is multiplied by sd^2, so it
+      belongs to b
+    coriolis-in-a: the Coriolis torque is added to a; it is multiplied by sd^2, so it
+      belongs to b
+    rows-summed: each row of M is summed and then multiplied by one joint's rate; use
+      the matrix product
+    trace: the trace of M is used instead of M
+    first-row: the first row of M is multiplied entry by entry; use the matrix product
     """
     right = path_dynamics(M, dq_ds, d2q_ds2, coriolis, gravity)
     a, b, g = right
     return {
         "ddq-forgotten": np.array([a, coriolis, g]),
-        "coriolis-forgotten": np.array([a, M @ d2q_ds2, g]),
         "bias-for-coriolis": np.array([a, b + gravity, g]),
         "gravity-off-coriolis": np.array([a, b - gravity, g]),
         "m-forgotten": np.array([dq_ds, b, g]),
@@ -108,7 +107,6 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
         "both-in-a": np.array([a + M @ d2q_ds2, coriolis, g]),
         "gravity-sign": np.array([a, b, -g]),
         "gravity-forgotten": np.array([a, b, 0 * g]),
-        "coriolis-sign": np.array([a, M @ d2q_ds2 - coriolis, g]),
         "coriolis-times-dq": np.array([a, M @ d2q_ds2 + coriolis * dq_ds, g]),
         "dq-squared": np.array([a, M @ dq_ds**2 + coriolis, g]),
         "solved": np.array(
@@ -120,8 +118,6 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
             slug: np.array([of(dq_ds), of(d2q_ds2) + coriolis, g])
             for slug, of in {
                 "rows-summed": lambda x: M.sum(axis=1) * x,
-                "lower-half": lambda x: np.tril(M) @ x,
-                "upper-half": lambda x: np.triu(M) @ x,
                 "trace": lambda x: np.trace(M) * x,
                 "first-row": lambda x: M[0] * x,
             }.items()

@@ -162,97 +162,127 @@ def one_tree(
 
 
 OPTIONS = [
-    Option("swap-when-it-grew", "the trees change places only after a sample that made "
-           "one grow", {"turn": "grew"}),
-    Option("swap-when-it-failed", "the trees change places only after a blocked sample",
+    Option("swap-when-it-grew", "the trees are swapped only after a sample that "
+                                "made one grow; swap them after every sample",
+           {"turn": "grew"}),
+    Option("swap-when-it-failed", "the trees are swapped only after a blocked "
+                                  "sample; swap them after every sample",
            {"turn": "failed"}),
-    Option("trees-not-swapped", "all samples grow the start's tree", {"turn": "never"}),
-    Option("goal-first", "sample 0 grows the goal's tree", {"turn": "goal"}),
-    Option("halves", "the first half of the samples grows the start's tree, the second "
-           "the goal's; they take turns",
+    Option("trees-not-swapped", "all samples extend the start's tree; samples 1, 3,"
+                                " 5 should extend the goal's tree", {"turn": "never"}),
+    Option("goal-first", "sample 0 extends the goal's tree; it should extend the "
+                         "start's tree", {"turn": "goal"}),
+    Option("halves", "the first half of the samples extends the start's tree, and "
+                     "the second half the goal's tree; alternate",
            {"turn": lambda k, used, nodes: int(2 * k >= len(used))}),
-    Option("two-in-turn", "samples 0 and 1 grow the start's tree, 2 and 3 the goal's; "
-           "they take turns", {"turn": lambda k, used, nodes: k // 2 % 2}),
-    Option("one-of-three", "only every third sample grows the goal's tree; they take "
-           "turns", {"turn": lambda k, used, nodes: int(k % 3 == 2)}),
-    Option("smaller-tree", "the tree that has fewer nodes grows; they take turns",
+    Option("two-in-turn", "samples 0 and 1 extend the start's tree, and samples 2 "
+                          "and 3 the goal's tree; alternate after every sample",
+           {"turn": lambda k, used, nodes: k // 2 % 2}),
+    Option("one-of-three", "only every third sample extends the goal's tree; "
+                           "alternate after every sample",
+           {"turn": lambda k, used, nodes: int(k % 3 == 2)}),
+    Option("smaller-tree", "each sample extends the smaller tree; alternate after "
+                           "every sample",
            {"turn": lambda k, used, nodes: int(len(nodes[1]) < len(nodes[0]))}),
     Option("blocked-tries-the-other", "after a blocked sample the other tree grows "
-           "towards it; the next sample's turn is asked for", {"blocked": "other"}),
-    *(Option("few-samples", f"only the first {n} samples are used",
+                                      "towards it; continue with the next sample",
+           {"blocked": "other"}),
+    *(Option("few-samples", f"your code uses only the first {n} samples",
              {"used": lambda some, n=n: some[:n]}) for n in (5, 10, 20)),
-    Option("connect-one-step", "the other tree grows by one edge", {"approach": "one"}),
-    Option("connect-to-the-sample", "the other tree grows towards the sample",
+    Option("connect-one-step", "the other tree adds one edge only; add edges until "
+                               "one is blocked or the new node is reached",
+           {"approach": "one"}),
+    Option("connect-to-the-sample", "the other tree grows towards the sample; it "
+                                    "should grow towards the new node",
            {"approach": "sample"}),
-    Option("joined-at-the-sample", "the other tree grows to the sample, and there the "
-           "way is called found; the first tree ends at its new node, a step towards "
-           "it", {"approach": "sample", "meets": "sample"}),
-    Option("connect-to-the-root", "the other tree grows towards the root of the tree "
-           "that grew; towards its new node is asked for", {"approach": "root"}),
-    Option("connect-in-one-jump", "the other tree joins by one edge, however long",
+    Option("joined-at-the-sample", "the search ends when the other tree reaches the"
+                                   " sample; the first tree ends at its new node, "
+                                   "which can be elsewhere",
+           {"approach": "sample", "meets": "sample"}),
+    Option("connect-to-the-root", "the other tree grows towards the root of the "
+                                  "first tree; it should grow towards the new node",
+           {"approach": "root"}),
+    Option("connect-in-one-jump", "the other tree is connected by a single edge of "
+                                  "any length; add edges of one step each",
            {"approach": "jump"}),
-    *(Option("connect-few-edges", f"the other tree grows by {n} edges at most; it goes "
-             "on until it is blocked or stands at the new node", {"tries": n})
+    *(Option("connect-few-edges", f"the other tree adds at most {n} edges; add edges"
+                                  " until one is blocked or the new node is reached",
+           {"tries": n})
       for n in (2, 3, 4, 5, 10)),
-    Option("greedy-samples", "towards the sample, too, the tree grows edge after edge",
+    Option("greedy-samples", "your code adds several edges towards the sample; add "
+                             "one edge only",
            {"mine": "connect"}),
-    Option("parent-is-the-newest", "a node's parent is the node before it, and not the "
-           "index that extend returns", {"parent": "newest"}),
-    Option("parent-is-the-root", "every node's parent is the root, and not the index "
-           "that extend returns", {"parent": "root"}),
-    Option("grows-from-the-newest", "a tree grows from its newest node alone; extend "
-           "takes all nodes, and finds the nearest", {"grows": "newest"}),
-    Option("not-checked", "nodes are added whether their edge is free or not",
+    Option("parent-is-the-newest", "the parent of a node is the previous node; use "
+                                   "the index that `extend` returns",
+           {"parent": "newest"}),
+    Option("parent-is-the-root", "the parent of every node is the root; use the "
+                                 "index that `extend` returns", {"parent": "root"}),
+    Option("grows-from-the-newest", "a tree grows only from its newest node; pass "
+                                    "all nodes to `extend`, which finds the nearest",
+           {"grows": "newest"}),
+    Option("not-checked", "nodes are added even if their edge is not free",
            {"free": True}),
-    Option("blocked-goes-on", "after a blocked sample the other tree grows all the "
-           "same, towards the newest node; the next sample's turn is asked for",
+    Option("blocked-goes-on", "after a blocked sample the other tree still grows "
+                              "towards the newest node; continue with the next "
+                              "sample",
            {"blocked": "on"}),
-    Option("blocked-ends", "it ends with the first blocked sample; the next one is "
-           "tried", {"blocked": "stop"}),
-    Option("near-enough", "the trees count as joined within a step of each other; the "
-           "other tree has to stand at the new node", {"meets": "near"}),
-    *(Option("stride", f"edges are {x:g} steps long", {"stride": x, "far": x})
+    Option("blocked-ends", "your code stops at the first blocked sample; continue "
+                           "with the next sample", {"blocked": "stop"}),
+    Option("near-enough", "the search ends when the trees are within one step of "
+                          "each other; the other tree must reach the new node",
+           {"meets": "near"}),
+    *(Option("stride", f"the edges have a length of {x:g} steps",
+           {"stride": x, "far": x})
       for x in (0.5, 2.0)),
-    *(Option("stride-of-the-other", f"the other tree's edges are {x:g} steps long",
+    *(Option("stride-of-the-other", "the edges of the other tree have a length of "
+                                    f"{x:g} steps",
              {"far": x}) for x in (0.5, 2.0)),
-    *(Option("stride-of-the-first", f"the edges towards samples are {x:g} steps long",
+    *(Option("stride-of-the-first", "the edges towards samples have a length of "
+                                    f"{x:g} steps",
              {"stride": x}) for x in (0.5, 2.0)),
-    Option("every-other-sample", "only every other sample is used",
+    Option("every-other-sample", "your code uses only every second sample",
            {"used": lambda some: some[::2]}),
-    Option("sample-twice", "each sample grows both trees, one after the other; it "
-           "grows one", {"used": lambda some: np.repeat(some, 2, axis=0)}),
-    Option("samples-backwards", "the last sample comes first",
+    Option("sample-twice", "each sample extends both trees; it should extend one",
+           {"used": lambda some: np.repeat(some, 2, axis=0)}),
+    Option("samples-backwards", "the samples are used in reverse order",
            {"used": lambda some: some[::-1]}),
-    Option("first-sample-left-out", "the first sample is not used",
+    Option("first-sample-left-out", "your code skips the first sample",
            {"used": lambda some: some[1:]}),
-    Option("last-sample-left-out", "the last sample is not used",
+    Option("last-sample-left-out", "your code skips the last sample",
            {"used": lambda some: some[:-1]}),
-    Option("not-turned-round", "the start's branch comes first backwards",
+    Option("not-turned-round", "the start's branch runs from the newest node to the"
+                               " root; reverse it",
            {"joined": lambda a, b: a + b[1:]}),
-    Option("goal-branch-turned", "the goal's branch is turned round; it runs from the "
-           "meeting point to the goal already",
+    Option("goal-branch-turned", "the goal's branch is reversed; it already runs "
+                                 "from the meeting point to the goal",
            {"joined": lambda a, b: a[::-1] + b[::-1]}),
-    Option("goal-branch-turned", "the goal's branch is turned round, without its "
-           "first; it runs from the meeting point to the goal already",
+    Option("goal-branch-turned", "the goal's branch is reversed, without its first "
+                                 "node; it already runs from the meeting point to "
+                                 "the goal",
            {"joined": lambda a, b: a[::-1] + b[::-1][1:]}),
-    Option("goal-to-start", "the way runs from the goal to the start",
+    Option("goal-to-start", "the path runs from the goal to the start",
            {"joined": lambda a, b: b[::-1] + a[1:]}),
-    Option("goal-to-start-on-its-turn", "where a sample of the goal's tree finds the "
-           "way, it runs from the goal to the start", {"first": "turn"}),
-    Option("meeting-point-twice", "the node where the trees meet stands twice",
+    Option("goal-to-start-on-its-turn", "if a sample of the goal's tree completes "
+                                        "the path, the path runs from the goal to "
+                                        "the start", {"first": "turn"}),
+    Option("meeting-point-twice", "the path contains the node where the trees meet "
+                                  "twice",
            {"joined": lambda a, b: a[::-1] + b}),
-    Option("meeting-point-lost", "the node where the trees meet is in neither half",
+    Option("meeting-point-lost", "the path does not contain the node where the "
+                                 "trees meet",
            {"joined": lambda a, b: [*a[:0:-1], *b[1:]]}),
-    Option("root-lost", "the start's root is not in the way",
+    Option("root-lost", "the path does not contain the start",
            {"joined": lambda a, b: a[::-1][1:] + b[1:]}),
-    Option("both-roots-lost", "neither start nor goal is in the way",
+    Option("both-roots-lost", "the path contains neither the start nor the goal",
            {"joined": lambda a, b: a[::-1][1:] + b[1:-1]}),
-    Option("goal-lost", "the goal's root is not in the way",
+    Option("goal-lost", "the path does not contain the goal",
            {"joined": lambda a, b: a[::-1] + b[1:-1]}),
-    Option("none-is-the-start", "without a way the start alone comes back; no row is "
-           "asked for", {"none": lambda start, goal: np.array([start])}),
-    Option("none-is-straight", "without a way start and goal come back; no row is "
-           "asked for", {"none": lambda start, goal: np.array([start, goal])}),
+    Option("none-is-the-start", "if there is no path, your code returns the start; "
+                                "return an array without rows",
+           {"none": lambda start, goal: np.array([start])}),
+    Option("none-is-straight", "if there is no path, your code returns the start "
+                               "and the goal; return an array without rows",
+           {"none": lambda start, goal: np.array([start, goal])}),
 ]  # fmt: skip
 
 
@@ -268,10 +298,10 @@ def fault(way: Array, start: Array, goal: Array, world: Array, step: float) -> s
         return "does not end at the goal"
     longest = _lengths(way).max(initial=0.0)
     if longest > step * (1 + 1e-9):
-        return f"has an edge of length {longest:.3f}, where a step is {step:g}"
+        return f"has an edge of length {longest:.3f}, but a step is {step:g}"
     for i, (a, b) in enumerate(pairwise(way)):
         if gap(a, b, discs_of(world)) < -CLEAR:
-            return f"has an edge that is not free, from way point {i} to {i + 1}"
+            return f"has an edge that is not free, from waypoint {i} to {i + 1}"
     return ""
 
 
@@ -286,8 +316,10 @@ def _joining(
     for k in range(1, len(samples) + 1):
         if len(planning.rrt_connect(start, goal, world, samples[:k], step)):
             whose = ("start", "goal")[(k - 1) % 2]
-            return f"they meet after sample {k - 1}, which grows the {whose}'s tree"
-    return "they meet"
+            return (
+                f"the trees meet after sample {k - 1}, which extends the {whose}'s tree"
+            )
+    return "the trees meet"
 
 
 def of_a_planner(case: Case) -> Finding | None:
@@ -306,15 +338,15 @@ def of_a_planner(case: Case) -> Finding | None:
         where = f"in call {k + 1} of {len(S)}"
         if not len(way) and len(right):
             how = _joining(*arguments[k])
-            says = f"It finds no way {where}; with the trees asked for {how}."
+            says = f"Your code finds no path {where}; with the specified planner {how}."
             return Finding("no-way", says)
         if len(way) and (why := fault(way, start, goal, world, step)):
-            return Finding("no-valid-way", f"It is no way {where}: it {why}.")
+            return Finding("no-valid-way", f"Your path is not valid {where}: it {why}.")
         if len(twice := np.flatnonzero(_lengths(way) == 0.0)):
             says = (
-                f"Way points {twice[0]} and {twice[0] + 1} are one point {where}: it "
+                f"Waypoints {twice[0]} and {twice[0] + 1} are the same point {where}; "
             )
-            return Finding("point-twice", says + "stands in the way once.")
+            return Finding("point-twice", says + "include it once.")
         if len(way) and not len(right):
             says = f"Valid, by another planner: your function finds a path {where}"
             why = "the specified planner finds none with these samples"

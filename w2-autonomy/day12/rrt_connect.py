@@ -20,11 +20,12 @@ row = Row(
             "^stopped",
             r"\bwhile\b|\bfor\b",
             "stopped",
-            "A loop has no end. Towards the *sample* the other tree comes to the "
-            "sample and stays there: further edges have no length and are free, and "
-            "the *new node* is never reached; grow it towards the new node, and "
-            "compare with that. Leave the loop where an edge is not free. On the way "
-            "back to the root no node is its own parent.",
+            "A loop does not end. If the other tree grows towards the *sample*, it "
+            "reaches the sample and then adds free edges of length 0, so it never "
+            "reaches the *new node*. Grow it towards the new node, compare its last "
+            "node with the new node, and leave the loop if an edge is not free. When "
+            "you follow the parents to the root, stop at the root: no node may be its "
+            "own parent.",
         ),
     ),
 )
@@ -36,8 +37,8 @@ def connected(*call):
 
 
 row.cases(
-    samples_with_which_a_path_is_found=connected,
-    samples_with_which_no_path_is_found=lambda *call: not connected(*call),
+    samples_that_lead_to_a_path=connected,
+    samples_that_lead_to_no_path=lambda *call: not connected(*call),
 )
 row.cases(
     worlds_without_an_obstacle=lambda *call: np.size(call[2]) == 0,
@@ -106,45 +107,44 @@ def _(start, goal, world, samples, step, path):
 
 @row.wrongs
 def _(start, goal, world, samples, step):
-    """swap-when-it-grew: yours is another planner than the one asked for.
-      The trees change places only after a sample that made one grow; here sample 0, 2,
-      4 is the start's whatever became of it
-    swap-when-it-failed: yours is another planner than the one asked for. The
-      trees change places only after a blocked sample; here they take turns
-    trees-not-swapped: yours is another planner than the one asked for. All
-      samples grow the start's tree; 1, 3, 5 are the goal's
-    goal-first: yours is another planner than the one asked for. Sample 0
-      grows the goal's tree; it is the start's
-    connect-one-step: yours is another planner than the one asked for. The
-      other tree grows by one edge; it goes on, edge after edge, until it is blocked or
-      stands at the new node
-    connect-to-the-sample: yours is another planner than the one asked for.
-      The other tree grows towards the sample; it grows towards the new node
-    greedy-samples: yours is another planner than the one asked for. Towards
-      the sample, too, the tree grows edge after edge; one edge is asked for
-    one-tree: yours is another planner than the one asked for. Only the
-      start's tree grows, and the goal is tried from each new node; two trees grow here
-    connect-in-one-jump: the other tree joins by one edge, however long; it grows by
-      steps
-    parent-is-the-newest: every node of both trees stands in the way: the parent of a
-      node is the one it grew from, the index that extend returns, and not the one
-      before
-    not-turned-round: the start's branch is read from the newest node to the root, and
-      so comes first backwards; turn it round
-    goal-to-start: the way runs from the goal to the start
-    half-the-path: this is the start's branch alone; the goal's belongs to the way
-    half-the-path 2: this is the goal's branch alone; the start's belongs to the way
-    not-checked: nodes are added whether their edge is free or not: extend's third
-      result is not used
-    meeting-point-twice: the node where the trees meet stands in the way twice
-    meeting-point-lost: the node where the trees meet is in neither half
-    goal-lost: the goal is not in the way
-    start-lost: the start is not in the way
-    ends-only: this is start and goal alone
-    first-sample-left-out: the first sample is not used
-    last-sample-left-out: the last sample is not used
-    straight-tried-first: yours is another planner: it tries start and goal by one edge
-      before any sample; without samples no way is asked for
+    """swap-when-it-grew: your code implements another planner. It swaps the trees only
+      after a sample that made a tree grow; swap them after every sample
+    swap-when-it-failed: your code implements another planner. It swaps the trees only
+      after a blocked sample; swap them after every sample
+    trees-not-swapped: your code implements another planner. All samples extend the
+      start's tree; samples 1, 3, 5 should extend the goal's tree
+    goal-first: your code implements another planner. Sample 0 extends the goal's tree;
+      it should extend the start's tree
+    connect-one-step: your code implements another planner. The other tree adds one edge
+      only; add edges until one is blocked or the new node is reached
+    connect-to-the-sample: your code implements another planner. The other tree grows
+      towards the sample; it should grow towards the new node
+    greedy-samples: your code implements another planner. It adds several edges towards
+      the sample; add one edge only
+    one-tree: your code implements another planner. Only the start's tree grows, and
+      each new node is connected to the goal; grow two trees
+    connect-in-one-jump: the other tree is connected by a single edge of any length; add
+      edges of one step each
+    parent-is-the-newest: the path contains every node of both trees; the parent of a
+      node is the node from which it grew, the index that `extend` returns
+    not-turned-round: the start's branch runs from the newest node to the root; reverse
+      it
+    goal-to-start: the path runs from the goal to the start
+    half-the-path: your code returns only the start's branch; append the goal's branch
+    half-the-path 2: your code returns only the goal's branch; put the start's branch
+      before it
+    not-checked: nodes are added even if their edge is not free; use the third result of
+      `extend`
+    meeting-point-twice: the path contains the node where the trees meet twice
+    meeting-point-lost: the path does not contain the node where the trees meet
+    goal-lost: the path does not contain the goal
+    start-lost: the path does not contain the start
+    ends-only: the path contains only the start and the goal
+    first-sample-left-out: your code skips the first sample
+    last-sample-left-out: your code skips the last sample
+    straight-tried-first: your code implements another planner. It tests the edge from
+      the start to the goal before the first sample; without samples there should be no
+      path
     """
     given = (start, goal, world, samples, step)
     right = rrt_connect(*given)

@@ -211,85 +211,94 @@ def _others(a, b, discs, part, away):
     }
 )
 def _(a, b, discs):
-    """line-for-segment: the foot may lie beyond the edge's ends: an endless line is
-      looked at, and what stands behind an end blocks it; cut the share to 0..1
-    only-one-end-cut: the share of the foot is cut at 1 alone; before the start the
+    """line-for-segment: the parameter of the nearest point is not clamped to 0..1, so a
+      disc beyond an end of the edge blocks it
+    only-one-end-cut: the parameter is clamped at 1 but not at 0; before the start the
       nearest point is the start
-    only-one-end-cut 2: the share of the foot is cut at 0 alone; beyond the end the
+    only-one-end-cut 2: the parameter is clamped at 0 but not at 1; beyond the end the
       nearest point is the end
-    ends-only: only the two ends are looked at; a disc between them is cut through
-    new-end-only: only the end b is looked at; the edge on the way there counts, too
-    start-only: only the start a is looked at
-    middle-only: only the middle is looked at
-    points-only: only some points of the edge are looked at; a thin disc fits between
-      two of them => ten points
-    points-only 2: only some points of the edge are looked at; a thin disc fits between
-      two of them => five points
-    points-only 3: only some points of the edge are looked at; a thin disc fits between
-      two of them => twenty points
-    points-only 4: only some points of the edge are looked at; a thin disc fits between
-      two of them => eleven points
-    points-only 5: discs that cover little of the edge are missed: some points of
-      it are tried alone, or its nearest point is a little beside => a hundred and
-      one points
-    points-only 6: discs that cover little of the edge are missed: some points of
-      it are tried alone, or its nearest point is a little beside => two hundred points
-    inside-is-free: an edge that lies in a disc crosses no circle, and is free; a disc
-      is all that is inside => where the edge crosses a circle
-    inside-is-free 2: an edge that lies in a disc crosses no circle, and is free, a
-      point as well; a disc is all that is inside => where the edge crosses a circle
-    inner-only: a disc whose foot lies beyond an end is left out; the end itself may be
-      in it
-    inner-only 2: a disc whose foot lies beyond an end is left out, unless the edge is a
-      point; the end itself may be in it
-    first-disc-only: only the first disc is looked at
-    last-disc-only: only the last disc is looked at, as by a loop that returns too early
-      or overwrites what it knew
-    nearest-centre: only the disc whose centre is nearest to the edge is looked at; one
-      further away may be larger
-    all-must-hit: it is free as soon as one disc is missed; every disc has to be
-    all-must-hit 2: it is free as soon as one disc is missed, and where there is none it
-      is not; every disc has to be missed
-    squared-for-plain: the square of the distance is compared with the radius itself
-    plain-for-squared: the distance is compared with the square of the radius
-    diameter: the distance is compared with twice the radius: the third number is the
-      radius
-    half-the-radius: the distance is compared with half of the radius: the third number
-      is the radius
-    radius-forgotten: discs are points: the radius is not used
-    not-divided: the share of the foot is not divided by the edge's square, so it is no
-      share
-    divided-by-the-length: the share of the foot is divided by the edge's length; its
-      square belongs there
-    touching-is-free: an edge that touches is free; it is not to be
-    from-the-origin: the foot is measured from the origin: a is not taken off the centre
-    other-way: the share runs from b to a, and is counted from a
-    box: discs are squares: both coordinates are compared by themselves
-    foot-without-a: the way to the foot is not added to a: it begins at the origin
-    cut-to-one: a length along the edge is cut to 0..1, as a share of it would be: cut
-      it to 0..the edge's length
-    length-for-share: a length along the edge is multiplied with b - a, as a share of it
-      would be; it belongs to a direction of length 1
-    distance-to-the-start: beyond the end b the distance to a is taken; the nearest
-      point is b there
-    first-crossing-only: where the edge crosses a circle for the first time is looked
-      at alone: an edge that begins in a disc leaves it, and is hit
-    some-crossing: an endless line that meets the circle counts as hit; both of the
-      crossings may lie behind a or beyond b => by the discriminant alone
-    boxes-overlap: it is hit where the edge's box and the disc's box overlap; an edge
-      may pass a disc within its box
+    ends-only: your code tests only the two ends; the edge can cross a disc between them
+    new-end-only: your code tests only the end b; test the whole edge
+    start-only: your code tests only the start a; test the whole edge
+    middle-only: your code tests only the midpoint; test the whole edge
+    points-only: your code tests only some points of the edge; a small disc fits between
+      two of them => a test of ten points
+    points-only 2: your code tests only some points of the edge; a small disc fits
+      between two of them => a test of five points
+    points-only 3: your code tests only some points of the edge; a small disc fits
+      between two of them => a test of twenty points
+    points-only 4: your code tests only some points of the edge; a small disc fits
+      between two of them => a test of eleven points
+    points-only 5: your code misses discs that cover only a little of the edge. It tests
+      only some points, or its nearest point is not exact => a test of a hundred and one
+      points
+    points-only 6: your code misses discs that cover only a little of the edge. It tests
+      only some points, or its nearest point is not exact => a test of two hundred
+      points
+    inside-is-free: an edge inside a disc does not cross its circle, so your code
+      reports it as free; the inside of a disc is blocked => a test for crossings of the
+      circle
+    inside-is-free 2: an edge or a point inside a disc does not cross its circle, so
+      your code reports it as free; the inside of a disc is blocked => a test for
+      crossings of the circle
+    inner-only: your code skips a disc whose nearest point lies beyond an end of the
+      edge; the end itself can lie in the disc
+    inner-only 2: your code skips a disc whose nearest point lies beyond an end, unless
+      the edge is a point; the end itself can lie in the disc
+    first-disc-only: your code tests only the first disc
+    last-disc-only: your code tests only the last disc; does a loop return too early or
+      overwrite the result?
+    nearest-centre: your code tests only the disc with the nearest centre; a disc
+      farther away can be larger
+    all-must-hit: your code reports a free edge as soon as it misses one disc; it must
+      miss every disc
+    all-must-hit 2: your code reports a free edge as soon as it misses one disc, and
+      never if there is no disc; the edge must miss every disc
+    squared-for-plain: the squared distance is compared with the radius
+    plain-for-squared: the distance is compared with the squared radius
+    diameter: the distance is compared with twice the radius; the third number of a disc
+      is its radius
+    half-the-radius: the distance is compared with half of the radius; the third number
+      of a disc is its radius
+    radius-forgotten: the radius is not used, so the discs are points
+    not-divided: the parameter of the nearest point is not divided by the squared length
+      of the edge
+    divided-by-the-length: the parameter of the nearest point is divided by the length
+      of the edge; divide it by the squared length
+    touching-is-free: an edge that touches a disc is reported as free; it should be
+      blocked
+    from-the-origin: the nearest point is computed from the origin; subtract a from the
+      centre first
+    other-way: the parameter runs from b to a, but it is applied from a
+    box: the discs are treated as squares, because each coordinate is compared
+      separately; use the Euclidean distance
+    foot-without-a: the nearest point is measured from the origin; add a
+    cut-to-one: a length along the edge is clamped to 0..1; clamp it to the length of
+      the edge
+    length-for-share: a length along the edge is multiplied by b - a; multiply it by the
+      unit vector, or divide it by the length of the edge
+    distance-to-the-start: beyond the end b your code uses the distance to a; the
+      nearest point is b
+    first-crossing-only: your code tests only the first crossing of the circle; an edge
+      that starts in a disc has only the second one
+    some-crossing: your code tests whether the infinite line meets the circle; both
+      crossings can lie beyond an end of the edge => the sign of the discriminant
+    boxes-overlap: your code tests whether the bounding boxes of the edge and the disc
+      overlap; the edge can miss the disc inside its box
     x-and-y-exchanged: x and y of the centres are exchanged
-    no-disc-is-hit: where there is no disc nothing is hit: the edge is free
-    touching-between: an edge that touches a disc between its ends is free; it is not
-      to be
-    points-only 7: discs that cover little of the edge are missed: some points of
-      it are tried alone, or its nearest point is a little beside => a thousand points
-    points-only 8: only some points of the edge are looked at; a thin disc fits between
-      two of them => ten points without the end
-    points-only 9: discs that cover little of the edge are missed: some points of
-      it are tried alone, or its nearest point is a little beside => a hundred points
-    points-only 10: discs that cover little of the edge are missed: some points of
-      it are tried alone, or its nearest point is a little beside => fifty points
+    no-disc-is-hit: if there is no disc, your code reports a blocked edge; the edge is
+      free
+    touching-between: an edge that touches a disc between its ends is reported as free;
+      it should be blocked
+    points-only 7: your code misses discs that cover only a little of the edge. It tests
+      only some points, or its nearest point is not exact => a test of a thousand points
+    points-only 8: your code tests only some points of the edge; a small disc fits
+      between two of them => a test of ten points without the end
+    points-only 9: your code misses discs that cover only a little of the edge. It tests
+      only some points, or its nearest point is not exact => a test of a hundred points
+    points-only 10: your code misses discs that cover only a little of the edge. It
+      tests only some points, or its nearest point is not exact => a test of fifty
+      points
     """
     along = b - a
     square = along @ along
@@ -351,8 +360,8 @@ def _(a, b, discs):
 
 @row.wrong(hidden="the lab has no edge of no length")
 def divided_by_nothing(a, b, discs):
-    """an edge of no length, b = a, is called hit also where it lies in no disc: it is a
-    point then (a share of 0 / 0 is NaN, which is not above a radius)"""
+    """an edge of length 0 is always reported as blocked; its parameter is 0 / 0 (NaN),
+    and a comparison with NaN is False, so treat it as a point"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)
@@ -362,8 +371,8 @@ def divided_by_nothing(a, b, discs):
 
 @row.wrong("divided-by-nothing")
 def _(a, b, discs):
-    """an edge of no length, b = a, is called free also where it lies in a disc: it is a
-    point then (a share of 0 / 0 is NaN, which is not below a radius)"""
+    """an edge of length 0 is always reported as free; its parameter is 0 / 0 (NaN),
+    and a comparison with NaN is False, so treat it as a point"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)
@@ -373,8 +382,8 @@ def _(a, b, discs):
 
 @row.wrong
 def touching_and_no_length(a, b, discs):
-    """an edge that touches is free, and an edge of no length divides by 0: touching is
-    not free, and the edge is a point then: two mistakes"""
+    """an edge that touches a disc is reported as free, and an edge of length 0 divides
+    by 0; a touching edge is blocked, and an edge of length 0 is a point"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)

@@ -121,31 +121,36 @@ def _(path, world, pairs, answer):
 
 @row.wrongs
 def _(path, world, pairs):
-    """not-checked: it cuts whether the edge is free or not
-    one-node-short: the point j is cut off as well, so that the edge goes on to the one
-      after it, which nobody checked
-    one-node-short 2: the point i is cut off as well: keep path[: i + 1]
-    one-too-many: the point before j is kept: what lies between them goes
-    end-lost: the end of the path is lost with the first cut
-    first-cut-only: it ends with the first cut; all pairs are tried
-    indices-of-the-first-path: a pair names rows of the path as it was at first; it is
-      the path as it is by then
-    indices-of-the-first-path 2: a pair names rows of the path as it was at first, in
-      the path as it is by then
-    not-sorted: a pair whose first number is the larger is left out: sort the two rows
-    rounded: u m is rounded; int() cuts it off
-    rounded 2: u (m - 1) is rounded; it is int(u m), so that all rows are equally likely
-    of-m-minus-one: u is multiplied with m - 1; it is int(u m), so that all rows are
-      equally likely
-    neighbours-too: rows that are next to each other count as cut => with j - i > 0
-    two-apart-left: rows that are two apart are left; what lies between them can go
-    hit-for-free: it cuts where the edge is *not* free
-    unchanged: this is the path as it was
-    all-but-the-ends: this is start and end alone
-    only-the-ends-checked: only the two points are checked, not the edge between them
-    middle-checked: only the middle of the edge is checked
-    reversed: the path comes back from its end to its start
-    ends-at-i: this is the path up to i and no more
+    """not-checked: your code removes the points without testing whether the new edge is
+      free
+    one-node-short: point j is removed too, so the new edge ends at a point that was not
+      tested
+    one-node-short 2: point i is removed too; keep path[: i + 1]
+    one-too-many: the point before j is kept; remove all points between i and j
+    end-lost: the first shortcut removes the end of the path
+    first-cut-only: your code stops after the first shortcut; try all pairs
+    indices-of-the-first-path: the pairs refer to rows of the original path; they should
+      refer to the current path
+    indices-of-the-first-path 2: the indices are computed with the length of the
+      original path, but used in the current path; use the current length
+    not-sorted: a pair whose first number is the larger is skipped; sort the two rows
+    rounded: u m is rounded to the nearest integer; int() rounds down
+    rounded 2: u (m - 1) is rounded; use int(u m), which gives every row the same
+      probability
+    of-m-minus-one: u is multiplied by m - 1; use int(u m), which gives every row the
+      same probability
+    neighbours-too: your code also treats neighbouring rows as a shortcut => a test with
+      j - i > 0
+    two-apart-left: your code skips rows that are two apart; the point between them can
+      be removed
+    hit-for-free: the test is inverted, so your code applies shortcuts that are blocked
+    unchanged: your code returns the original path
+    all-but-the-ends: your code returns only the start and the end
+    only-the-ends-checked: your code tests only the two points; test the edge between
+      them
+    middle-checked: your code tests only the midpoint of the edge; test the whole edge
+    reversed: the path runs from its end to its start
+    ends-at-i: your code returns only the path up to i
     """
     none = np.empty((0, 2))
 

@@ -18,9 +18,9 @@ def from_afar(rng):
 
 NOT_THE_TARGET = HeldOut(
     "not-the-target",
-    "Right but for the last bit: where the target is within a step, q plus the whole "
-    "way is rounded, and may miss the target (where q is 1e14 by much). Return a copy "
-    "of the target then: trees join where two nodes are equal.",
+    "Your result is correct except for rounding. If the target is within a step, "
+    "q + (target - q) can differ from the target. Return a copy of the target, because "
+    "two trees are connected only at equal nodes.",
     from_afar,
 )
 row = Row(Vector((None,)), held_out=[NOT_THE_TARGET])
@@ -78,52 +78,50 @@ def _(rng):
 
 @row.wrongs
 def _(q, target, step):
-    """overshoots: it goes a whole step even where the target is nearer, and past it; it
-      ends at the target then => a whole step each time
-    no-limit: it goes to the target, however far: the step limits nothing => the target
-    fraction: it goes the share `step` of the way; a step is a length => q + step
-      (target - q)
-    fraction-at-most-all: it goes the share `step` of the way, at most all of it; a step
-      is a length
-    not-unit: far targets are not divided by their distance => q + step (target - q)
-      where the target is far
-    squared: it divides by the square of the distance; its root makes a direction of
-      length 1
-    from-the-target: a step is taken back from the target; it starts at q
-    from-the-target 2: a step is added to the target, and goes past it; it starts at q
-    direction-only: q is missing: this is the step, and not where it ends
-    direction-only 2: q is missing: this is the step, or the whole way where it is
-      shorter
-    away: it goes away from the target: q - target is the other way round
-    away 2: where the target is far it goes a step away from it
-    stays-when-near: where the target is no further than a step it does not move; it
-      ends at the target then
-    always-q: it never moves
-    largest-coordinate: the distance is taken for the largest difference in one
-      coordinate; it is the root of the sum of squares
-    largest-coordinate 2: each coordinate is cut to a step; the whole way is to be no
-      longer than one
-    sum-of-sizes: the distance is taken for the sum of the differences' sizes; it is the
-      root of the sum of squares
-    unit-step: it goes 1 far; it is `step` => with step 1
-    half-a-step: it goes half a step
-    limit-the-other-way: where the target is far it jumps to it, and where it is near it
-      goes a whole step: the two cases are swapped
-    from-the-origin: it goes from the origin, not from q
-    square-compared: the square of the distance is compared with the step; its root is
-      the distance
-    two-coordinates: the distance is that of the first two coordinates; all of them
-      count
-    root-of-the-mean: the distance is the root of the mean of squares; it is that of
-      their sum
-    length-of-the-target: it divides by the target's distance from the origin; it is
-      that from q
-    direction-from-the-origin: the direction is that of the target from the origin; it
-      is that from q
-    stops-half-way: where the target is near it goes half of the way; it ends at the
-      target then
-    step-on-each-coordinate: where the target is far each coordinate goes a whole step;
-      the whole way is to be a step long
+    """overshoots: a full step is taken even if the target is nearer; stop at the target
+      => a full step in every case
+    no-limit: your code returns the target at any distance; limit the motion to one step
+    fraction: `step` is used as a fraction of the displacement; it is a length => q +
+      step (target - q)
+    fraction-at-most-all: `step` is used as a fraction of the displacement, at most 1;
+      it is a length
+    not-unit: the displacement to a far target is not divided by its norm => q + step
+      (target - q) for far targets
+    squared: the displacement is divided by its squared norm; divide it by the norm
+    from-the-target: the step is subtracted from the target; start at q
+    from-the-target 2: the step is added to the target; start at q
+    direction-only: your code returns the displacement; add q
+    direction-only 2: your code returns the displacement, limited to one step; add q
+    away: the point moves away from the target; the direction is target - q
+    away 2: if the target is far, the point moves away from it; the direction is target
+      - q
+    stays-when-near: if the target is within one step, your code returns q; return the
+      target
+    always-q: your code always returns q
+    largest-coordinate: the largest difference in one coordinate is used as the
+      distance; use the Euclidean norm
+    largest-coordinate 2: each coordinate is limited to a step; limit the norm of the
+      displacement
+    sum-of-sizes: the sum of the absolute differences is used as the distance; use the
+      Euclidean norm
+    unit-step: the displacement has norm 1; use the argument `step`
+    half-a-step: the displacement is half a step
+    limit-the-other-way: the two cases are exchanged; return the target if it is near,
+      and take a full step if it is far
+    from-the-origin: the step starts at the origin; start at q
+    square-compared: the squared distance is compared with the step; compare the
+      distance
+    two-coordinates: the distance uses only the first two coordinates; use all of them
+    root-of-the-mean: your code takes the root of the mean of the squares; take the root
+      of their sum
+    length-of-the-target: the displacement is divided by the norm of the target; divide
+      it by the norm of target - q
+    direction-from-the-origin: the direction is the target's direction from the origin;
+      use the direction from q
+    stops-half-way: if the target is near, the point moves only half of the distance;
+      return the target
+    step-on-each-coordinate: if the target is far, each coordinate changes by a full
+      step; the norm of the displacement should be one step
     """
     way = target - q
     far = np.linalg.norm(way)
@@ -169,8 +167,8 @@ def _(q, target, step):
 
 @row.wrong(hidden="the lab never steers to where a tree stands")
 def divided_by_nothing(q, target, step):
-    """where the target is q itself the distance is 0, and 0 / 0 is NaN: there is
-    nothing to go, so it stays => without that case"""
+    """if the target equals q, the distance is 0 and your code computes 0 / 0 (NaN);
+    return q => the formula without that case"""
     way = target - q
     with np.errstate(all="ignore"):
         return q + min(step, np.linalg.norm(way)) * (way / np.linalg.norm(way))

@@ -616,7 +616,7 @@ def test_a_tree_that_waits_for_the_sample_is_told_what_to_compare_with(student):
     (verdict,) = [one.verdict for one in results if one.task.id == "12.4"]
     assert verdict.mistake == "stopped"
     assert "rrt_connect did not return" in verdict.message
-    assert "compare with that" in verdict.message
+    assert "compare its last node with the new node" in verdict.message
 
 
 def test_edges_of_a_way_are_free_and_a_step_long_at_most():

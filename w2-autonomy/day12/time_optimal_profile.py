@@ -110,46 +110,48 @@ def bobrow(a, b, c, limits, sd2_max):
 
 @row.wrongs
 def _(a, b, c, limits, sd2_max):
-    """no-braking: there is no pass backwards: it goes as fast as it can, and cannot
-      stop at the end => the pass forwards alone, up to sd2_max
-    no-braking 2: there is no pass backwards: it goes as fast as it can, and is stopped
-      at the end in no time => the pass forwards alone, with 0 at the end
-    end-not-at-rest: the pass backwards starts with sd2_max at the end; it starts with 0
-    start-not-at-rest: it begins with the greatest sd^2 from which it can stop; it
-      begins at rest
-    backward-pass-only: there is no pass forwards: it begins in motion => the pass
-      backwards alone
-    backward-pass-only 2: there is no pass forwards: it jumps from rest to the greatest
-      sd^2 => the pass backwards alone, with 0 at the start
-    smaller-of-two-passes: each pass is made by itself, and the smaller of both is
-      taken; forwards, it has to go on from what the other one leaves
-    ds-for-2-ds: sd^2 grows by 2 ds u in a step; here it is ds u
-    four-ds: sd^2 grows by 2 ds u in a step; here it is 4 ds u
-    points-for-steps: ds is 1 / (N + 1): N + 1 points have N steps
-    sd-for-sd2: path_accel_bounds is given x; it wants sd, its root
-    sd-for-sd2 2: backwards path_accel_bounds is given x; it wants sd, its root
-    sd-for-sd2 3: forwards path_accel_bounds is given x; it wants sd, its root
-    most-of-the-point-before: forwards x[i + 1] is kept below what is possible at i;
-      that of i + 1 belongs there
-    no-speed-limit: sd2_max is not used: the motors' speed is no limit
-    speed-limit-forwards-only: sd2_max is used forwards alone: what comes after was not
-      looked at
-    gravity-forgotten: gravity is left out of what the torques allow
-    coriolis-forgotten: b is left out of what the torques allow
-    cannot-stand-goes: where gravity alone is too much at a point the arm cannot hold
-      there; zeros are asked for => without that case
-    few-bisections: an interval that is halved so seldom is still wide => 10 times
-    few-bisections 2: an interval that is halved so seldom is still wide => 20 times
-    limits-of-the-next-point: the limits of a step are read at its end; they are those
-      of its first point
-    bobrow: backwards the limits are read at the point that comes after; a step's are
-      those of its first point
-    root: this is sd; its square is asked for
-    times: this is when each point is reached, and not sd^2
-    half-the-torque: only half of the torque is used
-    never-moves: sd^2 is 0 at every point of every path: look at what the pass backwards
-      leaves, and whether forwards the greatest sdd is taken
-    accelerations: this is sdd of each step, and 0
+    """no-braking: there is no backward pass, so the motion cannot stop at the end =>
+      the forward pass alone, up to sd2_max,
+    no-braking 2: there is no backward pass, so the motion stops abruptly at the end =>
+      the forward pass alone, with 0 at the end,
+    end-not-at-rest: the backward pass starts with sd2_max at the end; start with 0
+    start-not-at-rest: the motion starts with the largest sd^2 from which it can stop;
+      start with 0
+    backward-pass-only: there is no forward pass, so the motion does not start at rest
+      => the backward pass alone
+    backward-pass-only 2: there is no forward pass, so sd^2 jumps from 0 to its maximum
+      => the backward pass alone, with 0 at the start,
+    smaller-of-two-passes: the two passes are computed independently, and the minimum is
+      taken; the forward pass must use the limits from the backward pass
+    ds-for-2-ds: sd^2 grows by ds u in a step; it should grow by 2 ds u
+    four-ds: sd^2 grows by 4 ds u in a step; it should grow by 2 ds u
+    points-for-steps: ds is 1 / (N + 1); N + 1 points have N steps, so ds is 1 / N
+    sd-for-sd2: `path_accel_bounds` is called with sd^2; its argument is sd
+    sd-for-sd2 2: in the backward pass `path_accel_bounds` is called with sd^2; its
+      argument is sd
+    sd-for-sd2 3: in the forward pass `path_accel_bounds` is called with sd^2; its
+      argument is sd
+    most-of-the-point-before: in the forward pass sd^2 at i + 1 is limited by the
+      maximum at i; use the maximum at i + 1
+    no-speed-limit: sd2_max is not used, so the speed of the motors is not limited
+    speed-limit-forwards-only: sd2_max is used only in the forward pass; the backward
+      pass needs it too
+    gravity-forgotten: gravity is missing in the torques
+    coriolis-forgotten: b is missing in the torques
+    cannot-stand-goes: if gravity alone exceeds a torque limit, the arm cannot hold
+      there; return zeros => the formula without that case
+    few-bisections: the bisection stops too early => the result after 10 halvings
+    few-bisections 2: the bisection stops too early => the result after 20 halvings
+    limits-of-the-next-point: the limits of a step are computed at its end; use its
+      first point
+    bobrow: in the backward pass the limits of a step are computed at its end; use its
+      first point
+    root: your code returns sd; return sd^2
+    times: your code returns the time of each point; return sd^2
+    half-the-torque: your code uses only half of each torque limit
+    never-moves: sd^2 is 0 at every point. Check the result of the backward pass, and
+      whether the forward pass uses the largest sdd
+    accelerations: your code returns sdd of each step; return sd^2
     """
     given = (a, b, c, limits, sd2_max)
     right = time_optimal_profile(*given)

@@ -16,8 +16,8 @@ ASKS = Slip(
     "'(Room|Yard|Shelf)'",
     "",
     "own-checker-not-asked",
-    "A world may have a checker of its own, a method edge_free(a, b), and show no "
-    "discs: edge_free(a, b, world), which is given, asks either.",
+    "A world can have its own method `edge_free(a, b)` instead of discs. Call the "
+    "given function `edge_free(a, b, world)`, which handles both cases.",
 )
 HUGE = 1e6
 CLEAR = 1e-5  # nothing that is asked comes so near to a tie, or touches so nearly

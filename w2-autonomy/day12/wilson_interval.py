@@ -8,7 +8,7 @@ from robo47.planning import wilson_interval
 from .intervals import of_shares
 
 row = Row(
-    Vector((2,), names=("the low end", "the high end")),
+    Vector((2,), names=("the lower end", "the upper end")),
     near=1e-7,  # 1.959964 for 1.96 is 4e-6 away
     at_edge=lambda successes, n: 0 <= successes <= n,
     unnamed=of_shares,
@@ -34,13 +34,13 @@ def _(rng):
         yield int(rng.integers(0, n + 1)), n
 
 
-def interval(k, n, z=1.96, centre=True, widen=True, divide=True, root=np.sqrt):
+def interval(k, n, z=1.96, centre=True, widen=True, divide=True):
     """Return the interval, made with other parts."""
     if n == 0:
         return np.array([0.0, 1.0])
     p = k / n
     middle = p + centre * z**2 / (2 * n)
-    around = z * root(p * (1 - p) / n + widen * z**2 / (4 * n**2))
+    around = z * np.sqrt(p * (1 - p) / n + widen * z**2 / (4 * n**2))
     return (middle + np.array([-around, around])) / (1 + divide * z**2 / n)
 
 
@@ -63,52 +63,57 @@ def _(rng):
 
 @row.wrongs
 def _(successes, n):
-    """wald: p +- z sqrt(p (1 - p) / n) takes the noise at k / n for that at the true
-      share, so of all or of none it has no width at all => p +- 1.96
-      sqrt(p (1 - p) / n)
-    wald-cut: p +- z sqrt(p (1 - p) / n), cut to 0..1, takes the noise at k / n for that
-      at the true share: of all or of none it has no width at all
-    centre-not-moved: the middle is k / n; the roots lie about a point nearer to one
-      half => without z^2 / (2 n) in the middle
-    width-without-z2: z^2 / (4 n^2) is missing under the root
+    """wald: this is the Wald interval, p +- z sqrt(p (1 - p) / n). It uses the variance
+      at k / n, so for k = 0 or k = n its width is 0 => p +- 1.96 sqrt(p (1 - p) / n)
+    wald-cut: this is the Wald interval, p +- z sqrt(p (1 - p) / n), clamped to 0..1. It
+      uses the variance at k / n, so for k = 0 or k = n its width is 0
+    centre-not-moved: the centre is k / n; Wilson's centre is shifted towards one half
+      => the formula without z^2 / (2 n) in the centre
+    width-without-z2: the term z^2 / (4 n^2) is missing under the root
     not-divided: the division by 1 + z^2 / n is missing
-    middle-not-divided: only the width is divided by 1 + z^2 / n; the middle is, too
-    width-not-divided: only the middle is divided by 1 + z^2 / n; the width is, too
-    root-n-forgotten: p (1 - p) is not divided by n, so that more trials tell no more
-    not-rooted: the root is missing
-    ninety: 1.645 leaves 5 in 100 on each side: that is 90 %; it takes 1.96
-    ninety-without-z2: 1.645 stands for 1.96, and z^2 / (4 n^2) is missing under the
-      root: two mistakes
-    two-sigma: 2 is taken for 1.96
-    one-sigma: one sigma holds 68 times in 100; it takes 1.96
-    ninety-nine: 2.576 is for 99 %; it takes 1.96
-    more-digits: 1.959964 is nearer to the truth than 1.96; asked for is 1.96, so that
-      all have the same digits => with 1.959964
-    z-for-z2: z stands where its square belongs, in the middle and below it
-    two-n: z^2 / n for z^2 / (2 n) in the middle
-    four-forgotten: z^2 / n^2 for z^2 / (4 n^2) under the root
-    n-for-n2: z^2 / (4 n) for z^2 / (4 n^2) under the root
-    successes-for-p: k stands where the share k / n belongs
-    failures: these are the shares of failures: the interval of n - k
-    high-first: the two are in the other order: low, then high
-    high-first 2: the two are in the other order wherever there is a trial: low, then
-      high
-    middle-and-width: this is the middle and the half width; the two ends are asked for
-    rule-of-three: with no success at all the high end is 3 / n: that is another
-      interval
-    rule-of-three 2: of no success the high end is 3 / n, of n successes the low end is
-      1 - 3 / n: that is another interval
-    rule-of-three 3: of no success the high end is 3 / n, of n successes the low end is
-      1 - 3 / n: that is another interval => cut to 0..1
-    plus-four: p is (k + 2) / (n + 4), then Wald's interval: near, and another one
-    plus-four 2: p is (k + z^2 / 2) / (n + z^2), then Wald's interval with n + z^2 for n
-      (Agresti and Coull's): near, and another one
-    plus-four 3: p is (k + z^2 / 2) / (n + z^2), then Wald's interval with n + z^2 for n
-      (Agresti and Coull's): near, and another one => cut to 0..1
-    one-more: p is (k + 1) / (n + 2), one success and one failure more; it is k / n
-    half-width: the width is half of what it is
-    one-is-none: one trial tells as little as none here; it tells a little: (0, 1) is
-      for n = 0 alone => (0, 1) below two trials
+    middle-not-divided: only the half-width is divided by 1 + z^2 / n; divide the centre
+      too
+    width-not-divided: only the centre is divided by 1 + z^2 / n; divide the half-width
+      too
+    root-n-forgotten: p (1 - p) is not divided by n, so more trials do not make the
+      interval narrower
+    ninety: z = 1.645 gives a 90 % interval; use 1.96
+    ninety-without-z2: z = 1.645 is used instead of 1.96, and the term z^2 / (4 n^2) is
+      missing under the root
+    two-sigma: z is 2; use 1.96
+    one-sigma: z = 1 gives a 68 % interval; use 1.96
+    ninety-nine: z = 2.576 gives a 99 % interval; use 1.96
+    more-digits: z = 1.959964 is more exact than 1.96, but the task uses 1.96 so that
+      all results agree => the formula with 1.959964
+    z-for-z2: z is used instead of z^2 in the centre and in the denominator
+    two-n: the centre contains z^2 / n; it should contain z^2 / (2 n)
+    four-forgotten: the root contains z^2 / n^2; it should contain z^2 / (4 n^2)
+    n-for-n2: the root contains z^2 / (4 n); it should contain z^2 / (4 n^2)
+    successes-for-p: k is used as the proportion; use k / n
+    failures: your code returns the interval of the failures, n - k; return the interval
+      of the successes
+    high-first: the upper end comes first; return the lower end first
+    high-first 2: for n > 0 the upper end comes first; return the lower end first
+    middle-and-width: your code returns the centre and the half-width; return the two
+      ends
+    rule-of-three: for k = 0 the upper end is 3 / n; this is the rule of three, not the
+      Wilson interval
+    rule-of-three 2: for k = 0 the upper end is 3 / n, and for k = n the lower end is 1
+      - 3 / n; this is the rule of three, not the Wilson interval
+    rule-of-three 3: for k = 0 the upper end is 3 / n, and for k = n the lower end is 1
+      - 3 / n; this is the rule of three, not the Wilson interval => this rule, clamped
+      to 0..1,
+    plus-four: your code uses the Wald interval with p = (k + 2) / (n + 4) (Agresti and
+      Coull); use the Wilson interval
+    plus-four 2: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
+      n + z^2 trials (Agresti and Coull); use the Wilson interval
+    plus-four 3: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
+      n + z^2 trials (Agresti and Coull); use the Wilson interval => this interval,
+      clamped to 0..1,
+    one-more: p is (k + 1) / (n + 2), with one success and one failure added; use k / n
+    half-width: the interval has half of the correct width
+    one-is-none: for n = 1 your code returns (0, 1); only n = 0 is a special case => (0,
+      1) for n = 0 and n = 1
     """
     k, trials = successes, n
     n = n or 1  # of no trial see below
@@ -138,7 +143,6 @@ def _(successes, n):
         "middle-not-divided": middle * below + two * around,
         "width-not-divided": middle + two * around * below,
         "root-n-forgotten": with_root(p * (1 - p) + z**2 / (4 * n**2)),
-        "not-rooted": interval(k, n, root=lambda x: x),
         "ninety": interval(k, n, 1.645),
         "ninety-without-z2": interval(k, n, 1.645, widen=False),
         "two-sigma": interval(k, n, 2.0),
@@ -178,8 +182,8 @@ def _(successes, n):
 
 @row.wrong
 def none_divides(successes, n):
-    """of no trial at all every share is believable, (0, 1): k / n divides by 0 there =>
-    without that case"""
+    """for n = 0 your code divides by 0; return (0, 1), because no proportion can be
+    excluded => the formula without that case"""
     with np.errstate(all="ignore"):
         k, n = np.float64(successes), np.float64(n)
         p, z = k / n, 1.96
@@ -189,8 +193,8 @@ def none_divides(successes, n):
 
 @row.wrong("none-divides")
 def _(successes, n):
-    """of no trial at all every share is believable, (0, 1): it is another answer there
-    => (0, 0) of no trial"""
+    """for n = 0 your code returns another result; return (0, 1), because no proportion
+    can be excluded => (0, 0) for n = 0"""
     return np.zeros(2) if n == 0 else wilson_interval(successes, n)
 
 
@@ -207,4 +211,4 @@ def _(successes, n):
     return np.sort(np.roots([n + z2, -(2 * n * p + z2), n * p**2]).real)
 
 
-row.at_least_0(successes="a count", n="a count", answer="shares")
+row.at_least_0(successes="a count", n="a count", answer="proportions")
