@@ -1,8 +1,19 @@
 """Two mistakes at once, and one that is only a part of what is wrong."""
 
+import inspect
+import textwrap
+import types
+
+import inprocess
 import numpy as np
 import pytest
 from test_claims import right, told
+
+from labkit.judge.hypothesis import evidence
+from labkit.judge.matcher import Matcher
+from labkit.judge.mistake import Mistake
+from labkit.lesson.day import find_day
+from labkit.lesson.starter import function_lines
 
 pytestmark = pytest.mark.kit
 
@@ -170,3 +181,53 @@ def test_two_entries_of_an_argument_exchanged_need_no_name():
 
     says = told(1, "1.4", quat_to_R=quat_to_R)
     assert "`quat[2]` and `quat[3]` are exchanged" in says
+
+
+def test_two_halves_that_say_the_same_are_no_pair(tmp_path):
+    def mass_matrix(J_space, G, armature):
+        n = J_space.shape[1]
+        M = np.diag(armature).astype(float)
+        for i in range(n):
+            for j in range(n):
+                for link in range(min(i, j), n):
+                    M[i, j] += J_space[:, i] @ G[link] @ J_space[:, j]
+        return M
+
+    day, script = find_day(4), tmp_path / "day4.py"
+    lines = day.source.read_text().splitlines()
+    start, end, _ = function_lines("\n".join(lines), "mass_matrix")
+    own = textwrap.dedent(inspect.getsource(mass_matrix)).splitlines()
+    script.write_text("\n".join([*lines[:start], *own, *lines[end:]]))
+    instead = {"mass_matrix": mass_matrix}
+    verdict = inprocess.verdicts(day, script, "4.3", instead=instead)["4.3"]
+    assert verdict.status == "wrong"
+    pair = verdict.message.partition("Two things at once: ")[2]
+    halves = pair.partition(" (")[0].rstrip(".").split("; ")
+    assert len(set(halves)) == len(halves), verdict.message
+
+
+@pytest.mark.parametrize(
+    ("redone", "says"),
+    [
+        ("with min", "the correct formula with min reproduces"),
+        ("upside down", "the right answer, upside down, reproduces"),
+        ("its sizes", "its sizes reproduce"),
+        ("the axis alone", "the axis alone reproduces"),
+        ("its transpose", "its transpose reproduces"),
+    ],
+)
+def test_what_reproduces_an_output_is_a_noun(redone, says):
+    one = Mistake("some", "it is wrong", lambda x: x, redone)
+    assert one.does(evidence(exact=True)) == f"{says} your output"
+
+
+@pytest.mark.parametrize(
+    ("off", "says"),
+    [
+        ("", "(That reproduces your output.)"),
+        ("off by up to 2 m", "(Off by up to 2 m; that reproduces your output.)"),
+    ],
+)
+def test_no_clause_is_empty_where_it_is_not_known_how_far_off_an_answer_is(off, says):
+    some = types.SimpleNamespace(off=lambda: off)
+    assert Matcher.in_brackets(some, f"that {evidence(exact=True)}") == says

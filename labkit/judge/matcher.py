@@ -15,6 +15,7 @@ from labkit.judge.answers import (
     InTurn,
     Parts,
     as_one,
+    capitalised,
     own,
     parts,
     worst_part,
@@ -211,6 +212,11 @@ class Matcher:
             return ""
         kind = self.ask.kinds[k]
         return f"{kind.gap} {kind.apart(self.S[k], self.T[k])}"
+
+    def in_brackets(self, evidence: str) -> str:
+        """Return how far the answers are off and what explains them, in brackets."""
+        how = "; ".join(filter(None, [self.off(), evidence]))
+        return f"({capitalised(how)}.)"
 
 
 def row(answer: Parts) -> Array:
