@@ -206,6 +206,21 @@ def test_two_halves_that_say_the_same_are_no_pair(tmp_path):
     assert len(set(halves)) == len(halves), verdict.message
 
 
+def test_a_half_turn_is_asked_before_an_answer_is_called_close():
+    def log_rotation(R):
+        angle = np.arccos(np.clip((np.trace(R) - 1) / 2, -1, 1))
+        w = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+        size = np.linalg.norm(w)
+        return w / 2 if size < 1e-9 else angle * w / size
+
+    day = find_day(3)
+    instead = {"log_rotation": log_rotation}
+    verdict = inprocess.verdicts(day, day.source, "3.3", instead=instead)["3.3"]
+    assert (verdict.status, verdict.mistake) == ("wrong", "wrong-at-pi")
+    assert "not at exactly pi" in verdict.message
+    assert "1e-08" in verdict.message
+
+
 @pytest.mark.parametrize(
     ("redone", "says"),
     [

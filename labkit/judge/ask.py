@@ -89,6 +89,9 @@ class HeldOut:
     near: float | None = None  # how well `mistaken` has to fit; None is the row's
     # Whether what an answer is off is measured in its own size, however small or large.
     relative: bool = False
+    # Whether a function with few digits is judged by them, too: not where the row's
+    # `near_miss` says more.
+    of_close: bool = True
 
     def __post_init__(self) -> None:
         """Refuse another status: one that passes would hide what is found next."""
