@@ -221,6 +221,17 @@ def test_a_half_turn_is_asked_before_an_answer_is_called_close():
     assert "1e-08" in verdict.message
 
 
+def test_a_matrix_that_is_transposed_in_some_calls_has_no_wrong_order():
+    turn = right(1, "quat_to_R")
+
+    def quat_to_R(quat):
+        return turn(quat).T if quat[0] < 0 else turn(quat)
+
+    says = told(1, "1.4", quat_to_R=quat_to_R)
+    assert "wrong order" not in says
+    assert "In every wrong call it is the transpose of the right answer." in says
+
+
 @pytest.mark.parametrize(
     ("redone", "says"),
     [
