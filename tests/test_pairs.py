@@ -232,6 +232,14 @@ def test_a_matrix_that_is_transposed_in_some_calls_has_no_wrong_order():
     assert "In every wrong call it is the transpose of the right answer." in says
 
 
+def test_an_argument_before_a_default_is_told_by_its_name():
+    def compose_fk(model, q, path=None):
+        return right(1, "compose_fk")(model, np.cumsum(q))
+
+    says = told(1, "1.6", compose_fk=compose_fk)
+    assert "`q` is replaced by its cumulative sum" in says
+
+
 @pytest.mark.parametrize(
     ("redone", "says"),
     [
