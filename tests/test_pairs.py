@@ -265,3 +265,16 @@ def test_what_reproduces_an_output_is_a_noun(redone, says):
 def test_no_clause_is_empty_where_it_is_not_known_how_far_off_an_answer_is(off, says):
     some = types.SimpleNamespace(off=lambda: off)
     assert Matcher.in_brackets(some, f"that {evidence(exact=True)}") == says
+
+
+def test_a_name_that_the_row_finds_is_not_followed_by_a_slip():
+    def truncated_svd_fit(Y, tau, rtol):
+        U, s, Vt = np.linalg.svd(Y, full_matrices=False)
+        x = np.zeros(Y.shape[1])
+        for k in range(int(np.sum(s > rtol * s[0])) - 1):
+            x += (U[:, k] @ tau) / s[k] * Vt[k]
+        return x
+
+    says = told(8, "8.6", truncated_svd_fit=truncated_svd_fit)
+    assert says.startswith("Too few values count in 14 of 14 calls")
+    assert "reproduces" not in says

@@ -181,6 +181,8 @@ class Ask:
     # S and T of the case are filled up with zeros then.
     unnamed: Callable[[Case], Finding | None] | None = None
     before_slips: bool = True  # whether `unnamed` is told before a slip, too
+    # Whether what it finds is a name, as complete as any: then no slip follows it.
+    unnamed_names: bool = False
     # Says why an answer is right to some digits only.
     near_miss: Callable[[Case], Finding | None] | None = None
     measured: Callable[[Case], Sequence[str]] | None = None  # adds lines for --explain

@@ -404,7 +404,9 @@ def _unnamed(case: Case) -> Finding | None:
 def _with_its_place(case: Case, slip: Finding) -> Finding:
     """Return a slip, and before it where the row says that answers go wrong."""
     where = _unnamed(case) if case.ask.before_slips else None
-    return Finding(where.slug, f"{where.message} {slip.message}") if where else slip
+    if where is None or case.ask.unnamed_names:
+        return where or slip
+    return Finding(where.slug, f"{where.message} {slip.message}")
 
 
 def _not_finite(m: Matcher) -> Finding | None:
