@@ -60,7 +60,7 @@ class TestAMistakeThatStopsOrReshapes:
         verdict = told(self.row(), lambda X, W: (X @ W)[:-1])
         assert verdict.mistake == "by-one-row"
         assert "It returns shape (1, 3); expected shape (2, 3), in" in verdict.message
-        assert "All rows but the last reproduces your output" in verdict.message
+        assert "All rows but the last reproduce your output" in verdict.message
 
     def test_may_be_known_to_its_row_where_no_name_gives_it(self):
         def unnamed(case):

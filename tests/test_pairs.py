@@ -1,8 +1,19 @@
 """Two mistakes at once, and one that is only a part of what is wrong."""
 
+import inspect
+import textwrap
+import types
+
+import inprocess
 import numpy as np
 import pytest
 from test_claims import right, told
+
+from labkit.judge.hypothesis import evidence
+from labkit.judge.matcher import Matcher
+from labkit.judge.mistake import Mistake
+from labkit.lesson.day import find_day
+from labkit.lesson.starter import function_lines
 
 pytestmark = pytest.mark.kit
 
@@ -183,3 +194,100 @@ def test_of_two_mistakes_only_what_the_function_does_is_told():
     assert "Two things at once: " in says
     assert "; the reward of NaN is 0. (" in says
     assert "because the simulation failed" not in says
+
+
+def test_two_halves_that_say_the_same_are_no_pair(tmp_path):
+    def mass_matrix(J_space, G, armature):
+        n = J_space.shape[1]
+        M = np.diag(armature).astype(float)
+        for i in range(n):
+            for j in range(n):
+                for link in range(min(i, j), n):
+                    M[i, j] += J_space[:, i] @ G[link] @ J_space[:, j]
+        return M
+
+    day, script = find_day(4), tmp_path / "day4.py"
+    lines = day.source.read_text().splitlines()
+    start, end, _ = function_lines("\n".join(lines), "mass_matrix")
+    own = textwrap.dedent(inspect.getsource(mass_matrix)).splitlines()
+    script.write_text("\n".join([*lines[:start], *own, *lines[end:]]))
+    instead = {"mass_matrix": mass_matrix}
+    verdict = inprocess.verdicts(day, script, "4.3", instead=instead)["4.3"]
+    assert verdict.status == "wrong"
+    pair = verdict.message.partition("Two things at once: ")[2]
+    halves = pair.partition(" (")[0].rstrip(".").split("; ")
+    assert len(set(halves)) == len(halves), verdict.message
+
+
+def test_a_half_turn_is_asked_before_an_answer_is_called_close():
+    def log_rotation(R):
+        angle = np.arccos(np.clip((np.trace(R) - 1) / 2, -1, 1))
+        w = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+        size = np.linalg.norm(w)
+        return w / 2 if size < 1e-9 else angle * w / size
+
+    day = find_day(3)
+    instead = {"log_rotation": log_rotation}
+    verdict = inprocess.verdicts(day, day.source, "3.3", instead=instead)["3.3"]
+    assert (verdict.status, verdict.mistake) == ("wrong", "wrong-at-pi")
+    assert "not at exactly pi" in verdict.message
+    assert "1e-08" in verdict.message
+
+
+def test_a_matrix_that_is_transposed_in_some_calls_has_no_wrong_order():
+    turn = right(1, "quat_to_R")
+
+    def quat_to_R(quat):
+        return turn(quat).T if quat[0] < 0 else turn(quat)
+
+    says = told(1, "1.4", quat_to_R=quat_to_R)
+    assert "wrong order" not in says
+    assert "In every wrong call it is the transpose of the right answer." in says
+
+
+def test_an_argument_before_a_default_is_told_by_its_name():
+    def compose_fk(model, q, path=None):
+        return right(1, "compose_fk")(model, np.cumsum(q))
+
+    says = told(1, "1.6", compose_fk=compose_fk)
+    assert "`q` is replaced by its cumulative sum" in says
+
+
+@pytest.mark.parametrize(
+    ("redone", "says"),
+    [
+        ("with min", "the correct formula with min reproduces"),
+        ("upside down", "the right answer, upside down, reproduces"),
+        ("its sizes", "its sizes reproduce"),
+        ("the axis alone", "the axis alone reproduces"),
+        ("its transpose", "its transpose reproduces"),
+    ],
+)
+def test_what_reproduces_an_output_is_a_noun(redone, says):
+    one = Mistake("some", "it is wrong", lambda x: x, redone)
+    assert one.does(evidence(exact=True)) == f"{says} your output"
+
+
+@pytest.mark.parametrize(
+    ("off", "says"),
+    [
+        ("", "(That reproduces your output.)"),
+        ("off by up to 2 m", "(Off by up to 2 m; that reproduces your output.)"),
+    ],
+)
+def test_no_clause_is_empty_where_it_is_not_known_how_far_off_an_answer_is(off, says):
+    some = types.SimpleNamespace(off=lambda: off)
+    assert Matcher.in_brackets(some, f"that {evidence(exact=True)}") == says
+
+
+def test_a_name_that_the_row_finds_is_not_followed_by_a_slip():
+    def truncated_svd_fit(Y, tau, rtol):
+        U, s, Vt = np.linalg.svd(Y, full_matrices=False)
+        x = np.zeros(Y.shape[1])
+        for k in range(int(np.sum(s > rtol * s[0])) - 1):
+            x += (U[:, k] @ tau) / s[k] * Vt[k]
+        return x
+
+    says = told(8, "8.6", truncated_svd_fit=truncated_svd_fit)
+    assert says.startswith("Too few values count in 14 of 14 calls")
+    assert "reproduces" not in says

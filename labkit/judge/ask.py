@@ -89,6 +89,9 @@ class HeldOut:
     near: float | None = None  # how well `mistaken` has to fit; None is the row's
     # Whether what an answer is off is measured in its own size, however small or large.
     relative: bool = False
+    # Whether a function with few digits is judged by them, too: not where the row's
+    # `near_miss` says more.
+    of_close: bool = True
 
     def __post_init__(self) -> None:
         """Refuse another status: one that passes would hide what is found next."""
@@ -178,6 +181,8 @@ class Ask:
     # S and T of the case are filled up with zeros then.
     unnamed: Callable[[Case], Finding | None] | None = None
     before_slips: bool = True  # whether `unnamed` is told before a slip, too
+    # Whether what it finds is a name, as complete as any: then no slip follows it.
+    unnamed_names: bool = False
     # Says why an answer is right to some digits only.
     near_miss: Callable[[Case], Finding | None] | None = None
     measured: Callable[[Case], Sequence[str]] | None = None  # adds lines for --explain

@@ -68,9 +68,8 @@ def others(call: Call, names: Sequence[str]) -> Iterator[Change]:
 
 
 def _named(call: Call, names: Sequence[str]) -> Sequence[str]:
-    """Return the arguments' names; a call may leave out the last ones."""
-    if len(names) >= len(call):
-        return names[: len(call)]
+    if len(names) >= len(call) > 0:
+        return names[: len(call)]  # the others have defaults, and were not given
     return [f"argument {k + 1}" for k in range(len(call))]
 
 

@@ -164,7 +164,11 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
         )
         return Verdict("wrong", *found, measured, wrong_calls=wrong)
     if off > ask.tolerance:
-        return Verdict("close", *_near_miss(asked, case, S, T, off), measured)
+        found = _near_miss(asked, case, S, T, off)
+        if held := _far_off(asked):
+            says = f"{held.says} {found.message}"
+            return Verdict("wrong", held.slug, says, measured)
+        return Verdict("close", *found, measured)
     return _judge_right(asked, S, measured)
 
 
@@ -246,6 +250,20 @@ def _judge_right(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdic
         if _found(held, ask, exchanges):
             return Verdict(held.status, held.slug, held.says, measured)
     return Verdict("passed", measured=measured)
+
+
+def _far_off(asked: Asked) -> HeldOut | None:
+    """Return the held-out questions to which answers with few digits are wrong, too.
+
+    Those that ask for more digits than the main questions are not asked.
+    """
+    ask = asked.ask
+    for held, exchanges in zip(ask.held_out, asked.held_out, strict=True):
+        stricter = held.relative or (held.near or ask.near) < ask.near
+        loose = held.of_close and not (stricter or held.mistaken)
+        if held.status == "wrong" and loose and _found(held, ask, exchanges):
+            return held
+    return None
 
 
 def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
@@ -384,7 +402,9 @@ def _unnamed(case: Case) -> Finding | None:
 def _with_its_place(case: Case, slip: Finding) -> Finding:
     """Return a slip, and before it where the row says that answers go wrong."""
     where = _unnamed(case) if case.ask.before_slips else None
-    return Finding(where.slug, f"{where.message} {slip.message}") if where else slip
+    if where is None or case.ask.unnamed_names:
+        return where or slip
+    return Finding(where.slug, f"{where.message} {slip.message}")
 
 
 def _not_finite(m: Matcher) -> Finding | None:

@@ -213,9 +213,10 @@ class Matcher:
         kind = self.ask.kinds[k]
         return f"{kind.gap} {kind.apart(self.S[k], self.T[k])}"
 
-    def how(self, evidence: str) -> str:
-        """Return the evidence for a name, after how far the answers are off."""
-        return capitalised("; ".join(filter(None, (self.off(), evidence))))
+    def in_brackets(self, evidence: str) -> str:
+        """Return how far the answers are off and what explains them, in brackets."""
+        how = "; ".join(filter(None, [self.off(), evidence]))
+        return f"({capitalised(how)}.)"
 
 
 def row(answer: Parts) -> Array:

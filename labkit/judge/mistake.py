@@ -12,6 +12,16 @@ from numpy.typing import NDArray
 from robo47.checks import Array
 
 REDONE = "the right answer with this mistake"
+# What an answer is called in the catalogue that is no noun: "with min", "upside down".
+_FORMULA = re.compile(r"with(out)? ")
+_FRAGMENT = re.compile(
+    r"(after|at|by|cut|divided|down|for|from|halved|in|less|minus|rounded|squared"
+    r"|times|turned|up|upside|where|[+*/])\b ?|[+*/] "
+)
+_PLURAL = re.compile(
+    r"(all|both|two|three|five|ten|eleven|twenty|fifty|rays|zeros)\b"
+    r"|(the|its|their) (?!series\b)\w*[^\Wsiu]s\b"
+)
 
 
 class Finding(NamedTuple):
@@ -68,6 +78,21 @@ class Mistake:
     # What to call that answer, as in "0 from its transpose".
     redone: str = REDONE
     reached: bool = False  # whether it is one of a smaller function that this one calls
+
+    def does(self, evidence: str) -> str:
+        """Return a clause on its answers: "the correct formula with min stops".
+
+        Args:
+            evidence: a verb and what follows, as of one thing: "stops in one call".
+        """
+        called = self.redone
+        if _FORMULA.match(called):
+            return f"the correct formula {called} {evidence}"
+        if _FRAGMENT.match(called):
+            return f"the right answer, {called.rstrip(',')}, {evidence}"
+        if _PLURAL.match(called):
+            evidence = re.sub(r"^(\w+)s\b", r"\1", evidence)
+        return f"{called} {evidence}"
 
 
 def told(text: str) -> Iterator[tuple[str, str, str]]:

@@ -73,7 +73,7 @@ def in_common(S: Array, T: Array) -> str:
     """Return what all wrong answers of a function share with the right ones, or ""."""
     if S.shape != T.shape:
         return ""
-    about = about_right(S, T)
+    about, shape = about_right(S, T), S.shape
     S, T = (some.reshape(len(some), -1) for some in (S, T))
     tiny = EXACT * np.maximum(np.abs(T), np.abs(T).max(axis=1, keepdims=True) * EXACT)
     wrong = np.abs(S - T) > tiny
@@ -92,8 +92,27 @@ def in_common(S: Array, T: Array) -> str:
         1, keepdims=True
     )
     if mixed.all() and S.shape[1] > 1:
-        return " The numbers are right, but they are in the wrong order."
+        return _in_another_order(S, T, wrong.any(axis=1), shape)
     return ""
+
+
+def _in_another_order(S: Array, T: Array, wrong: Array, shape: Sequence[int]) -> str:
+    """Return in which order the right numbers stand; "" of a few matrices.
+
+    Args:
+        S: the student's, (n, m), the right numbers in another order.
+        T: the right ones.
+        wrong: which calls are wrong, (n,).
+        shape: that of S as it was returned.
+    """
+    if len(shape) == 3 and shape[1] == shape[2]:
+        turned = np.swapaxes(T.reshape(shape), 1, 2).reshape(len(T), -1)
+        near = EXACT * np.abs(T).max()
+        if np.abs(S - turned)[wrong].max() <= near:
+            return " In every wrong call it is the transpose of the right answer."
+    if len(shape) > 2 and not wrong.all():
+        return ""  # an order that is right in some calls is none
+    return " The numbers are right, but they are in the wrong order."
 
 
 def one_rule(S: Array, T: Array, wrong: Array) -> str:

@@ -51,8 +51,8 @@ def _first(asked: Asked, mine: Sequence[Answer], found: Finding, how: str) -> Fi
         if isinstance(mistake.redo, InTurn):
             again = _again(mistake, arguments, len(mine))
             if len(again) == len(mine) and all(map(_same, mine, again)):
-                says = f"{capitalised(mistake.says)}. ({capitalised(mistake.redone)}"
-                says = f"{found.message} {says} {how}.)"
+                says = f"{capitalised(mistake.says)}. ({capitalised(mistake.does(how))}"
+                says = f"{found.message} {says}.)"
                 return Finding(mistake.slug, says)
     return found
 

@@ -65,10 +65,13 @@ def two_at_once(m: Matcher) -> Finding | None:
     return None
 
 
-def _told(m: Matcher, slugs: Sequence[str], says: Sequence[str]) -> Finding:
+def _told(m: Matcher, slugs: Sequence[str], says: Sequence[str]) -> Finding | None:
+    """Return what is said of a pair; None where both halves say the same."""
     says = [_RULE.split(one)[0] for one in says]  # a rule would break the list
-    how = m.how("both together reproduce your output")
-    return Finding("+".join(slugs), f"Two things at once: {'; '.join(says)}. ({how}.)")
+    if len(set(says)) < len(says):
+        return None
+    how = m.in_brackets("both together reproduce your output")
+    return Finding("+".join(slugs), f"Two things at once: {'; '.join(says)}. {how}")
 
 
 @dataclass(frozen=True)
@@ -363,7 +366,9 @@ def beside(m: Matcher) -> Finding | None:
     pairs = [(known[a], known[b]) for a, b in sums]
     for one, other in sorted(pairs, key=lambda pair: pair[0].rank + pair[1].rank):
         tells = one.apart(other) and one.says and other.says
-        if tells and one.code and other.code and _add_up(m, one.code, other.code):
+        if not tells or one.says == other.says:
+            continue
+        if one.code and other.code and _add_up(m, one.code, other.code):
             return _told(m, [one.slug, other.slug], [one.says, other.says])
     return None
 
@@ -392,9 +397,9 @@ def second(m: Matcher) -> Finding | None:
             m.effort.spend(m.bodies[0].steps.taken)
             if m.main.difference.fits(m.i, answer, digits=True) and m.holds(code):
                 says = [half(m, first), half(m, other)]
-                if all(says):
-                    slugs = [f"slip-{one.kind}" for one in (first, other)]
-                    return _told(m, slugs, says)
+                slugs = [f"slip-{one.kind}" for one in (first, other)]
+                if all(says) and (found := _told(m, slugs, says)):
+                    return found
     return None
 
 

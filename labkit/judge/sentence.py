@@ -70,8 +70,8 @@ def of_mutants(m: Any, found: Sequence[Mutant]) -> Finding:
         some = list(dict.fromkeys(what(one) for one in found))
         says = f"either {', or '.join(some)}" if len(some) > 1 else some[0]
         says += f": your output equals the correct formula {', or '.join(texts)}"
-    how = m.how(f"that {evidence(True)}")
-    return Finding(f"slip-{found[0].kind}", f"{capitalised(says)}. ({how}.)")
+    how = m.in_brackets(f"that {evidence(True)}")
+    return Finding(f"slip-{found[0].kind}", f"{capitalised(says)}. {how}")
 
 
 def shows(m: Any, mutant: Mutant) -> bool:

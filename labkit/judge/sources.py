@@ -95,10 +95,8 @@ def _sentence(one: Mistake) -> str:
 def with_evidence(m: Matcher, one: Mistake, exact: bool | None = None) -> Finding:
     """Return what is said of a mistake, and how well it explains the answers."""
     exact = m.exact(one.redo) if exact is None else exact
-    how = "; ".join(filter(None, [m.off(), one.redone]))
-    return Finding(
-        one.slug, f"{_sentence(one)} ({capitalised(how)} {evidence(exact)}.)"
-    )
+    how = m.in_brackets(one.does(evidence(exact)))
+    return Finding(one.slug, f"{_sentence(one)} {how}")
 
 
 def in_another_order(m: Matcher) -> Finding | None:
@@ -140,8 +138,8 @@ def of_answers(m: Matcher) -> Finding | None:
 def _changed_answer(m: Matcher, i: int | None, says: str) -> Finding:
     called = m.ask.kinds[i].called if i is not None and len(m.T) > 1 else ""
     what = f"{capitalised(called)} is" if called else "Your output is"
-    how = m.how(f"that {evidence(True)}")
-    return Finding("answer-changed", f"{what} the correct result, but {says}. ({how}.)")
+    how = m.in_brackets(f"that {evidence(True)}")
+    return Finding("answer-changed", f"{what} the correct result, but {says}. {how}")
 
 
 def _with_result(i: int | None, change: Code, T: Parts) -> Parts:
@@ -175,7 +173,7 @@ def of_arguments(m: Matcher, digits: bool = True) -> Finding | None:
             continue  # a small number is nearly 0, whatever it is divided by
         if m.main.difference.fits(m.i, answer, digits) and m.holds(code, digits):
             says = f"Your output is the correct result for other arguments: {one.says}."
-            how = f"({m.how(f'that {evidence(m.exact(code))}')}.)"
+            how = m.in_brackets(f"that {evidence(m.exact(code))}")
             return Finding(f"argument-{one.slug}", f"{says} {how}")
     return None
 

@@ -8,7 +8,7 @@ from labkit.judge import Row
 from labkit.judge.kinds import Kind
 from robo47.screws import skew
 
-from .seen import HALF, K, before, cameras
+from .seen import HALF, OBLONG, K, before, cameras
 
 SIZES = (8, 8, 5, 5, 1, 1)
 row = Row(Kind((None, 2, 6), unit="px", scale=100.0))
@@ -17,8 +17,7 @@ row = Row(Kind((None, 2, 6), unit="px", scale=100.0))
 @row.inputs
 def _(rng):
     drawn = [(k, before(rng, n)) for k, n in zip(cameras(rng), SIZES, strict=True)]
-    oblong = np.array([[300.0, 0, 10], [0, 250, 20], [0, 0, 1]])  # fx is not fy
-    asked = [(K, np.array([[0.0, 0, 2]])), (oblong, np.array([[0.2, -0.1, 2]]))]
+    asked = [(K, np.array([[0.0, 0, 2]])), (OBLONG, np.array([[0.2, -0.1, 2]]))]
     return [*asked, *drawn]
 
 

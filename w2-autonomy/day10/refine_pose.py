@@ -9,7 +9,7 @@ from robo47.camera import apply_twist, project, projection_jacobian
 from robo47.screws import skew
 
 from .projection_jacobian import by_point, by_twist
-from .seen import guesses
+from .seen import OBLONG, guesses
 
 row = Row(Pose())
 
@@ -19,7 +19,9 @@ def _(rng):
     some = guesses(rng)
     K, T, points, _ = some[0]
     exact = (K, T, points, project(K, T, points))
-    return [exact, *some, *guesses(rng, 2, far=2.5)]
+    there = apply_twist(T, np.array([0.1, -0.05, 0.1, 0.02, 0.01, -0.02]))
+    oblong = (OBLONG, T, points, project(OBLONG, there, points))
+    return [exact, oblong, *some, *guesses(rng, 2, far=2.5)]
 
 
 @row.spans
@@ -126,6 +128,23 @@ for slug, says, redone, other in (
 def _(K, T_guess, points, pixels):
     """guess-returned: the output is the guess itself: does your loop change T?"""
     return {"guess-returned": T_guess}
+
+
+for i, slug, its in (
+    (0, "fx-in-both-rows", "v has fx; its focal length is fy, K[1, 1]"),
+    (1, "fy-in-both-rows", "u has fy; its focal length is fx, K[0, 0]"),
+):
+
+    @row.wrong(
+        slug,
+        f"the row of {its}",
+        f"the right answer with K[{i}, {i}] twice",
+        hidden="the lab's camera has fx = fy",
+    )
+    def _(K, T_guess, points, pixels, i=i):
+        here = K.copy()
+        here[0, 0] = here[1, 1] = K[i, i]
+        return steps(here, T_guess, points, pixels)
 
 
 row.at_least_0(K="f and the principal point are")

@@ -8,6 +8,7 @@ from robo47.camera import apply_twist, camera_matrix
 from robo47.checks import Array
 
 K = np.array([[50.0, 0, 100], [0, 50, 50], [0, 0, 1]])  # the docstrings' camera
+OBLONG = np.array([[300.0, 0, 10], [0, 250, 20], [0, 0, 1]])  # fx is not fy
 HALF = [3, 4, 5, 0, 1, 2]
 
 

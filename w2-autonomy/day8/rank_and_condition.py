@@ -64,7 +64,7 @@ def miscounted(more: int, fewer: int, calls: str) -> str:
 
 
 KIND = Count(called="the rank"), Scalar(called="the condition number")
-row = Row(KIND, unnamed=of_what_counts)
+row = Row(KIND, unnamed=of_what_counts, unnamed_names=True)
 row.at_least_0(rtol="a tolerance", answer="a count, and a ratio of norms")
 CASE = np.array([[1.0, 1.0], [2.0, 2.0]])
 

@@ -71,7 +71,7 @@ def not_the_smallest(case: Case) -> Finding | None:
     return Finding("not-the-smallest", says)
 
 
-row = Row(Vector((None,)), unnamed=of_the_values)
+row = Row(Vector((None,)), unnamed=of_the_values, unnamed_names=True)
 row.at_least_0(rtol="a tolerance")
 CASE = np.array([[1.0, 1.0], [2.0, 2.0]]), np.array([2.0, 4.0]), 1e-9
 
