@@ -45,7 +45,7 @@ def make_T(R: np.ndarray, t: np.ndarray) -> np.ndarray:
     T = np.eye(4)  # the identity, whose last row is (0, 0, 0, 1)
     T[:3, :3] = R  # the rotation, in the upper left block
     T[:3, 3] = t  # the translation, in the last column
-    return T
+    return T  # the homogeneous transform
     # endregion 1.1
 
 
@@ -90,7 +90,7 @@ def quat_to_R(quat: np.ndarray) -> np.ndarray:
     row1 = [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)]  # row 1
     row2 = [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)]  # row 2
     row3 = [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]  # row 3
-    return np.array([row1, row2, row3])
+    return np.array([row1, row2, row3])  # the rotation matrix
     # endregion 1.4
 
 
@@ -139,7 +139,7 @@ def compose_fk(model: mujoco.MjModel, q: np.ndarray, path: list = PATH) -> np.nd
         if joint:
             angle = q[model.joint(joint).qposadr[0]]  # the angle of the body's joint
             T_world_body = T_world_body @ joint_T(angle)  # the body's pose at its angle
-    return T_world_body
+    return T_world_body  # the pose of the body in the world frame
     # endregion 1.6
 
 

@@ -81,7 +81,9 @@ def log_rotation(R: np.ndarray) -> np.ndarray:
     """
     # region 3.3
     # The axis times the sine of the angle:
-    a = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
+    a = (  # the axis, times the sine of the angle
+        np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
+    )
     sine = np.linalg.norm(a)  # the sine of the angle
     cosine = (np.trace(R) - 1) / 2  # the cosine of the angle
     angle = np.arctan2(sine, cosine)  # the angle, from 0 to pi
@@ -106,7 +108,8 @@ def pose_error(T: np.ndarray, T_goal: np.ndarray) -> np.ndarray:
     """
     # region 3.4
     R_error = T_goal[:3, :3] @ T[:3, :3].T  # the rotation that is left, in the world
-    return np.concatenate([log_rotation(R_error), T_goal[:3, 3] - T[:3, 3]])
+    turn = log_rotation(R_error)  # the rotation vector of the error
+    return np.append(turn, T_goal[:3, 3] - T[:3, 3])  # rotation vector, translation
     # endregion 3.4
 
 
@@ -119,7 +122,7 @@ def dls_step(J_site: np.ndarray, e: np.ndarray, damping: float) -> np.ndarray:
     With J_site = [I 0] and damping 1 it is half of e, and 0 for the seventh joint.
     """
     # region 3.5
-    J = J_site
+    J = J_site  # the Jacobian
     A = J @ J.T + damping**2 * np.eye(6)  # the damped matrix of the six equations
     return J.T @ np.linalg.solve(A, e)  # the step, from the solution for six unknowns
     # endregion 3.5
@@ -150,13 +153,14 @@ def solve_ik(
         T = fk_space(screws, M_home, q)  # the present pose of the hand
         e = pose_error(T, T_goal)  # the pose error
         if e @ e < least:  # the comparison with the smallest squared error
-            best = q
+            best = q  # the best configuration so far
             least = e @ e  # the smallest squared error
         if least < 1e-8**2:  # the test of convergence
             break
         J = site_jacobian(space_jacobian(screws, q), T[:3, 3])  # J_site of the hand
-        q = np.clip(q + dls_step(J, e, np.sqrt(e @ e / 2 + 1e-6)), *limits.T)
-    return best
+        step = dls_step(J, e, np.sqrt(e @ e / 2 + 1e-6))  # a damped least-squares step
+        q = np.clip(q + step, *limits.T)  # the next configuration, within the limits
+    return best  # the best configuration
     # endregion 3.6
 
 

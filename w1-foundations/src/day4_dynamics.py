@@ -61,8 +61,8 @@ def link_inertias(
         R, p = T[:3, :3], T[:3, 3]  # rotation and translation of the link
         c_world = R @ c + p  # centre of mass in the world frame
         about_com = R @ inertia @ R.T  # inertia about it in the world frame
-        G.append(spatial_inertia(m, c_world, about_com))  # of one link
-    return np.array(G)
+        G.append(spatial_inertia(m, c_world, about_com))  # one spatial inertia
+    return np.array(G)  # the spatial inertias
     # endregion 4.2
 
 
@@ -81,7 +81,7 @@ def mass_matrix(J_space: np.ndarray, G: np.ndarray, armature: np.ndarray) -> np.
         J_i = J_space.copy()  # Jacobian of link i
         J_i[:, i + 1 :] = 0.0  # the columns of the joints beyond link i
         M = M + J_i.T @ G_i @ J_i  # mass matrix of the links up to link i
-    return M
+    return M  # the mass matrix
     # endregion 4.3
 
 
@@ -102,7 +102,7 @@ def gravity_torque(
     for i, (m, c) in enumerate(zip(masses, coms_world, strict=True)):
         J_com = J_space[3:] - skew(c) @ J_space[:3]  # velocity of c for each joint
         tau[: i + 1] -= m * g @ J_com[:, : i + 1]  # torque that holds one weight
-    return tau
+    return tau  # the gravity torque
     # endregion 4.4
 
 
@@ -149,7 +149,7 @@ def inverse_dynamics(
     for i in reversed(range(len(qd))):  # inward, from the tip to the base
         F = F + wrenches[i]  # wrench on link i and all later links
         tau[i] = J_space[:, i] @ F  # component of the wrench along the joint's screw
-    return tau
+    return tau  # the torque of each joint
     # endregion 4.6
 
 
@@ -201,7 +201,7 @@ def energy(
     # region 4.9
     kinetic = 0.5 * qd @ M @ qd  # kinetic energy
     potential = -np.sum(masses * (coms_world @ g))  # potential energy
-    return np.array([kinetic, potential])
+    return np.array([kinetic, potential])  # the kinetic and the potential energy
     # endregion 4.9
 
 

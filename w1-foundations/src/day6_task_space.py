@@ -68,7 +68,7 @@ def bias_acceleration(J_space: np.ndarray, qd: np.ndarray, p: np.ndarray) -> np.
     velocity = V[-1, 3:] + np.cross(omega, p)  # velocity of the site
     turning = np.cross(alpha, p) + np.cross(omega, velocity)  # part of the rotation
     linear = A[3:] + turning  # acceleration of the site
-    return np.append(alpha, linear)
+    return np.append(alpha, linear)  # the bias acceleration
     # endregion 6.2
 
 
@@ -187,7 +187,7 @@ def hybrid_wrench(
     # region 6.9
     wrench = impedance_wrench(e, V_err, K, D)  # wrench of the spring and the damper
     wrench[5] = D[5] @ V_err - force  # force along z: the damper's part minus the push
-    return wrench
+    return wrench  # the wrench
     # endregion 6.9
 
 

@@ -173,8 +173,8 @@ def pose_covariance(J: np.ndarray, sigma: float) -> np.ndarray:
     """Return the covariance, (6, 6), of the twist of a pose fitted to noisy pixels.
 
     J, (n, 2, 6), is the image Jacobian of 10.4 at that pose. Each pixel coordinate has
-    independent noise with the standard deviation sigma, px. If the three blocks of J,
-    (3, 2, 6), together are the 6 x 6 identity, and sigma is 2: four times the identity.
+    independent noise with the standard deviation sigma, px. If three blocks
+    of J together are the 6 x 6 identity, and sigma is 2: four times the identity.
     """
     # region 10.7
     J = J.reshape(-1, 6)  # two rows for each point
