@@ -131,19 +131,22 @@ class Steps:
 
 
 def lines(call: Callable[[], Any]) -> int:
-    """Return how many lines of Python a call executes."""
+    """Return how many lines of Python a call executes, at most as many as a search."""
     count = 0
 
     def trace(*_: Any) -> Any:
         nonlocal count
         count += 1
+        if count > LINES:
+            raise TooLongError
         return trace
 
     before = sys.gettrace()
     sys.settrace(trace)
     try:
-        with suppress(Exception):
-            call()
+        call()
+    except Exception:  # not all right bodies take what a lab's does
+        return count
     finally:
         sys.settrace(before)
     return count
