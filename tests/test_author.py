@@ -42,7 +42,7 @@ def kit(made):
 def test_a_new_day_is_all_as_it_must_be(kit):
     done = run_copy(kit, AUTHOR, "46")
     assert done.returncode == 0, done.stdout + done.stderr
-    assert done.stdout.count("PASS") == 13
+    assert done.stdout.count("PASS") == 14
     assert f"**[Day 46: Trial]({GUIDE})**" in (kit / "README.md").read_text()
 
 
@@ -100,7 +100,7 @@ def change(path, old, new):
     ("file", "old", "new", "says"),
     [
         (FUNCTION, "end.imag])", "end.imag.nothing])", "reach.py, line 11)"),
-        (FUNCTION, "[end.real, end.imag]", "[end.real]", "shape (1,), and its kind is"),
+        (FUNCTION, "[end.real, end.imag]", "[end.real]", "shape (1,), and its kind a"),
         (FUNCTION, "truth=ends", "thruth=ends", "a Row has no thruth"),
         (FUNCTION, "def sine_first(q1", "def sine_first(q1 q2", "(reach.py, line 35)"),
         (FUNCTION, "yield 0.0, np.pi", "yield np.pi", "takes 4: q1, q2, a, b"),

@@ -180,7 +180,7 @@ class TestTheClass:
 
     def test_judges_what_is_handed_in_too(self, graded):
         row = graded.row
-        assert row["right"]["deliverables_passed"] == "6"
+        assert row["right"]["deliverables_passed"] == "5"
         assert row["corrupt git"]["deliverables_passed"] == "5"
         assert row["corrupt git"]["commit"] == "todo"
         assert row["300 MB"]["figure"] == "wrong"
