@@ -11,6 +11,7 @@ from labkit.lesson.starter import find_regions
 
 # A gloss stands in "... in this step: the velocity of link i": it is no clause.
 CLAUSE = re.compile(r"^(and|or|but|so|because|where|when|of|in|as|for) ", re.IGNORECASE)
+# To return a variable needs none: the line that made it has one.
 STEPS = (ast.Assign, ast.AugAssign, ast.Return)
 
 
@@ -49,7 +50,8 @@ def test_a_lab_with_glosses_has_them_all(day):
     bare = [
         one.lineno
         for one in steps
-        if not any(n in found for n in range(one.lineno, one.end_lineno + 1))
+        if not (isinstance(one, ast.Return) and isinstance(one.value, ast.Name))
+        and not any(n in found for n in range(one.lineno, one.end_lineno + 1))
     ]
     assert bare == []
     assert [gloss for gloss in found.values() if CLAUSE.match(gloss)] == []

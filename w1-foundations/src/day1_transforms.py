@@ -45,7 +45,7 @@ def make_T(R: np.ndarray, t: np.ndarray) -> np.ndarray:
     T = np.eye(4)  # the identity, whose last row is (0, 0, 0, 1)
     T[:3, :3] = R  # the rotation, in the upper left block
     T[:3, 3] = t  # the translation, in the last column
-    return T  # the homogeneous transform
+    return T
     # endregion 1.1
 
 
@@ -139,7 +139,7 @@ def compose_fk(model: mujoco.MjModel, q: np.ndarray, path: list = PATH) -> np.nd
         if joint:
             angle = q[model.joint(joint).qposadr[0]]  # the angle of the body's joint
             T_world_body = T_world_body @ joint_T(angle)  # the body's pose at its angle
-    return T_world_body  # the pose of the body in the world frame
+    return T_world_body
     # endregion 1.6
 
 

@@ -96,7 +96,7 @@ def exp_screw(S: np.ndarray, theta: float) -> np.ndarray:
     T[:3, :3] = exp_rotation(S[:3], theta)  # the rotation about omega
     G = theta * np.eye(3) + (1 - c) * K + (theta - s) * K @ K  # the integrated rotation
     T[:3, 3] = G @ S[3:]  # the translation, the integral of the rotated v
-    return T  # the pose after the motion
+    return T
     # endregion 2.4
 
 
@@ -175,7 +175,7 @@ def fk_body(body_screws: np.ndarray, M_home: np.ndarray, q: np.ndarray) -> np.nd
     T = M_home  # the end effector's pose at q = 0
     for B, theta in zip(body_screws, q, strict=True):
         T = T @ exp_screw(B, theta)  # the pose after this joint's motion
-    return T  # the pose of the end effector
+    return T
     # endregion 2.8
 
 
@@ -216,7 +216,7 @@ def dh_fk(table: np.ndarray, q: np.ndarray) -> np.ndarray:
     T = np.eye(4)  # the pose of the world's own frame
     for (alpha, a, d), theta in zip(table, [*q, 0.0], strict=True):
         T = T @ dh_link(alpha, a, d, theta)  # the pose of the next link's frame
-    return T  # the pose of the end effector
+    return T
     # endregion 2.9
 
 

@@ -160,7 +160,7 @@ def solve_ik(
         J = site_jacobian(space_jacobian(screws, q), T[:3, 3])  # J_site of the hand
         step = dls_step(J, e, np.sqrt(e @ e / 2 + 1e-6))  # a damped least-squares step
         q = np.clip(q + step, *limits.T)  # the next configuration, within the limits
-    return best  # the best configuration
+    return best
     # endregion 3.6
 
 

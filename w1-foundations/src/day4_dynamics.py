@@ -81,7 +81,7 @@ def mass_matrix(J_space: np.ndarray, G: np.ndarray, armature: np.ndarray) -> np.
         J_i = J_space.copy()  # Jacobian of link i
         J_i[:, i + 1 :] = 0.0  # the columns of the joints beyond link i
         M = M + J_i.T @ G_i @ J_i  # mass matrix of the links up to link i
-    return M  # the mass matrix
+    return M
     # endregion 4.3
 
 
@@ -102,7 +102,7 @@ def gravity_torque(
     for i, (m, c) in enumerate(zip(masses, coms_world, strict=True)):
         J_com = J_space[3:] - skew(c) @ J_space[:3]  # velocity of c for each joint
         tau[: i + 1] -= m * g @ J_com[:, : i + 1]  # torque that holds one weight
-    return tau  # the gravity torque
+    return tau
     # endregion 4.4
 
 
@@ -149,7 +149,7 @@ def inverse_dynamics(
     for i in reversed(range(len(qd))):  # inward, from the tip to the base
         F = F + wrenches[i]  # wrench on link i and all later links
         tau[i] = J_space[:, i] @ F  # component of the wrench along the joint's screw
-    return tau  # the torque of each joint
+    return tau
     # endregion 4.6
 
 

@@ -187,7 +187,7 @@ def hybrid_wrench(
     # region 6.9
     wrench = impedance_wrench(e, V_err, K, D)  # wrench of the spring and the damper
     wrench[5] = D[5] @ V_err - force  # force along z: the damper's part minus the push
-    return wrench  # the wrench
+    return wrench
     # endregion 6.9
 
 

@@ -5,4 +5,4 @@ import numpy as np
 
 def angle_between(a, b):
     c = a @ b / np.linalg.norm(a) / np.linalg.norm(b)
-    return np.degrees(np.arccos(c))
+    return np.degrees(np.arccos(np.clip(c, -1.0, 1.0)))

@@ -1,5 +1,5 @@
-# task 46.2: b-cross-a
-# Swapped, and NaN where a is short: neither hides the other.
+# task 46.2: off
+# Swapped, and NaN where a is short: no one mistake explains all answers.
 import numpy as np
 
 
