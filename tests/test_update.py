@@ -184,7 +184,7 @@ def test_a_mid_term_kit_comes_around_what_is_the_students(kit, student):
         "inverse is called undone",
         "det_by_hand (det_err)",
         "a heading 'Pose, in your own words'",
-        "Once more: make run DAY=1",
+        "Run again: make run DAY=1",
     ):
         assert says in done.stdout
     assert max(map(len, done.stdout.splitlines())) <= 80
