@@ -181,7 +181,7 @@ class TestTheClass:
     def test_judges_what_is_handed_in_too(self, graded):
         row = graded.row
         assert row["right"]["deliverables_passed"] == "5"
-        assert row["corrupt git"]["deliverables_passed"] == "5"
+        assert row["corrupt git"]["deliverables_passed"] == "4"
         assert row["corrupt git"]["commit"] == "todo"
         assert row["300 MB"]["figure"] == "wrong"
         assert row["no git"]["deliverables_passed"] == "0"
