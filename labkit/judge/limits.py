@@ -7,13 +7,12 @@ seconds: the same mistake gets the same name on a slow machine.
 """
 
 import ast
-import sys
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial, wraps
-from types import ModuleType
+from types import FunctionType, ModuleType
 from typing import Any
 
 import numpy as np
@@ -29,6 +28,7 @@ GUARDED = ("lstsq", "svd", "eigh", "eigvalsh", "eig", "eigvals", "pinv", "matrix
 
 
 LINES = 2_500_000  # that a search may execute; a third of a second, or so
+CALL = 20  # lines of a Python function that a body calls
 ONCE = 400  # lines that it takes to compile a mutant and to compare its answer
 LATE = 2.0  # seconds of the processor, whatever the lines take
 
@@ -114,14 +114,19 @@ class Steps:
 
         return call
 
-    def calibrate(self, call: Callable[[], Any]) -> None:
-        """Allow a mutant some times the steps that a call of the right one takes."""
+    def calibrate(self, call: Callable[[], Any], work: int) -> None:
+        """Allow a mutant some times the steps that a call of the right one takes.
+
+        Args:
+            call: of the right function.
+            work: lines that it executes in each step.
+        """
         self.most, self.left, began = MOST, MOST, time.process_time()
         with suppress(Exception):  # not all right bodies take what a lab's does
             call()
             self.usual = MOST - self.left
             self.seconds = SECONDS + TIMES * (time.process_time() - began)
-        self.lines = lines(call)
+        self.lines = work * max(self.usual, 1)
         self.most = LEAST + TIMES * self.usual
 
     @property
@@ -130,26 +135,25 @@ class Steps:
         return self.lines * max(self.most - self.left, 1) // max(self.usual, 1)
 
 
-def lines(call: Callable[[], Any]) -> int:
-    """Return how many lines of Python a call executes, at most as many as a search."""
-    count = 0
+def work(function: ast.FunctionDef, space: Mapping[str, Any]) -> int:
+    """Return about how many lines a function executes if each loop is passed once.
 
-    def trace(*_: Any) -> Any:
-        nonlocal count
-        count += 1
-        if count > LINES:
-            raise TooLongError
-        return trace
+    It is read off the text. CPython 3.11 can end in an endless loop if a trace or a
+    profile is set in a process that has thrown an exception into another thread.
 
-    before = sys.gettrace()
-    sys.settrace(trace)
-    try:
-        call()
-    except Exception:  # not all right bodies take what a lab's does
-        return count
-    finally:
-        sys.settrace(before)
-    return count
+    Args:
+        function: the syntax tree.
+        space: the names of its module; a call of a Python function among them counts as
+            several lines.
+    """
+    nodes = list(ast.walk(function))
+    called = [
+        space.get(node.func.id)
+        for node in nodes
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
+    ]
+    own = sum(isinstance(one, FunctionType) for one in called)
+    return sum(isinstance(node, ast.stmt) for node in nodes) + CALL * own
 
 
 def loops(trees: Iterable[ast.AST]) -> list[Any]:

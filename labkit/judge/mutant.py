@@ -22,7 +22,7 @@ from labkit.judge.operators import Place, places
 
 SHORT = 44  # characters of a body that are shown, at most
 FAR = 100  # rank of the far operators, after all near ones
-KEPT = 8  # calls of a right function whose trace is remembered
+KEPT = 8  # calls of a right function whose steps are remembered
 TOGETHER = 40  # mutants of one place that are compiled together
 CHOICE = "_choice_"  # the name that says which of them is called
 Code = Callable[..., Any]
@@ -175,13 +175,14 @@ class Body:
     def calibrate(self, call: Sequence[Any]) -> None:
         """Have the limits follow what the right function takes at a call.
 
-        To trace a call takes many times as long as the call, so the last ones are kept.
+        What the last calls took is kept.
         """
         key = tuple(map(content, call))
         if key not in self.traced and (code := self.compiled()):
             while len(self.traced) >= KEPT:
                 del self.traced[next(iter(self.traced))]
-            self.steps.calibrate(lambda: code(*map(own, call)))
+            work = limits.work(self.function, self.space)
+            self.steps.calibrate(lambda: code(*map(own, call)), work)
             self.traced[key] = self.steps.measured
         elif key in self.traced:
             self.steps.measured = self.traced[key]
