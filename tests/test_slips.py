@@ -112,6 +112,13 @@ def test_an_outer_product_in_a_loop_does_not_fill_the_memory():
         one.compiled()(np.ones(10))
 
 
+def test_an_array_that_doubles_in_a_loop_does_not_fill_the_memory():
+    text = "for _ in range(30):\n        x = np.array([x, x])"
+    one = body(f"def f(x):\n    {text}\n    return x\n")
+    with pytest.raises(limits.TooLongError):
+        one.compiled()(np.ones(2))
+
+
 def test_lapack_is_not_asked_of_what_is_not_finite():
     one = body("def f(A, b):\n    return np.linalg.lstsq(A, b)[0]\n")
     with pytest.raises(np.linalg.LinAlgError):

@@ -7,6 +7,7 @@ seconds: the same mistake gets the same name on a slow machine.
 """
 
 import ast
+import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
@@ -24,6 +25,8 @@ LEAST, TIMES = 100, 20
 SECONDS = 0.02  # at least
 LOOKS = 16  # steps, or hypotheses, after which the clock is looked at: it is slow
 HUGE = 100_000  # numbers of an outer product
+GROWS = 4  # steps after which variables are looked at: arrays may double at each
+LARGE = 1_000_000  # numbers of an array in a loop
 GUARDED = ("lstsq", "svd", "eigh", "eigvalsh", "eig", "eigvals", "pinv", "matrix_rank")
 
 
@@ -85,18 +88,26 @@ class Steps:
     def __call__(self, some: Iterable[Any] = ()) -> Iterator[Any]:
         """Yield some things, and count them."""
         for one in some:
-            self.count()
+            self.count(2)
             yield one
 
-    def count(self) -> None:
+    def count(self, up: int = 1) -> None:
         """Count a step.
 
+        Args:
+            up: how many frames above this one the loop is.
+
         Raises:
-            TooLongError: it is one too many.
+            TooLongError: it is one too many, or an array has grown too large: an array
+                of its own former self doubles at each step.
         """
         self.left -= 1
         if self.left < 0 or (self.left % LOOKS == 0 and self._is_late()):
             raise TooLongError
+        if self.left % GROWS == 0:
+            for one in sys._getframe(up).f_locals.values():
+                if isinstance(one, np.ndarray) and one.size > LARGE:
+                    raise TooLongError
 
     def _is_late(self) -> bool:
         """Return whether a call takes too long; the clock begins when it is asked."""
