@@ -54,7 +54,7 @@ def height(metre=1.0, quat=1.0, base=0.0, q=1.0):
     "largest |by hand - MuJoCo| at random configurations", "{:.1e}",
     trials=same("each of the errors is a rounding error"),
     seed=same("the same holds for other random configurations", to=48),
-    metre=same("longer links also have only rounding errors"),
+    metre=same("with longer links all errors are still rounding errors"),
     gravity=same("the pose is a function of the joint angles alone"),
 )  # fmt: skip
 def by_hand(trials=100, seed=LAB.SEED, metre=1.0, gravity=1.0):
@@ -92,7 +92,7 @@ def apart(angle, step, metre, base):
 
 @numbers.add(
     "distance between the two products", "{:.4f} m",
-    step=between(1.1, 1.7, "both translations are twice as long, at an angle to the chord"),
+    step=between(1.1, 1.7, "both translations are twice as long, and they are at an angle to the chord"),
     angle=between(1.2, 1.5, "the chord is 1.85 times as long, and the translation does "
                   "not change"),
     metre=between(1.5, 2.0, "the chord is twice as long, and the translation does not "
