@@ -290,7 +290,7 @@ def test_a_shifted_base_is_constant_in_the_world_and_a_wrong_angle_nowhere(arm):
     base = se3.make_T(np.eye(3), [0.1, 0.0, 0.0]) @ right
     assert np.ptp(base[:, :3, 3] - right[:, :3, 3], axis=0).max() < 1e-12
     mm, _ = off(screws.fk_space(S, M, q + 0.05 * np.eye(7)[3]), right)
-    says = "0.05 rad at joint 4 cause an error between"
+    says = "0.05 rad at joint 4 moves the flange by between"
     assert f"{says} {mm.min():.1f} and {mm.max():.1f} mm." in GUIDE
     mm, _ = off(screws.fk_space(S, M, q + 0.05 * np.eye(7)[5]), right)
     assert np.ptp(mm) < 1e-9
