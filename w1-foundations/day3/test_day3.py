@@ -104,7 +104,9 @@ LOOPS = {
     "the sine instead of the angle in the error": {"gap": sine_for_angle},
     "J computed once, at the start": of_the_start,
     "`J_body` with an error in the world frame": {"seen": jacobian.body_jacobian},
-    "the error with the wrong sign": {"gap": lambda T, goal: -jacobian.pose_error(T, goal)},
+    "the error with the wrong sign": {
+        "gap": lambda T, goal: -jacobian.pose_error(T, goal)
+    },
 }
 
 
