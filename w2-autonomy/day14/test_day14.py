@@ -323,7 +323,7 @@ def test_three_predictions_of_the_worksheet_stand_beside_what_is_measured(printe
 def test_what_the_opening_says_is_what_the_lab_prints(printed):
     counts = re.findall(r"about (\d+) of 60", printed)
     assert counts == ["60", "15", "60"]
-    assert "hold 60 of 60 cubes that had no part" in SENTENCES
+    assert "holds 60 of 60 cubes that had no part" in SENTENCES
     assert "only about 15 of 60 cubes" in SENTENCES
     assert "holds nearly all of the 60 slippery" in SENTENCES
     named, did = re.search(r"F / g: (\d+) cubes; (\d+) of them", printed).groups()
