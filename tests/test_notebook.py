@@ -127,7 +127,7 @@ def test_a_command_for_a_terminal_is_that_of_a_cell_if_a_cell_does_the_same(
 def test_a_fenced_text_for_a_terminal_can_be_copied_into_a_cell():
     fence = "```sh\nmake check DAY=1  # all\ngit add metrics\n```"
     (block,) = guide.blocks_of(fence)
-    wanted = "```python\ncheck()  # all\n!git add metrics\n```"
+    wanted = "```text\ncheck()  # all\n!git add metrics\n```"
     assert guide.plain(block) == wanted
     (block,) = guide.blocks_of("```sh\nmake view ARGS=--web\n```")
     assert guide.plain(block) == block.text, "it waits, and a cell would wait with it"
