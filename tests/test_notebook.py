@@ -103,7 +103,7 @@ def test_where_a_guide_asks_for_all_predictions_at_once_their_cells_are_there():
     asked = [i for i, c in enumerate(cells) if c["source"].startswith("predict(")]
     assert asked == list(range(asked[0], asked[0] + 3))
     assert "fill in the first column of *Predictions*" in cells[asked[0] - 1]["source"]
-    assert cells[asked[-1] + 1]["source"].startswith("- The height of the end effector")
+    assert cells[asked[-1] + 1]["source"].startswith("- **The height of the end")
 
 
 @pytest.mark.parametrize(
