@@ -71,9 +71,8 @@ def test_the_gains_alone_would_press_with_500_n_and_without_limits_they_do():
     k = 1.0 / (now.J_site @ np.diag(1.0 / kp) @ now.J_site.T)[5, 5]
     sag = (now.J_site @ (now.gravity_torque / kp))[5]
     assert f"along z is {k:,.0f} N/m, times 50 mm is {0.05 * k:.0f} N" in SENTENCES
-    assert f"{1e3 * sag:.0f} mm, so they should press with {k * (0.05 + sag):.0f} N" in (
-        SENTENCES
-    )
+    pressed = k * (0.05 + sag)
+    assert f"{1e3 * sag:.0f} mm, so they should press with {pressed:.0f} N" in SENTENCES
     unlimited = lambda model: model.actuator_forcelimited.fill(0)  # noqa: E731
     free, shallow = (press_stiff(unlimited, deep)[-1] for deep in (0.05, 0.005))
     assert [free] == told("With no limits it is # N")
@@ -139,7 +138,7 @@ def test_a_peak_is_seen_only_by_who_looks_at_every_step():
         felt = press_soft(rate)
         steps = round(500.0 / rate)
         seen += [felt[steps - 1 :: steps].max(), felt.max()]
-    assert seen == told("at 250 Hz, you see # N of the # N, and at 50 Hz # N of the # N")
+    assert seen == told("250 Hz, you see # N of the # N, and at 50 Hz # N of the # N")
 
 
 def time_constant(solref):

@@ -66,7 +66,7 @@ def test_at_other_positions_joint7_is_the_cause_as_well():
         at_end = np.abs(q[fails[1], 6, None] - limits[6]).min(axis=1)
         assert_same(at_end, np.zeros(fails[1].sum()), 0.0)
         counts.append(fails[1].sum())
-    assert says(f"other positions of the cube, {min(counts)} to {max(counts)} yaws fail")
+    assert says(f"positions of the cube, {min(counts)} to {max(counts)} yaws fail")
 
 
 def test_an_unfolded_yaw_fails_where_joint7_is_at_its_end():
@@ -162,7 +162,9 @@ def test_without_gravity_compensation_four_of_twelve_cubes_are_placed():
     failed = [one.place_mm for one in found if one.failed]
     assert len(failed) == 8
     assert min(failed) > 12
-    assert says("places four of the twelve cubes. The others miss their targets by more than 12 mm")
+    assert says(
+        "four of the twelve cubes. The others miss their targets by more than 12 mm"
+    )
     assert {round(one.joint_mrad) for one in found} == {68}
     off = [one.line_mm for one in found]
     assert says(f"the hand is {min(off):.0f} to {max(off):.0f} mm away from its line")
@@ -188,7 +190,8 @@ def test_what_the_grip_lifts_is_as_predicted(mass, mu, slips):
     done = capstone.pick(capstone.library(), model=model)
     assert done.failed == slips
     assert (done.heaviest < mass) == slips
-    told = {0.16: "the arm places a cube of 0.16 kg at its target", 0.18: "a cube of 0.18 kg slips out",
+    told = {0.16: "places a cube of 0.16 kg at its target",
+            0.18: "a cube of 0.18 kg slips out",
             0.08: "The cube has 0.08 kg, so it stays on the table"}  # fmt: skip
     assert says(told[mass])
 
