@@ -33,7 +33,7 @@ def test_gravity_at_ready_and_what_the_arm_weighs(arm):
     now = arm.at(panda.READY_Q)
     tipped = 9.81 * np.array([0, np.sin(0.1), -np.cos(0.1)])
     tau = lab.gravity_torque(now.J_space, arm.masses, now.coms_world, tipped)
-    assert f"0.1 rad to the side, it needs {abs(tau[0]):.1f} N m" in SENTENCES
+    assert f"0.1 rad to the side, joint1 needs {abs(tau[0]):.1f} N m" in SENTENCES
     assert f"a {arm.masses.sum():.0f} kg arm" in SENTENCES
 
 

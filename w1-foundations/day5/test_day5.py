@@ -209,7 +209,7 @@ def test_the_model_at_q_does_most_of_the_tracking_and_the_springs_the_rest(bench
     alone = swing(bench, lab.without_springs, lab.RATE)
     whole = swing(bench, lab.equal_springs(), lab.RATE)
     springs = swing(bench, lab.springs_and_gravity, lab.RATE)
-    assert f"that leaves {alone:.0f} mrad, ninety times as much" in GUIDE
+    assert f"the error is {alone:.0f} mrad, ninety times as large" in GUIDE
     assert 85 < alone / whole < 95
     assert springs > alone
 
