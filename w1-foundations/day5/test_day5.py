@@ -106,7 +106,7 @@ def test_gains_outside_m_overdamp_the_light_joints(armature, creeps):
     ahead, behind = ((e[t.searchsorted(x), wrist] / lab.error_response(x, 20.0, 1.0))
                      for x in (0.02, 0.3))  # fmt: skip
     assert (ahead < 0.95).all() == (behind > 2.0).all() == creeps
-    assert "a damping ratio near 3, so they start fast and crawl" in GUIDE
+    assert "a damping ratio near 3, so they start fast and settle slowly" in GUIDE
 
 
 def test_torques_taken_for_angles_switch_the_motors_from_limit_to_limit():

@@ -504,4 +504,4 @@ def test_joint_2_does_the_work_along_x_and_joints_1_3_5_7_along_y(motors):
         work = qdd * (now.M @ qdd)
         assert work[joints].sum() / work.sum() == pytest.approx(1.0, abs=0.02)
     assert "joint2 rotates if the hand moves along x" in SENTENCES
-    assert "along y joints 1, 3, 5 and 7 share the work" in SENTENCES
+    assert "along y, joints 1, 3, 5 and 7 share the work" in SENTENCES

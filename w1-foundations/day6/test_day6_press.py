@@ -70,7 +70,9 @@ def test_the_gains_alone_would_press_with_500_n_and_without_limits_they_do():
     kp = model.actuator_gainprm[:7, 0]
     k = 1.0 / (now.J_site @ np.diag(1.0 / kp) @ now.J_site.T)[5, 5]
     sag = (now.J_site @ (now.gravity_torque / kp))[5]
-    assert f"along z is {k:,.0f} N/m, times 50 mm is {0.05 * k:.0f} N" in SENTENCES
+    assert (
+        f"{k:,.0f} N/m, and this stiffness times 50 mm is {0.05 * k:.0f} N" in SENTENCES
+    )
     pressed = k * (0.05 + sag)
     assert f"{1e3 * sag:.0f} mm, so they should press with {pressed:.0f} N" in SENTENCES
     unlimited = lambda model: model.actuator_forcelimited.fill(0)  # noqa: E731
