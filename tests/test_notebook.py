@@ -133,6 +133,13 @@ def test_a_fenced_text_for_a_terminal_can_be_copied_into_a_cell():
     assert guide.plain(block) == block.text, "it waits, and a cell would wait with it"
 
 
+def test_a_fold_with_nothing_but_an_output_is_a_step():
+    output = "<!-- run: python src/a.py --no-log | step 4 -->\n```text\n4\n```\n"
+    fold = "<details>\n<summary>The output</summary>\n\n{}<!-- end -->\n\n{}</details>"
+    assert [b.step for b in guide.blocks_of(fold.format(output, ""))] == [4]
+    assert [b.step for b in guide.blocks_of(fold.format(output, "And.\n\n"))] == [0]
+
+
 def test_no_cell_shows_a_solution_a_mark_of_the_kits_or_a_command_for_a_terminal():
     made = build.build(DAY, fresh=True)
     assert "region 1." not in made

@@ -13,6 +13,12 @@ from labkit.lesson.day import Day, Task
 
 _HEADING = re.compile(r"(#+) (.+)")
 _STEP = re.compile(r"<!-- run: python src/(\S+) --no-log \| step (\d+) -->")
+# A fold that contains one output and nothing else: in a notebook, the run is its cell.
+_FOLDED = re.compile(
+    r"<details>\n<summary>.*</summary>\s+(<!-- run: (?:(?!<!-- end).)*<!-- end -->)"
+    r"\s+</details>$",
+    re.DOTALL,
+)
 _OUTPUT = re.compile(r"<!-- run: .*? -->\n?(.*?)\n?<!-- end -->", re.DOTALL)
 _LINK = re.compile(r"(\]\(|<img src=\")(?!https?:|#|mailto:)([^)\"]+)")
 # A command in a terminal, and what does the same in a cell.
@@ -51,6 +57,7 @@ def blocks_of(guide: str) -> list[Block]:
     found: list[Block] = []
     section = ""
     for text in _split(guide):
+        text = folded[1] if (folded := _FOLDED.match(text)) else text
         heading = _HEADING.match(text)
         level = len(heading[1]) if heading else 0
         section = heading[2].strip() if heading and level > 1 else section

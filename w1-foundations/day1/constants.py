@@ -68,8 +68,8 @@ def by_hand(trials=100, seed=LAB.SEED, metre=1.0, gravity=1.0):
     "position error with quaternions read as (x, y, z, w)", "{:.2f} m",
     metre=times(2.0, "the rotations are wrong in the same way, and the links are twice as long"),
     quat=same("a quaternion is normalised before it is used"),
-    base=same("link0 and link1 are both upside down, so the axis of joint 1 is vertical again",
-              to=1.0),
+    base=same("the misread link0 is upside down and link1 upright again, so joint 1 still "
+              "rotates about the vertical axis", to=1.0),
 )  # fmt: skip
 def wrong_quat(metre=1.0, quat=1.0, base=0.0):
     """Return the position error of the hand with this mistake."""
@@ -92,7 +92,7 @@ def apart(angle, step, metre, base):
 
 @numbers.add(
     "distance between the two products", "{:.4f} m",
-    step=between(1.1, 1.7, "both translations are twice as long, and they are at an angle to the chord"),
+    step=between(1.1, 1.7, "the translation is twice as long, and the chord does not change"),
     angle=between(1.2, 1.5, "the chord is 1.85 times as long, and the translation does "
                   "not change"),
     metre=between(1.5, 2.0, "the chord is twice as long, and the translation does not "

@@ -15,7 +15,7 @@ numbers = Numbers(
     metre="the unit of length, every pos in the file: × {}",
     seed="SEED: {}",
     n="random configurations: {}",
-    times_v="the wrong v is the right one times {}",
+    times_v="the factor of the right v: {}",
     raised="the base is raised by {} m",
     q="joint angles of the screws: {} times READY_Q",
     tilt="the tool is tilted by {} rad",
@@ -83,7 +83,8 @@ def forgotten(metre=1.0, times_v=0.0, seed=LAB.SEED, n=20):
 
 @numbers.add(
     "position error at random q with (v; omega)", "{:.1f} mm",
-    metre=between(2.2, 8.0, "the error more than doubles, because the swapped omega is a length"),
+    metre=between(2.2, 8.0, "the error more than doubles, because v, a length per radian, "
+                  "takes the place of omega"),
     seed=between(0.7, 1.4, "the median is over twenty other configurations", to=48),
 )  # fmt: skip
 def halves(metre=1.0, seed=LAB.SEED):

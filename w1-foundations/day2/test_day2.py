@@ -136,7 +136,7 @@ def test_the_v_of_cvel_is_that_of_the_centre_of_mass(mass_at):
         kind = getattr(mujoco.mjtObj, kind)
         mujoco.mj_objectVelocity(model, data, kind, 1, of_the_object, 0)
         assert_same(of_the_object, [0, 0, 1, 0, x, 0], 1e-15)
-    assert "The point of `cvel` is the centre of mass of the whole tree" in GUIDE
+    assert "For `cvel` this point is the centre of mass of the whole tree" in GUIDE
 
 
 def test_the_moment_of_a_line_changes_across_it_and_not_along_it():
@@ -193,8 +193,8 @@ def test_how_many_named_mistakes_are_exact_at_zero(arm):
             if np.median(error[2:]) > 1e-6:  # some are none on the Panda
                 wrong = wrong + 1
                 exact = exact + int(error[0] < 1e-12)
-    says = f"Of some {round(wrong, -1)} mistakes that the checker knows by name in "
-    says += f"`fk_space`, some {round(exact, -1)} are exact at q = 0"
+    says = f"recognises about {round(wrong, -1)} mistakes in `fk_space`. With about "
+    says += f"{round(exact, -1)} of them, the result at q = 0 is exact"
     assert says in GUIDE
 
 
