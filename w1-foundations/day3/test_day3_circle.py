@@ -53,8 +53,8 @@ def test_by_hand_the_larger_circle_is_12_mm_too_far():
     far = [np.hypot(side, z + r + 0.107 - 0.333)
            for r in (lab.EASY, lab.RADIUS)]  # fmt: skip
     assert far[0] < reach
-    says = f"{far[0]:.4f} m for 0.36, and {far[1]:.4f} m for 0.38: "
-    assert says + f"{1000 * (far[1] - reach):.0f} mm too far" in GUIDE
+    says = f"{far[0]:.4f} m for $r$ = 0.36 m. For $r$ = 0.38 m it is {far[1]:.4f} m, "
+    assert says + f"which is {1000 * (far[1] - reach):.0f} mm too far" in GUIDE
     # The worst point is after the top: there the hand is higher than far from the base.
     hands = circle(lab.RADIUS)[0][:, :3, 3]
     sides = np.hypot(hands[:, 0], hands[:, 1]) - 0.088
@@ -79,7 +79,7 @@ def test_from_which_radius_on_the_circle_leaves_the_reach(radius):
         there = screws.fk_space(*ARM[:2], jacobian.solve_ik(*ARM[:2], worst, q, ARM[2]))
         tilt = np.degrees(np.linalg.norm(jacobian.pose_error(there, worst)[:3]))
         assert f"the worst point is {late * lab.DT:.1f} s after the top" in GUIDE
-        assert f"the tool tilts by {tilt:.1f} degrees, which saves the rest" in GUIDE
+        assert f"the tool tilts by {tilt:.1f} degrees, which shortens" in GUIDE
     assert "(0.366 is in reach, 0.368 is not)" in GUIDE
 
 
@@ -147,8 +147,8 @@ def test_what_the_damping_costs_shows_at_the_bottom():
     later, _ = circle(lab.RADIUS, first=3.0)
     plain, speeds, _ = lab.draw_circle(ARM[:2], later, path[150], 0.0)
     plain, speeds = plain[:145], speeds[:145]
-    assert f"within {plain[10:].max():.2f} mm, at" in GUIDE
-    assert f"at {(speeds / lab.SPEED).max():.2f} of the speed limits" in GUIDE
+    assert f"within {plain[10:].max():.2f} mm of the circle" in GUIDE
+    assert f"at {(speeds / lab.SPEED).max():.2f} of its speed limit" in GUIDE
     assert drawn(lab.RADIUS, 0.0)[1][200:].max() > 1.0  # from the top on, as drawn
 
 
@@ -159,7 +159,8 @@ def test_half_the_damping_changes_its_own_price_and_not_the_geometry():
     assert f"{off.max():.2f} mm instead of 14.71" in GUIDE
     assert f"{(off - best).max():.1f} mm instead of 11.4" in GUIDE
     assert (
-        f"with 0.015 the fastest joint is at {drawn(0.38, 0.015)[1].max():.2f}" in GUIDE
+        f"with 0.015 the fastest joint moves at {drawn(0.38, 0.015)[1].max():.2f}"
+        in GUIDE
     )
 
 

@@ -50,7 +50,7 @@ numbers = Numbers(
     "condition number of the pendulum, one sine of 0.1 rad", "{:,.0f}",
     reach=times(1 / 8, "q'' = -q, and sin q differs from q by q³/6", within=0.1),
     second=between(0, 0.001, "with a second frequency q'' = -q no longer holds", to=0.2),
-    rtol=same("all five singular values count"),
+    rtol=same("all five singular values are far above the threshold"),
 )  # fmt: skip
 def pendulum(reach=0.1, second=0.0, rtol=LAB.RTOL):
     """Return the condition number of the pendulum's motion."""
@@ -77,7 +77,7 @@ def anywhere(seed, n, speed):
     seed=same("the axes of the arm determine the rank, not the states", to=48),
     speed=same("the axes of the arm are the same"),
     metre=same("scaling a column does not change its linear independence"),
-    rtol=same("the others are rounding errors, at most 1e-14 of the largest"),
+    rtol=same("the other singular values are rounding errors, at most 1e-14 of the largest"),
 )  # fmt: skip
 def links_show(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB.RTOL):
     """Return the rank."""
@@ -89,11 +89,11 @@ def links_show(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB
     "condition number of random states, with motors", "{:.0f}",
     n=between(0.8, 1.1, "more states of the same kind"),
     seed=between(0.7, 1.4, "other states of the same kind", to=48),
-    speed=between(1.05, 2.0, "the smallest singular value belongs to viscous friction "
-                  "and grows like the velocity; a part of the largest, of the "
-                  "inertias, grows like its square"),
-    metre=between(0.3, 0.8, "the largest singular value belongs to inertias and m c, "
-                  "whose columns shrink; friction has no length in its unit"),
+    speed=between(1.05, 2.0, "the largest singular value grows more than the "
+                  "smallest, because its inertial terms contain squares of the velocity"),
+    metre=between(0.3, 0.8, "the largest singular value belongs to the links, whose "
+                  "columns for m c and I shrink; the smallest belongs to viscous "
+                  "friction, whose column stays the same"),
     rtol=same("no singular value lies between 1e-14 and 1 / 230 of the largest"),
 )  # fmt: skip
 def condition(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB.RTOL):
@@ -108,7 +108,7 @@ def condition(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB.
                   "amplitude at six poses, not the third as for the pendulum"),
     metre=between(3.0, 10.0, "columns in kg m² shrink to 1/100, so it depends on the "
                   "unit", to=10.0),
-    rtol=same("no singular value is near this threshold; the others are rounding errors"),
+    rtol=same("no singular value is near this threshold; those below it are rounding errors"),
 )  # fmt: skip
 def swing_condition(swing=1.0, metre=1.0, rtol=LAB.RTOL):
     """Return the condition number of the swing, to three digits."""
@@ -171,7 +171,7 @@ def off_elsewhere(moved, drawn, secret, rtol, metre=1.0, slow=LAB.SLOW):
     metre=between(0.2, 0.4, "columns in kg m² shrink to 1/100, so other combinations "
                   "are truncated", to=10.0),
     noise=between(0.9, 1.3, "without noise it is 4.8, which is the bias"),
-    noise_seed=between(0.7, 1.3, "another noise is added to the same bias", to=48),
+    noise_seed=between(0.7, 1.3, "different noise is added to the same bias", to=48),
     swing=between(0.8, 1.0, "more combinations are kept, and the others are still set "
                   "to 0"),
     masses=between(0.8, 1.2, "truncated combinations are set to 0, not to the file's "
@@ -188,12 +188,12 @@ def cut_fit(cut=LAB.CUT, metre=1.0, noise=LAB.NOISE, noise_seed=LAB.NOISE_SEED,
     "test error of the excitation's fit", "{:.2f} N m",
     noise=times(2.0, "the noise is the only cause, and the fit is linear"),
     n=between(0.55, 0.85, "1/√2 for twice the samples, with other noise", to=400),
-    noise_seed=between(0.5, 1.5, "another noise", to=48),
+    noise_seed=between(0.5, 1.5, "different noise", to=48),
     metre=same("without truncation the unit cancels"),
     rtol=same("no singular value is near this threshold"),
     slow=between(0.8, 1.2, "fewer rows remain, and none of them is wrong"),
     masses=same("the fit does not use the model file"),
-    friction=same("dry friction has its columns in Y"),
+    friction=same("dry friction has its own columns in Y"),
 )  # fmt: skip
 def excited_fit(
     noise=LAB.NOISE, n=200, noise_seed=LAB.NOISE_SEED, metre=1.0, rtol=LAB.RTOL,
@@ -223,9 +223,9 @@ def file_off(masses=DAY.MASS, friction=1.0, noise=LAB.NOISE):
 
 @numbers.add(
     "b, which shifts the sign of MuJoCo's dry friction", "{:.0f} 1/s",
-    timeconst=times(0.5, "b = 2 / (dmax timeconst)"),
-    dmax=times(1 / 0.95, "b = 2 / (dmax timeconst)", to=0.9025),
-    dmin=same("b depends on the largest impedance, dmax, only", to=0.45),
+    timeconst=times(0.5, "b = 2 / (solimp[1] solref[0])"),
+    dmax=times(1 / 0.95, "b = 2 / (solimp[1] solref[0])", to=0.9025),
+    dmin=same("b depends only on solimp[1] and solref[0]", to=0.45),
     qdd=same("with twice the acceleration the sign changes at twice the speed"),
     dry=same("the sign does not depend on the magnitude"),
 )  # fmt: skip
@@ -259,7 +259,7 @@ def holds(load, side, n, *how):
     "error of the mass, one from either side, no noise", "{:.0f} g",
     wait=between(0.0, 0.2, "dry friction creeps, and after 4 s hardly any is left"),
     timeconst=between(0.0, 0.2, "b is half, so friction creeps twice as fast"),
-    dmin=between(6.0, 10.0, "with this impedance friction hardly creeps", to=0.999),
+    dmin=between(6.0, 10.0, "with solimp[0] close to 1 friction hardly creeps", to=0.999),
     friction=times(2.0, "twice the friction leaves twice the error", within=0.1),
     springs=between(-0.2, 0.2, "the springs are four times as stiff, so friction creeps "
                     "faster"),
@@ -279,7 +279,8 @@ def either_side(
     "sigma of the load, each from both sides", "{:.0f} g",
     noise=times(2.0, "the residual is noise, with hardly any friction", within=0.05),
     noise_seed=between(0.7, 1.4, "sigma is estimated from 35 torques only", to=48),
-    poses=between(0.6, 0.85, "1/√2 for twice the poses, which are other poses"),
+    poses=between(0.6, 0.85, "1/√2 for twice as many poses; the rest is chance, because "
+                  "sigma is estimated from the residual"),
 )  # fmt: skip
 def load_sigma(noise=LAB.NOISE, noise_seed=LAB.NOISE_SEED, poses=5):
     """Return the sigma of the mass that the lab finds."""

@@ -213,10 +213,11 @@ def test_twelve_robots_agree_on_the_difference_the_scales_and_cross_validation(d
     )
     assert words.format(*ends.ravel()) in SENTENCES
     assert (np.argmin(left_out, axis=1) > 0).all()
-    assert "prefers 1e-2 for none of the twelve robots" in SENTENCES
+    assert "selects 1e-2 for none of the twelve robots" in SENTENCES
     ends = np.array([np.min(scaled, axis=0), np.max(scaled, axis=0)]).T
     words = (
-        "robots give {:.2f} to {:.2f} N m with 1e-2, and {:.2f} to {:.2f} N m with 1e-3"
+        "robots the test error is {:.2f} to {:.2f} N m with 1e-2, "
+        "and {:.2f} to {:.2f} N m with 1e-3"
     )
     assert words.format(*ends.ravel()) in SENTENCES
 
@@ -322,7 +323,7 @@ def test_the_excitation_is_as_fast_as_the_joints_may_go_but_not_as_far():
     low, high = simulate.limits(model)[0].T
     reach = np.ptp(motion.q, axis=0) / (high - low)
     assert reach.max() < 0.7 < day8_mujoco.RANGE_SHARE
-    words = "five random harmonics, as fast as the velocity limits of the joints allow"
+    words = f"for each joint, up to {day8_mujoco.SPEED_SHARE} of its velocity limit"
     assert words in SENTENCES
 
 
@@ -377,7 +378,7 @@ def test_what_no_torque_shows_is_why_there_is_no_such_arm(data):
         for p in (phi, other)
     ]
     assert least[0] < -1.0
-    assert f"{least[1]:.3f} remains. This rest comes from noise" in SENTENCES
+    assert f"eigenvalue is {least[1]:.3f}. This remainder comes from noise" in SENTENCES
     phi = lab.truncated_svd_fit(Y, data["excited"][1][data["excited"][2]], lab.RTOL)
     other = phi + hidden.T @ (hidden @ (true - phi))
     assert min(map(lab.min_pseudo_inertia_eig, other[:70].reshape(7, 10))) > 0.0
@@ -400,8 +401,8 @@ def test_of_twelve_robots_none_is_consistent_and_little_of_that_is_noise(data):
             for p in (phi, other)
         ])  # fmt: skip
     least, most = np.min(found, axis=0), np.max(found, axis=0)
-    assert f"robots the eigenvalue is {least[0]:.2f} to {most[0]:.2f}" in SENTENCES
-    assert f"and {least[1]:.3f} to {most[1]:.3f} remains" in SENTENCES
+    assert f"the smallest eigenvalue is {least[0]:.2f} to {most[0]:.2f}" in SENTENCES
+    assert f"and {least[1]:.3f} to {most[1]:.3f} with the true" in SENTENCES
 
 
 def test_second_differences_of_an_encoder_are_off_as_predicted():
