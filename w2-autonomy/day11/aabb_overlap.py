@@ -135,21 +135,21 @@ def _(box_a, box_b):
       that lies below box_a => `box_a[0] <= box_b[1]` alone
     one-direction 2: your code makes only one of the two comparisons, so it misses a
       box_b that lies above box_a => `box_b[0] <= box_a[1]` alone
-    touching-left-out: boxes that only touch are reported as apart, but they should be
-      reported as overlapping => the formula with <
-    touching-left-out 2: boxes that touch on one side are reported as apart, but they
+    touching-left-out: boxes that only touch are reported as separate, but they should
+      be reported as overlapping => the formula with <
+    touching-left-out 2: boxes that touch on one side are reported as separate, but they
       should be reported as overlapping => the formula with one <
-    touching-left-out 3: boxes that touch on one side are reported as apart, but they
+    touching-left-out 3: boxes that touch on one side are reported as separate, but they
       should be reported as overlapping => the formula with the other <
     negated: the result is inverted; True means that the boxes overlap
     first-axis-only: your code compares only x
     two-axes-only: your code does not compare z
     contained: your code requires that one box contains the other; two boxes can also
-      overlap partly
+      overlap partially
     contained 2: your code requires that box_a contains box_b; two boxes can also
-      overlap partly
+      overlap partially
     contained 3: your code requires that box_b contains box_a; two boxes can also
-      overlap partly
+      overlap partially
     a-corner-inside: your code requires that the lower or the upper corner of box_b lies
       in box_a; two boxes can overlap without that
     a-corner-inside 2: your code requires that the lower corner of box_b lies in box_a;

@@ -97,8 +97,8 @@ def _(p, half_extents):
       half_extents
     box-as-a-ball 3: your code treats the box as a sphere => |p| minus the smallest
       half_extents
-    whole-sides: your code halves half_extents, which already contains half of the sides
-      => the formula with half_extents / 2
+    whole-sides: half_extents already contains half of each side, but your code halves
+      it again => the formula with half_extents / 2
     twice-the-sides: your code doubles half_extents; the faces are at plus and minus
       half_extents => the formula with 2 half_extents
     abs-forgotten: the absolute value of p is missing, so points with a negative
@@ -128,7 +128,7 @@ def _(p, half_extents):
     one-number-inside: inside the box your code always returns -1; return minus the
       distance to the nearest face
     least-half-inside: inside the box your code always returns minus the smallest half
-      extent; this is correct only at the centre
+      extent, which is correct only at the centre
     smallest-part-inside: inside the box your code returns minus the smallest entry of
       |p|; the distance to a face is half_extents - |p|
     upper-faces-inside: inside the box your code uses only the faces on the positive

@@ -127,8 +127,8 @@ def golden(f, n, keep=0.618, wrong=False):
 
 @row.wrongs
 def _(a0, a1, r, T_world_box, half_extents):
-    """ends-only: your code tests only the ends of the axis; its nearest point can lie
-      between them
+    """ends-only: your code tests only the ends of the axis; the nearest point of the
+      axis can lie between them
     one-end-only: your code always returns the distance of a1, because the search always
       keeps the upper part
     one-end-only 2: your code always returns the distance of a0, because the search

@@ -140,16 +140,16 @@ def _(a0, a1, ra, b0, b1, rb):
       their sum
     lengths-differ: the norms of p and o are subtracted; take the norm of p - o => | |p|
       - |o| |
-    cut-once: the distance is clamped at 0 after ra is subtracted, before rb is
-      subtracted; do not clamp it
+    cut-once: the distance is clamped at 0 between the subtractions of ra and rb; do not
+      clamp it
     one-number-inside: for capsules that overlap your code always returns -1; the result
-      should depend on the depth
+      should depend on the penetration depth
     one-number-inside 2: for capsules that overlap your code returns minus the smaller
-      radius; the result should depend on the depth
+      radius; the result should depend on the penetration depth
     axes-inside: for capsules that overlap your code returns minus the distance between
       the axes; subtract the radii from it
-    ends-only: your code assumes that one of the closest points is an end; both can lie
-      between the ends
+    ends-only: your code assumes that one of the closest points is an end; both points
+      can lie between the ends
     ends-only 2: your code tests only the ends of the first axis; its closest point can
       lie between them
     ends-only 3: your code tests only the ends of the second axis; its closest point can
