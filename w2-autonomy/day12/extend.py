@@ -141,7 +141,7 @@ def _(tree, sample, step, world):
     point-only: your code tests only the new point; test the whole edge to it
     node-only: your code tests only the node from which the tree grows; test the whole
       edge
-    always-free: your code does not test the edge, so every edge is free
+    always-free: your code does not test the edge, so it reports every edge as free
     never-free: your code reports that no edge is free
     edge-from-the-root: your code tests the edge from the root to the new point; the
       edge starts at the nearest node
@@ -167,10 +167,10 @@ def _(tree, sample, step, world):
       edge from the nearest node to the new point
     standing-is-blocked: if the sample equals a node, your code reports a blocked edge;
       an edge of length 0 is free if the node is free
-    own-is-free: your code does not call the method `edge_free` of the world, so every
-      edge is free in such a world
-    own-is-blocked: your code does not call the method `edge_free` of the world, so no
-      edge is free in such a world
+    own-is-free: your code does not call the method `edge_free` of the world, so it
+      reports every edge of such a world as free
+    own-is-blocked: your code does not call the method `edge_free` of the world, so it
+      reports every edge of such a world as blocked
     free-if-reached: your code reports a free edge only if the sample is reached; a step
       towards the sample is an edge too
     reached-is-free: if the sample is reached, your code does not test the edge

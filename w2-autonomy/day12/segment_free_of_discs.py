@@ -360,8 +360,8 @@ def _(a, b, discs):
 
 @row.wrong(hidden="the lab has no edge of no length")
 def divided_by_nothing(a, b, discs):
-    """an edge of length 0 is always reported as blocked; its parameter is 0 / 0 (NaN),
-    and a comparison with NaN is False, so treat it as a point"""
+    """an edge of length 0 is always reported as blocked. Its parameter is 0 / 0 = NaN,
+    and a comparison with NaN is False: treat the edge as a point"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)
@@ -371,8 +371,8 @@ def divided_by_nothing(a, b, discs):
 
 @row.wrong("divided-by-nothing")
 def _(a, b, discs):
-    """an edge of length 0 is always reported as free; its parameter is 0 / 0 (NaN),
-    and a comparison with NaN is False, so treat it as a point"""
+    """an edge of length 0 is always reported as free. Its parameter is 0 / 0 = NaN, and
+    a comparison with NaN is False: treat the edge as a point"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)
@@ -382,8 +382,8 @@ def _(a, b, discs):
 
 @row.wrong
 def touching_and_no_length(a, b, discs):
-    """an edge that touches a disc is reported as free, and an edge of length 0 divides
-    by 0; a touching edge is blocked, and an edge of length 0 is a point"""
+    """an edge that touches a disc is reported as free, and your code divides by 0 for
+    an edge of length 0. A touching edge is blocked; an edge of length 0 is a point"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)

@@ -23,7 +23,7 @@ def path(rng, n, k, heavy=0.5, fast=1.6):
         rng: draws it.
         n: steps.
         k: joints.
-        heavy: largest share of a limit that gravity takes.
+        heavy: largest fraction of a limit that gravity takes.
         fast: largest sd2_max.
     """
     walk = np.cumsum(rng.normal(size=(2, n + 1, k)), axis=1) / np.sqrt(n)
@@ -138,14 +138,15 @@ def _(a, b, c, limits, sd2_max):
       pass needs it too
     gravity-forgotten: gravity is missing in the torques
     coriolis-forgotten: b is missing in the torques
-    cannot-stand-goes: if gravity alone exceeds a torque limit, the arm cannot hold
-      there; return zeros => the formula without that case
+    cannot-stand-goes: your code returns a motion although gravity alone exceeds a
+      torque limit; the arm cannot hold there, so return zeros => the formula without
+      that case
     few-bisections: the bisection stops too early => the result after 10 halvings
     few-bisections 2: the bisection stops too early => the result after 20 halvings
-    limits-of-the-next-point: the limits of a step are computed at its end; use its
-      first point
-    bobrow: in the backward pass the limits of a step are computed at its end; use its
-      first point
+    limits-of-the-next-point: the bounds on sdd for a step are computed at the end of
+      the step; compute them at its first point
+    bobrow: in the backward pass the bounds on sdd for a step are computed at the end of
+      the step; compute them at its first point
     root: your code returns sd; return sd^2
     times: your code returns the time of each point; return sd^2
     half-the-torque: your code uses only half of each torque limit
