@@ -49,9 +49,9 @@ def _(T, T_goal):
     """in-the-hands-axes: both halves are expressed in the hand frame; they should be
       expressed in the world frame => the error rotated by R^T
     body-twist: the result is the body twist log(T^-1 T_goal), which belongs to J_body;
-      this error belongs to J_site => the body twist
+      the error should belong to J_site => the body twist
     space-twist: the result is the spatial twist log(T_goal T^-1), which belongs to
-      J_space; this error belongs to J_site => that twist
+      J_space; the error should belong to J_site => that twist
     """
     D = np.linalg.inv(T) @ T_goal
     return {
