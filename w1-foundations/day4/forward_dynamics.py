@@ -53,10 +53,10 @@ def _(M, bias, damping, qd, tau):
       damping
     velocity-returned: the result is the velocity after a step of 2 ms, qd + h qdd;
       return qdd => qd + 0.002 qdd
-    divided-entry-by-entry: the expression 1 / M inverts each entry; that is not the
-      inverse of the matrix => the product with 1 / M
-    damping-not-divided: damping is subtracted after the division by M; it is also a
-      torque => the difference of the two
+    divided-entry-by-entry: the expression 1 / M inverts each entry; these reciprocals
+      are not the inverse of the matrix => the product with 1 / M
+    damping-not-divided: damping is subtracted after the division by M, but damping is
+      also a torque => the difference of the two
     only-torque-divided: only the motor torque is divided by M; bias and damping are
       also torques => the difference of the two
     """
