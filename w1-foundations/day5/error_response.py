@@ -80,8 +80,8 @@ def _(t, omega, zeta):
       at rest, but this curve starts with a nonzero derivative
     half-the-damping: the curve belongs to half the damping ratio; in the equation the
       factor of ed is 2 zeta omega
-    output-in-place-of-error: the curve rises from 0 to 1. This is the step response of
-      the joint; the error is 1 minus the step response
+    output-in-place-of-error: the curve rises from 0 to 1, as the step response of the
+      joint does; the error is 1 minus the step response
     omega-in-turns: omega is multiplied by 2 pi as if it were in turns per second, but
       it is in rad/s
     """
