@@ -85,7 +85,7 @@ def test_a_wrong_term_is_told_by_when_it_is_right(check):
     )
     assert outside != text
     verdict = check(outside, day, "5.6")["5.6"]
-    assert "It is right whenever " in verdict.message
+    assert "The result is right whenever " in verdict.message
     assert "ed is 0" in verdict.message or "kd is 0" in verdict.message
 
 
@@ -97,7 +97,7 @@ def test_an_error_on_some_inputs_hides_no_wrong_answer(check):
     )
     assert code != REFERENCE
     message = check(code, task="1.3")["1.3"].message
-    assert message.startswith("It stops with ValueError")
+    assert message.startswith("Your function stops with ValueError")
     assert "in 1 of 6 calls. The other answers are wrong, too." in message
     assert "wrong sign" in message
 

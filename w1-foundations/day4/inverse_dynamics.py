@@ -148,7 +148,7 @@ def _(J, G, qd, qdd, g):
 
 
 # In ad an identity cancels: what it adds to G A, it takes from the velocity product.
-row.reached_by("ad", "in ad, ", but=["identity-added"])
+row.reached_by("ad", "in `ad`, ", but=["identity-added"])
 row.of_argument("g", *OTHER_DIRECTION, *OTHER_GRAVITY)
 
 

@@ -164,7 +164,9 @@ TYPED_IN = Change(
     hidden="the arm of the lab is upright",
 )
 row.of_argument("g", TYPED_IN)
-row.reached_by("link_regressor", "in link_regressor, ", but=["ad-not-transposed-plus"])
+row.reached_by(
+    "link_regressor", "in `link_regressor`, ", but=["ad-not-transposed-plus"]
+)
 
 
 @row.right  # Seventy robots with one parameter each, through Day 4's inverse dynamics.

@@ -15,7 +15,7 @@ SPIN = np.eye(6)[2]
 # A unit vector has m or m c, never both, so these two mistakes do not show here.
 BOTH = ["inertia-about-the-centre", "first-moment-times-m"]
 row.reached_by(
-    "spatial_inertia_from_params", "in spatial_inertia_from_params, ", but=BOTH
+    "spatial_inertia_from_params", "in `spatial_inertia_from_params`, ", but=BOTH
 )
 
 

@@ -12,7 +12,7 @@ from .truncated_svd_fit import asked, parts, scaled
 row = Row(tuple(Vector((None,), "N m", called=x) for x in ("the torque", "sigma")))
 row.at_least_0(rtol="a tolerance")
 CASE = np.ones((4, 1)), np.array([1.0, 3.0, 1.0, 3.0]), np.ones((1, 1)), 1e-9
-row.reached_by("truncated_svd_fit", "in truncated_svd_fit, ")
+row.reached_by("truncated_svd_fit", "in `truncated_svd_fit`, ")
 
 
 @row.inputs
