@@ -27,7 +27,7 @@ def test_a_reversed_chain_and_a_factor_on_the_wrong_side_are_told_together():
 
     says = told(2, "2.6", fk_space=fk_space)
     assert "in the reverse order" in says
-    assert "M is on the left of the exponentials" in says
+    assert "M is to the left of the exponentials" in says
 
 
 def test_two_answers_in_the_other_order_that_both_lack_a_term():
