@@ -45,7 +45,7 @@ def _(T):
     """unchanged: T is returned unchanged
     T-transposed: the whole 4x4 matrix is transposed, which inverts R but moves the
       translation to the last row => T transposed
-    t-only-negated: the rotation is correct, but the translation is -t; the inverse's
+    t-only-negated: the rotation is correct, but the translation is -t. The inverse's
       translation is expressed in the rotated frame, so -t has to be rotated first =>
       the correct rotation with -t
     t-turned-forwards: the rotation is correct, but -t is multiplied by R instead of the

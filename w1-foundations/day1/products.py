@@ -56,7 +56,7 @@ def on_each_other(model, q, path=PATH):
     local-taken-for-world: the pos and quat of attachment in the file are used as its
       pose in the world; pos and quat are relative to the parent => the pose in the file
     offsets-summed: the rotation is correct, but the offsets are added as they are in
-      the file; each offset is expressed in the rotated frame of its parent => the
+      the file. Each offset is expressed in the rotated frame of its parent => the
       correct rotation with a plain sum
     point-with-w-0: the rotation is correct, but attachment's offset is only rotated and
       the translation before it is lost: a point needs 1, not 0, as its fourth entry =>

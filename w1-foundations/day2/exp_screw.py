@@ -131,7 +131,7 @@ def _(S, theta):
 def _(S, theta):
     """R-times-v: the rotation is correct, but the translation is R v; it should be the
       integral of the rotated velocity => the correct rotation with R v
-    R-times-theta-v: the rotation is correct, but the translation is theta R v; the
+    R-times-theta-v: the rotation is correct, but the translation is theta R v. The
       velocity rotates during the motion, so it has to be integrated
     travel-on-a-line: the rotation is correct, but the translation is theta v, a
       straight line; the path of a screw motion is curved => the correct rotation with
@@ -141,7 +141,7 @@ def _(S, theta):
       well => the correct rotation with R t
     travel-over-theta: the rotation is correct, but the translation is divided by theta
       => the correct rotation with t / theta
-    moment-used-as-point: v is used as a point on the axis; v is the velocity of the
+    moment-used-as-point: v is used as a point on the axis, but v is the velocity of the
       origin => the rotation about the line through v
     pitch-forgotten: if omega is not 0, the part of the translation along the axis is
       missing => the correct result without that part

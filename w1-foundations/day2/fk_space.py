@@ -36,7 +36,7 @@ def _(screws, M, q):
 
 @row.wrong
 def screws_moved_along(screws, M, q):
-    """each screw is transformed by the joints before it; the product already includes
+    """each screw is transformed by the joints before it. The product already includes
     these motions, so use the screws at q = 0 => that product"""
     T = np.eye(4)
     for S, theta in zip(screws, q, strict=True):

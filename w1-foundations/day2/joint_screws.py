@@ -26,8 +26,8 @@ def _(rng):
 def _(T_zero):
     """axis-row-not-column: the axis is a row of R; the link's z axis, expressed in the
       world frame, is a column => the answer with the third row
-    axis-local-z: the axis is (0, 0, 1) for every joint, which is z in the link frame;
-      the screw should be expressed in the world frame => the answer with (0, 0, 1)
+    axis-local-z: the axis is (0, 0, 1) for every joint, which is z in the link frame.
+      The screw should be expressed in the world frame => the answer with (0, 0, 1)
     axis-x-column: the axis is the link's x axis; the Panda's joints rotate about z
     axis-y-column: the axis is the link's y axis; the Panda's joints rotate about z
     point-is-local-pos: the point is the position of each link relative to its parent;

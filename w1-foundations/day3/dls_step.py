@@ -50,7 +50,7 @@ def _(J, e, damping):
       of the pseudo-inverse over 1 + damping^2
     damping-fixed: the damping is always 0.05; use the argument
     damping-added-to-the-values: the damping is added to each singular value s, as 1 /
-      (s + damping); the formula has the factor s / (s^2 + damping^2)
+      (s + damping). The formula has the factor s / (s^2 + damping^2)
     damping-as-a-cut: the damping is used as rcond of the pseudo-inverse, which discards
       small singular values; damping only reduces their weight => the step of pinv(J,
       damping)

@@ -88,7 +88,7 @@ def _(T, T_goal):
 @row.wrongs
 def _(T, T_goal):
     """translation-in-the-hands-axes: the translation is expressed in the hand frame, as
-      in the last column of T^-1 T_goal; it should be expressed in the world frame =>
+      in the last column of T^-1 T_goal. It should be expressed in the world frame =>
       the error with R^T (p_goal - p)
     goal-position-for-translation: the translation is the position of the goal; it
       should be the vector from the hand to the goal => the error with p_goal

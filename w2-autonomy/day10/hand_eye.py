@@ -146,9 +146,9 @@ def _(A, B):
       free along its axis, so stack all equations => the mean of pinv(R_A - 1) d
     centred-the-other-way: the means are subtracted and the rotation is transposed, as
       kabsch(a, b) gives it; a = R b has no translation => kabsch(a, b)
-    t-as-if-alike: t is the mean of t_A - R t_B, as if the hand did not rotate; this
+    t-as-if-alike: t is the mean of t_A - R t_B, as if the hand did not rotate. This
       difference is -(R_A - I) t => the mean of t_A - R t_B
-    t-as-if-alike 2: t is the mean of R t_B - t_A, as if the hand did not rotate; this
+    t-as-if-alike 2: t is the mean of R t_B - t_A, as if the hand did not rotate. This
       difference is (R_A - I) t => the mean of R t_B - t_A
     """
     R = hand_eye(A, B)[:3, :3]

@@ -31,10 +31,10 @@ def covariance(
 
 for slug, says, redone, other in (
     ("mean-over-points", "the result is multiplied by the number of pixel coordinates, "
-     "or J^T J is divided by it; each further pixel should reduce the covariance",
+     "or J^T J is divided by it. Each further pixel should reduce the covariance",
      "the covariance times 2 n", {"share": lambda n: n}),
     ("mean-over-points", "the result is multiplied by the number of points, or J^T J "
-     "is divided by it; each further point should reduce the covariance",
+     "is divided by it. Each further point should reduce the covariance",
      "the covariance times n", {"share": lambda n: n / 2}),
     ("divided-by-points", "the result is divided by the number of points; J^T J is "
      "already the sum over all points", "the covariance over n",

@@ -165,10 +165,10 @@ def _(box_a, box_b):
     corners-only: your code tests whether a corner of one box lies in the other; two
       boxes can cross although no corner lies inside => the test of all 8 corners of
       both
-    corners-only 2: your code tests whether a corner of box_b lies in box_a; two boxes
+    corners-only 2: your code tests whether a corner of box_b lies in box_a. Two boxes
       can cross, or box_b can contain box_a, although no such corner exists => the test
       of all 8 corners of box_b
-    corners-only 3: your code tests only the lower and the upper corner of each box; two
+    corners-only 3: your code tests only the lower and the upper corner of each box. Two
       boxes can overlap although neither lies in the other box => the test of two
       corners of each
     corners-only 4: your code tests only the lower corner of each box; two boxes can
@@ -185,7 +185,7 @@ def _(box_a, box_b):
     sides-not-halved: the limit for the distance between the centres is the sum of the
       sides; it should be half of this sum
     sides-in-quarters: the limit for the distance between the centres is a quarter of
-      the sum of the sides; it should be half of this sum
+      the sum of the sides. It should be half of this sum
     or-for-and: one of the two comparisons is enough in your code; both must hold
     two-axes-enough: overlap on two axes is enough in your code; two boxes overlap only
       if their intervals overlap on all three axes

@@ -90,13 +90,13 @@ def _(a0, a1, b0, b1):
     end-pairs: your code returns the nearest pair of ends; the closest points can lie
       between the ends
     end-pairs 2: your code uses the end of the first segment that is nearest to the
-      second; the closest point can lie between the ends
-    w-sign: w has the wrong sign; it should run from the start of the second segment to
+      second. The closest point can lie between the ends
+    w-sign: w has the wrong sign. It should run from the start of the second segment to
       the start of the first, a0 - b0 => the formula with b0 - a0
     d-and-e-swapped: d and e are swapped; d = u . w belongs to the first segment
     numerator-sign: the numerator of s has the wrong sign; s = (b e - c d) / (a c - b b)
       => the formula with c d - b e
-    b-sign: b has the wrong sign; the derivatives are a s - b t + d and b s - c t + e =>
+    b-sign: b has the wrong sign. The derivatives are a s - b t + d and b s - c t + e =>
       the formula with -b
     across-plus: the denominator is a c + b b; it should be a c - b b, which is 0 for
       parallel segments
@@ -124,12 +124,12 @@ def _(a0, a1, b0, b1):
     sampled 3: your code tests only some points of each segment; the closest points lie
       between them => the best of 21 x 21 points
     ends-where-cut: where s or t of the lines lies outside 0..1, your code returns the
-      nearest pair of ends; one of the closest points can still lie between the ends
+      nearest pair of ends. One of the closest points can still lie between the ends
     ends-where-cut 2: where s or t of the lines lies outside 0..1, your code tests only
-      the ends of the first segment; test the ends of the second too => the formula with
+      the ends of the first segment. Test the ends of the second too => the formula with
       its ends alone
     ends-where-cut 3: where s or t of the lines lies outside 0..1, your code tests only
-      the ends of the second segment; test the ends of the first too => the formula with
+      the ends of the second segment. Test the ends of the first too => the formula with
       its ends alone
     start-where-cut: where s or t of the lines lies outside 0..1, your code sets s to 0;
       clamp s instead

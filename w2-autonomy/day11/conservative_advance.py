@@ -155,7 +155,7 @@ def _(s, distance, delta_q, radii):
     stops-inside 2: if the arm is already in contact, your code returns 0; return s
       itself
     still-before-touching: your code tests for a motion of 0 before it tests for
-      contact; if the arm is in contact, return s even if no joint moves
+      contact. If the arm is in contact, return s even if no joint moves
     reach-backwards: the radii are in reverse order; the first radius belongs to joint 1
     reaches-summed: your code multiplies the sum of |delta_q| by the sum of the radii;
       each joint has its own radius

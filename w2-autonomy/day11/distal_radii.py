@@ -119,7 +119,7 @@ def _(link_lengths, link_radii):
       between them can be farther away
     two-behind-only: your bound uses only the next two links
     sum-not-largest: the link radius is added to the maximum of the link length and the
-      next result; take the maximum of the link radius and their sum
+      next result. Take the maximum of the link radius and their sum
     largest-of-three: your code takes the maximum of the link radius, the link length
       and the next result; add the last two first
     largest-far-next: the largest link radius is added to the link length; add the
@@ -128,12 +128,12 @@ def _(link_lengths, link_radii):
     mean-not-largest: your code takes the mean over the distal links; an upper bound is
       the maximum
     offsets-alone: your code takes the maximum of the link radius and the sum of the
-      link lengths; add the distal radii to the lengths
+      link lengths. Add the distal radii to the lengths
     last-link-forgotten: the radius of the last link is treated as 0
     last-link-forgotten 2: the last link is missing => the formula without the radius of
       the last link
     offsets-to-the-end: your code adds all link lengths, including the last one, and the
-      radius of the last link; no link follows the last one
+      radius of the last link. No link follows the last one
     offset-too-early: the length after each link is added before the radius of that
       link; this length belongs to the next link
     far-twice: the joint's own link radius and the radius of the farthest link are both

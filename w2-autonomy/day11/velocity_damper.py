@@ -131,7 +131,7 @@ def _(qd, grad, distance, gain):
     stops-dead: your code stops the arm if it would be too fast; keep the part of the
       velocity that is allowed
     stops-dead 2: your code stops the arm if it would be too fast, and also if grad is
-      0; keep the part of the velocity that is allowed
+      0. Keep the part of the velocity that is allowed
     part-removed: the whole component along grad is removed; an approach within the
       bound is allowed => the formula without it
     sign-of-the-bound: the bound has the wrong sign; the condition is grad . qd >= -gain

@@ -155,11 +155,11 @@ OPTIONS = [
         ("ds-forgotten", "ds is missing or is 1; it should be 1 / N", lambda n: 2.0),
         ("ds-forgotten", "the factor 2 ds is missing or is 1; ds should be 1 / N",
          lambda n: 1.0))),
-    Option("sd-for-sd2", "`path_accel_bounds` is called with sd^2; its argument is "
-                         "sd",
+    Option("sd-for-sd2", "`path_accel_bounds` is called with sd^2; its argument should "
+        "be sd",
            {"sd": lambda x: x}),
-    Option("sd-for-sd2", "in the forward pass `path_accel_bounds` is called with "
-                         "sd^2; its argument is sd",
+    Option("sd-for-sd2", "in the forward pass `path_accel_bounds` is called with sd^2; "
+        "its argument should be sd",
            {"forward_sd": lambda x: x}),
     Option("sd-squared-twice", "`path_accel_bounds` is called with sd^4; its "
                                "argument is sd",
@@ -191,7 +191,7 @@ OPTIONS = [
         "are computed at the end of the step; compute them at its first point",
            {"back_at": 1, "at": 1}),
     Option("limits-of-the-next-point", "in the backward pass the bounds on sdd for a "
-        "step are computed at the end of the step; compute them at its first point",
+        "step are computed at the end of the step. Compute them at its first point",
         {"back_at": 1}),
     Option("limits-of-the-next-point", "in the forward pass the bounds on sdd for a "
         "step are computed at the end of the step; compute them at its first point",
@@ -249,9 +249,8 @@ OPTIONS = [
         ("allowed", "any sdd is allowed at this speed (low <= high)"),
         ("after", "the motion can slow down to the maximum of the next point"),
         ("turning", "sd^2 stays above 0 with the largest sdd"))),
-    Option("most-of-the-point-before", "in the forward pass sd^2 at i + 1 is "
-                                       "limited by the maximum at i; use the "
-                                       "maximum at i + 1", {"kept": 0}),
+    Option("most-of-the-point-before", "in the forward pass sd^2 at i + 1 is limited "
+        "by the maximum at i. Use the maximum at i + 1", {"kept": 0}),
     *(Option(slug, f"your code uses the {word} torque limit for every joint",
              {"ranges": _same_limit(choose)}, alone=True) for slug, word, choose in (
         ("smallest-limit", "smallest", np.min), ("largest-limit", "largest", np.max),

@@ -203,11 +203,11 @@ def _(a, b, c, limits, sd):
       the lower bound above the upper bound
     none-is-zero: if no sdd is allowed, your code returns (0, 0), which allows sdd = 0
     none-is-zero 2: if a joint with a = 0 exceeds its limit, your code returns (0, 0),
-      which allows sdd = 0; return (inf, -inf)
+      which allows sdd = 0. Return (inf, -inf)
     none-is-one: if no sdd is allowed, your code reduces the lower bound to the upper
       bound; leave it above the upper bound
     zero-stops-all: a joint with a = 0 within its torque limit makes the range empty in
-      your code; such a joint does not limit sdd
+      your code. Such a joint does not limit sdd
     zero-row-ignored: your code ignores a joint with a = 0 that exceeds its torque
       limit; no sdd is allowed then: (inf, -inf)
     gravity-not-divided: c is subtracted after the division by a; c is a torque, so
@@ -233,7 +233,7 @@ def _(a, b, c, limits, sd):
       joints
     first-left-out: your code skips the first joint
     none-is-zero 3: if the joints allow no common sdd, your code returns (0, 0), which
-      allows sdd = 0; leave the lower bound above the upper bound
+      allows sdd = 0. Leave the lower bound above the upper bound
     none-is-infinite: if the joints allow no common sdd, your code returns (inf, -inf).
       Return the bounds themselves, because (inf, -inf) is reserved for a joint with a =
       0
@@ -244,11 +244,11 @@ def _(a, b, c, limits, sd):
     held-by-speed-alone: for a joint with a = 0 your code compares only b sd^2 with the
       limit; compare b sd^2 + c
     held-with-sign: for a joint with a = 0 your code compares the torque without its
-      absolute value; the limit also applies to negative torques
+      absolute value. The limit also applies to negative torques
     all-have-to-hold: your code compares b sd^2 + c with the limit for joints that move
-      too; this test is only for joints with a = 0
+      too. This test is only for joints with a = 0
     any-that-holds: if several joints have a = 0, your code accepts the speed if one of
-      them is within its limit; all of them must be within their limits
+      them is within its limit. All of them must be within their limits
     small-is-zero: your code treats a small a as 0; a joint with a small a still limits
       sdd => the formula with |a| below 0.01
     small-is-zero 2: your code treats a small a as 0; a joint with a small a still
@@ -342,7 +342,7 @@ def _(a, b, c, limits, sd):
 
 @row.wrong
 def zero_divides(a, b, c, limits, sd):
-    """your code divides by 0 for a joint with a = 0; such a joint does not limit sdd
+    """your code divides by 0 for a joint with a = 0. Such a joint does not limit sdd
     while its torque is within the limit => the formula without that case"""
     with np.errstate(all="ignore"):
         ends = np.sort((np.array([-limits, limits]) - b * sd**2 - c) / a, axis=0)

@@ -106,11 +106,11 @@ def _(successes, n):
       - 3 / n. These ends come from the rule of three, not from the Wilson interval =>
       this rule, clamped to 0..1,
     plus-four: your code uses the Wald interval with p = (k + 2) / (n + 4) (Agresti and
-      Coull); use the Wilson interval
+      Coull). Use the Wilson interval
     plus-four 2: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
-      n + z^2 trials (Agresti and Coull); use the Wilson interval
+      n + z^2 trials (Agresti and Coull). Use the Wilson interval
     plus-four 3: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
-      n + z^2 trials (Agresti and Coull); use the Wilson interval => this interval,
+      n + z^2 trials (Agresti and Coull). Use the Wilson interval => this interval,
       clamped to 0..1,
     one-more: p is (k + 1) / (n + 2), with one success and one failure added; use k / n
     half-width: the interval has half of the correct width

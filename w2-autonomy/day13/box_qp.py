@@ -259,10 +259,10 @@ def _(H, f, lo, hi, x):
       pulls away from its bound
     frees-the-wrong-ones: the wrong entries are held. Hold an entry if the gradient
       pushes it out of the box
-    held-left-out: the right side for the free entries leaves out the held entries. Use
-      the gradient H x + f at the present x
-    held-left-out 2: the right side for the free entries leaves out the held entries.
+    held-left-out: the right-hand side for the free entries leaves out the held entries.
       Use the gradient H x + f at the present x
+    held-left-out 2: the right-hand side for the free entries leaves out the held
+      entries. Use the gradient H x + f at the present x
     one-step: the result is x after one clamped Newton step
     full-hessian: each step is solved with all of H. The held entries do not move, so
       leave out their rows and columns

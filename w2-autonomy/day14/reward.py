@@ -36,9 +36,9 @@ def _(rng):
 @row.wrongs
 def _(heights, target, cap):
     """no-cap: a height above the cap has the reward 1. The cube was thrown, so the
-      reward is -1
+      reward should be -1
     no-cap 2: a height above the cap has the reward 1. The cube was thrown, so the
-      reward is -1
+      reward should be -1
     below-the-floor-is-lost: a height below the floor has the reward -1. The reward
       should be 0
     nan-passes: the reward of NaN is NaN, because every comparison with NaN is False.

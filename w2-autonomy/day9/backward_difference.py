@@ -44,10 +44,10 @@ for slug, says, redone, other in (
      "sample; the next sample is not known yet", "np.gradient with 0 as the first "
      "velocity",
      {"change": lambda q: np.append(0.0, np.gradient(q)[1:])}),
-    ("from-zero", "the first velocity is q_0 / dt, as if a sample of 0 preceded it; no "
+    ("from-zero", "the first velocity is q_0 / dt, as if a sample of 0 preceded it. No "
      "sample precedes the first one, so the first velocity should be 0", "q_(-1) = 0",
      {"change": lambda q: np.diff(q, prepend=0.0)}),
-    ("round-the-corner", "the first velocity uses the last sample, as np.roll does; no "
+    ("round-the-corner", "the first velocity uses the last sample, as np.roll does. No "
      "sample precedes the first one, so the first velocity should be 0", "np.roll",
      {"change": lambda q: q - np.roll(q, 1)}),
     ("first-repeated", "the first velocity repeats the second; no sample precedes the "
@@ -57,7 +57,7 @@ for slug, says, redone, other in (
      "since the previous sample", "(q_k - q_(k-2)) / dt",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2])}),
     ("mean-of-two", "the change over two samples is divided by 2 dt, which is the "
-     "velocity one sample ago; use the change since the previous sample",
+     "velocity one sample ago. Use the change since the previous sample",
      "(q_k - q_(k-2)) / (2 dt)",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2]) / 2}),
     ("since-the-start", "the result is the mean velocity since the first sample; use "

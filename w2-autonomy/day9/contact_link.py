@@ -41,10 +41,10 @@ def _(rng):  # at the threshold, which is not over it
 
 @row.wrongs
 def _(residual, threshold):
-    """first-joint: your function returns the first joint over its threshold; a contact
+    """first-joint: your function returns the first joint over its threshold. A contact
       also causes torques at the joints before its link, so return the last one
     first-joint 2: your function returns the first joint over its threshold, or 1 if
-      there is none, as np.argmax does; return the last one, or 0 if there is none
+      there is none, as np.argmax does. Return the last one, or 0 if there is none
     first-joint 3: your function returns the first joint over its threshold, counted
       from 0; return the last one, counted from 1
     from-zero: the joints are counted from 0; joint1 is 1, because 0 means no contact
@@ -55,13 +55,13 @@ def _(residual, threshold):
     sign-lost-first: only positive residuals are compared, and the first joint is
       returned; compare the absolute values, and return the last joint
     sign-lost-first 2: only positive residuals are compared, and the first joint is
-      returned, or 1 if there is none; compare the absolute values, and return the last
+      returned, or 1 if there is none. Compare the absolute values, and return the last
     sign-lost-from-zero: only positive residuals are compared, and joints are counted
       from 0; compare the absolute values, and count from 1
-    largest: your function returns the joint with the largest residual; a longer lever
+    largest: your function returns the joint with the largest residual. A longer lever
       arm causes a larger torque, so return the last joint over its threshold
     largest 2: your function returns the joint with the largest residual, even if this
-      residual is below its threshold; return the last joint over its threshold
+      residual is below its threshold. Return the last joint over its threshold
     largest 3: your function returns the joint with the largest signed residual, without
       a threshold; return the last joint over its threshold
     most-over: your function returns the joint that exceeds its threshold by the largest

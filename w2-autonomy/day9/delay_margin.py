@@ -32,10 +32,10 @@ for slug, says, redone, other in (
     ("at-kd", "w is kd, the crossover frequency of the derivative term alone. The "
      "proportional term increases the amplitude, so w should be larger", "w = kd",
      {"w": lambda kp, kd: kd}),
-    ("strengths-added", "w^2 is kp + kd^2; the two terms are a quarter of a period "
+    ("strengths-added", "w^2 is kp + kd^2. The two terms are a quarter of a period "
      "apart, so the amplitude of their sum is sqrt(kp^2 + kd^2 w^2)", "w^2 = kp + kd^2",
      {"w": lambda kp, kd: np.sqrt(kp + kd**2)}),
-    ("minus-in-the-root", "4 kp^2 is subtracted under the inner root; the solution of "
+    ("minus-in-the-root", "4 kp^2 is subtracted under the inner root. The solution of "
      "w^4 - kd^2 w^2 - kp^2 = 0 has a plus sign there", "kd^4 - 4 kp^2",
      {"w": lambda kp, kd: np.sqrt((kd**2 + np.sqrt(abs(kd**4 - 4 * kp**2))) / 2)}),
     ("neither-squared", "the equation is solved for w instead of w^2: its roots "

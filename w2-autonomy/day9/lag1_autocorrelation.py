@@ -56,7 +56,7 @@ for slug, says, redone, other in (
      "the variance, so that the unit cancels", "the mean product over sigma",
      {"squares": lambda d: np.sqrt(d @ d / len(d)), "share": lambda n: 1 / (n - 1)}),
     ("mean-of-products", "the mean of n - 1 products is divided by the mean of n "
-     "squares; divide the sum of the products by the sum of the squares",
+     "squares. Divide the sum of the products by the sum of the squares",
      "the quotient of the means",
      {"share": lambda n: n / (n - 1)}),
     ("variance-for-sum", "the sum of the products is divided by the mean of the "

@@ -57,7 +57,7 @@ for slug, says, redone, other in (
     ("no-2-pi", "the factor 2 pi is missing: cutoff is in Hz, so the time constant is "
      "1 / (2 pi cutoff)", "alpha = 1 - exp(-cutoff dt)",
      {"of": lambda dt, f: f * dt}),
-    ("cutoff-for-time", "cutoff is used as the time constant; cutoff is a frequency in "
+    ("cutoff-for-time", "cutoff is used as the time constant, but it is a frequency in "
      "Hz",
      "alpha = 1 - exp(-dt / cutoff)", {"of": lambda dt, f: dt / f}),
     ("two-for-e", "alpha uses powers of 2, as for a half-life; the decay is "

@@ -46,9 +46,9 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
     integral-not-handed-on: the old integral is returned; return the new one
     fed-back-times-gain: the old residual is multiplied by the gain in the integral; the
       residual is already a torque => gain times the old residual
-    low-passed-again: the residual is a low-pass filter of gain (momentum - integral).
-      Return this value itself, because the integral already filters it => the residual
-      plus gain (momentum - integral) dt
+    low-passed-again: the residual is gain (momentum - integral), filtered by a low pass
+      again. Return this value itself, because the integral already filters it => the
+      residual plus gain (momentum - integral) dt
     residual-kept: the old residual is added to the new one => the sum of both
     residual-taken-off: the old residual is subtracted from the new one => their
       difference
