@@ -1,4 +1,4 @@
-"""Every function of every day, its answers altered in some forty ways: a soak.
+"""Every function of every day, its answers altered in some fifty ways: a soak.
 
     python tests/odd_ways.py              all days
     python tests/odd_ways.py 8 12         these days

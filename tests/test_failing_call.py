@@ -42,7 +42,7 @@ def test_an_entry_of_a_vector_is_named_and_a_matrix_goes_by_its_argument():
     assert typed(matrix) == "f(0.1, (0, 1), ...)"
     twice = Ask(lambda rng: [(2.0,), (3.0,)], Vector((2,)), truth=_pairs)
     asked = asked_with(lambda x: np.array([[x, 0.0]]), twice)
-    assert failing_call(asked).call == "f(3)[1] returned 0; expected 3."
+    assert failing_call(asked).call == "f(2)[1] returned 0; expected 2."
 
 
 def _pairs(x):
@@ -169,3 +169,11 @@ def test_a_matrix_with_some_wrong_entries_is_shown_with_these_in_brackets():
     assert compared is not None
     lines = matrix_of(compared)
     assert lines[1:] == ["  1  [3]", " [2]  4"]
+
+
+def test_the_shortest_of_the_calls_that_are_clearly_wrong_is_shown():
+    calls = [(2.718281828,), (2.5,), (0.2,), (0.0,)]
+    shown = Ask(lambda rng: calls, Vector((2,)), truth=_pairs)
+    asked = asked_with(lambda x: np.array([[x, 0.0]]), shown)
+    said = failing_call(asked).call
+    assert said == "f(2.5)[1] returned 0; expected 2.5.", "0.2 is off by less than 0.27"

@@ -505,7 +505,7 @@ def test_t_extra_on_either_side_is_shown_with_its_product(page, model):
     T_extra = se3.make_T(se3.Rz(np.pi / 4), [0.1, 0, 0])
     page.open("Order")
     apart = np.linalg.norm((T_world_ee @ T_extra - T_extra @ T_world_ee)[:3, 3])
-    page.until(lambda: f"{apart:.4f} m apart" in page.line("tab"))
+    page.until(lambda: f"two positions is {apart:.4f} m" in page.line("tab"))
     page.choose("T_extra", "left: T_extra @ T_world_ee")
     page.until(lambda: "whole arm" in page.line("tab"))
     shown = page.tab.locator("[data-matrix^=tab]").inner_text()
@@ -521,11 +521,11 @@ def test_a_tab_runs_ones_own_functions_and_says_what_they_did(browser, folder):
     with Served("4", "--port", "0", "--simple", work=work) as server:
         page = Page(browser, server.url, "?tab=Forces")
         page.until(lambda: "library's: gravity_torque by" in page.said("whose"))
-        page.until(lambda: "fastest joint turns at" in page.said("clock"))
-        page.until(lambda: "at 0.00 rad/s" not in page.said("clock"))  # it falls
+        page.until(lambda: "largest joint velocity" in page.said("clock"))
+        page.until(lambda: "velocity 0.00 rad/s" not in page.said("clock"))  # it falls
         work.write_text(right, "utf-8")
         page.until(lambda: "✓ YOUR" in page.said("whose"))
-        afloat = r"t = (0\.[5-9]|[1-9]).* at 0\.00 rad/s"
+        afloat = r"t = (0\.[5-9]|[1-9]).* velocity 0\.00 rad/s"
         page.until(lambda: re.search(afloat, page.said("clock"), re.DOTALL))
         work.write_text(
             right.replace("    tau = np.zeros", "    while 1: pass\n    t =")
@@ -637,7 +637,7 @@ class TestTwoBrowsers:
         work.write_text(of_day_1("Rz_swapped"), "utf-8")
         page.until(lambda: "✗ YOUR compose_fk is off by 744 mm" in page.said("yours"))
         assert "first frame that differs: link1" in page.said("yours")
-        page.until(lambda: "1.2: Sin and cos" in page.said("standing"))
+        page.until(lambda: "1.2: The sine and the cosine" in page.said("standing"))
         marked = "[data-matrix=yours] .off"
         for each in (page, dark):
             each.until(lambda each=each: each.tab.locator(marked).count() >= 10)
@@ -645,7 +645,7 @@ class TestTwoBrowsers:
         work.write_text(of_day_1().replace("T_world_body = np.eye(4)", "while 1: pass"))
         page.until(lambda: page.said("standing") == "make check: asking ...")
         page.until(lambda: "compose_fk did not return" in page.said("yours"))
-        assert "sin and cos" not in page.said("standing").lower()  # of the file before
+        assert "the sine and the cosine" not in page.said("standing").lower()
         assert "no answer" in page.said("difference")
         page.press("zero")  # the page goes on
         page.until(lambda: page.angles()[1] == 0)

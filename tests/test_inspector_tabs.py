@@ -207,7 +207,7 @@ def test_the_same_functions_show_the_same():
 
 def test_a_pick_ends_with_how_far_off_the_cube_stands():
     shown = right(7, "Pick").seen
-    assert "placed 0.9 mm from its goal" in shown
+    assert "placed 0.9 mm from its target" in shown
     assert "carry" in str(right(7, "Pick").tab.done.phases)
 
 

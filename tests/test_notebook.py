@@ -103,7 +103,7 @@ def test_where_a_guide_asks_for_all_predictions_at_once_their_cells_are_there():
     asked = [i for i, c in enumerate(cells) if c["source"].startswith("predict(")]
     assert asked == list(range(asked[0], asked[0] + 3))
     assert "fill in the first column of *Predictions*" in cells[asked[0] - 1]["source"]
-    assert cells[asked[-1] + 1]["source"].startswith("- The height of the end effector")
+    assert cells[asked[-1] + 1]["source"].startswith("- **The height of the end")
 
 
 @pytest.mark.parametrize(
@@ -127,7 +127,7 @@ def test_a_command_for_a_terminal_is_that_of_a_cell_if_a_cell_does_the_same(
 def test_a_fenced_text_for_a_terminal_can_be_copied_into_a_cell():
     fence = "```sh\nmake check DAY=1  # all\ngit add metrics\n```"
     (block,) = guide.blocks_of(fence)
-    wanted = "```python\ncheck()  # all\n!git add metrics\n```"
+    wanted = "```text\ncheck()  # all\n!git add metrics\n```"
     assert guide.plain(block) == wanted
     (block,) = guide.blocks_of("```sh\nmake view ARGS=--web\n```")
     assert guide.plain(block) == block.text, "it waits, and a cell would wait with it"

@@ -163,7 +163,7 @@ def test_a_mistyped_command_is_told_what_it_may_be():
 def test_the_tests_pass_whatever_a_students_folder_holds(clone):
     """Their own conftest.py and tests, MuJoCo's log, a report, a broken lab."""
     shutil.copytree(ROOT / "tests", clone / "tests", ignore=SKIPPED)
-    for name in ("conftest.py", "pyproject.toml"):
+    for name in ("conftest.py", "pyproject.toml", "constraints.txt"):
         shutil.copy(ROOT / name, clone)
     work = clone / "w1-foundations" / "work"
     work.mkdir()

@@ -1,10 +1,10 @@
-"""Write a day as a notebook: its guide, a cell for each of your functions, its checks.
+"""Write a day as a notebook: guide, checks, and a cell for each of your functions.
 
-    make notebook DAY=3                              w1-foundations/work/day3.ipynb
-    python3 scripts/make_notebook.py --day 3         the same
-    make notebook DAY=3 ARGS=--complete              with the kit's functions, elsewhere
+    make notebook DAY=3                        w1-foundations/work/day3.ipynb
+    python3 scripts/make_notebook.py --day 3   the same
+    make notebook DAY=3 ARGS=--complete        with the kit's functions
     python3 scripts/make_notebook.py --all --out FOLDER --repository ADDRESS
-                                                     all days, to be opened from the web
+                                               all days, to open from the web
 
 Open it with JupyterLab or VS Code (kernel .venv). A notebook that is there already
 keeps everything that you wrote. If you edited a function in the lab's file since, its

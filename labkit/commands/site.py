@@ -2,6 +2,7 @@
 
     make site                            build it
     python3 scripts/build_site.py        the same
+    python3 scripts/build_site.py --notebooks 1 8   run two days' notebooks
     python3 -m http.server -d _site      look at it: http://localhost:8000
 
 It shows the repository's documents; a warning, or a link that leads nowhere, is
@@ -21,6 +22,9 @@ def main() -> int:
     """Build the site and say how large it is."""
     parser = cli.parser(__doc__)
     parser.add_argument("--out", type=Path, default=ROOT / "_site", metavar="FOLDER")
+    parser.add_argument(
+        "--notebooks", type=cli.day, nargs="*", metavar="DAY", help="default: all days"
+    )
     options = parser.parse_args()
     try:
         from labkit.site.build import build
@@ -29,7 +33,7 @@ def main() -> int:
             f"the site needs {missing.name}, which is not installed yet: make site"
         ) from None
     begun = time.monotonic()
-    build(options.out.resolve())
+    build(options.out.resolve(), options.notebooks)
     files = [path for path in options.out.rglob("*") if path.is_file()]
     pages = sum(path.suffix == ".html" for path in files)
     size = sum(path.stat().st_size for path in files) / 1e6

@@ -49,8 +49,8 @@ _HIDDEN = (
     "that could be code: look at the file, and ask."
 )
 _COUNTED = (
-    "Counted where they were made, once per student; a whole bar is the class. Last: "
-    "what stopped or is wrong in a way that has no name."
+    "Each mistake is counted once per student, in the task where it was made. A full "
+    "bar is the whole class. Mistakes without a name come last."
 )
 _REFUSED = "A task needs only its arguments. Most of these are accidents: ask."
 
@@ -79,7 +79,7 @@ def _about(course: Course) -> str:
     return (
         f"{count(len(course.class_), 'student')}; {what} {moment}; "
         f"robo47 {escape(', '.join(kits) or 'has graded nobody')}, seed {course.seed}. "
-        "Commit times are the students' own: whoever commits sets the clock."
+        "The times of commits come from the students' clocks, which they can set."
     )
 
 
@@ -128,7 +128,7 @@ def _mistakes(course: Course) -> str:
         "What to explain again tomorrow",
         '<div class="two">',
         html.card(f"{kinds}{rest}", counted, bars),
-        html.card("In the words the students saw", *words),
+        html.card("The sentences that the students read", *words),
         "</div>",
     )
 
@@ -166,7 +166,7 @@ def _standings(course: Course) -> str:
         return html.card(heading, marks, chart(rows, heading))
 
     return html.section(
-        "Which tasks stop people",
+        "The tasks that stop students",
         '<div class="two">',
         card("Tasks", [result.tasks for result in results]),
         card("Deliverables", [result.items for result in results]),

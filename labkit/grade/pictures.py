@@ -69,8 +69,8 @@ def draw() -> Iterator[tuple[str, Image.Image]]:
         sheet = Path(made, "feedback.html")
         sheet.write_text(SHEET.format(html.escape(text)), "utf-8")
         pages = {
-            "class": (out / "class.html", 1100, 1150),
-            "feedback": (sheet, 860, 648),
+            "class": (out / "class.html", 1100, 1125),
+            "feedback": (sheet, 860, 800),
         }
         for name, (page, width, height) in pages.items():
             yield name, seen(browser, page, width, height)

@@ -1,7 +1,7 @@
 """The call that failed, as a student can type it; what is wrong at fresh inputs."""
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -36,11 +36,16 @@ class Failing(NamedTuple):
 
 
 AS_FAR = 0.999  # of the furthest: as far off, so that rounding does not choose
+CLEARLY = 0.1  # of the furthest: far enough off that the difference is seen
 DUST = 1e-12  # of an entry's scale: rounding, whose digits are the processor's
 
 
 def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
-    """Return the call that is furthest off, of those always asked if one of them is."""
+    """Return a wrong call that is easy to work out, one of those always asked if any.
+
+    Among the calls that are clearly wrong it has the shortest arguments: zeros, round
+    numbers and small matrices, where such a call is wrong.
+    """
     held_out = zip(asked.held_out, asked.ask.held_out, strict=True)
     for some, held in [(asked.main, None), (asked.fresh, None), *held_out]:
         if held and held.mistaken:
@@ -96,15 +101,15 @@ def _wrong(
     T = right_answers(ask, exchanges, held)
     relative = held is not None and held.relative
     gap = ask.shares(S, T) if relative else ask.gaps(S, T)
-    i = _furthest(gap)
-    if gap[i] <= (1.0 if relative else ask.tolerance):
+    limit = 1.0 if relative else ask.tolerance
+    if not (gap > limit).any():
         return None
     # What is said is of the first result that is wrong in some call: one of these.
     first = worst_part(ask.kinds, S, T, ask.tolerance)
     of_it = ask.gaps_of(first, S[first], T[first])
     if of_it.max() > ask.tolerance and not relative:
-        i = _furthest(of_it)
-    one = exchanges[i]
+        gap = of_it
+    one = _easiest(exchanges, gap, limit)
     given = read([one], ask)  # alone, in their own shapes
     assert one.reply
     assert not isinstance(given, Finding)
@@ -146,6 +151,28 @@ def _entry(kind: Kind, mine: Array, its: Array) -> tuple[str, str]:
     dust = DUST * np.broadcast_to(kind.scale, its.shape)[at]
     pair = (0.0 if abs(x[at]) < dust else x[at] for x in (mine, its))
     return place, f"returned {_apart(*pair)}"
+
+
+def _easiest(exchanges: Sequence[Exchange], off: Array, limit: float) -> Exchange:
+    """Return the call with the shortest arguments among those that are clearly off."""
+    clearly = np.flatnonzero((off > limit) & (off >= CLEARLY * np.max(off)))
+    some = [exchanges[int(i)] for i in clearly]
+    return min(some, key=lambda one: _length(one.question))
+
+
+def _length(question: Question) -> int:
+    """Return how many characters the arguments take, each number in six digits."""
+    numbers = [x for arg in question.args for x in _numbers(arg)]
+    return sum(len(f"{x:.6g}") for x in numbers)
+
+
+def _numbers(arg: Any) -> Iterator[float]:
+    """Yield the numbers of an argument; other things have none."""
+    if isinstance(arg, tuple | list):
+        for one in arg:
+            yield from _numbers(one)
+    elif np.asarray(arg).dtype.kind in "biuf":
+        yield from np.ravel(arg).astype(float)
 
 
 def _furthest(off: Array) -> int:

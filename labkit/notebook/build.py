@@ -7,6 +7,7 @@ predictions that belong to it. The worksheet's questions are cells at the end.
 
 import ast
 import json
+import posixpath
 import re
 import tomllib
 from collections.abc import Iterable, Iterator
@@ -182,10 +183,10 @@ def _head(source: str) -> str:
 
 
 def _base(day: Day, repository: str) -> str:
-    """Return where relative links of the guide begin; "" beside the guide's folder."""
+    """Return where relative links of the guide begin, seen from a notebook."""
     address = repository.removesuffix(".git")
     if not address.startswith("https://github.com/"):
-        return ""
+        return f"../{posixpath.dirname(day.guide)}/"
     raw = address.replace("https://github.com/", "https://raw.githubusercontent.com/")
     return f"{raw}/HEAD/{day.folder.name}/docs/"
 

@@ -4,6 +4,7 @@ A block is what stands between two blank lines; a fold, a fenced text and a prin
 output of the lab are one block each.
 """
 
+import posixpath
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -121,7 +122,8 @@ def _cell_of(fence: str) -> str:
         return fence
     lines = fence.splitlines()[1:-1]
     typed_lines = [ln if _CALL.match(ln) else f"!{ln}" for ln in lines]
-    return "\n".join(["```python", *typed_lines, "```"])
+    language = "text" if any(ln[:1] == "!" for ln in typed_lines) else "python"
+    return "\n".join([f"```{language}", *typed_lines, "```"])
 
 
 def typed(text: str) -> str:
@@ -132,8 +134,13 @@ def typed(text: str) -> str:
 
 
 def linked(text: str, base: str) -> str:
-    """Return Markdown whose relative links begin at an address."""
-    return _LINK.sub(lambda at: f"{at[1]}{base}{at[2]}", text) if base else text
+    """Return Markdown whose relative links begin at an address, or at a folder."""
+
+    def lead(at: re.Match[str]) -> str:
+        there = base + at[2]
+        return at[1] + (there if "://" in base else posixpath.normpath(there))
+
+    return _LINK.sub(lead, text)
 
 
 def guide_of(day: Day) -> str:

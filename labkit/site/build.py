@@ -7,7 +7,7 @@ import json
 import re
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from functools import partial
 from itertools import pairwise
 from pathlib import Path
@@ -75,19 +75,23 @@ _ARGUMENT = re.compile(_CALL + r"(?!\s*<mo[^>]*>[(\[])")
 _THIN = '<mspace width="0.17em"/>'
 
 
-def build(out: Path) -> None:
+def build(out: Path, shown: Collection[int] | None = None) -> None:
     """Build the site into a folder, which is made anew.
+
+    Args:
+        out: the folder.
+        shown: the days whose notebooks are run and shown; all if None.
 
     Raises:
         Robo47Error: a warning, a link that leads nowhere, a notebook's cell that fails,
             or no packages for the arm.
     """
-    if not WASM.exists():
+    if not (WASM.exists() and MATHS.exists()):
         raise Robo47Error("the arm's packages are missing: npm ci --prefix site")
     shutil.rmtree(out, ignore_errors=True)
     with tempfile.TemporaryDirectory(prefix="robo47-site-") as name:
         work = Path(name).resolve()
-        days = all_days()
+        days = [one for one in all_days() if shown is None or one.number in shown]
         pages.lay_out(work / "pages", films(), days)
         notebooks.write_all(days, work / "pages")
         site = Sphinx(

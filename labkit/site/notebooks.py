@@ -20,7 +20,7 @@ import nbformat
 from labkit.lesson.day import Day
 from labkit.lesson.week import NOTEBOOKS, WORK, weeks
 from labkit.notebook.build import build
-from labkit.site.pages import notebook_of
+from labkit.site.pages import documents, linked, notebook_of
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, menagerie_root
 
@@ -44,9 +44,11 @@ def write_all(days: Sequence[Day], folder: Path) -> None:
     """
     with ThreadPoolExecutor(AT_ONCE) as threads:
         for day, ran in zip(days, threads.map(run, days), strict=True):
-            path = folder / day.folder.name / notebook_of(day)
+            name = Path(day.folder.name, notebook_of(day))
+            path = folder / name
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(page(ran, path, day.number), "utf-8", newline="\n")
+            text = linked(page(ran, path, day.number), name, documents(), folder)
+            path.write_text(text, "utf-8", newline="\n")
 
 
 def run(day: Day) -> Any:

@@ -95,7 +95,7 @@ def lay_out(folder: Path, filmed: Collection[str], ran: Sequence[Day]) -> None:
         ran: days whose notebook has a page, which `labkit.site.notebooks` writes.
     """
     notebooks = {Path(day.folder.name, day.guide): day for day in ran}
-    pages = {p.relative_to(ROOT) for each in DOCUMENTS for p in ROOT.glob(each)}
+    pages = documents()
     for page in pages:
         text = BY_WIDTH.sub(r"![\2](\1)", (ROOT / page).read_text("utf-8"))
         text = _with_films(text, page, filmed)
@@ -103,7 +103,7 @@ def lay_out(folder: Path, filmed: Collection[str], ran: Sequence[Day]) -> None:
             text = FIRST.sub(TRY, text)
         text = LIVE.sub(FIGURE, _with_notebook(text, notebooks.get(page)))
         name = Path("index.md") if page == HOME else page
-        _write(folder / name, _linked(text, page, pages, folder))
+        _write(folder / name, linked(text, page, pages, folder))
     for owner, caption, names in _contents(pages):
         above = f":caption: {caption}" if caption else ""
         with (folder / owner).open("a", encoding="utf-8") as file:
@@ -114,8 +114,20 @@ def lay_out(folder: Path, filmed: Collection[str], ran: Sequence[Day]) -> None:
         _write(folder / "library" / f"{module}.md", REFERENCE.format(module))
 
 
-def _linked(text: str, page: Path, pages: set[Path], folder: Path) -> str:
-    """Return a document whose links to files lead to pages of theirs."""
+def documents() -> set[Path]:
+    """Return the documents that are pages of the site, from the repository's top."""
+    return {p.relative_to(ROOT) for each in DOCUMENTS for p in ROOT.glob(each)}
+
+
+def linked(text: str, page: Path, pages: set[Path], folder: Path) -> str:
+    """Return a document whose links to files lead to pages of theirs.
+
+    Args:
+        text: Markdown.
+        page: where the document is, from the repository's top.
+        pages: the documents that are pages.
+        folder: the site's source, where a page is written for each other file.
+    """
 
     def lead(found: re.Match[str]) -> str:
         target = (ROOT / page.parent / found[1]).resolve()

@@ -54,7 +54,7 @@ def height(metre=1.0, quat=1.0, base=0.0, q=1.0):
     "largest |by hand - MuJoCo| at random configurations", "{:.1e}",
     trials=same("each of the errors is a rounding error"),
     seed=same("the same holds for other random configurations", to=48),
-    metre=same("longer links also have only rounding errors"),
+    metre=same("with longer links all errors are still rounding errors"),
     gravity=same("the pose is a function of the joint angles alone"),
 )  # fmt: skip
 def by_hand(trials=100, seed=LAB.SEED, metre=1.0, gravity=1.0):
@@ -66,7 +66,7 @@ def by_hand(trials=100, seed=LAB.SEED, metre=1.0, gravity=1.0):
 
 @numbers.add(
     "position error with quaternions read as (x, y, z, w)", "{:.2f} m",
-    metre=times(2.0, "the same wrong rotations, of links that are twice as long"),
+    metre=times(2.0, "the rotations are wrong in the same way, and the links are twice as long"),
     quat=same("a quaternion is normalised before it is used"),
     base=same("link0 and link1 are both upside down, so the axis of joint 1 is vertical again",
               to=1.0),
@@ -92,10 +92,10 @@ def apart(angle, step, metre, base):
 
 @numbers.add(
     "distance between the two products", "{:.4f} m",
-    step=between(1.1, 1.7, "both translations are twice as long, at an angle to the chord"),
-    angle=between(1.2, 1.5, "the chord is 1.85 times as long, the translation does "
+    step=between(1.1, 1.7, "both translations are twice as long, and they are at an angle to the chord"),
+    angle=between(1.2, 1.5, "the chord is 1.85 times as long, and the translation does "
                   "not change"),
-    metre=between(1.5, 2.0, "the chord is twice as long, the translation does not "
+    metre=between(1.5, 2.0, "the chord is twice as long, and the translation does not "
                   "change"),
     base=between(0.5, 2.0, "the tool's x axis is no longer opposite to the world's",
                  to=1.0),
@@ -121,7 +121,7 @@ def no_turn(step=0.1, metre=1.0, base=0.0):
     "distance between the products without the translation", "{:.4f} m",
     angle=times(np.sin(np.pi / 4) / np.sin(np.pi / 8),
                 "the length of the chord is 2 r sin(angle / 2)"),
-    metre=times(2.0, "r is the distance of the hand from the axis of the base"),
+    metre=times(2.0, "r is the distance between the hand and the axis of the base"),
     base=same("a rotation about this axis does not change r", to=1.0),
 )  # fmt: skip
 def no_step(angle=45.0, metre=1.0, base=0.0):

@@ -17,7 +17,7 @@ numbers = Numbers(
     n="random configurations: {}",
     times_v="the wrong v is the right one times {}",
     raised="the base is raised by {} m",
-    q="the screws are those of {} times the ready pose",
+    q="joint angles of the screws: {} times READY_Q",
     tilt="the tool is tilted by {} rad",
     about_z="the tool is rotated about its z axis by {} rad",
     flange="d of Franka's eighth row: {} m",
@@ -71,8 +71,8 @@ def joint4_first(metre=1.0, raised=0.0):
     metre=times(2.0, "the error is a length"),
     times_v=times(2.0, "the position is linear in v: the wrong sign doubles the "
                   "error", to=-1.0),
-    seed=between(0.7, 1.4, "twenty other random configurations", to=48),
-    n=between(0.7, 1.4, "twice as many random configurations"),
+    seed=between(0.7, 1.4, "the median is over twenty other configurations", to=48),
+    n=between(0.7, 1.4, "the median is over twice as many configurations"),
 )  # fmt: skip
 def forgotten(metre=1.0, times_v=0.0, seed=LAB.SEED, n=20):
     """Return the median."""
@@ -83,8 +83,8 @@ def forgotten(metre=1.0, times_v=0.0, seed=LAB.SEED, n=20):
 
 @numbers.add(
     "position error at random q with (v; omega)", "{:.1f} mm",
-    metre=between(2.2, 8.0, "more than twice, because the swapped omega is a length"),
-    seed=between(0.7, 1.4, "twenty other random configurations", to=48),
+    metre=between(2.2, 8.0, "the error more than doubles, because the swapped omega is a length"),
+    seed=between(0.7, 1.4, "the median is over twenty other configurations", to=48),
 )  # fmt: skip
 def halves(metre=1.0, seed=LAB.SEED):
     """Return the median."""
@@ -110,7 +110,7 @@ def wrong_M(metre=1.0, seed=LAB.SEED, n=20):
 @numbers.add(
     "position error with Ad(M) instead of Ad(inverse of M)", "{:.0f} mm",
     metre=times(2.0, "only v is wrong, and v is a length per radian"),
-    seed=between(0.5, 2.0, "twenty other random configurations", to=48),
+    seed=between(0.5, 2.0, "the median is over twenty other configurations", to=48),
     tilt=between(4.0, 6.0, "M's rotation is not symmetric then, so omega is wrong too",
                  to=0.3),
     about_z=between(0.4, 1.6, "M's rotation stays symmetric, so omega is right; v "
@@ -138,8 +138,8 @@ def reading(name, metre, seed, n=20, flange=0.107):
 @numbers.add(
     "error of the flange with the other convention's formula", "{:.0f} mm",
     metre=times(2.0, "the error is a length"),
-    seed=between(0.7, 1.4, "twenty other random configurations", to=48),
-    n=between(0.7, 1.4, "twice as many random configurations"),
+    seed=between(0.7, 1.4, "the median is over twenty other configurations", to=48),
+    n=between(0.7, 1.4, "the median is over twice as many configurations"),
 )  # fmt: skip
 def convention(metre=1.0, seed=47, n=20):
     """Return the median."""
@@ -161,7 +161,7 @@ def without_flange(metre=1.0, seed=47, n=20, flange=0.107):
 @numbers.add(
     "rank of the seven screws of q = 0", "{:.0f}",
     metre=same("the rank does not depend on the unit of length"),
-    raised=same("the same seven lines, relative to another origin", to=0.333),
+    raised=same("the seven lines are the same, relative to another origin", to=0.333),
     q=between(1.2, 1.2, "in the ready configuration the axes of joints 1, 3 and 5 differ", to=1.0),
 )  # fmt: skip
 def rank(metre=1.0, raised=0.0, q=0.0):

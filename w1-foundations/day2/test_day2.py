@@ -136,7 +136,7 @@ def test_the_v_of_cvel_is_that_of_the_centre_of_mass(mass_at):
         kind = getattr(mujoco.mjtObj, kind)
         mujoco.mj_objectVelocity(model, data, kind, 1, of_the_object, 0)
         assert_same(of_the_object, [0, 0, 1, 0, x, 0], 1e-15)
-    assert "the point of `cvel` is the centre of mass of the whole tree" in GUIDE
+    assert "The point of `cvel` is the centre of mass of the whole tree" in GUIDE
 
 
 def test_the_moment_of_a_line_changes_across_it_and_not_along_it():
@@ -145,7 +145,7 @@ def test_the_moment_of_a_line_changes_across_it_and_not_along_it():
     assert_same(lab.screw_axis(omega, p + 0.7 * omega)[3:], v, 1e-15)
     across = lab.screw_axis(omega, p + np.array([0.1, 0, 0]))[3:] - v
     assert np.linalg.norm(across) == pytest.approx(0.1)
-    assert "If you move $p$ across the line by 0.1 m, $v$ changes by 0.1" in GUIDE
+    assert "at right angles to the line by 0.1 m, $v$ changes by 0.1 m/s" in GUIDE
 
 
 @pytest.mark.parametrize("pitch", [0.0, 0.02])
@@ -155,7 +155,7 @@ def test_a_screw_with_a_pitch_moves_along_its_axis(pitch):
     S[3:] += pitch * omega
     T = lab.exp_screw(S, 2 * np.pi)
     assert_same(T[:3, 3], 2 * np.pi * pitch * omega, 1e-12)
-    assert r"moves along the axis by $2 \pi h$" in GUIDE
+    assert r"moves the body along the axis by $2 \pi h$" in GUIDE
 
 
 def test_at_zero_a_row_for_a_column_is_the_same_for_four_links(arm, either_panda):
@@ -217,10 +217,10 @@ def test_the_wrong_adjoint_does_not_hide_in_a_tilted_tool(arm, turn, hides):
     mm, deg = off(screws.fk_body(B, M, q), screws.fk_space(S, M, q))
     if hides:
         assert deg.max() < 1e-5
-        assert f"Only the 88 mm become {np.median(mm[2:]):.0f}." in GUIDE
+        assert f"error is {np.median(mm[2:]):.0f} mm instead of 88 mm." in GUIDE
     else:
-        assert f"off by {np.median(deg[2:]):.0f} degrees, the median of the" in GUIDE
-        assert f"and the hand by {np.median(mm[2:]):.0f} mm: a tilted M" in GUIDE
+        assert f"rotation error is {np.median(deg[2:]):.0f} degrees and" in GUIDE
+        assert f"position error is {np.median(mm[2:]):.0f} mm. The rotation" in GUIDE
 
 
 def test_the_readings_of_one_table_are_as_far_off_as_the_guide_says(either_panda):
@@ -280,7 +280,7 @@ def test_a_wrong_length_of_any_link_gives_the_same_distance_everywhere(row, colu
     in_the_hand = (np.swapaxes(right[:, :3, :3], 1, 2) @ error[:, :, None])[..., 0]
     constant = np.ptp(in_the_hand, axis=0).max() < 1e-9
     assert constant == ((row, column) in {(7, 1), (7, 2), (6, 2)})
-    assert "It is 50.0 mm at every configuration, for *every* row." in GUIDE
+    assert "The error is 50.0 mm at every configuration, for *every* row." in GUIDE
 
 
 def test_a_shifted_base_is_constant_in_the_world_and_a_wrong_angle_nowhere(arm):
@@ -290,7 +290,8 @@ def test_a_shifted_base_is_constant_in_the_world_and_a_wrong_angle_nowhere(arm):
     base = se3.make_T(np.eye(3), [0.1, 0.0, 0.0]) @ right
     assert np.ptp(base[:, :3, 3] - right[:, :3, 3], axis=0).max() < 1e-12
     mm, _ = off(screws.fk_space(S, M, q + 0.05 * np.eye(7)[3]), right)
-    assert f"0.05 rad give between {mm.min():.1f} and {mm.max():.1f} mm." in GUIDE
+    says = "0.05 rad at joint 4 moves the flange by between"
+    assert f"{says} {mm.min():.1f} and {mm.max():.1f} mm." in GUIDE
     mm, _ = off(screws.fk_space(S, M, q + 0.05 * np.eye(7)[5]), right)
     assert np.ptp(mm) < 1e-9
     assert f"For joint 6 it is {mm[0]:.1f} mm everywhere" in GUIDE

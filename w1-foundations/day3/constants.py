@@ -80,10 +80,10 @@ def scaled(units=1000.0, seed=LAB.SEED):
 
 
 @numbers.add(
-    "pairs whose smallest singular values change their order", "{:.0f} %",
+    "pairs of configurations whose smallest singular values change their order", "{:.0f} %",
     units=between(1.02, 1.5, "the lengths gain more weight relative to the radians", to=20.0),
-    seed=between(0.8, 1.25, "other configurations", to=48),
-    n=between(0.8, 1.25, "more configurations"),
+    seed=between(0.8, 1.25, "another seed gives other configurations", to=48),
+    n=between(0.8, 1.25, "the sample contains more configurations"),
 )  # fmt: skip
 def swapped(units=10.0, seed=LAB.SEED, n=300):
     """Return how many of all pairs of configurations."""
@@ -97,7 +97,7 @@ def swapped(units=10.0, seed=LAB.SEED, n=300):
 
 @numbers.add(
     "far targets that are reached from ready, of 20", "{:.0f}",
-    seed=between(0.7, 1.4, "other targets", to=48),
+    seed=between(0.7, 1.4, "another seed gives other targets", to=48),
     limits=between(1.0, 1.5, "many local minima are at a joint limit"),
 )  # fmt: skip
 def from_ready(seed=LAB.SEED, limits=1.0):
@@ -121,9 +121,9 @@ def drawn(radius, damping, gain, dt, lap, metre=1.0):
 
 @numbers.add(
     "largest error on the larger circle, with damping", "{:.2f} mm",
-    damping=between(1.1, 2.5, "the largest error moves to the bottom, which is in reach"),
+    damping=between(1.1, 2.5, "the largest error is now at the bottom, which is in reach"),
     gain=between(0.9, 1.1, "no gain reduces the error of a target out of reach"),
-    dt=between(0.95, 1.05, "the lag is caused by the damping, not by the step"),
+    dt=between(0.95, 1.05, "the damping and the geometry cause the error, not the step"),
     lap=between(0.85, 1.0, "the hand lags less, and the part out of reach does not change"),
     radius=between(0.2, 0.5, "the whole circle is in reach", to=0.36),
 )  # fmt: skip
@@ -133,10 +133,10 @@ def off(damping=LAB.DAMPING, gain=LAB.GAIN, dt=LAB.DT, lap=DAY.LAP, radius=LAB.R
 
 
 @numbers.add(
-    "largest error at its bottom, with damping", "{:.1f} mm",
-    damping=between(2.0, 4.5, "the lag grows with the square of the damping, up to four times"),
+    "largest error at the bottom of this circle, with damping", "{:.1f} mm",
+    damping=between(2.0, 4.5, "the error grows with the square of the damping, by a factor of up to four"),
     gain=between(0.4, 0.9, "an error is corrected twice as fast"),
-    dt=between(0.9, 1.1, "the lag is caused by the damping, not by the step"),
+    dt=between(0.9, 1.1, "the error is caused by the damping, not by the step"),
 )  # fmt: skip
 def bottom(damping=LAB.DAMPING, gain=LAB.GAIN, dt=LAB.DT):
     """Return the worst of the second half, all of it in reach."""
@@ -145,10 +145,10 @@ def bottom(damping=LAB.DAMPING, gain=LAB.GAIN, dt=LAB.DT):
 
 
 @numbers.add(
-    "fastest joint on it, as a fraction of its limit", "{:.4f}",
+    "fastest joint on this circle, as a fraction of its limit", "{:.4f}",
     lap=between(0.4, 0.7, "the hand moves at half the speed"),
     damping=between(0.5, 1.0, "damping makes the steps shorter"),
-    dt=between(0.95, 1.05, "the lag is caused by the damping, not by the step"),
+    dt=between(0.95, 1.05, "a step is twice as long and takes twice the time"),
 )  # fmt: skip
 def fastest(lap=DAY.LAP, damping=LAB.DAMPING, dt=LAB.DT):
     """Return the largest fraction of a joint's speed limit."""
@@ -160,7 +160,7 @@ def fastest(lap=DAY.LAP, damping=LAB.DAMPING, dt=LAB.DT):
     "largest error on the smaller circle, without damping", "{:.1f} mm",
     dt=between(1.7, 4.5, "a step follows the tangent, and the circle curves away from it"),
     gain=between(0.4, 0.7, "an error is corrected twice as fast"),
-    lap=between(0.2, 0.6, "steps of half the length"),
+    lap=between(0.2, 0.6, "each step is half as long"),
 )  # fmt: skip
 def plain(dt=LAB.DT, gain=LAB.GAIN, lap=DAY.LAP):
     """Return the worst."""
@@ -169,7 +169,7 @@ def plain(dt=LAB.DT, gain=LAB.GAIN, lap=DAY.LAP):
 
 @numbers.add(
     "largest error on the smaller circle, with damping", "{:.1f} mm",
-    damping=between(2.0, 4.5, "the lag grows with the square of the damping, up to four times"),
+    damping=between(2.0, 4.5, "the error grows with the square of the damping, by a factor of up to four"),
     dt=between(0.9, 1.1, "the error is caused by the damping, not by the step"),
     gain=between(0.4, 0.9, "an error is corrected twice as fast"),
 )  # fmt: skip

@@ -99,12 +99,14 @@ def of_the_start(start):
 
 
 LOOPS = {
-    "all right": {},
+    "no mistake": {},
     "`J_space` instead of `J_site`": {"seen": lambda J_space, T: J_space},
     "the sine instead of the angle in the error": {"gap": sine_for_angle},
     "J computed once, at the start": of_the_start,
-    "`J_body` with the error in world axes": {"seen": jacobian.body_jacobian},
-    "the error's sign wrong": {"gap": lambda T, goal: -jacobian.pose_error(T, goal)},
+    "`J_body` with an error in the world frame": {"seen": jacobian.body_jacobian},
+    "the error with the wrong sign": {
+        "gap": lambda T, goal: -jacobian.pose_error(T, goal)
+    },
 }
 
 
@@ -187,7 +189,7 @@ def test_it_is_the_joint_limits_that_most_walks_from_ready_end_at():
         missed.append(fails.sum())
         at_an_end = (q[fails, :, None] == ends).any(axis=(1, 2))
         assert (at_an_end.mean() > 0.8) == (ends is limits)
-    said = re.search(r"misses (\d+) from ready, and (\d+) if the joints", GUIDE)
+    said = re.search(r"misses (\d+) from the ready configuration, and (\d+) if", GUIDE)
     assert np.abs(np.subtract(missed, [int(n) for n in said.groups()])).max() <= 4
 
 
@@ -224,11 +226,11 @@ def test_a_target_out_of_reach_tells_the_wrong_jacobian(seed):
     best = miss(jacobian.solve_ik(S, M, goal, start, limits))
     right, wrong = (
         miss(LOOP.walk(S, M, goal, start, limits, **LOOPS[named])) / best
-        for named in ("all right", "`J_space` instead of `J_site`")
+        for named in ("no mistake", "`J_space` instead of `J_site`")
     )
     assert right.max() < 1.01
     assert 1.03 < wrong.max() < 1.1
-    assert "by 4 to 8 % at the worst of 12 targets, for six seeds; the right" in GUIDE
+    assert "by 4 to 8 % at the worst of 12 targets (for six seeds)." in GUIDE
 
 
 @pytest.mark.parametrize("turned", [0.0, 0.5])
@@ -246,7 +248,7 @@ def test_what_no_motor_feels_at_zero_is_a_wrench(arm, turned):
     assert abs(lost @ u) == pytest.approx(1.0)
     assert np.abs(np.cross(p, u[:3])).max() > 0.5
     assert (
-        "Rotate joint 1 by 0.5 rad, and the axis of this moment rotates with it."
+        "If you rotate joint 1 by 0.5 rad, the axis of this moment rotates with it."
         in GUIDE
     )
 

@@ -124,8 +124,8 @@ def test_the_answers_on_paper_are_those_of_the_functions():
     faster = lab.inverse_dynamics(S, G[None], np.zeros(1), np.ones(1), g)
     for answer, says in (
         (held[0], f"that holds it is negative: {held[0]:.2f} N m"),
-        (M[0, 0], f"- {M[0, 0]:.0f} kg m²: with"),
-        (faster[0], f"- {faster[0]:.2f} N m: it accelerates downwards"),
+        (M[0, 0], f"The entry is {M[0, 0]:.0f} kg m²: with"),
+        (faster[0], f"is now {faster[0]:.2f} N m, because"),
     ):
         assert says in SENTENCES, answer
 

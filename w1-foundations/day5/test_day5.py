@@ -106,7 +106,7 @@ def test_gains_outside_m_overdamp_the_light_joints(armature, creeps):
     ahead, behind = ((e[t.searchsorted(x), wrist] / lab.error_response(x, 20.0, 1.0))
                      for x in (0.02, 0.3))  # fmt: skip
     assert (ahead < 0.95).all() == (behind > 2.0).all() == creeps
-    assert "a damping ratio near 3, so they start fast and crawl" in GUIDE
+    assert "a damping ratio near 3, so they start fast and settle slowly" in GUIDE
 
 
 def test_torques_taken_for_angles_switch_the_motors_from_limit_to_limit():
@@ -137,7 +137,7 @@ def test_the_error_curves_at_500_hz(bench):
     assert "fit to {:.4f}, {:.4f} and {:.4f} of e0".format(*off) in GUIDE
     t = np.linspace(0, 1, 10_001)
     assert f"predicted as {-lab.error_response(t, 10, 0.5).min():.3f} of e0" in GUIDE
-    assert "it is 0.7358; without the second term it would be 0.3679, off by 0.37" in (
+    assert "0.7358. Without the second solution the value is 0.3679, off by 0.37" in (
         GUIDE
     )
     assert lab.error_response(np.array([0.1]), 10, 1)[0] - np.exp(-1) == (
@@ -209,7 +209,7 @@ def test_the_model_at_q_does_most_of_the_tracking_and_the_springs_the_rest(bench
     alone = swing(bench, lab.without_springs, lab.RATE)
     whole = swing(bench, lab.equal_springs(), lab.RATE)
     springs = swing(bench, lab.springs_and_gravity, lab.RATE)
-    assert f"that leaves {alone:.0f} mrad, ninety times as much" in GUIDE
+    assert f"the error is {alone:.0f} mrad, ninety times as large" in GUIDE
     assert 85 < alone / whole < 95
     assert springs > alone
 
@@ -281,7 +281,7 @@ def test_the_held_torque_is_the_larger_part_of_the_curves_error(bench):
             law = lab.equal_springs(10.0, zeta)
             t, e = decay((model, bench[1]), law, 1.0, 250.0)
             off.append(np.abs(e.T - lab.error_response(t, 10.0, zeta)).max())
-    said = "{:.4f}, {:.4f} and {:.4f} instead of {:.4f}, {:.4f} and {:.4f}"
+    said = "{:.4f}, {:.4f} and {:.4f} of e0 instead of {:.4f}, {:.4f} and {:.4f}"
     assert said.format(*off) in GUIDE
 
 

@@ -70,30 +70,31 @@ def test_the_gains_alone_would_press_with_500_n_and_without_limits_they_do():
     kp = model.actuator_gainprm[:7, 0]
     k = 1.0 / (now.J_site @ np.diag(1.0 / kp) @ now.J_site.T)[5, 5]
     sag = (now.J_site @ (now.gravity_torque / kp))[5]
-    assert f"along z is {k:,.0f} N/m, times 50 mm is {0.05 * k:.0f} N" in SENTENCES
-    assert f"{1e3 * sag:.0f} mm, so they press with {k * (0.05 + sag):.0f} N" in (
-        SENTENCES
+    assert (
+        f"{k:,.0f} N/m, and this stiffness times 50 mm is {0.05 * k:.0f} N" in SENTENCES
     )
+    pressed = k * (0.05 + sag)
+    assert f"{1e3 * sag:.0f} mm, so they should press with {pressed:.0f} N" in SENTENCES
     unlimited = lambda model: model.actuator_forcelimited.fill(0)  # noqa: E731
     free, shallow = (press_stiff(unlimited, deep)[-1] for deep in (0.05, 0.005))
-    assert [free] == told("With no limits # N")
+    assert [free] == told("With no limits it is # N")
     assert abs(1 - shallow / (k * (0.005 + sag))) < 0.0105
     assert 1 - free / (k * (0.05 + sag)) == pytest.approx(0.03, abs=0.008)
-    assert "is within 1 percent, at 50 mm its error is 3 percent" in SENTENCES
+    assert "is within 1 percent, and at 50 mm its error is 3 percent" in SENTENCES
     lever = -now.J_site[5, 1]
     assert f"is {lever:.2f} m in front of its axis" in SENTENCES
-    assert f"506 N at 0.44 m are {506 * 0.44:.0f} N m" in SENTENCES
+    assert f"506 N at 0.44 m requires {506 * 0.44:.0f} N m" in SENTENCES
 
 
 @pytest.mark.parametrize(
     ("edit", "deep", "words"),
     [
-        (gains_times(2.0), 0.05, "Twice the gains: # N"),
-        (None, 0.025, "Half the depth: # N"),
+        (gains_times(2.0), 0.05, "With twice the gains the force is still # N"),
+        (None, 0.025, "with half the depth it is # N"),
         (
             lambda m: m.actuator_forcerange.__imul__(0.5),
             0.05,
-            "With half the limits it is # N",
+            "With half the limits the force is # N",
         ),
     ],
 )
@@ -127,7 +128,7 @@ def test_two_motors_at_their_limits_predict_217_n():
 
     assert predicted(data.qpos[:7]) == pytest.approx(force, abs=0.1)
     touching = predicted(lab.day6_mujoco.above_table(model, 0.0))
-    assert [touching, force] == told("tip touches they predict # N.* to rest # N")
+    assert [touching, force] == told("first contact they predict # N.* to rest # N")
 
 
 # --- what else the guide says of pressing ---
@@ -139,7 +140,7 @@ def test_a_peak_is_seen_only_by_who_looks_at_every_step():
         felt = press_soft(rate)
         steps = round(500.0 / rate)
         seen += [felt[steps - 1 :: steps].max(), felt.max()]
-    assert seen == told("at 250 Hz, you see # N of the #, at 50 Hz # N of the #")
+    assert seen == told("250 Hz, you see # N of the # N, and at 50 Hz # N of the # N")
 
 
 def time_constant(solref):

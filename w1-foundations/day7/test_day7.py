@@ -90,7 +90,7 @@ def test_step_1s_two_mistakes():
     assert lab.quintic_scaling(0.6, 2.0)[1] * 2 == pytest.approx(1.323, abs=1e-9)
     swapped = np.polynomial.Polynomial([0, 0, 0, 6, -15, 10])
     assert (swapped(1.0), swapped.deriv()(1.0)) == (1.0, 8.0)
-    assert says("with 6 and 10 swapped s still ends at 1, but at a speed of 8 / T")
+    assert says("6 and 10, s still ends at 1, but with the velocity $8 / T$")
     assert says("sd is 1.3230 instead of 0.6615. Without the clamp s is 1.2207")
     assert says("by 22 % of the distance")
 
@@ -101,13 +101,13 @@ def test_step_2s_table():
     each = np.maximum(by_speed, by_acceleration)
     cubic = max((1.5 * DQ / lab.V_MAX).max(), by_acceleration.max())
     for T, words in (
-        (cubic, "the cubic's peak speed"),
-        (each.min(), "the joint that needs least"),
+        (cubic, "the factor 1.5 of a cubic polynomial instead of 15/8"),
+        (each.min(), "the duration of the fastest joint"),
     ):
         broken = 100 * ((by_speed / T).max() - 1)
         assert says(f"{words} | {T:.3f} s | {broken:.0f} %")
     assert says(f"one after the other | {each.sum():.3f} s")
-    assert says(f"joint7 needs its {by_speed[6]:.4f} s for its speed")
+    assert says(f"joint7 needs its {by_speed[6]:.4f} s because of its velocity limit")
     assert each.argmax() == 6
 
 
@@ -136,7 +136,7 @@ def test_a_limit_of_speed_is_a_division_and_one_of_acceleration_a_root():
     one, ten, thousand = hardest(0.5), hardest(5.0), hardest(500.0)
     assert one > 1.5 * ten
     assert ten == pytest.approx(thousand, rel=0.02)  # what gravity takes
-    assert says("A torque limit is neither: gravity does not shrink at all")
+    assert says("the gravity torque does not decrease when the motion is slower")
 
 
 def followed(scaling, seconds, rate=lab.RATE):
@@ -149,18 +149,18 @@ def test_step_7s_sentences():
     ways = lab.profiles(T)
     off, jerk, torque = zip(*(followed(*way) for way in ways.values()), strict=True)
     numbers = dict(zip(ways, zip(off, jerk, torque, strict=True), strict=True))
-    assert says(f"asks for {numbers['step'][2]:.1f} times the torque")
-    assert says(f"so it is {numbers['constant speed'][0]:.0f} mrad off")
+    assert says(f"The step needs {numbers['step'][2]:.1f} times the torque")
+    assert says(f"so the arm is {numbers['constant speed'][0]:.0f} mrad off")
     assert numbers["constant speed"][2] > 1.0
     assert max(numbers[n][0] for n in ("cubic", "trapezoid", "quintic")) < 1.0
-    assert says(f"a number of its own, {numbers['quintic'][1]:.0f} rad/s³")
+    assert says(f"a finite jerk of {numbers['quintic'][1]:.0f} rad/s³")
     assert 0.78 < ways["trapezoid"][1] / T < 0.82
     assert says("The trapezoid is a fifth faster (14 to 43 % over 200 random motions)")
     top = np.minimum(lab.V_MAX, np.sqrt(DQ * lab.A_MAX))
     alone = DQ / top + top / lab.A_MAX
     assert (lab.V_MAX / DQ).argmin() == 6
     assert (lab.A_MAX / DQ).argmin() == alone.argmax() == 1
-    assert says("joint7 sets its speed and joint2 its acceleration")
+    assert says("joint7 limits its velocity and joint2 limits its acceleration")
     assert says(f"joint2, the slowest, would need {alone.max():.4f} s")
 
 
@@ -265,7 +265,7 @@ def test_the_origin_of_a_screw_motion_leaves_the_straight_line():
     assert_same(half[:3, 3], [0.5, -0.5 / np.sqrt(3.0), 0.0], 1e-12)
     assert se3.is_pose(half)
     assert_same(lab.interpolate_pose(T0, T1, 0.5)[:3, 3], [0.5, 0.0, 0.0], 1e-12)
-    assert says("but its origin runs along an arc")
+    assert says("but its origin moves along an arc")
 
 
 @pytest.mark.kit
@@ -280,9 +280,9 @@ def test_a_jump_of_acceleration_has_a_jerk_that_doubles_with_the_rate():
 
 def test_the_predictions_can_be_made_from_what_the_guide_says():
     numbers = lambda q: "(" + ", ".join(f"{x:g}" for x in np.round(q, 3)) + ")"  # noqa: E731
-    assert says(f"from ready, {numbers(lab.READY_Q)}, to {numbers(lab.GOAL_Q)} rad")
+    assert says(f"{numbers(lab.READY_Q)} rad. It ends at {numbers(lab.GOAL_Q)} rad")
     speeds = np.repeat([2.175, 2.61], [4, 3])
     assert_same(lab.V_MAX, speeds, 0.0)
-    assert says("Joints 1 to 4 may do 2.175 rad/s, 5 to 7 2.61")
+    assert says("2.175 rad/s for joints 1 to 4 and 2.61 rad/s for joints 5 to 7")
     assert_same(lab.A_MAX, [15, 7.5, 10, 12.5, 15, 20, 20], 0.0)
     assert says("7.5, 10, 12.5, 15, 20 and 20 rad/s²")

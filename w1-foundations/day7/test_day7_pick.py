@@ -66,7 +66,7 @@ def test_at_other_positions_joint7_is_the_cause_as_well():
         at_end = np.abs(q[fails[1], 6, None] - limits[6]).min(axis=1)
         assert_same(at_end, np.zeros(fails[1].sum()), 0.0)
         counts.append(fails[1].sum())
-    assert says(f"other positions of the cube {min(counts)} to {max(counts)} yaws fail")
+    assert says(f"positions of the cube, {min(counts)} to {max(counts)} yaws fail")
 
 
 def test_an_unfolded_yaw_fails_where_joint7_is_at_its_end():
@@ -97,7 +97,7 @@ def test_an_unfolded_yaw_fails_where_joint7_is_at_its_end():
 
 def test_the_hand_weighs_what_the_guide_says():
     mass = panda.hand_inertia(panda.load("panda"))[0]
-    assert says(f"The hand with its fingers is {mass:.2f} kg more")
+    assert says(f"The hand with its fingers is fixed to link7 and adds {mass:.2f} kg")
 
 
 def test_gravity_shows_a_wrong_centre_and_speed_alone_a_wrong_inertia():
@@ -162,10 +162,12 @@ def test_without_gravity_compensation_four_of_twelve_cubes_are_placed():
     failed = [one.place_mm for one in found if one.failed]
     assert len(failed) == 8
     assert min(failed) > 12
-    assert says("Four of twelve. The others miss their targets by more than 12 mm")
+    assert says(
+        "four of the twelve cubes. The others miss their targets by more than 12 mm"
+    )
     assert {round(one.joint_mrad) for one in found} == {68}
     off = [one.line_mm for one in found]
-    assert says(f"from the line {min(off):.0f} to {max(off):.0f} mm in all twelve")
+    assert says(f"the hand is {min(off):.0f} to {max(off):.0f} mm away from its line")
 
 
 @pytest.mark.soak
@@ -175,7 +177,7 @@ def test_the_other_mistakes_of_the_table_place_six_random_cubes(seed):
     del cases["gravity forgotten"]
     for name, (fns, options) in cases.items():
         assert not capstone.attempt(fns, seed, **options).failed, name
-    assert says("place all of six random cubes")
+    assert says("places all of six random cubes")
 
 
 @pytest.mark.kit
@@ -188,14 +190,15 @@ def test_what_the_grip_lifts_is_as_predicted(mass, mu, slips):
     done = capstone.pick(capstone.library(), model=model)
     assert done.failed == slips
     assert (done.heaviest < mass) == slips
-    told = {0.16: "a cube of 0.16 kg is put down", 0.18: "one of 0.18 kg slips out",
-            0.08: "under the cube's 0.08 kg: it stays on the table"}  # fmt: skip
+    told = {0.16: "places a cube of 0.16 kg at its target",
+            0.18: "a cube of 0.18 kg slips out",
+            0.08: "The cube has 0.08 kg, so it stays on the table"}  # fmt: skip
     assert says(told[mass])
 
 
 def test_the_predictions_of_the_side_quest():
     up = trajectory.PEAK_ACCELERATION * 0.12 / 0.75**2
-    assert says(f"speeds up with {up:.3f} m/s²")
+    assert says(f"accelerates with {up:.3f} m/s²")
     assert says(f"{lab.max_cube_mass(0.9247, 1.0, 0.0):.3f} kg at rest")
     assert says(f"and {lab.max_cube_mass(0.9247, 1.0, up):.3f} kg while")
     assert says(f"bound is {lab.max_cube_mass(0.9247, 0.3, up):.3f} kg")

@@ -63,9 +63,9 @@ def half_pixel(half=0.5, fovy=DAY.FOVY, size=1.0, distance=1.0):
 
 @numbers.add(
     "standard deviation along the view, 240 px", "{:.1f} mm",
-    z=times(4.0, "a change of one pixel in width takes z² / (f w)"),
+    z=times(4.0, "one pixel in width corresponds to z² / (f w)"),
     noise=times(2.0, "the covariance is proportional to the square of the noise"),
-    wide=times(0.5, "a change of one pixel in width takes z² / (f w)"),
+    wide=times(0.5, "one pixel in width corresponds to z² / (f w)"),
     size=times(0.5, "f doubles"),
 )  # fmt: skip
 def along(z=LAB.NEAR, noise=LAB.NOISE, wide=1.0, size=1.0):
@@ -97,7 +97,7 @@ def looked(joint_6, looks, seed, reach):
     "degrees of freedom of X that joint 7 leaves free", "{:.0f}",
     joint_6=times(0.0, "any rotation about a second direction determines X", to=1.0),
     looks=same("more rotations about the same axis add no information"),
-    seed=same("which angles they are does not matter", to=11),
+    seed=same("the choice of the angles does not matter", to=11),
     reach=same("the size of the rotations does not matter"),
 )  # fmt: skip
 def left_free(joint_6=0.0, looks=LAB.LOOKS, seed=LAB.SEED, reach=1.0):
@@ -107,10 +107,10 @@ def left_free(joint_6=0.0, looks=LAB.LOOKS, seed=LAB.SEED, reach=1.0):
 
 @numbers.add(
     "error of the table's position, with another X of residual 0", "{:.0f} mm",
-    turn=between(1.6, 2.0, "the chord of a point 193 mm from the axis, 2 · 193 sin(angle / 2)"),
-    slide=between(1.0, 1.3, "50 mm more along the axis, perpendicular to the chord"),
+    turn=between(1.6, 2.0, "the chord at 193 mm from the axis is 2 · 193 sin(angle / 2)"),
+    slide=between(1.0, 1.3, "the additional 50 mm are perpendicular to the chord"),
     looks=same("joint 7 rotates about the axis about which X was rotated"),
-    seed=same("which angles they are does not matter", to=11),
+    seed=same("the choice of the angles does not matter", to=11),
     reach=same("the size of the rotations does not matter"),
 )  # fmt: skip
 def aside(turn=LAB.FREE[2], slide=LAB.FREE[5], looks=LAB.LOOKS, seed=LAB.SEED, reach=1):
@@ -122,7 +122,7 @@ def aside(turn=LAB.FREE[2], slide=LAB.FREE[5], looks=LAB.LOOKS, seed=LAB.SEED, r
 
 @numbers.add(
     "error of the mean of the cube's points", "{:.1f} mm",
-    overhead=between(0.0, 0.05, "from straight above no side is seen, only the top",
+    overhead=between(0.0, 0.05, "from straight above the camera sees only the top",
                      to=0.001),
     size=between(0.8, 1.25, "more points on the same faces"),
     above=between(0.8, 1.0, "fewer points of the visible sides"),

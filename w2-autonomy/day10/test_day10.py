@@ -104,10 +104,10 @@ def test_three_predictions_of_the_worksheet_stand_beside_what_is_measured(printe
 def test_what_the_opening_promises_is_what_the_lab_prints(printed):
     off = [float(x) for x in re.findall(r"points: ([\d.]+) mm from", printed)]
     mean = re.findall(r"their mean: ([\d.]+) mm", printed)
-    assert f"to {max(off)} mm, where the mean of all points" in SENTENCES
-    assert f"is {max(mean)} mm off" in SENTENCES
+    assert f"cube to {max(off)} mm, without any information" in SENTENCES
+    assert f"measures on the cube is wrong by {max(mean)} mm" in SENTENCES
     aside = re.search(r"middle is (\d+) mm from", printed)[1]
-    assert f"the table is {aside} mm from its true place" in SENTENCES
+    assert f"the target is {aside} mm from its true position" in SENTENCES
     alone = re.search(r"joint 7 alone +0\.00 +2 +(\S+)\n", printed)[1]
     assert float(alone) < 1e-15
 
@@ -127,7 +127,8 @@ def test_k_is_a_triangle_and_the_docstrings_point_is_at_125():
 def test_half_a_pixel_is_z_over_f_and_grows_with_the_distance(printed):
     far = np.linalg.norm(day10_mujoco.TO - day10_mujoco.AT)
     assert f"hangs {far:.3f} m from the middle" in SENTENCES
-    assert f"z / f = 955 / 290 = {1000 * far / F:.1f} mm: 2.33 mm" in SENTENCES
+    words = f"z / f = 955 / 290 = {1000 * far / F:.1f} mm, so the error is 2.33 mm"
+    assert words in SENTENCES
     assert "half a pixel in u and v is 2.3 mm (RMS)" in printed
     for z in (far, 2 * far):
         pixels = np.array([[160.0, 120.0], [160.5, 120.5]])
@@ -141,10 +142,12 @@ def test_what_each_mistake_of_step_1_looks_like_over_the_image():
     right = camera.project(K, np.eye(4), points)
     centre = K[:2, 2]
     from_middle = right - centre
+    half = r"principal point \(width - 1\) / 2, \(height - 1\) / 2, as in OpenCV"
+    swapped = "the two coordinates of the principal point swapped"
     wrong = {
-        r"\(width - 1\) / 2 for the centre, as in OpenCV": right - 0.5,
-        "the centre's two numbers swapped": from_middle + centre[::-1],
-        "no centre": from_middle,
+        half: right - 0.5,
+        swapped: from_middle + centre[::-1],
+        "no principal point": from_middle,
         "f from the width": from_middle * 320 / 240 + centre,
         "y upwards instead of downwards": from_middle * [1, -1] + centre,
     }
@@ -173,7 +176,7 @@ def test_range_for_depth_is_right_in_the_middle_and_there_alone():
     away = np.linalg.norm(pixels - K[:2, 2], axis=1)
     assert f"the error is only {off[np.argmin(away)]:.3f} mm at the centre" in SENTENCES
     at_150 = off[np.abs(away - 150) < 5].mean()
-    assert f"of 150 px from the centre the error is {at_150:.0f} mm" in SENTENCES
+    assert f"At 150 px from the centre the error is {at_150:.0f} mm" in SENTENCES
 
 
 def test_right_exponential_never_arrives_and_one_z_too_few_does_at_the_table():
@@ -294,7 +297,8 @@ def digits_per_step(noise):
 
 def test_gauss_newton_doubles_its_digits_without_noise_alone():
     few, many = digits_per_step(0.3), digits_per_step(2.0)
-    assert f"gains only {few:.1f} digits, and with 2 px {many:.1f} digit" in SENTENCES
+    words = f"adds only {few:.1f} digits, and with 2 px it adds {many:.1f} digit"
+    assert words in SENTENCES
     T, corners = held()
     pixels = camera.project(K, T, corners)
     for guess in lab.guesses(T, 12, np.random.default_rng(lab.SEED)):
@@ -309,9 +313,9 @@ def test_a_pose_absorbs_half_a_pixel_of_the_principal_point():
     left = lab.rms(np.linalg.norm(camera.project(K, fit, corners) - pixels, axis=1))
     left /= np.sqrt(2)  # per coordinate
     turned = np.degrees(np.linalg.norm(log_rotation(fit[:3, :3] @ T[:3, :3].T)))
-    words = f"rotates by {turned:.2f}° and only {left:.4f} px (RMS) remain"
+    words = f"rotates by {turned:.2f}°. The RMS residual is then only {left:.4f} px"
     assert words in SENTENCES
-    assert "in every pixel comes from the principal point" in SENTENCES
+    assert "in every pixel, the principal point is probably wrong" in SENTENCES
 
 
 def by_joints(joints, seed=lab.SEED):
@@ -383,27 +387,26 @@ def test_with_noise_the_wrong_jacobian_fits_as_well_and_its_covariance_is_wrong(
     told = sigmas(T, corners, one_z_too_few)[0][2]
     words = f"predicts {told:.1f} mm instead of {sigmas(T, corners)[0][2]:.1f} mm"
     assert words in SENTENCES
-    assert f"{right:.1f} mm along the view either way" in SENTENCES
+    assert f"({right:.1f} mm along the optical axis for both)" in SENTENCES
 
 
 def test_the_ellipse_along_the_view_grows_with_z_squared_over_f_w():
     near = sigmas(*held())
     far = sigmas(*held(2 * lab.NEAR))
     large = sigmas(*held(wide=2.0))
-    assert f"At 1.6 m it is {far[0][2]:.1f} mm along the view" in SENTENCES
+    assert f"At 1.6 m the standard deviation is {far[0][2]:.1f} mm" in SENTENCES
     assert far[0][2] / near[0][2] == pytest.approx(4, rel=0.01)
     assert f"With 80 mm it is {large[0][2]:.1f}" in SENTENCES
     assert near[0][2] / large[0][2] == pytest.approx(2, rel=0.01)
     assert 2 < far[0][0] / near[0][0] < 4
-    assert f"are {near[0][0]:.1f} mm across the view and {near[0][2]:.1f} mm along" in (
-        SENTENCES
-    )
-    words = f"obtain {near[1][0]:.1f} mm across the view instead of {near[0][0]:.1f} mm"
+    across, _, along = near[0]
+    assert f"is {across:.1f} mm across the optical axis and {along:.1f} mm" in SENTENCES
+    words = f"obtain {near[1][0]:.1f} mm instead of {near[0][0]:.1f} mm across"
     assert words in SENTENCES
     width = 1000 * lab.NEAR**2 / F / 0.04
     assert f"= {width:.0f} mm along" in SENTENCES
     assert f"z / f = {1000 * lab.NEAR / F:.1f} mm across it" in SENTENCES
-    assert f"f w / z = {F * 0.04 / lab.NEAR:.1f} px wide" in SENTENCES
+    assert f"f w / z = {F * 0.04 / lab.NEAR:.1f} px" in SENTENCES
 
 
 @pytest.mark.kit
@@ -420,7 +423,7 @@ def test_far_away_fewer_fits_lie_inside_because_the_noise_is_not_small(capsys):
     assert words in SENTENCES
     _, *back = (f"{np.mean(one):.0%}" for one in inside[lab.NOISE / 10])
     assert back == ["94%", "94%"]
-    assert f"cube is {F / 2 * 0.04 / T[2, 3]:.1f} px wide" in SENTENCES
+    assert f"cube is only {F / 2 * 0.04 / T[2, 3]:.1f} px wide" in SENTENCES
     capsys.readouterr()
 
 
@@ -446,8 +449,8 @@ def test_the_target_that_stands_still_stands_beside_its_place(looks, printed):
     assert f"it moves by {lab.wanders(*fresh, X):.0f} mm" in SENTENCES
     beside = 1000 * np.linalg.norm(lab.said(*seven, X) - day10_mujoco.TO, axis=1)
     assert np.ptp(beside) < 1e-9
-    assert f"It is {beside[0]:.0f} mm from its place" in SENTENCES
-    assert "is 29° and 59 mm wrong" in SENTENCES
+    assert f"It is {beside[0]:.0f} mm from its true position" in SENTENCES
+    assert "it is wrong by 29° and 59 mm" in SENTENCES
     row = re.search(r"another X +0\.00 +2 +\S+ +([\d.]+) +([\d.]+)", printed).groups()
     assert [round(float(x)) for x in row] == [29, 59]
 
@@ -473,8 +476,8 @@ def test_a_little_of_joint_6_frees_nothing_and_is_not_enough_with_noise(looks):
             residual.append(np.abs(A @ X - X @ B).max())
         typical.append(np.median(off))
     one, five, twenty = typical
-    assert f"About {one:.0f} mm, typically, and" in SENTENCES
-    assert f"with 5 degrees {five:.0f} mm" in SENTENCES
+    assert f"typically about {one:.0f} mm and" in SENTENCES
+    assert f"With 5 degrees it is {five:.0f} mm" in SENTENCES
     assert f"with 20 degrees {twenty:.1f} mm" in SENTENCES
     assert 2e-3 < np.median(residual) < 4e-3
 
@@ -490,7 +493,7 @@ def test_the_mean_of_the_points_is_off_because_far_sides_are_not_seen():
         cloud = lab.depth_cloud(m, d, *depth_camera.camera(m, d, "eye"))
         cloud = cloud[cloud[:, 2] > day10_mujoco.TABLE + lab.ABOVE]
         off.append(1000 * np.linalg.norm(cloud.mean(axis=0)[:2] - T[:2, 3]))
-    assert f"of a cube at the table's middle is {off[0]:.1f} mm off" in SENTENCES
+    assert f"the mean of the cube's points is wrong by {off[0]:.1f} mm" in SENTENCES
     assert off[1] < 0.1
     assert "the mean is right to 0.1 mm" in SENTENCES
 
@@ -510,7 +513,10 @@ def test_three_yaws_are_needed_since_the_nearest_points_find_the_next_hollow():
                 off.append(abs((yaw + 45) % 90 - 45))  # a cube has four of them
         worst.append(max(off))
     three, one = worst
-    assert f"up to {one:.0f} degrees wrong; from three {three:.0f} at most" in SENTENCES
+    words = (
+        f"is {one:.0f} degrees from one yaw angle, and {three:.0f} degrees from three"
+    )
+    assert words in SENTENCES
 
 
 def mirrored(second: float) -> float:
@@ -538,7 +544,7 @@ def mirrored(second: float) -> float:
 
 @pytest.mark.kit
 def test_axes_in_one_plane_are_as_likely_a_mirror_as_not_and_others_are_none():
-    assert "is a reflection in half of all cases" in SENTENCES
+    assert "is then a reflection in half of all cases" in SENTENCES
     assert 0.4 < mirrored(0.0) < 0.6
     assert mirrored(1.0) == 0.0
 

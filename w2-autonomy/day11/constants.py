@@ -39,9 +39,9 @@ numbers = Numbers(
 
 @numbers.add(
     "fraction of the positions at which 10 samples miss the wire", "{:.3f}",
-    points=between(0.0, 0.25, "the gaps are 15 mm long and the contact 14 mm", to=20),
+    points=between(0.0, 0.25, "the gaps are 15 mm long, and the contact is 14 mm long", to=20),
     wire=between(0.6, 0.85, "the contact is 2 (5 + 4) = 18 mm long, in gaps of 28 mm"),
-    turn=between(1.3, 1.65, "the gaps double and the contact stays: 0.50 becomes 0.75"),
+    turn=between(1.3, 1.65, "the gaps are twice as long: 0.50 becomes 0.75"),
     seed=between(0.8, 1.25, "200 other random positions", to=12),
     places=between(0.8, 1.25, "twice as many random positions"),
 )  # fmt: skip
@@ -92,8 +92,8 @@ def by_points(points=20, thin=LAB.THIN, ways=1.0, seed=LAB.SEED):
 
 @numbers.add(
     "motions in which the bound misses the wire", "{:.0f} of 60",
-    thin=same("the bound uses distances, whatever the size of the obstacle"),
-    ways=same("the bound contains the length of the motion", to=0.5),
+    thin=same("the bound does not depend on the size of the obstacle"),
+    ways=same("the bound is proportional to the length of the motion", to=0.5),
     seed=same("the bound holds for every motion", to=1),
     bound=same("a larger bound is also a bound, and needs more queries"),
 )  # fmt: skip
@@ -120,10 +120,9 @@ def looks(bound=1.0, near=LAB.NEAR, seed=LAB.SEED, thin=LAB.THIN):
     "fraction of the distance left after 1 s straight at it", "{:.4f}",
     gain=times(7.4, "e^-2 instead of e^-4, which is e² times as much", within=0.06,
                to=2.0),
-    dt=between(0.85, 1.0, "0.92 to the 50th is less than 0.96 to the 100th"),
-    aside=between(0.9, 1.1, "the decay is a fraction of the distance", to=0.1),
-    rush=between(0.9, 1.1, "the damper removes the excess velocity, however large it "
-                 "is"),
+    dt=between(0.85, 1.0, "0.92 ^ 50 is smaller than 0.96 ^ 100"),
+    aside=between(0.9, 1.1, "the decay is proportional to the distance", to=0.1),
+    rush=between(0.9, 1.1, "the damper removes the whole excess velocity"),
 )  # fmt: skip
 def left(gain=LAB.GAIN, dt=LAB.DT, aside=LAB.ASIDE, rush=LAB.RUSH):
     """Return the fraction."""

@@ -18,7 +18,7 @@ INVERSE = DAY.torque(DAY.Wall().model)  # without damping
 _, LIMITS = simulate.limits(DAY.Wall().model)
 
 numbers = Numbers(
-    n="SEEDS, all of which find a way: {}",
+    n="SEEDS, all of which find a path: {}",
     z="z of the interval: {}",
     inertia="M: {} kg m²",
     limit="limit: {} N m",
@@ -81,11 +81,11 @@ def heavy_joint(inertia=2.0, limit=8.0, way=1.0, gravity=4.0):
 
 @numbers.add(
     "Day 7's motion with half of the torque", "{:.3f} s",
-    share=between(0.8, 0.85, "all of the torque: the velocity limit does not change"),
+    share=between(0.8, 0.85, "more torque, but the velocity limits are the same"),
     speed=between(0.75, 0.95, "the velocity is at its limit at 71 % of the points"),
     weight=between(0.8, 0.9, "without gravity all of the torque accelerates the arm", to=0.0),
     points=between(
-        0.99, 1.01, "the changes of the path acceleration lie between other points"
+        0.99, 1.01, "the path acceleration changes between other points"
     ),
 )  # fmt: skip
 def with_half(share=0.5, speed=1.0, weight=1.0, points=LAB.POINTS):
@@ -98,7 +98,7 @@ def with_half(share=0.5, speed=1.0, weight=1.0, points=LAB.POINTS):
 @numbers.add(
     "torque above its limit at the end of a step", "{:.1%}",
     points=times(0.5, "the bounds change half as much in half a step"),
-    share=between(0.8, 2.0, "the steps differ, and the excess is of similar size", to=0.5),
+    share=between(0.8, 2.0, "the steps are different, but the excess is of similar size", to=0.5),
 )  # fmt: skip
 def above(points=LAB.POINTS, share=1.0):
     """Return by which fraction of its limit the largest torque exceeds it."""

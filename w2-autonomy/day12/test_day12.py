@@ -89,9 +89,9 @@ def test_three_predictions_of_the_worksheet_stand_beside_what_is_measured(printe
         assert measured == found
         assert f"| {name}" in sheet
     assert "60 / (60 + 3.84) = 0.940" in SENTENCES
-    assert "√2 as long: 0.813 s" in SENTENCES
+    assert "√2 times as long: 0.813 s" in SENTENCES
     assert math.sqrt(2) * 0.575 == pytest.approx(0.813, abs=5e-4)
-    assert "Predicted 0.813 s, measured 0.703 s" in SENTENCES
+    assert "estimate was 0.813 s, but the lab measures 0.703 s" in SENTENCES
 
 
 def test_what_the_opening_promises_is_what_the_lab_prints(printed):
@@ -381,8 +381,8 @@ def test_plain_rrt_needs_more_samples_than_rrt_connect():
             ))  # fmt: skip
     assert not any(plain)
     assert "it finds no path for any of twelve seeds" in SENTENCES
-    assert f"This finds {min(biased)} to {max(biased)} paths of 25" in SENTENCES
-    assert f"It finds {min(both)} to {max(both)} paths" in SENTENCES
+    assert f"RRT finds paths in {min(biased)} to {max(biased)} of the 25" in SENTENCES
+    assert f"it finds paths in {min(both)} to {max(both)} of the 25" in SENTENCES
 
 
 def test_the_voronoi_bias_comes_from_the_nearest_node():
@@ -523,7 +523,8 @@ def test_a_longer_step_finds_more_in_the_same_narrow_scene():
     low, high = (
         planned(day12_mujoco.Wall(roof=roof))[0][2] for roof in (0.80, 1.00)
     )  # fmt: skip
-    assert f"at 0.80 m the planner finds {low} of 60, at 1.00 m {high}" in SENTENCES
+    assert f"at 0.80 m the planner finds a path in {low} of 60 trials" in SENTENCES
+    assert f"of 60 trials, and at 1.00 m in {high}" in SENTENCES
     assert "8, 46 and 36" in SENTENCES
     # Doubling the step has about the effect of doubling the samples.
     table = {row[0]: [int(x) for x in row[1:6]] for row in rows_of("step")}

@@ -112,7 +112,7 @@ def circle(step, dt, gain, lap, limit):
     dt=between(1.0, 1.05, "the goal moves on between two steps"),
     gain=between(0.98, 1.02, "a larger gain does not extend the workspace"),
     lap=between(0.99, 1.01, "the geometry does not depend on the speed"),
-    limit=between(1.02, 1.15, "we do not know why; see task 13.6"),
+    limit=between(1.02, 1.15, "the reason is not known"),
 )  # fmt: skip
 def best(
     turn=1.0, damping=LAB.DAMPING, dt=LAB.DT, gain=LAB.GAIN, lap=DAY.LAP, limit=1.0

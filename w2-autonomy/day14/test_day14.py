@@ -323,7 +323,7 @@ def test_three_predictions_of_the_worksheet_stand_beside_what_is_measured(printe
 def test_what_the_opening_says_is_what_the_lab_prints(printed):
     counts = re.findall(r"about (\d+) of 60", printed)
     assert counts == ["60", "15", "60"]
-    assert "hold 60 of 60 cubes that had no part" in SENTENCES
+    assert "holds 60 of 60 cubes that had no part" in SENTENCES
     assert "only about 15 of 60 cubes" in SENTENCES
     assert "holds nearly all of the 60 slippery" in SENTENCES
     named, did = re.search(r"F / g: (\d+) cubes; (\d+) of them", printed).groups()
@@ -473,7 +473,7 @@ def test_the_standard_deviation_shrinks_on_average_only():
             stds.append(policy.cem_step([0.0], [1.0], noise, scores, 3)[1][0])
         found[name] = np.array(stds)
     assert found["no matter"].mean() == pytest.approx(0.73, abs=0.015)
-    assert "on average 0.73 times the last one" in SENTENCES
+    assert "on average 0.73 times the previous one" in SENTENCES
     assert np.mean(found["squares"] > 1) == pytest.approx(0.70, abs=0.03)
     assert (grown(7) > 1).any(axis=1).sum() == 5
 
@@ -531,7 +531,7 @@ def test_on_the_same_cubes_the_sigma_is_smaller():
     assert sigma < alone
     more = (feels & ~without).sum()
     assert not (without & ~feels).any()
-    assert f"It holds {more} cubes more" in SENTENCES
+    assert f"It holds {more} more cubes" in SENTENCES
     # The ties are most of the variance: without them none is left.
     apart = feels.astype(float) - without
     ties = apart == 0
@@ -594,7 +594,7 @@ def test_a_good_result_proves_no_implementation(change, lowest, others):
     assert abs(counts[0] - lowest) <= 1
     if others is None:
         assert counts[-1] == 60
-        assert f"The first mistake holds {lowest} to 60" in SENTENCES
+        assert f"With the first mistake they hold {lowest} to 60" in SENTENCES
     elif lowest:
         assert (counts == 60).sum() == 7
         assert (counts[1], counts[4]) == others

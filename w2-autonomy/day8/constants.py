@@ -108,7 +108,7 @@ def condition(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB.
                   "amplitude at six poses, not the third as for the pendulum"),
     metre=between(3.0, 10.0, "columns in kg m² shrink to 1/100, so it depends on the "
                   "unit", to=10.0),
-    rtol=same("no singular value is near it; the others are rounding errors"),
+    rtol=same("no singular value is near this threshold; the others are rounding errors"),
 )  # fmt: skip
 def swing_condition(swing=1.0, metre=1.0, rtol=LAB.RTOL):
     """Return the condition number of the swing, to three digits."""
@@ -186,12 +186,12 @@ def cut_fit(cut=LAB.CUT, metre=1.0, noise=LAB.NOISE, noise_seed=LAB.NOISE_SEED,
 
 @numbers.add(
     "test error of the excitation's fit", "{:.2f} N m",
-    noise=times(2.0, "its only cause is the noise, and the fit is linear"),
+    noise=times(2.0, "the noise is the only cause, and the fit is linear"),
     n=between(0.55, 0.85, "1/√2 for twice the samples, with other noise", to=400),
     noise_seed=between(0.5, 1.5, "another noise", to=48),
     metre=same("without truncation the unit cancels"),
-    rtol=same("no singular value is near it"),
-    slow=between(0.8, 1.2, "fewer rows, and none of them is wrong"),
+    rtol=same("no singular value is near this threshold"),
+    slow=between(0.8, 1.2, "fewer rows remain, and none of them is wrong"),
     masses=same("the fit does not use the model file"),
     friction=same("dry friction has its columns in Y"),
 )  # fmt: skip
@@ -278,7 +278,7 @@ def either_side(
 @numbers.add(
     "sigma of the load, each from both sides", "{:.0f} g",
     noise=times(2.0, "the residual is noise, with hardly any friction", within=0.05),
-    noise_seed=between(0.7, 1.4, "it is estimated from 35 torques", to=48),
+    noise_seed=between(0.7, 1.4, "sigma is estimated from 35 torques only", to=48),
     poses=between(0.6, 0.85, "1/√2 for twice the poses, which are other poses"),
 )  # fmt: skip
 def load_sigma(noise=LAB.NOISE, noise_seed=LAB.NOISE_SEED, poses=5):

@@ -49,7 +49,7 @@ def test_what_the_arm_weighs_is_in_both_holds_only_where_springs_are_stiff():
     assert stiff < 0.2
     assert 3 * stiff < softer
     assert 3 * softer < soft
-    assert "the springs that hold it have to be stiff" in SENTENCES
+    assert "so the position controller must be stiff" in SENTENCES
 
 
 def grams(robots, wait, noise=0.0, seed=0):
@@ -78,7 +78,7 @@ def test_the_grams_of_one_from_either_side_are_how_long_mujocos_friction_creeps(
         f"is {found[1] - 500:.0f} g after 2 s and still {later - 500:.0f} g after 8 s"
     )
     assert words in SENTENCES
-    assert f"{found[1]:.0f} g after 2 s, {later:.0f} g after 8 s" in SENTENCES
+    assert f"{found[1]:.0f} g after 2 s and {later:.0f} g after 8 s" in SENTENCES
 
 
 @pytest.mark.kit
@@ -104,7 +104,8 @@ def rows_at(poses):
 def test_the_paper_predicts_sigma_and_the_centre_of_mass_makes_it_larger():
     arms = np.abs(rows_at(panda.READY_Q[None])[:, 0]) / 9.81  # metres, by joint
     assert_same(np.round(arms, 2), [0, 0.31, 0, 0.47, 0, 0.09, 0], 1e-9)
-    assert "at 0.31 m from the axis of joint 2, at 0.47 m from joint 4" in SENTENCES
+    words = "arm of 0.31 m about joint 2, 0.47 m about joint 4 and 0.09 m about joint 6"
+    assert words in SENTENCES
     one, three = (100 / (9.81 * x) for x in (0.31, np.linalg.norm(arms)))
     assert f"(9.81 · 0.31) = {one:.0f} g" in SENTENCES
     assert f"(9.81 · 0.57) = {three:.0f} g" in SENTENCES
@@ -115,8 +116,8 @@ def test_the_paper_predicts_sigma_and_the_centre_of_mass_makes_it_larger():
         alone.append(1000 * lab.NOISE / np.linalg.norm(rows[:, 0]))
         four.append(1000 * lab.NOISE * np.sqrt(np.linalg.inv(rows.T @ rows)[0, 0]))
     assert max(alone) < 9.3
-    assert f"this makes it {four[0]:.0f} g in the lab's five poses" in SENTENCES
-    assert f"({min(four):.0f} to {max(four):.0f} g in five other" in SENTENCES
+    assert f"sigma is {four[0]:.0f} g for the lab's five poses" in SENTENCES
+    assert f"{min(four):.0f} to {max(four):.0f} g for five other" in SENTENCES
 
 
 @pytest.mark.kit
@@ -139,7 +140,7 @@ def test_poses_that_turn_about_gravity_hide_a_part_of_the_centre():
         *day8_mujoco.hands(arm, q), extra, arm.gravity
     )
     assert_same(1000 * np.array(h) / m, [20, -30, 0], 1e-9)
-    assert "comes out as (20, -30, 0) mm" in SENTENCES
+    assert "is returned as (20, -30, 0) mm" in SENTENCES
 
 
 @pytest.mark.kit
@@ -150,7 +151,7 @@ def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
     assert f"sigma is {both[1]:.0f} g" in SENTENCES
     assert crossed[1] == pytest.approx(3 * both[1], rel=0.1)
     assert f"the hand sinks by {-untold[5]} mm" in SENTENCES
-    assert f"it still rises by {truth[5]} mm: that is the error" in SENTENCES
+    assert f"it still rises by {truth[5]} mm, because of the error" in SENTENCES
     robot = day8_mujoco.changed(model, lab.ROBOT_SEED)
     loaded = day8_mujoco.changed(hung, lab.ROBOT_SEED)
     rest = np.zeros(7)
@@ -164,7 +165,8 @@ def test_the_lab_says_what_the_guide_says_of_weighing_and_floating(printed):
 
     assert abs(day8_mujoco.rises(loaded, arm, still, LOAD)) < 1e-3
     least = re.search(r"fitted links: (\S+)", printed)[1]
-    assert f"It is {least}: there is no such arm" in SENTENCES
+    words = f"The smallest eigenvalue is {least}, so such an arm cannot exist"
+    assert words in SENTENCES
 
 
 @pytest.mark.kit
@@ -197,8 +199,9 @@ def test_what_makes_the_hand_sink_is_turned_alone_the_grams_and_the_centre():
         return grams_alone, centre_alone, rises(found[name][0])
 
     grams_alone, centre_alone, both = alone("each from both sides")
-    assert f"at the true centre, the hand sinks by {-grams_alone:.1f} mm" in SENTENCES
-    words = f"with 500 g at the centre that was found, by {-centre_alone:.1f}."
+    words = f"the true centre of mass, the hand sinks by {-grams_alone:.1f} mm"
+    assert words in SENTENCES
+    words = f"With 500 g at the identified centre it sinks by {-centre_alone:.1f} mm."
     assert words in SENTENCES
     # Two errors that add up: the fit's own gravity, which is in all three, but once.
     assert grams_alone + centre_alone - rises(LOAD) == pytest.approx(both, abs=1.0)
@@ -247,13 +250,17 @@ def test_noise_moves_the_grams_and_another_robot_hardly_does():
     load, sigma = np.array(list(by_noise)).T
     off = np.abs(load - 500) / sigma
     assert (np.sum(off < 1), np.sum(off < 2)) == (6, 6)
-    words = "In 6 of 8 cases the result is within sigma, and in the same 6 within two"
+    words = (
+        "In 6 of 8 runs the result is within one sigma, and the other two are "
+        "not within"
+    )
     assert words in SENTENCES
-    assert f"Seed 8 finds {load[-1]:.0f} g, {off[-1]:.1f} sigmas off" in SENTENCES
-    assert f"it is {sigma.min():.0f} to {sigma.max():.0f} g" in SENTENCES
+    words = f"Seed 8 gives {load[-1]:.0f} g, an error of {off[-1]:.1f} sigma"
+    assert words in SENTENCES
+    assert f"it varies from {sigma.min():.0f} to {sigma.max():.0f} g" in SENTENCES
     both = (lab.NOISE_SEED, lab.NOISE), (lab.NOISE_SEED, 0.0)
     (least, _), (least_still, _) = found(4, *both)
     (most, _), (most_still, _) = found(8, *both)
     assert most - least < 2
-    assert f"({least:.1f} to {most:.1f})" in SENTENCES
-    assert f"give {least_still:.1f} to {most_still:.1f}, so most" in SENTENCES
+    assert f"({least:.1f} to {most:.1f} g)" in SENTENCES
+    assert f"give {least_still:.1f} to {most_still:.1f} g, so noise" in SENTENCES

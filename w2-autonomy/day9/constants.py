@@ -76,7 +76,7 @@ def margin(omega=DAY.OMEGA, zeta=1.0):
 
 @numbers.add(
     "fraction of an error left after 2 s, 34 ms late", "{:.3g}",
-    late=between(1.5, 1e9, "far above the margin; the error grows until the motors saturate"),
+    late=between(1.5, 1e9, "the delay is far above the margin, and the error grows until the motors saturate"),
     omega=times(0.0, "with 10 1/s the margin is 65 ms", within=0.05, to=10.0),
     rate=between(0.3, 0.8, "the torque is on average 0.5 ms older than its reading, not "
                  "1 ms: the limit is 31.9 ms, and 34 is still above it"),
@@ -119,7 +119,7 @@ def tracked(wanders, noise, seed, told_q, told_R):
     noise=between(0.95, 1.05, "the same"),
     seed=between(0.9, 1.1, "another random sequence", to=10),
     told_q=between(0.7, 0.95, "the innovations are smaller than the filter expects"),
-    told_R=between(0.5, 0.8, "the same: the filter expects larger innovations"),
+    told_R=between(0.5, 0.8, "the filter expects larger innovations"),
 )  # fmt: skip
 def nis(wanders=LAB.WANDERS, noise=LAB.NOISE, seed=LAB.SEED, told_q=1.0, told_R=1.0):
     """Return it."""
@@ -142,8 +142,8 @@ def white(wanders=LAB.WANDERS, noise=LAB.NOISE, seed=LAB.SEED, told_q=0.1, told_
 
 @numbers.add(
     "largest residual in free motion", "{:.3f} N m",
-    gain=between(1.0, 1.01, "it is not the lag of the observer"),
-    step=times(2.0, "any error of first order doubles; see task 9.9", within=0.02),
+    gain=between(1.0, 1.01, "the lag of the observer is not the cause"),
+    step=times(2.0, "an error of first order doubles; see task 9.9", within=0.02),
     reach=between(1.5, 4.5, "velocities double, and their products grow fourfold"),
     share=between(50, 200, "the residual then contains the gradient", to=0.0),
 )  # fmt: skip
@@ -181,8 +181,8 @@ def steady(force=10.0, omega=DAY.OMEGA, gain=LAB.GAIN, share=1.0):
 
 @numbers.add(
     "detection time of 10 N on the flange", "{:.0f} ms",
-    force=times(0.5, "half of the fraction is enough: 1.1 ms, so the first sample"),
-    gain=times(0.5, "the residual rises twice as fast: 1.1 ms, so the first sample"),
+    force=times(0.5, "the residual needs only 1.1 ms, so the first sample"),
+    gain=times(0.5, "the residual needs only 1.1 ms, so the first sample"),
     threshold=times(1.5, "4.8 ms, so the third sample of 2 ms"),
     share=same("at rest the gradient is zero", to=-1.0),
 )  # fmt: skip

@@ -521,14 +521,14 @@ def main() -> int:
     given = given_to(rng)
     print(panda.describe("panda_nohand"))
 
-    lab.step("1. The distance of two capsules")
+    lab.step("1. The distance between two capsules")
     apart, points, deep = off_capsules(model, data, q)
     print(f"  {len(apart)} pairs of the arm's capsules and rods; {deep} pairs overlap")
     lab.record("distance", apart, label="|capsule_distance - mj_geomDistance|, m",
                seed=SEED)  # fmt: skip
     lab.check("|closest points - MuJoCo's|, m", points)
 
-    lab.step("2. The distance of a capsule and a box")
+    lab.step("2. The distance between a capsule and a box")
     ball, sides, inside = off_boxes(model, data, q, rng)
     lab.check("|box_sdf - MuJoCo's sphere|, m, also inside", ball)
     lab.check("|capsule_box_distance - MuJoCo's|, m, outside", sides)
