@@ -36,12 +36,13 @@ ROUNDING = 1e-14  # of an entry's size; a smaller KKT residual is a rounding err
 def gravity_stiffness(
     J_space: ArrayLike, masses: ArrayLike, coms: ArrayLike, g: ArrayLike
 ) -> Array:
-    """Return the gravity stiffness, the derivative of the gravity torque by the angles.
+    """Return the gravity stiffness, the derivative of the gravity torque in q.
 
-    Rotating joint j rotates all links that are distal to it. Seen from these links,
-    gravity rotates back and changes by g x omega_j per radian. For i >= j the entry is
-    therefore `gravity_torque` of joint i with g x omega_j in place of g. The matrix is
-    symmetric, because it is the second derivative of the potential energy.
+    The gravity torque is the one that holds the arm against its weight. Rotating joint
+    j rotates all links that are distal to it. Relative to these links, gravity rotates
+    back and changes by g x omega_j per radian. For i >= j the entry is therefore
+    `gravity_torque` of joint i with g x omega_j in place of g. The matrix is symmetric,
+    because it is the second derivative of the potential energy.
 
     Args:
         J_space: space Jacobian, (6, n).
@@ -84,7 +85,8 @@ def linearise(
         h: time step, s.
 
     Returns:
-        A, (2 n, 2 n), and B, (2 n, n), for x = (q - q0, qd).
+        A, (2 n, 2 n), and B, (2 n, n), for x = (q - q0, qd), with the positions first,
+        and u, the torque in addition to the torque that holds the arm at q0.
 
     Raises:
         ValueError: wrong shape, a non-finite number, or a step that is not above 0.
@@ -156,7 +158,7 @@ def kkt_residual(
 ) -> float:
     """Return the KKT residual of x for the minimum of x . H x / 2 + f . x in a box.
 
-    Move x by minus the gradient H x + f and clamp it to the box. The result equals x at
+    Move x by minus the gradient H x + f and clamp it to the box. This point equals x at
     the minimiser only (Boyd and Vandenberghe, section 5.5.3, for a box). The residual
     is not the distance to the minimiser.
 
@@ -266,9 +268,10 @@ def ilqr_backward(
     a step and all steps after it is a quadratic function of (dx, du), whose minimum
     over du = k + K dx is at
 
-        k = -Quu^-1 Qu        K = -Quu^-1 Qux        Quu = luu + fu^T Vxx fu + mu 1
+        k = -Quu^-1 Qu        K = -Quu^-1 Qux        Quu = luu + fu^T Vxx fu + mu E
 
-    (Tassa, Erez and Todorov, 2012, equations 5 to 11, with mu wherever Quu appears).
+    with the identity E (Tassa, Erez and Todorov, 2012, equations 5 to 11, with mu
+    wherever Quu appears).
 
     Args:
         fx, fu: derivatives of the steps, (T, n, n) and (T, n, m).

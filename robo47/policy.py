@@ -56,9 +56,10 @@ def act(theta: ArrayLike, observation: ArrayLike) -> Array:
     """Return the policy's action: x, y, yaw, height, opening, lift.
 
     Args:
-        theta: the policy's parameters, (6,); clamped to `LOW` and `HIGH` first.
-        observation: from `observe`, (3,); theta's shift is expressed in the frame of
-            the cube as it was seen.
+        theta: the policy's parameters, (6,): x shift and y shift, metres, rotation,
+            radians, height, opening and lift, metres; clamped to `LOW` and `HIGH`
+            first. The shift and the rotation are relative to the observed cube.
+        observation: (x, y, yaw) from `observe`, (3,).
 
     Returns:
         (6,): position and yaw of the hand in the world frame, then the last three

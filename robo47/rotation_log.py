@@ -26,8 +26,8 @@ def log_rotation(R: ArrayLike) -> Array:
 
     Returns:
         Rotation vector, radians, with a norm in [0, pi], (..., 3). At exactly pi both
-        signs represent the same rotation; the largest entry of the result is positive.
-        Within 1e-16 of pi rounding determines the sign.
+        signs represent the same rotation; the entry of largest absolute value is then
+        positive. Within 1e-16 of pi rounding determines the sign.
 
     Raises:
         ValueError: wrong shape, a non-finite number, or R is not a rotation.

@@ -60,8 +60,8 @@ class TestAnIndex:
                 "0; expected an index, a whole number: an array takes no other in "
                 "its brackets. Make it one: int(...).",
             ),
-            (lambda x, at: x, "shape", "It returns shape (3,); expected an index"),
-            (lambda x, at: "first", "not-an-array", "It returns 'first'; expected"),
+            (lambda x, at: x, "shape", "returns shape (3,); expected an index"),
+            (lambda x, at: "first", "not-an-array", "returns 'first'; expected"),
             (
                 lambda x, at: int(np.argmin(np.abs(x - at))) - len(x),
                 "another-one",
@@ -101,7 +101,7 @@ class TestATruthValue:
             ),
             (lambda x, sure: x, "not-true-or-false", "; expected True or False."),
             (lambda x, sure: "yes", "not-an-array", "'yes'; expected True or False"),
-            (lambda x, sure: None, "nothing-returned", "It returns nothing (None)"),
+            (lambda x, sure: None, "nothing-returned", "returns nothing (None)"),
         ],
     )
     def test_is_right_wrong_or_none(self, function, slug, says):
@@ -134,7 +134,7 @@ class TestAWord:
             (
                 lambda x: WORDS[int(x > -3)],
                 "the-other-word",
-                "It returned 'advanced'; expected 'trapped'. It is right for 5 of 9",
+                "'advanced'; expected 'trapped'. The result is right for 5 of 9",
             ),
             (
                 lambda x: "arrived",
@@ -142,7 +142,7 @@ class TestAWord:
                 "'arrived'; expected 'reached', 'advanced' or 'trapped'.",
             ),
             (lambda x: np.ones(2), "another-word", "an array of shape (2,); expected"),
-            (lambda x: 2, "another-word", "It returns 2; expected 'reached'"),
+            (lambda x: 2, "another-word", "returns 2; expected 'reached'"),
         ],
     )
     def test_is_right_wrong_or_none(self, function, slug, says):
@@ -180,18 +180,18 @@ class TestAPath:
             (
                 lambda s, n: np.arange(1, n + 1)[:, None] * s * [[1.0, 1 + (n > 4)]],
                 "off",
-                "It is right for 5 of 6 inputs",
+                "The result is right for 5 of 6 inputs",
             ),
             (
                 lambda s, n: np.arange(1, n)[:, None] * s,
                 "one-too-few",
-                "It has 2 waypoints; expected 3, in call 1 of 6. The last way "
+                "Your path has 2 waypoints; expected 3, in call 1 of 6. The last way "
                 "point is missing. (All but the last reproduce your output.)",
             ),
             (
                 lambda s, n: np.arange(0, n + 2)[:, None] * s,
                 "shape",
-                "It has 5 waypoints; expected 3, in call 1 of 6.",
+                "Your path has 5 waypoints; expected 3, in call 1 of 6.",
             ),
             (
                 lambda s, n: np.arange(1, n + 1) * s[0],
@@ -247,18 +247,18 @@ class TestATuple:
             (
                 lambda i, point, free: (float(i), (point, free)),
                 "not-an-index",
-                "the place: It returns",
+                "the place: Your function returns",
             ),
             (
                 lambda i, point, free: (i, point, free),
                 "parts",
-                "It returns 3 results; expected 2 results: an index, a whole "
+                "returns 3 results; expected 2 results: an index, a whole "
                 "number, a tuple of 2.",
             ),
             (
                 lambda i, point, free: point,
                 "parts",
-                "It returns one array of shape (2,); expected",
+                "Your function returns one array of shape (2,); expected",
             ),
             (lambda i, point, free: None, "nothing-returned", "None"),
             (lambda i, point, free: (i, (None, free)), "nothing-returned", "None"),
@@ -316,13 +316,13 @@ class TestNone:
             (
                 lambda p, x: x * p,
                 "none-or-not",
-                "It returns an answer for 2 inputs where None is expected (it is out "
+                "returns an answer for 2 inputs where None is expected (it is out "
                 "of reach)",
             ),
             (
                 lambda p, x: None if x < 1.5 else x * p,
                 "none-or-not",
-                "It returns None for 1 input with an answer",
+                "Your function returns None for 1 input with an answer",
             ),
             (lambda p, x: None if x < 0 else -x * p, "all-signs", "Every sign is"),
             (lambda p, x: None if x < 0 else p + x**3, "off", "off by up to"),

@@ -91,7 +91,7 @@ def test_a_range_is_said_where_an_angle_has_one():
 
     says = told(1, "1.2", Rz=Rz)
     assert "whenever theta" not in says
-    assert "It is right for theta between 0 and pi." in says
+    assert "The result is right for theta between 0 and pi." in says
 
 
 def test_a_small_angle_s_own_formula_never_passes_by_chance():
@@ -274,7 +274,7 @@ def test_a_range_holds_whatever_the_other_arguments_are():
 
     says = told(7, "7.4", trapezoidal_profile=trapezoidal_profile)
     assert "between" not in says
-    assert says.endswith("It is right whenever v^2 / a <= L.")
+    assert says.endswith("The result is right whenever v^2 / a <= L.")
 
 
 def test_a_list_of_discs_is_not_right_whenever_it_is_0():

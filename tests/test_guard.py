@@ -199,4 +199,4 @@ def test_one_array_is_not_a_number_of_results():
         truth=lambda x: (x, x),
     )
     found = judged_replies(ask, [Reply(value=np.ones(7), again=np.ones(7))] * 4)
-    assert "It returns one array of shape (7,); expected 2 results" in found.message
+    assert "returns one array of shape (7,); expected 2 results" in found.message

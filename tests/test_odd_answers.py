@@ -51,7 +51,7 @@ class TestAMistakeThatStopsOrReshapes:
 
         verdict = told(self.row(), function)
         assert verdict.mistake == "by-division"
-        assert "It stops with ZeroDivisionError" in verdict.message
+        assert "Your function stops with ZeroDivisionError" in verdict.message
         assert "stops in the same 1 of 5 calls.)" in verdict.message
         other = told(self.row(), lambda X, W: X @ W if len(W) == 3 else 1 / 0)
         assert other.mistake == "raises"
@@ -59,7 +59,7 @@ class TestAMistakeThatStopsOrReshapes:
     def test_is_named_where_it_changes_the_shape(self):
         verdict = told(self.row(), lambda X, W: (X @ W)[:-1])
         assert verdict.mistake == "by-one-row"
-        assert "It returns shape (1, 3); expected shape (2, 3), in" in verdict.message
+        assert "returns shape (1, 3); expected shape (2, 3), in" in verdict.message
         assert "All rows but the last reproduce your output" in verdict.message
 
     def test_may_be_known_to_its_row_where_no_name_gives_it(self):
@@ -88,7 +88,7 @@ class TestAMistakeThatStopsOrReshapes:
         verdict = told(row, lambda x: row.truth(x) + np.array([0.0, 1.0]))
         assert "infinity" not in verdict.message
         verdict = told(row, lambda x: np.array([np.inf, x]))
-        assert "It returns NaN or infinity for 2 of 3" in verdict.message
+        assert "Your function returns NaN or infinity for 2 of 3" in verdict.message
 
     def test_is_taken_by_the_catalogues_tests(self):
         ask = self.row().ask

@@ -155,9 +155,9 @@ COUNTS = np.array([62, 43, 10, 7])
         (
             [61, 43, 10, 7],
             "miscounted",
-            "returned 61; expected 62. It is right for 3 of",
+            "returned 61; expected 62. The result is right for 3 of",
         ),
-        (COUNTS - 0.5, "not-whole", "It returned 61.5; expected a whole number"),
+        (COUNTS - 0.5, "not-whole", "returned 61.5; expected a whole number"),
         (-COUNTS, "miscounted", "-62; expected 62"),  # no talk of signs
         ([0, 0, 0, 0], "ignores-its-input", "same"),  # nor of arrays never filled
     ],
@@ -179,8 +179,8 @@ ONE_EACH = np.arange(8) == np.arange(6)[:, None]
         (MASKS.astype(int), "", ""),
         (~MASKS, "inverted", "True and False are swapped"),
         (np.ones_like(MASKS), "ignores-its-input", "does not depend on the input"),
-        (MASKS | ONE_EACH, "too-often-true", "It returned True in 3 cases where"),
-        (MASKS & ~ONE_EACH, "too-seldom-true", "It returned False"),
+        (MASKS | ONE_EACH, "too-often-true", "returned True in 3 cases where"),
+        (MASKS & ~ONE_EACH, "too-seldom-true", "Your function returned False"),
         (
             MASKS * 0.5,
             "not-true-or-false",

@@ -42,7 +42,7 @@ NAMES = ["M", "acc", "e", "ed", "kp", "kd"]
 def test_a_term_outside_a_bracket_is_found_by_its_neutral_arguments():
     outside = lambda M, acc, e, ed, kp, kd: M @ (acc + kp * e) + kd * ed  # noqa: E731
     says = told(outside, computed_torque, states(), NAMES)
-    assert says == "It is right whenever ed is 0, and whenever kd is 0."
+    assert says == "The result is right whenever ed is 0, and whenever kd is 0."
 
 
 def test_one_number_for_all_is_right_where_all_are_equal():
@@ -74,7 +74,7 @@ def test_a_question_without_an_answer_says_nothing():
     calls = [(A, b) for A, b, *_ in states()]
     right = lambda A, b: np.linalg.solve(A, b)  # noqa: E731
     says = told(lambda A, b: A @ b, right, calls, ["A", "b"])
-    assert says == "It is right whenever A is the identity."
+    assert says == "The result is right whenever A is the identity."
 
 
 def test_a_pose_is_neutral_in_two_ways():
@@ -162,5 +162,5 @@ def test_a_range_is_not_said_where_another_argument_ends_it():
 def test_a_row_s_condition_is_said_where_it_holds_alone():
     small = ("x <= 1", lambda x, y, z: x <= 1)
     alone = ("x <= 1 and y <= 12 z", lambda x, y, z: x <= 1 and y <= 12 * z)
-    assert ranged([alone]).startswith(f"It is right whenever {alone[0]}")
+    assert ranged([alone]).startswith(f"The result is right whenever {alone[0]}")
     assert "x <= 1" not in ranged([small])

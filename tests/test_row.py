@@ -6,7 +6,7 @@ import pytest
 from labkit.judge import Ask, Draw, HeldOut, Scalar
 from labkit.judge import argument_mistakes as kinds
 from labkit.judge.mistake import REDONE
-from labkit.judge.row import Row
+from labkit.judge.row import Row, inside
 from labkit.lesson.day import find_day
 from robo47.errors import Robo47Error
 
@@ -138,3 +138,21 @@ def test_inputs_that_stop_are_told_with_the_line_of_the_file_that_leads_there():
 def test_a_shape_of_drawn_numbers_may_be_one_tuple():
     one, other = (Draw(1).numbers(0.0, 1.0, *shape) for shape in ((2, 3), ((2, 3),)))
     assert (one == other).all()
+
+
+@pytest.mark.parametrize(
+    ("where", "says", "told"),
+    [
+        ("in the adjoint, ", "in [p], a sign is lost", "in [p] of the adjoint, a sign"),
+        (
+            "in every factor, ",
+            "in [p] of the adjoint, x",
+            "in [p] of the adjoint of every",
+        ),
+        ("in `outer`, ", "in `inner`, x is lost", "in `inner`, x is lost"),
+        ("in the adjoint, ", "a sign is lost", "in the adjoint, a sign is lost"),
+        ("in each link's matrix ", "c is not used", "in each link's matrix c is not"),
+    ],
+)
+def test_the_place_of_a_mistake_is_one_phrase(where, says, told):
+    assert inside(where, says).startswith(told)

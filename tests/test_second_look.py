@@ -24,7 +24,7 @@ from robo47 import screws
 pytestmark = pytest.mark.kit
 
 DAY = find_day(1)
-AS_SOON = "It will be right as soon as task 1.4 is right."
+AS_SOON = "This task will be right as soon as task 1.4 is right."
 REFERENCE = DAY.source.read_text("utf-8")
 XYZW = REFERENCE.replace("w, x, y, z = quat", "x, y, z, w = quat", 1)
 LINK = (
@@ -50,9 +50,7 @@ def test_what_only_inherits_a_fault_is_right_as_soon_as_that_is_mended(check):
     assert verdicts["1.4"].mistake == "wxyz-read-as-xyzw"
     for task in ("1.5", "1.6", "1.8"):
         assert (verdicts[task].status, verdicts[task].mistake) == ("todo", "inherited")
-        assert (
-            verdicts[task].message == "It will be right as soon as task 1.4 is right."
-        )
+        assert verdicts[task].message == AS_SOON
 
 
 def test_a_fault_of_ones_own_shows_beside_an_inherited_one(check):
@@ -71,7 +69,7 @@ def test_a_task_that_waits_says_so_also_when_it_is_asked_alone(check):
     verdict = check(REFERENCE.replace(start, gap + start, 1), task="1.6")["1.6"]
     assert (verdict.status, verdict.message) == (
         "todo",
-        "It will be right as soon as task 1.4 is right.",
+        "This task will be right as soon as task 1.4 is right.",
     )
 
 
@@ -85,7 +83,7 @@ def test_a_wrong_term_is_told_by_when_it_is_right(check):
     )
     assert outside != text
     verdict = check(outside, day, "5.6")["5.6"]
-    assert "It is right whenever " in verdict.message
+    assert "The result is right whenever " in verdict.message
     assert "ed is 0" in verdict.message or "kd is 0" in verdict.message
 
 
@@ -97,7 +95,7 @@ def test_an_error_on_some_inputs_hides_no_wrong_answer(check):
     )
     assert code != REFERENCE
     message = check(code, task="1.3")["1.3"].message
-    assert message.startswith("It stops with ValueError")
+    assert message.startswith("Your function stops with ValueError")
     assert "in 1 of 6 calls. The other answers are wrong, too." in message
     assert "wrong sign" in message
 

@@ -247,7 +247,7 @@ def _asked(
         if early:
             raise FirstFailure(early.message.rstrip("."))
         if reply.kind:
-            says = stops_with(reply).rstrip(".").removeprefix("It ")
+            says = stops_with(reply).rstrip(".").removeprefix("Your function ")
             raise FirstFailure(f"{name} {says}")
         return reply.value
 

@@ -219,9 +219,10 @@ def _said(report: Report, result: TaskResult, explain: bool) -> str:
         return verdict.message
     if not explain and verdict.follows in {other.task.id for other in report.left}:
         word = "follows from" if verdict.status == "close" else "builds on"
-        return f"It {word} task {verdict.follows}: solve that task first."
+        return f"This task {word} task {verdict.follows}: solve that task first."
     if verdict.follows and verdict.status != "todo":
-        also = f"It builds on task {verdict.follows}, which is not right yet either."
+        also = f"This task builds on task {verdict.follows}, "
+        also += "which is not right yet either."
         return f"{verdict.message} {also}"
     return verdict.message
 

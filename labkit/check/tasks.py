@@ -218,7 +218,7 @@ def _inherited(broken: Sequence[Task]) -> Verdict:
     """Return the verdict on a task that only lacks those that it builds on."""
     *before, last = [task.id for task in broken]
     ids = f"tasks {', '.join(before)} and {last} are" if before else f"task {last} is"
-    says = f"It will be right as soon as {ids} right."
+    says = f"This task will be right as soon as {ids} right."
     return Verdict("todo", "inherited", says, follows=broken[0].id)
 
 

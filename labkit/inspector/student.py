@@ -4,6 +4,7 @@ Its methods wait for the sandbox: call them on a thread. Nothing of the student'
 in this process.
 """
 
+import re
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
@@ -160,4 +161,5 @@ def describe(day: Day, function: str, reply: Reply) -> str:
     tasks = (task.id for task in day.tasks if function in task.functions)
     verdict = no_answer(reply, function, next(tasks, ""))
     says = verdict.message if verdict else stops_with(reply)
-    return says if function in says else f"{function}: {says}"
+    named = re.search(rf"\b{re.escape(function)}\b", says)
+    return says if named else f"{function}: {says}"

@@ -41,7 +41,7 @@ DEGREES = Change(
 )
 RADIANS_TWICE = Change(
     "radians-taken-for-degrees",
-    "{name} is converted from degrees; it is in radians already",
+    "{name} is converted from degrees, but {name} is already in radians",
     np.deg2rad,
 )
 INTO_COS = DEGREES.called("degrees-into-cos")
@@ -71,7 +71,7 @@ BACKWARDS = Change(
 # One entry for another, as an index or a loop does it.
 LEFT_OUT = Change(
     "joints-left-out",
-    "no joint moves: the pose for every {name} is the one at {name} = 0",
+    "no joint moves: the result for every {name} is the pose at {name} = 0",
     np.zeros_like,
     "the pose at {name} = 0",
 )

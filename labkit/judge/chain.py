@@ -55,7 +55,7 @@ def one_place(S: Array, T: Array, factors: Sequence[Factor]) -> Finding | None:
         T: the right ones.
         factors: whose product T is.
     """
-    rest = f"(It is off by up to {Pose().apart(S, T)}; with that put right, by 0.)"
+    rest = f"(The result is off by up to {Pose().apart(S, T)}; with this corrected, 0.)"
     found = list(_in_place_of(S, factors))
     for factor, X in found:
         if factor.fixed and not steady(X):
@@ -69,7 +69,7 @@ def one_place(S: Array, T: Array, factors: Sequence[Factor]) -> Finding | None:
         off = Pose().apart(fixed[0][1][:1], fixed[0][0].T[:1])
         return Finding(
             "one-link-off",
-            f"One fixed transform is wrong, the one to {names}: it is off by {off} at "
+            f"One fixed transform is wrong, the one to {names}: its error is {off} at "
             f"every q. {rest}",
         )
     for factor, X in found:
@@ -100,10 +100,10 @@ def first_wrong(
         return ""
     k = int(np.argmax(off))
     if k == 0:
-        return f"It is wrong already for the path that ends in {names[0]}."
+        return f"The result is already wrong for the path that ends in {names[0]}."
     return (
-        f"For shorter paths, it is right up to {names[k - 1]}; the step to {names[k]} "
-        "is the first wrong one."
+        f"For shorter paths, the result is right up to {names[k - 1]}; the step to "
+        f"{names[k]} is the first wrong one."
     )
 
 

@@ -190,7 +190,7 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     That answers were looked up is said only where all are wrong, and each is one that
     another input has got.
     """
-    right = "It is right for the inputs of every check, but not for"
+    right = "The result is right for the inputs of every check, but not for"
     if isinstance(S, Finding):
         return Finding("some-inputs", f"{right} fresh ones. {S.message}")
     S = taken(asked.ask, asked.fresh, S)

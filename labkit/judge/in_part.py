@@ -85,7 +85,8 @@ def in_some_calls(m: Matcher) -> Finding | None:
         return None
     n, one = most
     others = len(wrong) - n
-    rest = "It does not explain the other " + ("one" if others == 1 else str(others))
+    rest = "This mistake does not explain the other "
+    rest += "one" if others == 1 else str(others)
     says = (
         f"One mistake explains {n} of your {len(wrong)} wrong answers: "
         f"{one.says.rstrip('?')}. {rest}."

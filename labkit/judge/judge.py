@@ -100,7 +100,7 @@ def _without_a_name(asked: Asked) -> Verdict | None:
 
 def _by_how_much(gap: Array, tolerance: float) -> Finding:
     """Return how many answers are right, and how far the others are off at worst."""
-    right = f"It is right for {np.sum(gap <= tolerance)} of {len(gap)} inputs."
+    right = f"The result is right for {np.sum(gap <= tolerance)} of {len(gap)} inputs."
     if not np.isfinite(worst := gap.max()):
         return Finding("off", right)
     return Finding("off", f"{right} The largest error is {worst:.2g}.")
@@ -220,7 +220,8 @@ def _both(
 
 def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Finding:
     if off <= near_miss.SINGLE and near_miss.single_precision(replies(asked.main), S):
-        says = "It is right to 7 digits only, because it is in float32. Use float64."
+        says = "The result has only 7 correct digits, because it is in float32. Use "
+        says += "float64."
         return Finding("float32", says)
     i = worst_part(case.ask.kinds, S, T, case.ask.near)
     found = case.ask.near_miss(case) if case.ask.near_miss else None
@@ -387,7 +388,7 @@ def _with_its_size(case: Case, S: Parts, T: Parts) -> Finding | None:
     if found is None or re.search(r"\d", found.message) or any(k.whole for k in kinds):
         return found
     k = worst_part(kinds, S, T, case.ask.near)
-    off = f"It is off by up to {kinds[k].apart(S[k], T[k])}."
+    off = f"The result is off by up to {kinds[k].apart(S[k], T[k])}."
     return Finding(found.slug, f"{found.message} {off}")
 
 
@@ -416,7 +417,8 @@ def _not_finite(m: Matcher) -> Finding | None:
     good = np.all([one.all(axis=1) for one in there], axis=0)
     if good.all():
         return None
-    says = f"It returns NaN or infinity for {np.sum(~good)} of {len(good)} inputs"
+    some = f"{np.sum(~good)} of {len(good)} inputs"
+    says = f"Your function returns NaN or infinity for {some}"
     found = Finding("not-finite", f"{says}{_first(~good, case.given, 'first for')}.")
     if not good.any():
         return found
@@ -465,7 +467,8 @@ def _none_or_not(m: Matcher) -> Finding | None:
             many = count(made.sum(), "input")
             says += [f"an answer for {many} where None is expected ({kind.none})"]
         where = _first(lost | made, case.given, "first for")
-        called = f"{kind.called}: it" if len(S) > 1 and kind.called else "It"
+        several = len(S) > 1 and kind.called
+        called = f"{kind.called}: your function" if several else "Your function"
         return Finding("none-or-not", f"{called} returns {', and '.join(says)}{where}.")
     return None
 
@@ -482,7 +485,7 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
         where = tried.in_common(case, S, T, i)
         wrong = difference(S[i], T[i], kind.scale, ask.rtol) > ask.tolerance
         if not wrong.all():
-            it = capitalised(kind.called) if called else "It"
+            it = capitalised(kind.called) if called else "The result"
             where += f" {it} is right for {np.sum(~wrong)} of {len(wrong)} inputs"
             where += f"{_first(wrong, case.given, 'but not for')}."
     right = _right_results(case, S, T)
@@ -539,10 +542,10 @@ def _all_the_same(m: Matcher) -> Finding | None:
     whole = as_one([answer for some in every for answer in some])
     if len(S) < 2 or difference(whole, whole[0]).max() > 1e-8:
         return None
-    off = f"(It is off by up to {kind.apart(S, m.T[i])}.)"
+    off = f"(The result is off by up to {kind.apart(S, m.T[i])}.)"
     square = S.ndim == 3 and S.shape[1] == S.shape[2]
     if square and np.array_equal(S[0], np.eye(S.shape[1])):
-        says = f"It returns the identity for every input. {off}"
+        says = f"Your function returns the identity for every input. {off}"
         return Finding("always-the-identity", says)
     says = "The answer is the same for every input, so it does not depend on the input."
     return Finding("ignores-its-input", f"{says} {off}")

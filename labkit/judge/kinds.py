@@ -91,16 +91,17 @@ class Kind:
                 found.append(self.numbers(None))
                 continue
             if value is None or isinstance(value, str):
-                says = f"It returns {value!r}; expected {self.expected}."
+                says = f"Your function returns {value!r}; expected {self.expected}."
                 slug = "not-an-array" if value else "nothing-returned"
                 return Finding(slug, says)
             try:
                 array = np.asarray(value)
             except ValueError:  # parts of different shapes
-                says = f"It returns {_shapes(value)}"
+                says = f"Your function returns {_shapes(value)}"
                 return Finding("shape", f"{says}; expected {self.expected}.")
             if array.dtype.kind not in "fiub":
-                says = f"It returns {array.dtype} values; expected {self.expected}"
+                says = f"Your function returns {array.dtype} values; "
+                says += f"expected {self.expected}"
                 return Finding("not-numbers", f"{says} of real numbers.")
             if not self.fits(array.shape):
                 return self._misfit(array.shape, values)
@@ -118,7 +119,7 @@ class Kind:
         with contextlib.suppress(ValueError):  # one has parts of different shapes
             fit = sum(self.fits(np.asarray(value).shape) for value in values)
             often = f" in {len(values) - fit} of {len(values)} calls" if fit else ""
-        says = f"It returns shape {got}{often}; expected {expected}."
+        says = f"Your function returns shape {got}{often}; expected {expected}."
         return Finding("shape", says)
 
     def numbers(self, value: Any) -> Array:
@@ -137,7 +138,7 @@ class Kind:
 
     def another_size(self, got: tuple[int, ...], right: tuple[int, ...]) -> str:
         """Return that an answer has not the size that its question asks for."""
-        return f"It returns shape {got}; expected shape {right}"
+        return f"Your function returns shape {got}; expected shape {right}"
 
     def _sent(self, answer: Array) -> Any:
         return answer if np.ndim(answer) else float(answer)
@@ -176,7 +177,7 @@ class Kind:
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
         """Return the most useful true thing about answers that no mistake gives."""
         return one_factor(self, S, T) or Finding(
-            "off", f"It is off by up to {self.apart(S, T)}."
+            "off", f"The result is off by up to {self.apart(S, T)}."
         )
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:
@@ -224,10 +225,10 @@ class Vector(Kind):
             says = f"{where} {'are' if len(empty) > 1 else 'is'} 0 every time. It is "
             return Finding("entries-empty", f"{says}off by up to {self.apart(S, T)}.")
         if not same and _only_the_last(gap(S, T) > RIGHT * self.scale, S, T):
-            says = "All entries are right except the last: it is off by up to "
+            says = "All entries are right except the last one, which is off by up to "
             return Finding("few-entries-off", f"{says}{self.apart(S, T)}.")
         if not 0 < off.sum() <= (max(1, len(off) // 3) if same else 1):
-            return Finding("off", f"It is off by up to {self.apart(S, T)}.")
+            return Finding("off", f"The result is off by up to {self.apart(S, T)}.")
         names = [f"{name}'s" for name in self.names] or counted
         where = " and ".join(names[i] for i in np.flatnonzero(off))
         says = f"All entries are right except {where}: off by up to {self.apart(S, T)}."
@@ -260,8 +261,8 @@ def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:
         return None
     return Finding(
         "one-factor-off",
-        f"It is {say_factor(factor)} times the right one, in every entry and every "
-        "time.",
+        f"The result is {say_factor(factor)} times the right one, in every entry and "
+        "every time.",
     )
 
 

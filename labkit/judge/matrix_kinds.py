@@ -67,7 +67,7 @@ class Matrix(Kind):
             few_entries(self, S, T)
             or one_factor(self, S, T)
             or part_off(self, S, T)
-            or Finding("off", f"It is off by up to {self.apart(S, T)}.")
+            or Finding("off", f"The result is off by up to {self.apart(S, T)}.")
         )
 
 
@@ -90,7 +90,7 @@ def part_off(kind: Matrix, S: Array, T: Array) -> Finding | None:
     off = f"off by up to {kind.apart(S, T)}"
     alone = np.ndim(kind.scale) == 0
     if alone and (found := one_factor(kind, S[:, wrong], T[:, wrong])):
-        times = found.message.removeprefix("It ").partition(",")[0]
+        times = found.message.removeprefix("The result ").partition(",")[0]
         off = f"this part {times}"
     return Finding("part-off", f"{says}: {off}.")
 
@@ -147,7 +147,7 @@ class Jacobian(Matrix):
                 f"The columns are right up to joint {bad[0]}, and wrong from there on"
             )
         else:
-            says = "Half of it is right" if where else "It is wrong"
+            says = "Half of the matrix is right" if where else "The matrix is wrong"
         return Finding(
             "columns-off", f"{says}: off by up to {self.apart(S, T)}{where}."
         )
@@ -162,8 +162,8 @@ class Symmetric(Matrix):
         if float(difference(S, S.mT, self.scale).max()) > NEAR:
             return Finding(
                 "not-symmetric",
-                "It should be symmetric, but it differs from its transpose by "
-                f"{skew:.3g}. It is off by up to {self.apart(S, T)}.",
+                "The result should be symmetric, but differs from its transpose by "
+                f"{skew:.3g}. The result is off by up to {self.apart(S, T)}.",
             )
         found = few_entries(self, S, T) or one_factor(self, S, T)
         if found := found or part_off(self, S, T):
@@ -201,8 +201,8 @@ class Covariance(Symmetric):
             return super().what_is_wrong(S, T)
         return Finding(
             "not-positive",
-            f"It has a negative eigenvalue ({least:.3g}), so it is no covariance. It "
-            f"is off by up to {self.apart(S, T)}.",
+            f"The result has a negative eigenvalue ({least:.3g}), so it is not a "
+            f"covariance. The result is off by up to {self.apart(S, T)}.",
         )
 
 

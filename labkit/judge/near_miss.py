@@ -37,7 +37,8 @@ def explain(S: Array, T: Array) -> Finding:
     )
     return Finding(
         "rounded-somewhere",
-        f"It is close, but off by {about}, and rounding leaves about 1e-15. {why}",
+        f"The result is close, but off by {about}, and rounding leaves about 1e-15. "
+        + why,
     )
 
 
@@ -109,7 +110,7 @@ def _in_another_order(S: Array, T: Array, wrong: Array, shape: Sequence[int]) ->
         turned = np.swapaxes(T.reshape(shape), 1, 2).reshape(len(T), -1)
         near = EXACT * np.abs(T).max()
         if np.abs(S - turned)[wrong].max() <= near:
-            return " In every wrong call it is the transpose of the right answer."
+            return " In every wrong call the result is the transpose of the right one."
     if len(shape) > 2 and not wrong.all():
         return ""  # an order that is right in some calls is none
     return " The numbers are right, but they are in the wrong order."

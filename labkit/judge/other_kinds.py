@@ -120,10 +120,11 @@ class Count(Scalar):
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         odd = S[np.round(S) != S]
         if odd.size:
-            says = f"It returned {odd[0]:g}; expected {self.expected}."
+            says = f"Your function returned {odd[0]:g}; expected {self.expected}."
             return Finding("not-whole", says)
         i = int(np.argmax(S != T))
-        return Finding("miscounted", f"It returned {S[i]:z.0f}; expected {T[i]:z.0f}.")
+        says = f"Your function returned {S[i]:z.0f}; expected {T[i]:z.0f}."
+        return Finding("miscounted", says)
 
 
 @dataclass(frozen=True)
@@ -138,14 +139,16 @@ class Index(Count):
             one = isinstance(value, float | bool | np.generic | np.ndarray)
             array = np.asarray(value if one else 0)
             if array.ndim == 0 and array.dtype.kind not in "iu":
-                says = f"It returns {value!r}; expected {self.expected}: an array "
+                says = f"Your function returns {value!r}; "
+                says += f"expected {self.expected}: an array "
                 says += "takes no other in its brackets. Make it one: int(...)."
                 return Finding("not-an-index", says)
         return super().read(values)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         i = int(np.argmax(S != T))
-        says = f"It returned {S[i]:z.0f}; expected {T[i]:z.0f}, counted from 0."
+        says = f"Your function returned {S[i]:z.0f}; "
+        says += f"expected {T[i]:z.0f}, counted from 0."
         return Finding("another-one", says)
 
 
@@ -175,7 +178,8 @@ class Word(Kind):
         for value in values:
             known = isinstance(value, str) and value in self.words
             if not known and not (value is None and self.none):
-                says = f"It returns {_briefly(value)}; expected {self.expected}."
+                says = f"Your function returns {_briefly(value)}; "
+                says += f"expected {self.expected}."
                 return Finding("another-word", says)
         return [self.numbers(value) for value in values]
 
@@ -194,7 +198,8 @@ class Word(Kind):
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         i = int(np.argmax(S != T))
-        says = f"It returned {self.sent(S[i])!r}; expected {self.sent(T[i])!r}."
+        says = f"Your function returned {self.sent(S[i])!r}; "
+        says += f"expected {self.sent(T[i])!r}."
         return Finding("the-other-word", says)
 
 
@@ -222,13 +227,13 @@ class Mask(Kind):
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if (odd := S[(S != 0) & (S != 1)]).size:
-            says = f"It returned {odd[0]:zg}; expected {self.expected}."
+            says = f"Your function returned {odd[0]:zg}; expected {self.expected}."
             return Finding("not-true-or-false", says)
         yes, no = int(np.sum((S == 1) & (T == 0))), int(np.sum((S == 0) & (T == 1)))
         parts = [f"True in {count(yes, 'case')} where False is expected"] * (yes > 0)
         parts += [f"False in {count(no, 'case')} where True is expected"] * (no > 0)
         slug = "both-ways" if yes and no else f"too-{'often' if yes else 'seldom'}-true"
-        return Finding(slug, f"It returned {', and '.join(parts)}.")
+        return Finding(slug, f"Your function returned {', and '.join(parts)}.")
 
 
 @dataclass(frozen=True)
@@ -245,13 +250,14 @@ class Waypoints(Matrix):
         if got[1:] != right[1:]:
             return super().another_size(got, right)
         its = right[0] or "none"
-        return f"It has {count(got[0], 'waypoint')}; expected {its}"
+        return f"Your path has {count(got[0], 'waypoint')}; expected {its}"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         off = gap(S, T) / self.scale > RIGHT
         first = int(np.argmax(off.any(axis=(0, 2))))
-        says = f"It is right before waypoint {first}, counted from 0, and wrong there"
-        says = says if first else "It is wrong from its first waypoint on"
+        says = f"The path is right before waypoint {first}, counted from 0, "
+        says += "and wrong there"
+        says = says if first else "The path is wrong from its first waypoint on"
         return Finding("off", f"{says}: off by up to {self.apart(S, T)}.")
 
 

@@ -56,7 +56,7 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
             says += f" To restore its starter: make start RESET={task}." if task else ""
         case "BdbQuit":
             slug = "breakpoint"
-            says = f"It stops in the debugger (line {reply.line}): "
+            says = f"Your function stops in the debugger (line {reply.line}): "
             says += "take breakpoint() out."
         case "RefusedError":
             return refusal(reply.refused[0] if reply.refused else "", reply.line)
@@ -67,7 +67,7 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
         case "NotImplementedError":
             named = re.search(r"task (\d+\.\d+)", reply.error)
             if named and named[1] != task:
-                says = f"It calls task {named[1]}, which is not written yet."
+                says = f"Your function calls task {named[1]}, which is not written yet."
                 return Verdict("todo", "waits", says, follows=named[1])
             says = f"Not written yet: {reply.error or 'the task is still to do.'}"
             return Verdict("todo", "unwritten", says)
@@ -90,7 +90,7 @@ def stops_with(reply: Reply, often: str = "") -> str:
     why = f" {ONLY_IN_MAIN}" if reply.kind == "ModuleNotFoundError" else ""
     if reply.kind == "EOFError":
         why = " Does it call input()? Nobody types during a check: use its arguments."
-    return f"It stops with {text}{where}{often}.{why}"
+    return f"Your function stops with {text}{where}{often}.{why}"
 
 
 def refusal(what: str, line: int | None) -> Verdict:
@@ -110,7 +110,7 @@ def refusal(what: str, line: int | None) -> Verdict:
     elif what.startswith("call "):
         slug = "not-by-hand"
         why = "In a task you compute the answer yourself; MuJoCo is only the reference."
-    return Verdict("wrong", slug, f"It tries to {what}{where}. {why}")
+    return Verdict("wrong", slug, f"Your function tries to {what}{where}. {why}")
 
 
 def not_loaded(script: Path, reply: Reply) -> str:
@@ -152,10 +152,11 @@ def read(exchanges: Iterable[Exchange], ask: Ask, source: str = "") -> Parts | F
         return Finding("raises", stops_with(broken[0], often))
     nothing = sum(reply.value is None for reply in replied)
     if nothing and not getattr(ask.kind, "none", ""):
-        says = "It returns nothing (None). Is the result computed, but not "
+        says = "Your function returns nothing (None). Is the result computed, but not "
         says += "returned?"
         if nothing < len(replied):
-            says = f"It returns None for {nothing} of {len(replied)} inputs; "
+            some = f"{nothing} of {len(replied)} inputs"
+            says = f"Your function returns None for {some}; "
             says += f"{results.expected(ask.kind)}."
         return Finding("nothing-returned", says)
     columns = results.read(ask.kind, [reply.value for reply in replied])
@@ -250,7 +251,8 @@ def shared_memory(replies: Sequence[Reply], copies: bool = True) -> Finding | No
     if "another answer" in shared:
         return Finding(
             "one-array-for-all",
-            "It returns the same array object in every call, so the next call "
+            "Your function returns the same array object in every call, so the next "
+            "call "
             "overwrites the last answer. Create a new array in the function.",
         )
     if shared and copies:

@@ -59,7 +59,8 @@ def split(kind: Kinds, value: Any) -> tuple[Any, ...] | Finding:
     whole = isinstance(value, np.ndarray) and value.ndim and flat
     some = tuple(value) if whole else value  # a result in each row
     if not isinstance(some, tuple | list) or len(some) != len(kind):
-        return Finding("parts", f"It returns {_given(value)}; {expected(kind)}.")
+        says = f"Your function returns {_given(value)}; {expected(kind)}."
+        return Finding("parts", says)
     parts: tuple[Any, ...] = ()
     for one, item in zip(kind, some, strict=True):
         if isinstance(found := split(one, item), Finding):

@@ -1,9 +1,9 @@
 """Controlled experiments on a wrong function: with which argument neutral it is right.
 
-"It is right whenever ed is 0, and whenever M is the identity" says which term is wrong
-where no named mistake fits. It is said only where it was tried: at the calls that were
-answered wrongly, made neutral, and then at fifty inputs and more of both signs and
-several sizes. Each of the two rounds is one batch of questions.
+"The result is right whenever ed is 0, and whenever M is the identity" says which term
+is wrong where no named mistake fits. It is said only where it was tried: at the calls
+that were answered wrongly, made neutral, and then at fifty inputs and more of both
+signs and several sizes. Each of the two rounds is one batch of questions.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -139,7 +139,7 @@ class Experiments:
             others: other wrong functions. What is true of most of them says nothing.
         """
         says = [claim.says for claim in self.tested(others)]
-        return f"It is right {', and '.join(says)}." if says else ""
+        return f"The result is right {', and '.join(says)}." if says else ""
 
     def tested(self, others: Sequence[Answers] = ()) -> list[Claim]:
         """Return what holds, the most telling first: two claims at most."""

@@ -65,7 +65,7 @@ class Pose(Kind):
     expected = "a 4x4 matrix"
     misfits: ClassVar = {
         (3, 4): "the bottom row (0, 0, 0, 1) is missing",
-        (3, 3): "this is the rotation alone",
+        (3, 3): "it is only the rotation",
     }
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
@@ -85,7 +85,7 @@ class Pose(Kind):
         (R, t), (R_true, t_true) = split(S), split(T)
         if (off := _bottom(S)).max() > NEAR:
             row = ", ".join(f"{x:z.3g}" for x in S[np.argmax(off), 3])
-            says = f"The bottom row is ({row}), not (0, 0, 0, 1), so this is no pose."
+            says = f"The bottom row is ({row}), not (0, 0, 0, 1), so it is not a pose."
             return Finding("bottom-row", says)
         t_off = say_mm(millimetres(t, t_true))
         if difference(R, R_true).max() <= RIGHT and t_off != "0":

@@ -19,6 +19,7 @@ which proves the name. Nothing else is written of a mistake.
 
 import importlib
 import inspect
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial, update_wrapper
@@ -61,6 +62,22 @@ class Way:
     def named(self) -> bool:
         """Whether making it again is what names it."""
         return self.status == "wrong" and self.says != ""
+
+
+def inside(where: str, says: str) -> str:
+    """Return a clause with its place in front: "in [p] of the adjoint, ...".
+
+    Args:
+        where: the place, such as "in the adjoint, ".
+        says: a clause, which may begin with a smaller place, "in [p], ...". The name of
+            a function is a place by itself.
+    """
+    inner = re.match(r"in ([^,]+), ", says)
+    if not inner or not re.fullmatch(r"in [^,]+, ", where):
+        return where + says
+    if re.fullmatch(r"`\w+`", inner[1]):
+        return says
+    return f"in {inner[1]} of {where[3:]}{says[inner.end() :]}"
 
 
 class Row:
@@ -297,7 +314,7 @@ class Row:
             for way in row_of(self._day, small).named:
                 if way.slug not in but:
                     code = self._calling(small, way.code, given)
-                    says = f"{where}{way.says}"
+                    says = inside(where, way.says)
                     for there, here in called.items():
                         says = says.replace(there, here)
                     why = hidden.get(way.slug, way.hidden)

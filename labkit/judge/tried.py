@@ -31,7 +31,7 @@ def what_is_wrong(case: Case, S: Parts, T: Parts, i: int) -> Finding:
     """
     kind = case.ask.kinds[i]
     found = kind.what_is_wrong(S[i], T[i])
-    plain = Finding("off", f"It is off by up to {kind.apart(S[i], T[i])}.")
+    plain = Finding("off", f"The result is off by up to {kind.apart(S[i], T[i])}.")
     if near_miss.about_right(S[i], T[i]) and found.slug not in _EXACT:
         return plain
     if case.further is None:

@@ -88,7 +88,7 @@ class Answered(InTurn):
             raise self.fault(says) from None
         found = read(self.kind, answers)
         if isinstance(found, Finding):
-            says = found.message.replace("It returns", "truth returns")
+            says = found.message.replace("Your function returns", "truth returns")
             says = says.replace("; expected", ", and its kind").replace(
                 "expected are", "its kind is"
             )

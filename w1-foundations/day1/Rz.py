@@ -43,8 +43,8 @@ def _(theta):
     minus-twice: both sines have a minus sign, so the matrix is not orthonormal
     reflection: a cosine has the minus sign that belongs to a sine, so the matrix is a
       reflection (det R = -1)
-    small-angle-formula: a small theta has its own formula, sin theta = theta and cos
-      theta = 1, which is only approximate
+    small-angle-formula: your code replaces the sine of a small angle by the angle and
+      its cosine by 1, which is only approximate
     z-lost: the last diagonal entry is 0, so the z component of a point is lost
     """
     c, s = np.cos(theta), np.sin(theta)

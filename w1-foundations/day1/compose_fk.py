@@ -90,7 +90,7 @@ for k in range(1, 8):
 
 @row.wrongs
 def _(model, q, path=PATH):
-    """home-whatever-q: the pose does not depend on q: it is always the pose of the
+    """home-whatever-q: the result does not depend on q, but is always the pose of the
       ready configuration => that pose
     ready-subtracted: the angles of the ready configuration are subtracted from q; each
       joint rotates by its entry of q => the pose at q minus these angles

@@ -1,4 +1,4 @@
-"""Frames near the flange that are taken for the end effector.
+"""Frames near the flange that are mistaken for the end effector.
 
 The chain is right, but ends in another frame than the one asked for:
 inv(T_true) @ T_student is the same at every q, and that constant has a name.
@@ -35,8 +35,8 @@ ALL = [*ENDS.items(), ("fingertip-for-the-end", HANDS_TIP)]
 
 def elsewhere(model, q, path=PATH):
     """hand-for-attachment-site: the result is the pose of `hand`, a body of another
-      model; this model ends in `attachment_site`, and the two differ by a rotation of
-      180 degrees about z => the pose of `hand`
+      model. This model ends in `attachment_site`; the two frames differ by a rotation
+      of 180 degrees about z => the pose of `hand`
     finger-for-the-end: the result is the pose of a finger; the chain ends at the flange
       => the pose of a finger
     fingertip-for-the-end: the result is the pose between the fingertips (the tool

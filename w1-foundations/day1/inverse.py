@@ -43,17 +43,17 @@ def _(rng):
 @row.wrongs
 def _(T):
     """unchanged: T is returned unchanged
-    T-transposed: the whole 4x4 matrix is transposed; this inverts R, but moves the
+    T-transposed: the whole 4x4 matrix is transposed, which inverts R but moves the
       translation to the last row => T transposed
-    t-only-negated: the rotation is correct, but the translation is -t; the inverse's
+    t-only-negated: the rotation is correct, but the translation is -t. The inverse's
       translation is expressed in the rotated frame, so -t has to be rotated first =>
       the correct rotation with -t
     t-turned-forwards: the rotation is correct, but -t is multiplied by R instead of the
       inverse of R
     R-kept: the translation is correct, but the rotation is still R => the correct
       translation with R
-    R-kept-t-negated: the rotation is still R, and t is only negated; this inverts a
-      pure translation => R with -t
+    R-kept-t-negated: the rotation is still R, and t is only negated, which inverts only
+      a pure translation => R with -t
     R-kept-t-turned-forwards: R is not inverted, neither in the rotation nor in the
       translation
     all-signs: every entry is negated; the negative of a transform is not its inverse
@@ -76,8 +76,8 @@ def _(T):
 
 @row.wrong
 def one_over_each_entry(T):
-    """every entry is replaced by its reciprocal; the inverse of a matrix is another
-    matrix => 1 over each entry"""
+    """every entry is replaced by its reciprocal; these reciprocals are not the inverse
+    of the matrix => 1 over each entry"""
     with np.errstate(divide="ignore"):
         return 1.0 / T
 

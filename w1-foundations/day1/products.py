@@ -48,16 +48,16 @@ def chain_reversed(model, q, path=PATH):
 
 def on_each_other(model, q, path=PATH):
     """last-step-in-the-world: the offset of attachment is added along the world's axes;
-      it is expressed in the frame of the body before it => the correct result with that
-      offset in the world frame
+      this offset is expressed in the frame of the previous body => the correct result
+      with that offset in the world frame
     last-step-on-the-left: the factor of attachment is multiplied on the left, so it
-      moves the whole arm; it belongs on the right => the product with that factor on
+      moves the whole arm; multiply it on the right => the product with that factor on
       the left
     local-taken-for-world: the pos and quat of attachment in the file are used as its
-      pose in the world; they are relative to its parent => the pose in the file
+      pose in the world; pos and quat are relative to the parent => the pose in the file
     offsets-summed: the rotation is correct, but the offsets are added as they are in
-      the file; each is expressed in the rotated frame of its parent => the correct
-      rotation with a plain sum
+      the file. Each offset is expressed in the rotated frame of its parent => the
+      correct rotation with a plain sum
     point-with-w-0: the rotation is correct, but attachment's offset is only rotated and
       the translation before it is lost: a point needs 1, not 0, as its fourth entry =>
       the correct result with that 0

@@ -70,7 +70,8 @@ HALVES = {
     "the right factor's",
     "wrong-rotation": "the right factor's translation is rotated by its own R; rotate "
     "it by the left factor's R",
-    "both-turned": "both translations are rotated; the left factor's own is not",
+    "both-turned": "the translations of both factors are rotated; do not rotate the "
+    "translation of the left factor",
     "subtracted": "one translation is subtracted; add the two",
     "summed-by-columns": "R and the right factor's translation are multiplied entry by "
     "entry and summed (R * t); use R @ t",
@@ -114,7 +115,7 @@ def _other_order(R_a, t_a, R_b, t_b):
 
 
 for which, two in (("first", (_other_order, right)), ("second", (right, _other_order))):
-    says = f"the {which} translation repeats the one of the other order"
+    says = f"the {which} translation is computed for the other order of the factors"
     row.wrong("same-order-twice", says)(both(*two))
 row.wrong(
     "orders-swapped",

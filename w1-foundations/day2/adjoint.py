@@ -21,8 +21,8 @@ def _(rng):
 
 @row.wrongs
 def _(T):
-    """block-top-right: [p] R is in the upper right block; this is for twists (v; omega)
-      and for wrenches, and omega comes first
+    """block-top-right: [p] R is in the upper right block, as for wrenches and for
+      twists (v; omega); in this course, omega comes first
     no-lever-arm: the lower left block is 0; v depends on omega if the origins differ =>
       the correct result without that block
     on-both-sides: [p] R is in both off-diagonal blocks; omega does not depend on the

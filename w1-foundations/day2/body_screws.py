@@ -22,11 +22,12 @@ def _(rng):
 def _(screws, M):
     """adjoint-of-M: the adjoint of M is used; M maps end-effector coordinates to the
       world, and the screws need the inverse => Ad(M) S
-    from-the-right: the adjoint is correct, but the screws are multiplied by it as rows;
-      it acts on columns => S Ad(M^-1)
+    from-the-right: the adjoint is correct, but it multiplies the screws as rows; the
+      adjoint acts on columns => S Ad(M^-1)
     unchanged: the screws are returned unchanged, still expressed in the world frame
-    transposed-for-inverse: Ad(M) is transposed, but its inverse is not its transpose;
-      the result is the same if [p] R is top right in the adjoint => Ad(M)^T S
+    transposed-for-inverse: Ad(M) is transposed, but its inverse is not its transpose.
+      The same result follows if [p] R is in the upper right block of the adjoint =>
+      Ad(M)^T S
     no-lever-arm: both halves are only rotated: the lower left block of the adjoint is 0
       (is M.T used as the inverse of M?) => the correct result without that block
     t-only-negated: in the inverse of M, the translation is -t; it should be expressed

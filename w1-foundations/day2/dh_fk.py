@@ -79,8 +79,8 @@ row.of_argument("q", LEFT_OUT)
 for by in (1, -1):
     row.wrong(
         "alpha-of-the-neighbour",
-        "each row has the alpha of its neighbour; tables of the standard convention "
-        "have alpha one row earlier, and this table does not",
+        "each row uses the alpha of its neighbour. Tables of the standard convention "
+        "have alpha one row earlier, but this table does not",
         "the product with that column shifted",
     )(lambda table, q, by=by: dh_fk(np.c_[np.roll(table[:, 0], by), table[:, 1:]], q))
 for names, order in (
@@ -92,7 +92,7 @@ for names, order in (
 ):
     row.wrong(
         "columns-mixed-up",
-        f"the columns are read as ({names}); they are (alpha, a, d)",
+        f"the columns are read as ({names}); the order is (alpha, a, d)",
         "the product with the columns read so",
     )(lambda table, q, order=order: dh_fk(table[:, order], q))
 row.reached_by("dh_link", "in every row, ", but=["theta-forgotten"])

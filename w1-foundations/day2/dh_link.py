@@ -74,8 +74,8 @@ for order in ("zxXZ", "XzxZ", "XzZx"):
 def _(alpha, a, d, theta):
     """both-turns-backwards: both rotations have the wrong sense => the correct result
       with -alpha and -theta
-    radians-taken-for-degrees: both angles are converted from degrees; they are in
-      radians already => the correct result with smaller angles
+    radians-taken-for-degrees: both angles are converted from degrees, but they are
+      already in radians => the correct result with smaller angles
     alpha-forgotten: alpha has no effect => the correct result with alpha = 0
     theta-forgotten: theta has no effect => the correct result with theta = 0
     """

@@ -64,8 +64,8 @@ def _(axis, theta):
       angles only => I + theta K
     second-order-only: the series ends after the term with theta squared; it has
       infinitely many terms => the series up to that term
-    cosine-before-identity: the identity has the factor cos; this belongs to the form
-      with axis axis^T, not to the form with K K => the formula with cos I
+    cosine-before-identity: the identity has the factor cos; this factor belongs to the
+      form with axis axis^T, not to the form with K K => the formula with cos I
     half-angle-not-squared: the factor of K K is 2 sin(theta / 2); 1 - cos is twice the
       square of that sine => the formula with 2 sin(theta / 2)
     """

@@ -71,10 +71,10 @@ def travelled(S, theta, one, first, second):
 @row.wrongs(hidden={"theta-wrapped": "the lab's angles are between -pi and pi"})
 def _(S, theta):
     """twist-order: the halves are read as (v; omega); omega comes first
-    hinge-at-the-origin-forgotten: a screw with v = 0 does not move; it is a rotation
-      about a line through the origin => the correct result with I where v is 0
-    turns-backwards: the motion has the wrong sense: it is the motion by -theta => that
-      motion
+    hinge-at-the-origin-forgotten: a screw with v = 0 causes no motion; such a screw is
+      a rotation about a line through the origin => the correct result with I where v is
+      0
+    turns-backwards: the motion has the wrong sense, as for -theta => that motion
     theta-wrapped: theta is wrapped to the range from -pi to pi; the translation along
       the axis is not periodic => the motion by that angle
     """
@@ -131,7 +131,7 @@ def _(S, theta):
 def _(S, theta):
     """R-times-v: the rotation is correct, but the translation is R v; it should be the
       integral of the rotated velocity => the correct rotation with R v
-    R-times-theta-v: the rotation is correct, but the translation is theta R v; the
+    R-times-theta-v: the rotation is correct, but the translation is theta R v. The
       velocity rotates during the motion, so it has to be integrated
     travel-on-a-line: the rotation is correct, but the translation is theta v, a
       straight line; the path of a screw motion is curved => the correct rotation with
@@ -141,18 +141,19 @@ def _(S, theta):
       well => the correct rotation with R t
     travel-over-theta: the rotation is correct, but the translation is divided by theta
       => the correct rotation with t / theta
-    moment-used-as-point: v is used as a point on the axis; it is the velocity of the
+    moment-used-as-point: v is used as a point on the axis, but v is the velocity of the
       origin => the rotation about the line through v
-    pitch-forgotten: a screw that rotates loses the part of its translation along the
-      axis => the correct result without that part
-    pitch-without-theta: if a screw rotates, the part of its translation along the axis
+    pitch-forgotten: if omega is not 0, the part of the translation along the axis is
+      missing => the correct result without that part
+    pitch-without-theta: if omega is not 0, the part of the translation along the axis
       is not multiplied by theta => the correct result with that part constant
-    hinges-only: every screw loses the part of its translation along the axis => the
-      correct result without that part
+    hinges-only: for every screw, the part of the translation along the axis is missing
+      => the correct result without that part
     sign-of-the-point: the rotation is correct, but the point on the axis has the wrong
-      sign: it is omega x v, multiplied by I - R => the correct result with that sign
-    slide-forgotten: a screw with omega = 0 does not move; it is a pure translation =>
-      the correct result with I for omega = 0
+      sign: the point is omega x v, multiplied by I - R => the correct result with that
+      sign
+    slide-forgotten: a screw with omega = 0 causes no motion; such a screw is a pure
+      translation => the correct result with I for omega = 0
     slide-without-theta: a screw with omega = 0 translates by v; it should translate by
       theta v => the correct result with v for omega = 0
     """

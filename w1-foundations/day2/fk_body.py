@@ -18,10 +18,10 @@ either_form(row, body)
 @row.wrongs
 def _(body_screws, M, q):
     """M-last: M is on the right of the exponentials, or the screws are transformed
-      again; the motions of screws in the end-effector frame act on the right of M =>
-      the product with M last
-    motions-on-the-left: each exponential is multiplied on the left of the product;
-      these screws are in the end-effector frame, so it belongs on the right
+      again. The exponentials of screws in the end-effector frame multiply M on the
+      right => the product with M last
+    motions-on-the-left: each exponential multiplies the product on the left. The screws
+      are expressed in the end-effector frame, so each exponential belongs on the right
     """
     return {
         "M-last": lambda: space(body_screws, M, q),

@@ -16,8 +16,9 @@ either_form(row, space)
 
 @row.wrongs
 def _(screws, M, q):
-    """M-first: M is on the left of the exponentials; the screws are expressed in the
-      world frame, so their motions act on M from the left => the product with M first
+    """M-first: M is to the left of the exponentials. The screws are expressed in the
+      world frame, so their exponentials multiply M on the left => the product with M
+      first
     M-only-added: the translation of M is added and its rotation is missing; multiply by
       M => the product with t of M added
     space-screws-in-body-form: the screws are transformed to the end-effector frame, but
@@ -35,8 +36,8 @@ def _(screws, M, q):
 
 @row.wrong
 def screws_moved_along(screws, M, q):
-    """each screw is transformed by the joints before it; the product does this already,
-    so use the screws at q = 0 => that product"""
+    """each screw is transformed by the joints before it. The product already includes
+    these motions, so use the screws at q = 0 => that product"""
     T = np.eye(4)
     for S, theta in zip(screws, q, strict=True):
         T = T @ motion(adjoint(T) @ S, theta)

@@ -1,7 +1,7 @@
 """Day 2 in the inspector: the student's `fk_space` as a ghost, and the tab Screws.
 
 The tab applies one exponential at a time, the last joint's first: e^[S] q moves all
-that is outside its line, and the line itself has not moved yet. The lines are those of
+that is outside its line, and the line itself has not moved yet. The lines come from
 the student's own `joint_screws`, the matrix is their `exp_screw`, the purple arm their
 `fk_space`. Beside it, their `dh_link` of the joint's row in Franka's DH table, and the
 file's pos and quat of the same link.

@@ -26,18 +26,18 @@ def _(rng):
 def _(T_zero):
     """axis-row-not-column: the axis is a row of R; the link's z axis, expressed in the
       world frame, is a column => the answer with the third row
-    axis-local-z: the axis is (0, 0, 1) for every joint; this is z in the link's frame,
-      and the screw is expressed in the world frame => the answer with (0, 0, 1)
+    axis-local-z: the axis is (0, 0, 1) for every joint, which is z in the link frame.
+      The screw should be expressed in the world frame => the answer with (0, 0, 1)
     axis-x-column: the axis is the link's x axis; the Panda's joints rotate about z
     axis-y-column: the axis is the link's y axis; the Panda's joints rotate about z
     point-is-local-pos: the point is the position of each link relative to its parent;
       the screw is expressed in the world frame
     all-local: the axis and the point are relative to the parent link; the screw is
       expressed in the world frame => the answer from those poses
-    poses-multiplied: the poses are multiplied along the arm; they are poses in the
-      world frame already => the answer from those products
-    point-turned-back: the point is rotated into the link's frame; it is in the world
-      frame already => the answer with R^T p
+    poses-multiplied: the poses are multiplied along the arm; the given poses are
+      already relative to the world => the answer from those products
+    point-turned-back: the point is rotated into the link frame; the point is already
+      expressed in the world frame => the answer with R^T p
     next-links-point: the point of each joint is the origin of the next link, which is
       not always on the joint's axis => the answer with those points
     """

@@ -73,8 +73,8 @@ def _in_the_product(row, form):
         """product-reversed: the exponentials are in the reverse order; the joint
           nearest to the base belongs on the left => the product in reverse order
         M-twice: M is on both sides of the exponentials => the product with M twice
-        M-in-the-loop: M is inside the loop, so the product contains it once per joint;
-          it belongs there once => that product
+        M-in-the-loop: M is inside the loop, so the product contains M once per joint;
+          it should contain M only once => that product
         multiplied-by-entries: the exponentials are multiplied entry by entry; use the
           matrix product => the product by entries
         multiplied-by-entries 2: the exponentials are multiplied entry by entry; use the
@@ -105,8 +105,7 @@ def _in_M(row, form):
     def _(screws, M, q):
         """M-forgotten: M is missing; the motions act on the pose of the end effector at
           q = 0 => the product without M
-        M-inverted: M is inverted; it maps end-effector coordinates to the world as it
-          is
+        M-inverted: M is inverted; M itself maps end-effector coordinates to the world
         M-twice: the product contains M twice => the product with M M for M
         M-rotation-missing: only the translation of M is used; its rotation is missing
         M-turned-back: the rotation of M is transposed => the product with that M

@@ -22,13 +22,13 @@ def _(axis, point):
     """moment-sign: omega is correct, but v has the wrong sign: v is the velocity of the
       origin, and the vector from your point to the origin is -point => the correct
       result with v = +omega x point
-    moment-is-point: v is the point itself; it should be a velocity, which depends on
+    moment-is-point: v is the point itself; v should be a velocity, which depends on
       omega as well => (omega; point)
-    moment-is-minus-point: v is the negative of the point; it should be a velocity,
-      which depends on omega as well => (omega; -point)
-    moment-is-foot: v is the point of the axis nearest to the origin; it should be a
+    moment-is-minus-point: v is the negative of the point; v should be a velocity, which
+      depends on omega as well => (omega; -point)
+    moment-is-foot: v is the point of the axis nearest to the origin; v should be a
       velocity, which is perpendicular to that point => (omega; that point)
-    moment-forgotten: v is 0 for every point; this is correct only for an axis through
+    moment-forgotten: v is 0 for every point, which is correct only for an axis through
       the origin => (omega; 0)
     twist-order: the two halves are swapped: omega comes first, then v => (v; omega)
     twist-order-and-sign: the halves are swapped, because omega comes first, and v has

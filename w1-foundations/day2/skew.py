@@ -20,13 +20,13 @@ def _(rng):
 
 @row.wrongs
 def _(w):
-    """p-cross-w: every sign is reversed: the matrix computes p x w (it is the
-      transpose) => the correct result with its signs reversed
-    no-minus: there is no minus sign; [w] is antisymmetric => the correct result with
-      every sign a plus
+    """p-cross-w: every sign is reversed, so the matrix is the transpose and computes p
+      x w => the correct result with its signs reversed
+    no-minus: the matrix has no minus sign; [w] is antisymmetric => the correct result
+      with every sign a plus
     outer-product: the matrix is the outer product w w^T, which projects onto w instead
       of computing w x p => that product
-    on-the-diagonal: w is on the diagonal, which is 0 because w x w is 0
+    on-the-diagonal: w is on the diagonal; the diagonal of an antisymmetric matrix is 0
     """
     x, y, z = w
     return {

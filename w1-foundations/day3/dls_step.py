@@ -38,9 +38,10 @@ def _(rng):
 @row.wrongs
 def _(J, e, damping):
     """relative-damping: the damping is multiplied by the largest singular value of J;
-      it has the units of J already => the step with damping ||J||
-    damping-dropped: the damping is missing: this is the step of the pseudo-inverse,
-      which is very large near a singularity => the step of the pseudo-inverse
+      the damping already has the units of J => the step with damping ||J||
+    damping-dropped: the damping is missing, so the result is the step of the
+      pseudo-inverse, which is very large near a singularity => the step of the
+      pseudo-inverse
     damping-everywhere: damping^2 is added to every entry of J J^T; it belongs on the
       diagonal only => the step with damping^2 in every entry
     transpose-only: the result is J^T e: the inverse is missing => J^T e
@@ -49,7 +50,7 @@ def _(J, e, damping):
       of the pseudo-inverse over 1 + damping^2
     damping-fixed: the damping is always 0.05; use the argument
     damping-added-to-the-values: the damping is added to each singular value s, as 1 /
-      (s + damping); the formula has the factor s / (s^2 + damping^2)
+      (s + damping). The formula has the factor s / (s^2 + damping^2)
     damping-as-a-cut: the damping is used as rcond of the pseudo-inverse, which discards
       small singular values; damping only reduces their weight => the step of pinv(J,
       damping)

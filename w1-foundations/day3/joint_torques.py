@@ -23,18 +23,18 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, p, F):
-    """at-the-origin: J_space^T belongs to a wrench about the world's origin; this
-      wrench is about p => the torques with J_space for J_site
-    what-balances-it: the sign is the one of a wrench on the hand; the hand exerts F, so
-      the power of the motors equals the power of F => its negative
+    """at-the-origin: your code uses J_space^T, which belongs to a wrench about the
+      world's origin; the given wrench is about p => the torques with J_space for J_site
+    what-balances-it: the sign is correct for a wrench that acts on the hand. The hand
+      exerts F, so the power of the motors equals the power of F => its negative
     pseudo-inverse: the result is J^+ F, which does not conserve power; write down the
       power of the motors and of the hand => J^+ F
     moment-forgotten: the moment is missing; its power is moment . omega
     force-forgotten: the force is missing; its power is force . v
     arm-the-wrong-way: the moment of the force about the origin is f x p; it should be p
       x f => the torques with -p for p
-    arm-twice: p x f is added to the moment, and the Jacobian belongs to p already; use
-      one of the two => the torques with both
+    arm-twice: p x f is added to the moment although the Jacobian already belongs to p;
+      use only one of the two => the torques with both
     """
     J = site_jacobian(J_space, p)
     moment = F[:3]

@@ -16,7 +16,7 @@ class Numbers(OrNaN, Vector):
 
 
 def _half_turns(rng):
-    """Return turns by exactly pi; R is exactly symmetric."""
+    """Return rotations by exactly pi; R is exactly symmetric."""
     axes = np.array([*np.eye(3), [0.6, -0.8, 0], [0, 0.6, 0.8], [0.8, 0, -0.6]])
     return [(2.0 * np.outer(n, n) - np.eye(3),) for n in axes]
 
@@ -186,8 +186,9 @@ def _(R):
 
 @row.wrongs(hidden={"arccosine-beyond-1": "its identity is exact"})
 def _(R):
-    """textbook-formula: theta / (2 sin theta) times R - R^T is 0 / 0 for the identity,
-      and near pi it divides rounding errors by nearly 0 => that formula, with its NaN,
+    """textbook-formula: your formula theta / (2 sin theta) times R - R^T is 0 / 0 for
+      the identity, and near pi it divides rounding errors by nearly 0 => that formula,
+      with its NaN,
     nan-at-0: the result for the identity is NaN, because the sine is 0 there
     arccosine-beyond-1: the result is NaN where rounding makes (trace - 1) / 2 larger
       than 1 or smaller than -1; atan2 has no such limit

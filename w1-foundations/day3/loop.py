@@ -65,5 +65,5 @@ def nearest(loop, part=slice(6)):
 
 
 def walk(*target, **parts):
-    """Return where the loop ends, (..., 7); the arguments are those of `passed`."""
+    """Return where the loop ends, (..., 7); with the arguments of `passed`."""
     return nearest(passed(*target, **parts))

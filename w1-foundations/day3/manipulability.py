@@ -41,7 +41,8 @@ def values(J):
 def _(J):
     """no-square-root: the square root is missing: the result is det(J J^T) => det(J
       J^T)
-    other-product: J^T J is 7x7 and always singular; use J J^T => the root of det(J^T J)
+    other-product: your code uses J^T J, which is 7x7 and always singular; use J J^T =>
+      the root of det(J^T J)
     largest-singular-value: the result is the largest singular value, the norm of J; it
       should be the product of all six
     trace: the result comes from the trace, the sum of the eigenvalues; use the

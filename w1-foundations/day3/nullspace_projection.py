@@ -59,8 +59,8 @@ def _(rng):
 def _(J, dq):
     """transpose-for-pseudo-inverse: J^T is used instead of J^+; I - J^T J is no
       projection, so the hand moves => dq - J^T J dq
-    felt-part: the result is J^+ J dq, the part of dq that moves the hand; it should be
-      the other part
+    felt-part: the result is J^+ J dq, the part of dq that moves the hand; return the
+      other part
     unchanged: dq is returned unchanged => dq itself
     added: the part that moves the hand is added; it should be subtracted => dq + J^+ J
       dq

@@ -49,9 +49,9 @@ def _(T, T_goal):
     """in-the-hands-axes: both halves are expressed in the hand frame; they should be
       expressed in the world frame => the error rotated by R^T
     body-twist: the result is the body twist log(T^-1 T_goal), which belongs to J_body;
-      this error belongs to J_site => the body twist
+      the error should belong to J_site => the body twist
     space-twist: the result is the spatial twist log(T_goal T^-1), which belongs to
-      J_space; this error belongs to J_site => that twist
+      J_space; the error should belong to J_site => that twist
     """
     D = np.linalg.inv(T) @ T_goal
     return {
@@ -88,7 +88,7 @@ def _(T, T_goal):
 @row.wrongs
 def _(T, T_goal):
     """translation-in-the-hands-axes: the translation is expressed in the hand frame, as
-      in the last column of T^-1 T_goal; it should be expressed in the world frame =>
+      in the last column of T^-1 T_goal. It should be expressed in the world frame =>
       the error with R^T (p_goal - p)
     goal-position-for-translation: the translation is the position of the goal; it
       should be the vector from the hand to the goal => the error with p_goal

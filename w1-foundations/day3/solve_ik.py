@@ -58,10 +58,10 @@ def _(screws, M, T_goal, q_start, limits):
       expressed in the world frame => the loop with J_body
     error-in-the-hands-axes: the error is expressed in the hand frame; J_site is
       expressed in the world frame
-    damping-not-squared: the damping is not squared, so it is too large
+    damping-not-squared: the damping is not squared, so the damping term is too large
     limits-forgotten: the joint limits are not applied
-    jacobian-never-updated: the Jacobian is computed at the start only; it changes with
-      every step => the loop with the first Jacobian
+    jacobian-never-updated: the Jacobian is computed only at the start; the Jacobian
+      changes with every step => the loop with the first Jacobian
     q-start-unused: the loop starts from READY_Q; it should start from q_start => the
       loop from READY_Q
     """

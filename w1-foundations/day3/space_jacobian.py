@@ -57,15 +57,15 @@ ZERO = np.zeros((3, 3))
 def _(screws, q):
     """screws-constant: the columns are the screws at q = 0; the joints before a joint
       move its screw => the screws as columns
-    last-joint-only: each screw is moved by the joint directly before it only; all
-      joints before it move it => the Jacobian with one exponential per column
+    last-joint-only: each screw is moved only by the joint directly before it; all
+      joints before it move the screw => the Jacobian with one exponential per column
     product-reversed: the exponentials are multiplied in the reverse order; the
       exponential of joint 1 belongs on the left => the Jacobian with the reversed
       product
     one-joint-late: each screw lacks the motion of the joint directly before it: the
       product is used before it includes that joint => the Jacobian one joint late
-    moved-by-the-next: each screw is moved by the joint after it as well, which does not
-      affect it => the Jacobian one joint too far
+    moved-by-the-next: each screw is also moved by the joint after it, but that joint
+      does not affect the screw => the Jacobian one joint too far
     moved-by-all: every screw is moved by all seven joints; only the joints before it
       move it => the Jacobian with the whole product
     moved-by-those-after: each screw is moved by the joints after it; the joints before

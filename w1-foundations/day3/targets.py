@@ -35,7 +35,7 @@ FAR_START = np.array([0.578, 0.069, 0.367, -1.654, -1.832, 2.08, 1.819])
 def targets(rng):
     """Return a solved start, chosen targets, near ones, two out of reach, near ones.
 
-    The near ones at the end are drawn anew at each check.
+    The near ones at the end are drawn again at each check.
     """
     S, M, limits = arm()
     start, goal = _near_targets(rng, 30, 0.7)

@@ -27,8 +27,8 @@ def _(V):
       of a twist
     second-omega-forgotten: the lower right block is 0; omega also rotates the linear
       half of a twist => the matrix with 0 there
-    v-in-both-corners: the block [v] is in both off-diagonal places; the upper right
-      block is 0 => the matrix with [v] twice
+    v-in-both-corners: the block [v] is in both off-diagonal blocks; the upper right
+      block should be 0 => the matrix with [v] twice
     v-last: the lower right block is [v]; both diagonal blocks are [omega]
     identity-added: the identity is added; ad(V) is a rate of change, so ad(0) is 0 =>
       the matrix plus the identity

@@ -48,15 +48,15 @@ def _(M, bias, damping, qd, tau):
     """both-signs: bias and damping are added to tau; subtract them
     armature-twice: the armature is added to M, which already contains it since task 4.3
       => the acceleration with M + 0.1 on the diagonal
-    mass-of-the-step: M + h damping is the matrix of the simulator's implicit step of h
-      = 2 ms; the present acceleration needs M alone => the acceleration with M + h
-      damping
+    mass-of-the-step: your code uses M + h damping, the matrix of the simulator's
+      implicit step of h = 2 ms. The present acceleration needs M alone => the
+      acceleration with M + h damping
     velocity-returned: the result is the velocity after a step of 2 ms, qd + h qdd;
       return qdd => qd + 0.002 qdd
-    divided-entry-by-entry: the expression 1 / M inverts each entry; that is not the
-      inverse of the matrix => the product with 1 / M
-    damping-not-divided: damping is subtracted after the division by M; it is also a
-      torque => the difference of the two
+    divided-entry-by-entry: the expression 1 / M inverts each entry; these reciprocals
+      are not the inverse of the matrix => the product with 1 / M
+    damping-not-divided: damping is subtracted after the division by M, but damping is
+      also a torque => the difference of the two
     only-torque-divided: only the motor torque is divided by M; bias and damping are
       also torques => the difference of the two
     """

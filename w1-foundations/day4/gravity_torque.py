@@ -39,10 +39,10 @@ def torque(
 
 @row.wrongs
 def _(J, masses, coms_world, g):
-    """gravity-sign: the sign is wrong: the result is the torque that gravity exerts,
-      and the motors must balance it => its negative
+    """gravity-sign: the sign is wrong: the result is the torque that gravity exerts;
+      return the torque with which the motors balance it => its negative
     velocity-of-the-origin: the lower half of J_space is the velocity of the point at
-      the world's origin; the weight acts at the centre of mass => the torque with v
+      the world's origin. The weight acts at the centre of mass => the torque with v
       instead of v + omega x c
     omega-rows-for-v: the upper half of J_space is used as the velocity, but it is omega
       => the torque with omega for v

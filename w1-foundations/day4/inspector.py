@@ -103,7 +103,7 @@ class Forces(Tab):
         simulate.run(self.model, data, self.hold, steps / RATE, rate=RATE, push=push)
 
     def hold(self, t: float, q: Array, qd: Array) -> Array:
-        """Return a share of the student's gravity torque, or none."""
+        """Return a fraction of the student's gravity torque, or none."""
         if self.falls:
             return np.zeros(JOINTS)
         wanted = self.share * self.own.gravity_torque(*self.pulled(q))

@@ -88,7 +88,7 @@ def _(J, G, qd, qdd, g):
     """bracket-forgotten: the acceleration lacks ad(V) S qd: the screw of a joint that
       moves with its link changes its direction
     bracket-sign: ad(V) S qd has the wrong sign in the acceleration
-    bracket-twice: ad(V) S qd is added twice to the acceleration; it needs no factor 2,
+    bracket-twice: ad(V) S qd is added twice to the acceleration. It needs no factor 2,
       because the wrench contributes the other half of the Coriolis force
     speed-squared: the acceleration contains ad(V) S qd^2, but V already contains one of
       the two velocities
@@ -102,7 +102,7 @@ def _(J, G, qd, qdd, g):
       carries the links beyond it, so start at the tip
     every-link-for-all: each torque includes the wrenches on all seven links; a joint
       carries only its own link and the later ones
-    moment-only: only the moments about the world's origin are used; use all six
+    moment-only: only the moments about the world's origin are used. Use all six
       components of S, because the force also acts on an axis that does not pass through
       the origin
     own-link-left-out: each torque includes only the wrenches on the later links; the
@@ -148,7 +148,7 @@ def _(J, G, qd, qdd, g):
 
 
 # In ad an identity cancels: what it adds to G A, it takes from the velocity product.
-row.reached_by("ad", "in ad, ", but=["identity-added"])
+row.reached_by("ad", "in `ad`, ", but=["identity-added"])
 row.of_argument("g", *OTHER_DIRECTION, *OTHER_GRAVITY)
 
 

@@ -87,9 +87,9 @@ def _(T_links, masses, coms, inertias):
     poses-multiplied: the poses are multiplied along the arm, but each T of T_links is
       already relative to the world => the answer with the product of the poses up to
       each link
-    last-link-for-all: all seven matrices are link7's. Is the same array filled again
-      for every link and appended each time? Create a new array => link7's matrix seven
-      times
+    last-link-for-all: all seven matrices belong to link7. Does your loop fill the same
+      array for every link and append it each time? Create a new array => link7's matrix
+      seven times
     already-summed: each matrix also contains the links beyond its own; each should
       belong to one link => the sum from each link to the tip
     """

@@ -93,8 +93,8 @@ def _(J, G, armature):
 
 @row.wrong
 def not_summed_back(J, G, armature):
-    """each entry includes one link only; a joint carries all later links => M from one
-    link per entry"""
+    """each entry includes only one link; a joint carries all links distal to it => M
+    from one link per entry"""
     M = np.diag(armature)
     for i in range(7):
         for j in range(7):

@@ -1,4 +1,4 @@
-"""Day 4: the arm floats, is pushed and comes to rest, as the guide says."""
+"""Day 4: the arm floats, is pushed and comes to rest, as in the guide."""
 
 import re
 

@@ -49,11 +49,11 @@ def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
     M-forgotten: M is missing, so an acceleration is added to torques
     bias-forgotten: bias is missing, so the PD terms have to balance gravity and the
       Coriolis torque
-    bias-sign: bias has the wrong sign; it is the torque that the motors must supply
+    bias-sign: bias has the wrong sign; bias is the torque that the motors must supply
     everything-through-M: bias and the damping torque are multiplied by M, but they are
       already torques
-    reference-outside-M: qdd_ref is added after the product with M; it is an
-      acceleration, so M should multiply it
+    reference-outside-M: qdd_ref is added after the product with M; qdd_ref is an
+      acceleration, so multiply it by M
     measured-velocity-damped: the derivative term is -kd qd, so it also brakes the
       motion of the reference; use kd ed
     armature-twice: the armature, 0.1 kg m2, is added to M, but M already contains it

@@ -80,8 +80,8 @@ def _(t, omega, zeta):
       at rest, but this curve starts with a nonzero derivative
     half-the-damping: the curve belongs to half the damping ratio; in the equation the
       factor of ed is 2 zeta omega
-    output-in-place-of-error: the curve rises from 0 to 1. This is the step response of
-      the joint; the error is 1 minus the step response
+    output-in-place-of-error: the curve rises from 0 to 1, as the step response of the
+      joint does. The error is 1 minus the step response
     omega-in-turns: omega is multiplied by 2 pi as if it were in turns per second, but
       it is in rad/s
     """
@@ -121,7 +121,7 @@ def _(t, omega, zeta):
       should start at rest, and this curve does not
     weights-swapped: for zeta above 1 the weights of the two exponentials are swapped
     weights-summed: for zeta above 1 the weighted exponentials are added, and the sum is
-      divided by the sum of the rates; the error should start at rest, and this curve
+      divided by the sum of the rates. The error should start at rest, and this curve
       does not
     critical-above-one: for zeta above 1 the curve for zeta = 1 is returned; more
       damping makes the decay slower

@@ -28,8 +28,8 @@ def wrapped(angle):
 
 WRAPPED = Change(
     "error-wrapped",
-    "{name} is wrapped to -pi..pi; these joints have limits, so a whole turn is not "
-    "the same as none",
+    "{name} is wrapped to -pi..pi; these joints have limits, so e and e + 2 pi are "
+    "different errors",
     wrapped,
     hidden="no error there exceeds half a turn",
 )

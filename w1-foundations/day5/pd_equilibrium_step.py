@@ -33,8 +33,8 @@ def _(rng):
 def _(q_goal, g_at_q, kp):
     """sag-in-degrees: the steady-state error is converted to degrees, but the goal is
       in radians
-    answer-wrapped: the angle is wrapped to -pi..pi. The joints have limits, so a whole
-      turn is not the same as none, and joint6 can move beyond pi
+    answer-wrapped: the angle is wrapped to -pi..pi. The joints have limits, so q and q
+      + 2 pi are different, and joint6 can move beyond pi
     """
     return {
         "sag-in-degrees": q_goal - np.rad2deg(g_at_q / kp),

@@ -14,7 +14,7 @@ row.inputs(springs)
 def _(e, ed, kp, kd):
     """one-gain-for-all: all joints use the first joint's gains; each joint has its own
       gains
-    summed-over-joints: `kp @ e` is a dot product, which sums over the joints; multiply
+    summed-over-joints: `kp @ e` is a dot product, which sums over the joints. Multiply
       entry by entry, because each joint has its own torque
     mean-gains: all joints use the mean of the gains; each joint has its own gains =>
       the correct formula with mean(kp) and mean(kd)

@@ -83,9 +83,9 @@ def summed(sums):
 @summed
 def _(e, ed, integral, ki, dt, clamp):
     """trapezoid-of-the-error: e is averaged with the error of the previous step; the
-      docstring asks for e dt
+      integral should grow by e dt
     trapezoid-of-the-error 2: e is averaged with the error of the next step; the
-      docstring asks for e dt
+      integral should grow by e dt
     old-sum-clamped: the old integral is clamped before e dt is added; clamp the sum
     error-clamped: the error is clamped instead of the integral, so the integral can
       still grow without bound; clamp the sum

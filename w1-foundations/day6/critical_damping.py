@@ -44,7 +44,7 @@ def _(K, Lambda):
     """Lambda-ignored: Lambda is not used: 2 sqrt(K) is the critical damping of a unit
       mass => diag(2 sqrt(K))
     another-design: the result is another critically damped design, which diagonalises
-      Lambda and K together; the task asks for the sum of the two products of
+      Lambda and K together. The task asks for the sum of the two products of
       sqrt(Lambda) and sqrt(K) => the other design
     diagonal-only: each axis uses 2 sqrt(k m) with the diagonal of Lambda; Lambda
       couples the axes => the correct formula with Lambda's diagonal
@@ -52,15 +52,15 @@ def _(K, Lambda):
       orders, so that the result is symmetric => 2 sqrt(Lambda) sqrt(K)
     half-of-it: only one of the two products is used; add the product in the other order
       => sqrt(Lambda) sqrt(K)
-    factor-two: the factor 2 is one too many: the sum of both orders already contains it
+    factor-two: the factor 2 is not needed: the sum of both orders already contains it
     factor-two-missing: the two orders are averaged; add them
     root-on-both-sides: sqrt(Lambda) is on both sides of sqrt(K), so the result grows
-      with the mass; damping grows with the square root of the mass => 2 sqrt(Lambda)
+      with the mass. It should grow with the square root of the mass => 2 sqrt(Lambda)
       sqrt(K) sqrt(Lambda)
     root-of-the-product: the result is 2 sqrt(K Lambda), entry by entry; use the matrix
       square root of Lambda => 2 sqrt(abs(K Lambda))
-    cholesky: a Cholesky factor is not the square root: Lambda is L L^T, not L L => L
-      sqrt(K) + sqrt(K) L^T
+    cholesky: your code uses a Cholesky factor instead of the square root: Lambda is L
+      L^T, not L L => L sqrt(K) + sqrt(K) L^T
     """
     k = np.sqrt(K)
     half = root(Lambda)
@@ -87,8 +87,8 @@ def _(K, Lambda):
       eigenvectors, so the root is V diag V^T => the correct formula with V^T diag V
     eigenvalues-not-rooted-back: the root diag(sqrt(values)) is in the eigenvector
       basis; rotate it back with V => the correct formula with diag(sqrt(values))
-    cholesky: a Cholesky factor is not the square root: Lambda is L L^T, not L L => the
-      correct formula with L
+    cholesky: your code uses a Cholesky factor instead of the square root: Lambda is L
+      L^T, not L L => the correct formula with L
     entries-square-rooted 2: the root of the absolute value of each entry is used; the
       matrix square root X satisfies X X = Lambda => the correct formula with
       np.sqrt(abs(Lambda))

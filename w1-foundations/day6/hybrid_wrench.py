@@ -43,10 +43,10 @@ def _(e, V_err, K, D, force):
     along-x: the force acts along x; it should act along z => the correct formula with
       entry 3 replaced
     spring-couples-into-z: the errors of the other five directions still contribute to
-      the force along z through K; no spring force should be left there => the correct
+      the force along z through K. No spring force should be left there => the correct
       formula with K[5, :5] @ e[:5] along z
     column-in-place-of-row: the error along z is set to 0, which removes the last column
-      of K; remove the spring force along z, which is its last row => the correct
+      of K. Remove the spring force along z, which is its last row => the correct
       formula with e[5] = 0
     """
     spring, damper = K @ e, D @ V_err
@@ -69,7 +69,7 @@ def _(e, V_err, K, D, force):
     """moment-in-place-of-force: entry 2 is replaced, and its damping term is missing.
       Entry 2 is the moment about z; the last three entries are the force => the correct
       formula with entry 2 replaced
-    column-in-place-of-row: the last row and the last column of K are removed; an error
+    column-in-place-of-row: the last row and the last column of K are removed. An error
       along z should still contribute to the other five directions => the correct
       formula with row and column 5 of K at 0
     """

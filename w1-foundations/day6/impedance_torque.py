@@ -31,8 +31,8 @@ def _(rng):
 def _(J, wrench, bias, damping, qd, tau_null):
     """damping-summed: damping @ qd is a dot product, which sums over the joints;
       multiply entry by entry => the correct formula with damping @ qd
-    bias-sign: bias has the wrong sign; it is the torque that the motors must supply =>
-      the correct formula with -bias
+    bias-sign: bias has the wrong sign; bias is the torque that the motors must supply
+      => the correct formula with -bias
     damping-sign: the damping torque has the wrong sign; damping opposes the motion, so
       the motors must supply damping qd => the correct formula with -damping qd
     pinv-for-transpose: pinv(J) maps the wrench to the joints; J^T maps wrenches to

@@ -40,7 +40,7 @@ def _(rng):
 @row.wrongs
 def _(J, M, Lambda, tau):
     """another-projector: the result does not accelerate the hand either, but the
-      subtracted torque is not J^T times a wrench; use the wrench that Lambda gives => M
+      subtracted torque is not J^T times a wrench. Use the wrench that Lambda gives => M
       n n^T M^-1 tau
     acceleration: the result is a joint acceleration that does not move the hand;
       multiply it by M to get a torque => M^-1 times the correct formula
@@ -48,7 +48,7 @@ def _(J, M, Lambda, tau):
     kinematic-projector: the projector I - J^+ J acts on joint velocities, not on
       torques: how a torque accelerates the hand depends on M. The arm still draws the
       circle, but the hand accelerates by metres per second squared => tau - J^+ J tau
-    M-for-identity: tau is multiplied by M before the subtraction; the unit of M tau is
+    M-for-identity: tau is multiplied by M before the subtraction. The unit of M tau is
       kg m2 times N m, so it is not a torque => (M - J^T Lambda J M^-1) tau
     projector-transposed: the projector is transposed: M^-1 J^T Lambda J acts on joint
       accelerations. For torques M^-1 is on the right => tau - M^-1 J^T Lambda J tau

@@ -28,19 +28,20 @@ def _(rng):
 
 @row.wrongs
 def _(J, Lambda, bias, bias_acc, acc):
-    """bias-sign: bias has the wrong sign; it is the torque that the motors must supply
-      => the correct formula with -bias
+    """bias-sign: bias has the wrong sign; bias is the torque that the motors must
+      supply => the correct formula with -bias
     pinv-for-transpose: pinv(J) maps the wrench to the joints; J^T maps wrenches to
       torques, and the pseudo-inverse maps velocities => the correct formula with
       pinv(J)
-    site-bias-not-weighed: bias_acc is subtracted after the product with Lambda; it is
-      an acceleration, so subtract it from acc => J^T (Lambda acc - bias_acc) + bias
+    site-bias-not-weighed: bias_acc is subtracted after the product with Lambda;
+      bias_acc is an acceleration, so subtract it from acc => J^T (Lambda acc -
+      bias_acc) + bias
     acc-sign: acc is subtracted from bias_acc, so the hand accelerates in the opposite
       direction => the correct formula with bias_acc - acc
     halves-swapped: the accelerations are in the order (linear; angular); the angular
       part comes first => the correct formula with its halves swapped
     bias-at-the-hand: bias is subtracted inside the brackets, as if it were a wrench at
-      the hand; it is a torque of the joints => J^T (Lambda (acc - bias_acc) + J bias)
+      the hand; bias is a torque of the joints => J^T (Lambda (acc - bias_acc) + J bias)
     """
     own = acc - bias_acc
     push = J.T @ Lambda @ own

@@ -33,8 +33,8 @@ def _(force, k, surface):
       the argument => 0.42 - force / k
     never-below-zero: heights below 0 are replaced by 0, but the commanded height can be
       below 0 => the correct formula, at least 0
-    newtons-as-weight: force is divided by 9.81 as if it should become a mass; k needs
-      newtons => surface - force / (9.81 k)
+    newtons-as-weight: force is divided by 9.81, which gives a mass; the force should
+      stay in newtons => surface - force / (9.81 k)
     """
     return {
         "millimetres": surface - 1000.0 * force / k,

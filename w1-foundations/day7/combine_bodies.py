@@ -49,14 +49,15 @@ def _(m1, c1, I1, m2, c2, I2):
     about-the-origin: the inertia is about the origin of the frame. It should be about
       the common centre of mass => the answer about the origin
     only-the-second-moved: only the second inertia is moved to the common centre. The
-      first centre of mass is not the common one either
+      first centre of mass differs from the common one, too
     only-the-first-moved: only the first inertia is moved to the common centre of mass
     about-the-first-centre: the inertia is about the first body's centre of mass. It
       should be about the common one => the answer about the first centre
     distance-of-the-two: the parallel-axis theorem uses the distance between the two
       bodies. Use the distance of each body from the common centre of mass
     mass-not-in-the-theorem: the parallel-axis theorem lacks the mass of the body. The
-      inertia changes by m (d . d 1 - d d^T) => the answer without the mass
+      inertia changes by m ((d . d) E - d d^T), where E is the identity => the answer
+      without the mass
     total-mass-for-each: the parallel-axis theorem uses the total mass for each body.
       Use the mass of the body that is moved => the answer with m1 + m2
     """

@@ -49,9 +49,9 @@ def _(T_world_cube, above):
       after 90 degrees already => the pose with half turns subtracted
     yaw-forgotten: the yaw of the tool is always 0, so the fingers meet the edges of a
       rotated cube => the pose at yaw 0
-    turned-the-wrong-way: the tool rotates in the opposite direction to the cube. Look
-      at the sign of the yaw and the arguments of arctan2, then at the order of the
-      product with diag(1, -1, -1) => the pose with the opposite yaw
+    turned-the-wrong-way: the tool rotates in the opposite direction to the cube. Check
+      the sign of the yaw and the arguments of arctan2, then the order of the product
+      with diag(1, -1, -1) => the pose with the opposite yaw
     """
     yaw = np.arctan2(T_world_cube[1, 0], T_world_cube[0, 0])
     yaws = {

@@ -29,8 +29,8 @@ def wrapped(angles):
 
 @row.wrongs
 def _(q0, q1, t, T):
-    """start-everywhere: q0 is also added to the velocity and the acceleration. It is
-      constant, so its derivative is 0 => the answer with q0 in every row
+    """start-everywhere: q0 is also added to the velocity and the acceleration. The
+      start q0 is constant, so its derivative is 0 => the answer with q0 in every row
     goal-for-way: q1 is used instead of the displacement q1 - q0, so the motion ends at
       q0 + q1 => the answer with q1 for q1 - q0
     way-reversed: the displacement is q0 - q1, so the arm moves away from the goal =>

@@ -82,8 +82,9 @@ def _(t, T):
       By the chain rule, each derivative with respect to t also divides by the duration
     t-for-x: the polynomial is evaluated at t instead of t / duration, so the duration
       has no effect => the quintic of t
-    not-divided+not-clipped: two mistakes: sd and sdd are not divided by the duration
-      and its square, and the polynomial continues before the start and after the end
+    not-divided+not-clipped: your code has two mistakes: sd and sdd are not divided by
+      the duration and its square, and the polynomial continues before the start and
+      after the end
     end-not-clipped: s is clamped at the start, but the polynomial continues after the
       end
     start-not-clipped: s is clamped at the end, but the polynomial is also evaluated

@@ -76,7 +76,8 @@ def log_rotation(R: np.ndarray) -> np.ndarray:
     R (3, 3) is a rotation matrix. The angle is between 0 and pi radians, and the result
     is accurate to 1e-8 in this whole range, also near 0 and near pi. The identity gives
     (0, 0, 0). At exactly pi both signs represent the same rotation: return the vector
-    whose largest entry is positive (Modern Robotics, section 3.2.3.3).
+    whose entry of largest absolute value is positive (Modern Robotics, section
+    3.2.3.3).
     log_rotation([[0, -1, 0], [1, 0, 0], [0, 0, 1]]) -> [0, 0, pi / 2]
     """
     # region 3.3
@@ -142,8 +143,9 @@ def solve_ik(
     (7, 2): the lower and the upper limit of each joint. Each of at most 60 iterations
     takes the damped least-squares step of the pose error e with damping^2 = e.e / 2 +
     1e-6 and clamps q to the limits (Sugihara, IEEE Trans. Robotics 27(5), 2011). Stop
-    as soon as |e| is below 1e-8: a start at its goal comes back, as a copy. For a
-    target out of reach return the q with the smallest |e| of all iterations.
+    as soon as |e| is below 1e-8: a start at its goal is returned as a copy. Otherwise,
+    for example for a target out of reach, return the configuration with the smallest
+    |e| among q_start and the results of all 60 iterations, the last one included.
     """
     # region 3.6
     q = q_start.copy()  # the present joint angles

@@ -32,20 +32,20 @@ def exp_of(xi):
 
 @row.wrongs
 def _(T, xi):
-    """on-the-right: the exponential is on the right of T, as for xi in the moved frame;
-      xi is expressed in the frame in which T is given => T exp([xi])
+    """on-the-right: the exponential multiplies T on the right, as for a twist in the
+      moved frame. xi is expressed in the frame in which T is given => T exp([xi])
     apart: R is rotated and v is added to t; a rotation about the origin moves t as well
       => (exp([omega]) R, t + v)
-    first-order: this is T + [xi] T, which is no rigid motion; use the exponential => (1
-      + [xi]) T
+    first-order: the result is T + [xi] T, which is not a rigid transform; use the
+      exponential => (1 + [xi]) T
     t-not-turned: t is not rotated; a rotation about the origin moves t as well =>
       exp([omega]) R with t plus the translation of the exponential
-    v-as-translation: the translation of the exponential is v; this is correct only if
+    v-as-translation: the translation of the exponential is v, which is correct only if
       omega is 0 or parallel to v => v as the translation
     length-lost: xi is normalised and the angle is 1; the angle is the norm of omega =>
       exp of xi / |omega|
-    slides-left-out: without a rotation T is returned unchanged; then the translation is
-      v => T where omega is 0
+    slides-left-out: if omega is 0, T is returned unchanged; the translation is then v
+      => T where omega is 0
     identity-where-still: for xi = 0 the identity is returned; return T
     turns-only: v, the linear part of xi, is not used
     slides-only: omega, the angular part of xi, is not used

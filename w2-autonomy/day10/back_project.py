@@ -61,7 +61,7 @@ def not_scaled(ray, d):
 
 
 for slug, says, redone, other in (
-    ("range-for-depth", "the depth is used as the distance along the ray; it is "
+    ("range-for-depth", "the depth is used as the distance along the ray; the depth is "
      "measured along the z axis of the camera", "a ray of norm 1",
      {"ray": unit_ray}),
     ("K-for-its-inverse", "the pixel is multiplied by K; K maps points to pixels, so "
@@ -76,7 +76,7 @@ for slug, says, redone, other in (
     ("x-and-y-turned-round", "x and y are negated; x points to the right like u, and y "
      "points down like v", "(-x, -y, z)",
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, -1, 1]}),
-    ("x-left", "x is negated; it points to the right, like u", "(-x, y, z)",
+    ("x-left", "x is negated; both x and u point to the right", "(-x, y, z)",
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, 1, 1]}),
     ("f-multiplied", "the distance from the principal point is multiplied by f; divide "
      "it by f", "(u - cx) f", {"ray": lambda K, h, d: (h - K[:, 2] * [1, 1, 0])
@@ -84,20 +84,20 @@ for slug, says, redone, other in (
     ("f-forgotten", "the focal length is missing: divide the distance from the "
      "principal point by f", "(u - cx, v - cy, 1)",
      {"ray": lambda K, h, d: h - K[:, 2] * [1, 1, 0]}),
-    ("y-up", "y is negated; it points down, like v", "(x, -y, z)",
+    ("y-up", "y is negated; both y and v point down", "(x, -y, z)",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, -1, 1]}),
     ("view-along-minus-z", "z is negated; the camera looks along +z", "(x, y, -z)",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, 1, -1]}),
-    ("mujoco-axes", "y and z are negated, as for MuJoCo's camera frame; T_world_cam is "
-     "the pose of a frame with y down and z forward already", "(x, -y, -z)",
+    ("mujoco-axes", "y and z are negated, as for MuJoCo's camera frame. T_world_cam is "
+     "already the pose of a frame with y down and z forward", "(x, -y, -z)",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, -1, -1]}),
-    ("middle-added", "half a pixel is added; (0.5, 0.5) is the centre of the first "
-     "pixel already", "pixels + 0.5", {"pixel": lambda uv: uv + 0.5}),
+    ("middle-added", "half a pixel is added; (0.5, 0.5) is already the centre of the "
+     "first pixel", "pixels + 0.5", {"pixel": lambda uv: uv + 0.5}),
     ("middle-taken-off", "half a pixel is subtracted; (0, 0) is the corner of the "
      "image, and the principal point is measured from there", "pixels - 0.5",
      {"pixel": lambda uv: uv - 0.5}),
-    ("depth-only-in-z", "only z is multiplied by the depth; x and y are proportional "
-     "to it as well", "(x, y, depth)",
+    ("depth-only-in-z", "only z is multiplied by the depth; x and y are also "
+     "proportional to the depth", "(x, y, depth)",
      {"scaled": lambda ray, d: np.hstack([ray[:, :2], d])}),
     ("depth-added", "the depth is added to z; multiply the whole ray by it",
      "z + depth", {"scaled": lambda ray, d: ray + d * [0, 0, 1]}),
@@ -110,8 +110,8 @@ for slug, says, redone, other in (
      {"scaled": not_scaled, "moved": lambda R, t, p, d: d * (p @ R.T + t)}),
     ("T-forgotten", "the points are in the camera frame; transform them to the world "
      "frame", "the result without T", {"moved": lambda R, t, p, d: p}),
-    ("half-inverted", "R is transposed and t is subtracted; this is neither T nor its "
-     "inverse, which is R^T (p - t)", "R^T p - t",
+    ("half-inverted", "R is transposed and t is subtracted, but the result is neither "
+     "T p nor T^-1 p, which is R^T (p - t)", "R^T p - t",
      {"moved": lambda R, t, p, d: p @ R - t}),
     ("t-before-R", "the translation is added before the rotation; T p is R p + t",
      "R (p + t)", {"moved": lambda R, t, p, d: (p + t) @ R.T}),

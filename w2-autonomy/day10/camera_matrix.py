@@ -32,15 +32,15 @@ def _(fovy, width, height):
     sine-for-tangent: f uses the sine of half the angle; half the height and f are the
       two legs of the right triangle => sin(fovy / 2)
     middle-of-a-pixel: the principal point is ((width - 1) / 2, (height - 1) / 2), as in
-      OpenCV, where (0, 0) is the centre of the first pixel; in this task it is the
+      OpenCV, where (0, 0) is the centre of the first pixel. In this task, (0, 0) is its
       corner => (width - 1) / 2
-    centre-at-0: the principal point is (0, 0); it is the centre of the image => (0, 0)
-      as the principal point
-    centre-whole: the principal point is (width, height); it is the centre of the image,
-      half of both => (width, height) as the principal point
+    centre-at-0: the principal point is (0, 0); it should be the centre of the image =>
+      (0, 0) as the principal point
+    centre-whole: the principal point is (width, height); it should be the centre of the
+      image, half of both => (width, height) as the principal point
     y-up: the second focal length is negative; v and y both point down => -f for v
-    whole-division: // discards the half of an odd number of pixels: the centre of 353
-      pixels is at 176.5 => // instead of /
+    whole-division: the operator // rounds half of an odd number of pixels down: the
+      centre of 353 pixels is at 176.5 => // instead of /
     """
     f = height / 2 / np.tan(fovy / 2)
     fw = width / 2 / np.tan(fovy / 2)

@@ -111,8 +111,8 @@ for slug, says, redone, other in (
     ("mirror", "the determinant is not checked: for axes near one plane U V^T may be a "
      "reflection", "U V^T",
      {"turn": partial(turns, rotation=lambda U, Vt: U @ Vt)}),
-    ("mirror-turned-round", "a reflection is made a rotation by negating the whole "
-     "matrix; negate only the direction of the smallest singular value", "-U V^T",
+    ("mirror-turned-round", "the reflection is corrected by negating the whole matrix; "
+     "negate only the direction of the smallest singular value", "-U V^T",
      {"turn": partial(turns, rotation=all_turned)}),
     ("R-transposed", "the rotation is transposed: a = R b, so it comes from the sum of "
      "a b^T", "R^T in both steps",
@@ -146,10 +146,10 @@ def _(A, B):
       free along its axis, so stack all equations => the mean of pinv(R_A - 1) d
     centred-the-other-way: the means are subtracted and the rotation is transposed, as
       kabsch(a, b) gives it; a = R b has no translation => kabsch(a, b)
-    t-as-if-alike: t is the mean of t_A - R t_B, as if the hand did not rotate; this
-      difference is -(R_A - 1) t => the mean of t_A - R t_B
-    t-as-if-alike 2: t is the mean of R t_B - t_A, as if the hand did not rotate; this
-      difference is (R_A - 1) t => the mean of R t_B - t_A
+    t-as-if-alike: t is the mean of t_A - R t_B, as if the hand did not rotate. This
+      difference is -(R_A - I) t => the mean of t_A - R t_B
+    t-as-if-alike 2: t is the mean of R t_B - t_A, as if the hand did not rotate. This
+      difference is (R_A - I) t => the mean of R t_B - t_A
     """
     R = hand_eye(A, B)[:3, :3]
     alone = [

@@ -39,10 +39,10 @@ def once_each(away):
 
 @row.wrongs
 def _(T, source, target):
-    """step-alone: this is the motion from the transformed source; return the whole
-      motion, from the source itself => kabsch of the transformed points
-    step-on-the-right: the step is on the right of T; it follows T, so it is on the left
-      => T times the step
+    """step-alone: the result is the motion from the transformed source; return the
+      whole motion, from the source itself => kabsch of the transformed points
+    step-on-the-right: the step multiplies T on the right; it is applied after T, so it
+      belongs on the left => T times the step
     step-twice: T is applied twice; the motion is fitted to the source itself, so it
       contains T already => the result times T
     step-twice 2: T is applied twice; the motion is fitted to the source itself, so it

@@ -62,15 +62,16 @@ def all_turned(U, Vt):
 for slug, says, redone, other in (
     ("mirror", "the determinant is not checked: with noise or for mirrored points "
      "U V^T may be a reflection", "U V^T", {"rotation": lambda U, Vt: U @ Vt}),
-    ("mirror-turned-round", "a reflection is made a rotation by negating the whole "
-     "matrix; negate only the direction of the smallest singular value", "-U V^T",
+    ("mirror-turned-round", "the reflection is corrected by negating the whole matrix; "
+     "negate only the direction of the smallest singular value", "-U V^T",
      {"rotation": all_turned}),
-    ("largest-turned-round", "a reflection is made a rotation by negating the "
-     "direction of the largest singular value; the smallest one changes the fit least",
+    ("largest-turned-round", "the reflection is corrected by negating the direction of "
+     "the largest singular value; negating the direction of the smallest one changes "
+     "the fit least",
      "diag(det, 1, 1)", {"rotation": lambda U, Vt: U @ np.diag(
          [np.linalg.det(U @ Vt), 1, 1]) @ Vt}),
-    ("column-turned-round", "a reflection is made a rotation by negating the third "
-     "column of V^T; its directions are the rows", "the negated column of V^T",
+    ("column-turned-round", "the reflection is corrected by negating the third column "
+     "of V^T; the directions are the rows of V^T", "the negated column of V^T",
      {"rotation": lambda U, Vt: U @ Vt @ np.diag([1, 1, np.linalg.det(U @ Vt)])}),
     ("always-turned-round", "the third direction is always negated; negate it only if "
      "U V^T is a reflection", "diag(1, 1, -1)",
@@ -100,8 +101,8 @@ def _(source, target):
       b_0 - R a_0
     first-for-centre: the first points are used instead of the centroids; their noise
       changes the fit => the fit about source[0] and target[0]
-    affine: this is the best affine map by least squares, and no rotation => the affine
-      fit
+    affine: your function fits an affine map by least squares, which need not be a
+      rotation => the affine fit
     """
     R = kabsch(source, target)[:3, :3]
     one = np.hstack([source, np.ones((len(source), 1))])

@@ -31,15 +31,16 @@ def covariance(
 
 for slug, says, redone, other in (
     ("mean-over-points", "the result is multiplied by the number of pixel coordinates, "
-     "or J^T J is their mean; each further pixel reduces the covariance",
+     "or J^T J is divided by it. Each further pixel should reduce the covariance",
      "the covariance times 2 n", {"share": lambda n: n}),
     ("mean-over-points", "the result is multiplied by the number of points, or J^T J "
-     "is their mean; each further point reduces the covariance",
+     "is divided by it. Each further point should reduce the covariance",
      "the covariance times n", {"share": lambda n: n / 2}),
     ("divided-by-points", "the result is divided by the number of points; J^T J is "
-     "their sum already", "the covariance over n", {"share": lambda n: 2 / n}),
+     "already the sum over all points", "the covariance over n",
+     {"share": lambda n: 2 / n}),
     ("divided-by-points", "the result is divided by the number of pixel coordinates; "
-     "J^T J is their sum already", "the covariance over 2 n",
+     "J^T J is already the sum over all of them", "the covariance over 2 n",
      {"share": lambda n: 1 / n}),
     ("reshaped-across", "J is reshaped to (6, 2 n), which mixes its rows; it has one "
      "row per pixel coordinate, (2 n, 6)", "J.reshape(6, -1)",
@@ -59,10 +60,10 @@ for slug, says, redone, other in (
 
 @row.wrongs
 def _(J, sigma):
-    """information: this is the information matrix J^T J / sigma^2; the covariance is
-      its inverse
-    by-what-is-left: the result is divided by 2 n - 6 degrees of freedom; that belongs
-      to the estimate of an unknown sigma
+    """information: the result is the information matrix J^T J / sigma^2; the covariance
+      is its inverse
+    by-what-is-left: the result is divided by 2 n - 6 degrees of freedom; this division
+      belongs to the estimate of an unknown sigma
     each-point-alone: the covariances of the single points are added; add their
       information matrices J^T J
     """

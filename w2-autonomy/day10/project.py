@@ -62,8 +62,8 @@ def swapped(K):
 
 
 for slug, says, redone, other in (
-    ("half-inverted", "R is transposed and t is subtracted; this is neither T nor its "
-     "inverse, which is R^T (p - t)", "R^T p - t",
+    ("half-inverted", "R is transposed and t is subtracted, but the result is neither "
+     "T p nor T^-1 p, which is R^T (p - t)", "R^T p - t",
      {"moved": lambda R, t, x: x @ R - t}),
     ("T-forgotten", "T_cam_world is not used; the points are in the world frame, so "
      "transform them to the camera frame", "the projection without T",
@@ -74,8 +74,8 @@ for slug, says, redone, other in (
      "the depth; add it after", "(f x + cx) / z",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2], p[:, 2]])}),
-    ("centre-forgotten", "the principal point is missing: (0, 0) is the corner of the "
-     "image, and a point straight ahead is at its centre", "cx = cy = 0",
+    ("centre-forgotten", "the principal point is missing. Pixel (0, 0) is the corner "
+     "of the image, but a point straight ahead projects to the centre", "cx = cy = 0",
      {"times": lambda K, p: upright(K, p, centre=0.0)}),
     ("centre-taken-off", "the principal point is subtracted; add it",
      "(-cx, -cy) as the principal point",
@@ -84,12 +84,13 @@ for slug, says, redone, other in (
      {"times": lambda K, p: p @ swapped(K).T}),
     ("f-forgotten", "the focal length is missing: x / z has no unit, and f converts it "
      "to pixels", "f = 1", {"times": lambda K, p: upright(K, p, f=0.0)}),
-    ("y-up", "y is negated; it points down, like v", "(x, -y, z)",
+    ("y-up", "y is negated; both y and v point down", "(x, -y, z)",
      {"times": lambda K, p: p * [1, -1, 1] @ K.T}),
-    ("view-along-minus-z", "the point is divided by -z; this camera looks along +z, "
-     "unlike MuJoCo's", "(x, y, -z)", {"times": lambda K, p: p * [1, 1, -1] @ K.T}),
-    ("mujoco-axes", "y and z are negated, as for MuJoCo's camera frame; T_cam_world "
-     "maps to a frame with y down and z forward already", "(x, -y, -z)",
+    ("view-along-minus-z", "the point is divided by -z; the camera frame of this task "
+     "has +z forward, unlike MuJoCo's", "(x, y, -z)",
+     {"times": lambda K, p: p * [1, 1, -1] @ K.T}),
+    ("mujoco-axes", "y and z are negated, as for MuJoCo's camera frame. T_cam_world "
+     "already maps to a frame with y down and z forward", "(x, -y, -z)",
      {"times": lambda K, p: p * [1, -1, -1] @ K.T}),
     ("divided-by-range", "the point is divided by its distance from the camera; divide "
      "it by its depth z", "the norm of p instead of z",
@@ -99,7 +100,7 @@ for slug, says, redone, other in (
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2] * length(p), length(p)])}),
     ("first-depth-for-all", "all points are divided by the depth of the first one; "
-     "each has its own depth", "the depth of the first point",
+     "each point has its own depth", "the depth of the first point",
      {"divided": lambda h, p: h[:, :2] / h[0, 2]}),
     ("divided-by-pixel-length", "the homogeneous pixel is divided by its norm; divide "
      "it by its last entry, the depth", "the norm of K T p",
@@ -108,7 +109,7 @@ for slug, says, redone, other in (
      "its last entry is the depth, so one division is enough", "z^2 instead of z",
      {"divided": lambda h, p: h[:, :2] / h[:, 2:] ** 2}),
     ("middle-of-a-pixel", "half a pixel is subtracted; (0, 0) is the corner of the "
-     "image, and not, as in OpenCV, the centre of the first pixel", "pixels - 0.5",
+     "image, not the centre of the first pixel as in OpenCV", "pixels - 0.5",
      {"told": lambda pixels: pixels - 0.5}),
     ("half-a-pixel-added", "half a pixel is added; (0, 0) is the corner of the image, "
      "and the principal point is measured from there", "pixels + 0.5",

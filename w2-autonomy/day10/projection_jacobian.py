@@ -87,30 +87,40 @@ def with_one_name(of, other):
 
 
 for slug, says, redone, other in (
-    ("depth-column-forgotten", "the derivatives by z are 0; a point that comes nearer "
-     "moves away from the principal point, so they are -f x / z^2",
+    ("depth-column-forgotten", "the derivatives with respect to z are 0. A point that "
+     "comes nearer moves away from the principal point, so they should be -f x / z^2",
      "0 instead of -f x / z^2", {"pixel": third(lambda z: 0.0)}),
-    ("depth-column-sign", "the derivatives by z have the wrong sign: the derivative of "
+    ("depth-column-sign", "the derivatives with respect to z have the wrong sign: the "
+     "derivative of "
      "x / z is -x / z^2", "f x / z^2", {"pixel": third(lambda z: -1.0)}),
-    ("power-of-z", "the derivatives by z have the wrong power of z: the derivative of "
+    ("power-of-z", "the derivatives with respect to z have the wrong power of z: the "
+     "derivative of "
      "x / z is -x / z^2", "-f x / z", {"pixel": third(lambda z: z)}),
-    ("power-of-z", "the derivatives by z have the wrong power of z: the derivative of "
+    ("power-of-z", "the derivatives with respect to z have the wrong power of z: the "
+     "derivative of "
      "x / z is -x / z^2", "-f x", {"pixel": third(lambda z: z * z)}),
-    ("power-of-z", "the derivatives by z have the wrong power of z: the derivative of "
+    ("power-of-z", "the derivatives with respect to z have the wrong power of z: the "
+     "derivative of "
      "x / z is -x / z^2", "-f x / z^3", {"pixel": third(lambda z: 1 / z)}),
-    ("f-forgotten", "the focal lengths are missing: these are derivatives of x / z, "
-     "which has no unit", "f = 1", {"pixel": lambda K, p: by_point(K, p) / focal(K)}),
-    ("centre-in-the-slope", "the principal point is in the derivatives by z; it is a "
-     "constant, so its derivative is 0", "the principal point in the derivatives",
+    ("f-forgotten", "the focal lengths are missing: your entries are the derivatives "
+     "of x / z, which has no unit", "f = 1",
+     {"pixel": lambda K, p: by_point(K, p) / focal(K)}),
+    ("centre-in-the-slope", "the principal point appears in the derivatives with "
+     "respect to z; it is a constant, so its derivative is 0", "the principal point in "
+     "the derivatives",
      {"pixel": with_the_centre}),
-    ("x-for-y", "the row of v has x in its derivative by z; it is -f y / z^2",
+    ("x-for-y", "the row of v has x in its derivative with respect to z; this entry "
+     "should be -f y / z^2",
      "x instead of y", {"pixel": with_one_name(1, 0)}),
-    ("y-for-x", "the row of u has y in its derivative by z; it is -f x / z^2",
+    ("y-for-x", "the row of u has y in its derivative with respect to z; this entry "
+     "should be -f x / z^2",
      "y instead of x", {"pixel": with_one_name(0, 1)}),
-    ("first-columns-not-divided", "the derivatives by x and y are not divided by z; "
-     "they are f / z", "f instead of f / z", {"pixel": lambda K, p: by_point(
+    ("first-columns-not-divided", "the derivatives with respect to x and y are not "
+     "divided by z; they should be f / z", "f instead of f / z",
+     {"pixel": lambda K, p: by_point(
          K, p) * np.where([True, True, False], depth(p, 1), 1.0)}),
-    ("pixels-for-x-and-y", "the derivatives by z use the pixel (u, v); use x and y in "
+    ("pixels-for-x-and-y", "the derivatives with respect to z use the pixel (u, v); "
+     "use x and y in "
      "the camera frame", "(u, v) instead of (x, y)", {"pixel": of_the_pixel}),
     ("range-for-depth", "the derivatives use the distance of the point; use its depth "
      "z", "the norm of p instead of z", {"pixel": lambda K, p: by_point(

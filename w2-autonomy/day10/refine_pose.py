@@ -105,21 +105,22 @@ for slug, says, redone, other in (
     ("twist-halves-swapped", "the step is used as (v; omega); the columns of J begin "
      "with omega", "the step with its halves swapped",
      {"move": lambda T, xi: apply_twist(T, np.roll(xi, 3))}),
-    ("body-twist", "each step is on the right of T; the twists of J are expressed in "
-     "the camera frame, so the exponential is on the left", "T exp([xi])",
+    ("body-twist", "each step multiplies T on the right. The twists of J are expressed "
+     "in the camera frame, so the exponential belongs on the left", "T exp([xi])",
      {"move": on_the_right}),
-    ("first-order", "each step is T + [xi] T, so R is no rotation any more; use the "
+    ("first-order", "each step is T + [xi] T, so R is no longer a rotation; use the "
      "exponential", "(1 + [xi]) T", {"move": first_order}),
     ("gradient", "each step is J^T r, a gradient step; a Gauss-Newton step is the "
      "least-squares solution", "J^T r", {"solve": downhill}),
-    ("each-from-the-guess", "each step moves the guess; move the pose of the last step",
+    ("each-from-the-guess", "each step is applied to the guess; apply it to the pose "
+     "of the previous step",
      "the guess moved by each step", {"since": lambda T, guess: guess}),
     ("half-steps", "each step is halved, so ten steps leave a thousandth of the error",
      "xi / 2", {"factor": 0.5}),
-    ("rows-mixed", "the rows of J are in another order than the errors: all u, then "
-     "all v", "J with its rows reordered", {"solve": mixed}),
-    ("error-mixed", "the errors are in another order than the rows of J: all u, then "
-     "all v", "another order of the errors", {"solve": mixed_off}),
+    ("rows-mixed", "the rows of J are in the order all u, then all v; the errors are "
+     "in another order", "J with its rows reordered", {"solve": mixed}),
+    ("error-mixed", "the errors are in the order all u, then all v; the rows of J are "
+     "in another order", "another order of the errors", {"solve": mixed_off}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(steps, **other))
 

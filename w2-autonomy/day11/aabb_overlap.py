@@ -135,21 +135,21 @@ def _(box_a, box_b):
       that lies below box_a => `box_a[0] <= box_b[1]` alone
     one-direction 2: your code makes only one of the two comparisons, so it misses a
       box_b that lies above box_a => `box_b[0] <= box_a[1]` alone
-    touching-left-out: boxes that only touch are reported as apart, but they should be
-      reported as overlapping => the formula with <
-    touching-left-out 2: boxes that touch on one side are reported as apart, but they
+    touching-left-out: boxes that only touch are reported as separate, but they should
+      be reported as overlapping => the formula with <
+    touching-left-out 2: boxes that touch on one side are reported as separate, but they
       should be reported as overlapping => the formula with one <
-    touching-left-out 3: boxes that touch on one side are reported as apart, but they
+    touching-left-out 3: boxes that touch on one side are reported as separate, but they
       should be reported as overlapping => the formula with the other <
     negated: the result is inverted; True means that the boxes overlap
     first-axis-only: your code compares only x
     two-axes-only: your code does not compare z
     contained: your code requires that one box contains the other; two boxes can also
-      overlap partly
+      overlap partially
     contained 2: your code requires that box_a contains box_b; two boxes can also
-      overlap partly
+      overlap partially
     contained 3: your code requires that box_b contains box_a; two boxes can also
-      overlap partly
+      overlap partially
     a-corner-inside: your code requires that the lower or the upper corner of box_b lies
       in box_a; two boxes can overlap without that
     a-corner-inside 2: your code requires that the lower corner of box_b lies in box_a;
@@ -165,10 +165,10 @@ def _(box_a, box_b):
     corners-only: your code tests whether a corner of one box lies in the other; two
       boxes can cross although no corner lies inside => the test of all 8 corners of
       both
-    corners-only 2: your code tests whether a corner of box_b lies in box_a; two boxes
+    corners-only 2: your code tests whether a corner of box_b lies in box_a. Two boxes
       can cross, or box_b can contain box_a, although no such corner exists => the test
       of all 8 corners of box_b
-    corners-only 3: your code tests only the lower and the upper corner of each box; two
+    corners-only 3: your code tests only the lower and the upper corner of each box. Two
       boxes can overlap although neither lies in the other box => the test of two
       corners of each
     corners-only 4: your code tests only the lower corner of each box; two boxes can
@@ -185,7 +185,7 @@ def _(box_a, box_b):
     sides-not-halved: the limit for the distance between the centres is the sum of the
       sides; it should be half of this sum
     sides-in-quarters: the limit for the distance between the centres is a quarter of
-      the sum of the sides; it should be half of this sum
+      the sum of the sides. It should be half of this sum
     or-for-and: one of the two comparisons is enough in your code; both must hold
     two-axes-enough: overlap on two axes is enough in your code; two boxes overlap only
       if their intervals overlap on all three axes

@@ -4,7 +4,7 @@ import numpy as np
 
 
 def cut(x):
-    """Return x cut to 0..1."""
+    """Return x clamped to 0..1."""
     return np.clip(x, 0.0, 1.0)
 
 

@@ -71,19 +71,19 @@ def _(p, half_extents):
     inside-positive: inside the box your result is positive; it should be negative
     sign: the sign is reversed; the distance is positive outside the box
     largest-outside: outside the box your code uses only the largest excess beyond a
-      face; near an edge or a corner, take the norm of all positive excesses => max(|p|
+      face. Near an edge or a corner, take the norm of all positive excesses => max(|p|
       - half_extents)
     sum-outside: outside the box your code adds the excesses beyond the faces; take
       their norm, because they are perpendicular
     inside-added-outside: outside the box negative entries of |p| - half_extents enter
       the norm; clamp them to 0 first => the norm of |p| - half_extents
     depth-added-outside: outside the box your code adds the largest entry of |p| -
-      half_extents to the norm; add it only inside, where it is negative => the norm
+      half_extents to the norm. Add it only inside, where it is negative => the norm
       plus max(|p| - half_extents), without min(..., 0)
     inside-by-the-norm: inside the box your code returns minus the norm of all three
       face distances; only the nearest face matters
     farthest-face-inside: inside the box your code uses the distance to the farthest
-      face; use the nearest face, which has the largest entry of |p| - half_extents =>
+      face. Use the nearest face, which has the largest entry of |p| - half_extents =>
       the formula with min
     farthest-face-inside 2: the inside term uses the farthest face; use the nearest
       face, which has the largest entry of |p| - half_extents => the formula with min
@@ -97,8 +97,8 @@ def _(p, half_extents):
       half_extents
     box-as-a-ball 3: your code treats the box as a sphere => |p| minus the smallest
       half_extents
-    whole-sides: your code halves half_extents, which already contains half of the sides
-      => the formula with half_extents / 2
+    whole-sides: half_extents already contains half of each side, but your code halves
+      it again => the formula with half_extents / 2
     twice-the-sides: your code doubles half_extents; the faces are at plus and minus
       half_extents => the formula with 2 half_extents
     abs-forgotten: the absolute value of p is missing, so points with a negative
@@ -115,7 +115,7 @@ def _(p, half_extents):
       belongs to x
     in-the-plane: your code does not use z
     smallest-added: your code adds the smallest entry of |p| - half_extents, even where
-      it is positive; add the largest entry, and only where it is negative => the norm
+      it is positive. Add the largest entry, and only where it is negative => the norm
       plus min(|p| - half_extents)
     first-axis-added: the inside term uses only the x entry of |p| - half_extents; use
       the largest of the three entries
@@ -128,7 +128,7 @@ def _(p, half_extents):
     one-number-inside: inside the box your code always returns -1; return minus the
       distance to the nearest face
     least-half-inside: inside the box your code always returns minus the smallest half
-      extent; this is correct only at the centre
+      extent, which is correct only at the centre
     smallest-part-inside: inside the box your code returns minus the smallest entry of
       |p|; the distance to a face is half_extents - |p|
     upper-faces-inside: inside the box your code uses only the faces on the positive
@@ -137,7 +137,7 @@ def _(p, half_extents):
       to a face is perpendicular to it => |p| (1 - 1 / max(|p| / half_extents))
     size-of-the-difference: your code uses |p - half_extents|; the excess beyond a face
       is |p| - half_extents
-    cut-at-one: the excess beyond a face is limited to 1; it has no upper limit
+    cut-at-one: the excess beyond a face is limited to 1; the excess has no upper limit
     corner-or-face: near an edge your code returns the larger of the two excesses;
       return their norm
     two-of-three: near a corner your code uses only the two largest excesses; use all

@@ -47,11 +47,11 @@ def _(a0, a1, r):
     """radius-forgotten: the radius is missing, so the box contains only the axis
     radius-on-one-side: the radius is not subtracted from the lower corner
     radius-on-one-side 2: the radius is not added to the upper corner
-    radius-inwards: the radius has the wrong sign, so the box shrinks; subtract it from
+    radius-inwards: the radius has the wrong sign, so the box shrinks. Subtract it from
       the lower corner and add it to the upper corner
     radius-added-to-both: the radius is added to both corners; subtract it from the
       lower corner
-    flat-ends: your box is the box of a cylinder with flat ends; a capsule ends in
+    flat-ends: your box is the box of a cylinder with flat ends. A capsule ends in
       spheres, which extend by r along every axis => the formula with r sqrt(1 - d^2) on
       each axis, where d is the direction of the axis
     corners-not-sorted: a0 and a1 are used as the lower and the upper corner; take the
@@ -73,7 +73,7 @@ def _(a0, a1, r):
       it
     around-one-end 2: your code uses only a1, so the result is the box of a sphere
       around it
-    along-the-axis: the radius is added only along the direction of the axis; the sphere
+    along-the-axis: the radius is added only along the direction of the axis. The sphere
       at each end extends by r along x, y and z => the formula with r times the
       direction of the axis
     whole-ends-sorted: one whole end is used as the lower corner; take the minimum of

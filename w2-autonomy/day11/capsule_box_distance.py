@@ -127,8 +127,8 @@ def golden(f, n, keep=0.618, wrong=False):
 
 @row.wrongs
 def _(a0, a1, r, T_world_box, half_extents):
-    """ends-only: your code tests only the ends of the axis; its nearest point can lie
-      between them
+    """ends-only: your code tests only the ends of the axis; the nearest point of the
+      axis can lie between them
     one-end-only: your code always returns the distance of a1, because the search always
       keeps the upper part
     one-end-only 2: your code always returns the distance of a0, because the search
@@ -145,7 +145,7 @@ def _(a0, a1, r, T_world_box, half_extents):
     eleven-points 2: your code tests only some points of the axis; the nearest point
       lies between them => the minimum of 21 points
     nearest-to-the-centre: your code uses the point of the axis nearest to the centre of
-      the box; another point can be nearer to a face
+      the box. Another point can be nearer to a face
     world-axes: the ends are translated to the box but not rotated into its frame; use
       R^T (x - t) => R = I
     turned-the-other-way: the ends are multiplied by R; use R^T to express them in the
@@ -210,7 +210,7 @@ def _(a0, a1, r, T_world_box, half_extents):
       axis instead => R half_extents
     mean-along: your code returns the mean of the distances along the axis; return the
       minimum
-    edges-only: your code computes the distance to the edges of the box; a face can be
+    edges-only: your code computes the distance to the edges of the box. A face can be
       nearer, and the axis can enter the box
     faces-only: your code tests only the ends and the points where the axis crosses the
       plane of a face

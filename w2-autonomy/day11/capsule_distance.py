@@ -127,10 +127,10 @@ def _(a0, a1, ra, b0, b1, rb):
     radii-as-sides: the radii are combined as sqrt(ra^2 + rb^2); both lie along the same
       line, so add them => |p - o| - sqrt(ra^2 + rb^2)
     root-of-squares: your code returns sqrt(|p - o|^2 - (ra + rb)^2), the length of a
-      tangent; the distance is |p - o| - (ra + rb) => this formula, with 0 where they
+      tangent. The distance is |p - o| - (ra + rb) => this formula, with 0 where they
       overlap,
     root-of-squares 2: your code returns sqrt(|p - o|^2 - (ra + rb)^2), the length of a
-      tangent; the distance is |p - o| - (ra + rb) => this formula, with a minus sign
+      tangent. The distance is |p - o| - (ra + rb) => this formula, with a minus sign
       where they overlap,
     least-part: the smallest component of p - o is used instead of its norm
     parts-with-signs: the components of p - o are added with their signs; take the norm
@@ -140,16 +140,16 @@ def _(a0, a1, ra, b0, b1, rb):
       their sum
     lengths-differ: the norms of p and o are subtracted; take the norm of p - o => | |p|
       - |o| |
-    cut-once: the distance is clamped at 0 after ra is subtracted, before rb is
-      subtracted; do not clamp it
+    cut-once: the distance is clamped at 0 between the subtractions of ra and rb; do not
+      clamp it
     one-number-inside: for capsules that overlap your code always returns -1; the result
-      should depend on the depth
+      should depend on the penetration depth
     one-number-inside 2: for capsules that overlap your code returns minus the smaller
-      radius; the result should depend on the depth
+      radius; the result should depend on the penetration depth
     axes-inside: for capsules that overlap your code returns minus the distance between
       the axes; subtract the radii from it
-    ends-only: your code assumes that one of the closest points is an end; both can lie
-      between the ends
+    ends-only: your code assumes that one of the closest points is an end; both points
+      can lie between the ends
     ends-only 2: your code tests only the ends of the first axis; its closest point can
       lie between them
     ends-only 3: your code tests only the ends of the second axis; its closest point can
@@ -166,7 +166,7 @@ def _(a0, a1, ra, b0, b1, rb):
       ends => |(b0 - a0) . n|, where n is the unit vector perpendicular to both,
     grown-axes: each axis is extended by the radius at both ends, and the radius is also
       subtracted; subtract the radius only
-    starts-and-ends: your code uses the segments from a0 to b0 and from a1 to b1; the
+    starts-and-ends: your code uses the segments from a0 to b0 and from a1 to b1. The
       axes run from a0 to a1 and from b0 to b1
     in-the-plane: your code does not use z in the distance
     """

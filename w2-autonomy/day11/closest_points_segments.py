@@ -85,18 +85,18 @@ def _(a0, a1, b0, b1):
     s-not-cut: s is never clamped, so its point can lie beyond an end
     cut-below-only: s and t are clamped at 0 but not at 1 => the formula with max(x, 0)
     cut-above-only: s and t are clamped at 1 but not at 0 => the formula with min(x, 1)
-    ends-only: your code assumes that one of the closest points is an end; both can lie
-      between the ends
+    ends-only: your code assumes that one of the closest points is an end; both points
+      can lie between the ends
     end-pairs: your code returns the nearest pair of ends; the closest points can lie
       between the ends
     end-pairs 2: your code uses the end of the first segment that is nearest to the
-      second; the closest point can lie between the ends
-    w-sign: w has the wrong sign; it runs from the start of the second segment to the
-      start of the first, a0 - b0 => the formula with b0 - a0
+      second. The closest point can lie between the ends
+    w-sign: w has the wrong sign. It should run from the start of the second segment to
+      the start of the first, a0 - b0 => the formula with b0 - a0
     d-and-e-swapped: d and e are swapped; d = u . w belongs to the first segment
     numerator-sign: the numerator of s has the wrong sign; s = (b e - c d) / (a c - b b)
       => the formula with c d - b e
-    b-sign: b has the wrong sign; the derivatives are a s - b t + d and b s - c t + e =>
+    b-sign: b has the wrong sign. The derivatives are a s - b t + d and b s - c t + e =>
       the formula with -b
     across-plus: the denominator is a c + b b; it should be a c - b b, which is 0 for
       parallel segments
@@ -107,7 +107,7 @@ def _(a0, a1, b0, b1):
       first segment first
     middles: your code returns the midpoints of the segments
     starts: your code returns the starts of the segments
-    same-share: t is set equal to s; each segment has its own parameter
+    same-share: t is set equal to s; each segment should have its own parameter
     shares: your code returns s u and t v; add the starts a0 and b0
     beyond-the-ends: the points are measured from a1 and b1; s and t are measured from
       a0 and b0
@@ -124,12 +124,12 @@ def _(a0, a1, b0, b1):
     sampled 3: your code tests only some points of each segment; the closest points lie
       between them => the best of 21 x 21 points
     ends-where-cut: where s or t of the lines lies outside 0..1, your code returns the
-      nearest pair of ends; one of the closest points can still lie between the ends
+      nearest pair of ends. One of the closest points can still lie between the ends
     ends-where-cut 2: where s or t of the lines lies outside 0..1, your code tests only
-      the ends of the first segment; test the ends of the second too => the formula with
+      the ends of the first segment. Test the ends of the second too => the formula with
       its ends alone
     ends-where-cut 3: where s or t of the lines lies outside 0..1, your code tests only
-      the ends of the second segment; test the ends of the first too => the formula with
+      the ends of the second segment. Test the ends of the first too => the formula with
       its ends alone
     start-where-cut: where s or t of the lines lies outside 0..1, your code sets s to 0;
       clamp s instead
@@ -146,9 +146,9 @@ def _(a0, a1, b0, b1):
     a-middle-alone: your code returns the midpoint of the first segment and the point of
       the second that is nearest to it
     farthest: your code selects the farthest of the candidate pairs; select the nearest
-    one-round: your code sets s = 0 and then computes t and s only once; this does not
+    one-round: your code sets s = 0 and then computes t and s only once, which does not
       reach the minimum => one round from s = 0
-    one-round 2: your code sets s = 0.5 and then computes t and s only once; this does
+    one-round 2: your code sets s = 0.5 and then computes t and s only once, which does
       not reach the minimum => one round from s = 0.5
     difference: both rows contain the difference of the two points; return the points
       themselves
@@ -368,8 +368,8 @@ def rounds(n, start):
 
 
 FEW = (
-    "your code alternates between t and s, but stops after too few rounds; "
-    "each round only comes nearer to the minimum"
+    "your code alternates between t and s, but stops after too few iterations; each "
+    "iteration only approaches the minimum"
 )
 for n in (2, 3, 4, 5, 10):
     for start in (0.0, 0.5):

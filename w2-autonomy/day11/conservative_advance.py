@@ -144,17 +144,18 @@ def _(s, distance, delta_q, radii):
     s-forgotten: your code returns the step alone; add it to s
     not-capped: the result can exceed 1, the end of the motion
     standing-still: if no joint moves, your code divides by 0; return 1, because the
-      rest of the motion is free
+      rest of the motion is collision-free
     standing-still 2: if no joint moves, your code returns s; return 1, because the rest
-      of the motion is free
-    goes-back-inside: if the arm already touches, your code moves back; return s itself
-      => s - |d| / bound
-    goes-on-inside: if the arm already touches, your code moves on; return s itself =>
-      the formula with |d|
-    stops-inside: if the arm already touches, your code returns 1; return s itself
-    stops-inside 2: if the arm already touches, your code returns 0; return s itself
+      of the motion is collision-free
+    goes-back-inside: if the arm is already in contact, your code moves back; return s
+      itself => s - |d| / bound
+    goes-on-inside: if the arm is already in contact, your code moves on; return s
+      itself => the formula with |d|
+    stops-inside: if the arm is already in contact, your code returns 1; return s itself
+    stops-inside 2: if the arm is already in contact, your code returns 0; return s
+      itself
     still-before-touching: your code tests for a motion of 0 before it tests for
-      contact; an arm that touches should return s even if it does not move
+      contact. If the arm is in contact, return s even if no joint moves
     reach-backwards: the radii are in reverse order; the first radius belongs to joint 1
     reaches-summed: your code multiplies the sum of |delta_q| by the sum of the radii;
       each joint has its own radius

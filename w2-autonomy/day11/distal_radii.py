@@ -71,22 +71,22 @@ def _(link_lengths, link_radii):
     offset-of-the-last: the length of the last link is added; no link follows it
     offset-of-the-last 2: the length of the last link is used as a radius; no link
       follows it
-    offset-to-its-own: the link length is also added to the joint's own link radius; it
-      belongs only to the distal links
+    offset-to-its-own: the link length is also added to the joint's own link radius; add
+      this length only for the distal links
     far-forgotten: your code adds only the link lengths; include the link radii
     offsets-forgotten: the link lengths are missing, so the result is the largest link
       radius
     all-summed: your code adds the radii of all distal links; only one point is the
       farthest => the sum of all link lengths and all link radii
-    largest-far: the largest link radius is used at the end of the arm; it belongs to
-      its own link
-    least: your code takes the smallest distance; an upper bound is the largest
+    largest-far: the largest link radius is used at the end of the arm; each radius
+      belongs to its own link
+    least: your code takes the smallest distance; the upper bound is the largest
     not-in-a-row: the links beyond the next one are missing; use the result for the next
       joint, not its link radius
     euclid: the lengths are combined as the root of a sum of squares; in the stretched
       arm they add up
-    one-for-all: your code returns the largest result for every joint; each joint has
-      its own
+    one-for-all: your code returns the largest result for every joint; each joint should
+      have its own
     backwards: the result is in reverse order; its first entry belongs to joint 1
     sum-from-the-base: the link lengths are summed from the base to the joint; sum them
       from the joint to the distal link
@@ -102,11 +102,11 @@ def _(link_lengths, link_radii):
       lengths before the joint
     less-the-base 2: the farthest distal point is measured from the base; measure it
       from the joint => the formula with the link lengths before it
-    largest-far-behind: the largest distal link radius is placed at the last link; it
-      belongs to its own link => the sum of the link lengths plus the largest link
-      radius
+    largest-far-behind: the largest distal link radius is placed at the last link; each
+      radius belongs to its own link => the sum of the link lengths plus the largest
+      link radius
     largest-far-behind 2: the largest link radius beyond the next joint is placed at the
-      last link; it belongs to its own link
+      last link; each radius belongs to its own link
     own-offset-repeated: the joint's own link length is repeated for every distal link;
       each link has its own length => the formula with link_lengths[i] for all
     offset-of-the-one-before: the link length of the previous joint is used;
@@ -119,7 +119,7 @@ def _(link_lengths, link_radii):
       between them can be farther away
     two-behind-only: your bound uses only the next two links
     sum-not-largest: the link radius is added to the maximum of the link length and the
-      next result; take the maximum of the link radius and their sum
+      next result. Take the maximum of the link radius and their sum
     largest-of-three: your code takes the maximum of the link radius, the link length
       and the next result; add the last two first
     largest-far-next: the largest link radius is added to the link length; add the
@@ -128,14 +128,14 @@ def _(link_lengths, link_radii):
     mean-not-largest: your code takes the mean over the distal links; an upper bound is
       the maximum
     offsets-alone: your code takes the maximum of the link radius and the sum of the
-      link lengths; add the distal radii to the lengths
+      link lengths. Add the distal radii to the lengths
     last-link-forgotten: the radius of the last link is treated as 0
     last-link-forgotten 2: the last link is missing => the formula without the radius of
       the last link
     offsets-to-the-end: your code adds all link lengths, including the last one, and the
-      radius of the last link; no link follows the last one
-    offset-too-early: the link length after a link is added before its radius; it
-      belongs to the next link
+      radius of the last link. No link follows the last one
+    offset-too-early: the length after each link is added before the radius of that
+      link; this length belongs to the next link
     far-twice: the joint's own link radius and the radius of the farthest link are both
       added; only one point is the farthest
     """

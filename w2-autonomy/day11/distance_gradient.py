@@ -83,8 +83,8 @@ def _(rng):
 def _(J_space, p, o, link):
     """towards-the-obstacle: the signs are reversed; the distance grows along p - o =>
       the formula with o - p
-    columns-behind-kept: joints distal to the link do not move it, so their entries must
-      be 0 => the formula with all columns
+    columns-behind-kept: the entries of the joints distal to the link are not 0; these
+      joints do not move the link => the formula with all columns
     own-joint-left-out: the entry of the link's own joint is 0; link 4 is moved by
       joints 1 to 4 => the formula with 0 from joint `link` on
     one-column-too-many: the entry of joint `link` + 1 is not 0; this joint moves only
@@ -105,7 +105,7 @@ def _(J_space, p, o, link):
       distance => the formula with p - o
     normal-squared: the normal is divided by the squared distance; divide by the
       distance
-    half: the result has a factor 1/2 too many
+    half: the result has an extra factor 1/2
     normal-of-p: the normal points from the world origin to p; it should point from o to
       p => the formula with p / |p|
     normal-of-o: the normal points from the world origin to o; it should point from o to

@@ -41,7 +41,7 @@ def said(tab):
 
 
 def pushed(tab, how, steps=40):
-    """Push, and return the least distance that the library sees, m."""
+    """Push, and return the smallest distance that the library sees, m."""
     tab.sets("y")(10.0)
     tab.press(how)
     least = np.inf

@@ -128,10 +128,10 @@ def _(qd, grad, distance, gain):
       along grad
     all-joints-slowed 2: all joints are scaled by one factor; change only the component
       along grad => qd times the ratio of the bound to grad . qd
-    stops-dead: the arm stops if it would be too fast; keep the part of the velocity
-      that is allowed
-    stops-dead 2: the arm stops if it would be too fast, and also if grad is 0; keep the
-      part of the velocity that is allowed
+    stops-dead: your code stops the arm if it would be too fast; keep the part of the
+      velocity that is allowed
+    stops-dead 2: your code stops the arm if it would be too fast, and also if grad is
+      0. Keep the part of the velocity that is allowed
     part-removed: the whole component along grad is removed; an approach within the
       bound is allowed => the formula without it
     sign-of-the-bound: the bound has the wrong sign; the condition is grad . qd >= -gain
@@ -152,18 +152,19 @@ def _(qd, grad, distance, gain):
       and limits the sum grad . qd => np.maximum(qd, -gain distance)
     largest-joint-only: only the joint with the largest entry of grad is changed; the
       smallest change is along grad
-    slope-unit: grad is normalised before it is compared with the bound; this changes
-      grad . qd
+    slope-unit: grad is normalised before grad . qd is compared with the bound, which
+      changes the value of grad . qd
     only-inside: your code limits the velocity only if the distance is negative
     standing-still: if grad is 0, your code divides by 0; return qd
     part-alone: only the component along grad is returned; keep the other components of
       qd => grad bound / grad^2
     left-where-it-overlaps: if the distance is not positive, your code returns qd; the
-      bound should move the arm away
+      correction should move the arm away
     stopped-where-it-overlaps: if the distance is not positive, your code returns 0;
       keep the part of the velocity that leads away
     no-way-out: a negative distance is clamped to 0, so the arm is not moved away
-    coming-near: every approach is changed; an approach within the bound is allowed
+    coming-near: your code changes every velocity towards the obstacle; an approach
+      within the bound is allowed
     by-the-sizes: absolute values are compared, so a fast motion away from the obstacle
       is changed too => the formula with |grad . qd| and |distance|
     half-of-it: only half of the correction is added
@@ -186,8 +187,8 @@ def _(qd, grad, distance, gain):
       smallest change is along all of grad
     those-that-come-near 2: joints that approach the obstacle are stopped; keep the part
       of the velocity that is allowed
-    rate-added: grad . qd is added to the bound; subtract it to get the missing speed =>
-      the formula with -gain distance + grad . qd
+    rate-added: grad . qd is added to the bound; subtract it from the bound to get the
+      missing speed => the formula with -gain distance + grad . qd
     lack-alone: your code returns the correction alone; add it to qd
     """
     bound = -gain * distance

@@ -39,7 +39,7 @@ def cut(
         least: rows that are no further apart are left.
         check: whether an edge is free.
         join: from path, i and j to what is left.
-        fixed: "" where places are those of the path by then; of its first length
+        fixed: "" where places belong to the path by then; of its first length
             "clamped" to the last row, or "skipped" beyond it; "mask" of the first path,
             or "present" where both rows are still there.
         ends: "never" before the last pair; with the "cut" that is first; with the first
@@ -90,8 +90,8 @@ def _placed(how: Callable[[Any], int], more: int) -> Any:
 
 
 OPTIONS = [
-    Option("not-sorted", "a pair whose first number is the larger is skipped; sort "
-                         "the two rows", {"order": list}),
+    Option("not-sorted", "your code skips a pair if its first row is the larger one; "
+        "sort the two rows", {"order": list}),
     Option("not-checked", "your code removes the points without testing whether the"
                           " new edge is free",
            {"check": lambda a, b, world: True}),

@@ -137,18 +137,18 @@ def _(tree, sample, step, world):
     sample-itself: the new node is the sample itself; limit the edge to one step with
       `steer`
     sample-itself 2: the new node is the sample itself, and the whole edge to it is
-      tested; limit the edge to one step with `steer`
+      tested. Limit the edge to one step with `steer`
     point-only: your code tests only the new point; test the whole edge to it
     node-only: your code tests only the node from which the tree grows; test the whole
       edge
-    always-free: your code does not test the edge, so every edge is free
+    always-free: your code does not test the edge, so it reports every edge as free
     never-free: your code reports that no edge is free
     edge-from-the-root: your code tests the edge from the root to the new point; the
       edge starts at the nearest node
     edge-to-the-sample: your code tests the edge to the sample; test only the edge to
       the new point
     edge-of-two-steps: your code tests an edge of two steps; the tree grows by one step
-    edge-on-from-there: your code tests the edge from the new point to the sample; test
+    edge-on-from-there: your code tests the edge from the new point to the sample. Test
       the edge from the nearest node to the new point
     hit-for-free: the third result is inverted; it should be True if the edge is free
     stays-where-blocked: if the edge is not free, your code returns the nearest node;
@@ -165,12 +165,12 @@ def _(tree, sample, step, world):
       the nearest node
     root-to-the-sample: your code tests the edge from the root to the sample; test the
       edge from the nearest node to the new point
-    standing-is-blocked: if the sample equals a node, your code reports a blocked edge;
-      an edge of length 0 is free if the node is free
-    own-is-free: your code does not call the method `edge_free` of the world, so every
-      edge is free in such a world
-    own-is-blocked: your code does not call the method `edge_free` of the world, so no
-      edge is free in such a world
+    standing-is-blocked: if the sample equals a node, your code reports a blocked edge.
+      An edge of length 0 is free if the node is free
+    own-is-free: your code does not call the method `edge_free` of the world, so it
+      reports every edge of such a world as free
+    own-is-blocked: your code does not call the method `edge_free` of the world, so it
+      reports every edge of such a world as blocked
     free-if-reached: your code reports a free edge only if the sample is reached; a step
       towards the sample is an edge too
     reached-is-free: if the sample is reached, your code does not test the edge
@@ -182,11 +182,11 @@ def _(tree, sample, step, world):
     added-twice: the result of `steer` is added to the node; `steer` already returns a
       point, not a displacement
     nearest-of-the-free: your code selects the nearest node among those with a free
-      edge; select the nearest node of all and report whether its edge is free
+      edge. Select the nearest node of all and report whether its edge is free
     sample-where-blocked: if the edge is not free, your code returns the sample; return
       the new point in both cases
-    part-of-the-way: if the edge is not free, your code shortens it until it is free;
-      leave the new point as it is and return False => an edge that is halved until it
+    part-of-the-way: if the edge is not free, your code shortens it until it is free.
+      Leave the new point as it is and return False => an edge that is halved until it
       is free
     """
     own = world is not discs_of(world)

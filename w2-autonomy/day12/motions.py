@@ -29,7 +29,7 @@ def timed(
         A, B, G, limits, x_max: as the function has them.
         how: what differs:
             two_ds: by which sdd is multiplied, from N.
-            sd, forward_sd: from x to what is taken for sd, backwards and forwards.
+            sd, forward_sd: from x to the value used as sd, backwards and forwards.
             start: sd^2 there; "K" is the most from which one can stop.
             last: whether the motion has to stop at its end.
             passes: "both", "back", "forward", "fall" forwards up to x_max, "smaller" of
@@ -37,7 +37,7 @@ def timed(
             bisections: of each step backwards.
             pull: what of gravity, speed: a function of A, B, G, x -> (A, B, G).
             back_at, at: which end of a step its limits are read at, 0 or 1.
-            most: the greatest x of each point, from x_max.
+            most: the maximum x of each point, from x_max.
             ranges: path_accel_bounds.
             stands: from G and limits whether it holds nowhere.
             kept: the most of which end of a step its x is kept below, forwards.
@@ -155,11 +155,11 @@ OPTIONS = [
         ("ds-forgotten", "ds is missing or is 1; it should be 1 / N", lambda n: 2.0),
         ("ds-forgotten", "the factor 2 ds is missing or is 1; ds should be 1 / N",
          lambda n: 1.0))),
-    Option("sd-for-sd2", "`path_accel_bounds` is called with sd^2; its argument is "
-                         "sd",
+    Option("sd-for-sd2", "`path_accel_bounds` is called with sd^2; its argument should "
+        "be sd",
            {"sd": lambda x: x}),
-    Option("sd-for-sd2", "in the forward pass `path_accel_bounds` is called with "
-                         "sd^2; its argument is sd",
+    Option("sd-for-sd2", "in the forward pass `path_accel_bounds` is called with sd^2; "
+        "its argument should be sd",
            {"forward_sd": lambda x: x}),
     Option("sd-squared-twice", "`path_accel_bounds` is called with sd^4; its "
                                "argument is sd",
@@ -187,15 +187,15 @@ OPTIONS = [
     Option("bobrow", "in the backward pass the smallest sdd of a step is computed "
                      "at its end; use its first point",
            {"swept": True}),
-    Option("limits-of-the-next-point", "in both passes the limits of a step are "
-                                       "computed at its end; use its first point",
+    Option("limits-of-the-next-point", "in both passes the bounds on sdd for a step "
+        "are computed at the end of the step; compute them at its first point",
            {"back_at": 1, "at": 1}),
-    Option("limits-of-the-next-point", "in the backward pass the limits of a step "
-                                       "are computed at its end; use its first "
-                                       "point", {"back_at": 1}),
-    Option("limits-of-the-next-point", "in the forward pass the limits of a step "
-                                       "are computed at its end; use its first "
-                                       "point", {"at": 1}),
+    Option("limits-of-the-next-point", "in the backward pass the bounds on sdd for a "
+        "step are computed at the end of the step. Compute them at its first point",
+        {"back_at": 1}),
+    Option("limits-of-the-next-point", "in the forward pass the bounds on sdd for a "
+        "step are computed at the end of the step; compute them at its first point",
+        {"at": 1}),
     *(Option(slug, says, {"pull": of}, alone=True) for slug, says, of in (
         ("limits-of-the-first-point", "every step uses a, b and c of the first "
                                       "point; use the values of each point",
@@ -229,8 +229,8 @@ OPTIONS = [
         ("x-max-rooted", "the square root of sd2_max is taken; compare sd^2 with "
                          "sd2_max itself", np.sqrt))),
     *(Option(slug, says, {"stands": of}) for slug, says, of in (
-        ("cannot-stand-goes", "if gravity alone exceeds a torque limit, the arm "
-                              "cannot hold there; return zeros",
+        ("cannot-stand-goes", "your code returns a motion although gravity alone "
+         "exceeds a torque limit; the arm cannot hold there, so return zeros",
          lambda G, limits: False),
         ("all-points-too-heavy", "your code returns zeros only if gravity exceeds a"
                                  " torque limit at every point; one point is enough",
@@ -249,9 +249,8 @@ OPTIONS = [
         ("allowed", "any sdd is allowed at this speed (low <= high)"),
         ("after", "the motion can slow down to the maximum of the next point"),
         ("turning", "sd^2 stays above 0 with the largest sdd"))),
-    Option("most-of-the-point-before", "in the forward pass sd^2 at i + 1 is "
-                                       "limited by the maximum at i; use the "
-                                       "maximum at i + 1", {"kept": 0}),
+    Option("most-of-the-point-before", "in the forward pass sd^2 at i + 1 is limited "
+        "by the maximum at i. Use the maximum at i + 1", {"kept": 0}),
     *(Option(slug, f"your code uses the {word} torque limit for every joint",
              {"ranges": _same_limit(choose)}, alone=True) for slug, word, choose in (
         ("smallest-limit", "smallest", np.min), ("largest-limit", "largest", np.max),

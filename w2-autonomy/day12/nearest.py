@@ -144,7 +144,7 @@ def _(tree, q):
       any number of them
     first-left-out: your code does not compare the first coordinate
     cubed: the differences are cubed, so they keep their signs and cancel; square them
-    length-for-place: your code compares the norms of the nodes with the norm of q; two
+    length-for-place: your code compares the norms of the nodes with the norm of q. Two
       points with the same norm can be far apart
     angle: your code selects the node at the smallest angle to q; use the distance
     second-nearest: your code returns the second nearest node

@@ -179,21 +179,21 @@ def _(a, b, c, limits, sd):
     rest-not-divided: b sd^2 + c is not divided by a
     one-sided: b sd^2 + c has the wrong sign in the lower bound; the bounds are not
       symmetric about 0
-    size-of-rest: |b sd^2 + c| reduces both limits; it reduces one limit and extends the
-      other
+    size-of-rest: your code reduces both limits by |b sd^2 + c|; this torque should
+      reduce one limit and extend the other
     widest: your code takes the union of the joints' intervals; take the intersection
     least-of-both: both bounds are the minimum of their quotients; the lower bound is
       the maximum of the joints' lower bounds
     first-joint-only: your code uses only the first joint
     first-joint-only 2: your code uses only the first joint that moves; every joint
       limits sdd
-    last-joint-only: your code uses only the last joint; a loop may overwrite the
-      earlier bounds
+    last-joint-only: your code uses only the last joint: does your loop overwrite the
+      earlier bounds?
     half-the-limit: your code uses only half of each torque limit
     not-divided: the bounds are torques; divide them by a
     times-a: the torques are multiplied by a; divide by a
-    one-limit: your code allows torques from 0 to the limit; they range from -limit to
-      limit
+    one-limit: your code allows torques from 0 to the limit; the torques may range from
+      -limit to limit
     greatest-first: the upper bound comes first; return the lower bound first
     greatest-first 2: the upper bound comes first unless a joint with a = 0 exceeds its
       limit; return the lower bound first
@@ -201,19 +201,19 @@ def _(a, b, c, limits, sd):
       above the upper bound
     none-sorted 2: if the joints allow no common sdd, your code sorts the bounds; leave
       the lower bound above the upper bound
-    none-is-zero: if no sdd is allowed, your code returns (0, 0); this allows sdd = 0
+    none-is-zero: if no sdd is allowed, your code returns (0, 0), which allows sdd = 0
     none-is-zero 2: if a joint with a = 0 exceeds its limit, your code returns (0, 0),
-      which allows sdd = 0; return (inf, -inf)
+      which allows sdd = 0. Return (inf, -inf)
     none-is-one: if no sdd is allowed, your code reduces the lower bound to the upper
       bound; leave it above the upper bound
     zero-stops-all: a joint with a = 0 within its torque limit makes the range empty in
-      your code; it does not limit sdd
+      your code. Such a joint does not limit sdd
     zero-row-ignored: your code ignores a joint with a = 0 that exceeds its torque
       limit; no sdd is allowed then: (inf, -inf)
     gravity-not-divided: c is subtracted after the division by a; c is a torque, so
       subtract it first
-    speed-not-divided: b sd^2 is subtracted after the division by a; it is a torque, so
-      subtract it first
+    speed-not-divided: b sd^2 is subtracted after the division by a; b sd^2 is a torque,
+      so subtract it first
     negative-left-out: your code ignores joints with negative a; every joint that moves
       limits sdd
     largest-limit: your code uses the largest torque limit for every joint
@@ -233,9 +233,9 @@ def _(a, b, c, limits, sd):
       joints
     first-left-out: your code skips the first joint
     none-is-zero 3: if the joints allow no common sdd, your code returns (0, 0), which
-      allows sdd = 0; leave the lower bound above the upper bound
-    none-is-infinite: if the joints allow no common sdd, your code returns (inf, -inf);
-      return the bounds themselves, because (inf, -inf) is reserved for a joint with a =
+      allows sdd = 0. Leave the lower bound above the upper bound
+    none-is-infinite: if the joints allow no common sdd, your code returns (inf, -inf).
+      Return the bounds themselves, because (inf, -inf) is reserved for a joint with a =
       0
     no-mover-is-none: if every a is 0 and every torque is within its limit, your code
       returns (inf, -inf); any sdd is allowed: (-inf, inf)
@@ -244,11 +244,11 @@ def _(a, b, c, limits, sd):
     held-by-speed-alone: for a joint with a = 0 your code compares only b sd^2 with the
       limit; compare b sd^2 + c
     held-with-sign: for a joint with a = 0 your code compares the torque without its
-      absolute value; the limit also applies to negative torques
+      absolute value. The limit also applies to negative torques
     all-have-to-hold: your code compares b sd^2 + c with the limit for joints that move
-      too; this test is only for joints with a = 0
+      too. This test is only for joints with a = 0
     any-that-holds: if several joints have a = 0, your code accepts the speed if one of
-      them is within its limit; all of them must be
+      them is within its limit. All of them must be within their limits
     small-is-zero: your code treats a small a as 0; a joint with a small a still limits
       sdd => the formula with |a| below 0.01
     small-is-zero 2: your code treats a small a as 0; a joint with a small a still
@@ -342,7 +342,7 @@ def _(a, b, c, limits, sd):
 
 @row.wrong
 def zero_divides(a, b, c, limits, sd):
-    """your code divides by 0 for a joint with a = 0; such a joint does not limit sdd
+    """your code divides by 0 for a joint with a = 0. Such a joint does not limit sdd
     while its torque is within the limit => the formula without that case"""
     with np.errstate(all="ignore"):
         ends = np.sort((np.array([-limits, limits]) - b * sd**2 - c) / a, axis=0)

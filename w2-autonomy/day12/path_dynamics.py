@@ -51,7 +51,7 @@ def _(rng):
 def _(M, dq_ds, d2q_ds2, coriolis, gravity):
     """ddq-forgotten: M d2q_ds2 is missing in b; on a curved path the joints accelerate
       even if sd is constant
-    bias-for-coriolis: gravity is also added to b; it does not depend on sd, so it
+    bias-for-coriolis: gravity is also added to b; gravity does not depend on sd, so it
       belongs only to g
     gravity-off-coriolis: gravity is subtracted in b; `coriolis` does not contain
       gravity
@@ -68,19 +68,20 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
     g-first: g is the first row; the order is a, b, g
     ddq-in-a: M dq_ds and M d2q_ds2 are exchanged; qdd = dq_ds sdd + d2q_ds2 sd^2
     m-dq-twice: b contains M dq_ds; it should contain M d2q_ds2
-    both-in-a: M d2q_ds2 is added to a; it is the coefficient of sd^2 and belongs to b
+    both-in-a: M d2q_ds2 is added to a, but it is the coefficient of sd^2 and belongs to
+      b
     gravity-sign: the sign of gravity is reversed; the torque that holds the arm is
       +gravity
     gravity-forgotten: gravity is missing, so the third row is 0
-    coriolis-times-dq: the Coriolis torque is multiplied by dq_ds; it is already
+    coriolis-times-dq: the Coriolis torque is multiplied by dq_ds, but it is already
       computed for qd = dq_ds
     dq-squared: b contains dq_ds^2 instead of d2q_ds2
     solved: your code solves with M; multiply by M, because M maps accelerations to
       torques
-    coriolis-in-g: the Coriolis torque is added to g; it is multiplied by sd^2, so it
-      belongs to b
-    coriolis-in-a: the Coriolis torque is added to a; it is multiplied by sd^2, so it
-      belongs to b
+    coriolis-in-g: the Coriolis torque is added to g; this torque is multiplied by sd^2,
+      so it belongs to b
+    coriolis-in-a: the Coriolis torque is added to a; this torque is multiplied by sd^2,
+      so it belongs to b
     rows-summed: each row of M is summed and then multiplied by one joint's rate; use
       the matrix product
     trace: the trace of M is used instead of M

@@ -57,7 +57,7 @@ class _Trees:
         return True
 
     def met(self, other: int, new: Array, sample: Array, step: float) -> bool:
-        """Return whether the other tree's newest node counts as the new one."""
+        """Return whether the other tree's newest node is treated as the new one."""
         last = self.nodes[other][-1]
         if self.how.meets == "equal":
             return bool(np.array_equal(last, new))
@@ -93,8 +93,8 @@ def planner(
             parent: "nearest", or "newest" of each node, or the "root".
             joined: how the way is made of both branches, each from the newest to its
                 root.
-            first: the "start"'s branch comes first, or that of the tree whose "turn" it
-                is.
+            first: the branch that comes first: the "start"'s, or the one of the tree
+                whose "turn" it is.
             free: True takes every edge for free.
             used: from the samples to those that are used.
             stride, far: by what the first tree's step, and the other's, is multiplied.
@@ -291,7 +291,7 @@ def _lengths(way: Array) -> Array:
 
 
 def fault(way: Array, start: Array, goal: Array, world: Array, step: float) -> str:
-    """Return what keeps a way from being one, in words, or ""."""
+    """Return why a result is no valid path, in words, or ""."""
     if not np.array_equal(way[0], start):
         return "does not begin at the start"
     if not np.array_equal(way[-1], goal):

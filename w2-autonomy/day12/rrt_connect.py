@@ -125,8 +125,8 @@ def _(start, goal, world, samples, step):
       each new node is connected to the goal; grow two trees
     connect-in-one-jump: the other tree is connected by a single edge of any length; add
       edges of one step each
-    parent-is-the-newest: the path contains every node of both trees; the parent of a
-      node is the node from which it grew, the index that `extend` returns
+    parent-is-the-newest: the path contains every node of both trees. The parent of a
+      node is the node from which it grew: use the index that `extend` returns
     not-turned-round: the start's branch runs from the newest node to the root; reverse
       it
     goal-to-start: the path runs from the goal to the start

@@ -236,15 +236,15 @@ def _(a, b, discs):
       only some points, or its nearest point is not exact => a test of two hundred
       points
     inside-is-free: an edge inside a disc does not cross its circle, so your code
-      reports it as free; the inside of a disc is blocked => a test for crossings of the
+      reports it as free. The inside of a disc is blocked => a test for crossings of the
       circle
     inside-is-free 2: an edge or a point inside a disc does not cross its circle, so
-      your code reports it as free; the inside of a disc is blocked => a test for
+      your code reports it as free. The inside of a disc is blocked => a test for
       crossings of the circle
     inner-only: your code skips a disc whose nearest point lies beyond an end of the
-      edge; the end itself can lie in the disc
+      edge. The end itself can lie in the disc
     inner-only 2: your code skips a disc whose nearest point lies beyond an end, unless
-      the edge is a point; the end itself can lie in the disc
+      the edge is a point. The end itself can lie in the disc
     first-disc-only: your code tests only the first disc
     last-disc-only: your code tests only the last disc; does a loop return too early or
       overwrite the result?
@@ -253,7 +253,7 @@ def _(a, b, discs):
     all-must-hit: your code reports a free edge as soon as it misses one disc; it must
       miss every disc
     all-must-hit 2: your code reports a free edge as soon as it misses one disc, and
-      never if there is no disc; the edge must miss every disc
+      never if there is no disc. The edge must miss every disc
     squared-for-plain: the squared distance is compared with the radius
     plain-for-squared: the distance is compared with the squared radius
     diameter: the distance is compared with twice the radius; the third number of a disc
@@ -275,7 +275,7 @@ def _(a, b, discs):
     foot-without-a: the nearest point is measured from the origin; add a
     cut-to-one: a length along the edge is clamped to 0..1; clamp it to the length of
       the edge
-    length-for-share: a length along the edge is multiplied by b - a; multiply it by the
+    length-for-share: a length along the edge is multiplied by b - a. Multiply it by the
       unit vector, or divide it by the length of the edge
     distance-to-the-start: beyond the end b your code uses the distance to a; the
       nearest point is b
@@ -284,7 +284,7 @@ def _(a, b, discs):
     some-crossing: your code tests whether the infinite line meets the circle; both
       crossings can lie beyond an end of the edge => the sign of the discriminant
     boxes-overlap: your code tests whether the bounding boxes of the edge and the disc
-      overlap; the edge can miss the disc inside its box
+      overlap. The edge can miss the disc inside its box
     x-and-y-exchanged: x and y of the centres are exchanged
     no-disc-is-hit: if there is no disc, your code reports a blocked edge; the edge is
       free
@@ -360,8 +360,8 @@ def _(a, b, discs):
 
 @row.wrong(hidden="the lab has no edge of no length")
 def divided_by_nothing(a, b, discs):
-    """an edge of length 0 is always reported as blocked; its parameter is 0 / 0 (NaN),
-    and a comparison with NaN is False, so treat it as a point"""
+    """an edge of length 0 is always reported as blocked. Its parameter is 0 / 0 = NaN,
+    and a comparison with NaN is False: treat the edge as a point"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)
@@ -371,8 +371,8 @@ def divided_by_nothing(a, b, discs):
 
 @row.wrong("divided-by-nothing")
 def _(a, b, discs):
-    """an edge of length 0 is always reported as free; its parameter is 0 / 0 (NaN),
-    and a comparison with NaN is False, so treat it as a point"""
+    """an edge of length 0 is always reported as free. Its parameter is 0 / 0 = NaN, and
+    a comparison with NaN is False: treat the edge as a point"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)
@@ -382,8 +382,8 @@ def _(a, b, discs):
 
 @row.wrong
 def touching_and_no_length(a, b, discs):
-    """an edge that touches a disc is reported as free, and an edge of length 0 divides
-    by 0; a touching edge is blocked, and an edge of length 0 is a point"""
+    """an edge that touches a disc is reported as free, and your code divides by 0 for
+    an edge of length 0. A touching edge is blocked; an edge of length 0 is a point"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)

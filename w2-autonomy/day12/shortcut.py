@@ -133,7 +133,8 @@ def _(path, world, pairs):
       refer to the current path
     indices-of-the-first-path 2: the indices are computed with the length of the
       original path, but used in the current path; use the current length
-    not-sorted: a pair whose first number is the larger is skipped; sort the two rows
+    not-sorted: your code skips a pair if its first row is the larger one; sort the two
+      rows
     rounded: u m is rounded to the nearest integer; int() rounds down
     rounded 2: u (m - 1) is rounded; use int(u m), which gives every row the same
       probability

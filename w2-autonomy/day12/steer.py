@@ -81,10 +81,10 @@ def _(q, target, step):
     """overshoots: a full step is taken even if the target is nearer; stop at the target
       => a full step in every case
     no-limit: your code returns the target at any distance; limit the motion to one step
-    fraction: `step` is used as a fraction of the displacement; it is a length => q +
-      step (target - q)
-    fraction-at-most-all: `step` is used as a fraction of the displacement, at most 1;
-      it is a length
+    fraction: `step` is used as a fraction of the displacement, but it is a length => q
+      + step (target - q)
+    fraction-at-most-all: `step` is used as a fraction of the displacement, at most 1,
+      but it is a length
     not-unit: the displacement to a far target is not divided by its norm => q + step
       (target - q) for far targets
     squared: the displacement is divided by its squared norm; divide it by the norm

@@ -337,7 +337,7 @@ class EndlessLine:
 
 
 def worlds(seed=lab.SEED):
-    """Return the lab's 25 worlds with their samples, or those of another seed."""
+    """Return the lab's 25 worlds with their samples, or the worlds of another seed."""
     rng = np.random.default_rng(seed)
     lab.given_to_plane(rng)
     some = []

@@ -23,7 +23,7 @@ def path(rng, n, k, heavy=0.5, fast=1.6):
         rng: draws it.
         n: steps.
         k: joints.
-        heavy: largest share of a limit that gravity takes.
+        heavy: largest fraction of a limit that gravity takes.
         fast: largest sd2_max.
     """
     walk = np.cumsum(rng.normal(size=(2, n + 1, k)), axis=1) / np.sqrt(n)
@@ -126,26 +126,27 @@ def _(a, b, c, limits, sd2_max):
     ds-for-2-ds: sd^2 grows by ds u in a step; it should grow by 2 ds u
     four-ds: sd^2 grows by 4 ds u in a step; it should grow by 2 ds u
     points-for-steps: ds is 1 / (N + 1); N + 1 points have N steps, so ds is 1 / N
-    sd-for-sd2: `path_accel_bounds` is called with sd^2; its argument is sd
+    sd-for-sd2: `path_accel_bounds` is called with sd^2; its argument should be sd
     sd-for-sd2 2: in the backward pass `path_accel_bounds` is called with sd^2; its
-      argument is sd
+      argument should be sd
     sd-for-sd2 3: in the forward pass `path_accel_bounds` is called with sd^2; its
-      argument is sd
+      argument should be sd
     most-of-the-point-before: in the forward pass sd^2 at i + 1 is limited by the
-      maximum at i; use the maximum at i + 1
+      maximum at i. Use the maximum at i + 1
     no-speed-limit: sd2_max is not used, so the speed of the motors is not limited
     speed-limit-forwards-only: sd2_max is used only in the forward pass; the backward
       pass needs it too
     gravity-forgotten: gravity is missing in the torques
     coriolis-forgotten: b is missing in the torques
-    cannot-stand-goes: if gravity alone exceeds a torque limit, the arm cannot hold
-      there; return zeros => the formula without that case
+    cannot-stand-goes: your code returns a motion although gravity alone exceeds a
+      torque limit; the arm cannot hold there, so return zeros => the formula without
+      that case
     few-bisections: the bisection stops too early => the result after 10 halvings
     few-bisections 2: the bisection stops too early => the result after 20 halvings
-    limits-of-the-next-point: the limits of a step are computed at its end; use its
-      first point
-    bobrow: in the backward pass the limits of a step are computed at its end; use its
-      first point
+    limits-of-the-next-point: the bounds on sdd for a step are computed at the end of
+      the step; compute them at its first point
+    bobrow: in the backward pass the bounds on sdd for a step are computed at the end of
+      the step. Compute them at its first point
     root: your code returns sd; return sd^2
     times: your code returns the time of each point; return sd^2
     half-the-torque: your code uses only half of each torque limit

@@ -63,10 +63,12 @@ def _(rng):
 
 @row.wrongs
 def _(successes, n):
-    """wald: this is the Wald interval, p +- z sqrt(p (1 - p) / n). It uses the variance
-      at k / n, so for k = 0 or k = n its width is 0 => p +- 1.96 sqrt(p (1 - p) / n)
-    wald-cut: this is the Wald interval, p +- z sqrt(p (1 - p) / n), clamped to 0..1. It
-      uses the variance at k / n, so for k = 0 or k = n its width is 0
+    """wald: your function returns the Wald interval, p +- z sqrt(p (1 - p) / n). It
+      uses the variance at k / n, so its width is 0 for k = 0 and for k = n => p +- 1.96
+      sqrt(p (1 - p) / n)
+    wald-cut: your function returns the Wald interval, p +- z sqrt(p (1 - p) / n),
+      clamped to 0..1. It uses the variance at k / n, so its width is 0 for k = 0 and
+      for k = n
     centre-not-moved: the centre is k / n; Wilson's centre is shifted towards one half
       => the formula without z^2 / (2 n) in the centre
     width-without-z2: the term z^2 / (4 n^2) is missing under the root
@@ -96,19 +98,19 @@ def _(successes, n):
     high-first 2: for n > 0 the upper end comes first; return the lower end first
     middle-and-width: your code returns the centre and the half-width; return the two
       ends
-    rule-of-three: for k = 0 the upper end is 3 / n; this is the rule of three, not the
+    rule-of-three: for k = 0 the upper end is 3 / n, which is the rule of three, not the
       Wilson interval
     rule-of-three 2: for k = 0 the upper end is 3 / n, and for k = n the lower end is 1
-      - 3 / n; this is the rule of three, not the Wilson interval
+      - 3 / n. These ends come from the rule of three, not from the Wilson interval
     rule-of-three 3: for k = 0 the upper end is 3 / n, and for k = n the lower end is 1
-      - 3 / n; this is the rule of three, not the Wilson interval => this rule, clamped
-      to 0..1,
+      - 3 / n. These ends come from the rule of three, not from the Wilson interval =>
+      this rule, clamped to 0..1,
     plus-four: your code uses the Wald interval with p = (k + 2) / (n + 4) (Agresti and
-      Coull); use the Wilson interval
+      Coull). Use the Wilson interval
     plus-four 2: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
-      n + z^2 trials (Agresti and Coull); use the Wilson interval
+      n + z^2 trials (Agresti and Coull). Use the Wilson interval
     plus-four 3: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
-      n + z^2 trials (Agresti and Coull); use the Wilson interval => this interval,
+      n + z^2 trials (Agresti and Coull). Use the Wilson interval => this interval,
       clamped to 0..1,
     one-more: p is (k + 1) / (n + 2), with one success and one failure added; use k / n
     half-width: the interval has half of the correct width

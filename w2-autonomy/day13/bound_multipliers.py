@@ -36,11 +36,11 @@ def _(H, f, lo, hi, x):
     g-forgotten: f is missing in the gradient
     H-halved: the gradient is H x / 2 + f. The gradient of x . H x / 2 is H x
     H-doubled: the gradient is 2 H x + f. The gradient of x . H x / 2 is H x
-    divided-by-H: the gradient is divided by the diagonal of H. This is a distance, not
-      a cost
-    how-far: this is the distance to the unconstrained minimiser. The multiplier should
-      be the change of the minimum cost
-    one-each: this is only the sign of each multiplier
+    divided-by-H: the gradient is divided by the diagonal of H, which gives a distance,
+      not a cost
+    how-far: the result is the distance to the unconstrained minimiser. The multiplier
+      should be the change of the minimum cost
+    one-each: the result contains only the sign of each multiplier
     """
     slope = H @ x + f
     low = (x <= lo) & (slope > 0)

@@ -233,9 +233,10 @@ def held_for_good(H, f, lo, hi, x, own=True):
 
 @row.wrongs(hidden={"stops-too-early": "no held entry of the lab moves so little"})
 def _(H, f, lo, hi, x):
-    """clip-the-optimum: this is the unconstrained minimiser, clamped. If one entry is
-      held at a bound, the minimum over the other entries moves: solve for them again
-    no-limits: this is the unconstrained minimiser -H^-1 f. The bounds are missing
+    """clip-the-optimum: the result is the unconstrained minimiser, clamped. If one
+      entry is held at a bound, the minimum over the other entries moves: solve for them
+      again
+    no-limits: the result is the unconstrained minimiser -H^-1 f. The bounds are missing
     scaled-back: the step to the unconstrained minimiser ends at the first bound. The
       free entries should move on from there
     solved-once-more: the unconstrained minimiser is clamped, and the free entries are
@@ -253,16 +254,16 @@ def _(H, f, lo, hi, x):
       Use a smaller tolerance
     few-rounds: ten iterations are not enough. Repeat until no held entry has to be
       released
-    upper-limits-passed: the upper bounds stop no step
+    upper-limits-passed: the upper bounds do not limit the step
     held-by-place: every entry at a bound is held. Release an entry that the gradient
       pulls away from its bound
     frees-the-wrong-ones: the wrong entries are held. Hold an entry if the gradient
       pushes it out of the box
-    held-left-out: the right side for the free entries leaves out the held entries. Use
-      the gradient H x + f at the present x
-    held-left-out 2: the right side for the free entries leaves out the held entries.
+    held-left-out: the right-hand side for the free entries leaves out the held entries.
       Use the gradient H x + f at the present x
-    one-step: this is x after one clamped Newton step
+    held-left-out 2: the right-hand side for the free entries leaves out the held
+      entries. Use the gradient H x + f at the present x
+    one-step: the result is x after one clamped Newton step
     full-hessian: each step is solved with all of H. The held entries do not move, so
       leave out their rows and columns
     whole-steps: each Newton step of the free entries is taken in full and clamped. This
@@ -270,23 +271,24 @@ def _(H, f, lo, hi, x):
       falls
     diagonal-hessian: each step divides the gradient by the diagonal of H. Solve with
       the rows and columns of the free entries
-    gradient-steps: this is x after 100 clamped gradient steps, which have not converged
+    gradient-steps: the result is x after 100 clamped gradient steps, which have not
+      converged
     gradient-steps 2: clamped gradient steps of 0.1 are too long for this H and do not
       converge. The step may be 1 over the largest eigenvalue of H
     diagonal-hessian 2: each step divides the gradient by the diagonal of H. Solve with
       the rows and columns of the free entries
-    gradient-steps 3: this is x after 1,000 clamped gradient steps. They have not
-      converged where the condition number of H is large, as in 13.6
-    one-gradient-step: this is x after one clamped gradient step
+    gradient-steps 3: the result is x after 1,000 clamped gradient steps. They have not
+      converged if the condition number of H is large, as in 13.6
+    one-gradient-step: the result is x after one clamped gradient step
     steps-too-long: clamped steps by the whole gradient may not converge. The step may
       be the gradient over the largest eigenvalue of H
-    few-sweeps: this is x after 100 sweeps of coordinate descent, which have not
+    few-sweeps: the result is x after 100 sweeps of coordinate descent, which have not
       converged
-    one-sweep: this is x after one sweep of coordinate descent. Each later entry moves
-      the minimum over the earlier ones
+    one-sweep: the result is x after one sweep of coordinate descent. Each later entry
+      moves the minimum over the earlier ones
     lower-only: only the lower bounds are used
     upper-only: only the upper bounds are used
-    start-returned: this is the start, clamped to the bounds
+    start-returned: the result is the start, clamped to the bounds
     """
     given = (H, f, lo, hi, x)
     free = np.linalg.solve(H, -f)

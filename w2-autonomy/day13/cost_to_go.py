@@ -18,9 +18,9 @@ def _(rng):
 
 @row.wrongs
 def _(P, x):
-    """half: this is half of the cost-to-go. The cost of the LQR in this day has no
+    """half: the result is half of the cost-to-go. The LQR cost of this day has no
       factor 1/2
-    length-of-P-x: this is the norm of P x. The cost-to-go is x . P x
+    length-of-P-x: the result is the norm of P x. The cost-to-go is x . P x
     summed: the entries of P x are summed. Multiply them by the entries of x first
     P-rooted: the square roots of the entries of P are used
     P-by-squares: P is multiplied by the squares of the entries of x. The entries of P

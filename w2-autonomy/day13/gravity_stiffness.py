@@ -58,8 +58,8 @@ def mirrored(full):
 
 @row.wrongs
 def _(J_space, masses, coms, g):
-    """sign: the sign is reversed. Seen from the rotated links, gravity rotates the
-      other way: use g x omega, not omega x g
+    """sign: the sign is reversed. Relative to the rotated links, gravity rotates in the
+      opposite direction: use g x omega, not omega x g
     gravity-not-turned: g is used instead of g x omega, so each column is the gravity
       torque itself. The stiffness is its derivative
     gravity-not-turned 2: g is used instead of g x omega, so each column is the gravity
@@ -78,9 +78,9 @@ def _(J_space, masses, coms, g):
     lower-half-zero: all entries below the diagonal are 0. The matrix is symmetric
     upper-half-sign: the entries above the diagonal have the wrong sign. The matrix is
       symmetric
-    half-beside-the-diagonal: the entries off the diagonal are halved. The mean of a
-      lower triangle and its transpose halves them, because one of the two is 0 there
-    diagonal-zero: the diagonal is 0. It belongs to the lower triangle
+    half-beside-the-diagonal: the off-diagonal entries are halved. The mean of a lower
+      triangular matrix and its transpose halves them, because one of the two is 0 there
+    diagonal-zero: the diagonal is 0. The lower triangle should include the diagonal
     not-symmetrised: the formula is also used above the diagonal. It holds for i >= j
       only, because there joint j rotates every link that joint i carries. Copy the
       lower triangle to the upper one
@@ -98,14 +98,14 @@ def _(J_space, masses, coms, g):
     minus-9.81: g is replaced by (0, 0, -9.81). Gravity may point in any direction
     minus-9.81 2: g is replaced by a vertical vector of the same norm. Gravity may point
       in any direction
-    axis-before: column j rotates gravity about the axis of the joint before. It needs
+    axis-before: column j rotates gravity about the axis of the previous joint. It needs
       the axis of joint j
     axes-summed: column j rotates gravity about the sum of all axes up to joint j. Only
       joint j rotates
     g-along-omega: the component of g along omega is used instead of g x omega
     total-mass: every link has the mass of the whole arm
-    differences: this is a finite difference of the torque with the large step of 0.05
-      rad. The stiffness is the derivative
+    differences: the result is a finite difference of the torque with the large step of
+      0.05 rad. The stiffness is the derivative
     last-axis: every column rotates gravity about the axis of the last joint. Column j
       needs the axis of joint j
     z-axis: every column rotates gravity about z. Column j needs the axis of joint j

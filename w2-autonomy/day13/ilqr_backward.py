@@ -79,9 +79,9 @@ def sum_of(k, luu):
 
 @row.wrongs
 def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
-    """mu-in-k-only: mu is used in k alone. It belongs to Quu wherever Quu appears
-    mu-in-k-only 2: mu is missing in K. It belongs to Quu wherever Quu appears
-    mu-in-K-only: mu is missing in k. It belongs to Quu wherever Quu appears
+    """mu-in-k-only: mu is used only in k. Add it to Quu wherever Quu appears
+    mu-in-k-only 2: mu is missing in K. Add it to Quu wherever Quu appears
+    mu-in-K-only: mu is missing in k. Add it to Quu wherever Quu appears
     mu-squared: mu is squared
     mu-not-in-V: mu is missing in Vx and Vxx. Use the same Quu as in the gains
     mu-not-in-V 2: mu is missing in Vx, Vxx and drop. Use the same Quu as in the gains
@@ -106,10 +106,11 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     drop-added: both entries of drop are their sum. Return them separately
     drop-quadratic-sign: the second entry of drop has the wrong sign
     gain-signs: k and K have the wrong sign. The input changes by du = k + K dx
-    K-sign: K has the wrong sign. Here du = k + K dx, in contrast to the LQR's u = -K x
+    K-sign: K has the wrong sign. In iLQR du = k + K dx, in contrast to u = -K x in the
+      LQR
     gain-signs 2: k and K have the wrong sign. The input changes by du = k + K dx
-    K-sign 2: K has the wrong sign. Here du = k + K dx, in contrast to the LQR's u = -K
-      x
+    K-sign 2: K has the wrong sign. In iLQR du = k + K dx, in contrast to u = -K x in
+      the LQR
     diagonal-of-Quu: the gains use only the diagonal of Quu. Solve with the whole matrix
     last-step-left-out: the last step is left out: its k and K are 0
     first-step-left-out: the first step is left out: its k and K are 0
@@ -125,7 +126,8 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     first-slopes: every step uses fx and fu of the first step
     last-slopes: every step uses fx and fu of the last step
     K-reversed: k and K are in reverse order. The first step comes first
-    end-forgotten: the pass begins with Vx = 0 and Vxx = 0. Begin with the final cost's
+    end-forgotten: the pass begins with Vx = 0 and Vxx = 0. Begin with the derivatives
+      of the final cost
     """
     given = (fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu)
     k, K, drop = ilqr_backward(*given)

@@ -40,22 +40,23 @@ def clipped_first(H, f, lo, hi, x):
 
 @row.wrongs
 def _(H, f, lo, hi, x):
-    """gradient-only: this is the largest entry of the gradient. At the minimiser the
-      gradient of a held entry is not 0: clamp the step to the bounds
-    no-abs-the-other-way: the absolute value is missing, so an entry that decreases does
-      not count
-    not-compared: this is the clamped point itself. Compare it with x
+    """gradient-only: the result is the largest entry of the gradient. At the minimiser
+      the gradient of a held entry is not 0: clamp the step to the bounds
+    no-abs-the-other-way: the absolute value is missing, so your function ignores an
+      entry that decreases
+    not-compared: the result is the clamped point itself. Compare it with x
     free-only: only entries between their bounds are used. An entry at a bound also
       contributes if the gradient pulls it away from the bound
     lower-only: only the lower bounds clamp the step
     upper-only: only the upper bounds clamp the step
-    cost-gap: this is the decrease of the cost by the clamped step. The residual should
-      be the largest change of an entry of x
+    cost-gap: the result is the decrease of the cost by the clamped step. The residual
+      should be the largest change of an entry of x
     first-only: only the first entry is used
     last-only: only the last entry is used
-    share-of-x: the residual is divided by the largest entry of x if that is above 1. It
-      should not be divided
-    distance: this is the distance to the minimiser. The residual needs no solution
+    share-of-x: the residual is divided by the largest entry of x if this entry is above
+      1. Do not divide the residual
+    distance: the result is the distance to the minimiser. Compute the residual without
+      the minimiser
     newton-push: x moves by a Newton step. It should move by minus the gradient
     jacobi-push: x moves by the gradient over the diagonal of H. It should move by minus
       the gradient itself
@@ -63,14 +64,16 @@ def _(H, f, lo, hi, x):
     two-pushes: x moves by twice the gradient
     half-a-push: x moves by half the gradient
     unit-box: the bounds are replaced by -1 and 1
-    which-one: this is the index of the largest difference. Return its absolute value
+    which-one: the result is the index of the largest difference. Return the absolute
+      value of this difference
     clipped-for-the-difference: the new point is compared with the clamped x. Compare it
       with x itself
-    clipped-first: x is clamped first, so its distance from the box does not count
-    slope-that-counts: this is the largest entry of the gradient that no bound opposes.
-      Clamp the step: it also ends where it meets the opposite bound
-    slope-that-counts 2: this is the largest entry of the gradient that no bound
-      opposes. Clamp the step: it also ends where it meets the opposite bound
+    clipped-first: x is clamped first, so the residual ignores the distance of x from
+      the box
+    slope-that-counts: the result is the largest entry of the gradient that no bound
+      opposes. Clamp the step, because it may also meet the opposite bound
+    slope-that-counts 2: the result is the largest entry of the gradient that no bound
+      opposes. Clamp the step, because it may also meet the opposite bound
     signed-limit: the gradient of every entry at a bound is ignored. Ignore it only
       where it pushes the entry out of the box
     """

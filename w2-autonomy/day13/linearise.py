@@ -72,16 +72,16 @@ def _(M, stiffness, damping, h):
       (M + h D)^-1 M v
     velocity-kept 2: the lower right block of A is the identity. It should be (M + h
       D)^-1 M, because the damping reduces the velocity
-    inverse-by-entry: each entry of M + h D is inverted by itself. Use the matrix
+    inverse-by-entry: each entry of M + h D is inverted separately. Use the matrix
       inverse
     position-kept: the upper left block of A is the identity. The gravity stiffness
       changes the new velocity, which moves the joints within the same step
     B-upper-zero: the upper half of B is 0. The input changes the new velocity, which
       moves the joints within the same step
-    continuous: these are A and B of the continuous-time system x' = A x + B u. The task
-      asks for one step of h
-    step-of-euler: this is the explicit Euler step x + h x'. In MuJoCo the new velocity
-      moves the joints, and the damping acts on the new velocity
+    continuous: your A and B belong to the continuous-time system x' = A x + B u. The
+      task asks for one step of h
+    step-of-euler: your A and B belong to the explicit Euler step x + h x'. In MuJoCo
+      the new velocity moves the joints, and the damping acts on the new velocity
     identity-missing: A gives the change of the state. The new state also contains x
       itself: add the identity
     halves-swapped: positions and velocities are swapped. The state should be (q - q0,
@@ -92,10 +92,10 @@ def _(M, stiffness, damping, h):
       should come first
     B-swapped: the upper and the lower half of B are swapped. The position should come
       first
-    exponential: this is the exact discretisation, by the matrix exponential. MuJoCo's
+    exponential: your A and B are the exact discretisation by the matrix exponential.
+      MuJoCo's step is semi-implicit
+    exponential 2: your A and B are the first terms of the matrix exponential. MuJoCo's
       step is semi-implicit
-    exponential 2: these are the first terms of the matrix exponential. MuJoCo's step is
-      semi-implicit
     slope-implicit: the gravity stiffness acts on the new position. In MuJoCo it acts on
       the old one
     damping-not-divided: the damping is not divided by the mass, and it acts on the old

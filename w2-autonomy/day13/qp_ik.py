@@ -65,8 +65,8 @@ def solved(J, e, weights, damp, lo, hi, right=None, box=box_qp):
 
 @row.wrongs(hidden={"stands-still-allowed": "no joint of the lab is beyond its range"})
 def _(J, e, weights, damping, dq_lo, dq_hi):
-    """clip-after: this is Day 3's damped step, clamped. If one joint is held at its
-      bound, the other joints should compensate: solve the bounded problem
+    """clip-after: the result is Day 3's damped step, clamped. If one joint is held at
+      its bound, the other joints should compensate: solve the bounded problem
     scaled-back: the whole step is scaled down until every joint is within its bounds.
       The joints that are not at a bound could move further
     not-limited: the bounds are missing
@@ -81,8 +81,8 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
       clamped as well. The second step should leave out the joints that are held
     mean-weight-in-g: the linear term uses the mean of the weights. Each row of e has
       its own weight
-    clip-after 2: this is Day 3's damped step without the weights, clamped. If one joint
-      is held at its bound, the other joints should compensate: solve the bounded
+    clip-after 2: the result is Day 3's damped step without the weights, clamped. If one
+      joint is held at its bound, the other joints should compensate: solve the bounded
       problem
     damping-weighted: the damping is multiplied by the mean of the weights
     stands-still-allowed: the bounds are widened until they contain 0. A joint beyond

@@ -17,13 +17,15 @@ row.spans(expected=(1e-5, 1e5), after=(lambda after: 1e6,))
 @row.wrongs
 def _(before, after, expected):
     """sign: the sign is reversed. The measured reduction is before - after
-    difference: this is the measured reduction minus the expected one. Return their
-      ratio
-    after-over-before: this is after / before, the fraction of the cost that remains
+    difference: the result is the measured reduction minus the expected one. Return
+      their ratio
+    after-over-before: the result is after / before, the fraction of the cost that
+      remains
     percent: the ratio is in per cent
-    less-1: 1 is subtracted. The ratio is 1 if the cost falls as expected
-    how-well-foretold: this is 1 - |measured - expected| / |expected|. If the cost falls
-      more than expected, the ratio is above 1
+    less-1: your function subtracts 1 from the ratio. The ratio should be 1 if the cost
+      falls as expected
+    how-well-foretold: the result is 1 - |measured - expected| / |expected|. If the cost
+      falls more than expected, the ratio is above 1
     """
     saved = before - after
     ratio = saved / expected

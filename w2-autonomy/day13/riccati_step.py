@@ -35,7 +35,7 @@ def _(P, A, B, Q, R):
       K) already contains K^T R K
     K-of-the-new-P: the gain is computed from the P that you return. It needs the P that
       you were given, the cost-to-go of the next state
-    gain-sign: K has the wrong sign. The minus sign is in u = -K x
+    gain-sign: K has the wrong sign. The minus sign is already in u = -K x
     A-P-AT: A P A^T is used instead of A^T P A. The first propagates a covariance, the
       second a cost-to-go
     Q-for-P: Q is used instead of P in the gain
@@ -45,8 +45,8 @@ def _(P, A, B, Q, R):
       + B^T P B) K
     motion-forgotten: the cost-to-go of the next state is missing in P. Add (A - B K)^T
       P (A - B K)
-    P-forgotten-and-R: this is Q + (A - B K)^T (A - B K). P is missing between the two
-      factors, and the cost K^T R K of the input is missing
+    P-forgotten-and-R: the new P is Q + (A - B K)^T (A - B K). The old P between the two
+      factors is missing, and so is the cost K^T R K of the input
     K-K-subtracted: K^T K is subtracted. The input reduces the cost-to-go by K^T (R +
       B^T P B) K
     K-K-added: K^T K is added instead of K^T R K, the cost of the input

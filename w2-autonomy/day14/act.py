@@ -32,10 +32,10 @@ def turned(angle, x, y):
 
 @row.wrongs
 def _(theta, observation):
-    """world-axes: the shift is added in the world frame. It is expressed in the frame
-      of the cube as it was seen: rotate it by the yaw of the observation
-    turned-with-the-hand: the shift is rotated by the yaw of the hand. It is expressed
-      in the frame of the cube: rotate it by the yaw of the observation
+    """world-axes: the shift is added in the world frame. The shift is expressed in the
+      frame of the observed cube: rotate it by the yaw of the observation
+    turned-with-the-hand: the shift is rotated by the yaw of the hand. The shift is
+      expressed in the frame of the cube: rotate it by the yaw of the observation
     clipped-after: the action is clipped. Clip theta before you use it
     clipped-below-only: theta is clipped to LOW only. Clip it to HIGH, too
     clipped-above-only: theta is clipped to HIGH only. Clip it to LOW, too

@@ -90,8 +90,8 @@ IN_ONE_UNIT = "all rows and weights of the lab are of similar size"
     hidden={"balance-of-all": IN_ONE_UNIT, "balance-without-weights": IN_ONE_UNIT}
 )
 def _(W, weights):
-    """rank-only: only the rank is tested. With all fingers on one face the rank is 6,
-      but they cannot pull
+    """rank-only: only the rank is tested. If all fingers are on one face, the rank is
+      6, but the fingers cannot pull
     balance-only: the rank is not tested. Two opposite fingers balance, but the cube can
       rotate about the line through them
     balance-and-rank-5: rank 5 is accepted. A wrench has six components, so the rank

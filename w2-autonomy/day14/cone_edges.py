@@ -42,21 +42,22 @@ def edges(n, mu, k, axis=None, *, a=None, t=None):
 
 @row.wrongs
 def _(normal, mu, k):
-    """axis-x: a is always along n x (1, 0, 0). Use the coordinate axis with the
-      smallest |component| of n, the first of equals
-    axis-z: a is always along n x (0, 0, 1). Use the coordinate axis with the smallest
-      |component| of n, the first of equals
-    axis-z 2: a is always along n x (0, 0, 1). Use the coordinate axis with the smallest
-      |component| of n, the first of equals
-    last-of-equals: of two equal |components| of n the last is used. Use the first
-    largest-axis: the coordinate axis with the largest |component| of n is used. Use the
-      smallest
+    """axis-x: a is always along n x (1, 0, 0). Use the coordinate axis along which n
+      has the smallest absolute component, the first of equal ones
+    axis-z: a is always along n x (0, 0, 1). Use the coordinate axis along which n has
+      the smallest absolute component, the first of equal ones
+    axis-z 2: a is always along n x (0, 0, 1). Use the coordinate axis along which n has
+      the smallest absolute component, the first of equal ones
+    last-of-equals: if two components of n have the same absolute value, the last one is
+      used. Use the first
+    largest-axis: the coordinate axis with the largest absolute component of n is used.
+      Use the smallest one
     signed-least: the coordinate axis with the smallest component of n is used. Compare
       the absolute values
     axis-x-n: a is along axis x n. It should be along n x axis, otherwise the edges
       begin on the opposite side
     axis-itself: a is the projection of the axis onto the tangent plane. It should be
-      along n x axis, a quarter turn away
+      along n x axis, which is perpendicular to your a
     last-is-first: the last edge is equal to the first, because t ends at 2 pi. The last
       t should be 2 pi (k - 1) / k
     degrees: t is in degrees. np.cos and np.sin expect radians

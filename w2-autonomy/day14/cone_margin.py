@@ -45,19 +45,21 @@ def _(force, normal, mu):
       own
     normal-is-z 2: the normal (0, 0, 1) is used for every contact. Each contact has its
       own
-    pull-counts: |f_n| is used for a pull. A finger cannot pull, so keep the sign of f_n
+    pull-counts: the absolute value of f_n is used for a contact that pulls. A finger
+      cannot pull, so keep the sign of f_n
     pull-limited: a negative f_n is replaced by 0. A finger cannot pull, so the margin
       of a pull is below 0
-    ratio: this is mu - |f_t| / f_n. The margin should be a force: mu f_n - |f_t|
-    ratio 2: this is mu f_n / |f_t|. The margin should be a force: mu f_n - |f_t|
-    ratio 3: this is |f_t| / (mu f_n). The margin should be a force: mu f_n - |f_t|
+    ratio: the result is mu - |f_t| / f_n. The margin should be a force: mu f_n - |f_t|
+    ratio 2: the result is mu f_n / |f_t|. The margin should be a force: mu f_n - |f_t|
+    ratio 3: the result is |f_t| / (mu f_n). The margin should be a force: mu f_n -
+      |f_t|
     mu-times-along: mu multiplies |f_t|. It should multiply f_n
     normal-into-the-finger: f_n has the wrong sign. The normal should point out of the
       finger, into the cube
     margin-of-the-first: every contact has the margin of the first. Each should have its
       own
-    over-the-cone: this is the distance from the surface of the cone. The margin should
-      not be divided by sqrt(1 + mu^2)
+    over-the-cone: the result is the distance from the surface of the cone. The margin
+      should not be divided by sqrt(1 + mu^2)
     """
     press = np.sum(force * normal, axis=1)
     along = force - press[:, None] * normal

@@ -101,7 +101,7 @@ def _(finger_position, force, normal, mu, fraction, step):
     the-other-way: the comparison is reversed, so the pads close if a margin is large
     closes-to-the-limit: the pads close to the limit at once. Subtract one step per call
     a-step-a-contact: one step is subtracted for each contact that nearly slips.
-      Subtract one step in all
+      Subtract only one step per call
     sum-of-margins: the sum of the margins is compared. One contact that nearly slips is
       enough
     mean-of-margins: the mean of the margins is compared. One contact that nearly slips

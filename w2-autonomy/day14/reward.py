@@ -36,9 +36,9 @@ def _(rng):
 @row.wrongs
 def _(heights, target, cap):
     """no-cap: a height above the cap has the reward 1. The cube was thrown, so the
-      reward is -1
+      reward should be -1
     no-cap 2: a height above the cap has the reward 1. The cube was thrown, so the
-      reward is -1
+      reward should be -1
     below-the-floor-is-lost: a height below the floor has the reward -1. The reward
       should be 0
     nan-passes: the reward of NaN is NaN, because every comparison with NaN is False.
@@ -46,10 +46,10 @@ def _(heights, target, cap):
     nan-is-zero: the reward of NaN is 0. It should be -1, because the simulation failed
     infinity-passes: the reward of minus infinity is 0. It should be -1 for every height
       that is not finite
-    success-only: the reward is 0 or 1. Below the target it rises linearly with the
-      height
-    success-only 2: the reward is 0 or 1. Below the target it rises linearly with the
-      height
+    success-only: the reward is 0 or 1. Below the target the reward should rise linearly
+      with the height
+    success-only 2: the reward is 0 or 1. Below the target the reward should rise
+      linearly with the height
     not-limited: a height above the target has a reward above 1. The reward should be 1
     below-the-floor: a height below the floor has a reward below 0. The reward should be
       0
@@ -59,7 +59,7 @@ def _(heights, target, cap):
     cap-for-target 2: below the target the height is divided by the cap. Divide it by
       the target
     halved: the reward on the floor is -1. It should be 0
-    one-minus: this is 1 minus the reward
+    one-minus: the result is 1 minus the reward
     nothing-lost: episodes with NaN or with a height above the cap are left out. Each
       episode should have a reward
     """

@@ -25,10 +25,10 @@ def wilson(k, n, z=1.96, moved=True, inside=True, divided=True):
 
 @row.wrongs
 def _(success):
-    """plain: this is the Wald interval p +- 1.96 sqrt(p (1 - p) / n), whose width is 0
-      for 8 successes of 8. Use Day 12's wilson_interval
-    plain-to-0-and-1: this is the Wald interval, clamped to 0 and 1. Use Day 12's
-      wilson_interval
+    """plain: your function returns the Wald interval p +- 1.96 sqrt(p (1 - p) / n),
+      whose width is 0 for 8 successes of 8. Use Day 12's wilson_interval
+    plain-to-0-and-1: your function returns the Wald interval, clamped to 0 and 1. Use
+      Day 12's wilson_interval
     middle-for-rate: the rate is the centre of the interval. It should be the fraction
       of successes
     order: the interval comes first. The order should be (rate, low, high)

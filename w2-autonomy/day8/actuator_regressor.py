@@ -55,17 +55,17 @@ for slug, says, redone, blocks in (
     ("smoothed", "dry friction is tanh(qd / 0.1), a smoothed sign. The task asks for "
      "the sign of qd itself", "tanh(qd / 0.1) in the last block",
      lambda qd, qdd: (qdd, qd, np.tanh(qd / 0.1))),
-    ("sign-at-rest", "dry friction of a joint at rest is 1. The sign of 0 is 0",
+    ("sign-at-rest", "the dry friction of a joint at rest is 1. The sign of 0 is 0",
      "1 where qd is 0", lambda qd, qdd: (qdd, qd, np.where(qd < 0.0, -1.0, 1.0))),
     ("sign-at-rest-negative",
-     "dry friction of a joint at rest is -1. The sign of 0 is 0",
+     "the dry friction of a joint at rest is -1. The sign of 0 is 0",
      "-1 where qd is 0", lambda qd, qdd: (qdd, qd, np.where(qd > 0.0, 1.0, -1.0))),
-    ("sign-at-rest-of-qdd", "dry friction of a joint at rest has the sign of its "
-     "acceleration. The task asks for the sign of qd, which is 0",
+    ("sign-at-rest-of-qdd", "the dry friction of a joint at rest has the sign of the "
+     "joint's acceleration. The task asks for the sign of qd, which is 0",
      "sign(qdd) where qd is 0",
      lambda qd, qdd: (qdd, qd, np.where(qd == 0.0, np.sign(qdd), np.sign(qd)))),
-    ("slow-left-out", "dry friction is 0 for a slow joint. Its magnitude does not "
-     "depend on the velocity", "0 where |qd| is below 0.1",
+    ("slow-left-out", "dry friction is 0 for a slow joint. The magnitude of dry "
+     "friction does not depend on the velocity", "0 where |qd| is below 0.1",
      lambda qd, qdd: (qdd, qd, np.sign(qd) * (np.abs(qd) >= 0.1))),
     ("dry-one-way", "dry friction is 0 where qd is negative; it should be -1 there",
      "1 where qd is positive, and else 0",
@@ -80,8 +80,8 @@ for slug, says, redone, blocks in (
 
 @row.wrong
 def by_joint(qd, qdd):
-    """the columns are grouped by joint. All rotors come first, then viscous, then dry
-    friction => the result with its columns grouped by joint"""
+    """the columns are grouped by joint. Put all rotors first, then all viscous
+    friction, then all dry friction => the result with its columns grouped by joint"""
     Y = side_by_side(qdd, qd, np.sign(qd)).reshape(7, 3, 7)
     return np.swapaxes(Y, 1, 2).reshape(7, 21)
 

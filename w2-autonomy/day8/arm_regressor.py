@@ -74,14 +74,14 @@ def below(corner, T):
 
 
 for slug, says, other in (
-    ("bracket-forgotten", "A lacks the term ad(V) S qd: a joint that is moved by the "
-     "joints before it changes its direction", {"bracket": 0.0}),
+    ("bracket-forgotten", "A lacks the term ad(V) S qd, which is needed because the "
+     "preceding joints change the direction of a joint's axis", {"bracket": 0.0}),
     ("bracket-sign", "A contains ad(S) V qd, which is the negative of ad(V) S qd",
      {"bracket": -1.0}),
     ("pose-not-inverted", "V and A are transformed with Ad(T). The adjoint from the "
      "world to the link is Ad(T^-1)", {"into": adjoint}),
     ("offset-left-out", "V and A are rotated into the link frame, but not moved to its "
-     "origin: X lacks the block with p",
+     "origin: the adjoint lacks the block with p",
      {"into": lambda T: np.kron(np.eye(2), T[:3, :3].T)}),
     ("in-world-axes", "V and A are not transformed to the link. The parameters of a "
      "link are expressed in its own frame, about its origin",
@@ -95,47 +95,48 @@ for slug, says, other in (
     ("every-joint-feels-every-link", "each link has entries in the rows of all joints. "
      "A link causes no torque at the joints distal to it",
      {"felt": lambda i: slice(0, 7)}),
-    ("cut-early", "the slice of the joints ends one too early: a link also causes a "
-     "torque at its own joint", {"felt": lambda i: slice(0, i)}),
-    ("cut-late", "the slice of the joints ends one too late: a link causes no torque "
-     "at the joint after it", {"felt": lambda i: slice(0, i + 2)}),
+    ("cut-early", "your code leaves out the row of each link's own joint. A link also "
+     "causes a torque at its own joint", {"felt": lambda i: slice(0, i)}),
+    ("cut-late", "your code also fills the row of the joint after each link. A link "
+     "causes no torque at that joint", {"felt": lambda i: slice(0, i + 2)}),
     ("later-links-only", "link i has entries in the rows of its own joint and of all "
      "distal joints. They belong in the rows of its own and all proximal joints",
      {"felt": lambda i: slice(i, 7)}),
-    ("own-link-only", "each joint carries its own link only. It also carries all links "
-     "distal to it", {"felt": lambda i: slice(i, i + 1)}),
+    ("own-link-only", "each row contains only the joint's own link. A joint also "
+     "carries all links distal to it", {"felt": lambda i: slice(i, i + 1)}),
     ("last-link-missing", "the columns of the last link are 0: the loop ends one link "
      "too early", {"links": 6}),
-    ("pose-of-the-link-before", "each link has the pose of the link before it. "
-     "T_links[0] is the pose of link1 already",
+    ("pose-of-the-link-before", "each link uses the pose of the link before it. "
+     "T_links[0] is already the pose of link1",
      {"pose": lambda T, i: T[i - 1] if i else np.eye(4)}),
-    ("pose-on-the-link-before", "T_links are used as, or converted to, poses relative "
-     "to the link before. They are poses in the world frame",
+    ("pose-on-the-link-before", "your code uses the pose of each link relative to the "
+     "previous link. T_links contains poses relative to the world, so use them "
+     "unchanged",
      {"pose": lambda T, i: inverse(T[i - 1]) @ T[i] if i else T[0]}),
     ("p-sign",
-     "p has the wrong sign in X: the lower left block of Ad(T^-1) is -R^T [p]",
+     "the lower left block of Ad(T^-1) has the wrong sign. It should be -R^T [p]",
      {"into": lambda T: below(T[:3, :3].T @ skew(T[:3, 3]), T)}),
-    ("p-before-R", "[p] multiplies R^T from the left in X. p is expressed in the world "
-     "frame, so the block is -R^T [p]",
+    ("p-before-R", "the lower left block of Ad(T^-1) is -[p] R^T. Because p is "
+     "expressed in the world frame, the block should be -R^T [p]",
      {"into": lambda T: below(-skew(T[:3, 3]) @ T[:3, :3].T, T)}),
-    ("p-before-R", "the lower left block of X is [p] R^T. p is expressed in the world "
-     "frame, so the block is -R^T [p]",
+    ("p-before-R", "the lower left block of Ad(T^-1) is [p] R^T. Because p is "
+     "expressed in the world frame, the block should be -R^T [p]",
      {"into": lambda T: below(skew(T[:3, 3]) @ T[:3, :3].T, T)}),
     ("acceleration-starts-anew", "A contains only the acceleration of the base and the "
      "terms of joint i. Add the terms of the joints before it as well",
      {"passed_on": 0.0}),
     ("acceleration-not-turned", "V is transformed to the link, but A is not",
      {"both": False}),
-    ("twist-too-late", "V is used before S qd of joint i is added, so it is the twist "
-     "of the link before", {"late": True}),
+    ("twist-too-late", "V is used before S qd of joint i is added, so V is the twist "
+     "of the previous link", {"late": True}),
 ):  # fmt: skip
     row.wrong(slug, says, "this Y")(partial(walk, **other))
 
 
 @row.wrong
 def added_up_in_the_links(J, T, qd, qdd, g):
-    """V and A are added up in the frames of the links, but the sum of the link before
-    is expressed in another frame. Add in the world frame => this Y"""
+    """V and A are summed in the link frames, but the sum up to the previous link is
+    expressed in another frame. Sum both in the world frame => this Y"""
     V = np.zeros(6)
     A = np.append(np.zeros(3), -g)
     Y = np.zeros((7, 70))
@@ -163,7 +164,9 @@ TYPED_IN = Change(
     hidden="the arm of the lab is upright",
 )
 row.of_argument("g", TYPED_IN)
-row.reached_by("link_regressor", "in link_regressor, ", but=["ad-not-transposed-plus"])
+row.reached_by(
+    "link_regressor", "in `link_regressor`, ", but=["ad-not-transposed-plus"]
+)
 
 
 @row.right  # Seventy robots with one parameter each, through Day 4's inverse dynamics.

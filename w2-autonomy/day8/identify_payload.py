@@ -59,12 +59,12 @@ def _(J_site, R_site, extra, g):
       transpose each matrix, swap the last two axes => the result with J reshaped
     wrenches-first: each pose's torques are converted to a wrench, and the wrenches are
       fitted. The torques are measured, so fit the torques => the fit to wrenches
-    cut-too-high: small singular values are left out. With poses that differ little they
-      determine a part of m c => the result without them
+    cut-too-high: small singular values are left out. If the poses differ little, these
+      values determine a part of m c => the result without them
     solutions-averaged: each pose is solved alone, and the solutions are averaged. One
       pose does not determine all four parameters, so stack the rows of all poses
-    weight-for-mass: the first result is the weight, in newtons. The column of m is g
-      itself, not its direction => the result with |g| m
+    weight-for-mass: the first result is the weight in newtons. The column of m should
+      contain g itself, not its unit vector => the result with |g| m
     centre-for-first-moment: the last three results are c. The task asks for m c, in
       which the equations are linear => m, then c
     """

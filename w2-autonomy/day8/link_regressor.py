@@ -15,7 +15,7 @@ SPIN = np.eye(6)[2]
 # A unit vector has m or m c, never both, so these two mistakes do not show here.
 BOTH = ["inertia-about-the-centre", "first-moment-times-m"]
 row.reached_by(
-    "spatial_inertia_from_params", "in spatial_inertia_from_params, ", but=BOTH
+    "spatial_inertia_from_params", "in `spatial_inertia_from_params`, ", but=BOTH
 )
 
 
@@ -31,9 +31,10 @@ def _(V, Vd):
       transforms with the transpose => G Vd - ad(V) G V
     ad-not-transposed-plus: the velocity product uses +ad(V) instead of -ad(V)^T => G Vd
       + ad(V) G V
-    unit-vector-not-reset: the unit vector keeps the ones of earlier columns, so column
-      k is the wrench of the first k parameters together => the columns added up
-    gravity-added: gravity is added to Vd, but Vd includes it already, as an
+    unit-vector-not-reset: the unit vector still contains the ones of earlier columns,
+      so column k is the sum of the wrenches of the first k parameters => the columns
+      added up
+    gravity-added: gravity is added to Vd, but Vd already includes it as the
       acceleration -g of the base => the result for Vd + (0, 0, 0, 0, 0, 9.81)
     first-moments-empty: the columns of m c are 0. Their unit vectors have m = 0, so
       phi[1:4] must be neither multiplied nor divided by m => the result without these

@@ -35,11 +35,12 @@ def moved(phi, I):  # noqa: E741
 
 for slug, says, redone, code in (
     ("only-the-inertia", "the result is the smallest eigenvalue of I. The "
-     "pseudo-inertia also contains m c, and tr(I)/2 1 - I instead of I",
+     "pseudo-inertia also contains m c, and (tr(I)/2) E - I instead of I, where E is "
+     "the identity",
      "this eigenvalue",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi)[:3, :3])[0]),
     ("inertia-not-turned-round", "the upper left block is I. It should be the sum of m "
-     "r r^T, which is tr(I)/2 1 - I", "the result with I there",
+     "r r^T, which is (tr(I)/2) E - I with the identity E", "the result with I there",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: I))[0]),  # noqa: E741
     ("centre-for-first-moment", "the centre of mass c is used instead of h = m c",
      "the result with h / m",
@@ -56,17 +57,20 @@ for slug, says, redone, code in (
      "the result with 0 where it is positive",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi))[0], 0.0)),
     ("never-above-zero", "the result is minus the absolute value of the eigenvalue. "
-     "It is not negative for a body that can exist", "minus its absolute value",
+     "The eigenvalue is not negative for a body that can exist",
+     "minus its absolute value",
      lambda phi: -abs(np.linalg.eigvalsh(pseudo(phi))[0])),
-    ("first-moment-once", "h has no effect. Either h is missing, or only the upper "
-     "block is set, while eigvalsh reads the lower one", "the result without h",
+    ("first-moment-once", "h has no effect. Either h is missing, or you set only the "
+     "upper block, but eigvalsh reads only the lower triangle", "the result without h",
      lambda phi: np.linalg.eigvalsh(
          np.triu(pseudo(phi)) + np.triu(pseudo(phi, h=0.0), 1).T)[0]),
-    ("about-the-centre", "I is moved to the centre of mass first. The sum of m r r^T "
-     "is taken about the origin, as I is", "the result with I about the centre of mass",
+    ("about-the-centre", "I is transformed to the centre of mass first. Both I and the "
+     "sum of m r r^T are about the origin", "the result with I about the centre of "
+     "mass",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: moved(phi, I)))[0]),  # noqa: E741
     ("of-the-inertia", "the result is the smallest eigenvalue of the 6x6 spatial "
-     "inertia. The 4x4 pseudo-inertia contains tr(I)/2 1 - I and h",
+     "inertia. The 4x4 pseudo-inertia contains (tr(I)/2) E - I, with the identity E, "
+     "and h",
      "this eigenvalue",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi))[0]),
     ("unsorted", "the result is the first eigenvalue of numpy.linalg.eigvals, which "

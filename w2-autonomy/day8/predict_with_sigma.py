@@ -12,7 +12,7 @@ from .truncated_svd_fit import asked, parts, scaled
 row = Row(tuple(Vector((None,), "N m", called=x) for x in ("the torque", "sigma")))
 row.at_least_0(rtol="a tolerance")
 CASE = np.ones((4, 1)), np.array([1.0, 3.0, 1.0, 3.0]), np.ones((1, 1)), 1e-9
-row.reached_by("truncated_svd_fit", "in truncated_svd_fit, ")
+row.reached_by("truncated_svd_fit", "in `truncated_svd_fit`, ")
 
 
 @row.inputs
@@ -33,25 +33,26 @@ def _(Y, tau, Y_new, rtol):
       - p
     one-more-taken-off: the variance of the noise is divided by n - rank - 1. No mean is
       subtracted, so divide by n - rank => sigma with n - rank - 1
-    mean-of-sizes: the noise is the mean of |r|. It should be the root of the mean
-      square of r => sigma with the mean of |r|
-    noise-added: the noise of a new measurement is added. sigma includes only the noise
-      that the fit transfers to the prediction => the root of sigma^2 + noise^2
+    mean-of-sizes: the noise is computed as the mean of the absolute residuals. Use the
+      root of the mean square => sigma with the mean of |r|
+    noise-added: the noise of a new measurement is added to sigma. sigma should include
+      only the uncertainty of the fitted parameters => the root of sigma^2 + noise^2
     mean-taken-off: the mean of the residual is subtracted first, as in a standard
-      deviation about the mean. It is part of the noise => sigma without the mean
-    rank-taken-off-last: the rank is subtracted from r . r / n. Write n - rank in
-      brackets => sigma with r . r / n - rank
-    noise-for-sigma: sigma is the noise in every row. A motion that the data hardly
-      determine has a larger sigma => the noise
-    sigma-by-s-squared: sigma is divided by s twice. The covariance V S^-2 V^T has S^-2,
-      but sigma is the root of y V S^-2 V^T y^T => sigma with s^2 for s
-    sigma-with-V: V^T is used as V in sigma. numpy.linalg.svd returns V^T => sigma with
-      V^T for V
+      deviation about the mean. The mean is part of the noise => sigma without the mean
+    rank-taken-off-last: the rank is subtracted after the division by n. Write n - rank
+      in brackets => sigma with r . r / n - rank
+    noise-for-sigma: sigma is the standard deviation of the noise in every row. A
+      prediction that the data hardly determine should have a larger sigma => the noise
+    sigma-by-s-squared: sigma is divided by the singular values twice. The covariance V
+      S^-2 V^T contains S^-2, but sigma is the square root of y V S^-2 V^T y^T => sigma
+      with s^2 for s
+    sigma-with-V: V^T is used instead of V in sigma. The function numpy.linalg.svd
+      returns V^T => sigma with V^T for V
     sigma-cut-not-squared: in sigma, the eigenvalues of Y^T Y are compared with rtol
       times the largest. They are squares of the singular values, so use rtol^2 => sigma
       with the pseudo-inverse of Y^T Y and rtol
-    sizes-added: the absolute values of the terms of sigma are added. Independent errors
-      add by their squares, so use the norm => sigma with the sum
+    sizes-added: the absolute values of the terms of sigma are added. The variances of
+      independent errors add, so use the norm => sigma with the sum
     sigma-not-cut: sigma includes the small singular values that the fit leaves out =>
       the right torque, and sigma with all singular values
     """

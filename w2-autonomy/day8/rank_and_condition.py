@@ -80,11 +80,11 @@ def _(rng):
 
 for slug, says, redone, told in (
     ("rtol-absolute", "the singular values are compared with rtol itself. Compare them "
-     "with rtol times the largest; otherwise the rank depends on the unit",
+     "with rtol times the largest one; otherwise the rank depends on the unit",
      "the result with rtol as an absolute limit",
      lambda s, rtol: (n := np.sum(s > rtol), s[0] / s[n - 1])),
     ("condition-of-all", "the condition number uses the smallest of all singular "
-     "values. Use the smallest of those that are counted in the rank",
+     "values. Use the smallest one that is counted in the rank",
      "the largest over the smallest of all",
      lambda s, rtol: (np.sum(s > rtol * s[0]), s[0] / max(s[-1], 1e-300))),
     ("nothing-cut", "all singular values are counted, so rtol has no effect",
@@ -115,14 +115,16 @@ for slug, says, redone, told in (
     ("hidden-for-shown", "the rank is the number of singular values below the limit. "
      "It should be the number above the limit", "the number of columns minus the rank",
      lambda s, rtol: (len(s) - (n := np.sum(s > rtol * s[0])), s[0] / s[n - 1])),
-    ("condition-squared", "the condition number is computed for Y^T Y. It is the "
+    ("condition-squared", "the condition number is computed for Y^T Y, so it is the "
      "square of the condition number of Y", "its square",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), (s[0] / s[n - 1]) ** 2)),
-    ("condition-rooted", "the condition number is the square root of the ratio. "
-     "Singular values need no root; the eigenvalues of Y^T Y do", "its root",
+    ("condition-rooted", "the condition number is the square root of the ratio. Only "
+     "the eigenvalues of Y^T Y need a square root; the singular values do not",
+     "its root",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), np.sqrt(s[0] / s[n - 1]))),
-    ("condition-inverted", "the condition number is inverted. It is the largest over "
-     "the smallest, so it is at least 1", "the smallest over the largest",
+    ("condition-inverted", "the condition number is inverted. Divide the largest "
+     "singular value by the smallest one, so that the result is at least 1",
+     "the smallest over the largest",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), s[n - 1] / s[0])),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(
@@ -136,10 +138,10 @@ for slug, says, redone, told in (
 
 @row.wrongs
 def _(Y, rtol):
-    """columns-scaled: the columns of Y are divided by their norms first. This is the
-      rank of other parameters => the result with columns of norm 1
-    columns-centred: the mean of each column of Y is subtracted first, as in statistics,
-      but the torques are not measured from their mean => the result without the means
+    """columns-scaled: the columns of Y are divided by their norms first, which changes
+      the singular values => the result with columns of norm 1
+    columns-centred: the mean of each column of Y is subtracted first, but the model tau
+      = Y phi has no constant term => the result without the means
     """
     return {
         "columns-scaled": counted(Y / np.linalg.norm(Y, axis=0), rtol),

@@ -25,12 +25,12 @@ def _(rng):
 
 @row.wrongs
 def _(phi):
-    """products-negative: Ixy, Ixz and Iyz have the opposite sign. phi holds the entries
-      of I themselves => the result with -Ixy, -Ixz and -Iyz
-    row-by-row: the six entries of I are read as Ixx, Ixy, Iyy, Ixz, Iyz, Izz, the order
-      of other software. In phi the diagonal comes first => I in that order
-    triangle-by-rows: the six entries of I are read as Ixx, Ixy, Ixz, Iyy, Iyz, Izz. In
-      phi the diagonal comes first => I in that order
+    """products-negative: Ixy, Ixz and Iyz have the wrong sign. phi contains the entries
+      of the matrix I, so copy them unchanged => the result with -Ixy, -Ixz and -Iyz
+    row-by-row: the six entries of I are read in the order Ixx, Ixy, Iyy, Ixz, Iyz, Izz.
+      In phi the three diagonal entries come first => I in that order
+    triangle-by-rows: the six entries of I are read in the order Ixx, Ixy, Ixz, Iyy,
+      Iyz, Izz. In phi the three diagonal entries come first => I in that order
     first-moment-times-m: phi[1:4] is multiplied by m, but it is the first moment m c
       already => the result with m [h] for [h]
     corners-swapped: the off-diagonal blocks are exchanged: [h] belongs at the upper
@@ -50,14 +50,14 @@ def _(phi):
 @row.wrongs
 def _(phi):
     """lower-half-zero: Ixy, Ixz and Iyz are only above the diagonal, but I is symmetric
-    inertia-about-the-centre: m [c] [c]^T is added to I, but phi has I about the origin,
-      which includes this term already => the result with I + m [c] [c]^T
-    steiner-without-m: [h] [h]^T is added to I, but phi has I about the origin, which
-      needs no further term => the result with I + [h] [h]^T
-    corner-not-transposed: both off-diagonal blocks are [h]. The lower left block is
-      [h]^T => the result with [h] twice
-    corner-negated: both off-diagonal blocks are [h]^T. The upper right block is [h] =>
-      the result with [h]^T twice
+    inertia-about-the-centre: m [c] [c]^T is added to I, but I in phi is about the
+      origin and already includes this term => the result with I + m [c] [c]^T
+    steiner-without-m: [h] [h]^T is added to I, but I in phi is already about the origin
+      and needs no further term => the result with I + [h] [h]^T
+    corner-not-transposed: both off-diagonal blocks are [h]. The lower left block should
+      be [h]^T => the result with [h] twice
+    corner-negated: both off-diagonal blocks are [h]^T. The upper right block should be
+      [h] => the result with [h]^T twice
     velocity-first: the blocks are in the order (v; omega). A twist is (omega; v) in
       this course
     """

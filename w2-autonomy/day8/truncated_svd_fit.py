@@ -114,8 +114,8 @@ def parts(Y, rtol):
 
 @row.wrongs
 def _(Y, tau, rtol):
-    """nothing-cut: no singular value is left out. A combination that the data do not
-      determine is then fitted to noise => the fit with all singular values
+    """nothing-cut: all singular values are used. A combination of parameters that the
+      data do not determine is then fitted to noise => the fit with all singular values
     rtol-absolute: the singular values are compared with rtol itself. Compare them with
       rtol times the largest => the result with rtol as an absolute limit
     cut-by-the-sum: the singular values are compared with rtol times their sum. Compare
@@ -125,18 +125,18 @@ def _(Y, tau, rtol):
     cut-by-rows: your function multiplies rtol by the number of rows, as NumPy does with
       its default tolerance. Compare the singular values with rtol times the largest =>
       the result with rtol times the rows
-    V-for-its-transpose: V^T is used as V. numpy.linalg.svd returns V^T => the result
-      with V^T for V
+    V-for-its-transpose: V^T is used instead of V. The function numpy.linalg.svd returns
+      V^T => the result with V^T for V
     cut-not-squared: the eigenvalues of Y^T Y are squares of the singular values, so
       they must be compared with rtol^2 times the largest => the result with the square
       root of rtol
     ridge: a constant is added to the diagonal of Y^T Y, which reduces every parameter,
       even those that the data determine => (Y^T Y + 1)^-1 Y^T tau
-    mean-taken-off: the mean of tau is subtracted first, as in statistics, but Y phi has
+    mean-taken-off: the mean of tau is subtracted first, but the model tau = Y phi has
       no constant term => the fit to tau minus its mean
-    times-s: the fit multiplies by the singular values. The pseudo-inverse of Y
-      divides by them => V S U^T tau
-    first-columns: only the first columns of Y are fitted, as many as the rank. These
+    times-s: the fit multiplies by the singular values. The pseudo-inverse of Y divides
+      by them => V S U^T tau
+    first-columns: only the first r columns of Y are fitted, where r is the rank. These
       columns need not be independent => the fit to them, with 0 for the others
     """
     U, s, Vt = parts(Y, rtol)

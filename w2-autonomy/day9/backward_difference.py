@@ -29,43 +29,45 @@ def velocity(q, dt, *, change):
 
 for slug, says, redone, other in (
     ("forward", "each velocity uses the next sample, which is not known yet; use the "
-     "sample before", "(q_(k+1) - q_k) / dt with 0 at the end",
+     "previous sample", "(q_(k+1) - q_k) / dt with 0 at the end",
      {"change": lambda q: np.append(np.diff(q), 0.0)}),
     ("forward", "each velocity uses the next sample, which is not known yet; use the "
-     "sample before", "(q_(k+1) - q_k) / dt with the last one repeated",
+     "previous sample", "(q_(k+1) - q_k) / dt with the last one repeated",
      {"change": lambda q: np.append(np.diff(q), np.diff(q)[-1])}),
     ("forward", "each velocity uses the next sample, which is not known yet; use the "
-     "sample before", "(q_(k+1) - q_k) / dt with q_n = 0",
+     "previous sample", "(q_(k+1) - q_k) / dt with q_n = 0",
      {"change": lambda q: np.diff(q, append=0.0)}),
-    ("central", "this is a central difference, which uses the next sample; that one is "
-     "not known yet", "np.gradient", {"change": np.gradient}),
-    ("central", "this is a central difference, which uses the next sample; that one is "
-     "not known yet", "np.gradient with 0 as the first velocity",
+    ("central", "your function returns the central difference, which uses the next "
+     "sample; the next sample is not known yet", "np.gradient",
+     {"change": np.gradient}),
+    ("central", "your function returns the central difference, which uses the next "
+     "sample; the next sample is not known yet", "np.gradient with 0 as the first "
+     "velocity",
      {"change": lambda q: np.append(0.0, np.gradient(q)[1:])}),
-    ("from-zero", "the first velocity is q_0 / dt, as if a sample of 0 preceded it; no "
-     "sample precedes the first, so its velocity is 0", "q_(-1) = 0",
+    ("from-zero", "the first velocity is q_0 / dt, as if a sample of 0 preceded it. No "
+     "sample precedes the first one, so the first velocity should be 0", "q_(-1) = 0",
      {"change": lambda q: np.diff(q, prepend=0.0)}),
-    ("round-the-corner", "the first velocity uses the last sample, as np.roll does; no "
-     "sample precedes the first, so its velocity is 0", "np.roll",
+    ("round-the-corner", "the first velocity uses the last sample, as np.roll does. No "
+     "sample precedes the first one, so the first velocity should be 0", "np.roll",
      {"change": lambda q: q - np.roll(q, 1)}),
     ("first-repeated", "the first velocity repeats the second; no sample precedes the "
-     "first, so its velocity is 0", "the second velocity as the first",
+     "first one, so the first velocity should be 0", "the second velocity as the first",
      {"change": lambda q: np.append(np.diff(q)[:1], np.diff(q))}),
     ("two-samples", "the change over two samples is divided by one dt; use the change "
-     "since the sample before", "(q_k - q_(k-2)) / dt",
+     "since the previous sample", "(q_k - q_(k-2)) / dt",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2])}),
     ("mean-of-two", "the change over two samples is divided by 2 dt, which is the "
-     "velocity one sample ago; use the change since the sample before",
+     "velocity one sample ago. Use the change since the previous sample",
      "(q_k - q_(k-2)) / (2 dt)",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2]) / 2}),
-    ("since-the-start", "this is the mean velocity since the first sample; use the "
-     "change since the sample before", "(q_k - q_0) / (k dt)",
+    ("since-the-start", "the result is the mean velocity since the first sample; use "
+     "the change since the previous sample", "(q_k - q_0) / (k dt)",
      {"change": lambda q: (q - q[0]) / np.maximum(np.arange(len(q)), 1)}),
     ("from-the-first", "the change since the first sample is divided by dt; use the "
-     "change since the sample before", "(q_k - q_0) / dt",
+     "change since the previous sample", "(q_k - q_0) / dt",
      {"change": lambda q: q - q[0]}),
-    ("by-its-time", "each change is divided by the time k dt since the start; it "
-     "happened during one dt", "(q_k - q_(k-1)) / (k dt)",
+    ("by-its-time", "each change is divided by the time k dt since the start; the "
+     "change happened during one dt", "(q_k - q_(k-1)) / (k dt)",
      {"change": lambda q: backward(q) / np.maximum(np.arange(len(q)), 1)}),
     ("last-left-out", "the last velocity is 0: does your loop end one sample too "
      "early?", "0 as the last velocity",
@@ -73,7 +75,7 @@ for slug, says, redone, other in (
     ("second-left-out", "the second velocity is 0: does your loop begin one sample too "
      "late?", "0 as the second velocity",
      {"change": lambda q: np.append([0.0, 0.0], np.diff(q)[1:])}),
-    ("twice", "the difference is taken twice; that is an acceleration times dt",
+    ("twice", "the difference is taken twice, which gives an acceleration times dt",
      "the difference of the difference", {"change": lambda q: backward(backward(q))}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(velocity, **other))

@@ -27,14 +27,14 @@ def _(dt, accel_psd):
     Q-diagonal-only: Q is diagonal; a change of the velocity during dt moves the angle
       as well, so their errors are correlated
     Q-of-a-held-acceleration: Q belongs to an acceleration that is constant over dt
-      (dt^4 / 4, dt^3 / 2, dt^2); for white noise it has dt^3 / 3, dt^2 / 2 and dt
-    Q-is-q-1: Q is accel_psd times the identity; it should depend on dt, and the angle
+      (dt^4 / 4, dt^3 / 2, dt^2). White noise gives dt^3 / 3, dt^2 / 2 and dt
+    Q-is-q-1: Q is accel_psd times the identity; Q should depend on dt, and the angle
       and the velocity have different units
     Q-is-q-dt-1: Q is accel_psd dt times the identity; the noise acts on the velocity,
       and the angle only integrates it
     Q-speed-only: Q has only the entry of the velocity, accel_psd dt; a change of the
       velocity during dt moves the angle as well
-    q-squared: accel_psd is squared; it is a power spectral density, not a standard
+    q-squared: accel_psd is squared, but a power spectral density is not a standard
       deviation
     off-diagonal-sign: the entries off the diagonal of Q are negative; a positive change
       of the velocity moves the angle in the positive direction

@@ -41,12 +41,12 @@ def _(rng):  # at the threshold, which is not over it
 
 @row.wrongs
 def _(residual, threshold):
-    """first-joint: this is the first joint over its threshold; a contact causes torques
-      in the joints before its link, so return the last one
-    first-joint 2: this is the first joint over its threshold, and 1 if there is none,
-      as np.argmax gives it; return the last one, and 0 if there is none
-    first-joint 3: this is the first joint over its threshold, counted from 0; return
-      the last one, counted from 1
+    """first-joint: your function returns the first joint over its threshold. A contact
+      also causes torques at the joints before its link, so return the last one
+    first-joint 2: your function returns the first joint over its threshold, or 1 if
+      there is none, as np.argmax does. Return the last one, or 0 if there is none
+    first-joint 3: your function returns the first joint over its threshold, counted
+      from 0; return the last one, counted from 1
     from-zero: the joints are counted from 0; joint1 is 1, because 0 means no contact
     from-zero 2: the joints are counted from 0, and -1 means no contact; joint1 is 1,
       and 0 means no contact
@@ -55,40 +55,42 @@ def _(residual, threshold):
     sign-lost-first: only positive residuals are compared, and the first joint is
       returned; compare the absolute values, and return the last joint
     sign-lost-first 2: only positive residuals are compared, and the first joint is
-      returned, or 1 if there is none; compare the absolute values, and return the last
+      returned, or 1 if there is none. Compare the absolute values, and return the last
     sign-lost-from-zero: only positive residuals are compared, and joints are counted
       from 0; compare the absolute values, and count from 1
-    largest: this is the joint with the largest residual; a longer lever arm causes a
-      larger torque, so return the last joint over its threshold
-    largest 2: this is the joint with the largest residual, even if it is below its
-      threshold; return the last joint over its threshold
-    largest 3: this is the joint with the largest signed residual, without a threshold;
-      return the last joint over its threshold
-    most-over: this is the joint that exceeds its threshold by the largest amount;
-      return the last joint over its threshold
-    most-over 2: this is the joint that exceeds its threshold by the largest factor;
-      return the last joint over its threshold
-    how-many: this is the number of joints over their thresholds; return the last one
-    how-many 2: this is the number of joints with a residual above the threshold; return
-      the last joint, for residuals of either sign
-    any: this is 1 if any joint is over its threshold, else 0; return the last such
-      joint
-    all-or-none: this is 7 as soon as one joint is over its threshold; return the last
-      such joint
-    last-of-none: this is 7 if no joint is over its threshold; return 0
+    largest: your function returns the joint with the largest residual. A longer lever
+      arm causes a larger torque, so return the last joint over its threshold
+    largest 2: your function returns the joint with the largest residual, even if this
+      residual is below its threshold. Return the last joint over its threshold
+    largest 3: your function returns the joint with the largest signed residual, without
+      a threshold; return the last joint over its threshold
+    most-over: your function returns the joint that exceeds its threshold by the largest
+      amount; return the last joint over its threshold
+    most-over 2: your function returns the joint that exceeds its threshold by the
+      largest factor; return the last joint over its threshold
+    how-many: your function returns the number of joints over their thresholds; return
+      the last such joint
+    how-many 2: your function returns the number of joints with a residual above the
+      threshold; return the last joint, for residuals of either sign
+    any: your function returns 1 if any joint is over its threshold, else 0; return the
+      last such joint
+    all-or-none: your function returns 7 as soon as one joint is over its threshold;
+      return the last such joint
+    last-of-none: your function returns 7 if no joint is over its threshold; return 0
     from-the-tip: the joints are counted from the tip; joint1 is 1
-    until-one-does-not: the search stops at the first joint under its threshold; a
-      later joint may be over its own
-    largest-threshold: every joint is compared with the largest threshold; each has its
-      own
-    smallest-threshold: every joint is compared with the smallest threshold; each has
-      its own
+    until-one-does-not: the search stops at the first joint under its threshold; a later
+      joint may be over its threshold
+    largest-threshold: every joint is compared with the largest threshold; each joint
+      has its own
+    smallest-threshold: every joint is compared with the smallest threshold; each joint
+      has its own
     last-joint-decides: the result is 7 if joint 7 is over its threshold, else 0: does
       your loop overwrite an earlier result?
     last-joint-left-out: joint 7 is omitted: does your loop end one joint too early?
-    numbers-added: the numbers of all joints over their thresholds are added; return the
-      last one
-    sum-over: the sum of all absolute residuals is compared; compare each joint's own
+    numbers-added: your function adds the numbers of all joints over their thresholds;
+      return only the last number
+    sum-over: the sum of all absolute residuals is compared; compare the residual of
+      each joint with its own threshold
     """
     size = np.abs(residual)
     over = size > threshold

@@ -26,17 +26,17 @@ def margin(
 
 
 for slug, says, redone, other in (
-    ("at-omega", "w is sqrt(kp), where the proportional term alone has the amplitude "
-     "of the acceleration; the derivative term adds to it, so w is larger",
+    ("at-omega", "w is sqrt(kp), the crossover frequency of the proportional term "
+     "alone. The derivative term increases the amplitude, so w should be larger",
      "w = sqrt(kp)", {"w": lambda kp, kd: np.sqrt(kp)}),
-    ("at-kd", "w is kd, where the derivative term alone has the amplitude of the "
-     "acceleration; the proportional term adds to it, so w is larger", "w = kd",
+    ("at-kd", "w is kd, the crossover frequency of the derivative term alone. The "
+     "proportional term increases the amplitude, so w should be larger", "w = kd",
      {"w": lambda kp, kd: kd}),
-    ("strengths-added", "w^2 is kp + kd^2; the two terms are a quarter of a period "
-     "apart, so their amplitude is sqrt(kp^2 + kd^2 w^2)", "w^2 = kp + kd^2",
+    ("strengths-added", "w^2 is kp + kd^2. The two terms are a quarter of a period "
+     "apart, so the amplitude of their sum is sqrt(kp^2 + kd^2 w^2)", "w^2 = kp + kd^2",
      {"w": lambda kp, kd: np.sqrt(kp + kd**2)}),
-    ("minus-in-the-root", "4 kp^2 is subtracted under the inner root; "
-     "w^4 - kd^2 w^2 - kp^2 = 0 has a plus there", "kd^4 - 4 kp^2",
+    ("minus-in-the-root", "4 kp^2 is subtracted under the inner root. The solution of "
+     "w^4 - kd^2 w^2 - kp^2 = 0 has a plus sign there", "kd^4 - 4 kp^2",
      {"w": lambda kp, kd: np.sqrt((kd**2 + np.sqrt(abs(kd**4 - 4 * kp**2))) / 2)}),
     ("neither-squared", "the equation is solved for w instead of w^2: its roots "
      "contain kd^2, kd^4 and kp^2", "(kd + sqrt(kd^2 + 4 kp)) / 2 as w^2",
@@ -47,8 +47,8 @@ for slug, says, redone, other in (
     ("from-the-far-side", "the angle is pi minus the phase lead; the phase margin is "
      "the distance from -180 degrees, which is the lead itself", "pi - atan(kd w / kp)",
      {"angle": lambda kp, kd, w: np.pi - np.arctan(kd * w / kp)}),
-    ("in-cycles", "the angle is divided by the frequency in Hz; it is in radians, so "
-     "divide by w in rad/s", "the margin times 2 pi",
+    ("in-cycles", "the angle is divided by the frequency in Hz; the angle is in "
+     "radians, so divide by w in rad/s", "the margin times 2 pi",
      {"by": lambda w: w / (2 * np.pi)}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(margin, **other))
@@ -56,10 +56,10 @@ for slug, says, redone, other in (
 
 @row.wrongs
 def _(kp, kd):
-    """critical-only: this is 0.6474 / sqrt(kp), which is the delay margin for critical
-      damping only => 0.6474 / sqrt(kp)
-    damper-alone: this is the delay margin without a proportional term, pi / 2 / kd; kp
-      changes the phase lead and the crossover frequency => pi / (2 kd)
+    """critical-only: the result is 0.6474 / sqrt(kp), which is the delay margin for
+      critical damping only => 0.6474 / sqrt(kp)
+    damper-alone: the result is pi / (2 kd), the delay margin without a proportional
+      term; kp changes the phase lead and the crossover frequency => pi / (2 kd)
     """
     return {"critical-only": 0.6474 / np.sqrt(kp), "damper-alone": np.pi / 2 / kd}
 

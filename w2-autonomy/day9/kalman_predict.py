@@ -24,14 +24,14 @@ def _(rng):
 
 @row.wrongs
 def _(x, P, F, Q):
-    """transposed-on-the-left: P is F^T P F + Q; if the error e becomes F e, e e^T
-      becomes F e e^T F^T => F^T P F + Q
-    P-not-carried: P is P + Q; F changes the old error as well, so its covariance is
-      transformed by F => P + Q
-    Q-carried-too: Q is transformed by F as well; the noise over dt is added after F =>
-      F (P + Q) F^T
-    entry-by-entry: `*` multiplies F and P entry by entry; use `@` for the matrix
-      product => `*` instead of `@`
+    """transposed-on-the-left: the new covariance is F^T P F + Q. If the error e becomes
+      F e, e e^T becomes F e e^T F^T => F^T P F + Q
+    P-not-carried: the new covariance is P + Q; F changes the old error as well, so
+      transform P by F => P + Q
+    Q-carried-too: Q is also transformed by F; add Q after the transformation => F (P +
+      Q) F^T
+    entry-by-entry: your function multiplies F and P entry by entry with `*`; use `@`
+      for the matrix product => `*` instead of `@`
     """
     Ps = {
         "transposed-on-the-left": F.T @ P @ F + Q,

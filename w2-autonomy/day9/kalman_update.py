@@ -63,23 +63,25 @@ def after_it(P, H, R, after, new_P):
 
 for slug, says, redone, other in (
     ("surprise-sign", "the innovation is H x - z, so the state moves away from the "
-     "reading; it should be z - H x", "H x - z", {"of": lambda z, Hx: Hx - z}),
-    ("R-rooted", "the square root of R is used; R is a covariance already", "sqrt(R)",
+     "reading. The innovation should be z - H x", "H x - z",
+     {"of": lambda z, Hx: Hx - z}),
+    ("R-rooted", "the square root of R is used; R is already a covariance", "sqrt(R)",
      {"of_R": lambda R: np.sqrt(np.abs(R))}),
-    ("divided-by-R", "K is P H^T R^-1, which is correct with the updated P only; the "
-     "covariance of the innovation is S", "P H^T R^-1",
+    ("divided-by-R", "K is P H^T R^-1, which holds for the updated P only; use the "
+     "covariance S of the innovation", "P H^T R^-1",
      {"K": lambda P, H, S, R: P @ H.T @ np.linalg.inv(R)}),
-    ("P-from-the-right", "P is P (I - K H); the factor is on the left, (I - K H) P",
+    ("P-from-the-right", "the new covariance is P (I - K H); the factor belongs on the "
+     "left, (I - K H) P",
      "P (I - K H)", {"new_P": lambda P, K, S, H, R: P @ without(K, H)}),
     ("P-I-minus-K-H", "the new covariance is I - K H; it should be (I - K H) P",
      "I - K H", {"new_P": lambda P, K, S, H, R: without(K, H)}),
     ("P-minus-K-H", "the new covariance is P - K H; subtract K H P, which is K S K^T",
      "P - K H", {"new_P": lambda P, K, S, H, R: P - K @ H}),
-    ("P-joseph-short", "the new covariance is (I - K H) P (I - K H)^T; the Joseph form "
+    ("P-joseph-short", "the new covariance is (I - K H) P (I - K H)^T. The Joseph form "
      "also has the term K R K^T", "the Joseph form without K R K^T",
      {"new_P": lambda P, K, S, H, R: without(K, H) @ P @ without(K, H).T}),
-    ("P-K-R-K-besides", "K R K^T is added to P - K S K^T; it belongs to the Joseph "
-     "form, (I - K H) P (I - K H)^T + K R K^T", "P - K S K^T + K R K^T",
+    ("P-K-R-K-besides", "K R K^T is added to P - K S K^T. This term belongs to the "
+     "Joseph form, (I - K H) P (I - K H)^T + K R K^T", "P - K S K^T + K R K^T",
      {"new_P": lambda P, K, S, H, R: P - K @ S @ K.T + K @ R @ K.T}),
     ("x-only-where-read", "only the measured entries of x are corrected; P correlates "
      "the other entries with them, so K corrects all", "x with the others unchanged",

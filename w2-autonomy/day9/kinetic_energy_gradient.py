@@ -39,14 +39,14 @@ def gradient(
 
 
 for slug, says, redone, other in (
-    ("slope-sign", "every sign is reversed: seen from the links that rotate, V_i "
-     "rotates backwards, so its rate of change is -ad(S_i) V_i", "the negative",
+    ("slope-sign", "every sign is reversed. Relative to the rotated links, V_i rotates "
+     "in the opposite direction, so its derivative is -ad(S_i) V_i", "the negative",
      {"factor": 1.0}),
-    ("halved", "the result is halved: the energy is half of momentum times twist, but "
-     "both depend on the twist, so the factor 1/2 cancels", "half of the gradient",
+    ("halved", "the result is halved. The twist appears twice in the energy V . G V / "
+     "2, so the factor 1/2 cancels in the derivative", "half of the gradient",
      {"factor": -0.5}),
-    ("own-link-only", "joint i rotates link i only; it rotates all distal links as "
-     "well, so sum their momenta", "the momentum of link i alone",
+    ("own-link-only", "only the momentum of link i is used; joint i also rotates all "
+     "distal links, so sum their momenta", "the momentum of link i alone",
      {"felt": lambda i: slice(i, i + 1)}),
     ("later-links-only", "link i itself is omitted; the sum begins with link i",
      "the sum over k > i", {"felt": lambda i: slice(i + 1, None)}),
@@ -62,8 +62,8 @@ for slug, says, redone, other in (
     ("omega-alone", "only the angular part of V_i is rotated; ad(S_i) acts on the "
      "linear part as well", "ad of the angular part alone",
      {"turned": lambda S, V: np.append(np.cross(S[:3], V[:3]), np.zeros(3))}),
-    ("own-twist-only", "V_i contains the velocity of joint i only; it is the sum over "
-     "the joints 1 to i", "V_i = S_i qd_i",
+    ("own-twist-only", "V_i contains the velocity of joint i only; sum over the joints "
+     "1 to i", "V_i = S_i qd_i",
      {"twists": lambda S, qd: S * qd[:, None]}),
     ("outer-twists", "V_i is the sum over the joints i to 7; link i is moved by the "
      "joints 1 to i", "the sum over the joints i to 7",
@@ -86,9 +86,9 @@ for slug, says, redone, other in (
 
 @row.wrongs
 def _(J_space, G, qd):
-    """C-qd: this is the Coriolis torque C qd; the gradient is C^T qd => C qd
-    minus-C-qd: this is the negative Coriolis torque -C qd; the gradient is C^T qd => -C
-      qd
+    """C-qd: the result is the Coriolis torque C qd; the gradient is C^T qd => C qd
+    minus-C-qd: the result is the negative Coriolis torque -C qd; the gradient is C^T qd
+      => -C qd
     each-its-own-twist: the twist V_k of each link is rotated; all links from i on
       receive the same change, -ad(S_i) V_i => ad(S_i) V_k
     """

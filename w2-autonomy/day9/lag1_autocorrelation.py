@@ -56,7 +56,8 @@ for slug, says, redone, other in (
      "the variance, so that the unit cancels", "the mean product over sigma",
      {"squares": lambda d: np.sqrt(d @ d / len(d)), "share": lambda n: 1 / (n - 1)}),
     ("mean-of-products", "the mean of n - 1 products is divided by the mean of n "
-     "squares; divide the two sums", "the quotient of the means",
+     "squares. Divide the sum of the products by the sum of the squares",
+     "the quotient of the means",
      {"share": lambda n: n / (n - 1)}),
     ("variance-for-sum", "the sum of the products is divided by the mean of the "
      "squares; divide the two sums", "the result times n", {"share": lambda n: n}),
@@ -69,7 +70,8 @@ for slug, says, redone, other in (
     ("lag-zero", "each entry is multiplied by itself, so the result is always 1; "
      "multiply it by its neighbour", "a constant 1", {"pairs": lambda d: d @ d}),
     ("round-the-corner", "the last entry is multiplied by the first, as with np.roll; "
-     "they are not neighbours", "np.roll", {"pairs": lambda d: d @ np.roll(d, 1)}),
+     "the first and the last entry are not neighbours", "np.roll",
+     {"pairs": lambda d: d @ np.roll(d, 1)}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(correlation, **other))
 
@@ -78,10 +80,10 @@ for slug, says, redone, other in (
 def _(y):
     """two-means: y[1:] and y[:-1] each have their own mean and norm, as in np.corrcoef;
       use one mean and all n squares => np.corrcoef(y[1:], y[:-1])[0, 1]
-    of-the-changes: this is the autocorrelation of the changes of y; use y itself => the
-      lag-1 autocorrelation of np.diff(y)
-    changes-squared: this is the Durbin-Watson statistic, which is 2 for white noise;
-      use the products of neighbours => the Durbin-Watson statistic
+    of-the-changes: the result is the autocorrelation of the changes of y; use y itself
+      => the lag-1 autocorrelation of np.diff(y)
+    changes-squared: the result is the Durbin-Watson statistic, which is 2 for white
+      noise; use the products of neighbours => the Durbin-Watson statistic
     """
     d = centred(y)
     return {

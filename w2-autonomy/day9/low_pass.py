@@ -57,20 +57,21 @@ for slug, says, redone, other in (
     ("no-2-pi", "the factor 2 pi is missing: cutoff is in Hz, so the time constant is "
      "1 / (2 pi cutoff)", "alpha = 1 - exp(-cutoff dt)",
      {"of": lambda dt, f: f * dt}),
-    ("cutoff-for-time", "cutoff is used as the time constant; it is a frequency in Hz",
+    ("cutoff-for-time", "cutoff is used as the time constant, but it is a frequency in "
+     "Hz",
      "alpha = 1 - exp(-dt / cutoff)", {"of": lambda dt, f: dt / f}),
     ("two-for-e", "alpha uses powers of 2, as for a half-life; the decay is "
      "exp(-2 pi cutoff dt)", "1 - 2^(-2 pi cutoff dt)",
      {"alpha": lambda x: 1 - 2.0**-x}),
-    ("from-zero", "y starts at 0, so the output first rises from there; it should "
-     "start at x[0]", "y_0 = 0", {"first": lambda x, a: 0.0}),
-    ("first-filtered", "y starts at alpha x[0], as if the output had been 0 before; it "
+    ("from-zero", "y starts at 0, so the output first rises from there; y should start "
+     "at x[0]", "y_0 = 0", {"first": lambda x, a: 0.0}),
+    ("first-filtered", "y starts at alpha x[0], as if the output had been 0 before; y "
      "should start at x[0]", "y_0 = alpha x_0", {"first": lambda x, a: a * x[0]}),
-    ("by-the-sample-before", "the sample before is used instead of the output before: "
-     "the filter then has no memory", "alpha x_k + (1 - alpha) x_(k-1)",
+    ("by-the-sample-before", "the previous sample is used instead of the previous "
+     "output, so the filter has no memory", "alpha x_k + (1 - alpha) x_(k-1)",
      {"step": lambda y, now, before, a: a * now + (1 - a) * before}),
-    ("change-added", "alpha times the change of x is added; it should be alpha times "
-     "the difference between x and the output before", "y + alpha (x_k - x_(k-1))",
+    ("change-added", "alpha times the change of x is added; add alpha times the "
+     "difference between x and the previous output", "y + alpha (x_k - x_(k-1))",
      {"step": lambda y, now, before, a: y + a * (now - before)}),
     ("whole-numbers-kept", "y is stored in an integer array, which discards the "
      "fraction of each output", "truncation to integers at each step",
@@ -86,7 +87,7 @@ def _(x, dt, cutoff):
       that are not known yet
     there-and-back: the filter runs forwards and then backwards, as filtfilt does; the
       second pass uses samples that are not known yet
-    what-is-fast: the output is x - y, which is a high pass; return y => x - y
+    what-is-fast: the output is x - y, which is a high-pass filter; return y => x - y
     not-filtered: the output is x itself, without a filter => x
     last-left-out: the last output is 0: does your loop end one sample too early? => 0
       as the last output

@@ -37,23 +37,23 @@ def _(rng):
 
 @row.wrongs
 def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
-    """gravity-sign: `gravity` is added; it is the torque that holds the arm, so gravity
-      itself acts with a minus sign => +gravity
+    """gravity-sign: `gravity` has the wrong sign. It is the torque that holds the arm,
+      and the weight acts in the opposite direction => +gravity
     residual-without-dt: the old residual is added to the integral without dt; a torque
       times dt is a momentum => the old residual without dt
     integral-of-before: the residual uses the old integral; advance the integral first
       => the old integral
     integral-not-handed-on: the old integral is returned; return the new one
-    fed-back-times-gain: the old residual is multiplied by the gain in the integral; it
-      is a torque already => gain times the old residual
-    low-passed-again: the residual is a low pass of gain (momentum - integral); it
-      should be this value itself, because the integral filters already => the residual
-      plus gain (momentum - integral) dt
+    fed-back-times-gain: the old residual is multiplied by the gain in the integral; the
+      residual is already a torque => gain times the old residual
+    low-passed-again: the residual is gain (momentum - integral), filtered by a low pass
+      again. Return this value itself, because the integral already filters it => the
+      residual plus gain (momentum - integral) dt
     residual-kept: the old residual is added to the new one => the sum of both
     residual-taken-off: the old residual is subtracted from the new one => their
       difference
     new-residual-fed-back: the integral uses a residual of the new momentum; use the
-      residual of the sample before
+      residual of the previous sample
     """
     known = tau + energy_grad - gravity - damping * qd
     now = integral + (known + residual) * dt

@@ -29,21 +29,26 @@ for slug, says, redone, other in (
     ("multiplied-for-divided", "c is multiplied by n m: 2 / 9 * n * m divides by 9 "
      "only; write 2 / (9 * n * m)", "c = 2 / 9 * n * m",
      {"c": lambda n, m: 2 / 9 * n * m}),
-    ("added-for-multiplied", "c contains n + m; the sum of n NIS has n m degrees of "
-     "freedom", "c = 2 / (9 (n + m))", {"c": lambda n, m: 2 / (9 * (n + m))}),
+    ("added-for-multiplied", "c contains n + m; the sum of n NIS values has n m "
+     "degrees of freedom", "c = 2 / (9 (n + m))",
+     {"c": lambda n, m: 2 / (9 * (n + m))}),
     ("whole-division", "c is 0, because // discards the fraction of 2 / (9 n m)",
      "c = 0", {"c": lambda n, m: 2 // (9 * n * m)}),
-    ("shift-forgotten", "the cube root has the mean 1; its mean is 1 - c",
+    ("shift-forgotten", "your function uses the mean 1 for the cube root; the mean is "
+     "1 - c",
      "the mean 1", {"middle": lambda c: 1.0}),
-    ("shift-sign", "the cube root has the mean 1 + c; its mean is 1 - c",
+    ("shift-sign", "your function uses the mean 1 + c for the cube root; the mean is 1 "
+     "- c",
      "the mean 1 + c", {"middle": lambda c: 1 + c}),
-    ("ninety", "1.645 standard deviations hold 90 % of a Gaussian; use 1.96 for 95 %",
+    ("ninety", "your function uses 1.645 standard deviations, which contain 90 % of a "
+     "Gaussian; use 1.96 for 95 %",
      "1.645 instead of 1.96", {"z": 1.645}),
-    ("two-sigma", "2 standard deviations hold 95.4 % of a Gaussian; use 1.96 for 95 %",
+    ("two-sigma", "your function uses 2 standard deviations, which contain 95.4 % of a "
+     "Gaussian; use 1.96 for 95 %",
      "2 instead of 1.96", {"z": 2.0}),
-    ("ninety-nine", "2.576 standard deviations hold 99 % of a Gaussian; use 1.96 for "
-     "95 %", "2.576 instead of 1.96", {"z": 2.576}),
-    ("more-digits", "1.959964 has more digits than 1.96; the task uses 1.96",
+    ("ninety-nine", "your function uses 2.576 standard deviations, which contain 99 % "
+     "of a Gaussian; use 1.96 for 95 %", "2.576 instead of 1.96", {"z": 2.576}),
+    ("more-digits", "your function uses 1.959964; the task asks for 1.96",
      "1.959964 instead of 1.96", {"z": 1.959964}),
     ("m-cubed", "m is cubed; multiply by m after the cube", "m^3 instead of m",
      {"front": lambda n, m: m**3}),
@@ -53,12 +58,13 @@ for slug, says, redone, other in (
 
 @row.wrongs
 def _(n, m):
-    """normal: m +- 1.96 sqrt(2 m / n) treats the mean NIS itself as Gaussian; it is
-      skewed, and only its cube root is nearly Gaussian => m +- 1.96 sqrt(2 m / n)
-    one-over-n: m +- 1.96 / sqrt(n) assumes a standard deviation of 1 for each NIS; it
-      is sqrt(2 m) => m +- 1.96 / sqrt(n)
-    cube-inside: 1 - c and 1.96 sigma are cubed separately; cube their sum => m
-      ((1 - c)^3 -+ (1.96 sigma)^3)
+    """normal: your interval m +- 1.96 sqrt(2 m / n) treats the mean NIS as Gaussian.
+      Its distribution is skewed; only its cube root is nearly Gaussian => m +- 1.96
+      sqrt(2 m / n)
+    one-over-n: your interval m +- 1.96 / sqrt(n) assumes a standard deviation of 1 for
+      each NIS; the standard deviation is sqrt(2 m) => m +- 1.96 / sqrt(n)
+    cube-inside: 1 - c and 1.96 sigma are cubed separately; cube their sum => m ((1 -
+      c)^3 -+ (1.96 sigma)^3)
     """
     c = 2 / (9 * n * m)
     half = 1.96 * np.sqrt(2 * m / n)

@@ -59,10 +59,11 @@ def gravity_stiffness(
 ) -> np.ndarray:
     """Return the gravity stiffness d(gravity torque)/dq, symmetric, (n, n), N m/rad.
 
-    J_space (6, n) is the space Jacobian, masses (n,) are in kg, coms (n, 3) are the
-    links' centres of mass and g the gravity vector such as (0, 0, -9.81), all expressed
-    in the world frame. Rotating joint j by d rotates gravity by -d about omega_j, seen
-    from the links that are distal to it.
+    The gravity torque is Day 4's: the torque with which the motors hold the arm against
+    its weight. J_space (6, n) is the space Jacobian, masses (n,) are in kg, coms (n, 3)
+    are the links' centres of mass and g the gravity vector such as (0, 0, -9.81), all
+    expressed in the world frame. Relative to the links distal to joint j, a rotation of
+    joint j by d rotates gravity by -d about omega_j.
     One hinge about +y with 2 kg 1 m above it: -19.62; 1 m below: 19.62.
     """
     # region 13.1
@@ -80,11 +81,12 @@ def linearise(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return A (2 n, 2 n) and B (2 n, n) of one step x+ = A x + B u near equilibrium.
 
-    M (n, n) is the mass matrix, kg m^2, stiffness (n, n) the gravity stiffness,
-    N m/rad, damping (n,) the joints' damping, N m s/rad, which acts on the new
-    velocity, and h the time step, s. The new velocity moves the joints (MuJoCo's
-    `implicitfast`). One joint with M 1, stiffness 10, damping 1, h 0.1: A = [[10, 1],
-    [-10, 10]] / 11, B = (0.1, 1) / 11.
+    The state is x = (q - q0, qd), with the positions first; q0 is the equilibrium, and
+    u is the torque in addition to the torque that holds the arm there. M (n, n) is the
+    mass matrix, kg m^2, stiffness (n, n) the gravity stiffness, N m/rad, damping (n,)
+    the joints' damping, N m s/rad, which acts on the new velocity, and h the time step,
+    s. The new velocity moves the joints (MuJoCo's `implicitfast`). One joint with M 1,
+    stiffness 10, damping 1, h 0.1: A = [[10, 1], [-10, 10]] / 11, B = (0.1, 1) / 11.
     """
     # region 13.2
     now = np.eye(len(damping))  # coefficient of the old q in the new q
@@ -104,8 +106,9 @@ def riccati_step(
 
     P (n, n) is the cost-to-go of the next state, x . P x; A (n, n) and B (n, m) are the
     linear system; a step costs x . Q x + u . R u with Q (n, n) and R (m, m) symmetric,
-    R positive definite. This is the discrete Riccati recursion of LQR. A = [[1, 1], [0,
-    1]], B = (0; 1) and all else 1: P = [[2, 1], [1, 2.5]], K = (0, 0.5).
+    R positive definite. This is the discrete Riccati recursion of LQR. With A = [[1,
+    1], [0, 1]], B = (0; 1), and P, Q and R equal to the identity, the result is P =
+    [[2, 1], [1, 2.5]], K = (0, 0.5).
     """
     # region 13.3
     K = np.linalg.solve(R + B.T @ P @ B, B.T @ P @ A)  # the optimal gain
@@ -239,11 +242,12 @@ def ilqr_backward(
 
     fx (T, n, n) and fu (T, n, m) are the derivatives of the steps; lx (T, n) and lu (T,
     m) are the gradients, lxx (T, n, n), luu (T, m, m) and lux (T, m, n) the second
-    derivatives of their costs. Vx (n,) and Vxx (n, n) are the final cost's. mu >= 0 is
-    added to the diagonal of Quu wherever Quu appears. drop holds two sums over all
-    steps: k . Qu, and k . Quu k / 2 (Tassa, Erez and Todorov 2012). x + u twice, (x^2 +
-    u^2) / 2, from x = u = 0, at the end x + x^2 / 2, mu 0: k -0.2, -0.5; K -0.6, -0.5;
-    drop (-0.6, 0.3).
+    derivatives of their costs. Vx (n,) and Vxx (n, n) are the gradient and the second
+    derivative of the final cost. mu >= 0 is added to the diagonal of Quu wherever Quu
+    appears. drop holds two sums over all steps: k . Qu, and k . Quu k / 2 (Tassa, Erez
+    and Todorov 2012). Example with mu = 0: two steps x+ = x + u, each with the cost
+    (x^2 + u^2) / 2, and the final cost x + x^2 / 2, all at x = u = 0. Then k is -0.2
+    and -0.5, K is -0.6 and -0.5, and drop is (-0.6, 0.3).
     """
     # region 13.7
     T, n, m = fu.shape  # the numbers of steps, states and inputs
@@ -269,7 +273,8 @@ def expected_reduction(dV: np.ndarray, alpha: float) -> float:
     """Return the expected reduction of the cost for the step alpha k.
 
     dV (2,) is `drop`, the third result of `ilqr_backward`; alpha is the fraction of k
-    that is applied. The result is positive if the cost is expected to fall.
+    that is applied. The expected change of the cost is alpha dV[0] + alpha^2 dV[1]; the
+    reduction is its negative, so it is positive if the cost is expected to fall.
 
     expected_reduction([-4, 2], 0.5) -> 1.5
     """
@@ -295,9 +300,10 @@ def bound_multipliers(
 ) -> np.ndarray:
     """Return d(minimum cost) / d(bound) (n,) at the minimiser x; 0 for a free entry.
 
-    The arguments are `kkt_residual`'s. The result is the Lagrange multiplier of the
-    bound at which an entry is held, with the sign of the change of the cost.
-    `kkt_residual`'s case, where x is (0.5, 1): (0, -7.5).
+    The arguments are the same as in `kkt_residual`. The result is the Lagrange
+    multiplier of the bound at which an entry is held: positive at a lower bound and
+    negative at an upper one, because a wider box cannot increase the minimum cost.
+    In the example of `kkt_residual`, where x is (0.5, 1): (0, -7.5).
     """
     # region 13.9
     slope = H @ x + f  # the gradient of the cost

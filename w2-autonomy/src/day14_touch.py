@@ -88,10 +88,11 @@ def grip_reflex_step(
     """Return the next finger position, m: closed by a step if any contact nearly slips.
 
     finger_position, m, is the commanded distance of each pad from the middle. force,
-    normal and mu are `cone_margin`'s. A contact nearly slips if its margin is below
-    fraction times mu f_n; then subtract step, m. The result is never below LOW[4].
-    Force (3, 4, 10) of 10, position 0.01, step 0.002: fraction 0.2 gives 0.008,
-    fraction 0.1 gives 0.01; from -0.019 with 0.2 it is -0.02.
+    normal and mu are as in `cone_margin`. A contact nearly slips if its margin is below
+    fraction times mu f_n; then subtract step, m, once. Otherwise the position does not
+    change. The result is never below LOW[4], -0.02 m. One contact with force (3, 4, 10)
+    on the normal (0, 0, 1) with mu 0.6 and step 0.002: from 0.01, fraction 0.2 gives
+    0.008 and fraction 0.1 gives 0.01; from -0.019, fraction 0.2 gives -0.02.
     """
     # region 14.1
     margin = cone_margin(force, normal, mu)  # the margin of each contact, N
@@ -182,11 +183,13 @@ def observe(T_seen: np.ndarray, noise: np.ndarray) -> np.ndarray:
 def act(theta: np.ndarray, observation: np.ndarray) -> np.ndarray:
     """Return the policy's action (x, y, yaw, height, opening, lift), (6,).
 
-    theta (6,) holds the policy's parameters; clip it to LOW and HIGH first. observation
-    (3,) is `observe`'s (x, y, yaw). The hand goes to the cube's position plus theta's
-    shift, which is expressed in the frame of the cube as it was seen; its yaw is the
-    cube's plus theta's rotation. Height, opening and lift are theta's. theta (0.01, 0,
-    0.1, 0.02, 0, 0.2) at (0.4, 0.1, pi / 6): (0.40866, 0.105, 0.623599, 0.02, 0, 0.2).
+    theta (6,) holds the policy's parameters in the order x shift, y shift (m), rotation
+    (rad), height, opening, lift (m); clip it to LOW and HIGH first. observation (3,) is
+    (x, y, yaw) from `observe`. The position of the hand is the cube's position plus the
+    shift, which is expressed in the frame of the observed cube; its yaw is the cube's
+    yaw plus the rotation. Height, opening and lift are returned as they are in theta.
+    theta (0.01, 0, 0.1, 0.02, 0, 0.2) at (0.4, 0.1, pi / 6): (0.40866, 0.105, 0.623599,
+    0.02, 0, 0.2).
     """
     # region 14.5
     theta = np.clip(theta, LOW, HIGH)  # the parameters within the hand's limits

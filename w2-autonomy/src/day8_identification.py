@@ -97,8 +97,10 @@ def arm_regressor(
     g (3,) is the gravity vector such as (0, 0, -9.81), m/s^2. phi stacks the ten
     parameters of each link, expressed in the frame of the link. Rotors and friction are
     not included. A link causes no torque at the joints that are distal to it (Siciliano
-    and others, Robotics, section 7.2.2). One hinge about +y with qdd 1, each T the
-    identity: for every link its row is (0, -9.81, 0, 0, 0, 1, 0, 0, 0, 0).
+    and others, Robotics, section 7.2.2). Example: only joint 1 has a screw other than
+    0, (0, 1, 0, 0, 0, 0), qd is 0, qdd is (1, 0, ..., 0), each T is the identity and g
+    is (0, 0, -9.81). Then row 1 is (0, -9.81, 0, 0, 0, 1, 0, 0, 0, 0) for every link,
+    and all other rows are 0.
     """
     # region 8.3
     V = np.zeros(6)  # the twist, 0 at the base
@@ -217,9 +219,10 @@ def min_pseudo_inertia_eig(phi: np.ndarray) -> float:
     """Return the smallest eigenvalue of a body's pseudo-inertia matrix.
 
     phi (10,) holds the inertial parameters. The pseudo-inertia (4, 4) is [[S, h], [h^T,
-    m]] with h = m c and S the sum of m r r^T over the points of the body, which follows
-    from the inertia I as tr(I)/2 1 - I (Wensing and others, 2018). For a body that can
-    exist the eigenvalue is not negative.
+    m]] with h = m c and S the sum of m r r^T over the points of the body. S is equal to
+    (tr(I) / 2) E - I, where I is the inertia about the origin and E the identity matrix
+    (Wensing and others, 2018). For a body that can exist the eigenvalue is not
+    negative.
 
     min_pseudo_inertia_eig([1, 0, 0, 0, 1, 1, 3, 0, 0, 0]) -> -0.5
     """
