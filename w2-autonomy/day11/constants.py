@@ -41,7 +41,7 @@ numbers = Numbers(
     "fraction of the positions at which 10 samples miss the wire", "{:.3f}",
     points=between(0.0, 0.25, "the gaps are 15 mm long, and the contact is 14 mm long", to=20),
     wire=between(0.6, 0.85, "the contact is 2 (5 + 4) = 18 mm long, in gaps of 28 mm"),
-    turn=between(1.3, 1.65, "the gaps are twice as long: 0.50 becomes 0.75"),
+    turn=between(1.3, 1.65, "the gaps are twice as long: the formula gives 0.75 instead of 0.50"),
     seed=between(0.8, 1.25, "200 other random positions", to=12),
     places=between(0.8, 1.25, "twice as many random positions"),
 )  # fmt: skip
@@ -104,8 +104,8 @@ def by_bound(thin=LAB.THIN, ways=1.0, seed=LAB.SEED, bound=1.0):
 
 @numbers.add(
     "distance queries of the bound, median", "{:.0f}",
-    bound=between(1.8, 3.0, "a query uses up 0.35 of the remaining distance in the "
-                  "median, instead of 0.68"),
+    bound=between(1.8, 3.0, "in the median, a step covers 0.35 of the remaining "
+                  "distance instead of 0.68"),
     near=between(0.8, 1.0, "the loop stops a little earlier"),
     seed=between(0.7, 1.4, "60 other random motions", to=1),
     thin=between(0.8, 1.1, "the pen meets the wire a little earlier"),

@@ -125,7 +125,8 @@ def test_twelve_seeds_of_samples_and_of_the_bound():
     assert sum(free) == 0
     most = max(max(some) for some in looks)
     assert (
-        f"none of {12 * lab.WHIPS} motions, and no motion needs more than" in SENTENCES
+        f"none of the {12 * lab.WHIPS} motions, and no motion needs more than"
+        in SENTENCES
     )
     assert f"more than {most} queries" in SENTENCES
 
@@ -134,7 +135,10 @@ def test_the_arm_is_nine_capsules_the_last_a_pen():
     pen = shapes.PEN
     length = 1000 * np.subtract(pen.b, pen.a)[2]
     assert len(day11_mujoco.CAPSULES) == 9
-    words = f"a pen of {1000 * pen.radius:.0f} mm radius and {length:.0f} mm length"
+    words = (
+        f"a pen with a radius of {1000 * pen.radius:.0f} mm and a length of "
+        f"{length:.0f} mm"
+    )
     assert words in SENTENCES
 
 
@@ -300,7 +304,10 @@ def test_the_norm_of_the_displacement_is_no_bound_and_chosen_motions_show_it():
         edges = against_the_norm(seed)
         found.append(walked(edges, **CHECKS[NORM])[0])
         assert walked(edges)[0] == 0
-    assert f"it misses {found[0]} of 60, and the bound misses none" in SENTENCES
+    assert (
+        f"Of 60 such motions it misses {found[0]}, and the bound misses none"
+        in SENTENCES
+    )
     assert min(found) > 0
 
 
@@ -335,7 +342,7 @@ def test_a_test_with_the_wire_always_halfway_is_blind(printed):
         assert [lab.missed_by_points(middle, k) for k in (3, 10)] == [0, 60]
         found = [across(edge, 0.5) for edge in middle]
         slow, fast = min(slow, *found), max(fast, *found)
-    assert f"its axis is {slow:.2f} to {fast:.1f} m per motion" in SENTENCES
+    assert f"at a rate of {slow:.2f} to {fast:.1f} m per unit of $s$. A" in SENTENCES
     assert min(abs(k / 11 - 0.5) for k in range(12)) == pytest.approx(1 / 22)
     assert f"slowest motion this is {1000 * slow / 22:.0f} mm" in SENTENCES
     assert slow / 22 > 0.006  # the contact begins 6 mm before the wire
@@ -346,22 +353,23 @@ def test_20_samples_are_enough_only_where_the_gap_is_shorter_than_the_contact():
     """The velocity across the pen decides, for each of the three changes alone."""
     edges = [day11_mujoco.whips(lab.WHIPS, 0.015, seed) for seed in TWELVE]
     V = np.array([[across(e, met(e)) for e in some] for some in edges])
-    words = f"its axis is {V.min():.1f} to {V.max():.1f} m per motion; the median is "
+    words = (
+        f"at a rate of {V.min():.1f} to {V.max():.1f} m per unit of $s$; the median is "
+    )
     assert f"{words}{np.median(V):.2f} m" in SENTENCES
     thick, thin, few, half = 21 * 0.070, 21 * 0.040, 11 * 0.070, 2 * 21 * 0.040
     for limit in (thick, thin, few, half):
         assert f"{limit:.2f} m" in SENTENCES
     assert V.max() < thick < half  # so none can be missed
     faster = [round(60 * np.mean(limit < V)) for limit in (thin, few)]
-    assert f"and {faster[0]} of 60 motions are faster" in SENTENCES
-    assert f"and {faster[1]} of 60 motions are faster" in SENTENCES
+    assert f"and {faster[0]} of the 60 motions are faster" in SENTENCES
+    assert f"and {faster[1]} of the 60 motions are faster" in SENTENCES
     expected = [np.maximum(0, 1 - limit / V).sum() / 12 for limit in (thin, few)]
     by_thin = missed(0.015, 20, seeds=TWELVE)
     by_few = missed(0.030, 10, seeds=TWELVE)
     means = np.mean(by_thin), np.mean(by_few)
-    assert "seeds, {:.1f} and {:.1f} motions of 60 are missed".format(*means) in (
-        SENTENCES
-    )
+    words = "misses {:.1f} of 60 motions in case 1 and {:.1f} of 60 motions in case 2"
+    assert words.format(*means) in SENTENCES
     assert means == pytest.approx(expected, abs=1.1)
     assert missed(0.015, 20, scale=0.5, seeds=TWELVE) == [0] * 12
     assert missed(0.030, 20, seeds=TWELVE) == [0] * 12
@@ -378,10 +386,8 @@ def test_a_query_uses_up_a_fraction_of_the_distance_that_twice_the_radii_halve()
             part.append(1 - d[1:] / d[:-1])
         used.append(np.median(np.concatenate(part)))
     guide = (DAY.folder / DAY.guide).read_text("utf-8")
-    words = (
-        f"uses up {used[1]:.2f} of the remaining distance in the median, instead of "
-    )
-    assert f"{words}{used[0]:.2f}" in guide
+    words = f"covers {used[1]:.2f} of the remaining distance instead of {used[0]:.2f}"
+    assert words in guide
 
 
 def test_the_tip_is_the_farthest_point_on_the_panda_and_not_on_every_arm():

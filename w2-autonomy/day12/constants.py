@@ -60,7 +60,8 @@ def alone(inertia=2.0, limit=8.0, way=1.0, gravity=0.0, points=LAB.POINTS):
     inertia=times(2**0.5, "2 √(d M / limit)"),
     limit=times(0.5**0.5, "2 √(d M / limit)"),
     way=times(2**0.5, "2 √(d M / limit)"),
-    points=same("exact for an even number of steps: the acceleration changes at a point"),
+    points=same("exact for an even number of steps: the acceleration then changes at a "
+                "point of the path"),
 )  # fmt: skip
 def one_joint(inertia=2.0, limit=8.0, way=1.0, points=LAB.POINTS):
     """Return its travel time, s."""
@@ -84,9 +85,8 @@ def heavy_joint(inertia=2.0, limit=8.0, way=1.0, gravity=4.0):
     share=between(0.8, 0.85, "more torque, but the velocity limits are the same"),
     speed=between(0.75, 0.95, "the velocity is at its limit at 71 % of the points"),
     weight=between(0.8, 0.9, "without gravity all of the torque accelerates the arm", to=0.0),
-    points=between(
-        0.99, 1.01, "the path acceleration changes between other points"
-    ),
+    points=between(0.99, 1.01, "with shorter steps the path acceleration changes at "
+                   "slightly different points"),
 )  # fmt: skip
 def with_half(share=0.5, speed=1.0, weight=1.0, points=LAB.POINTS):
     """Return its travel time by the library's time_optimal_profile, s."""
@@ -114,7 +114,8 @@ def above(points=LAB.POINTS, share=1.0):
     step=between(1.3, 1.8, "a tree progresses further with each sample"),
     roof=between(1.4, 2.0, "the passage is wider", to=1.0),
     margin=between(0.6, 1.0, "the passage is narrower"),
-    first=between(0.7, 1.4, "other samples: 95 % of second counts lie within about 18 to 40", to=60),
+    first=between(0.7, 1.4, "other samples: with a probability of 95 % the second count lies "
+                  "between about 18 and 40", to=60),
     samples=between(1.5, 2.0, "twice as many samples"),
 )  # fmt: skip
 def found(step=LAB.STEP, roof=DAY.ROOF, margin=DAY.MARGIN, first=0, samples=40):
