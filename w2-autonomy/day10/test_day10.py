@@ -204,7 +204,7 @@ def test_right_exponential_never_arrives_and_one_z_too_few_does_at_the_table():
         right.append(body - T)
     worst = [np.abs(one).max(axis=(1, 2)) for one in (left, right, few)]
     assert [np.sum(one < 1e-8) for one in worst] == [50, 0, 50]
-    assert "0 of 50 fits converge" in SENTENCES
+    assert "none of 50 fits converges" in SENTENCES
     assert "50 of 50 fits still converge" in SENTENCES
     assert worst[0].max() < 1e-14
     assert f"by up to {np.abs(off).max():.0f} px" in SENTENCES
@@ -313,8 +313,8 @@ def test_a_pose_absorbs_half_a_pixel_of_the_principal_point():
     left = lab.rms(np.linalg.norm(camera.project(K, fit, corners) - pixels, axis=1))
     left /= np.sqrt(2)  # per coordinate
     turned = np.degrees(np.linalg.norm(log_rotation(fit[:3, :3] @ T[:3, :3].T)))
-    words = f"rotates by {turned:.2f}°. The RMS residual is then only {left:.4f} px"
-    assert words in SENTENCES
+    assert f"is rotated by {turned:.2f}° from the true one" in SENTENCES
+    assert f"pixel errors have an RMS of only {left:.4f} px" in SENTENCES
     assert "in every pixel, the principal point is probably wrong" in SENTENCES
 
 
@@ -387,7 +387,7 @@ def test_with_noise_the_wrong_jacobian_fits_as_well_and_its_covariance_is_wrong(
     told = sigmas(T, corners, one_z_too_few)[0][2]
     words = f"predicts {told:.1f} mm instead of {sigmas(T, corners)[0][2]:.1f} mm"
     assert words in SENTENCES
-    assert f"({right:.1f} mm along the optical axis for both)" in SENTENCES
+    assert f"along the optical axis is {right:.1f} mm with both" in SENTENCES
 
 
 def test_the_ellipse_along_the_view_grows_with_z_squared_over_f_w():
@@ -493,7 +493,7 @@ def test_the_mean_of_the_points_is_off_because_far_sides_are_not_seen():
         cloud = lab.depth_cloud(m, d, *depth_camera.camera(m, d, "eye"))
         cloud = cloud[cloud[:, 2] > day10_mujoco.TABLE + lab.ABOVE]
         off.append(1000 * np.linalg.norm(cloud.mean(axis=0)[:2] - T[:2, 3]))
-    assert f"the mean of the cube's points is wrong by {off[0]:.1f} mm" in SENTENCES
+    assert f"the mean of its points is wrong by {off[0]:.1f} mm" in SENTENCES
     assert off[1] < 0.1
     assert "the mean is right to 0.1 mm" in SENTENCES
 
@@ -514,7 +514,8 @@ def test_three_yaws_are_needed_since_the_nearest_points_find_the_next_hollow():
         worst.append(max(off))
     three, one = worst
     words = (
-        f"is {one:.0f} degrees from one yaw angle, and {three:.0f} degrees from three"
+        f"is {one:.0f} degrees with one initial yaw angle, "
+        f"and {three:.0f} degrees with three"
     )
     assert words in SENTENCES
 

@@ -78,8 +78,8 @@ def margin(omega=DAY.OMEGA, zeta=1.0):
     "fraction of an error left after 2 s, 34 ms late", "{:.3g}",
     late=between(1.5, 1e9, "the delay is far above the margin, and the error grows until the motors saturate"),
     omega=times(0.0, "with 10 1/s the margin is 65 ms", within=0.05, to=10.0),
-    rate=between(0.3, 0.8, "the torque is on average 0.5 ms older than its reading, not "
-                 "1 ms: the limit is 31.9 ms, and 34 is still above it"),
+    rate=between(0.3, 0.8, "holding the torque adds 0.5 ms to the delay on average, not "
+                 "1 ms: the limit is 31.9 ms, and 34 ms is still above it"),
     small=same("the loop is linear as long as no motor saturates"),
 )  # fmt: skip
 def left(late=0.034, omega=DAY.OMEGA, rate=DAY.RATE, small=DAY.SMALL):
@@ -116,7 +116,7 @@ def tracked(wanders, noise, seed, told_q, told_R):
 @numbers.add(
     "mean NIS of the correct filter", "{:.3f}",
     wanders=between(0.95, 1.05, "the innovations grow as the filter expects"),
-    noise=between(0.95, 1.05, "the same"),
+    noise=between(0.95, 1.05, "the innovations grow as the filter expects"),
     seed=between(0.9, 1.1, "another random sequence", to=10),
     told_q=between(0.7, 0.95, "the innovations are smaller than the filter expects"),
     told_R=between(0.5, 0.8, "the filter expects larger innovations"),
@@ -128,11 +128,11 @@ def nis(wanders=LAB.WANDERS, noise=LAB.NOISE, seed=LAB.SEED, told_q=1.0, told_R=
 
 @numbers.add(
     "lag-1 autocorrelation of the filter with two errors", "{:.3f}",
-    wanders=between(0.9, 1.05, "the two factors are the same"),
-    noise=between(0.95, 1.1, "the two factors are the same"),
+    wanders=between(0.9, 1.05, "the two parameters are still wrong by the factors 0.1 and 10"),
+    noise=between(0.95, 1.1, "the two parameters are still wrong by the factors 0.1 and 10"),
     seed=between(0.95, 1.05, "another random sequence", to=10),
-    told_q=between(0.85, 0.99, "the ratio of accel_psd and R is wrong by 50, not by 100"),
-    told_R=between(1.0, 1.1, "the ratio is wrong by 200"),
+    told_q=between(0.85, 0.99, "the ratio of accel_psd to R is wrong by a factor of 50, not of 100"),
+    told_R=between(1.0, 1.1, "the ratio is wrong by a factor of 200"),
 )  # fmt: skip
 def white(wanders=LAB.WANDERS, noise=LAB.NOISE, seed=LAB.SEED, told_q=0.1, told_R=10.0):
     """Return it."""
@@ -181,9 +181,9 @@ def steady(force=10.0, omega=DAY.OMEGA, gain=LAB.GAIN, share=1.0):
 
 @numbers.add(
     "detection time of 10 N on the flange", "{:.0f} ms",
-    force=times(0.5, "the residual needs only 1.1 ms, so the first sample"),
-    gain=times(0.5, "the residual needs only 1.1 ms, so the first sample"),
-    threshold=times(1.5, "4.8 ms, so the third sample of 2 ms"),
+    force=times(0.5, "the residual needs only 1.1 ms, so the first sample detects it"),
+    gain=times(0.5, "the residual needs only 1.1 ms, so the first sample detects it"),
+    threshold=times(1.5, "the residual needs 4.8 ms, so the third sample detects it"),
     share=same("at rest the gradient is zero", to=-1.0),
 )  # fmt: skip
 def noticed(force=10.0, gain=LAB.GAIN, threshold=LAB.THRESHOLD, share=1.0):

@@ -169,7 +169,7 @@ def test_an_accel_psd_passes_both_tests_on_the_swing_of_every_joint(swing):
     low, high = estimation.nis_interval(n, 1)
     assert f"For the {n} velocities of the swing" in SENTENCES
     assert f"between {low:.3f} and {high:.3f}, and $\\rho_1$ within" in SENTENCES
-    assert f"within {1.96 / np.sqrt(n):.3f}. Search" in SENTENCES
+    assert f"within {1.96 / np.sqrt(n):.3f} of 0. To search" in SENTENCES
     for joint, accel_psd in enumerate(
         (0.0255, 0.0185, 0.0277, 0.018, 0.035, 0.0255, 0.04)
     ):
@@ -461,8 +461,8 @@ def named(model_, name, force):
 @pytest.mark.kit
 def test_which_link_is_named_is_a_matter_of_levers_and_of_the_model(swing):
     q = swing.q[round(lab.SINCE / lab.DT)]
-    lever = -arm.at(Q).coms_world[1, 0]
-    assert f"only {1000 * lever - 0.5:.0f} mm behind the axis of joint 1" in SENTENCES
+    lever = -arm.at(q).coms_world[1, 0]
+    assert f"only {1000 * lever:.0f} mm behind the axis of joint 1" in SENTENCES
     small = lab.mujoco_external_torque(model, q, "link2", np.array([0, 20.0, 0]))
     assert f"so 20 N cause {largest(small):.2f} N m" in SENTENCES
     sideways = lab.mujoco_external_torque(model, q, lab.FLANGE, np.array([0, 20.0, 0]))
@@ -486,11 +486,11 @@ def test_the_claims_of_the_opening_are_what_the_lab_prints(printed):
     wrong = re.search(r"accel_psd / 10, R x 10 .* yes +0\.868 +53\.5%", printed)
     assert wrong
     error, sigma, nis = wrong.group().split()[6:9]
-    assert f"Its consistency test gives {nis}" in SENTENCES
+    assert f"The test gives {nis}" in SENTENCES
     best = float(re.search(r"correct +([\d.]+)", printed).group(1))
     assert 1.6 < float(error) / best < 1.72  # two thirds larger than necessary
     assert float(sigma) / float(error) == pytest.approx(1 / 3, abs=0.04)
-    assert "46 % of its velocities lie outside" in SENTENCES
+    assert "46 % of the true velocities lie outside" in SENTENCES
     pushed = [line.split()[-3:] for line in printed.splitlines() if ", (0, " in line]
     after = [float(row[1]) for row in pushed if row[1] != "inf"]
     assert f"detected after {min(after):.0f} to {max(after):.0f} ms" in SENTENCES
