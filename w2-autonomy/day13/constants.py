@@ -16,24 +16,24 @@ DAY = LAB.day13_mujoco
 numbers = Numbers(
     h="time step: {} s",
     q="Q of an angle: {}",
-    r="R_COST: {}",
+    r="R_COST, the weight of a torque: {}",
     both="Q and R: × {}",
     speed="Q of a velocity: {}",
-    steps="STEPS: {}",
+    steps="STEPS, of the Riccati recursion: {}",
     g="gravity: × {}",
     size="distance of the start: {} rad",
-    seconds="SECONDS: {}",
+    seconds="SECONDS, the simulated time: {}",
     mass="the links' masses and inertias: × {}",
-    dt="DT: {} s",
-    gain="GAIN: {} 1/s",
+    dt="DT, the time step: {} s",
+    gain="GAIN, of the pose error: {} 1/s",
     damping="DAMPING: {}",
     turn="orientation weight: {}",
     lap="a lap takes {} s",
     limit="the joints' velocity limits: × {}",
     way="TO, the distance of the goal: × {}",
     motion="MOTION: {} steps",
-    effort="EFFORT: {}",
-    far="FAR: {}",
+    effort="EFFORT, the weight of the torques: {}",
+    far="FAR, the weight of the distance to the goal: {}",
 )
 
 
@@ -62,7 +62,7 @@ def held(h, q, r, speed, steps, g=1.0, mass=1.0):
     both=same("twice the cost has the same minimiser"),
     g=between(1.26, 1.33, "with twice the gravity stiffness the formula gives 61 + sqrt(61² + 10,000) = 178.1"),
     mass=between(1.22, 1.33, "the gravity stiffness doubles, as with gravity; the mass matrix has little effect"),
-    h=times(0.987, "the formula assumes an infinitely small step; the gap to it, 1.6, doubles"),
+    h=times(0.987, "the formula assumes an infinitely small step; the difference from the formula, 1.6, doubles"),
     speed=between(0.98, 1.0, "the damping grows, and the stiffness hardly changes"),
     steps=same("P has converged"),
 )  # fmt: skip
@@ -80,7 +80,7 @@ def stiffness(
     size=times(2.0, "the cubic term divided by the quadratic one is linear in the distance",
                within=0.05),
     both=same("measured and predicted cost both double"),
-    seconds=same("the arm is at rest long before"),
+    seconds=same("the arm is at rest long before that"),
     steps=same("P has converged"),
     g=between(0.4, 0.6, "the rest comes from the mass matrix, which also changes with the configuration", to=1e-3),
     h=between(0.9, 1.1, "the motion is the same, in longer steps"),
@@ -108,7 +108,7 @@ def circle(step, dt, gain, lap, limit):
 @numbers.add(
     "largest error on the circle, qp_ik", "{:.2f} mm",
     turn=between(1.0, 1.01, "the formula 13.09 / (1 + a² / w) approaches 13.09: the tool hardly tilts any more"),
-    damping=between(0.99, 1.01, "the bounds of the QP replace the damping"),
+    damping=between(0.99, 1.01, "the bounds of the QP limit the steps, so the damping is not needed for this"),
     dt=between(1.0, 1.05, "the goal moves on between two steps"),
     gain=between(0.98, 1.02, "a larger gain does not extend the workspace"),
     lap=between(0.99, 1.01, "the geometry does not depend on the speed"),
@@ -144,7 +144,7 @@ def clipped(damping=LAB.DAMPING, dt=LAB.DT, gain=LAB.GAIN, lap=DAY.LAP, limit=1.
     way=between(3.5, 5.0, "the cost is nearly quadratic in the distance"),
     motion=between(0.6, 0.8, "torque, velocities and the final error all cost less, the velocities most"),
     effort=between(1.3, 2.0, "the torque costs twice as much, and a little less of it is used"),
-    far=between(1.0, 1.1, "the motion ends near the goal already"),
+    far=between(1.0, 1.1, "the motion already ends near the goal"),
 )  # fmt: skip
 def reached(way=1.0, motion=LAB.MOTION, effort=DAY.EFFORT, far=DAY.FAR):
     """Return what it costs."""

@@ -36,8 +36,8 @@ def scene(steps, soft):
     squeeze=times(2.0, "m = 2 mu F / g"),
     seconds=between(1.0, 1.02, "2 mu F / (g + 6 h / T²): the acceleration is a quarter"),
     lift=between(0.96, 1.0, "2 mu F / (g + 6 h / T²): the acceleration doubles"),
-    steps=between(0.99, 1.01, "shorter steps give the same forces, to a gram"),
-    soft=between(0.99, 1.01, "friction decides, not stiffness: the same to a gram"),
+    steps=between(0.99, 1.01, "shorter steps give the same mass, to a gram"),
+    soft=between(0.99, 1.01, "the mass depends on the friction, not on the stiffness of the contacts"),
 )  # fmt: skip
 def heaviest(
     mu=0.3, squeeze=2.0, seconds=LAB.SLOW, lift=LAB.TARGET, steps=DAY.TICK,
@@ -52,7 +52,7 @@ def heaviest(
 @numbers.add(
     "rank of two opposite contacts", "{:.0f}",
     mu=same("friction at a point has no moment about the line through both contacts"),
-    size=same("a longer line has no such moment either"),
+    size=same("contacts that are further apart produce no such moment either"),
     edges=same("more edges of the same cones span the same five dimensions"),
 )  # fmt: skip
 def rank_of_two(mu=0.5, size=1.0, edges=LAB.EDGES):

@@ -111,7 +111,7 @@ def test_the_second_prediction_has_two_limits():
     assert f"(114 - 50) / 200 = {(still.mean() - 50) / 200:.2f}" in SENTENCES
     fraction = np.mean(np.clip((moved - 50) / 200, 0, 1))
     words = f"{moved[0]:.0f} g at 0.2 and {moved[-1]:.0f} g at 0.5"
-    assert f"{words}, which are {fraction:.2f} of the cubes" in SENTENCES
+    assert f"{words}. A fraction of {fraction:.2f} of the cubes" in SENTENCES
 
 
 def test_what_8_of_8_and_60_of_60_and_0_of_60_say():
@@ -120,7 +120,7 @@ def test_what_8_of_8_and_60_of_60_and_0_of_60_say():
     high = policy.success_rate(np.zeros(60))[2]
     assert f"show that the rate is above {low8:.2f}" in SENTENCES
     assert f"below {high:.2f}, and 60 of 60 that it is above {low60:.2f}" in SENTENCES
-    assert f"an interval from {low60:.3f}, measured" in SENTENCES
+    assert f"an interval from {low60:.3f}, was measured" in SENTENCES
     assert f"The lab finds {lab.needed(0.05)}: the exact width" in SENTENCES
     assert 382 - 2 < 1.96**2 / 4 / 0.05**2 - 1.96**2 <= 382
 
@@ -174,7 +174,7 @@ def test_a_cube_that_slips_while_the_hand_accelerates_is_caught_again():
     )
     with patch.multiple(lab, SLOW=0.3, HELD=0.048):  # the cause: what counts as held
         grams = lab.heaviest(model, data, 0.3, 2)
-    assert f"With `HELD = 0.048` the heaviest cube has {grams} g" in SENTENCES
+    assert f"With `HELD = 0.048` the heaviest cube has a mass of {grams} g" in SENTENCES
     assert abs(grams - paper) < 2
     slips = {grams: slip(grams) for grams in (100, 110)}
     for grams, (half, late, end) in slips.items():
@@ -323,7 +323,7 @@ def test_three_predictions_of_the_worksheet_stand_beside_what_is_measured(printe
 def test_what_the_opening_says_is_what_the_lab_prints(printed):
     counts = re.findall(r"about (\d+) of 60", printed)
     assert counts == ["60", "15", "60"]
-    assert "holds 60 of 60 cubes that had no part" in SENTENCES
+    assert "holds 60 of 60 cubes that were not used" in SENTENCES
     assert "only about 15 of 60 cubes" in SENTENCES
     assert "holds nearly all of the 60 slippery" in SENTENCES
     named, did = re.search(r"F / g: (\d+) cubes; (\d+) of them", printed).groups()
@@ -428,7 +428,6 @@ def test_another_start_alone_gives_another_grip_force():
         thetas = [lab.learn(model, data, seed) for seed in (6, 7)]
     assert all(4.0 < lab.squeezed(theta) < 8.1 for theta in thetas)
     assert all(lab.squeezed(learned(seed)) < 2.2 for seed in (6, 7))
-    assert "The explanation does not survive it" in SENTENCES
 
 
 @pytest.mark.soak
@@ -543,7 +542,7 @@ def test_on_the_same_cubes_the_sigma_is_smaller():
     assert f"the ties make up {100 * fraction:.0f} % of the variance" in SENTENCES
     assert policy.paired_difference(feels[~ties], without[~ties])[1] == 0
     gains = [(of_seed(s)[7] - of_seed(s)[6]) / 60 for s in range(1, 13)]
-    assert f"seeds gain {min(gains):.2f} to {max(gains):.2f}" in SENTENCES
+    assert f"seeds the gain is {min(gains):.2f} to {max(gains):.2f}" in SENTENCES
 
 
 @pytest.mark.soak
