@@ -427,7 +427,7 @@ def test_at_a_save_nothing_green_or_red_stays_until_it_is_known_again(page, watc
     settle(page)
     shown = contents(page)
     assert "asking YOUR my_fk ..." in shown
-    assert "make check: asking ..." in shown
+    assert "asking your functions ..." in shown
     for old in ("all pass", "my_fk agrees", "r47-good", "r47-bad", "robo47.kinematics"):
         assert old not in shown
     late = nothing("what the old file said")
@@ -446,7 +446,7 @@ def test_a_checker_that_breaks_is_said(monkeypatch):
 
     monkeypatch.setattr(serve, "check_tasks", broken)
     found = serve.Checks(find_day(1)).ask()
-    assert (found.headline, found.kind) == ("make check: no questions", "bad")
+    assert (found.sentence, found.kind) == ("no questions", "bad")
 
 
 @pytest.mark.parametrize("way", [[0, 0, 0], [np.nan] * 3, [np.inf, 0, 0], [1e308] * 3])

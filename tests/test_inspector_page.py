@@ -100,6 +100,28 @@ NAMELESS = """() => [...document.querySelectorAll("button")].filter((button) =>
   !button.textContent.trim() && !button.ariaLabel).map((button) => button.outerHTML)"""
 
 
+# The parts of the card that hold text, and how much of the card cannot be seen: text
+# that is scrolled away, edges outside the window, and what the panel hides of it.
+CARD = """() => {
+  const card = [...document.querySelectorAll("[data-line=standing]")]
+    .find((node) => node.checkVisibility());
+  if (!card) return null;
+  const box = card.getBoundingClientRect();
+  const tabs = card.closest(".mantine-Paper-root").getBoundingClientRect();
+  const across = Math.min(box.right, tabs.right) - Math.max(box.left, tabs.left);
+  const down = Math.min(box.bottom, tabs.bottom) - Math.max(box.top, tabs.top);
+  return { bold: card.querySelector("b").innerText, text: card.innerText,
+    scrolled: card.scrollHeight - card.clientHeight,
+    outside: Math.max(0, -box.left, -box.top, box.right - innerWidth,
+      box.bottom - innerHeight),
+    hidden: Math.max(0, Math.min(across, down)),
+    shadow: Number(getComputedStyle(card, "::after").opacity) };
+}"""
+# The sentence of the card becomes so long that no window holds it.
+LONG = """() => { for (const card of document.querySelectorAll("[data-line=standing]"))
+  card.lastElementChild.append(" and so on".repeat(500)); }"""
+
+
 class Page:
     """The inspector's page, read and moved as a person would."""
 
@@ -165,6 +187,30 @@ class Page:
         """Check that all text in the panel stands out from what is behind it."""
         contrast, text = self.tab.evaluate(LEAST_CONTRAST)
         assert contrast >= 4.5, text
+
+    def check_card(self, title: str, count: str, sentence: str) -> None:
+        """Check that the whole verdict is seen, on a laptop and on a phone.
+
+        A sentence that is too long for the window scrolls, and a shadow shows it.
+        """
+
+        def whole() -> bool:
+            card = self.tab.evaluate(CARD) or {"text": "", "hidden": 1}
+            seen = sentence in card["text"] and count in card["text"]
+            cut = ("scrolled", "outside", "hidden", "shadow")
+            return seen and card["bold"] == title and not any(map(card.get, cut))
+
+        def scrolls() -> bool:
+            card = self.tab.evaluate(CARD)
+            return (
+                card["scrolled"] > 100 and card["shadow"] == 1 and not card["outside"]
+            )
+
+        for width, height in ((390, 844), (1280, 800)):
+            self.tab.set_viewport_size({"width": width, "height": height})
+            self.until(whole)
+        self.tab.evaluate(LONG)
+        self.until(scrolls)
 
     def open(self, tab: str) -> None:
         self.tab.get_by_role("tab", name=tab).click()
@@ -637,13 +683,15 @@ class TestTwoBrowsers:
         work.write_text(of_day_1("Rz_swapped"), "utf-8")
         page.until(lambda: "✗ YOUR compose_fk is off by 744 mm" in page.said("yours"))
         assert "first frame that differs: link1" in page.said("yours")
-        page.until(lambda: "1.2: The sine and the cosine" in page.said("standing"))
+        page.until(lambda: "The sine and the cosine" in page.said("standing"))
         marked = "[data-matrix=yours] .off"
         for each in (page, dark):
             each.until(lambda each=each: each.tab.locator(marked).count() >= 10)
             each.check_contrast()  # with entries that are marked
+        said = dark.said("standing").splitlines()
+        dark.check_card("✗ 1.2 Rz", "of 8 pass", said[-1])
         work.write_text(of_day_1().replace("T_world_body = np.eye(4)", "while 1: pass"))
-        page.until(lambda: page.said("standing") == "make check: asking ...")
+        page.until(lambda: "asking your" in page.said("standing"))
         page.until(lambda: "compose_fk did not return" in page.said("yours"))
         assert "the sine and the cosine" not in page.said("standing").lower()
         assert "no answer" in page.said("difference")
@@ -653,7 +701,7 @@ class TestTwoBrowsers:
         page.until(lambda: "SyntaxError" in page.said("yours"))
         work.write_text(of_day_1(), "utf-8")
         page.until(lambda: "✓ YOUR compose_fk agrees" in page.said("yours"))
-        page.until(lambda: "tasks pass" in page.said("standing"))
+        page.until(lambda: "All tasks pass" in page.said("standing"))
         work.unlink()
         page.until(lambda: "day1_transforms.py yet" in page.said("yours"))
 

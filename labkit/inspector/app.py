@@ -162,7 +162,9 @@ class Inspector:
         """Show the numbers, and where the page is."""
         seen, task = self.seen, self.standing
         self.yours.content = words.judged(seen.sentence, "yours", seen.kind)
-        self.tasks.content = words.judged(task.headline, "standing", task.kind)
+        self.tasks.content = words.card(
+            task.title, task.count, task.sentence, task.kind
+        )
         whose = self.day.ghost.frames if self.day.ghost else ()
         name = self.frame.value
         proof = words.proof(self.arm, name, seen, name in whose)

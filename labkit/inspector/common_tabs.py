@@ -183,33 +183,40 @@ def says_of(this: Step, number: int, of: int, whole: bool) -> str:
 class Standing:
     """How the day's tasks stand."""
 
-    headline: str  # about all of them
+    sentence: str  # the verdict; "" where there is no file
     kind: str = "quiet"  # or "good" or "bad"
     # in the day's order; () before the first verdict
     tasks: tuple[TaskResult, ...] = ()
+    title: str = "make check"  # the task and the function that the sentence is about
+    count: str = ""  # such as "4 of 8 pass"
 
 
-ASKING = Standing("make check: asking ...", "asking")
+ASKING = Standing("asking your functions ...", "asking")
 
 
 def standing(results: Sequence[TaskResult]) -> Standing:
-    """Return the tasks, in the day's order, with one line about all of them."""
+    """Return the tasks, in the day's order, and the first verdict to act on."""
     first = results[0].verdict if results else Verdict("passed")
     if first.mistake == "does-not-load":  # one reason, for all of them
         todo = Verdict(first.status)
         bare = tuple(replace(result, verdict=todo) for result in results)
-        return Standing(f"make check: {first.message}", "bad", bare)
-    passed = sum(result.passed for result in results)
-    says = f"make check: {passed} of {len(results)} tasks pass"
+        return Standing(first.message, "bad", bare)
+    tasks, passed = tuple(results), sum(result.passed for result in results)
+    count = f"{passed} of {len(results)} pass"
     if passed == len(results):
-        return Standing(says, "good", tuple(results))
+        return Standing("All tasks pass.", "good", tasks, count=count)
     wrong = [r for r in results if r.verdict.status not in ("passed", "todo")]
     if not wrong:
-        after = next(r.task for r in results if not r.passed)
-        says = f"{says}; next is {after.id} {after.title}"
-        return Standing(says, "quiet", tuple(results))
-    why = f"{wrong[0].task.id}: {wrong[0].verdict.message}"
-    return Standing(f"{says}. {why}", "bad", tuple(results))
+        after = next(r for r in results if not r.passed)
+        title = f"Next: {_named(after)}"
+        return Standing(after.task.title, "quiet", tasks, title, count)
+    return Standing(wrong[0].verdict.message, "bad", tasks, _named(wrong[0]), count)
+
+
+def _named(result: TaskResult) -> str:
+    """Return "5.1 pd_torque": the task and the function that was judged."""
+    names = result.verdict.function or ", ".join(result.task.functions)
+    return f"{result.task.id} {names}"
 
 
 class Tasks(Tab):

@@ -111,7 +111,7 @@ class Checks:
                 file, until = self.day.work, self.deadline
                 return standing(check_tasks(self.day, file, sandbox, deadline=until))
         except Exception as error:  # the page goes on, whatever the file is like
-            return Standing(f"make check: {error}", "bad")
+            return Standing(str(error), "bad")
 
     def stop(self) -> None:
         """Let the check at work end: nobody waits for what it finds."""

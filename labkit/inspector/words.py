@@ -6,6 +6,7 @@ unique in the page, for who looks a line or a matrix up there.
 """
 
 import json
+import re
 from collections.abc import Iterable, Mapping
 from html import escape
 
@@ -17,6 +18,7 @@ from labkit.inspector.ghost import Seen
 from robo47.checks import Array
 
 COLUMNS = "xyzp"
+SIGNS = {"good": "✓ ", "bad": "✗ "}
 
 
 def matrix(
@@ -65,14 +67,32 @@ def line(text: str, key: str, kind: str = "") -> str:
 def judged(text: str, key: str, kind: str) -> str:
     """Return a line that stands out, see `line`; good and bad ones with their sign.
 
-    It has room for some lines, however long it is: what stands below is not moved.
+    It has the height of two lines or more: a longer text makes it grow.
     """
     if not text:
         return ""
-    sign = {"good": "✓ ", "bad": "✗ "}.get(kind, "")
     return (
         f'<div class="r47 r47-said r47-{kind}" data-line="{escape(key)}" role="status" '
-        f'tabindex="0">{sign}{escape(text)}</div>'
+        f'tabindex="0">{SIGNS.get(kind, "")}{escape(text)}</div>'
+    )
+
+
+def card(title: str, count: str, sentence: str, kind: str) -> str:
+    """Return the checker's verdict as a card over the scene; "" without a sentence.
+
+    Args:
+        title: the task and its function.
+        count: how many tasks pass, for the corner.
+        sentence: the whole verdict; what stands between backticks is set as code.
+        kind: as that of `line`.
+    """
+    if not sentence:
+        return ""
+    code = re.sub("`([^`]+)`", r"<code>\1</code>", escape(sentence))
+    return (
+        f'<div class="r47 r47-said r47-card r47-{kind}" data-line="standing" '
+        f'role="status" tabindex="0"><div><b>{SIGNS.get(kind, "")}{escape(title)}</b> '
+        f"<span>{escape(count)}</span></div><div>{code}</div></div>"
     )
 
 
