@@ -6,10 +6,11 @@
     python3 scripts/report_metrics.py --check fk_by_hand --since 2026-09-01
 
 The page works offline, on a phone and in dark mode. The thresholds come from the
-manifests of the days. The end of the page lists lines that could not be read or may be
-truncated. Without a filter, the command also writes a page for each week that you have
-begun, report-week1.html, and writes its numbers between the marks in docs/RETRO_w1.md,
-if that file has marks. With --file, it leaves them unchanged.
+manifests of the days, and the predictions from your worksheets. The end of the page
+lists lines that could not be read or may be truncated. Without a filter, the command
+also writes a page for each week that you have begun, report-week1.html, and writes its
+numbers between the marks in docs/RETRO_w1.md, if that file has marks. With --file, it
+leaves them unchanged.
 """
 
 import argparse
@@ -56,7 +57,9 @@ def main() -> int:
     else:
         checked = {day.number: last_check(day) for day in days} if mine else {}
         beside = [week.number for week in shown_weeks]
-        write(out / "report.html", page.render(report, heading, beside, checked))
+        sheets = {day.number: worksheet_of(day) for day in days} if mine else {}
+        text = page.render(report, heading, beside, checked, sheets)
+        write(out / "report.html", text)
     for week in [asked_week] if asked_week else shown_weeks:
         write_week(report, heading, out, week, shown_weeks, mine)
     print(
@@ -114,6 +117,15 @@ def write_week(
     if mine:  # another log's numbers are not mine
         for path in week_retro.fill(facts):
             print(f"its numbers are in {shown(path)}: commit it")
+
+
+def worksheet_of(day: Day) -> str:
+    """Return the text of a day's worksheet; "" where none can be read."""
+    try:
+        data = (day.folder / day.worksheet).read_bytes() if day.worksheet else b""
+    except OSError:
+        return ""
+    return data.decode("utf-8-sig", "replace")
 
 
 def last_check(day: Day) -> str:

@@ -32,6 +32,7 @@ class RunDay(DayFacts):
     # What the commit lacks of what is in the folder; "" where it has all.
     left: str = ""
     commit: str = ""  # the commit that ran; "" if none is known
+    worksheet: str = ""  # its text, with the predictions
 
 
 def facts_of(
@@ -61,13 +62,14 @@ def facts_of(
     handin, item = package.handin, package.commit_item
     script = handin.files.get(day.files["script"])
     writers = writers_of(day, script or b"")
+    sheet = handin.files.get(day.files["worksheet"], b"").decode("utf-8-sig", "replace")
     try:
         numbers = series_of(day, rows_of(day, handin), writers)
     except Robo47Error:  # no log that can be read
         numbers = series_of(day, [], writers)
     if script is None:
         begun = {task.id: "not begun" for task in day.tasks}
-        return RunDay(day, begun, numbers, commit=package.commit)
+        return RunDay(day, begun, numbers, commit=package.commit, worksheet=sheet)
     states = {task.id: "the kit's own file" for task in day.tasks}
     ran = Rehearsed("", {})
     if writers.kits.isdisjoint(marks_of(script)):
@@ -83,4 +85,5 @@ def facts_of(
     left = "" if item.passed else visible(item.message.partition("\n")[0], 300)
     fault, unfinished = visible(ran.fault, 300), visible(ran.unfinished, 300)
     commit = package.commit
-    return RunDay(day, states, numbers, ran.numbers, fault, unfinished, left, commit)
+    again = ran.numbers, fault, unfinished
+    return RunDay(day, states, numbers, *again, left, commit, sheet)

@@ -18,6 +18,7 @@ from labkit.check.own_functions import Counted, counted
 from labkit.proof import sharing
 from labkit.proof.capstone import Attempt, recorded
 from labkit.proof.facts import RunDay
+from labkit.report import prediction_plot
 from labkit.report.series import Series, cell_of, limit_of, with_unit
 from robo47.attempt import Summary
 
@@ -89,6 +90,7 @@ def render(proof: Proof, card_name: str = "") -> str:
         _tiles(proof),
         _capstone(proof.attempt, place),
         _numbers(proof.days),
+        _predictions(proof.days),
         _functions(proof.days),
         _commit(proof),
         html.section("What this does not prove", f"<ul>{not_proved}</ul>"),
@@ -276,6 +278,22 @@ def _number(one: RunDay, number: Series) -> str:
         f'<small class="{role}">{logged}{worth}</small></td>'
         f'<td class="n {again}">{value}</td><td>{limit_of(number.wanted)}</td></tr>'
     )
+
+
+def _predictions(days: Sequence[RunDay]) -> str:
+    """Return what was predicted and measured, a card for each day that has it."""
+    drawn = {one.day.number: prediction_plot.draw(one.worksheet) for one in days}
+    cards = [
+        html.card(f"Day {day}", picture) for day, picture in drawn.items() if picture
+    ]
+    if not cards:
+        return ""
+    about = (
+        '<p class="muted">From their worksheets, in which <code>make run</code> writes'
+        " the measured number next to a prediction. Nothing here was run again.</p>"
+    )
+    inner = f'<div class="cards">{"".join(cards)}</div>'
+    return html.section("Predicted and measured", about, inner)
 
 
 def _functions(days: Sequence[RunDay]) -> str:

@@ -9,7 +9,7 @@ from labkit.base.text import count
 from labkit.hunt.tally import tally
 from labkit.log.rows import Row
 from labkit.log.scan import Line
-from labkit.report import plot
+from labkit.report import plot, prediction_plot
 from labkit.report.series import Report, Series, failures_of, value_of
 
 RECENT = 20  # runs listed under a plot
@@ -43,6 +43,7 @@ def render(
     heading: str,
     weeks: Sequence[int] = (),
     checked: Mapping[int, str] | None = None,
+    sheets: Mapping[int, str] | None = None,
 ) -> str:
     """Return the whole page.
 
@@ -51,9 +52,10 @@ def render(
         heading: one line of plain text on where the rows come from.
         weeks: those whose own pages stand beside this one.
         checked: what the last check found, a line of plain text by day.
+        sheets: the worksheets' text by day, for the predictions.
     """
     beside = links(weeks)
-    checked = checked or {}
+    checked, sheets = checked or {}, sheets or {}
     days = groupby(report.series, key=lambda series: series.day)
     return html.page(
         "robo47 metrics",
@@ -61,7 +63,10 @@ def render(
         _tiles(report),
         *([] if report.rows else [NOTHING]),
         _jumps(report),
-        *(_day(day, series, checked.get(day or 0, "")) for day, series in days),
+        *(
+            _day(day, series, checked.get(day or 0, ""), sheets.get(day or 0, ""))
+            for day, series in days
+        ),
         _hunts(report.hunts),
         _look(report.look),
     )
@@ -98,8 +103,10 @@ def _jumps(report: Report) -> str:
     return f'<p class="jumps">{links}</p>'
 
 
-def _day(day: int | None, series: Iterable[Series], checked: str) -> str:
-    cards = "".join(map(_card, series))
+def _day(day: int | None, series: Iterable[Series], checked: str, sheet: str) -> str:
+    foreseen = prediction_plot.draw(sheet)
+    cards = foreseen and html.card("Predicted and measured", foreseen)
+    cards += "".join(map(_card, series))
     about = checked and f'<p class="muted">{escape(checked)}</p>'
     return (
         f'<section id="{day}"><h2>{_title(day)}</h2>{about}'
