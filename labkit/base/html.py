@@ -32,7 +32,7 @@ p { margin: 4px 0; } .jumps { margin-top: 14px; } .muted { color: var(--muted); 
   grid-template-columns: repeat(auto-fill, minmax(min(100%, 340px), 1fr)); }
 .top { display: flex; flex-wrap: wrap; gap: 4px 10px;
   justify-content: space-between; align-items: start; }
-.top h3 { margin: 0; font-size: 16px; }
+.top h3, .card > h3 { margin: 0; font-size: 16px; }
 .badge { flex: none; border: 1px solid; border-radius: 99px; padding: 1px 10px;
   font-size: 13px; font-weight: 600; white-space: nowrap; }
 .pass { color: var(--pass); } .fail { color: var(--fail); }

@@ -13,12 +13,9 @@ from labkit.base.text import visible
 from labkit.report.foreseen import Prediction, compared, value_of
 
 WIDTH, LEFT, RIGHT = 360, 10, 350
-LINE, TICK, BELOW = (
-    15,
-    16,
-    26,
-)  # pixels: a line of text; from an axis to the foot of its
-# labels; from the last line of a prediction to the next one
+LINE = 15  # pixels, of a line of text
+TICK = 16  # pixels, from an axis to the foot of its labels
+BELOW = 26  # pixels, from the last line of a prediction to the first of the next
 LETTERS = 56  # in a line of text
 MOST = 12  # predictions of a day that are drawn
 CLIP = 40  # letters that are shown of a cell
