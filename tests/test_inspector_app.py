@@ -560,3 +560,32 @@ def test_an_image_of_depths_goes_from_black_to_white():
     shown = as_bytes(np.array([[1.0, 2.0], [np.nan, 4.0]]))
     assert shown.shape == (2, 2, 3)
     assert shown[..., 0].tolist() == [[64, 128], [0, 255]]
+
+
+def test_a_logarithmic_axis_has_one_tick_a_decade_and_reaches_over_the_curves():
+    from labkit.inspector.instruments import Plot
+
+    gui = SimpleNamespace(add_uplot=lambda *_, **all_: SimpleNamespace(**all_))
+    plot = Plot(gui, ("error",), "t (s)", "error (mrad)", 150, 1e-3)
+    assert plot.handle.axes[1]["splits"] == pytest.approx((1e-3, 1e-2))
+    plot.add(0.0, [0.0])
+    plot.add(1.0, [np.nan])
+    plot.add(2.0, [2_200.0])
+    low, high = plot.handle.scales["y"]["range"]
+    assert (low, high) == (1e-3, 1e4)
+    ticks = plot.handle.axes[1]
+    np.testing.assert_allclose(np.diff(np.log10(ticks["splits"])), 1.0)
+    assert ticks["values"] == (
+        "0.001",
+        "0.01",
+        "0.1",
+        "1",
+        "10",
+        "100",
+        "1,000",
+        "10,000",
+    )
+    plot.show([0.0, 1.0], [[1.0, 1e12]])  # not every decade has a label any more
+    assert len([label for label in plot.handle.axes[1]["values"] if label]) <= 9
+    plain = Plot(gui, ("error",), "t (s)", "", 150, 0.0)
+    assert "y" not in plain.handle.scales

@@ -12,6 +12,7 @@ from viser import uplot
 from robo47.checks import Array
 
 WIDE = 60  # pixels, for the numbers beside a plot: 10,000
+LABELS = 9  # labels on a logarithmic axis, at most
 KEPT = 2_000  # points of a plot that is added to
 STROKES = ("#0b57c4", "#d55e00", "#00704f", "#7a3e9d", "#8a6d00", "#4a5560", "#b3261e",
            "#1e2228")  # fmt: skip
@@ -95,21 +96,44 @@ class Plot:
             for i, name in enumerate(curves)
         ]
         empty = tuple(np.full(1, least) for _ in series)
-        scales = {"x": uplot.Scale(time=False)}
-        if least:
-            scales["y"] = uplot.Scale(distr=3, log=10)
+        self.top = 0.0  # of a logarithmic axis, at the curves' last points
         self.handle = gui.add_uplot(
-            empty, tuple(series), title=y or None, scales=scales, height=height,
+            empty, tuple(series), title=y or None, height=height,
+            scales={"x": uplot.Scale(time=False)},
             axes=(uplot.Axis(), uplot.Axis(size=WIDE)),
             padding=(14, 20, 0, 0),  # no tick is cut in half
         )  # fmt: skip
+        if least:
+            self._span(10 * least)
 
     def show(self, x: ArrayLike, ys: ArrayLike) -> None:
         """Draw whole curves over x, (n,), one row of ys per curve, (m, n)."""
         rows = np.atleast_2d(np.asarray(ys, dtype=float))
         if self.least:  # a logarithm has no zero
             rows = np.maximum(rows, self.least)
+            self._span(float(np.max(rows, where=np.isfinite(rows), initial=self.least)))
         self.handle.data = (np.asarray(x, dtype=float), *rows)
+
+    def _span(self, most: float) -> None:
+        """Have a logarithmic axis end above a value, with a tick at each decade.
+
+        uPlot's own ticks are nine a decade, which over seven decades merge into a bar.
+        """
+        low = int(np.floor(np.log10(self.least)))
+        high = max(low + 1, int(np.ceil(np.log10(most))))
+        if (top := 10.0**high) == self.top:
+            return
+        self.top = top
+        powers = tuple(10.0**e for e in range(low, high + 1))
+        step = -(-len(powers) // LABELS)
+        labels = tuple(
+            None if i % step else f"{power:,g}" if power < 1e6 else f"{power:.0e}"
+            for i, power in enumerate(powers)
+        )
+        span = uplot.Scale(distr=3, log=10, range=(powers[0], top))
+        self.handle.scales = {"x": uplot.Scale(time=False), "y": span}
+        ticks = uplot.Axis(size=WIDE, splits=powers, values=labels)
+        self.handle.axes = (uplot.Axis(), ticks)
 
     def add(self, x: float, values: ArrayLike) -> None:
         """Add a point to every curve, (m,), NaN for none; the oldest go after 2,000."""
