@@ -53,10 +53,10 @@ def _(normal, mu, k):
       smallest
     signed-least: the coordinate axis with the smallest component of n is used. Compare
       the absolute values
-    axis-x-n: a is along axis x n. It should be along n x axis, otherwise the edges
-      begin on the opposite side
-    axis-itself: a is the projection of the axis onto the tangent plane. It should be
-      along n x axis, a quarter turn away
+    axis-x-n: the direction a is along axis x n. It should be along n x axis, otherwise
+      the edges begin on the opposite side
+    axis-itself: the direction a is the projection of the axis onto the tangent plane.
+      It should be along n x axis, a quarter turn away
     last-is-first: the last edge is equal to the first, because t ends at 2 pi. The last
       t should be 2 pi (k - 1) / k
     degrees: t is in degrees. np.cos and np.sin expect radians
