@@ -54,7 +54,7 @@ for slug, says, redone, code in (
      "r r^T, which is tr(I)/2 1 - I", "the result with I there",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: I))[0]),  # noqa: E741
     ("products-not-negated", "the entries beside the diagonal of S have the wrong "
-     "sign. S is tr(I)/2 1 - I, so they are -Ixy, -Ixz and -Iyz", "Ixy, Ixz and Iyz",
+     "sign. S is tr(I)/2 1 - I, so they are -Ixy, -Ixz and -Iyz", "the other sign",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, mirrored))[0]),
     ("not-halved", "the diagonal of S is twice as large. S is tr(I)/2 1 - I, so its "
      "first entry is (Iyy + Izz - Ixx) / 2", "the diagonal without the half",
