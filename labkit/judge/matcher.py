@@ -21,7 +21,7 @@ from labkit.judge.answers import (
     worst_part,
 )
 from labkit.judge.ask import Ask, Case, as_plain
-from labkit.judge.hypothesis import Difference, equals
+from labkit.judge.hypothesis import Difference
 from labkit.judge.limits import Effort
 from labkit.judge.mutant import Body
 from labkit.judge.results import numbers
@@ -201,9 +201,7 @@ class Matcher:
     def exact(self, code: Code) -> bool:
         """Return whether a hypothesis gives all numbers, to what rounding leaves."""
         some = [self.main, self.fresh] if self.fresh else [self.main]
-        return all(
-            equals(self.ask.kinds, one.S, one.answers(code)) for one in some if one
-        )
+        return all(one.difference.equals(one.answers(code)) for one in some if one)
 
     def off(self) -> str:
         """Return how far the answers are off: "off by up to 2 m"; "" of a NaN."""

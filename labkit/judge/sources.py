@@ -26,7 +26,7 @@ from labkit.judge.hypothesis import equals, evidence
 from labkit.judge.matcher import Calls, Code, Matcher
 from labkit.judge.mistake import Finding, Mistake
 from labkit.judge.mutant import FAR, Mutant
-from labkit.judge.sentence import of_mutants, own_line, shows
+from labkit.judge.sentence import has_its_kind, of_mutants, own_line, shows
 
 NEAR, FURTHER = "near", "further"  # mutants
 # What share of a search's effort is kept for the sources that come later.
@@ -247,7 +247,7 @@ def _that_hold(m: Matcher, which: str) -> list[Mutant]:
     for one in islice(screened, SEVERAL):
         apart = not any(one.overlaps(other) for other in found)
         code = one.code
-        if code and apart and m.holds(code):
+        if code and apart and has_its_kind(m, one) and m.holds(code):
             found.append(one)
             if len(found) >= APART:
                 break
