@@ -48,9 +48,17 @@ SAYS = {
     "unit": "a unit is converted that should not be, or is not converted",
     "rounded": "a value is rounded inside the formula",
     "diagonal": "only a part of a matrix is used",
-    "entries": "the entries of a vector are in the wrong place",
+    "entries": "the entries of a list or vector are in the wrong order",
+    "entry-zero": "one entry of a list or vector is missing, as if it were 0",
+    "entry-twice": "one entry of a list or vector is used in the place of another",
+    "entry-some": "only some entries of a list or vector are used",
     "added": "a term is added that does not belong to the formula",
 }
+# Kinds that are true of the numbers, whatever algorithm gives them.
+TELLING = {
+    "sign", "negated", "sign-lost", "left-out", "factor", "transpose", "inverse",
+    "squared", "root", "exchanged", "order", "unit", "rounded",
+}  # fmt: skip
 OF_A_PART = {
     ast.Add: "a term is missing", ast.Sub: "a term is missing",
     ast.Mult: "a factor is missing", ast.MatMult: "a factor is missing",
@@ -77,6 +85,11 @@ def of_mutants(m: Any, found: Sequence[Mutant]) -> Finding:
 def shows(m: Any, mutant: Mutant) -> bool:
     """Return whether a student can see where a mutant's change would be."""
     return bool(own_line(m, mutant) or known_text(m, mutant) or gloss(mutant))
+
+
+def tells(mutant: Mutant) -> bool:
+    """Return whether a mutant's kind says enough without a place."""
+    return mutant.kind in TELLING
 
 
 def half(m: Any, mutant: Mutant) -> str:

@@ -1,0 +1,89 @@
+"""What is said of a function that computes the same in another way than the lab."""
+
+import ast
+
+import numpy as np
+import pytest
+from test_claims import right, told
+
+from labkit.judge import sources
+from labkit.judge.mutant import KINDS, Body, body_of
+from labkit.judge.sentence import SAYS, TELLING
+from labkit.lesson.day import find_day
+from labkit.lesson.lab_module import lab_of
+
+pytestmark = pytest.mark.kit
+
+PATH = lab_of(find_day(1)).PATH
+
+
+def test_a_component_that_a_sum_omits_is_not_said_to_be_in_a_wrong_place():
+    def inverse(T):
+        back = right(1, "inverse")(T)
+        back[:3, 3] = [-sum(T[k, i] * T[k, 3] for k in range(2)) for i in range(3)]
+        return back
+
+    says = told(1, "1.3", inverse=inverse)
+    assert "is missing, as if it were 0" in says
+    assert "wrong place" not in says and "wrong order" not in says
+
+
+def test_the_comment_of_a_right_solution_says_which_step_is_wrong():
+    def body_jacobian(J_space, T):
+        omega, v = J_space[:3], J_space[3:]
+        at_hand = v - np.cross(T[:3, 3], omega, axis=0)
+        return np.vstack([T[:3, :3] @ omega, T[:3, :3].T @ at_hand])
+
+    assert "omega, expressed in the hand frame" in told(
+        3, "3.9", body_jacobian=body_jacobian
+    )
+
+
+def test_only_a_right_solutions_comments_are_glosses():
+    def solution(x):
+        y = 2 * x  # twice the argument
+        return y + 1
+
+    read = body_of(solution, "f", commented=True)
+    assert "twice the argument" in read.glosses.values()
+    assert not body_of(solution, "f").glosses
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_kind_that_needs_a_place_is_not_told_without_one(kind, monkeypatch):
+    one = next(
+        Body(ast.parse("def f(x):\n    return -x\n").body[0], {}).near.__iter__()
+    )
+    vars(one)["kind"] = kind
+    monkeypatch.setattr(sources, "_that_hold", lambda m, which: [one])
+    monkeypatch.setattr(sources, "shows", lambda m, mutant: False)
+    monkeypatch.setattr(sources, "of_mutants", lambda m, found: found[0].kind)
+    assert SAYS.get(kind) or kind == "line"
+    assert sources.other_mutants(None) == (kind if kind in TELLING else None)
+
+
+def test_a_path_to_another_body_is_asked():
+    def compose_fk(model, q, path=PATH):
+        given = PATH[: len(path)]
+        return right(1, "compose_fk")(model, q, given)
+
+    assert "the path to another body" in told(1, "1.6", compose_fk=compose_fk)
+
+
+def test_one_mistake_in_another_form_is_not_told_as_two():
+    def exp_rotation(axis, theta):
+        K = np.array([np.cross(e, axis) for e in -np.eye(3)]).T
+        return np.cos(theta) * np.eye(3) + np.sin(theta) * K
+
+    def exp_screw(S, theta):
+        X = np.zeros((4, 4))
+        X[:3, :3] = right(2, "skew")(S[:3])
+        X[:3, 3] = S[3:]
+        if not S[:3].any():
+            return np.eye(4) + theta * X
+        c, s = np.cos(theta), np.sin(theta)
+        return np.eye(4) + theta * X + c * X @ X + (theta - s) * X @ X @ X
+
+    for task, function in (("2.2", exp_rotation), ("2.4", exp_screw)):
+        says = told(2, task, **{function.__name__: function})
+        assert "Two things" not in says and "reproduce" in says
