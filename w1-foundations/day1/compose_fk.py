@@ -19,9 +19,11 @@ from . import ends, places, products
 from .panda_chain import (
     FLANGE_POS,
     FLANGE_QUAT,
+    HAND,
     NEAR,
     PANDA,
     PATH,
+    TO_HAND,
     as_written,
     by_mujoco,
     fk,
@@ -51,6 +53,13 @@ row = Row(
             "for the path to link4 it still returns the pose of the end effector.",
             on(PANDA, PATH[:5], count=2),
             mistaken=lambda model, q, path: by_mujoco(model, q),
+        ),
+        HeldOut(
+            "path-of-another-body",
+            "Your pose is correct for PATH and for its beginnings, but not for the "
+            "path to another body, such as the hand of the model with a hand: take "
+            "the names of the bodies and of the joints from the argument path.",
+            on(HAND, TO_HAND, count=2),
         ),
         places.TYPED_IN,
     ],
