@@ -7,7 +7,10 @@ import pytest
 from test_claims import right, told
 
 from labkit.judge import sources
+from labkit.judge.ask import Case, asked_of, right_answers, stacked
+from labkit.judge.matcher import Matcher
 from labkit.judge.mutant import KINDS, Body, body_of
+from labkit.judge.row import row_of
 from labkit.judge.sentence import SAYS, TELLING
 from labkit.lesson.day import find_day
 from labkit.lesson.lab_module import lab_of
@@ -25,7 +28,8 @@ def test_a_component_that_a_sum_omits_is_not_said_to_be_in_a_wrong_place():
 
     says = told(1, "1.3", inverse=inverse)
     assert "is missing, as if it were 0" in says
-    assert "wrong place" not in says and "wrong order" not in says
+    assert "wrong place" not in says
+    assert "wrong order" not in says
 
 
 def test_the_comment_of_a_right_solution_says_which_step_is_wrong():
@@ -62,12 +66,12 @@ def test_a_kind_that_needs_a_place_is_not_told_without_one(kind, monkeypatch):
     assert sources.other_mutants(None) == (kind if kind in TELLING else None)
 
 
-def test_a_path_to_another_body_is_asked():
+def test_a_function_that_only_counts_the_pairs_of_a_path_is_named():
     def compose_fk(model, q, path=PATH):
         given = PATH[: len(path)]
         return right(1, "compose_fk")(model, q, given)
 
-    assert "the path to another body" in told(1, "1.6", compose_fk=compose_fk)
+    assert "only counts the pairs" in told(1, "1.6", compose_fk=compose_fk)
 
 
 def test_one_mistake_in_another_form_is_not_told_as_two():
@@ -86,4 +90,20 @@ def test_one_mistake_in_another_form_is_not_told_as_two():
 
     for task, function in (("2.2", exp_rotation), ("2.4", exp_screw)):
         says = told(2, task, **{function.__name__: function})
-        assert "Two things" not in says and "reproduce" in says
+        assert "Two things" not in says
+        assert "reproduce" in says
+
+
+def test_the_search_takes_cheap_solutions_first():
+    day = find_day(4)
+    row = row_of(day, "mass_matrix")
+    exchanges = asked_of("4.3", "mass_matrix", row.ask, 1, 5.0).main
+    arguments = stacked(exchanges)
+    T = right_answers(row.ask, exchanges)
+    S = (T[0] + 1.0,)
+    m = Matcher(Case(row.ask, arguments, S[0], T[0], ()), S, T)
+    costs = [body.steps.lines for body in m.bodies]
+    assert m.bodies[0].own
+    assert len(costs) > 3
+    assert costs[1:] == sorted(costs[1:])
+    assert costs[-1] > 100 * costs[1]

@@ -252,9 +252,10 @@ def _that_hold(m: Matcher, which: str) -> list[Mutant]:
         return found
     screened = (one for one, answer in answered(m, which) if _fits(m, answer))
     for one in islice(screened, SEVERAL):
+        told = m.whole or shows(m, one) or tells(one)
         apart = not any(one.overlaps(other) for other in found)
         code = one.code
-        if code and apart and m.holds(code):
+        if code and told and apart and m.holds(code):
             found.append(one)
             if len(found) >= APART:
                 break

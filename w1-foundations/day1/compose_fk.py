@@ -19,11 +19,9 @@ from . import ends, places, products
 from .panda_chain import (
     FLANGE_POS,
     FLANGE_QUAT,
-    HAND,
     NEAR,
     PANDA,
     PATH,
-    TO_HAND,
     as_written,
     by_mujoco,
     fk,
@@ -55,11 +53,12 @@ row = Row(
             mistaken=lambda model, q, path: by_mujoco(model, q),
         ),
         HeldOut(
-            "path-of-another-body",
-            "Your pose is correct for PATH and for its beginnings, but not for the "
-            "path to another body, such as the hand of the model with a hand: take "
-            "the names of the bodies and of the joints from the argument path.",
-            on(HAND, TO_HAND, count=2),
+            "path-counted",
+            "Your pose is correct for PATH and for its beginnings, but the function "
+            "only counts the pairs of path: for PATH[1:] it returns the pose of link7. "
+            "Take the names of the bodies and of the joints from the argument path.",
+            on(PANDA, PATH[1:], count=2),
+            mistaken=lambda model, q, path: fk(model, q, PATH[: len(path)]),
         ),
         places.TYPED_IN,
     ],

@@ -37,8 +37,6 @@ def _longer(model) -> None:
 
 PANDA = Robot()
 OTHER = Robot(change=_longer)
-HAND = Robot("panda")
-TO_HAND = (*PATH[:-1], ("hand", None))
 
 
 def on(robot, path=None, count=10):

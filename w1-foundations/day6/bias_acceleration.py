@@ -105,17 +105,6 @@ def _(J_space, qd, p):
     return {"p-sign": bias(J_space, qd, -p), **found}
 
 
-@row.right  # Every pair of joints, as Christoffel did.
-def _(J_space, qd, p):
-    A = np.zeros(6)
-    for j in range(7):
-        for i in range(j):
-            A += ad(J_space[:, i]) @ J_space[:, j] * qd[i] * qd[j]
-    V = J_space @ qd
-    v = V[3:] + np.cross(V[:3], p)
-    return np.append(A[:3], A[3:] + np.cross(A[:3], p) + np.cross(V[:3], v))
-
-
 @row.right  # With vectors of three, without ad.
 def _(J_space, qd, p):
     w, v, dw, dv = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3)
@@ -128,6 +117,17 @@ def _(J_space, qd, p):
     at_p = v + np.cross(w, p)  # velocity of p
     linear = dv + np.cross(dw, p) + np.cross(w, at_p)  # linear acceleration of p
     return np.append(dw, linear)
+
+
+@row.right  # Every pair of joints, as Christoffel did.
+def _(J_space, qd, p):
+    A = np.zeros(6)
+    for j in range(7):
+        for i in range(j):
+            A += ad(J_space[:, i]) @ J_space[:, j] * qd[i] * qd[j]
+    V = J_space @ qd
+    v = V[3:] + np.cross(V[:3], p)
+    return np.append(A[:3], A[3:] + np.cross(A[:3], p) + np.cross(V[:3], v))
 
 
 @row.right  # Screws first moved to the point, then summed.

@@ -100,16 +100,6 @@ def _(start, end, T):
     }
 
 
-@row.right  # The closed form from another book.
-def _(start, end, T):
-    (q0, v0, a0), (q1, v1, a1) = start, end
-    h = q1 - q0
-    three = (20 * h - (8 * v1 + 12 * v0) * T - (3 * a0 - a1) * T**2) / (2 * T**3)
-    four = (-30 * h + (14 * v1 + 16 * v0) * T + (3 * a0 - 2 * a1) * T**2) / (2 * T**4)
-    five = (12 * h - 6 * (v1 + v0) * T + (a1 - a0) * T**2) / (2 * T**5)
-    return np.array([q0, v0, a0 / 2, three, four, five])
-
-
 @row.right  # The first three, then what the end still needs.
 def _(start, end, T):
     two = start[2] / 2  # the coefficient of t^2
@@ -120,6 +110,16 @@ def _(start, end, T):
     four = (-15 * dp + 7 * dv - da) / T**4  # the coefficient of t^4
     five = (6 * dp - 3 * dv + da / 2) / T**5  # the coefficient of t^5
     return np.array([start[0], start[1], two, three, four, five])
+
+
+@row.right  # The closed form from another book.
+def _(start, end, T):
+    (q0, v0, a0), (q1, v1, a1) = start, end
+    h = q1 - q0
+    three = (20 * h - (8 * v1 + 12 * v0) * T - (3 * a0 - a1) * T**2) / (2 * T**3)
+    four = (-30 * h + (14 * v1 + 16 * v0) * T + (3 * a0 - 2 * a1) * T**2) / (2 * T**4)
+    five = (12 * h - 6 * (v1 + v0) * T + (a1 - a0) * T**2) / (2 * T**5)
+    return np.array([q0, v0, a0 / 2, three, four, five])
 
 
 row.at_least_0(duration="a duration is not negative")
