@@ -107,3 +107,21 @@ def test_the_search_takes_cheap_solutions_first():
     assert len(costs) > 3
     assert costs[1:] == sorted(costs[1:])
     assert costs[-1] > 100 * costs[1]
+
+
+def test_a_manipulability_of_six_rows_alone_is_named():
+    def manipulability(J):
+        product = 1.0
+        for k in range(6):
+            product *= np.linalg.svd(J, compute_uv=False)[k]
+        return product
+
+    assert "J.shape" in told(3, "3.8", manipulability=manipulability)
+
+
+def test_how_an_answer_grows_is_said_of_the_size_that_was_asked():
+    def manipulability(J):
+        s = np.linalg.svd(J, compute_uv=False)
+        return float(np.prod(s) ** (1 / len(s)))
+
+    assert "If J (6x7) is doubled" in told(3, "3.8", manipulability=manipulability)
