@@ -155,10 +155,15 @@ class Matcher:
 
     @cached_property
     def bodies(self) -> Sequence[Body]:
-        """Right bodies whose mutants take no more than some times their steps."""
+        """Right bodies whose mutants take no more than some times their steps.
+
+        The lab's comes first, then the one whose mutants cost least, so that a slow one
+        does not use up the search of all others.
+        """
         for body in self.ask.bodies:
             body.calibrate(self.main.each[self.i])
-        return self.ask.bodies
+        others = sorted(self.ask.bodies[1:], key=lambda body: body.steps.lines)
+        return [*self.ask.bodies[:1], *others]
 
     @property
     def lines(self) -> int:

@@ -48,9 +48,17 @@ SAYS = {
     "unit": "a unit is converted that should not be, or is not converted",
     "rounded": "a value is rounded inside the formula",
     "diagonal": "only a part of a matrix is used",
-    "entries": "the wrong entries of a vector are used, or another order",
+    "entries": "the entries of a list or vector are in the wrong order",
+    "entry-zero": "one entry of a list or vector is missing, as if it were 0",
+    "entry-twice": "one entry of a list or vector is used in the place of another",
+    "entry-some": "only some entries of a list or vector are used",
     "added": "a term is added that does not belong to the formula",
 }
+# Kinds that are true of the numbers, whatever algorithm gives them.
+TELLING = {
+    "sign", "negated", "sign-lost", "left-out", "factor", "transpose", "inverse",
+    "squared", "root", "exchanged", "order", "unit", "rounded",
+}  # fmt: skip
 OF_A_PART = {
     ast.Add: "a term is missing", ast.Sub: "a term is missing",
     ast.Mult: "a factor is missing", ast.MatMult: "a factor is missing",
@@ -102,6 +110,11 @@ def has_its_kind(m: Any, mutant: Mutant) -> bool:
         or (getattr(node, "attr", None) or getattr(node, "id", "")) in CHOOSES
         for node in ast.walk(own)
     )
+
+
+def tells(mutant: Mutant) -> bool:
+    """Return whether a mutant's kind says enough without a place."""
+    return mutant.kind in TELLING
 
 
 def half(m: Any, mutant: Mutant) -> str:
