@@ -84,7 +84,7 @@ for slug, says, redone, other in (
      "it is U V^T of target^T source", "R^T",
      {"rotation": lambda U, Vt: proper(U, Vt).T}),
     ("worst-fit", "R is the rotation with the largest sum of squares, not the "
-     "smallest: a sign is wrong, or the eigenvector is that of the smallest eigenvalue",
+     "smallest: a sign is wrong, or the eigenvector belongs to the smallest eigenvalue",
      "the rotation that fits worst", {"rotation": lambda U, Vt: proper(-U, Vt)}),
     ("not-centred", "the centroids are not subtracted before the SVD",
      "the SVD of the points themselves", {"centre": lambda X: np.zeros(3)}),

@@ -72,7 +72,7 @@ def _(mean, std, noise, scores, elite):
     one-spread-for-all: all parameters have the same standard deviation. Each should
       have its own: use axis=0
     best-left-out: the best sample is left out, and the elite begins with the second
-    nan-is-zero: a NaN counts as a score of 0. It is worse than all other scores
+    nan-is-zero: a NaN is treated as a score of 0. It is worse than all other scores
     elite-one-less: the elite has one sample too few
     weighted: the elite samples are weighted by their rank. All should have the same
       weight
