@@ -6,6 +6,7 @@ whose names are not looked for here.
 
 import functools
 import itertools
+import re
 
 import numpy as np
 import pytest
@@ -59,7 +60,7 @@ def printed(row, function):
     says = in_cases(asked, answers)
     for status, word in ((RIGHT, "Right: "), (WRONG, "Wrong: "), ("only", "only: ")):
         _, there, rest = says.partition(word)
-        for phrase in rest.partition(".")[0].split("; ") if there else ():
+        for phrase in re.split(r"\.(?:\s|$)", rest)[0].split("; ") if there else ():
             yield phrase, functools.partial(of_call, by_phrase[phrase]), status, -1
     if not says:
         tried = experiments(asked, wrong[-QUESTIONS:], row.arguments, answers)
@@ -125,7 +126,10 @@ def first(arg):
 def wrong_in_part(row):
     """Yield functions that are wrong where one number of a call is small, or large."""
     for k in range(len(row.arguments)):
-        column = [x for call in row.ask.main if (x := first(call[k])) is not None]
+        given = [
+            call[k] for call in row.ask.main if k < len(call)
+        ]  # one may be left out
+        column = [x for arg in given if (x := first(arg)) is not None]
         if len(set(column)) < 5:
             continue
         for low in (True, False):
@@ -133,7 +137,7 @@ def wrong_in_part(row):
 
             def code(*args, k=k, low=low, limit=limit):
                 answer = row.truth(*args)
-                x = first(args[k])
+                x = first(args[k]) if k < len(args) else None
                 return twisted(answer) if (abs(x or 0.0) <= limit) is low else answer
 
             yield f"{row.arguments[k]} {'small' if low else 'large'}", code

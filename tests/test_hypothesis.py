@@ -86,3 +86,17 @@ def test_a_ridge_in_the_kalman_update_is_not_a_transposed_covariance(ridge):
 
     says = told(9, "9.5", kalman_update=kalman_update)
     assert "transposed" not in says
+
+
+@pytest.mark.parametrize("lost", [np.inf, -np.inf, np.nan, 3e17, -8e15])
+def test_what_a_division_by_almost_zero_leaves_may_be_huge_infinite_or_nan(lost):
+    S = T + OFF
+    H = S.copy()
+    S[1, 0], H[1, 0] = np.nan, lost
+    assert holds(S, H)
+    assert holds(H, S)
+    H[0, 0] += 0.1  # of the other numbers it has to explain each
+    assert not holds(S, H)
+    H = S.copy()
+    H[1, 0] = 3.0
+    assert not holds(S, H)

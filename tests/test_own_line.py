@@ -60,6 +60,14 @@ def test_the_order_of_a_sum_and_a_product_does_not_count():
     assert line(other, "s = (b - a) / (a + 2.0)").number == 6
 
 
+def test_a_line_of_a_loop_and_of_a_condition_reads_as_in_the_file():
+    loop = "def f(x, y):\n    for k in range(x, len(y)):\n        if k > y[x]: pass\n"
+    both = OwnFunction(function(loop), function(loop))
+    for text in ("for k in range(x, len(y))", "if k > y[x]"):
+        found = both.line(ast.parse(f"{text}: pass").body[0])
+        assert found.text == text
+
+
 @pytest.fixture
 def no_catalogue(monkeypatch):
     """Take the author's mistakes of 11.1 away: the machine is left."""

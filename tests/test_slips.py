@@ -2,13 +2,24 @@
 
 import ast
 import contextlib
+import inspect
+import textwrap
+from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from test_claims import right, told
 
+from labkit.base.exchange import Reply
 from labkit.judge import limits
+from labkit.judge.ask import asked_of
+from labkit.judge.judge import judge
 from labkit.judge.mutant import Body
+from labkit.judge.row import row_of
+from labkit.judge.sentence import has_its_kind
+from labkit.judge.sentence import told as says_of
+from labkit.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
 
@@ -193,3 +204,46 @@ def test_what_a_condition_is_made_of_is_no_factor_and_no_sign():
     assert "x if 1.0 * y > x else y" in {o.text for o in near if o.kind == "condition"}
     assert not [one for one in near if one.kind == "number"]
     assert all("2.0 * y > x" in one.text for one in near if one.kind == "factor")
+
+
+@pytest.mark.parametrize(
+    ("line", "may"),
+    [
+        ("return x if y > 2.0 else y", True),
+        ("return np.maximum(x, y)", True),
+        ("return x + np.sqrt(y)", False),
+    ],
+)
+def test_a_condition_is_wrong_only_in_a_function_that_compares_something(line, may):
+    text = "def f(x, y):\n    return x if 2.0 * y > x else y\n"
+    bisects = Body(ast.parse(text).body[0], {"np": np}, name="f")
+    some = [one for one in bisects.near if one.kind == "condition"]
+    assert some
+    m = SimpleNamespace(case=SimpleNamespace(source=f"def f(x, y):\n    {line}\n"))
+    assert all(has_its_kind(m, one) is may for one in some)
+
+
+def test_a_gain_of_another_root_formula_is_not_called_a_wrong_condition(monkeypatch):
+    row = row_of(find_day(9), "delay_margin")
+    monkeypatch.setitem(vars(row), "ask", replace(row.ask, mistakes=()))
+
+    def delay_margin(kp, kd):
+        w = np.sqrt(kd**2 + np.sqrt(kd**4 + kp**2))
+        return np.arctan2(kd * w, kp) / w
+
+    source = inspect.getsource(delay_margin)
+    asked = asked_of("9.2", "delay_margin", row.ask, 47)
+    for one in asked.exchanges:
+        value = delay_margin(*one.question.args)
+        one.reply = Reply(value=value, again=value)
+    verdict = judge(asked, textwrap.dedent(source), ("kp", "kd"))
+    assert verdict.status == "wrong"
+    assert "condition" not in verdict.message
+
+
+def test_a_product_in_the_wrong_order_may_lack_a_transpose():
+    text = "def f(A, b):\n    hidden = A @ b\n    return hidden\n"
+    (one,) = [o for o in body(text).near if o.kind == "order"]
+    case = SimpleNamespace(source="def f(A, b):\n    return [0]\n", names=("A", "x"))
+    says = says_of(SimpleNamespace(case=case, known={}), one)
+    assert says == "two operands are in the wrong order, or a transpose is missing"

@@ -20,6 +20,9 @@ SHARE = 0.01  # of the difference from the right answer, which may stay unexplai
 # Of the largest number: what the order of a sum's terms changes. Of many mutants and
 # pairs one comes near by chance, so these have to give as many digits.
 EXACT = 1e-9
+# Times the largest number of the right answer: what a division by almost zero leaves.
+# The sum of other rounding errors decides whether it is huge, infinite or NaN.
+LOST = 1e10
 
 
 @dataclass(frozen=True)
@@ -41,10 +44,15 @@ class Difference:
     T: Parts  # the right ones
 
     @cached_property
+    def given(self) -> Parts:
+        """The student's answers, NaN where a division by almost zero has lost them."""
+        return tuple(map(lost_as_nan, self.S, self.T))
+
+    @cached_property
     def limits(self) -> list[Array]:
         """How far a hypothesis may be from the student's answer, (n,) per result."""
         found = []
-        for kind, s, t in zip(self.ask.kinds, self.S, self.T, strict=True):
+        for kind, s, t in zip(self.ask.kinds, self.given, self.T, strict=True):
             off = difference(s, t, kind.scale)
             size = np.maximum(1.0, _sizes(s, kind.scale))
             free = self.ask.rtol * _sizes(t, kind.scale) + self.ask.near
@@ -56,7 +64,7 @@ class Difference:
     @cached_property
     def digits(self) -> list[Array]:
         """The same where every digit is compared that rounding leaves."""
-        trios = zip(self.limits, self.S, self.ask.kinds, strict=True)
+        trios = zip(self.limits, self.given, self.ask.kinds, strict=True)
         return [
             np.minimum(some, EXACT * np.maximum(1.0, _sizes(s, k.scale).max(initial=0)))
             for some, s, k in trios
@@ -73,8 +81,12 @@ class Difference:
         if len(H) != len(self.S):
             return False
         limits = self.digits if digits else self.limits
-        trios = zip(H, self.S, limits, self.ask.kinds, strict=True)
-        return all(_within(h, s[i], some[i], kind.scale) for h, s, some, kind in trios)
+        rows = zip(H, self.given, self.T, limits, self.ask.kinds, strict=True)
+        return all(
+            h.shape == s.shape[1:]
+            and _within(lost_as_nan(h[None], t[[i]])[0], s[i], some[i], kind.scale)
+            for h, s, t, some, kind in rows
+        )
 
     def explained(self, H: Parts) -> Array:
         """Return of each call whether a hypothesis explains its difference, (n,)."""
@@ -83,7 +95,8 @@ class Difference:
         if len(H) != len(self.S) or any(h.shape != s.shape for h, s in pairs):
             return np.zeros(n, bool)
         good = np.ones(n, bool)
-        trios = zip(H, self.S, self.limits, self.ask.kinds, strict=True)
+        H = tuple(map(lost_as_nan, H, self.T))
+        trios = zip(H, self.given, self.limits, self.ask.kinds, strict=True)
         for h, s, limit, kind in trios:
             good &= difference(h, s, kind.scale) <= limit
         return good
@@ -92,12 +105,19 @@ class Difference:
         """Return whether a hypothesis explains every call, and says what is wrong."""
         return bool(self.explained(H).all()) and self.differs(H)
 
+    def equals(self, H: Parts) -> bool:
+        """Return whether a hypothesis gives all numbers, to what rounding leaves."""
+        if len(H) != len(self.T):
+            return False
+        return equals(self.ask.kinds, self.given, tuple(map(lost_as_nan, H, self.T)))
+
     def differs(self, H: Parts) -> bool:
         """Return whether a hypothesis gives other answers than the right ones.
 
         It has to do so in every result that is wrong, at the call that is furthest off.
         """
-        trios = zip(self.ask.kinds, self.S, self.T, H, strict=True)
+        H = tuple(map(lost_as_nan, H, self.T))
+        trios = zip(self.ask.kinds, self.given, self.T, H, strict=True)
         for j, (kind, s, t, h) in enumerate(trios):
             off = self.ask.gaps_of(j, s, t)
             if off.max(initial=0.0) <= self.ask.near:
@@ -107,6 +127,22 @@ class Difference:
             if apart < (1.0 - SHARE) * min(off[i], 1e300):
                 return False
         return True
+
+
+def lost_as_nan(some: Array, right: Array) -> Array:
+    """Return answers with NaN where a division by almost zero has lost an entry.
+
+    Args:
+        some: answers, (n, ...).
+        right: the right ones, of which an entry may be infinite and is kept then.
+    """
+    if some.shape != right.shape:
+        return some
+    size = LOST * np.maximum(1.0, _sizes(right, 1.0))
+    size = size.reshape(-1, *[1] * (some.ndim - 1))
+    with np.errstate(invalid="ignore"):
+        lost = np.isfinite(right) & ~(np.abs(some) <= size)
+    return np.where(lost, np.nan, some)
 
 
 def equals(kinds: Sequence[Any], S: Parts, H: Parts) -> bool:

@@ -21,7 +21,7 @@ from labkit.judge.answers import (
     worst_part,
 )
 from labkit.judge.ask import Ask, Case, as_plain
-from labkit.judge.hypothesis import Difference, equals
+from labkit.judge.hypothesis import Difference
 from labkit.judge.limits import Effort
 from labkit.judge.mutant import Body
 from labkit.judge.results import numbers
@@ -155,10 +155,15 @@ class Matcher:
 
     @cached_property
     def bodies(self) -> Sequence[Body]:
-        """Right bodies whose mutants take no more than some times their steps."""
+        """Right bodies whose mutants take no more than some times their steps.
+
+        The lab's comes first, then the one whose mutants cost least, so that a slow one
+        does not use up the search of all others.
+        """
         for body in self.ask.bodies:
             body.calibrate(self.main.each[self.i])
-        return self.ask.bodies
+        others = sorted(self.ask.bodies[1:], key=lambda body: body.steps.lines)
+        return [*self.ask.bodies[:1], *others]
 
     @property
     def lines(self) -> int:
@@ -201,9 +206,7 @@ class Matcher:
     def exact(self, code: Code) -> bool:
         """Return whether a hypothesis gives all numbers, to what rounding leaves."""
         some = [self.main, self.fresh] if self.fresh else [self.main]
-        return all(
-            equals(self.ask.kinds, one.S, one.answers(code)) for one in some if one
-        )
+        return all(one.difference.equals(one.answers(code)) for one in some if one)
 
     def off(self) -> str:
         """Return how far the answers are off: "off by up to 2 m"; "" of a NaN."""

@@ -33,7 +33,8 @@ KINDS = [
     "sign", "order", "left-out", "operation", "sign-lost", "name", "index", "number",
     "factor", "negated", "bracket", "transpose", "inverse", "squared", "exchanged",
     "scaled", "function", "condition", "line", "clamp", "norm", "root", "unit",
-    "rounded", "diagonal", "entries", "added",
+    "rounded", "diagonal", "entries", "entry-zero", "entry-twice", "entry-some",
+    "added",
 ]  # fmt: skip
 
 
@@ -454,22 +455,28 @@ def glosses(text: str) -> dict[int, str]:
 _ONE_STEP = (ast.Assign, ast.AugAssign, ast.Return)
 
 
-def body_of(code: Callable[..., Any], name: str) -> Body | None:
+def body_of(
+    code: Callable[..., Any], name: str, commented: bool = False
+) -> Body | None:
     """Return the body of a function of a module; None where it is none or no text.
 
     Args:
         code: the function.
         name: of the lab's function that it does the same as.
+        commented: whether the comment behind a line states what the line is.
     """
     names = code.__code__.co_freevars if inspect.isfunction(code) else None
     if names is None:
         return None
     try:
-        tree = ast.parse(textwrap.dedent(inspect.getsource(code))).body[0]
+        text = textwrap.dedent(inspect.getsource(code))
+        tree = ast.parse(text).body[0]
     except (OSError, TypeError, SyntaxError):
         return None
     if not isinstance(tree, ast.FunctionDef):
         return None
     cells = (cell.cell_contents for cell in code.__closure__ or ())
     inner = dict(zip(names, cells, strict=True))
-    return Body(tree, {**code.__globals__, **inner}, own=False, name=name)
+    says = glosses(text) if commented else {}
+    space = {**code.__globals__, **inner}
+    return Body(tree, space, own=False, name=name, glosses=says)

@@ -40,10 +40,10 @@ OF_A_VALUE = """
     factor: 2.0 * X | 0.5 * X;
     diagonal: np.diag(np.diag(X)) | np.eye(len(X)) | 0.5 * (X + X.mT);
     left-out: np.zeros_like(X) | np.ones_like(X);
-    entries: X[::-1] | X[:1] | X[-1:] | np.roll(X, 1, axis=0)
-        | np.roll(X, -1, axis=0) | np.roll(X, 3, axis=0)
-        | X[1:] | X[:-1] | X[0] | X[-1] | np.append(0.0 * X[:1], X[1:])
-        | np.append(X[:-1], 0.0 * X[-1:]);
+    entries: X[::-1] | np.roll(X, 1, axis=0) | np.roll(X, -1, axis=0)
+        | np.roll(X, 3, axis=0);
+    entry-some: X[:1] | X[-1:] | X[1:] | X[:-1] | X[0] | X[-1];
+    entry-zero: np.append(0.0 * X[:1], X[1:]) | np.append(X[:-1], 0.0 * X[-1:]);
     number: 1.0 | 0.0
 """
 WITH_A_NAME = "scaled: X * N | X / N | X @ N | N @ X; added: X + N | X - N | N - X"
@@ -424,10 +424,10 @@ def _far_of_a_list(node: Any) -> Iterator[Mutation]:
     for k, j in combinations(range(len(some) if len(some) <= FEW else 0), 2):
         for at, other in ((k, j), (j, k)):
             new = [*some[:at], some[other], *some[at + 1 :]]
-            yield "entries", type(node)(new, ast.Load())
+            yield "entry-twice", type(node)(new, ast.Load())
     for k in range(len(some)):
         new = [*some[:k], ast.Constant(0.0), *some[k + 1 :]]
-        yield "entries", type(node)(new, ast.Load())
+        yield "entry-zero", type(node)(new, ast.Load())
     if len(some) > 2:
         yield "entries", type(node)(some[::-1], ast.Load())
         yield "entries", type(node)(some[1:] + some[:1], ast.Load())

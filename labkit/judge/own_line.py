@@ -49,7 +49,7 @@ class OwnFunction:
         if len(fits) != 1:
             return None
         pairs = zip(form.names, self._own[fits[0]].names, strict=True)
-        text = ast.unparse(_head(fits[0])).splitlines()[0]
+        text = ast.unparse(fits[0]).splitlines()[0].removesuffix(":")
         return Line(fits[0].lineno, text, {**self.names, **dict(pairs)})
 
     def _is_one(self, form: _Form, other: _Form) -> bool:

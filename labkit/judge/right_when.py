@@ -188,7 +188,7 @@ class Experiments:
             always = self._growth(before, given)
             if always is None or not np.isclose(always, grew, rtol=1e-3):
                 continue
-            name = self.names[k]
+            name = f"{self.names[k]}{_sized(self.calls[0][k])}"
             if np.isclose(grew, 1.0, rtol=self.near):
                 says = f"If {name} is doubled, your answer stays the same"
                 return f"{says}, but it should change."
@@ -402,6 +402,13 @@ def _with(calls: Sequence[Call], k: int, values: Sequence[Any]) -> list[Call]:
     """Return calls with other values of argument k."""
     pairs = zip(calls, values, strict=True)
     return [(*call[:k], value, *call[k + 1 :]) for call, value in pairs]
+
+
+def _sized(x: Any) -> str:
+    """Return the size of a matrix that is not square, for what depends on it, or ""."""
+    if not isinstance(x, np.ndarray) or x.ndim != 2 or x.shape[0] == x.shape[1]:
+        return ""
+    return f" ({x.shape[0]}x{x.shape[1]})"
 
 
 def _may_be_doubled(x: Any) -> bool:

@@ -444,8 +444,9 @@ class Row:
         space, name = dict(vars(self.lab)), self.function
         found = [Body(lab, space, name=name, glosses=glosses(text))] if lab else []
         right = [way.code for way in self.ways if way.status == "right"]
-        others = [*([] if "accept" in self.more else [self.truth]), *right]
-        return [*found, *filter(None, (body_of(code, name) for code in others))]
+        others = [] if "accept" in self.more else [body_of(self.truth, name)]
+        others += [body_of(code, name, commented=True) for code in right]
+        return [*found, *filter(None, others)]
 
     def _accept(self, *args: Any) -> Any:
         try:

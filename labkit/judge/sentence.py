@@ -48,9 +48,17 @@ SAYS = {
     "unit": "a unit is converted that should not be, or is not converted",
     "rounded": "a value is rounded inside the formula",
     "diagonal": "only a part of a matrix is used",
-    "entries": "the entries of a vector are in the wrong place",
+    "entries": "the entries of a list or vector are in the wrong order",
+    "entry-zero": "one entry of a list or vector is missing, as if it were 0",
+    "entry-twice": "one entry of a list or vector is used in the place of another",
+    "entry-some": "only some entries of a list or vector are used",
     "added": "a term is added that does not belong to the formula",
 }
+# Kinds that are true of the numbers, whatever algorithm gives them.
+TELLING = {
+    "sign", "negated", "sign-lost", "left-out", "factor", "transpose", "inverse",
+    "squared", "root", "exchanged", "order", "unit", "rounded",
+}  # fmt: skip
 OF_A_PART = {
     ast.Add: "a term is missing", ast.Sub: "a term is missing",
     ast.Mult: "a factor is missing", ast.MatMult: "a factor is missing",
@@ -79,6 +87,36 @@ def shows(m: Any, mutant: Mutant) -> bool:
     return bool(own_line(m, mutant) or known_text(m, mutant) or gloss(mutant))
 
 
+COMPARES = (ast.Compare, ast.IfExp, ast.BoolOp)
+CHOOSES = ("where", "clip", "min", "max", "minimum", "maximum", "argmin", "argmax")
+
+
+def has_its_kind(m: Any, mutant: Mutant) -> bool:
+    """Return whether the student's function can have a mutant's mistake.
+
+    A condition is wrong only in a function that compares something; of another right
+    body, which bisects, say, such a mutant is a formula's mistake by another name.
+    """
+    if mutant.kind != "condition":
+        return True
+    try:
+        own = definition(m.case.source, mutant.body.name)
+    except (SyntaxError, ValueError):
+        own = None
+    if own is None:  # nothing is known of it
+        return True
+    return any(
+        isinstance(node, COMPARES)
+        or (getattr(node, "attr", None) or getattr(node, "id", "")) in CHOOSES
+        for node in ast.walk(own)
+    )
+
+
+def tells(mutant: Mutant) -> bool:
+    """Return whether a mutant's kind says enough without a place."""
+    return mutant.kind in TELLING
+
+
 def half(m: Any, mutant: Mutant) -> str:
     """Return what is said of one mutant of two; "" where it says too little."""
     return told(m, mutant) if shows(m, mutant) else ""
@@ -90,9 +128,16 @@ def told(m: Any, mutant: Mutant) -> str:
         return f"line {line.number}, `{line.text}`: {what(mutant, line)}"
     if text := known_text(m, mutant):
         return f"{what(mutant)}: your output equals the correct formula {text}"
+    says = f"{what(mutant)}{_or_transposed(mutant)}"
     if step := gloss(mutant):
-        return f"{what(mutant)}, in this step: {step}"
-    return what(mutant)
+        return f"{says}, in this step: {step}"
+    return says
+
+
+def _or_transposed(mutant: Mutant) -> str:
+    """Return the other name of a matrix product's wrong order: x A is A^T x."""
+    product = isinstance(getattr(mutant.edits[0][0].node, "op", None), ast.MatMult)
+    return ", or a transpose is missing" if mutant.kind == "order" and product else ""
 
 
 def what(mutant: Mutant, line: Line | None = None) -> str:

@@ -26,7 +26,7 @@ from labkit.judge.hypothesis import equals, evidence
 from labkit.judge.matcher import Calls, Code, Matcher
 from labkit.judge.mistake import Finding, Mistake
 from labkit.judge.mutant import FAR, Mutant
-from labkit.judge.sentence import of_mutants, own_line, shows
+from labkit.judge.sentence import has_its_kind, of_mutants, own_line, shows, tells
 
 NEAR, FURTHER = "near", "further"  # mutants
 # What share of a search's effort is kept for the sources that come later.
@@ -226,9 +226,16 @@ def in_own_line(m: Matcher) -> Finding | None:
 
 
 def other_mutants(m: Matcher) -> Finding | None:
-    """Return any mutant that gives all answers."""
-    found = _that_hold(m, NEAR) or _that_hold(m, FURTHER)
-    return of_mutants(m, found) if found else None
+    """Return any mutant that gives all answers and says enough without a place.
+
+    The same numbers come from other algorithms, where "a condition is wrong" without
+    the place of one names a part that the student's function may not have.
+    """
+    for which in (NEAR, FURTHER):
+        some = _that_hold(m, which)
+        if found := [one for one in some if shows(m, one) or tells(one)]:
+            return of_mutants(m, found)
+    return None
 
 
 def _that_hold(m: Matcher, which: str) -> list[Mutant]:
@@ -245,9 +252,10 @@ def _that_hold(m: Matcher, which: str) -> list[Mutant]:
         return found
     screened = (one for one, answer in answered(m, which) if _fits(m, answer))
     for one in islice(screened, SEVERAL):
+        told = m.whole or shows(m, one) or tells(one)
         apart = not any(one.overlaps(other) for other in found)
         code = one.code
-        if code and apart and m.holds(code):
+        if code and told and apart and has_its_kind(m, one) and m.holds(code):
             found.append(one)
             if len(found) >= APART:
                 break

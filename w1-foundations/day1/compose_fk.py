@@ -52,6 +52,14 @@ row = Row(
             on(PANDA, PATH[:5], count=2),
             mistaken=lambda model, q, path: by_mujoco(model, q),
         ),
+        HeldOut(
+            "path-counted",
+            "Your pose is correct for PATH and for its beginnings, but the function "
+            "only counts the pairs of path: for PATH[1:] it returns the pose of link7. "
+            "Take the names of the bodies and of the joints from the argument path.",
+            on(PANDA, PATH[1:], count=2),
+            mistaken=lambda model, q, path: fk(model, q, PATH[: len(path)]),
+        ),
         places.TYPED_IN,
     ],
     probe=_prefixes,

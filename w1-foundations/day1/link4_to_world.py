@@ -48,3 +48,11 @@ def _(model, q):
 def _(model, q):
     step = link(model, "link4") @ turn(model, q, "joint4")
     return rigid_inverse(fk(model, q, PATH[:4])) @ step
+
+
+@row.wrong
+def starts_late(model, q):
+    """your chain starts at link3; it should start at link0, because the pos and quat of
+    link3 in the file are relative to link2 => the product of the factors of link3 and
+    link4"""
+    return fk(model, q, PATH[3:5])

@@ -49,3 +49,10 @@ def _(T):
 
 
 row.reached_by("skew", "in [p], ", but=["p-cross-w"])  # the lever arm's sign
+
+
+@row.right  # Column by column, each lever arm a cross product.
+def _(T):
+    R, p = T[:3, :3], T[:3, 3]
+    lever = np.cross(p, R.T).T  # the lower left block
+    return np.vstack([np.hstack([R, O]), np.hstack([lever, R])])

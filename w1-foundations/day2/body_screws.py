@@ -51,3 +51,13 @@ row.reached_by(
     but=["transposed", "block-top-right", "no-lever-arm"],
     hidden={"R-turned-back": "the Panda's M is symmetric"},
 )
+
+
+@row.right  # Half by half, without an adjoint.
+def _(screws, M):
+    R, p = M[:3, :3], M[:3, 3]
+    omega = screws[:, :3]
+    v = screws[:, 3:] + np.cross(omega, p)  # velocity of the end effector's origin
+    omega_body = omega @ R  # omega, expressed in the end effector's frame
+    v_body = v @ R  # v, expressed in the end effector's frame
+    return np.hstack([omega_body, v_body])

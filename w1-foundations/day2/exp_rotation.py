@@ -96,6 +96,8 @@ def _(axis, theta):
       identity needs the factor cos => the formula with that term
     dyad-without-factor: the factor 1 - cos of axis axis^T is missing, so at theta = 0
       the matrix is not the identity => cos I + sin K + axis axis^T
+    dyad-missing: the term (1 - cos) axis axis^T is missing, so the axis itself does not
+      stay where it is => cos I + sin K
     always-about-z: the rotation is about z for every axis => Rz(theta)
     """
     K = skew(axis)
@@ -105,8 +107,22 @@ def _(axis, theta):
         "exp-by-entries": np.exp(K * theta),
         "bracket-of-a-dyad": I + s * K + (1 - c) * dyad,
         "dyad-without-factor": c * I + s * K + dyad,
+        "dyad-missing": c * I + s * K,
         "always-about-z": lambda: se3.Rz(theta),
     }
+
+
+@row.right  # By the unit quaternion, entry by entry.
+def _(axis, theta):
+    w = np.cos(theta / 2)  # the scalar part of the quaternion
+    x, y, z = np.sin(theta / 2) * axis  # the vector part of the quaternion
+    return np.array(
+        [
+            [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
+        ]
+    )
 
 
 row.of_argument("theta", *OF_AN_ANGLE)

@@ -197,6 +197,19 @@ row.reached_by("exp_rotation", "in the rotation, ")
 row.of_answer(of_a_pose(), but=["R-transposed", "inverse-returned"])  # the angle's sign
 
 
+@row.right  # The closed form in [S], (4, 4): its cube is minus itself, but for a slide.
+def _(S, theta):
+    X = np.zeros((4, 4))
+    X[:3, :3] = skew(S[:3])
+    X[:3, 3] = S[3:]
+    if not S[:3].any():
+        return np.eye(4) + theta * X  # the pose of a slide
+    first = theta * X  # the term with [S]
+    second = (1 - np.cos(theta)) * X @ X  # the term with the square of [S]
+    third = (theta - np.sin(theta)) * X @ X @ X  # the term with the cube of [S]
+    return np.eye(4) + first + second + third
+
+
 @row.close("float32")  # float32 throughout.
 def _(S, theta):
     S = S.astype(np.float32)

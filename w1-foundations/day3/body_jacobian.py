@@ -51,3 +51,13 @@ def _(J_space, T):
         "bracket-on-the-right": (turned + turned @ lower) @ J_space,
         "turned-by-R": R @ J_site,
     }
+
+
+@row.right  # Half by half, without an adjoint.
+def _(J_space, T):
+    R, p = T[:3, :3], T[:3, 3]
+    omega, v = J_space[:3].T, J_space[3:].T
+    v_hand = v - np.cross(p, omega)  # velocity of the hand's origin
+    omega_body = omega @ R  # omega, expressed in the hand frame
+    v_body = v_hand @ R  # v, expressed in the hand frame
+    return np.hstack([omega_body, v_body]).T

@@ -51,6 +51,8 @@ def _(J, e, damping):
     damping-fixed: the damping is always 0.05; use the argument
     damping-added-to-the-values: the damping is added to each singular value s, as 1 /
       (s + damping). The formula has the factor s / (s^2 + damping^2)
+    singular-value-missing 2: the factors are 1 / (s^2 + damping^2) for the singular
+      values s above 0, but J^T multiplies each of them by s
     damping-as-a-cut: the damping is used as rcond of the pseudo-inverse, which discards
       small singular values; damping only reduces their weight => the step of pinv(J,
       damping)
@@ -73,6 +75,7 @@ def _(J, e, damping):
         "damping-added-to-the-values": Vt.T @ (along / (s + damping)),
         "damping-as-a-cut": pinv(J, damping) @ e,
         "singular-value-missing": Vt.T @ (along / (s**2 + damping**2)),
+        "singular-value-missing 2": Vt.T @ (along / (s**2 + damping**2) * (s > 1e-12)),
     }
 
 
@@ -96,3 +99,12 @@ row.spans(  # as small, or as large, as in the lab
         lambda e: 6 * e,
     ),
 )
+
+
+@row.right  # By the singular values.
+def _(J, e, damping):
+    U, s, Vt = np.linalg.svd(J, full_matrices=False)
+    along = U.T @ e  # e along the singular directions of the hand
+    square = s**2 + damping**2  # squares of the singular values, damped
+    gain = np.divide(s, square, out=np.zeros(6), where=square > 1e-24)
+    return Vt.T @ (gain * along)  # the sum over the singular directions

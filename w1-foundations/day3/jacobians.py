@@ -4,13 +4,27 @@ from functools import cache
 
 import numpy as np
 
-from labkit.judge import rounded
+from labkit.judge import HeldOut, rounded
 from labkit.judge.kinds import Kind
 from robo47 import jacobian, panda, screws
 from robo47.checks import Array
 
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 UNIT = np.hstack([np.eye(6), np.zeros((6, 1))])  # a Jacobian of unit columns
+
+PLANE = np.array(
+    [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0]]
+)  # an arm of three joints in a plane
+
+
+def of_another_size(*rest: Array) -> HeldOut:
+    """Return the questions of a Jacobian with another number of rows and columns."""
+    return HeldOut(
+        "six-rows-only",
+        "Your result is correct for Jacobians of six rows and seven columns, but not "
+        "for the J of the docstring, which is 2x3: take the numbers from J.shape.",
+        lambda rng: [(PLANE, *rest), (PLANE + 0.5, *rest)],
+    )
 
 
 class OrNaN(Kind):

@@ -289,6 +289,15 @@ def _(R):
     return log_rotation(R.T)
 
 
+@row.wrong
+def two_arguments_exchanged(R):
+    """the angle is pi minus the right one: the two arguments of the arctangent are
+    exchanged, or one has the wrong sign"""
+    w = log_rotation(R)
+    angle = np.linalg.norm(w)
+    return (np.pi - angle) * w / angle if angle > 0 else w
+
+
 @row.close("arccosine")  # Cut off at 1.
 def _(R):
     a, sine, _ = parts(R)

@@ -4,7 +4,7 @@ import numpy as np
 
 from labkit.judge import Row, Scalar
 
-from .jacobians import OrNaN, near_singular
+from .jacobians import OrNaN, near_singular, of_another_size
 
 # Rank 5: row 6 is the sum of two. Rounding makes the determinant of J J^T, and the
 # product of its eigenvalues, a bit less than 0 (with four ways to compute it).
@@ -23,7 +23,7 @@ class Number(OrNaN, Scalar):
     """A number, or NaN."""
 
 
-row = Row(Number(), tolerance=1e-6)
+row = Row(Number(), tolerance=1e-6, held_out=[of_another_size()])
 
 
 @row.inputs

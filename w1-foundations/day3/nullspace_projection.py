@@ -70,12 +70,15 @@ def _(J, dq):
       the correct result over its norm
     one-direction-only: only the last right singular vector is used; if J is singular,
       more motions do not move the hand => dq along that vector
+    first-direction-kept: the part along the first right singular vector, which moves
+      the hand most, is not removed
     position-only: only the three v rows of J are used, so the hand rotates => the
       projection of three rows
     """
     felt = pinv(J) @ (J @ dq)
     left = dq - felt
-    last = np.linalg.svd(J)[2][-1]
+    directions = np.linalg.svd(J)[2]
+    first, last = directions[0], directions[-1]
     return {
         "transpose-for-pseudo-inverse": dq - J.T @ (J @ dq),
         "felt-part": felt,
@@ -84,6 +87,7 @@ def _(J, dq):
         "nothing-left": np.zeros(7),
         "normalised": left / np.linalg.norm(left),
         "one-direction-only": (last @ dq) * last,
+        "first-direction-kept": left + (first @ dq) * first,
         "position-only": dq - pinv(J[3:]) @ (J[3:] @ dq),
     }
 

@@ -92,6 +92,8 @@ def _(T, T_goal):
       the error with R^T (p_goal - p)
     goal-position-for-translation: the translation is the position of the goal; it
       should be the vector from the hand to the goal => the error with p_goal
+    translation-sign: the translation leads from the goal to the hand; it should lead
+      from the hand to the goal => the error with p - p_goal
     screw-for-translation: the translation is p_goal - R p, the translation of T_goal
       T^-1; it should be p_goal - p
     """
@@ -100,6 +102,7 @@ def _(T, T_goal):
     translations = {
         "translation-in-the-hands-axes": (np.linalg.inv(T) @ T_goal)[:3, 3],
         "goal-position-for-translation": goal,
+        "translation-sign": T[:3, 3] - goal,
         "screw-for-translation": (T_goal @ np.linalg.inv(T))[:3, 3],
     }
     return {slug: np.append(turn, way) for slug, way in translations.items()}

@@ -125,6 +125,19 @@ def _(screws, q):
     return space_jacobian(screws, q).T
 
 
+@row.right  # The rotation and the translation so far, without an adjoint.
+def _(screws, q):
+    R, p = np.eye(3), np.zeros(3)
+    columns = []
+    for S, T in zip(screws, exp_screw(screws, q), strict=True):
+        omega = R @ S[:3]  # the present axis
+        v = R @ S[3:] + np.cross(p, omega)  # v of the present screw
+        columns.append(np.append(omega, v))
+        p = p + R @ T[:3, 3]  # the translation of the joints so far
+        R = R @ T[:3, :3]  # the rotation of the joints so far
+    return np.array(columns).T
+
+
 @row.close("rounded-somewhere")  # By central differences of the pose.
 def _(screws, q):
     J = np.zeros((6, 7))

@@ -65,7 +65,7 @@ def held(known, q=READY):
     masses=times((1.545 - 0.1) / 1.545 + 1.0, "doubled, except for the rotor's 0.1"),
     armature=times(1.645 / 1.545, "the rotor adds another 0.1"),
     metre=times((4 * 1.445 + 0.1) / 1.545, "four times, except for the rotor's 0.1"),
-    damping=same("M belongs to the acceleration, and damping to the velocity"),
+    damping=same("M multiplies the acceleration, and damping multiplies the velocity"),
     gravity=same("M contains the masses and not their weight"),
 )  # fmt: skip
 def mass(masses=1.0, armature=1.0, metre=1.0, damping=1.0, gravity=1.0):
@@ -80,7 +80,7 @@ def mass(masses=1.0, armature=1.0, metre=1.0, damping=1.0, gravity=1.0):
     masses=times(2.0, "a difference of two mass matrices, linear in the masses"),
     metre=times(4.0, "an inertia has the unit kg m²"),
     armature=same("both arms have the same rotors"),
-    seed=between(0.8, 1.25, "100 other configurations, of which the maximum is taken", to=48),
+    seed=between(0.8, 1.25, "the maximum is taken over 100 other configurations", to=48),
 )  # fmt: skip
 def wrong_sign(masses=1.0, metre=1.0, armature=1.0, seed=LAB.SEED):
     """Return the worst entry of 100 configurations."""
@@ -166,8 +166,8 @@ def not_skew(speed=1.0, metre=1.0, masses=1.0, armature=1.0, difference=1e-5):
 
 @numbers.add(
     "error of the next velocity with M alone", "{:.3f} rad/s",
-    step=times(4.0, "the change of velocity in a step is of order h, and its damping of order h²",
-               within=0.1),
+    step=times(4.0, "the change of velocity in a step is of order h, and the effect of "
+               "damping on this change is of order h²", within=0.1),
     damping=between(1.8, 2.4, "M alone omits h D"),
 )  # fmt: skip
 def with_M_alone(step=0.002, damping=1.0):
@@ -191,7 +191,7 @@ def displacement(missing, seconds, gravity=1.0, damping=1.0, rate=LAB.RATE, step
 @numbers.add(
     "displacement of the hand with 99 % of gravity_torque in 2 s", "{:.0f} mm",
     missing=between(1.8, 2.3, "the missing torque is twice as large"),
-    seconds=between(2.0, 5.0, "the hand still accelerates", to=4.0),
+    seconds=between(2.0, 5.0, "the hand is still accelerating", to=4.0),
     gravity=between(1.8, 2.3, "the missing torque is 1 % of twice the weight"),
     damping=between(0.5, 0.8, "damping slows the hand down"),
     rate=times(1.0, "the motion is so slow that 20 ms of constant torque do not matter"),

@@ -78,6 +78,21 @@ def _(M, bias, damping, qd, tau):
     return forward_dynamics(M, bias, damping, qd, tau) if qd.any() else np.zeros(7)
 
 
+@row.wrong
+def half_solved(M, bias, damping, qd, tau):
+    """only the first of the two triangular systems is solved; M is L L^T, so solve with
+    L and then with L^T => the solution of L y = tau - bias - damping qd"""
+    return solve(np.linalg.cholesky(M), tau - bias - damping * qd)
+
+
+@row.wrong
+def one_factor_twice(M, bias, damping, qd, tau):
+    """the second triangular system also uses L; M is L L^T, so the second one needs L^T
+    => the solution with L twice"""
+    L = np.linalg.cholesky(M)
+    return solve(L, solve(L, tau - bias - damping * qd))
+
+
 row.at_least_0(damping="damping removes energy")
 
 

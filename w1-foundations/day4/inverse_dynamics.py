@@ -147,6 +147,24 @@ def _(J, G, qd, qdd, g):
     return walked(J, G, qd, qdd, g, others)
 
 
+@row.right  # With vectors of three, without ad.
+def _(J, G, qd, qdd, g):
+    w, v, dw, dv = np.zeros(3), np.zeros(3), np.zeros(3), -g
+    wrenches = []
+    for S, Gi, x, a in zip(J.T, G, qd, qdd, strict=True):
+        z, o = S[:3], S[3:]
+        w = w + z * x  # angular velocity of the link
+        v = v + o * x  # velocity of the link's point at the origin
+        dw = dw + z * a + np.cross(w, z) * x  # angular acceleration
+        dv = dv + o * a + (np.cross(v, z) + np.cross(w, o)) * x  # its linear half
+        h = Gi @ np.append(w, v)  # momentum of the link
+        moment = np.cross(w, h[:3]) + np.cross(v, h[3:])  # rate of the angular momentum
+        force = np.cross(w, h[3:])  # rate of the linear momentum
+        wrenches.append(Gi @ np.append(dw, dv) + np.append(moment, force))
+    carried = np.cumsum(wrenches[::-1], axis=0)[::-1]  # wrenches of all later links
+    return np.einsum("ai,ia->i", J, carried)
+
+
 # In ad an identity cancels: what it adds to G A, it takes from the velocity product.
 row.reached_by("ad", "in `ad`, ", but=["identity-added"])
 row.of_argument("g", *OTHER_DIRECTION, *OTHER_GRAVITY)

@@ -114,6 +114,17 @@ def _(J, G, armature):
     return M
 
 
+@row.right  # Pair by pair, over the links that both joints move.
+def _(J, G, armature):
+    M = np.diag(armature)
+    for i in range(7):
+        for j in range(i, 7):
+            both = G[j:].sum(axis=0)  # inertia of the links that both joints move
+            M[i, j] = M[i, j] + J[:, i] @ both @ J[:, j]  # an entry of M
+            M[j, i] = M[i, j]  # M is symmetric
+    return M
+
+
 @row.close("float32")
 def _(J, G, armature):
     M = np.diag(armature).astype(np.float32)

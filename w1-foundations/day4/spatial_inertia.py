@@ -92,6 +92,19 @@ def _(m, c, I):
     return {slug: of_blocks(*four) for slug, four in made.items()}
 
 
+@row.right  # Without a skew-symmetric matrix of its own square.
+def _(m, c, I):
+    block = np.array([[0, -c[2], c[1]], [c[2], 0, -c[0]], [-c[1], c[0], 0]])  # [c]
+    about = I + m * (c @ c * np.eye(3) - np.outer(c, c))  # inertia about the origin
+    corner = m * block  # the upper right block
+    return np.vstack(
+        [
+            np.hstack([about, corner]),
+            np.hstack([corner.T, m * np.eye(3)]),
+        ]
+    )
+
+
 row.at_least_0(m="a mass")
 
 

@@ -53,16 +53,16 @@ def test_a_mass_matrix_with_a_wrong_sign_is_symmetric_and_positive_definite(arm,
     least = np.linalg.eigvalsh(M).min()
     off = np.abs(M - truth).max()
     assert f"wrong by {off:.3f} kg m²" in SENTENCES
-    assert f"its smallest eigenvalue is {least:.3f}" in SENTENCES
-    assert f"entry of all 100 M ({truth.max():.3f})" in SENTENCES
-    assert 5.0 < off / truth.max() < 6.0  # "over five times"
+    assert f"smallest eigenvalue of the wrong M is {least:.3f}" in SENTENCES
+    assert f"entry of all 100 correct matrices ({truth.max():.3f} kg m²)" in SENTENCES
+    assert 5.0 < off / truth.max() < 6.0  # "more than five times"
     least = {what: np.linalg.eigvalsh(one).min() for what, one in wrong.items()}
     caught = [what for what, value in least.items() if value < 0]
     assert caught == ["m [c] [c]^T omitted"]
     values = np.linalg.eigvalsh(wrong[caught[0]])
     assert (values.min(axis=1) < 0).all()
     assert "at each of the 100 configurations" in SENTENCES
-    assert f"no mass matrix has an eigenvalue of {least[caught[0]]:.3f}" in SENTENCES
+    assert f"with an eigenvalue of {least[caught[0]]:.3f} the kinetic" in SENTENCES
 
 
 @pytest.mark.kit
@@ -75,7 +75,6 @@ def test_the_form_finds_the_same_mistake_with_twelve_other_sets(arm, model):
         assert [k for k, v in found.items() if v.least < 0] == ["m [c] [c]^T omitted"]
         factors.append(found["m [c] with the wrong sign"].off / truth.max())
     assert 5.2 < min(factors) < max(factors) < 5.6
-    assert "the factor is 5.2 to 5.6" in SENTENCES
 
 
 def test_the_wrong_sign_is_an_arm_with_its_masses_at_minus_c(arm):
@@ -105,7 +104,7 @@ def test_at_q_zero_M_does_not_see_which_way_I_was_turned(arm):
         G = dynamics.spatial_inertia(m, c, np.einsum(own, R, inertia, R))
         return np.abs(lab.mass_matrix(now.J_space, G, arm.armature) - now.M).max()
 
-    says = "q = 0 M does not show in which direction the inertia I was rotated"
+    says = "at q = 0 both directions of the rotation of I give the same M"
     assert says in SENTENCES
     assert off(np.zeros(7), "nij,nj->ni", "nji,njk,nkl->nil") < 1e-12
     assert off(panda.READY_Q, "nij,nj->ni", "nji,njk,nkl->nil") > 1e-3
@@ -196,7 +195,7 @@ def test_the_inverse_of_M_fits_the_equation_less_well(arm, model):
         for i, qdd in enumerate((np.linalg.solve(M, tau), np.linalg.inv(M) @ tau)):
             left[i] += np.abs(M.astype(np.longdouble) @ qdd - tau).max()
     assert left[1] > 1.2 * left[0]  # measured 1.5
-    assert "fits the equation less well" in SENTENCES
+    assert "satisfies the equation less accurately" in SENTENCES
 
 
 def test_rk4_asks_four_times_a_step(model):
@@ -228,7 +227,6 @@ def test_from_most_starts_the_integrator_gains_energy_and_RK4_hardly_changes_it(
         exact = day4_mujoco.swing("RK4", 0.002, q)
         assert abs(exact) < 1e-5 * abs(gains[-1])
     assert sum(gain > 0 for gain in gains) > 8  # measured 11 of 12
-    assert "(over 100,000 times from twelve starts)" in SENTENCES
 
 
 def test_the_script_runs_as_a_person_runs_it(monkeypatch, capsys):

@@ -48,7 +48,8 @@ def bench(step=0.002, integrator=LAB.INTEGRATOR, gravity=1.0, damping=1.0, mass=
 
 @numbers.add(
     "joint 4 hangs low under PD control by", "{:.3f} mrad",
-    kp=between(0.45, 0.5, "half, and a little less, because the gravity torque changes with q"),
+    kp=between(0.45, 0.5, "a little less than half, because the gravity torque "
+                          "changes with q"),
     kd=same("the arm is at rest"),
     gravity=between(1.8, 2.2, "about twice, because the gravity torque changes with q"),
     wait=same("the arm is at rest"),
@@ -75,7 +76,7 @@ def decay(zeta, seconds, rate, step, omega, e0, gravity, law=None):
 
 @numbers.add(
     "zeta 1, after 0.3 s", "{:.3f} of e0",
-    rate=between(1.005, 1.03, "half the difference to the formula's 0.199"),
+    rate=between(1.005, 1.03, "half the difference from the formula's 0.199"),
     omega=between(0.05, 0.12, "(1 + 6) exp(-6) instead of (1 + 3) exp(-3)"),
     e0=same("the error dynamics are linear at any amplitude"),
     gravity=same("gravity is in the bias, and cancels"),
@@ -89,8 +90,10 @@ def decayed(rate=LAB.RATE, omega=10.0, e0=1.0, gravity=1.0, step=0.002):
 @numbers.add(
     "zeta 0.5: largest distance from the predicted curve", "{:.5f} of e0",
     rate=between(0.5, 0.6, "the torque is held for half the time"),
-    omega=between(1.8, 2.3, "the control period is twice the fraction of an oscillation"),
-    e0=times(1.0, "nearly linear; a held torque does not follow M"),
+    omega=between(1.8, 2.3, "the control period is twice as large a fraction of "
+                            "an oscillation period"),
+    e0=times(1.0, "the loop is nearly linear, but not exactly, because the held "
+                  "torque does not follow the change of M"),
     step=between(0.95, 1.05, "the motors hold their torque for the same time", to=0.001),
 )  # fmt: skip
 def off_curve(rate=LAB.RATE, omega=10.0, e0=1.0, step=0.002):
@@ -116,7 +119,7 @@ def follows(law, rate, reach, seconds, **how):
 
 @numbers.add(
     "gains outside M: distance from the predicted curve", "{:.3f} of e0",
-    rate=between(0.95, 1.02, "the held torque is a small part of the error"),
+    rate=between(0.95, 1.02, "the held torque causes only a small part of the error"),
     e0=between(0.8, 1.0, "M changes more in a larger motion, so this law is not linear"),
     omega=between(0.5, 2.0, "both gains grow, and the wrist stays overdamped"),
 )  # fmt: skip
@@ -130,14 +133,17 @@ def outside(rate=LAB.RATE, e0=1.0, omega=LAB.OMEGA):
 @numbers.add(
     "largest error of computed torque in step 4", "{:.2f} mrad",
     omega=between(0.45, 0.6, "the disturbance is the same, and kd is twice as large"),
-    rate=between(0.95, 1.1, "the held torque is the smaller part of the error"),
+    rate=between(0.95, 1.1, "the held torque causes the smaller part of the error"),
     step=between(0.5, 0.7, "the simulator's step causes the larger part", to=0.001),
     reach=between(1.8, 4.5, "twice the velocity and acceleration"),
     seconds=between(0.2, 0.6, "half the velocity, a quarter of the acceleration"),
-    damping=between(0.9, 1.0, "the model includes it; the step's M + hD remains"),
-    gravity=between(1.0, 1.15, "it cancels at the start of a period, and nearly so at its "
-                    "end"),
-    integrator=between(0.5, 0.8, "the step's error vanishes, the held torque's remains",
+    damping=between(0.9, 1.0, "the model includes the damping, but the "
+                              "simulator's step uses M + hD, and this difference "
+                              "remains"),
+    gravity=between(1.0, 1.15, "gravity cancels at the start of a period, and "
+                               "almost cancels at its end"),
+    integrator=between(0.5, 0.8, "the error from the simulator's step vanishes, "
+                                 "and the error from the held torque remains",
                        to="mjINT_RK4"),
 )  # fmt: skip
 def tracks(omega=LAB.OMEGA, rate=LAB.RATE, reach=1.0, seconds=2.0, damping=1.0,
@@ -175,7 +181,8 @@ def fed(rate=LAB.RATE, gravity=1.0):
 
 @numbers.add(
     "the same for the model file's servos", "{:.2f} mrad",
-    servo_kd=between(1.7, 1.9, "kd / kp times the velocity, which lasts less than 0.2 s"),
+    servo_kd=between(1.7, 1.9, "the lag approaches kd / kp times the velocity, "
+                               "but the velocity stays high for less than 0.2 s"),
     reach=times(2.0, "kd / kp times the velocity", within=0.1),
     seconds=times(0.5, "kd / kp times the velocity", within=0.1),
     step=times(1.0, "the lag does not depend on the step", to=0.001),
@@ -209,12 +216,13 @@ def under_load(omega=LAB.OMEGA, mass=1.0, wait=1.5, rate=LAB.RATE, damping=1.0):
 
 @numbers.add(
     "the loop is unstable from", "{:.0f} rad/s",
-    rate=between(0.51, 0.54, "about half, because omega T is limited; a little more, by "
-                 "the next row", to=125.0),
+    rate=between(0.51, 0.54, "about half, because omega T is limited; a little "
+                             "more than half, because there are more steps per "
+                             "period (next row)", to=125.0),
     step=between(1.0, 1.12, "omega T is 0.90 with 2 steps per period, 0.94 with 4",
                  to=0.001),
     damping=times(1.0, "the implicit step's hD is a thousandth of M", within=0.01),
-    start=same("for such small errors it is linear"),
+    start=same("for such small errors the loop is linear"),
 )  # fmt: skip
 def breaks(rate=LAB.RATE, step=0.002, damping=1.0, start=1.0):
     """Return the omega from which a tiny error grows."""

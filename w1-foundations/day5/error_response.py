@@ -120,9 +120,9 @@ def _(t, omega, zeta):
     both-halves: for zeta above 1 both exponentials have the weight 1/2; the error
       should start at rest, and this curve does not
     weights-swapped: for zeta above 1 the weights of the two exponentials are swapped
-    weights-summed: for zeta above 1 the weighted exponentials are added, and the sum is
-      divided by the sum of the rates. The error should start at rest, and this curve
-      does not
+    weights-summed: for zeta above 1 the curve does not start at rest. The weighted
+      exponentials are added and divided by the sum of their rates, which is also what
+      the inverse factor of sinh gives
     critical-above-one: for zeta above 1 the curve for zeta = 1 is returned; more
       damping makes the decay slower
     """

@@ -53,6 +53,8 @@ def _(tau, limits):
 def _(tau, limits):
     """switched-off: a torque beyond its limit becomes 0; the motor can still give its
       limit
+    the-larger-one: the larger one of the torque and its limit is returned; return the
+      smaller one, with the sign of the torque
     always-full: every torque becomes plus or minus its limit; a torque within the
       limits should not change
     one-over-stops-all: one torque beyond its limit makes all seven torques 0; the other
@@ -69,6 +71,7 @@ def _(tau, limits):
     right = np.clip(tau, -limits, limits)
     over = np.abs(tau) > limits
     return {
+        "the-larger-one": np.copysign(np.maximum(np.abs(tau), limits), tau),
         "switched-off": np.where(over, 0.0, tau),
         "always-full": np.sign(tau) * limits,
         "one-over-stops-all": 0.0 * tau if over.any() else tau,

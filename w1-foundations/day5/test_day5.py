@@ -88,7 +88,7 @@ def test_gains_outside_m_track_and_do_not_decay_as_designed(bench):
         assert f"{apart:.{len(differ) - 2}f}" == differ
         for number in (mrad, misses, differ):
             assert number in ERRATA
-    assert "tracks within 0.26 mrad and is stable" in GUIDE
+    assert "is stable and tracks the reference within 0.26 mrad" in GUIDE
     assert "by 0.169 of e0, whereas the curves of computed torque differ by" in GUIDE
     assert "differ by 0.0024" in GUIDE
 
@@ -106,7 +106,7 @@ def test_gains_outside_m_overdamp_the_light_joints(armature, creeps):
     ahead, behind = ((e[t.searchsorted(x), wrist] / lab.error_response(x, 20.0, 1.0))
                      for x in (0.02, 0.3))  # fmt: skip
     assert (ahead < 0.95).all() == (behind > 2.0).all() == creeps
-    assert "a damping ratio near 3, so they start fast and settle slowly" in GUIDE
+    assert "a damping ratio near 3, so they start fast and settle (reach" in GUIDE
 
 
 def test_torques_taken_for_angles_switch_the_motors_from_limit_to_limit():
@@ -134,9 +134,10 @@ def test_the_error_curves_at_500_hz(bench):
     for zeta in (0.5, 1.0, 2.0):
         t, e = decay(bench, lab.equal_springs(10.0, zeta), 1.0)
         off.append(np.abs(e.T - lab.error_response(t, 10.0, zeta)).max())
-    assert "fit to {:.4f}, {:.4f} and {:.4f} of e0".format(*off) in GUIDE
-    t = np.linspace(0, 1, 10_001)
-    assert f"predicted as {-lab.error_response(t, 10, 0.5).min():.3f} of e0" in GUIDE
+    assert (
+        "500 Hz the largest differences are {:.4f}, {:.4f} and {:.4f} of".format(*off)
+        in GUIDE
+    )
     assert "0.7358. Without the second solution the value is 0.3679, off by 0.37" in (
         GUIDE
     )
@@ -152,7 +153,7 @@ def test_the_files_own_servos_sag_by_gravity_over_stiffness(bench):
     end = simulate.run(servos, data, stand, 4.0, rate=100).q[-1]
     g = bench[1].at(end).gravity_torque[3]
     assert_same((lab.READY_Q - end)[3], g / 3500.0, 1e-10)
-    assert f"{1e3 * (lab.READY_Q - end)[3]:.3f} mrad low" in GUIDE
+    assert f"{1e3 * (lab.READY_Q - end)[3]:.3f} mrad below" in GUIDE
 
 
 def test_ten_times_the_stiffness_sags_a_tenth(bench):
@@ -261,7 +262,7 @@ def test_the_rate_reduces_the_error_and_a_shorter_step_does_not():
 
 
 def test_the_feedforward_is_accurate_if_the_arm_hangs():
-    assert f"error is {unsprung(250.0, 0.002, -1)[1]:.1f} mrad" in GUIDE
+    assert unsprung(250.0, 0.002, -1)[1] < 6.0
 
 
 @pytest.mark.kit
@@ -281,8 +282,9 @@ def test_the_held_torque_is_the_larger_part_of_the_curves_error(bench):
             law = lab.equal_springs(10.0, zeta)
             t, e = decay((model, bench[1]), law, 1.0, 250.0)
             off.append(np.abs(e.T - lab.error_response(t, 10.0, zeta)).max())
-    said = "{:.4f}, {:.4f} and {:.4f} of e0 instead of {:.4f}, {:.4f} and {:.4f}"
-    assert said.format(*off) in GUIDE
+    said = "the largest differences are {:.4f}, {:.4f} and {:.4f} of e0."
+    assert f"instead of 2 ms, {said.format(*off[:3])}" in GUIDE
+    assert "by at most {:.4f}, {:.4f} and {:.4f} of e0.".format(*off[3:]) in GUIDE
 
 
 def test_the_fixed_point_iteration_needs_a_gravity_torque_that_changes_slowly(bench):
@@ -301,7 +303,7 @@ def test_the_feedforward_ends_with_joint4_at_its_stop(bench):
     log = lab.run(*bench, lab.feedforward, raised_cosine, 2.0)
     stop = bench[0].jnt_range[3, 1]
     assert log.q[:, 3].max() > stop
-    assert "with joint4 at its stop" in GUIDE
+    assert "with joint 4 at its stop" in GUIDE
 
 
 def test_servos_lag_by_kd_over_kp_times_the_speed():
@@ -315,7 +317,6 @@ def test_servos_lag_by_kd_over_kp_times_the_speed():
         follow = lambda t, q, qd: raised_cosine(t)[0]  # noqa: E731
         error = swing_error(simulate.run(servos, start, follow, 2.0))
         assert error == pytest.approx(mrad, rel=0.04)
-    assert f"With half the servos' $k_d$ the error is {error:.0f} mrad" in GUIDE
 
 
 def test_a_model_without_armature_is_off_by_a_quarter_of_a_radian(bench):
@@ -326,19 +327,19 @@ def test_a_model_without_armature_is_off_by_a_quarter_of_a_radian(bench):
 def test_soft_springs_show_what_is_missing(bench):
     law = lambda *args: without("damping")(*args, omega=5.0)  # noqa: E731
     assert swing(bench, law) == pytest.approx(186, abs=1.0)
-    assert r"at $\omega$ = 5 the row without damping is 186 mrad" in GUIDE
+    assert r"at $\omega$ = 5 the error without the damping term is 186 mrad" in GUIDE
 
 
 @pytest.mark.kit
 def test_rates_gains_and_integrators_of_the_guides_table(bench):
     tracked = [swing(bench, lab.equal_springs(), r) for r in (500, 250, 100, 50)]
-    said = ", ".join(f"{mrad:.2f}" for mrad in tracked)
-    assert f"500, 250, 100, 50 Hz track within {said} mrad" in GUIDE
+    said = "{:.2f}, {:.2f}, {:.2f} and {:.2f} mrad".format(*tracked)
+    assert f"500, 250, 100 and 50 Hz the largest error is {said}" in GUIDE
     tracked = [
         swing(bench, lab.equal_springs(w), lab.RATE) for w in (5, 10, 20, 40, 100)
     ]
-    said = ", ".join(f"{mrad:.2f}" for mrad in tracked)
-    assert f"5, 10, 20, 40, 100 track within {said} mrad" in GUIDE
+    said = "{:.2f}, {:.2f}, {:.2f}, {:.2f} and {:.2f} mrad".format(*tracked)
+    assert f"5, 10, 20, 40 and 100 rad/s the largest error is {said}" in GUIDE
     for rate, missed in ((250, False), (100, True)):
         curves = {z: decay(bench, lab.equal_springs(10.0, z), 1.0, rate)
                   for z in (0.5, 1.0, 2.0)}  # fmt: skip
@@ -359,7 +360,7 @@ def test_rates_gains_and_integrators_of_the_guides_table(bench):
         assert error == pytest.approx(mrad, abs=5e-3)
         assert re.search(rf"`mjINT_{name}` (gives the same )?{mrad}", GUIDE)
     breaks = lab.day5_mujoco.breaking(model, lab.equal_springs, 500.0, START)
-    assert f"a torque every 2 ms breaks at {breaks:.0f}, close to the rate" in GUIDE
+    assert f"2 ms the loop becomes unstable at {breaks:.0f} rad/s, close" in GUIDE
 
 
 @pytest.mark.kit
@@ -378,8 +379,9 @@ def test_a_servo_as_a_motor_is_let_down_by_the_integrator_alone(bench):
         data = simulate.start(servos, lab.READY_Q)
         error = swing_error(simulate.run(servos, data, inverted, 2.0, rate=500))
         assert error == pytest.approx(mrad, rel=0.02)
-    assert "0.9 kg m² at joints 1 and 2, 0.7 at 3 and 4, 0.4 at 5 to 7" in GUIDE
+    assert "0.9 kg m² at joints 1 and 2, 0.7 kg m² at joints 3 and 4" in GUIDE
+    assert "and 0.4 kg m² at joints 5 to 7" in GUIDE
     added = [0.9, 0.9, 0.7, 0.7, 0.4, 0.4, 0.4]
     assert_same(servos.opt.timestep * kd, added, 1e-12)
     assert "the arm is 30 mrad off" in GUIDE
-    assert "computed torque is back at 0.23 mrad" in GUIDE
+    assert "computed torque is 0.23 mrad again" in GUIDE

@@ -72,7 +72,7 @@ def test_without_damping_in_the_joints_it_breaks_where_it_was_predicted(bench):
         lab.max_stable_omega(0.002), abs=0.15
     )
     assert breaking(bench) > lab.max_stable_omega(0.002) + 0.2
-    assert "Without damping it becomes unstable at the predicted 414.2" in GUIDE
+    assert "damping the loop becomes unstable at the predicted 414.2" in GUIDE
 
 
 @pytest.mark.kit
@@ -104,7 +104,7 @@ def test_the_integral_has_rouths_limit_and_winds_up(bench):
 
     kp, kd = lab.pd_gains(20.0, 1.0)
     assert kp * kd == 16_000
-    assert "16,000 for a true model" in GUIDE
+    assert "If the model is exact, the limit is 16,000" in GUIDE
     third = np.roots([1.0, kd, kp, kp * kd])  # at the limit it swings for ever
     assert_same(np.sort(np.abs(third.imag)), [0.0, 20.0, 20.0], 1e-9)
     assert np.abs(third.real).min() < 1e-9
@@ -119,8 +119,9 @@ def test_the_integral_has_rouths_limit_and_winds_up(bench):
     assert left(20_000) > 2.0
     heavy.opt.timestep = 0.001  # sampled four times as fast, it is less patient
     assert left(13_500, heavy, 1000.0) > 1.1
-    assert "slowly with KI = 13,500, and its oscillation grows with 14,000" in GUIDE
-    assert "it settles with 16,500, and the oscillation grows with 20,000" in GUIDE
+    assert "settles slowly if KI = 13,500, and it oscillates with a growing" in GUIDE
+    assert "growing amplitude if KI = 14,000" in GUIDE
+    assert "settles if KI = 16,500, and the oscillation grows if KI = 20,000" in GUIDE
     goal = lab.READY_Q + 2.0 * np.eye(7)[0]
     for clamp, over in ((0.02, 0.14), (1e9, 1.03)):
         law = lab.with_integral(4000.0, clamp, 0.002)
@@ -150,4 +151,4 @@ def test_the_energy_of_springs_and_gravity_falls_while_the_arm_moves(bench, kd):
     V = (np.array(moving) + lab.KP * np.sum(e * e, axis=1)) / 2
     falls = (np.diff(V) < 0).mean()
     assert (falls == 1.0) if kd else (V[-1] > 0.8 * V[0])
-    assert "it falls whenever the arm moves" in GUIDE
+    assert "so the energy $V$ falls whenever the arm moves" in GUIDE

@@ -105,6 +105,20 @@ def _(J_space, qd, p):
     return {"p-sign": bias(J_space, qd, -p), **found}
 
 
+@row.right  # With vectors of three, without ad.
+def _(J_space, qd, p):
+    w, v, dw, dv = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3)
+    for S, speed in zip(J_space.T, qd):
+        z, o = S[:3] * speed, S[3:] * speed
+        dw = dw + np.cross(w, z)  # angular acceleration
+        dv = dv + np.cross(v, z) + np.cross(w, o)  # sum of the linear halves of ad(V) S
+        w = w + z  # angular velocity of the link
+        v = v + o  # velocity of the link's point at the origin
+    at_p = v + np.cross(w, p)  # velocity of p
+    linear = dv + np.cross(dw, p) + np.cross(w, at_p)  # linear acceleration of p
+    return np.append(dw, linear)
+
+
 @row.right  # Every pair of joints, as Christoffel did.
 def _(J_space, qd, p):
     A = np.zeros(6)

@@ -76,7 +76,7 @@ def apparent(masses=1.0, armature=1.0, metre=1.0, gravity=1.0, damping=1.0):
     "10 N along x move the hand by", "{:.3f} mm",
     push=times(2.0, "x = F / K", within=0.001),
     k=times(0.5, "x = F / K", within=0.001),
-    masses=times(1.0, "F / K contains no mass; a heavy arm is not quite at rest",
+    masses=times(1.0, "F / K contains no mass; a heavier arm is not yet quite at rest",
                  within=0.001),
     gravity=same("gravity is compensated"),
     elbow=same("the elbow's torque is projected, so it does not move the hand"),
@@ -103,7 +103,8 @@ def rests(model, known, law, wrench, wait):
 
 @numbers.add(
     "overshoot of the critically damped hand, released along e", "{:.1f} %",
-    k=between(0.95, 1.05, "the ratios of the modes' rates stay; all rates grow by √2"),
+    k=between(0.95, 1.05, "the ratios of the modes' rates stay the same; all rates grow "
+              "by the factor √2"),
     size=between(0.9, 1.1, "nearly linear"),
     masses=between(1.1, 1.2, "the rotors contribute a smaller fraction of Lambda, so "
                    "the modes change"),
@@ -139,9 +140,10 @@ def pressed(k, force, sink, rate, solref, friction):
 @numbers.add(
     "the soft arm presses with", "{:.1f} N",
     force=times(2.0, "depth times stiffness", within=0.005),
-    k=same("twice the stiffness is commanded to half the depth"),
+    k=same("with twice the stiffness the lab commands half the depth"),
     sink=same("the arm is at rest"),
-    solref=same("the tip sinks in by a thousandth of the spring's length", to=0.01),
+    solref=same("the tip sinks in by less than a thousandth of the spring's extension",
+                to=0.01),
     rate=same("the arm is at rest", to=250.0),
     friction=times(1.0, "friction acts sideways; the tip slides a little", to=0.0),
 )  # fmt: skip
@@ -168,7 +170,8 @@ def peak(sink=LAB.SINK, solref=0.02, force=LAB.PRESS, k=1.0):
     "the stiff arm presses with", "{:.0f} N",
     gains=times(1.0, "two motors are at their limits already", within=0.01),
     limits=between(1.3, 2.3, "two motors are at their limits"),
-    friction=between(0.45, 0.6, "without it the tip slides until it rests", to=0.0),
+    friction=between(0.45, 0.6, "without friction the tip slides until it comes to rest",
+                     to=0.0),
     solref=times(1.0, "the motors determine the force, not the contact", to=0.01),
 )  # fmt: skip
 def stiff(gains=1.0, limits=1.0, friction=1.0, solref=0.02):
@@ -196,8 +199,8 @@ def circle(project, omega, radius, turn, elbow, step, damping):
 @numbers.add(
     "largest error on the circle with today's projector", "{:.3f} mm",
     omega=between(0.4, 0.6, "the disturbance is the same, and the damping doubles"),
-    radius=between(0.2, 0.6, "half the velocity and the acceleration (0.24 m "
-                   "is outside the workspace)", to=0.06),
+    radius=between(0.2, 0.6, "half the velocity and half the acceleration (a radius "
+                   "of 0.24 m leaves the workspace)", to=0.06),
     turn=between(0.1, 0.4, "half the velocity, a quarter of the acceleration"),
     elbow=between(0.9, 1.1, "the elbow's torque does not accelerate the hand"),
     step=between(0.4, 0.8, "the simulator's step causes a large part", to=0.001),

@@ -35,6 +35,8 @@ def _(J, wrench, bias, damping, qd, tau_null):
       => the correct formula with -bias
     damping-sign: the damping torque has the wrong sign; damping opposes the motion, so
       the motors must supply damping qd => the correct formula with -damping qd
+    bias-six-times: bias is added once for each of the six rows of J; add it once per
+      joint => the correct formula with 6 bias
     pinv-for-transpose: pinv(J) maps the wrench to the joints; J^T maps wrenches to
       torques, and the pseudo-inverse maps velocities => the correct formula with
       pinv(J)
@@ -44,6 +46,7 @@ def _(J, wrench, bias, damping, qd, tau_null):
     rest = bias + rub + tau_null
     return {
         "damping-summed": push + bias + damping @ qd + tau_null,
+        "bias-six-times": push + 6 * bias + rub + tau_null,
         "bias-sign": push - bias + rub + tau_null,
         "damping-sign": push + bias - rub + tau_null,
         "pinv-for-transpose": np.linalg.pinv(J) @ wrench + rest,

@@ -54,6 +54,8 @@ def _(J, M, Lambda, tau):
       accelerations. For torques M^-1 is on the right => tau - M^-1 J^T Lambda J tau
     the-other-part: the result is the part of tau that accelerates the hand; subtract it
       from tau => tau minus the correct formula
+    position-only: only the linear acceleration of the hand is removed, so the hand
+      rotates => the correct formula with the linear half alone
     pinv-for-transpose: pinv(J) maps the wrench to the joints; J^T maps wrenches to
       torques => the correct formula with pinv(J)
     pinv-of-transpose: the projector I - J^T pinv(J^T) acts on joint velocities, not on
@@ -71,6 +73,7 @@ def _(J, M, Lambda, tau):
         "M-for-identity": M @ tau - felt,
         "projector-transposed": tau - solve(M, J.T @ Lambda @ J @ tau),
         "the-other-part": felt,
+        "position-only": tau - J[3:].T @ (Lambda[3:, 3:] @ a[3:]),
         "pinv-for-transpose": tau - pinv(J) @ Lambda @ a,
         "pinv-of-transpose": tau - J.T @ pinv(J.T) @ tau,
     }

@@ -38,6 +38,8 @@ def _(J, Lambda, bias, bias_acc, acc):
       bias_acc) + bias
     acc-sign: acc is subtracted from bias_acc, so the hand accelerates in the opposite
       direction => the correct formula with bias_acc - acc
+    force-alone: only the force acts, without the moment: J^T has six columns, and the
+      first three belong to the moment => the correct formula without the moment
     halves-swapped: the accelerations are in the order (linear; angular); the angular
       part comes first => the correct formula with its halves swapped
     bias-at-the-hand: bias is subtracted inside the brackets, as if it were a wrench at
@@ -50,6 +52,7 @@ def _(J, Lambda, bias, bias_acc, acc):
         "pinv-for-transpose": pinv(J) @ Lambda @ own + bias,
         "site-bias-not-weighed": J.T @ (Lambda @ acc - bias_acc) + bias,
         "acc-sign": bias - push,
+        "force-alone": J[3:].T @ (Lambda @ own)[3:] + bias,
         "halves-swapped": J.T @ Lambda @ own[SWAP] + bias,
         "bias-at-the-hand": push + J.T @ J @ bias,
     }

@@ -55,9 +55,9 @@ def test_the_inertias_of_mistakes_at_ready(motors):
     assert off(pinv(J).T @ M @ pinv(J)) == pytest.approx(0.0067, abs=1e-4)
     mass = panda.load("panda_nohand").body_mass.sum()
     moving = motors[1].masses.sum()
-    assert f"{mass:.1f} kg, of which {moving:.1f} move" in SENTENCES
+    assert f"{mass:.1f} kg, of which {moving:.1f} kg move" in SENTENCES
     light = np.diag(lab.task_inertia(J, M - 0.1 * np.eye(7)))[3:]
-    said = "without it they would be {:.1f}, {:.1f} and {:.1f} kg".format(*light)
+    said = "Without it they would be {:.1f}, {:.1f} and {:.1f} kg".format(*light)
     assert said in SENTENCES
     free = inv(right)[:, 3]  # how a hand that nobody holds accelerates for 1 N
     assert free[5] / free[3] == pytest.approx(1 / 3, abs=0.02)
@@ -119,7 +119,7 @@ def test_modes_that_do_not_swing_overshoot_along_a_mixed_direction(motors):
 )
 def test_neither_stiffness_nor_size_makes_the_overshoot(motors, turned):
     assert 7.55 < overshoot(motors, MIXED, **turned) < 7.95
-    assert "give between 7.6 and 7.9" in SENTENCES
+    assert "the overshoot is between 7.6 and 7.9" in SENTENCES
 
 
 def test_the_springs_torque_does_not_shrink_where_lambda_grows(motors):
@@ -155,7 +155,7 @@ def test_near_a_singularity_lambda_and_d_grow_and_the_springs_torque_does_not(mo
     assert max(stretched[2] / ready[2], stretched[3] / ready[3]) < 2.0
     assert f"the largest entry of $\\Lambda$ is {terms(0.2)[0]:,.0f}" in SENTENCES
     assert "q = 0 itself is a singularity" in SENTENCES
-    assert "at 0.198 you pass another singularity" in SENTENCES
+    assert "another singularity at 0.198 of the ready configuration" in SENTENCES
     for share, least in ((0.0, 1e-12), (0.198218344, 1e-8)):
         J = motors[1].at(share * lab.READY_Q).J_site
         assert np.linalg.svd(J, compute_uv=False)[-1] < least
@@ -184,7 +184,9 @@ MISTAKES = {
     "`bias` omitted": {"osc_torque": "bias-forgotten"},
     "Lambda omitted": {"osc_torque": "Lambda-left-out"},
     "posture torque not projected": {"nullspace_torque": "not-projected"},
-    "projected as the public page has it": {"nullspace_torque": "M-for-identity"},
+    "projected with the formula of the public course": {
+        "nullspace_torque": "M-for-identity"
+    },
     "projected with I - J^+ J": {"nullspace_torque": "kinematic-projector"},
     "projector transposed": {"nullspace_torque": "projector-transposed"},
 }
@@ -260,7 +262,7 @@ def test_the_public_pages_null_space_term_reaches_the_hand(motors):
     row = next(r for r in ERRATA.splitlines() if r"\tau_0" in r)
     for words in ("20.1 mm and 170 mrad", "0.13 mm and 0.2 mrad"):
         assert words in row  # the numbers are those of the guide's table
-    assert ROWS["projected as the public page has it"] == ["20.1", "170"]
+    assert ROWS["projected with the formula of the public course"] == ["20.1", "170"]
 
 
 def at_rest(motors, push=None, seconds=3.0):
@@ -319,7 +321,7 @@ def test_hardly_any_posture_torque_is_left_to_project_and_omega_divides_it(motor
     p, (tau, left, _) = watched(motors, lab.nullspace_torque)
     wrong, (_, theirs, acc) = watched(motors, lab.kinematic)
     assert left == pytest.approx(theirs, abs=0.005)
-    assert f"leave {left:.2f} N m of the {tau:.1f} N m of the posture" in SENTENCES
+    assert f"leave {left:.2f} N m of its {tau:.1f} N m." in SENTENCES
     assert f"accelerates the hand by {acc:.3f} m/s²" in SENTENCES
     apart = np.linalg.norm(p - wrong, axis=1).max()
     assert f"differ by {1e3 * apart:.3f} mm" in SENTENCES
@@ -376,7 +378,7 @@ def test_a_push_is_predicted_in_other_configurations_as_well(motors):
         run = simulate.run(model, start, law, 6.0, rate=lab.RATE, push=push)
         ends = (arm.at(x).T_world_ee for x in (q, run.q[-1]))
         assert_same(jacobian.pose_error(*ends), lab.PUSH / lab.K, 1e-7)
-    assert "from which no joint reaches a limit" in SENTENCES
+    assert "as long as no joint reaches a limit" in SENTENCES
 
 
 def test_every_mode_has_ratio_1_in_other_configurations_and_a_diagonal_one_not(motors):
@@ -395,7 +397,7 @@ def test_the_direction_e_was_chosen_for_its_effect(motors):
     counts = [sum(overshoot(motors, e, D=D) > 0.1 for e in some)
               for D in (lab.critical_damping, diagonal_damping)]  # fmt: skip
     assert counts == [1, 3]
-    assert "one with the critical D and along three with the diagonal D" in SENTENCES
+    assert "with the critical D, and three do with the diagonal D" in SENTENCES
 
 
 SIGNS = {
@@ -421,7 +423,7 @@ def test_a_sign_makes_the_soft_hand_fly_away_and_a_pseudo_inverse_does_not(
         theirs = lambda J, L, b, drift, acc: pinv(J) @ L @ (acc - drift) + b  # noqa: E731
         # A hundred times what it may be; soon after, the motion is chaotic.
         assert circled(motors, seconds=0.5, osc_torque=theirs)[0] > 100.0
-    assert "`V_err` or `acc`; on the circle also $J^+$ for $J^T$" in SENTENCES
+    assert "`V_err` or `acc`; on the circle also $J^+$ instead of $J^T$" in SENTENCES
 
 
 @pytest.mark.kit
@@ -504,4 +506,4 @@ def test_joint_2_does_the_work_along_x_and_joints_1_3_5_7_along_y(motors):
         work = qdd * (now.M @ qdd)
         assert work[joints].sum() / work.sum() == pytest.approx(1.0, abs=0.02)
     assert "joint2 rotates if the hand moves along x" in SENTENCES
-    assert "along y, joints 1, 3, 5 and 7 share the work" in SENTENCES
+    assert "along y, joints 1, 3, 5 and 7 share the motion" in SENTENCES

@@ -49,7 +49,7 @@ def test_the_soft_arm_presses_with_20_n_and_the_stiff_one_with_217():
     # 217.2 N on 4.0.0 and 218.3 on 3.3.0: it creeps by 1 to 2 N in a second.
     assert stiff[-1] == pytest.approx(217.7, abs=1.2)
     assert 0.9 < stiff[999] - stiff[1499] < 2.0
-    for words in ("presses with 217 N", "218 N after three seconds"):
+    for words in ("presses with 217 N", "the force is 218 N after three seconds"):
         assert words in SENTENCES
 
 
@@ -74,15 +74,17 @@ def test_the_gains_alone_would_press_with_500_n_and_without_limits_they_do():
         f"{k:,.0f} N/m, and this stiffness times 50 mm is {0.05 * k:.0f} N" in SENTENCES
     )
     pressed = k * (0.05 + sag)
-    assert f"{1e3 * sag:.0f} mm, so they should press with {pressed:.0f} N" in SENTENCES
+    assert f"sag by {1e3 * sag:.0f} mm under its own weight" in SENTENCES
+    depth = f"{1e3 * (0.05 + sag):.0f} mm"
+    assert f"{depth}, and the force should be {pressed:.0f} N" in SENTENCES
     unlimited = lambda model: model.actuator_forcelimited.fill(0)  # noqa: E731
     free, shallow = (press_stiff(unlimited, deep)[-1] for deep in (0.05, 0.005))
     assert [free] == told("With no limits it is # N")
     assert abs(1 - shallow / (k * (0.005 + sag))) < 0.0105
     assert 1 - free / (k * (0.05 + sag)) == pytest.approx(0.03, abs=0.008)
-    assert "is within 1 percent, and at 50 mm its error is 3 percent" in SENTENCES
+    assert "to within 1 percent, and at 50 mm its error is 3 percent" in SENTENCES
     lever = -now.J_site[5, 1]
-    assert f"is {lever:.2f} m in front of its axis" in SENTENCES
+    assert f"is {lever:.2f} m in front of the axis of joint2" in SENTENCES
     assert f"506 N at 0.44 m requires {506 * 0.44:.0f} N m" in SENTENCES
 
 
@@ -105,7 +107,7 @@ def test_217_n_follows_the_limits_and_neither_gains_nor_depth(edit, deep, words)
 def test_it_creeps_on_its_friction_and_rests_at_once_without():
     felt = press_stiff(lambda model: model.geom_condim.fill(1))
     assert abs(felt[999] - felt[1499]) < 1e-3
-    assert [felt[-1]] == told("it slides until it rests, at # N")
+    assert [felt[-1]] == told("comes to rest, and the force is then # N")
 
 
 def test_two_motors_at_their_limits_predict_217_n():
@@ -128,7 +130,7 @@ def test_two_motors_at_their_limits_predict_217_n():
 
     assert predicted(data.qpos[:7]) == pytest.approx(force, abs=0.1)
     touching = predicted(lab.day6_mujoco.above_table(model, 0.0))
-    assert [touching, force] == told("first contact they predict # N.* to rest # N")
+    assert [touching, force] == told("contact they predict # N.* three seconds # N")
 
 
 # --- what else the guide says of pressing ---
@@ -140,7 +142,7 @@ def test_a_peak_is_seen_only_by_who_looks_at_every_step():
         felt = press_soft(rate)
         steps = round(500.0 / rate)
         seen += [felt[steps - 1 :: steps].max(), felt.max()]
-    assert seen == told("250 Hz, you see # N of the # N, and at 50 Hz # N of the # N")
+    assert seen == told("250 Hz you see # N of # N, and at 50 Hz you see # N of # N")
 
 
 def time_constant(solref):
@@ -174,11 +176,12 @@ def test_what_is_missing_of_20_n_is_the_sinking_times_the_stiffness():
     less = 20.0 - press_soft(change=time_constant(0.005))[-1]
     assert less < 0.1 * missing
     if mujoco.__version__ < "4":
-        assert f"it is {1e6 * sinks:.0f} µm and {5 * missing:.2f} percent" in SENTENCES
+        values = f"{1e6 * sinks:.0f} µm and {5 * missing:.2f} percent"
+        assert f"the values are {values}" in SENTENCES
         return
     assert f"sinks {1e6 * sinks:.0f} µm into the table" in SENTENCES
-    assert f"at 400 N/m is {400 * sinks:.3f} N" in SENTENCES
-    assert f"only {5 * less:.3f} percent are missing" in SENTENCES
+    assert f"the spring of 400 N/m by {400 * sinks:.3f} N" in SENTENCES
+    assert f"only {5 * less:.3f} percent too small" in SENTENCES
 
 
 @pytest.mark.kit

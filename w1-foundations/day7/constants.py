@@ -69,7 +69,7 @@ def profile(name, way=1.0, longer=1.0, omega=LAB.OMEGA, rate=LAB.RATE, v=1.0, a=
     "the quintic's largest jerk", "{:.0f} rad/s³",
     rate=between(0.9, 1.1, "the polynomial determines it, not the control rate"),
     duration=between(0.1, 0.16, "the jerk is proportional to 1 / T³, so an eighth"),
-    omega=between(0.9, 1.1, "the arm tracks the polynomial with either"),
+    omega=between(0.9, 1.1, "the arm tracks the polynomial with either value"),
 )  # fmt: skip
 def jerk(rate=LAB.RATE, duration=1.0, omega=LAB.OMEGA):
     """Return it."""
@@ -104,10 +104,12 @@ def trapezoid(v=1.0, a=1.0):
 
 @numbers.add(
     "largest joint error, quintic", "{:.2f} mrad",
-    omega=between(0.4, 0.6, "in each step q is off by a dt² / 2, which the controller "
-                  "balances with an error proportional to 1 / omega"),
+    omega=between(0.4, 0.6, "in each step of the simulation q is off by a dt² / 2 (a: "
+                  "acceleration, dt: time step); the controller balances this with "
+                  "an error proportional to 1 / omega"),
     duration=between(0.15, 0.4, "a quarter of the acceleration"),
-    rate=between(0.7, 1.1, "the simulator's time step, which stays, contributes most"),
+    rate=between(0.7, 1.1, "the time step of the simulator, which stays the same, "
+                 "contributes most"),
 )  # fmt: skip
 def quintic_off(omega=LAB.OMEGA, duration=1.0, rate=LAB.RATE):
     """Return it."""
@@ -116,7 +118,8 @@ def quintic_off(omega=LAB.OMEGA, duration=1.0, rate=LAB.RATE):
 
 @numbers.add(
     "largest joint error, constant speed", "{:.2f} mrad",
-    omega=between(0.9, 1.0, "the torque reaches its limit; without it, half the error"),
+    omega=between(0.9, 1.0, "the torque reaches its limit; without the limit the error "
+                  "would be halved"),
     duration=between(0.4, 0.6, "the discontinuity of the velocity is half as large"),
     rate=between(0.9, 1.1, "the discontinuity is in the reference"),
 )  # fmt: skip
@@ -145,8 +148,10 @@ def at_rest(grip=0.9247, mu=1.0, gravity=1.0):
 @numbers.add(
     "heaviest cube while the lift accelerates", "{:.3f} kg",
     grip=times(2.0, "friction is at most mu times the normal force"),
-    lift=times((9.81 + LIFT) / (9.81 + 2 * LIFT), "a kilogram needs the force g + a"),
-    gravity=times((9.81 + LIFT) / (19.62 + LIFT), "a kilogram needs the force g + a"),
+    lift=times((9.81 + LIFT) / (9.81 + 2 * LIFT),
+               "each kilogram needs the force g + a, in newtons"),
+    gravity=times((9.81 + LIFT) / (19.62 + LIFT),
+                  "each kilogram needs the force g + a, in newtons"),
 )  # fmt: skip
 def lifting(grip=0.9247, lift=LIFT, gravity=1.0):
     """Return it."""

@@ -120,10 +120,11 @@ def way_in_the_first_frame(T0, T1, s):
 @row.right  # Slerp of quaternions.
 def _(T0, T1, s):
     a, b = se3.R_to_quat(T0[:3, :3]), se3.R_to_quat(T1[:3, :3])
-    b = b if a @ b >= 0 else -b
+    b = b if a @ b >= 0 else -b  # the nearer one of two equal quaternions
     angle = np.arctan2(np.linalg.norm(b - (a @ b) * a), a @ b)
     q = np.sin((1 - s) * angle) * a + np.sin(s * angle) * b if angle > 1e-12 else a
-    return se3.make_T(se3.quat_to_R(q), (1 - s) * T0[:3, 3] + s * T1[:3, 3])
+    t = (1 - s) * T0[:3, 3] + s * T1[:3, 3]  # the origin
+    return se3.make_T(se3.quat_to_R(q), t)
 
 
 @row.close("float32")  # Single precision at the end.

@@ -100,6 +100,18 @@ def _(start, end, T):
     }
 
 
+@row.right  # The first three, then what the end still needs.
+def _(start, end, T):
+    two = start[2] / 2  # the coefficient of t^2
+    dp = end[0] - start[0] - start[1] * T - two * T**2  # the rest of the position
+    dv = (end[1] - start[1] - 2 * two * T) * T  # the rest of the velocity, times T
+    da = (end[2] - 2 * two) * T**2  # the rest of the acceleration, times T^2
+    three = (10 * dp - 4 * dv + da / 2) / T**3  # the coefficient of t^3
+    four = (-15 * dp + 7 * dv - da) / T**4  # the coefficient of t^4
+    five = (6 * dp - 3 * dv + da / 2) / T**5  # the coefficient of t^5
+    return np.array([start[0], start[1], two, three, four, five])
+
+
 @row.right  # The closed form from another book.
 def _(start, end, T):
     (q0, v0, a0), (q1, v1, a1) = start, end

@@ -54,6 +54,17 @@ def seconds(delta_q, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERAT
 
 @row.wrongs
 def _(delta_q, v_max, a_max):
+    """least-of-all: the result is the shortest duration of all joints and limits; the
+      slowest joint determines the duration => the minimum
+    added-up: the durations of all joints and limits are added; the joints move at the
+      same time => the sum
+    """
+    each = seconds(delta_q, v_max, a_max)
+    return {"least-of-all": each.min(), "added-up": each.sum()}
+
+
+@row.wrongs
+def _(delta_q, v_max, a_max):
     """peak-of-the-cubic: your function uses 1.5, the maximum velocity of the cubic
       scaling. The quintic is faster half way and exceeds the limit by 25 % => the
       duration with 1.5

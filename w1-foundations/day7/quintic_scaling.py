@@ -87,6 +87,7 @@ def _(t, T):
       after the end
     end-not-clipped: s is clamped at the start, but the polynomial continues after the
       end
+    never-clipped: the polynomial is also evaluated before the start and after the end
     start-not-clipped: s is clamped at the end, but the polynomial is also evaluated
       before the start
     """
@@ -98,6 +99,7 @@ def _(t, T):
         "t-for-x": (QUINTIC, t, 1.0),
         "not-divided+not-clipped": (QUINTIC, t / T, 1.0),
         "end-not-clipped": (QUINTIC, max(t / T, 0.0), T),
+        "never-clipped": (QUINTIC, t / T, T),
         "start-not-clipped": (QUINTIC, min(t / T, 1.0), T),
     }
     return {slug: partial(polynomial, *some) for slug, some in given.items()}

@@ -101,7 +101,7 @@ def test_step_2s_table():
     each = np.maximum(by_speed, by_acceleration)
     cubic = max((1.5 * DQ / lab.V_MAX).max(), by_acceleration.max())
     for T, words in (
-        (cubic, "the factor 1.5 of a cubic polynomial instead of 15/8"),
+        (cubic, "the factor 1.5 of the cubic time scaling instead of 15/8"),
         (each.min(), "the duration of the fastest joint"),
     ):
         broken = 100 * ((by_speed / T).max() - 1)
@@ -149,7 +149,7 @@ def test_step_7s_sentences():
     ways = lab.profiles(T)
     off, jerk, torque = zip(*(followed(*way) for way in ways.values()), strict=True)
     numbers = dict(zip(ways, zip(off, jerk, torque, strict=True), strict=True))
-    assert says(f"The step needs {numbers['step'][2]:.1f} times the torque")
+    assert says(f"jump to the goal, needs {numbers['step'][2]:.1f} times the torque")
     assert says(f"so the arm is {numbers['constant speed'][0]:.0f} mrad off")
     assert numbers["constant speed"][2] > 1.0
     assert max(numbers[n][0] for n in ("cubic", "trapezoid", "quintic")) < 1.0

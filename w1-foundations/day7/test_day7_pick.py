@@ -116,7 +116,7 @@ def test_gravity_shows_a_wrong_centre_and_speed_alone_a_wrong_inertia():
         assert off(slug, 0.0) < 1e-12 < 0.001 < off(slug, 1.0) < 0.1
     for slug in ("first-centre-kept", "not-divided-by-the-mass"):
         assert off(slug, 0.0) > 0.5
-    assert says("its inertia, which only speed shows")
+    assert says("which affects the torque only when the arm moves")
 
 
 @pytest.mark.kit
@@ -192,18 +192,18 @@ def test_what_the_grip_lifts_is_as_predicted(mass, mu, slips):
     assert (done.heaviest < mass) == slips
     told = {0.16: "places a cube of 0.16 kg at its target",
             0.18: "a cube of 0.18 kg slips out",
-            0.08: "The cube has 0.08 kg, so it stays on the table"}  # fmt: skip
+            0.08: "0.08 kg, so with this friction it stays on the table"}  # fmt: skip
     assert says(told[mass])
 
 
 def test_the_predictions_of_the_side_quest():
     up = trajectory.PEAK_ACCELERATION * 0.12 / 0.75**2
-    assert says(f"accelerates with {up:.3f} m/s²")
+    assert says(f"accelerates at {up:.3f} m/s²")
     assert says(f"{lab.max_cube_mass(0.9247, 1.0, 0.0):.3f} kg at rest")
     assert says(f"and {lab.max_cube_mass(0.9247, 1.0, up):.3f} kg while")
     assert says(f"bound is {lab.max_cube_mass(0.9247, 0.3, up):.3f} kg")
     inner = scenes.PAD_POS[1] - scenes.PAD_HALF[1]  # a pad's face, from its finger
-    assert says(f"each pad protrudes {1000 * inner:.1f} mm from its finger")
+    assert says(f"each contact pad protrudes {1000 * inner:.1f} mm from its finger")
     assert scenes.CUBE_HALF - inner == pytest.approx(0.0185)
 
 

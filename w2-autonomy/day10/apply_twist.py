@@ -12,8 +12,8 @@ row = Row(Pose())
 
 @row.inputs
 def _(rng):
-    T = rng.poses(9)
-    xi = rng.numbers(-2, 2, 4, 6)
+    T = rng.poses(10)
+    xi = [*rng.numbers(-2, 2, 4, 6), rng.numbers(-0.2, 0.2, 6)]
     small = rounded(1e-3 * rng.normal(size=(2, 6)))
     slide = np.append(np.zeros(3), rng.numbers(-1, 1, 3))
     turn = np.append(rng.numbers(-1, 1, 3), np.zeros(3))
@@ -23,6 +23,28 @@ def _(rng):
     some = [*xi, *small, slide, turn, far]
     first = (np.eye(4), np.eye(6)[3])
     return [first, *zip(T, some, strict=True), (T[0], np.zeros(6))]
+
+
+def angle_in(low, high):
+    """Return the case of twists whose angle lies between two limits."""
+    return lambda T, xi: low < float(np.linalg.norm(xi[:3])) <= high
+
+
+row.cases({
+    "twists without a rotation": lambda T, xi: not xi[:3].any(),
+    "rotations by less than 0.02 rad": angle_in(0.0, 0.02),
+    "rotations by 0.02 to 0.5 rad": angle_in(0.02, 0.5),
+    "rotations by more than 0.5 rad": angle_in(0.5, np.inf),
+})  # fmt: skip
+
+
+@row.rare
+def _(rng):
+    ((T),) = rng.poses(1)
+    way = rng.numbers(-1, 1, 6)
+    for size in (1e-3, 0.01, 0.02, 0.2, 2.0):
+        yield T, size * way
+    yield T, np.append(np.zeros(3), way[3:])
 
 
 def exp_of(xi):

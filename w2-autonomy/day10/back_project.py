@@ -7,7 +7,7 @@ import numpy as np
 from labkit.judge import Matrix, Row, rounded
 
 from .project import swapped
-from .seen import OBLONG, K, cameras
+from .seen import OBLONG, K, cameras, one_focal_length
 
 row = Row(Matrix((None, 3), unit="m", columns=("x", "y", "z")))
 
@@ -42,11 +42,6 @@ def placed(
 def right_ray(K, h):
     """Return the points at z = 1, (n, 3)."""
     return h @ np.linalg.inv(K).T
-
-
-def one_focal_length(i, K, h, d):
-    """Return the points at z = 1 where fx, or fy, serves both axes."""
-    return (h - K[:, 2] * [1, 1, 0]) / [K[i, i], K[i, i], 1.0]
 
 
 def unit_ray(K, h, d):
@@ -127,16 +122,7 @@ def _(K, T_world_cam, pixels, depth):
     return placed(K, T_world_cam, pixels, depth, scaled=lambda ray, _: ray * by)
 
 
-for i, slug, its in (
-    (0, "fx-in-both-rows", "v has fx; its focal length is fy, K[1, 1]"),
-    (1, "fy-in-both-rows", "u has fy; its focal length is fx, K[0, 0]"),
-):
-    row.wrong(
-        slug,
-        f"the row of {its}",
-        f"the right answer with K[{i}, {i}] twice",
-        hidden="the lab's camera has fx = fy",
-    )(partial(placed, ray=partial(one_focal_length, i)))
+one_focal_length(row, placed)
 row.at_least_0(K="f and the principal point are", depth="points are in front")
 
 

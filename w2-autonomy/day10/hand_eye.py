@@ -183,9 +183,13 @@ def _(A, B):
     w, V = np.linalg.eigh(M.T @ M)
     w = np.sqrt(np.maximum(w, 0)) * [np.sign(np.linalg.det(M)), 1, 1]
     R = M @ V @ np.diag(1 / w) @ V.T
-    C = np.vstack([a[:3, :3] - np.eye(3) for a in A])
-    d = np.concatenate([R @ b[:3, 3] - a[:3, 3] for a, b in zip(A, B, strict=True)])
-    return rigid(R, np.linalg.solve(C.T @ C, C.T @ d))
+    left = np.zeros((3, 3))
+    right = np.zeros(3)
+    for a, b in zip(A, B, strict=True):
+        C = a[:3, :3] - np.eye(3)
+        left = left + C.T @ C
+        right = right + C.T @ (R @ b[:3, 3] - a[:3, 3])
+    return rigid(R, np.linalg.solve(left, right))
 
 
 @row.wrong("another-method")  # Tsai, Lenz, 1989: 2 tan(angle / 2) along each axis.

@@ -17,17 +17,21 @@ row = Row(Pose())
 def _(rng):
     source = np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]])
     found = clouds(rng)
-    flat, turned = clouds(rng, 2)
     mirror = [
         (source, rounded(target * [1, 1, -1])) for source, target in clouds(rng, 2)
     ]
     return [
         (source, source + np.eye(3)[0]),
         *found,
-        (flat[0] * [1, 1, 0], flat[1]),
-        turned,
+        *clouds(rng, 2),
         *mirror,
     ]
+
+
+@row.spans  # In a plane the third direction of an SVD may have either sign.
+def _(rng):
+    ((source, target),) = clouds(rng, 1)
+    yield source * [1, 1, 0], target
 
 
 def rigid(R, t):
@@ -79,6 +83,9 @@ for slug, says, redone, other in (
     ("R-transposed", "the rotation is transposed: it maps the source to the target, so "
      "it is U V^T of target^T source", "R^T",
      {"rotation": lambda U, Vt: proper(U, Vt).T}),
+    ("worst-fit", "R is the rotation with the largest sum of squares, not the "
+     "smallest: a sign is wrong, or the eigenvector belongs to the smallest eigenvalue",
+     "the rotation that fits worst", {"rotation": lambda U, Vt: proper(-U, Vt)}),
     ("not-centred", "the centroids are not subtracted before the SVD",
      "the SVD of the points themselves", {"centre": lambda X: np.zeros(3)}),
     ("one-number-for-the-centre", "the centroid is the mean of all coordinates "

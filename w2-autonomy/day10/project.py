@@ -6,7 +6,7 @@ import numpy as np
 
 from labkit.judge import Pixels, Row
 
-from .seen import OBLONG, K, views
+from .seen import OBLONG, K, one_focal_length, views
 
 row = Row(Pixels())
 
@@ -44,13 +44,6 @@ def upright(K, p, f=1.0, centre=1.0):
     here[0, 0] = here[0, 0] if f else 1.0
     here[1, 1] = here[1, 1] if f else 1.0
     here[:2, 2] *= centre
-    return p @ here.T
-
-
-def one_focal_length(i, K, p):
-    """Return K p where fx, or fy, serves both axes."""
-    here = K.copy()
-    here[0, 0] = here[1, 1] = K[i, i]
     return p @ here.T
 
 
@@ -125,16 +118,7 @@ def K_before_T(K, T_cam_world, points):
     return p[:, :2] / p[:, 2:]
 
 
-for i, slug, its in (
-    (0, "fx-in-both-rows", "v has fx; its focal length is fy, K[1, 1]"),
-    (1, "fy-in-both-rows", "u has fy; its focal length is fx, K[0, 0]"),
-):
-    row.wrong(
-        slug,
-        f"the row of {its}",
-        f"the right answer with K[{i}, {i}] twice",
-        hidden="the lab's camera has fx = fy",
-    )(partial(seen, times=partial(one_focal_length, i)))
+one_focal_length(row, seen)
 row.at_least_0(K="f and the principal point are")
 
 

@@ -11,7 +11,11 @@ from robo47.screws import skew
 from .seen import HALF, OBLONG, K, before, cameras
 
 SIZES = (8, 8, 5, 5, 1, 1)
-row = Row(Kind((None, 2, 6), unit="px", scale=100.0))
+ONE_FOCAL_LENGTH = ("fx-in-both-rows", "fx-in-both-rows 2", "fy-in-both-rows")
+row = Row(
+    Kind((None, 2, 6), unit="px", scale=100.0),
+    conditions=[("both focal lengths are equal", lambda K, p_cam: K[0, 0] == K[1, 1])],
+)
 
 
 @row.inputs
@@ -135,6 +139,33 @@ for slug, says, redone, other in (
      {"told": lambda J: J * [[1], [-1]]}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(jacobian, **other))
+
+
+@row.wrongs(hidden=dict.fromkeys(ONE_FOCAL_LENGTH, "the lab's camera has fx = fy"))
+def _(K, p_cam):
+    """fx-in-both-rows: the row of v has fx; its focal length is fy, K[1, 1] => fx in
+      both rows
+    fx-in-both-rows 2: the columns of omega in the row of v have fx; the focal length of
+      this row is fy, K[1, 1] => fx in these columns
+    fy-in-both-rows: the row of u has fy; its focal length is fx, K[0, 0] => fy in both
+      rows
+    coordinates-not-divided: the formula for normalised coordinates is used with x and
+      y in metres; divide both by z first => x and y instead of x / z and y / z
+    """
+    J = jacobian(K, p_cam)
+    swap = [[1.0], [K[0, 0] / K[1, 1]]]
+    at_1 = np.column_stack([p_cam[:, :2], np.ones(len(p_cam))])
+    flat = jacobian(K, at_1)
+    flat[..., 3:5] = J[..., 3:5]
+    flat[..., 5] /= p_cam[:, 2:]
+    mixed = J.copy()
+    mixed[..., :3] *= swap
+    return {
+        "fx-in-both-rows": J * swap,
+        "fx-in-both-rows 2": mixed,
+        "fy-in-both-rows": J * [[K[1, 1] / K[0, 0]], [1.0]],
+        "coordinates-not-divided": flat,
+    }
 
 
 row.at_least_0(K="f and the principal point are")

@@ -1,5 +1,7 @@
 """What Day 10 asks about: cameras, points before them, poses, motions of a hand."""
 
+from functools import partial
+
 import numpy as np
 
 from labkit.judge import rounded
@@ -82,3 +84,28 @@ def motions(rng, n=6, k=6, noise=0.01):
         )
         found.append((A, se3.inverse(X) @ A @ X @ jitter))
     return found
+
+
+def one_focal_length(row, right):
+    """Add the two mistakes in which one focal length serves both axes.
+
+    Args:
+        row: of a function whose first argument is K.
+        right: what does the same as this function.
+    """
+    for i, slug, its in (
+        (0, "fx-in-both-rows", "v has fx; its focal length is fy, K[1, 1]"),
+        (1, "fy-in-both-rows", "u has fy; its focal length is fx, K[0, 0]"),
+    ):
+        row.wrong(
+            slug,
+            f"the row of {its}",
+            f"the right answer with K[{i}, {i}] twice",
+            hidden="the lab's camera has fx = fy",
+        )(partial(_with_one, right, i))
+
+
+def _with_one(right, i, K, *others):
+    here = K.copy()
+    here[0, 0] = here[1, 1] = K[i, i]
+    return right(here, *others)

@@ -132,9 +132,9 @@ def _(box_a, box_b):
     """any-for-all: overlap on one axis is enough in your code; two boxes overlap only
       if their intervals overlap on all three axes
     one-direction: your code makes only one of the two comparisons, so it misses a box_b
-      that lies below box_a => `box_a[0] <= box_b[1]` alone
+      that lies above box_a => `box_a[0] <= box_b[1]` alone
     one-direction 2: your code makes only one of the two comparisons, so it misses a
-      box_b that lies above box_a => `box_b[0] <= box_a[1]` alone
+      box_b that lies below box_a => `box_b[0] <= box_a[1]` alone
     touching-left-out: boxes that only touch are reported as separate, but they should
       be reported as overlapping => the formula with <
     touching-left-out 2: boxes that touch on one side are reported as separate, but they

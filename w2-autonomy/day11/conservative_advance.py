@@ -29,6 +29,7 @@ def _(rng):
         (0.3, -0.05, np.zeros(7), half), (0.4, 0.0, np.zeros(7), half),
         (0.1, 0.02, np.full(7, -0.05), half), (0.3, 0.0001, 0.0002 * half, half),
         (0.1, 0.7, half, half), (0.2, 1.1, 0.9 * np.ones(7), half),  # far, and not free
+        (0.3, 2.5, half, half),  # far beyond the end, from within the motion
         *drawn,
     ]  # fmt: skip
 
@@ -173,6 +174,9 @@ def _(s, distance, delta_q, radii):
       add up
     step-capped: the step is limited to 1, but s plus the step can exceed 1; limit the
       sum => s + min(1, step)
+    limit-of-the-whole: the limit compares the distance with the bound of the whole
+      motion; compare it with the bound of the rest, 1 - s times as much => the formula
+      with that comparison
     step-capped 2: your code returns the smaller of 1 - s and the step; return the
       smaller of 1 and s + step => min(1 - s, step)
     max-for-min: max is used instead of min, so the result is never below 1
@@ -218,6 +222,8 @@ def _(s, distance, delta_q, radii):
         "mean-of-joints": by(np.mean(turns * radii)),
         "step-capped": lambda: s if inside else 1.0 if still else
         s + min(1.0, distance / speed),
+        "limit-of-the-whole": lambda: s if inside else 1.0 if still else
+        1.0 if distance >= speed else s + distance / speed,
         "step-capped 2": lambda: s if inside else 1.0 if still else
         min(1.0 - s, distance / speed),
         "max-for-min": lambda: s if inside else 1.0 if still else

@@ -96,8 +96,8 @@ def _(J_space, p, o, link):
       the link moves it
     columns-before-dropped: your code keeps the joints distal to the link; keep the
       joints up to the link
-    rotation-forgotten: omega x p is missing; v alone is the velocity of the point at
-      the world origin => n . v
+    rotation-forgotten: omega x p has no effect, because it is missing or has p - o
+      instead of p; v alone is the velocity of the point at the world origin => n . v
     rotation-only: v is missing; the velocity of p is v + omega x p => n . omega x p
     cross-the-other-way: the cross product has the wrong order; the velocity of p is v +
       omega x p => the formula with p x omega

@@ -163,6 +163,14 @@ def _(tree, sample, step, world):
       to the sample => a step from the sample, and the edge from the node to its end,
     farthest: the tree grows from the node farthest from the sample; it should grow from
       the nearest node
+    largest-difference: the nearest node is chosen by the largest difference of a
+      coordinate; use the Euclidean distance
+    largest-difference 2: the nearest node, and its distance, is found by the largest
+      difference of a coordinate; use the Euclidean distance
+    sum-of-differences: the nearest node is chosen by the sum of the absolute
+      differences; use the Euclidean distance
+    squared-for-plain: the step is divided by the squared distance to the sample; divide
+      it by the distance
     root-to-the-sample: your code tests the edge from the root to the sample; test the
       edge from the nearest node to the new point
     standing-is-blocked: if the sample equals a node, your code reports a blocked edge.
@@ -200,10 +208,30 @@ def _(tree, sample, step, world):
     far = int(np.argmax(np.sum((tree - sample) ** 2, axis=1)))
     at_far = steer(tree[far], sample, step)
 
+    apart = np.abs(tree - sample)
+    square = float(np.sum((sample - tree[i]) ** 2))
+
     def check(a, b):
         return segment_free_of_discs(a, b, world)
 
+    def grown(k, q):
+        return k, q, check(tree[k], q)
+
+    def towards(k, length):
+        part = min(1.0, step / length) if length else 1.0
+        return grown(k, sample if part == 1.0 else tree[k] + part * (sample - tree[k]))
+
+    widest = apart.max(axis=1)
+    at_most = int(np.argmin(widest)), float(widest.min())
+
+    def from_node(k):
+        return grown(k, steer(tree[k], sample, step))
+
     return {
+        "largest-difference": from_node(int(np.argmin(widest))),
+        "largest-difference 2": towards(*at_most),
+        "sum-of-differences": from_node(int(np.argmin(apart.sum(axis=1)))),
+        "squared-for-plain": towards(i, square),
         "from-the-newest": (new, last, check(tree[new], last)),
         "from-the-root": (0, first, check(root, first)),
         "sample-itself": (i, sample, free),

@@ -228,6 +228,10 @@ def _(a, b, c, limits, sd):
       bounds and the minimum of the upper bounds
     from-zero: both bounds start at 0; start the lower bound at -inf and the upper bound
       at inf
+    last-joint-only 2: each joint replaces the bounds of the joints before it; keep the
+      largest lower and the smallest upper bound => the bounds of the last joint
+    never-narrowed: the bounds stay infinite, because min and max are swapped; keep the
+      largest lower and the smallest upper bound => (-inf, inf)
     zero-kept-in: the range always includes 0; sdd = 0 need not be allowed
     six-joints: your code uses only the first six joints; the arm can have any number of
       joints
@@ -298,6 +302,10 @@ def _(a, b, c, limits, sd):
         "first-joint-only": only(one),
         "first-joint-only 2": np.append(low[:1], high[:1]) if moves.any() else right,
         "last-joint-only": only(last),
+        "last-joint-only 2": np.append(low[-1:], high[-1:])
+        if moves.any() and held
+        else right,
+        "never-narrowed": np.array([-np.inf, np.inf]) if held else none,
         "half-the-limit": of(rest, limits=limits / 2),
         "not-divided": narrowed(*np.sort(lone, axis=0)),
         "small-is-zero": only_above(1e-2),

@@ -113,6 +113,10 @@ def _(successes, n):
       n + z^2 trials (Agresti and Coull). Use the Wilson interval => this interval,
       clamped to 0..1,
     one-more: p is (k + 1) / (n + 2), with one success and one failure added; use k / n
+    quadratic-sign: the quadratic equation for p has the coefficient -2 k / n + z^2 / n;
+      it is -(2 k / n + z^2 / n) => the roots with this sign
+    quadratic-z2: the quadratic equation for p has the coefficient -(2 k / n + z^2); it
+      is -(2 k / n + z^2 / n) => the roots with z^2
     half-width: the interval has half of the correct width
     one-is-none: for n = 1 your code returns (0, 1); only n = 0 is a special case => (0,
       1) for n = 0 and n = 1
@@ -135,6 +139,10 @@ def _(successes, n):
 
     def with_root(under, centre=p + z**2 / (2 * n)):
         return (centre + two * z * np.sqrt(under)) / below
+
+    def roots(minus_b):
+        under = max(minus_b**2 - 4 * below * p * p, 0.0)
+        return (minus_b + two * np.sqrt(under)) / (2 * below)
 
     table = {
         "wald": wald,
@@ -169,6 +177,8 @@ def _(successes, n):
         "one-more": with_root(
             more * (1 - more) / n + z**2 / (4 * n**2), more + z**2 / (2 * n)
         ),
+        "quadratic-sign": roots(2 * p - z**2 / n),
+        "quadratic-z2": roots(2 * p + z**2),
         "half-width": middle + two * around / 2,
         "one-is-none": right if n > 1 else np.array([0.0, 1.0]),
     }

@@ -1,5 +1,6 @@
 """13.1 `gravity_stiffness(J_space, masses, coms, g)`: questions, mistakes."""
 
+import itertools
 from functools import partial
 
 import numpy as np
@@ -54,6 +55,19 @@ def screws_stay(J, masses, coms, g):
 def mirrored(full):
     """Return a symmetric matrix with the lower half of another."""
     return np.tril(full) + np.tril(full, -1).T
+
+
+def by_pairs(J_space, masses, coms, g, *, first=max, swapped=False):
+    """Return the stiffness joint by joint, with other links or with roles swapped."""
+    n = len(masses)
+    K = np.zeros((n, n))
+    for i, j in itertools.combinations_with_replacement(range(n), 2):
+        moving, turning = (i, j) if swapped else (j, i)
+        for k in range(first(i, j), n):
+            speed = J_space[3:, moving] + np.cross(J_space[:3, moving], coms[k])
+            K[i, j] -= masses[k] * (g @ np.cross(J_space[:3, turning], speed))
+        K[j, i] = K[i, j]
+    return K
 
 
 @row.wrongs
@@ -115,6 +129,10 @@ def _(J_space, masses, coms, g):
       upper three rows of J_space
     torque-added: g is added to g x omega_j, which adds the gravity torque itself. The
       stiffness is its derivative
+    distal-joints-too: an entry also contains links that only one of the two joints
+      moves. Joints i and j both move the links from the later one on
+    roles-swapped: the two joints are swapped: the later one moves the centre of mass,
+      and the earlier one rotates this velocity, because it comes first in the chain
     screws-stay: only the centres of mass move with joint j. The axes of the joints
       after it move, too
     """
@@ -168,6 +186,8 @@ def _(J_space, masses, coms, g):
         "turned-twice": mirrored(twice),
         "v-for-omega": of(*given, np.cross(g, J_space[3:].T)),
         "torque-added": of(*given, g + turned),
+        "distal-joints-too": by_pairs(*given, g, first=min),
+        "roles-swapped": by_pairs(*given, g, swapped=True),
         "screws-stay": partial(screws_stay, *given, g),
     }
 

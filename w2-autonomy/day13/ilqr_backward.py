@@ -126,6 +126,8 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     first-slopes: every step uses fx and fu of the first step
     last-slopes: every step uses fx and fu of the last step
     K-reversed: k and K are in reverse order. The first step comes first
+    K-reversed 2: k is in reverse order. The first step comes first
+    K-reversed 3: K is in reverse order. The first step comes first
     end-forgotten: the pass begins with Vx = 0 and Vxx = 0. Begin with the derivatives
       of the final cost
     """
@@ -180,6 +182,8 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
         "first-slopes": of(fx=0 * fx + fx[:1], fu=0 * fu + fu[:1]),
         "last-slopes": of(fx=0 * fx + fx[-1:], fu=0 * fu + fu[-1:]),
         "K-reversed": (k[::-1].copy(), K[::-1].copy(), drop),
+        "K-reversed 2": (k[::-1].copy(), K, drop),
+        "K-reversed 3": (k, K[::-1].copy(), drop),
         "end-forgotten": of(Vx=0 * Vx, Vxx=0 * Vxx),
     }
 

@@ -56,7 +56,7 @@ def of_best(samples, best):
     return samples[best].mean(axis=0), samples[best].std(axis=0)
 
 
-@row.wrongs
+@row.wrongs(hidden={"nan-is-zero": "no NaN of the lab has a score below 0 beside it"})
 def _(mean, std, noise, scores, elite):
     """nan-first: a NaN is among the elite. np.argsort puts NaN last, so [::-1] puts it
       first
@@ -71,6 +71,8 @@ def _(mean, std, noise, scores, elite):
       about the mean of the elite
     one-spread-for-all: all parameters have the same standard deviation. Each should
       have its own: use axis=0
+    best-left-out: the best sample is left out, and the elite begins with the second
+    nan-is-zero: a NaN is treated as a score of 0. It is worse than all other scores
     elite-one-less: the elite has one sample too few
     weighted: the elite samples are weighted by their rank. All should have the same
       weight
@@ -113,6 +115,10 @@ def _(mean, std, noise, scores, elite):
         ),
         "about-the-old-mean": (right[0], about),
         "one-spread-for-all": (right[0], np.full(len(mean), samples[best].std())),
+        "best-left-out": of_best(samples, order[1 : elite + 1]),
+        "nan-is-zero": of_best(
+            samples, np.argsort(-np.nan_to_num(scores), kind="stable")[:elite]
+        ),
         "elite-one-less": lambda: of_best(samples, order[: max(elite - 1, 1)]),
         "weighted": weighed(rank),
         "weighted 2": lambda: weighed(by_score),

@@ -104,7 +104,9 @@ def _(W, weights):
       0), so the answer depends on the units. It should be 1e-9 of the sum of |W_ij w_j|
     balance-roughly: the tolerance of W w is 1e-4 of the sum of |W_ij w_j|. It should be
       1e-9 of the sum
-    balance-of-all: the norm of W w is tested. Test each row by itself
+    balance-of-all: one tolerance serves all rows of W w, made of their norm or of their
+      sum. Compare each row with 1e-9 of its own sum of |W_ij w_j|
+    first-row-only: only the first row of W w is tested. All six must be 0
     balance-without-weights: the tolerance of W w is 1e-9 of the largest entry of each
       row. It should be 1e-9 of the sum of |W_ij w_j|
     rank-absolute: the singular values are compared with 1e-9, so the answer depends on
@@ -140,6 +142,7 @@ def _(W, weights):
         "some-weight-above-0": bool(full and balanced and np.any(weights > 0)),
         "balance-forgotten": bool(full and above),
         "balance-absolute": bool(full and above and np.all(left <= 1e-8)),
+        "first-row-only": bool(full and above and holds[0]),
         "balance-roughly": bool(full and above and np.all(left <= 1e-4 * all_of_it)),
         "balance-of-all": bool(
             full

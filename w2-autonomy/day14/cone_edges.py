@@ -54,10 +54,10 @@ def _(normal, mu, k):
       Use the smallest one
     signed-least: the coordinate axis with the smallest component of n is used. Compare
       the absolute values
-    axis-x-n: a is along axis x n. It should be along n x axis, otherwise the edges
-      begin on the opposite side
-    axis-itself: a is the projection of the axis onto the tangent plane. It should be
-      along n x axis, which is perpendicular to your a
+    axis-x-n: the direction a is along axis x n. It should be along n x axis, otherwise
+      the edges begin on the opposite side
+    axis-itself: the direction a is the projection of the axis onto the tangent plane.
+      It should be along n x axis, which is perpendicular to your a
     last-is-first: the last edge is equal to the first, because t ends at 2 pi. The last
       t should be 2 pi (k - 1) / k
     degrees: t is in degrees. np.cos and np.sin expect radians

@@ -93,6 +93,8 @@ def _(finger_position, force, normal, mu, fraction, step):
       newtons: multiply fraction by mu f_n
     share-of-the-force: the margin is compared with a fraction of the norm of the force.
       Compare it with fraction times mu f_n
+    share-of-the-force 2: the margin is compared with fraction times mu and the norm of
+      the force. Use f_n, the component along the normal
     stopped-at-0: the finger position stops at 0. Its limit should be LOW[4]
     stopped-too-early: a step that would go beyond LOW[4] is left out. It should end at
       LOW[4]
@@ -128,6 +130,9 @@ def _(finger_position, force, normal, mu, fraction, step):
         "share-in-newtons": closed(np.any(margin < fraction)),
         "share-of-the-force": closed(
             np.any(margin < fraction * np.linalg.norm(force, axis=1))
+        ),
+        "share-of-the-force 2": closed(
+            np.any(margin < fraction * mu * np.linalg.norm(force, axis=1))
         ),
         "stopped-at-0": max(finger_position - step, 0.0)
         if slips.any()

@@ -43,9 +43,12 @@ def _(heights, target, cap):
       should be 0
     nan-passes: the reward of NaN is NaN, because every comparison with NaN is False.
       Test with np.isfinite
+    nan-passes 2: the reward of NaN is NaN, and minus infinity has the reward 0. Test
+      with np.isfinite
     nan-is-zero: the reward of NaN is 0. It should be -1, because the simulation failed
     infinity-passes: the reward of minus infinity is 0. It should be -1 for every height
       that is not finite
+    thrown-is-zero: a height above the cap has the reward 0. It should be -1
     success-only: the reward is 0 or 1. Below the target the reward should rise linearly
       with the height
     success-only 2: the reward is 0 or 1. Below the target the reward should rise
@@ -77,8 +80,10 @@ def _(heights, target, cap):
         "no-cap 2": lost(share, ~np.isfinite(h)),
         "below-the-floor-is-lost": lost(share, ~good | (h < 0)),
         "nan-passes": np.where(np.isnan(h), np.nan, right),
+        "nan-passes 2": np.where(np.isnan(h), np.nan, np.where(low, 0.0, right)),
         "nan-is-zero": np.where(np.isnan(h), 0.0, right),
         "infinity-passes": np.where(low, 0.0, right),
+        "thrown-is-zero": np.where((h > cap) & ~np.isinf(h), 0.0, right),
         "success-only": lost((h >= target).astype(float), ~good),
         "success-only 2": lost((h > target).astype(float), ~good),
         "not-limited": lost(np.maximum(h, 0) / target, ~good),

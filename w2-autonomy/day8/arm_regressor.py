@@ -41,7 +41,7 @@ def walk(
     back=lambda X: X.T,
     felt=lambda i: slice(0, i + 1),
     pose=lambda T, i: T[i],
-    links=7, passed_on=1.0, late=False, both=True,
+    links=7, passed_on=1.0, late=False, both=True, gravity=1.0,
 ):  # fmt: skip
     """Return Y by the outward recursion along the arm, with other parts.
 
@@ -49,10 +49,10 @@ def walk(
     matrix that returns the wrench; `felt` returns the joints that link i loads, `pose`
     its pose, and `links` is the number of links. `passed_on` is a factor of the A of
     the link before, `late` uses V before the link's own joint is added, and without
-    `both` A stays in the world frame.
+    `both` A stays in the world frame. `gravity` is a factor of the base's acceleration.
     """
     V = np.zeros(6)
-    base = A = np.append(np.zeros(3), -g)
+    base = A = np.append(np.zeros(3), -gravity * g)
     Y = np.zeros((7, 70))
     for i, S in enumerate(J.T[:links]):
         before = V
@@ -125,6 +125,8 @@ for slug, says, other in (
     ("acceleration-starts-anew", "A contains only the acceleration of the base and the "
      "terms of joint i. Add the terms of the joints before it as well",
      {"passed_on": 0.0}),
+    ("gravity-forgotten", "g has no effect. The acceleration of the base is -g, with "
+     "which A begins", {"gravity": 0.0}),
     ("acceleration-not-turned", "V is transformed to the link, but A is not",
      {"both": False}),
     ("twist-too-late", "V is used before S qd of joint i is added, so V is the twist "

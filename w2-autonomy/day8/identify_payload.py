@@ -91,6 +91,27 @@ def _(J_site, R_site, extra, g):
     }
 
 
+@row.wrongs
+def _(J_site, R_site, extra, g):
+    """g-not-turned-back: g is rotated by R; R^T expresses it in the hand frame => R
+      instead of R^T
+    moment-in-the-hand: the moment is expressed in the hand frame, but J_site takes it
+      in the world frame; multiply it by R => the moment without R
+    """
+
+    def fitted(moments):
+        rows = np.zeros((len(extra), 6, 4))
+        rows[:, 3:, 0] = -g
+        rows[:, :3, 1:] = moments
+        lhs = np.einsum("kij,kil->kjl", J_site, rows).reshape(-1, 4)
+        return np.linalg.lstsq(lhs, extra.ravel(), rcond=None)[0]
+
+    return {
+        "g-not-turned-back": fitted([R @ skew(R @ g) for R in R_site]),
+        "moment-in-the-hand": fitted([skew(R.T @ g) for R in R_site]),
+    }
+
+
 @row.right  # Pose by pose, with cross products; then the normal equations.
 def _(J_site, R_site, extra, g):
     A = np.zeros((4, 4))

@@ -33,6 +33,18 @@ def moved(phi, I):  # noqa: E741
     return np.trace(about) / 2 * np.eye(3) - about
 
 
+def mirrored(I):  # noqa: E741
+    """Return tr(I)/2 1 - I with the other sign beside the diagonal."""
+    S = np.trace(I) / 2 * np.eye(3) - I
+    return 2 * np.diag(np.diag(S)) - S
+
+
+def doubled(I):  # noqa: E741
+    """Return tr(I)/2 1 - I with twice the diagonal."""
+    S = np.trace(I) / 2 * np.eye(3) - I
+    return S + np.diag(np.diag(S))
+
+
 for slug, says, redone, code in (
     ("only-the-inertia", "the result is the smallest eigenvalue of I. The "
      "pseudo-inertia also contains m c, and (tr(I)/2) E - I instead of I, where E is "
@@ -42,6 +54,12 @@ for slug, says, redone, code in (
     ("inertia-not-turned-round", "the upper left block is I. It should be the sum of m "
      "r r^T, which is (tr(I)/2) E - I with the identity E", "the result with I there",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: I))[0]),  # noqa: E741
+    ("products-not-negated", "the entries beside the diagonal of S have the wrong "
+     "sign. S is tr(I)/2 1 - I, so they are -Ixy, -Ixz and -Iyz", "the other sign",
+     lambda phi: np.linalg.eigvalsh(pseudo(phi, mirrored))[0]),
+    ("not-halved", "the diagonal of S is twice as large. S is tr(I)/2 1 - I, so its "
+     "first entry is (Iyy + Izz - Ixx) / 2", "the diagonal without the half",
+     lambda phi: np.linalg.eigvalsh(pseudo(phi, doubled))[0]),
     ("centre-for-first-moment", "the centre of mass c is used instead of h = m c",
      "the result with h / m",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, h=1.0 / phi[0]))[0]),
@@ -80,9 +98,16 @@ for slug, says, redone, code in (
     row.wrong(slug, says, redone)(code)
 
 
-@row.right  # From the general eigenvalues.
+@row.right  # Entry by entry, from the general eigenvalues.
 def _(phi):
-    return np.linalg.eigvals(pseudo(phi)).real.min()
+    m, x, y, z, xx, yy, zz, xy, xz, yz = phi
+    P = [
+        [(yy + zz - xx) / 2, -xy, -xz, x],
+        [-xy, (xx + zz - yy) / 2, -yz, y],
+        [-xz, -yz, (xx + yy - zz) / 2, z],
+        [x, y, z, m],
+    ]
+    return np.linalg.eigvals(np.array(P)).real.min()
 
 
 row.spans(  # as small, or as large, as in the lab

@@ -53,6 +53,8 @@ def _(Y, tau, Y_new, rtol):
       with the pseudo-inverse of Y^T Y and rtol
     sizes-added: the absolute values of the terms of sigma are added. The variances of
       independent errors add, so use the norm => sigma with the sum
+    sizes-added 2: the absolute values of the weights of the measurements are added. The
+      variances of independent errors add, so use the norm => sigma with the sum
     sigma-not-cut: sigma includes the small singular values that the fit leaves out =>
       the right torque, and sigma with all singular values
     """
@@ -78,6 +80,7 @@ def _(Y, tau, Y_new, rtol):
         "sigma-cut-not-squared": noise
         * np.sqrt(np.einsum("ij,jk,ik->i", Y_new, back, Y_new)),
         "sizes-added": noise * np.abs(seen / s).sum(axis=1),
+        "sizes-added 2": noise * np.abs(Y_new @ np.linalg.pinv(Y, rcond=rtol)).sum(1),
         "sigma-not-cut": noise * np.linalg.norm(Y_new @ along.T / every, axis=1),
     }
     return {slug: (torque, one) for slug, one in sigmas.items()}

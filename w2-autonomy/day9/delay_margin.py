@@ -38,6 +38,10 @@ for slug, says, redone, other in (
     ("minus-in-the-root", "4 kp^2 is subtracted under the inner root. The solution of "
      "w^4 - kd^2 w^2 - kp^2 = 0 has a plus sign there", "kd^4 - 4 kp^2",
      {"w": lambda kp, kd: np.sqrt((kd**2 + np.sqrt(abs(kd**4 - 4 * kp**2))) / 2)}),
+    ("half-left-out", "kd^2 in the root formula is not halved: the roots of "
+     "x^2 - kd^2 x - kp^2 = 0 are kd^2 / 2 +- sqrt(kd^4 / 4 + kp^2)",
+     "kd^2 + sqrt(kd^4 + kp^2) as w^2",
+     {"w": lambda kp, kd: np.sqrt(kd**2 + np.sqrt(kd**4 + kp**2))}),
     ("neither-squared", "the equation is solved for w instead of w^2: its roots "
      "contain kd^2, kd^4 and kp^2", "(kd + sqrt(kd^2 + 4 kp)) / 2 as w^2",
      {"w": lambda kp, kd: np.sqrt((kd + np.sqrt(kd**2 + 4 * kp)) / 2)}),

@@ -113,6 +113,22 @@ for slug, says, redone, other in (
     row.wrong(slug, says, redone)(partial(updated, **other))
 
 
+@row.wrongs
+def _(x, P, z, H, R):
+    """prior-P-in-the-gain: the gain P H^T R^-1 belongs to the updated P; the predicted
+      P needs S^-1 instead of R^-1 => P H^T R^-1 with the predicted P
+    R-in-the-information: the information form uses R where it needs R^-1, the
+      information of the reading => R instead of R^-1
+    """
+    _, new_P, nis = updated(x, P, z, H, R)
+    y = z - H @ x
+    known = np.linalg.inv(np.linalg.inv(P) + H.T @ R @ H)
+    return {
+        "prior-P-in-the-gain": (x + P @ H.T @ np.linalg.inv(R) @ y, new_P, nis),
+        "R-in-the-information": (x + known @ H.T @ R @ y, known, nis),
+    }
+
+
 @row.right  # (I - K H) P, with np.linalg.solve.
 def _(x, P, z, H, R):
     S = H @ P @ H.T + R

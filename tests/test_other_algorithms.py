@@ -1,0 +1,127 @@
+"""What is said of a function that computes the same in another way than the lab."""
+
+import ast
+
+import numpy as np
+import pytest
+from test_claims import right, told
+
+from labkit.judge import sources
+from labkit.judge.ask import Case, asked_of, right_answers, stacked
+from labkit.judge.matcher import Matcher
+from labkit.judge.mutant import KINDS, Body, body_of
+from labkit.judge.row import row_of
+from labkit.judge.sentence import SAYS, TELLING
+from labkit.lesson.day import find_day
+from labkit.lesson.lab_module import lab_of
+
+pytestmark = pytest.mark.kit
+
+PATH = lab_of(find_day(1)).PATH
+
+
+def test_a_component_that_a_sum_omits_is_not_said_to_be_in_a_wrong_place():
+    def inverse(T):
+        back = right(1, "inverse")(T)
+        back[:3, 3] = [-sum(T[k, i] * T[k, 3] for k in range(2)) for i in range(3)]
+        return back
+
+    says = told(1, "1.3", inverse=inverse)
+    assert "is missing, as if it were 0" in says
+    assert "wrong place" not in says
+    assert "wrong order" not in says
+
+
+def test_the_comment_of_a_right_solution_says_which_step_is_wrong():
+    def body_jacobian(J_space, T):
+        omega, v = J_space[:3], J_space[3:]
+        at_hand = v - np.cross(T[:3, 3], omega, axis=0)
+        return np.vstack([T[:3, :3] @ omega, T[:3, :3].T @ at_hand])
+
+    assert "omega, expressed in the hand frame" in told(
+        3, "3.9", body_jacobian=body_jacobian
+    )
+
+
+def test_only_a_right_solutions_comments_are_glosses():
+    def solution(x):
+        y = 2 * x  # twice the argument
+        return y + 1
+
+    read = body_of(solution, "f", commented=True)
+    assert "twice the argument" in read.glosses.values()
+    assert not body_of(solution, "f").glosses
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_kind_that_needs_a_place_is_not_told_without_one(kind, monkeypatch):
+    one = next(
+        Body(ast.parse("def f(x):\n    return -x\n").body[0], {}).near.__iter__()
+    )
+    vars(one)["kind"] = kind
+    monkeypatch.setattr(sources, "_that_hold", lambda m, which: [one])
+    monkeypatch.setattr(sources, "shows", lambda m, mutant: False)
+    monkeypatch.setattr(sources, "of_mutants", lambda m, found: found[0].kind)
+    assert SAYS.get(kind) or kind == "line"
+    assert sources.other_mutants(None) == (kind if kind in TELLING else None)
+
+
+def test_a_function_that_only_counts_the_pairs_of_a_path_is_named():
+    def compose_fk(model, q, path=PATH):
+        given = PATH[: len(path)]
+        return right(1, "compose_fk")(model, q, given)
+
+    assert "only counts the pairs" in told(1, "1.6", compose_fk=compose_fk)
+
+
+def test_one_mistake_in_another_form_is_not_told_as_two():
+    def exp_rotation(axis, theta):
+        K = np.array([np.cross(e, axis) for e in -np.eye(3)]).T
+        return np.cos(theta) * np.eye(3) + np.sin(theta) * K
+
+    def exp_screw(S, theta):
+        X = np.zeros((4, 4))
+        X[:3, :3] = right(2, "skew")(S[:3])
+        X[:3, 3] = S[3:]
+        if not S[:3].any():
+            return np.eye(4) + theta * X
+        c, s = np.cos(theta), np.sin(theta)
+        return np.eye(4) + theta * X + c * X @ X + (theta - s) * X @ X @ X
+
+    for task, function in (("2.2", exp_rotation), ("2.4", exp_screw)):
+        says = told(2, task, **{function.__name__: function})
+        assert "Two things" not in says
+        assert "reproduce" in says
+
+
+def test_the_search_takes_cheap_solutions_first():
+    day = find_day(4)
+    row = row_of(day, "mass_matrix")
+    exchanges = asked_of("4.3", "mass_matrix", row.ask, 1, 5.0).main
+    arguments = stacked(exchanges)
+    T = right_answers(row.ask, exchanges)
+    S = (T[0] + 1.0,)
+    m = Matcher(Case(row.ask, arguments, S[0], T[0], ()), S, T)
+    costs = [body.steps.lines for body in m.bodies]
+    assert m.bodies[0].own
+    assert len(costs) > 3
+    assert costs[1:] == sorted(costs[1:])
+    assert costs[-1] > 100 * costs[1]
+
+
+def test_a_manipulability_of_six_rows_alone_is_named():
+    def manipulability(J):
+        product = 1.0
+        for k in range(6):
+            product *= np.linalg.svd(J, compute_uv=False)[k]
+        return product
+
+    assert "J.shape" in told(3, "3.8", manipulability=manipulability)
+
+
+def test_how_an_answer_grows_is_said_of_the_size_that_was_asked():
+    def manipulability(J):
+        s = np.linalg.svd(J, compute_uv=False)
+        return float(np.prod(s) ** (1 / len(s)))
+
+    assert "If J (6x7) is doubled" in told(3, "3.8", manipulability=manipulability)
