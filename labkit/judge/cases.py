@@ -23,7 +23,7 @@ from labkit.judge.replies_read import read
 
 ASKED = 5  # calls of a case, and others, that were asked before it is tried
 TRIED = 50  # fresh calls of a case at which a sentence is tried, at least
-MOST = 100  # of a case, where its inputs allow it
+MOST = 200  # of a case, where its inputs allow it
 EACH = 2  # calls of a case that one generator yields in a round, at most
 ROUNDS = 100  # generators that draw them, at most
 SECONDS = 1.5  # for drawing them, and as many for the replies

@@ -3,9 +3,10 @@
 "The result is right whenever ed is 0, and whenever M is the identity" says which term
 is wrong where no named mistake fits. It is said only where it was tried: at the calls
 that were answered wrongly, made neutral, and then at fifty inputs and more of both
-signs and several sizes. Each of the two rounds is one batch of questions.
+signs and several sizes, and then at fresh calls. Each round is one batch of questions.
 """
 
+import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -19,6 +20,7 @@ from labkit.judge.answers import InTurn, own, say_factor
 from labkit.judge.ask import Ask, Asked, as_plain
 from labkit.judge.cases import RIGHT, of_call, verdict
 from labkit.judge.crossed import crossed
+from labkit.judge.draw import Draw
 from labkit.judge.neutral import SIZES, Neutral, neutrals, scaled
 from labkit.judge.ranges import Span, spans
 from labkit.judge.replies_read import flat
@@ -27,6 +29,8 @@ from robo47.checks import Array
 QUESTIONS = 6  # per experiment; five of them at least must agree
 AGREE = 5
 ALIKE = 3  # answers that grow by one factor, at least
+SEED = 7013  # of fresh calls: no question has these
+SECONDS = 0.5  # for drawing them
 TRIED = 50  # inputs at which a sentence is tried, at least
 NOTHING = 1e-12  # a right answer as small as this says nothing
 ROUNDING = 1e-9  # what sums of larger numbers may leave of a small answer
@@ -94,7 +98,23 @@ def experiments(
         right,
         ask.conditions,
         ask.at_edge,
+        partial(_drawn, ask, len(names)),
     )
+
+
+def _drawn(ask: Ask, n: int) -> list[Call]:
+    """Return fresh calls with n arguments, of rare cases too."""
+    found: list[Call] = []
+    end = time.process_time() + SECONDS
+    for k in range(TRIED):
+        rng = [SEED, k]
+        some = [call for draw in ask.rare for call in draw(Draw(rng))]
+        if ask.drawn:
+            some += [*ask.inputs(Draw(rng))][-ask.drawn :]
+        found += [tuple(call) for call in some if len(call) == n]
+        if len(found) > 4 * TRIED or time.process_time() > end:
+            break
+    return found
 
 
 def _others(ask: Ask) -> list[Answers]:
@@ -112,6 +132,8 @@ class Claim:
     holds: Callable[[Call], bool]  # whether a call satisfies it
     more: Callable[[], Sequence[Call]]  # those at which it is tried then
     changed: float = 0.0  # how many numbers of a call that changes
+    # Of any call, those that satisfy it and differ from it in this argument alone.
+    made: Callable[[Call], Sequence[Call]] = lambda call: ()
 
 
 @dataclass(frozen=True)
@@ -127,6 +149,7 @@ class Experiments:
     right: Sequence[bool] = ()  # of each of those whether it was answered rightly
     conditions: Sequence[tuple[str, Callable[..., bool]]] = ()  # as in an `Ask`
     at_edge: Callable[..., bool] | None = None  # as in an `Ask`
+    drawn: Callable[[], Sequence[Call]] = list  # fresh calls, those of rare cases too
 
     def told(self, others: Sequence[Answers] = ()) -> str:
         """Return what all experiments show, in words."""
@@ -162,7 +185,18 @@ class Experiments:
         for (claim, some), given in zip(tried, answers, strict=True):
             if self._right(given, some, TRIED // 2, TRIED):
                 found.setdefault(claim.k, claim)
-        return [*found.values()][:2]
+        return [claim for claim in [*found.values()][:2] if self._holds_fresh(claim)]
+
+    def _holds_fresh(self, claim: Claim) -> bool:
+        """Return whether no fresh call that satisfies a claim is answered wrongly."""
+        made = [
+            one
+            for call in self.drawn()
+            for one in ([call] if claim.holds(call) else claim.made(call)[:1])
+        ]
+        some = list(filter(self._definite, made))[: 2 * TRIED]
+        pairs = zip(self.mine(some), self.truth(some), strict=True)
+        return all(self._is_right(answer, its) is not False for answer, its in pairs)
 
     def doubled(self) -> str:
         """Return that answers do not grow with an argument as the right ones, or ""."""
@@ -259,7 +293,8 @@ class Experiments:
                     calls = _with(self.calls, k, values)
                     more = self._more(k, first)
                     holds = partial(_of_argument, k, first.holds)
-                    yield Claim(k, says, calls, holds, more, changed)
+                    made = partial(_neutral_in, k, first)
+                    yield Claim(k, says, calls, holds, more, changed, made)
 
     def _idle(self, k: int, neutral: Neutral) -> bool:
         """Return whether a list of rows is neutral in a way that hardly a call has it.
@@ -357,25 +392,32 @@ class Experiments:
         different = False
         first: Array | None = None
         for answer, its in zip(given, self.truth(calls), strict=True):
-            right = flat(its)
-            if right is None or np.isnan(right).any():
+            if (ok := self._is_right(answer, its)) is None:
                 continue  # the question has no answer: it says nothing
-            mine = flat(answer)
-            if mine is None or mine.shape != right.shape:
+            if not ok:
                 return False
             answered += 1
-            there = np.isfinite(right)
-            if not np.array_equal(mine[~there], right[~there]):
-                return False
-            size = float(np.abs(right[there]).max(initial=0.0))
-            off = np.abs(mine[there] - right[there]).max(initial=0.0)
-            if not off <= max(self.near * size, ROUNDING):
-                return False
-            agree += size > NOTHING
+            right = flat(its)
+            assert right is not None
+            agree += np.abs(right[np.isfinite(right)]).max(initial=0.0) > NOTHING
             first = right if first is None else first
             alike = right.shape == first.shape and np.allclose(right, first)
             different = different or not alike
         return agree >= least and answered >= tried and different
+
+    def _is_right(self, answer: Any, its: Any) -> bool | None:
+        """Return whether an answer is the right one, None where there is none."""
+        right, mine = flat(its), flat(answer)
+        if right is None or np.isnan(right).any():
+            return None
+        if mine is None or mine.shape != right.shape:
+            return False
+        there = np.isfinite(right)
+        if not np.array_equal(mine[~there], right[~there]):
+            return False
+        size = float(np.abs(right[there]).max(initial=0.0))
+        off = np.abs(mine[there] - right[there]).max(initial=0.0)
+        return bool(off <= max(self.near * size, ROUNDING))
 
     def _growth(self, before: Iterable[Any], after: Iterable[Any]) -> float | None:
         """Return by which one factor all answers grew, None where there is none.
@@ -396,6 +438,12 @@ class Experiments:
 
 def _of_argument(k: int, holds: Callable[[Any], bool], call: Call) -> bool:
     return holds(call[k])
+
+
+def _neutral_in(k: int, neutral: Neutral, call: Call) -> list[Call]:
+    """Return a call with argument k neutral in one way; none if it cannot be."""
+    same = (one for one in neutrals(call[k]) if one.says == neutral.says)
+    return [(*call[:k], one.value, *call[k + 1 :]) for one in same]
 
 
 def _with(calls: Sequence[Call], k: int, values: Sequence[Any]) -> list[Call]:
