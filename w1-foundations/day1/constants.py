@@ -68,7 +68,7 @@ def by_hand(trials=100, seed=LAB.SEED, metre=1.0, gravity=1.0):
     "position error with quaternions read as (x, y, z, w)", "{:.2f} m",
     metre=times(2.0, "the rotations are wrong in the same way, and the links are twice as long"),
     quat=same("a quaternion is normalised before it is used"),
-    base=same("the misread link0 is upside down and link1 upright again, so joint 1 still "
+    base=same("the misread quaternions turn link0 upside down and link1 upright again, so joint 1 still "
               "rotates about the vertical axis", to=1.0),
 )  # fmt: skip
 def wrong_quat(metre=1.0, quat=1.0, base=0.0):

@@ -122,7 +122,7 @@ def drawn(radius, damping, gain, dt, lap, metre=1.0):
 @numbers.add(
     "largest error on the larger circle, with damping", "{:.2f} mm",
     damping=between(1.1, 2.5, "the largest error is now at the bottom, which is in reach"),
-    gain=between(0.9, 1.1, "a higher gain reduces only the lag, not the distance of a target out of reach"),
+    gain=between(0.9, 1.1, "a higher gain reduces only the lag, not the distance between the workspace and a target out of reach"),
     dt=between(0.95, 1.05, "the damping and the geometry cause the error, not the step"),
     lap=between(0.85, 1.0, "the hand lags less, and the part out of reach does not change"),
     radius=between(0.2, 0.5, "the whole circle is in reach", to=0.36),

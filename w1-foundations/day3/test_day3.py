@@ -343,7 +343,9 @@ def test_what_pushing_down_costs_joint_2_grows_with_the_hands_distance(arm):
     J = lab.space_jacobian(arm[0], panda.READY_Q)
     tau = lab.joint_torques(J, T[:3, 3], lab.DOWN)[1]
     assert tau == pytest.approx(10.0 * T[0, 3], abs=1e-3)
-    assert f"{tau:.2f} N m. The entry of `J_site` is -{T[0, 3]:.3f} m" in GUIDE
+    assert (
+        f"{tau:.2f} N m. The entry of `J_site` for joint 2 is -{T[0, 3]:.3f} m" in GUIDE
+    )
     farther = T[:3, 3] + [0.1, 0.0, 0.0]
     assert lab.joint_torques(J, farther, lab.DOWN)[1] == pytest.approx(tau + 1.0)
 

@@ -104,7 +104,7 @@ def by_bound(thin=LAB.THIN, ways=1.0, seed=LAB.SEED, bound=1.0):
 
 @numbers.add(
     "distance queries of the bound, median", "{:.0f}",
-    bound=between(1.8, 3.0, "in the median, a step covers 0.35 of the remaining "
+    bound=between(1.8, 3.0, "the median step covers 0.35 of the remaining "
                   "distance instead of 0.68"),
     near=between(0.8, 1.0, "the loop stops a little earlier"),
     seed=between(0.7, 1.4, "60 other random motions", to=1),
@@ -118,7 +118,7 @@ def looks(bound=1.0, near=LAB.NEAR, seed=LAB.SEED, thin=LAB.THIN):
 
 @numbers.add(
     "fraction of the distance left after 1 s straight at it", "{:.4f}",
-    gain=times(7.4, "e^-2 instead of e^-4, which is e² times as much", within=0.06,
+    gain=times(7.4, "e^-2 instead of e^-4: the fraction is e² times as large", within=0.06,
                to=2.0),
     dt=between(0.85, 1.0, "0.92 ^ 50 is smaller than 0.96 ^ 100"),
     aside=between(0.9, 1.1, "the decay is proportional to the distance", to=0.1),
@@ -133,7 +133,7 @@ def left(gain=LAB.GAIN, dt=LAB.DT, aside=LAB.ASIDE, rush=LAB.RUSH):
 @numbers.add(
     "smallest distance to the post, with damper", "{:.1f} mm",
     margin=times(2.0, "the damper keeps the margin", within=0.06),
-    gain=between(0.94, 0.98, "the guarantee of 10 mm holds in continuous time, and a "
+    gain=between(0.94, 0.98, "the guarantee of 10 mm holds only in continuous time, but a "
                  "step takes 10 ms"),
     time=between(0.9, 1.05, "the same path, slower"),
     post=between(-4.0, 1.0, "two capsules are close to the post, and only the nearest "

@@ -507,10 +507,11 @@ def near_relatives():
     return {
         "no filter": lambda qd, *_: qd,
         "the velocity damper": distance.velocity_damper,
-        "always changed, also when permitted": always,
+        "velocity always changed, even if permitted": always,
         "not divided by the squared norm": not_divided,
-        "pushed nearer": nearer,
-        "all joints scaled by one factor": alike, "stops": stops,
+        "sign of the correction reversed": nearer,
+        "all joints scaled by one factor": alike,
+        "the arm stops while the command is not permitted": stops,
     }  # fmt: skip
 
 
@@ -529,7 +530,7 @@ def test_one_pair_guards_one_pair_and_several_do_not_plan():
     damper = distance.velocity_damper
     one, _ = lab.through(post(lab.POST[0][0] - 0.05), damper)
     four, _ = lab.through(post(lab.POST[0][0] - 0.05), damper, 4)
-    assert f"the smallest distance is {one:.1f} mm. The gradient belongs" in SENTENCES
+    assert f"the smallest distance is {one:.1f} mm. The gradient describes" in SENTENCES
     assert f"in several passes, the smallest distance is {four:.1f} mm" in SENTENCES
     with patch.object(lab, "WAIT", 40.0):
         safe, off = lab.through(post(lab.POST[0][0] - 0.08), damper, 4)

@@ -142,7 +142,7 @@ def clipped(damping=LAB.DAMPING, dt=LAB.DT, gain=LAB.GAIN, lap=DAY.LAP, limit=1.
 @numbers.add(
     "cost of the motion after 3 iterations", "{:.3f}",
     way=between(3.5, 5.0, "the cost is nearly quadratic in the distance"),
-    motion=between(0.6, 0.8, "torque, velocities and the final error all cost less, the velocities most"),
+    motion=between(0.6, 0.8, "the costs of the torque, of the velocities and of the final error all decrease, the cost of the velocities most"),
     effort=between(1.3, 2.0, "the torque costs twice as much, and a little less of it is used"),
     far=between(1.0, 1.1, "the motion already ends near the goal"),
 )  # fmt: skip

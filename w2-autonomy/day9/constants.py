@@ -77,7 +77,7 @@ def margin(omega=DAY.OMEGA, zeta=1.0):
 @numbers.add(
     "fraction of an error left after 2 s, 34 ms late", "{:.3g}",
     late=between(1.5, 1e9, "the delay is far above the margin, and the error grows until the motors saturate"),
-    omega=times(0.0, "with 10 1/s the margin is 65 ms", within=0.05, to=10.0),
+    omega=times(0.0, "with omega = 10 1/s the margin is 65 ms", within=0.05, to=10.0),
     rate=between(0.3, 0.8, "holding the torque adds 0.5 ms to the delay on average, not "
                  "1 ms: the limit is 31.9 ms, and 34 ms is still above it"),
     small=same("the loop is linear as long as no motor saturates"),
@@ -91,7 +91,7 @@ def left(late=0.034, omega=DAY.OMEGA, rate=DAY.RATE, small=DAY.SMALL):
 
 
 @numbers.add(
-    "error of joint 4's velocity behind a low pass of 50 Hz", "{:.4f} rad/s",
+    "error of joint 4's velocity after a low pass of 50 Hz", "{:.4f} rad/s",
     cutoff=between(1.3, 1.7, "above the cutoff of the minimum, noise dominates"),
     bits=between(0.5, 0.75, "half the noise, the same lag", to=17),
     reach=between(1.1, 1.4, "twice the acceleration doubles the lag, and the noise is the same"),
@@ -128,8 +128,8 @@ def nis(wanders=LAB.WANDERS, noise=LAB.NOISE, seed=LAB.SEED, told_q=1.0, told_R=
 
 @numbers.add(
     "lag-1 autocorrelation of the filter with two errors", "{:.3f}",
-    wanders=between(0.9, 1.05, "the two parameters are still wrong by the factors 0.1 and 10"),
-    noise=between(0.95, 1.1, "the two parameters are still wrong by the factors 0.1 and 10"),
+    wanders=between(0.9, 1.05, "the two parameters are still wrong by factors of 0.1 and 10"),
+    noise=between(0.95, 1.1, "the two parameters are still wrong by factors of 0.1 and 10"),
     seed=between(0.95, 1.05, "another random sequence", to=10),
     told_q=between(0.85, 0.99, "the ratio of accel_psd to R is wrong by a factor of 50, not of 100"),
     told_R=between(1.0, 1.1, "the ratio is wrong by a factor of 200"),
@@ -143,7 +143,7 @@ def white(wanders=LAB.WANDERS, noise=LAB.NOISE, seed=LAB.SEED, told_q=0.1, told_
 @numbers.add(
     "largest residual in free motion", "{:.3f} N m",
     gain=between(1.0, 1.01, "the lag of the observer is not the cause"),
-    step=times(2.0, "an error of first order doubles; see task 9.9", within=0.02),
+    step=times(2.0, "the error of a first-order integrator doubles with the time step", within=0.02),
     reach=between(1.5, 4.5, "velocities double, and their products grow fourfold"),
     share=between(50, 200, "the residual then contains the gradient", to=0.0),
 )  # fmt: skip
