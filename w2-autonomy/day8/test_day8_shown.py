@@ -165,7 +165,7 @@ def test_what_mistakes_cost_in_motion_and_at_rest():
             assert f"{value:.{len(words.partition('.')[2])}f}" == words
     unseen = sum(rest < 1e-9 < moving for moving, rest in cost.values())
     assert 0.25 < unseen / len(cost) < 0.35
-    assert "In about 30 % of the mistakes" in SENTENCES
+    assert "With about 30 % of the mistakes" in SENTENCES
 
 
 def test_mujoco_refuses_what_no_body_can_have():
