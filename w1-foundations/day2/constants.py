@@ -46,7 +46,7 @@ def apart(wrong, right, q, fk=LAB.fk_space):
 
 @numbers.add(
     "third number of v of joint4's screw", "{:.4f} m",
-    metre=times(2.0, "v is omega x point, a length per radian"),
+    metre=times(2.0, "v is -omega x point, a length per radian"),
     raised=same("the axis is horizontal: only its height above the origin changes",
                 to=0.333),
 )  # fmt: skip
@@ -57,7 +57,7 @@ def joint4(metre=1.0, raised=0.0):
 
 @numbers.add(
     "first number of v of joint4's screw", "{:.4f} m",
-    metre=times(2.0, "v is omega x point, a length per radian"),
+    metre=times(2.0, "v is -omega x point, a length per radian"),
     raised=times(0.982 / 0.649, "v is the velocity of the point at the origin, "
                  "0.982 m below the axis", to=0.333),
 )  # fmt: skip
@@ -71,8 +71,8 @@ def joint4_first(metre=1.0, raised=0.0):
     metre=times(2.0, "the error is a length"),
     times_v=times(2.0, "the position is linear in v: the wrong sign doubles the "
                   "error", to=-1.0),
-    seed=between(0.7, 1.4, "the median is over twenty other configurations", to=48),
-    n=between(0.7, 1.4, "the median is over twice as many configurations"),
+    seed=between(0.7, 1.4, "the median of twenty other configurations", to=48),
+    n=between(0.7, 1.4, "the median of twice as many configurations"),
 )  # fmt: skip
 def forgotten(metre=1.0, times_v=0.0, seed=LAB.SEED, n=20):
     """Return the median."""
@@ -85,7 +85,7 @@ def forgotten(metre=1.0, times_v=0.0, seed=LAB.SEED, n=20):
     "position error at random q with (v; omega)", "{:.1f} mm",
     metre=between(2.2, 8.0, "the error more than doubles, because v, a length per radian, "
                   "takes the place of omega"),
-    seed=between(0.7, 1.4, "the median is over twenty other configurations", to=48),
+    seed=between(0.7, 1.4, "the median of twenty other configurations", to=48),
 )  # fmt: skip
 def halves(metre=1.0, seed=LAB.SEED):
     """Return the median."""
@@ -111,7 +111,7 @@ def wrong_M(metre=1.0, seed=LAB.SEED, n=20):
 @numbers.add(
     "position error with Ad(M) instead of Ad(inverse of M)", "{:.0f} mm",
     metre=times(2.0, "only v is wrong, and v is a length per radian"),
-    seed=between(0.5, 2.0, "the median is over twenty other configurations", to=48),
+    seed=between(0.5, 2.0, "the median of twenty other configurations", to=48),
     tilt=between(4.0, 6.0, "M's rotation is not symmetric then, so omega is wrong too",
                  to=0.3),
     about_z=between(0.4, 1.6, "M's rotation stays symmetric, so omega is right; v "
@@ -139,8 +139,8 @@ def reading(name, metre, seed, n=20, flange=0.107):
 @numbers.add(
     "error of the flange with the other convention's formula", "{:.0f} mm",
     metre=times(2.0, "the error is a length"),
-    seed=between(0.7, 1.4, "the median is over twenty other configurations", to=48),
-    n=between(0.7, 1.4, "the median is over twice as many configurations"),
+    seed=between(0.7, 1.4, "the median of twenty other configurations", to=48),
+    n=between(0.7, 1.4, "the median of twice as many configurations"),
 )  # fmt: skip
 def convention(metre=1.0, seed=47, n=20):
     """Return the median."""

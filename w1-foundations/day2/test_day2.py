@@ -204,8 +204,8 @@ def test_the_wrong_adjoint_hides_in_the_symmetric_M(arm):
     B = S @ screws.adjoint(M).T
     assert_same(B[:, :3], screws.body_screws(S, M)[:, :3], 1e-15)
     mm, deg = off(screws.fk_body(B, M, q), screws.fk_space(S, M, q))
-    says = f"the median position error is {np.median(mm[2:]):.0f} mm; the rotation is"
-    assert f"Over 20 random configurations {says} exact" in GUIDE
+    says = f"configurations is {np.median(mm[2:]):.0f} mm, and the rotation is exact"
+    assert f"the median position error over 20 random {says}" in GUIDE
     assert deg.max() < 1e-5
 
 
@@ -290,8 +290,8 @@ def test_a_shifted_base_is_constant_in_the_world_and_a_wrong_angle_nowhere(arm):
     base = se3.make_T(np.eye(3), [0.1, 0.0, 0.0]) @ right
     assert np.ptp(base[:, :3, 3] - right[:, :3, 3], axis=0).max() < 1e-12
     mm, _ = off(screws.fk_space(S, M, q + 0.05 * np.eye(7)[3]), right)
-    says = "0.05 rad at joint 4 moves the flange by between"
-    assert f"{says} {mm.min():.1f} and {mm.max():.1f} mm." in GUIDE
+    says = "0.05 rad at joint 4 moves the flange by"
+    assert f"{says} {mm.min():.1f} to {mm.max():.1f} mm." in GUIDE
     mm, _ = off(screws.fk_space(S, M, q + 0.05 * np.eye(7)[5]), right)
     assert np.ptp(mm) < 1e-9
     assert f"For joint 6 it is {mm[0]:.1f} mm everywhere" in GUIDE

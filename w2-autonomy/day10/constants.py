@@ -109,7 +109,7 @@ def left_free(joint_6=0.0, looks=LAB.LOOKS, seed=LAB.SEED, reach=1.0):
     "error of the table's position, with another X of residual 0", "{:.0f} mm",
     turn=between(1.6, 2.0, "the chord at 193 mm from the axis is 2 · 193 sin(angle / 2)"),
     slide=between(1.0, 1.3, "the additional 50 mm are perpendicular to the chord"),
-    looks=same("X was rotated about the axis of joint 7"),
+    looks=same("the computed target is at the same position in every picture"),
     seed=same("the choice of the angles does not matter", to=11),
     reach=same("the size of the rotations does not matter"),
 )  # fmt: skip

@@ -314,7 +314,9 @@ def test_a_pose_absorbs_half_a_pixel_of_the_principal_point():
     left /= np.sqrt(2)  # per coordinate
     turned = np.degrees(np.linalg.norm(log_rotation(fit[:3, :3] @ T[:3, :3].T)))
     assert f"is rotated by {turned:.2f}° from the true one" in SENTENCES
-    assert f"pixel errors have an RMS of only {left:.4f} px" in SENTENCES
+    assert (
+        f"pixel errors have a root mean square (RMS) of only {left:.4f} px" in SENTENCES
+    )
     assert "in every pixel, the principal point is probably wrong" in SENTENCES
 
 
@@ -344,7 +346,7 @@ def test_parallel_axes_leave_one_number_free_and_a_residual_with_exact_data(join
         worst.append(np.abs(A @ X - X @ B).max())
     assert 0.01 < np.median(worst) < 1
     assert "a residual of the order of 0.1 with exact data" in SENTENCES
-    assert "one degree of freedom, not two" in SENTENCES
+    assert "leave only one degree of freedom undetermined" in SENTENCES
 
 
 def test_axes_lie_in_one_plane_only_if_each_motion_turns_one_joint():
@@ -396,7 +398,7 @@ def test_the_ellipse_along_the_view_grows_with_z_squared_over_f_w():
     large = sigmas(*held(wide=2.0))
     assert f"At 1.6 m the standard deviation is {far[0][2]:.1f} mm" in SENTENCES
     assert far[0][2] / near[0][2] == pytest.approx(4, rel=0.01)
-    assert f"With 80 mm it is {large[0][2]:.1f}" in SENTENCES
+    assert f"For the cube of 80 mm it is {large[0][2]:.1f}" in SENTENCES
     assert near[0][2] / large[0][2] == pytest.approx(2, rel=0.01)
     assert 2 < far[0][0] / near[0][0] < 4
     across, _, along = near[0]
@@ -419,7 +421,8 @@ def test_far_away_fewer_fits_lie_inside_because_the_noise_is_not_small(capsys):
         with patch.object(lab, "NOISE", noise):
             inside[noise] = [lab.fit_with_noise(n, T, rng)[0] for n in lab.HEIGHTS]
     _, middle, small = (f"{np.mean(one):.0%}" for one in inside[lab.NOISE])
-    words = f"falls to {middle} with 240 px, and to {small} with 120".replace("%", " %")
+    words = f"{middle} for an image height of 240 px, and to {small} for 120"
+    words = words.replace("%", " %")
     assert words in SENTENCES
     _, *back = (f"{np.mean(one):.0%}" for one in inside[lab.NOISE / 10])
     assert back == ["94%", "94%"]

@@ -73,7 +73,7 @@ def anywhere(seed, n, speed):
 
 @numbers.add(
     "rank of the 70 columns of the links", "{:.0f}",
-    n=same("nine random states already reach the rank"),
+    n=same("nine random states already give this rank"),
     seed=same("the axes of the arm determine the rank, not the states", to=48),
     speed=same("the axes of the arm are the same"),
     metre=same("scaling a column does not change its linear independence"),
@@ -104,10 +104,10 @@ def condition(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB.
 
 @numbers.add(
     "condition number of Day 5's swing", "{:,.0f}",
-    swing=between(1 / 200, 1 / 100, "between the sixth and the seventh power of the "
-                  "amplitude at six poses, not the third as for the pendulum"),
-    metre=between(3.0, 10.0, "columns in kg m² shrink to 1/100, so it depends on the "
-                  "unit", to=10.0),
+    swing=between(1 / 200, 1 / 100, "it falls with about the seventh power of the "
+                  "amplitude, not with the third as for the pendulum"),
+    metre=between(3.0, 10.0, "columns in kg m² shrink to 1/100, so the condition "
+                  "number depends on the unit", to=10.0),
     rtol=same("no singular value is near this threshold; those below it are rounding errors"),
 )  # fmt: skip
 def swing_condition(swing=1.0, metre=1.0, rtol=LAB.RTOL):
@@ -258,7 +258,7 @@ def holds(load, side, n, *how):
 @numbers.add(
     "error of the mass, one from either side, no noise", "{:.0f} g",
     wait=between(0.0, 0.2, "dry friction creeps, and after 4 s hardly any is left"),
-    timeconst=between(0.0, 0.2, "b is half, so friction creeps twice as fast"),
+    timeconst=between(0.0, 0.2, "b is halved, so friction creeps twice as fast"),
     dmin=between(6.0, 10.0, "with solimp[0] close to 1 friction hardly creeps", to=0.999),
     friction=times(2.0, "twice the friction leaves twice the error", within=0.1),
     springs=between(-0.2, 0.2, "the springs are four times as stiff, so friction creeps "

@@ -307,7 +307,7 @@ def test_dry_friction_spoils_the_rows_that_the_guide_says(data):
     bad = np.abs(Y @ phi - tau) > 0.01
     turned = motion.qd + motion.qdd * (0.95 * 0.02 / 2.0)
     assert (bad == (np.sign(turned) != np.sign(motion.qd))).all()
-    assert f"{(~fast).sum()} of 1,400 rows have a speed below 0.1 rad/s" in SENTENCES
+    assert f"than 0.1 rad/s in {(~fast).sum()} of 1,400 rows" in SENTENCES
     assert f"exactly the {bad.sum()} rows where" in SENTENCES
     fastest = np.abs(motion.qd)[bad].max()
     assert f"all of them are slower than {fastest:.3f} rad/s" in SENTENCES
@@ -412,7 +412,7 @@ def test_second_differences_of_an_encoder_are_off_as_predicted():
     q = np.round(motion.q / step) * step
     off = (q[2:] - 2 * q[1:-1] + q[:-2]) / dt**2 - motion.qdd[1:-1]
     assert lab.rms(off) == pytest.approx(np.sqrt(0.5) * step / dt**2, rel=0.01)
-    assert f"error of second differences is {lab.rms(off):.1f} rad/s²" in SENTENCES
+    assert f"its RMS error is {lab.rms(off):.1f} rad/s²" in SENTENCES
     assert lab.rms(off) / np.abs(motion.qdd).max() == pytest.approx(3.0, abs=0.2)
 
 

@@ -49,7 +49,7 @@ def test_what_the_arm_weighs_is_in_both_holds_only_where_springs_are_stiff():
     assert stiff < 0.2
     assert 3 * stiff < softer
     assert 3 * softer < soft
-    assert "so the position controller must be stiff" in SENTENCES
+    assert "The position controller must therefore be stiff" in SENTENCES
 
 
 def grams(robots, wait, noise=0.0, seed=0):

@@ -101,7 +101,7 @@ def test_a_scara_shows_three_numbers_for_each_hinge_after_the_first():
     upright = [[0.0, 0.0, 1.0]] * 3
     scara = chain(upright, [[0.0, 0.0, 0.3], [0.3, 0.0, 0.0], [0.3, 0.0, 0.0]])
     assert shown_by(scara)[:3] == [1, 1 + 3, 1 + 3 + 3]
-    assert "(a planar arm or a SCARA arm)" in SENTENCES
+    assert "(a planar arm)" in SENTENCES
 
 
 @pytest.mark.parametrize(("degrees", "more"), [(90, 0), (80, 1)])
@@ -112,7 +112,7 @@ def test_a_rotor_hides_where_its_link_turns_about_that_axis_by_its_joint_alone(
     axes = [[0.0, 0.0, 1.0], [np.sin(tip), 0.0, np.cos(tip)]]
     *_, links, both = shown_by(chain(axes, [[0, 0, 0.3], [0, 0, 0.3]]), (0, 1))
     assert both - links == more
-    assert "only if an earlier joint can rotate the link about this axis" in SENTENCES
+    assert "an earlier joint can also rotate the link about this axis" in SENTENCES
     assert "and the axis of joint 2 is perpendicular to it" in SENTENCES
 
 
@@ -164,8 +164,8 @@ def test_what_mistakes_cost_in_motion_and_at_rest():
         for value, words in zip(cost[slug], written, strict=True):
             assert f"{value:.{len(words.partition('.')[2])}f}" == words
     unseen = sum(rest < 1e-9 < moving for moving, rest in cost.values())
-    assert 0.3 < unseen / len(cost) < 0.4
-    assert "reveals nothing about a third of the mistakes" in SENTENCES
+    assert 0.25 < unseen / len(cost) < 0.35
+    assert "With about 30 % of the mistakes" in SENTENCES
 
 
 def test_mujoco_refuses_what_no_body_can_have():
