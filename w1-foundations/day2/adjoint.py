@@ -48,4 +48,5 @@ def _(T):
     }
 
 
-row.reached_by("skew", "in [p], ", but=["p-cross-w"])  # the lever arm's sign
+# Without the lever arm's sign.
+row.reached_by("skew", "in [p], ", but=["p-cross-w"], called={"w_": "p_"})

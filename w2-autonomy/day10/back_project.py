@@ -134,7 +134,7 @@ for i, slug, its in (
     row.wrong(
         slug,
         f"the row of {its}",
-        f"the right answer with K[{i}, {i}] twice",
+        f"the correct result with K[{i}, {i}] twice",
         hidden="the lab's camera has fx = fy",
     )(partial(placed, ray=partial(one_focal_length, i)))
 row.at_least_0(K="f and the principal point are", depth="points are in front")

@@ -87,7 +87,8 @@ for slug, says, redone, other in (
     ("about-the-first", "the first points are subtracted instead of the centroids; "
      "their noise changes the rotation", "the SVD about source[0] and target[0]",
      {"centre": lambda X: X[0]}),
-    ("scaled", "R is multiplied by a scale; a rigid motion keeps all distances",
+    ("scaled", "your R contains a scale factor. A rigid motion preserves distances, so "
+     "R should be a pure rotation",
      "a scaled R", {"scale": lambda s, source: s.sum() / np.sum(source * source)}),
     ("t-turned-too", "the translation is R (b - a); rotate only a: b - R a",
      "R (b - a)", {"shift": lambda R, a, b: R @ (b - a)}),

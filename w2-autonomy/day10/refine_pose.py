@@ -139,7 +139,7 @@ for i, slug, its in (
     @row.wrong(
         slug,
         f"the row of {its}",
-        f"the right answer with K[{i}, {i}] twice",
+        f"the correct result with K[{i}, {i}] twice",
         hidden="the lab's camera has fx = fy",
     )
     def _(K, T_guess, points, pixels, i=i):

@@ -102,8 +102,9 @@ def _(link_lengths, link_radii):
       lengths before the joint
     less-the-base 2: the farthest distal point is measured from the base; measure it
       from the joint => the formula with the link lengths before it
-    largest-far-behind: the largest distal link radius is placed at the last link; each
-      radius belongs to its own link => the sum of the link lengths plus the largest
+    largest-far-behind: your bound adds the largest distal link radius to the distance
+      of the last joint. Each radius should be added to the distance of its own joint,
+      and then you take the maximum => the distance of the last joint plus the largest
       link radius
     largest-far-behind 2: the largest link radius beyond the next joint is placed at the
       last link; each radius belongs to its own link

@@ -46,11 +46,13 @@ for slug, says, redone, other in (
     ("one-count-fewer", "a revolution is divided by counts - 1; the step from the last "
      "count to the first one is missing", "2 pi / (counts - 1)",
      {"step": lambda n: 2 * np.pi / (n - 1)}),
-    ("no-pi", "one count is 1 / counts; q is in radians, and a full revolution is 2 pi",
-     "1 / counts", {"step": lambda n: 1 / n}),
-    ("in-degrees", "one count is 360 / counts, in degrees; q is in radians",
+    ("no-pi", "your angle per count is 1 / counts. It should be 2 pi / counts, because "
+     "q is in radians", "1 / counts", {"step": lambda n: 1 / n}),
+    ("in-degrees", "your angle per count is 360 / counts, in degrees. It should "
+     "be in radians, as q is",
      "360 / counts", {"step": lambda n: 360 / n}),
-    ("step-inverted", "one count is counts / (2 pi); it should be 2 pi / counts",
+    ("step-inverted", "your resolution is counts / (2 pi). The angle per "
+     "count should be 2 pi / counts, because one revolution has `counts` counts",
      "counts / (2 pi)", {"step": lambda n: n / (2 * np.pi)}),
     ("in-counts", "the output is in counts; it should be an angle in radians",
      "the number of counts", {"told": lambda k, step: k}),
