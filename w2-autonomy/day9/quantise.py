@@ -54,9 +54,9 @@ for slug, says, redone, other in (
     ("step-inverted", "your resolution is counts / (2 pi). The angle per "
      "count should be 2 pi / counts, because one revolution has `counts` counts",
      "counts / (2 pi)", {"step": lambda n: n / (2 * np.pi)}),
-    ("in-counts", "the output is in counts; it should be an angle in radians",
+    ("in-counts", "the output is in counts. It should be an angle in radians",
      "the number of counts", {"told": lambda k, step: k}),
-    ("two-pi-alone", "the number of counts is divided by 2 pi; multiply it by the "
+    ("two-pi-alone", "the number of counts is divided by 2 pi. Multiply it by the "
      "angle of one count", "the number of counts over 2 pi",
      {"told": lambda k, step: k / (2 * np.pi)}),
 ):  # fmt: skip
@@ -65,7 +65,7 @@ for slug, says, redone, other in (
 
 @row.wrong
 def the_error(q, counts):
-    """the output is the rounding error; it should be the angle that the encoder
+    """the output is the rounding error. It should be the angle that the encoder
     reports => q minus the reported angle
     """
     return q - counted(q, counts)
@@ -75,7 +75,7 @@ row.of_argument(
     "q",
     Change(
         "wrapped",
-        "q is wrapped to the range from 0 to 2 pi; a negative angle should stay "
+        "q is wrapped to the range from 0 to 2 pi. A negative angle should stay "
         "negative",
         lambda q: np.mod(q, 2 * np.pi),
     ),
