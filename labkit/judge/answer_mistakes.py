@@ -47,8 +47,9 @@ def _mistakes(text: str, redo: Mapping[str, Change]) -> list[Mistake]:
 GENERAL = _mistakes(
     """
     all-signs: every sign is wrong => its negative
-    whole-numbers: your array has an integer dtype, so NumPy truncates every value that
-      you store in it. Create the array with floats => the truncated correct result
+    whole-numbers: your values are truncated to whole numbers, as NumPy does in an array
+      with an integer dtype. Create the array with floats => the truncated correct
+      result
     transposed: the matrix is transposed => its transpose
     reshaped: the array is reshaped where it should be transposed; only .T turns rows
       into columns => its transpose, reshaped
