@@ -186,7 +186,7 @@ class TestAPath:
                 lambda s, n: np.arange(1, n)[:, None] * s,
                 "one-too-few",
                 "Your path has 2 waypoints; expected 3, in call 1 of 6. The last way "
-                "point is missing. (All but the last reproduce your output.)",
+                "point is missing. All but the last give the same output.",
             ),
             (
                 lambda s, n: np.arange(0, n + 2)[:, None] * s,

@@ -241,7 +241,7 @@ def test_a_last_entry_of_several_sizes_is_called_so():
         return found
 
     says = told(9, "9.1", backward_difference=backward_difference)
-    assert "All entries are right except the last" in says
+    assert "In `backward_difference`, all entries are right except the last" in says
 
 
 def test_a_mirror_of_axes_in_one_plane_does_not_pass():

@@ -32,7 +32,7 @@ def told(ask, value):
         (np.eye(4) * 1j, "not-numbers", "complex"),
         ((np.eye(3), np.zeros(3)), "shape", "(3, 3), (3,)"),
         (np.full((4, 4), np.nan), "not-finite", "NaN"),
-        (np.zeros((4, 4)), "all-zeros", "never filled"),
+        (np.zeros((4, 4)), "all-zeros", "never fill it"),
         (np.eye(4), "always-the-identity", "identity"),
         (np.diag([2.0, 2.0, 2.0, 1.0]), "ignores-its-input", "same"),
         (np.eye(4)[:3], "shape", "bottom row"),

@@ -55,7 +55,7 @@ def test_exactly_is_said_of_equal_numbers_alone():
     S = (T * [3.0, 1.0],)
     assert equals(ROW.kinds, S, (S[0] * (1.0 + 1e-13),))
     assert not equals(ROW.kinds, S, (S[0] * (1.0 + 1e-7),))
-    assert "reproduces" in evidence(exact=True)
+    assert "same output" in evidence(exact=True)
     assert "reproduces" not in evidence(exact=False)
 
 

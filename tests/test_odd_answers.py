@@ -52,7 +52,7 @@ class TestAMistakeThatStopsOrReshapes:
         verdict = told(self.row(), function)
         assert verdict.mistake == "by-division"
         assert "Your function stops with ZeroDivisionError" in verdict.message
-        assert "stops in the same 1 of 5 calls.)" in verdict.message
+        assert "stops in the same 1 of 5 calls." in verdict.message
         other = told(self.row(), lambda X, W: X @ W if len(W) == 3 else 1 / 0)
         assert other.mistake == "raises"
 
@@ -60,7 +60,7 @@ class TestAMistakeThatStopsOrReshapes:
         verdict = told(self.row(), lambda X, W: (X @ W)[:-1])
         assert verdict.mistake == "by-one-row"
         assert "returns shape (1, 3); expected shape (2, 3), in" in verdict.message
-        assert "All rows but the last reproduce your output" in verdict.message
+        assert "All rows but the last give the same output." in verdict.message
 
     def test_may_be_known_to_its_row_where_no_name_gives_it(self):
         def unnamed(case):

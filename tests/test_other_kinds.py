@@ -247,7 +247,7 @@ def test_pixels_of_several_sizes_may_be_shifted_too():
         (lambda p: p + 0.5, "shifted", "off by the same (0.5, 0.5)"),
         (lambda p: p[..., ::-1], "row-first", "The row comes first"),
         (lambda p: 2.0 * p, "one-factor-off", "2 times"),
-        (np.trunc, "whole-numbers", "The decimals are lost"),
+        (np.trunc, "whole-numbers", "truncated to whole numbers"),
     ],
 )
 def test_pixels_are_told_what_happened_to_them(change, slug, says):

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from test_claims import right, told
 
+from labkit.judge import Mask, Pose, Scalar
+from labkit.judge.answers import as_clause, say_number
 from labkit.judge.hypothesis import evidence
 from labkit.judge.matcher import Matcher
 from labkit.judge.mistake import Mistake
@@ -84,7 +86,7 @@ def test_each_wrong_result_of_several_has_its_own_mistake():
         return kp * e + kd * ed + np.clip(ki * integral, -clamp, clamp), integral
 
     says = told(5, "5.7", pid_step=pid_step)
-    assert "The acceleration: ki times the integral is clamped" in says
+    assert "In `pid_step`, the acceleration: ki times the integral is clamped" in says
     assert "the integral is returned without the clamp" in says
 
 
@@ -184,7 +186,7 @@ def test_of_two_mistakes_only_what_the_function_does_is_told():
 
     says = told(14, "14.6", reward=reward)
     assert "Two things at once: " in says
-    assert "; the reward of NaN is 0. (" in says
+    assert "; the reward of NaN is 0. Largest error: 1. The correct function " in says
     assert "because the simulation failed" not in says
 
 
@@ -248,28 +250,35 @@ def test_an_argument_before_a_default_is_told_by_its_name():
 @pytest.mark.parametrize(
     ("redone", "says"),
     [
-        ("with min", "the correct formula with min reproduces"),
-        ("upside down", "the right answer, upside down, reproduces"),
-        ("its sizes", "its sizes reproduce"),
-        ("the axis alone", "the axis alone reproduces"),
-        ("its transpose", "its transpose reproduces"),
+        ("with min", "the correct formula with min gives"),
+        ("upside down", "the correct result, upside down, gives"),
+        ("its sizes", "its sizes give"),
+        ("the axis alone", "the axis alone gives"),
+        ("its transpose", "the transpose of the correct result gives"),
+        ("the result with that sign", "the correct function with this mistake gives"),
+        ("the torques with both", "the correct function with both mistakes gives"),
+        ("L sqrt(K) + sqrt(K) L^T", "`L sqrt(K) + sqrt(K) L^T` gives"),
+        ("R^T", "`R^T` gives"),
+        ("C qd", "`C qd` gives"),
+        ("kabsch(a, b)", "`kabsch(a, b)` gives"),
+        ("the number of counts over 2 pi", "the number of counts over 2 pi gives"),
     ],
 )
-def test_what_reproduces_an_output_is_a_noun(redone, says):
+def test_what_gives_the_same_output_is_a_noun(redone, says):
     one = Mistake("some", "it is wrong", lambda x: x, redone)
-    assert one.does(evidence(exact=True)) == f"{says} your output"
+    assert one.does(evidence(exact=True)) == f"{says} the same output"
 
 
 @pytest.mark.parametrize(
     ("off", "says"),
     [
-        ("", "(That reproduces your output.)"),
-        ("off by up to 2 m", "(Off by up to 2 m; that reproduces your output.)"),
+        ("", "`R^T` gives the same output."),
+        ("Largest error: 2 m.", "Largest error: 2 m. `R^T` gives the same output."),
     ],
 )
 def test_no_clause_is_empty_where_it_is_not_known_how_far_off_an_answer_is(off, says):
     some = types.SimpleNamespace(off=lambda: off)
-    assert Matcher.in_brackets(some, f"that {evidence(exact=True)}") == says
+    assert Matcher.with_error(some, f"`R^T` {evidence(exact=True)}") == says
 
 
 def test_a_name_that_the_row_finds_is_not_followed_by_a_slip():
@@ -282,4 +291,49 @@ def test_a_name_that_the_row_finds_is_not_followed_by_a_slip():
 
     says = told(8, "8.6", truncated_svd_fit=truncated_svd_fit)
     assert says.startswith("Too few singular values are counted in 14 of 14 calls")
-    assert "reproduces" not in says
+    assert "gives the same output" not in says
+
+
+def test_mj_forward_is_named_only_where_a_function_takes_a_model():
+    zeros = np.zeros((4, 4))
+    says = told(1, "1.6", compose_fk=lambda model, q, path=None: zeros)
+    assert "`mj_forward`" in says
+    says = told(6, "6.6", critical_damping=lambda K, Lambda: np.zeros((6, 6)))
+    assert "Did you create the array but never fill it?" in says
+    assert "mj_forward" not in says
+
+
+def test_a_result_in_another_unit_is_not_explained_by_an_argument():
+    def max_cube_mass(grip, mu, acceleration):
+        return 1000.0 * right(7, "max_cube_mass")(grip, mu, acceleration)
+
+    says = told(7, "7.9", max_cube_mass=max_cube_mass)
+    assert says.startswith("The result is 1000 times the right one")
+    assert "Is it in another unit? The function should return kg." in says
+    assert "grip" not in says.partition("max_cube_mass(")[0]
+
+
+def test_a_large_number_has_no_exponent():
+    numbers = [say_number(x) for x in (2296.3, 21437.0, 230000.0, 13.26, 0.00123)]
+    assert numbers == ["2300", "21400", "2.3e+05", "13.3", "0.00123"]
+
+
+def test_the_largest_error_counts_calls_and_names_two_units():
+    yes, no = np.ones((6, 1)), np.zeros((6, 1))
+    assert Mask().largest_error(yes[:, 0], no[:, 0]) == "Wrong in 6 of 6 calls."
+    T = np.tile(np.eye(4), (3, 1, 1))
+    S = T.copy()
+    S[:, :3, :3] = np.diag([1.0, -1.0, -1.0])
+    S[:, :3, 3] = [1.5, 0.0, 0.0]
+    assert Pose().largest_error(S, T) == "Largest errors: 1500 mm and 180.0 deg."
+    assert Scalar(unit="kg").largest_error(T[:, 0, 0] + 1.0, T[:, 0, 0]) == (
+        "Largest error: 1 kg."
+    )
+
+
+def test_a_message_of_one_of_several_functions_goes_on_in_its_sentence():
+    assert as_clause("The ratio is 2.") == "the ratio is 2."
+    assert as_clause("A factor is missing.") == "a factor is missing."
+    assert as_clause("A is transposed.") == "A is transposed."
+    assert as_clause("R is transposed.") == "R is transposed."
+    assert as_clause("NumPy stops.") == "NumPy stops."

@@ -148,7 +148,7 @@ def test_a_slip_is_told_by_its_kind_and_by_how_it_reads():
     says = told(2, "2.4", exp_screw=exp_screw)
     assert "One sign is reversed: your output equals" in says
     assert "with `(theta + s) * K @ K`, or with" in says
-    assert "reproduces your output" in says
+    assert "gives the same output" in says
 
 
 def test_an_answer_that_is_infinite_is_not_told_how_far_it_is_off():
@@ -158,7 +158,7 @@ def test_an_answer_that_is_infinite_is_not_told_how_far_it_is_off():
         return bounds(np.abs(a), b, c, limits, sd)
 
     says = told(12, "12.8", path_accel_bounds=path_accel_bounds)
-    assert "`a` is replaced by its absolute value. (That reproduces" in says
+    assert "`a` is replaced by its absolute value. The correct function with" in says
 
 
 def test_one_slip_that_explains_all_is_told_before_two():
@@ -184,7 +184,7 @@ def test_a_slip_that_the_fresh_questions_do_not_show_is_not_told():
         R[0, 2] += 1e-3 * (abs(quat[0]) > 0.9)
         return R
 
-    assert "reproduces your output" not in told(1, "1.4", quat_to_R=quat_to_R)
+    assert "gives the same output" not in told(1, "1.4", quat_to_R=quat_to_R)
 
 
 def test_a_whenever_holds_for_arguments_of_other_sizes_as_well():

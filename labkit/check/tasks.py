@@ -13,6 +13,7 @@ from pathlib import Path
 from labkit.base.deadline import Deadline
 from labkit.base.exchange import Exchange, LoadError, Reply
 from labkit.check.slow import too_slow
+from labkit.judge.answers import as_clause
 from labkit.judge.ask import Asked, asked_of, replies
 from labkit.judge.cases import in_cases
 from labkit.judge.guard import attempt, noting, quiet
@@ -241,7 +242,10 @@ def _verdict_of(day: Day, task: Task, asked: Sequence[Asked], source: str) -> Ve
     for one in asked:
         verdict = replace(_guarded(day, task, one, source), function=one.function)
         if len(asked) > 1 and verdict.message and not verdict.follows:
-            verdict = replace(verdict, message=f"{one.function}: {verdict.message}")
+            says = f"In `{one.function}`, {as_clause(verdict.message)}"
+            if verdict.status == "todo":
+                says = f"{one.function}: {verdict.message}"
+            verdict = replace(verdict, message=says)
         if verdict.status != "passed":
             break
     return verdict

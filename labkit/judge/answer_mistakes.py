@@ -47,8 +47,9 @@ def _mistakes(text: str, redo: Mapping[str, Change]) -> list[Mistake]:
 GENERAL = _mistakes(
     """
     all-signs: every sign is wrong => its negative
-    whole-numbers: the decimals are lost: an array of integers truncates every number
-      that is stored in it => the truncated correct result
+    whole-numbers: your values are truncated to whole numbers, as NumPy does in an array
+      with an integer dtype. Create the array with floats => the truncated correct
+      result
     transposed: the matrix is transposed => its transpose
     reshaped: the array is reshaped where it should be transposed; only .T turns rows
       into columns => its transpose, reshaped
@@ -119,8 +120,8 @@ _OF_A_POSE = _mistakes(
       1) => its transpose
     t-in-last-row: the translation is in the last row; it belongs in the last column =>
       the correct result with t in the last row
-    corner-zero: the bottom row is (0, 0, 0, 0); its last entry should be 1
-    ones-below: the bottom row is all ones; it should be (0, 0, 0, 1)
+    corner-zero: the bottom row is (0, 0, 0, 0). It should be (0, 0, 0, 1)
+    ones-below: the bottom row is (1, 1, 1, 1). It should be (0, 0, 0, 1)
     t-lost: the rotation is correct, but the translation is missing => the correct
       result without t
     R-lost: the translation is correct, but the rotation is missing: R is the identity

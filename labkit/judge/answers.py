@@ -14,6 +14,11 @@ from numpy.typing import ArrayLike
 
 from robo47.checks import Array, pose_flaw, rotation_flaw
 
+# Words that a sentence may begin with, and that are no symbol.
+FIRST_WORDS = {"All", "An", "At", "Both", "Each", "Either", "Every", "For", "In", "It",
+               "No", "One", "Only", "Some", "The", "There", "This", "Two", "Without",
+               "Your"}  # fmt: skip
+OF_A_SYMBOL = ("is ", "has ", "and ", "contains ", "lacks ", "enters ", "should ", "= ")
 Parts = tuple[Array, ...]  # of answers: per result that the function returns, (n, ...)
 MATCHES = 1e-5  # "this is the mistake": wide enough for a student's float32
 KEPT = 64  # questions whose answers are kept
@@ -268,6 +273,11 @@ def _say(values: Array, unit: str, least: float) -> str:
     return f"{value:.{digits}f} {unit}"
 
 
+def say_number(x: float) -> str:
+    """Return a number with three digits: "0.0123", "2300", "2.3e+05"."""
+    return f"{float(f'{x:.3g}'):.0f}" if 1e3 <= abs(x) < 1e5 else f"{x:.3g}"
+
+
 def say_factor(factor: float) -> str:
     """Return a factor as people write it: "1000", "-1", "pi / 180"."""
     named = {np.pi / 180: "pi / 180", 180 / np.pi: "180 / pi", 2 * np.pi: "2 pi"}
@@ -288,6 +298,14 @@ def listed(words: Sequence[str]) -> str:
     """Return words as a list: "m, m cx and m cy"."""
     *before, last = words
     return f"{', '.join(before)} and {last}" if before else last
+
+
+def as_clause(sentence: str) -> str:
+    """Return a sentence as it goes on after a comma; a symbol stays what it is."""
+    first, _, rest = sentence.partition(" ")
+    if first == "A" and not rest.startswith(OF_A_SYMBOL):
+        return f"a {rest}"
+    return sentence[:1].lower() + sentence[1:] if first in FIRST_WORDS else sentence
 
 
 def capitalised(clause: str) -> str:

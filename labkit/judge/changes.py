@@ -23,6 +23,7 @@ SHARED = 3  # entries that two arguments have in common, one for each joint, say
 LIKELY = {"sign", "left-out", "doubled", "halved", "transposed", "inverted",
           "halves-exchanged", "backwards", "exchanged",
           "entries-exchanged"}  # fmt: skip
+OF_UNITS = {"thousandths", "thousands"}  # as an output in another unit has them, too
 CONSTANTS = (0.0, 1.0, 9.8, 9.80665, 9.81, 1.645, 1.96, 0.5, 2.0, 1e-3, 1e-6)
 
 

@@ -56,7 +56,7 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
     for one, _ in not_accepted(asked):
         assert one.reply
         yours = (f"yours: {shown(one.reply.value)}",)
-        says = f"{typed(one.question, names)} is such a call."
+        says = f"One failing call: {typed(one.question, names)}."
         return Failing(says, _given(one.question, names) + yours)
     return Failing()
 

@@ -161,7 +161,7 @@ def _equals(s: Array, h: Array, scale: Any) -> bool:
 def evidence(exact: bool) -> str:
     """Return what a hypothesis does, after what it is: "its transpose ..."."""
     if exact:
-        return "reproduces your output"
+        return "gives the same output"
     return "explains at least 99 % of the difference in every call"
 
 

@@ -500,7 +500,8 @@ def _wrong_too(case: Case, S: Parts, T: Parts, i: int) -> str:
     for j, kind in enumerate(case.ask.kinds):
         n = int(np.sum(case.ask.gaps_of(j, S[j], T[j]) > case.ask.near))
         if j != i and n and kind.called:
-            says += f" {capitalised(kind.called)} is wrong, too, in {n} of {len(S[j])}."
+            many = f"{n} of {len(S[j])} calls"
+            says += f" {capitalised(kind.called)} is wrong in {many}, too."
     return says
 
 
@@ -527,11 +528,12 @@ def _nothing_there(m: Matcher) -> Finding | None:
         return None  # of no entry nobody says that it is 0
     if not all(kind.empty for kind in m.ask.kinds):
         return None
-    return Finding(
-        "all-zeros",
-        "Every entry is 0 for every input. Was the array created, but never filled? "
-        "(MuJoCo's own results are 0 before mj_forward.)",
-    )
+    says = "Every entry of your output is 0 for every input. Did you create the array "
+    says += "but never fill it?"
+    if {"model", "data"} & set(m.case.names):
+        says += " If you copied the values from `data`, note that they are 0 until "
+        says += "`mj_forward` is called."
+    return Finding("all-zeros", says)
 
 
 def _all_the_same(m: Matcher) -> Finding | None:
@@ -542,7 +544,7 @@ def _all_the_same(m: Matcher) -> Finding | None:
     whole = as_one([answer for some in every for answer in some])
     if len(S) < 2 or difference(whole, whole[0]).max() > 1e-8:
         return None
-    off = f"(The result is off by up to {kind.apart(S, m.T[i])}.)"
+    off = kind.largest_error(S, m.T[i])
     square = S.ndim == 3 and S.shape[1] == S.shape[2]
     if square and np.array_equal(S[0], np.eye(S.shape[1])):
         says = f"Your function returns the identity for every input. {off}"

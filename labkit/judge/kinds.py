@@ -20,6 +20,7 @@ from labkit.judge.answers import (
     listed,
     matches,
     say_factor,
+    say_number,
 )
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
@@ -29,6 +30,7 @@ NEAR = 1e-4  # entries that differ by less are not called wrong
 ROUNDED_AWAY = 1e12  # rounding divided by nothing: its digits are the processor's
 DUST = 1e-9  # in units of the scale: what rounding leaves of a right answer
 RIGHT = 1e-6  # and those that differ by less are called right
+OF_UNITS = (1e3, 1e-3)  # factors that a unit with another prefix has
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,7 @@ class Kind:
     none: str = field(default="", kw_only=True)
     single: ClassVar[bool] = False  # whether it has no shape
     whole: ClassVar[bool] = False  # whether equal numbers prove little: counts, choices
-    gap: ClassVar[str] = "off by up to"  # said before how far answers are apart
+    gap: ClassVar[str] = "largest error:"  # said before how far answers are apart
     empty = True  # whether an answer that is all 0 looks like one that was never filled
     # Mistakes made with a finished answer, by their names in `answer_mistakes`.
     usual: ClassVar[tuple[str, ...]] = ("all-signs", "whole-numbers")
@@ -168,11 +170,16 @@ class Kind:
         if off[at] < DUST * scale[at]:
             return "0"
         unit = f" {self.unit}" if self.unit else ""
-        entry = " in one entry" if self.shape else ""
-        digits = f"{off[at]:.3g}" if off[at] < ROUNDED_AWAY else "1e+12 and more"
+        digits = say_number(off[at]) if off[at] < ROUNDED_AWAY else "1e+12 and more"
         if off[at] < MATCHES * scale[at]:  # its further digits are rounding
             digits = f"{off[at]:.0e}"
-        return f"{digits}{unit}{entry}"
+        return f"{digits}{unit}"
+
+    def largest_error(self, S: Array, T: Array) -> str:
+        """Return how far S is from T at worst as a sentence: "Largest error: 2 m."."""
+        apart = self.apart(S, T)
+        said = self.gap.replace("error", "errors") if " and " in apart else self.gap
+        return f"{said.capitalize()} {apart}."
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
         """Return the most useful true thing about answers that no mistake gives."""
@@ -259,11 +266,13 @@ def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:
     plain = abs(factor) > 1e-6 and abs(factor - 1.0) > 1e-3
     if not plain or not matches(S, factor * T, kind.scale):
         return None
-    return Finding(
-        "one-factor-off",
+    says = (
         f"The result is {say_factor(factor)} times the right one, in every entry and "
-        "every time.",
     )
+    says += "every time."
+    if kind.unit and any(np.isclose(factor, other) for other in OF_UNITS):
+        says += f" Is it in another unit? The function should return {kind.unit}."
+    return Finding("one-factor-off", says)
 
 
 def few_entries(

@@ -209,17 +209,16 @@ class Matcher:
         return all(one.difference.equals(one.answers(code)) for one in some if one)
 
     def off(self) -> str:
-        """Return how far the answers are off: "off by up to 2 m"; "" of a NaN."""
+        """Return how far the answers are off: "Largest error: 2 m."; "" of a NaN."""
         k = worst_part(self.ask.kinds, self.S, self.T, self.ask.near)
         if not np.isfinite(self.S[k]).all():
             return ""
         kind = self.ask.kinds[k]
-        return f"{kind.gap} {kind.apart(self.S[k], self.T[k])}"
+        return kind.largest_error(self.S[k], self.T[k])
 
-    def in_brackets(self, evidence: str) -> str:
-        """Return how far the answers are off and what explains them, in brackets."""
-        how = "; ".join(filter(None, [self.off(), evidence]))
-        return f"({capitalised(how)}.)"
+    def with_error(self, evidence: str) -> str:
+        """Return how far the answers are off, and what explains them, as sentences."""
+        return " ".join(filter(None, [self.off(), f"{capitalised(evidence)}."]))
 
 
 def row(answer: Parts) -> Array:

@@ -11,13 +11,28 @@ from numpy.typing import NDArray
 
 from robo47.checks import Array
 
-REDONE = "the right answer with this mistake"
+REDONE = "the correct function with this mistake"
+BOTH = "the correct function with both mistakes"
 # What an answer is called in the catalogue that is no noun: "with min", "upside down".
 _FORMULA = re.compile(r"with(out)? ")
 _FRAGMENT = re.compile(
     r"(after|at|by|cut|divided|down|for|from|halved|in|less|minus|rounded|squared"
     r"|times|turned|up|upside|where|[+*/])\b ?|[+*/] "
 )
+# A name that only the sentence before it explains: "the correct result with that sign".
+_POINTS_BACK = re.compile(
+    r"\bthat (?!is\b|are\b)|\b(these|those)\b(?! above)|^this \w+$|\bwithout it\b"
+)
+_OF_BOTH = re.compile(r"\bwith both( mistakes)?$")
+_ITS = re.compile(r"its (negative|inverse|transpose|square|root)\b(.*)")
+# A formula has a sign, or is of symbols alone, and has none of these words.
+_SYMBOL = r"(?:\w|\w*[\d_]\w*|dq|qd|tau)"
+_CODE = re.compile(rf"[-+*/^=@()\[\].|]|^{_SYMBOL}(?: {_SYMBOL})*$")
+_WORDS = {
+    "all", "an", "and", "as", "at", "by", "each", "for", "from", "in", "instead",
+    "its", "last", "of", "on", "one", "over", "plus", "the", "then", "this", "times",
+    "to", "with", "without", "where",
+}  # fmt: skip
 _PLURAL = re.compile(
     r"(all|both|two|three|five|ten|eleven|twenty|fifty|rays|zeros)\b"
     r"|(the|its|their) (?!series\b)\w*[^\Wsiu]s\b"
@@ -69,7 +84,7 @@ class Mistake:
 
     slug: str  # its name, "chain-reversed"
     # For the student: a clause without capital and full stop, so that it can follow "In
-    # the links' factors, ".
+    # each link's transform, ".
     says: str
     # The function with the mistake in it. It takes all questions' arguments stacked,
     # one array (n, ...) per argument (a `Robot` as its model), and returns (n, ...), or
@@ -83,16 +98,34 @@ class Mistake:
         """Return a clause on its answers: "the correct formula with min stops".
 
         Args:
-            evidence: a verb and what follows, as of one thing: "stops in one call".
+            evidence: a verb and its object, in the singular: "stops in one call".
         """
-        called = self.redone
+        called = self._called()
         if _FORMULA.match(called):
             return f"the correct formula {called} {evidence}"
         if _FRAGMENT.match(called):
-            return f"the right answer, {called.rstrip(',')}, {evidence}"
+            return f"the correct result, {called.rstrip(',')}, {evidence}"
         if _PLURAL.match(called):
             evidence = re.sub(r"^(\w+)s\b", r"\1", evidence)
         return f"{called} {evidence}"
+
+    def _called(self) -> str:
+        """Return what to call its answers in a sentence that stands alone."""
+        called = self.redone
+        if _OF_BOTH.search(called):
+            return BOTH
+        if _POINTS_BACK.search(called):
+            return REDONE
+        if its := _ITS.fullmatch(called):
+            rest = f"{its[2]}," if its[2] else ""
+            return f"the {its[1]} of the correct result{rest}"
+        return f"`{called}`" if _is_code(called) else called
+
+
+def _is_code(text: str) -> bool:
+    """Return whether a text is a formula or a name of code and no phrase."""
+    words = set(re.findall(r"[a-z]+", text))
+    return bool(_CODE.search(text)) and "`" not in text and not words & _WORDS
 
 
 def told(text: str) -> Iterator[tuple[str, str, str]]:

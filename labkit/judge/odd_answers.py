@@ -28,7 +28,7 @@ def named(asked: Asked, found: Finding) -> Finding:
     mine = [_given(one, asked.ask) for one in asked.main]
     if any(isinstance(one, str) for one in mine):
         return found
-    return _first(asked, mine, found, "reproduces your output")
+    return _first(asked, mine, found, "gives the same output")
 
 
 def stops_alike(asked: Asked, found: Finding) -> Finding:
@@ -51,8 +51,8 @@ def _first(asked: Asked, mine: Sequence[Answer], found: Finding, how: str) -> Fi
         if isinstance(mistake.redo, InTurn):
             again = _again(mistake, arguments, len(mine))
             if len(again) == len(mine) and all(map(_same, mine, again)):
-                says = f"{capitalised(mistake.says)}. ({capitalised(mistake.does(how))}"
-                says = f"{found.message} {says}.)"
+                says = f"{found.message} {capitalised(mistake.says)}. "
+                says += f"{capitalised(mistake.does(how))}."
                 return Finding(mistake.slug, says)
     return found
 

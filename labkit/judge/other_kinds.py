@@ -194,7 +194,7 @@ class Word(Kind):
         return self.words[place] if 0 <= place < len(self.words) else "?"
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
-        return f"{count(int(np.sum(S != T)), 'word')} of {len(S)}"
+        return f"{np.sum(S != T)} of {len(S)} calls"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         i = int(np.argmax(S != T))
@@ -223,7 +223,8 @@ class Mask(Kind):
         return found if found.ndim else found.item()
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
-        return f"{np.sum(S != T)} of {np.size(T)}"
+        what = "entries" if self.shape else "calls"
+        return f"{np.sum(S != T)} of {np.size(T)} {what}"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if (odd := S[(S != 0) & (S != 1)]).size:

@@ -21,9 +21,9 @@ from labkit.judge.answers import (
     parts,
     rigid,
 )
-from labkit.judge.hypothesis import EXACT
+from labkit.judge.hypothesis import EXACT, evidence
 from labkit.judge.matcher import Code, Matcher, row
-from labkit.judge.mistake import Finding, Mistake
+from labkit.judge.mistake import BOTH, Finding, Mistake
 from labkit.judge.mutant import Mutant
 from labkit.judge.sentence import half
 from labkit.judge.sources import after, answered_near
@@ -70,7 +70,7 @@ def _told(m: Matcher, slugs: Sequence[str], says: Sequence[str]) -> Finding | No
     says = [_RULE.split(one)[0] for one in says]  # a rule would break the list
     if len(set(says)) < len(says):
         return None
-    how = m.in_brackets("both together reproduce your output")
+    how = m.with_error(f"{BOTH} {evidence(True)}")
     return Finding("+".join(slugs), f"Two things at once: {'; '.join(says)}. {how}")
 
 

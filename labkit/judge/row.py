@@ -303,7 +303,7 @@ class Row:
 
         Args:
             small: its name; it has a file of its own.
-            where: what to say first, such as "in the links' factors, ".
+            where: what to say first, such as "in each link's transform, ".
             but: slugs that make no difference here.
             called: words that are others here, such as {"the end effector": "link4"}.
             hidden: per slug why the lab cannot show it here, as in a `Way`.

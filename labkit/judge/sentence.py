@@ -12,7 +12,7 @@ from typing import Any
 
 from labkit.judge.answers import capitalised
 from labkit.judge.hypothesis import evidence
-from labkit.judge.mistake import Finding
+from labkit.judge.mistake import REDONE, Finding
 from labkit.judge.mutant import Mutant
 from labkit.judge.own_line import Line, OwnFunction
 from labkit.judge.statements import Block
@@ -78,7 +78,7 @@ def of_mutants(m: Any, found: Sequence[Mutant]) -> Finding:
         some = list(dict.fromkeys(what(one) for one in found))
         says = f"either {', or '.join(some)}" if len(some) > 1 else some[0]
         says += f": your output equals the correct formula {', or '.join(texts)}"
-    how = m.in_brackets(f"that {evidence(True)}")
+    how = m.with_error(f"{REDONE} {evidence(True)}")
     return Finding(f"slip-{found[0].kind}", f"{capitalised(says)}. {how}")
 
 

@@ -23,6 +23,7 @@ from labkit.judge.answers import (
 )
 from labkit.judge.ask import Ask, Case
 from labkit.judge.hypothesis import equals, evidence
+from labkit.judge.kinds import one_factor
 from labkit.judge.matcher import Calls, Code, Matcher
 from labkit.judge.mistake import Finding, Mistake
 from labkit.judge.mutant import FAR, Mutant
@@ -95,7 +96,7 @@ def _sentence(one: Mistake) -> str:
 def with_evidence(m: Matcher, one: Mistake, exact: bool | None = None) -> Finding:
     """Return what is said of a mistake, and how well it explains the answers."""
     exact = m.exact(one.redo) if exact is None else exact
-    how = m.in_brackets(one.does(evidence(exact)))
+    how = m.with_error(one.does(evidence(exact)))
     return Finding(one.slug, f"{_sentence(one)} {how}")
 
 
@@ -138,7 +139,7 @@ def of_answers(m: Matcher) -> Finding | None:
 def _changed_answer(m: Matcher, i: int | None, says: str) -> Finding:
     called = m.ask.kinds[i].called if i is not None and len(m.T) > 1 else ""
     what = f"{capitalised(called)} is" if called else "Your output is"
-    how = m.in_brackets(f"that {evidence(True)}")
+    how = m.with_error(f"the correct result with this change {evidence(True)}")
     return Finding("answer-changed", f"{what} the correct result, but {says}. {how}")
 
 
@@ -172,10 +173,19 @@ def of_arguments(m: Matcher, digits: bool = True) -> Finding | None:
         if not digits and one.slug not in changes.LIKELY:
             continue  # a small number is nearly 0, whatever it is divided by
         if m.main.difference.fits(m.i, answer, digits) and m.holds(code, digits):
+            if one.slug in changes.OF_UNITS and (unit := _in_another_unit(m)):
+                return unit
             says = f"Your output is the correct result for other arguments: {one.says}."
-            how = m.in_brackets(f"that {evidence(m.exact(code))}")
+            redone = "the correct function with these arguments"
+            how = m.with_error(f"{redone} {evidence(m.exact(code))}")
             return Finding(f"argument-{one.slug}", f"{says} {how}")
     return None
+
+
+def _in_another_unit(m: Matcher) -> Finding | None:
+    """Return that the one result is 1000 times the right one, or a thousandth of it."""
+    kind, *others = m.ask.kinds
+    return None if others or not kind.unit else one_factor(kind, m.S[0], m.T[0])
 
 
 def with_other_arguments(m: Matcher) -> Iterator[tuple[changes.Change, Code, Parts]]:

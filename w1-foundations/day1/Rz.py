@@ -35,8 +35,8 @@ def small_angle_formula(theta, below=0.1):
 
 @row.wrongs(hidden={"small-angle-formula": "the lab draws hardly any angle so small"})
 def _(theta):
-    """turns-backwards: the rotation has the wrong sense; a positive angle rotates x
-      towards y => Rz(-theta)
+    """turns-backwards: your code rotates in the wrong sense. A positive angle should
+      rotate x towards y => Rz(-theta)
     sin-and-cos-swapped: the sine and the cosine are swapped: at 0 the matrix already
       rotates by 90 degrees
     minus-missing: neither sine has a minus sign, so the matrix is not orthonormal

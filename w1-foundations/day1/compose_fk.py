@@ -120,7 +120,7 @@ row.wrong(products.turns_in_reverse)
 # The factors themselves, and the finished pose.
 
 I = np.eye(4)  # noqa: E741
-IN_LINKS = "in every link's factor, "
+IN_LINKS = "in each link's transform, "
 # The model has quaternions of length 1, the file has not. Of the file's, turned by 0 or
 # 90 degrees, the last two make the same matrix; task 1.4 tells them apart.
 OF_THE_FILE = {
@@ -166,7 +166,7 @@ for formula in UNNORMALISED:
     row.wrong("xyzw-and-not-normalised", IN_LINKS + says, redone)(_typed(rolled))
     row.wrong("xyzw-and-not-normalised", IN_LINKS + says, redone)(_typed(rolled, 1))
 
-row.reached_by("joint_T", "in every joint's factor, ")
+row.reached_by("joint_T", "in each joint's transform, ")
 
 
 # Right and nearly right.

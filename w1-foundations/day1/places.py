@@ -116,11 +116,11 @@ def _other_links(model, name: str) -> Iterator[tuple[Finding, Array]]:
     body = model.body(name)
     pos = body.pos[None]
     quat = as_written(body.quat)[None]
-    missing = f"The factor of {name} is missing in your product"
+    missing = f"The transform of {name} is missing in your product"
     yield Finding("link-skipped", missing), np.eye(4)
-    yield Finding("link-twice", f"The factor of {name} is applied twice"), L @ L
+    yield Finding("link-twice", f"The transform of {name} is applied twice"), L @ L
     for mistake in link_T.row.ask.named:
-        says = f"In the factor of {name} alone, {mistake.says}"
+        says = f"In the transform of {name} alone, {mistake.says}"
         yield Finding(mistake.slug, says), mistake.redo(pos, quat)
 
 
@@ -135,7 +135,7 @@ def _other_joints(model, q: Array, joint: str) -> Iterator[tuple[Finding, Array]
             yield Finding("joint-fed-another", says), turn(model, q, other)
     angles = q[:, model.joint(joint).qposadr[0]]
     for mistake in joint_T.row.ask.named:
-        says = f"In {joint}'s factor alone, {mistake.says}"
+        says = f"In the transform of {joint} alone, {mistake.says}"
         yield Finding(mistake.slug, says), mistake.redo(angles)
 
 
@@ -186,6 +186,6 @@ def _wrong_end(first: Mistake, case: Case, some: slice) -> Finding | None:
 def _both(first: Finding, second: Finding, case: Case) -> Finding:
     return Finding(
         f"{first.slug}+{second.slug}",
-        f"Two things at once: {first.message}; {second.message}. (Off by up to "
-        f"{Pose().apart(case.S, case.T)}; with both corrected, by 0.)",
+        f"Two things at once: {first.message}; {second.message}. "
+        f"{Pose().largest_error(case.S, case.T)} Without both mistakes, it is 0.",
     )

@@ -14,9 +14,9 @@ from .panda_chain import PATH, fk, link, product, steps, turn
 
 
 def in_order(model, q, path=PATH):
-    """joint-before-link: each joint's factor comes before the factor of its link; the
-      link's offset leads to the joint, so it comes first => the product with each pair
-      swapped
+    """joint-before-link: each joint's transform comes before the transform of its link.
+      It should come after it, because the link's offset leads to the joint => the
+      product with each pair swapped
     chain-reversed: the product is in the reverse order; each further factor belongs on
       the right of the product so far => the product in reverse order
     links-on-the-left: the links' factors are multiplied on the left and the joints' on

@@ -48,7 +48,8 @@ def _(T):
     }
 
 
-row.reached_by("skew", "in [p], ", but=["p-cross-w"])  # the lever arm's sign
+# Without the lever arm's sign.
+row.reached_by("skew", "in [p], ", but=["p-cross-w"], called={"w_": "p_"})
 
 
 @row.right  # Column by column, each lever arm a cross product.

@@ -127,7 +127,8 @@ def _(axis, theta):
 
 row.of_argument("theta", *OF_AN_ANGLE)
 
-row.reached_by("skew", "in [axis], ", but=["p-cross-w"])  # the sign of the angle
+# Without the sign of the angle.
+row.reached_by("skew", "in [axis], ", but=["p-cross-w"], called={"w_": "axis_"})
 
 
 @row.close("rounded-somewhere")  # Public code: below a millionth there is no turn.

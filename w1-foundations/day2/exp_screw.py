@@ -192,7 +192,7 @@ def exp_by_entries(S, theta):
     return np.exp(bracket * theta)
 
 
-row.reached_by("skew", "in [omega], ")
+row.reached_by("skew", "in [omega], ", called={"w_": "omega_"})
 row.reached_by("exp_rotation", "in the rotation, ")
 row.of_answer(of_a_pose(), but=["R-transposed", "inverse-returned"])  # the angle's sign
 

@@ -9,7 +9,7 @@ row = Row(Matrix((3, 3)))
 
 FLIPPED = {"x": [-1, 1, 1], "y": [1, -1, 1], "z": [1, 1, -1]}
 SIGNS = (1, "", "the two swapped"), (-1, ", and all signs are reversed", "both")
-SWAPPED = {"x and z": [2, 1, 0], "x and y": [1, 0, 2], "y and z": [0, 2, 1]}
+SWAPPED = {"w_x and w_z": [2, 1, 0], "w_x and w_y": [1, 0, 2], "w_y and w_z": [0, 2, 1]}
 
 
 @row.inputs
@@ -40,7 +40,7 @@ def _(w):
 for letter, signs in FLIPPED.items():
     row.wrong(
         "pair-of-signs",
-        f"the signs of the two entries with {letter} are swapped",
+        f"the two entries that contain w_{letter} have the wrong sign",
         f"the correct result with {letter} negated",
     )(lambda w, signs=signs: skew(w * signs))
 for sign, more, redone in SIGNS:

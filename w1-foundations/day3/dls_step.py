@@ -19,8 +19,9 @@ def _without_damping(rng):
 
 AT_NO_DAMPING = HeldOut(
     "zero-without-damping",
-    "Your function is correct, but with damping 0 it returns zeros. There the formula "
-    "is the step of the pseudo-inverse, which step 6 of the lab uses.",
+    "Your function is correct for damping above 0 but returns zeros for damping 0. "
+    "With zero damping, the damped least-squares step is the pseudo-inverse step. Step "
+    "6 of the lab uses this case.",
     _without_damping,
     mistaken=lambda J, e, damping: np.zeros(7),
 )

@@ -29,7 +29,8 @@ def of_blocks(a, b, c, d):
 @row.wrongs
 def _(m, c, I):
     """parallel-axis-sign: the parallel-axis term of the upper left block has the wrong
-      sign: [c] [c] is minus [c] [c]^T => the matrix with I + m [c] [c]
+      sign. It should be m [c] [c]^T, which equals -m [c] [c] because [c] is
+      skew-symmetric => the matrix with I + m [c] [c]
     outer-product-for-skew: the upper left block contains c c^T instead of [c] [c]^T,
       but a mass resists rotation about the axes that are far from it => the matrix with
       I + m c c^T

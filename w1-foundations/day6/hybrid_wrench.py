@@ -36,8 +36,9 @@ def _(e, V_err, K, D, force):
       height of the hand => the correct formula with K e along z
     damper-left-out: the damping term is missing along z; only the spring should be
       removed there
-    moment-in-place-of-force: entry 2 is replaced, which is the moment about z; the last
-      three entries are the force => the correct formula with entry 2 replaced
+    moment-in-place-of-force: your code replaces entry 2, which is the moment about z.
+      The last three entries are the force, so the force along z is entry 5 => the
+      correct formula with entry 2 replaced
     spring-everywhere: force is not used: the result is the impedance wrench in all six
       directions => K e + D V_err
     along-x: the force acts along x; it should act along z => the correct formula with
@@ -66,9 +67,10 @@ def _(e, V_err, K, D, force):
 
 @row.wrongs
 def _(e, V_err, K, D, force):
-    """moment-in-place-of-force: entry 2 is replaced, and its damping term is missing.
-      Entry 2 is the moment about z; the last three entries are the force => the correct
-      formula with entry 2 replaced
+    """moment-in-place-of-force: your code writes the force into entry 2, which is the
+      moment about z, and this entry lacks its damping term. The last three entries are
+      the force, so the force along z is entry 5 => the correct formula with entry 2
+      replaced
     column-in-place-of-row: the last row and the last column of K are removed. An error
       along z should still contribute to the other five directions => the correct
       formula with row and column 5 of K at 0

@@ -85,11 +85,13 @@ def _(t, T):
     not-divided+not-clipped: your code has two mistakes: sd and sdd are not divided by
       the duration and its square, and the polynomial continues before the start and
       after the end
-    end-not-clipped: s is clamped at the start, but the polynomial continues after the
-      end
+    end-not-clipped: your code handles t < 0 but not t > duration, so the polynomial
+      continues after the end. For t > duration, use s = 1 with zero velocity and
+      acceleration, because the robot is at rest again
     never-clipped: the polynomial is also evaluated before the start and after the end
-    start-not-clipped: s is clamped at the end, but the polynomial is also evaluated
-      before the start
+    start-not-clipped: your code handles t > duration but not t < 0, so it evaluates the
+      polynomial before the start. For t < 0, use s = 0 with zero velocity and
+      acceleration, because the robot is still at rest
     """
     x = np.clip(t / T, 0.0, 1.0)
     given = {

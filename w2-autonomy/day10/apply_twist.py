@@ -58,7 +58,7 @@ def _(T, xi):
       moved frame. xi is expressed in the frame in which T is given => T exp([xi])
     apart: R is rotated and v is added to t; a rotation about the origin moves t as well
       => (exp([omega]) R, t + v)
-    first-order: the result is T + [xi] T, which is not a rigid transform; use the
+    first-order: the result is T + [xi] T, which is not a rigid transform. Use the
       exponential => (1 + [xi]) T
     t-not-turned: t is not rotated; a rotation about the origin moves t as well =>
       exp([omega]) R with t plus the translation of the exponential
@@ -68,7 +68,7 @@ def _(T, xi):
       exp of xi / |omega|
     slides-left-out: if omega is 0, T is returned unchanged; the translation is then v
       => T where omega is 0
-    identity-where-still: for xi = 0 the identity is returned; return T
+    identity-where-still: for xi = 0 the identity is returned. Return T
     turns-only: v, the linear part of xi, is not used
     slides-only: omega, the angular part of xi, is not used
     """

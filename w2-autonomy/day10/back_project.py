@@ -63,7 +63,7 @@ for slug, says, redone, other in (
      "use its inverse", "K instead of its inverse", {"ray": lambda K, h, d: h @ K.T}),
     ("centre-forgotten", "the principal point is not subtracted from the pixel",
      "(u / f, v / f, 1)", {"ray": lambda K, h, d: h / [K[0, 0], K[1, 1], 1]}),
-    ("centre-added", "the principal point is added to the pixel; subtract it",
+    ("centre-added", "the principal point is added to the pixel. Subtract it",
      "(u + cx) / f", {"ray": lambda K, h, d: (h + K[:, 2] * [1, 1, 0])
                       / [K[0, 0], K[1, 1], 1]}),
     ("centre-swapped", "cx and cy are swapped: cx belongs to u", "(cy, cx)",
@@ -73,7 +73,7 @@ for slug, says, redone, other in (
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, -1, 1]}),
     ("x-left", "x is negated; both x and u point to the right", "(-x, y, z)",
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, 1, 1]}),
-    ("f-multiplied", "the distance from the principal point is multiplied by f; divide "
+    ("f-multiplied", "the distance from the principal point is multiplied by f. Divide "
      "it by f", "(u - cx) f", {"ray": lambda K, h, d: (h - K[:, 2] * [1, 1, 0])
                                * [K[0, 0], K[1, 1], 1]}),
     ("f-forgotten", "the focal length is missing: divide the distance from the "
@@ -94,16 +94,16 @@ for slug, says, redone, other in (
     ("depth-only-in-z", "only z is multiplied by the depth; x and y are also "
      "proportional to the depth", "(x, y, depth)",
      {"scaled": lambda ray, d: np.hstack([ray[:, :2], d])}),
-    ("depth-added", "the depth is added to z; multiply the whole ray by it",
+    ("depth-added", "the depth is added to z. Multiply the whole ray by it",
      "z + depth", {"scaled": lambda ray, d: ray + d * [0, 0, 1]}),
-    ("depth-in-the-pixel", "the depth replaces the 1 in (u, v, 1); multiply "
+    ("depth-in-the-pixel", "the depth replaces the 1 in (u, v, 1). Multiply "
      "K^-1 (u, v, 1) by the depth", "K^-1 (u, v, depth)",
      {"ray": lambda K, h, d: right_ray(K, h * [1, 1, 0] + d * [0, 0, 1]),
       "scaled": not_scaled}),
     ("moved-before-scaled", "the ray is transformed by T before it is multiplied by "
      "the depth, which then also scales the translation", "depth times (T ray)",
      {"scaled": not_scaled, "moved": lambda R, t, p, d: d * (p @ R.T + t)}),
-    ("T-forgotten", "the points are in the camera frame; transform them to the world "
+    ("T-forgotten", "the points are in the camera frame. Transform them to the world "
      "frame", "the result without T", {"moved": lambda R, t, p, d: p}),
     ("half-inverted", "R is transposed and t is subtracted, but the result is neither "
      "T p nor T^-1 p, which is R^T (p - t)", "R^T p - t",

@@ -34,9 +34,9 @@ def _(fovy, width, height):
     middle-of-a-pixel: the principal point is ((width - 1) / 2, (height - 1) / 2), as in
       OpenCV, where (0, 0) is the centre of the first pixel. In this task, (0, 0) is its
       corner => (width - 1) / 2
-    centre-at-0: the principal point is (0, 0); it should be the centre of the image =>
+    centre-at-0: the principal point is (0, 0). It should be the centre of the image =>
       (0, 0) as the principal point
-    centre-whole: the principal point is (width, height); it should be the centre of the
+    centre-whole: the principal point is (width, height). It should be the centre of the
       image, half of both => (width, height) as the principal point
     y-up: the second focal length is negative; v and y both point down => -f for v
     whole-division: the operator // rounds half of an odd number of pixels down: the

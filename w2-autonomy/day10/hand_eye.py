@@ -111,8 +111,8 @@ for slug, says, redone, other in (
     ("mirror", "the determinant is not checked: for axes near one plane U V^T may be a "
      "reflection", "U V^T",
      {"turn": partial(turns, rotation=lambda U, Vt: U @ Vt)}),
-    ("mirror-turned-round", "the reflection is corrected by negating the whole matrix; "
-     "negate only the direction of the smallest singular value", "-U V^T",
+    ("mirror-turned-round", "the reflection is corrected by negating the whole matrix. "
+     "Negate only the direction of the smallest singular value", "-U V^T",
      {"turn": partial(turns, rotation=all_turned)}),
     ("R-transposed", "the rotation is transposed: a = R b, so it comes from the sum of "
      "a b^T", "R^T in both steps",
@@ -120,11 +120,11 @@ for slug, says, redone, other in (
     ("centred", "the mean is subtracted from the rotation vectors; a = R b has no "
      "translation, so use the vectors themselves", "kabsch on the rotation vectors",
      {"turn": partial(turns, centred=True)}),
-    ("axes-alone", "the rotation vectors are normalised; keep their norms, because the "
+    ("axes-alone", "the rotation vectors are normalised. Keep their norms, because the "
      "axes of small rotations are less accurate and should get less weight",
      "a fit of unit axes", {"turn": partial(turns, unit=True)}),
     ("positions-for-rotations", "the rotation is fitted to the translations of A and "
-     "B; fit it to their rotation vectors", "the rotation between the translations",
+     "B. Fit it to their rotation vectors", "the rotation between the translations",
      {"turn": between_places}),
     ("R-transposed-in-d", "t_B is rotated by R^T; R itself maps the camera frame to "
      "the hand frame", "R^T t_B - t_A", {"turned": lambda R, t: t @ R}),

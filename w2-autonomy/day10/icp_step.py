@@ -39,7 +39,7 @@ def once_each(away):
 
 @row.wrongs
 def _(T, source, target):
-    """step-alone: the result is the motion from the transformed source; return the
+    """step-alone: the result is the motion from the transformed source. Return the
       whole motion, from the source itself => kabsch of the transformed points
     step-on-the-right: the step multiplies T on the right; it is applied after T, so it
       belongs on the left => T times the step
@@ -47,17 +47,17 @@ def _(T, source, target):
       contains T already => the result times T
     step-twice 2: T is applied twice; the motion is fitted to the source itself, so it
       contains T already => T times the result
-    by-sizes-added: the nearest point is chosen by the sum of the absolute differences;
-      use the Euclidean distance => the sum of |x - y|
-    nearer-half: only the nearer half of the pairs is fitted; fit all of them
+    by-sizes-added: the nearest point is chosen by the sum of the absolute differences.
+      Use the Euclidean distance => the sum of |x - y|
+    nearer-half: only the nearer half of the pairs is fitted. Fit all of them
     each-once: each target point is used at most once; several source points may have
       the same nearest one => a pairing without repetition
-    in-the-plane: only x and y are compared for the nearest point; use all three
+    in-the-plane: only x and y are compared for the nearest point. Use all three
       coordinates
-    pairs-of-the-target: each target point is paired with the nearest source point; pair
+    pairs-of-the-target: each target point is paired with the nearest source point. Pair
       each source point with the nearest target point
-    first-to-first: the points are paired by their order; pair each with the nearest
-    T-unchanged: the output is T itself; fit the motion from the source to the pairs
+    first-to-first: the points are paired by their order. Pair each with the nearest
+    T-unchanged: the output is T itself. Fit the motion from the source to the pairs
     """
     now = source @ T[:3, :3].T + T[:3, 3]
     best = nearest(now, target)

@@ -66,8 +66,8 @@ def all_turned(U, Vt):
 for slug, says, redone, other in (
     ("mirror", "the determinant is not checked: with noise or for mirrored points "
      "U V^T may be a reflection", "U V^T", {"rotation": lambda U, Vt: U @ Vt}),
-    ("mirror-turned-round", "the reflection is corrected by negating the whole matrix; "
-     "negate only the direction of the smallest singular value", "-U V^T",
+    ("mirror-turned-round", "the reflection is corrected by negating the whole matrix. "
+     "Negate only the direction of the smallest singular value", "-U V^T",
      {"rotation": all_turned}),
     ("largest-turned-round", "the reflection is corrected by negating the direction of "
      "the largest singular value; negating the direction of the smallest one changes "
@@ -77,7 +77,7 @@ for slug, says, redone, other in (
     ("column-turned-round", "the reflection is corrected by negating the third column "
      "of V^T; the directions are the rows of V^T", "the negated column of V^T",
      {"rotation": lambda U, Vt: U @ Vt @ np.diag([1, 1, np.linalg.det(U @ Vt)])}),
-    ("always-turned-round", "the third direction is always negated; negate it only if "
+    ("always-turned-round", "the third direction is always negated. Negate it only if "
      "U V^T is a reflection", "diag(1, 1, -1)",
      {"rotation": lambda U, Vt: U @ np.diag([1, 1, -1]) @ Vt}),
     ("R-transposed", "the rotation is transposed: it maps the source to the target, so "
@@ -89,14 +89,15 @@ for slug, says, redone, other in (
     ("not-centred", "the centroids are not subtracted before the SVD",
      "the SVD of the points themselves", {"centre": lambda X: np.zeros(3)}),
     ("one-number-for-the-centre", "the centroid is the mean of all coordinates "
-     "together; use axis=0 for one mean per coordinate", ".mean() without an axis",
+     "together. Use axis=0 for one mean per coordinate", ".mean() without an axis",
      {"centre": lambda X: X.mean() + np.zeros(3)}),
     ("about-the-first", "the first points are subtracted instead of the centroids; "
      "their noise changes the rotation", "the SVD about source[0] and target[0]",
      {"centre": lambda X: X[0]}),
-    ("scaled", "R is multiplied by a scale; a rigid motion keeps all distances",
+    ("scaled", "your R contains a scale factor. A rigid motion preserves distances, so "
+     "R should be a pure rotation",
      "a scaled R", {"scale": lambda s, source: s.sum() / np.sum(source * source)}),
-    ("t-turned-too", "the translation is R (b - a); rotate only a: b - R a",
+    ("t-turned-too", "the translation is R (b - a). Rotate only a: b - R a",
      "R (b - a)", {"shift": lambda R, a, b: R @ (b - a)}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(fitted, **other))
@@ -104,7 +105,7 @@ for slug, says, redone, other in (
 
 @row.wrongs
 def _(source, target):
-    """t-of-the-first: the translation fits the first pair only; use the centroids =>
+    """t-of-the-first: the translation fits the first pair only. Use the centroids =>
       b_0 - R a_0
     first-for-centre: the first points are used instead of the centroids; their noise
       changes the fit => the fit about source[0] and target[0]

@@ -64,7 +64,7 @@ def _(J, sigma):
       is its inverse
     by-what-is-left: the result is divided by 2 n - 6 degrees of freedom; this division
       belongs to the estimate of an unknown sigma
-    each-point-alone: the covariances of the single points are added; add their
+    each-point-alone: the covariances of the single points are added. Add their
       information matrices J^T J
     """
     rows = rows_of(J)

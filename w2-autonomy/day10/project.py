@@ -64,13 +64,13 @@ for slug, says, redone, other in (
     ("t-before-R", "the translation is added before the rotation; T p is R p + t",
      "R (p + t)", {"moved": lambda R, t, x: (x + t) @ R.T}),
     ("centre-before-dividing", "the principal point is added before the division by "
-     "the depth; add it after", "(f x + cx) / z",
+     "the depth. Add it after", "(f x + cx) / z",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2], p[:, 2]])}),
     ("centre-forgotten", "the principal point is missing. Pixel (0, 0) is the corner "
      "of the image, but a point straight ahead projects to the centre", "cx = cy = 0",
      {"times": lambda K, p: upright(K, p, centre=0.0)}),
-    ("centre-taken-off", "the principal point is subtracted; add it",
+    ("centre-taken-off", "the principal point is subtracted. Add it",
      "(-cx, -cy) as the principal point",
      {"times": lambda K, p: upright(K, p, centre=-1.0)}),
     ("centre-swapped", "cx and cy are swapped: cx belongs to u", "(cy, cx)",
@@ -85,17 +85,17 @@ for slug, says, redone, other in (
     ("mujoco-axes", "y and z are negated, as for MuJoCo's camera frame. T_cam_world "
      "already maps to a frame with y down and z forward", "(x, -y, -z)",
      {"times": lambda K, p: p * [1, -1, -1] @ K.T}),
-    ("divided-by-range", "the point is divided by its distance from the camera; divide "
+    ("divided-by-range", "the point is divided by its distance from the camera. Divide "
      "it by its depth z", "the norm of p instead of z",
      {"divided": lambda h, p: h[:, :2] / length(p)}),
-    ("divided-by-range", "the point is divided by its distance from the camera; divide "
+    ("divided-by-range", "the point is divided by its distance from the camera. Divide "
      "it by its depth z", "the norm of p instead of z",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2] * length(p), length(p)])}),
     ("first-depth-for-all", "all points are divided by the depth of the first one; "
      "each point has its own depth", "the depth of the first point",
      {"divided": lambda h, p: h[:, :2] / h[0, 2]}),
-    ("divided-by-pixel-length", "the homogeneous pixel is divided by its norm; divide "
+    ("divided-by-pixel-length", "the homogeneous pixel is divided by its norm. Divide "
      "it by its last entry, the depth", "the norm of K T p",
      {"divided": lambda h, p: h[:, :2] / length(h)}),
     ("homogeneous-by-mistake", "the homogeneous pixel is divided by the depth twice; "

@@ -113,20 +113,20 @@ for slug, says, redone, other in (
      "respect to z; it is a constant, so its derivative is 0", "the principal point in "
      "the derivatives",
      {"pixel": with_the_centre}),
-    ("x-for-y", "the row of v has x in its derivative with respect to z; this entry "
+    ("x-for-y", "the row of v has x in its derivative with respect to z. This entry "
      "should be -f y / z^2",
      "x instead of y", {"pixel": with_one_name(1, 0)}),
-    ("y-for-x", "the row of u has y in its derivative with respect to z; this entry "
+    ("y-for-x", "the row of u has y in its derivative with respect to z. This entry "
      "should be -f x / z^2",
      "y instead of x", {"pixel": with_one_name(0, 1)}),
     ("first-columns-not-divided", "the derivatives with respect to x and y are not "
-     "divided by z; they should be f / z", "f instead of f / z",
+     "divided by z. They should be f / z", "f instead of f / z",
      {"pixel": lambda K, p: by_point(
          K, p) * np.where([True, True, False], depth(p, 1), 1.0)}),
-    ("pixels-for-x-and-y", "the derivatives with respect to z use the pixel (u, v); "
-     "use x and y in "
+    ("pixels-for-x-and-y", "the derivatives with respect to z use the pixel (u, v). "
+     "Use x and y in "
      "the camera frame", "(u, v) instead of (x, y)", {"pixel": of_the_pixel}),
-    ("range-for-depth", "the derivatives use the distance of the point; use its depth "
+    ("range-for-depth", "the derivatives use the distance of the point. Use its depth "
      "z", "the norm of p instead of z", {"pixel": lambda K, p: by_point(
          K, np.column_stack([p[:, :2], np.linalg.norm(p, axis=1)]))}),
     ("halves-swapped", "the columns are in the order (v; omega); omega comes first",

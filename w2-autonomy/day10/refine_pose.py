@@ -98,9 +98,9 @@ def steps(
 
 
 for slug, says, redone, other in (
-    ("three-steps", "the result is the pose after three steps; return the pose after "
+    ("three-steps", "the result is the pose after three steps. Return the pose after "
      "ten", "a loop of three steps", {"n": 3}),
-    ("J-of-the-guess", "the Jacobian of the guess is used in every step; evaluate it "
+    ("J-of-the-guess", "the Jacobian of the guess is used in every step. Evaluate it "
      "at the current pose", "the Jacobian of the guess", {"held": True}),
     ("twist-halves-swapped", "the step is used as (v; omega); the columns of J begin "
      "with omega", "the step with its halves swapped",
@@ -108,11 +108,11 @@ for slug, says, redone, other in (
     ("body-twist", "each step multiplies T on the right. The twists of J are expressed "
      "in the camera frame, so the exponential belongs on the left", "T exp([xi])",
      {"move": on_the_right}),
-    ("first-order", "each step is T + [xi] T, so R is no longer a rotation; use the "
+    ("first-order", "each step is T + [xi] T, so R is no longer a rotation. Use the "
      "exponential", "(1 + [xi]) T", {"move": first_order}),
     ("gradient", "each step is J^T r, a gradient step; a Gauss-Newton step is the "
      "least-squares solution", "J^T r", {"solve": downhill}),
-    ("each-from-the-guess", "each step is applied to the guess; apply it to the pose "
+    ("each-from-the-guess", "each step is applied to the guess. Apply it to the pose "
      "of the previous step",
      "the guess moved by each step", {"since": lambda T, guess: guess}),
     ("half-steps", "each step is halved, so ten steps leave a thousandth of the error",

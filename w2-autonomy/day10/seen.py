@@ -100,7 +100,7 @@ def one_focal_length(row, right):
         row.wrong(
             slug,
             f"the row of {its}",
-            f"the right answer with K[{i}, {i}] twice",
+            f"the correct result with K[{i}, {i}] twice",
             hidden="the lab's camera has fx = fy",
         )(partial(_with_one, right, i))
 

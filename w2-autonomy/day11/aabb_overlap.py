@@ -161,7 +161,7 @@ def _(box_a, box_b):
     middles-inside 2: your code requires that the centre of one box lies in the other;
       two boxes can overlap without that
     half-of-one: the limit for the distance between the centres uses only the half
-      extents of box_a; add those of box_b
+      extents of box_a. Add those of box_b
     corners-only: your code tests whether a corner of one box lies in the other; two
       boxes can cross although no corner lies inside => the test of all 8 corners of
       both
@@ -174,16 +174,16 @@ def _(box_a, box_b):
     corners-only 4: your code tests only the lower corner of each box; two boxes can
       overlap although neither lies in the other box
     balls: your code treats the boxes as spheres, because it compares the norm of the
-      vector between the centres; compare each axis separately => the formula with half
+      vector between the centres. Compare each axis separately => the formula with half
       of the diagonals
     balls 2: your code treats the boxes as spheres, because it compares the norm of the
-      vector between the centres; compare each axis separately => the formula with half
+      vector between the centres. Compare each axis separately => the formula with half
       of the smallest sides
     balls 3: your code treats the boxes as spheres, because it compares the norm of the
-      vector between the centres; compare each axis separately => the formula with half
+      vector between the centres. Compare each axis separately => the formula with half
       of the largest sides
     sides-not-halved: the limit for the distance between the centres is the sum of the
-      sides; it should be half of this sum
+      sides. It should be half of this sum
     sides-in-quarters: the limit for the distance between the centres is a quarter of
       the sum of the sides. It should be half of this sum
     or-for-and: one of the two comparisons is enough in your code; both must hold

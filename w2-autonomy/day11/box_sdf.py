@@ -66,17 +66,17 @@ def _(rng):
 
 @row.wrongs
 def _(p, half_extents):
-    """zero-inside: inside the box your code returns 0; return minus the distance to the
+    """zero-inside: inside the box your code returns 0. Return minus the distance to the
       nearest face
-    inside-positive: inside the box your result is positive; it should be negative
+    inside-positive: inside the box your result is positive. It should be negative
     sign: the sign is reversed; the distance is positive outside the box
     largest-outside: outside the box your code uses only the largest excess beyond a
       face. Near an edge or a corner, take the norm of all positive excesses => max(|p|
       - half_extents)
-    sum-outside: outside the box your code adds the excesses beyond the faces; take
+    sum-outside: outside the box your code adds the excesses beyond the faces. Take
       their norm, because they are perpendicular
     inside-added-outside: outside the box negative entries of |p| - half_extents enter
-      the norm; clamp them to 0 first => the norm of |p| - half_extents
+      the norm. Clamp them to 0 first => the norm of |p| - half_extents
     depth-added-outside: outside the box your code adds the largest entry of |p| -
       half_extents to the norm. Add it only inside, where it is negative => the norm
       plus max(|p| - half_extents), without min(..., 0)
@@ -85,10 +85,10 @@ def _(p, half_extents):
     farthest-face-inside: inside the box your code uses the distance to the farthest
       face. Use the nearest face, which has the largest entry of |p| - half_extents =>
       the formula with min
-    farthest-face-inside 2: the inside term uses the farthest face; use the nearest
+    farthest-face-inside 2: the inside term uses the farthest face. Use the nearest
       face, which has the largest entry of |p| - half_extents => the formula with min
     to-the-middle-inside: inside the box your code returns minus the distance to the
-      centre; use the distance to the nearest face
+      centre. Use the distance to the nearest face
     to-the-middle: your code returns the distance to the centre, so the size of the box
       is not used
     box-as-a-ball: your code treats the box as a sphere => |p| minus the norm of
@@ -102,7 +102,7 @@ def _(p, half_extents):
     twice-the-sides: your code doubles half_extents; the faces are at plus and minus
       half_extents => the formula with 2 half_extents
     abs-forgotten: the absolute value of p is missing, so points with a negative
-      coordinate are wrong; use |p| - half_extents => the formula with p - half_extents
+      coordinate are wrong. Use |p| - half_extents => the formula with p - half_extents
     abs-forgotten-zero-inside: the absolute value of p is missing, and inside the box
       your code returns 0 => the norm of the positive entries of p - half_extents
     not-rooted: the square root is missing, so outside the box the result is a squared
@@ -117,7 +117,7 @@ def _(p, half_extents):
     smallest-added: your code adds the smallest entry of |p| - half_extents, even where
       it is positive. Add the largest entry, and only where it is negative => the norm
       plus min(|p| - half_extents)
-    first-axis-added: the inside term uses only the x entry of |p| - half_extents; use
+    first-axis-added: the inside term uses only the x entry of |p| - half_extents. Use
       the largest of the three entries
     largest-with-max: max(..., 0) is used instead of min(..., 0), so the largest entry
       is added outside the box and the result inside is 0
@@ -125,7 +125,7 @@ def _(p, half_extents):
       face matters
     mean-inside: inside the box your code returns the mean of the three face distances;
       only the nearest face matters
-    one-number-inside: inside the box your code always returns -1; return minus the
+    one-number-inside: inside the box your code always returns -1. Return minus the
       distance to the nearest face
     least-half-inside: inside the box your code always returns minus the smallest half
       extent, which is correct only at the centre
@@ -138,13 +138,13 @@ def _(p, half_extents):
     size-of-the-difference: your code uses |p - half_extents|; the excess beyond a face
       is |p| - half_extents
     cut-at-one: the excess beyond a face is limited to 1; the excess has no upper limit
-    corner-or-face: near an edge your code returns the larger of the two excesses;
-      return their norm
-    two-of-three: near a corner your code uses only the two largest excesses; use all
+    corner-or-face: near an edge your code returns the larger of the two excesses.
+      Return their norm
+    two-of-three: near a corner your code uses only the two largest excesses. Use all
       three
     first-two-only: if the point lies beyond a z face, your code returns only the
       largest excess; x and y belong in the norm too
-    mean-square: your code takes the root of the mean of the squares; take the root of
+    mean-square: your code takes the root of the mean of the squares. Take the root of
       their sum
     smallest-taken-off: your code subtracts the smallest absolute value of |p| -
       half_extents, even outside the box

@@ -49,19 +49,19 @@ def _(a0, a1, r):
     radius-on-one-side 2: the radius is not added to the upper corner
     radius-inwards: the radius has the wrong sign, so the box shrinks. Subtract it from
       the lower corner and add it to the upper corner
-    radius-added-to-both: the radius is added to both corners; subtract it from the
+    radius-added-to-both: the radius is added to both corners. Subtract it from the
       lower corner
     flat-ends: your box is the box of a cylinder with flat ends. A capsule ends in
       spheres, which extend by r along every axis => the formula with r sqrt(1 - d^2) on
       each axis, where d is the direction of the axis
-    corners-not-sorted: a0 and a1 are used as the lower and the upper corner; take the
+    corners-not-sorted: a0 and a1 are used as the lower and the upper corner. Take the
       minimum and the maximum of each coordinate => a0 - r, a1 + r
-    corners-of-all: one minimum and one maximum are taken over x, y and z together; take
+    corners-of-all: one minimum and one maximum are taken over x, y and z together. Take
       them for each coordinate separately
-    swapped: the upper corner comes first; return the lower corner first
-    centre-and-half: your code returns the centre and the half extents; return the lower
+    swapped: the upper corner comes first. Return the lower corner first
+    centre-and-half: your code returns the centre and the half extents. Return the lower
       and the upper corner
-    corner-and-size: your code returns the lower corner and the full sides; return the
+    corner-and-size: your code returns the lower corner and the full sides. Return the
       lower and the upper corner
     half-not-halved: the centre is correct, but |a1 - a0| is not halved => |a1 - a0| + r
       on either side of the centre
@@ -76,21 +76,21 @@ def _(a0, a1, r):
     along-the-axis: the radius is added only along the direction of the axis. The sphere
       at each end extends by r along x, y and z => the formula with r times the
       direction of the axis
-    whole-ends-sorted: one whole end is used as the lower corner; take the minimum of
+    whole-ends-sorted: one whole end is used as the lower corner. Take the minimum of
       each coordinate separately => the end with the smaller x
-    whole-ends-sorted 2: one whole end is used as the lower corner; take the minimum of
+    whole-ends-sorted 2: one whole end is used as the lower corner. Take the minimum of
       each coordinate separately => the end nearer to the origin
-    whole-ends-sorted 3: one whole end is used as the lower corner; take the minimum of
+    whole-ends-sorted 3: one whole end is used as the lower corner. Take the minimum of
       each coordinate separately => the end with the smaller sum
     cube-in-the-ball: your code adds r / sqrt(3), which gives the cube inside the
       sphere; the box must contain the sphere
-    radius-times: the corners are multiplied by 1 - r and 1 + r; subtract and add r
+    radius-times: the corners are multiplied by 1 - r and 1 + r. Subtract and add r
       instead
-    with-the-origin: your box always contains the origin; start the minimum and the
+    with-the-origin: your box always contains the origin. Start the minimum and the
       maximum from a0, not from 0
     size-of-places: your code takes the minimum and the maximum of absolute values; the
       sign of a coordinate matters => the formula with |a0| and |a1|
-    as-a-ball: your result is the box of a sphere around the whole capsule; the box
+    as-a-ball: your result is the box of a sphere around the whole capsule. The box
       should be as small as possible
     """
     low = np.minimum(a0, a1)

@@ -146,26 +146,26 @@ def _(a0, a1, r, T_world_box, half_extents):
       lies between them => the minimum of 21 points
     nearest-to-the-centre: your code uses the point of the axis nearest to the centre of
       the box. Another point can be nearer to a face
-    world-axes: the ends are translated to the box but not rotated into its frame; use
+    world-axes: the ends are translated to the box but not rotated into its frame. Use
       R^T (x - t) => R = I
-    turned-the-other-way: the ends are multiplied by R; use R^T to express them in the
+    turned-the-other-way: the ends are multiplied by R. Use R^T to express them in the
       box frame => the formula with R
     pose-not-inverted: T_world_box is applied directly, but it maps from the box frame
-      to the world frame; apply its inverse => R x + t
-    place-forgotten: the ends are rotated but not translated; subtract the position of
+      to the world frame. Apply its inverse => R x + t
+    place-forgotten: the ends are rotated but not translated. Subtract the position of
       the box first => R^T x
-    turned-then-moved: the position of the box is subtracted after the rotation;
-      subtract it first, R^T (x - t) => R^T x - t
-    t-added: the position of the box is added; subtract it, R^T (x - t) => R^T (x + t)
+    turned-then-moved: the position of the box is subtracted after the rotation.
+      Subtract it first, R^T (x - t) => R^T x - t
+    t-added: the position of the box is added. Subtract it, R^T (x - t) => R^T (x + t)
     radius-forgotten: the radius is missing, so the result is the distance of the axis
-    radius-added: the radius is added; subtract it
-    radius-to-the-box: the box is enlarged by the radius, which keeps its corners sharp;
-      subtract the radius from the distance => the formula with half_extents + r
+    radius-added: the radius is added. Subtract it
+    radius-to-the-box: the box is enlarged by the radius, which keeps its corners sharp.
+      Subtract the radius from the distance => the formula with half_extents + r
     radius-to-the-box 2: the box is enlarged by the radius, which keeps its corners
-      sharp; subtract the radius from the distance => the formula with half_extents + r
+      sharp. Subtract the radius from the distance => the formula with half_extents + r
       at the correct point
     way-not-turned: the start of the axis is expressed in the box frame, but its
-      direction is not; multiply a1 - a0 by R^T => the formula with a1 - a0 in the world
+      direction is not. Multiply a1 - a0 by R^T => the formula with a1 - a0 in the world
       frame
     wrong-half-kept: the search keeps the wrong part, so it finds the farthest point of
       the axis
@@ -173,30 +173,30 @@ def _(a0, a1, r, T_world_box, half_extents):
       of the axis => the larger of the two distances at the ends
     bounding-sphere: your code treats the box as a sphere => the formula with the norm
       of half_extents
-    ends-left-out: the search never tests the ends of the axis; start with the whole
+    ends-left-out: the search never tests the ends of the axis. Start with the whole
       interval 0..1
     never-negative: for shapes that overlap your code returns 0; the signed distance is
       negative => the formula with max(0, d)
     sign: the sign is reversed; the distance is positive for shapes that do not overlap
-    outside-only: an axis that enters the box gets distance 0; use the negative value
+    outside-only: an axis that enters the box gets distance 0. Use the negative value
       from `box_sdf`, then subtract r
     as-a-line: the search goes beyond the ends of the axis; its parameter stays in 0..1
       => the minimum on a much longer segment
     way-moved: t is also subtracted from the direction of the axis; a direction is only
       rotated => R^T (a1 - a0 - t)
-    way-moved 2: the direction runs from the centre of the box to a1; it should run from
+    way-moved 2: the direction runs from the centre of the box to a1. It should run from
       a0 to a1 => R^T (a1 - t)
     way-of-length-1: the direction of the axis is normalised, but its parameter still
       runs from 0 to 1
-    not-into-the-box: the ends stay in the world frame; express them in the box frame
+    not-into-the-box: the ends stay in the world frame. Express them in the box frame
       with R^T (x - t)
-    radius-off-the-box: the box is reduced by the radius; subtract the radius from the
+    radius-off-the-box: the box is reduced by the radius. Subtract the radius from the
       distance
     size-of-the-depth: the absolute value of the depth is used for an axis inside the
-      box; keep the sign => |d| - r
+      box. Keep the sign => |d| - r
     size-of-the-distance: the absolute value is taken, so shapes that overlap get a
       positive distance => |d - r|
-    radius-off-the-box 2: the box is reduced by the radius; subtract the radius from the
+    radius-off-the-box 2: the box is reduced by the radius. Subtract the radius from the
       distance => the formula with half_extents - r at the correct point
     largest-half: your code uses the largest half extent on every axis => the formula
       with half_extents.max()
@@ -204,11 +204,11 @@ def _(a0, a1, r, T_world_box, half_extents):
       with half_extents.max() at the correct point
     sides-exchanged: x and y of half_extents are exchanged
     sides-exchanged 2: x and y of half_extents are exchanged
-    box-around-it: the rotated box is replaced by its axis-aligned bounding box; express
+    box-around-it: the rotated box is replaced by its axis-aligned bounding box. Express
       the ends in the box frame instead => |R| half_extents
     half-turned: half_extents is rotated; it contains lengths, so rotate the ends of the
       axis instead => R half_extents
-    mean-along: your code returns the mean of the distances along the axis; return the
+    mean-along: your code returns the mean of the distances along the axis. Return the
       minimum
     edges-only: your code computes the distance to the edges of the box. A face can be
       nearer, and the axis can enter the box
@@ -218,9 +218,9 @@ def _(a0, a1, r, T_world_box, half_extents):
       the nearest point of the axis, but stops after too few steps => the result after 5
       steps from the midpoint
     one-section: the search makes only one step, which leaves 0.618 of the axis
-    radius-times-the-length: the radius is multiplied by the length of the axis;
-      subtract r itself
-    share-returned: your code returns the parameter s of the nearest point; return the
+    radius-times-the-length: the radius is multiplied by the length of the axis.
+      Subtract r itself
+    share-returned: your code returns the parameter s of the nearest point. Return the
       distance there
     five-sections: the search stops too early; each step keeps 0.618 of the interval =>
       the result after 5 steps

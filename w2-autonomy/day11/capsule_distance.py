@@ -77,7 +77,7 @@ def _(rng):
 
 @row.wrongs
 def _(a0, a1, ra, b0, b1, rb):
-    """radii-added: the radii are added to the distance between the axes; subtract them
+    """radii-added: the radii are added to the distance between the axes. Subtract them
       => the formula with + ra + rb
     radii-forgotten: the radii are missing, so the result is the distance between the
       axes
@@ -86,20 +86,20 @@ def _(a0, a1, ra, b0, b1, rb):
     one-radius 2: only the radius of the second capsule is subtracted => the formula
       without ra
     as-diameters: half of each radius is subtracted; ra and rb are radii, not diameters
-    twice-the-radii: twice each radius is subtracted; subtract each radius once
-    radii-differ: the difference of the radii is subtracted; subtract their sum => the
+    twice-the-radii: twice each radius is subtracted. Subtract each radius once
+    radii-differ: the difference of the radii is subtracted. Subtract their sum => the
       formula with ra - rb
-    radii-differ 2: the difference of the radii is subtracted; subtract their sum => the
+    radii-differ 2: the difference of the radii is subtracted. Subtract their sum => the
       formula with |ra - rb|
-    larger-radius: only the larger radius is subtracted; subtract both
-    radii-multiplied: the product of the radii is subtracted; subtract their sum
+    larger-radius: only the larger radius is subtracted. Subtract both
+    radii-multiplied: the product of the radii is subtracted. Subtract their sum
     never-negative: for capsules that overlap your code returns 0; the signed distance
       is negative => the formula with max(0, d)
     sign-lost: the absolute value is taken, so capsules that overlap get a positive
       distance => |d|
     squared: the square root is missing, so the squared distance between the axes is
       used => the formula with its square
-    squared 2: your code subtracts squares; subtract the radii from the distance itself
+    squared 2: your code subtracts squares. Subtract the radii from the distance itself
       => |p - o|^2 - (ra + rb)^2
     sign: the sign is reversed; the distance is positive for capsules that do not
       overlap
@@ -112,17 +112,17 @@ def _(a0, a1, ra, b0, b1, rb):
       of p - o
     in-the-plane 2: your code does not use x in the distance
     in-the-plane 3: your code does not use y in the distance
-    product-of-radii: the square root of the product of the radii is subtracted;
-      subtract their sum
-    squares-of-radii: the squares of the radii are subtracted; subtract the radii
+    product-of-radii: the square root of the product of the radii is subtracted.
+      Subtract their sum
+    squares-of-radii: the squares of the radii are subtracted. Subtract the radii
       themselves
-    over-the-radii: the distance is divided by the sum of the radii; subtract the sum
+    over-the-radii: the distance is divided by the sum of the radii. Subtract the sum
       instead => |p - o| / (ra + rb) - 1
     ends-and-middles: your code tests only the ends and the midpoints of both axes; the
       closest points can lie anywhere between the ends
     same-share: your code uses the same fraction of the length on both axes; each
       closest point has its own
-    twice-the-larger: the larger radius is subtracted twice; subtract the radius of each
+    twice-the-larger: the larger radius is subtracted twice. Subtract the radius of each
       capsule once => |p - o| - 2 max(ra, rb)
     radii-as-sides: the radii are combined as sqrt(ra^2 + rb^2); both lie along the same
       line, so add them => |p - o| - sqrt(ra^2 + rb^2)
@@ -133,21 +133,21 @@ def _(a0, a1, ra, b0, b1, rb):
       tangent. The distance is |p - o| - (ra + rb) => this formula, with a minus sign
       where they overlap,
     least-part: the smallest component of p - o is used instead of its norm
-    parts-with-signs: the components of p - o are added with their signs; take the norm
-    parts-with-signs 2: the components of p - o are added with their signs; take the
+    parts-with-signs: the components of p - o are added with their signs. Take the norm
+    parts-with-signs 2: the components of p - o are added with their signs. Take the
       norm => the absolute value of the sum
-    mean-square: your code takes the root of the mean of the squares; take the root of
+    mean-square: your code takes the root of the mean of the squares. Take the root of
       their sum
-    lengths-differ: the norms of p and o are subtracted; take the norm of p - o => | |p|
+    lengths-differ: the norms of p and o are subtracted. Take the norm of p - o => | |p|
       - |o| |
-    cut-once: the distance is clamped at 0 between the subtractions of ra and rb; do not
+    cut-once: the distance is clamped at 0 between the subtractions of ra and rb. Do not
       clamp it
-    one-number-inside: for capsules that overlap your code always returns -1; the result
+    one-number-inside: for capsules that overlap your code always returns -1. The result
       should depend on the penetration depth
     one-number-inside 2: for capsules that overlap your code returns minus the smaller
-      radius; the result should depend on the penetration depth
+      radius. The result should depend on the penetration depth
     axes-inside: for capsules that overlap your code returns minus the distance between
-      the axes; subtract the radii from it
+      the axes. Subtract the radii from it
     ends-only: your code assumes that one of the closest points is an end; both points
       can lie between the ends
     ends-only 2: your code tests only the ends of the first axis; its closest point can
@@ -162,10 +162,10 @@ def _(a0, a1, ra, b0, b1, rb):
       between them => the best of 51 x 51 points
     sampled 4: your code tests only some points of each axis; the closest points lie
       between them => the best of 101 x 101 points
-    lines: your code treats the axes as infinite lines; clamp the closest points to the
+    lines: your code treats the axes as infinite lines. Clamp the closest points to the
       ends => |(b0 - a0) . n|, where n is the unit vector perpendicular to both,
     grown-axes: each axis is extended by the radius at both ends, and the radius is also
-      subtracted; subtract the radius only
+      subtracted. Subtract the radius only
     starts-and-ends: your code uses the segments from a0 to b0 and from a1 to b1. The
       axes run from a0 to a1 and from b0 to b1
     in-the-plane: your code does not use z in the distance

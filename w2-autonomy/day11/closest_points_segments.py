@@ -98,21 +98,21 @@ def _(a0, a1, b0, b1):
       => the formula with c d - b e
     b-sign: b has the wrong sign. The derivatives are a s - b t + d and b s - c t + e =>
       the formula with -b
-    across-plus: the denominator is a c + b b; it should be a c - b b, which is 0 for
+    across-plus: the denominator is a c + b b. It should be a c - b b, which is 0 for
       parallel segments
     across-of-lengths: the denominator is a c, which is correct only for perpendicular
-      segments; it should be a c - b b
+      segments. It should be a c - b b
     swapped-to-s: s and t are exchanged
-    points-swapped: the point of the second segment comes first; return the point of the
+    points-swapped: the point of the second segment comes first. Return the point of the
       first segment first
     middles: your code returns the midpoints of the segments
     starts: your code returns the starts of the segments
-    same-share: t is set equal to s; each segment should have its own parameter
-    shares: your code returns s u and t v; add the starts a0 and b0
+    same-share: t is set equal to s. Each segment should have its own parameter
+    shares: your code returns s u and t v. Add the starts a0 and b0
     beyond-the-ends: the points are measured from a1 and b1; s and t are measured from
       a0 and b0
-    t-from-the-end: t is measured from b1; measure it from b0
-    s-from-the-end: s is measured from a1; measure it from a0
+    t-from-the-end: t is measured from b1. Measure it from b0
+    s-from-the-end: s is measured from a1. Measure it from a0
     unit-directions: u and v are normalised, so s and t are in metres, but they are
       clamped to 0..1 => the formula with unit vectors
     nearest-to-the-middle: your code returns the midpoint of the second segment and the
@@ -131,11 +131,11 @@ def _(a0, a1, b0, b1):
     ends-where-cut 3: where s or t of the lines lies outside 0..1, your code tests only
       the ends of the second segment. Test the ends of the first too => the formula with
       its ends alone
-    start-where-cut: where s or t of the lines lies outside 0..1, your code sets s to 0;
-      clamp s instead
-    start-where-cut 2: an s outside 0..1 is set to 0; an s above 1 should become 1
-    start-where-cut 3: an s outside 0..1 is set to 0.5; clamp it instead
-    start-where-cut 4: s and t outside 0..1 are set to 0; a value above 1 should become
+    start-where-cut: where s or t of the lines lies outside 0..1, your code sets s to 0.
+      Clamp s instead
+    start-where-cut 2: an s outside 0..1 is set to 0. An s above 1 should become 1
+    start-where-cut 3: an s outside 0..1 is set to 0.5. Clamp it instead
+    start-where-cut 4: s and t outside 0..1 are set to 0. A value above 1 should become
       1
     one-end-cut: s is recomputed where t is below 0, but not where t is above 1
     one-end-cut 2: s is recomputed where t is above 1, but not where t is below 0
@@ -145,12 +145,12 @@ def _(a0, a1, b0, b1):
       second that is nearest to it
     a-middle-alone: your code returns the midpoint of the first segment and the point of
       the second that is nearest to it
-    farthest: your code selects the farthest of the candidate pairs; select the nearest
+    farthest: your code selects the farthest of the candidate pairs. Select the nearest
     one-round: your code sets s = 0 and then computes t and s only once, which does not
       reach the minimum => one round from s = 0
     one-round 2: your code sets s = 0.5 and then computes t and s only once, which does
       not reach the minimum => one round from s = 0.5
-    difference: both rows contain the difference of the two points; return the points
+    difference: both rows contain the difference of the two points. Return the points
       themselves
     """
     u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)

@@ -112,22 +112,22 @@ def _(rng):
     hidden={"still-before-touching": "in a run nothing is still where it touches"}
 )
 def _(s, distance, delta_q, radii):
-    """no-bound: your code adds the distance in metres to s; divide it by the bound on
+    """no-bound: your code adds the distance in metres to s. Divide it by the bound on
       the motion per unit of s first => s + distance
-    signs-kept: the sum keeps the signs of delta_q, so opposite rotations cancel; take
+    signs-kept: the sum keeps the signs of delta_q, so opposite rotations cancel. Take
       absolute values => the formula with delta_q instead of |delta_q|
     signs-kept 2: the absolute value is taken after the sum, so opposite rotations
-      cancel; take it for each joint => |delta_q . radii|
+      cancel. Take it for each joint => |delta_q . radii|
     fastest-joint-only: your bound uses only the largest product; the motions of all
       joints add up => the largest |delta_q_i| radii_i
     fastest-joint-only 2: your bound uses only the largest |delta_q|; the motions of all
       joints add up => the largest |delta_q| times the largest radius
-    norm-of-dq: the norm of delta_q times the largest radius is not an upper bound; add
+    norm-of-dq: the norm of delta_q times the largest radius is not an upper bound. Add
       |delta_q_i| radii_i over all joints
-    norm-of-products: your code takes the norm of the products |delta_q_i| radii_i; take
+    norm-of-products: your code takes the norm of the products |delta_q_i| radii_i. Take
       their sum
-    norm-of-products 2: your code multiplies the norm of delta_q by the norm of radii;
-      add the products |delta_q_i| radii_i
+    norm-of-products 2: your code multiplies the norm of delta_q by the norm of radii.
+      Add the products |delta_q_i| radii_i
     largest-reach: your code uses the largest radius for every joint, which is safe but
       not the bound in the task
     reach-forgotten: the radii are missing; a rotation in radians becomes a distance
@@ -140,20 +140,20 @@ def _(s, distance, delta_q, radii):
       motion, so this factor is wrong
     half-a-step: the step is half as long as the bound allows
     twice-a-step: the step is twice as long as the bound allows
-    multiplied: the distance is multiplied by the bound; divide by it, because a faster
+    multiplied: the distance is multiplied by the bound. Divide by it, because a faster
       motion needs a shorter step
-    s-forgotten: your code returns the step alone; add it to s
+    s-forgotten: your code returns the step alone. Add it to s
     not-capped: the result can exceed 1, the end of the motion
-    standing-still: if no joint moves, your code divides by 0; return 1, because the
+    standing-still: if no joint moves, your code divides by 0. Return 1, because the
       rest of the motion is collision-free
-    standing-still 2: if no joint moves, your code returns s; return 1, because the rest
+    standing-still 2: if no joint moves, your code returns s. Return 1, because the rest
       of the motion is collision-free
-    goes-back-inside: if the arm is already in contact, your code moves back; return s
+    goes-back-inside: if the arm is already in contact, your code moves back. Return s
       itself => s - |d| / bound
-    goes-on-inside: if the arm is already in contact, your code moves on; return s
+    goes-on-inside: if the arm is already in contact, your code moves on. Return s
       itself => the formula with |d|
-    stops-inside: if the arm is already in contact, your code returns 1; return s itself
-    stops-inside 2: if the arm is already in contact, your code returns 0; return s
+    stops-inside: if the arm is already in contact, your code returns 1. Return s itself
+    stops-inside 2: if the arm is already in contact, your code returns 0. Return s
       itself
     still-before-touching: your code tests for a motion of 0 before it tests for
       contact. If the arm is in contact, return s even if no joint moves
@@ -172,15 +172,15 @@ def _(s, distance, delta_q, radii):
       which is longer
     mean-of-joints: your bound is the mean over the joints; the motions of all joints
       add up
-    step-capped: the step is limited to 1, but s plus the step can exceed 1; limit the
+    step-capped: the step is limited to 1, but s plus the step can exceed 1. Limit the
       sum => s + min(1, step)
     limit-of-the-whole: the limit compares the distance with the bound of the whole
-      motion; compare it with the bound of the rest, 1 - s times as much => the formula
+      motion. Compare it with the bound of the rest, 1 - s times as much => the formula
       with that comparison
-    step-capped 2: your code returns the smaller of 1 - s and the step; return the
+    step-capped 2: your code returns the smaller of 1 - s and the step. Return the
       smaller of 1 and s + step => min(1 - s, step)
     max-for-min: max is used instead of min, so the result is never below 1
-    shares-summed: your code adds the steps that each joint alone would allow; add the
+    shares-summed: your code adds the steps that each joint alone would allow. Add the
       motions first, then divide
     careful: your code uses only a part of the step that the bound allows => 0.9 of this
       step

@@ -62,18 +62,18 @@ def _(link_lengths, link_radii):
       link
     own-link-only: your bound uses only the joint's own link; the joint also moves the
       distal links
-    next-only: your bound stops at the next link; use the result for the next joint =>
+    next-only: your bound stops at the next link. Use the result for the next joint =>
       the larger of the link radius and link length + next link radius
-    from-the-base: your code measures from the base; measure from joint i to the links
+    from-the-base: your code measures from the base. Measure from joint i to the links
       distal to it => the sum of the link lengths before it + link radius
     offset-one-late: the link length of the next joint is used; link_lengths[i] is the
       distance from link i to the next link => the formula with link_lengths[i + 1]
     offset-of-the-last: the length of the last link is added; no link follows it
     offset-of-the-last 2: the length of the last link is used as a radius; no link
       follows it
-    offset-to-its-own: the link length is also added to the joint's own link radius; add
+    offset-to-its-own: the link length is also added to the joint's own link radius. Add
       this length only for the distal links
-    far-forgotten: your code adds only the link lengths; include the link radii
+    far-forgotten: your code adds only the link lengths. Include the link radii
     offsets-forgotten: the link lengths are missing, so the result is the largest link
       radius
     all-summed: your code adds the radii of all distal links; only one point is the
@@ -81,29 +81,30 @@ def _(link_lengths, link_radii):
     largest-far: the largest link radius is used at the end of the arm; each radius
       belongs to its own link
     least: your code takes the smallest distance; the upper bound is the largest
-    not-in-a-row: the links beyond the next one are missing; use the result for the next
+    not-in-a-row: the links beyond the next one are missing. Use the result for the next
       joint, not its link radius
     euclid: the lengths are combined as the root of a sum of squares; in the stretched
       arm they add up
-    one-for-all: your code returns the largest result for every joint; each joint should
+    one-for-all: your code returns the largest result for every joint. Each joint should
       have its own
     backwards: the result is in reverse order; its first entry belongs to joint 1
-    sum-from-the-base: the link lengths are summed from the base to the joint; sum them
+    sum-from-the-base: the link lengths are summed from the base to the joint. Sum them
       from the joint to the distal link
     far-of-its-own: the sum of all distal link lengths is combined with the radius of
       the joint's own link
     far-of-its-own 2: the sum of all distal link lengths is combined with the radius of
       the joint's own link
-    forwards: your code works from the base outwards; start at the last joint, because a
+    forwards: your code works from the base outwards. Start at the last joint, because a
       joint moves the links distal to it => the larger of the link radius and the length
       before + the result before
     less-the-base: your code uses the farthest point of the whole arm for every joint;
       only the links distal to the joint matter => the overall maximum minus the link
       lengths before the joint
-    less-the-base 2: the farthest distal point is measured from the base; measure it
+    less-the-base 2: the farthest distal point is measured from the base. Measure it
       from the joint => the formula with the link lengths before it
-    largest-far-behind: the largest distal link radius is placed at the last link; each
-      radius belongs to its own link => the sum of the link lengths plus the largest
+    largest-far-behind: your bound adds the largest distal link radius to the distance
+      of the last joint. Each radius should be added to the distance of its own joint,
+      and then you take the maximum => the distance of the last joint plus the largest
       link radius
     largest-far-behind 2: the largest link radius beyond the next joint is placed at the
       last link; each radius belongs to its own link
@@ -121,8 +122,8 @@ def _(link_lengths, link_radii):
     sum-not-largest: the link radius is added to the maximum of the link length and the
       next result. Take the maximum of the link radius and their sum
     largest-of-three: your code takes the maximum of the link radius, the link length
-      and the next result; add the last two first
-    largest-far-next: the largest link radius is added to the link length; add the
+      and the next result. Add the last two first
+    largest-far-next: the largest link radius is added to the link length. Add the
       result for the next joint => the larger of the link radius and link length +
       largest link radius
     mean-not-largest: your code takes the mean over the distal links; an upper bound is

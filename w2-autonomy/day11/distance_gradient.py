@@ -89,12 +89,12 @@ def _(J_space, p, o, link):
       joints 1 to 4 => the formula with 0 from joint `link` on
     one-column-too-many: the entry of joint `link` + 1 is not 0; this joint moves only
       distal links
-    from-the-link-on: your code keeps the link's own joint and the joints distal to it;
-      keep the joints up to the link
+    from-the-link-on: your code keeps the link's own joint and the joints distal to it.
+      Keep the joints up to the link
     first-joint-left-out: the entry of joint 1 is 0; joint 1 moves every link
     own-joint-only: only the entry of the link's own joint is not 0; every joint up to
       the link moves it
-    columns-before-dropped: your code keeps the joints distal to the link; keep the
+    columns-before-dropped: your code keeps the joints distal to the link. Keep the
       joints up to the link
     rotation-forgotten: omega x p has no effect, because it is missing or has p - o
       instead of p; v alone is the velocity of the point at the world origin => n . v
@@ -103,25 +103,25 @@ def _(J_space, p, o, link):
       omega x p => the formula with p x omega
     normal-not-unit: the normal is not normalised, so the result is multiplied by the
       distance => the formula with p - o
-    normal-squared: the normal is divided by the squared distance; divide by the
+    normal-squared: the normal is divided by the squared distance. Divide by the
       distance
     half: the result has an extra factor 1/2
-    normal-of-p: the normal points from the world origin to p; it should point from o to
+    normal-of-p: the normal points from the world origin to p. It should point from o to
       p => the formula with p / |p|
-    normal-of-o: the normal points from the world origin to o; it should point from o to
+    normal-of-o: the normal points from the world origin to o. It should point from o to
       p
-    only-along-z: only the z component is used; project the velocity on the normal
-    not-projected: your code returns the speed of p; return the component of the
+    only-along-z: only the z component is used. Project the velocity on the normal
+    not-projected: your code returns the speed of p. Return the component of the
       velocity along the normal
     size-only: the absolute values are returned; a negative entry means that the
       distance falls
-    parts-added: the normal is divided by the sum of the components' absolute values;
-      divide by the norm of p - o
-    largest-part: the normal is divided by the largest component; divide by the norm of
+    parts-added: the normal is divided by the sum of the components' absolute values.
+      Divide by the norm of p - o
+    largest-part: the normal is divided by the largest component. Divide by the norm of
       p - o
-    two-directions: p and o are normalised separately; normalise their difference => p /
+    two-directions: p and o are normalised separately. Normalise their difference => p /
       |p| - o / |o|
-    parts-summed: the absolute values of the velocity components are added; project the
+    parts-summed: the absolute values of the velocity components are added. Project the
       velocity on the normal
     summed-up: the entries are cumulative sums; each entry belongs to one joint
     one-place-early: each entry is one position too early; the first entry belongs to
@@ -130,7 +130,7 @@ def _(J_space, p, o, link):
       joint 1
     backwards: the joints are in reverse order
     backwards 2: the joints up to the link are in reverse order
-    own-length: the result is normalised; return the gradient itself
+    own-length: the result is normalised. Return the gradient itself
     of-the-square: your code returns the gradient of the squared distance, 2 d times the
       gradient of d
     """

@@ -118,17 +118,17 @@ MORE = (
     hidden={"coming-near": "hardly a speed in a run comes near and is slow enough"}
 )
 def _(qd, grad, distance, gain):
-    """always: your code changes velocities that are already allowed; return qd for them
+    """always: your code changes velocities that are already allowed. Return qd for them
     not-divided: the correction is not divided by grad . grad
-    divided-by-the-length: the correction is divided by the norm of grad; divide it by
+    divided-by-the-length: the correction is divided by the norm of grad. Divide it by
       grad . grad
     pushed-in: the correction has the wrong sign, so the arm moves nearer to the
       obstacle
-    all-joints-slowed: all joints are scaled by one factor; change only the component
+    all-joints-slowed: all joints are scaled by one factor. Change only the component
       along grad
-    all-joints-slowed 2: all joints are scaled by one factor; change only the component
+    all-joints-slowed 2: all joints are scaled by one factor. Change only the component
       along grad => qd times the ratio of the bound to grad . qd
-    stops-dead: your code stops the arm if it would be too fast; keep the part of the
+    stops-dead: your code stops the arm if it would be too fast. Keep the part of the
       velocity that is allowed
     stops-dead 2: your code stops the arm if it would be too fast, and also if grad is
       0. Keep the part of the velocity that is allowed
@@ -136,15 +136,15 @@ def _(qd, grad, distance, gain):
       bound is allowed => the formula without it
     sign-of-the-bound: the bound has the wrong sign; the condition is grad . qd >= -gain
       distance
-    distance-sign-lost: the absolute value of the distance is used; a negative distance
+    distance-sign-lost: the absolute value of the distance is used. A negative distance
       should give a positive bound, which moves the arm away => the formula with
       |distance|
     gain-forgotten: the gain is missing in the bound
     distance-forgotten: the distance is missing in the bound
-    distance-over-gain: the distance is divided by the gain; multiply them
+    distance-over-gain: the distance is divided by the gain. Multiply them
     wrong-side: the comparison is reversed, so your code changes allowed velocities and
       keeps those that are too fast => the formula with >
-    leaving-forbidden: your code also limits velocities away from the obstacle; limit
+    leaving-forbidden: your code also limits velocities away from the obstacle. Limit
       only the approach
     joint-by-joint: the bound is applied to each joint separately; it limits the sum
       grad . qd
@@ -155,13 +155,13 @@ def _(qd, grad, distance, gain):
     slope-unit: grad is normalised before grad . qd is compared with the bound, which
       changes the value of grad . qd
     only-inside: your code limits the velocity only if the distance is negative
-    standing-still: if grad is 0, your code divides by 0; return qd
-    part-alone: only the component along grad is returned; keep the other components of
+    standing-still: if grad is 0, your code divides by 0. Return qd
+    part-alone: only the component along grad is returned. Keep the other components of
       qd => grad bound / grad^2
-    left-where-it-overlaps: if the distance is not positive, your code returns qd; the
+    left-where-it-overlaps: if the distance is not positive, your code returns qd. The
       correction should move the arm away
-    stopped-where-it-overlaps: if the distance is not positive, your code returns 0;
-      keep the part of the velocity that leads away
+    stopped-where-it-overlaps: if the distance is not positive, your code returns 0.
+      Keep the part of the velocity that leads away
     no-way-out: a negative distance is clamped to 0, so the arm is not moved away
     coming-near: your code changes every velocity towards the obstacle; an approach
       within the bound is allowed
@@ -172,24 +172,24 @@ def _(qd, grad, distance, gain):
     one-joint-only: only the first joint is changed; the smallest change is along grad
     one-joint-only 2: only the joint with the fastest approach is changed; the smallest
       change is along grad
-    alike: every joint gets the same correction; make it proportional to grad => the
+    alike: every joint gets the same correction. Make it proportional to grad => the
       missing speed divided by the sum of grad
-    by-signs: every joint gets a correction of the same size; make it proportional to
+    by-signs: every joint gets a correction of the same size. Make it proportional to
       grad => the missing speed divided by the sum of |grad|, with the signs of grad,
-    a-seventh-each: each joint provides a seventh of the correction; make it
+    a-seventh-each: each joint provides a seventh of the correction. Make it
       proportional to grad
-    divided-by-the-sum: the correction is divided by the sum of grad; divide it by grad
+    divided-by-the-sum: the correction is divided by the sum of grad. Divide it by grad
       . grad
     divided-by-the-largest: the correction is divided by the square of the largest entry
-      of grad; divide it by grad . grad
-    divided-by-qd: the correction is divided by qd . qd; divide it by grad . grad
+      of grad. Divide it by grad . grad
+    divided-by-qd: the correction is divided by qd . qd. Divide it by grad . grad
     those-that-come-near: only joints that approach the obstacle are changed; the
       smallest change is along all of grad
-    those-that-come-near 2: joints that approach the obstacle are stopped; keep the part
+    those-that-come-near 2: joints that approach the obstacle are stopped. Keep the part
       of the velocity that is allowed
-    rate-added: grad . qd is added to the bound; subtract it from the bound to get the
+    rate-added: grad . qd is added to the bound. Subtract it from the bound to get the
       missing speed => the formula with -gain distance + grad . qd
-    lack-alone: your code returns the correction alone; add it to qd
+    lack-alone: your code returns the correction alone. Add it to qd
     """
     bound = -gain * distance
     rate = grad @ qd

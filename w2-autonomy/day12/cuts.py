@@ -90,17 +90,17 @@ def _placed(how: Callable[[Any], int], more: int) -> Any:
 
 
 OPTIONS = [
-    Option("not-sorted", "your code skips a pair if its first row is the larger one; "
-        "sort the two rows", {"order": list}),
+    Option("not-sorted", "your code skips a pair if its first row is the larger one. "
+        "Sort the two rows", {"order": list}),
     Option("not-checked", "your code removes the points without testing whether the"
                           " new edge is free",
            {"check": lambda a, b, world: True}),
     Option("hit-for-free", "the test is inverted, so your code applies shortcuts "
                            "that are blocked",
            {"check": lambda a, b, world: not edge_free(a, b, world)}),
-    Option("only-the-ends-checked", "your code tests only the two points; test the "
+    Option("only-the-ends-checked", "your code tests only the two points. Test the "
                                     "edge between them", {"check": _ends_free}),
-    Option("middle-checked", "your code tests only the midpoint of the edge; test "
+    Option("middle-checked", "your code tests only the midpoint of the edge. Test "
                              "the whole edge",
            {"check": _middle_free}),
     Option("next-edge-checked", "your code tests the edge from i to i + 1; test the"
@@ -152,7 +152,7 @@ OPTIONS = [
            {"used": lambda pairs: pairs[:1]}),
     Option("pairs-twice", "all pairs are used a second time",
            {"used": lambda pairs: np.concatenate([pairs, pairs])}),
-    Option("first-cut-only", "your code stops after the first shortcut; try all "
+    Option("first-cut-only", "your code stops after the first shortcut. Try all "
                              "pairs",
            {"ends": "cut"}),
     Option("ends-when-blocked", "your code stops at the first pair without a "

@@ -130,48 +130,48 @@ def _part_of_the_way(node, i, q, world):
 
 @row.wrongs
 def _(tree, sample, step, world):
-    """from-the-newest: the tree grows from its newest node; it should grow from the
+    """from-the-newest: the tree grows from its newest node. It should grow from the
       node nearest to the sample
-    from-the-root: the tree grows from its root; it should grow from the node nearest to
+    from-the-root: the tree grows from its root. It should grow from the node nearest to
       the sample
-    sample-itself: the new node is the sample itself; limit the edge to one step with
+    sample-itself: the new node is the sample itself. Limit the edge to one step with
       `steer`
     sample-itself 2: the new node is the sample itself, and the whole edge to it is
       tested. Limit the edge to one step with `steer`
-    point-only: your code tests only the new point; test the whole edge to it
-    node-only: your code tests only the node from which the tree grows; test the whole
+    point-only: your code tests only the new point. Test the whole edge to it
+    node-only: your code tests only the node from which the tree grows. Test the whole
       edge
     always-free: your code does not test the edge, so it reports every edge as free
     never-free: your code reports that no edge is free
     edge-from-the-root: your code tests the edge from the root to the new point; the
       edge starts at the nearest node
-    edge-to-the-sample: your code tests the edge to the sample; test only the edge to
+    edge-to-the-sample: your code tests the edge to the sample. Test only the edge to
       the new point
     edge-of-two-steps: your code tests an edge of two steps; the tree grows by one step
     edge-on-from-there: your code tests the edge from the new point to the sample. Test
       the edge from the nearest node to the new point
-    hit-for-free: the third result is inverted; it should be True if the edge is free
-    stays-where-blocked: if the edge is not free, your code returns the nearest node;
-      return the new point in both cases
-    index-of-the-new: your code returns the index of the new node; return the index of
+    hit-for-free: the third result is inverted. It should be True if the edge is free
+    stays-where-blocked: if the edge is not free, your code returns the nearest node.
+      Return the new point in both cases
+    index-of-the-new: your code returns the index of the new node. Return the index of
       the node from which the tree grows
-    away: the tree grows away from the sample; call `steer` with the node first and the
+    away: the tree grows away from the sample. Call `steer` with the node first and the
       sample second
     from-the-sample: your code steers from the sample to the node; steer from the node
       to the sample
     from-the-sample 2: your code steers from the sample to the node; steer from the node
       to the sample => a step from the sample, and the edge from the node to its end,
-    farthest: the tree grows from the node farthest from the sample; it should grow from
+    farthest: the tree grows from the node farthest from the sample. It should grow from
       the nearest node
     largest-difference: the nearest node is chosen by the largest difference of a
-      coordinate; use the Euclidean distance
+      coordinate. Use the Euclidean distance
     largest-difference 2: the nearest node, and its distance, is found by the largest
-      difference of a coordinate; use the Euclidean distance
+      difference of a coordinate. Use the Euclidean distance
     sum-of-differences: the nearest node is chosen by the sum of the absolute
-      differences; use the Euclidean distance
-    squared-for-plain: the step is divided by the squared distance to the sample; divide
+      differences. Use the Euclidean distance
+    squared-for-plain: the step is divided by the squared distance to the sample. Divide
       it by the distance
-    root-to-the-sample: your code tests the edge from the root to the sample; test the
+    root-to-the-sample: your code tests the edge from the root to the sample. Test the
       edge from the nearest node to the new point
     standing-is-blocked: if the sample equals a node, your code reports a blocked edge.
       An edge of length 0 is free if the node is free
@@ -182,16 +182,16 @@ def _(tree, sample, step, world):
     free-if-reached: your code reports a free edge only if the sample is reached; a step
       towards the sample is an edge too
     reached-is-free: if the sample is reached, your code does not test the edge
-    ends-only: your code tests only the two ends of the edge; test the points between
+    ends-only: your code tests only the two ends of the edge. Test the points between
       them too
-    twice-a-step: the edge has a length of two steps; limit it to one step
-    half-a-step: the edge has a length of half a step; use the whole step
-    unit-step: the edge has length 1; use the argument `step`
+    twice-a-step: the edge has a length of two steps. Limit it to one step
+    half-a-step: the edge has a length of half a step. Use the whole step
+    unit-step: the edge has length 1. Use the argument `step`
     added-twice: the result of `steer` is added to the node; `steer` already returns a
       point, not a displacement
     nearest-of-the-free: your code selects the nearest node among those with a free
       edge. Select the nearest node of all and report whether its edge is free
-    sample-where-blocked: if the edge is not free, your code returns the sample; return
+    sample-where-blocked: if the edge is not free, your code returns the sample. Return
       the new point in both cases
     part-of-the-way: if the edge is not free, your code shortens it until it is free.
       Leave the new point as it is and return False => an edge that is halved until it

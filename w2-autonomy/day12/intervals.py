@@ -171,7 +171,7 @@ OPTIONS = [
          np.clip(ends, 0.01, 0.99)),
         ("cut", "the ends are clamped to the range 0 to 1",
          lambda ends, n: np.clip(ends, 0, 1)),
-        ("high-first", "the upper end comes first; return the lower end first",
+        ("high-first", "the upper end comes first. Return the lower end first",
          lambda ends, n: ends[::-1]),
         ("low-is-zero", "the lower end is always 0; the interval has two sides",
          lambda ends, n: np.array([0.0, ends[1]])),
@@ -181,8 +181,8 @@ OPTIONS = [
          lambda ends, n: ends[[0, 0]]),
         ("high-alone", "both entries are the upper end",
          lambda ends, n: ends[[1, 1]]),
-        ("middle-and-width", "your code returns the centre and the half-width; "
-                             "return the two ends", lambda ends, n:
+        ("middle-and-width", "your code returns the centre and the half-width. "
+                             "Return the two ends", lambda ends, n:
          np.array([ends.mean(), np.diff(ends)[0] / 2])),
     ]),
     *_each("none", [

@@ -137,9 +137,9 @@ def _same_limit(choose: Callable[[Array], float]) -> Any:
 OPTIONS = [
     *(Option(slug, says, {"two_ds": of}, alone="points" in slug)
       for slug, says, of in (
-        ("ds-for-2-ds", "sd^2 grows by ds u in a step; it should grow by 2 ds u",
+        ("ds-for-2-ds", "sd^2 grows by ds u in a step. It should grow by 2 ds u",
          lambda n: 1 / n),
-        ("four-ds", "sd^2 grows by 4 ds u in a step; it should grow by 2 ds u",
+        ("four-ds", "sd^2 grows by 4 ds u in a step. It should grow by 2 ds u",
          lambda n: 4 / n),
         ("half-ds", "sd^2 grows by ds u / 2 in a step; it should grow by 2 ds u",
          lambda n: 0.5 / n),
@@ -155,11 +155,11 @@ OPTIONS = [
         ("ds-forgotten", "ds is missing or is 1; it should be 1 / N", lambda n: 2.0),
         ("ds-forgotten", "the factor 2 ds is missing or is 1; ds should be 1 / N",
          lambda n: 1.0))),
-    Option("sd-for-sd2", "`path_accel_bounds` is called with sd^2; its argument should "
+    Option("sd-for-sd2", "`path_accel_bounds` is called with sd^2. Its argument should "
         "be sd",
            {"sd": lambda x: x}),
-    Option("sd-for-sd2", "in the forward pass `path_accel_bounds` is called with sd^2; "
-        "its argument should be sd",
+    Option("sd-for-sd2", "in the forward pass `path_accel_bounds` is called with sd^2. "
+        "Its argument should be sd",
            {"forward_sd": lambda x: x}),
     Option("sd-squared-twice", "`path_accel_bounds` is called with sd^4; its "
                                "argument is sd",
@@ -170,9 +170,9 @@ OPTIONS = [
                       "0",
            {"forward_sd": lambda x: 0.0 * x}, alone=True),
     Option("start-not-at-rest", "the motion starts with the largest sd^2 from which"
-                                " it can stop; start with 0", {"start": "K"}),
-    Option("end-not-at-rest", "the backward pass starts with sd2_max at the end; "
-                              "start with 0",
+                                " it can stop. Start with 0", {"start": "K"}),
+    Option("end-not-at-rest", "the backward pass starts with sd2_max at the end. "
+                              "Start with 0",
            {"last": False}),
     *(Option(slug, says, {"passes": one}) for slug, says, one in (
         ("no-braking", "there is no backward pass", "forward"),
@@ -188,13 +188,13 @@ OPTIONS = [
                      "at its end; use its first point",
            {"swept": True}),
     Option("limits-of-the-next-point", "in both passes the bounds on sdd for a step "
-        "are computed at the end of the step; compute them at its first point",
+        "are computed at the end of the step. Compute them at its first point",
            {"back_at": 1, "at": 1}),
     Option("limits-of-the-next-point", "in the backward pass the bounds on sdd for a "
         "step are computed at the end of the step. Compute them at its first point",
         {"back_at": 1}),
     Option("limits-of-the-next-point", "in the forward pass the bounds on sdd for a "
-        "step are computed at the end of the step; compute them at its first point",
+        "step are computed at the end of the step. Compute them at its first point",
         {"at": 1}),
     *(Option(slug, says, {"pull": of}, alone=True) for slug, says, of in (
         ("limits-of-the-first-point", "every step uses a, b and c of the first "
@@ -262,7 +262,7 @@ OPTIONS = [
            {"ranges": lambda a, b, g, limits, sd: path_accel_bounds(
                a[:1], b[:1], g[:1], limits[:1], sd)}),
     *(Option(slug, says, {"out": of}) for slug, says, of in (
-        ("root", "your code returns sd; return sd^2", np.sqrt),
+        ("root", "your code returns sd. Return sd^2", np.sqrt),
         ("squared", "your code returns sd^4; return sd^2", np.square),
         ("end-to-start", "the motion runs from the end to the start",
          lambda x: x[::-1]),

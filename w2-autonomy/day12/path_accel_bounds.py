@@ -170,18 +170,18 @@ def _of_holding(rest, pull, c, limits, moves, free):
 @row.wrongs
 def _(a, b, c, limits, sd):
     """not-sorted: if a is negative, the lower and the upper bound of that joint are
-      exchanged; sort the two quotients
+      exchanged. Sort the two quotients
     speed-forgotten: the term b sd^2 is missing
-    speed-sign: b sd^2 is added to the limits; subtract it
+    speed-sign: b sd^2 is added to the limits. Subtract it
     gravity-forgotten: the term c is missing
-    gravity-sign: c is added to the limits; subtract it
-    rest-added: b sd^2 + c is added to the limits; subtract it
+    gravity-sign: c is added to the limits. Subtract it
+    rest-added: b sd^2 + c is added to the limits. Subtract it
     rest-not-divided: b sd^2 + c is not divided by a
     one-sided: b sd^2 + c has the wrong sign in the lower bound; the bounds are not
       symmetric about 0
-    size-of-rest: your code reduces both limits by |b sd^2 + c|; this torque should
+    size-of-rest: your code reduces both limits by |b sd^2 + c|. This torque should
       reduce one limit and extend the other
-    widest: your code takes the union of the joints' intervals; take the intersection
+    widest: your code takes the union of the joints' intervals. Take the intersection
     least-of-both: both bounds are the minimum of their quotients; the lower bound is
       the maximum of the joints' lower bounds
     first-joint-only: your code uses only the first joint
@@ -190,22 +190,22 @@ def _(a, b, c, limits, sd):
     last-joint-only: your code uses only the last joint: does your loop overwrite the
       earlier bounds?
     half-the-limit: your code uses only half of each torque limit
-    not-divided: the bounds are torques; divide them by a
-    times-a: the torques are multiplied by a; divide by a
+    not-divided: the bounds are torques. Divide them by a
+    times-a: the torques are multiplied by a. Divide by a
     one-limit: your code allows torques from 0 to the limit; the torques may range from
       -limit to limit
-    greatest-first: the upper bound comes first; return the lower bound first
+    greatest-first: the upper bound comes first. Return the lower bound first
     greatest-first 2: the upper bound comes first unless a joint with a = 0 exceeds its
-      limit; return the lower bound first
-    none-sorted: if no sdd is allowed, your code sorts the bounds; leave the lower bound
+      limit. Return the lower bound first
+    none-sorted: if no sdd is allowed, your code sorts the bounds. Leave the lower bound
       above the upper bound
-    none-sorted 2: if the joints allow no common sdd, your code sorts the bounds; leave
+    none-sorted 2: if the joints allow no common sdd, your code sorts the bounds. Leave
       the lower bound above the upper bound
     none-is-zero: if no sdd is allowed, your code returns (0, 0), which allows sdd = 0
     none-is-zero 2: if a joint with a = 0 exceeds its limit, your code returns (0, 0),
       which allows sdd = 0. Return (inf, -inf)
     none-is-one: if no sdd is allowed, your code reduces the lower bound to the upper
-      bound; leave it above the upper bound
+      bound. Leave it above the upper bound
     zero-stops-all: a joint with a = 0 within its torque limit makes the range empty in
       your code. Such a joint does not limit sdd
     zero-row-ignored: your code ignores a joint with a = 0 that exceeds its torque
@@ -218,15 +218,15 @@ def _(a, b, c, limits, sd):
       limits sdd
     largest-limit: your code uses the largest torque limit for every joint
     smallest-limit: your code uses the smallest torque limit for every joint
-    last-joint-greatest: the upper bound is the upper bound of the last joint; take the
+    last-joint-greatest: the upper bound is the upper bound of the last joint. Take the
       minimum over all joints
-    last-joint-least: the lower bound is the lower bound of the last joint; take the
+    last-joint-least: the lower bound is the lower bound of the last joint. Take the
       maximum over all joints
-    mean-of-joints: the bounds are means over the joints; take the maximum of the lower
+    mean-of-joints: the bounds are means over the joints. Take the maximum of the lower
       bounds and the minimum of the upper bounds
-    sum-of-joints: the bounds are sums over the joints; take the maximum of the lower
+    sum-of-joints: the bounds are sums over the joints. Take the maximum of the lower
       bounds and the minimum of the upper bounds
-    from-zero: both bounds start at 0; start the lower bound at -inf and the upper bound
+    from-zero: both bounds start at 0. Start the lower bound at -inf and the upper bound
       at inf
     last-joint-only 2: each joint replaces the bounds of the joints before it; keep the
       largest lower and the smallest upper bound => the bounds of the last joint
@@ -244,9 +244,9 @@ def _(a, b, c, limits, sd):
     no-mover-is-none: if every a is 0 and every torque is within its limit, your code
       returns (inf, -inf); any sdd is allowed: (-inf, inf)
     held-by-gravity-alone: for a joint with a = 0 your code compares only c with the
-      limit; compare b sd^2 + c
+      limit. Compare b sd^2 + c
     held-by-speed-alone: for a joint with a = 0 your code compares only b sd^2 with the
-      limit; compare b sd^2 + c
+      limit. Compare b sd^2 + c
     held-with-sign: for a joint with a = 0 your code compares the torque without its
       absolute value. The limit also applies to negative torques
     all-have-to-hold: your code compares b sd^2 + c with the limit for joints that move

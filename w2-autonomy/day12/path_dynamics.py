@@ -67,7 +67,7 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
       d2q_ds2
     g-first: g is the first row; the order is a, b, g
     ddq-in-a: M dq_ds and M d2q_ds2 are exchanged; qdd = dq_ds sdd + d2q_ds2 sd^2
-    m-dq-twice: b contains M dq_ds; it should contain M d2q_ds2
+    m-dq-twice: b contains M dq_ds. It should contain M d2q_ds2
     both-in-a: M d2q_ds2 is added to a, but it is the coefficient of sd^2 and belongs to
       b
     gravity-sign: the sign of gravity is reversed; the torque that holds the arm is
@@ -76,16 +76,16 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
     coriolis-times-dq: the Coriolis torque is multiplied by dq_ds, but it is already
       computed for qd = dq_ds
     dq-squared: b contains dq_ds^2 instead of d2q_ds2
-    solved: your code solves with M; multiply by M, because M maps accelerations to
+    solved: your code solves with M. Multiply by M, because M maps accelerations to
       torques
     coriolis-in-g: the Coriolis torque is added to g; this torque is multiplied by sd^2,
       so it belongs to b
     coriolis-in-a: the Coriolis torque is added to a; this torque is multiplied by sd^2,
       so it belongs to b
-    rows-summed: each row of M is summed and then multiplied by one joint's rate; use
+    rows-summed: each row of M is summed and then multiplied by one joint's rate. Use
       the matrix product
     trace: the trace of M is used instead of M
-    first-row: the first row of M is multiplied entry by entry; use the matrix product
+    first-row: the first row of M is multiplied entry by entry. Use the matrix product
     """
     right = path_dynamics(M, dq_ds, d2q_ds2, coriolis, gravity)
     a, b, g = right

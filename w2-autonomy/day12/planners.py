@@ -168,9 +168,9 @@ OPTIONS = [
     Option("swap-when-it-failed", "the trees are swapped only after a blocked "
                                   "sample; swap them after every sample",
            {"turn": "failed"}),
-    Option("trees-not-swapped", "all samples extend the start's tree; samples 1, 3,"
+    Option("trees-not-swapped", "all samples extend the start's tree. Samples 1, 3,"
                                 " 5 should extend the goal's tree", {"turn": "never"}),
-    Option("goal-first", "sample 0 extends the goal's tree; it should extend the "
+    Option("goal-first", "sample 0 extends the goal's tree. It should extend the "
                          "start's tree", {"turn": "goal"}),
     Option("halves", "the first half of the samples extends the start's tree, and "
                      "the second half the goal's tree; alternate",
@@ -189,10 +189,10 @@ OPTIONS = [
            {"blocked": "other"}),
     *(Option("few-samples", f"your code uses only the first {n} samples",
              {"used": lambda some, n=n: some[:n]}) for n in (5, 10, 20)),
-    Option("connect-one-step", "the other tree adds one edge only; add edges until "
+    Option("connect-one-step", "the other tree adds one edge only. Add edges until "
                                "one is blocked or the new node is reached",
            {"approach": "one"}),
-    Option("connect-to-the-sample", "the other tree grows towards the sample; it "
+    Option("connect-to-the-sample", "the other tree grows towards the sample. It "
                                     "should grow towards the new node",
            {"approach": "sample"}),
     Option("joined-at-the-sample", "the search ends when the other tree reaches the"
@@ -203,13 +203,13 @@ OPTIONS = [
                                   "first tree; it should grow towards the new node",
            {"approach": "root"}),
     Option("connect-in-one-jump", "the other tree is connected by a single edge of "
-                                  "any length; add edges of one step each",
+                                  "any length. Add edges of one step each",
            {"approach": "jump"}),
     *(Option("connect-few-edges", f"the other tree adds at most {n} edges; add edges"
                                   " until one is blocked or the new node is reached",
            {"tries": n})
       for n in (2, 3, 4, 5, 10)),
-    Option("greedy-samples", "your code adds several edges towards the sample; add "
+    Option("greedy-samples", "your code adds several edges towards the sample. Add "
                              "one edge only",
            {"mine": "connect"}),
     Option("parent-is-the-newest", "the parent of a node is the previous node; use "
@@ -251,7 +251,7 @@ OPTIONS = [
     Option("last-sample-left-out", "your code skips the last sample",
            {"used": lambda some: some[:-1]}),
     Option("not-turned-round", "the start's branch runs from the newest node to the"
-                               " root; reverse it",
+                               " root. Reverse it",
            {"joined": lambda a, b: a + b[1:]}),
     Option("goal-branch-turned", "the goal's branch is reversed; it already runs "
                                  "from the meeting point to the goal",

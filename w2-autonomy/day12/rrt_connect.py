@@ -108,32 +108,32 @@ def _(start, goal, world, samples, step, path):
 @row.wrongs
 def _(start, goal, world, samples, step):
     """swap-when-it-grew: your code implements another planner. It swaps the trees only
-      after a sample that made a tree grow; swap them after every sample
+      after a sample that made a tree grow. Swap them after every sample
     swap-when-it-failed: your code implements another planner. It swaps the trees only
-      after a blocked sample; swap them after every sample
+      after a blocked sample. Swap them after every sample
     trees-not-swapped: your code implements another planner. All samples extend the
-      start's tree; samples 1, 3, 5 should extend the goal's tree
-    goal-first: your code implements another planner. Sample 0 extends the goal's tree;
-      it should extend the start's tree
+      start's tree. Samples 1, 3, 5 should extend the goal's tree
+    goal-first: your code implements another planner. Sample 0 extends the goal's tree.
+      It should extend the start's tree
     connect-one-step: your code implements another planner. The other tree adds one edge
-      only; add edges until one is blocked or the new node is reached
+      only. Add edges until one is blocked or the new node is reached
     connect-to-the-sample: your code implements another planner. The other tree grows
-      towards the sample; it should grow towards the new node
+      towards the sample. It should grow towards the new node
     greedy-samples: your code implements another planner. It adds several edges towards
-      the sample; add one edge only
+      the sample. Add one edge only
     one-tree: your code implements another planner. Only the start's tree grows, and
-      each new node is connected to the goal; grow two trees
-    connect-in-one-jump: the other tree is connected by a single edge of any length; add
+      each new node is connected to the goal. Grow two trees
+    connect-in-one-jump: the other tree is connected by a single edge of any length. Add
       edges of one step each
     parent-is-the-newest: the path contains every node of both trees. The parent of a
       node is the node from which it grew: use the index that `extend` returns
-    not-turned-round: the start's branch runs from the newest node to the root; reverse
+    not-turned-round: the start's branch runs from the newest node to the root. Reverse
       it
     goal-to-start: the path runs from the goal to the start
-    half-the-path: your code returns only the start's branch; append the goal's branch
-    half-the-path 2: your code returns only the goal's branch; put the start's branch
+    half-the-path: your code returns only the start's branch. Append the goal's branch
+    half-the-path 2: your code returns only the goal's branch. Put the start's branch
       before it
-    not-checked: nodes are added even if their edge is not free; use the third result of
+    not-checked: nodes are added even if their edge is not free. Use the third result of
       `extend`
     meeting-point-twice: the path contains the node where the trees meet twice
     meeting-point-lost: the path does not contain the node where the trees meet

@@ -218,9 +218,9 @@ def _(a, b, discs):
     only-one-end-cut 2: the parameter is clamped at 0 but not at 1; beyond the end the
       nearest point is the end
     ends-only: your code tests only the two ends; the edge can cross a disc between them
-    new-end-only: your code tests only the end b; test the whole edge
-    start-only: your code tests only the start a; test the whole edge
-    middle-only: your code tests only the midpoint; test the whole edge
+    new-end-only: your code tests only the end b. Test the whole edge
+    start-only: your code tests only the start a. Test the whole edge
+    middle-only: your code tests only the midpoint. Test the whole edge
     points-only: your code tests only some points of the edge; a small disc fits between
       two of them => a test of ten points
     points-only 2: your code tests only some points of the edge; a small disc fits
@@ -264,16 +264,16 @@ def _(a, b, discs):
     not-divided: the parameter of the nearest point is not divided by the squared length
       of the edge
     divided-by-the-length: the parameter of the nearest point is divided by the length
-      of the edge; divide it by the squared length
-    touching-is-free: an edge that touches a disc is reported as free; it should be
+      of the edge. Divide it by the squared length
+    touching-is-free: an edge that touches a disc is reported as free. It should be
       blocked
-    from-the-origin: the nearest point is computed from the origin; subtract a from the
+    from-the-origin: the nearest point is computed from the origin. Subtract a from the
       centre first
     other-way: the parameter runs from b to a, but it is applied from a
     box: the discs are treated as squares, because each coordinate is compared
-      separately; use the Euclidean distance
-    foot-without-a: the nearest point is measured from the origin; add a
-    cut-to-one: a length along the edge is clamped to 0..1; clamp it to the length of
+      separately. Use the Euclidean distance
+    foot-without-a: the nearest point is measured from the origin. Add a
+    cut-to-one: a length along the edge is clamped to 0..1. Clamp it to the length of
       the edge
     length-for-share: a length along the edge is multiplied by b - a. Multiply it by the
       unit vector, or divide it by the length of the edge
@@ -288,8 +288,8 @@ def _(a, b, discs):
     x-and-y-exchanged: x and y of the centres are exchanged
     no-disc-is-hit: if there is no disc, your code reports a blocked edge; the edge is
       free
-    touching-between: an edge that touches a disc between its ends is reported as free;
-      it should be blocked
+    touching-between: an edge that touches a disc between its ends is reported as free.
+      It should be blocked
     points-only 7: your code misses discs that cover only a little of the edge. It tests
       only some points, or its nearest point is not exact => a test of a thousand points
     points-only 8: your code tests only some points of the edge; a small disc fits

@@ -125,20 +125,20 @@ def _(path, world, pairs):
       free
     one-node-short: point j is removed too, so the new edge ends at a point that was not
       tested
-    one-node-short 2: point i is removed too; keep path[: i + 1]
-    one-too-many: the point before j is kept; remove all points between i and j
+    one-node-short 2: point i is removed too. Keep path[: i + 1]
+    one-too-many: the point before j is kept. Remove all points between i and j
     end-lost: the first shortcut removes the end of the path
-    first-cut-only: your code stops after the first shortcut; try all pairs
-    indices-of-the-first-path: the pairs refer to rows of the original path; they should
+    first-cut-only: your code stops after the first shortcut. Try all pairs
+    indices-of-the-first-path: the pairs refer to rows of the original path. They should
       refer to the current path
     indices-of-the-first-path 2: the indices are computed with the length of the
-      original path, but used in the current path; use the current length
-    not-sorted: your code skips a pair if its first row is the larger one; sort the two
+      original path, but used in the current path. Use the current length
+    not-sorted: your code skips a pair if its first row is the larger one. Sort the two
       rows
     rounded: u m is rounded to the nearest integer; int() rounds down
-    rounded 2: u (m - 1) is rounded; use int(u m), which gives every row the same
+    rounded 2: u (m - 1) is rounded. Use int(u m), which gives every row the same
       probability
-    of-m-minus-one: u is multiplied by m - 1; use int(u m), which gives every row the
+    of-m-minus-one: u is multiplied by m - 1. Use int(u m), which gives every row the
       same probability
     neighbours-too: your code also treats neighbouring rows as a shortcut => a test with
       j - i > 0
@@ -147,9 +147,9 @@ def _(path, world, pairs):
     hit-for-free: the test is inverted, so your code applies shortcuts that are blocked
     unchanged: your code returns the original path
     all-but-the-ends: your code returns only the start and the end
-    only-the-ends-checked: your code tests only the two points; test the edge between
+    only-the-ends-checked: your code tests only the two points. Test the edge between
       them
-    middle-checked: your code tests only the midpoint of the edge; test the whole edge
+    middle-checked: your code tests only the midpoint of the edge. Test the whole edge
     reversed: the path runs from its end to its start
     ends-at-i: your code returns only the path up to i
     """

@@ -78,50 +78,50 @@ def _(rng):
 
 @row.wrongs
 def _(q, target, step):
-    """overshoots: a full step is taken even if the target is nearer; stop at the target
+    """overshoots: a full step is taken even if the target is nearer. Stop at the target
       => a full step in every case
-    no-limit: your code returns the target at any distance; limit the motion to one step
+    no-limit: your code returns the target at any distance. Limit the motion to one step
     fraction: `step` is used as a fraction of the displacement, but it is a length => q
       + step (target - q)
     fraction-at-most-all: `step` is used as a fraction of the displacement, at most 1,
       but it is a length
     not-unit: the displacement to a far target is not divided by its norm => q + step
       (target - q) for far targets
-    squared: the displacement is divided by its squared norm; divide it by the norm
-    from-the-target: the step is subtracted from the target; start at q
-    from-the-target 2: the step is added to the target; start at q
-    direction-only: your code returns the displacement; add q
-    direction-only 2: your code returns the displacement, limited to one step; add q
+    squared: the displacement is divided by its squared norm. Divide it by the norm
+    from-the-target: the step is subtracted from the target. Start at q
+    from-the-target 2: the step is added to the target. Start at q
+    direction-only: your code returns the displacement. Add q
+    direction-only 2: your code returns the displacement, limited to one step. Add q
     away: the point moves away from the target; the direction is target - q
     away 2: if the target is far, the point moves away from it; the direction is target
       - q
-    stays-when-near: if the target is within one step, your code returns q; return the
+    stays-when-near: if the target is within one step, your code returns q. Return the
       target
     always-q: your code always returns q
     largest-coordinate: the largest difference in one coordinate is used as the
-      distance; use the Euclidean norm
-    largest-coordinate 2: each coordinate is limited to a step; limit the norm of the
+      distance. Use the Euclidean norm
+    largest-coordinate 2: each coordinate is limited to a step. Limit the norm of the
       displacement
-    sum-of-sizes: the sum of the absolute differences is used as the distance; use the
+    sum-of-sizes: the sum of the absolute differences is used as the distance. Use the
       Euclidean norm
-    unit-step: the displacement has norm 1; use the argument `step`
+    unit-step: the displacement has norm 1. Use the argument `step`
     half-a-step: the displacement is half a step
-    limit-the-other-way: the two cases are exchanged; return the target if it is near,
+    limit-the-other-way: the two cases are exchanged. Return the target if it is near,
       and take a full step if it is far
-    from-the-origin: the step starts at the origin; start at q
-    square-compared: the squared distance is compared with the step; compare the
+    from-the-origin: the step starts at the origin. Start at q
+    square-compared: the squared distance is compared with the step. Compare the
       distance
-    two-coordinates: the distance uses only the first two coordinates; use all of them
+    two-coordinates: the distance uses only the first two coordinates. Use all of them
     root-of-the-mean: your code takes the root of the mean of the squares; take the root
       of their sum
-    length-of-the-target: the displacement is divided by the norm of the target; divide
+    length-of-the-target: the displacement is divided by the norm of the target. Divide
       it by the norm of target - q
-    direction-from-the-origin: the direction is the target's direction from the origin;
-      use the direction from q
-    stops-half-way: if the target is near, the point moves only half of the distance;
-      return the target
+    direction-from-the-origin: the direction is the target's direction from the origin.
+      Use the direction from q
+    stops-half-way: if the target is near, the point moves only half of the distance.
+      Return the target
     step-on-each-coordinate: if the target is far, each coordinate changes by a full
-      step; the norm of the displacement should be one step
+      step. The norm of the displacement should be one step
     """
     way = target - q
     far = np.linalg.norm(way)
@@ -167,8 +167,8 @@ def _(q, target, step):
 
 @row.wrong(hidden="the lab never steers to where a tree stands")
 def divided_by_nothing(q, target, step):
-    """if the target equals q, the distance is 0 and your code computes 0 / 0 (NaN);
-    return q => the formula without that case"""
+    """if the target equals q, the distance is 0 and your code computes 0 / 0 (NaN).
+    Return q => the formula without that case"""
     way = target - q
     with np.errstate(all="ignore"):
         return q + min(step, np.linalg.norm(way)) * (way / np.linalg.norm(way))

@@ -114,22 +114,22 @@ def _(a, b, c, limits, sd2_max):
       the forward pass alone, up to sd2_max,
     no-braking 2: there is no backward pass, so the motion stops abruptly at the end =>
       the forward pass alone, with 0 at the end,
-    end-not-at-rest: the backward pass starts with sd2_max at the end; start with 0
-    start-not-at-rest: the motion starts with the largest sd^2 from which it can stop;
-      start with 0
+    end-not-at-rest: the backward pass starts with sd2_max at the end. Start with 0
+    start-not-at-rest: the motion starts with the largest sd^2 from which it can stop.
+      Start with 0
     backward-pass-only: there is no forward pass, so the motion does not start at rest
       => the backward pass alone
     backward-pass-only 2: there is no forward pass, so sd^2 jumps from 0 to its maximum
       => the backward pass alone, with 0 at the start,
     smaller-of-two-passes: the two passes are computed independently, and the minimum is
       taken; the forward pass must use the limits from the backward pass
-    ds-for-2-ds: sd^2 grows by ds u in a step; it should grow by 2 ds u
-    four-ds: sd^2 grows by 4 ds u in a step; it should grow by 2 ds u
+    ds-for-2-ds: sd^2 grows by ds u in a step. It should grow by 2 ds u
+    four-ds: sd^2 grows by 4 ds u in a step. It should grow by 2 ds u
     points-for-steps: ds is 1 / (N + 1); N + 1 points have N steps, so ds is 1 / N
-    sd-for-sd2: `path_accel_bounds` is called with sd^2; its argument should be sd
-    sd-for-sd2 2: in the backward pass `path_accel_bounds` is called with sd^2; its
+    sd-for-sd2: `path_accel_bounds` is called with sd^2. Its argument should be sd
+    sd-for-sd2 2: in the backward pass `path_accel_bounds` is called with sd^2. Its
       argument should be sd
-    sd-for-sd2 3: in the forward pass `path_accel_bounds` is called with sd^2; its
+    sd-for-sd2 3: in the forward pass `path_accel_bounds` is called with sd^2. Its
       argument should be sd
     most-of-the-point-before: in the forward pass sd^2 at i + 1 is limited by the
       maximum at i. Use the maximum at i + 1
@@ -144,15 +144,15 @@ def _(a, b, c, limits, sd2_max):
     few-bisections: the bisection stops too early => the result after 10 halvings
     few-bisections 2: the bisection stops too early => the result after 20 halvings
     limits-of-the-next-point: the bounds on sdd for a step are computed at the end of
-      the step; compute them at its first point
+      the step. Compute them at its first point
     bobrow: in the backward pass the bounds on sdd for a step are computed at the end of
       the step. Compute them at its first point
-    root: your code returns sd; return sd^2
-    times: your code returns the time of each point; return sd^2
+    root: your code returns sd. Return sd^2
+    times: your code returns the time of each point. Return sd^2
     half-the-torque: your code uses only half of each torque limit
     never-moves: sd^2 is 0 at every point. Check the result of the backward pass, and
       whether the forward pass uses the largest sdd
-    accelerations: your code returns sdd of each step; return sd^2
+    accelerations: your code returns sdd of each step. Return sd^2
     """
     given = (a, b, c, limits, sd2_max)
     right = time_optimal_profile(*given)

@@ -73,30 +73,30 @@ def _(successes, n):
       => the formula without z^2 / (2 n) in the centre
     width-without-z2: the term z^2 / (4 n^2) is missing under the root
     not-divided: the division by 1 + z^2 / n is missing
-    middle-not-divided: only the half-width is divided by 1 + z^2 / n; divide the centre
+    middle-not-divided: only the half-width is divided by 1 + z^2 / n. Divide the centre
       too
-    width-not-divided: only the centre is divided by 1 + z^2 / n; divide the half-width
+    width-not-divided: only the centre is divided by 1 + z^2 / n. Divide the half-width
       too
     root-n-forgotten: p (1 - p) is not divided by n, so more trials do not make the
       interval narrower
-    ninety: z = 1.645 gives a 90 % interval; use 1.96
+    ninety: z = 1.645 gives a 90 % interval. Use 1.96
     ninety-without-z2: z = 1.645 is used instead of 1.96, and the term z^2 / (4 n^2) is
       missing under the root
-    two-sigma: z is 2; use 1.96
-    one-sigma: z = 1 gives a 68 % interval; use 1.96
-    ninety-nine: z = 2.576 gives a 99 % interval; use 1.96
+    two-sigma: z is 2. Use 1.96
+    one-sigma: z = 1 gives a 68 % interval. Use 1.96
+    ninety-nine: z = 2.576 gives a 99 % interval. Use 1.96
     more-digits: z = 1.959964 is more exact than 1.96, but the task uses 1.96 so that
       all results agree => the formula with 1.959964
     z-for-z2: z is used instead of z^2 in the centre and in the denominator
-    two-n: the centre contains z^2 / n; it should contain z^2 / (2 n)
-    four-forgotten: the root contains z^2 / n^2; it should contain z^2 / (4 n^2)
-    n-for-n2: the root contains z^2 / (4 n); it should contain z^2 / (4 n^2)
-    successes-for-p: k is used as the proportion; use k / n
-    failures: your code returns the interval of the failures, n - k; return the interval
+    two-n: the centre contains z^2 / n. It should contain z^2 / (2 n)
+    four-forgotten: the root contains z^2 / n^2. It should contain z^2 / (4 n^2)
+    n-for-n2: the root contains z^2 / (4 n). It should contain z^2 / (4 n^2)
+    successes-for-p: k is used as the proportion. Use k / n
+    failures: your code returns the interval of the failures, n - k. Return the interval
       of the successes
-    high-first: the upper end comes first; return the lower end first
-    high-first 2: for n > 0 the upper end comes first; return the lower end first
-    middle-and-width: your code returns the centre and the half-width; return the two
+    high-first: the upper end comes first. Return the lower end first
+    high-first 2: for n > 0 the upper end comes first. Return the lower end first
+    middle-and-width: your code returns the centre and the half-width. Return the two
       ends
     rule-of-three: for k = 0 the upper end is 3 / n, which is the rule of three, not the
       Wilson interval
@@ -112,11 +112,11 @@ def _(successes, n):
     plus-four 3: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
       n + z^2 trials (Agresti and Coull). Use the Wilson interval => this interval,
       clamped to 0..1,
-    one-more: p is (k + 1) / (n + 2), with one success and one failure added; use k / n
-    quadratic-sign: the quadratic equation for p has the coefficient -2 k / n + z^2 / n;
-      it is -(2 k / n + z^2 / n) => the roots with this sign
-    quadratic-z2: the quadratic equation for p has the coefficient -(2 k / n + z^2); it
-      is -(2 k / n + z^2 / n) => the roots with z^2
+    one-more: p is (k + 1) / (n + 2), with one success and one failure added. Use k / n
+    quadratic-sign: the quadratic equation for p has the coefficient -2 k / n + z^2 / n,
+      but it should be -(2 k / n + z^2 / n) => the roots with this sign
+    quadratic-z2: the quadratic equation for p has the coefficient -(2 k / n + z^2), but
+      it should be -(2 k / n + z^2 / n) => the roots with z^2
     half-width: the interval has half of the correct width
     one-is-none: for n = 1 your code returns (0, 1); only n = 0 is a special case => (0,
       1) for n = 0 and n = 1
@@ -194,7 +194,7 @@ def _(successes, n):
 
 @row.wrong
 def none_divides(successes, n):
-    """for n = 0 your code divides by 0; return (0, 1), because no proportion can be
+    """for n = 0 your code divides by 0. Return (0, 1), because no proportion can be
     excluded => the formula without that case"""
     with np.errstate(all="ignore"):
         k, n = np.float64(successes), np.float64(n)
@@ -205,7 +205,7 @@ def none_divides(successes, n):
 
 @row.wrong("none-divides")
 def _(successes, n):
-    """for n = 0 your code returns another result; return (0, 1), because no proportion
+    """for n = 0 your code returns another result. Return (0, 1), because no proportion
     can be excluded => (0, 0) for n = 0"""
     return np.zeros(2) if n == 0 else wilson_interval(successes, n)
 

@@ -104,7 +104,8 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     drop-signs: drop has the wrong sign. It should be the change of the cost, so k . Qu
       is negative
     drop-added: both entries of drop are their sum. Return them separately
-    drop-quadratic-sign: the second entry of drop has the wrong sign
+    drop-quadratic-sign: the second entry of your drop has the wrong sign. It should be
+      the sum of k . Quu k / 2, which raises the cost if Quu is positive definite
     gain-signs: k and K have the wrong sign. The input changes by du = k + K dx
     K-sign: K has the wrong sign. In iLQR du = k + K dx, in contrast to u = -K x in the
       LQR

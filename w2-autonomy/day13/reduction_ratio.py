@@ -21,7 +21,8 @@ def _(before, after, expected):
       their ratio
     after-over-before: the result is after / before, the fraction of the cost that
       remains
-    percent: the ratio is in per cent
+    percent: your ratio is in per cent: it is 100 times the expected value. Return a
+      fraction
     less-1: your function subtracts 1 from the ratio. The ratio should be 1 if the cost
       falls as expected
     how-well-foretold: the result is 1 - |measured - expected| / |expected|. If the cost

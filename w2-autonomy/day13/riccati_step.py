@@ -47,9 +47,10 @@ def _(P, A, B, Q, R):
       P (A - B K)
     P-forgotten-and-R: the new P is Q + (A - B K)^T (A - B K). The old P between the two
       factors is missing, and so is the cost K^T R K of the input
-    K-K-subtracted: K^T K is subtracted. The input reduces the cost-to-go by K^T (R +
-      B^T P B) K
-    K-K-added: K^T K is added instead of K^T R K, the cost of the input
+    K-K-subtracted: your code subtracts K^T K. It should subtract K^T (R + B^T P B) K,
+      because the optimal input reduces the cost-to-go by this term
+    K-K-added: your code adds K^T K. It should add K^T R K, which is the cost of the
+      input
     P-not-updated: P is returned unchanged
     P-halved: P is half as large as it should be
     """

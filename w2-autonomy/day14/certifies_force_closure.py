@@ -109,13 +109,13 @@ def _(W, weights):
     first-row-only: only the first row of W w is tested. All six must be 0
     balance-without-weights: the tolerance of W w is 1e-9 of the largest entry of each
       row. It should be 1e-9 of the sum of |W_ij w_j|
-    rank-absolute: the singular values are compared with 1e-9, so the answer depends on
-      the units. Compare them with 1e-9 of the largest one
-    determinant: the rank is tested with det(W W^T), so the answer depends on the units.
-      Compare the singular values with 1e-9 of the largest one
+    rank-absolute: your code compares the singular values with 1e-9, so the answer
+      depends on the units. Compare them with 1e-9 times the largest singular value
+    determinant: your code tests the rank with det(W W^T), so the answer depends on the
+      units. Compare the singular values with 1e-9 times the largest one
     nothing-may-be-left: W w is compared with 0 exactly. Rounding leaves about 1e-16
-    rank-by-rounding: the rank uses NumPy's default tolerance. It should be 1e-9 of the
-      largest singular value
+    rank-by-rounding: the rank uses NumPy's default tolerance. It should be 1e-9 times
+      the largest singular value
     weights-not-used: the columns of W are added without their weights
     forces-only: only the forces are tested. The moments must balance, too
     moments-only: only the moments are tested. The forces must balance, too

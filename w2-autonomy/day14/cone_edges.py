@@ -69,7 +69,7 @@ def _(normal, mu, k):
       already the tangent of that angle
     normal-left-in-mu: mu multiplies the normal as well. It should multiply the
       tangential part alone
-    in-columns: each edge is a column. It should be a row
+    in-columns: your matrix has one edge per column. It should have one edge per row
     """
     t = 2 * np.pi * np.arange(k) / k
     size = np.abs(normal)

@@ -67,7 +67,7 @@ for slug, says, redone, blocks in (
     ("slow-left-out", "dry friction is 0 for a slow joint. The magnitude of dry "
      "friction does not depend on the velocity", "0 where |qd| is below 0.1",
      lambda qd, qdd: (qdd, qd, np.sign(qd) * (np.abs(qd) >= 0.1))),
-    ("dry-one-way", "dry friction is 0 where qd is negative; it should be -1 there",
+    ("dry-one-way", "dry friction is 0 where qd is negative. It should be -1 there",
      "1 where qd is positive, and else 0",
      lambda qd, qdd: (qdd, qd, np.maximum(np.sign(qd), 0.0))),
     ("dry-forgotten", "the seven columns of dry friction are 0",

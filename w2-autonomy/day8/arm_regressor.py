@@ -80,8 +80,9 @@ for slug, says, other in (
      {"bracket": -1.0}),
     ("pose-not-inverted", "V and A are transformed with Ad(T). The adjoint from the "
      "world to the link is Ad(T^-1)", {"into": adjoint}),
-    ("offset-left-out", "V and A are rotated into the link frame, but not moved to its "
-     "origin: the adjoint lacks the block with p",
+    ("offset-left-out", "your code rotates the twists V and A into the link frame but "
+     "does not change their reference point to the link's origin: the adjoint lacks "
+     "the block [p] R",
      {"into": lambda T: np.kron(np.eye(2), T[:3, :3].T)}),
     ("in-world-axes", "V and A are not transformed to the link. The parameters of a "
      "link are expressed in its own frame, about its origin",

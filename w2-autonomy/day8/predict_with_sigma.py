@@ -51,10 +51,12 @@ def _(Y, tau, Y_new, rtol):
     sigma-cut-not-squared: in sigma, the eigenvalues of Y^T Y are compared with rtol
       times the largest. They are squares of the singular values, so use rtol^2 => sigma
       with the pseudo-inverse of Y^T Y and rtol
-    sizes-added: the absolute values of the terms of sigma are added. The variances of
-      independent errors add, so use the norm => sigma with the sum
-    sizes-added 2: the absolute values of the weights of the measurements are added. The
-      variances of independent errors add, so use the norm => sigma with the sum
+    sizes-added: your sigma adds the absolute values of the terms. The variances of
+      independent errors add, so sigma should be the square root of the sum of the
+      squared terms => sigma with the sum
+    sizes-added 2: your sigma adds the absolute values of the weights of the
+      measurements. The variances of independent errors add, so sigma should be the
+      square root of the sum of the squares => sigma with the sum
     sigma-not-cut: sigma includes the small singular values that the fit leaves out =>
       the right torque, and sigma with all singular values
     """

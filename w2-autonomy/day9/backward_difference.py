@@ -28,13 +28,13 @@ def velocity(q, dt, *, change):
 
 
 for slug, says, redone, other in (
-    ("forward", "each velocity uses the next sample, which is not known yet; use the "
+    ("forward", "each velocity uses the next sample, which is not known yet. Use the "
      "previous sample", "(q_(k+1) - q_k) / dt with 0 at the end",
      {"change": lambda q: np.append(np.diff(q), 0.0)}),
-    ("forward", "each velocity uses the next sample, which is not known yet; use the "
+    ("forward", "each velocity uses the next sample, which is not known yet. Use the "
      "previous sample", "(q_(k+1) - q_k) / dt with the last one repeated",
      {"change": lambda q: np.append(np.diff(q), np.diff(q)[-1])}),
-    ("forward", "each velocity uses the next sample, which is not known yet; use the "
+    ("forward", "each velocity uses the next sample, which is not known yet. Use the "
      "previous sample", "(q_(k+1) - q_k) / dt with q_n = 0",
      {"change": lambda q: np.diff(q, append=0.0)}),
     ("central", "your function returns the central difference, which uses the next "
@@ -50,20 +50,20 @@ for slug, says, redone, other in (
     ("round-the-corner", "the first velocity uses the last sample, as np.roll does. No "
      "sample precedes the first one, so the first velocity should be 0", "np.roll",
      {"change": lambda q: q - np.roll(q, 1)}),
-    ("first-repeated", "the first velocity repeats the second; no sample precedes the "
+    ("first-repeated", "the first velocity repeats the second. No sample precedes the "
      "first one, so the first velocity should be 0", "the second velocity as the first",
      {"change": lambda q: np.append(np.diff(q)[:1], np.diff(q))}),
-    ("two-samples", "the change over two samples is divided by one dt; use the change "
+    ("two-samples", "the change over two samples is divided by one dt. Use the change "
      "since the previous sample", "(q_k - q_(k-2)) / dt",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2])}),
     ("mean-of-two", "the change over two samples is divided by 2 dt, which is the "
      "velocity one sample ago. Use the change since the previous sample",
      "(q_k - q_(k-2)) / (2 dt)",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2]) / 2}),
-    ("since-the-start", "the result is the mean velocity since the first sample; use "
+    ("since-the-start", "the result is the mean velocity since the first sample. Use "
      "the change since the previous sample", "(q_k - q_0) / (k dt)",
      {"change": lambda q: (q - q[0]) / np.maximum(np.arange(len(q)), 1)}),
-    ("from-the-first", "the change since the first sample is divided by dt; use the "
+    ("from-the-first", "the change since the first sample is divided by dt. Use the "
      "change since the previous sample", "(q_k - q_0) / dt",
      {"change": lambda q: q - q[0]}),
     ("by-its-time", "each change is divided by the time k dt since the start; the "

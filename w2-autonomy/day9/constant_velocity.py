@@ -23,7 +23,7 @@ def noise(a, b, c, accel_psd):
 def _(dt, accel_psd):
     """F-without-dt: F has 1 instead of dt, which is correct for a period of one second
       only
-    F-identity: F is the identity; the angle should change by dt times the velocity
+    F-identity: F is the identity. The angle should change by dt times the velocity
     Q-diagonal-only: Q is diagonal; a change of the velocity during dt moves the angle
       as well, so their errors are correlated
     Q-of-a-held-acceleration: Q belongs to an acceleration that is constant over dt

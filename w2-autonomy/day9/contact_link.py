@@ -46,37 +46,37 @@ def _(residual, threshold):
     first-joint 2: your function returns the first joint over its threshold, or 1 if
       there is none, as np.argmax does. Return the last one, or 0 if there is none
     first-joint 3: your function returns the first joint over its threshold, counted
-      from 0; return the last one, counted from 1
+      from 0. Return the last one, counted from 1
     from-zero: the joints are counted from 0; joint1 is 1, because 0 means no contact
     from-zero 2: the joints are counted from 0, and -1 means no contact; joint1 is 1,
       and 0 means no contact
     negative-only: only residuals below minus the threshold are detected; a contact
       torque may have either sign
     sign-lost-first: only positive residuals are compared, and the first joint is
-      returned; compare the absolute values, and return the last joint
+      returned. Compare the absolute values, and return the last joint
     sign-lost-first 2: only positive residuals are compared, and the first joint is
       returned, or 1 if there is none. Compare the absolute values, and return the last
     sign-lost-from-zero: only positive residuals are compared, and joints are counted
-      from 0; compare the absolute values, and count from 1
+      from 0. Compare the absolute values, and count from 1
     largest: your function returns the joint with the largest residual. A longer lever
       arm causes a larger torque, so return the last joint over its threshold
     largest 2: your function returns the joint with the largest residual, even if this
       residual is below its threshold. Return the last joint over its threshold
     largest 3: your function returns the joint with the largest signed residual, without
-      a threshold; return the last joint over its threshold
+      a threshold. Return the last joint over its threshold
     most-over: your function returns the joint that exceeds its threshold by the largest
-      amount; return the last joint over its threshold
+      amount. Return the last joint over its threshold
     most-over 2: your function returns the joint that exceeds its threshold by the
-      largest factor; return the last joint over its threshold
-    how-many: your function returns the number of joints over their thresholds; return
+      largest factor. Return the last joint over its threshold
+    how-many: your function returns the number of joints over their thresholds. Return
       the last such joint
     how-many 2: your function returns the number of joints with a residual above the
-      threshold; return the last joint, for residuals of either sign
-    any: your function returns 1 if any joint is over its threshold, else 0; return the
+      threshold. Return the last joint, for residuals of either sign
+    any: your function returns 1 if any joint is over its threshold, else 0. Return the
       last such joint
-    all-or-none: your function returns 7 as soon as one joint is over its threshold;
-      return the last such joint
-    last-of-none: your function returns 7 if no joint is over its threshold; return 0
+    all-or-none: your function returns 7 as soon as one joint is over its threshold.
+      Return the last such joint
+    last-of-none: your function returns 7 if no joint is over its threshold. Return 0
     from-the-tip: the joints are counted from the tip; joint1 is 1
     until-one-does-not: the search stops at the first joint under its threshold; a later
       joint may be over its threshold
@@ -87,9 +87,9 @@ def _(residual, threshold):
     last-joint-decides: the result is 7 if joint 7 is over its threshold, else 0: does
       your loop overwrite an earlier result?
     last-joint-left-out: joint 7 is omitted: does your loop end one joint too early?
-    numbers-added: your function adds the numbers of all joints over their thresholds;
-      return only the last number
-    sum-over: the sum of all absolute residuals is compared; compare the residual of
+    numbers-added: your function adds the numbers of all joints over their thresholds.
+      Return only the last number
+    sum-over: the sum of all absolute residuals is compared. Compare the residual of
       each joint with its own threshold
     """
     size = np.abs(residual)

@@ -28,9 +28,9 @@ def _(x, P, F, Q):
       F e, e e^T becomes F e e^T F^T => F^T P F + Q
     P-not-carried: the new covariance is P + Q; F changes the old error as well, so
       transform P by F => P + Q
-    Q-carried-too: Q is also transformed by F; add Q after the transformation => F (P +
+    Q-carried-too: Q is also transformed by F. Add Q after the transformation => F (P +
       Q) F^T
-    entry-by-entry: your function multiplies F and P entry by entry with `*`; use `@`
+    entry-by-entry: your function multiplies F and P entry by entry with `*`. Use `@`
       for the matrix product => `*` instead of `@`
     """
     Ps = {

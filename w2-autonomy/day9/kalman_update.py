@@ -67,15 +67,15 @@ for slug, says, redone, other in (
      {"of": lambda z, Hx: Hx - z}),
     ("R-rooted", "the square root of R is used; R is already a covariance", "sqrt(R)",
      {"of_R": lambda R: np.sqrt(np.abs(R))}),
-    ("divided-by-R", "K is P H^T R^-1, which holds for the updated P only; use the "
+    ("divided-by-R", "K is P H^T R^-1, which holds for the updated P only. Use the "
      "covariance S of the innovation", "P H^T R^-1",
      {"K": lambda P, H, S, R: P @ H.T @ np.linalg.inv(R)}),
     ("P-from-the-right", "the new covariance is P (I - K H); the factor belongs on the "
      "left, (I - K H) P",
      "P (I - K H)", {"new_P": lambda P, K, S, H, R: P @ without(K, H)}),
-    ("P-I-minus-K-H", "the new covariance is I - K H; it should be (I - K H) P",
+    ("P-I-minus-K-H", "the new covariance is I - K H. It should be (I - K H) P",
      "I - K H", {"new_P": lambda P, K, S, H, R: without(K, H)}),
-    ("P-minus-K-H", "the new covariance is P - K H; subtract K H P, which is K S K^T",
+    ("P-minus-K-H", "the new covariance is P - K H. Subtract K H P, which is K S K^T",
      "P - K H", {"new_P": lambda P, K, S, H, R: P - K @ H}),
     ("P-joseph-short", "the new covariance is (I - K H) P (I - K H)^T. The Joseph form "
      "also has the term K R K^T", "the Joseph form without K R K^T",
@@ -86,7 +86,7 @@ for slug, says, redone, other in (
     ("x-only-where-read", "only the measured entries of x are corrected; P correlates "
      "the other entries with them, so K corrects all", "x with the others unchanged",
      {"new_x": lambda x, K, y, z, H: np.where((H != 0.0).any(axis=0), x + K @ y, x)}),
-    ("x-by-the-reading", "K is multiplied by the reading z; multiply it by the "
+    ("x-by-the-reading", "K is multiplied by the reading z. Multiply it by the "
      "innovation z - H x", "x + K z", {"new_x": lambda x, K, y, z, H: x + K @ z}),
     ("nis-with-R", "the NIS uses R^-1; the innovation also contains the error of x, so "
      "use S^-1", "R instead of S in the NIS",
@@ -94,13 +94,13 @@ for slug, says, redone, other in (
     ("nis-without-R", "the NIS uses (H P H^T)^-1; the innovation also contains the "
      "noise of the reading, so use S^-1", "H P H^T instead of S in the NIS",
      {"nis": lambda y, S, known: weighed(y, known[1] @ known[0] @ known[1].T)}),
-    ("nis-after", "the NIS uses the residual z - H x of the updated x; use the "
+    ("nis-after", "the NIS uses the residual z - H x of the updated x. Use the "
      "innovation, which is computed before the update", "the NIS of the updated x",
      {"nis": lambda y, S, known: weighed(known[3], S)}),
-    ("nis-with-new-P", "the NIS uses S of the updated P; use S of the predicted P",
+    ("nis-with-new-P", "the NIS uses S of the updated P. Use S of the predicted P",
      "the NIS with the updated P",
      {"nis": lambda y, S, known: weighed(y, after_it(*known))}),
-    ("nis-all-after", "the NIS uses the updated x and P; use the innovation and S, "
+    ("nis-all-after", "the NIS uses the updated x and P. Use the innovation and S, "
      "which are computed before the update", "the NIS of the updated x and P",
      {"nis": lambda y, S, known: weighed(known[3], after_it(*known))}),
     ("nis-diagonal", "the NIS uses only the diagonal of S; the entries of the "

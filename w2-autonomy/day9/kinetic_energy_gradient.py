@@ -62,7 +62,7 @@ for slug, says, redone, other in (
     ("omega-alone", "only the angular part of V_i is rotated; ad(S_i) acts on the "
      "linear part as well", "ad of the angular part alone",
      {"turned": lambda S, V: np.append(np.cross(S[:3], V[:3]), np.zeros(3))}),
-    ("own-twist-only", "V_i contains the velocity of joint i only; sum over the joints "
+    ("own-twist-only", "V_i contains the velocity of joint i only. Sum over the joints "
      "1 to i", "V_i = S_i qd_i",
      {"twists": lambda S, qd: S * qd[:, None]}),
     ("outer-twists", "V_i is the sum over the joints i to 7; link i is moved by the "

@@ -43,16 +43,16 @@ for slug, says, redone, other in (
      "the products", "the sum of products of y itself", AS_IT_IS),
     ("mean-left-in-the-squares", "the mean is subtracted in the products, but not in "
      "the squares", "the sum of squares of y itself", {"below": lambda y: y}),
-    ("squares-of-the-first", "the denominator omits the square of the last entry; use "
+    ("squares-of-the-first", "the denominator omits the square of the last entry. Use "
      "all n squares", "the sum of the first n - 1 squares",
      {"squares": lambda d: d[:-1] @ d[:-1]}),
-    ("squares-of-the-last", "the denominator omits the square of the first entry; use "
+    ("squares-of-the-last", "the denominator omits the square of the first entry. Use "
      "all n squares", "the sum of the last n - 1 squares",
      {"squares": lambda d: d[1:] @ d[1:]}),
-    ("two-sizes", "the denominator is the product of the norms of y[1:] and y[:-1]; "
-     "use the sum of all n squares", "the product of the two norms",
+    ("two-sizes", "the denominator is the product of the norms of y[1:] and y[:-1]. "
+     "Use the sum of all n squares", "the product of the two norms",
      {"squares": lambda d: np.sqrt((d[1:] @ d[1:]) * (d[:-1] @ d[:-1]))}),
-    ("by-n-sigma", "the mean product is divided by the standard deviation; divide by "
+    ("by-n-sigma", "the mean product is divided by the standard deviation. Divide by "
      "the variance, so that the unit cancels", "the mean product over sigma",
      {"squares": lambda d: np.sqrt(d @ d / len(d)), "share": lambda n: 1 / (n - 1)}),
     ("mean-of-products", "the mean of n - 1 products is divided by the mean of n "
@@ -60,15 +60,15 @@ for slug, says, redone, other in (
      "the quotient of the means",
      {"share": lambda n: n / (n - 1)}),
     ("variance-for-sum", "the sum of the products is divided by the mean of the "
-     "squares; divide the two sums", "the result times n", {"share": lambda n: n}),
-    ("mean-by-sum", "the mean of the products is divided by the sum of the squares; "
-     "divide the two sums", "the result over n - 1", {"share": lambda n: 1 / (n - 1)}),
-    ("mean-by-sum", "the mean of the products is divided by the sum of the squares; "
-     "divide the two sums", "the result over n", {"share": lambda n: 1 / n}),
-    ("lag-two", "each entry is multiplied by the second one after it; use its direct "
+     "squares. Divide the two sums", "the result times n", {"share": lambda n: n}),
+    ("mean-by-sum", "the mean of the products is divided by the sum of the squares. "
+     "Divide the two sums", "the result over n - 1", {"share": lambda n: 1 / (n - 1)}),
+    ("mean-by-sum", "the mean of the products is divided by the sum of the squares. "
+     "Divide the two sums", "the result over n", {"share": lambda n: 1 / n}),
+    ("lag-two", "each entry is multiplied by the second one after it. Use its direct "
      "neighbour", "the lag-2 autocorrelation", {"pairs": lambda d: d[2:] @ d[:-2]}),
-    ("lag-zero", "each entry is multiplied by itself, so the result is always 1; "
-     "multiply it by its neighbour", "a constant 1", {"pairs": lambda d: d @ d}),
+    ("lag-zero", "each entry is multiplied by itself, so the result is always 1. "
+     "Multiply it by its neighbour", "a constant 1", {"pairs": lambda d: d @ d}),
     ("round-the-corner", "the last entry is multiplied by the first, as with np.roll; "
      "the first and the last entry are not neighbours", "np.roll",
      {"pairs": lambda d: d @ np.roll(d, 1)}),
@@ -78,12 +78,12 @@ for slug, says, redone, other in (
 
 @row.wrongs
 def _(y):
-    """two-means: y[1:] and y[:-1] each have their own mean and norm, as in np.corrcoef;
-      use one mean and all n squares => np.corrcoef(y[1:], y[:-1])[0, 1]
-    of-the-changes: the result is the autocorrelation of the changes of y; use y itself
+    """two-means: y[1:] and y[:-1] each have their own mean and norm, as in np.corrcoef.
+      Use one mean and all n squares => np.corrcoef(y[1:], y[:-1])[0, 1]
+    of-the-changes: the result is the autocorrelation of the changes of y. Use y itself
       => the lag-1 autocorrelation of np.diff(y)
     changes-squared: the result is the Durbin-Watson statistic, which is 2 for white
-      noise; use the products of neighbours => the Durbin-Watson statistic
+      noise. Use the products of neighbours => the Durbin-Watson statistic
     """
     d = centred(y)
     return {

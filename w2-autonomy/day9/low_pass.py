@@ -51,8 +51,8 @@ for slug, says, redone, other in (
     ("share-turned-round", "alpha and 1 - alpha are swapped: the new sample should get "
      "the weight alpha", "exp(-2 pi cutoff dt) as alpha",
      {"step": lambda y, now, before, a: now + a * (y - now)}),
-    ("euler-share", "alpha is 2 pi cutoff dt, an Euler step, which overshoots above 1; "
-     "use the exact solution over dt", "alpha = 2 pi cutoff dt",
+    ("euler-share", "alpha is 2 pi cutoff dt, an Euler step, which overshoots above 1. "
+     "Use the exact solution over dt", "alpha = 2 pi cutoff dt",
      {"alpha": lambda x: x}),
     ("no-2-pi", "the factor 2 pi is missing: cutoff is in Hz, so the time constant is "
      "1 / (2 pi cutoff)", "alpha = 1 - exp(-cutoff dt)",
@@ -70,7 +70,7 @@ for slug, says, redone, other in (
     ("by-the-sample-before", "the previous sample is used instead of the previous "
      "output, so the filter has no memory", "alpha x_k + (1 - alpha) x_(k-1)",
      {"step": lambda y, now, before, a: a * now + (1 - a) * before}),
-    ("change-added", "alpha times the change of x is added; add alpha times the "
+    ("change-added", "alpha times the change of x is added. Add alpha times the "
      "difference between x and the previous output", "y + alpha (x_k - x_(k-1))",
      {"step": lambda y, now, before, a: y + a * (now - before)}),
     ("whole-numbers-kept", "y is stored in an integer array, which discards the "
@@ -87,7 +87,7 @@ def _(x, dt, cutoff):
       that are not known yet
     there-and-back: the filter runs forwards and then backwards, as filtfilt does; the
       second pass uses samples that are not known yet
-    what-is-fast: the output is x - y, which is a high-pass filter; return y => x - y
+    what-is-fast: the output is x - y, which is a high-pass filter. Return y => x - y
     not-filtered: the output is x itself, without a filter => x
     last-left-out: the last output is 0: does your loop end one sample too early? => 0
       as the last output

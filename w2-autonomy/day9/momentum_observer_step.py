@@ -41,9 +41,9 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
       and the weight acts in the opposite direction => +gravity
     residual-without-dt: the old residual is added to the integral without dt; a torque
       times dt is a momentum => the old residual without dt
-    integral-of-before: the residual uses the old integral; advance the integral first
+    integral-of-before: the residual uses the old integral. Advance the integral first
       => the old integral
-    integral-not-handed-on: the old integral is returned; return the new one
+    integral-not-handed-on: the old integral is returned. Return the new one
     fed-back-times-gain: the old residual is multiplied by the gain in the integral; the
       residual is already a torque => gain times the old residual
     low-passed-again: the residual is gain (momentum - integral), filtered by a low pass
@@ -52,7 +52,7 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
     residual-kept: the old residual is added to the new one => the sum of both
     residual-taken-off: the old residual is subtracted from the new one => their
       difference
-    new-residual-fed-back: the integral uses a residual of the new momentum; use the
+    new-residual-fed-back: the integral uses a residual of the new momentum. Use the
       residual of the previous sample
     """
     known = tau + energy_grad - gravity - damping * qd

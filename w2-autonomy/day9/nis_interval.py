@@ -27,7 +27,7 @@ def interval(
 
 for slug, says, redone, other in (
     ("multiplied-for-divided", "c is multiplied by n m: 2 / 9 * n * m divides by 9 "
-     "only; write 2 / (9 * n * m)", "c = 2 / 9 * n * m",
+     "only. Write 2 / (9 * n * m)", "c = 2 / 9 * n * m",
      {"c": lambda n, m: 2 / 9 * n * m}),
     ("added-for-multiplied", "c contains n + m; the sum of n NIS values has n m "
      "degrees of freedom", "c = 2 / (9 (n + m))",
@@ -41,16 +41,16 @@ for slug, says, redone, other in (
      "- c",
      "the mean 1 + c", {"middle": lambda c: 1 + c}),
     ("ninety", "your function uses 1.645 standard deviations, which contain 90 % of a "
-     "Gaussian; use 1.96 for 95 %",
+     "Gaussian. Use 1.96 for 95 %",
      "1.645 instead of 1.96", {"z": 1.645}),
     ("two-sigma", "your function uses 2 standard deviations, which contain 95.4 % of a "
-     "Gaussian; use 1.96 for 95 %",
+     "Gaussian. Use 1.96 for 95 %",
      "2 instead of 1.96", {"z": 2.0}),
     ("ninety-nine", "your function uses 2.576 standard deviations, which contain 99 % "
-     "of a Gaussian; use 1.96 for 95 %", "2.576 instead of 1.96", {"z": 2.576}),
+     "of a Gaussian. Use 1.96 for 95 %", "2.576 instead of 1.96", {"z": 2.576}),
     ("more-digits", "your function uses 1.959964; the task asks for 1.96",
      "1.959964 instead of 1.96", {"z": 1.959964}),
-    ("m-cubed", "m is cubed; multiply by m after the cube", "m^3 instead of m",
+    ("m-cubed", "m is cubed. Multiply by m after the cube", "m^3 instead of m",
      {"front": lambda n, m: m**3}),
 ):  # fmt: skip
     row.wrong(slug, says, redone)(partial(interval, **other))
@@ -63,7 +63,7 @@ def _(n, m):
       sqrt(2 m / n)
     one-over-n: your interval m +- 1.96 / sqrt(n) assumes a standard deviation of 1 for
       each NIS; the standard deviation is sqrt(2 m) => m +- 1.96 / sqrt(n)
-    cube-inside: 1 - c and 1.96 sigma are cubed separately; cube their sum => m ((1 -
+    cube-inside: 1 - c and 1.96 sigma are cubed separately. Cube their sum => m ((1 -
       c)^3 -+ (1.96 sigma)^3)
     """
     c = 2 / (9 * n * m)

@@ -46,15 +46,17 @@ for slug, says, redone, other in (
     ("one-count-fewer", "a revolution is divided by counts - 1; the step from the last "
      "count to the first one is missing", "2 pi / (counts - 1)",
      {"step": lambda n: 2 * np.pi / (n - 1)}),
-    ("no-pi", "one count is 1 / counts; q is in radians, and a full revolution is 2 pi",
-     "1 / counts", {"step": lambda n: 1 / n}),
-    ("in-degrees", "one count is 360 / counts, in degrees; q is in radians",
+    ("no-pi", "your angle per count is 1 / counts. It should be 2 pi / counts, because "
+     "q is in radians", "1 / counts", {"step": lambda n: 1 / n}),
+    ("in-degrees", "your angle per count is 360 / counts, in degrees. It should "
+     "be in radians, as q is",
      "360 / counts", {"step": lambda n: 360 / n}),
-    ("step-inverted", "one count is counts / (2 pi); it should be 2 pi / counts",
+    ("step-inverted", "your resolution is counts / (2 pi). The angle per "
+     "count should be 2 pi / counts, because one revolution has `counts` counts",
      "counts / (2 pi)", {"step": lambda n: n / (2 * np.pi)}),
-    ("in-counts", "the output is in counts; it should be an angle in radians",
+    ("in-counts", "the output is in counts. It should be an angle in radians",
      "the number of counts", {"told": lambda k, step: k}),
-    ("two-pi-alone", "the number of counts is divided by 2 pi; multiply it by the "
+    ("two-pi-alone", "the number of counts is divided by 2 pi. Multiply it by the "
      "angle of one count", "the number of counts over 2 pi",
      {"told": lambda k, step: k / (2 * np.pi)}),
 ):  # fmt: skip
@@ -63,7 +65,7 @@ for slug, says, redone, other in (
 
 @row.wrong
 def the_error(q, counts):
-    """the output is the rounding error; it should be the angle that the encoder
+    """the output is the rounding error. It should be the angle that the encoder
     reports => q minus the reported angle
     """
     return q - counted(q, counts)
@@ -73,7 +75,7 @@ row.of_argument(
     "q",
     Change(
         "wrapped",
-        "q is wrapped to the range from 0 to 2 pi; a negative angle should stay "
+        "q is wrapped to the range from 0 to 2 pi. A negative angle should stay "
         "negative",
         lambda q: np.mod(q, 2 * np.pi),
     ),
