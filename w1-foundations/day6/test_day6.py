@@ -438,7 +438,7 @@ def test_a_position_read_after_a_step_is_one_step_old(motors):
     now = [arm.at(q).T_world_ee[:3, 3] for q in run.q[1:]]
     off = [1e3 * np.linalg.norm(np.subtract(x, goal), axis=1).max()
            for x in (run.seen, now)]  # fmt: skip
-    assert "error is {:.1f} mm where it should be {:.1f} |".format(*off) in SENTENCES
+    assert "error is {:.1f} mm instead of {:.1f} mm |".format(*off) in SENTENCES
 
 
 @pytest.mark.kit
