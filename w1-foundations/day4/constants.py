@@ -66,7 +66,7 @@ def held(known, q=READY):
     armature=times(1.645 / 1.545, "the rotor adds another 0.1"),
     metre=times((4 * 1.445 + 0.1) / 1.545, "four times, except for the rotor's 0.1"),
     damping=same("M multiplies the acceleration, and damping multiplies the velocity"),
-    gravity=same("M contains the masses and not their weight"),
+    gravity=same("M contains the masses, but not their weight"),
 )  # fmt: skip
 def mass(masses=1.0, armature=1.0, metre=1.0, damping=1.0, gravity=1.0):
     """Return the entry."""

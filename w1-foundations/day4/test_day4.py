@@ -104,7 +104,7 @@ def test_at_q_zero_M_does_not_see_which_way_I_was_turned(arm):
         G = dynamics.spatial_inertia(m, c, np.einsum(own, R, inertia, R))
         return np.abs(lab.mass_matrix(now.J_space, G, arm.armature) - now.M).max()
 
-    says = "at q = 0 both directions of the rotation of I give the same M"
+    says = "at q = 0, $R I R^T$ and $R^T I R$ give the same M"
     assert says in SENTENCES
     assert off(np.zeros(7), "nij,nj->ni", "nji,njk,nkl->nil") < 1e-12
     assert off(panda.READY_Q, "nij,nj->ni", "nji,njk,nkl->nil") > 1e-3
@@ -124,7 +124,7 @@ def test_the_answers_on_paper_are_those_of_the_functions():
     for answer, says in (
         (held[0], f"that holds it is negative: {held[0]:.2f} N m"),
         (M[0, 0], f"The entry is {M[0, 0]:.0f} kg m²: with"),
-        (faster[0], f"is now {faster[0]:.2f} N m, because"),
+        (faster[0], f"is now {faster[0]:.2f} N m. The mass"),
     ):
         assert says in SENTENCES, answer
 

@@ -44,8 +44,8 @@ def test_the_arm_floats_and_falls_as_the_guide_says(arm, model):
         path = lab.let_go(model, arm, fraction, (seconds, calm))
         return np.linalg.norm(path[-1] - path[0])
 
-    after = "after half a second the hand is"
-    assert f"{after} {1000 * moved(0.0, 0.5):.0f} mm away" in SENTENCES
+    after = "After half a second the hand is"
+    assert f"{after} {1000 * moved(0.0, 0.5):.0f} mm from its start" in SENTENCES
     assert f"the hand moves by {1000 * moved(0.99, 2.0):.0f} mm in two" in SENTENCES
     assert moved(1.0, 5.0) < 1e-12  # "less than a picometre"
 
@@ -65,7 +65,7 @@ def test_without_torque_a_joint_is_at_its_limit_after_a_quarter_of_a_second(mode
     while beyond(model.jnt_range, data.qpos[None]) <= 0:
         mujoco.mj_step(model, data)
     assert data.time == pytest.approx(0.25, abs=0.01)
-    assert "at a joint limit after a quarter of a second" in SENTENCES
+    assert "reaches a joint limit after a quarter of a second" in SENTENCES
 
 
 def test_the_arm_glides_when_it_is_pushed(arm, model):
@@ -241,7 +241,7 @@ def test_with_M_alone_the_next_velocity_is_off_by_what_the_guide_says():
     share = np.random.default_rng(lab.TRIALS).uniform(-0.5, 0.5, now.q.shape)
     qdd, after = lab.mujoco_forward(model, now, share * simulate.limits(model)[1])
     off = np.abs(now.qd + model.opt.timestep * qdd - after).max()
-    assert f"(With $M$ alone the prediction is off by {off:.3f} rad/s;" in SENTENCES
+    assert f"(With $M$ alone the prediction is off by {off:.3f} rad/s." in SENTENCES
 
 
 def test_a_torque_that_is_held_brakes_the_pushed_arm_as_well(arm, monkeypatch):
@@ -251,5 +251,5 @@ def test_a_torque_that_is_held_brakes_the_pushed_arm_as_well(arm, monkeypatch):
         monkeypatch.setattr(lab, "RATE", rate)
         path = lab.let_go(model, arm, 1.0, (0.5, lab.PUSH), (4.5, 0 * lab.PUSH))
         ends.append(f"{np.linalg.norm(path[-1] - path[-2]) * rate:.3f}")
-    says = "with `RATE = 500.0` the hand still moves at {1} m/s instead of {0}."
+    says = "the speed of the hand after five seconds is {1} m/s instead of {0} m/s."
     assert says.format(*ends) in SENTENCES

@@ -61,7 +61,7 @@ def test_the_inertias_of_mistakes_at_ready(motors):
     assert said in SENTENCES
     free = inv(right)[:, 3]  # how a hand that nobody holds accelerates for 1 N
     assert free[5] / free[3] == pytest.approx(1 / 3, abs=0.02)
-    assert "it also moves along z, a third as far, and rotates" in SENTENCES
+    assert "it also rotates and moves along z, a third as far as along x" in SENTENCES
     rotors = 1.0 - light / np.diag(right)[3:]  # "an eighth to a quarter"
     assert_same([rotors.min(), rotors.max()], [1 / 8, 1 / 4], 6e-3)
 
@@ -321,7 +321,7 @@ def test_hardly_any_posture_torque_is_left_to_project_and_omega_divides_it(motor
     p, (tau, left, _) = watched(motors, lab.nullspace_torque)
     wrong, (_, theirs, acc) = watched(motors, lab.kinematic)
     assert left == pytest.approx(theirs, abs=0.005)
-    assert f"leave {left:.2f} N m of its {tau:.1f} N m." in SENTENCES
+    assert f"{left:.2f} N m of the controller's {tau:.1f} N m remain." in SENTENCES
     assert f"accelerates the hand by {acc:.3f} m/s²" in SENTENCES
     apart = np.linalg.norm(p - wrong, axis=1).max()
     assert f"differ by {1e3 * apart:.3f} mm" in SENTENCES
@@ -438,7 +438,7 @@ def test_a_position_read_after_a_step_is_one_step_old(motors):
     now = [arm.at(q).T_world_ee[:3, 3] for q in run.q[1:]]
     off = [1e3 * np.linalg.norm(np.subtract(x, goal), axis=1).max()
            for x in (run.seen, now)]  # fmt: skip
-    assert "error is {:.1f} mm where it should be {:.1f} |".format(*off) in SENTENCES
+    assert "error is {:.1f} mm instead of {:.1f} mm |".format(*off) in SENTENCES
 
 
 @pytest.mark.kit
@@ -505,5 +505,5 @@ def test_joint_2_does_the_work_along_x_and_joints_1_3_5_7_along_y(motors):
         qdd = np.linalg.solve(now.M, now.J_site.T @ Lambda[:, axis])
         work = qdd * (now.M @ qdd)
         assert work[joints].sum() / work.sum() == pytest.approx(1.0, abs=0.02)
-    assert "joint2 rotates if the hand moves along x" in SENTENCES
+    assert "a motion of the hand along x needs joint2" in SENTENCES
     assert "along y, joints 1, 3, 5 and 7 share the motion" in SENTENCES

@@ -96,7 +96,7 @@ def test_the_gains_alone_would_press_with_500_n_and_without_limits_they_do():
         (
             lambda m: m.actuator_forcerange.__imul__(0.5),
             0.05,
-            "With half the limits the force is # N",
+            "With half the torque limits of all motors the force is # N",
         ),
     ],
 )
@@ -142,7 +142,9 @@ def test_a_peak_is_seen_only_by_who_looks_at_every_step():
         felt = press_soft(rate)
         steps = round(500.0 / rate)
         seen += [felt[steps - 1 :: steps].max(), felt.max()]
-    assert seen == told("250 Hz you see # N of # N, and at 50 Hz you see # N of # N")
+    assert seen == told(
+        "250 Hz you see only # N of the true peak of # N, and at 50 Hz only # N of # N"
+    )
 
 
 def time_constant(solref):

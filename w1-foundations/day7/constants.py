@@ -104,9 +104,9 @@ def trapezoid(v=1.0, a=1.0):
 
 @numbers.add(
     "largest joint error, quintic", "{:.2f} mrad",
-    omega=between(0.4, 0.6, "in each step of the simulation q is off by a dt² / 2 (a: "
-                  "acceleration, dt: time step); the controller balances this with "
-                  "an error proportional to 1 / omega"),
+    omega=between(0.4, 0.6, "each simulation step adds an error of ½ qdd dt² to q (dt: "
+                  "time step); the controller balances it with a steady error "
+                  "proportional to 1 / omega"),
     duration=between(0.15, 0.4, "a quarter of the acceleration"),
     rate=between(0.7, 1.1, "the time step of the simulator, which stays the same, "
                  "contributes most"),
@@ -149,9 +149,9 @@ def at_rest(grip=0.9247, mu=1.0, gravity=1.0):
     "heaviest cube while the lift accelerates", "{:.3f} kg",
     grip=times(2.0, "friction is at most mu times the normal force"),
     lift=times((9.81 + LIFT) / (9.81 + 2 * LIFT),
-               "each kilogram needs the force g + a, in newtons"),
+               "each kilogram needs a force of g + a newtons"),
     gravity=times((9.81 + LIFT) / (19.62 + LIFT),
-                  "each kilogram needs the force g + a, in newtons"),
+                  "each kilogram needs a force of g + a newtons"),
 )  # fmt: skip
 def lifting(grip=0.9247, lift=LIFT, gravity=1.0):
     """Return it."""

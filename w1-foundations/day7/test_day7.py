@@ -107,7 +107,7 @@ def test_step_2s_table():
         broken = 100 * ((by_speed / T).max() - 1)
         assert says(f"{words} | {T:.3f} s | {broken:.0f} %")
     assert says(f"one after the other | {each.sum():.3f} s")
-    assert says(f"joint7 needs its {by_speed[6]:.4f} s because of its velocity limit")
+    assert says(f"because its velocity limit requires {by_speed[6]:.4f} s")
     assert each.argmax() == 6
 
 
@@ -149,19 +149,20 @@ def test_step_7s_sentences():
     ways = lab.profiles(T)
     off, jerk, torque = zip(*(followed(*way) for way in ways.values()), strict=True)
     numbers = dict(zip(ways, zip(off, jerk, torque, strict=True), strict=True))
-    assert says(f"jump to the goal, needs {numbers['step'][2]:.1f} times the torque")
+    jump = f"(row `step`) would need {numbers['step'][2]:.1f} times the torque"
+    assert says(jump)
     assert says(f"so the arm is {numbers['constant speed'][0]:.0f} mrad off")
     assert numbers["constant speed"][2] > 1.0
     assert max(numbers[n][0] for n in ("cubic", "trapezoid", "quintic")) < 1.0
     assert says(f"a finite jerk of {numbers['quintic'][1]:.0f} rad/s³")
     assert 0.78 < ways["trapezoid"][1] / T < 0.82
-    assert says("The trapezoid is a fifth faster (14 to 43 % over 200 random motions)")
+    assert says("trapezoid is a fifth shorter (14 to 43 % over 200 random motions)")
     top = np.minimum(lab.V_MAX, np.sqrt(DQ * lab.A_MAX))
     alone = DQ / top + top / lab.A_MAX
     assert (lab.V_MAX / DQ).argmin() == 6
     assert (lab.A_MAX / DQ).argmin() == alone.argmax() == 1
     assert says("joint7 limits its velocity and joint2 limits its acceleration")
-    assert says(f"joint2, the slowest, would need {alone.max():.4f} s")
+    assert says(f"it would need {alone.max():.4f} s, the duration of joint2")
 
 
 def random_motions(n, seed):

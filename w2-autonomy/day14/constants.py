@@ -36,7 +36,7 @@ def scene(steps, soft):
     squeeze=times(2.0, "m = 2 mu F / g"),
     seconds=between(1.0, 1.02, "2 mu F / (g + 6 h / T²): the acceleration is a quarter"),
     lift=between(0.96, 1.0, "2 mu F / (g + 6 h / T²): the acceleration doubles"),
-    steps=between(0.99, 1.01, "shorter steps give the same mass, to a gram"),
+    steps=between(0.99, 1.01, "shorter steps change the mass by only 1 g"),
     soft=between(0.99, 1.01, "the mass depends on the friction, not on the stiffness of the contacts"),
 )  # fmt: skip
 def heaviest(

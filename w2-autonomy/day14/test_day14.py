@@ -597,7 +597,10 @@ def test_a_good_result_proves_no_implementation(change, lowest, others):
     elif lowest:
         assert (counts == 60).sum() == 7
         assert (counts[1], counts[4]) == others
-        assert "all 60 for seven of the twelve seeds and 20 for one" in SENTENCES
+        assert (
+            "seeds the policy then holds all 60 cubes, and for one seed only 20"
+            in SENTENCES
+        )
     else:
         assert counts[-1] == others[1]
         assert f"the policies hold 0 to {counts[-1]}" in SENTENCES
