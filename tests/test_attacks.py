@@ -378,7 +378,7 @@ class TestHugeNumbers:
         with sandbox.Sandbox() as box:
             (found,) = check_tasks(day, student(code, day.script), box, task.id, seed=1)
         assert found.verdict.mistake == "huge-numbers"
-        says = f"Your function returns numbers as large as {abs(float(size)):.0e}, "
+        says = f"It returns numbers as large as {abs(float(size)):.0e}, "
         says += "far larger"
         assert says in found.verdict.message
 
