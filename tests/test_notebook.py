@@ -401,7 +401,6 @@ def test_what_is_called_before_the_first_cell_says_so(monkeypatch):
         (lambda: kernel.run(step="3"), "step is a whole number, and this is '3'"),
         (lambda: kernel.run(step=True), "step is a whole number, and this is True"),
         (lambda: kernel.run(step=1, NOPE=1), "the lab has no constant NOPE"),
-        (lambda: kernel.picture("nothing"), "no picture 'nothing'; it has "),
         (lambda: kernel.load("nothing"), "has no function nothing"),
         (lambda: kernel.begin("x"), "number is a whole number, and this is 'x'"),
         (lambda: kernel.figure("x"), "too many positional arguments"),
@@ -415,7 +414,15 @@ def test_a_wrong_call_gets_one_line(day, monkeypatch, call, says):
     assert "\n" not in said
 
 
+def test_a_picture_that_the_day_has_not_is_named(day, monkeypatch):
+    pytest.importorskip("matplotlib", reason="needs matplotlib: make figures")
+    test_a_wrong_call_gets_one_line(
+        day, monkeypatch, lambda: kernel.picture("nothing"), "no picture 'nothing'; it"
+    )
+
+
 def test_a_fault_of_a_students_function_in_a_picture_is_one_line(day, monkeypatch):
+    pytest.importorskip("matplotlib", reason="needs matplotlib: make figures")
     monkeypatch.setattr(kernel, "_now", [day])
     told = repr(kernel.picture("day1_order"))
     assert told.endswith("still to do; task 1.2: write Rz")

@@ -350,10 +350,9 @@ def _day() -> Day:
 
 
 def _shell() -> Any:
-    """Return IPython, which the cells run in."""
-    from IPython.core.getipython import get_ipython
-
-    return get_ipython()
+    """Return IPython, which the cells run in; None outside of a notebook."""
+    loaded = sys.modules.get("IPython")  # a kernel has loaded it
+    return loaded.get_ipython() if loaded else None
 
 
 def _bring(day: Day, keep: str = "") -> list[str]:
