@@ -180,7 +180,7 @@ def test_the_entry_that_is_shown_is_one_that_differs():
         truth=lambda x: np.broadcast_to(right_one, (len(x), 2)),
     )
     says = told_of(ask, np.tile([np.inf, 4.0], (4, 1)))
-    assert "f(0)[1] returned 4; expected -inf." in says
+    assert "f(1)[1] returned 4; expected -inf." in says
     assert "is inf, and inf" not in says
 
 

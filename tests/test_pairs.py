@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from test_claims import right, told
 
-from labkit.judge import Mask, Pose, Scalar
+from labkit.judge import Count, Mask, Pose, Scalar, Vector
 from labkit.judge.answers import as_clause, say_number
 from labkit.judge.hypothesis import evidence
 from labkit.judge.matcher import Matcher
@@ -167,7 +167,7 @@ def test_two_arguments_exchanged_need_no_name():
         return right(8, "arm_regressor")(J_space, T_links, qdd, qd, g)
 
     says = told(8, "8.3", arm_regressor=arm_regressor)
-    assert "correct result for other arguments: `qd` and `qdd` are exchanged." in says
+    assert "correct result for other arguments: `qd` and `qdd` are swapped." in says
 
 
 def test_two_entries_of_an_argument_exchanged_need_no_name():
@@ -175,7 +175,7 @@ def test_two_entries_of_an_argument_exchanged_need_no_name():
         return right(1, "quat_to_R")(quat[[0, 1, 3, 2]])
 
     says = told(1, "1.4", quat_to_R=quat_to_R)
-    assert "`quat[2]` and `quat[3]` are exchanged" in says
+    assert "`quat[2]` and `quat[3]` are swapped" in says
 
 
 def test_of_two_mistakes_only_what_the_function_does_is_told():
@@ -186,7 +186,7 @@ def test_of_two_mistakes_only_what_the_function_does_is_told():
 
     says = told(14, "14.6", reward=reward)
     assert "Two things at once: " in says
-    assert "; the reward of NaN is 0. Largest error: 1. The correct function " in says
+    assert "; the reward of NaN is 0. Largest error: 1. The reference solution " in says
     assert "because the simulation failed" not in says
 
 
@@ -255,8 +255,8 @@ def test_an_argument_before_a_default_is_told_by_its_name():
         ("its sizes", "its sizes give"),
         ("the axis alone", "the axis alone gives"),
         ("its transpose", "the transpose of the correct result gives"),
-        ("the result with that sign", "the correct function with this mistake gives"),
-        ("the torques with both", "the correct function with both mistakes gives"),
+        ("the result with that sign", "the reference solution with this mistake gives"),
+        ("the torques with both", "the reference solution with both mistakes gives"),
         ("L sqrt(K) + sqrt(K) L^T", "`L sqrt(K) + sqrt(K) L^T` gives"),
         ("R^T", "`R^T` gives"),
         ("C qd", "`C qd` gives"),
@@ -328,6 +328,11 @@ def test_the_largest_error_counts_calls_and_names_two_units():
     assert Pose().largest_error(S, T) == "Largest errors: 1500 mm and 180.0 deg."
     assert Scalar(unit="kg").largest_error(T[:, 0, 0] + 1.0, T[:, 0, 0]) == (
         "Largest error: 1 kg."
+    )
+    mine, joints = np.array([0.0, 3.0, 8.0]), np.array([0.0, 2.0, 3.0])
+    assert Count().largest_error(mine, joints) == ("Wrong in 2 of 3 calls.")
+    assert Vector((2,), "m, rad").largest_error(T[:, 0, :2] + 1.5, T[:, 0, :2]) == (
+        "Largest error: 1.5."
     )
 
 

@@ -19,6 +19,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from conftest import ROOT
+from labkit.judge.answers import as_clause, capitalised
 from labkit.judge.row import rows_of
 from labkit.lesson.day import Day, all_days
 
@@ -184,3 +185,13 @@ def test_each_exception_names_a_file_and_a_reason():
         patterns = [name + "*" * name.endswith("/") for name in named(one)]
         assert all(any(fnmatch(path, name) for path in known) for name in patterns)
         assert len(one["why"]) > 20
+
+
+def test_a_mistakes_sentence_can_go_on_after_a_place_and_a_symbol_stays_what_it_is():
+    for day in all_days():
+        for function, row in rows_of(day).items():
+            for says in (way.says for way in row.ways):
+                clause = as_clause(capitalised(says))
+                assert clause == says, (
+                    f"{function}: put the symbol in backticks: {says}"
+                )

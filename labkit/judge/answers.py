@@ -14,11 +14,8 @@ from numpy.typing import ArrayLike
 
 from robo47.checks import Array, pose_flaw, rotation_flaw
 
-# Words that a sentence may begin with, and that are no symbol.
-FIRST_WORDS = {"All", "An", "At", "Both", "Each", "Either", "Every", "For", "In", "It",
-               "No", "One", "Only", "Some", "The", "There", "This", "Two", "Without",
-               "Your"}  # fmt: skip
-OF_A_SYMBOL = ("is ", "has ", "and ", "contains ", "lacks ", "enters ", "should ", "= ")
+# What begins with the symbol A, and not with the article.
+OF_A_SYMBOL = ("a is ", "a has ", "a and ", "a should ", "a = ")
 Parts = tuple[Array, ...]  # of answers: per result that the function returns, (n, ...)
 MATCHES = 1e-5  # "this is the mistake": wide enough for a student's float32
 KEPT = 64  # questions whose answers are kept
@@ -301,11 +298,14 @@ def listed(words: Sequence[str]) -> str:
 
 
 def as_clause(sentence: str) -> str:
-    """Return a sentence as it goes on after a comma; a symbol stays what it is."""
-    first, _, rest = sentence.partition(" ")
-    if first == "A" and not rest.startswith(OF_A_SYMBOL):
-        return f"a {rest}"
-    return sentence[:1].lower() + sentence[1:] if first in FIRST_WORDS else sentence
+    """Return a sentence as it goes on after a comma.
+
+    A symbol that may be taken for a word, Lambda say, is in backticks.
+    """
+    clause = sentence[:1].lower() + sentence[1:]
+    if clause.startswith(OF_A_SYMBOL):
+        return sentence
+    return clause if capitalised(clause) == sentence else sentence
 
 
 def capitalised(clause: str) -> str:

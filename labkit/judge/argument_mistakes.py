@@ -61,7 +61,7 @@ OF_AN_ANGLE = (
 )
 
 # Signs.
-NEGATED = Change("{name}-sign", "{name} enters with the wrong sign", np.negative)
+NEGATED = Change("{name}-sign", "`{name}` enters with the wrong sign", np.negative)
 BACKWARDS = Change(
     "all-backwards",
     "every joint rotates in the opposite sense, by -{name}",

@@ -210,6 +210,12 @@ def fresh_calls(ask: Ask, known: Sequence[Call], lists: Sequence[Cases]) -> list
     return kept
 
 
+def drawn(ask: Ask, known: Sequence[Call]) -> Iterator[Call]:
+    """Yield fresh calls: of rare cases, mixed ones, and as the row draws them."""
+    for some, _ in _rounds(ask, known):
+        yield from some
+
+
 def _rounds(ask: Ask, known: Sequence[Call]) -> Iterator[tuple[list[Call], int]]:
     """Yield fresh calls of rare cases, mixed and drawn ones, and how many of a case.
 

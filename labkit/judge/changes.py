@@ -17,7 +17,7 @@ from labkit.judge.matrices import rigid_inverse
 from robo47.checks import Array
 
 Call = tuple[Any, ...]  # the arguments of one question
-FEW = 16  # numbers of a call, up to which any two entries of a vector are exchanged
+FEW = 16  # numbers of a call, up to which any two entries of a vector are swapped
 SHARED = 3  # entries that two arguments have in common, one for each joint, say
 # Slugs of changes that are no question of size: they may explain all but the digits.
 LIKELY = {"sign", "left-out", "doubled", "halved", "transposed", "inverted",
@@ -31,7 +31,7 @@ class Change(NamedTuple):
     """A change of a call's arguments."""
 
     slug: str  # "exchanged"
-    says: str  # a clause, "`qd` and `qdd` are exchanged"
+    says: str  # a clause, "`qd` and `qdd` are swapped"
     change: Callable[..., Call]  # a function of all of them
 
 
@@ -47,7 +47,7 @@ def likely(call: Call, names: Sequence[str]) -> Iterator[Change]:
         yield from _made(k, names[k], _near(x))
     for k, m in combinations(range(len(call)), 2):
         if _number(call[k]) and _number(call[m]) and _shape(call[k]) == _shape(call[m]):
-            says = f"`{names[k]}` and `{names[m]}` are exchanged"
+            says = f"`{names[k]}` and `{names[m]}` are swapped"
             yield Change("exchanged", says, partial(_exchanged, k, m))
     if sum(map(np.size, call)) <= FEW:
         for k, x in enumerate(call):
@@ -98,15 +98,15 @@ def of_answer() -> Iterator[tuple[str, Callable[[Array], Any]]]:
     yield "it is in reverse order", partial(np.flip, axis=1)
     yield "it is shifted by one entry", partial(np.roll, shift=1, axis=1)
     yield "it is shifted by one entry", partial(np.roll, shift=-1, axis=1)
-    yield "its halves are exchanged", partial(_rolled, axis=1)
-    yield "its halves are exchanged", partial(_rolled, axis=-1)
+    yield "its halves are swapped", partial(_rolled, axis=1)
+    yield "its halves are swapped", partial(_rolled, axis=-1)
     yield "it is transposed", np.matrix_transpose
     yield "only its diagonal is kept", lambda T: T * np.eye(T.shape[-1])
     yield "only its upper triangle is kept", np.triu
     yield "only its lower triangle is kept", np.tril
     yield "it is inverted", np.linalg.inv
     yield "its cumulative sum is taken", partial(np.cumsum, axis=1)
-    yield "its columns are exchanged", partial(np.flip, axis=-1)
+    yield "its columns are swapped", partial(np.flip, axis=-1)
 
 
 def simple(answer: Array) -> Iterator[Callable[[Array], Array]]:
@@ -143,7 +143,7 @@ def _near(x: Any) -> Made:
         if shape[-1] == 4 and rigid(x.reshape(-1, 4, 4)):
             yield "inverted", "`{0}` is inverted", rigid_inverse
     if shape == (6,):
-        yield "halves-exchanged", "the halves of `{0}` are exchanged", _rolled
+        yield "halves-exchanged", "the halves of `{0}` are swapped", _rolled
     if shape and shape[0] >= SHARED:
         yield "backwards", "`{0}` is read in reverse order", partial(np.flip, axis=0)
 
@@ -152,7 +152,7 @@ def _entries_exchanged(x: Any) -> Made:
     if not (_number(x) and len(_shape(x)) == 1):
         return
     for i, j in combinations(range(len(x)), 2):
-        says = f"`{{0}}[{i}]` and `{{0}}[{j}]` are exchanged"
+        says = f"`{{0}}[{i}]` and `{{0}}[{j}]` are swapped"
         yield "entries-exchanged", says, partial(_swapped, i, j)
 
 

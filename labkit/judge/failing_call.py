@@ -154,10 +154,19 @@ def _entry(kind: Kind, mine: Array, its: Array) -> tuple[str, str]:
 
 
 def _easiest(exchanges: Sequence[Exchange], off: Array, limit: float) -> Exchange:
-    """Return the call with the shortest arguments among those that are clearly off."""
+    """Return the call with the shortest arguments among those that are clearly off.
+
+    A call with an argument of zeros is a special case, which stands for itself.
+    """
     clearly = np.flatnonzero((off > limit) & (off >= CLEARLY * np.max(off)))
     some = [exchanges[int(i)] for i in clearly]
-    return min(some, key=lambda one: _length(one.question))
+    return min(some, key=lambda one: (_zeros(one.question), _length(one.question)))
+
+
+def _zeros(question: Question) -> int:
+    """Return how many arguments have numbers, all of them 0."""
+    columns = [[*_numbers(arg)] for arg in question.args]
+    return sum(bool(column) and not any(column) for column in columns)
 
 
 def _length(question: Question) -> int:

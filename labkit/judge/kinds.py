@@ -169,14 +169,21 @@ class Kind:
         at = np.unravel_index(np.argmax(off / scale), off.shape)
         if off[at] < DUST * scale[at]:
             return "0"
-        unit = f" {self.unit}" if self.unit else ""
-        digits = say_number(off[at]) if off[at] < ROUNDED_AWAY else "1e+12 and more"
+        one = self.unit and "," not in self.unit  # else that of each entry is another
+        unit = f" {self.unit}" if one else ""
+        digits = say_number(off[at]) if off[at] < ROUNDED_AWAY else "more than 1e+12"
         if off[at] < MATCHES * scale[at]:  # its further digits are rounding
             digits = f"{off[at]:.0e}"
         return f"{digits}{unit}"
 
     def largest_error(self, S: Array, T: Array) -> str:
-        """Return how far S is from T at worst as a sentence: "Largest error: 2 m."."""
+        """Return how far S is from T at worst as a sentence: "Largest error: 2 m.".
+
+        The number of a joint, say, has no distance: there wrong calls are counted.
+        """
+        if self.whole and self.gap == Kind.gap:
+            wrong = (S != T).reshape(len(T), -1).any(axis=1)
+            return f"Wrong in {np.sum(wrong)} of {len(T)} calls."
         apart = self.apart(S, T)
         said = self.gap.replace("error", "errors") if " and " in apart else self.gap
         return f"{said.capitalize()} {apart}."

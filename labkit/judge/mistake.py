@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from robo47.checks import Array
 
-REDONE = "the correct function with this mistake"
-BOTH = "the correct function with both mistakes"
+REDONE = "the reference solution with this mistake"
+BOTH = "the reference solution with both mistakes"
 # What an answer is called in the catalogue that is no noun: "with min", "upside down".
 _FORMULA = re.compile(r"with(out)? ")
 _FRAGMENT = re.compile(

@@ -6,11 +6,10 @@ that were answered wrongly, made neutral, and then at fifty inputs and more of b
 signs and several sizes, and then at fresh calls. Each round is one batch of questions.
 """
 
-import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import accumulate, chain, compress
+from itertools import accumulate, chain, compress, islice
 from typing import Any
 
 import numpy as np
@@ -18,9 +17,8 @@ import numpy as np
 from labkit.base.exchange import Question, Reply
 from labkit.judge.answers import InTurn, own, say_factor
 from labkit.judge.ask import Ask, Asked, as_plain
-from labkit.judge.cases import RIGHT, of_call, verdict
+from labkit.judge.cases import RIGHT, drawn, of_call, verdict
 from labkit.judge.crossed import crossed
-from labkit.judge.draw import Draw
 from labkit.judge.neutral import SIZES, Neutral, neutrals, scaled
 from labkit.judge.ranges import Span, spans
 from labkit.judge.replies_read import flat
@@ -29,8 +27,6 @@ from robo47.checks import Array
 QUESTIONS = 6  # per experiment; five of them at least must agree
 AGREE = 5
 ALIKE = 3  # answers that grow by one factor, at least
-SEED = 7013  # of fresh calls: no question has these
-SECONDS = 0.5  # for drawing them
 TRIED = 50  # inputs at which a sentence is tried, at least
 NOTHING = 1e-12  # a right answer as small as this says nothing
 ROUNDING = 1e-9  # what sums of larger numbers may leave of a small answer
@@ -98,23 +94,14 @@ def experiments(
         right,
         ask.conditions,
         ask.at_edge,
-        partial(_drawn, ask, len(names)),
+        partial(_drawn, ask, calls),
     )
 
 
-def _drawn(ask: Ask, n: int) -> list[Call]:
-    """Return fresh calls with n arguments, of rare cases too."""
-    found: list[Call] = []
-    end = time.process_time() + SECONDS
-    for k in range(TRIED):
-        rng = [SEED, k]
-        some = [call for draw in ask.rare for call in draw(Draw(rng))]
-        if ask.drawn:
-            some += [*ask.inputs(Draw(rng))][-ask.drawn :]
-        found += [tuple(call) for call in some if len(call) == n]
-        if len(found) > 4 * TRIED or time.process_time() > end:
-            break
-    return found
+def _drawn(ask: Ask, known: Sequence[Call]) -> list[Call]:
+    """Return fresh calls with as many arguments as one that is known, rare ones too."""
+    alike = (call for call in drawn(ask, known) if len(call) == len(known[0]))
+    return list(islice(alike, 4 * TRIED))
 
 
 def _others(ask: Ask) -> list[Answers]:

@@ -37,7 +37,7 @@ SAYS = {
     "transpose": "a transpose is missing, or one too many",
     "inverse": "an inverse is missing, or one too many",
     "squared": "a square is missing, or one too many",
-    "exchanged": "two variables are exchanged",
+    "exchanged": "two variables are swapped",
     "scaled": "the result is multiplied or divided by one variable too many",
     "function": "one function is used in the place of another",
     "condition": "a condition is wrong",

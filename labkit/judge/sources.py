@@ -176,7 +176,7 @@ def of_arguments(m: Matcher, digits: bool = True) -> Finding | None:
             if one.slug in changes.OF_UNITS and (unit := _in_another_unit(m)):
                 return unit
             says = f"Your output is the correct result for other arguments: {one.says}."
-            redone = "the correct function with these arguments"
+            redone = "the reference solution with these arguments"
             how = m.with_error(f"{redone} {evidence(m.exact(code))}")
             return Finding(f"argument-{one.slug}", f"{says} {how}")
     return None

@@ -292,7 +292,7 @@ def _(R):
 @row.wrong
 def two_arguments_exchanged(R):
     """the angle is pi minus the right one: the two arguments of the arctangent are
-    exchanged, or one has the wrong sign"""
+    swapped, or one has the wrong sign"""
     w = log_rotation(R)
     angle = np.linalg.norm(w)
     return (np.pi - angle) * w / angle if angle > 0 else w

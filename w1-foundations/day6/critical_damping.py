@@ -41,7 +41,7 @@ def by_modes(K, L):
 
 @row.wrongs
 def _(K, Lambda):
-    """Lambda-ignored: Lambda is not used: 2 sqrt(K) is the critical damping of a unit
+    """Lambda-ignored: `Lambda` is not used: 2 sqrt(K) is the critical damping of a unit
       mass => diag(2 sqrt(K))
     another-design: the result is another critically damped design, which diagonalises
       Lambda and K together. The task asks for the sum of the two products of

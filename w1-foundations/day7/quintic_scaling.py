@@ -76,8 +76,8 @@ row.wrongs(jumps_to_rest)
 def _(t, T):
     """septic: s is the polynomial of degree 7, which also has jerk 0 at both ends. The
       task asks for degree 5 => the polynomial of degree 7
-    6-and-10-swapped: the coefficients 6 and 10 are exchanged. s ends at 1, but its
-      velocity there is not 0 => the quintic with 6 and 10 exchanged
+    6-and-10-swapped: the coefficients 6 and 10 are swapped. s ends at 1, but its
+      velocity there is not 0 => the quintic with 6 and 10 swapped
     sd-and-sdd-not-divided: sd and sdd are derivatives with respect to x = t / duration.
       By the chain rule, each derivative with respect to t also divides by the duration
     t-for-x: the polynomial is evaluated at t instead of t / duration, so the duration

@@ -202,8 +202,8 @@ def _(a0, a1, r, T_world_box, half_extents):
       with half_extents.max()
     largest-half 2: your code uses the largest half extent on every axis => the formula
       with half_extents.max() at the correct point
-    sides-exchanged: x and y of half_extents are exchanged
-    sides-exchanged 2: x and y of half_extents are exchanged
+    sides-exchanged: x and y of half_extents are swapped
+    sides-exchanged 2: x and y of half_extents are swapped
     box-around-it: the rotated box is replaced by its axis-aligned bounding box. Express
       the ends in the box frame instead => |R| half_extents
     half-turned: half_extents is rotated; it contains lengths, so rotate the ends of the

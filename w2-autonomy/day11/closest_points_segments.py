@@ -102,7 +102,7 @@ def _(a0, a1, b0, b1):
       parallel segments
     across-of-lengths: the denominator is a c, which is correct only for perpendicular
       segments. It should be a c - b b
-    swapped-to-s: s and t are exchanged
+    swapped-to-s: s and t are swapped
     points-swapped: the point of the second segment comes first. Return the point of the
       first segment first
     middles: your code returns the midpoints of the segments

@@ -212,8 +212,8 @@ OPTIONS = [
         ("coriolis-forgotten", "b is missing in the torques",
          lambda A, B, G: (A, 0 * B, G)),
         ("coriolis-sign", "the sign of b is reversed", lambda A, B, G: (A, -B, G)),
-        ("B-and-G-exchanged", "b and c are exchanged", lambda A, B, G: (A, G, B)),
-        ("A-and-B-exchanged", "a and b are exchanged", lambda A, B, G: (B, A, G)))),
+        ("B-and-G-exchanged", "b and c are swapped", lambda A, B, G: (A, G, B)),
+        ("A-and-B-exchanged", "a and b are swapped", lambda A, B, G: (B, A, G)))),
     *(Option(slug, says, {"most": of}, alone=True) for slug, says, of in (
         ("no-speed-limit", "sd2_max is not used", lambda x: np.full_like(x, 1e3)),
         ("x-max-of-the-next-point", "sd2_max of the next point is used",

@@ -98,13 +98,13 @@ def together(
         says = "; or ".join(one.says for one in some)
         either = "either " if len(some) > 1 else ""
         this = "either" if len(some) > 1 else "this"
-        how = f"The correct function with {this} mistake gives the same output."
+        how = f"The reference solution with {this} mistake gives the same output."
         text = f"{either}{says}. {how}"
         return Finding(some[0].slug, capitalised(text))
     for pair in _pairs(options):
         if gives(*pair):
             says = "; ".join(one.says for one in pair)
-            how = "The correct function with both mistakes gives the same output."
+            how = "The reference solution with both mistakes gives the same output."
             slug = "+".join(one.slug for one in pair)
             return Finding(slug, f"Two things at once: {says}. {how}")
     return None

@@ -170,7 +170,7 @@ def _of_holding(rest, pull, c, limits, moves, free):
 @row.wrongs
 def _(a, b, c, limits, sd):
     """not-sorted: if a is negative, the lower and the upper bound of that joint are
-      exchanged. Sort the two quotients
+      swapped. Sort the two quotients
     speed-forgotten: the term b sd^2 is missing
     speed-sign: b sd^2 is added to the limits. Subtract it
     gravity-forgotten: the term c is missing

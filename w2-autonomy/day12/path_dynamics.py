@@ -63,10 +63,10 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
       coupled
     diagonal-only 3: only the diagonal of the mass matrix is used in b; the joints are
       coupled
-    a-and-b-exchanged: a and b are exchanged; sdd is multiplied by dq_ds and sd^2 by
+    a-and-b-exchanged: `a` and `b` are swapped; sdd is multiplied by dq_ds and sd^2 by
       d2q_ds2
     g-first: g is the first row; the order is a, b, g
-    ddq-in-a: M dq_ds and M d2q_ds2 are exchanged; qdd = dq_ds sdd + d2q_ds2 sd^2
+    ddq-in-a: M dq_ds and M d2q_ds2 are swapped; qdd = dq_ds sdd + d2q_ds2 sd^2
     m-dq-twice: b contains M dq_ds. It should contain M d2q_ds2
     both-in-a: M d2q_ds2 is added to a, but it is the coefficient of sd^2 and belongs to
       b

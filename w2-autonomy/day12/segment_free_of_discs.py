@@ -285,7 +285,7 @@ def _(a, b, discs):
       crossings can lie beyond an end of the edge => the sign of the discriminant
     boxes-overlap: your code tests whether the bounding boxes of the edge and the disc
       overlap. The edge can miss the disc inside its box
-    x-and-y-exchanged: x and y of the centres are exchanged
+    x-and-y-exchanged: x and y of the centres are swapped
     no-disc-is-hit: if there is no disc, your code reports a blocked edge; the edge is
       free
     touching-between: an edge that touches a disc between its ends is reported as free.

@@ -106,7 +106,7 @@ def _(q, target, step):
       Euclidean norm
     unit-step: the displacement has norm 1. Use the argument `step`
     half-a-step: the displacement is half a step
-    limit-the-other-way: the two cases are exchanged. Return the target if it is near,
+    limit-the-other-way: the two cases are swapped. Return the target if it is near,
       and take a full step if it is far
     from-the-origin: the step starts at the origin. Start at q
     square-compared: the squared distance is compared with the step. Compare the

@@ -90,10 +90,10 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     mu-on-Vxx 2: mu is added to Vxx in Quu. Add it to the diagonal of Quu itself
     Vx-not-passed-on: every step uses Vx of the final cost. Update it in each step
     Vxx-not-passed-on: every step uses Vxx of the final cost. Update it in each step
-    V-signs: Vx and Vxx are Qx - Qux^T k and Qxx - Qux^T K. The minus sign is already in
-      k and K
-    nothing-saved: Vx and Vxx are Qx and Qxx. The terms with the gains, which reduce the
-      cost, are missing
+    V-signs: `Vx` and `Vxx` are Qx - Qux^T k and Qxx - Qux^T K. The minus sign is
+      already in k and K
+    nothing-saved: `Vx` and `Vxx` are Qx and Qxx. The terms with the gains, which reduce
+      the cost, are missing
     drop-last-step: drop holds the values of one step. Sum them over all steps
     half-in-the-first: the first entry of drop is halved. Only the second has a factor
       1/2

@@ -82,8 +82,8 @@ def _(M, stiffness, damping, h):
       task asks for one step of h
     step-of-euler: your A and B belong to the explicit Euler step x + h x'. In MuJoCo
       the new velocity moves the joints, and the damping acts on the new velocity
-    identity-missing: A gives the change of the state. The new state also contains x
-      itself: add the identity
+    identity-missing: your `A` gives the change of the state. The new state also
+      contains x itself: add the identity
     halves-swapped: positions and velocities are swapped. The state should be (q - q0,
       qd)
     A-rows-swapped: the upper and the lower rows of A are swapped. The position should

@@ -77,8 +77,9 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
     limits-mirrored 3: the upper bounds are replaced by minus the lower ones
     limits-swapped: the lower and the upper bounds are swapped
     limits-1: the bounds are replaced by -1 and 1
-    clipped-twice: Day 3's step is clamped, and a second step for the remaining error is
-      clamped as well. The second step should leave out the joints that are held
+    clipped-twice: the step of Day 3 is clamped, and a second step for the remaining
+      error is clamped as well. The second step should leave out the joints that are
+      held
     mean-weight-in-g: the linear term uses the mean of the weights. Each row of e has
       its own weight
     clip-after 2: the result is Day 3's damped step without the weights, clamped. If one

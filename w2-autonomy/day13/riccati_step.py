@@ -36,7 +36,7 @@ def _(P, A, B, Q, R):
     K-of-the-new-P: the gain is computed from the P that you return. It needs the P that
       you were given, the cost-to-go of the next state
     gain-sign: K has the wrong sign. The minus sign is already in u = -K x
-    A-P-AT: A P A^T is used instead of A^T P A. The first propagates a covariance, the
+    A-P-AT: `A P A^T` is used instead of A^T P A. The first propagates a covariance, the
       second a cost-to-go
     Q-for-P: Q is used instead of P in the gain
     Q-in-the-gain: Q is added to P in the gain. The cost x . Q x of this step does not

@@ -42,12 +42,12 @@ def edges(n, mu, k, axis=None, *, a=None, t=None):
 
 @row.wrongs
 def _(normal, mu, k):
-    """axis-x: a is always along n x (1, 0, 0). Use the coordinate axis along which n
+    """axis-x: `a` is always along n x (1, 0, 0). Use the coordinate axis along which n
       has the smallest absolute component, the first of equal ones
-    axis-z: a is always along n x (0, 0, 1). Use the coordinate axis along which n has
+    axis-z: `a` is always along n x (0, 0, 1). Use the coordinate axis along which n has
       the smallest absolute component, the first of equal ones
-    axis-z 2: a is always along n x (0, 0, 1). Use the coordinate axis along which n has
-      the smallest absolute component, the first of equal ones
+    axis-z 2: `a` is always along n x (0, 0, 1). Use the coordinate axis along which n
+      has the smallest absolute component, the first of equal ones
     last-of-equals: if two components of n have the same absolute value, the last one is
       used. Use the first
     largest-axis: the coordinate axis with the largest absolute component of n is used.

@@ -74,9 +74,9 @@ def below(corner, T):
 
 
 for slug, says, other in (
-    ("bracket-forgotten", "A lacks the term ad(V) S qd, which is needed because the "
+    ("bracket-forgotten", "`A` lacks the term ad(V) S qd, which is needed because the "
      "preceding joints change the direction of a joint's axis", {"bracket": 0.0}),
-    ("bracket-sign", "A contains ad(S) V qd, which is the negative of ad(V) S qd",
+    ("bracket-sign", "`A` contains ad(S) V qd, which is the negative of ad(V) S qd",
      {"bracket": -1.0}),
     ("pose-not-inverted", "V and A are transformed with Ad(T). The adjoint from the "
      "world to the link is Ad(T^-1)", {"into": adjoint}),
@@ -123,8 +123,8 @@ for slug, says, other in (
     ("p-before-R", "the lower left block of Ad(T^-1) is [p] R^T. Because p is "
      "expressed in the world frame, the block should be -R^T [p]",
      {"into": lambda T: below(skew(T[:3, 3]) @ T[:3, :3].T, T)}),
-    ("acceleration-starts-anew", "A contains only the acceleration of the base and the "
-     "terms of joint i. Add the terms of the joints before it as well",
+    ("acceleration-starts-anew", "`A` contains only the acceleration of the base and "
+     "the terms of joint i. Add the terms of the joints before it as well",
      {"passed_on": 0.0}),
     ("gravity-forgotten", "g has no effect. The acceleration of the base is -g, with "
      "which A begins", {"gravity": 0.0}),

@@ -25,15 +25,16 @@ def _(rng):
 
 @row.wrongs
 def _(phi):
-    """products-negative: Ixy, Ixz and Iyz have the wrong sign. phi contains the entries
-      of the matrix I, so copy them unchanged => the result with -Ixy, -Ixz and -Iyz
+    """products-negative: the products Ixy, Ixz and Iyz have the wrong sign. phi
+      contains the entries of the matrix I, so copy them unchanged => the result
+      with -Ixy, -Ixz and -Iyz
     row-by-row: the six entries of I are read in the order Ixx, Ixy, Iyy, Ixz, Iyz, Izz.
       In phi the three diagonal entries come first => I in that order
     triangle-by-rows: the six entries of I are read in the order Ixx, Ixy, Ixz, Iyy,
       Iyz, Izz. In phi the three diagonal entries come first => I in that order
     first-moment-times-m: phi[1:4] is multiplied by m, but it is the first moment m c
       already => the result with m [h] for [h]
-    corners-swapped: the off-diagonal blocks are exchanged: [h] belongs at the upper
+    corners-swapped: the off-diagonal blocks are swapped: [h] belongs at the upper
       right and [h]^T at the lower left => the result with -h
     """
     m, *h = phi[:4]
@@ -49,7 +50,8 @@ def _(phi):
 
 @row.wrongs
 def _(phi):
-    """lower-half-zero: Ixy, Ixz and Iyz are only above the diagonal, but I is symmetric
+    """lower-half-zero: the products Ixy, Ixz and Iyz are only above the diagonal, but I
+      is symmetric
     inertia-about-the-centre: m [c] [c]^T is added to I, but I in phi is about the
       origin and already includes this term => the result with I + m [c] [c]^T
     steiner-without-m: [h] [h]^T is added to I, but I in phi is already about the origin
