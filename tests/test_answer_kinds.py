@@ -134,7 +134,7 @@ class TestAWord:
             (
                 lambda x: WORDS[int(x > -3)],
                 "the-other-word",
-                "'advanced'; expected 'trapped'. The result is right for 5 of 9",
+                "'advanced'; expected 'trapped'. The result is wrong in 4 of 9",
             ),
             (
                 lambda x: "arrived",
@@ -180,18 +180,18 @@ class TestAPath:
             (
                 lambda s, n: np.arange(1, n + 1)[:, None] * s * [[1.0, 1 + (n > 4)]],
                 "off",
-                "The result is right for 5 of 6 inputs",
+                "The result is wrong in 1 of 6 calls",
             ),
             (
                 lambda s, n: np.arange(1, n)[:, None] * s,
                 "one-too-few",
-                "Your path has 2 waypoints; expected 3, in call 1 of 6. The last way "
-                "point is missing. All but the last give the same output.",
+                "The last way point is missing. Your path has a wrong number of "
+                "waypoints in 5 of 6 calls. The reference solution with this mistake",
             ),
             (
                 lambda s, n: np.arange(0, n + 2)[:, None] * s,
                 "shape",
-                "Your path has 5 waypoints; expected 3, in call 1 of 6.",
+                "Your path has a wrong number of waypoints in 6 of 6 calls.",
             ),
             (
                 lambda s, n: np.arange(1, n + 1) * s[0],
@@ -237,7 +237,7 @@ class TestATuple:
             (
                 lambda i, point, free: (i, (point, not free)),
                 "inverted",
-                "free: True and False are swapped",
+                "Free: True and False are swapped",
             ),
             (
                 lambda i, point, free: (i, (-point, free)),

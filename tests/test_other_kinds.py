@@ -78,7 +78,7 @@ class TestSizes:
         ask = self.row(Scalar(), np.sum)
         assert judged(ask, right(ask)[0]).status == "passed"
         wrong = judged(ask, right(ask)[0] * [1, 2, 1, 1])
-        assert "right for 3 of 4 inputs" in wrong.message
+        assert "wrong in 1 of 4 calls" in wrong.message
 
     def test_an_answer_as_long_as_its_question(self):
         ask = self.row(Vector((None,)), np.cumsum)
@@ -92,7 +92,7 @@ class TestSizes:
         assert verdict(lambda x: -np.cumsum(x)).mistake == "all-signs"
         short = verdict(lambda x: np.cumsum(x)[:-1])
         assert short.mistake == "shape"
-        assert "shape (1,); expected shape (2,), in call 1 of 4" in short.message
+        assert "returns a wrong shape in 4 of 4 calls." in short.message
         assert verdict(lambda x: np.cumsum(x)[None]).mistake == "shape"
 
     def test_a_mistake_is_made_again_in_every_size(self):
@@ -155,7 +155,7 @@ COUNTS = np.array([62, 43, 10, 7])
         (
             [61, 43, 10, 7],
             "miscounted",
-            "returned 61; expected 62. The result is right for 3 of",
+            "returned 61; expected 62. The result is wrong in 1 of",
         ),
         (COUNTS - 0.5, "not-whole", "returned 61.5; expected a whole number"),
         (-COUNTS, "miscounted", "-62; expected 62"),  # no talk of signs
@@ -226,7 +226,7 @@ def test_a_path_of_any_length_is_accepted_by_a_property():
     assert straight.status == "passed"
     back = verdict(lambda i, a, b: np.linspace(b, a, 3 + i))
     assert back.mistake == "not-accepted"
-    assert "For 6 of 6 inputs" in back.message
+    assert "This happens for 6 of 6 inputs" in back.message
     flat = verdict(lambda i, a, b: np.concatenate([a, b]))
     assert "a row of 2 numbers per waypoint" in flat.message
 

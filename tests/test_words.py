@@ -157,6 +157,13 @@ def test_no_sentence_of_a_mistake_uses_a_banned_word():
     assert faults(text for day in days for text in mistakes(day)) == []
 
 
+@pytest.mark.kit
+def test_a_mistakes_sentence_is_about_the_students_code():
+    """Without "your", "the ratio is in per cent" reads as what the task asks for."""
+    says = {one.text for day in all_days() for one in mistakes(day) if one.text}
+    assert [text for text in sorted(says) if not re.search(r"\b[Yy]our\b", text)] == []
+
+
 def test_each_kind_of_text_is_read(tmp_path):
     """An exception hides nothing of a file that it does not name."""
     word = "This hangs on\n    the sign."

@@ -55,7 +55,7 @@ def one_place(S: Array, T: Array, factors: Sequence[Factor]) -> Finding | None:
         T: the right ones.
         factors: whose product T is.
     """
-    rest = f"{Pose().largest_error(S, T)} Without this mistake, it is 0."
+    rest = f"{Pose().largest_error(S, T)} Without this mistake, the error is 0."
     found = list(_in_place_of(S, factors))
     for factor, X in found:
         if factor.fixed and not steady(X):
