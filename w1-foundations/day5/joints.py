@@ -28,8 +28,8 @@ def wrapped(angle):
 
 WRAPPED = Change(
     "error-wrapped",
-    "{name} is wrapped to -pi..pi; these joints have limits, so e and e + 2 pi are "
-    "different errors",
+    "your code wraps {name} to [-pi, pi], but these joints have limits, so e and "
+    "e + 2 pi are different errors",
     wrapped,
     hidden="no error there exceeds half a turn",
 )
