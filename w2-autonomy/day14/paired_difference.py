@@ -21,19 +21,20 @@ def _(rng):
 
 @row.wrongs
 def _(first, second):
-    """unpaired: the variances of the two policies are added, as for independent
-      samples. Both ran on the same cubes: use the standard deviation of the differences
-    unpaired-rates: the standard error is for two independent rates, with p (1 - p) / n
-      each. Both policies ran on the same cubes: use the standard deviation of the
+    """unpaired: your code adds the variances of the two policies, as for independent
+      samples. Both ran on the same cubes, so use the standard deviation of the
       differences
-    n-minus-one: the standard deviation divides by n - 1. Divide by n
-    n-minus-one 2: the standard error divides by sqrt(n - 1). Divide by sqrt(n)
-    root-of-the-mean-square: the standard deviation is taken about 0. Take it about the
-      mean difference
-    interval: the second result is 1.96 standard errors. Return one standard error
-    which-differ: the first result is the fraction of the cubes on which the two
+    unpaired-rates: your standard error is for two independent rates, with p (1 - p) / n
+      each. Both policies ran on the same cubes, so use the standard deviation of the
+      differences
+    n-minus-one: your standard deviation divides by n - 1. Divide by n
+    n-minus-one 2: your standard error divides by sqrt(n - 1). Divide by sqrt(n)
+    root-of-the-mean-square: your code takes the standard deviation about 0. Take it
+      about the mean difference
+    interval: your second result is 1.96 standard errors. Return one standard error
+    which-differ: your first result is the fraction of the cubes on which the two
       policies differ. Return the mean difference
-    sorted: both lists are sorted, so the pairs are lost
+    sorted: your code sorts both lists, so the pairs are lost
     """
     a = np.asarray(first, float)
     b = np.asarray(second, float)
