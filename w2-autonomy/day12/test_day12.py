@@ -470,9 +470,9 @@ def test_other_planners_find_as_many_ways_of_which_some_are_none():
         return lambda *given: others.planner(*given, **how)
 
     planners = [
-        planning.rrt_connect, other(turn="grew"), other(turn="failed"),
-        other(turn="never"), other(approach="one"), other(approach="sample"),
-        others.one_tree, other(approach="jump"), other(parent="newest"),
+        planning.rrt_connect, other(turn="grew"), other(turn="never"),
+        other(approach="one"), other(approach="sample"), others.one_tree,
+        other(approach="jump"), other(parent="newest"),
         other(joined=lambda a, b: a + b[1:]), other(free=True),
     ]  # fmt: skip
     table = rows_of("planner")
