@@ -81,20 +81,6 @@ def test_the_grams_of_one_from_either_side_are_how_long_mujocos_friction_creeps(
     assert f"{found[1]:.0f} g after 2 s and {later:.0f} g after 8 s" in SENTENCES
 
 
-@pytest.mark.kit
-def test_without_dry_friction_one_from_either_side_is_only_not_averaged():
-    robots = [
-        day8_mujoco.without_friction(day8_mujoco.changed(one, lab.ROBOT_SEED))
-        for one in (model, hung)
-    ]
-    held = {id(one): day8_mujoco.holds(one, arm, lab.POSES, lab.WAIT) for one in robots}
-    with patch.object(day8_mujoco, "holds", lambda one, *_: held[id(one)]):
-        sigma = [grams(robots, lab.WAIT, lab.NOISE, seed)[:, 1] for seed in range(20)]
-    _, crossed, both = np.sqrt(np.mean(np.square(sigma), axis=0))
-    assert crossed / both == pytest.approx(np.sqrt(2), rel=0.1)
-    assert "Without dry friction this sigma is only about" in SENTENCES
-
-
 def rows_at(poses):
     """Return the regressor of a load in some poses, (7 k, 4)."""
     hands = day8_mujoco.hands(arm, poses)
@@ -117,7 +103,7 @@ def test_the_paper_predicts_sigma_and_the_centre_of_mass_makes_it_larger():
         four.append(1000 * lab.NOISE * np.sqrt(np.linalg.inv(rows.T @ rows)[0, 0]))
     assert max(alone) < 9.3
     assert f"sigma is {four[0]:.0f} g for the lab's five poses" in SENTENCES
-    assert f"{min(four):.0f} to {max(four):.0f} g for five other" in SENTENCES
+    assert 14.5 < min(four) < max(four) < 16.5  # other poses are about as good
 
 
 @pytest.mark.kit
