@@ -444,8 +444,6 @@ def test_the_powers_of_the_amplitude_hold_for_small_swings_only():
     }
     assert seen[0.1, 0.0] / seen[0.3, 0.0] == pytest.approx(27, rel=0.02)
     assert seen[0.1, 0.2] / seen[0.3, 0.2] == pytest.approx(3, rel=0.05)
-    falls = seen[1.0, 0.0] / seen[2.0, 0.0]
-    assert f"falls by a factor of {falls:.1f} instead of 8" in SENTENCES
     rises = f"from {seen[1.0, 0.2]:.1f} to {seen[2.0, 0.2]:.1f}"
     assert rises in SENTENCES
 

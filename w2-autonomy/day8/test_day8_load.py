@@ -192,7 +192,6 @@ def test_what_makes_the_hand_sink_is_turned_alone_the_grams_and_the_centre():
     # Two errors that add up: the fit's own gravity, which is in all three, but once.
     assert grams_alone + centre_alone - rises(LOAD) == pytest.approx(both, abs=1.0)
     grams_alone, centre_alone, both = alone("one from either side")
-    assert f"the wrong mass alone causes nearly all of the {both:.0f} mm" in SENTENCES
     assert grams_alone == pytest.approx(both, abs=2.0)
     assert centre_alone == pytest.approx(rises(LOAD), abs=2.0)
 
@@ -244,9 +243,7 @@ def test_noise_moves_the_grams_and_another_robot_hardly_does():
     words = f"Seed 8 gives {load[-1]:.0f} g, an error of {off[-1]:.1f} sigma"
     assert words in SENTENCES
     assert f"it varies from {sigma.min():.0f} to {sigma.max():.0f} g" in SENTENCES
-    both = (lab.NOISE_SEED, lab.NOISE), (lab.NOISE_SEED, 0.0)
-    (least, _), (least_still, _) = found(4, *both)
-    (most, _), (most_still, _) = found(8, *both)
+    ((least, _),) = found(4, (lab.NOISE_SEED, lab.NOISE))
+    ((most, _),) = found(8, (lab.NOISE_SEED, lab.NOISE))
     assert most - least < 2
     assert f"({least:.1f} to {most:.1f} g)" in SENTENCES
-    assert f"give {least_still:.1f} to {most_still:.1f} g, so noise" in SENTENCES
