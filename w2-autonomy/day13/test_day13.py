@@ -299,21 +299,7 @@ def test_the_exercises_numbers_and_what_is_left_is_the_step():
 
 
 @pytest.mark.kit
-def test_one_factor_for_all_joints_stops_at_the_end_of_a_range():
-    least = []
-
-    def slowed(J, e, lo, hi):
-        dq = dls_step(J, e, lab.DAMPING)
-        limit = np.where(dq > 0, hi, lo)
-        share = np.divide(limit, dq, out=np.ones(7), where=dq != 0)
-        least.append(float(np.clip(share.min(), 0, 1)))
-        return least[-1] * dq
-
-    off, share, beyond = lab.draw_circle(MODEL, slowed)
-    assert f"gives {off.max():.0f} mm: as soon as one joint" in SENTENCES
-    assert least[-1] == 0.0
-    assert share.max() <= 1.0 + 1e-12
-    assert beyond < 1e-12
+def test_with_the_damping_of_day_3_no_limit_is_active():
     with patch.object(lab, "DAMPING", 0.05):
         ways = (lambda *x: clipped(*x, 0.05), lab.best_step())
         both = [lab.draw_circle(MODEL, step)[0].max() for step in ways]
@@ -355,7 +341,7 @@ def recomputed(limit):
 
 
 @pytest.mark.kit
-@pytest.mark.parametrize("damping", [0.0025, 0.005, 0.01, 0.015, 0.02, 0.05])
+@pytest.mark.parametrize("damping", [0.005, 0.01, 0.015, 0.05])
 def test_clamping_is_as_good_as_the_damping_that_was_guessed(damping):
     met = []
 
