@@ -163,10 +163,9 @@ def test_a_held_cube_presses_with_2_n_a_contact_and_the_whole_force_seems_to_sli
 
 @pytest.mark.kit
 def test_a_cube_that_slips_while_the_hand_accelerates_is_caught_again():
-    for seconds, grams in ((1.0, 119), (2.0, 121), (0.3, 111)):
+    for seconds, grams in ((1.0, 119), (0.3, 111)):
         with patch.object(lab, "SLOW", seconds):
             assert lab.heaviest(model, data, 0.3, 2) == grams
-    assert "and for a lift in 2 s (121 g)" in SENTENCES
     paper = 2000 * 0.3 * 2 / (lab.G + 6 * lab.TARGET / 0.3**2)
     assert f"You will measure 111 g. Your formula should have given {paper:.0f} g" in (
         SENTENCES
@@ -414,7 +413,6 @@ def test_a_smaller_lift_holds_more():
     lower = [holds(with_numbers(learned(s), lift=0.06)).sum() for s in range(1, 13)]
     held = [of_seed(seed)[6] for seed in range(1, 13)]
     assert (np.array(lower) > held).all()
-    assert f"seed 9 holds {lower[8]} instead of {held[8]:.0f}" in SENTENCES
 
 
 # The exercises: the same search from another start, and with mistakes.
