@@ -71,6 +71,7 @@ def test_every_task_has_its_function_and_its_check_in_the_order_of_the_guide(day
         above = sources[check - len(names) : check]
         for name, cell in zip(names, above, strict=True):
             assert cell == guide.typed(text_of(starter, name))
+        assert check < sources.index("run()"), f"{task.id} comes after the run"
     steps = [
         int(found[1])
         for s in sources

@@ -98,8 +98,8 @@ def place_of(task: Task, blocks: Sequence[Block]) -> int:
     set_here = (rf"\*\*Tasks? {re.escape(task.id)}\b", rf"TASK={re.escape(task.id)}\b")
     for pattern in set_here:
         for i, block in enumerate(blocks):
-            if re.search(pattern, block.text):
-                return i
+            if re.search(pattern, block.text) and not block.text.startswith("|"):
+                return i  # a table of problems also names tasks
     title = task.read.removeprefix("Lab guide, ").partition(";")[0].strip()
     inside = [i for i, block in enumerate(blocks) if block.section == title]
     inside = inside or [len(blocks) - 1]
