@@ -59,6 +59,7 @@ TELLING = {
     "sign", "negated", "sign-lost", "left-out", "factor", "transpose", "inverse",
     "squared", "root", "exchanged", "order", "unit", "rounded",
 }  # fmt: skip
+ORDERED = {ast.List: "entries", ast.Tuple: "entries", ast.Call: "arguments"}
 OF_A_PART = {
     ast.Add: "a term is missing", ast.Sub: "a term is missing",
     ast.Mult: "a factor is missing", ast.MatMult: "a factor is missing",
@@ -170,6 +171,8 @@ def _of_an_expression(
         return f"the sign of `{its}` is reversed"
     if mutant.kind == "name" and isinstance(new, ast.Name) and (its := _own(new, line)):
         return _another_name(mutant, node, new, its)
+    if mutant.kind == "order" and (parts := ORDERED.get(type(node))):
+        return f"two {parts} are in the wrong order"
     if mutant.kind == "order" and isinstance(node, ast.BinOp):
         pair = [_own(one, line) for one in (node.left, node.right)]
         if all(pair):
