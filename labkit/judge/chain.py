@@ -69,8 +69,7 @@ def one_place(S: Array, T: Array, factors: Sequence[Factor]) -> Finding | None:
         off = Pose().apart(fixed[0][1][:1], fixed[0][0].T[:1])
         return Finding(
             "one-link-off",
-            f"One fixed transform is wrong, the one to {names}: its error is {off} at "
-            f"every q. {rest}",
+            f"Your fixed transform to {names} is wrong by {off} at every q. {rest}",
         )
     for factor, X in found:
         if factor.unnamed and (wrong := factor.unnamed(X)):

@@ -49,6 +49,8 @@ from labkit.judge.mistake import Finding, Verdict
 from labkit.judge.typed import in_words
 from robo47.checks import Array
 
+# What a kind says of answers with the number of calls in it.
+COUNTED = ("too-often-true", "too-seldom-true", "both-ways")
 NO_CALL = ("kept-between-calls", "draws-itself")  # the same call gives something else
 
 
@@ -212,8 +214,9 @@ def _both(
         return found
     # One answer alone may be that of many mistakes.
     named = attempt(diagnose, case, S, T, effort) if wrong.sum() > 1 else None
-    other = named or what_is_wrong(case, S, T)
-    some = f"Of the {len(wrong)} other answers {wrong.sum()} are wrong, too."
+    other = named or what_is_wrong(case, S, T, counted=False)
+    verb = "is" if wrong.sum() == 1 else "are"
+    some = f"Of the {len(wrong)} other answers, {wrong.sum()} {verb} wrong, too."
     also = "The other answers are wrong, too." if wrong.all() else some
     says = f"{found.message} {also} {other.message}"
     return Finding(named.slug if named else found.slug, says)
@@ -474,8 +477,15 @@ def _none_or_not(m: Matcher) -> Finding | None:
     return None
 
 
-def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
-    """Return which part of the answers is wrong, and by how much."""
+def what_is_wrong(case: Case, S: Parts, T: Parts, counted: bool = True) -> Finding:
+    """Return which part of the answers is wrong, by how much, and in how many calls.
+
+    Args:
+        case: what was asked.
+        S: the student's answers.
+        T: the right ones.
+        counted: whether the wrong calls are counted.
+    """
     ask = case.ask
     i = worst_part(case.ask.kinds, S, T, case.ask.near)
     kind = ask.kinds[i]
@@ -484,7 +494,7 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
     if found.slug != "one-factor-off":  # every entry, so where does not matter
         where = tried.in_common(case, S, T, i)
         wrong = difference(S[i], T[i], kind.scale, ask.rtol) > ask.tolerance
-        if not wrong.all():
+        if counted and not wrong.all() and found.slug not in COUNTED:
             found = _in_some_calls(found, int(wrong.sum()), len(wrong))
     says = of_result(found.message, kind.called if len(S) > 1 else "")
     says = f"{_right_results(case, S, T)}{says}{where}{_wrong_too(case, S, T, i)}"

@@ -133,7 +133,7 @@ def told(m: Any, mutant: Mutant) -> str:
         return f"{what(mutant)}, as in {text}"
     says = f"{what(mutant)}{_or_transposed(mutant)}"
     if step := gloss(mutant):
-        return f'in the step "{step}", {says}'
+        return f'{says} in the step "{step}"'
     return says
 
 

@@ -99,7 +99,7 @@ def _(axis, theta):
       matrix is not the identity at theta = 0
     dyad-missing: your code omits the term (1 - cos) axis axis^T, so the rotation moves
       its own axis
-    always-about-z: your code rotates about z for every axis
+    always-about-z: your code rotates about z for every axis. Use the argument
     """
     K = skew(axis)
     dyad = np.outer(axis, axis)

@@ -22,7 +22,8 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, T):
-    """space-for-body: your result is J_space, expressed in the world frame
+    """space-for-body: your result is J_space, expressed in the world frame. It should
+      be expressed in the hand frame
     site-for-body: your result is J_site, whose v belongs to the correct point but is
       expressed in the world frame
     rotation-only: your code only rotates J_space into the hand frame, but v is still

@@ -44,7 +44,7 @@ def _(J, e, damping):
       pseudo-inverse, which is very large near a singularity
     damping-everywhere: your code adds damping^2 to every entry of J J^T. Add it to the
       diagonal only
-    transpose-only: your result is J^T e, without the inverse
+    transpose-only: your result is J^T e. It lacks the inverse, so it is a gradient step
     pseudo-inverse-scaled: your code divides the step of the pseudo-inverse by 1 +
       damping^2. Damping should reduce the directions with small singular values most
     damping-fixed: your damping is always 0.05. Use the argument

@@ -134,9 +134,9 @@ def _(R):
     """sine-for-angle: the norm of your vector is the sine of the angle. It should be
       the angle
     twice-the-sine: your vector has the entries of R - R^T, so its norm is twice the
-      sine of the angle
+      sine of the angle. It should be the angle
     quaternion-vector-part: your vector is the vector part of the quaternion, whose norm
-      is sin(angle / 2)
+      is sin(angle / 2). The norm should be the angle
     twice-the-quaternion-part: your vector is twice the vector part of the quaternion,
       which is accurate for small angles only
     axis-only: your vector is the unit axis. Its norm should be the angle

@@ -29,7 +29,7 @@ def _(M, qd, masses, coms_world, g):
     """speed-squared-too-early: your code squares qd before the product with M. The
       vector qd should be on both sides of M
     every-mass-everywhere: your code multiplies every link's centre by the mass of the
-      whole arm
+      whole arm. Use the mass of each link
     distance-for-height: your potential energy uses each centre's distance from the
       origin as its height, but only the component along g contributes
     """

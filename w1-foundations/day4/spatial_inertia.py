@@ -65,7 +65,7 @@ def _(m, c, I):
     one-corner-empty: one of your off-diagonal blocks is 0. The matrix is symmetric, so
       each of the two blocks should be the transpose of the other
     mass-forgotten-in-the-corners: your two off-diagonal blocks contain [c] without the
-      mass
+      mass. They should contain m [c]
     mass-everywhere: your lower right block has the mass in all nine entries. Only the
       diagonal should contain the mass
     blocks-v-omega: your blocks are in the order (v; omega), but omega comes first, as

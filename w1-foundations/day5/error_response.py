@@ -23,7 +23,7 @@ def starts_elsewhere(case: Case) -> Finding | None:
     t = case.arguments[0]
     if np.abs(case.S[t == 0.0] - 1.0).max() < 1e-8:
         return None
-    says = "At t = 0 the error should be 1, but for some zeta your output is not 1."
+    says = "For some zeta, your error at t = 0 is not 1. It should always start at 1."
     return Finding("does-not-start-at-one", says)
 
 
@@ -118,7 +118,8 @@ def _(t, omega, zeta):
       exponential. The error should start at rest, but this curve does not
     both-halves: for zeta above 1 both of your exponentials have the weight 1/2. The
       error should start at rest, but this curve does not
-    weights-swapped: for zeta above 1 the weights of your two exponentials are swapped
+    weights-swapped: for zeta above 1 the weights of your two exponentials are swapped,
+      so the error does not start at rest
     weights-summed: for zeta above 1 your curve does not start at rest. Your code adds
       the weighted exponentials and divides by the sum of their rates, which is also
       what the inverse factor of sinh gives

@@ -73,7 +73,8 @@ def _(J_space, qd, p):
       the twists from the tip instead of the base
     ad-transposed: your code transposes ad(V). The transpose acts on wrenches, but
       screws need ad(V)
-    ad-half: your ad(V) lacks its lower left block [v]
+    ad-half: your ad(V) lacks its lower left block [v], but the linear velocity changes
+      the linear half of a twist
     twist-of-the-hand: every joint in your code uses the twist of the hand. Joint i
       should use the twist of link i, which only joints 1 to i cause. Because ad(V) V is
       0, your sum vanishes

@@ -100,7 +100,8 @@ def _(m1, c1, I1, m2, c2, I2):
     """plain-mean: your common centre is the midpoint of the two centres of mass. Weight
       each centre by the mass of its body
     not-divided-by-the-mass: your code does not divide the sum of m c by the total mass
-    first-centre-kept: your code sets the common centre of mass to c1
+    first-centre-kept: your code sets the common centre of mass to c1. It should be the
+      mean of c1 and c2, weighted by the masses
     """
     centres = {
         "plain-mean": (c1 + c2) / 2,

@@ -112,7 +112,8 @@ def _(delta_q, v_max, a_max):
       violate their limits
     longest-way: your code uses only the joint with the largest displacement. A joint
       with lower limits may need more time
-    one-limit-for-all: your code uses the limits of the first joint for all joints
+    one-limit-for-all: your code uses the limits of the first joint for all joints. Each
+      joint has its own limits
     one-limit-for-all 2: your code uses the lowest limits for all joints, but each joint
       has its own limits
     speed-only: your code uses only the velocity limits, so a short motion exceeds the

@@ -89,7 +89,7 @@ def _(t, T):
       continues after the end. For t > duration, use s = 1 with zero velocity and
       acceleration, because the robot is at rest again
     never-clipped: your code evaluates the polynomial before the start and after the end
-      as well
+      as well. There the robot should be at rest
     start-not-clipped: your code handles t > duration but not t < 0, so it evaluates the
       polynomial before the start. For t < 0, use s = 0 with zero velocity and
       acceleration, because the robot is still at rest

@@ -199,9 +199,10 @@ def _(box_a, box_b):
       overlaps have a positive product
     sum-of-overlaps: your code adds the overlaps of the three axes, but each of them
       must be 0 or more
-    nearly-touching: your code reports an overlap for boxes with a small gap
-    always: your code always returns True
-    never: your code always returns False
+    nearly-touching: your code reports an overlap for boxes with a small gap, but such
+      boxes are apart
+    always: your code always returns True. Compare the intervals on all three axes
+    never: your code always returns False. Compare the intervals on all three axes
     """
     low, high = box_a[0] <= box_b[1], box_b[0] <= box_a[1]
     both = low & high

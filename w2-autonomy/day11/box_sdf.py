@@ -88,9 +88,12 @@ def _(p, half_extents):
       centre. Use the distance to the nearest face
     to-the-middle: your code returns the distance to the centre, so the size of the box
       is not used
-    box-as-a-ball: your code treats the box as a sphere
-    box-as-a-ball 2: your code treats the box as a sphere
-    box-as-a-ball 3: your code treats the box as a sphere
+    box-as-a-ball: your code treats the box as a sphere. Compare each coordinate with
+      its own half extent
+    box-as-a-ball 2: your code treats the box as a sphere. Compare each coordinate with
+      its own half extent
+    box-as-a-ball 3: your code treats the box as a sphere. Compare each coordinate with
+      its own half extent
     whole-sides: half_extents already contains half of each side, but your code halves
       it again
     twice-the-sides: your code doubles half_extents, but the faces are at plus and minus
@@ -103,10 +106,11 @@ def _(p, half_extents):
       squared distance
     nearest-corner: your code returns the distance to the nearest corner, but a face or
       an edge can be nearer
-    largest-half: your code uses the largest half extent on every axis
+    largest-half: your code uses the largest half extent on every axis. Each axis has
+      its own half extent
     half-backwards: your code uses half_extents in reverse order, but its first entry
       belongs to x
-    in-the-plane: your code does not use z
+    in-the-plane: your code does not use z. Use all three coordinates
     smallest-added: your code adds the smallest entry of |p| - half_extents, even where
       it is positive. Add the largest entry, and only where it is negative
     first-axis-added: your inside term uses only the x entry of |p| - half_extents. Use
@@ -140,8 +144,9 @@ def _(p, half_extents):
     mean-square: your code takes the root of the mean of the squares. Take the root of
       their sum
     smallest-taken-off: your code subtracts the smallest absolute value of |p| -
-      half_extents, even outside the box
-    edges-negative: near an edge or a corner your result has the wrong sign
+      half_extents, even outside the box. Subtract it only inside
+    edges-negative: near an edge or a corner your result has the wrong sign. The
+      distance should be positive outside the box
     cut-at-both: your code returns the norm of the point clamped to the box. The
       distance outside the box is the norm of p minus this point
     """

@@ -171,7 +171,8 @@ def _(a0, a1, r, T_world_box, half_extents):
       the axis
     wrong-half-kept 2: your search keeps the wrong part, so it finds the farthest point
       of the axis
-    bounding-sphere: your code treats the box as a sphere
+    bounding-sphere: your code treats the box as a sphere. Compare each coordinate with
+      its own half extent
     ends-left-out: your search never tests the ends of the axis. Start with the whole
       interval [0, 1]
     never-negative: for shapes that overlap your code returns 0, but the signed distance
@@ -198,8 +199,10 @@ def _(a0, a1, r, T_world_box, half_extents):
       a positive distance
     radius-off-the-box 2: your code reduces the box by the radius. Subtract the radius
       from the distance
-    largest-half: your code uses the largest half extent on every axis
-    largest-half 2: your code uses the largest half extent on every axis
+    largest-half: your code uses the largest half extent on every axis. Each axis has
+      its own half extent
+    largest-half 2: your code uses the largest half extent on every axis. Each axis has
+      its own half extent
     sides-exchanged: your code swaps x and y of half_extents
     sides-exchanged 2: your code swaps x and y of half_extents
     box-around-it: your code replaces the rotated box by its axis-aligned bounding box.
@@ -211,7 +214,7 @@ def _(a0, a1, r, T_world_box, half_extents):
     edges-only: your code computes the distance to the edges of the box. A face can be
       nearer, and the axis can enter the box
     faces-only: your code tests only the ends and the points where the axis crosses the
-      plane of a face
+      plane of a face, but the nearest point can be another one
     point-to-box-in-turn: your code alternates between the nearest point of the box and
       the nearest point of the axis, but it stops after too few steps
     one-section: your search makes only one step, which leaves 0.618 of the axis

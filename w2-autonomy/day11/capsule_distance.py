@@ -101,15 +101,17 @@ def _(a0, a1, ra, b0, b1, rb):
     squared 2: your code subtracts squares. Subtract the radii from the distance itself
     sign: your code reverses the sign. The distance should be positive for capsules that
       do not overlap
-    of-middles: your code uses the midpoints of the axes as the closest points
-    of-starts: your code uses the starts of the axes as the closest points
+    of-middles: your code uses the midpoints of the axes as the closest points, but the
+      closest points can be anywhere on the axes
+    of-starts: your code uses the starts of the axes as the closest points, but the
+      closest points can be anywhere on the axes
     of-end-pairs: your code uses the nearest pair of ends as the closest points, but the
       closest points can lie between the ends
     largest-part: your code uses the largest component of p - o instead of its norm
     sum-of-parts: your code uses the sum of the components' absolute values instead of
       the norm of p - o
-    in-the-plane 2: your code does not use x in the distance
-    in-the-plane 3: your code does not use y in the distance
+    in-the-plane 2: your code does not use x in the distance. Use all three coordinates
+    in-the-plane 3: your code does not use y in the distance. Use all three coordinates
     product-of-radii: your code subtracts the square root of the product of the radii.
       Subtract their sum
     squares-of-radii: your code subtracts the squares of the radii. Subtract the radii
@@ -164,7 +166,7 @@ def _(a0, a1, ra, b0, b1, rb):
       subtracts the radius. Subtract the radius only
     starts-and-ends: your code uses the segments from a0 to b0 and from a1 to b1. The
       axes run from a0 to a1 and from b0 to b1
-    in-the-plane: your code does not use z in the distance
+    in-the-plane: your code does not use z in the distance. Use all three coordinates
     """
     p, o = closest_points_segments(a0, a1, b0, b1)
     axes = np.linalg.norm(p - o)

@@ -83,8 +83,10 @@ def _(a0, a1, b0, b1):
       best t depends on s
     t-not-cut: your code never clamps t, so its point can lie beyond an end
     s-not-cut: your code never clamps s, so its point can lie beyond an end
-    cut-below-only: your code clamps s and t at 0 but not at 1
-    cut-above-only: your code clamps s and t at 1 but not at 0
+    cut-below-only: your code clamps s and t at 0 but not at 1, so the points can lie
+      beyond the ends
+    cut-above-only: your code clamps s and t at 1 but not at 0, so the points can lie
+      before the starts
     ends-only: your code assumes that one of the closest points is an end, but both
       points can lie between the ends
     end-pairs: your code returns the nearest pair of ends, but the closest points can

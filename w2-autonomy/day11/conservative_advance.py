@@ -183,9 +183,11 @@ def _(s, distance, delta_q, radii):
     max-for-min: your code uses max instead of min, so the result is never below 1
     shares-summed: your code adds the steps that each joint alone would allow. Add the
       motions first, then divide
-    careful: your code uses only a part of the step that the bound allows
-    careful 2: your code uses only a part of the step that the bound allows
-    time: your code returns the number of steps, 1 / step
+    careful: your code uses only a part of the step that the bound allows. Use the whole
+      step
+    careful 2: your code uses only a part of the step that the bound allows. Use the
+      whole step
+    time: your code returns the number of steps, 1 / step. Return s + step
     """
     speed = np.abs(delta_q) @ radii
     inside = distance <= 0

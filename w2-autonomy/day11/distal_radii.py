@@ -127,7 +127,8 @@ def _(link_lengths, link_radii):
       is the maximum
     offsets-alone: your code takes the maximum of the link radius and the sum of the
       link lengths. Add the distal radii to the lengths
-    last-link-forgotten: your code treats the radius of the last link as 0
+    last-link-forgotten: your code treats the radius of the last link as 0. Use the last
+      entry of link_radii
     last-link-forgotten 2: your code omits the last link, but its farthest point can be
       the farthest of all
     offsets-to-the-end: your code adds all link lengths, including the last one, and the

@@ -106,7 +106,7 @@ def _(J_space, p, o, link):
       multiplied by the distance
     normal-squared: your code divides the normal by the squared distance. Divide by the
       distance
-    half: your result has an extra factor 1/2
+    half: your result has an extra factor 1/2. Remove it
     normal-of-p: your normal points from the world origin to p. It should point from o
       to p
     normal-of-o: your normal points from the world origin to o. It should point from o
@@ -134,7 +134,7 @@ def _(J_space, p, o, link):
       belongs to joint 1
     own-length: your code normalises the result. Return the gradient itself
     of-the-square: your code returns the gradient of the squared distance, 2 d times the
-      gradient of d
+      gradient of d. Return the gradient of d
     """
     n = (p - o) / np.linalg.norm(p - o)
     w, v = J_space[:3].T, J_space[3:].T

@@ -154,7 +154,8 @@ def _(qd, grad, distance, gain):
       but the smallest change is along grad
     slope-unit: your code normalises grad before it compares grad . qd with the bound,
       which changes the value of grad . qd
-    only-inside: your code limits the velocity only if the distance is negative
+    only-inside: your code limits the velocity only if the distance is negative. Limit
+      it at every distance
     standing-still: if grad is 0, your code divides by 0. Return qd
     part-alone: your code returns only the component along grad. Keep the other
       components of qd

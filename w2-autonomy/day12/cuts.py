@@ -92,8 +92,8 @@ def _placed(how: Callable[[Any], int], more: int) -> Any:
 OPTIONS = [
     Option("not-sorted", "your code skips a pair if its first row is the larger one. "
         "Sort the two rows", {"order": list}),
-    Option("not-checked", "your code removes the points without testing whether the"
-                          " new edge is free",
+    Option("not-checked", "your code removes the points without testing the new edge. "
+                          "Remove them only if this edge is free",
            {"check": lambda a, b, world: True}),
     Option("hit-for-free", "your code inverts the test, so it applies shortcuts that "
                            "are blocked",

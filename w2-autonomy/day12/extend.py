@@ -142,7 +142,7 @@ def _(tree, sample, step, world):
     node-only: your code tests only the node from which the tree grows. Test the whole
       edge
     always-free: your code does not test the edge, so it reports every edge as free
-    never-free: your code reports that no edge is free
+    never-free: your code reports that no edge is free. Test the edge to the new point
     edge-from-the-root: your code tests the edge from the root to the new point, but the
       edge starts at the nearest node
     edge-to-the-sample: your code tests the edge to the sample. Test only the edge to

@@ -158,7 +158,8 @@ OPTIONS = [
     *_each("around", [
         ("continuity", "your code adds 1 / (2 n) to the half-width",
          lambda a, n: a + 1 / (2 * n)),
-        ("half-width", "your interval has half of the correct width",
+        ("half-width", "your interval has half of the correct width. The half-width "
+                       "should be added and subtracted",
          lambda a, n: a / 2),
         ("not-rooted", "your code squares the half-width", lambda a, n: a * a),
     ]),

@@ -267,10 +267,12 @@ OPTIONS = [
              {"ranges": _same_limit(choose)}, alone=True) for slug, word, choose in (
         ("smallest-limit", "smallest", np.min), ("largest-limit", "largest", np.max),
         ("first-limit", "first joint's", lambda x: x[0]))),
-    Option("half-the-torque", "your code uses only half of each torque limit",
+    Option("half-the-torque", "your code uses only half of each torque limit. Use the "
+                              "whole limit",
            {"ranges": lambda a, b, g, limits, sd: path_accel_bounds(
                a, b, g, limits / 2, sd)}),
-    Option("first-joint-only", "your code uses only the first joint",
+    Option("first-joint-only", "your code uses only the first joint, but every joint "
+                               "limits sdd",
            {"ranges": lambda a, b, g, limits, sd: path_accel_bounds(
                a[:1], b[:1], g[:1], limits[:1], sd)}),
     *(Option(slug, says, {"out": of}) for slug, says, of in (

@@ -108,7 +108,8 @@ def _others(tree, q, far):
 @row.wrongs(hidden={"itself-left-out": "the lab asks for no node's own place"})
 def _(tree, q):
     """farthest: your code returns the farthest node. Return the nearest
-    newest: your code always returns the last node of the tree
+    newest: your code always returns the last node of the tree. Return the node nearest
+      to q
     one-coordinate: your code compares only the first coordinate. Use the distance in
       all coordinates
     one-coordinate 2: your code compares only the last coordinate. Use the distance in
@@ -156,11 +157,13 @@ def _(tree, q):
       the smallest distance so far
     first-that-is-nearer: your loop stops at the first row that is nearer than the root.
       Test all rows
-    rounded: your code rounds the distances before it compares them
-    rounded 2: your code rounds the distances before it compares them
-    root-left-out: your code skips the root, row 0
+    rounded: your code rounds the distances before it compares them, so two different
+      distances can be equal
+    rounded 2: your code rounds the distances before it compares them, so two different
+      distances can be equal
+    root-left-out: your code skips the root, row 0, but the root can be the nearest node
     root-left-out 2: your code skips the root, row 0, and counts the rows from row 1
-    last-left-out: your code skips the last row
+    last-left-out: your code skips the last row, but the last node can be the nearest
     over-all-numbers: your code searches the minimum over all entries of the tree. Each
       row has one distance, so sum along axis 1
     sum-of-columns: your code sums the squares along axis 0. Sum along axis 1, because

@@ -184,12 +184,12 @@ def _(a, b, c, limits, sd):
     widest: your code takes the union of the joints' intervals. Take the intersection
     least-of-both: both of your bounds are the minimum of their quotients. The lower
       bound should be the maximum of the joints' lower bounds
-    first-joint-only: your code uses only the first joint
+    first-joint-only: your code uses only the first joint, but every joint limits sdd
     first-joint-only 2: your code uses only the first joint that moves, but every joint
       limits sdd
     last-joint-only: your code uses only the last joint. Does your loop overwrite the
       earlier bounds?
-    half-the-limit: your code uses only half of each torque limit
+    half-the-limit: your code uses only half of each torque limit. Use the whole limit
     not-divided: your bounds are torques. Divide them by a
     times-a: your code multiplies the torques by a. Divide by a
     one-limit: your code allows torques from 0 to the limit, but the torques may range
@@ -216,8 +216,10 @@ def _(a, b, c, limits, sd):
       torque, so subtract it first
     negative-left-out: your code ignores joints with negative a, but every joint that
       moves limits sdd
-    largest-limit: your code uses the largest torque limit for every joint
-    smallest-limit: your code uses the smallest torque limit for every joint
+    largest-limit: your code uses the largest torque limit for every joint. Each joint
+      has its own limit
+    smallest-limit: your code uses the smallest torque limit for every joint. Each joint
+      has its own limit
     last-joint-greatest: your upper bound is the upper bound of the last joint. Take the
       minimum over all joints
     last-joint-least: your lower bound is the lower bound of the last joint. Take the

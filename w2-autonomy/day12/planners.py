@@ -276,11 +276,12 @@ OPTIONS = [
     Option("meeting-point-lost", "your path does not contain the node where the trees "
                                  "meet. Include it once",
            {"joined": lambda a, b: [*a[:0:-1], *b[1:]]}),
-    Option("root-lost", "your path does not contain the start",
+    Option("root-lost", "your path does not contain the start. It should begin at the "
+                        "start",
            {"joined": lambda a, b: a[::-1][1:] + b[1:]}),
     Option("both-roots-lost", "your path contains neither the start nor the goal",
            {"joined": lambda a, b: a[::-1][1:] + b[1:-1]}),
-    Option("goal-lost", "your path does not contain the goal",
+    Option("goal-lost", "your path does not contain the goal. It should end there",
            {"joined": lambda a, b: a[::-1] + b[1:-1]}),
     Option("none-is-the-start", "if there is no path, your code returns the start. "
                                 "Return an array without rows",

@@ -140,9 +140,10 @@ def _(start, goal, world, samples, step):
       it once
     meeting-point-lost: your path does not contain the node where the trees meet.
       Include it once
-    goal-lost: your path does not contain the goal
-    start-lost: your path does not contain the start
-    ends-only: your path contains only the start and the goal
+    goal-lost: your path does not contain the goal. It should end at the goal
+    start-lost: your path does not contain the start. It should begin at the start
+    ends-only: your path contains only the start and the goal. Include the nodes of both
+      branches
     first-sample-left-out: your code skips the first sample
     last-sample-left-out: your code skips the last sample
     straight-tried-first: your code tests the edge from the start to the goal before the

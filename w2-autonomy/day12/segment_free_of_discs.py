@@ -251,8 +251,10 @@ def _(a, b, discs):
       must miss every disc
     all-must-hit 2: your code reports a free edge as soon as it misses one disc, and
       never if there is no disc. The edge must miss every disc
-    squared-for-plain: your code compares the squared distance with the radius
-    plain-for-squared: your code compares the distance with the squared radius
+    squared-for-plain: your code compares the squared distance with the radius. Compare
+      it with the squared radius
+    plain-for-squared: your code compares the distance with the squared radius. Compare
+      it with the radius
     diameter: your code compares the distance with twice the radius, but the third
       number of a disc is its radius
     half-the-radius: your code compares the distance with half of the radius, but the

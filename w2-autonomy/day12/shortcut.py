@@ -124,8 +124,8 @@ def _(path, world, pairs, answer):
 
 @row.wrongs
 def _(path, world, pairs):
-    """not-checked: your code removes the points without testing whether the new edge is
-      free
+    """not-checked: your code removes the points without testing the new edge. Remove
+      them only if this edge is free
     one-node-short: your code removes point j too, so the new edge ends at a point that
       was not tested
     one-node-short 2: your code removes point i too. Keep path[: i + 1]
@@ -143,17 +143,20 @@ def _(path, world, pairs):
       probability
     of-m-minus-one: your code multiplies u by m - 1. Use int(u m), which gives every row
       the same probability
-    neighbours-too: your code also treats neighbouring rows as a shortcut
+    neighbours-too: your code also treats neighbouring rows as a shortcut, but no point
+      lies between them
     two-apart-left: your code skips rows that are two apart, but the point between them
       can be removed
     hit-for-free: your code inverts the test, so it applies shortcuts that are blocked
-    unchanged: your code returns the original path
-    all-but-the-ends: your code returns only the start and the end
+    unchanged: your code returns the original path. Apply each shortcut whose edge is
+      free
+    all-but-the-ends: your code returns only the start and the end. Keep the other
+      points of the path
     only-the-ends-checked: your code tests only the two points. Test the edge between
       them
     middle-checked: your code tests only the midpoint of the edge. Test the whole edge
     reversed: your path runs from its end to its start. Keep the order of the waypoints
-    ends-at-i: your code returns only the path up to i
+    ends-at-i: your code returns only the path up to i. Append the path from j on
     """
     none = np.empty((0, 2))
 

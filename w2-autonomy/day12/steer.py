@@ -97,7 +97,7 @@ def _(q, target, step):
       target - q
     stays-when-near: if the target is within one step, your code returns q. Return the
       target
-    always-q: your code always returns q
+    always-q: your code always returns q. It should move one step towards the target
     largest-coordinate: your code uses the largest difference in one coordinate as the
       distance. Use the Euclidean norm
     largest-coordinate 2: your code limits each coordinate to a step. Limit the norm of

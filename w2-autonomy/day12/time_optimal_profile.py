@@ -150,7 +150,7 @@ def _(a, b, c, limits, sd2_max):
       end of the step. Compute them at its first point
     root: your code returns sd. Return sd^2
     times: your code returns the time of each point. Return sd^2
-    half-the-torque: your code uses only half of each torque limit
+    half-the-torque: your code uses only half of each torque limit. Use the whole limit
     never-moves: your sd^2 is 0 at every point. Check the result of the backward pass,
       and whether the forward pass uses the largest sdd
     accelerations: your code returns sdd of each step. Return sd^2

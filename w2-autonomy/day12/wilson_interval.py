@@ -115,7 +115,8 @@ def _(successes, n):
       n, but it should be -(2 k / n + z^2 / n)
     quadratic-z2: your quadratic equation for p has the coefficient -(2 k / n + z^2),
       but it should be -(2 k / n + z^2 / n)
-    half-width: your interval has half of the correct width
+    half-width: your interval has half of the correct width. The half-width should be
+      added and subtracted
     one-is-none: for n = 1 your code returns (0, 1), but only n = 0 is a special case
     """
     k, trials = successes, n

@@ -295,7 +295,8 @@ def _(H, f, lo, hi, x):
       moves the minimum over the earlier ones
     lower-only: your code uses only the lower bounds. Use the upper bounds too
     upper-only: your code uses only the upper bounds. Use the lower bounds too
-    start-returned: your result is the start, clamped to the bounds
+    start-returned: your result is the start, clamped to the bounds. Move it to the
+      minimum within the bounds
     """
     given = (H, f, lo, hi, x)
     free = np.linalg.solve(H, -f)

@@ -22,7 +22,7 @@ def _(P, x):
       factor 1/2
     length-of-P-x: your result is the norm of P x. The cost-to-go is x . P x
     summed: your code sums the entries of P x. Multiply them by the entries of x first
-    P-rooted: your code uses the square roots of the entries of P
+    P-rooted: your code uses the square roots of the entries of P. Use P itself
     P-by-squares: your code multiplies P by the squares of the entries of x. The entries
       of P off the diagonal belong to products of two different entries
     trace: your code uses the trace of P instead of P

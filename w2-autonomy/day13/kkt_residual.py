@@ -63,7 +63,8 @@ def _(H, f, lo, hi, x):
       gradient
     jacobi-push: in your code, x moves by the gradient over the diagonal of H. It should
       move by minus the gradient itself
-    limits-swapped: your code swaps the lower and the upper bounds
+    limits-swapped: your code swaps the lower and the upper bounds. The lower bounds
+      come first
     two-pushes: in your code, x moves by twice the gradient. It should move by minus the
       gradient
     half-a-push: in your code, x moves by half the gradient. It should move by minus the

@@ -72,10 +72,14 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
     not-limited: your code ignores the bounds
     lower-only: your code uses only the lower bounds. Use the upper bounds too
     upper-only: your code uses only the upper bounds. Use the lower bounds too
-    limits-mirrored: your code replaces the lower bounds by minus the upper ones
-    limits-mirrored 2: your code replaces the lower bounds by minus the upper ones
-    limits-mirrored 3: your code replaces the upper bounds by minus the lower ones
-    limits-swapped: your code swaps the lower and the upper bounds
+    limits-mirrored: your code replaces the lower bounds by minus the upper ones. Use
+      both arguments
+    limits-mirrored 2: your code replaces the lower bounds by minus the upper ones. Use
+      both arguments
+    limits-mirrored 3: your code replaces the upper bounds by minus the lower ones. Use
+      both arguments
+    limits-swapped: your code swaps the lower and the upper bounds. The lower bounds
+      come first
     limits-1: your code replaces the bounds by -1 and 1. Use the arguments lo and hi
     clipped-twice: your code clamps the step of Day 3, and it clamps a second step for
       the remaining error as well. The second step should leave out the joints that are
@@ -85,7 +89,8 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
     clip-after 2: your result is Day 3's damped step without the weights, clamped. If
       one joint is held at its bound, the other joints should compensate, so solve the
       bounded problem
-    damping-weighted: your code multiplies the damping by the mean of the weights
+    damping-weighted: your code multiplies the damping by the mean of the weights, but
+      the damping has no weight
     stands-still-allowed: your code widens the bounds until they contain 0, but a joint
       beyond its range should move back into it
     translation-only: your code uses only the translation part of the error. Use all six

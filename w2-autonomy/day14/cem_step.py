@@ -75,7 +75,7 @@ def _(mean, std, noise, scores, elite):
       second
     nan-is-zero: your code treats a NaN as a score of 0. It is worse than all other
       scores
-    elite-one-less: your elite has one sample too few
+    elite-one-less: your elite has one sample too few. Does your slice end too early?
     weighted: your code weights the elite samples by their rank. All should have the
       same weight
     weighted 2: your code weights the elite samples by their scores. All should have the

@@ -118,7 +118,8 @@ def _(W, weights):
       1e-16 even if the forces balance, so compare W w with a tolerance
     rank-by-rounding: your rank uses NumPy's default tolerance. It should be 1e-9 times
       the largest singular value
-    weights-not-used: your code adds the columns of W without their weights
+    weights-not-used: your code adds the columns of W without their weights. Test W w
+      instead
     forces-only: your code tests only the forces. The moments must balance, too
     moments-only: your code tests only the moments. The forces must balance, too
     sum-of-all: your code adds all components of W w, so they can cancel. Test each row

@@ -71,7 +71,8 @@ for slug, says, blocks in (
     ("dry-one-way", "your dry friction is 0 where qd is negative. It should be -1 "
                     "there",
      lambda qd, qdd: (qdd, qd, np.maximum(np.sign(qd), 0.0))),
-    ("dry-forgotten", "your seven columns of dry friction are 0",
+    ("dry-forgotten", "your seven columns of dry friction are 0. They should contain "
+                      "the signs of the joints' velocities",
      lambda qd, qdd: (qdd, qd, 0 * qd)),
 ):  # fmt: skip
     row.wrong(slug, says)(lambda qd, qdd, blocks=blocks: side_by_side(*blocks(qd, qdd)))

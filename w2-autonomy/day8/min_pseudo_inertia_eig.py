@@ -66,7 +66,8 @@ for slug, says, code in (
                                 "m c",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, h=1.0 / phi[0]))[0]),
     ("determinant", "your result is the determinant, which is the product of all "
-                    "eigenvalues", lambda phi: np.linalg.det(pseudo(phi))),
+                    "eigenvalues. Return the smallest eigenvalue",
+     lambda phi: np.linalg.det(pseudo(phi))),
     ("singular-value", "your result is the smallest singular value, which is never "
                        "negative. The sign of the eigenvalue matters",
      lambda phi: np.linalg.svd(pseudo(phi), compute_uv=False)[-1]),

@@ -115,7 +115,7 @@ for slug, says, told in (
                           "result is the square of the condition number of Y",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), (s[0] / s[n - 1]) ** 2)),
     ("condition-rooted", "your condition number is the square root of the ratio. Only "
-                         "the eigenvalues of Y^T Y need a square root, but the "
+                         "the eigenvalues of Y^T Y need a square root, and the "
                          "singular values do not",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), np.sqrt(s[0] / s[n - 1]))),
     ("condition-inverted", "your code inverts the condition number. Divide the largest "
