@@ -498,6 +498,7 @@ def what_is_wrong(case: Case, S: Parts, T: Parts, counted: bool = True) -> Findi
             found = _in_some_calls(found, int(wrong.sum()), len(wrong))
     says = of_result(found.message, kind.called if len(S) > 1 else "")
     says = f"{_right_results(case, S, T)}{says}{where}{_wrong_too(case, S, T, i)}"
+    says = says.replace("by up to more than", "by more than")
     return Finding(found.slug, says)
 
 

@@ -26,7 +26,7 @@ from labkit.judge.ask import Ask, Case
 from labkit.judge.hypothesis import equals, evidence
 from labkit.judge.kinds import one_factor
 from labkit.judge.matcher import Calls, Code, Matcher
-from labkit.judge.mistake import Finding, Mistake
+from labkit.judge.mistake import REDONE, Finding, Mistake
 from labkit.judge.mutant import FAR, Mutant
 from labkit.judge.sentence import has_its_kind, of_mutants, own_line, shows, tells
 
@@ -139,9 +139,10 @@ def of_answers(m: Matcher) -> Finding | None:
 
 def _changed_answer(m: Matcher, i: int | None, says: str) -> Finding:
     called = m.ask.kinds[i].called if i is not None and len(m.T) > 1 else ""
-    what = f"{capitalised(called)} is" if called else "Your result is"
-    how = m.with_error(f"the correct result with this change {evidence(True)}")
-    return Finding("answer-changed", f"{what} the correct result, but {says}. {how}")
+    what = f"{called} correctly" if called else "the correct result"
+    how = m.with_error(f"{REDONE} {evidence(True)}")
+    says = f"Your code computes {what}, but then it {says}. {how}"
+    return Finding("answer-changed", says)
 
 
 def _with_result(i: int | None, change: Code, T: Parts) -> Parts:

@@ -80,7 +80,7 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
       both arguments
     limits-swapped: your code swaps the lower and the upper bounds. The lower bounds
       come first
-    limits-1: your code replaces the bounds by -1 and 1. Use the arguments lo and hi
+    limits-1: your code replaces the bounds by -1 and 1. Use dq_lo and dq_hi
     clipped-twice: your code clamps the step of Day 3, and it clamps a second step for
       the remaining error as well. The second step should leave out the joints that are
       held
