@@ -42,8 +42,8 @@ def _(q0, q1, t, T):
       q1 - q0
     rates-divided-again: your code divides the velocity and the acceleration by powers
       of the duration, but sd and sdd are already derivatives with respect to t
-    q-wrapped: your code wraps the angles to [-pi, pi]. A joint angle is not a
-      direction, because for example joint6 reaches 3.75 rad
+    q-wrapped: your code wraps the angles to [-pi, pi], but a joint angle is not a
+      direction. For example, joint6 can reach 3.75 rad
     way-wrapped: your code wraps the displacement to [-pi, pi]. A joint cannot rotate
       past its limits to shorten its path
     """

@@ -51,7 +51,7 @@ def _(normal, mu, k):
     last-of-equals: if two components of n have the same absolute value, your code uses
       the last one. Use the first
     largest-axis: your code uses the coordinate axis with the largest absolute component
-      of n. Use the smallest one
+      of n. Use the axis with the smallest one
     signed-least: your code uses the coordinate axis with the smallest component of n.
       Compare the absolute values
     axis-x-n: your direction `a` is along axis x n. It should be along n x axis,
