@@ -52,7 +52,7 @@ class TestAnIndex:
             (
                 lambda x, at: int(np.argmin(np.abs(x - at))) + 1,
                 "counted-from-one",
-                "The index is counted from 1; it should be counted from 0.",
+                "Your index is counted from 1. It should be counted from 0.",
             ),
             (
                 lambda x, at: float(np.argmin(np.abs(x - at))),
@@ -93,7 +93,7 @@ class TestATruthValue:
         [
             (lambda x, sure: bool(x > 0.0 and not sure), "", ""),
             (lambda x, sure: np.bool_(x > 0.0 and not sure), "", ""),
-            (lambda x, sure: not (x > 0 and not sure), "inverted", "are swapped"),
+            (lambda x, sure: not (x > 0 and not sure), "inverted", "code swaps True and False"),
             (
                 lambda x, sure: x > 0.0,
                 "too-often-true",
@@ -237,12 +237,12 @@ class TestATuple:
             (
                 lambda i, point, free: (i, (point, not free)),
                 "inverted",
-                "Free: True and False are swapped",
+                "Free: your code swaps True and False",
             ),
             (
                 lambda i, point, free: (i, (-point, free)),
                 "all-signs",
-                "Every sign is wrong.",
+                "Every sign of your result is wrong.",
             ),
             (
                 lambda i, point, free: (float(i), (point, free)),
@@ -324,7 +324,7 @@ class TestNone:
                 "none-or-not",
                 "Your function returns None for 1 input with an answer",
             ),
-            (lambda p, x: None if x < 0 else -x * p, "all-signs", "Every sign is"),
+            (lambda p, x: None if x < 0 else -x * p, "all-signs", "Every sign of your result is"),
             (lambda p, x: None if x < 0 else p + x**3, "off", "off by up to"),
         ],
     )

@@ -177,7 +177,7 @@ ONE_EACH = np.arange(8) == np.arange(6)[:, None]
     [
         (MASKS, "", ""),
         (MASKS.astype(int), "", ""),
-        (~MASKS, "inverted", "True and False are swapped"),
+        (~MASKS, "inverted", "our code swaps True and False"),
         (np.ones_like(MASKS), "ignores-its-input", "does not depend on the input"),
         (MASKS | ONE_EACH, "too-often-true", "returned True in 3 cases where"),
         (MASKS & ~ONE_EACH, "too-seldom-true", "Your function returned False"),
@@ -245,7 +245,7 @@ def test_pixels_of_several_sizes_may_be_shifted_too():
     ("change", "slug", "says"),
     [
         (lambda p: p + 0.5, "shifted", "off by the same (0.5, 0.5)"),
-        (lambda p: p[..., ::-1], "row-first", "The row comes first"),
+        (lambda p: p[..., ::-1], "row-first", "Your code puts the row first"),
         (lambda p: 2.0 * p, "one-factor-off", "2 times"),
         (np.trunc, "whole-numbers", "truncated to whole numbers"),
     ],

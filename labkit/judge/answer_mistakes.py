@@ -46,24 +46,26 @@ def _mistakes(text: str, redo: Mapping[str, Change]) -> list[Mistake]:
 
 GENERAL = _mistakes(
     """
-    all-signs: every sign is wrong
+    all-signs: every sign of your result is wrong
     whole-numbers: your values are truncated to whole numbers, because your array has an
       integer dtype. Create the array with floats
-    transposed: the matrix is transposed
-    reshaped: the array is reshaped where it should be transposed; only .T turns rows
-      into columns
-    rows-swapped: the rows are (v; omega); the rows of omega come first
-    inverse: the result is the inverse, the information matrix; it should be the
+    transposed: your matrix is transposed
+    reshaped: your code reshapes the array where it should transpose it. Only .T turns
+      rows into columns
+    rows-swapped: your rows are in the order (v; omega). The rows of omega should come
+      first
+    inverse: your result is the inverse, the information matrix. It should be the
       covariance
-    sigma-for-variance: the entries are standard deviations; a covariance has their
+    sigma-for-variance: your entries are standard deviations, but a covariance has their
       squares
-    halves-swapped: the two halves are swapped: {halves[0]} comes first, then
-      {halves[1]}
-    blocks-swapped: the blocks are in the order (v; omega); omega comes first
-    counted-from-one: the index is counted from 1; it should be counted from 0
-    one-too-small: the index is one too small
-    inverted: True and False are swapped
-    row-first: the row comes first; a pixel is (column, row), so x comes before y
+    halves-swapped: your two halves are swapped. The first should be {halves[0]}, the
+      second {halves[1]}
+    blocks-swapped: your blocks are in the order (v; omega), but omega comes first
+    counted-from-one: your index is counted from 1. It should be counted from 0
+    one-too-small: your index is one too small
+    inverted: your code swaps True and False
+    row-first: your code puts the row first. A pixel is (column, row), so x comes before
+      y
     """,
     {
         "all-signs": np.negative,

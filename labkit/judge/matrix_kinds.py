@@ -51,7 +51,7 @@ class Matrix(Kind):
                 names = ", ".join(self.blocks[i] for i in order)
                 yield Mistake(
                     "blocks-in-another-order",
-                    f"the blocks are in the order {names}. The correct order is "
+                    f"your blocks are in the order {names}. The correct order is "
                     f"{', '.join(self.blocks)}",
                     partial(_in_blocks, order=order),
                 )
