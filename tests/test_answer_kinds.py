@@ -93,7 +93,7 @@ class TestATruthValue:
         [
             (lambda x, sure: bool(x > 0.0 and not sure), "", ""),
             (lambda x, sure: np.bool_(x > 0.0 and not sure), "", ""),
-            (lambda x, sure: not (x > 0 and not sure), "inverted", "code swaps True and False"),
+            (lambda x, sure: not (x > 0 and not sure), "inverted", "swaps True"),
             (
                 lambda x, sure: x > 0.0,
                 "too-often-true",
@@ -324,7 +324,7 @@ class TestNone:
                 "none-or-not",
                 "Your function returns None for 1 input with an answer",
             ),
-            (lambda p, x: None if x < 0 else -x * p, "all-signs", "Every sign of your result is"),
+            (lambda p, x: None if x < 0 else -x * p, "all-signs", "Every sign"),
             (lambda p, x: None if x < 0 else p + x**3, "off", "off by up to"),
         ],
     )

@@ -251,7 +251,8 @@ class Vector(Kind):
             return Finding("off", f"The result is off by up to {self.apart(S, T)}.")
         names = [f"{name}'s" for name in self.names] or counted
         where = " and ".join(names[i] for i in np.flatnonzero(off))
-        says = f"All entries are right except {where}: off by up to {self.apart(S, T)}."
+        says = f"All entries are right except {where}. The largest error is "
+        says += f"{self.apart(S, T)}."
         return Finding("few-entries-off", says)
 
 
@@ -332,5 +333,5 @@ def few_told(where: str, wrong: Array, off: str) -> Finding:
     if 2 * wrong.any(axis=1).sum() < len(wrong):
         says = f"Some calls are right. In the others, only {where} is wrong: off by"
         return Finding("few-entries-off", f"{says} up to {off}.")
-    says = f"All entries are right except {where}: off by up to {off}. Look for a wrong"
-    return Finding("few-entries-off", f"{says} sign, letter or factor.")
+    says = f"All entries are right except {where}. The largest error is {off}. Look for"
+    return Finding("few-entries-off", f"{says} a wrong sign, letter or factor.")

@@ -20,12 +20,12 @@ def _(rng):
 
 @row.wrongs
 def _(w):
-    """p-cross-w: your code reverses every sign, so it returns the transpose of [w],
-      which computes p x w
-    no-minus: your code sets every sign to plus, but [w] is antisymmetric
+    """p-cross-w: your code reverses every sign, so it returns the transpose of the
+      matrix, which computes p x w
+    no-minus: your code sets every sign to plus, but the matrix should be antisymmetric
     outer-product: your code returns the outer product w w^T, which projects onto w
       instead of computing w x p
-    on-the-diagonal: your code puts w on the diagonal, but the diagonal of an
+    on-the-diagonal: your code puts the vector on the diagonal, but the diagonal of an
       antisymmetric matrix is 0
     """
     x, y, z = w

@@ -28,8 +28,8 @@ def where_the_angle_fails(case: Case) -> Finding | None:
         )
     some = off & by_pi
     i = np.flatnonzero(some)[0]
-    says = f"At an angle {np.pi - angle[i]:.0e} rad below pi your answer is off by "
-    says += f"{np.abs(S[i] - T[i]).max():.2g}."
+    says = f"For an angle {np.pi - angle[i]:.0e} rad below pi, your result is off by "
+    says += f"{np.abs(S[i] - T[i]).max():.2g} rad."
     return _near_pi(S, T, some, says)
 
 
@@ -38,21 +38,21 @@ def _near_pi(S: Array, T: Array, some: np.ndarray, says: str) -> Finding:
     if difference(S[some], -T[some]).max() < OFF:
         return Finding(
             "sign-near-pi",
-            f"{says} The axis is correct there, but its sign is not: R - R^T is "
-            "small, and it still gives the sign.",
+            f"{says} The axis is correct, but its sign is not. R - R^T is small "
+            "there, but it still gives the sign.",
         )
     if one_of_two[some].max() > OFF and _alike(np.abs(S[some]), np.abs(T[some])):
         return Finding(
             "signs-near-pi",
-            f"{says} The entries are correct there except for their signs, which a "
-            "root of the diagonal loses. Which column of R + R^T has them?",
+            f"{says} The entries are correct except for their signs, which a "
+            "square root of the diagonal loses. Which column of R + R^T has them?",
         )
     if found := _set_to_pi(S, T, some):
         return found
     return Finding(
         "wrong-near-pi",
-        f"{says} R - R^T is nearly 0 there: is it divided by the sine, which "
-        "amplifies its rounding errors?",
+        f"{says} R - R^T is nearly 0 there. Does your code divide it by the sine, "
+        "which amplifies its rounding errors?",
     )
 
 

@@ -142,14 +142,14 @@ def _half_there(S, M, T_goal, q) -> Finding | None:
     if move < 1e-8 and turn > 1e-4:
         says = (
             f"The hand's position is correct, but its rotation is {turn:.2g} rad off. "
-            "Does the loop step, stop or choose by the position alone?"
+            "Does your loop use only the position in its steps, test or choice?"
         )
         return Finding("position-only", says)
     if turn < 1e-8 and move > 1e-4:
         says = (
             "The hand's rotation is correct, but its position is "
-            f"{1000 * move:.2g} mm off. Does the loop step, stop or choose by the "
-            "rotation alone?"
+            f"{1000 * move:.2g} mm off. Does your loop use only the rotation "
+            "in its steps, test or choice?"
         )
         return Finding("rotation-only", says)
     return None
