@@ -21,7 +21,7 @@ A caller reads only the attribute `failed` of a result.
 """
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import mujoco
 
@@ -61,4 +61,14 @@ class Film(NamedTuple):
     moments: Sequence[str]  # phases whose beginnings a picture shows
     blocks: Callable[[Array], Sequence[Block]]  # blocks of a configuration, (nq,)
     model: Callable[[], mujoco.MjModel]  # the scene with the robot's looks
-    back: float  # how far back a camera stands: 1 suits an arm at ready
+    back: float = 1.2  # how far back a camera stands: 1 suits an arm at ready
+
+
+def film_of(result: Any, **scene: Any) -> Film:
+    """Return the film of a result.
+
+    Args:
+        result: has `seconds`, `t`, `qpos` and `phases`, as a `Film` has them.
+        scene: the other fields of the film.
+    """
+    return Film(result.seconds, result.t, result.qpos, result.phases, **scene)

@@ -26,13 +26,13 @@ from robo47 import (
     planning,
     scenes,
 )
-from robo47.attempt import Film
+from robo47.capstone.phases import CUBE_XY, GOAL_XY, YAW
 from robo47.checks import Array
 from robo47.delivery import result, scene
 from robo47.delivery.phases import PHASES, Asked, Delivery
 from robo47.delivery.result import Result
 from robo47.delivery.summary import HEAD as HEAD
-from robo47.delivery.summary import film_of
+from robo47.delivery.summary import film as film
 from robo47.delivery.summary import row as row
 from robo47.delivery.summary import summary as summary
 
@@ -40,10 +40,6 @@ NAME = "the delivery"
 THING = "cube"
 GOAL = "delivered: seen, weighed and put down within 10 mm, nothing touched"
 MORAL = "Delivered is no proof: look at the grams, the clearance and the residual."
-# Where `make capstone` has the cube, its goal, its yaw and its mass.
-CUBE_XY = (0.5, 0.2)  # m
-GOAL_XY = (0.5, -0.2)  # m
-YAW = 0.5  # rad
 MASS = 0.15  # kg: at Week 1's speed it slips out of the hand
 PUSH = 10.0  # N
 
@@ -123,11 +119,6 @@ def attempt(fns: Any, seed: int | None = None, **options: Any) -> Result:
     return found._replace(
         pushed=True, noticed_ms=pushed.noticed_ms, contact_link=pushed.link
     )
-
-
-def film(found: Result) -> Film:
-    """Return what a delivery of the cube from where it always is looked like."""
-    return film_of(found, CUBE_XY, YAW)
 
 
 def random_task(seed: int) -> tuple[Array, Array, float, float]:

@@ -15,7 +15,8 @@ import numpy as np
 from robo47 import scenes, simulate
 from robo47.arm import GRAVITY
 from robo47.capstone.arm import Law
-from robo47.capstone.phases import CLOSED, HOVER, OPEN, Phase, Task
+from robo47.capstone.phases import CLOSED, HOVER, Phase, Task
+from robo47.capstone.phases import PHASES as PICK
 from robo47.checks import Array
 from robo47.delivery.contact_monitor import ContactMonitor
 from robo47.delivery.path_planner import PathPlanner
@@ -32,19 +33,9 @@ INSTANTS = 41  # instants of a move at which its acceleration is checked
 PUSH_AFTER = 0.5  # s after the carry began
 EMPTY = 0.010  # kg: what weighs less is no cube
 
-PHASES = (
-    Phase("reach", "joint", "cube", HOVER, OPEN),
-    Phase("descend", "line", "cube", 0.0, OPEN),
-    Phase("close", "hold", "cube", 0.0, CLOSED),
-    Phase("lift", "line", "cube", HOVER, CLOSED),
-    Phase("weigh", "weigh", "cube", HOVER, CLOSED),
-    Phase("carry", "joint", "goal", HOVER, CLOSED),
-    Phase("put down", "line", "goal", 0.0, CLOSED),
-    Phase("open", "hold", "goal", 0.0, OPEN),
-    Phase("leave", "line", "goal", HOVER, OPEN),
-    Phase("go home", "joint", "", 0.0, OPEN),
-    Phase("rest", "rest", "", 0.0, OPEN),
-)
+LIFTED = 1 + [phase.name for phase in PICK].index("lift")
+WEIGH = Phase("weigh", "weigh", "cube", HOVER, CLOSED)
+PHASES = (*PICK[:LIFTED], WEIGH, *PICK[LIFTED:])
 
 
 class Asked(NamedTuple):
@@ -99,10 +90,7 @@ class Delivery(Task):
     def _go(self, phase: Phase, rate: float) -> None:
         """Plan a joint move and drive it."""
         q = self._q()
-        goal = READY_Q
-        if phase.over:
-            goal, reach = self.arm.way_point(self._tool(phase), q)
-            self.manipulability = min(self.manipulability, reach)
+        goal = self._joint_goal(phase, q)
         way = self.ways.find(q, goal) if self.asked.planned else np.array([q, goal])
         self.speed = SPEEDS[0]
         if phase.name == "carry":
@@ -203,11 +191,6 @@ class Delivery(Task):
             change = np.diff(at, 2, axis=0) / (t[1] - t[0]) ** 2
             most = max(most, float(np.linalg.norm(change, axis=1).max()))
         return most
-
-    def _seconds(self, q0: Array, q1: Array, speed: float) -> float:
-        v = speed * simulate.SPEED_LIMITS
-        a = speed * simulate.ACC_LIMITS
-        return float(self.fns.quintic_duration(q1 - q0, v, a))
 
     def _disturb(self) -> None:
         """Push the hand from now on a little later, if asked to."""

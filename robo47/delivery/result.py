@@ -52,13 +52,8 @@ class Result(NamedTuple):
 
 def of(task: Delivery) -> Result:
     """Return what came of a task, as far as it went."""
-    qpos = np.array([seen for run in task.runs for seen in run.seen])
-    cube = qpos[:, task.cube : task.cube + 3]
-    names = [name for name, _ in task.phases]
-    # the first index of each leg
-    first = [i for i, name in enumerate(names) if name not in names[:i]]
     return Result(
-        place_mm=1e3 * float(np.linalg.norm(cube[-1] - task.goal)),
+        **task.log(),
         seen_mm=1e3 * float(np.linalg.norm((task.seen - task.stood)[:3, 3])),
         grams=1e3 * task.weighed,
         mass=task.asked.mass,
@@ -69,11 +64,7 @@ def of(task: Delivery) -> Result:
         contact_link=task.watching.link if task.asked.push else 0,
         noticed_ms=1e3 * (task.felt_at - task.pushed_at),
         stopped=task.stopped,
-        seconds=task.now,
         looks=task.ways.looks,
-        phases=[task.phases[i] for i in first],
-        t=np.linspace(task.now / len(qpos), task.now, len(qpos)),
-        qpos=qpos,
         pushed=bool(task.asked.push),
     )
 

@@ -3,9 +3,10 @@
 Units: metres and seconds, in sentences millimetres, grams and milliseconds.
 """
 
-from robo47 import depth_camera, scenes, se3
-from robo47.attempt import Block, Film, Summary
-from robo47.capstone.summary import ARM, CUBE, TABLE, phase_lines
+from robo47 import depth_camera
+from robo47.attempt import Block, Film, Summary, film_of
+from robo47.capstone.phases import CUBE_XY, YAW
+from robo47.capstone.summary import TABLE, cube_block, phase_lines
 from robo47.checks import Array
 from robo47.delivery import scene
 from robo47.delivery.contact_monitor import THRESHOLD
@@ -80,32 +81,21 @@ def figures(result: Result) -> list[tuple[str, str, str]]:
     return found
 
 
-def film_of(result: Result, cube_xy: tuple[float, float], yaw: float) -> Film:
-    """Return what a delivery looked like.
-
-    Args:
-        result: of the delivery.
-        cube_xy: where the cube stood, metres, (2,).
-        yaw: its rotation about z then, radians.
-    """
-    return Film(
-        seconds=result.seconds,
-        t=result.t,
-        qpos=result.qpos,
-        phases=result.phases,
+def film(result: Result) -> Film:
+    """Return the film of a delivery of the cube of `make capstone`."""
+    return film_of(
+        result,
         moments=MOMENTS,
         blocks=_blocks,
-        model=lambda: scene.table_with_wall(cube_xy, yaw, result.mass, meshes=True),
-        back=1.2,
+        model=lambda: scene.table_with_wall(CUBE_XY, YAW, result.mass, meshes=True),
     )
 
 
 def _blocks(qpos: Array) -> list[Block]:
-    """Return table, wall and eye, and the cube where a configuration, (16,), has it."""
-    cube = se3.make_T(se3.quat_to_R(qpos[ARM + 3 : ARM + 7]), qpos[ARM : ARM + 3])
+    """Return the table, the wall, the eye and the cube in a configuration, (16,)."""
     still = zip(scene.boxes(), (TABLE, WALL), strict=True)
     return [
         *[Block(T, tuple(half), colour) for (T, half), colour in still],
         Block(depth_camera.look_at(scene.EYE_AT, scene.EYE_TO), scene.EYE_HALF, EYE),
-        Block(cube, (scenes.CUBE_HALF,) * 3, CUBE),
+        cube_block(qpos),
     ]
