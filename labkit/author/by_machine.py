@@ -23,7 +23,7 @@ from labkit.judge.row import Row, Way
 from labkit.lesson.day import Day
 from labkit.sandbox.inside import wire
 
-SEED = 47  # of the drawn inputs
+SEED = 47  # the seed of the sampled inputs
 
 
 class Told(NamedTuple):
@@ -33,7 +33,7 @@ class Told(NamedTuple):
     entry: str  # its sentence
     machine: str  # the machine's
     source: str  # "argument", "slip": where the machine's name comes from
-    shown: bool  # whether it shows what is wrong, and not only of which kind it is
+    shown: bool  # the sentence shows the mistake, and not only its kind
 
 
 def told_by_machine(day: Day, row: Row) -> Iterator[Told]:
@@ -96,7 +96,7 @@ def _reply(code: Callable[..., Any], one: Exchange) -> Reply:
     try:
         with np.errstate(all="ignore"):
             value = wire.unpack_value(wire.pack_value(code(*args)))
-    except Exception as error:  # as a student's may
+    except Exception as error:  # a student's function may raise any error
         return Reply(error=str(error), kind=type(error).__name__)
     return Reply(value=value, again=value)
 

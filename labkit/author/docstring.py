@@ -27,7 +27,7 @@ _NAMES = {"np": np, "True": True, "False": False, "None": None} | {
     name: getattr(np, name) for name in _PLAIN
 }
 FIRST = 3  # questions that a docstring in words may be about
-EXACT = 1e-9  # of a number without decimals, relative
+EXACT = 1e-9  # the relative tolerance of a number without decimals
 
 
 def faults_of(row: Row) -> Iterator[str]:
@@ -228,7 +228,7 @@ def _told(text: str, arguments: Sequence[str]) -> list[tuple[str, str]]:
             told.append((found[shape.start()], shape[1]))
         elif shape.end() <= len(first) and text[shape.start() - 2 :][:1] == ",":
             answers.append(("", shape[1]))
-    # Of several it is not told which is whose.
+    # Several answers do not show to which result each belongs.
     return [*told, *answers] if len(answers) == 1 else told
 
 

@@ -22,7 +22,7 @@ OUTPUTS = re.compile(r"<!-- \w+: .*?<!-- end -->", re.DOTALL)  # made anew
 class Moved(NamedTuple):
     """What became of a day."""
 
-    files: list[tuple[Path, Path]]  # from where, to where
+    files: list[tuple[Path, Path]]  # pairs of the old and the new path
     left: list[str]  # places that name it and were not touched: "file, line 3: text"
 
 

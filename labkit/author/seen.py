@@ -23,12 +23,12 @@ from robo47 import panda
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
-APART = 40  # of 255: more than drivers' rounding, or another palette
-SHARE = 0.002  # of the pixels that may be so far apart
-SECONDS = 60.0  # for a tab to have all that it asked for
+APART = 40  # a difference over 40 of 255 is no rounding of a driver, and no palette
+SHARE = 0.002  # the fraction of the pixels that may differ so much
+SECONDS = 60.0  # the time that a tab has to load everything
 LONGEST = 600.0  # seconds for all tabs of a day
 CALM = 6  # looks at a tab in a row at which nothing was under way
-# What a panel says of a tab that stopped, and of functions that are not the library's.
+# The lines of a panel about a tab that stopped, or functions outside the library.
 _BAD = re.compile(
     r'<div class="[^"]*\br47-bad\b[^"]*" data-line="(?:tab|whose)"[^>]*>(.*?)</div>',
     re.DOTALL,

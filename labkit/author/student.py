@@ -22,12 +22,12 @@ from labkit.report.week_labs import run_labs
 from labkit.sandbox.sandbox import Sandbox
 from robo47.paths import shown
 
-# What to do where the lab's own function takes longer than its task has.
+# The remedy if the lab's own function takes longer than its task has.
 TOO_SLOW = (
     " To do: `seconds = 60` of the task in day.toml, or smaller inputs; where the "
     "lab's function is not what takes longest, say Row(..., seconds=...)"
 )
-OWN = b"\n\nA_STUDENT_S_OWN = 1\n"  # or it would be the kit's file, which is not graded
+OWN = b"\n\nA_STUDENT_S_OWN = 1\n"  # the kit's own file would not be graded
 
 
 def check(day: Day, task: str) -> Iterator[str]:
