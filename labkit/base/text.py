@@ -15,11 +15,12 @@ import re
 import unicodedata
 from collections.abc import Callable, Mapping
 
-Maker = Callable[[str, str], str]  # from the request and the old content to the new
+# Maps a request and the old content to the new content.
+Maker = Callable[[str, str], str]
 
 LENGTH, LINE = 500, 200  # characters
-_END = "<!-- end -->"  # of a block
-# What a terminal or a page obeys instead of showing it: controls, line and paragraph
+_END = "<!-- end -->"  # the last line of a block
+# A terminal or a page obeys these instead of showing them: controls, line and paragraph
 # separators, and format characters, which include those of the reading direction.
 _OBEYED = {"Cc", "Cf", "Zl", "Zp"}
 
@@ -49,7 +50,7 @@ def visible(text: object, length: int = LENGTH) -> str:
     """
     whole = str(text)
     kept = whole[: 2 * length + 2]
-    plain = kept.isascii() and kept.isprintable()  # as most are
+    plain = kept.isascii() and kept.isprintable()  # most texts are plain
     shown = (kept if plain else "".join(map(_one, kept))).strip()
     if len(shown) <= length and len(whole) <= 2 * length + 2:
         return shown
