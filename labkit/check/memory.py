@@ -37,7 +37,7 @@ class Entry(NamedTuple):
     """How a task stood from a moment on."""
 
     task: str  # its id
-    status: str  # as in a verdict
+    status: str  # the status of a verdict
     mistake: str  # its name, "" where it has none
     says: str = ""  # the first sentence of what the checker said of it
 
@@ -51,7 +51,7 @@ class Met(NamedTuple):
     # file as it is found it, "not checked since" where there was none, "not right yet"
     # where that check found something else.
     now: str
-    says: str = ""  # what the checker said of it when it was met, in a sentence
+    says: str = ""  # the checker's sentence when the student first met it
 
 
 def known(day: Day) -> dict[str, str]:
@@ -114,7 +114,7 @@ def note(results: Sequence["TaskResult"], root: Path = ROOT) -> None:
     for result in results:
         known = last.get(result.task.id)
         verdict = result.verdict
-        # What follows from another task is no mistake of its own.
+        # A failure that follows from another task is no mistake of its own.
         mistake = "" if verdict.follows else verdict.mistake
         says = _sentence(verdict.message) if mistake else ""
         now = Entry(result.task.id, verdict.status, mistake, says)

@@ -25,15 +25,15 @@ _LABEL = {
     "borrowed": "borrowed",
     "unfinished": "passed as far as it was run",
 }
-_COLOUR = {"passed": "32", "wrong": "31"}  # of all others: yellow
-_INDENT = 7  # where a message starts
+_COLOUR = {"passed": "32", "wrong": "31"}  # every other status is yellow
+_INDENT = 7  # the column at which a message starts
 
 
 @dataclass(frozen=True)
 class Report:
     """One check of a day."""
 
-    day: Day  # from the manifest
+    day: Day  # the day, read from its manifest
     tasks: Sequence[TaskResult]  # one result per task that was checked
     # One per deliverable; empty when one task alone was checked.
     items: Sequence["Item"] = ()
@@ -175,7 +175,7 @@ def state_of(report: Report, result: TaskResult) -> tuple[str, str, list[str]]:
 
 
 def _status(report: Report, result: TaskResult) -> str:
-    verdict = result.verdict  # of what is to do, its mistake may say why
+    verdict = result.verdict  # a task to do can have its mistake as its label
     status = verdict.mistake if verdict.mistake in _LABEL else verdict.status
     status = "valid" if verdict.valid else status
     return "unjudged" if report.problem else status
