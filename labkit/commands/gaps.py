@@ -53,8 +53,8 @@ PUT_IN = (
     "{0}.astype(np.float32)",
 )
 _TURNED = {ast.Lt: ast.GtE, ast.LtE: ast.Gt, ast.Gt: ast.LtE, ast.GtE: ast.Lt}
-SECONDS = 5  # of one call; what takes longer is noticed
-SEED = 47  # of the drawn inputs: a change that they alone notice is noticed by chance
+SECONDS = 5  # the limit of one call; a slower call counts as detected
+SEED = 47  # the seed of the sampled inputs
 
 
 class Change(NamedTuple):
@@ -133,7 +133,8 @@ def _is_0(node: ast.expr) -> bool:
 def _statements(tree: ast.Module) -> dict[int, ast.AST]:
     """Return the smallest statement around each node, by the node's id."""
     found: dict[int, ast.AST] = {}
-    for one in ast.walk(tree):  # from the outside in: the smallest comes last
+    # Outer nodes come first, so the smallest statement remains.
+    for one in ast.walk(tree):
         if isinstance(one, ast.stmt):
             found |= {id(node): one for node in ast.walk(one)}
     return found

@@ -23,10 +23,11 @@ from labkit.base import cli, processes
 from labkit.lesson.week import weeks
 from robo47.paths import ROOT
 
-THREE = ("Prescott", "Haswell", "SkylakeX")  # without AVX, with AVX2, with AVX-512
+THREE = ("Prescott", "Haswell", "SkylakeX")  # these have no AVX, AVX2 and AVX-512
 MARKS = "not soak and not browser and not network"
 DOCUMENTS = "tests/test_docs.py"  # one of them runs every command of the documents
-NO_AVX = {"NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4"}  # of NumPy's own loops
+# This setting is for NumPy's own loops.
+NO_AVX = {"NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4"}
 # Prints whose kernels OpenBLAS takes, after it has used them; nothing without OpenBLAS.
 PROBE = """
 import ctypes, pathlib, numpy
@@ -36,7 +37,7 @@ for path in pathlib.Path(numpy.__file__).parents[1].glob("numpy.libs/*openblas*"
     name.restype = ctypes.c_char_p
     print(name().decode())
 """
-OLDER = {"Katmai": "Prescott"}  # what OpenBLAS calls itself where it was asked for that
+OLDER = {"Katmai": "Prescott"}  # OpenBLAS's own name for a kernel that was requested
 
 
 def environment(kernel: str) -> dict[str, str]:

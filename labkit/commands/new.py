@@ -23,8 +23,10 @@ from labkit.lesson.week import weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
-TEMPLATES = Path(__file__).parent / "templates"  # with $number, $name, $week
-COPIED = ("Makefile", "src/kit.py", "docs/RETRO_w{}.md")  # from another week
+# The files contain $number, $name and $week.
+TEMPLATES = Path(__file__).parent / "templates"
+# These files are copied from another week.
+COPIED = ("Makefile", "src/kit.py", "docs/RETRO_w{}.md")
 LAST_DAY = 47
 
 

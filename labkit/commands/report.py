@@ -52,7 +52,7 @@ def main() -> int:
     heading = describe(args, report)
     out = args.out or args.file.parent
     shown_weeks = [] if filtered else begun(report)
-    if asked_week:  # of the others, those that an earlier run wrote
+    if asked_week:  # the pages of the other weeks may be there from an earlier run
         shown_weeks = [w for w in shown_weeks if (out / page_of(w)).is_file()]
     else:
         checked = {day.number: last_check(day) for day in days} if mine else {}

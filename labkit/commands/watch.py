@@ -169,7 +169,8 @@ def watch(day: Day, only: str | None, file: Path | None = None) -> int:
                 return cli.EXIT_FAILED if loop.open() else cli.EXIT_OK
             if key:
                 pressed(key, loop, keys)
-                clear = stamps(day, loop.script) == seen  # else what it said is lost
+                # A cleared screen would lose the output of the key.
+                clear = stamps(day, loop.script) == seen
 
 
 def _saved(loop: Loop, keys: Keys, *, clear: bool = True) -> bool:
@@ -181,7 +182,8 @@ def _saved(loop: Loop, keys: Keys, *, clear: bool = True) -> bool:
     try:
         done = _go_on(loop)
         if not done and not loop.only and not loop.sure:
-            with cli.busy("asking the others again"):  # on a terminal, until they are
+            # A terminal shows this while the tasks run.
+            with cli.busy("asking the others again"):
                 loop.check(None)
             loop.sure = True
     except Robo47Error as error:  # a file may be away while an editor saves it
@@ -191,7 +193,7 @@ def _saved(loop: Loop, keys: Keys, *, clear: bool = True) -> bool:
         return True
     if left := loop.open():
         quest = left[0].optional and not loop.only
-        if not quest:  # else the day's end has said it
+        if not quest:  # the end of the day has said it already
             print(f"\n{loop.far()}")
         print(f"\n{'A side quest is left. ' if quest else ''}{loop.shown(left[0])}")
     asked = KEYS if keys.there else "Ctrl-C ends it"
