@@ -32,7 +32,7 @@ class Again:
     """Whose work is graded again though it has not changed; by default nobody's."""
 
     everybody: bool = False
-    folders: Collection[str] = ()  # or theirs, and what the others have stays
+    folders: Collection[str] = ()  # the folders of those who are graded again
 
     def asks_for(self, folder: str) -> bool:
         """Return whether a student's work is."""
@@ -43,14 +43,14 @@ class Again:
 class Classroom:
     """One class on the way to its grades for a day."""
 
-    students: Sequence[Student]  # from the roster
-    day: Day  # from the kit's manifest
+    students: Sequence[Student]  # the students, read from the roster
+    day: Day  # the day, read from the kit's manifest
     journal: Journal  # results so far
     _: KW_ONLY
     again: Again = Again()
-    frozen: bool = False  # what another version of the kit gave stays
-    keep: str = "last"  # or "best" of all results of somebody
-    # What to add to a student's error, by folder.
+    frozen: bool = False  # results of another version of the kit stay
+    keep: str = "last"  # "last", or "best" of all results of a student
+    # Additions to a student's error, by folder.
     notes: Mapping[str, str] = field(default_factory=dict)
 
     def grade(self, engine: Engine, feedback: Path) -> Course:
@@ -75,7 +75,7 @@ class Classroom:
             found = self._graded(one, package, result)
             text = f"{one.name}\n\n{found.result.text}"
             write(feedback / f"{one.file}.txt", printable(text).encode("utf-8"))
-            # without the text, so that a week takes the memory of a day
+            # The text is left out, so that a week takes the memory of a day.
             result = replace(found.result, text="")
             unseen = tuple(_hidden(package, self.day, result))
             graded[one.folder] = replace(found, result=result, hidden=unseen)

@@ -62,13 +62,13 @@ class Hunter:
 
     student: Student
     state: str  # one of `STATES`
-    why: str = ""  # of the last two
-    runs: int = 0  # as hunt.json says
+    why: str = ""  # the reason for one of the last two states
+    runs: int = 0  # the number in hunt.json
     checks: int = 0
     suspected: Sequence[tuple[str, str]] = ()  # function, what was expected, in order
     innocent: Sequence[str] = ()  # right functions that were written anew
-    odd: Sequence[str] = ()  # what contradicts the script
-    said: str = ""  # what the checker says of a repair that is not right
+    odd: Sequence[str] = ()  # statements that contradict the script
+    said: str = ""  # the checker's sentence about a wrong repair
     wrong: int = 0  # functions that were right, and suspected or written anew
     fault: bool = False  # this machine failed: it is tried again at the next run
 
@@ -113,11 +113,11 @@ class HuntPackage:
 
     day: int  # its number
     level: int
-    seed: int  # of the mistake
+    seed: int  # the seed of the mistake
     files: Files
     kit: str  # fingerprint of the kit that collected it
     questions: int  # seed of the fresh inputs, the same for everybody
-    commit: str = ""  # what a journal keeps of a package, and a hunt does not show
+    commit: str = ""  # a journal needs this field; a hunt does not show it
     committed: int | None = None
 
     @property

@@ -98,7 +98,7 @@ class Journal:
         self.deadline = False
         self.seed = secrets.randbits(32)
         self.odd = self.outdated = 0
-        self._last: dict[str, Kept] = {}  # by folder
+        self._last: dict[str, Kept] = {}  # the last result by folder
         self._best: dict[str, Kept] = {}
         self._written: dict[str, Any] = {}  # the last header
         try:
@@ -167,7 +167,8 @@ class Journal:
         late = self.deadline and at is not None and at > self.reference
         if (
             rival is None
-            or rival.result.seed != kept.result.seed  # which is no longer asked
+            # A result of another seed counts no longer.
+            or rival.result.seed != kept.result.seed
             or (kept.result.score >= rival.result.score and not late)
         ):
             self._best[folder] = kept

@@ -28,7 +28,7 @@ from labkit.grade.roster import Student
 
 AT_ONCE = 8
 SECONDS = 300
-OURS = ".robo47-clones.json"  # beside the clones
+OURS = ".robo47-clones.json"  # a file beside the clones
 HEADS = "refs/heads/"
 SHOWN = 5  # branches that are named
 _NAME = re.compile(r"[^\0-\x20~^:?*\[\\\x7f]+")  # a name that git accepts for a branch
