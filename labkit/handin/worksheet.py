@@ -17,7 +17,7 @@ FEWEST_ANSWER_WORDS = 4  # "Its own: multiply right." answers a question
 PASTED = {FEWEST_WORDS: 2, FEWEST_ANSWER_WORDS: 3}  # times, by words
 LONGEST = 2000  # characters of a line that are looked at
 
-# What to do about a definition or a drawing, by how it stands.
+# The next action for a definition or a drawing, by its state.
 _DEFINE = {
     "empty": "Still empty: {}.",
     "short": f"Write a whole sentence (at least {FEWEST_WORDS} words): {{}}.",
