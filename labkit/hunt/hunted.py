@@ -34,7 +34,7 @@ class Lab(lessons.Lab):
     def __init__(self, file: str, about: str | None) -> None:
         """Read the command line and the day's manifest, as every lab does."""
         super().__init__(file, about)
-        self._quiet: list[bool] = []  # whether each of the checks not shown passed
+        self._quiet: list[bool] = []  # the results of the checks that are not shown
         names = "|".join(name for task in self.day.tasks for name in task.functions)
         self._names = re.compile(rf"\b({names})\b")
 

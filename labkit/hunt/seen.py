@@ -27,7 +27,7 @@ class Attempt(NamedTuple):
     """What one sees of a capstone."""
 
     line: str  # its row of numbers, or why it stopped
-    done: bool  # whether it came to an end
+    done: bool  # the attempt came to an end
     words: bool = True  # an exception's text is the kit's, not Python's
 
 
