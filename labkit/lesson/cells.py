@@ -27,7 +27,8 @@ _BLOCK = re.compile(rf"^{BEGIN}\n(.*?)^{END}\n\n?\n?", re.MULTILINE | re.DOTALL)
 class Cells:
     """What the cells of a notebook define at their top level; the last one counts."""
 
-    functions: dict[str, str] = field(default_factory=dict)  # by name, as text
+    # The text of each function, by name.
+    functions: dict[str, str] = field(default_factory=dict)
     others: dict[str, str] = field(default_factory=dict)  # imports and constants
     # Functions whose last cell does not parse: "line 2: '(' was never closed".
     broken: dict[str, str] = field(default_factory=dict)

@@ -110,7 +110,7 @@ class Lab:
     def _read_worksheet(self) -> str:
         try:
             data = (self.day.folder / self.day.worksheet).read_bytes()
-            return data.decode("utf-8")  # with its own line ends
+            return data.decode("utf-8")  # the line ends stay as they are
         except (OSError, UnicodeDecodeError):  # `make check` says so
             return ""
 

@@ -9,7 +9,7 @@ import re
 from collections.abc import Mapping
 
 _OPEN = re.compile(r"\*\([^*]*\)\*|[._\s…-]*")  # the template's own words, or none
-_HEAD = re.compile(r"number|what is wrong|[-: ]*")  # of the table; below it
+_HEAD = re.compile(r"number|what is wrong|[-: ]*")  # the head of the table
 _OURS = re.compile(r"(-?[\d.]+(?:e[-+]\d+)?) \(run of \d\d:\d\d\)")
 
 
