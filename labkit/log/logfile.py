@@ -20,8 +20,8 @@ from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
 OWN_LOG = ROOT / "metrics" / "metrics.csv"
-UNSAVED = ".unsaved"  # beside the log: rows that it could not take
-CUT = ".repairs"  # beside the log: lines that had no end when the next row came
+UNSAVED = ".unsaved"  # the file beside the log with rows that it could not take
+CUT = ".repairs"  # the file beside the log with lines that were cut off
 TRIES = 5
 # An echo takes no lock, and half of it shows while it is being written: look twice.
 MID_WRITE_S = 0.005

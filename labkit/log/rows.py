@@ -45,7 +45,7 @@ LONGEST = 131_072
 Cell = str | int | float | None
 Row = dict[str, Cell]
 
-# What would break "one row, one line" or "one UTF-8 file".
+# These characters would break "one row, one line" or "one UTF-8 file".
 _UNWRITABLE = re.compile("[\r\n\0\ud800-\udfff]")
 # A spreadsheet runs such a text as a formula; the apostrophe makes it plain text.
 _FORMULA = re.compile("'*[=+@-]")
