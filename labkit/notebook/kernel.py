@@ -40,12 +40,12 @@ from robo47.paths import ROOT, shown
 
 P = ParamSpec("P")
 R = TypeVar("R")
-ANSWERS = "answers.json"  # in the kit's memory: what was written into worksheets
-_STEP = r"^{}\. .*?(?=^\d+\. |^\n|\Z)"  # of a lab's output
-_TRACEBACK = r"^Traceback \(most.*?^(?=\w[\w.]*: )"  # without its last line
+ANSWERS = "answers.json"  # the entries of worksheets, in the kit's store
+_STEP = r"^{}\. .*?(?=^\d+\. |^\n|\Z)"  # a step of a lab's output
+_TRACEBACK = r"^Traceback \(most.*?^(?=\w[\w.]*: )"  # a traceback without its last line
 _KINDS = {str: "text in quotation marks", int: "a whole number"}
 _now: list[Day] = []  # the day that was begun last
-_brought = [0]  # how many of the executed cells were in step with the file last
+_brought = [0]  # the number of executed cells that were last in step with the file
 
 
 def polite(example: str) -> Callable[[Callable[P, R]], Callable[P, R | Said]]:

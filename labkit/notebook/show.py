@@ -17,7 +17,7 @@ from labkit.check.tasks import TaskResult
 from labkit.notebook.guide import typed
 from robo47.checks import Array
 
-_MARK = {"passed": "✓", "to do": "·"}  # of a state; of any other ✗
+_MARK = {"passed": "✓", "to do": "·"}  # every other state has ✗
 _CELL = "style='text-align:left;vertical-align:top;padding:.2em .8em'"
 
 
