@@ -29,7 +29,7 @@ class RunDay(DayFacts):
     again: Mapping[tuple[str, str], float] = field(default_factory=dict)
     fault: str = ""  # the first step of the lab that failed here, "" where none did
     unfinished: str = ""  # why the lab did not run to its end; "" if it did
-    # What the commit lacks of what is in the folder; "" where it has all.
+    # The files of the folder that the commit lacks; "" if it has all.
     left: str = ""
     commit: str = ""  # the commit that ran; "" if none is known
     worksheet: str = ""  # its text, with the predictions
