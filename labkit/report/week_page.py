@@ -101,7 +101,7 @@ def _numbers(facts: Sequence[OwnDay]) -> str:
         for one in facts
         for i, number in enumerate(one.numbers)
     ]
-    # What counts stands left: a phone shows the first four columns.
+    # A phone shows the first four columns, so the important ones come first.
     head = (
         "<th>day</th><th>number</th><th class=n>yours</th><th></th><th>limit</th>"
         "<th class=n>your worst on the way</th>"

@@ -14,7 +14,7 @@ from labkit.report.week_facts import OwnDay
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
-_MARKS = {  # after a number, what it is worth
+_MARKS = {  # a note that follows a number
     "pass": "",
     "none": "",
     "kit": "",
