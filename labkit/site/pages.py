@@ -35,7 +35,7 @@ LIVE = re.compile(
 )  # a figure of site/figures.js
 FIGURE = '```{raw} html\n<figure class="live" data-figure="\\1"></figure>\n```'
 COLAB = "https://colab.research.google.com/github"
-BRANCH = "notebooks"  # of the repository: nothing but the days' notebooks
+BRANCH = "notebooks"  # a branch of the repository with nothing but the days' notebooks
 FILMS = "films"  # their folder among the site's static files
 # On the site the arm's page is a click away, above all pictures.
 FIRST = re.compile(r"\A(# [^\n]+\n\n.+?\n\n)", re.DOTALL)  # title and paragraph
@@ -44,7 +44,7 @@ TRY = (
 )
 VERB = re.compile(
     r"^([a-z-]+)%?:.*?##(\d?) (.+)$", re.MULTILINE
-)  # in the form that `make help` reads
+)  # a line of `make help`
 TYPED = re.compile(r"\b[A-Z]+=[^\s,;]+|\B--[\w-]+|\b\w+/[\w.-]*\w")
 COMMANDS = """\
 # What to type: the commands
