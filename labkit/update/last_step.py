@@ -42,7 +42,7 @@ def take(worktree: Path, own: str) -> None:
     now = ask("rev-parse", "HEAD")
     to = ask("rev-parse", "HEAD", at=worktree)
     names = _changed(own, to)
-    # what is neither as in one commit nor as in the other
+    # A blocked path differs from both commits.
     if blocked := sorted(_unlike(to, names) & _unlike(own, names)):
         shown = ", ".join(blocked[:SHOWN]) + (", ..." if blocked[SHOWN:] else "")
         if ask("ls-tree", "--name-only", own, "--", *blocked[:SHOWN]):
@@ -97,7 +97,8 @@ def heal() -> None:
         if head in (now, to):
             ask("reset", "-q")
     with contextlib.suppress(FileNotFoundError, NotADirectoryError):
-        store.path_of(NOTE).unlink()  # else the student went on from there
+        # The note goes, since the student went on from there.
+        store.path_of(NOTE).unlink()
 
 
 def _changed(own: str, to: str) -> list[str]:
