@@ -48,7 +48,7 @@ MORAL = "A placed cube is no proof: compare the errors of the joints and of the 
 RATE = 100.0  # Hz, of the controller; 50 is coarse, 500 the most
 SPEED = 0.6  # share of the joints' limits of speed and acceleration
 
-# What `pick` calls, by the day that teaches it.
+# The functions that `pick` calls, by the day that teaches them.
 USES = {
     1: ("make_T", "inverse", "link_T", "joint_T"),
     2: ("joint_screws", "fk_space"),

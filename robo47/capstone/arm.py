@@ -170,7 +170,7 @@ class Arm:
             D = fns.critical_damping(STIFFNESS, Lambda)
             wrench = fns.impedance_wrench(e, sd * way - J @ qd, np.diag(STIFFNESS), D)
             Jdot_qd = fns.bias_acceleration(now.J_space, qd, now.T[:3, 3])
-            # What the motion itself needs stands where the bias does.
+            # The torque of the motion itself takes the place of the bias.
             forward = fns.osc_torque(J, Lambda, now.bias, Jdot_qd, sdd * way)
             back = fns.pd_torque(posture - q, -qd, *POSTURE)
             tau_null = fns.nullspace_torque(J, now.M, Lambda, back)

@@ -56,7 +56,7 @@ class Result(NamedTuple):
     joint_mrad: float  # worst error of any joint in the joint moves
     line_mm: float  # worst distance of the hand from its straight lines
     lift: float  # greatest height of the cube's centre, metres
-    seconds: float  # how long the task took in the simulation
+    seconds: float  # the duration of the task in the simulation
     torque: float  # largest torque asked for, as a fraction of that motor's limit
     speed: float  # largest joint speed, as a fraction of that joint's limit
     manipulability: float  # smallest at the way points

@@ -43,7 +43,7 @@ MORAL = "Delivered is no proof: look at the grams, the clearance and the residua
 MASS = 0.15  # kg: at Week 1's speed it slips out of the hand
 PUSH = 10.0  # N
 
-# What `attempt` calls besides Week 1's functions, by the day that teaches it.
+# The functions that `attempt` calls besides Week 1's, by the day that teaches them.
 MODULES = {
     8: identification,
     9: estimation,

@@ -17,7 +17,7 @@ from robo47.shapes import Capsule, Shape, World, capsules_of
 
 MARGIN = 0.008  # m, that a planned way keeps from everything
 STEP = 0.6  # rad, the longest edge of a tree
-SAMPLES = 400  # before the planner gives up
+SAMPLES = 400  # the planner gives up after these
 CUTS = 60  # shortcuts that are tried
 SEED = 12  # the seed of samples and shortcuts
 LEAST = 1e-3  # share of an edge between two looks: at a touch the step is 0

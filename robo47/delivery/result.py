@@ -27,14 +27,14 @@ class Result(NamedTuple):
     residual: float  # largest torque that nobody commanded, of any joint, N m
     link: int  # the first link whose contact was detected; 0: none
     contact_link: int  # the same of a second run, in which somebody pushes
-    noticed_ms: float  # how long after a push it was felt; nan where none was
+    noticed_ms: float  # the delay between a push and its detection; nan without one
     stopped: str  # why it did not go on; "" where it did
-    seconds: float  # how long the task took in the simulation
-    looks: int  # how often the planner asked for a distance
+    seconds: float  # the duration of the task in the simulation
+    looks: int  # the number of distance queries of the planner
     phases: list[tuple[str, float]]  # (name, when it began in seconds), in order
     t: Array  # time of each control instant, seconds, (N,)
     qpos: Array  # everything's configuration then, (N, nq): for pictures and replays
-    pushed: bool = False  # whether somebody pushed, here or in the second run
+    pushed: bool = False  # somebody pushed, in this run or in the second one
 
     @property
     def failed(self) -> bool:
