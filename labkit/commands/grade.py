@@ -51,7 +51,7 @@ from labkit.grade.sheet import (
     table,
     write,
 )
-from labkit.hunt.quarry import LEVELS
+from labkit.hunt.mistakes import LEVELS
 from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
 from labkit.sandbox.process import wall
 from robo47.errors import Robo47Error

@@ -31,7 +31,7 @@ from labkit.check import memory
 from labkit.hunt import case as cases
 from labkit.hunt import experiment, tally
 from labkit.hunt.case import Case
-from labkit.hunt.quarry import LEVELS
+from labkit.hunt.mistakes import LEVELS
 from labkit.hunt.script import closed_capstone, closed_lab, closed_names, kit_beside
 from labkit.lesson.day import Day, chosen_day
 from labkit.lesson.starter import require_kits
@@ -218,7 +218,7 @@ def judge(case: Case) -> int:
         print(cli.wrapped(f"{one.function}: {told(one)}"))
     if not is_found(case, repaired):
         case.save()
-        missing = len(case.quarries) - sum(one.guilty for one in repaired)
+        missing = len(case.mistakes) - sum(one.guilty for one in repaired)
         left = f"{count(missing, 'function')} left to find; " if missing > 0 else ""
         return cli.conclude(False, f"{left}{count(case.runs, 'run')} so far")
     reveal(case)
@@ -241,7 +241,7 @@ def told(one: "Repaired") -> str:
 def reveal(case: Case) -> None:
     """Say what the mistake was."""
     print()
-    for one in case.quarries:
+    for one in case.mistakes:
         says = one.says or "its numbers say it"
         print(cli.wrapped(f"The mistake in {one.function}, {one.slug}: {says}."))
 
@@ -299,7 +299,7 @@ def go_on(case: Case, options: argparse.Namespace) -> int:
 
 def write_seen(day: Day) -> int:
     """Write down which mistakes a week's capstone shows; for authors, in minutes."""
-    from labkit.hunt.seen import write_all
+    from labkit.hunt.capstone_trials import write_all
 
     print(write_all(day, print))
     return cli.EXIT_OK

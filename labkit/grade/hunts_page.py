@@ -41,7 +41,7 @@ def render(hunt: Hunt, hunters: Sequence[Hunter]) -> str:
     said = [
         f"{escape(one.function)} <b>{escape(one.slug)}</b>: "
         f"{escape(one.says or 'its numbers say it')}."
-        for one in hunt.case.quarries
+        for one in hunt.case.mistakes
     ]
     about = f"{count(len(hunters), 'student')}; level {hunt.level}, seed {hunt.seed}"
     return html.page(

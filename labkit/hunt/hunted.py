@@ -18,7 +18,7 @@ from typing import Any
 
 from labkit.base import cli
 from labkit.hunt import case as cases
-from labkit.hunt.seen import attempt
+from labkit.hunt.capstone_trials import attempt
 from labkit.lesson import lab as lessons
 from labkit.lesson.lab_module import load_lab
 from labkit.lesson.metric import Metric
@@ -98,7 +98,7 @@ class Hunted:
             for task in other.tasks:
                 for name in task.functions:
                     self._owner.setdefault(name, other.number)
-        for one in case.quarries:
+        for one in case.mistakes:
             vars(self._labs[one.day])[one.function] = one.code
         for name, number in self._owner.items():
             own = script.get(name)
