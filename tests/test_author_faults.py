@@ -6,8 +6,8 @@ import shutil
 import pytest
 
 from conftest import ROOT, SKIPPED, kit_folders, run_copy
-from labkit.author import docstring, hints, seen
-from labkit.author.moved import OUTPUTS, renumbered
+from labkit.author import display, docstring, hints
+from labkit.author.renumber import OUTPUTS, renumbered
 from labkit.judge.row import rows_of
 from labkit.lesson.day import all_days, find_day
 
@@ -218,5 +218,5 @@ def test_pictures_of_two_sizes_are_told_by_their_sizes(tmp_path):
     paths = [tmp_path / "a.png", tmp_path / "b.png"]
     for path, size in zip(paths, ((400, 300), (400, 320)), strict=True):
         Image.new("RGB", size).save(path)
-    assert seen._apart(*paths) == "400 x 300 became 400 x 320"
-    assert seen._apart(paths[0], paths[0]) == ""
+    assert display._apart(*paths) == "400 x 300 became 400 x 320"
+    assert display._apart(paths[0], paths[0]) == ""

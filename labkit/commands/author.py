@@ -15,7 +15,7 @@ import sys
 import time
 from collections.abc import Iterator
 
-from labkit.author import docstring, files, ranges, seen, student, week
+from labkit.author import display, docstring, files, ranges, student, week
 from labkit.base import cli, processes
 from labkit.commands import docs
 from labkit.judge.guard import LOUD
@@ -180,8 +180,8 @@ PARTS = {
     "ranges": spans,
     "catalogue": catalogue,
     "student": student.faults_of,
-    "tabs": seen.tabs,
-    "pictures": seen.pictures,
+    "tabs": display.tabs,
+    "pictures": display.pictures,
     "constants": constants,
     "documents": documents,
     "notebook": notebooks,

@@ -1,4 +1,4 @@
-"""What a day shows: its tabs opened with the complete lab, its pictures drawn anew."""
+"""Opens a day's tabs with the complete lab, and compares its pictures with new ones."""
 
 import html
 import json
@@ -77,7 +77,7 @@ def tabs(day: Day) -> Iterator[str]:
     if not find_spec("viser"):
         yield "viser is not installed, so no tab can be opened: make author installs it"
         return
-    words = [sys.executable, "-m", "labkit.author.seen", str(day.number)]
+    words = [sys.executable, "-m", "labkit.author.display", str(day.number)]
     try:
         done = processes.run(words, cwd=ROOT, timeout=LONGEST)
     except subprocess.TimeoutExpired:

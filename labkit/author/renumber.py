@@ -1,7 +1,7 @@
-"""A day under another number, or in another week: its files, and its number in them.
+"""Gives a day another number, or another week: its files, and its number in them.
 
-Files that git knows are moved by git, so their history stays. What is not the day's own
-stays as it is and is told: other documents that name it, a student's work, the log.
+Git moves the files that it knows, so their history remains. Other documents that name
+the day, a student's work and the log stay as they are, and the result lists them.
 """
 
 import re
