@@ -8,7 +8,7 @@ from labkit.grade.result import UNGRADED, Mark, Result
 from labkit.grade.roster import Student
 from labkit.grade.similar import Group
 from labkit.lesson.day import Day
-from labkit.report.unnamed import UNNAMED
+from labkit.report.generic_verdicts import UNNAMED
 
 UNKNOWN = "unknown"
 

@@ -12,7 +12,7 @@ from labkit.grade.charts import STATUS, STYLE, Row, chart, legend
 from labkit.grade.course import UNKNOWN, Course, Graded, by_student, percent
 from labkit.grade.result import Mark
 from labkit.grade.sheet import printable
-from labkit.report.unnamed import UNNAMED
+from labkit.report.generic_verdicts import UNNAMED
 
 CHARTED = 15  # mistakes in the chart
 COMMON = 3  # mistakes shown per day, the most frequent first

@@ -10,7 +10,7 @@ import textwrap
 from html import escape
 
 from labkit.base.text import visible
-from labkit.report.foreseen import Prediction, compared, value_of
+from labkit.report.prediction_values import Prediction, compared, value_of
 
 WIDTH, LEFT, RIGHT = 360, 10, 350
 LINE = 15  # pixels, of a line of text

@@ -1,4 +1,4 @@
-"""A worksheet's predictions as numbers, each with what was measured."""
+"""A worksheet's predictions as numbers, each with the measured value."""
 
 import math
 import re
