@@ -26,7 +26,7 @@ from labkit.lesson.cells import (
     with_functions,
 )
 from labkit.lesson.day import all_days, find_day
-from labkit.lesson.predicted import predictions
+from labkit.lesson.predictions import predictions
 from labkit.lesson.starter import solution, starter_of
 from labkit.notebook import build, guide, kernel, sync, worksheet
 from robo47.errors import Robo47Error

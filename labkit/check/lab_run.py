@@ -42,7 +42,7 @@ from labkit.judge.replies_read import no_answer, stops_with
 from labkit.judge.row import rows_of
 from labkit.lesson.added_code import old_names
 from labkit.lesson.day import Day, Limits, Task
-from labkit.lesson.hidden import Output
+from labkit.lesson.hidden_numbers import Output
 from labkit.lesson.lab import Lab, number_of
 from labkit.lesson.lab_module import load_lab
 from labkit.lesson.metric import Metric

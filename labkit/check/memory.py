@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from labkit.base import store
 from labkit.lesson.day import Day
-from labkit.lesson.own_files import helpers_of
+from labkit.lesson.untrusted_files import helpers_of
 from robo47.paths import ROOT
 
 if TYPE_CHECKING:

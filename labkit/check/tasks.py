@@ -25,9 +25,9 @@ from labkit.judge.row import row_of
 from labkit.lesson.added_code import kits_functions, kits_own, old_names
 from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
-from labkit.lesson.own_files import SCRIPT
 from labkit.lesson.slips import arguments, renamed, twice, unfinished
 from labkit.lesson.starter import function_lines
+from labkit.lesson.untrusted_files import SCRIPT
 from labkit.sandbox.messages import library_of, robots_of
 from labkit.sandbox.sandbox import Sandbox, deadline_of
 

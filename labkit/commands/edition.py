@@ -18,7 +18,7 @@ from labkit.base import cli
 from labkit.lesson.day import LOG, all_days
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.sealed import seal
-from labkit.lesson.students_own import is_made
+from labkit.lesson.student_files import is_made
 from labkit.update.git import NOBODY, ask
 from robo47 import __version__
 from robo47.errors import Robo47Error

@@ -19,8 +19,8 @@ from pathlib import Path
 from typing import Any
 
 from labkit.base import cli, processes, store
-from labkit.lesson.kept import free_name
-from labkit.lesson.students_own import is_students
+from labkit.lesson.backup import free_name
+from labkit.lesson.student_files import is_students
 from labkit.update import base, git, last_step, merge
 from labkit.update.git import ask, beside, sweep
 from robo47.errors import Robo47Error

@@ -9,8 +9,8 @@ from pathlib import Path
 from labkit.base.text import count
 from labkit.fresh.clone import ignored_by, uncommitted
 from labkit.lesson.day import Day
-from labkit.lesson.own_files import helpers_of
-from labkit.lesson.students_own import retrospectives
+from labkit.lesson.student_files import retrospectives
+from labkit.lesson.untrusted_files import helpers_of
 from labkit.lesson.week import WORK
 from labkit.report.week_retro import no_numbers, without_numbers
 from robo47.paths import ROOT

@@ -36,7 +36,7 @@ from labkit.handin.handin import (
 )
 from labkit.handin.whereabouts import whereabouts
 from labkit.lesson.day import Day, find_day
-from labkit.lesson.own_files import HELPERS, NO_NAME
+from labkit.lesson.untrusted_files import HELPERS, NO_NAME
 from robo47 import __version__
 from robo47.paths import ROOT
 

@@ -16,7 +16,7 @@ from typing import Any
 from labkit.lesson.cells import text_of
 from labkit.lesson.day import Day, Task
 from labkit.lesson.lab_module import read_script
-from labkit.lesson.predicted import rows_asked
+from labkit.lesson.predictions import rows_asked
 from labkit.lesson.sealed import is_sealed
 from labkit.lesson.starter import find_regions, starter_of
 from labkit.notebook import guide, worksheet

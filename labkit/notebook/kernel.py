@@ -26,12 +26,12 @@ from types import EllipsisType
 from typing import Any, ParamSpec, TypeVar
 
 from labkit.base import store
+from labkit.lesson.backup import with_ends_of
 from labkit.lesson.cells import apart, definitions, reverted, text_of
 from labkit.lesson.day import Day, find_day
-from labkit.lesson.hidden import WORD
-from labkit.lesson.kept import with_ends_of
+from labkit.lesson.hidden_numbers import WORD
 from labkit.lesson.lab_module import read_script
-from labkit.lesson.predicted import rows_asked
+from labkit.lesson.predictions import rows_asked
 from labkit.notebook import sync, worksheet
 from labkit.notebook.guide import typed
 from labkit.notebook.show import Checked, Said

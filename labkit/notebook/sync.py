@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from labkit.base import store
+from labkit.lesson.backup import rewrite, with_ends_of
 from labkit.lesson.cells import (
     MOST,
     Cells,
@@ -23,7 +24,6 @@ from labkit.lesson.cells import (
     with_functions,
 )
 from labkit.lesson.day import Day
-from labkit.lesson.kept import rewrite, with_ends_of
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import starter_of
 from robo47.errors import Robo47Error

@@ -5,7 +5,7 @@ import re
 from typing import NamedTuple
 
 from labkit.handin.worksheet import split_sections
-from labkit.lesson.predicted import predictions
+from labkit.lesson.predictions import predictions
 
 _RUN = re.compile(r" \(run of \d\d:\d\d\)$")  # the end of a cell that a run wrote
 LONGEST = 120  # characters of a cell in which a number is searched

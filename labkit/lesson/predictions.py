@@ -1,4 +1,4 @@
-"""The worksheet's table of predictions: what was predicted, and what came out.
+"""The worksheet's table of predictions, with the predicted and measured values.
 
 A row is `| number | predicted | measured | why apart |`. The first two cells and the
 last are the student's; `make run` writes the third, where nobody else has.
