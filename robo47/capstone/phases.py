@@ -1,4 +1,4 @@
-"""The capstone's phases, one after the other, and what is measured on the way.
+"""The phases of the pick, and the measurements during them.
 
 Units: metres, radians, seconds, N m; poses `T_world_x` are (4, 4).
 """
@@ -50,7 +50,7 @@ PHASES = (
 
 
 class Result(NamedTuple):
-    """What came of it."""
+    """The result of a pick."""
 
     place_mm: float  # distance of the cube's centre from its goal, at the end
     joint_mrad: float  # worst error of any joint in the joint moves
@@ -122,7 +122,7 @@ class Task:
         if phase.name == "close":
             self._grasped()
         elif phase.name == "open":
-            self.arm.let_go()
+            self.arm.release()
 
     def _law(self, phase: Phase, q: Array) -> tuple[Law, float]:
         """Return the control law of a phase and how long it takes."""
@@ -142,7 +142,7 @@ class Task:
         """Return the configuration at the end of a joint move from q, (7,)."""
         if not phase.over:
             return READY_Q.copy()
-        goal, reach = self.arm.way_point(self._tool(phase), q)
+        goal, reach = self.arm.waypoint(self._tool(phase), q)
         self.manipulability = min(self.manipulability, reach)
         return goal
 

@@ -1,4 +1,4 @@
-"""What the capstone says of a result, and what it looked like.
+"""The summary and the film of a pick.
 
 Units: metres and seconds, in sentences millimetres and milliradians.
 """
@@ -31,7 +31,7 @@ def row(name: str, result: Result) -> str:
 
 
 def summary(result: Result) -> Summary:
-    """Return what is said of a result besides."""
+    """Return the summary of a result."""
     lift = [
         f"lifted {1000 * result.lift:.0f} mm; this grip can lift, as predicted,",
         f"  {result.heaviest:.3f} kg; the cube has {scenes.CUBE_MASS:.3f} kg",

@@ -1,4 +1,4 @@
-"""What the delivery says of a result, and what it looked like.
+"""The summary and the film of a delivery.
 
 Units: metres and seconds, in sentences millimetres, grams and milliseconds.
 """
@@ -29,13 +29,13 @@ def row(name: str, result: Result) -> str:
 
 
 def summary(result: Result) -> Summary:
-    """Return what is said of a result besides."""
-    after = [f"the planner asked for {result.looks:,} distances"]
+    """Return the summary of a result."""
+    after = [f"the planner asked for {result.queries:,} distances"]
     if result.stopped:
         after.append(f"it stopped: {result.stopped}")
     if result.pushed:
-        felt = f"link {result.contact_link} feels it after {result.noticed_ms:.0f} ms"
-        felt = felt if result.noticed_ms > 0.0 else "nothing is felt"
+        felt = f"link {result.contact_link} feels it after {result.detection_ms:.0f} ms"
+        felt = felt if result.detection_ms > 0.0 else "nothing is felt"
         after.append(f"pushed by 10 N in a second carry: {felt}")
     came = "The arm finds a cube that nobody told it about, weighs it and puts it down"
     return Summary(
@@ -53,7 +53,7 @@ def summary(result: Result) -> Summary:
 
 
 def figures(result: Result) -> list[tuple[str, str, str]]:
-    """Return what was measured: (what, how much with its unit, what is allowed)."""
+    """Return the measured quantities: (name, value with its unit, limit)."""
     known = 1e3 * result.mass
     found = [
         ("seen, from where the cube stood", f"{result.seen_mm:.1f} mm", "under 3 mm"),
@@ -75,8 +75,8 @@ def figures(result: Result) -> list[tuple[str, str, str]]:
         found.append(("put down, from its mark", place, "under 10 mm"))
     if result.pushed:
         after = "a push of 10 N in a second carry, felt after"
-        felt = result.noticed_ms > 0.0
-        value = f"{result.noticed_ms:.0f} ms" if felt else "not felt"
+        felt = result.detection_ms > 0.0
+        value = f"{result.detection_ms:.0f} ms" if felt else "not felt"
         found.append((after, value, "felt"))
     return found
 
