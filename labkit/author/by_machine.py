@@ -41,7 +41,7 @@ def told_by_machine(day: Day, row: Row) -> Iterator[Told]:
     full = row.ask
     general = {one.slug for kind in full.kinds for one in kind.general()}
     ways = [way for way in row.named if not way.reached]
-    bare = _without(full, ())
+    bare = _with_entries(full, ())
     alone = [(way, verdict_on(day, row, way, bare)) for way in ways]
     found = [(way, v) for way, v in alone if _source(v, general)]
     gone = {id(way) for way, _ in found}
@@ -50,7 +50,7 @@ def told_by_machine(day: Day, row: Row) -> Iterator[Told]:
         for way, mistake in zip(row.named, full.named, strict=True)
         if id(way) not in gone
     ]
-    rest = _without(full, kept)
+    rest = _with_entries(full, kept)
     for way, before in found:
         verdict = verdict_on(day, row, way, rest)
         if verdict.mistake == before.mistake:
@@ -59,7 +59,7 @@ def told_by_machine(day: Day, row: Row) -> Iterator[Told]:
             yield Told(way.slug, way.says, verdict.message, source, shown)
 
 
-def _without(ask: Ask, mistakes: Sequence[Any]) -> Ask:
+def _with_entries(ask: Ask, mistakes: Sequence[Any]) -> Ask:
     """Return a row with other entries, and what is known of its costs."""
     found = replace(ask, mistakes=mistakes)
     vars(found).update(cost=ask.cost, labs_cost=ask.labs_cost, bodies=ask.bodies)

@@ -52,11 +52,11 @@ def pictures(day: Day) -> Iterator[str]:
             there = day.folder / "figures" / new.name
             if not there.is_file():
                 yield f"{shown(there)} is not there: {draw}"
-            elif far := _apart(there, new):
+            elif far := _difference(there, new):
                 yield f"{shown(there)} is not what is drawn now: {far}. {draw}"
 
 
-def _apart(there: Path, new: Path) -> str:
+def _difference(there: Path, new: Path) -> str:
     """Return how far a picture is from the one that is drawn now, "" where near."""
     before, now = (read_png(path.read_bytes()).astype(int) for path in (there, new))
     if before.shape != now.shape:
@@ -90,7 +90,7 @@ def tabs(day: Day) -> Iterator[str]:
     yield from json.loads(lines[-1])
 
 
-def opened(day: Day) -> list[str]:
+def tab_faults(day: Day) -> list[str]:
     """Return what a person would read of each tab of the day that stops, or differs."""
     from labkit.inspector.app import Inspector
     from labkit.inspector.arm import Arm
@@ -145,5 +145,5 @@ def _bad(page: Any) -> list[str]:
 
 
 if __name__ == "__main__":
-    print(json.dumps(opened(find_day(int(sys.argv[1])))), flush=True)
+    print(json.dumps(tab_faults(find_day(int(sys.argv[1])))), flush=True)
     os._exit(0)  # a tab's thread may still be at work

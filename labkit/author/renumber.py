@@ -39,7 +39,9 @@ def move(day: Day, number: int, folder: Path, name: str) -> Moved:
         Robo47Error: a file of the new number is there already.
     """
     stem = f"day{number}_{name}"
-    pairs = [(path, folder / _renamed(path, day, number, stem)) for path in _own(day)]
+    pairs = [
+        (path, folder / _renamed(path, day, number, stem)) for path in _files_of(day)
+    ]
     for _, to in pairs:
         if to.exists():
             raise Robo47Error(f"{shown(to)} is there already; nothing was moved")
@@ -52,11 +54,11 @@ def move(day: Day, number: int, folder: Path, name: str) -> Moved:
         if new != text:
             to.write_text(new, "utf-8", newline="\n")
     _remember(folder / f"day{number}" / "day.toml", day, stem)
-    left = list(_left(day, number, [to for _, to in pairs]))
+    left = list(_remaining_names(day, number, [to for _, to in pairs]))
     return Moved(pairs, left)
 
 
-def _own(day: Day) -> list[Path]:
+def _files_of(day: Day) -> list[Path]:
     """Return the day's own files and folders in its week's folder."""
     n = day.number
     found = [day.own]
@@ -145,7 +147,7 @@ def _remember(manifest: Path, day: Day, stem: str) -> None:
     )
 
 
-def _left(day: Day, number: int, own: list[Path]) -> Iterator[str]:
+def _remaining_names(day: Day, number: int, own: list[Path]) -> Iterator[str]:
     """Yield the places that still name the day, or may: for a person to look at."""
     n = day.number
     ids = "|".join(re.escape(task.id) for task in day.tasks)

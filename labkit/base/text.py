@@ -80,16 +80,16 @@ def refill(document: str, makers: Mapping[str, Maker]) -> str:
         new = makers[name](request or "", old).replace("\r\n", "\n")
         return opening + new.replace("\n", newline) + closing
 
-    closed, rest = _closed(document)
+    closed, rest = _closed_blocks(document)
     return _pattern(*makers).sub(fresh, closed) + rest
 
 
 def blocks(document: str, name: str) -> list[str]:
     """Return what the blocks of a name hold."""
-    return [found[4] for found in _pattern(name).findall(_closed(document)[0])]
+    return [found[4] for found in _pattern(name).findall(_closed_blocks(document)[0])]
 
 
-def _closed(document: str) -> tuple[str, str]:
+def _closed_blocks(document: str) -> tuple[str, str]:
     """Return a document up to its last end of a block, and the rest.
 
     Each of a thousand openings without an end would be followed to the last line.

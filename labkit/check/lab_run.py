@@ -202,7 +202,7 @@ def behind_wall(
     budget.watch(session)
     kits = cache(kits_functions(day))
     return {
-        name: _asked(session, day, robots, task, getattr(lab, name), budget, kits)
+        name: _query(session, day, robots, task, getattr(lab, name), budget, kits)
         for task in day.tasks
         for name in task.functions
     }
@@ -215,7 +215,7 @@ def _own_robots(day: Day) -> list[Robot]:
     return [robot for robot in found if isinstance(robot.entry, Path)]
 
 
-def _asked(
+def _query(
     session: Session,
     day: Day,
     robots: Iterable[Robot],

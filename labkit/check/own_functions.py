@@ -162,7 +162,7 @@ def statuses(day: Day) -> dict[str, str]:
 
     The checker is asked where its last word is not on the file as it is.
     """
-    found = memory.known(day)
+    found = memory.task_states(day)
     if len(found) < len(day.tasks):
         key = memory.key_of(day)
         with Sandbox() as sandbox:

@@ -170,7 +170,7 @@ def state_of(report: Report, result: TaskResult) -> tuple[str, str, list[str]]:
     verdict = result.verdict
     lines = []
     if not report.problem and verdict.mistake != "unwritten":
-        lines = [_said(report, result, explain=False), verdict.call]
+        lines = [_sentence(report, result, explain=False), verdict.call]
     return _name(result.task), _LABEL[_status(report, result)], lines
 
 
@@ -187,7 +187,7 @@ def _below(report: Report, result: TaskResult, explain: bool) -> list[str]:
     lines = []
     begun = verdict.function not in ("", result.task.functions[0])
     if not report.problem and (begun or verdict.mistake != "unwritten"):
-        says = _said(report, result, explain)
+        says = _sentence(report, result, explain)
         lines += _wrapped(says, _INDENT)
         if verdict.call and verdict.message in says:
             lines += _wrapped(verdict.call, _INDENT)
@@ -212,7 +212,7 @@ def matrix_of(compared: Compared) -> list[str]:
     return ["The matrix of this call, with its wrong entries in brackets:", *rows]
 
 
-def _said(report: Report, result: TaskResult, explain: bool) -> str:
+def _sentence(report: Report, result: TaskResult, explain: bool) -> str:
     """Return what to say of a task: a mistake once, what follows from it in short."""
     verdict = result.verdict
     if verdict.mistake == "inherited":

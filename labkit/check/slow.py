@@ -121,7 +121,7 @@ class Budget(Deadline):
             watcher.join()
             raise_in(here, None)  # a late exception is withdrawn
 
-    def told(self) -> str:
+    def time_used(self) -> str:
         """Return what the time went for, as a sentence's end."""
         calls = count(self.calls.total(), "call")
         kits = f"the kit's own take {self._kits_took():.2g} s for as many calls"
@@ -193,7 +193,7 @@ def not_to_its_end(title: str, budget: Budget) -> str:
     """Return that a lab was not run to its end: the same words on every page."""
     where = f' in "{title}"' if title else ""
     return (
-        f"The lab was not run to its end: {budget.told()}. It was stopped{where}, "
+        f"The lab was not run to its end: {budget.time_used()}. It was stopped{where}, "
         "and the steps after that were not tested."
     )
 

@@ -132,7 +132,7 @@ def last_check(day: Day) -> str:
     """Return a line on what the last check found in the student's file as it is."""
     if not day.work.is_file():
         return f"Not begun: make start DAY={day.number}"
-    known = memory.known(day)
+    known = memory.task_states(day)
     if any(task.id not in known for task in day.tasks):
         return f"Not checked as it is now: make check DAY={day.number}."
     left = [f"{t.id} {known[t.id]}" for t in day.tasks if known[t.id] != "passed"]
@@ -146,7 +146,7 @@ def tell(report: Report, days: list[Day]) -> None:
     for day in days:
         if not day.work.is_file():
             continue
-        found = memory.known(day)
+        found = memory.task_states(day)
         done = all(found.get(t.id) == "passed" for t in day.tasks if not t.optional)
         says = [] if done else [last_check(day)]
         own = [one for one in report.series if one.day == day.number]

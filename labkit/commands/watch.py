@@ -63,7 +63,7 @@ class Loop:
         self.day = day
         self.only = day.task(only) if only else None
         self.script = file or day.work
-        self.states = {} if file else memory.known(day)
+        self.states = {} if file else memory.task_states(day)
         self.sure = len(self.states) == len(day.tasks)
         self.warm: Process | None = Process()
 
@@ -85,7 +85,7 @@ class Loop:
             id = only.id if only else None
             results = check_tasks(self.day, self.script, sandbox, id)
         self.warm = Process()  # it gets ready while the student types
-        found = {result.task.id: memory.in_words(result.verdict) for result in results}
+        found = {result.task.id: memory.state_of(result.verdict) for result in results}
         if self.script == self.day.work:
             memory.note(results)
             memory.remember(key, results)
@@ -223,7 +223,7 @@ def _whole_day(loop: Loop) -> bool:
 
     report = check_once(loop.day, loop.script, None, secrets.randbits(32))
     for result in report.tasks:
-        loop.states[result.task.id] = memory.in_words(result.verdict)
+        loop.states[result.task.id] = memory.state_of(result.verdict)
     loop.sure = True
     wrong = any(result in report.left for result in report.counted)
     if wrong or any(item.status == "wrong" for item in report.items):
@@ -307,7 +307,7 @@ def _counted(day: Day) -> Iterator[int]:
     from labkit.check import memory
 
     tasks = [task for task in day.tasks if not task.optional]
-    states = memory.known(day)
+    states = memory.task_states(day)
     yield sum(states.get(task.id) == "passed" for task in tasks)
     yield len(tasks)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from labkit.base.git import read_history
 from labkit.base.text import visible
 from labkit.check.lab_run import Rehearsed, rehearse
-from labkit.check.memory import in_words
+from labkit.check.memory import state_of
 from labkit.check.tasks import check_tasks, required_pass
 from labkit.grade.package import collect, unpack
 from labkit.grade.roster import Student
@@ -76,7 +76,7 @@ def facts_of(
         whole = deadline_of(day)
         asked = (day, folder / day.script, sandbox)
         results = check_tasks(*asked, deadline=whole)
-        states = {result.task.id: in_words(result.verdict) for result in results}
+        states = {result.task.id: state_of(result.verdict) for result in results}
         if required_pass(results):
             ran = rehearse(*asked, whole)
     if own:

@@ -71,7 +71,7 @@ def facts_of(day: Day, series: Sequence[Series]) -> OwnDay:
         day: from its manifest.
         series: the log's rows of all that the day asks for.
     """
-    known = memory.known(day)
+    known = memory.task_states(day)
     ids = {task.id for task in day.tasks}
     by = {one.wanted: one for one in series if one.day == day.number}
     return OwnDay(
