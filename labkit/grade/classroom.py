@@ -83,7 +83,7 @@ class Classroom:
 
         def changed() -> Iterator[tuple[Student, Package]]:
             for student in self.students:
-                package, known = self._known(student)
+                package, known = self._stored_result(student)
                 runs[student.folder] = _runs(package, self.day, starter)
                 if known:
                     note(student, package, known)
@@ -98,7 +98,9 @@ class Classroom:
                 note(student, package, result)
         return self._course([graded[one.folder] for one in self.students], runs, now)
 
-    def _known(self, student: Student) -> tuple[Package, Result | FaultError | None]:
+    def _stored_result(
+        self, student: Student
+    ) -> tuple[Package, Result | FaultError | None]:
         """Return what is handed in, and its result; None for who is to be graded."""
         due = self.journal.reference if self.journal.deadline else None
         try:
