@@ -146,7 +146,7 @@ def test_the_number_of_a_section_is_none_of_a_case(monkeypatch):
 
 def test_a_shape_is_read_behind_its_argument_alone():
     text = "Return Y, (n, 7), of X (n, d). q, (7,), at (1, 2) is W (2, 2)."
-    found = docstring._shapes(text, ["X", "q", "W"])
+    found = docstring._documented_shapes(text, ["X", "q", "W"])
     assert found == [("X", "n, d"), ("q", "7,"), ("W", "2, 2"), ("", "n, 7")]
 
 

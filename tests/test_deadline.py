@@ -43,7 +43,7 @@ class Fake:
 @pytest.fixture
 def fake(monkeypatch):
     fake = Fake()
-    monkeypatch.setattr(processes, "waiting_seconds", lambda: fake.own)
+    monkeypatch.setattr(processes, "waited", lambda: fake.own)
     return fake
 
 

@@ -104,13 +104,13 @@ def test_rows_of_hunts_add_up_to_found_and_named():
 
 def test_what_was_expected_stands_beside_the_run_in_80_columns():
     lines = ["1. A step", "  PASS  one: 0 (limit 1)", f"  FAIL  {'long ' * 30}: 2"]
-    told = experiment.beside("the torque of joint 4 is twice as large", lines)
+    told = experiment.side_by_side("the torque of joint 4 is twice as large", lines)
     assert max(map(len, told.splitlines())) <= 80
     assert "the torque of joint 4 is twice" in told.splitlines()[1]
     assert "FAIL  long" in told.splitlines()[1]
     assert told.endswith("1 check PASS")
     rows = ["  place  joints", "these functions  398.4", "  cut", "right ones  0.9"]
-    told = experiment.beside("", rows).splitlines()
+    told = experiment.side_by_side("", rows).splitlines()
     assert " ".join(told[1].split()) == "(nothing said) these functions 398.4 cut"
     assert told[2].strip() == "right ones 0.9"
 

@@ -150,7 +150,7 @@ class TestALabsRun:
     def clock(self, monkeypatch):
         self.clock = Clock()
         self.waits = 0.0
-        monkeypatch.setattr(processes, "waiting_seconds", lambda: self.waits)
+        monkeypatch.setattr(processes, "waited", lambda: self.waits)
 
     def run(self, calls, took, ran, kits=dict, seconds=10.0):
         """Return a budget after calls that each took so many seconds."""

@@ -197,7 +197,7 @@ def _decimals(node: ast.expr) -> Any:
 
 def _shapes(text: str, row: Row, function: Callable[..., Any]) -> Iterator[str]:
     """Yield the first shape of a docstring that the row's questions do not have."""
-    told = _shapes(text, row.arguments)
+    told = _documented_shapes(text, row.arguments)
     for call in row.ask.main if told else ():
         args = [as_plain(arg) for arg in call]
         given = dict(zip(row.arguments, args, strict=False))  # the rest is usual
@@ -210,7 +210,7 @@ def _shapes(text: str, row: Row, function: Callable[..., Any]) -> Iterator[str]:
                 return
 
 
-def _shapes(text: str, arguments: Sequence[str]) -> list[tuple[str, str]]:
+def _documented_shapes(text: str, arguments: Sequence[str]) -> list[tuple[str, str]]:
     """Return the shapes that a docstring tells: (argument, or "" of the answer, dims).
 
     Args:

@@ -25,7 +25,7 @@ class Deadline:
         self.seconds = seconds
         self._clock = clock
         self._began = clock()
-        self._own = processes.waiting_seconds()
+        self._own = processes.waited()
         self._waited = 0.0  # the waiting time of all processes at the last look
         self._working: list[Any] = []  # the objects that have `used`
         # The waiting time of each process: first, last.
@@ -60,6 +60,4 @@ class Deadline:
         ):
             self._waits[i] = first, max(last, one.used()[1] - first)
         theirs = sum(since for _, since in self._waits)
-        self._waited = max(
-            self._waited, processes.waiting_seconds() - self._own + theirs
-        )
+        self._waited = max(self._waited, processes.waited() - self._own + theirs)

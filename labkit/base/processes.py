@@ -234,7 +234,7 @@ def scheduled(process: subprocess.Popen[bytes]) -> tuple[float, float]:
     return ran / 1e9, waited / 1e9
 
 
-def waiting_seconds() -> float:
+def waited() -> float:
     """Return for how many seconds this process waited for a processor, as above."""
     places = (f"/proc/self/task/{one}/schedstat" for one in _threads("self"))
     times = (_read(place).split() for place in places)

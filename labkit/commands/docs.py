@@ -69,7 +69,7 @@ def output_of(command: str) -> str:
     return done.stdout
 
 
-def wanted(request: str) -> str:
+def requested_output(request: str) -> str:
     """Return the output that a document asks for."""
     command, _, part = (piece.strip() for piece in request.partition("|"))
     text = output_of(command)
@@ -141,7 +141,7 @@ def rebuilt(
         return body
 
     def run(request: str, old: str) -> str:
-        text = wanted(request).rstrip()
+        text = requested_output(request).rstrip()
         whole = request.endswith(f"| {TABLE}")
         return renewed(
             request, old, f"{text}\n" if whole else f"```text\n{text}\n```\n"

@@ -190,12 +190,12 @@ def _notices(asked: Asked, function: Callable[..., Any]) -> bool:
     """Return whether some question tells a function from the right one."""
     pairs = zip(asked.ask.held_out, asked.held_out, strict=True)
     held = [one for held, some in pairs if not held.mistaken for one in some]
-    signal.signal(signal.SIGALRM, _late)
+    signal.signal(signal.SIGALRM, _stop)
     every = (*asked.main, *asked.fresh, *held)
     return any(_wrong(asked, one, function) for one in every)
 
 
-def _late(*_: Any) -> None:
+def _stop(*_: Any) -> None:
     raise TimeoutError
 
 

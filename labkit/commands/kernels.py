@@ -52,7 +52,7 @@ def environment(kernel: str) -> dict[str, str]:
     return plain | asked | (NO_AVX if kernel == "Prescott" else {})
 
 
-def taken(kernel: str) -> str:
+def kernel_used(kernel: str) -> str:
     """Return whose kernels OpenBLAS takes where these are asked for; "" if none runs.
 
     Args:
@@ -106,11 +106,11 @@ def main() -> int:
     parser.add_argument("kernels", nargs="*", default=THREE, metavar="KERNEL")
     parser.add_argument("--others", action="store_true", help="not this machine's own")
     options = parser.parse_args()
-    own = taken(os.environ.get("OPENBLAS_CORETYPE", "")) if options.others else ""
+    own = kernel_used(os.environ.get("OPENBLAS_CORETYPE", "")) if options.others else ""
     bad = False
     whole = True
     for kernel in options.kernels:
-        found = taken(kernel)
+        found = kernel_used(kernel)
         if found.lower() != kernel.lower():
             print(f"left out  {kernel}: here OpenBLAS takes {found or 'none'} for it")
         elif kernel == own:

@@ -49,7 +49,7 @@ def require_begun(day: Day) -> None:
     A file beside it that has a module's name is told.
     """
     start = f"make start DAY={day.number}"
-    for line in bring_saved(day).told(day):
+    for line in bring_saved(day).sentences(day):
         print(cli.wrapped(line))
     if not day.work.is_file():
         clone = day.folder.parent

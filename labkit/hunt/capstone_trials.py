@@ -74,14 +74,14 @@ def trials(
         lab = vars(labs[one.day])
         kept = lab[one.function]
         lab[one.function] = one.code
-        with _in_time():
+        with _time_limit():
             found = attempt(capstone, functions(), "")
         lab[one.function] = kept
         yield one, found, shows(one, found, right)
 
 
 @contextlib.contextmanager
-def _in_time() -> Iterator[None]:
+def _time_limit() -> Iterator[None]:
     """Stop an attempt that takes longer than SECONDS."""
 
     def stop(number: int, frame: FrameType | None) -> None:

@@ -112,7 +112,7 @@ def with_functions(script: str, cells: Cells, names: Iterable[str]) -> str:
         cells: of the notebook.
         names: of the functions that are taken.
     """
-    script, own = apart(script)
+    script, own = split_script(script)
     for name in names:
         script = put_back(script, cells.functions[name], (name,))
     known = {**own, **cells.others, **cells.functions}
@@ -126,7 +126,7 @@ def with_functions(script: str, cells: Cells, names: Iterable[str]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def apart(script: str) -> tuple[str, dict[str, str]]:
+def split_script(script: str) -> tuple[str, dict[str, str]]:
     """Return a script without the notebook's own definitions, and these by name."""
     found = _BLOCK.search(script)
     if not found:

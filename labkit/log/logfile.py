@@ -77,7 +77,7 @@ def append(path: Path, text: str, sync: bool) -> None:
             if not text:
                 return
     except OSError as error:
-        why = _in_words(error, str(path))
+        why = _explanation(error, str(path))
         raise Robo47Error(f"{shown(path)}: {why}") from None
     raise Robo47Error(
         f"{shown(path)} keeps being replaced by another program."
@@ -268,7 +268,7 @@ def _keep(path: Path, text: str) -> str:
     return f"{rows}  kept nowhere but here: copy {them}"
 
 
-def _in_words(error: OSError, name: str) -> str:
+def _explanation(error: OSError, name: str) -> str:
     """Return what an error with the log of that name means, and what to do about it."""
     if os.path.isdir(name):
         return "a folder is in the log's place. Move that folder away."

@@ -141,7 +141,7 @@ def linked(text: str, page: Path, pages: set[Path], folder: Path) -> str:
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(target, copy)
             return found[1]
-        _write(copy.with_name(copy.name + ".md"), _shown(target, name))
+        _write(copy.with_name(copy.name + ".md"), _file_page(target, name))
         return found[1] + ".md"
 
     return LINK.sub(lead, text)
@@ -192,7 +192,7 @@ def notebook_of(day: Day) -> Path:
     return Path("notebooks", Path(day.script).stem + ".md")
 
 
-def _shown(file: Path, name: Path) -> str:
+def _file_page(file: Path, name: Path) -> str:
     """Return a page that shows a file of the repository."""
     fence = "`" * 8
     language = LANGUAGE.get(file.suffix, "text")
