@@ -1,4 +1,4 @@
-"""What a docstring says of its function: worked cases are run, shapes are compared.
+"""Tests of a docstring: its worked cases are run, and its shapes are compared.
 
 A worked case is a call and its answer, anywhere in the docstring:
 

@@ -1,4 +1,4 @@
-"""Do a day's files fit together? Regions, rows, headings, links, hints, sections."""
+"""Consistency of a day's files: regions, rows, headings, links, hints, sections."""
 
 import inspect
 import re

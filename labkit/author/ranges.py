@@ -1,4 +1,4 @@
-"""How small and how large arguments are in the complete lab, and in the questions.
+"""The ranges of arguments in the complete lab, and in the questions.
 
 A guard, a clamp or a tolerance of a student's changes what no question asks. So the
 complete lab is run, and the smallest and the largest of each argument with which it, or

@@ -20,7 +20,7 @@ OUTPUTS = re.compile(r"<!-- \w+: .*?<!-- end -->", re.DOTALL)  # made anew
 
 
 class Moved(NamedTuple):
-    """What became of a day."""
+    """The result of a move."""
 
     files: list[tuple[Path, Path]]  # pairs of the old and the new path
     left: list[str]  # places that name it and were not touched: "file, line 3: text"

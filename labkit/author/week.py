@@ -1,4 +1,4 @@
-"""What a week's capstone lacks: its words, its functions, one attempt and its film."""
+"""Tests of a week's capstone: its words, its functions, one attempt and its film."""
 
 from collections.abc import Iterator
 from types import ModuleType
