@@ -1,4 +1,4 @@
-"""What every command of the kit does the same way: help, colour, errors, the end."""
+"""The common parts of all commands: help, colour, errors, the exit code."""
 
 from __future__ import annotations  # the doctor runs on old Pythons too
 

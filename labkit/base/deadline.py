@@ -1,4 +1,4 @@
-"""What a submission has left of its seconds: one clock, whoever works for it.
+"""The remaining seconds of a submission: one clock for all processes that work for it.
 
 What this process, or one that it asks, waits for a processor does not count.
 """
@@ -50,7 +50,7 @@ class Deadline:
 
     @property
     def over(self) -> bool:
-        """Whether nothing is left."""
+        """The time is used up."""
         return self.within(0.0) < 0.0
 
     def _look(self) -> None:

@@ -30,7 +30,7 @@ class Path:
 
 @dataclass(frozen=True)
 class Reply:
-    """What came of one question, which is asked twice, the second time much later.
+    """The reply to a question, which is asked twice, the second time much later.
 
     All text in it is harmless: see `labkit.base.text.visible`.
     """

@@ -1,4 +1,4 @@
-"""What git says of a clone, asked without trusting the clone's configuration.
+"""Queries of a clone through git that do not trust the clone's configuration.
 
 A clone that was handed in as an archive brings its own `.git/config`, which can name
 programs to run. So only commands that read objects are used: no index, no filter, no

@@ -85,7 +85,7 @@ class Child:
 
     @property
     def alive(self) -> bool:
-        """Whether it can take another message."""
+        """The process can take another message."""
         return self.process.poll() is None
 
     def last_words(self) -> str:
