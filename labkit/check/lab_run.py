@@ -68,7 +68,7 @@ class FirstFailure(Exception):  # noqa: N818 (it ends a run; nothing went wrong 
 
 @dataclass
 class _Run:
-    """What is kept of a lab's run."""
+    """The record of a lab's run."""
 
     day: Day
     numbers: dict[tuple[str, str], float] = field(default_factory=dict)
@@ -111,7 +111,7 @@ class Rehearsal(Lab):
 
 
 class Rehearsed(NamedTuple):
-    """What came of a lab's run with a file's functions."""
+    """The result of a lab's run with a file's functions."""
 
     fault: str  # the first step that fails, "" where none did
     # The results of the steps before it, by check and metric, with `TRIALS` random

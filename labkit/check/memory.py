@@ -34,7 +34,7 @@ _NO_MISTAKE |= {"missing", "raise-left-in"}
 
 
 class Entry(NamedTuple):
-    """How a task stood from a moment on."""
+    """The state of a task from a moment on."""
 
     task: str  # its id
     status: str  # the status of a verdict

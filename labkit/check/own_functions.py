@@ -32,14 +32,14 @@ ASKED = (
 
 
 class Counted(NamedTuple):
-    """How many functions are the student's own, and of how many."""
+    """The number of the student's own functions, and of all functions."""
 
     own: int
     of: int
 
     @property
     def all(self) -> bool:
-        """Whether every function is the student's own."""
+        """Every function is the student's own."""
         return self.own == self.of
 
     def __str__(self) -> str:
@@ -80,7 +80,7 @@ class Mine:
 
     @property
     def total(self) -> int:
-        """How many functions the days ask for, called by the capstone or not."""
+        """The number of functions of the days, called by the capstone or not."""
         return len(self.yours) + len(self.replaced)
 
 

@@ -1,4 +1,4 @@
-"""How a check reads: a line per task and deliverable, what is next, how far it is."""
+"""The text of a check: a line per task and deliverable, and the next step."""
 
 import textwrap
 from collections.abc import Sequence
@@ -51,23 +51,23 @@ class Report:
 
     @property
     def done(self) -> int:
-        """How many tasks and deliverables passed."""
+        """The number of tasks and deliverables that passed."""
         passed = sum(result not in self.left for result in self.counted)
         return passed + sum(item.passed for item in self.items)
 
     @property
     def total(self) -> int:
-        """How many there are."""
+        """The number of tasks and deliverables."""
         return len(self.counted) + len(self.items)
 
     @property
     def passed(self) -> bool:
-        """Whether nothing is left to do."""
+        """Nothing is left to do."""
         return self.done == self.total
 
     @property
     def problem(self) -> str:
-        """Why the student's file does not load; "" where it does."""
+        """The reason if the student's file does not load, else ""."""
         verdict = self.tasks[0].verdict
         return verdict.message if verdict.mistake == "does-not-load" else ""
 

@@ -1,4 +1,4 @@
-"""How long a student's functions may take, beside what the kit's own take here.
+"""Time limits of a student's functions, compared with the time of the kit's own.
 
 A lab's run has seconds, `[limits] lab_seconds` of its day.toml, and no count of calls;
 what it waits for a processor does not count. Where they are up, the kit's own functions

@@ -1,4 +1,4 @@
-"""From a student's file to one result per task."""
+"""Checks a student's file: one result per task."""
 
 import contextlib
 import re
@@ -36,7 +36,7 @@ FRESH_ONLY = ("looked-up", "some-inputs")  # found by inputs that a seed draws
 
 @dataclass(frozen=True)
 class TaskResult:
-    """How a task stands."""
+    """The result of a task."""
 
     task: Task  # the task, read from the manifest
     verdict: Verdict  # the verdict on the answers
@@ -46,7 +46,7 @@ class TaskResult:
 
     @property
     def passed(self) -> bool:
-        """Whether nothing is left to do."""
+        """Nothing is left to do."""
         return self.verdict.status == "passed"
 
 
