@@ -29,7 +29,7 @@ from robo47.paths import shown
 
 @dataclass(frozen=True)
 class Again:
-    """Whose work is graded again though it has not changed; by default nobody's."""
+    """The students whose unchanged work is graded again; by default nobody."""
 
     everybody: bool = False
     folders: Collection[str] = ()  # the folders of those who are graded again

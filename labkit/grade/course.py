@@ -33,12 +33,12 @@ class Graded:
 
     @property
     def error(self) -> str:
-        """Why something could not be graded or updated; "" where all was."""
+        """The reason if something could not be graded or updated, else ""."""
         return "; ".join(filter(None, (self.result.error, self.note)))
 
     @property
     def state(self) -> str:
-        """Where the student is, in a word or three; the pages list them so."""
+        """The student's state in one to three words, as the pages list it."""
         tasks = self.result.tasks
         if any(task.status == UNGRADED for task in tasks):
             return UNGRADED
@@ -95,7 +95,7 @@ class Course:
 
     @property
     def counts(self) -> Counter[str]:
-        """How many students are in each state."""
+        """The number of students in each state."""
         return Counter(graded.state for graded in self.class_)
 
     def mistakes(self) -> list[tuple[Mark, list[str]]]:

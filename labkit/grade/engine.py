@@ -188,7 +188,7 @@ def close_graders() -> None:
 
 @dataclass(frozen=True)
 class Engine:
-    """Where packages are graded."""
+    """The workers that grade packages."""
 
     executor: Executor  # runs `grade_package`
     # It returns how many packages can be graded at the same time.

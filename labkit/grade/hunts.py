@@ -49,7 +49,7 @@ STATES = (FOUND, REPAIRED, NAMED, NOT_FOUND, NO_HUNT, UNGRADED)
 
 
 class Files(NamedTuple):
-    """What a student committed of a hunt; b"" where there is none."""
+    """The committed files of a hunt; b"" for a missing one."""
 
     case: bytes
     script: bytes
@@ -58,7 +58,7 @@ class Files(NamedTuple):
 
 @dataclass(frozen=True)
 class Hunter:
-    """How one student's hunt stands."""
+    """The state of one student's hunt."""
 
     student: Student
     state: str  # one of `STATES`
@@ -75,7 +75,7 @@ class Hunter:
 
 @dataclass(frozen=True)
 class Hunt:
-    """What a class was given."""
+    """The hunt of a class."""
 
     day: Day
     level: int
@@ -148,7 +148,7 @@ class HuntPackage:
 
 
 class HuntJournal(Journal):
-    """What was found of each student, kept as it comes; see `Journal`."""
+    """The result of each student, stored as it arrives; see `Journal`."""
 
     def __init__(
         self, path: Path, hunt: Hunt, deadline: int | None, seed: int | None

@@ -26,7 +26,7 @@ _ODD = (ValueError, KeyError, TypeError, AttributeError, OverflowError, Recursio
 
 
 class Keepable(Protocol):
-    """What a journal has to know of a package, of whichever kind."""
+    """The fields of a package, of any kind, that a journal needs."""
 
     @property
     def day(self) -> int:

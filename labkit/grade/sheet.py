@@ -141,7 +141,7 @@ def _who(student: Student) -> dict[str, Cell]:
 
 @dataclass(frozen=True)
 class Platform:
-    """What a platform's import asks for."""
+    """The format of a platform's import."""
 
     name: str  # the name that its makers use
     # The columns of the file before the grades, in order. The roster's columns have the
