@@ -49,7 +49,7 @@ class Case:
 
     @cached_property
     def mistakes(self) -> list[HiddenMistake]:
-        """What is to be found."""
+        """The mistakes that are to be found."""
         if self.marks:
             return marked(self.of_day, self.level, self.seed, self.marks)
         return sample(self.of_day, self.level, self.seed)
@@ -61,7 +61,7 @@ class Case:
 
     @property
     def named(self) -> bool:
-        """Whether all that is wrong was suspected."""
+        """All wrong functions were suspected."""
         return self.guilty <= {function for function, _ in self.suspected}
 
     @property

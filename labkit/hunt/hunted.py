@@ -1,4 +1,4 @@
-"""What a closed function of a hunted script does when it is called.
+"""The calls of closed functions in a hunted script.
 
     from labkit.hunt.hunted import Lab, hunted
     return hunted("mass_matrix", J_space, G, armature)
@@ -106,7 +106,7 @@ class Hunted:
                 vars(self._labs[number])[name] = own
 
     def capstone(self, script: Mapping[str, Any]) -> int:
-        """Do the week's capstone by the script's functions, and by right ones."""
+        """Run the week's capstone with the script's functions, and with right ones."""
         from labkit.check.own_functions import capstone_of
 
         case = cases.read(Path(script["__file__"]).parent)

@@ -1,4 +1,4 @@
-"""Is it the function that was written anew, and does the repair pass?"""
+"""Verdicts on rewritten functions: the right suspect, and a repair that passes."""
 
 from collections.abc import Mapping
 from pathlib import Path
