@@ -25,7 +25,7 @@ _BLOCK = re.compile(rf"^{BEGIN}\n(.*?)^{END}\n\n?\n?", re.MULTILINE | re.DOTALL)
 
 @dataclass
 class Cells:
-    """What the cells of a notebook define at their top level; the last one counts."""
+    """The definitions at the top level of a notebook's cells; the last one counts."""
 
     # The text of each function, by name.
     functions: dict[str, str] = field(default_factory=dict)

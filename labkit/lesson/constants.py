@@ -1,4 +1,4 @@
-"""What a guide's numbers hang on: each constant turned by two, measured, explained.
+"""Sensitivity of a guide's numbers: each constant is doubled, measured, explained.
 
 A day's `constants.py` lists them. A number is a function whose arguments are all the
 constants that it could depend on; their defaults are what the lab uses:
@@ -37,7 +37,7 @@ Computed = TypeVar("Computed", bound=Callable[..., float])
 
 @dataclass(frozen=True)
 class Effect:
-    """What a constant that is turned must do to a number, and why."""
+    """The expected effect of a doubled constant on a number, and its reason."""
 
     least: float  # the smallest ratio of the new number to the old
     most: float
@@ -47,12 +47,12 @@ class Effect:
 
     @property
     def moves(self) -> bool:
-        """Whether the number must change."""
+        """The number must change."""
         return not self.least <= 1.0 <= self.most
 
     @property
     def expected(self) -> str:
-        """What it must do, in words."""
+        """The expected effect in words."""
         if self.least == self.most == 1.0:
             return "it stays"
         return self.says or f"× {self.least:g} to × {self.most:g}"

@@ -40,7 +40,7 @@ MOST_LAB = 90.0  # the limit of a lab's run, seconds
 
 @dataclass(frozen=True)
 class Limits:
-    """What a file of a day's may take."""
+    """The limits of a day's file."""
 
     # The limit of all calls of a task, if the task has its own.
     seconds: Mapping[str, float] = field(default_factory=dict)
@@ -146,7 +146,7 @@ class Day:
 
     @property
     def limits(self) -> Limits:
-        """What the code of its tasks may take."""
+        """The limits of the code of its tasks."""
         return Limits(
             {task.id: task.seconds for task in self.tasks},
             max(task.memory for task in self.tasks),
@@ -156,7 +156,7 @@ class Day:
 
     @property
     def files(self) -> dict[str, str]:
-        """What it hands in: paths from the clone's top, by what they are."""
+        """The paths of its hand-in from the clone's top, by their kind."""
         week = self.folder.name
         found = {
             "script": f"{week}/{WORK}/{self.script}",

@@ -45,7 +45,7 @@ class Printed(NamedTuple):
 
     @property
     def bare(self) -> bool:
-        """Whether it is one or two digits, which may count anything."""
+        """The number has one or two digits and may be any count."""
         return self.whole and self.digits < SURE
 
     def is_of(self, value: float) -> bool:
@@ -66,7 +66,7 @@ class Printed(NamedTuple):
 
 
 class Output(io.StringIO):
-    """What a lab prints, held until `release`."""
+    """The output of a lab, held until `release`."""
 
     def __init__(self, asked: Collection[str]) -> None:
         """Hold what is printed from now on.

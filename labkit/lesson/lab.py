@@ -1,4 +1,4 @@
-"""What every day's lab script does the same way: say, check, record, conclude.
+"""The common actions of all lab scripts: print, check, record, conclude.
 
     lab = Lab(__file__, __doc__)
     lab.step("2. The same by hand")

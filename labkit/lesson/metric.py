@@ -1,4 +1,4 @@
-"""What a row of the log must be: a number, and its range."""
+"""A number that the log must have, and its range."""
 
 import math
 from collections.abc import Mapping

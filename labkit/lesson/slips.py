@@ -1,4 +1,4 @@
-"""What shows in a student's file unrun: a gap left in, a function renamed or doubled.
+"""Mistakes that a file shows without a run: a gap, a function renamed or doubled.
 
 Also what is no Python: lines of a notebook, marks of a merge, a pointer of Git LFS.
 """

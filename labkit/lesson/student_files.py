@@ -1,4 +1,4 @@
-"""Which files of a clone the student writes: one list, from the manifests.
+"""The files of a clone that the student writes: one list, from the manifests.
 
 Hand-in, update, fresh, edition, report and capstone ask this module; no other one has
 a pattern of these names.

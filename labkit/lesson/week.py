@@ -68,7 +68,7 @@ class Week:
 
     @property
     def heading(self) -> str:
-        """What it is called: "Week 1: foundations"."""
+        """The heading of the week: "Week 1: foundations"."""
         return f"Week {self.number}: {self.name.replace('-', ' ')}"
 
     @property
