@@ -1,4 +1,4 @@
-"""What the cells of a day's notebook call: check, hint, run, predict, answer, load.
+"""Functions for the cells of a notebook: check, hint, run, predict, answer, load.
 
     from labkit.notebook.kernel import begin, check
     begin(2)

@@ -1,4 +1,4 @@
-"""What a cell of a notebook answers with: as text, and as HTML.
+"""The answers of a notebook's cell, as text and as HTML.
 
 Every answer follows Jupyter's protocol, so it is readable in JupyterLab, Colab and VS
 Code, in a dark theme (no colour of text or ground is set) and in a plain terminal.

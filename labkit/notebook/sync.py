@@ -35,7 +35,7 @@ KEPT = 200  # texts that are remembered, per function
 
 @dataclass
 class Brought:
-    """What became of a notebook's functions."""
+    """The result of copying a notebook's functions."""
 
     written: list[str] = field(default_factory=list)  # taken from the notebook
     newer: list[str] = field(default_factory=list)  # the file's was edited: it counts
