@@ -23,7 +23,7 @@ from robo47.errors import Robo47Error
 
 @dataclass(frozen=True)
 class RunDay(DayFacts):
-    """How a day of somebody's stands, as it ran here."""
+    """The state of a student's day after its run here."""
 
     # The numbers that the lab gave with theirs as far as it came, by check and metric.
     again: Mapping[tuple[str, str], float] = field(default_factory=dict)
