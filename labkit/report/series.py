@@ -58,7 +58,7 @@ class Series:
 
     @property
     def status(self) -> str:
-        """What the latest run is worth now, as `Writers.judge` has it.
+        """The status of the latest run by `Writers.judge`.
 
         "kit" where nobody but the kit ran it, "open" where nothing is asked of it.
         """
@@ -99,7 +99,7 @@ class Series:
 
     @property
     def is_log(self) -> bool:
-        """Whether the axis is logarithmic: errors, and whatever spans decades."""
+        """The axis is logarithmic: errors, and numbers that span decades."""
         values = self.values
         positive = [value for value in values if value > 0]
         if not positive or min(values) < 0:

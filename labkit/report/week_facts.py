@@ -23,7 +23,7 @@ GIT_SECONDS = 10.0
 
 @dataclass(frozen=True)
 class DayFacts:
-    """How a day stands."""
+    """The state of a day."""
 
     day: Day
     # How each task stands, "passed", "wrong" and so on; none that nobody checked as
@@ -38,13 +38,13 @@ class DayFacts:
 
     @property
     def functions(self) -> int:
-        """How many functions the day asks for."""
+        """The number of functions that the day asks for."""
         return sum(len(task.functions) for task in self.day.tasks)
 
 
 @dataclass(frozen=True)
 class OwnDay(DayFacts):
-    """How a day of one's own went."""
+    """The history of a student's day."""
 
     # minutes from the first to the last commit, as git knows
     minutes: int | None = None
@@ -54,12 +54,12 @@ class OwnDay(DayFacts):
 
     @property
     def checked(self) -> bool:
-        """Whether `make check` has seen all tasks in the file as it is."""
+        """`make check` has seen all tasks in the present file."""
         return len(self.states) == len(self.day.tasks)
 
     @property
     def graded(self) -> list[bool]:
-        """Whether each task passes; side quests are not counted."""
+        """For each task whether it passes, without side quests."""
         tasks = [task for task in self.day.tasks if not task.optional]
         return [self.states.get(task.id) == "passed" for task in tasks]
 
