@@ -297,7 +297,7 @@ def _start(command: list[str]) -> subprocess.Popen[bytes]:
 
 @dataclass(frozen=True)
 class Wall:
-    """What student code is kept behind."""
+    """The wall around student code."""
 
     name: str  # "bubblewrap", "landlock" or "none"
     says: str  # a sentence for people, without a full stop

@@ -243,7 +243,7 @@ class Session:
 
     @property
     def alive(self) -> bool:
-        """Whether it still answers; where not, open another session."""
+        """The session still answers; if not, open another one."""
         return self._ended is None
 
     def ask(

@@ -1,4 +1,4 @@
-"""How values travel between the checker and the sandbox: plain JSON, never pickle.
+"""The encoding of values between the checker and the sandbox: JSON, never pickle.
 
 Reading an array back runs no code, whatever the sender wrote: only a few number types,
 a shape and as many bytes as those two call for. `pack_value` has the one list of what a
