@@ -1,4 +1,4 @@
-"""What an update asks of git, and the worktree beside the clone that it works in."""
+"""Git queries of an update, and the worktree beside the clone in which it works."""
 
 import contextlib
 import os
