@@ -204,7 +204,7 @@ class Shape:
 
     @cached_property
     def distal_radii(self) -> Array:
-        """For each joint an upper bound on the distance to distal points, m, (7,)."""
+        """An upper bound on the distance of distal points from each joint, m, (7,)."""
         return distal_radii(*self.lengths)
 
     @cached_property

@@ -30,7 +30,7 @@ REACHED = 1e-4  # m and rad: an answer of solve_ik further off than this is none
 
 
 class State(NamedTuple):
-    """What the formulas say of one configuration and velocity."""
+    """The kinematics and dynamics at one configuration and velocity."""
 
     T: Array  # T_world_tcp
     J_space: Array

@@ -67,7 +67,7 @@ class Result(NamedTuple):
 
     @property
     def failed(self) -> bool:
-        """Whether the cube was dropped or put down more than 10 mm off."""
+        """The cube was dropped or put down more than 10 mm off."""
         return self.place_mm > 10.0
 
 

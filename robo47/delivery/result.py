@@ -38,7 +38,7 @@ class Result(NamedTuple):
 
     @property
     def failed(self) -> bool:
-        """Whether it is not delivered, or a number that counts is off."""
+        """The cube is not delivered, or an important number is off."""
         good = (
             not self.stopped
             and self.place_mm < 10.0

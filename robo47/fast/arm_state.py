@@ -81,7 +81,7 @@ SPATIAL = _spatial_map()
 
 
 class Constants:
-    """What does not depend on q, of a `robo47.arm.Arm`."""
+    """The constants of a `robo47.arm.Arm`, which do not depend on q."""
 
     def __init__(self, arm: Any) -> None:
         n = len(arm.masses)
@@ -185,7 +185,7 @@ class ArmState:
 
     @cached_property
     def _momenta(self) -> Array:
-        """What speed 1 of each joint gives to its link and all after it, (n, 6)."""
+        """The momentum of each link and all after it at joint speed 1, (n, 6)."""
         n = len(self.q)
         carried = (self._c.after @ self._P.reshape(n, 16) @ SPATIAL).reshape(n, 6, 6)
         return (carried @ self._S[:, :, None])[:, :, 0]

@@ -39,7 +39,7 @@ class Many:
 
     @property
     def walking(self) -> int:
-        """How many have not ended."""
+        """The number of walkers that have not ended."""
         return self._q.shape[1]
 
     def look(self) -> Array:
