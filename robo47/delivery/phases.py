@@ -1,7 +1,7 @@
 """The phases of the delivery, and the measurements during them.
 
-Joint moves, straight lines and grips are those of `robo47.capstone.phases`. The path
-around the wall, the weighing and the contact monitor are new.
+`robo47.capstone.phases` defines joint moves, straight lines and grips. The path around
+the wall, the weighing and the contact monitor are new.
 
 Units: metres, radians, seconds, kilograms, N m; poses `T_world_x` are (4, 4).
 """
