@@ -13,7 +13,7 @@ from conftest import ROOT, need
 from labkit.lesson.day import all_days, find_day
 from labkit.lesson.metric import Metric
 from labkit.log.rows import HEADER as LINE
-from labkit.log.rows import encode, typed
+from labkit.log.rows import checked_row, encode
 from labkit.log.scan import scan
 from labkit.report import page, plot
 from labkit.report.series import Report, Series, collect, series_of
@@ -26,7 +26,7 @@ EVIL = "<script>document.title='owned'</script><img src=x onerror=alert(1)>"
 
 def line(**fields: object) -> str:
     base = {"date": "2026-09-01", "day": 1, "check": "fk", "metric": "err"}
-    return encode(typed(base | {"git_sha": "abc1234"} | fields, True)[0])
+    return encode(checked_row(base | {"git_sha": "abc1234"} | fields, True)[0])
 
 
 @pytest.fixture
@@ -48,7 +48,9 @@ def run(run):
 def of_values(metric: str, *values: float, limit: Metric | None = None) -> Series:
     """Return a series of these values."""
     series = Series(1, limit or Metric("c", metric))
-    series.rows = [typed({"value": v, "git_sha": "abc1234"}, False)[0] for v in values]
+    series.rows = [
+        checked_row({"value": v, "git_sha": "abc1234"}, False)[0] for v in values
+    ]
     return series
 
 

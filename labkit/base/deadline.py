@@ -26,9 +26,10 @@ class Deadline:
         self._clock = clock
         self._began = clock()
         self._own = processes.waited()
-        self._waited = 0.0  # by all of us, when last looked
-        self._working: list[Any] = []  # what has `used`
-        self._waits: list[tuple[float, float]] = []  # of each: at first, since then
+        self._waited = 0.0  # the waiting time of all processes at the last look
+        self._working: list[Any] = []  # the objects that have `used`
+        # The waiting time of each process: first, last.
+        self._waits: list[tuple[float, float]] = []
 
     def watch(self, working: Any) -> None:
         """Count what another process waits, too: a `Process`, a `Session`."""

@@ -25,15 +25,15 @@ _LABEL = {
     "borrowed": "borrowed",
     "unfinished": "passed as far as it was run",
 }
-_COLOUR = {"passed": "32", "wrong": "31"}  # of all others: yellow
-_INDENT = 7  # where a message starts
+_COLOUR = {"passed": "32", "wrong": "31"}  # every other status is yellow
+_INDENT = 7  # the column at which a message starts
 
 
 @dataclass(frozen=True)
 class Report:
     """One check of a day."""
 
-    day: Day  # from the manifest
+    day: Day  # the day, read from its manifest
     tasks: Sequence[TaskResult]  # one result per task that was checked
     # One per deliverable; empty when one task alone was checked.
     items: Sequence["Item"] = ()
@@ -170,12 +170,12 @@ def state_of(report: Report, result: TaskResult) -> tuple[str, str, list[str]]:
     verdict = result.verdict
     lines = []
     if not report.problem and verdict.mistake != "unwritten":
-        lines = [_said(report, result, explain=False), verdict.call]
+        lines = [_sentence(report, result, explain=False), verdict.call]
     return _name(result.task), _LABEL[_status(report, result)], lines
 
 
 def _status(report: Report, result: TaskResult) -> str:
-    verdict = result.verdict  # of what is to do, its mistake may say why
+    verdict = result.verdict  # a task to do can have its mistake as its label
     status = verdict.mistake if verdict.mistake in _LABEL else verdict.status
     status = "valid" if verdict.valid else status
     return "unjudged" if report.problem else status
@@ -187,7 +187,7 @@ def _below(report: Report, result: TaskResult, explain: bool) -> list[str]:
     lines = []
     begun = verdict.function not in ("", result.task.functions[0])
     if not report.problem and (begun or verdict.mistake != "unwritten"):
-        says = _said(report, result, explain)
+        says = _sentence(report, result, explain)
         lines += _wrapped(says, _INDENT)
         if verdict.call and verdict.message in says:
             lines += _wrapped(verdict.call, _INDENT)
@@ -212,7 +212,7 @@ def matrix_of(compared: Compared) -> list[str]:
     return ["The matrix of this call, with its wrong entries in brackets:", *rows]
 
 
-def _said(report: Report, result: TaskResult, explain: bool) -> str:
+def _sentence(report: Report, result: TaskResult, explain: bool) -> str:
     """Return what to say of a task: a mistake once, what follows from it in short."""
     verdict = result.verdict
     if verdict.mistake == "inherited":

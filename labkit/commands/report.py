@@ -52,7 +52,7 @@ def main() -> int:
     heading = describe(args, report)
     out = args.out or args.file.parent
     shown_weeks = [] if filtered else begun(report)
-    if asked_week:  # of the others, those that an earlier run wrote
+    if asked_week:  # the pages of the other weeks may be there from an earlier run
         shown_weeks = [w for w in shown_weeks if (out / page_of(w)).is_file()]
     else:
         checked = {day.number: last_check(day) for day in days} if mine else {}
@@ -132,7 +132,7 @@ def last_check(day: Day) -> str:
     """Return a line on what the last check found in the student's file as it is."""
     if not day.work.is_file():
         return f"Not begun: make start DAY={day.number}"
-    known = memory.known(day)
+    known = memory.task_states(day)
     if any(task.id not in known for task in day.tasks):
         return f"Not checked as it is now: make check DAY={day.number}."
     left = [f"{t.id} {known[t.id]}" for t in day.tasks if known[t.id] != "passed"]
@@ -146,7 +146,7 @@ def tell(report: Report, days: list[Day]) -> None:
     for day in days:
         if not day.work.is_file():
             continue
-        found = memory.known(day)
+        found = memory.task_states(day)
         done = all(found.get(t.id) == "passed" for t in day.tasks if not t.optional)
         says = [] if done else [last_check(day)]
         own = [one for one in report.series if one.day == day.number]

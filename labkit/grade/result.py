@@ -53,7 +53,7 @@ class Result:
     items: tuple[Mark, ...]  # the deliverables
     text: str = ""  # the text that `make check` would have printed
     error: str = ""  # why something could not be graded; "" where all was
-    # What the code wanted and was refused, though its answers may be right.
+    # Requests of the code that were refused, though its answers may be right.
     refused: tuple[str, ...] = ()
     kit: str = ""  # version of the kit that gave it; "" where nothing was graded
     seed: int = 0  # the seed of its fresh inputs

@@ -12,7 +12,14 @@ from urllib.parse import unquote
 
 from labkit.lesson.cells import MOST, lab_from
 from labkit.lesson.day import Day
-from labkit.lesson.own_files import MB, SCRIPT, UnreadError, helpers_of, read, size_of
+from labkit.lesson.untrusted_files import (
+    MB,
+    SCRIPT,
+    UnreadError,
+    helpers_of,
+    read,
+    size_of,
+)
 
 # In bytes.
 LIMITS = {

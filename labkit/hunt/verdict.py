@@ -20,7 +20,7 @@ class Repaired(NamedTuple):
     """A function that was written anew."""
 
     function: str
-    guilty: bool  # whether the mistake is in it
+    guilty: bool  # the mistake is in this function
     verdict: Verdict  # the verdict on the present text
 
 

@@ -32,7 +32,7 @@ class Attempt(NamedTuple):
     result: Any  # None where the arm stopped
     stopped: str  # why it did, in a line
     theirs: frozenset[str]  # its functions that are the student's, since they pass
-    # Of those, what the kit's own did here: what asks them cannot travel.
+    # The kit's own functions ran in place of these, whose arguments cannot travel.
     stayed: frozenset[str] = frozenset()
 
     @property

@@ -22,7 +22,7 @@ from labkit.report import prediction_plot
 from labkit.report.series import Series, cell_of, limit_of, with_unit
 from robo47.attempt import Summary
 
-# What viser's player needs of the page's policy. Its workers compile what they run.
+# Viser's player needs this in the page's policy: its workers compile their code.
 ALLOWED = (
     "; script-src 'nonce-{nonce}' 'unsafe-eval'; worker-src blob:; font-src data:"
     "; img-src data: blob:; connect-src data: blob:"
@@ -61,8 +61,8 @@ class Proof:
     commit: str  # the hash of the last one, or of those that ran; "" without one
     days: Sequence[RunDay]  # the days of the week, in order
     attempt: Attempt  # the attempt at the capstone
-    # What `make fresh` found last: commit, date, how many numbers are wrong and how
-    # many things missing; {} where nobody asked.
+    # The last result of `make fresh`: commit, date, the number of wrong numbers and of
+    # missing things; {} if there is none.
     fresh: dict[str, Any] = field(default_factory=dict)
 
 

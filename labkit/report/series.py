@@ -22,7 +22,7 @@ class Series:
     """The runs of one number, oldest first, and what they must reach."""
 
     day: int | None
-    wanted: Metric  # without a limit where nobody asks for the number
+    wanted: Metric  # the metric; it has no limit if no manifest lists the number
     writers: Writers = SOMEBODY
     rows: list[Row] = field(default_factory=list)  # all but
     kits: list[Row] = field(default_factory=list)  # the kit's own

@@ -29,7 +29,7 @@ class DayFacts:
     # How each task stands, "passed", "wrong" and so on; none that nobody checked as
     # the file is now.
     states: Mapping[str, str]
-    numbers: Sequence[Series]  # in the manifest's order
+    numbers: Sequence[Series]  # the order is the manifest's
 
     @property
     def own(self) -> list[str]:
@@ -48,7 +48,7 @@ class OwnDay(DayFacts):
 
     # minutes from the first to the last commit, as git knows
     minutes: int | None = None
-    hints: int = 0  # how many were asked for
+    hints: int = 0  # the number of hints that were asked for
     met: Sequence[Met] = ()  # the named mistakes, in the order they were met
     borrowed: Sequence[str] = ()  # tasks whose functions are borrowed from the kit
 
@@ -71,7 +71,7 @@ def facts_of(day: Day, series: Sequence[Series]) -> OwnDay:
         day: from its manifest.
         series: the log's rows of all that the day asks for.
     """
-    known = memory.known(day)
+    known = memory.task_states(day)
     ids = {task.id for task in day.tasks}
     by = {one.wanted: one for one in series if one.day == day.number}
     return OwnDay(

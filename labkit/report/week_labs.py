@@ -72,6 +72,7 @@ def _why(done: subprocess.CompletedProcess[str]) -> str:
     if mark:
         return " ".join(failed.partition("FAILED: ")[0].split())
     lines = done.stderr.strip().splitlines()
-    if lines[1:] and lines[-1].startswith("Which function"):  # after a bug's own words
+    # A bug of the kit prints its own words first.
+    if lines[1:] and lines[-1].startswith("Which function"):
         del lines[-1]
     return lines[-1].strip() if lines else f"it ended with code {done.returncode}"

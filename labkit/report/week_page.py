@@ -7,9 +7,9 @@ from labkit.base import html
 from labkit.base.text import number_of
 from labkit.check.memory import Met
 from labkit.lesson.day import Day
+from labkit.report.generic_verdicts import in_words
 from labkit.report.page import STATUS, links
 from labkit.report.series import Series, cell_of, limit_of, with_unit
-from labkit.report.unnamed import in_words
 from labkit.report.week_facts import OwnDay
 
 STYLE = """
@@ -101,7 +101,7 @@ def _numbers(facts: Sequence[OwnDay]) -> str:
         for one in facts
         for i, number in enumerate(one.numbers)
     ]
-    # What counts stands left: a phone shows the first four columns.
+    # A phone shows the first four columns, so the important ones come first.
     head = (
         "<th>day</th><th>number</th><th class=n>yours</th><th></th><th>limit</th>"
         "<th class=n>your worst on the way</th>"

@@ -95,7 +95,7 @@ def look_again(index: Path) -> None:
 
 
 @contextlib.contextmanager
-def beside(head: str) -> Iterator[Path]:
+def worktree_at(head: str) -> Iterator[Path]:
     """Yield a worktree at a commit; it goes with the block."""
     with _folder() as place:
         try:

@@ -1,4 +1,4 @@
-"""Words for verdicts that say what came out, and not which mistake was made."""
+"""Words for verdicts that describe the answers and do not name a mistake."""
 
 UNNAMED = {
     "both-halves-off": "both halves are off",
@@ -25,5 +25,5 @@ UNNAMED = {
 
 
 def in_words(slug: str) -> str:
-    """Return a verdict's words: these, or the mistake's name without its hyphens."""
+    """Return these words, or a mistake's name without its hyphens."""
     return UNNAMED.get(slug, slug.replace("-", " "))
