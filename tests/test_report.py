@@ -262,20 +262,24 @@ def test_a_long_series_keeps_its_extremes_and_its_latest_run():
         ({"min": 0.1}, 10.0, 2),
         ({"min": 0.1, "max": 1000.0}, 10.0, 2),  # the nearer limit counts
         ({"max": 0.0}, -1.0, None),
+        ({"max": 1.0}, float("nan"), None),
+        ({"max": 1.0}, None, None),
         ({}, 1.0, None),
     ],
 )
 def test_a_margin_is_the_factor_between_number_and_limit_in_decades(
     limit, value, decades
 ):
-    found = overview.margin(of_values("m", value, limit=Metric("c", "m", **limit)))
+    series = of_values("m", limit=Metric("c", "m", **limit))
+    found = overview.margin(series, value)
     assert found == (decades if decades is None else pytest.approx(decades))
 
 
 def test_a_bar_begins_at_the_limit_and_goes_left_where_a_number_fails():
     limit = Metric("c", "m", max=1e-3, says="largest error <m>")
     good, bad = (of_values("m", value, limit=limit) for value in (1e-6, 1e-1))
-    picture = re.search("<svg.*</svg>", overview.margins([good, bad]))[0]
+    bars = [overview.Bar(one, one.latest, one.status) for one in (good, bad)]
+    picture = re.search("<svg.*</svg>", overview.margins(bars))[0]
     (line,) = [p for p in ElementTree.fromstring(picture).iter("path")
                if p.get("stroke") == "var(--limit)"]  # fmt: skip
     at_limit = float(re.match(r"M([\d.]+)", line.get("d"))[1])
@@ -285,7 +289,7 @@ def test_a_bar_begins_at_the_limit_and_goes_left_where_a_number_fails():
     assert right == pytest.approx(at_limit)
     assert "largest error <m>" in first.find("title").text
     assert "1 of 2 numbers are inside their limits." in picture
-    assert overview.margins([of_values("m", 1.0)]) == ""
+    assert overview.margins([overview.Bar(of_values("m", 1.0), 1.0, "open")]) == ""
 
 
 def test_a_day_has_a_square_a_task_and_a_dot_an_attempt(tmp_path):

@@ -5,9 +5,10 @@ name.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from html import escape
 from itertools import groupby
+from typing import NamedTuple
 
 from labkit.base import html
 from labkit.check.memory import Entry, Met
@@ -16,7 +17,13 @@ from labkit.report.generic_verdicts import in_words
 from labkit.report.series import Series, limit_of, with_unit
 from labkit.report.week_facts import OwnDay
 
-STYLE = """
+MARGINS = """
+.margins { max-width: 760px; margin-bottom: 14px; }
+@media (max-width: 500px) { .margins svg { font-size: 20px; } }
+"""
+STYLE = (
+    MARGINS
+    + """
 .squares i, .attempts i { display: inline-block; width: 13px; height: 13px;
   margin: 2px 2px 0 0; border-radius: 3px; background: var(--grid); }
 .attempts i { width: 8px; height: 8px; border-radius: 50%; }
@@ -25,9 +32,8 @@ STYLE = """
 td.squares, td.attempts { white-space: normal; line-height: 1; min-width: 90px; }
 td.day { white-space: normal; min-width: 110px; }
 td.wide { white-space: normal; min-width: 160px; }
-.margins { max-width: 760px; }
-@media (max-width: 500px) { .margins svg { font-size: 20px; } }
 """
+)
 ATTEMPTS = 60  # the most dots of a day
 WIDTH, LEFT, RIGHT = 720, 76, 712
 PITCH = 11  # pixels, from one bar to the next
@@ -37,6 +43,14 @@ MOST = 16.0  # decades that are drawn; a number of 0 has as many
 # Names of what no known mistake explains.
 _MOODS = {"left behind": ("pass", "✓"), "still there": ("fail", "✗")}
 ROLES = {"passed": "pass", "wrong": "fail", "close": "fail"}
+
+
+class Bar(NamedTuple):
+    """A number of the picture of margins."""
+
+    series: Series  # has its name and its limits
+    value: float | None
+    status: str  # "pass", "fail", or another word for a number that is not counted
 
 
 def days_table(days: Sequence[OwnDay], journal: Sequence[Entry]) -> str:
@@ -108,14 +122,18 @@ def _mistake(day: Day, met: Met) -> str:
     )
 
 
-def margin(series: Series) -> float | None:
+def margin(series: Series, value: float | None) -> float | None:
     """Return by how many powers of ten a number is inside its limit.
+
+    Args:
+        series: has the limits.
+        value: the number; None where there is none.
 
     Returns:
         Negative beyond the limit; None without a finite number or without a positive
         limit, because their ratio says nothing then.
     """
-    value, found = series.latest, []
+    found = []
     if value is None or not math.isfinite(value):
         return None
     for sign, bound in series.bounds:
@@ -126,17 +144,21 @@ def margin(series: Series) -> float | None:
     return max(-MOST, min(MOST, *found, MOST)) if found else None
 
 
-def margins(series: Sequence[Series]) -> str:
+def margins(numbers: Iterable[Bar]) -> str:
     """Return bars of all numbers with a limit, on a logarithmic scale; "" for none."""
-    known = [(one, far) for one in series if (far := margin(one)) is not None]
+    known = [
+        (bar, far)
+        for bar in numbers
+        if (far := margin(bar.series, bar.value)) is not None
+    ]
     if not known:
         return ""
     scale = _Scale([far for _, far in known])
     parts, y = [], 16.0
-    for day, some in groupby(known, key=lambda pair: pair[0].day):
+    for day, some in groupby(known, key=lambda pair: pair[0].series.day):
         parts.append(_text(LEFT - 8, y + 8, f"Day {day}", ' text-anchor="end"'))
-        for one, far in some:
-            parts.append(_bar(one, scale.x(0), scale.x(far), y))
+        for bar, far in some:
+            parts.append(_bar(bar, scale.x(0), scale.x(far), y))
             y += PITCH
         y += GAP
     parts = [*scale.lines(y), *parts]
@@ -146,11 +168,7 @@ def margins(series: Sequence[Series]) -> str:
         f'<svg viewBox="0 0 {WIDTH} {y + 16:.0f}" role="img" aria-label="{says}">'
         f"{''.join(parts)}</svg>"
     )
-    about = (
-        '<p class="muted">Each bar is a number. It begins at the limit and goes to the'
-        " right by the factor by which your last run is inside it.</p>"
-    )
-    return html.section("Margins", about, f'<div class="card margins">{svg}</div>')
+    return f'<div class="card margins">{svg}</div>'
 
 
 class _Scale:
@@ -165,8 +183,8 @@ class _Scale:
         return LEFT + (margin - self.low) / (self.high - self.low) * (RIGHT - LEFT)
 
     def lines(self, bottom: float) -> list[str]:
-        """Return the limit, and a line for every second power of ten at most."""
-        step = math.ceil((self.high - self.low) / 8)
+        """Return the limit, and a line for each of a few powers of ten."""
+        step = math.ceil((self.high - self.low) / 6)
         found = []
         for power in range(int(self.low), int(self.high) + 1):
             if power % step == 0:
@@ -186,12 +204,12 @@ def _factor(power: int) -> str:
     return "limit" if power == 0 else f"× 10{exponent}"
 
 
-def _bar(one: Series, start: float, end: float, y: float) -> str:
-    wanted = one.wanted
+def _bar(bar: Bar, start: float, end: float, y: float) -> str:
+    wanted = bar.series.wanted
     name = wanted.says or f"{wanted.check}, {wanted.metric}"
-    words = f"{escape(name)}: {with_unit(one.latest, wanted)}, {limit_of(wanted)}"
+    words = f"{escape(name)}: {with_unit(bar.value, wanted)}, {limit_of(wanted)}"
     left, width = min(start, end), max(abs(end - start), 2.0)
-    role = {"pass": "pass", "fail": "fail"}.get(one.status, "muted")
+    role = bar.status if bar.status in ("pass", "fail") else "muted"
     return (
         f'<rect x="{left:.1f}" y="{y + 1:.1f}" width="{width:.1f}" height="7" rx="2"'
         f' fill="var(--{role})"><title>{words}</title></rect>'

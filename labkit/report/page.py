@@ -68,7 +68,7 @@ def render(
         _tiles(report),
         *([] if report.rows else [NOTHING]),
         overview.days_table(own_days, journal),
-        overview.margins(report.series),
+        _margins(report.series),
         overview.mistakes(own_days) if any(one.met for one in own_days) else "",
         _jumps(report),
         *_days(report, checked, sheets),
@@ -94,6 +94,17 @@ def _days(
     if later:
         title = f"{count(len(later), 'day')} without a number yet"
         yield html.folded(title, *later, opened=not report.rows)
+
+
+def _margins(series: Sequence[Series]) -> str:
+    drawn = overview.margins(
+        overview.Bar(one, one.latest, one.status) for one in series
+    )
+    about = (
+        '<p class="muted">Each bar is a number. It begins at the limit and goes to the'
+        " right by the factor by which your last run is inside it.</p>"
+    )
+    return drawn and html.section("Margins", about, drawn)
 
 
 def _tiles(report: Report) -> str:
