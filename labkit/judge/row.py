@@ -211,10 +211,11 @@ class Row:
         """
         if code is None:
             return partial(self.wrongs, hidden=hidden)
-        said = {slug: texts for slug, *texts in told(code.__doc__ or "")}
+        said = list(told(code.__doc__ or ""))
+        known = {slug for slug, _, _ in said}
         table = once(code)
-        for slug, (says, both) in said.items():
-            one = entry_of(table, slug, said.keys())
+        for slug, says, both in said:
+            one = entry_of(table, slug, known)
             update_wrapper(one, code, (), ())  # its arguments' names
             name = slug.partition(" ")[0]
             self.wrong(name, says, hidden.get(slug, ""), both)(one)
