@@ -111,8 +111,8 @@ for slug, says, redone, other in (
     ("mirror", "the determinant is not checked: for axes near one plane U V^T may be a "
      "reflection", "U V^T",
      {"turn": partial(turns, rotation=lambda U, Vt: U @ Vt)}),
-    ("mirror-turned-round", "the reflection is corrected by negating the whole matrix. "
-     "Negate only the direction of the smallest singular value", "-U V^T",
+    ("mirror-turned-round", "where U V^T is a reflection, your rotation is its "
+     "negative. Negate only the direction of the smallest singular value", "-U V^T",
      {"turn": partial(turns, rotation=all_turned)}),
     ("R-transposed", "the rotation is transposed: a = R b, so it comes from the sum of "
      "a b^T", "R^T in both steps",

@@ -66,8 +66,8 @@ def all_turned(U, Vt):
 for slug, says, redone, other in (
     ("mirror", "the determinant is not checked: with noise or for mirrored points "
      "U V^T may be a reflection", "U V^T", {"rotation": lambda U, Vt: U @ Vt}),
-    ("mirror-turned-round", "the reflection is corrected by negating the whole matrix. "
-     "Negate only the direction of the smallest singular value", "-U V^T",
+    ("mirror-turned-round", "where U V^T is a reflection, your rotation is its "
+     "negative. Negate only the direction of the smallest singular value", "-U V^T",
      {"rotation": all_turned}),
     ("largest-turned-round", "the reflection is corrected by negating the direction of "
      "the largest singular value; negating the direction of the smallest one changes "
