@@ -154,6 +154,9 @@ class Desk:
         self.asked |= {one.function for one in questions}
         replies = []
         for one in questions:
+            if one.function not in self.student.functions:
+                replies += [Reply(kind="missing")]
+                continue
             try:
                 replies += [Reply(self.student.functions[one.function](*one.args))]
             except Exception as error:

@@ -268,7 +268,7 @@ def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
     white = (1.0, 1.0, 1.0, 1.0)
     triangle = Shape("link1", white, np.eye(3), np.array([[0, 1, 2]]))
     for _ in range(2):  # the fine ones may be as many as the simple ones
-        on_loop(page.server, lambda: page.dress(page.arm.model, [triangle], True))
+        on_loop(page.server, lambda: page.dress(page.arm.model, [triangle], [triangle]))
     assert page.tab is noisy
     assert set(page.widgets()) == before
     assert len(noisy.ghost.meshes) == 1

@@ -17,7 +17,7 @@ from tabs_on_paper import Desk, Paper, same
 
 from conftest import load_script
 from labkit.base.exchange import Path
-from labkit.inspector import words
+from labkit.inspector import declared, words
 from labkit.inspector.arm import Arm
 from labkit.inspector.common_tabs import Joints
 from labkit.inspector.ghost import compare
@@ -28,7 +28,7 @@ from robo47 import panda
 
 pytestmark = pytest.mark.kit
 
-SHOWN = {
+OLD = {
     (1, "Chain"): "link_T joint_T",
     (1, "Order"): "make_T Rz translations_both_orders",
     (2, "Screws"): "joint_screws exp_screw fk_space dh_link dh_fk",
@@ -36,10 +36,7 @@ SHOWN = {
     "nullspace_projection solve_ik",
     (3, "Circle"): "pose_error dls_step",
     (4, "Forces"): "link_inertias mass_matrix gravity_torque",
-    (
-        5,
-        "Control",
-    ): "pd_torque pd_gains error_response gravity_pd "
+    (5, "Control"): "pd_torque pd_gains error_response gravity_pd "
     "computed_torque pid_step saturate max_stable_omega",
     (6, "Touch"): "task_inertia nullspace_torque impedance_wrench critical_damping "
     "impedance_torque",
@@ -47,30 +44,12 @@ SHOWN = {
     (7, "Pick"): "quintic_scaling quintic_duration joint_trajectory "
     "interpolate_pose grasp_pose "
     "combine_bodies max_cube_mass",
-    (8, "Weigh"): "rank_and_condition predict_with_sigma identify_payload",
-    (9, "Feel"): "kinetic_energy_gradient momentum_observer_step contact_link",
-    (10, "Eye"): "camera_matrix project back_project projection_jacobian "
-    "apply_twist "
-    "refine_pose pose_covariance",
-    (11, "Near"): "closest_points_segments capsule_distance distance_gradient "
-    "velocity_damper",
     (12, "Way"): "extend rrt_connect shortcut "
     "wilson_interval path_dynamics time_optimal_profile",
-    (13, "Best"): "qp_ik bound_multipliers",
-    (
-        14,
-        "Touch",
-    ): "cone_margin grip_reflex_step cone_edges observe act reward cem_step "
-    "success_rate",
+    (14, "Touch"): "cone_margin grip_reflex_step cone_edges observe act reward "
+    "cem_step success_rate",
 }
 LAWS = ("with an integral (PID)", "gains outside M", "PD and gravity", "PD")
-
-
-def push(tab):
-    """Pull so hard that the arm moves."""
-    tab.force = np.array([0.0, 60.0, -60.0])
-
-
 # What a person does in a tab, where it does not play all by itself.
 DONE = {
     (1, "Chain"): [lambda tab: tab.press("next")] * 13,
@@ -85,14 +64,56 @@ DONE = {
     ],
     (7, "Plan"): [lambda tab: tab.sets("kind")("trapezoid")],
     (7, "Pick"): [lambda tab: tab.done and tab.replay(99.0)],
-    (9, "Feel"): [push],
-    (11, "Near"): [lambda tab: tab.press("push with damper")],
-    (13, "Best"): [lambda tab: (tab.sets("share")(0.3), tab.press("draw"))],
     (14, "Touch"): [
         lambda tab: tab.sets("feels")(True), lambda tab: tab.press("one generation"),
         lambda tab: tab.press("test 20 cubes"),
     ],
 }  # fmt: skip
+
+
+def tabs():
+    """Return {(day, title): class} of all tabs that days bring."""
+    return {
+        (number, tab.title): tab
+        for number in day_numbers()
+        for tab in day_tabs(find_day(number)).tabs
+        if tab is not Joints
+    }
+
+
+SHOWN = OLD | {
+    name: " ".join(tab.functions) for name, tab in tabs().items() if name not in OLD
+}
+
+
+def uses(number, title):
+    """Yield what a person does in a tab, one thing after the other."""
+    kind = tabs()[number, title]
+    if not issubclass(kind, declared.Declared):
+        yield from DONE.get((number, title), ())
+        return
+    for name, piece in kind.declared().items():
+        then = getattr(piece, "then", "")
+        if isinstance(piece, declared.Handle):
+            yield lambda tab, name=name, then=then: drag(tab, name, then)
+        elif isinstance(piece, declared.Control):
+            values = {
+                "slider": lambda given: [given[1]], "choice": lambda given: given[1],
+                "tick": lambda given: [True], "buttons": lambda given: given[0],
+            }[piece.kind](piece.args)  # fmt: skip
+            for value in values:
+                yield lambda tab, value=value, name=name, then=then: tab.sets(
+                    name, then
+                )(value)
+
+
+def drag(tab, name, then):
+    """Drag a handle by some centimetres."""
+    T = np.array(getattr(tab, name).T)
+    T[:3, 3] += [0.02, 0.05, -0.05]
+    getattr(tab, then)(T)
+
+
 PICTURES = 8  # of a loop that is played
 SIGNS = {  # where a sign in front of everything is no mistake
     "path_dynamics": lambda rows: rows * [[1], [1], [-1]],
@@ -122,7 +143,7 @@ def lab(number):
 
 def kind_of(number, title):
     """Return a tab of a day."""
-    return next(tab for tab in day_tabs(find_day(number)).tabs if tab.title == title)
+    return tabs()[number, title]
 
 
 def looked(number, title, functions, used=True):
@@ -130,12 +151,15 @@ def looked(number, title, functions, used=True):
     kind = kind_of(number, title)
     module = sys.modules[kind.__module__]
     drawn = lambda page, *_: Paper(page.host.log, "robot")  # noqa: E731
-    with patch.object(module, "Robot", drawn, create=True):
+    with (
+        patch.object(module, "Robot", drawn, create=True),
+        patch.object(declared, "Robot", drawn),
+    ):
         desk = Desk(number, kind, functions)
     desk.begin()
     desk.play(PICTURES)
     desk.opened = set(desk.asked)
-    for action in DONE.get((number, title), ()) if used else ():
+    for action in uses(number, title) if used else ():
         action(desk.tab)
         desk.settle()
         desk.play(PICTURES)
@@ -247,6 +271,16 @@ def test_a_tab_without_answers_shows_no_green(number, title):
     assert desk.problem is None
     assert desk.whose[1] == "good"
     assert "r47-bad" not in desk.seen
+
+
+@pytest.mark.parametrize(("number", "title"), SHOWN)
+def test_what_is_not_written_yet_is_the_librarys_and_not_green(number, title):
+    desk = looked(number, title, {}, used=False)
+    says, kind = desk.whose
+    assert (kind, desk.problem) == ("quiet", None)
+    assert "the library's" in says
+    if issubclass(tabs()[number, title], declared.Declared):
+        assert "r47-good" not in desk.seen
 
 
 def test_no_green_stands_while_a_first_answer_has_still_to_come():

@@ -7,7 +7,7 @@ browser it comes from, so no lock is needed. What comes in only notes what is wa
 
 import asyncio
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -95,7 +95,7 @@ class Inspector:
         self.frame = gui.add_dropdown("Frame", tuple(self.arm.names))
         self.proof, self.limits = gui.add_html(""), gui.add_html("")
         self.legend = gui.add_html("", order=LAST)
-        self.solid = gui.add_checkbox("solid arm", False, order=LAST + 1e9)
+        self.solid = gui.add_checkbox("solid arm", True, order=LAST + 1e9)
         gui.add_html(words.line(about, "about", "quiet"), order=LAST + 2e9)
         self.fixed = set(self.widgets())
 
@@ -147,15 +147,17 @@ class Inspector:
                 self.pointed.show()
             self.show()
 
-    def dress(self, model: mujoco.MjModel, meshes: list[Shape], ghosts: bool) -> None:
-        """Put the meshes of the arm's model on it, and on the ghosts, too."""
+    def dress(
+        self, model: mujoco.MjModel, meshes: list[Shape], ghosts: Sequence[Shape] = ()
+    ) -> None:
+        """Put the meshes of the arm's model on it, and those for ghosts on these."""
         with self.server.atomic():
             self.scene.dress(meshes, ghosts)
             self.look()
             self.pointed.watch(model)
             if ghosts and self.page is not None:
                 # Not opened anew: somebody may have a slider of it in hand.
-                self.page.draw.dress(meshes)
+                self.page.draw.dress(ghosts)
                 self.tell(self.arm.q)
 
     def show(self) -> None:

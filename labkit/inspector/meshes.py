@@ -39,6 +39,17 @@ class Skin:
     bodies: dict[str, viser.FrameHandle] = field(default_factory=dict)
     meshes: list[tuple[viser.MeshHandle, Shape]] = field(default_factory=list)
     posed: Mapping[str, Array | None] = field(default_factory=dict)
+    hidden: bool = False
+
+    @property
+    def visible(self) -> bool:
+        """Whether it is drawn, where it has a pose."""
+        return not self.hidden
+
+    @visible.setter
+    def visible(self, shown: bool) -> None:
+        self.hidden = not shown
+        self.pose(self.posed)
 
     def put_on(self, made: Sequence[Shape]) -> None:
         """Replace its meshes."""
@@ -62,7 +73,7 @@ class Skin:
         """Move its bodies, {body: T_world_body (4, 4)}; no pose hides one."""
         self.posed = poses
         for name, body in self.bodies.items():
-            T = poses.get(name)
+            T = None if self.hidden else poses.get(name)
             body.visible = T is not None
             if T is not None:
                 place(body, T)

@@ -92,11 +92,11 @@ class Page:
         return self.arm.pose(name)
 
     def links(self, q: ArrayLike) -> dict[str, Array]:
-        """Return where every link is at q, (7,), for a ghost's `pose`."""
+        """Return where every body is at q, (7,), for a ghost's `pose`."""
         whole = self.q
         whole[: len(np.asarray(q))] = q  # fingers stay as they are
         poses = self.arm.poses_at(whole)
-        return {name: T for name, T in poses.items() if name.startswith("link")}
+        return {name: T for name, T in poses.items() if name != "ee"}
 
     def move(self, q: ArrayLike) -> None:
         """Move the arm, in every browser; q in radians and metres, (nq,)."""
@@ -120,6 +120,11 @@ class Page:
         """Say at the panel's end what colours mean: {what is drawn: its colour}."""
         told = {what: rgb(colour) for what, colour in colours.items()}
         self.host.legend.content = words.legend(told)
+
+    def key(self, colours: Mapping[str, Colour]) -> viser.GuiHtmlHandle:
+        """Add what the colours of a picture mean, directly below it."""
+        told = {what: rgb(colour) for what, colour in colours.items()}
+        return self.html(words.legend(told))
 
     # The student's functions, and what takes time
 

@@ -46,7 +46,6 @@ class Stage(NamedTuple):
     section: Colour
 
 
-LIGHT = Stage((226, 230, 236), (180, 187, 196), (140, 140, 140))
 # the colours of the drawn pictures
 DARK = Stage((27, 31, 36), (52, 58, 66), (72, 80, 90))
 
@@ -71,7 +70,7 @@ class ArmScene:
             name: Triad(server, f"/frames/{name}", name, ANCHORS[i % len(ANCHORS)])
             for i, name in enumerate(arm.names)
         }
-        self.world = Triad(server, "/frames/world", "world", "top-right", letters=True)
+        self.world = Triad(server, "/frames/world", "")
         self.skin = Skin(server, "/arm")
         self.ghost = Skin(server, "/yours", GHOST_COLOUR, 0.6)
         self.yours = Triad(server, "/yours_end", "yours", letters=True)
@@ -81,15 +80,18 @@ class ArmScene:
         self.way = draw.lines(nowhere, HIGHLIGHT)
         self.gap = draw.lines(nowhere, GHOST_COLOUR)
         self.way.visible = self.gap.visible = False
-        self.coarse: list[Shape] = []
+        self.worn: Sequence[Shape] = ()
+        self.coarse: Sequence[Shape] = ()
         self.update()
 
-    def dress(self, shapes: list[Shape], ghosts: bool = False) -> None:
-        """Put meshes on the arm, and on the ghosts, too."""
-        self.skin.put_on(shapes)
+    def dress(self, shapes: Sequence[Shape], ghosts: Sequence[Shape] = ()) -> None:
+        """Put meshes on the arm, and others on the ghosts."""
+        if self.worn is not shapes:
+            self.worn = shapes
+            self.skin.put_on(shapes)
         if ghosts:
-            self.coarse = shapes
-            self.ghost.put_on(shapes)
+            self.coarse = ghosts
+            self.ghost.put_on(ghosts)
         self.update()
 
     def update(self) -> None:
@@ -124,7 +126,7 @@ class ArmScene:
 
     def show_ghost(self, poses: Mapping[str, Array], end: str) -> None:
         """Draw the student's arm, {short name: (4, 4)}, and a line to its end."""
-        self.ghost.pose(poses)
+        self.ghost.pose(self.arm.carried(poses))
         there = poses.get(end)
         self.yours.show(there is not None, chosen=True)
         self.gap.visible = there is not None
@@ -219,7 +221,7 @@ class Pointed:
         mujoco.mj_kinematics(self.model, self.data)
 
 
-def set_stage(server: viser.ViserServer, stage: Stage = LIGHT) -> None:
+def set_stage(server: viser.ViserServer, stage: Stage = DARK) -> None:
     """Set backdrop and floor, and the light."""
     # viser lights with a photograph of a sky and casts shadows: on a computer without a
     # GPU half a minute before the first picture, and a sixth of the frames.

@@ -18,6 +18,7 @@ from robo47.checks import Array
 VISIBLE_GROUPS = (0, 1, 2)
 COLLISION_GROUPS = (3,)
 WHITE = (0.92, 0.92, 0.92, 1.0)  # collision shapes have no colour
+COARSE, LARGER = 1 / 160, 0.002  # m: the grid of a ghost's corners; how far they go out
 Rgba = tuple[float, ...]  # four
 
 
@@ -93,6 +94,21 @@ def thinned(shape: Shape, grid: float) -> Shape:
     used, faces = np.unique(faces[_distinct(faces)[0]], return_inverse=True)
     faces = faces.reshape(-1, 3).astype(np.int32)
     return shape._replace(vertices=middles[used], faces=faces)
+
+
+def ghostly(shape: Shape) -> Shape:
+    """Return a shape for a ghost: fewer corners, and a little larger all around.
+
+    Two equal surfaces in one place would flicker.
+    """
+    thin = thinned(shape, COARSE)
+    sides = thin.vertices[thin.faces]
+    facing = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])
+    normals = np.zeros_like(thin.vertices)
+    for corner in range(3):
+        np.add.at(normals, thin.faces[:, corner], facing)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    return thin._replace(vertices=thin.vertices + LARGER * normals)
 
 
 def _distinct(rows: Array) -> list[NDArray[np.intp]]:

@@ -31,7 +31,7 @@ NEXT = "next"
 PLAY = "play / stop"
 WHOLE = "all seven"
 HALF, SECONDS = 0.22, 1.2  # metres of a drawn axis to either side; time of one motion
-COLOURS = ["red", "orange", "purple", "blue", "black"]
+COLOURS = ["red", "orange", "purple", "blue", "white"]
 SAME = 1e-7  # of a screw or an entry: what one calls the same
 ENTRY = "in one entry"
 UNITS = dict.fromkeys(
@@ -90,7 +90,7 @@ class Screws(Tab):
         self.legend = page.html()
         self.ghost = page.draw.ghost("purple")
         ends = np.concatenate([self._ends(i) for i in range(JOINTS)])
-        page.draw.lines(ends, "black", 1.5)
+        page.draw.lines(ends, "white", 1.5)
         self.axes = page.draw.arrows(ends, "grey")
         self.wrong = page.draw.arrows(ends, "red", 0.008)
         self.lit = page.draw.arrows(self._ends(0), "orange", 0.009)
@@ -104,7 +104,7 @@ class Screws(Tab):
         page.legend({
             "your arm, after these exponentials": "purple",
             "the present screw": "orange", "your other screws": "grey",
-            "your screws, wrong": "red", "the library's screws": "black",
+            "your screws, wrong": "red", "the library's screws": "white",
         })  # fmt: skip
 
     def _ends(self, i: int) -> Array:

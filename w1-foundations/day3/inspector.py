@@ -52,7 +52,7 @@ class Jacobian(Tab):
         self.bars = page.bars(names, 2.5, "", title, "scale")
         self.least = page.html()
         zeros = np.zeros((JOINTS, 2, 3))
-        self.truth = page.draw.lines(zeros, "black", 1.5)
+        self.truth = page.draw.lines(zeros, "white", 1.5)
         self.columns = page.draw.arrows(zeros, "purple")
         self.wrong = page.draw.arrows(zeros, "red", 0.008)
         self.library = zeros
@@ -64,7 +64,7 @@ class Jacobian(Tab):
         page.light(END, {END})
         page.legend({
             "column of J: v of the hand": "purple", "your column, wrong": "red",
-            "the library's column": "black",
+            "the library's column": "white",
             "velocities for joint velocities of norm 1": "grey",
             "your solve_ik": "orange",
         })  # fmt: skip

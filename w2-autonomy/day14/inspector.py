@@ -92,7 +92,7 @@ class Touch(Tab):
         self.image = page.image(self.dots([]), "friction to the right, mass upwards")
         page.draw.lines(floor(), "grey")
         self.box = page.draw.lines(np.zeros((12, 2, 3)), "orange", 3)
-        self.pads = page.draw.lines(np.zeros((24, 2, 3)), "black", 3)
+        self.pads = page.draw.lines(np.zeros((24, 2, 3)), "white", 3)
         self.cones = page.draw.lines(np.zeros((2 * ROUND_CONE, 2, 3)), "green", 2)
         self.arrows = page.draw.arrows(np.zeros((2, 2, 3)), "red", 0.0015)
         page.legend({"force on the cube": "red", "your cone": "green"})
