@@ -342,7 +342,7 @@ def test_a_tab_that_fails_says_so_and_the_page_goes_on(page, say):
 def test_the_chain_shows_one_factor_per_link_and_one_per_joint(page, say):
     say(tab("Chain"))
     assert len(page.arm.steps()) == 16
-    say((page.tab.buttons, "next"))
+    say((page.tab.widgets["does"], "next"))
     assert "factor 4 of 16, T_link1_link2" in contents(page)
     assert "T_world_ee, MuJoCo" not in contents(page)  # the tab needs the room
     say(tab("Joints"))

@@ -242,6 +242,8 @@ class Inspector:
             self.scene.trace(())
             self.scene.look_from(kind.camera)
             self.kind = kind
+            self.solid.value = kind.solid
+            self.look()
             self.page = page = Page(self, Sketch(self.server, self.scene.coarse))
             page.legend(COLOURS if self.day.ghost else {})
             self.tab = Tab(page)

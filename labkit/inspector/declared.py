@@ -49,8 +49,7 @@ import numpy as np
 
 from labkit.inspector import words
 from labkit.inspector.draw import COLOURS
-from labkit.inspector.own import Library, Own
-from labkit.inspector.robot import Robot
+from labkit.inspector.own import Library
 from labkit.inspector.tab import PLAYS, Tab
 from robo47.checks import Array
 
@@ -171,7 +170,7 @@ class Scene(Piece):
 
     def make(self, tab: "Declared", name: str) -> None:
         """Draw it."""
-        setattr(tab, name, Robot(tab.page, self.model(), self.dressed))
+        setattr(tab, name, tab.page.robot(self.model(), self.dressed))
 
 
 def robot(model: Callable[[], Any], dressed: Callable[[], Any]) -> Any:
@@ -221,16 +220,20 @@ class Declared(Tab):
         self._found: tuple[Any, Any] | None = None  # the last answers
         self._reference: Any = None  # the library's last answer
         self.emptied = False  # whether the student's functions gave none since
-        given = {"free": self.free, "any_rows": self.any_rows}
-        self.own: Own = page.own(self.library, **given, units=self.functions)
         self.right = Library(self.library)
+        self.own: Any = self.right
+        if self.functions:
+            given = {"free": self.free, "any_rows": self.any_rows}
+            self.own = page.own(self.library, **given, units=self.functions)
         self._make(Control)
         self.verdict = page.html()
         self._make(Shown, Scene, Handle)
         self.loop = self._loop()
-        page.light("ee", {"ee"})
-        if self.arm_hidden:
+        own_robot = any(isinstance(x, Scene) for x in self.declared().values())
+        if self.arm_hidden or own_robot:
             page.hide_arm()
+        else:
+            page.light("ee", {"ee"})
         page.legend(self._colours)
         self.prepare()
 
@@ -276,6 +279,11 @@ class Declared(Tab):
         for a wrong one, None for a line without a verdict.
         """
         return ()
+
+    def legend(self, what: str, colour: str) -> None:
+        """Say what a colour means, of what `prepare` has drawn."""
+        self._colours[what] = colour
+        self.page.legend(self._colours)
 
     def restart(self) -> None:
         """Go back to the start of the motion."""

@@ -17,6 +17,7 @@ from labkit.inspector.arm import Arm
 from labkit.inspector.draw import Colour, Sketch, rgb
 from labkit.inspector.instruments import Bars, Plot, as_bytes
 from labkit.inspector.own import NoAnswerError, Own
+from labkit.inspector.robot import Load, Robot
 from labkit.inspector.scene import ArmScene
 from labkit.inspector.student import Student
 from robo47.checks import Array
@@ -115,6 +116,10 @@ class Page:
         """Draw no arm but the tab's own, until the tab is left."""
         self.host.scene.hide()
         self.host.solid.visible = False
+
+    def robot(self, model: mujoco.MjModel, dressed: Load) -> Robot:
+        """Draw a scene of MuJoCo's in place of the arm; see `Robot`."""
+        return Robot(self, model, dressed)
 
     def legend(self, colours: Mapping[str, Colour]) -> None:
         """Say at the panel's end what colours mean: {what is drawn: its colour}."""
@@ -326,6 +331,7 @@ class Page:
         y: str = "",
         height: int = 150,
         least: float = 0,
+        below: int = 0,
     ) -> Plot:
         """Add a plot; `show(x, ys)` or `add(x, values)` fills it.
 
@@ -335,8 +341,9 @@ class Page:
             y: the title: what is drawn, with its unit.
             height: pixels.
             least: the lowest value of a logarithmic axis; 0 for a plain one.
+            below: so many of the first curves are wide: an equal one on them is seen.
         """
-        return Plot(self.gui, curves, x, y, height, least)
+        return Plot(self.gui, curves, x, y, height, least, below)
 
     def image(self, picture: Array, title: str = "") -> viser.GuiImageHandle:
         """Add an image; setting `image` to what `as_bytes` makes of one changes it.

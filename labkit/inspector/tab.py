@@ -22,6 +22,7 @@ class Tab:
 
     title = "a tab"
     wide = False  # whether it needs the room of the two matrices above it
+    solid = True  # whether the arm is solid when the tab is opened
     # From where one looks, and at what, metres; aimed beside the arm, since the panel
     # covers the right third of the page.
     camera: "View" = ((1.75, -1.45, 0.95), (0.42, 0.24, 0.4))

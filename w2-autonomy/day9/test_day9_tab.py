@@ -1,14 +1,12 @@
 """Day 9: the tab Feel shows what the student's own observer finds."""
 
 import importlib.util
-from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
 from compare import assert_same
 
 from conftest import ROOT, load_script, need, paper
-from labkit.inspector import declared
 from labkit.lesson.day import find_day
 from robo47 import panda
 
@@ -18,20 +16,13 @@ DAY = find_day(9)
 lab = load_script(ROOT / "w2-autonomy/src/day9_estimation.py")
 
 
-@pytest.fixture
-def feel(monkeypatch):
-    """Return what makes the tab Feel of who wrote some functions."""
+def feel(functions):
+    """Return the tab Feel of who wrote these functions."""
     need(importlib.util.find_spec("viser") is not None, "viser: make view")
-    inspector = DAY.module("inspector")
-    monkeypatch.setattr(declared, "Robot", MagicMock())
-
-    def of(functions):
-        page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
-        tab = inspector.Feel(page)
-        tab.on_move(page.q)
-        return tab
-
-    return of
+    page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
+    tab = DAY.module("inspector").Feel(page)
+    tab.on_move(page.q)
+    return tab
 
 
 def pulled(tab, seconds=0.6):
@@ -49,7 +40,7 @@ def said(tab):
     return tab.verdict.content
 
 
-def test_the_bars_are_the_push_and_the_ball_stands_at_the_link(feel):
+def test_the_bars_are_the_push_and_the_ball_stands_at_the_link():
     tab = feel(vars(lab))
     assert "no contact" in said(tab)
     assert not tab.named.visible
@@ -69,7 +60,7 @@ def test_the_bars_are_the_push_and_the_ball_stands_at_the_link(feel):
     assert_same(tab.force, [0.0, 20.0, 0.0], 1e-9)
 
 
-def test_a_link_is_pulled_at_its_own_centre(feel):
+def test_a_link_is_pulled_at_its_own_centre():
     tab = feel(vars(lab))
     tab.sets("place", "let_go")("link4")
     assert_same(tab.point(), tab.arm.at(panda.READY_Q).coms_world[3], 1e-12)
