@@ -156,26 +156,9 @@ class Maker:
         )
 
 
-panel = Maker("panel")  # bars, plot, image, html: as `Page` has them
+panel = Maker("panel")  # bars, plot, image, html, robot: as `Page` has them
 scene = Maker("scene")  # arrows, lines, sphere, ghost, ...: as `Sketch` has them
 yours = Maker("yours")  # the same, from the student's answers: hidden where none came
-
-
-@dataclass(frozen=True)
-class Scene(Piece):
-    """A robot of the tab's own, in place of the page's arm; see `Robot`."""
-
-    model: Callable[[], Any]
-    dressed: Callable[[], Any]
-
-    def make(self, tab: "Declared", name: str) -> None:
-        """Draw it."""
-        setattr(tab, name, tab.page.robot(self.model(), self.dressed))
-
-
-def robot(model: Callable[[], Any], dressed: Callable[[], Any]) -> Any:
-    """Declare a robot of the tab's own: functions that load it, bare and with looks."""
-    return Scene(model, dressed)
 
 
 @dataclass(frozen=True)
@@ -227,13 +210,11 @@ class Declared(Tab):
             self.own = page.own(self.library, **given, units=self.functions)
         self._make(Control)
         self.verdict = page.html()
-        self._make(Shown, Scene, Handle)
-        self.loop = self._loop()
-        own_robot = any(isinstance(x, Scene) for x in self.declared().values())
-        if self.arm_hidden or own_robot:
+        page.light("ee", {"ee"})
+        if self.arm_hidden:
             page.hide_arm()
-        else:
-            page.light("ee", {"ee"})
+        self._make(Shown, Handle)
+        self.loop = self._loop()
         page.legend(self._colours)
         self.prepare()
 

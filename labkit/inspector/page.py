@@ -117,9 +117,9 @@ class Page:
         self.host.scene.hide()
         self.host.solid.visible = False
 
-    def robot(self, model: mujoco.MjModel, dressed: Load) -> Robot:
-        """Draw a scene of MuJoCo's in place of the arm; see `Robot`."""
-        return Robot(self, model, dressed)
+    def robot(self, bare: Load, dressed: Load) -> Robot:
+        """Draw a scene of MuJoCo's in place of the arm, by its loaders; see `Robot`."""
+        return Robot(self, bare(), dressed)
 
     def legend(self, colours: Mapping[str, Colour]) -> None:
         """Say at the panel's end what colours mean: {what is drawn: its colour}."""

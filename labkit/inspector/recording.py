@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from labkit.inspector.draw import Sketch
 from labkit.inspector.guard import LocalServer
 from labkit.inspector.meshes import Skin
-from labkit.inspector.scene import DARK, set_stage
+from labkit.inspector.scene import set_stage
 from labkit.inspector.shapes import shapes, thinned
 from robo47 import se3
 from robo47.checks import Array
@@ -42,7 +42,7 @@ class Recording:
         self.model = model
         self.data = mujoco.MjData(model)
         self.server = LocalServer(0)
-        set_stage(self.server, DARK)
+        set_stage(self.server)
         camera = self.server.initial_camera
         position = LOOK_AT + back * np.subtract(CAMERA, LOOK_AT)
         (camera.position, camera.look_at), camera.fov = (position, LOOK_AT), FOV

@@ -7,7 +7,6 @@ collides with, then those that one looks at. Metres.
 import asyncio
 import contextlib
 from collections.abc import Collection, Mapping, Sequence
-from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -35,19 +34,8 @@ HIGHLIGHT = (255, 176, 0)
 GHOST_COLOUR = (214, 40, 40)
 AXIS = 0.3  # metres of a joint's axis, to both sides
 SHORT, FAR = 1e-6, 1e6  # metres of a ray
-Colour = tuple[int, int, int]
-
-
-class Stage(NamedTuple):
-    """The colours of the backdrop, and of the floor's lines."""
-
-    backdrop: Colour
-    cell: Colour
-    section: Colour
-
-
-# the colours of the drawn pictures
-DARK = Stage((27, 31, 36), (52, 58, 66), (72, 80, 90))
+# The stage, in the colours of the drawn pictures: its ground, and the floor's lines.
+STAGE, CELL, SECTION = (27, 31, 36), (52, 58, 66), (72, 80, 90)
 
 
 class ArmScene:
@@ -221,16 +209,16 @@ class Pointed:
         mujoco.mj_kinematics(self.model, self.data)
 
 
-def set_stage(server: viser.ViserServer, stage: Stage = DARK) -> None:
+def set_stage(server: viser.ViserServer) -> None:
     """Set backdrop and floor, and the light."""
     # viser lights with a photograph of a sky and casts shadows: on a computer without a
     # GPU half a minute before the first picture, and a sixth of the frames.
     server.scene.configure_environment_map(None)
     server.scene.configure_default_lights(cast_shadow=False)
     server.scene.add_light_hemisphere("/sky", ground_color=(190, 195, 205), intensity=2)
-    backdrop = np.full((2, 2, 3), stage.backdrop, dtype=np.uint8)
+    backdrop = np.full((2, 2, 3), STAGE, dtype=np.uint8)
     server.scene.set_background_image(backdrop, format="png")
     server.scene.add_grid(
         "/floor", 2.0, 2.0, cell_size=0.1, section_size=0.5, cell_thickness=0.5,
-        cell_color=stage.cell, section_color=stage.section, section_thickness=0.8,
+        cell_color=CELL, section_color=SECTION, section_thickness=0.8,
     )  # fmt: skip

@@ -53,7 +53,7 @@ class Touch(ui.Declared):
     at_elbow = ui.slider("push at the elbow", -30, 30, 0.0, "N", 1, then="go_on")
     does = ui.buttons(AGAIN, LET_GO, READY, then="press")
     bars = ui.panel.bars(["table"], MOST, "N", "force on the table", "scale")
-    drawn = ui.robot(_scene, dressed)
+    drawn = ui.panel.robot(_scene, dressed)
     mass = ui.yours.ellipsoid("purple", legend="inertia of the hand")
     arrow = ui.scene.arrows(ui.NOWHERE, "red", 0.008, legend="your pull")
     target = ui.handle("drag")

@@ -164,7 +164,7 @@ class Pick(ui.Declared):
     whose = ui.choice("your functions", [TODAY, ALL], then="stop")
     does = ui.buttons(PICK, STOP, then="press")
     bars = ui.panel.bars(panda.ARM_JOINTS, LIMITS, "rad/s", TITLE)
-    robot = ui.robot(_scene, dressed)
+    robot = ui.panel.robot(_scene, dressed)
 
     def prepare(self) -> None:
         half, goal = scenes.CUBE_HALF, [*capstone.GOAL_XY, scenes.TABLE_HEIGHT]

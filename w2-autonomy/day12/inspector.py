@@ -3,7 +3,7 @@
 In the plane: discs, both trees as the student's own `extend` grows them, sample by
 sample, the path of their `rrt_connect` over the library's, and their path after their
 `shortcut`. The tab counts how many of twenty other sets of samples find a path, and
-shows the confidence interval of their `wilson_interval`. In the scene: an arm moves over
+shows the confidence interval of their `wilson_interval`. In the scene an arm moves over
 the lab's wall, with the timing of their `path_dynamics` and `time_optimal_profile`.
 """
 
@@ -78,7 +78,7 @@ class Way(ui.Declared):
         ["lower", "upper"], 1.0, "",
         "success rate: your wilson_interval (marks: the library's)", "up",
     )  # fmt: skip
-    drawn = ui.robot(bare, dressed)
+    drawn = ui.panel.robot(bare, dressed)
     path = ui.scene.lines(ui.NOWHERE, "purple", 4, legend="path of the hand")
 
     def prepare(self) -> None:

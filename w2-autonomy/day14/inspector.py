@@ -108,7 +108,7 @@ class Touch(ui.Declared):
     learned = ui.panel.html()
     image = ui.panel.image(np.zeros((240, 360, 3)), "the tested cubes")
     key = ui.panel.key({"held": "blue", "dropped": "red", "limit": "white"})
-    hand = ui.robot(bare, dressed)
+    hand = ui.panel.robot(bare, dressed)
     box = ui.scene.box(np.full(3, day14_mujoco.HALF), "orange", 0.75, legend="the cube")
     cones = ui.yours.lines(ui.NOWHERE, "green", 2, legend="your friction cone")
     arrows = ui.scene.arrows(ui.NOWHERE, "red", 0.0015, legend="force on the cube")

@@ -47,7 +47,7 @@ class Feel(ui.Declared):
     bars = ui.panel.bars(
         panda.ARM_JOINTS, FULL, "N m", "residual; marks: J^T F of your pull"
     )
-    drawn = ui.robot(bare, dressed)
+    drawn = ui.panel.robot(bare, dressed)
     arrow = ui.scene.arrows(ui.NOWHERE, "red", 0.008, legend="your pull")
     named = ui.yours.sphere(np.zeros(3), 0.09, "orange", 0.5, legend="the contact link")
     target = ui.handle("drag")
