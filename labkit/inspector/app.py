@@ -35,10 +35,7 @@ LOOKS = 0.05  # seconds between looks at the student's file
 DRAG = 0.7  # seconds between moves that count as one
 STEPS = 100  # how many moves can be undone
 LAST = 1e15  # below whatever a tab adds
-COLOURS = {
-    "MuJoCo": (122, 125, 135), "YOURS agrees": (87, 158, 133),
-    "YOURS, where not": GHOST_COLOUR,
-}  # fmt: skip
+COLOURS = {"MuJoCo": (236, 239, 243), "YOURS, where it differs": GHOST_COLOUR}
 
 
 class Inspector:
@@ -74,7 +71,8 @@ class Inspector:
         self.seen = asked(day.ghost)
         self.asks, self.checks = Jobs(), Jobs()
         self.lay_out(server.gui, about)
-        self.scene, self.pointed = ArmScene(server, arm), Pointed(server, arm)
+        self.scene = ArmScene(server, arm)
+        self.pointed = Pointed(server, arm, self.look)
         # The day's own come first, and the first of them is open.
         self.kinds = {kind.title: kind for kind in day.tabs}
         for kind in (Joints, Chain, Tasks):
@@ -176,8 +174,9 @@ class Inspector:
         self.state.content = words.state(self.address, self.heard_words)
 
     def look(self) -> None:
-        """Make the arm solid, or see-through and green where the student's agrees."""
-        self.scene.look(self.solid.value, self.seen.kind == "good")
+        """Make the arm solid, or see-through: as it was asked, or to show an axis."""
+        solid = self.solid.value and not self.pointed.body
+        self.scene.look(solid, self.seen.kind == "good")
 
     def first(self) -> str:
         """Return what to show before viser does, as HTML."""

@@ -14,7 +14,7 @@ import viser
 from numpy.typing import ArrayLike, NDArray
 
 from labkit.inspector.meshes import NUMBERS, Skin, place
-from labkit.inspector.shapes import Shape
+from labkit.inspector.shapes import LARGER, Shape
 from robo47 import se3
 from robo47.checks import Array
 
@@ -34,7 +34,7 @@ COLOURS = {
     "red": (232, 64, 58),
     "blue": (70, 145, 235),
     "green": (0, 178, 132),
-    "purple": (192, 112, 200),
+    "purple": (188, 84, 212),
     "grey": (150, 158, 168),
     "white": (236, 239, 243),
 }
@@ -133,7 +133,8 @@ class Sketch:
 
     def ghost(self, colour: Colour = "blue", opacity: float = 0.4) -> Skin:
         """Draw another arm; `pose({body: T_world_body})` puts its links somewhere."""
-        skin = Skin(self.server, self.path(), rgb(colour), opacity)
+        by = LARGER * (len(self.ghosts) + 1)
+        skin = Skin(self.server, self.path(), rgb(colour), opacity, by)
         skin.put_on(self.coarse)
         self.ghosts.append(skin)
         return skin

@@ -6,7 +6,7 @@ collides with, then those that one looks at. Metres.
 
 import asyncio
 import contextlib
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 import mujoco
 import numpy as np
@@ -16,13 +16,15 @@ from numpy.typing import ArrayLike
 from labkit.inspector.arm import Arm
 from labkit.inspector.draw import Anchor, Sketch, Triad, joined
 from labkit.inspector.meshes import Skin
-from labkit.inspector.shapes import COLLISION_GROUPS, VISIBLE_GROUPS, Shape
+from labkit.inspector.shapes import COLLISION_GROUPS, LARGER, VISIBLE_GROUPS, Shape
 from robo47.checks import Array
 
 View = tuple[tuple[float, float, float], tuple[float, float, float]]
 FOV = 0.72  # vertical, radians
-# For a page that is higher than wide: from further away, the arm above the panel.
-PHONE: View = ((2.1, -1.82, 0.8), (0.15, 0.0, -0.2))
+# A page that is higher than wide: from so much further away, and so much of its height
+# above the middle, since panel and verdict cover the rest.
+BACK, ABOVE = 1.9, 0.33
+BESIDE = 0.25  # of the height: how far the panel has moved the middle to the side
 CONNECTED = 0.3  # seconds until viser's own first camera has been set
 # Neighbours whose origins coincide (links 1 and 2, 5 and 6) have labels on two sides.
 ANCHORS: tuple[Anchor, ...] = ("bottom-left", "center-left", "top-right", "bottom-left")
@@ -46,7 +48,7 @@ class ArmScene:
         self.arm = arm
         self.server = server
         self.hidden = False
-        self.view: View = PHONE
+        self.view: View | None = None
         set_stage(server)
 
         @server.on_client_connect
@@ -60,7 +62,7 @@ class ArmScene:
         }
         self.world = Triad(server, "/frames/world", "")
         self.skin = Skin(server, "/arm")
-        self.ghost = Skin(server, "/yours", GHOST_COLOUR, 0.6)
+        self.ghost = Skin(server, "/yours", GHOST_COLOUR, 0.6, LARGER)
         self.yours = Triad(server, "/yours_end", "yours", letters=True)
         self.yours.show(visible=False, chosen=True)
         draw = Sketch(server, root="/lines")
@@ -109,7 +111,8 @@ class ArmScene:
     def _welcome(self, client: viser.ClientHandle) -> None:
         """Give a browser its camera."""
         with contextlib.suppress(Exception):  # it has told nothing of its size yet
-            view = PHONE if client.camera.aspect < 1.0 else self.view
+            assert self.view is not None
+            view = narrow(self.view) if client.camera.aspect < 1.0 else self.view
             client.camera.position, client.camera.look_at = view
 
     def show_ghost(self, poses: Mapping[str, Array], end: str) -> None:
@@ -149,7 +152,10 @@ class ArmScene:
 class Pointed:
     """The link that was clicked: its name, and the axis that its joint turns about."""
 
-    def __init__(self, server: viser.ViserServer, arm: Arm) -> None:
+    def __init__(
+        self, server: viser.ViserServer, arm: Arm, look: Callable[[], None]
+    ) -> None:
+        """Show nothing yet; `look` is called at a click: an axis is inside of links."""
         self.arm = arm
         self.body = 0
         self.watch(arm.model)
@@ -164,6 +170,7 @@ class Pointed:
         async def _(event: viser.SceneClickEvent) -> None:
             self.body = self.find(event.ray_origin, event.ray_direction)
             self.show()
+            look()
 
     def watch(self, model: mujoco.MjModel) -> None:
         """Look for links from now on, in the arm's model with its shapes."""
@@ -207,6 +214,18 @@ class Pointed:
     def _pose(self) -> None:
         self.data.qpos[:] = self.arm.q
         mujoco.mj_kinematics(self.model, self.data)
+
+
+def narrow(view: View) -> View:
+    """Return from where to look at the same in a page that is higher than wide."""
+    position, middle = (np.array(point) for point in view)
+    back = position - middle
+    height = 2.0 * float(np.linalg.norm(back)) * np.tan(FOV / 2.0)
+    right = np.cross(np.array([0.0, 0.0, 1.0]), back)
+    right /= np.linalg.norm(right)
+    up = np.cross(back, right) / np.linalg.norm(back)
+    middle = middle - BESIDE * height * right - ABOVE * BACK * height * up
+    return tuple(middle + BACK * back), tuple(middle)
 
 
 def set_stage(server: viser.ViserServer) -> None:

@@ -12,7 +12,6 @@ import numpy as np
 
 from labkit.inspector import declared as ui
 from labkit.inspector.draw import joined
-from labkit.inspector.instruments import three
 from robo47 import control, jacobian, panda, scenes, simulate, task_space
 from robo47.checks import Array
 from robo47.rotation_log import small_pose_error
@@ -194,7 +193,6 @@ class Touch(ui.Declared):
             says = f"Diagonal of your Lambda: {mine} kg along x, y, z"
             says += "." if mine == ours else f"; of the library's {ours} kg."
             yield says, "task_inertia"
-        yield f"Force on the table: {three(self.felt(), MOST)} N.", None
 
 
 @cache
