@@ -86,7 +86,7 @@ def test_a_ghost_is_larger_than_the_arm_and_a_second_one_than_the_first():
     sketch = Sketch(SimpleNamespace(scene=Paper(log, "scene")), [BOX])
     sketch.ghost("blue")
     sketch.ghost("red")
-    made = [args[1] for name, (args, _) in log if name.endswith("add_mesh_simple")]
+    made = [given[0][1] for name, given in log if name == "scene.add_mesh_simple"]
     heights = [float(vertices[0, 2]) for vertices in made]
     np.testing.assert_allclose(heights, [LARGER, 2 * LARGER], rtol=1e-6)
 
