@@ -1,6 +1,9 @@
 """What a declared tab shows when, and how the stage shows it; without a browser."""
 
+import math
+import re
 from types import SimpleNamespace
+from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
@@ -9,8 +12,7 @@ pytest.importorskip("viser", reason="the extra view")
 
 from tabs_on_paper import Paper
 
-from conftest import paper
-from labkit.inspector import declared as ui
+from conftest import ROOT, paper
 from labkit.inspector.canvas import Canvas
 from labkit.inspector.draw import Sketch
 from labkit.inspector.scene import FOV, narrow
@@ -25,57 +27,60 @@ BOX = Shape(  # its corners split, as those of a mesh with sharp edges
 )  # fmt: skip
 
 
-class Double(ui.Declared):
-    """Twice a number."""
-
-    title = "Double"
-    library = {"double": lambda x: 2.0 * x}  # noqa: RUF012
-    functions = {"double": "m"}  # noqa: RUF012
-    x = ui.slider("x", 0, 5, 1.0, "m")
-    text = ui.panel.html()
-    ball = ui.yours.sphere(np.zeros(3), 0.1, "blue", legend="yours")
-
-    def ask(self, fns, at):
-        return fns.double(at.x)
-
-    def show(self, yours, right):
-        self.text.content = f"{yours}, {right}"
-
-    def says(self, yours, right):
-        yield f"{yours}", "double"
+def reach(shoulder, length):
+    """Return the end of two links, the second of which continues the first, m."""
+    return (1.0 + length) * np.array([np.cos(shoulder), np.sin(shoulder), 0.0])
 
 
-def opened(double=None):
-    """Return the tab of a student with this function; None wrote nothing."""
-    functions = {} if double is None else {"double": double}
-    tab = Double(paper(panda.load("panda_nohand"), panda.READY_Q, functions))
+def example():
+    """Return the tab that the page for authors shows."""
+    page = (ROOT / "docs/authors.md").read_text("utf-8")
+    code = re.search(r"```python\n(from labkit\.inspector.*?)```", page, re.DOTALL)[1]
+    known = {"arms": {"reach": reach}, "ORIGIN": np.zeros(3), "apart": math.dist}
+    exec(code, known)
+    return known["TABS"][0]
+
+
+def opened(function=None):
+    """Return the example's tab for a student with this function; None wrote nothing."""
+    functions = {} if function is None else {"reach": function}
+    page = paper(panda.load("panda_nohand"), panda.READY_Q, functions)
+    page.draw.sphere.side_effect = lambda *_, **__: MagicMock()
+    tab = example()(page)
     tab.on_move(panda.READY_Q)
     return tab
 
 
+def twice(*given):
+    """Return a wrong end."""
+    return 2 * reach(*given)
+
+
 def test_a_line_is_green_only_if_the_function_is_the_students_and_right():
-    for double, kind in ((lambda x: 2.0 * x, "good"), (lambda x: 3.0 * x, "bad")):
-        assert f"r47-{kind}" in opened(double).verdict.content
+    assert "r47-good" in opened(reach).verdict.content
+    assert "r47-bad" in opened(twice).verdict.content
     assert "r47-" not in opened().verdict.content  # the library's is no achievement
 
 
 def test_a_slider_asks_anew_and_an_answer_to_its_old_place_is_not_shown():
-    tab = opened(lambda x: 3.0 * x)
-    assert tab.text.content == "3.0, 2.0"
+    tab = opened(twice)
+    np.testing.assert_allclose(tab.end.position, 2 * reach(0.3, 0.5))
+    np.testing.assert_allclose(tab.goal.position, reach(0.3, 0.5))
     late = tab.both(tab.at())
-    tab.sets("x")(2.0)
-    assert tab.text.content == "6.0, 4.0"
+    tab.sets("length")(1.0)
+    np.testing.assert_allclose(tab.end.position, 2 * reach(0.3, 1.0))
+    assert "2000.0 mm" in tab.verdict.content
     tab.answered(late)
-    assert tab.text.content == "6.0, 4.0"
+    np.testing.assert_allclose(tab.end.position, 2 * reach(0.3, 1.0))
 
 
 def test_without_an_answer_nothing_of_the_students_stays():
-    tab = opened(lambda x: 3.0 * x)
+    tab = opened(twice)
     tab.lost()
-    assert tab.verdict.content == tab.text.content == ""
-    assert not tab.ball.visible
+    assert tab.verdict.content == ""
+    assert (tab.end.visible, bool(tab.goal.visible)) == (False, True)
     tab.on_move(panda.READY_Q)
-    assert tab.ball.visible
+    assert tab.end.visible
 
 
 def test_a_ghost_is_larger_than_the_arm_and_a_second_one_than_the_first():
