@@ -413,7 +413,7 @@ def _column(column: tuple[Any, ...], alone: bool) -> Any:
         for at, one in enumerate(plain):
             found[at] = one
         return found
-    return whole if whole.dtype.kind in "biu" else whole.astype(np.float64)
+    return whole if whole.dtype.kind in "biuc" else whole.astype(np.float64)
 
 
 def right_answers(

@@ -1,0 +1,94 @@
+"""15.7 `adam_step(theta, grad, m, v, k, rate)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+
+row = Row((
+    Vector((None,), called="theta", scale=0.01),
+    Vector((None,), called="m"),
+    Vector((None,), called="v"),
+))  # fmt: skip
+
+
+def state(rng, n, k, size=1.0):
+    """Return theta, a gradient and averages that k - 1 steps can have left."""
+    grads = size * rng.numbers(-3, 3, k, n)
+    m, v = np.zeros(n), np.zeros(n)
+    for grad in grads[:-1]:
+        m, v = 0.9 * m + 0.1 * grad, 0.999 * v + 0.001 * grad**2
+    return rng.numbers(-1, 1, n), grads[-1], m, v, k
+
+
+@row.inputs
+def _(rng):
+    one = np.ones(1)
+    yield one, 3 * one, 0 * one, 0 * one, 1, 0.01
+    for n, k in ((2, 1), (3, 2), (2, 3), (4, 7), (3, 20)):
+        yield *state(rng, n, k), float(rng.numbers(0.005, 0.05))
+    yield *state(rng, 2, 3, 1e-6), 0.02  # a tiny gradient shows eps
+
+
+row.cases(
+    the_first_step=lambda theta, grad, m, v, k, rate: k == 1,
+    later_steps=lambda theta, grad, m, v, k, rate: k > 1,
+)
+
+
+@row.wrongs
+def _(theta, grad, m, v, k, rate):
+    """no-correction: the averages are not divided by 1 - 0.9^k and 1 - 0.999^k. They
+      start at 0, so without the division they are too small at first
+    corrected-kept: the divided averages are returned. Return m and v without the
+      division: it is for the update only, and the next step would divide again
+    eps-in-the-root: 1e-8 is added inside the square root. Add it to the root
+    momentum-sum: m is 0.9 m + grad, the sum of momentum methods. Adam's average adds
+      0.1 grad
+    betas-swapped: the decay rates 0.9 and 0.999 are swapped
+    root-forgotten: the update is divided by the average of the square, without its root
+    """
+    m1, v1 = 0.9 * m + 0.1 * grad, 0.999 * v + 0.001 * grad**2
+    c1, c2 = 1 - 0.9**k, 1 - 0.999**k
+    mean, square = m1 / c1, v1 / c2
+
+    def step(mean, square, root=np.sqrt):
+        return theta - rate * mean / (root(square) + 1e-8)
+
+    ms, vs = 0.999 * m + 0.001 * grad, 0.9 * v + 0.1 * grad**2
+    mo = 0.9 * m + grad
+    right = step(mean, square)
+    return {
+        "no-correction": (step(m1, v1), m1, v1),
+        "corrected-kept": (right, mean, square),
+        "eps-in-the-root": (theta - rate * mean / np.sqrt(square + 1e-8), m1, v1),
+        "momentum-sum": (step(mo / c1, square), mo, v1),
+        "betas-swapped": (step(ms / c2, vs / c1), ms, vs),
+        "root-forgotten": (step(mean, square, lambda s: s), m1, v1),
+    }
+
+
+@row.right  # The corrections in the step size, as in the paper's remark.
+def _(theta, grad, m, v, k, rate):
+    m = m + 0.1 * (grad - m)
+    v = v + 0.001 * (grad * grad - v)
+    root = np.sqrt(1 - 0.999**k)
+    size = rate * root / (1 - 0.9**k)
+    return theta - size * m / (np.sqrt(v) + 1e-8 * root), m, v
+
+
+@row.right  # Entry by entry.
+def _(theta, grad, m, v, k, rate):
+    new = [np.zeros(len(theta)) for _ in range(3)]
+    for i in range(len(theta)):
+        a = 0.9 * m[i] + (1 - 0.9) * grad[i]
+        b = 0.999 * v[i] + (1 - 0.999) * grad[i] ** 2
+        move = (a / (1 - 0.9**k)) / ((b / (1 - 0.999**k)) ** 0.5 + 1e-8)
+        new[0][i], new[1][i], new[2][i] = theta[i] - rate * move, a, b
+    return tuple(new)
+
+
+@row.spans
+def _(rng):
+    theta, grad, m, v, _ = state(rng, 3, 4)
+    yield theta, grad, m, v, 1000, 1e-8
+    yield theta, 1e3 * grad, m, v, 2, 0.003
