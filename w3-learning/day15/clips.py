@@ -45,9 +45,8 @@ def _moment(some, start: int, k: int):
             axes.add_patch(Circle(seen[k, 2:], MM * day15_mujoco.PUCK, color=colour))
             axes.add_patch(Circle(seen[k, :2], MM * day15_mujoco.PUSHER, color=INK))
             axes.set(xlim=(-400, 400), ylim=(-380, 380), aspect="equal")
-            axes.set(
-                title=f"{name}, {k * day15_mujoco.TICK:.1f} s", xticks=(), yticks=()
-            )
+            axes.set(title=f"{name}, {k * day15_mujoco.TICK:.1f} s")
+            axes.set(xticks=(), yticks=())
             axes.spines[:].set_color(GREY)
 
     return both

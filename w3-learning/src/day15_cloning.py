@@ -42,9 +42,9 @@ def contact_angle(phi: float, distance: float, R: float) -> float:
     contact_angle(0.1, 0.065, 0.065) -> 0.270395
     """
     # region 15.1
-    half = np.tan(phi / 2)  # grows exponentially with the distance
+    half = np.tan(phi / 2)  # the tangent of half the angle at the start
     grown = half * np.exp(distance / R)  # the tangent of half the angle at the end
-    return 2 * np.arctan(grown)
+    return 2 * np.arctan(grown)  # the contact angle
     # endregion 15.1
 
 
@@ -70,7 +70,7 @@ def fit_scaler(x: np.ndarray) -> np.ndarray:
     # region 15.3
     spread = x.std(axis=0)  # standard deviation of each column
     spread = np.where(spread == 0, 1, spread)  # 1 for a constant column
-    return np.array([x.mean(axis=0), spread])
+    return np.array([x.mean(axis=0), spread])  # the means above the deviations
     # endregion 15.3
 
 
@@ -81,18 +81,18 @@ def normalise(x: np.ndarray, scaler: np.ndarray) -> np.ndarray:
     4], [1, 1]]) -> [[3, 0]]
     """
     # region 15.3
-    return (x - scaler[0]) / scaler[1]
+    return (x - scaler[0]) / scaler[1]  # the normalised rows
     # endregion 15.3
 
 
 def denormalise(z: np.ndarray, scaler: np.ndarray) -> np.ndarray:
-    """Return the x (n, d) whose normalised form is z (n, d): the inverse of `normalise`.
+    """Return the x (n, d) whose normalised form is z (n, d): `normalise` undone.
 
     scaler (2, d) is from `fit_scaler`. denormalise([[3, 0]], [[2, 4], [1, 1]]) -> [[5,
     4]]
     """
     # region 15.3
-    return z * scaler[1] + scaler[0]
+    return z * scaler[1] + scaler[0]  # the rows in their units
     # endregion 15.3
 
 
@@ -115,7 +115,7 @@ def mlp(
     # region 15.4
     first = np.tanh(x @ W1 + b1)  # outputs of the first layer
     second = np.tanh(first @ W2 + b2)  # outputs of the second layer
-    return second @ W3 + b3
+    return second @ W3 + b3  # outputs of the linear layer
     # endregion 15.4
 
 
@@ -151,16 +151,16 @@ def mlp_gradient(
     # region 15.6
     first = np.tanh(x @ W1 + b1)  # outputs of the first layer
     second = np.tanh(first @ W2 + b2)  # outputs of the second layer
-    d3 = mse(second @ W3 + b3, target)[1]  # gradient with respect to the output
-    d2 = (d3 @ W3.T) * (1 - second**2)  # before the second tanh
-    d1 = (d2 @ W2.T) * (1 - first**2)  # before the first tanh
+    d3 = mse(second @ W3 + b3, target)[1]  # the gradient with respect to the output
+    d2 = (d3 @ W3.T) * (1 - second**2)  # the gradient before the second tanh
+    d1 = (d2 @ W2.T) * (1 - first**2)  # the gradient before the first tanh
     return (
-        x.T @ d1,  # of W1
-        d1.sum(axis=0),  # of b1
-        first.T @ d2,  # of W2
-        d2.sum(axis=0),  # of b2
-        second.T @ d3,  # of W3
-        d3.sum(axis=0),  # of b3
+        x.T @ d1,  # the gradient of W1
+        d1.sum(axis=0),  # the gradient of b1
+        first.T @ d2,  # the gradient of W2
+        d2.sum(axis=0),  # the gradient of b2
+        second.T @ d3,  # the gradient of W3
+        d3.sum(axis=0),  # the gradient of b3
     )
     # endregion 15.6
 
@@ -179,15 +179,15 @@ def adam_step(
     are the running averages of the gradient and of its square, with the decay rates 0.9
     and 0.999. k = 1, 2, ... is the number of this step. Divide m by 1 - 0.9^k and v by
     1 - 0.999^k for the update only: the returned m and v are not divided. Then subtract
-    rate times mean / (sqrt(square) + 1e-8). theta 1, grad 3, m = v = 0, k = 1, rate 0.01
-    give 0.99, 0.3 and 0.009.
+    rate times mean / (sqrt(square) + 1e-8). theta 1, grad 3, m = v = 0, k = 1 and rate
+    0.01 give 0.99, 0.3 and 0.009.
     """
     # region 15.7
     m = 0.9 * m + 0.1 * grad  # average of the gradient
     v = 0.999 * v + 0.001 * grad**2  # average of its square
     mean = m / (1 - 0.9**k)  # the average, corrected for its start at 0
     square = v / (1 - 0.999**k)  # the average of the square, corrected likewise
-    return theta - rate * mean / (np.sqrt(square) + 1e-8), m, v
+    return theta - rate * mean / (np.sqrt(square) + 1e-8), m, v  # after the step
     # endregion 15.7
 
 
@@ -200,21 +200,21 @@ def persistence_loss(action: np.ndarray, episode: np.ndarray) -> float:
     episode number. persistence_loss([[0], [1], [5], [5.5]], [0, 0, 1, 1]) -> 0.625
     """
     # region 15.8
-    change = action[1:] - action[:-1]  # from each row to the next
+    change = action[1:] - action[:-1]  # the change from each row to the next
     same = episode[1:] == episode[:-1]  # the pairs within an episode
-    return np.mean(change[same] ** 2)
+    return np.mean(change[same] ** 2)  # the mean squared change
     # endregion 15.8
 
 
 def nearest_distance(known: np.ndarray, asked: np.ndarray) -> np.ndarray:
     """Return each asked row's distance to the nearest known row, (m,).
 
-    The rows are known (n, d) and asked (m, d); distances are Euclidean. nearest_distance([[0, 0],
-    [3, 4]], [[0, 1]]) -> [1]
+    The rows are known (n, d) and asked (m, d); distances are Euclidean.
+    nearest_distance([[0, 0], [3, 4]], [[0, 1]]) -> [1]
     """
     # region 15.9
     return np.array([
-        np.sqrt(((known - one) ** 2).sum(axis=1).min())  # to the nearest known row
+        np.sqrt(((known - one) ** 2).sum(axis=1).min())  # the distance to the nearest known row
         for one in asked
     ])  # fmt: skip
     # endregion 15.9
@@ -464,7 +464,7 @@ def main() -> int:
     repeats = persistence_loss(z, episode_held)
     print(f"  loss of repeating the last action: {repeats:.3f}")
     lab.record("copycat_gap", np.sum(run.home()) - np.sum(own), metric="starts",
-               label="successes of the clone minus the copycat's", seed=SEED)  # fmt: skip
+               label="pucks of the clone minus the copycat's", seed=SEED)  # fmt: skip
 
     lab.step("6. Side quest: how far from the data")
     with lab.side_quest():
