@@ -394,6 +394,12 @@ def stacked(exchanges: Iterable[Exchange]) -> tuple[Any, ...]:
     return tuple(_column(column, alone) for column in columns)
 
 
+def of_complex(question: Question) -> bool:
+    """Return whether an argument has complex numbers; their answers are read as pairs."""
+    arrays = (arg for arg in question.args if isinstance(arg, np.ndarray))
+    return any(map(np.iscomplexobj, arrays))
+
+
 def as_plain(arg: Any) -> Any:
     """Return an argument as a truth gets it: a Robot's model, a path's pairs."""
     if isinstance(arg, Robot):

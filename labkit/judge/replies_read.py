@@ -11,7 +11,7 @@ import numpy as np
 from labkit.base.exchange import Exchange, Reply
 from labkit.judge import results
 from labkit.judge.answers import InTurn, Parts, as_one, as_real, own, parts
-from labkit.judge.ask import Ask, Asked, replies, stacked
+from labkit.judge.ask import Ask, Asked, of_complex, replies, stacked
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Verdict
 from labkit.lesson.slips import OTHER_PACKAGES, no_python
@@ -138,8 +138,8 @@ def values(exchanges: Sequence[Exchange]) -> list[Any]:
     """Return the values of replies; complex ones as pairs, where that was asked."""
     found = []
     for one, reply in zip(exchanges, replies(exchanges), strict=True):
-        asked = any(np.iscomplexobj(arg) for arg in one.question.args)
-        found.append(as_real(reply.value) if asked else reply.value)
+        pairs = of_complex(one.question)
+        found.append(as_real(reply.value) if pairs else reply.value)
     return found
 
 

@@ -2,11 +2,22 @@
 
 import numpy as np
 
-from labkit.judge import Row
+from labkit.judge import Row, Slip
 
 from .nets import GRADIENTS, ONE, net, problems
 
-row = Row(GRADIENTS)
+row = Row(
+    GRADIENTS,
+    slips=(
+        Slip(
+            "^ValueError.*matmul",
+            r"@ ?W[23] ?\)",
+            "not-transposed",
+            "Your function stops because a weight matrix is not transposed. On the way "
+            "back, a gradient (n, outputs) is multiplied by W^T, (outputs, inputs).",
+        ),
+    ),
+)
 
 
 @row.inputs
@@ -56,6 +67,7 @@ def backwards(x, target, arrays, slope=lambda h, z: 1 - h**2, through=None, d3=N
 def _(x, target, W1, b1, W2, b2, W3, b3):
     """slope-forgotten: the derivative of tanh is missing. Each layer's gradient is
       multiplied by 1 - h^2, where h is the layer's output
+    slope-squared: the derivative of tanh is squared. Multiply by 1 - h^2 once per layer
     slope-of-h: the derivative of tanh is computed as 1 - tanh(h)^2 from the layer's
       output h. The output is tanh already, so the derivative is 1 - h^2
     bias-mean: the gradients of the biases are means over the rows. The loss has the
@@ -66,7 +78,7 @@ def _(x, target, W1, b1, W2, b2, W3, b3):
       rows and columns, so divide by n m
     first-slope-forgotten: the derivative of the first tanh is missing in the gradients
       of W1 and b1
-    bias-forgotten-first: the network is computed without its biases
+    biases-forgotten: the network is computed without its biases
     """
     arrays = (W1, b1, W2, b2, W3, b3)
     right = backwards(x, target, arrays)
@@ -74,25 +86,19 @@ def _(x, target, W1, b1, W2, b2, W3, b3):
     def plain(h, z):
         return 1.0 + 0.0 * h
 
-    def first(i, other):
-        return tuple(other[k] if k < i else right[k] for k in range(6))
-
-    d2 = backwards(x, target, arrays)[3]  # for the shape alone
-    assert d2.shape == b2.shape
     z2 = np.tanh(x @ W1 + b1) @ W2 + b2
     h2 = np.tanh(z2)
     e = h2 @ W3 + b3 - target
     no_slope = ((2 * e / e.size) @ W3.T * (1 - h2**2)) @ W2.T
     return {
         "slope-forgotten": backwards(x, target, arrays, plain),
+        "slope-squared": backwards(x, target, arrays, lambda h, z: (1 - h**2) ** 2),
         "slope-of-h": backwards(x, target, arrays, lambda h, z: 1 - np.tanh(h) ** 2),
         "bias-mean": tuple(one / len(x) if one.ndim == 1 else one for one in right),
         "summed-loss": backwards(x, target, arrays, d3=lambda e: 2 * e),
         "rows-only": backwards(x, target, arrays, d3=lambda e: 2 * e / len(x)),
         "first-slope-forgotten": (x.T @ no_slope, no_slope.sum(axis=0), *right[2:]),
-        "bias-forgotten-first": backwards(
-            x, target, (W1, 0 * b1, W2, 0 * b2, W3, 0 * b3)
-        ),
+        "biases-forgotten": backwards(x, target, (W1, 0 * b1, W2, 0 * b2, W3, 0 * b3)),
     }
 
 

@@ -213,10 +213,10 @@ def nearest_distance(known: np.ndarray, asked: np.ndarray) -> np.ndarray:
     nearest_distance([[0, 0], [3, 4]], [[0, 1]]) -> [1]
     """
     # region 15.9
-    return np.array([
-        np.sqrt(((known - one) ** 2).sum(axis=1).min())  # the distance to the nearest known row
-        for one in asked
-    ])  # fmt: skip
+    squares = [  # the squared distance to the nearest known row
+        ((known - one) ** 2).sum(axis=1).min() for one in asked
+    ]
+    return np.sqrt(np.array(squares))  # the distances
     # endregion 15.9
 
 
