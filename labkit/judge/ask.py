@@ -395,7 +395,7 @@ def stacked(exchanges: Iterable[Exchange]) -> tuple[Any, ...]:
 
 
 def of_complex(question: Question) -> bool:
-    """Return whether an argument has complex numbers; their answers are read as pairs."""
+    """Return whether an argument is complex; such answers are read as pairs."""
     arrays = (arg for arg in question.args if isinstance(arg, np.ndarray))
     return any(map(np.iscomplexobj, arrays))
 

@@ -91,4 +91,5 @@ def _(theta, grad, m, v, k, rate):
 def _(rng):
     theta, grad, m, v, _ = state(rng, 3, 4)
     yield theta, grad, m, v, 1000, 1e-8
-    yield theta, 1e3 * grad, m, v, 2, 0.003
+    for size in (1e-4, 1e3):
+        yield 1e-3 * theta, size * grad, size * m, size**2 * v, 4, 0.003

@@ -85,4 +85,4 @@ def _(x, W1, b1, W2, b2, W3, b3):
 def _(rng):
     for size in (1e-4, 4.0):
         x = size * rng.numbers(-1, 1, 3, 2)
-        yield x, *net(rng, 2, 3, 2, 2)
+        yield x, *(size * one for one in net(rng, 2, 3, 2, 2))

@@ -150,4 +150,6 @@ def _(x, target, W1, b1, W2, b2, W3, b3):
 @row.spans
 def _(rng):
     x = rng.numbers(-1, 1, 3, 2)
-    yield 4.0 * x, rng.numbers(-4, 4, 3, 2), *net(rng, 2, 3, 2, 2)
+    for size in (1e-3, 4.0):
+        arrays = (size * one for one in net(rng, 2, 3, 2, 2))
+        yield 4.0 * x, rng.numbers(-4, 4, 3, 2), *arrays

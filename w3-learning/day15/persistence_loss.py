@@ -68,4 +68,4 @@ def _(action, episode):
 def _(rng):
     action, episode = several(rng, (3, 4), 2)
     for size in (1e-3, 1e3):
-        yield size * action, episode
+        yield size * action, 53 + episode

@@ -17,6 +17,11 @@ def _(rng):
         yield rng.integers(0, episodes, n), rng.permutation(episodes)[:k]
 
 
+@row.spans
+def _(rng):
+    yield np.array([57, 57, 58, 59, 59]), np.array([40, 59])
+
+
 @row.wrongs
 def _(episode, held_out):
     """rows-for-episodes: the numbers in held_out are used as indices of rows. They are

@@ -179,8 +179,8 @@ def adam_step(
     are the running averages of the gradient and of its square, with the decay rates 0.9
     and 0.999. k = 1, 2, ... is the number of this step. Divide m by 1 - 0.9^k and v by
     1 - 0.999^k for the update only: the returned m and v are not divided. Then subtract
-    rate times mean / (sqrt(square) + 1e-8). theta 1, grad 3, m = v = 0, k = 1 and rate
-    0.01 give 0.99, 0.3 and 0.009.
+    rate times mean / (sqrt(square) + 1e-8).
+    adam_step([1], [3], [0], [0], 1, 0.01) -> ([0.99], [0.3], [0.009])
     """
     # region 15.7
     m = 0.9 * m + 0.1 * grad  # average of the gradient
