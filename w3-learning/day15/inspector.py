@@ -177,10 +177,9 @@ class Clone(ui.Declared):
     def says(self, yours: Seen, right: Seen):
         end = yours.run.observation[0, -1, 2:]
         came = "ends at home" if yours.run.home()[0] else "does not end at home"
-        says = (
-            f"With your functions the puck {came}, {1e3 * np.linalg.norm(end):.0f} mm"
-        )
-        yield f"{says} from it.", " ".join(self.functions)
+        off = 1e3 * np.linalg.norm(end)
+        says = f"With your functions the puck {came}: it is {off:.0f} mm away."
+        yield says, " ".join(self.functions)
         yield "The network was trained with the library's functions.", None
 
 
