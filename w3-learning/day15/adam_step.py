@@ -4,20 +4,29 @@ import numpy as np
 
 from labkit.judge import Row, Vector
 
-row = Row((
-    Vector((None,), called="theta", scale=0.01),
-    Vector((None,), called="m"),
-    Vector((None,), called="v"),
-))  # fmt: skip
+row = Row(
+    (
+        Vector((None,), called="theta", scale=0.01),
+        Vector((None,), called="m"),
+        Vector((None,), called="v"),
+    ),
+    # A gradient of 0 without a past: any number divided by itself.
+    at_edge=lambda theta, grad, m, v, k, rate: bool(
+        np.all((np.abs(grad) > 1e-3) | (v > 1e-6))
+    ),
+)
 
 
 def state(rng, n, k, size=1.0):
-    """Return theta, a gradient and averages that k - 1 steps can have left."""
-    grads = size * rng.numbers(-3, 3, k, n)
-    m, v = np.zeros(n), np.zeros(n)
-    for grad in grads[:-1]:
-        m, v = 0.9 * m + 0.1 * grad, 0.999 * v + 0.001 * grad**2
-    return rng.numbers(-1, 1, n), grads[-1], m, v, k
+    """Return theta, a gradient, both averages after k - 1 steps, and k."""
+    before = size * (k > 1)  # the averages are 0 before the first step
+    return (
+        rng.numbers(-1, 1, n),
+        size * rng.numbers(-3, 3, n),
+        before * rng.numbers(-0.5, 0.5, n),
+        before**2 * rng.numbers(0.001, 0.02, n),
+        k,
+    )
 
 
 @row.inputs
@@ -42,28 +51,28 @@ def _(theta, grad, m, v, k, rate):
     corrected-kept: the divided averages are returned. Return m and v without the
       division: it is for the update only, and the next step would divide again
     eps-in-the-root: 1e-8 is added inside the square root. Add it to the root
-    momentum-sum: m is 0.9 m + grad, the sum of momentum methods. Adam's average adds
-      0.1 grad
     betas-swapped: the decay rates 0.9 and 0.999 are swapped
-    root-forgotten: the update is divided by the average of the square, without its root
+    old-averages: the update uses m and v as they were before this step. Update both
+      first
+    corrections-swapped: m is divided by 1 - 0.999^k and v by 1 - 0.9^k. Each average
+      has its own decay rate
     """
     m1, v1 = 0.9 * m + 0.1 * grad, 0.999 * v + 0.001 * grad**2
     c1, c2 = 1 - 0.9**k, 1 - 0.999**k
     mean, square = m1 / c1, v1 / c2
 
-    def step(mean, square, root=np.sqrt):
-        return theta - rate * mean / (root(square) + 1e-8)
+    def step(mean, square):
+        return theta - rate * mean / (np.sqrt(square) + 1e-8)
 
     ms, vs = 0.999 * m + 0.001 * grad, 0.9 * v + 0.1 * grad**2
-    mo = 0.9 * m + grad
     right = step(mean, square)
     return {
         "no-correction": (step(m1, v1), m1, v1),
         "corrected-kept": (right, mean, square),
         "eps-in-the-root": (theta - rate * mean / np.sqrt(square + 1e-8), m1, v1),
-        "momentum-sum": (step(mo / c1, square), mo, v1),
         "betas-swapped": (step(ms / c2, vs / c1), ms, vs),
-        "root-forgotten": (step(mean, square, lambda s: s), m1, v1),
+        "old-averages": (step(m / c1, v / c2), m1, v1),
+        "corrections-swapped": (step(m1 / c2, v1 / c1), m1, v1),
     }
 
 

@@ -35,6 +35,8 @@ def _(x):
       column has its own unit and its own scale
     spread-for-all: one standard deviation is used for all columns. Each column has its
       own unit and its own scale
+    min-max: the smallest entry and the range are returned. Return the mean and the
+      standard deviation, which depend less on a single row
     constant-0: a constant column has a standard deviation of 0, so `normalise` would
       divide by 0. Return 1 for such a column
     """
@@ -55,6 +57,7 @@ def _(x):
         "about-0": np.array([mean, safe(np.sqrt(np.mean(x**2, axis=0)))]),
         "one-for-all": np.array([0 * mean + x.mean(), 0 * mean + safe(x.std())]),
         "spread-for-all": np.array([mean, 0 * one + safe(x.std())]),
+        "min-max": np.array([x.min(axis=0), safe(np.ptp(x, axis=0))]),
         "constant-0": np.array([mean, std]),
     }
 

@@ -46,10 +46,7 @@ def _(x, W1, b1, W2, b2, W3, b3):
       action can be any number
     relu: the layers use max(0, .) instead of tanh
     logistic: the layers use the logistic function 1 / (1 + exp(-.)) instead of tanh
-    one-layer-linear: the second layer has no tanh. Without it, two layers are one
-      linear map
     """
-    second = np.tanh(x @ W1 + b1) @ W2 + b2
 
     def by(f):
         return f(f(x @ W1 + b1) @ W2 + b2) @ W3 + b3
@@ -58,7 +55,6 @@ def _(x, W1, b1, W2, b2, W3, b3):
         "tanh-at-the-end": np.tanh(by(np.tanh)),
         "relu": by(lambda z: np.maximum(z.real, 0)),
         "logistic": by(lambda z: 1 / (1 + np.exp(-z))),
-        "one-layer-linear": second @ W3 + b3,
     }
 
 

@@ -11,7 +11,7 @@ row = Row(
     slips=(
         Slip(
             "^ValueError.*matmul",
-            r"@ ?W[23] ?\)",
+            r"d\w* ?@ ?W[23]\b(?!\.T)",
             "not-transposed",
             "Your function stops because a weight matrix is not transposed. On the way "
             "back, a gradient (n, outputs) is multiplied by W^T, (outputs, inputs).",
@@ -36,26 +36,23 @@ row.cases(
 )
 
 
-def backwards(x, target, arrays, slope=lambda h, z: 1 - h**2, through=None, d3=None):
-    """Return the six gradients, where a step of the way back may be another.
+def backwards(
+    x, target, arrays, slope=lambda h: 1 - h**2, first=lambda e: 2 * e / e.size
+):
+    """Return the six gradients, with another derivative of tanh, or of the loss.
 
     Args:
         x, target: rows.
         arrays: the network.
-        slope: of tanh, from its output h and its input z.
-        through: from a gradient and its weights to that of the layer's input.
-        d3: from the error (n, m) to the gradient with respect to the output.
+        slope: of tanh, from its output h.
+        first: from the error (n, m) to the gradient with respect to the output.
     """
     W1, b1, W2, b2, W3, b3 = arrays
-    through = through or (lambda d, W: d @ W.T)
-    z1 = x @ W1 + b1
-    h1 = np.tanh(z1)
-    z2 = h1 @ W2 + b2
-    h2 = np.tanh(z2)
-    e = h2 @ W3 + b3 - target
-    d3 = d3(e) if d3 else 2 * e / e.size
-    d2 = through(d3, W3) * slope(h2, z2)
-    d1 = through(d2, W2) * slope(h1, z1)
+    h1 = np.tanh(x @ W1 + b1)
+    h2 = np.tanh(h1 @ W2 + b2)
+    d3 = first(h2 @ W3 + b3 - target)
+    d2 = (d3 @ W3.T) * slope(h2)
+    d1 = (d2 @ W2.T) * slope(h1)
     return (
         x.T @ d1, d1.sum(axis=0),
         h1.T @ d2, d2.sum(axis=0),
@@ -68,6 +65,9 @@ def _(x, target, W1, b1, W2, b2, W3, b3):
     """slope-forgotten: the derivative of tanh is missing. Each layer's gradient is
       multiplied by 1 - h^2, where h is the layer's output
     slope-squared: the derivative of tanh is squared. Multiply by 1 - h^2 once per layer
+    slope-1-minus-h: the derivative of tanh is computed as 1 - h. It is 1 - h^2
+    slope-logistic: the derivative is h (1 - h), which belongs to the logistic function.
+      The derivative of tanh is 1 - h^2
     slope-of-h: the derivative of tanh is computed as 1 - tanh(h)^2 from the layer's
       output h. The output is tanh already, so the derivative is 1 - h^2
     bias-mean: the gradients of the biases are means over the rows. The loss has the
@@ -76,29 +76,21 @@ def _(x, target, W1, b1, W2, b2, W3, b3):
       so divide by n m
     rows-only: the gradient is divided by the number of rows. The loss is a mean over
       rows and columns, so divide by n m
-    first-slope-forgotten: the derivative of the first tanh is missing in the gradients
-      of W1 and b1
-    biases-forgotten: the network is computed without its biases
     """
-    arrays = (W1, b1, W2, b2, W3, b3)
-    right = backwards(x, target, arrays)
-
-    def plain(h, z):
-        return 1.0 + 0.0 * h
-
-    z2 = np.tanh(x @ W1 + b1) @ W2 + b2
-    h2 = np.tanh(z2)
-    e = h2 @ W3 + b3 - target
-    no_slope = ((2 * e / e.size) @ W3.T * (1 - h2**2)) @ W2.T
+    given = x, target, (W1, b1, W2, b2, W3, b3)
+    slopes = {
+        "slope-forgotten": lambda h: 1 + 0 * h,
+        "slope-squared": lambda h: (1 - h**2) ** 2,
+        "slope-1-minus-h": lambda h: 1 - h,
+        "slope-logistic": lambda h: h * (1 - h),
+        "slope-of-h": lambda h: 1 - np.tanh(h) ** 2,
+    }
+    right = backwards(*given)
     return {
-        "slope-forgotten": backwards(x, target, arrays, plain),
-        "slope-squared": backwards(x, target, arrays, lambda h, z: (1 - h**2) ** 2),
-        "slope-of-h": backwards(x, target, arrays, lambda h, z: 1 - np.tanh(h) ** 2),
+        **{slug: backwards(*given, slope) for slug, slope in slopes.items()},
         "bias-mean": tuple(one / len(x) if one.ndim == 1 else one for one in right),
-        "summed-loss": backwards(x, target, arrays, d3=lambda e: 2 * e),
-        "rows-only": backwards(x, target, arrays, d3=lambda e: 2 * e / len(x)),
-        "first-slope-forgotten": (x.T @ no_slope, no_slope.sum(axis=0), *right[2:]),
-        "biases-forgotten": backwards(x, target, (W1, 0 * b1, W2, 0 * b2, W3, 0 * b3)),
+        "summed-loss": backwards(*given, first=lambda e: 2 * e),
+        "rows-only": backwards(*given, first=lambda e: 2 * e / len(x)),
     }
 
 

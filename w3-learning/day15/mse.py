@@ -32,7 +32,6 @@ def _(pred, target):
     divided-by-rows: the gradient is divided by the number of rows. The loss is a mean
       over rows and columns, so divide by n m
     half: the loss and its gradient are half as large, as for the convention error^2 / 2
-    root: the loss is the root mean square error. Do not take the root
     """
     e = pred - target
     n = len(e)
@@ -41,7 +40,6 @@ def _(pred, target):
         "not-divided": (np.mean(e**2), 2 * e),
         "divided-by-rows": (np.mean(e**2), 2 * e / n),
         "half": (np.mean(e**2) / 2, e / e.size),
-        "root": (np.sqrt(np.mean(e**2)), 2 * e / e.size),
     }
 
 

@@ -34,23 +34,25 @@ def _(action, episode):
     """across-episodes: the change from the last row of an episode to the first row of
       the next one is included. Nobody repeats an action of another episode: leave these
       pairs out
+    start-from-0: the first row of each episode is included, with a last action of 0.
+      This row has no last action: leave it out
     counted-as-0: the pairs across two episodes are counted as changes of 0. Leave them
       out of the mean
     summed-over-columns: the squares are summed over the columns. Take the mean over the
       columns, as `mse` does
     by-number: all rows with the same number are joined, but the number comes again in a
       later episode. Only adjacent rows are pairs
-    absolute: the loss is the mean absolute change. Square the changes
     """
     change = action[1:] - action[:-1]
     same = episode[1:] == episode[:-1]
+    last = np.vstack([0 * action[:1], action[:-1] * same[:, None]])
     joined = [np.diff(action[episode == one], axis=0) for one in np.unique(episode)]
     return {
         "across-episodes": np.mean(change**2),
+        "start-from-0": np.mean((action - last) ** 2),
         "counted-as-0": np.mean(change**2 * same[:, None]),
         "summed-over-columns": np.sum(change[same] ** 2) / same.sum(),
         "by-number": np.mean(np.vstack(joined) ** 2),
-        "absolute": np.mean(np.abs(change[same])),
     }
 
 
