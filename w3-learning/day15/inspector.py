@@ -1,9 +1,10 @@
 """Day 15 in the inspector: the tab Clone.
 
 A network that the kit has trained pushes the puck home from a start that the sliders
-choose. The student's `fit_scaler`, `normalise`, `mlp` and `denormalise` compute each
-action. Below the scene are the activations of both hidden layers, and a plot shows how
-far the observations are from the training data.
+choose. The student's `fit_scaler`, `normalise`, `mlp` and `denormalise` compute the
+action for each observation of this run, and the pusher moves with their actions. The
+panel shows the activations of both hidden layers, and how far the observations are from
+the training data.
 """
 
 from functools import cache
@@ -87,7 +88,7 @@ class Clone(ui.Declared):
         "fit_scaler": "", "normalise": "", "mlp": "", "denormalise": "m/s",
     }  # fmt: skip
     arm_hidden = True
-    camera = ((0.0, -0.8, 0.75), (0.0, 0.0, 0.0))
+    camera = ((0.0, -0.45, 0.6), (0.0, 0.08, 0.0))
 
     policy = ui.choice("policy", POLICIES)
     far = ui.slider("puck: distance from home", 0.1, 0.5, 0.25, "m")
@@ -115,17 +116,28 @@ class Clone(ui.Declared):
     pusher = ui.yours.sphere(np.zeros(3), day15_mujoco.PUSHER, "red", legend="pusher")
 
     def ask(self, fns, at) -> Seen:
+        rows = self.observed(at)
+        kit = trained(at.policy != POLICIES[0])
+        inputs, actions = fns.many(
+            ("fit_scaler", kit.inputs), ("fit_scaler", kit.actions)
+        )
+        z = np.asarray(fns.normalise(rows, inputs), dtype=float)
+        left = iter(np.asarray(fns.denormalise(fns.mlp(z, *kit.net), actions)))
+        start = rows[:1, :4]
+        run = day15_mujoco.run(*day15_mujoco.scene(), start, lambda _: next(left)[None])
+        return Seen(run, z)
+
+    def observed(self, at) -> Array:
+        """Return the inputs of the network in a run by the library, (steps, 4 or 6)."""
         told = at.policy != POLICIES[0]
         kit = trained(told)
-        inputs, actions = fns.fit_scaler(kit.inputs), fns.fit_scaler(kit.actions)
-        last, given = np.zeros((1, 2)), []
+        clone = LAB.Clone(kit.net, *map(cloning.fit_scaler, (kit.inputs, kit.actions)))
+        last, rows = np.zeros((1, 2)), []
 
         def act(seen: Array) -> Array:
             nonlocal last
-            rows = np.hstack([seen, last]) if told else seen
-            z = np.asarray(fns.normalise(rows, inputs), dtype=float)
-            given.append(z[0])
-            action = np.asarray(fns.denormalise(fns.mlp(z, *kit.net), actions))
+            rows.append(np.hstack([seen, last]) if told else seen)
+            action = clone.act(rows[-1])
             last = np.clip(action, -day15_mujoco.FASTEST, day15_mujoco.FASTEST)
             if at.policy == POLICIES[2]:
                 last = day15_mujoco.demonstrator(seen)
@@ -135,8 +147,8 @@ class Clone(ui.Declared):
         angle = np.pi / 2 + at.aside
         pusher = puck + 0.12 * np.array([np.cos(angle), np.sin(angle)])
         start = np.hstack([pusher, puck])[None]
-        run = day15_mujoco.run(*day15_mujoco.scene(), start, act)
-        return Seen(run, np.array(given))
+        day15_mujoco.run(*day15_mujoco.scene(), start, act)
+        return np.vstack(rows)
 
     def show(self, yours: Seen, right: Seen) -> None:
         self.seen = yours
