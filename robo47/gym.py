@@ -11,7 +11,7 @@ gained. `info["is_success"]` says whether the puck is at home, and an episode ha
 steps.
 """
 
-from typing import Any
+from typing import Any, ClassVar
 
 import gymnasium
 import mujoco
@@ -32,7 +32,10 @@ COLOURS = {"home": (205, 230, 210), "puck": (230, 159, 0), "pusher": (213, 94, 0
 class Push(gymnasium.Env[Array, Array]):
     """A round pusher brings a round puck home."""
 
-    metadata = {"render_modes": ["rgb_array"], "render_fps": round(1 / push.TICK)}
+    metadata: ClassVar = {
+        "render_modes": ["rgb_array"],
+        "render_fps": round(1 / push.TICK),
+    }
 
     def __init__(self, render_mode: str | None = None) -> None:
         """Make the scene.
@@ -105,4 +108,4 @@ class Push(gymnasium.Env[Array, Array]):
         return {"is_success": self._distance() < push.HOME}
 
 
-gymnasium.register(ID, Push, max_episode_steps=push.STEPS)
+gymnasium.register(ID, "robo47.gym:Push", max_episode_steps=push.STEPS)
