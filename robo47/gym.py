@@ -11,7 +11,7 @@ gained. `info["is_success"]` says whether the puck is at home, and an episode ha
 steps.
 """
 
-from typing import Any, ClassVar
+from typing import Any
 
 import gymnasium
 import mujoco
@@ -32,7 +32,7 @@ COLOURS = {"home": (205, 230, 210), "puck": (230, 159, 0), "pusher": (213, 94, 0
 class Push(gymnasium.Env[Array, Array]):
     """A round pusher brings a round puck home."""
 
-    metadata: ClassVar = {
+    metadata = {  # noqa: RUF012 (as Gymnasium declares it)
         "render_modes": ["rgb_array"],
         "render_fps": round(1 / push.TICK),
     }

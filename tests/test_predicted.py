@@ -6,8 +6,8 @@ import pytest
 
 from conftest import ROOT, copy_kit, keep_first_day, kits_worksheet, run_copy
 from labkit.lesson.day import all_days, find_day
-from labkit.lesson.hidden import Hidden, Output, without
-from labkit.lesson.predicted import predictions, rows_asked, with_measured
+from labkit.lesson.hidden_numbers import Hidden, Output, without
+from labkit.lesson.predictions import predictions, rows_asked, with_measured
 
 HEAD = "| number | predicted | measured | why apart |\n|---|---|---|---|\n"
 OPEN = "*(your number)*"

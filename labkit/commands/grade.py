@@ -51,14 +51,15 @@ from labkit.grade.sheet import (
     table,
     write,
 )
-from labkit.hunt.quarry import LEVELS
+from labkit.hunt.mistakes import LEVELS
 from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
 from labkit.sandbox.process import wall
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, menagerie_root, shown
 
-KIT = ("--kit", "--ki")  # as argparse understands it
-PROOF_SECONDS = 900.0  # for one; a whole week takes a minute on a quiet machine
+KIT = ("--kit", "--ki")  # argparse accepts both spellings
+# The limit of one proof; a whole week takes a minute on a quiet machine.
+PROOF_SECONDS = 900.0
 OF_KIT: dict[str, Any] = {"folder": ROOT, "seconds": 60}  # git's answers on this kit
 
 
@@ -335,7 +336,7 @@ def grade_days(
         for day in days:
             folder = out.parent / f"day{day.number}"
             own = folder / "grades.csv" if len(days) > 1 else out
-            # What is no folder is named by the journal.
+            # The journal names a path that is no folder.
             with contextlib.suppress(FileExistsError, FileNotFoundError):
                 own.parent.mkdir(parents=True, exist_ok=True)
             path = own.parent / "grading.jsonl"

@@ -29,10 +29,10 @@ from robo47.paths import shown
 
 @dataclass(frozen=True)
 class Again:
-    """Whose work is graded again though it has not changed; by default nobody's."""
+    """The students whose unchanged work is graded again; by default nobody."""
 
     everybody: bool = False
-    folders: Collection[str] = ()  # or theirs, and what the others have stays
+    folders: Collection[str] = ()  # the folders of those who are graded again
 
     def asks_for(self, folder: str) -> bool:
         """Return whether a student's work is."""
@@ -43,14 +43,14 @@ class Again:
 class Classroom:
     """One class on the way to its grades for a day."""
 
-    students: Sequence[Student]  # from the roster
-    day: Day  # from the kit's manifest
+    students: Sequence[Student]  # the students, read from the roster
+    day: Day  # the day, read from the kit's manifest
     journal: Journal  # results so far
     _: KW_ONLY
     again: Again = Again()
-    frozen: bool = False  # what another version of the kit gave stays
-    keep: str = "last"  # or "best" of all results of somebody
-    # What to add to a student's error, by folder.
+    frozen: bool = False  # results of another version of the kit stay
+    keep: str = "last"  # "last", or "best" of all results of a student
+    # Additions to a student's error, by folder.
     notes: Mapping[str, str] = field(default_factory=dict)
 
     def grade(self, engine: Engine, feedback: Path) -> Course:
@@ -75,7 +75,7 @@ class Classroom:
             found = self._graded(one, package, result)
             text = f"{one.name}\n\n{found.result.text}"
             write(feedback / f"{one.file}.txt", printable(text).encode("utf-8"))
-            # without the text, so that a week takes the memory of a day
+            # The text is left out, so that a week takes the memory of a day.
             result = replace(found.result, text="")
             unseen = tuple(_hidden(package, self.day, result))
             graded[one.folder] = replace(found, result=result, hidden=unseen)
@@ -83,7 +83,7 @@ class Classroom:
 
         def changed() -> Iterator[tuple[Student, Package]]:
             for student in self.students:
-                package, known = self._known(student)
+                package, known = self._stored_result(student)
                 runs[student.folder] = _runs(package, self.day, starter)
                 if known:
                     note(student, package, known)
@@ -98,7 +98,9 @@ class Classroom:
                 note(student, package, result)
         return self._course([graded[one.folder] for one in self.students], runs, now)
 
-    def _known(self, student: Student) -> tuple[Package, Result | FaultError | None]:
+    def _stored_result(
+        self, student: Student
+    ) -> tuple[Package, Result | FaultError | None]:
         """Return what is handed in, and its result; None for who is to be graded."""
         due = self.journal.reference if self.journal.deadline else None
         try:

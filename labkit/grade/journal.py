@@ -26,7 +26,7 @@ _ODD = (ValueError, KeyError, TypeError, AttributeError, OverflowError, Recursio
 
 
 class Keepable(Protocol):
-    """What a journal has to know of a package, of whichever kind."""
+    """The fields of a package, of any kind, that a journal needs."""
 
     @property
     def day(self) -> int:
@@ -98,7 +98,7 @@ class Journal:
         self.deadline = False
         self.seed = secrets.randbits(32)
         self.odd = self.outdated = 0
-        self._last: dict[str, Kept] = {}  # by folder
+        self._last: dict[str, Kept] = {}  # the last result by folder
         self._best: dict[str, Kept] = {}
         self._written: dict[str, Any] = {}  # the last header
         try:
@@ -157,7 +157,7 @@ class Journal:
             result=result,
         )
         self._note(folder, kept)
-        told = {**kept._asdict(), "result": self._told(result)}
+        told = {**kept._asdict(), "result": self._as_json(result)}
         self._append({"day": package.day, "folder": folder, **told})
 
     def _note(self, folder: str, kept: Kept) -> None:
@@ -167,7 +167,8 @@ class Journal:
         late = self.deadline and at is not None and at > self.reference
         if (
             rival is None
-            or rival.result.seed != kept.result.seed  # which is no longer asked
+            # A result of another seed counts no longer.
+            or rival.result.seed != kept.result.seed
             or (kept.result.score >= rival.result.score and not late)
         ):
             self._best[folder] = kept
@@ -209,7 +210,7 @@ class Journal:
             if record.get("kind") == KIND:
                 self._begin(record)
             else:
-                self._note(record["folder"], self._kept(record))
+                self._note(record["folder"], self._record(record))
         except _ODD:
             self.odd += 1
 
@@ -233,7 +234,7 @@ class Journal:
         self.reference, self.seed = reference, seed
         self._written = self._head()
 
-    def _kept(self, record: dict[str, Any]) -> Kept:
+    def _record(self, record: dict[str, Any]) -> Kept:
         words = {name: record[name] for name in ("package", "kit", "commit")}
         if not all(
             isinstance(word, str) for word in (record["folder"], *words.values())
@@ -242,12 +243,12 @@ class Journal:
         at = record["committed"]
         if record["day"] != self._day.number or type(at) not in (int, type(None)):
             raise ValueError(record["day"], at)
-        return Kept(**words, committed=at, result=self._read(record["result"]))
+        return Kept(**words, committed=at, result=self._from_json(record["result"]))
 
-    def _told(self, result: Any) -> dict[str, Any]:
+    def _as_json(self, result: Any) -> dict[str, Any]:
         """Return a result as it is written."""
         return asdict(result)
 
-    def _read(self, told: Any) -> Any:
+    def _from_json(self, told: Any) -> Any:
         """Return a result of what was written; one of `_ODD` where it is none."""
         return from_json(told, self._day)

@@ -12,7 +12,7 @@ from labkit.grade.charts import STATUS, STYLE, Row, chart, legend
 from labkit.grade.course import UNKNOWN, Course, Graded, by_student, percent
 from labkit.grade.result import Mark
 from labkit.grade.sheet import printable
-from labkit.report.unnamed import UNNAMED
+from labkit.report.generic_verdicts import UNNAMED
 
 CHARTED = 15  # mistakes in the chart
 COMMON = 3  # mistakes shown per day, the most frequent first
@@ -64,7 +64,7 @@ def render(course: Course) -> str:
         _mistakes(course),
         _standings(course),
         *(_people(course, state) for state in STATES),
-        _alike(course),
+        _similar(course),
         _hidden(course),
         _refused(course),
         _everyone(course),
@@ -247,7 +247,7 @@ def _ago(graded: Graded) -> str:
     return f"last commit {size // length} {unit} {side} {moment}, they say"
 
 
-def _alike(course: Course) -> str:
+def _similar(course: Course) -> str:
     by_folder = {g.student.folder: g for g in course.class_}
     rows = []
     for group in course.alike[:MOST]:

@@ -141,14 +141,14 @@ def _who(student: Student) -> dict[str, Cell]:
 
 @dataclass(frozen=True)
 class Platform:
-    """What a platform's import asks for."""
+    """The format of a platform's import."""
 
     name: str  # the name that its makers use
-    # Of the file, before the grades, in order; the roster's are called the same, in
-    # letters of any size, or by the other names here.
+    # The columns of the file before the grades, in order. The roster's columns have the
+    # same names, in letters of any size, or the other names here.
     columns: dict[str, tuple[str, ...]]
     known_by: tuple[str, ...]  # the columns that identify a student
-    points: str = ""  # how a row begins that says what a grade is out of, if one does
+    points: str = ""  # the beginning of the row with the most points, if there is one
 
 
 PLATFORMS = {

@@ -1,4 +1,4 @@
-"""Is it the function that was written anew, and does the repair pass?"""
+"""Verdicts on rewritten functions: the right suspect, and a repair that passes."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -20,7 +20,7 @@ class Repaired(NamedTuple):
     """A function that was written anew."""
 
     function: str
-    guilty: bool  # whether the mistake is in it
+    guilty: bool  # the mistake is in this function
     verdict: Verdict  # the verdict on the present text
 
 

@@ -241,7 +241,7 @@ class Inspector:
             self.scene.trace(())
             self.scene.look_from(kind.camera)
             self.kind = kind
-            self.solid.value = kind.solid
+            self.solid.value = kind.solid  # type: ignore[misc]
             self.look()
             self.page = page = Page(self, Sketch(self.server, self.scene.coarse))
             page.legend(COLOURS if self.day.ghost else {})

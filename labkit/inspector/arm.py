@@ -92,8 +92,9 @@ class Arm:
         for body in range(self.model.nbody):
             if self.model.body_parentid[body] in after:
                 after.add(body)
-        names = {self.model.body(body).name for body in after} & set(self.names)
-        return {name: move @ self.pose(name) for name in names} | dict(poses)
+        names = [self.model.body(body).name for body in after]
+        there = {name: move @ self.by_mujoco[f"body:{name}"] for name in names}
+        return there | dict(poses)
 
     def random_q(self, seed: int) -> Array:
         """Return a configuration within the limits, to the sliders' four decimals."""

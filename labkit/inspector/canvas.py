@@ -14,7 +14,6 @@ from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from labkit.inspector.draw import Colour, rgb
-from robo47.checks import Array
 
 GROUND = (27, 31, 36)
 FINER = 2  # it is drawn so much larger, and then made smaller: no edge is jagged
@@ -89,7 +88,9 @@ class Canvas:
         return np.asarray(self.image.resize(self.size, Image.Resampling.LANCZOS))
 
 
-def inset(picture: NDArray[np.uint8], part: Array, corner: Sequence[int]) -> Array:
+def inset(
+    picture: NDArray[np.uint8], part: NDArray[np.uint8], corner: Sequence[int]
+) -> NDArray[np.uint8]:
     """Return a picture with another one in it, whose upper left is at (row, column)."""
     made = picture.copy()
     rows, columns = part.shape[:2]

@@ -214,7 +214,7 @@ class Declared(Tab):
         if self.arm_hidden:
             page.hide_arm()
         self._make(Shown, Handle)
-        self.loop = self._loop()
+        self.loop: Any = self._loop()
         page.legend(self._colours)
         self.prepare()
 

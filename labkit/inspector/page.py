@@ -97,7 +97,8 @@ class Page:
         whole = self.q
         whole[: len(np.asarray(q))] = q  # fingers stay as they are
         poses = self.arm.poses_at(whole)
-        return {name: T for name, T in poses.items() if name != "ee"}
+        links = {name: T for name, T in poses.items() if name.startswith("link")}
+        return self.arm.carried(links)
 
     def move(self, q: ArrayLike) -> None:
         """Move the arm, in every browser; q in radians and metres, (nq,)."""

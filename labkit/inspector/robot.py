@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from functools import cache, partial
-from typing import TYPE_CHECKING
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -11,9 +11,6 @@ from numpy.typing import ArrayLike
 from labkit.inspector.meshes import Skin
 from labkit.inspector.shapes import Shape, shapes, simple_links
 from robo47.checks import Array
-
-if TYPE_CHECKING:
-    from labkit.inspector.page import Page
 
 Load = Callable[[], mujoco.MjModel]
 
@@ -24,10 +21,11 @@ class Robot:
     What the bare model has is there at once; the meshes follow when they are loaded.
     """
 
-    def __init__(self, page: "Page", model: mujoco.MjModel, dressed: Load) -> None:
+    def __init__(self, page: Any, model: mujoco.MjModel, dressed: Load) -> None:
         """Draw what is simulated instead of the page's arm.
 
-        `dressed` loads the same with its looks; a function of a module, asked once.
+        `dressed` loads the same with its looks; a function of a module, asked once. The
+        page is a `Page`, whose method `robot` makes this.
         """
         self.page = page
         self.model = model

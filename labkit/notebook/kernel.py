@@ -1,4 +1,4 @@
-"""What the cells of a day's notebook call: check, hint, run, predict, answer, load.
+"""Functions for the cells of a notebook: check, hint, run, predict, answer, load.
 
     from labkit.notebook.kernel import begin, check
     begin(2)
@@ -26,26 +26,26 @@ from types import EllipsisType
 from typing import Any, ParamSpec, TypeVar
 
 from labkit.base import store
-from labkit.lesson.cells import apart, definitions, reverted, text_of
+from labkit.lesson.backup import with_ends_of
+from labkit.lesson.cells import definitions, reverted, split_script, text_of
 from labkit.lesson.day import Day, find_day
-from labkit.lesson.hidden import WORD
-from labkit.lesson.kept import with_ends_of
+from labkit.lesson.hidden_numbers import WORD
 from labkit.lesson.lab_module import read_script
-from labkit.lesson.predicted import rows_asked
+from labkit.lesson.predictions import rows_asked
 from labkit.notebook import sync, worksheet
-from labkit.notebook.guide import typed
+from labkit.notebook.guide import with_notebook_commands
 from labkit.notebook.show import Checked, Said
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
 P = ParamSpec("P")
 R = TypeVar("R")
-ANSWERS = "answers.json"  # in the kit's memory: what was written into worksheets
-_STEP = r"^{}\. .*?(?=^\d+\. |^\n|\Z)"  # of a lab's output
-_TRACEBACK = r"^Traceback \(most.*?^(?=\w[\w.]*: )"  # without its last line
+ANSWERS = "answers.json"  # the entries of worksheets, in the kit's store
+_STEP = r"^{}\. .*?(?=^\d+\. |^\n|\Z)"  # a step of a lab's output
+_TRACEBACK = r"^Traceback \(most.*?^(?=\w[\w.]*: )"  # a traceback without its last line
 _KINDS = {str: "text in quotation marks", int: "a whole number"}
 _now: list[Day] = []  # the day that was begun last
-_brought = [0]  # how many of the executed cells were in step with the file last
+_brought = [0]  # the number of executed cells that were last in step with the file
 
 
 def polite(example: str) -> Callable[[Callable[P, R]], Callable[P, R | Said]]:
@@ -167,7 +167,7 @@ def run(step: int = 0, *, reveal: bool = False, **constants: Any) -> Said | None
         printed = _unlogged(day, day.work.read_bytes(), sheet, more)
     else:
         printed = _script("run_day.py", str(day.number))
-    print(typed(_shown(printed, step) if step else printed))
+    print(with_notebook_commands(_step_output(printed, step) if step else printed))
     return None
 
 
@@ -195,7 +195,7 @@ def _steps(lab: str) -> list[int]:
     return sorted({int(n) for n in re.findall(r"\.step\(\s*f?[\"'](\d+)\. ", lab)})
 
 
-def _shown(printed: str, step: int) -> str:
+def _step_output(printed: str, step: int) -> str:
     """Return what a lab prints in a step, or why it did not come so far."""
     flags = re.MULTILINE | re.DOTALL
     if found := re.search(_STEP.format(step), printed, flags):
@@ -254,7 +254,7 @@ def load(name: str) -> Said:
     Args:
         name: of the function.
     """
-    script, own = apart(read_script(_day().work))
+    script, own = split_script(read_script(_day().work))
     text = own.get(name) or text_of(script, name)
     if not text:
         raise Robo47Error(f"{shown(_day().work)} has no function {name}")
@@ -359,7 +359,7 @@ def _bring(day: Day, keep: str = "") -> list[str]:
     """Put the executed cells into the day's file; return what is to be told of it."""
     sources = _executed()
     cells = definitions(sources)
-    told = sync.bring(day, cells, keep, reverted(sources, _brought[0])).told(day)
+    told = sync.bring(day, cells, keep, reverted(sources, _brought[0])).sentences(day)
     _brought[0] = len(sources)
     return [*told, *(f"The cell of {n}, {at}." for n, at in cells.broken.items())]
 

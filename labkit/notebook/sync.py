@@ -11,19 +11,19 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from labkit.base import store
+from labkit.lesson.backup import rewrite, with_ends_of
 from labkit.lesson.cells import (
     MOST,
     Cells,
-    apart,
     code_of,
     definitions,
     functions_of,
     is_gap,
+    split_script,
     text_of,
     with_functions,
 )
 from labkit.lesson.day import Day
-from labkit.lesson.kept import rewrite, with_ends_of
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import starter_of
 from robo47.errors import Robo47Error
@@ -35,12 +35,12 @@ KEPT = 200  # texts that are remembered, per function
 
 @dataclass
 class Brought:
-    """What became of a notebook's functions."""
+    """The result of copying a notebook's functions."""
 
     written: list[str] = field(default_factory=list)  # taken from the notebook
     newer: list[str] = field(default_factory=list)  # the file's was edited: it counts
 
-    def told(self, day: Day) -> list[str]:
+    def sentences(self, day: Day) -> list[str]:
         """Return a sentence for each kind of change."""
         file, says = shown(day.work), []
         if self.written:
@@ -86,7 +86,7 @@ def bring(
     taken = [name for name in counts if counts[name] == "notebook"]
     newer = [name for name in counts if counts[name] == "file"]
     left = {n: text for n, text in cells.functions.items() if n not in newer}
-    _, own = apart(script)
+    _, own = split_script(script)
     labs = [name for name in taken if name not in own]
     after = with_functions(script, Cells(left, cells.others), labs)
     if after != script:
@@ -99,7 +99,7 @@ def bring(
 
 def _pairs(day: Day, script: str, cells: Cells) -> Iterator[tuple[str, str, str]]:
     """Yield name, cell's text and file's text of what the student writes in both."""
-    _, own = apart(script)
+    _, own = split_script(script)
     for name in dict.fromkeys([*functions_of(day), *own]):
         cell = cells.functions.get(name, "")
         if cell and not is_gap(cell):

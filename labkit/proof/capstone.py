@@ -25,19 +25,19 @@ SECONDS = 240.0  # CPU seconds; the pick with all functions right makes 30,000 c
 
 
 class Attempt(NamedTuple):
-    """What came of it."""
+    """The result of an attempt at the capstone."""
 
     # the module of the attempt; None for a week without one
     capstone: ModuleType | None
     result: Any  # None where the arm stopped
     stopped: str  # why it did, in a line
     theirs: frozenset[str]  # its functions that are the student's, since they pass
-    # Of those, what the kit's own did here: what asks them cannot travel.
+    # The kit's own functions ran in place of these, whose arguments cannot travel.
     stayed: frozenset[str] = frozenset()
 
     @property
     def counted(self) -> Counted:
-        """How many of its functions are the student's, as `make capstone` counts."""
+        """The number of functions that are the student's, as for `make capstone`."""
         uses = self.capstone.USES if self.capstone else {}
         own = {day: self.theirs.intersection(names) for day, names in uses.items()}
         return counted(uses, own)

@@ -17,7 +17,7 @@ from labkit.report.series import Series, series_of
 
 @dataclass(frozen=True)
 class Ran:
-    """What became of a day's lab."""
+    """The result of a day's lab."""
 
     day: Day
     mine: bool  # the student's file ran, and not the kit's
@@ -26,7 +26,7 @@ class Ran:
 
     @property
     def passed(self) -> bool:
-        """Whether the lab and every number that the manifest asks for are right."""
+        """The lab and every number that the manifest asks for are right."""
         return not self.why and all(one.status == "pass" for one in self.numbers)
 
 
@@ -72,6 +72,7 @@ def _why(done: subprocess.CompletedProcess[str]) -> str:
     if mark:
         return " ".join(failed.partition("FAILED: ")[0].split())
     lines = done.stderr.strip().splitlines()
-    if lines[1:] and lines[-1].startswith("Which function"):  # after a bug's own words
+    # A bug of the kit prints its own words first.
+    if lines[1:] and lines[-1].startswith("Which function"):
         del lines[-1]
     return lines[-1].strip() if lines else f"it ended with code {done.returncode}"

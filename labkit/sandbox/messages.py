@@ -21,9 +21,9 @@ from labkit.judge.ask import Robot
 from labkit.judge.worlds import is_world
 from labkit.lesson import day_mujoco
 from labkit.lesson.day import NUMBERS, Day, Limits, days_before
-from labkit.lesson.own_files import SCRIPT
 from labkit.lesson.slips import other_packages
 from labkit.lesson.starter import function_lines
+from labkit.lesson.untrusted_files import SCRIPT
 from labkit.sandbox.inside import wire
 from labkit.sandbox.inside.fake_model import KINDS
 from robo47 import panda

@@ -76,6 +76,7 @@ class Order(ui.Declared):
     """T_extra on either side: the tool moves, or the whole arm moves."""
 
     title = "Order"
+    wide = False  # the two matrices above stay
     library = LIBRARY
     functions = {"make_T": ENTRY, "Rz": ENTRY, "translations_both_orders": "m"}
 

@@ -132,7 +132,7 @@ class Way(ui.Declared):
             yield cut, "shortcut"
         low, high = yours.interval
         sets = f"{yours.found} of {DRAWS} sets of samples find a path: "
-        yield f"{sets}{low:.2f} to {high:.2f}.", "wilson_interval"
+        yield f"{sets}{low:z.2f} to {high:z.2f}.", "wilson_interval"
         if self.best:
             yield (
                 f"Over the wall: {self.times[-1]:.2f} s with your timing, "

@@ -78,9 +78,9 @@ class Best(ui.Declared):
         panda.ARM_JOINTS, 0.2, "", "your bound_multipliers, the largest so far, mm2 "
         "per mrad (marks: the library's); below 0: an upper limit", "signed",
     )  # fmt: skip
-    clamped = ui.scene.ghost("red", legend="Day 3's dls_step, clamped")
-    yours = ui.scene.ghost("blue", legend="your qp_ik")
-    best = ui.scene.ghost("grey", legend="the library's qp_ik")
+    clamped = ui.scene.ghost("red", 0.5, legend="Day 3's dls_step, clamped")
+    yours = ui.scene.ghost("blue", 0.9, legend="your qp_ik")
+    best = ui.scene.ghost("grey", 0.35, legend="the library's qp_ik")
     goal = ui.scene.curve(START, "orange", 2.0, legend="the circle")
     line_clamped = ui.scene.curve(START, "red")
     line_yours = ui.scene.curve(START, "blue")

@@ -293,7 +293,7 @@ class Touch(ui.Declared):
         if self.tries:
             held, (rate, low, high) = sum(good for _, good in self.tries), self.rate
             says += f" It holds {held} of {len(self.tries)} cubes; your success_rate "
-            says += f"is {rate:.2f}, between {low:.2f} and {high:.2f}."
+            says += f"is {rate:.2f}, between {low:z.2f} and {high:z.2f}."
         self.learned.content = words.line(says, "learned")
         self.image.image = self.tested()
 

@@ -221,7 +221,7 @@ def _overlap(some: list[np.ndarray], others: list[np.ndarray]) -> bool:
 
 
 class _Kept(io.StringIO):
-    """What a task prints, up to a point."""
+    """The output of a task, up to a limit."""
 
     left = MOST_OUTPUT
 

@@ -16,7 +16,7 @@ from collections.abc import Collection, Iterator, Sequence
 from typing import Any, NamedTuple
 
 WORD = "(hidden)"
-CLOSE = 0.15  # in the line of a hidden number, a number as close as this would tell it
+CLOSE = 0.15  # a number this close in the same line would reveal the hidden one
 SURE = 3  # significant digits by which a number is recognised anywhere in the output
 _NUMBER = re.compile(
     r"(?<![\w.,])[-+]?(\d+(?:,\d{3})*(?:\.(\d+))?)(?:e([-+]?\d+))?(?![.,]?\w)"
@@ -29,7 +29,7 @@ class Hidden(NamedTuple):
     """A number that is still to be predicted."""
 
     value: float
-    at: int  # where in the output it was reported
+    at: int  # the position in the output
 
 
 class Printed(NamedTuple):
@@ -39,13 +39,13 @@ class Printed(NamedTuple):
     end: int
     value: float
     half: float  # half a unit of its last digit
-    digits: int  # that are significant
-    whole: bool  # without decimals
+    digits: int  # the number of significant digits
+    whole: bool  # the number has no decimals
     part: float  # k / n, where the line has "k of n", else NaN
 
     @property
     def bare(self) -> bool:
-        """Whether it is one or two digits, which may count anything."""
+        """The number has one or two digits and may be any count."""
         return self.whole and self.digits < SURE
 
     def is_of(self, value: float) -> bool:
@@ -66,7 +66,7 @@ class Printed(NamedTuple):
 
 
 class Output(io.StringIO):
-    """What a lab prints, held until `release`."""
+    """The output of a lab, held until `release`."""
 
     def __init__(self, asked: Collection[str]) -> None:
         """Hold what is printed from now on.
