@@ -57,14 +57,17 @@ def _(theta, grad, m, v, k, rate):
     corrections-swapped: m is divided by 1 - 0.999^k and v by 1 - 0.9^k. Each average
       has its own decay rate
     """
-    m1, v1 = 0.9 * m + 0.1 * grad, 0.999 * v + 0.001 * grad**2
+    m1 = 0.9 * m + 0.1 * grad
+    v1 = 0.999 * v + 0.001 * grad**2
     c1, c2 = 1 - 0.9**k, 1 - 0.999**k
-    mean, square = m1 / c1, v1 / c2
+    mean = m1 / c1
+    square = v1 / c2
 
     def step(mean, square):
         return theta - rate * mean / (np.sqrt(square) + 1e-8)
 
-    ms, vs = 0.999 * m + 0.001 * grad, 0.9 * v + 0.1 * grad**2
+    ms = 0.999 * m + 0.001 * grad
+    vs = 0.9 * v + 0.1 * grad**2
     right = step(mean, square)
     return {
         "no-correction": (step(m1, v1), m1, v1),

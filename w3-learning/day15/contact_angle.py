@@ -12,7 +12,8 @@ def _(rng):
     yield 0.1, 0.065, 0.065
     yield 0.1, 0.0, 0.065
     for side in (1, -1, 1, -1, 1, -1):
-        phi, distance, R = rng.numbers(0.02, 1.4), rng.numbers(0, 0.2), 0
+        phi = rng.numbers(0.02, 1.4)
+        distance = rng.numbers(0, 0.2)
         R = rng.numbers(0.03, 0.12)
         yield float(side * phi), float(distance), float(R)
     yield 2.6, 0.04, 0.08

@@ -40,7 +40,8 @@ def _(x):
     constant-0: a constant column has a standard deviation of 0, so `normalise` would
       divide by 0. Return 1 for such a column
     """
-    mean, std = x.mean(axis=0), x.std(axis=0)
+    mean = x.mean(axis=0)
+    std = x.std(axis=0)
     one = np.where(std == 0, 1, std)
 
     def safe(s):

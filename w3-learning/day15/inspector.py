@@ -132,7 +132,8 @@ class Clone(ui.Declared):
         told = at.policy != POLICIES[0]
         kit = trained(told)
         clone = LAB.Clone(kit.net, *map(cloning.fit_scaler, (kit.inputs, kit.actions)))
-        last, rows = np.zeros((1, 2)), []
+        last = np.zeros((1, 2))
+        rows = []
 
         def act(seen: Array) -> Array:
             nonlocal last

@@ -126,8 +126,9 @@ def test_the_parameters_are_counted():
 
 
 def test_the_first_step_without_correction_is_longer_by_what_the_guide_says():
-    m, v = 0.1 * 3.0, 0.001 * 9.0
-    assert f"the first step is {m / np.sqrt(v) / 1:.1f} times as long" in SENTENCES
+    m = 0.1 * 3.0
+    v = 0.001 * 9.0
+    assert f"the first step is {m / np.sqrt(v):.1f} times as long" in SENTENCES
     theta, _, _ = lab.adam_step(*map(np.atleast_1d, (0.0, 3.0, 0.0, 0.0)), 1, 1.0)
     assert theta == pytest.approx([-1.0])
 
@@ -135,7 +136,8 @@ def test_the_first_step_without_correction_is_longer_by_what_the_guide_says():
 def test_a_trap_of_the_gradient_is_hidden_by_what_the_guide_says():
     rng = np.random.default_rng(0)
     square = [rng.normal(size=size) for size in ((4, 3), 3, (3, 3), 3, (3, 2), 2)]
-    x, target = rng.normal(size=(5, 4)), rng.normal(size=(5, 2))
+    x = rng.normal(size=(5, 4))
+    target = rng.normal(size=(5, 2))
     right = lab.mlp_gradient(x, target, *square)
     one_row = lab.mlp_gradient(x[:1], target[:1], *square)
     assert right[1].shape == one_row[1].shape == (3,)
@@ -234,7 +236,8 @@ def of_means(x, target, *net):
 
 def uncorrected(theta, grad, m, v, k, rate):
     """Return a step of Adam without its corrections."""
-    m, v = 0.9 * m + 0.1 * grad, 0.999 * v + 0.001 * grad**2
+    m = 0.9 * m + 0.1 * grad
+    v = 0.999 * v + 0.001 * grad**2
     return theta - rate * m / (np.sqrt(v) + 1e-8), m, v
 
 

@@ -227,7 +227,9 @@ class Clone:
 
     def __init__(self, net, inputs: np.ndarray, actions: np.ndarray) -> None:
         """Take six arrays and two scalers."""
-        self.net, self.inputs, self.actions = net, inputs, actions
+        self.net = net
+        self.inputs = inputs
+        self.actions = actions
 
     def act(self, x: np.ndarray) -> np.ndarray:
         """Return the action for each row of inputs, m/s, (n, 2)."""
@@ -267,7 +269,8 @@ def blind_pushes(lab: Lab, model, data) -> None:
 
 def beside_the_line(seen: np.ndarray) -> float:
     """Return how far the pusher is to the left of the line from the puck to home, m."""
-    puck, r = seen[2:], seen[:2] - seen[2:]
+    puck = seen[2:]
+    r = seen[:2] - puck
     ahead = -puck / np.linalg.norm(puck)
     return ahead[0] * r[1] - ahead[1] * r[0]
 
@@ -323,7 +326,8 @@ def check_gradient(lab: Lab, rng: np.random.Generator) -> None:
     """Compare your gradients with the complex step."""
     sizes = ((4, 5), (5,), (5, 3), (3,), (3, 2), (2,))
     net = [rng.normal(size=size) for size in sizes]
-    x, target = rng.normal(size=(6, 4)), rng.normal(size=(6, 2))
+    x = rng.normal(size=(6, 4))
+    target = rng.normal(size=(6, 2))
     off = []
     grads = mlp_gradient(x, target, *net)
     for i, (array, grad) in enumerate(zip(net, grads, strict=True)):
@@ -359,8 +363,10 @@ def check_adam(lab: Lab, rng: np.random.Generator) -> None:
 
 def train(lab: Lab, title: str, x: np.ndarray, action: np.ndarray) -> Clone:
     """Return a clone that was trained on rows of inputs and actions."""
-    inputs, actions = fit_scaler(x), fit_scaler(action)
-    x, target = normalise(x, inputs), normalise(action, actions)
+    inputs = fit_scaler(x)
+    actions = fit_scaler(action)
+    x = normalise(x, inputs)
+    target = normalise(action, actions)
     rng = np.random.default_rng(SEED)
     net = cloning.random_net(rng, x.shape[1], UNITS, target.shape[1])
     theta = cloning.flat(net)
