@@ -669,6 +669,8 @@ class TestTwoBrowsers:
             return box["width"], box["height"]
 
         page.until(lambda: size()[0] == 390 and size()[1] <= 422)
+        # All sliders are on the first screen, before the matrices.
+        page.until(lambda: page.slider(7).bounding_box()["y"] < 830)
         page.check_contrast()
         page.tab.set_viewport_size({"width": 1280, "height": 800})
         page.until(lambda: 0 < size()[0] < 390)

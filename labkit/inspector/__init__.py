@@ -2,9 +2,9 @@
 
     make view DAY=2
 
-The page belongs to no day. A day declares its tabs in `dayN/inspector.py`, and
-`labkit/inspector/declared.py` has an example and says what is called when. The first
-of TABS is open at the start; Joints, Chain and Tasks, which every day has, follow where
+The page belongs to no day. A day declares its tabs in `dayN/inspector.py`:
+docs/authors.md has an example, and `declared.py` says what is called when. The first of
+TABS is open at the start; Joints, Chain and Tasks, which every day has, follow where
 they are not in it. A day may also name the function that draws the student's arm:
 
     GHOST = Ghost("fk_space", FRAMES, ask)

@@ -175,8 +175,7 @@ class Inspector:
 
     def look(self) -> None:
         """Make the arm solid, or see-through: as it was asked, or to show an axis."""
-        solid = self.solid.value and not self.pointed.body
-        self.scene.look(solid, self.seen.kind == "good")
+        self.scene.look(self.solid.value and not self.pointed.body)
 
     def first(self) -> str:
         """Return what to show before viser does, as HTML."""
@@ -344,7 +343,6 @@ class Inspector:
         with self.server.atomic():
             self.show()  # first: a page that is behind has the words before the arms
             self.scene.show_ghost(self.seen.drawn, end)
-            self.look()
 
     def judge(self, version: int, found: Standing) -> None:
         """Show how a file's tasks stand, unless it was saved again meanwhile."""

@@ -1,26 +1,6 @@
 """A tab that a day declares: sliders, the student's functions, the drawing, a verdict.
 
-    from labkit.inspector import declared as ui
-
-    class Reach(ui.Declared):
-        title = "Reach"
-        library = arms                     # the module with the reference
-        functions = {"reach": "m"}         # the student's functions, with their units
-        shoulder = ui.slider("shoulder", -1.5, 1.5, 0.3)
-        length = ui.slider("second link", 0.1, 1.0, 0.5, "m")
-        goal = ui.scene.sphere(ORIGIN, 0.02, "white", legend="the library's end")
-        end = ui.yours.sphere(ORIGIN, 0.03, "orange", legend="your end")
-
-        def ask(self, fns, at):            # by the student's functions, by the library
-            return fns.reach(at.shoulder, at.length)
-
-        def show(self, yours, right):      # draws both answers of `ask`
-            self.end.position, self.goal.position = yours, right
-
-        def says(self, yours, right):      # lines, with the functions behind each
-            yield f"Your hand is {1000 * apart(yours, right):.1f} mm off.", "reach"
-
-    TABS = [Reach]
+The page for authors (docs/authors.md) has an example, which a test runs.
 
 The base class makes the widgets, then a place for the lines, then the drawings, each
 in the order of the class. It calls `ask` on a thread whenever a slider, the arm or the

@@ -93,7 +93,7 @@ class Skin:
             for name, body in found.items()
         }
 
-    def look(self, opacity: float | None, shade: Rgb = AS_IS) -> None:
+    def look(self, opacity: float | None = None, shade: Rgb = AS_IS) -> None:
         """Make it see-through, or solid, and darker: the shade multiplies (r, g, b)."""
         for mesh, shape in self.meshes:
             mesh.color = _rgb(shape, shade)

@@ -29,9 +29,7 @@ CONNECTED = 0.3  # seconds until viser's own first camera has been set
 # Neighbours whose origins coincide (links 1 and 2, 5 and 6) have labels on two sides.
 ANCHORS: tuple[Anchor, ...] = ("bottom-left", "center-left", "top-right", "bottom-left")
 SEE_THROUGH = 0.5  # opacity
-# What a see-through arm's colours are multiplied by: white would vanish before the
-# backdrop; it turns green where the student's own code puts every link.
-GREY, GREEN = (0.48, 0.49, 0.53), (0.34, 0.62, 0.5)
+GREY = (0.48, 0.49, 0.53)  # what a see-through arm's colours are multiplied by
 HIGHLIGHT = (255, 176, 0)
 GHOST_COLOUR = (214, 40, 40)
 AXIS = 0.3  # metres of a joint's axis, to both sides
@@ -141,12 +139,9 @@ class ArmScene:
         if self.way.visible:
             self.way.points = joined([np.zeros(3), *origins])
 
-    def look(self, solid: bool, agrees: bool) -> None:
-        """Make the arm solid, or see-through and green or not."""
-        if solid:
-            self.skin.look(None)
-        else:
-            self.skin.look(SEE_THROUGH, GREEN if agrees else GREY)
+    def look(self, solid: bool) -> None:
+        """Make the arm solid, or see-through."""
+        self.skin.look(*(() if solid else (SEE_THROUGH, GREY)))
 
 
 class Pointed:

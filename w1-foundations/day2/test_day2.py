@@ -351,7 +351,7 @@ ONE_BY_ONE = {
     "wrong for negative angles of joint2 and joint4.": lambda S, M, q: space(
         S, M, np.where([0, 1, 0, 1, 0, 0, 0], abs(q), q)
     ),
-    "the pose is wrong for joint2, joint4 and joint6.": lambda S, M, q: space(
+    "your pose is wrong for joint2, joint4 and joint6.": lambda S, M, q: space(
         S, M, q * [1, 2, 1, 2, 1, 2, 1]
     ),
     "look at the product of the exponentials": lambda S, M, q: space(
