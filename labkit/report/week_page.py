@@ -5,7 +5,7 @@ from html import escape
 
 from labkit.base import html
 from labkit.base.text import number_of
-from labkit.check.memory import Met
+from labkit.check.memory import MetMistake
 from labkit.lesson.day import Day
 from labkit.report.generic_verdicts import in_words
 from labkit.report.page import STATUS, links
@@ -151,7 +151,7 @@ def _mistakes(facts: Sequence[OwnDay]) -> str:
     )
 
 
-def _mistake(day: Day, met: Met) -> str:
+def _mistake(day: Day, met: MetMistake) -> str:
     role, mark = _MOODS.get(met.now, ("none", "•"))
     name = escape(in_words(met.mistake))
     says = met.says and f"<br><span class=muted>{escape(met.says)}</span>"
