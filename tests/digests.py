@@ -17,6 +17,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from labkit.base import git
 from labkit.lesson.day import Day
 from robo47.paths import ROOT, TWIN_XML
 
@@ -34,6 +35,7 @@ PROSE = {
     *("title", "see", "says", "read", "hints", "guide", "minutes"),
     *("figure", "worksheet", "was", "retrospectives", "soon", "days"),
 }
+_ONLY_READ = re.compile(r"\.(md|png|webp|svg|cff)$|^bench/|^tests/catalogues\.txt$")
 PINS = r"(?m)^(?:numpy|mujoco|scipy)==.*"  # of constraints.txt
 _DEFINITIONS = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 
@@ -63,6 +65,27 @@ def files_of(day: Day) -> set[Path]:
     others = [day.own / "day.toml", day.folder / "week.toml", TWIN_XML]
     others += (day.own / "submissions").rglob("*.py")
     return {*found, *(path for path in others if path.is_file())}
+
+
+def machine_digest(days: Iterable[Day]) -> str:
+    """Return 16 digits that change when the machine or the code of these days does.
+
+    The machine is all that is committed outside the weeks' folders. Documents,
+    pictures, benchmarks and the records themselves do not count.
+
+    Raises:
+        GitError: there is no repository that lists the files.
+    """
+    own = [f"{day.own.relative_to(ROOT).as_posix()}/" for day in days]
+    own += [day.source.relative_to(ROOT).as_posix() for day in days]
+    done = git.run("ls-files", "-s", "-z", folder=ROOT, seconds=git.SECONDS)
+    found = hashlib.sha256()
+    for line in sorted(str(done.stdout).split("\0")):
+        name = line.partition("\t")[2]
+        of_a_week = re.match(r"w\d+-", name) and not name.startswith(tuple(own))
+        if not of_a_week and not _ONLY_READ.search(name):
+            found.update(f"{line}\n".encode())
+    return found.hexdigest()[:16]
 
 
 def missed(day: Day) -> list[str]:

@@ -291,6 +291,60 @@ def test_of_a_days_authors_tests_a_tenth_is_left_where_it_has_not_changed(monkey
     assert not [one for one in left if one in students]
 
 
+@pytest.fixture
+def machine(tmp_path, monkeypatch):
+    """Return a function that edits a small repository; is its machine recorded?"""
+    copy = tmp_path / "kit"
+    texts = {"labkit/a.py": "1", "w1-a/day1/b.py": "2", "w1-a/src/c.py": "3"}
+
+    def edit(name, text):
+        (copy / name).parent.mkdir(parents=True, exist_ok=True)
+        (copy / name).write_text(text)
+        subprocess.run(["git", "add", "-A"], cwd=copy, check=True)
+        return whole.machine_is_recorded()
+
+    copy.mkdir()
+    subprocess.run(["git", "init", "-q"], cwd=copy, check=True)
+    day = SimpleNamespace(
+        number=1, own=copy / "w1-a" / "day1", source=copy / "w1-a" / "src" / "c.py"
+    )
+    monkeypatch.setattr(digests, "ROOT", copy)
+    monkeypatch.setattr(whole, "RECORDS", copy / "tests" / "catalogues.txt")
+    monkeypatch.setattr(whole, "all_days", lambda: [day])
+    monkeypatch.delenv("ROBO47_WHOLE", raising=False)
+    for name, text in texts.items():
+        assert not edit(name, text)
+    (copy / "tests").mkdir()
+    assert whole.record_machine().startswith("machine 1: ")
+    return edit
+
+
+def test_a_record_of_the_machine_holds_until_its_code_or_that_of_its_days_changes(
+    machine,
+):
+    assert machine("README.md", "words")
+    assert machine("w1-a/docs/day1-lab.md", "words")
+    assert machine("w2-b/day8/new.py", "another day")
+    for name in ("labkit/a.py", "w1-a/day1/b.py", "w1-a/src/c.py", "tests/test_d.py"):
+        assert not machine(name, "changed")
+        assert whole.record_machine()
+        assert machine("README.md", f"words on {name}")
+
+
+def test_with_the_machine_recorded_ci_leaves_out_most_tests_that_ask_about_no_new_day(
+    monkeypatch,
+):
+    files = sorted((ROOT / "tests").glob("test_*.py"))
+    items = [SimpleNamespace(path=path, get_closest_marker=bool) for path in files]
+    monkeypatch.setattr(whole, "machine_is_recorded", lambda: False)
+    assert whole.left_out_of_machine(items) == []
+    monkeypatch.setattr(whole, "machine_is_recorded", lambda: True)
+    left = {one.path.name for one in whole.left_out_of_machine(items)}
+    assert {"test_days_catalogue.py", "test_site.py", "test_docs.py"}.isdisjoint(left)
+    alone = [path for path in files if not whole.EVERY_DAY.search(path.read_text())]
+    assert len(left) == len(alone) - len(alone) // whole.FILES_PART
+
+
 @pytest.mark.parametrize(("nightly", "asked"), [("", "Prescott"), ("1", "--others")])
 def test_ci_tests_all_days_wholly_at_night(nightly, asked):
     ci = (ROOT / ".ci" / "run").read_text("utf-8")

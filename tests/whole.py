@@ -3,6 +3,7 @@
     python tests/whole.py              test each day that has changed, and record it
     python tests/whole.py 3 11         these days
     python tests/whole.py --changed    name the days that have changed
+    python tests/whole.py --machine    record that CI has passed with this machine
 
 A record in `tests/catalogues.txt` says that a day's whole catalogue and its authors'
 tests have passed, and with which digest of all that decides this (`digests.py`). While
@@ -10,6 +11,10 @@ the digest is the same, a tenth of the catalogue is tested, another tenth at eac
 commit, and in CI a tenth of the day's own authors' tests. In all other cases, such as a
 day without a record, everything is tested. ROBO47_WHOLE=1, which CI sets at night, and
 ROBO47_DAY=3 have days tested wholly always.
+
+In the same way a line "machine 14: ..." says that `.ci/run` has passed, on a clean
+checkout, with the machine and Days 1 to 14 as they are. Until one of them changes, CI
+runs the tests that loop over all days, and a fifth of the other files of the authors'.
 """
 
 import os
@@ -22,7 +27,7 @@ from pathlib import Path
 from typing import TypeVar
 
 import pytest
-from digests import digest
+from digests import digest, machine_digest
 
 from labkit.base import git
 from labkit.base.git import GitError
@@ -41,6 +46,8 @@ FILES = (
 )
 MARKS = "kit and not soak and not browser and not network"
 PART = 10  # one of so many is asked where nothing has changed
+FILES_PART = 5  # one of so many files is asked where the machine has not changed
+EVERY_DAY = re.compile(r"\b(all_)?days\(|\bweeks\(")  # asked of a new day as well
 One = TypeVar("One")
 
 
@@ -61,12 +68,50 @@ def recorded(file: Path | None = None) -> dict[int, set[str]]:
     return found
 
 
-def sample(things: Iterable[One], purpose: str) -> list[One]:
+def sample(things: Iterable[One], purpose: str, part: int = PART) -> list[One]:
     """Return a tenth of some things, one at least, another tenth at each commit."""
     some = list(things)
     rng = random.Random(f"{commit()} {purpose}")
-    kept = {*rng.sample(range(len(some)), min(len(some), max(1, len(some) // PART)))}
+    kept = {*rng.sample(range(len(some)), min(len(some), max(1, len(some) // part)))}
     return [one for i, one in enumerate(some) if i in kept]
+
+
+def machine_is_recorded(file: Path | None = None) -> bool:
+    """Return whether CI has passed with the machine and its days as they are now."""
+    file = file or RECORDS
+    if os.environ.get("ROBO47_WHOLE") or not file.is_file():
+        return False
+    lines = re.findall(r"(?m)^machine (\d+): ([0-9a-f]{16})$", file.read_text("utf-8"))
+    try:
+        return any(mark == _machine(int(last)) for last, mark in lines)
+    except GitError:
+        return False
+
+
+def _machine(last: int) -> str:
+    """Return the digest of the machine and of the days up to one."""
+    return machine_digest([day for day in all_days() if day.number <= last])
+
+
+def left_out_of_machine(items: Sequence[pytest.Item]) -> list[pytest.Item]:
+    """Return the authors' tests of the machine that are not to be run: most, or none.
+
+    Args:
+        items: the tests that are collected.
+    """
+    folder = ROOT / "tests"
+    marks = ("kit", "browser", "network")
+    own = [
+        one
+        for one in items
+        if folder in one.path.parents and any(map(one.get_closest_marker, marks))
+    ]
+    if not own or not machine_is_recorded():
+        return []
+    files = sorted({one.path for one in own})
+    alone = [path for path in files if not EVERY_DAY.search(path.read_text("utf-8"))]
+    left = {*alone} - {*sample(alone, "machine", FILES_PART)}
+    return [one for one in own if one.path in left]
 
 
 def left_out(items: Sequence[pytest.Item]) -> list[pytest.Item]:
@@ -81,7 +126,7 @@ def left_out(items: Sequence[pytest.Item]) -> list[pytest.Item]:
         own = [one for one in own if one.get_closest_marker("kit")]
         kept = asked(day, own, "tests") if own else own
         left += [one for one in own if one not in kept]
-    return left
+    return left + left_out_of_machine(items)
 
 
 def one_of_each(things: Iterable[One], kind: Callable[[One], object]) -> list[One]:
@@ -153,7 +198,19 @@ def record(days: Iterable[Day], file: Path | None = None) -> None:
     lines = [
         f"day {n}: {m}\n" for n, marks in sorted(known.items()) for m in sorted(marks)
     ]
-    file.write_text(HEAD + "".join(lines), "utf-8", newline="\n")
+    text = file.read_text("utf-8") if file.is_file() else ""
+    machine = re.findall(r"(?m)^machine .*\n", text)
+    file.write_text(HEAD + "".join([*lines, *machine]), "utf-8", newline="\n")
+
+
+def record_machine() -> str:
+    """Write that CI has passed with the machine and all days; return the line."""
+    last = max(day.number for day in all_days())
+    line = f"machine {last}: {_machine(last)}"
+    text = RECORDS.read_text("utf-8") if RECORDS.is_file() else HEAD
+    kept = re.sub(r"(?m)^machine .*\n", "", text)
+    RECORDS.write_text(f"{kept}{line}\n", "utf-8", newline="\n")
+    return line
 
 
 def main() -> int:
@@ -162,6 +219,9 @@ def main() -> int:
     if arguments == ["--changed"]:
         names = [f"day {day.number}" for day in all_days() if changed(day)]
         print(", ".join(names) or "no day has changed")
+        return 0
+    if arguments == ["--machine"]:
+        print(f"{RECORDS.name}: {record_machine()}")
         return 0
     days = [find_day(int(number)) for number in arguments] or [
         day for day in all_days() if changed(day)

@@ -13,7 +13,7 @@ from pathlib import Path
 from labkit.base.deadline import Deadline
 from labkit.base.exchange import Exchange, LoadError, Reply
 from labkit.check.slow import too_slow
-from labkit.judge.answers import as_clause
+from labkit.judge.answers import as_clause, capitalised
 from labkit.judge.ask import Asked, asked_of, replies
 from labkit.judge.cases import in_cases
 from labkit.judge.guard import attempt, noting, quiet
@@ -21,7 +21,7 @@ from labkit.judge.judge import judge, unjudged
 from labkit.judge.mistake import Verdict
 from labkit.judge.replies_read import no_answer, not_loaded, refusal
 from labkit.judge.right_when import right_when
-from labkit.judge.row import row_of
+from labkit.judge.row import inside, row_of
 from labkit.lesson.added_code import kits_functions, kits_own, old_names
 from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
@@ -242,7 +242,8 @@ def _verdict_of(day: Day, task: Task, asked: Sequence[Asked], source: str) -> Ve
     for one in asked:
         verdict = replace(_guarded(day, task, one, source), function=one.function)
         if len(asked) > 1 and verdict.message and not verdict.follows:
-            says = f"In `{one.function}`, {as_clause(verdict.message)}"
+            clause = as_clause(verdict.message)
+            says = capitalised(inside(f"in `{one.function}`, ", clause))
             if verdict.status == "todo":
                 says = f"{one.function}: {verdict.message}"
             verdict = replace(verdict, message=says)

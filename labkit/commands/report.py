@@ -29,6 +29,7 @@ from labkit.log.logfile import command
 from labkit.log.scan import watched
 from labkit.report import page
 from labkit.report.series import Report, Series, collect, series_of
+from labkit.report.week_facts import facts_of
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, shown
 
@@ -58,7 +59,10 @@ def main() -> int:
         checked = {day.number: last_check(day) for day in days} if mine else {}
         beside = [week.number for week in shown_weeks]
         sheets = {day.number: worksheet_of(day) for day in days} if mine else {}
-        text = page.render(report, heading, beside, checked, sheets)
+        own_days = [facts_of(day, report.series) for day in days] if mine else []
+        text = page.render(
+            report, heading, beside, checked, sheets, own_days, memory.journal()
+        )
         write(out / "report.html", text)
     for week in [asked_week] if asked_week else shown_weeks:
         write_week(report, heading, out, week, shown_weeks, mine)
@@ -107,7 +111,6 @@ def write_week(
 ) -> None:
     """Write the page on a week, and from the student's own log its retrospective."""
     from labkit.report import week_page, week_retro
-    from labkit.report.week_facts import facts_of
 
     facts = [facts_of(day, report.series) for day in days_of(week)]
     others = [other.number for other in beside if other != week]

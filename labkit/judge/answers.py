@@ -266,6 +266,8 @@ def say_degrees(deg: Array) -> str:
 def _say(values: Array, unit: str, least: float) -> str:
     if (value := np.max(values)) < least:
         return "0"
+    if not 0.1 <= value < 1e5:
+        return f"{value:.2g} {unit}"
     digits = 0 if value >= 200 else 1 if value >= 10 else 2
     return f"{value:.{digits}f} {unit}"
 
@@ -273,6 +275,21 @@ def _say(values: Array, unit: str, least: float) -> str:
 def say_number(x: float) -> str:
     """Return a number with three digits: "0.0123", "2300", "2.3e+05"."""
     return f"{float(f'{x:.3g}'):.0f}" if 1e3 <= abs(x) < 1e5 else f"{x:.3g}"
+
+
+def of_result(says: str, called: str) -> str:
+    """Return a sentence on a result, with its name where there are several.
+
+    Args:
+        says: a sentence; some begin with "The result is".
+        called: what the result is called, "the torque"; "" where it is the only one.
+    """
+    if not called:
+        return says
+    name = capitalised(called)
+    if says.startswith("The result is "):
+        return name + says.removeprefix("The result")
+    return f"{name}: {as_clause(says).replace('of the result', f'of {called}', 1)}"
 
 
 def say_factor(factor: float) -> str:
@@ -303,7 +320,7 @@ def as_clause(sentence: str) -> str:
     A symbol that may be taken for a word, Lambda say, is in backticks.
     """
     clause = sentence[:1].lower() + sentence[1:]
-    if clause.startswith(OF_A_SYMBOL):
+    if sentence.startswith("True ") or clause.startswith(OF_A_SYMBOL):
         return sentence
     return clause if capitalised(clause) == sentence else sentence
 

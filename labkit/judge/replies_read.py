@@ -178,12 +178,13 @@ def not_accepted(asked: Asked) -> Iterator[tuple[Exchange, Finding]]:
 
 def of_another_size(asked: Asked) -> Finding | None:
     """Return that answers have not the size that their questions ask for, if so."""
-    for i, kind, got, right in sizes(asked.ask, asked.main):
-        if got != right:
-            says = kind.another_size(got, right)
-            where = f"in call {i + 1} of {len(asked.main)}"
-            return Finding("shape", f"{says}, {where}.")
-    return None
+    off = [one for one in sizes(asked.ask, asked.main) if one[2] != one[3]]
+    if not off:
+        return None
+    _, kind, got, right = off[0]
+    calls = len({i for i, *_ in off})
+    says = kind.another_size(got, right)
+    return Finding("shape", f"{says} in {calls} of {len(asked.main)} calls.")
 
 
 def of_another_length(asked: Asked) -> bool:

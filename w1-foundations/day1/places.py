@@ -8,6 +8,7 @@ from labkit.judge import Case, Finding, HeldOut, Mistake, Pose, Slip
 from labkit.judge.answers import difference, matches, rigid
 from labkit.judge.chain import Factor, first_wrong, one_place
 from labkit.judge.matrices import pose, rigid_inverse
+from labkit.judge.mistake import both_told
 from robo47 import se3
 from robo47.checks import Array
 
@@ -30,8 +31,8 @@ from .quat_to_R import UNNORMALISED
 ALIKE = [BACKWARDS, {"joints-left-out", "R-lost"}]
 TYPED_IN = HeldOut(
     "typed-in",
-    "Your pose is correct for this Panda, but not for one with longer, rotated links: "
-    "read every pos and quat, also those of link0, from the given model.",
+    "Your pose is correct for this Panda, but not for one with longer, rotated links. "
+    "Read every pos and quat, also those of link0, from the given model.",
     on(OTHER, count=2),
     of_close=False,  # `flange` says more of a nearly right one
 )
@@ -40,7 +41,7 @@ NO_INDEX = Slip(
     r"\.qposadr\b(?!\s*\[)",
     "qposadr-is-an-array",
     "model.joint(name).qposadr is an array of one number, so q[...] of it is an array "
-    "too: use qposadr[0].",
+    "too. Use qposadr[0].",
 )  # fmt: skip
 
 
@@ -116,9 +117,12 @@ def _other_links(model, name: str) -> Iterator[tuple[Finding, Array]]:
     body = model.body(name)
     pos = body.pos[None]
     quat = as_written(body.quat)[None]
-    missing = f"The transform of {name} is missing in your product"
+    missing = f"Your product omits the transform of {name}"
     yield Finding("link-skipped", missing), np.eye(4)
-    yield Finding("link-twice", f"The transform of {name} is applied twice"), L @ L
+    yield (
+        Finding("link-twice", f"Your product applies the transform of {name} twice"),
+        L @ L,
+    )
     for mistake in link_T.row.ask.named:
         says = f"In the transform of {name} alone, {mistake.says}"
         yield Finding(mistake.slug, says), mistake.redo(pos, quat)
@@ -126,7 +130,9 @@ def _other_links(model, name: str) -> Iterator[tuple[Finding, Array]]:
 
 def _other_joints(model, q: Array, joint: str) -> Iterator[tuple[Finding, Array]]:
     yield (
-        Finding("joint-skipped", f"{joint} does not rotate: its angle has no effect"),
+        Finding(
+            "joint-skipped", f"{joint} does not rotate, because its angle has no effect"
+        ),
         (np.eye(4)),
     )
     for _, other in PATH[1:-1]:
@@ -186,6 +192,7 @@ def _wrong_end(first: Mistake, case: Case, some: slice) -> Finding | None:
 def _both(first: Finding, second: Finding, case: Case) -> Finding:
     return Finding(
         f"{first.slug}+{second.slug}",
-        f"Two things at once: {first.message}; {second.message}. "
-        f"{Pose().largest_error(case.S, case.T)} Without both mistakes, it is 0.",
+        f"{both_told(first.message, second.message)} "
+        f"{Pose().largest_error(case.S, case.T)} Without both mistakes, the error is "
+        f"0.",
     )

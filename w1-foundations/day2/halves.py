@@ -34,7 +34,7 @@ def turned_round(case: Case) -> Finding | None:
     first = f", as for {given}" if 0 < len(given) <= 90 else ""
     return Finding(
         "axis-turned-round",
-        f"For {np.sum(~right)} of {len(right)} inputs omega and v are both negated"
+        f"Your omega and v are both negated in {np.sum(~right)} of {len(right)} calls"
         f"{first}. Is the axis reversed? Use it as it is given.",
     )
 
@@ -43,4 +43,4 @@ def _right_for(case: Case) -> str:
     wrong: Array = difference(case.S, case.T) > case.ask.near
     if wrong.all():
         return ""
-    return f" The result is right for {np.sum(~wrong)} of {len(wrong)} inputs."
+    return f" The result is wrong in {np.sum(wrong)} of {len(wrong)} calls."

@@ -22,7 +22,7 @@ def of_another_size(*rest: Array) -> HeldOut:
     return HeldOut(
         "six-rows-only",
         "Your result is correct for Jacobians of six rows and seven columns, but not "
-        "for the J of the docstring, which is 2x3: take the numbers from J.shape.",
+        "for the J of the docstring, which is 2x3. Take the numbers from J.shape.",
         lambda rng: [(PLANE, *rest), (PLANE + 0.5, *rest)],
     )
 

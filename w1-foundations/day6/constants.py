@@ -62,8 +62,8 @@ def arm(metre=1.0, masses=1.0, armature=1.0, damping=1.0, gravity=1.0, step=0.00
     "Lambda at ready, along x", "{:.3f} kg",
     masses=between(1.8, 1.9, "about twice, because the rotors contribute an eighth"),
     armature=between(1.1, 1.2, "the eighth that the rotors contribute doubles"),
-    metre=between(0.85, 0.95, "with twice the lever arm a rotor contributes only a "
-                  "quarter of its former mass"),
+    metre=between(0.85, 0.95, "with twice the lever arm the apparent mass of a rotor "
+                  "is a quarter"),
     gravity=same("an inertia does not depend on gravity"),
     damping=same("the arm is at rest"),
 )  # fmt: skip

@@ -105,7 +105,7 @@ def trapezoid(v=1.0, a=1.0):
 @numbers.add(
     "largest joint error, quintic", "{:.2f} mrad",
     omega=between(0.4, 0.6, "each simulation step adds an error of ½ qdd dt² to q (dt: "
-                  "time step); the controller balances it with a steady error "
+                  "time step); under feedback the error settles at a value "
                   "proportional to 1 / omega"),
     duration=between(0.15, 0.4, "a quarter of the acceleration"),
     rate=between(0.7, 1.1, "the time step of the simulator, which stays the same, "
@@ -121,7 +121,7 @@ def quintic_off(omega=LAB.OMEGA, duration=1.0, rate=LAB.RATE):
     omega=between(0.9, 1.0, "the torque reaches its limit; without the limit the error "
                   "would be halved"),
     duration=between(0.4, 0.6, "the discontinuity of the velocity is half as large"),
-    rate=between(0.9, 1.1, "the discontinuity is in the reference"),
+    rate=between(0.9, 1.1, "the reference itself is discontinuous"),
 )  # fmt: skip
 def jump_off(omega=LAB.OMEGA, duration=1.0, rate=LAB.RATE):
     """Return it."""

@@ -71,19 +71,19 @@ def _(rng):
 
 @row.wrongs
 def _(start, end, T):
-    """in-powers-of-x: your coefficients belong to powers of t / duration; the task asks
-      for powers of t
-    T-is-1: the duration has no effect, because the conditions at the end are written
-      for t = 1 => the answer for a duration of 1 s
+    """in-powers-of-x: your coefficients belong to powers of t / duration, but the task
+      asks for powers of t
+    T-is-1: the duration has no effect, because your conditions at the end are written
+      for t = 1
     cubic: your polynomial is a cubic, which omits both conditions on the acceleration
-      => the cubic
-    accelerations-zero: the accelerations at both ends are set to 0. Use the given ones
-    rest-to-rest: the velocities and the accelerations at both ends are set to 0. Use
-      the given ones
-    two-forgotten: the second derivative of t^2 is 2, but your matrix has 1 in the row
-      of the acceleration at the start => the answer with 1 in that row
-    conditions-mixed-up: the right-hand side alternates between start and end, but the
-      rows of the matrix do not
+    accelerations-zero: your code sets the accelerations at both ends to 0. Use the
+      given accelerations
+    rest-to-rest: your code sets the velocities and the accelerations at both ends to 0.
+      Use the given values
+    two-forgotten: your matrix has 1 for t^2 in the row of the acceleration at the
+      start, but the second derivative of t^2 is 2
+    conditions-mixed-up: your right-hand side alternates between start and end, but the
+      rows of your matrix do not
     """
     A = conditions(T)
     four = np.linalg.solve(A[[0, 1, 3, 4], :4], [*start[:2], *end[:2]])

@@ -156,7 +156,7 @@ def test_step_7s_sentences():
     assert max(numbers[n][0] for n in ("cubic", "trapezoid", "quintic")) < 1.0
     assert says(f"a finite jerk of {numbers['quintic'][1]:.0f} rad/s³")
     assert 0.78 < ways["trapezoid"][1] / T < 0.82
-    assert says("trapezoid is a fifth shorter (14 to 43 % over 200 random motions)")
+    assert says("takes a fifth less time (14 to 43 % less in 200 random motions)")
     top = np.minimum(lab.V_MAX, np.sqrt(DQ * lab.A_MAX))
     alone = DQ / top + top / lab.A_MAX
     assert (lab.V_MAX / DQ).argmin() == 6

@@ -51,8 +51,9 @@ def _not_turned(T0: Array, T1: Array, s: float) -> Array:
 TURNS = [
     HeldOut(
         "half-turn-for-none",
-        "Your function is right except for a rotation by 180 degrees: at s = 1 the "
-        "orientation is still R0. The sine is 0 there, as it is for no rotation. Which "
+        "Your function is right except for a rotation by 180 degrees, where the "
+        "orientation at s = 1 is still R0. The sine is 0 there, as it is for no "
+        "rotation. Which "
         "quantity distinguishes the two?",
         _half,
         mistaken=_not_turned,
@@ -66,8 +67,9 @@ TURNS = [
     ),
     HeldOut(
         "small-turn-for-none",
-        "Your function is right except for very small rotations: the orientation "
-        "remains R0. Below which angle does your function skip the rotation?",
+        "Your function is right except for very small rotations, where the "
+        "orientation remains R0. Below which angle does your function skip the "
+        "rotation?",
         lambda rng: _small(rng, (TINY,)),
         mistaken=_not_turned,
         near=1e-9,

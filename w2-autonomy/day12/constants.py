@@ -98,7 +98,7 @@ def with_half(share=0.5, speed=1.0, weight=1.0, points=LAB.POINTS):
 @numbers.add(
     "torque above its limit at the end of a step", "{:.1%}",
     points=times(0.5, "the bounds change half as much in half a step"),
-    share=between(0.8, 2.0, "the steps are different, but the excess is of similar size", to=0.5),
+    share=between(0.8, 2.0, "the motion is slower, but the excess is of similar size", to=0.5),
 )  # fmt: skip
 def above(points=LAB.POINTS, share=1.0):
     """Return by which fraction of its limit the largest torque exceeds it."""

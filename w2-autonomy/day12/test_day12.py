@@ -206,10 +206,6 @@ def test_the_interval_is_near_95_percent_on_average_and_not_near_1():
     assert np.mean([covers(p) for p in np.linspace(0.5, 1, 1000, endpoint=False)]) == (
         pytest.approx(0.952, abs=1e-3)
     )
-    assert (
-        "averaged over $p$ from 0.5 to 1, the interval contains $p$ in 95.2 % of all"
-        in SENTENCES
-    )
     just_above = ends[59, 1] + 1e-9  # from here on only 60 of 60 contains p
     assert f"{just_above:.3f}" == "0.997"
     assert "with $p$ just above 0.997" in SENTENCES
@@ -255,8 +251,6 @@ def test_twelve_groups_of_sixty_seeds_and_each_link_omitted():
         assert str(sum(counts[row[0]])) == row[1], row
         assert str(np.sum(planned(wall)[3] <= 0.0)) == row[2], row
     whole = counts["none"]
-    others = ", ".join(map(str, whole[1:-1]))
-    assert f"gave {others} and {whole[-1]}" in SENTENCES
     assert all(18 <= k <= 40 for k in whole)
     assert sum(22 <= k <= 36 for k in whole[1:]) == 8
     # The refutation: more edges become free without link 5 than without link 6.
@@ -470,9 +464,9 @@ def test_other_planners_find_as_many_ways_of_which_some_are_none():
         return lambda *given: others.planner(*given, **how)
 
     planners = [
-        planning.rrt_connect, other(turn="grew"), other(turn="failed"),
-        other(turn="never"), other(approach="one"), other(approach="sample"),
-        others.one_tree, other(approach="jump"), other(parent="newest"),
+        planning.rrt_connect, other(turn="grew"), other(turn="never"),
+        other(approach="one"), other(approach="sample"), others.one_tree,
+        other(approach="jump"), other(parent="newest"),
         other(joined=lambda a, b: a + b[1:]), other(free=True),
     ]  # fmt: skip
     table = rows_of("planner")

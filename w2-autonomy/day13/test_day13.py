@@ -145,27 +145,24 @@ def test_one_side_is_off_by_a_cubic_term_and_the_mean_of_both_is_not():
     assert (far.mean() - 1) / (near.mean() - 1) == pytest.approx(100, rel=0.02)
     wrong = with_slope(np.triu(SLOPE))
     kept, _ = costs(*wrong)
-    assert f"the mean is off by {100 * (kept - 1):.1f} %" in SENTENCES
-    one_side, _ = costs(*wrong, both=False)
+    alone, _ = costs(*wrong, both=False)
+    words = f"the mean is off by {100 * (kept - 1):.1f} %, but the stretched start"
+    assert f"{words} alone only by {100 * (alone - 1):.1f} %" in SENTENCES
     kept, _ = costs(*with_slope(np.tril(SLOPE)))
     assert f"predicted cost changes by {100 * (kept - 1):.1f} %" in SENTENCES
-    assert f"With one start alone the ratio is {one_side:.3f}" in SENTENCES
 
 
 def test_it_stabilises_and_is_not_best(printed):
     fall = np.log(np.abs(np.linalg.eigvals(A)).max()) / H
     assert f"by a factor of $e$ in {1 / fall:.2f} s" in SENTENCES
     none, tenth = with_slope(0 * SLOPE), lab.promise(A, B, H, 10 * lab.R_COST)
-    kept, dear = costs(*none)
-    assert f"without the gravity stiffness costs {100 * (dear - 1):.0f} % more" in (
-        SENTENCES
-    )
+    kept, least = costs(*none)
     low = 100 * (1 - 1 / kept)
     assert f"without the gravity stiffness is {low:.0f} % too low" in SENTENCES
-    half = 100 * (costs(P, K / 2)[1] - 1)
-    assert f"half of the gain costs {half:.0f} % more" in SENTENCES
     kept, dear = costs(*tenth)
-    assert f"ten times the $R$ costs {100 * (dear - 1):.0f} % more" in SENTENCES
+    assert least < costs(P, K / 2)[1] < dear
+    words = f"{100 * (least - 1):.0f} to {100 * (dear - 1):.0f} % more"
+    assert f"The wrong gains cost {words}" in SENTENCES
     assert 0.45 < kept < 0.5
     assert "is more than twice the measured cost" in SENTENCES
     for text in (f"{kept:.3f}", f"{dear:.3f}"):
@@ -302,21 +299,7 @@ def test_the_exercises_numbers_and_what_is_left_is_the_step():
 
 
 @pytest.mark.kit
-def test_one_factor_for_all_joints_stops_at_the_end_of_a_range():
-    least = []
-
-    def slowed(J, e, lo, hi):
-        dq = dls_step(J, e, lab.DAMPING)
-        limit = np.where(dq > 0, hi, lo)
-        share = np.divide(limit, dq, out=np.ones(7), where=dq != 0)
-        least.append(float(np.clip(share.min(), 0, 1)))
-        return least[-1] * dq
-
-    off, share, beyond = lab.draw_circle(MODEL, slowed)
-    assert f"gives {off.max():.0f} mm: as soon as one joint" in SENTENCES
-    assert least[-1] == 0.0
-    assert share.max() <= 1.0 + 1e-12
-    assert beyond < 1e-12
+def test_with_the_damping_of_day_3_no_limit_is_active():
     with patch.object(lab, "DAMPING", 0.05):
         ways = (lambda *x: clipped(*x, 0.05), lab.best_step())
         both = [lab.draw_circle(MODEL, step)[0].max() for step in ways]
@@ -358,7 +341,7 @@ def recomputed(limit):
 
 
 @pytest.mark.kit
-@pytest.mark.parametrize("damping", [0.0025, 0.005, 0.01, 0.015, 0.02, 0.05])
+@pytest.mark.parametrize("damping", [0.005, 0.01, 0.015, 0.05])
 def test_clamping_is_as_good_as_the_damping_that_was_guessed(damping):
     met = []
 

@@ -120,7 +120,6 @@ def test_what_8_of_8_and_60_of_60_and_0_of_60_say():
     high = policy.success_rate(np.zeros(60))[2]
     assert f"show that the rate is above {low8:.2f}" in SENTENCES
     assert f"below {high:.2f}, and 60 of 60 that it is above {low60:.2f}" in SENTENCES
-    assert f"an interval from {low60:.3f}, was measured" in SENTENCES
     assert f"The lab finds {lab.needed(0.05)}: the exact width" in SENTENCES
     assert 382 - 2 < 1.96**2 / 4 / 0.05**2 - 1.96**2 <= 382
 
@@ -164,10 +163,9 @@ def test_a_held_cube_presses_with_2_n_a_contact_and_the_whole_force_seems_to_sli
 
 @pytest.mark.kit
 def test_a_cube_that_slips_while_the_hand_accelerates_is_caught_again():
-    for seconds, grams in ((1.0, 119), (2.0, 121), (0.3, 111)):
+    for seconds, grams in ((1.0, 119), (0.3, 111)):
         with patch.object(lab, "SLOW", seconds):
             assert lab.heaviest(model, data, 0.3, 2) == grams
-    assert "and for a lift in 2 s (121 g)" in SENTENCES
     paper = 2000 * 0.3 * 2 / (lab.G + 6 * lab.TARGET / 0.3**2)
     assert f"You will measure 111 g. Your formula should have given {paper:.0f} g" in (
         SENTENCES
@@ -270,7 +268,7 @@ def test_a_world_that_explodes_comes_back_clean_and_only_a_counter_knows(
     with day14_mujoco.silent():
         data.qvel[:] = 1e12
         mujoco.mj_step(model, data)
-    assert f"The time is {data.time:.3f} s" in SENTENCES
+    assert f"the time is {data.time:.3f} s" in SENTENCES
     assert data.body("cube").xpos[2] == pytest.approx(day14_mujoco.HALF)
     assert np.isfinite(data.qpos).all()
     assert day14_mujoco.exploded(data)
@@ -415,7 +413,6 @@ def test_a_smaller_lift_holds_more():
     lower = [holds(with_numbers(learned(s), lift=0.06)).sum() for s in range(1, 13)]
     held = [of_seed(seed)[6] for seed in range(1, 13)]
     assert (np.array(lower) > held).all()
-    assert f"seed 9 holds {lower[8]} instead of {held[8]:.0f}" in SENTENCES
 
 
 # The exercises: the same search from another start, and with mistakes.

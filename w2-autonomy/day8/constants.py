@@ -76,7 +76,7 @@ def anywhere(seed, n, speed):
     n=same("nine random states already give this rank"),
     seed=same("the axes of the arm determine the rank, not the states", to=48),
     speed=same("the axes of the arm are the same"),
-    metre=same("scaling a column does not change its linear independence"),
+    metre=same("scaling a column does not change the rank"),
     rtol=same("the other singular values are rounding errors, at most 1e-14 of the largest"),
 )  # fmt: skip
 def links_show(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB.RTOL):

@@ -337,8 +337,8 @@ def test_normal_equations_are_singular_by_zero_columns_and_else_up_to_rounding(d
     assert (square < 1e-13 * square.max()).sum() == 18
     rank, _ = lab.rank_and_condition(Y, lab.RTOL)
     assert Y.shape[1] - rank == 18
-    assert "Without these columns 18 combinations are still unidentifiable" in SENTENCES
-    assert "whether NumPy raises an error depends on rounding" in SENTENCES
+    assert "and 18 more combinations are unidentifiable" in SENTENCES
+    assert "NumPy does not raise this error every time" in SENTENCES
 
 
 def test_to_drop_all_slow_rows_costs_little_beside_the_twenty_wrong_ones(data):
@@ -384,27 +384,6 @@ def test_what_no_torque_shows_is_why_there_is_no_such_arm(data):
     assert min(map(lab.min_pseudo_inertia_eig, other[:70].reshape(7, 10))) > 0.0
 
 
-@pytest.mark.kit
-def test_of_twelve_robots_none_is_consistent_and_little_of_that_is_noise(data):
-    Y, _, fast = data["excited"]
-    hidden = np.linalg.svd(Y[fast], full_matrices=False)[2][62:]
-    motion = day8_mujoco.excitation(model, lab.ROBOT_SEED)
-    found = []
-    for seed in range(1, 13):
-        secret = day8_mujoco.changed(model, seed)
-        tau = (lab.mujoco_torques(secret, motion) + noises(seed)[1])[fast]
-        phi = identification.truncated_svd_fit(Y[fast], tau, lab.RTOL)
-        true = day8_mujoco.numbers(panda.arm(day8_mujoco.without_friction(secret)))
-        other = phi + hidden.T @ (hidden @ (true - phi))
-        found.append([
-            identification.min_pseudo_inertia_eig(p[:70].reshape(7, 10)).min()
-            for p in (phi, other)
-        ])  # fmt: skip
-    least, most = np.min(found, axis=0), np.max(found, axis=0)
-    assert f"the smallest eigenvalue is {least[0]:.2f} to {most[0]:.2f}" in SENTENCES
-    assert f"and {least[1]:.3f} to {most[1]:.3f} with the true" in SENTENCES
-
-
 def test_second_differences_of_an_encoder_are_off_as_predicted():
     dt = 0.002
     step = 2.0 * np.pi / 2**16
@@ -435,9 +414,6 @@ def test_with_twelve_robots_the_truncated_swing_is_worse_than_the_model_file(dat
         }
         noise = noises(seed)[0]
         fast = data["swing"][2]
-        torque, sigma = identification.predict_with_sigma(
-            swing[fast], (exact + noise)[fast], elsewhere[new], lab.CUT
-        )
         unit = lab.lengths(100.0)
         phi = identification.truncated_svd_fit(
             swing[fast] / unit, (exact + noise)[fast], lab.CUT
@@ -445,11 +421,9 @@ def test_with_twelve_robots_the_truncated_swing_is_worse_than_the_model_file(dat
         found.append([
             fitted(seen, "swing", noise, lab.CUT)[1],
             lab.rms((elsewhere @ known - truth)[new]),
-            100 * np.mean(np.abs(torque - truth[new]) < 1.96 * sigma),
-            fitted(seen, "swing", 0.0, lab.CUT)[1],
             lab.rms((elsewhere / unit @ phi - truth)[new]),
         ])  # fmt: skip
-    off, file, inside, exact, centimetres = np.transpose(found)
+    off, file, centimetres = np.transpose(found)
     assert excited.shape == swing.shape
     assert f"In {(off > file).sum()} of 12 cases" in SENTENCES
     words = (
@@ -458,9 +432,6 @@ def test_with_twelve_robots_the_truncated_swing_is_worse_than_the_model_file(dat
     )
     ends = off.min(), off.max(), file.min(), file.max()
     assert words.format(*ends) in SENTENCES
-    assert f"contains {inside.min():.0f} to {inside.max():.0f} %" in SENTENCES
-    words = "the error without noise is {:.1f} to {:.1f} N m"
-    assert words.format(exact.min(), exact.max()) in SENTENCES
     better = (centimetres < file).sum()
     assert f"better than the model file for only {better} of 12 robots" in SENTENCES
 
@@ -473,41 +444,13 @@ def test_the_powers_of_the_amplitude_hold_for_small_swings_only():
     }
     assert seen[0.1, 0.0] / seen[0.3, 0.0] == pytest.approx(27, rel=0.02)
     assert seen[0.1, 0.2] / seen[0.3, 0.2] == pytest.approx(3, rel=0.05)
-    for ratio in (0.5, 1.5, 2.0, 3.0, 4.1):
-        for phase in (0.0, 0.8, np.pi / 2):
-            small, large = (two_sines(A, ratio, phase) for A in (0.1, 0.3))
-            assert 2.85 < small / large < 3.05
-    assert "Other second frequencies, from 0.5 to 4.1 times the first" in SENTENCES
-    falls = seen[1.0, 0.0] / seen[2.0, 0.0]
-    assert f"falls by a factor of {falls:.1f} instead of 8" in SENTENCES
     rises = f"from {seen[1.0, 0.2]:.1f} to {seen[2.0, 0.2]:.1f}"
     assert rises in SENTENCES
-
-
-def two_sines(A, ratio, phase):
-    """Return the condition number of a pendulum with a fifth of a second sine."""
-    t = np.arange(200) * 0.05
-    then = ratio * t + phase
-    q = A * (np.sin(t) + 0.2 * np.sin(then))
-    qd = A * (np.cos(t) + 0.2 * ratio * np.cos(then))
-    qdd = -A * (np.sin(t) + 0.2 * ratio**2 * np.sin(then))
-    Y = np.transpose([qdd, np.cos(q), np.sin(q), qd, np.sign(qd)])
-    return lab.rank_and_condition(Y, 1e-12)[1]
 
 
 def test_the_largest_singular_values_belong_to_the_columns_of_size_one():
     Vt = np.linalg.svd(lab.pendulum(0.1, 0.0))[2]
     assert (np.sum(Vt[:2, [1, 4]] ** 2, axis=1) > 0.99).all()  # cos q and sign q'
-
-
-def test_nine_states_reach_the_rank_with_each_of_twelve_seeds():
-    for seed in range(1, 13):
-        Y = lab.regressor(arm, day8_mujoco.anywhere(model, seed, 9))
-        ranks = [
-            lab.rank_and_condition(Y[:k].reshape(-1, 91), lab.RTOL)[0] for k in (8, 9)
-        ]
-        assert ranks == [56, 62]
-    assert "for each of twelve seeds" in SENTENCES
 
 
 @pytest.mark.kit
@@ -535,7 +478,7 @@ def test_any_second_frequency_helps_unless_position_determines_acceleration():
         3: pytest.approx(4.0e5, rel=0.02),
     }
     assert 9_000 < min(seen.values()) < max(seen.values()) < 120_000
-    assert "give 4,800,000 and 400,000" in SENTENCES
+    assert "they give 4,800,000 and 400,000" in SENTENCES
     out = np.linspace(0.0, 1.0, 201)  # s: the arm moves out, then back until 2 s
     for ratio in ratios:
         along, back = (

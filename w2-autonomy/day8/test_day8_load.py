@@ -81,20 +81,6 @@ def test_the_grams_of_one_from_either_side_are_how_long_mujocos_friction_creeps(
     assert f"{found[1]:.0f} g after 2 s and {later:.0f} g after 8 s" in SENTENCES
 
 
-@pytest.mark.kit
-def test_without_dry_friction_one_from_either_side_is_only_not_averaged():
-    robots = [
-        day8_mujoco.without_friction(day8_mujoco.changed(one, lab.ROBOT_SEED))
-        for one in (model, hung)
-    ]
-    held = {id(one): day8_mujoco.holds(one, arm, lab.POSES, lab.WAIT) for one in robots}
-    with patch.object(day8_mujoco, "holds", lambda one, *_: held[id(one)]):
-        sigma = [grams(robots, lab.WAIT, lab.NOISE, seed)[:, 1] for seed in range(20)]
-    _, crossed, both = np.sqrt(np.mean(np.square(sigma), axis=0))
-    assert crossed / both == pytest.approx(np.sqrt(2), rel=0.1)
-    assert "Without dry friction this sigma is only about" in SENTENCES
-
-
 def rows_at(poses):
     """Return the regressor of a load in some poses, (7 k, 4)."""
     hands = day8_mujoco.hands(arm, poses)
@@ -117,7 +103,7 @@ def test_the_paper_predicts_sigma_and_the_centre_of_mass_makes_it_larger():
         four.append(1000 * lab.NOISE * np.sqrt(np.linalg.inv(rows.T @ rows)[0, 0]))
     assert max(alone) < 9.3
     assert f"sigma is {four[0]:.0f} g for the lab's five poses" in SENTENCES
-    assert f"{min(four):.0f} to {max(four):.0f} g for five other" in SENTENCES
+    assert 14.5 < min(four) < max(four) < 16.5  # other poses are about as good
 
 
 @pytest.mark.kit
@@ -206,7 +192,6 @@ def test_what_makes_the_hand_sink_is_turned_alone_the_grams_and_the_centre():
     # Two errors that add up: the fit's own gravity, which is in all three, but once.
     assert grams_alone + centre_alone - rises(LOAD) == pytest.approx(both, abs=1.0)
     grams_alone, centre_alone, both = alone("one from either side")
-    assert f"the wrong mass alone causes nearly all of the {both:.0f} mm" in SENTENCES
     assert grams_alone == pytest.approx(both, abs=2.0)
     assert centre_alone == pytest.approx(rises(LOAD), abs=2.0)
 
@@ -258,9 +243,7 @@ def test_noise_moves_the_grams_and_another_robot_hardly_does():
     words = f"Seed 8 gives {load[-1]:.0f} g, an error of {off[-1]:.1f} sigma"
     assert words in SENTENCES
     assert f"it varies from {sigma.min():.0f} to {sigma.max():.0f} g" in SENTENCES
-    both = (lab.NOISE_SEED, lab.NOISE), (lab.NOISE_SEED, 0.0)
-    (least, _), (least_still, _) = found(4, *both)
-    (most, _), (most_still, _) = found(8, *both)
+    ((least, _),) = found(4, (lab.NOISE_SEED, lab.NOISE))
+    ((most, _),) = found(8, (lab.NOISE_SEED, lab.NOISE))
     assert most - least < 2
     assert f"({least:.1f} to {most:.1f} g)" in SENTENCES
-    assert f"give {least_still:.1f} to {most_still:.1f} g, so noise" in SENTENCES

@@ -106,8 +106,6 @@ def test_the_autocorrelation_of_the_rounding_error_is_why_12_bits_differ():
         errors = (reported - run.q).T
         shared.append(np.mean([estimation.lag1_autocorrelation(e) for e in errors]))
     assert np.allclose(ratio, np.sqrt(1 - np.array(shared)), atol=0.025)
-    words = f"RMS at 12 bits lies between {min(ratio):.2f} and {max(ratio):.2f}"
-    assert words in SENTENCES
     assert f"prediction is {100 * (1 / ratio[2] - 1):.0f} % too large" in SENTENCES
 
 
@@ -167,7 +165,7 @@ def test_an_accel_psd_passes_both_tests_on_the_swing_of_every_joint(swing):
     assert words in SENTENCES
     n = len(z) - lab.SETTLED
     low, high = estimation.nis_interval(n, 1)
-    assert f"For the {n} velocities of the swing" in SENTENCES
+    assert f"For the {n} readings of the swing" in SENTENCES
     assert f"between {low:.3f} and {high:.3f}, and $\\rho_1$ within" in SENTENCES
     assert f"within {1.96 / np.sqrt(n):.3f} of 0. To search" in SENTENCES
     for joint, accel_psd in enumerate(
@@ -340,7 +338,7 @@ def test_the_rest_in_free_motion_is_mujocos_rule_and_neither_gain_nor_age(swing)
         with patch.object(lab, "GAIN", gain):
             left[gain] = largest(lab.felt(arm, swing))
     assert [f"{x:.3f}" for x in left.values()] == ["0.008", "0.009", "0.009"]
-    assert "gains of 10, 50 and 200 1/s give 0.008, 0.009 and 0.009" in SENTENCES
+    assert "The gain hardly changes the remaining 0.009 N m" in SENTENCES
     law = day9_mujoco.tracking(arm, SWING)
     found = {}
     for h in (0.002, 0.001):
