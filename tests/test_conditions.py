@@ -70,7 +70,7 @@ def printed(row, function):
 
 @functools.cache
 def fresh(row):
-    """Return fresh calls, those of rare cases too; all conditions of a row share them."""
+    """Return fresh calls of a row, those of rare cases too, for all its conditions."""
     return list(itertools.islice(_fresh(row), 40 * FRESH))
 
 
