@@ -120,8 +120,3 @@ HALVES_SWAPPED = Change(
     "the halves of {name} are swapped; the angular half comes first",
     partial(np.roll, shift=3, axis=0),
 )
-TRANSPOSED = Change(
-    "transposed",
-    "{name} is transposed, or multiplied from the wrong side",
-    lambda x: np.swapaxes(x, -1, -2),
-)
