@@ -26,15 +26,17 @@ def toy():
     return row
 
 
-def told(row, function):
-    """Return what the cases say of a function."""
+def told(row, function, known=None):
+    """Return what the cases say of a function; `known` gets the further questions."""
 
     def reply(questions):
+        if known is not None:
+            known.extend(questions)
         return [Reply(value=function(*one.args)) for one in questions]
 
     asked = asked_of("1.1", "f", row.ask, seed=3)
     for one in asked.exchanges:
-        (one.reply,) = reply([one.question])
+        one.reply = Reply(value=function(*one.question.args))
     return in_cases(asked, reply)
 
 
@@ -53,6 +55,17 @@ def test_one_counterexample_among_the_fresh_inputs_and_a_case_is_not_right():
     # What is always asked are three decimals; one of hundreds of numbers is over 8.8.
     says = told(toy(), lambda x: x / 3 if x < 0 or x > 8.8 else x)
     assert "Right" not in says
+
+
+def test_fresh_inputs_are_drawn_only_while_a_case_may_be_right():
+    known = []
+    says = told(toy(), lambda x: 3 * x + 1, known)
+    assert says.startswith("Wrong in some calls of every case")
+    assert known == []
+    told(toy(), lambda x: 3 * x if x < 0 or 5 < x < 5.2 else x, known)
+    refuted = len(known)
+    told(toy(), lambda x: x, known)
+    assert 0 < refuted < (len(known) - refuted) / 2
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, None])

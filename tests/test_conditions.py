@@ -77,8 +77,13 @@ def printed(row, function):
             yield claim.says, claim.holds, RIGHT, claim.k
 
 
+@functools.cache
 def fresh(row):
-    """Yield fresh calls, those of rare cases too."""
+    """Return fresh calls of a row, those of rare cases too, for all its conditions."""
+    return list(itertools.islice(_fresh(row), 40 * FRESH))
+
+
+def _fresh(row):
     for n in range(400):
         rng = [SEED, n]
         drawn = row.ask.drawn
@@ -89,7 +94,7 @@ def fresh(row):
 
 def that_hold(row, holds, says, k):
     """Yield fresh calls of which a condition is true, made so where they are not."""
-    for call in itertools.islice(fresh(row), 40 * FRESH):
+    for call in fresh(row):
         if holds(call):
             yield call
         elif k >= 0:
@@ -102,7 +107,7 @@ def that_hold(row, holds, says, k):
 def counterexamples(row, function, says, holds, status, k):
     """Return how many of 100 fresh inputs contradict a condition."""
     if status == "only":
-        calls = (c for c in itertools.islice(fresh(row), 40 * FRESH) if not holds(c))
+        calls = (c for c in fresh(row) if not holds(c))
         status = RIGHT
     else:
         calls = that_hold(row, holds, says, k)

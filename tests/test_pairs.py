@@ -87,7 +87,10 @@ def test_each_wrong_result_of_several_has_its_own_mistake():
         return kp * e + kd * ed + np.clip(ki * integral, -clamp, clamp), integral
 
     says = told(5, "5.7", pid_step=pid_step)
-    assert "In `pid_step`, the acceleration: your code clamps ki times the integral" in says
+    assert (
+        "In `pid_step`, the acceleration: your code clamps ki times the integral"
+        in says
+    )
     assert "returns the unclamped integral" in says
 
 

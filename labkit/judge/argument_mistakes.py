@@ -124,8 +124,3 @@ HALVES_SWAPPED = Change(
     "your code swaps the halves of {name}. The angular half should come first",
     partial(np.roll, shift=3, axis=0),
 )
-TRANSPOSED = Change(
-    "transposed",
-    "your code transposes {name} or multiplies it from the wrong side",
-    lambda x: np.swapaxes(x, -1, -2),
-)

@@ -9,6 +9,7 @@ listed as right, nor as wrong.
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -27,13 +28,14 @@ TRIED = 50  # fresh calls of a case at which a sentence is tried, at least
 MOST = 200  # of a case, where its inputs allow it
 EACH = 2  # calls of a case that one generator yields in a round, at most
 ROUNDS = 100  # generators that draw them, at most
-SECONDS = 1.5  # for drawing them, and as many for the replies
+SECONDS = 1.5  # for drawing and comparing them, and as many for the replies
 BATCH = 40  # calls that are asked at once
 LISTED = 4  # cases in one list, at most
 SEED = 5947  # of the fresh inputs: none of the asked ones
 RIGHT, CLOSE, WRONG, NONE = "right", "close", "wrong", ""
 Call = tuple[Any, ...]
 Cases = Mapping[str, Callable[[Call], bool]]  # by phrase, "parallel segments"
+Answered = Sequence[tuple[Call, str]]  # calls with their verdicts
 
 
 def of_call(holds: Callable[..., bool], call: Call) -> bool:
@@ -110,15 +112,45 @@ def in_cases(
     known = [*asked.main, *asked.fresh]
     lists = [{says: _kept(holds) for says, holds in some.items()} for some in ask.cases]
     old = [(e.question.args, verdict(ask, e)) for e in known]
-    calls = fresh_calls(ask, [call for call, _ in old], lists)
-    task = known[0].question.task
-    questions = [Question(task, asked.function, call) for call in calls]
-    again = _replied(questions, reply_to)
-    new = [(e.question.args, how) for e in again if (how := verdict(ask, e))]
-    told = [found for some in lists if (found := sentence(some, old, new))]
+    left = [some for some in lists if _may_be_right(some, old)]
+    new = list(_tried(asked, old, left, reply_to)) if left else []
+    told = [found for some in left if (found := sentence(some, old, new))]
     if told:
         return min(told, key=lambda one: one[0])[1]
     return in_all_cases(lists[0], old, new)
+
+
+def _may_be_right(cases: Cases, known: Answered) -> bool:
+    """Return whether a case has no call that is known to be answered wrongly.
+
+    Without one there is nothing to say of a list, and no fresh call changes that.
+    """
+    bad = [call for call, how in known if how != RIGHT]
+    return any(not any(map(holds, bad)) for holds in cases.values())
+
+
+def _tried(
+    asked: Asked,
+    old: Answered,
+    lists: Sequence[Cases],
+    reply_to: Callable[[Sequence[Question]], Sequence[Reply]],
+) -> Iterator[tuple[Call, str]]:
+    """Yield fresh calls with their verdicts, until these leave no case to be right."""
+    task = asked.main[0].question.task
+    calls = fresh_calls(asked.ask, [call for call, _ in old], lists)
+    known = [*old]
+    waited = 0.0
+    while waited < SECONDS and any(_may_be_right(one, known) for one in lists):
+        some = [Question(task, asked.function, c) for c in islice(calls, BATCH)]
+        if not some:
+            return
+        began = time.monotonic()
+        replied = list(map(Exchange, some, reply_to(some)))
+        waited += time.monotonic() - began
+        for one in replied:
+            if how := verdict(asked.ask, one):
+                known.append((one.question.args, how))
+                yield known[-1]
 
 
 def _kept(holds: Callable[..., bool]) -> Callable[[Call], bool]:
@@ -131,25 +163,6 @@ def _kept(holds: Callable[..., bool]) -> Callable[[Call], bool]:
         return known[id(call)][1]
 
     return of
-
-
-def _replied(
-    questions: Sequence[Question],
-    reply_to: Callable[[Sequence[Question]], Sequence[Reply]],
-) -> list[Exchange]:
-    """Return questions with their replies, as many as there is time for."""
-    found: list[Exchange] = []
-    end = time.monotonic() + SECONDS
-    for k in range(0, len(questions), BATCH):
-        if time.monotonic() > end:
-            break
-        some = questions[k : k + BATCH]
-        pairs = zip(some, reply_to(some), strict=True)
-        found += [Exchange(question, reply) for question, reply in pairs]
-    return found
-
-
-Answered = Sequence[tuple[Call, str]]  # calls with their verdicts
 
 
 def sentence(cases: Cases, old: Answered, new: Answered) -> tuple[int, str] | None:
@@ -205,22 +218,22 @@ def _of(some: Answered, holds: Callable[[Call], bool], of: bool) -> list[str]:
     return [told for call, told in some if holds(call) is of]
 
 
-def fresh_calls(ask: Ask, known: Sequence[Call], lists: Sequence[Cases]) -> list[Call]:
-    """Return fresh calls, enough of each case where the row's generators draw them."""
+def fresh_calls(
+    ask: Ask, known: Sequence[Call], lists: Sequence[Cases]
+) -> Iterator[Call]:
+    """Yield fresh calls, enough of each case where the row's generators draw them."""
     wanted = [holds for some in lists for holds in some.values()]
     counts = [0] * len(wanted)
-    kept: list[Call] = []
     for some, each in _rounds(ask, known):
         before = [*counts]
         for call in some:
             of = [i for i, holds in enumerate(wanted) if holds(call)]
             if any(counts[i] < min(MOST, before[i] + each) for i in of):
-                kept.append(call)
                 for i in of:
                     counts[i] += 1
+                yield call
         if min(counts) >= MOST:
-            break
-    return kept
+            return
 
 
 def drawn(ask: Ask, known: Sequence[Call]) -> Iterator[Call]:

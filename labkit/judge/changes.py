@@ -280,10 +280,6 @@ def _constant(value: Any, x: Any) -> Any:
     return np.zeros_like(x) + value
 
 
-def _diagonal(x: Array) -> Array:
-    return x * np.eye(len(x))
-
-
 def _unit(x: Array) -> Array:
     return x / np.linalg.norm(x)
 

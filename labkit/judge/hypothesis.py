@@ -6,7 +6,7 @@ nothing about what is wrong with it. At every call, what the hypothesis leaves
 unexplained has to be below a hundredth of that difference.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -23,15 +23,6 @@ EXACT = 1e-9
 # Times the largest number of the right answer: what a division by almost zero leaves.
 # The sum of other rounding errors decides whether it is huge, infinite or NaN.
 LOST = 1e10
-
-
-@dataclass(frozen=True)
-class Hypothesis:
-    """What a student's code may do, and the function that does it."""
-
-    slug: str  # its name, "slip-sign"
-    says: str  # a sentence's clause that stands alone
-    code: Callable[..., Any]  # a function of one question's arguments
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,7 @@ import numpy as np
 
 from labkit.judge import changes
 from labkit.judge.answers import (
+    MATCHES,
     Parts,
     all_match,
     capitalised,
@@ -38,6 +39,7 @@ SEVERAL = 20  # mutants that give one answer, of which some give all
 APART = 4  # of them, in places of their own
 KEPT = 8  # functions and calls whose mutants are kept with their answers
 _MADE: dict[Any, tuple[Any, list[Any], Iterator[Any]]] = {}
+SCREEN = 1e3 * MATCHES  # of one call: the largest of all may be as much larger
 AGREE = 3  # calls with a wrong answer that a mutant of whole numbers has to give
 
 
@@ -67,9 +69,15 @@ def authors(m: Matcher, digits: bool = True) -> Finding | None:
 def of_accepted(ask: Ask, arguments: tuple[Any, ...], S: Parts) -> Finding | None:
     """Return the author's mistake that gives all answers where many are right."""
     calls = Calls(ask, arguments, S, S)
-    found = (
-        one for one in ask.named if all_match(ask.kinds, S, calls.answers(one.redo))
-    )
+
+    def gives(code: Code) -> bool:
+        """Return whether a mistake gives all answers; one call is asked before all."""
+        its = tuple(s[-1:] for s in S)
+        screened = tuple(x[None] for x in calls.answer(code, len(calls) - 1))
+        alike = all_match(ask.kinds, its, screened, SCREEN)
+        return alike and all_match(ask.kinds, S, calls.answers(code))
+
+    found = (one for one in ask.named if gives(one.redo))
     return next((Finding(one.slug, _sentence(one)) for one in found), None)
 
 

@@ -96,7 +96,8 @@ def _(rng):
     radii = rng.numbers(0.2, 1.2, 7)
     delta_q = rng.numbers(0.01, 1, 7)
     small = delta_q * rng.choice([1.0, 0.01, 1e-3], 7)
-    one = delta_q * (np.arange(7) == rng.integers(7)) * rng.choice([1.0, 0.005])
+    alone = np.arange(7) == rng.integers(7)
+    one = delta_q * alone * rng.choice([4.0, 1.0, 0.005])  # also far beyond a metre
     for turn in (delta_q, -delta_q, delta_q * rng.choice([-1.0, 1.0], 7), small, -small,
                  one, -one, 1e-3 * delta_q, 0.0 * delta_q):  # fmt: skip
         s, share = rng.numbers(0, 0.9, 2)

@@ -43,16 +43,17 @@ def asked(rng, free, far, n=6):
         tree, world = rng.numbers(-1, 1, n, 2), discs(rng, 3)
         step = (0.313, 0.627)[rng.integers(2)]
         sample = rng.numbers(-1.5, 1.5, 2)
-        i, _, open_ = extend(tree, sample, step, world)
-        away = np.linalg.norm(sample - tree[i])
-        # Where a step ends in the open and the sample is hit, and the other way round.
-        beyond = segment_free_of_discs(tree[i], sample, world) is not open_
-        start = segment_free_of_discs(tree[i], tree[i], world)
-        if not start or bool(away > step) is not far or open_ is not free:
+        if reached(tree, sample, step, world) is far:
             continue
-        if (beyond or not far or rng.uniform(0, 1) < 0.03) and definite(
-            tree, sample, step, world
-        ):
+        i, _, open_ = extend(tree, sample, step, world)
+        if open_ is not free or not segment_free_of_discs(tree[i], tree[i], world):
+            continue
+        # Where a step ends in the open and the sample is hit, and the other way round.
+        if (
+            not far
+            or segment_free_of_discs(tree[i], sample, world) is not open_
+            or rng.uniform(0, 1) < 0.03
+        ) and definite(tree, sample, step, world):
             return tree, sample, step, world
 
 

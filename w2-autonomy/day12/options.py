@@ -5,6 +5,7 @@ they are options of one function, which hardly ever add up.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -89,10 +90,13 @@ def together(
         mine: the student's answers, each in its own shape.
     """
     order = sorted(range(len(calls)), key=lambda k: sum(map(np.size, calls[k])))
+    usual = partial(_made, make, how={})
+    first = next((k for k in order if not _same(usual(calls[k]), mine[k])), order[0])
+    order.sort(key=lambda k: k != first)
 
     def gives(*some: Option) -> bool:
         how = {key: value for one in some for key, value in one.how.items()}
-        return all(_same(make, calls[k], how, mine[k]) for k in order)
+        return all(_same(_made(make, calls[k], how), mine[k]) for k in order)
 
     alone = {one.says: one for one in options if gives(one)}
     if alone:
@@ -104,7 +108,14 @@ def together(
         how += "gives the same output as your code."
         text = f"{either}{says}. {how}"
         return Finding(some[0].slug, capitalised(text))
+    right = usual(calls[first])
+    each = {id(one): _made(make, calls[first], one.how) for one in options}
+    shows = {k for k, answer in each.items() if not _same(answer, right)}
+    nearly = {k for k, answer in each.items() if _same(answer, mine[first])}
     for pair in _pairs(options):
+        # What changes nothing in this call needs another that explains it alone.
+        if not ({*map(id, pair)} <= shows or nearly & {*map(id, pair)}):
+            continue
         if gives(*pair):
             how = f"{capitalised(BOTH)} {evidence(True)}."
             slug = "+".join(one.slug for one in pair)
@@ -119,14 +130,19 @@ def _pairs(options: Sequence[Option]) -> Iterator[tuple[Option, Option]]:
             yield pair
 
 
-def _same(
-    make: Callable[..., Array], call: tuple[Any, ...], how: dict[str, Any], mine: Array
-) -> bool:
+def _made(
+    make: Callable[..., Array], call: tuple[Any, ...], how: Mapping[str, Any]
+) -> Array | None:
+    """Return the answer to a call with some options, None where there is none."""
     try:
         with np.errstate(all="ignore"):
-            again = np.asarray(make(*call, **how), dtype=np.float64)
+            return np.asarray(make(*call, **how), dtype=np.float64)
     except (ValueError, IndexError, np.linalg.LinAlgError):
+        return None
+
+
+def _same(again: Array | None, mine: Array | None) -> bool:
+    """Return whether two answers are the same; None equals no answer."""
+    if again is None or mine is None or again.shape != mine.shape:
         return False
-    return again.shape == mine.shape and np.allclose(
-        again, mine, rtol=MATCHES, atol=MATCHES
-    )
+    return np.allclose(again, mine, rtol=MATCHES, atol=MATCHES)
