@@ -74,13 +74,25 @@ def of_mutants(m: Any, found: Sequence[Mutant]) -> Finding:
     """
     found = next(([one] for one in found if own_line(m, one)), list(found[:2]))
     texts = [known_text(m, one) for one in found]
-    says = told(m, found[0])
+    says = _of_the_formula(m, found[0])
     if len(found) > 1 and all(texts):
         some = list(dict.fromkeys(what(one) for one in found))
         says = f"either {', or '.join(some)}" if len(some) > 1 else some[0]
         says += f", as in {' or '.join(texts)}"
     how = m.with_error(f"{REDONE} {evidence(True)}")
     return Finding(f"slip-{found[0].kind}", f"{capitalised(says)}. {how}")
+
+
+def _of_the_formula(m: Any, mutant: Mutant) -> str:
+    """Return `told`, as a change of the correct formula where no line has it.
+
+    Another algorithm may have no such bracket or number, although its output equals
+    that of the changed formula.
+    """
+    says = told(m, mutant)
+    if tells(mutant) or own_line(m, mutant) or known_text(m, mutant):
+        return says
+    return f"your output equals the correct formula with one change: {says}"
 
 
 def shows(m: Any, mutant: Mutant) -> bool:

@@ -112,8 +112,8 @@ for slug, says, other in (
     ("mirror", "your code does not check the determinant, but U V^T may be a "
                "reflection if the axes lie nearly in one plane",
      {"turn": partial(turns, rotation=lambda U, Vt: U @ Vt)}),
-    ("mirror-turned-round", "your code corrects a reflection by negating the whole "
-                            "matrix. Negate only the direction of the smallest "
+    ("mirror-turned-round", "where U V^T is a reflection, your rotation is its "
+                            "negative. Negate only the direction of the smallest "
                             "singular value",
      {"turn": partial(turns, rotation=all_turned)}),
     ("R-transposed", "your code transposes the rotation. Because a = R b, the rotation "

@@ -67,8 +67,8 @@ for slug, says, other in (
     ("mirror", "your code does not check the determinant, but U V^T may be a "
                "reflection if the points are noisy or mirrored",
                {"rotation": lambda U, Vt: U @ Vt}),
-    ("mirror-turned-round", "your code corrects a reflection by negating the whole "
-                            "matrix. Negate only the direction of the smallest "
+    ("mirror-turned-round", "where U V^T is a reflection, your rotation is its "
+                            "negative. Negate only the direction of the smallest "
                             "singular value",
      {"rotation": all_turned}),
     ("largest-turned-round", "your code corrects a reflection by negating the "

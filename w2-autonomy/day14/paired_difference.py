@@ -16,16 +16,13 @@ def _(rng):
         both = rng.uniform(size=n)
         yield both < p, np.where(rng.uniform(size=n) < 0.6, both, both[::-1]) < q
     for n in (5, 12, 30):
-        yield rng.numbers(-1, 1, n), rng.numbers(-1, 1, n)
+        yield rng.uniform(size=n) < 0.5, rng.uniform(size=n) < 0.5
 
 
 @row.wrongs
 def _(first, second):
     """unpaired: your code adds the variances of the two policies, as for independent
       samples. Both policies ran on the same cubes, so use the standard deviation of the
-      differences
-    unpaired-rates: your standard error is for two independent rates, with p (1 - p) / n
-      each. Both policies ran on the same cubes, so use the standard deviation of the
       differences
     n-minus-one: your standard deviation divides by n - 1. Divide by n
     n-minus-one 2: your standard error divides by sqrt(n - 1). Divide by sqrt(n)
@@ -44,7 +41,6 @@ def _(first, second):
     mean = d.mean()
     root = np.sqrt(n)
     s = d.std()
-    p, q = a.mean(), b.mean()
     ordered = np.sort(a) - np.sort(b)
 
     def both(m, sigma):
@@ -52,9 +48,6 @@ def _(first, second):
 
     return {
         "unpaired": both(mean, np.sqrt((a.var() + b.var()) / n)),
-        "unpaired-rates": lambda: both(
-            mean, np.sqrt(max(p * (1 - p) + q * (1 - q), 0.0) / n)
-        ),
         "n-minus-one": both(mean, d.std(ddof=1) / root),
         "n-minus-one 2": both(mean, s / np.sqrt(n - 1)),
         "root-of-the-mean-square": both(mean, np.sqrt(np.mean(d**2) / n)),
@@ -71,3 +64,12 @@ def _(first, second):
     common = np.mean((a - a.mean()) * (b - b.mean()))
     spread = a.var() + b.var() - 2 * common
     return a.mean() - b.mean(), np.sqrt(max(spread, 0) / a.size)
+
+
+@row.right  # By the counts of the cubes that only one of the two held.
+def _(first, second):
+    n = len(first)
+    gained = sum(1 for a, b in zip(first, second, strict=True) if a and not b)
+    lost = sum(1 for a, b in zip(first, second, strict=True) if b and not a)
+    mean = (gained - lost) / n
+    return mean, np.sqrt(max((gained + lost) / n - mean**2, 0.0) / n)
