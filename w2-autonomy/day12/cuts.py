@@ -92,7 +92,7 @@ def _placed(how: Callable[[Any], int], more: int) -> Any:
 OPTIONS = [
     Option("not-sorted", "your code skips a pair if its first row is the larger one. "
         "Sort the two rows", {"order": list}),
-    Option("not-checked", "your code removes the points without testing the new edge. "
+    Option("not-checked", "your code removes points without testing the new edge. "
                           "Remove them only if this edge is free",
            {"check": lambda a, b, world: True}),
     Option("hit-for-free", "your code inverts the test, so it applies shortcuts that "
@@ -160,10 +160,10 @@ OPTIONS = [
            {"ends": "cut"}),
     Option("ends-when-blocked", "your code stops at the first pair without a shortcut. "
                                 "Try all pairs", {"ends": "blocked"}),
-    Option("one-node-short", "your code removes row j too. "
-                             "Keep it", {"join": _kept(0, 1)}),
-    Option("one-node-short", "your code removes row i too. "
-                             "Keep it", {"join": _kept(-1, 0)}),
+    Option("one-node-short", "your code removes row j too. Keep row j",
+         {"join": _kept(0, 1)}),
+    Option("one-node-short", "your code removes row i too. Keep row i",
+         {"join": _kept(-1, 0)}),
     Option("both-ends-short", "your code removes rows i and j too. Keep them",
            {"join": _kept(-1, 1)}),
     Option("one-too-many", "your code keeps the row before j. Remove it",

@@ -99,7 +99,7 @@ OPTIONS = [
             ("one-for-z2", "1 / (2 n)", lambda z, n: 1 / (2 * n)))
     ]),
     *_each("front", [
-        ("z-forgotten", "your code omits the factor z of the root", lambda z: 1.0),
+        ("z-forgotten", "your code omits the factor z before the root", lambda z: 1.0),
         ("z-squared", "your code multiplies the root by z^2. Multiply it by z",
          lambda z: z * z),
         ("half-width", "your code multiplies the root by z / 2. Multiply it by z",
@@ -158,8 +158,8 @@ OPTIONS = [
     *_each("around", [
         ("continuity", "your code adds 1 / (2 n) to the half-width",
          lambda a, n: a + 1 / (2 * n)),
-        ("half-width", "your interval has half of the correct width. The half-width "
-                       "should be added and subtracted",
+        ("half-width", "your interval is half as wide as it should be. Add and "
+                       "subtract the whole half-width",
          lambda a, n: a / 2),
         ("not-rooted", "your code squares the half-width", lambda a, n: a * a),
     ]),
@@ -188,13 +188,13 @@ OPTIONS = [
          np.array([ends.mean(), np.diff(ends)[0] / 2])),
     ]),
     *_each("none", [
-        ("none-is-zero", "for n = 0 your code returns (0, 0). Return (0, 1)",
+        ("none-is-zero", "for n = 0, your code returns (0, 0). Return (0, 1)",
          (0.0, 0.0)),
-        ("none-is-half", "for n = 0 your code returns (1/2, 1/2). Return (0, 1)",
+        ("none-is-half", "for n = 0, your code returns (1/2, 1/2). Return (0, 1)",
          (0.5, 0.5)),
-        ("none-is-one", "for n = 0 your code returns (1, 1). Return (0, 1)",
+        ("none-is-one", "for n = 0, your code returns (1, 1). Return (0, 1)",
          (1.0, 1.0)),
-        ("none-is-turned", "for n = 0 your code returns (1, 0). Return (0, 1)",
+        ("none-is-turned", "for n = 0, your code returns (1, 0). Return (0, 1)",
          (1.0, 0.0)),
     ]),
     *_each("without", [

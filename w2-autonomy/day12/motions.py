@@ -152,16 +152,16 @@ OPTIONS = [
         ("points-for-steps", "your ds is 1 / (N + 2). The N + 1 points have N steps "
                              "between them, so ds should be 1 / N",
          lambda n: 2 / (n + 2)),
-        ("ds-forgotten", "your code omits ds, or its ds is 1. It "
-                         "should be 1 / N", lambda n: 2.0),
+        ("ds-forgotten", "your code omits ds, or your ds is 1. It should be 1 / N",
+         lambda n: 2.0),
         ("ds-forgotten", "your code omits the factor 2 ds, or this factor is 1. The "
                          "step ds should be 1 / N",
          lambda n: 1.0))),
     Option("sd-for-sd2", "your code calls `path_accel_bounds` with sd^2. Its argument "
                          "should be sd",
            {"sd": lambda x: x}),
-    Option("sd-for-sd2", "in the forward pass your code calls `path_accel_bounds` with "
-                         "sd^2. Its argument should be sd",
+    Option("sd-for-sd2", "in the forward pass, your code calls `path_accel_bounds` "
+                         "with sd^2. Its argument should be sd",
            {"forward_sd": lambda x: x}),
     Option("sd-squared-twice", "your code calls `path_accel_bounds` with sd^4. Its "
                                "argument should be sd",
@@ -189,15 +189,15 @@ OPTIONS = [
     Option("bobrow", "in the backward pass, your code computes the smallest sdd of a "
                      "step at its end. Use its first point",
            {"swept": True}),
-    Option("limits-of-the-next-point", "in both passes your code computes the bounds "
-                                       "on sdd for a step at the end of the step. "
-                                       "Compute them at its first point",
+    Option("limits-of-the-next-point", "in both passes, your code computes the "
+                                       "bounds on sdd for a step at the end of the "
+                                       "step. Compute them at its first point",
            {"back_at": 1, "at": 1}),
-    Option("limits-of-the-next-point", "in the backward pass your code computes the "
+    Option("limits-of-the-next-point", "in the backward pass, your code computes the "
                                        "bounds on sdd for a step at the end of the "
                                        "step. Compute them at its first point",
         {"back_at": 1}),
-    Option("limits-of-the-next-point", "in the forward pass your code computes the "
+    Option("limits-of-the-next-point", "in the forward pass, your code computes the "
                                        "bounds on sdd for a step at the end of the "
                                        "step. Compute them at its first point",
         {"at": 1}),
@@ -233,14 +233,14 @@ OPTIONS = [
         ("x-max-of-the-first-point", "every point in your code uses sd2_max of the "
                                      "first point",
          lambda x: np.full_like(x, x[0])),
-        ("x-max-squared", "your code squares sd2_max, but it is already a square",
+        ("x-max-squared", "your code squares sd2_max, but sd2_max is already a square",
          lambda x: x**2),
         ("x-max-rooted", "your code takes the square root of sd2_max. Compare sd^2 "
                          "with sd2_max itself", np.sqrt))),
     *(Option(slug, says, {"stands": of}) for slug, says, of in (
-        ("cannot-stand-goes", "your code returns a motion although gravity alone "
-                              "exceeds a torque limit. The arm cannot hold there, so "
-                              "return zeros",
+        ("cannot-stand-goes", "your code returns a nonzero motion although gravity "
+                              "alone exceeds a torque limit. The arm cannot stay at "
+                              "rest at such a point, so return zeros",
          lambda G, limits: False),
         ("all-points-too-heavy", "your code returns zeros only if gravity exceeds a "
                                  "torque limit at every point, but one point is enough",

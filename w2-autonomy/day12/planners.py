@@ -163,7 +163,7 @@ def one_tree(
 
 OPTIONS = [
     Option("swap-when-it-grew", "your code swaps the trees only after a sample that "
-                                "made one grow. Swap them after every sample",
+                                "made a tree grow. Swap them after every sample",
            {"turn": "grew"}),
     Option("swap-when-it-failed", "your code swaps the trees only after a blocked "
                                   "sample. Swap them after every sample",
@@ -213,7 +213,7 @@ OPTIONS = [
            {"tries": n})
       for n in (2, 3, 4, 5, 10)),
     Option("greedy-samples", "your code adds several edges towards the sample. Add "
-                             "one edge only",
+                             "only one edge",
            {"mine": "connect"}),
     Option("parent-is-the-newest", "your parent of a node is the previous node. Use "
                                    "the index that `extend` returns",
@@ -251,9 +251,11 @@ OPTIONS = [
            {"used": lambda some: np.repeat(some, 2, axis=0)}),
     Option("samples-backwards", "your code uses the samples in reverse order",
            {"used": lambda some: some[::-1]}),
-    Option("first-sample-left-out", "your code skips the first sample",
+    Option("first-sample-left-out", "your code skips the first sample. Does your "
+                                    "loop start one sample too late?",
            {"used": lambda some: some[1:]}),
-    Option("last-sample-left-out", "your code skips the last sample",
+    Option("last-sample-left-out", "your code skips the last sample. Does your loop "
+                                   "end one sample too early?",
            {"used": lambda some: some[:-1]}),
     Option("not-turned-round", "the start's branch of your path runs from the newest "
                                "node to the root. Reverse it",
@@ -270,11 +272,11 @@ OPTIONS = [
     Option("goal-to-start-on-its-turn", "if a sample of the goal's tree completes the "
                                         "path, your path runs from the goal to the "
                                         "start. Reverse it", {"first": "turn"}),
-    Option("meeting-point-twice", "your path contains the node where the trees meet "
-                                  "twice. Include it once",
+    Option("meeting-point-twice", "your path repeats the node at which the trees "
+                                  "meet. Include it once",
            {"joined": lambda a, b: a[::-1] + b}),
-    Option("meeting-point-lost", "your path does not contain the node where the trees "
-                                 "meet. Include it once",
+    Option("meeting-point-lost", "your path does not contain the node at which the "
+                                 "trees meet. Include it once",
            {"joined": lambda a, b: [*a[:0:-1], *b[1:]]}),
     Option("root-lost", "your path does not contain the start. It should begin at the "
                         "start",
