@@ -100,6 +100,7 @@ def _(M, stiffness, damping, h):
       on the old position
     damping-not-divided: your code does not divide the damping by the mass, and the
       damping acts on the old velocity. In MuJoCo the new velocity is (M + h D)^-1 M v
+      => both
     B-not-divided: your B omits the factor (M + h D)^-1, but the input is a torque, not
       an acceleration
     B-halved-below: your code halves the lower half of B. The torque acts for the whole

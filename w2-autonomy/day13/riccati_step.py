@@ -45,7 +45,7 @@ def _(P, A, B, Q, R):
     motion-forgotten: your P omits the cost-to-go of the next state. Add (A - B K)^T P
       (A - B K)
     P-forgotten-and-R: your new P is Q + (A - B K)^T (A - B K). This sum omits the old P
-      between the two factors and the cost K^T R K of the input
+      between the two factors and the cost K^T R K of the input => both
     K-K-subtracted: your code subtracts K^T K. Subtract K^T (R + B^T P B) K, by which
       the optimal input reduces the cost-to-go
     K-K-added: your code adds K^T K. Add K^T R K, which is the cost of the input

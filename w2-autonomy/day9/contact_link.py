@@ -46,7 +46,7 @@ def _(residual, threshold):
     first-joint 2: your function returns the first joint over its threshold, or 1 if
       there is none, as np.argmax does. Return the last one, or 0 if there is none
     first-joint 3: your function returns the first joint over its threshold, counted
-      from 0. Return the last one, counted from 1
+      from 0. Return the last one, counted from 1 => both
     from-zero: your code counts the joints from 0. The first joint has the number 1,
       because 0 means no contact
     from-zero 2: your code counts the joints from 0 and returns -1 without a contact.
@@ -55,12 +55,13 @@ def _(residual, threshold):
       contact torque may have either sign
     sign-lost-first: your code compares only positive residuals with the thresholds and
       returns the first joint above its threshold. Compare the absolute values, and
-      return the last joint
+      return the last joint => both
     sign-lost-first 2: your code compares only positive residuals with the thresholds
       and returns the first joint above its threshold, or 1 if there is none. Compare
-      the absolute values, and return the last joint
+      the absolute values, and return the last joint => both
     sign-lost-from-zero: your code compares only positive residuals with the thresholds
-      and counts the joints from 0. Compare the absolute values, and count from 1
+      and counts the joints from 0. Compare the absolute values, and count from 1 =>
+      both
     largest: your function returns the joint with the largest residual. A longer lever
       arm causes a larger torque, so return the last joint over its threshold
     largest 2: your function returns the joint with the largest residual, even if this
