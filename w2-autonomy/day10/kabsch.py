@@ -82,8 +82,8 @@ for slug, says, other in (
     ("always-turned-round", "your code always negates the third direction. Negate it "
                             "only if U V^T is a reflection",
      {"rotation": lambda U, Vt: U @ np.diag([1, 1, -1]) @ Vt}),
-    ("R-transposed", "your code transposes the rotation. It should map the source to "
-                     "the target, so it is U V^T of target^T source",
+    ("R-transposed", "your code transposes the rotation. The rotation should map the "
+                     "source to the target, so it is U V^T of target^T source",
      {"rotation": lambda U, Vt: proper(U, Vt).T}),
     ("worst-fit", "your R is the rotation with the largest sum of squared distances, "
                   "not the smallest. Either a sign is wrong, or your eigenvector "

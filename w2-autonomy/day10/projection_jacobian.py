@@ -109,8 +109,9 @@ for slug, says, other in (
     ("f-forgotten", "your code omits the focal lengths, so your entries are the "
                     "derivatives of x / z, which has no unit",
      {"pixel": lambda K, p: by_point(K, p) / focal(K)}),
-    ("centre-in-the-slope", "your derivatives with respect to z contain the principal "
-                            "point, but it is a constant, so its derivative is 0",
+    ("centre-in-the-slope", "your derivatives with respect to z contain the "
+                            "principal point, but the principal point is constant, "
+                            "so its derivative is 0",
      {"pixel": with_the_centre}),
     ("x-for-y", "your row for v has x in its derivative with respect to z. This "
                 "entry should be -f y / z^2", {"pixel": with_one_name(1, 0)}),

@@ -195,8 +195,8 @@ def _(tree, sample, step, world):
       edge. Select the nearest node of all and report whether its edge is free
     sample-where-blocked: if the edge is not free, your code returns the sample. Return
       the new point in both cases
-    part-of-the-way: if the edge is not free, your code shortens it until it is free.
-      Leave the new point as it is and return False
+    part-of-the-way: if the edge is not free, your code shortens the edge until it is
+      free. Leave the new point unchanged and return False
     """
     own = world is not discs_of(world)
     world = discs_of(world)

@@ -31,8 +31,8 @@ def _(phi):
       Iyz, Izz. In phi the three diagonal entries come first
     triangle-by-rows: your code reads the six entries of I in the order Ixx, Ixy, Ixz,
       Iyy, Iyz, Izz. In phi the three diagonal entries come first
-    first-moment-times-m: your code multiplies phi[1:4] by m, but it is already the
-      first moment m c
+    first-moment-times-m: your code multiplies phi[1:4] by m, but phi[1:4] is already
+      the first moment m c
     corners-swapped: your code swaps the off-diagonal blocks. The block [h] belongs in
       the upper right and [h]^T in the lower left
     """
