@@ -108,7 +108,7 @@ for slug, says, other in (
 
 @row.wrongs
 def _(source, target):
-    """t-of-the-first: your translation fits the first pair only. Use the centroids
+    """t-of-the-first: your translation fits only the first pair. Use the centroids
     first-for-centre: your code uses the first points instead of the centroids, so the
       noise of one pair changes the fit
     affine: your function fits an affine map by least squares, but its matrix need not

@@ -217,7 +217,8 @@ def _(a0, a1, r, T_world_box, half_extents):
       plane of a face, but the nearest point can be another one
     point-to-box-in-turn: your code alternates between the nearest point of the box and
       the nearest point of the axis, but it stops after too few steps
-    one-section: your search makes only one step, which leaves 0.618 of the axis
+    one-section: your search makes only one step, which leaves 0.618 of the axis. Repeat
+      the step
     radius-times-the-length: your code multiplies the radius by the length of the axis.
       Subtract r itself
     share-returned: your code returns the parameter s of the nearest point. Return the

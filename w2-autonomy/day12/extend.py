@@ -183,7 +183,8 @@ def _(tree, sample, step, world):
       reports every edge of such a world as blocked
     free-if-reached: your code reports a free edge only if the step reaches the sample,
       but a step towards the sample is an edge too
-    reached-is-free: if the step reaches the sample, your code does not test the edge
+    reached-is-free: if the step reaches the sample, your code does not test the edge.
+      Test every edge
     ends-only: your code tests only the two ends of the edge. Test the points between
       them too
     twice-a-step: your edge has a length of two steps. Limit it to one step

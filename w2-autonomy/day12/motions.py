@@ -215,14 +215,15 @@ OPTIONS = [
                                        "point at every point. Use the gravity of "
                                        "each point",
          lambda A, B, G: (A, B, np.broadcast_to(G[0], G.shape))),
-        ("gravity-sign", "your code reverses the sign "
-                         "of gravity", lambda A, B, G: (A, B, -G)),
-        ("coriolis-forgotten", "your code omits b in the torques",
+        ("gravity-sign", "your code reverses the sign of gravity. Use c itself",
+         lambda A, B, G: (A, B, -G)),
+        ("coriolis-forgotten", "your code omits b sd^2 in the torques",
          lambda A, B, G: (A, 0 * B, G)),
         ("coriolis-sign", "your code reverses the sign of b. Use b itself",
          lambda A, B, G: (A, -B, G)),
-        ("B-and-G-exchanged", "your code swaps b and c", lambda A, B, G: (A, G, B)),
-        ("A-and-B-exchanged", "your code swaps a and b", lambda A, B, G: (B, A, G)))),
+        ("B-and-G-exchanged", "your code swaps `b` and c", lambda A, B, G: (A, G, B)),
+        ("A-and-B-exchanged", "your code swaps `a` and `b`",
+         lambda A, B, G: (B, A, G)))),
     *(Option(slug, says, {"most": of}, alone=True) for slug, says, of in (
         ("no-speed-limit", "your code does not use "
                            "sd2_max", lambda x: np.full_like(x, 1e3)),

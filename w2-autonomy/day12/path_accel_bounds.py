@@ -201,7 +201,8 @@ def _(a, b, c, limits, sd):
       above the upper bound
     none-sorted 2: if the joints allow no common sdd, your code sorts the bounds. Leave
       the lower bound above the upper bound
-    none-is-zero: if no sdd is allowed, your code returns (0, 0), which allows sdd = 0
+    none-is-zero: if no sdd is allowed, your code returns (0, 0), but (0, 0) allows sdd
+      = 0
     none-is-zero 2: if a joint with a = 0 exceeds its limit, your code returns (0, 0),
       which allows sdd = 0. Return (inf, -inf)
     none-is-one: if no sdd is allowed, your code reduces the lower bound to the upper
@@ -237,7 +238,7 @@ def _(a, b, c, limits, sd):
     zero-kept-in: your range always includes 0, but sdd = 0 need not be allowed
     six-joints: your code uses only the first six joints, but the arm can have any
       number of joints
-    first-left-out: your code skips the first joint
+    first-left-out: your code skips the first joint, but every joint limits sdd
     none-is-zero 3: if the joints allow no common sdd, your code returns (0, 0), which
       allows sdd = 0. Leave the lower bound above the upper bound
     none-is-infinite: if the joints allow no common sdd, your code returns (inf, -inf).
@@ -245,11 +246,11 @@ def _(a, b, c, limits, sd):
       0
     no-mover-is-none: if every `a` is 0 and every torque is within its limit, your code
       returns (inf, -inf). Any sdd is allowed, so return (-inf, inf)
-    held-by-gravity-alone: for a joint with a = 0 your code compares only c with the
+    held-by-gravity-alone: for a joint with a = 0, your code compares only c with the
       limit. Compare b sd^2 + c
-    held-by-speed-alone: for a joint with a = 0 your code compares only b sd^2 with the
+    held-by-speed-alone: for a joint with a = 0, your code compares only b sd^2 with the
       limit. Compare b sd^2 + c
-    held-with-sign: for a joint with a = 0 your code compares the torque without its
+    held-with-sign: for a joint with a = 0, your code compares the torque without its
       absolute value. The limit also applies to negative torques
     all-have-to-hold: your code compares b sd^2 + c with the limit for joints that move
       too. This test is only for joints with a = 0

@@ -138,7 +138,7 @@ def _(a, b, c, limits, sd2_max):
     speed-limit-forwards-only: your code uses sd2_max only in the forward pass, but the
       backward pass needs it too
     gravity-forgotten: your code omits gravity in the torques
-    coriolis-forgotten: your code omits b in the torques
+    coriolis-forgotten: your code omits b sd^2 in the torques
     cannot-stand-goes: your code returns a nonzero motion although gravity alone exceeds
       a torque limit. The arm cannot stay at rest at such a point, so return zeros
     few-bisections: your bisection stops too early, so its result is not accurate enough

@@ -236,8 +236,8 @@ def _(H, f, lo, hi, x):
     """clip-the-optimum: your result is the unconstrained minimiser, clamped to the
       bounds. If one entry is held at a bound, the optimal values of the other entries
       change, so solve for them again
-    no-limits: your result is the unconstrained minimiser -H^-1 f, which ignores the
-      bounds
+    no-limits: your result is the unconstrained minimiser -H^-1 f. Return the minimiser
+      within the bounds
     scaled-back: your step towards the unconstrained minimiser ends at the first bound.
       From there, the free entries should move on
     solved-once-more: your code clamps the unconstrained minimiser and solves the free

@@ -129,7 +129,7 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       cost-to-go of the final state is known, so begin with the last step
     lux-not-in-K: your code omits lux in K, but not in Vx and Vxx. Use Qux, which
       contains lux, in all of them
-    Vx-not-in-k: your k uses lu alone. Qu also contains fu^T Vx
+    Vx-not-in-k: your k uses only lu. Qu also contains fu^T Vx
     mu-halved-each-step: your code halves mu in each step. Use the same mu in all steps
     lx-of-the-next: each step in your code uses lx of the next step. Use lx of the same
       step

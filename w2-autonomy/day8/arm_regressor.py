@@ -77,8 +77,8 @@ for slug, says, other in (
     ("bracket-forgotten", "your `A` omits the term ad(V) S qd, which is needed "
                           "because the preceding joints move the axis of a joint",
                           {"bracket": 0.0}),
-    ("bracket-sign", "your `A` contains ad(S) V qd, which is the negative of ad(V) S "
-                     "qd",
+    ("bracket-sign", "your `A` contains ad(S) V qd instead of ad(V) S qd, which is "
+                     "its negative",
      {"bracket": -1.0}),
     ("pose-not-inverted", "your code transforms V and A with Ad(T), but the adjoint "
                           "from the world to the link is Ad(T^-1)", {"into": adjoint}),

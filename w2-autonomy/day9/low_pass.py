@@ -73,8 +73,8 @@ for slug, says, other in (
     ("change-added", "your code adds alpha times the change of x. Add alpha times the "
                      "difference between x and the previous output",
      {"step": lambda y, now, before, a: y + a * (now - before)}),
-    ("whole-numbers-kept", "your code stores y in an integer array, which discards the "
-                           "fraction of each output",
+    ("whole-numbers-kept", "your code stores y in an integer array, which discards "
+                           "the fraction of each output. Create the array with floats",
      {"step": lambda y, now, before, a: np.trunc(np.trunc(y) + a * (now - np.trunc(y))),
       "first": lambda x, a: np.trunc(x[0])}),
 ):  # fmt: skip
